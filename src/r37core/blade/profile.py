@@ -1,0 +1,288 @@
+"""One blade profile: multiple circular arcs on a cone, closed by edge circles.
+
+Source: section 2 of the benchmark; Piollet, Nyssen, Batailly, "Blade/casing rubbing interactions in aircraft
+engines: numerical benchmark and design guidelines based on NASA rotor 37".
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from scipy.optimize import brentq, root
+
+from .cone import Cone, ConstantRatePath
+from .errors import BladeShapeError
+from .polygon import area_and_centroid
+
+SUCTION, PRESSURE = 1, -1
+_QUARTER_TURN = np.pi / 2.0
+
+
+@dataclass(frozen=True)
+class ProfileParameters:
+    """The table row of one profile. Lengths in m, angles in rad, span as a fraction of the blade's height.
+
+    Suffixes: inlet (ic), outlet (oc), transition between the two arcs (tc), maximum thickness (mc).
+    """
+
+    span: float
+    inlet_radius: float
+    outlet_radius: float
+    inlet_angle: float
+    transition_angle: float
+    outlet_angle: float
+    inlet_thickness: float
+    maximum_thickness: float
+    outlet_thickness: float
+    maximum_thickness_axial: float
+    transition_axial: float
+    outlet_axial: float
+
+    @property
+    def label(self) -> str:
+        """How messages name the profile."""
+        return f"span {100 * self.span:g}%"
+
+
+@dataclass(frozen=True)
+class Surface:
+    """One side of a profile between its two edge circles: two constant-rate paths joined at `front_length`.
+
+    `front` starts at the leading-edge tangent point, `rear` at the junction; lengths in m.
+    """
+
+    front: ConstantRatePath
+    front_length: float
+    rear: ConstantRatePath
+    rear_length: float
+
+    @property
+    def length(self) -> float:
+        """Length from the leading-edge to the trailing-edge tangent point (m)."""
+        return self.front_length + self.rear_length
+
+    def point(self, chord):
+        """(m, theta) at the fraction `chord` (0 leading, 1 trailing edge) of the surface's length."""
+        s = np.asarray(chord, dtype=float) * self.length
+        in_front = s <= self.front_length
+        front = self.front.point(np.where(in_front, s, self.front_length))
+        rear = self.rear.point(np.where(in_front, 0.0, s - self.front_length))
+        return tuple(np.where(in_front, f, r) for f, r in zip(front, rear, strict=True))
+
+    def angle(self, chord: float) -> float:
+        """Angle to the local ruling (rad) at the fraction `chord`."""
+        s = chord * self.length
+        if s <= self.front_length:
+            return float(self.front.angle(s))
+        return float(self.rear.angle(s - self.front_length))
+
+
+@dataclass(frozen=True)
+class EdgeCircle:
+    """The circle that closes a profile: centre on the cone, radius (m), and the angles (rad, from the ruling through
+    the centre) at which it meets the pressure and the suction surface; the arc between them passes the nose."""
+
+    cone: Cone
+    m: float
+    theta: float
+    radius: float
+    pressure_direction: float
+    suction_direction: float
+
+    def point(self, thickness):
+        """(m, theta) on the arc; `thickness` runs from -1 (pressure side) over 0 (nose) to 1 (suction side)."""
+        share = (1.0 + np.asarray(thickness)) / 2.0
+        direction = (1.0 - share) * self.pressure_direction + share * self.suction_direction
+        return self.cone.offset(self.m, self.theta, direction, self.radius)
+
+
+class Profile:
+    """A profile on its cone, built from its table row.
+
+    Attributes: `cone`, `centreline` (front path, its length, rear path, its length), `surfaces` by side
+    (`SUCTION`, `PRESSURE`), `leading_edge` and `trailing_edge` circles.
+
+    Raises BladeShapeError where a thickness is not positive, a point is out of order or |sin kappa| passes 1.
+    """
+
+    def __init__(self, parameters: ProfileParameters):
+        self.parameters = parameters
+        _check_parameters(parameters)
+        rise = parameters.outlet_radius - parameters.inlet_radius
+        self.cone = Cone(parameters.inlet_radius, float(np.arctan2(rise, parameters.outlet_axial)))
+        self._build_centreline()
+        self.surfaces = {side: self._build_surface(side) for side in (PRESSURE, SUCTION)}
+        self.leading_edge, self.trailing_edge = self._build_edges()
+
+    def _build_centreline(self) -> None:
+        p, slant = self.parameters, np.cos(self.cone.half_angle)
+        self._m_transition = p.transition_axial / slant
+        self._m_outlet = p.outlet_axial / slant
+        front, front_length = ConstantRatePath.between(
+            self.cone, 0.0, 0.0, p.inlet_angle, self._m_transition, p.transition_angle
+        )
+        _, theta_transition = front.point(front_length)
+        rear, rear_length = ConstantRatePath.between(
+            self.cone, self._m_transition, float(theta_transition), p.transition_angle, self._m_outlet, p.outlet_angle
+        )
+        self.centreline = (front, front_length, rear, rear_length)
+        self._theta_outlet = float(rear.point(rear_length)[1])
+
+    def _build_surface(self, side: int) -> Surface:
+        p = self.parameters
+        front, _, rear, _ = self.centreline
+        thickest_in_front = p.maximum_thickness_axial < p.transition_axial
+        carrier = front if thickest_in_front else rear
+        m_thickest = p.maximum_thickness_axial / np.cos(self.cone.half_angle)
+        s = carrier.length_to(m_thickest)
+        m_centre, theta_centre = (float(v) for v in carrier.point(s))
+        kappa = float(carrier.angle(s))
+        m, theta = self.cone.offset(m_centre, theta_centre, kappa + side * _QUARTER_TURN, p.maximum_thickness / 2.0)
+        start = ConstantRatePath(self.cone, float(m), float(theta), kappa, 0.0)
+
+        to_inlet = (0.0, 0.0, p.inlet_thickness / 2.0)
+        to_outlet = (self._m_outlet, self._theta_outlet, p.outlet_thickness / 2.0)
+        first, first_end = self._path_tangent_to(start, side, *(to_inlet if thickest_in_front else to_outlet))
+        junction = self._length_to_transition_normal(first, side)
+        m, theta = (float(v) for v in first.point(junction))
+        start = ConstantRatePath(self.cone, m, theta, float(first.angle(junction)), 0.0)
+        second, second_end = self._path_tangent_to(start, side, *(to_outlet if thickest_in_front else to_inlet))
+        if thickest_in_front:
+            return self._join(first, first_end, junction, second, 0.0, second_end)
+        return self._join(second, second_end, 0.0, first, junction, first_end)
+
+    @staticmethod
+    def _join(front, front_start, front_end, rear, rear_start, rear_end) -> Surface:
+        def moved(path, s):
+            m, theta = (float(v) for v in path.point(s))
+            return ConstantRatePath(path.cone, m, theta, float(path.angle(s)), path.rate)
+
+        return Surface(moved(front, front_start), front_end - front_start, moved(rear, rear_start), rear_end - rear_start)
+
+    def _path_tangent_to(self, start: ConstantRatePath, side: int, m: float, theta: float, radius: float):
+        """The path from `start` that ends tangent to the circle (m, theta, radius). Returns (path, end length).
+
+        Tangency on the proper side: going back along the end point's normal by the radius lands on the centre.
+        """
+        scale = abs(m - start.m)
+
+        def path_of(unknowns) -> ConstantRatePath:
+            return ConstantRatePath(self.cone, start.m, start.theta, start.kappa, unknowns[0] / scale)
+
+        def miss(unknowns):
+            path, s = path_of(unknowns), unknowns[1] * scale
+            m_end, theta_end = path.point(s)
+            back = self.cone.offset(m_end, theta_end, path.angle(s) - side * _QUARTER_TURN, radius)
+            along, across = self.cone.unroll(m, theta, *back)
+            return np.array([along, across]) / scale
+
+        guess = np.array([0.0, (m - start.m) / (scale * np.cos(start.kappa))])
+        solution = root(miss, guess, tol=1e-14)
+        path, end = path_of(solution.x), float(solution.x[1] * scale)
+        if np.max(np.abs(miss(solution.x))) > 1e-10 or not abs(path.angle(end)) < _QUARTER_TURN:
+            name = "suction" if side == SUCTION else "pressure"
+            raise BladeShapeError(
+                f"{self.parameters.label}: no {name}-side arc with |sin kappa| < 1 runs from the point of maximum "
+                "thickness to the edge circle; check the angles, thicknesses and axial positions of this row"
+            )
+        return path, end
+
+    def _length_to_transition_normal(self, path: ConstantRatePath, side: int) -> float:
+        p = self.parameters
+        m_transition = self._m_transition
+        theta_transition = self.centreline[2].theta
+
+        def ahead(s: float) -> float:
+            along, across = self.cone.unroll(m_transition, theta_transition, *path.point(s))
+            return float(along * np.cos(p.transition_angle) + across * np.sin(p.transition_angle))
+
+        guess = -ahead(0.0)
+        margin = 0.2 * abs(guess) + p.maximum_thickness
+        try:
+            return float(brentq(ahead, guess - margin, guess + margin, xtol=1e-15))
+        except ValueError:
+            name = "suction" if side == SUCTION else "pressure"
+            raise BladeShapeError(
+                f"{p.label}: the {name} side never meets the normal at the transition point; "
+                "check z_mc_cm, z_tc_cm and the thicknesses of this row"
+            ) from None
+
+    def _build_edges(self) -> tuple[EdgeCircle, EdgeCircle]:
+        p = self.parameters
+        edges = []
+        for chord, m, theta, radius, nose_turn in (
+            (0.0, 0.0, 0.0, p.inlet_thickness / 2.0, 2.0 * np.pi),
+            (1.0, self._m_outlet, self._theta_outlet, p.outlet_thickness / 2.0, 0.0),
+        ):
+            directions = {}
+            for side, surface in self.surfaces.items():
+                _, theta_end = surface.point(chord)
+                turn = np.sin(self.cone.half_angle) * (float(theta_end) - theta)
+                directions[side] = surface.angle(chord) + side * _QUARTER_TURN + turn
+            # the arc passes the nose: behind the centre at the leading edge, ahead of it at the trailing edge
+            pressure_direction = directions[PRESSURE] + nose_turn
+            edges.append(EdgeCircle(self.cone, m, theta, radius, pressure_direction, directions[SUCTION]))
+        return edges[0], edges[1]
+
+    def outline(self, points_per_side: int = 1000):
+        """Closed outline with round edges as (m, theta), from the leading edge along the pressure side and back."""
+        chord = np.linspace(0.0, 1.0, points_per_side)
+        arc = np.linspace(-1.0, 1.0, 101)
+        parts = [
+            self.surfaces[PRESSURE].point(chord),
+            self.trailing_edge.point(arc[1:-1]),
+            self.surfaces[SUCTION].point(chord[::-1]),
+            self.leading_edge.point(arc[::-1][1:-1]),
+        ]
+        m, theta = (np.concatenate(coordinate) for coordinate in zip(*parts, strict=True))
+        return m, theta
+
+    @cached_property
+    def _area_and_centroid(self) -> tuple[float, float, float]:
+        m, theta = self.outline()
+        area, along, across = area_and_centroid(*self.cone.unroll(0.0, 0.0, m, theta))
+        direction, distance = np.arctan2(across, along), np.hypot(along, across)
+        m_centroid, theta_centroid = self.cone.offset(0.0, 0.0, direction, distance)
+        return abs(area), float(m_centroid), float(theta_centroid)
+
+    @property
+    def area(self) -> float:
+        """Area on the unrolled cone (m2), round edges included."""
+        return self._area_and_centroid[0]
+
+    @property
+    def centroid(self) -> tuple[float, float]:
+        """Centre of area on the unrolled cone, as (m, theta)."""
+        return self._area_and_centroid[1:]
+
+    @property
+    def stagger(self) -> float:
+        """Angle (rad) of the line through the centreline's end points to the axis: arctan((y_oc - y_ic)/(z_oc - z_ic))."""
+        p = self.parameters
+        # the blade is stacked with the centre of area at theta = 0
+        theta_inlet, theta_outlet = -self.centroid[1], self._theta_outlet - self.centroid[1]
+        rise = p.outlet_radius * np.sin(theta_outlet) - p.inlet_radius * np.sin(theta_inlet)
+        return float(np.arctan2(rise, p.outlet_axial))
+
+
+def _check_parameters(p: ProfileParameters) -> None:
+    for name in ("inlet_radius", "outlet_radius"):
+        if not getattr(p, name) > 0.0:
+            raise BladeShapeError(f"{p.label}: {name} is {getattr(p, name):g} m; it must be positive")
+    for name in ("inlet_thickness", "maximum_thickness", "outlet_thickness"):
+        if not getattr(p, name) > 0.0:
+            raise BladeShapeError(f"{p.label}: {name} is {getattr(p, name):g} m; a thickness must be positive")
+    for name in ("inlet_angle", "transition_angle", "outlet_angle"):
+        if not abs(getattr(p, name)) < _QUARTER_TURN:
+            raise BladeShapeError(
+                f"{p.label}: {name} is {np.degrees(getattr(p, name)):g} degrees, so |sin kappa| passes 1 on the "
+                "segment; it must lie between -90 and 90"
+            )
+    for name in ("maximum_thickness_axial", "transition_axial"):
+        if not 0.0 < getattr(p, name) < p.outlet_axial:
+            raise BladeShapeError(
+                f"{p.label}: {name} is {getattr(p, name):g} m; it must lie between 0 and outlet_axial "
+                f"({p.outlet_axial:g} m)"
+            )
