@@ -45,6 +45,24 @@ class ProfileParameters:
         """How messages name the profile."""
         return f"span {100 * self.span:g}%"
 
+    def check(self) -> None:
+        """Raise BladeShapeError where a radius or thickness is not positive, an angle or an axial position impossible."""
+        for name in ("inlet_radius", "outlet_radius", "inlet_thickness", "maximum_thickness", "outlet_thickness"):
+            if not getattr(self, name) > 0.0:
+                raise BladeShapeError(f"{self.label}: {name} is {getattr(self, name):g} m; it must be positive")
+        for name in ("inlet_angle", "transition_angle", "outlet_angle"):
+            if not abs(getattr(self, name)) < _QUARTER_TURN:
+                raise BladeShapeError(
+                    f"{self.label}: {name} is {np.degrees(getattr(self, name)):g} degrees, so |sin kappa| passes 1 on "
+                    "the segment; it must lie between -90 and 90 degrees"
+                )
+        for name in ("maximum_thickness_axial", "transition_axial"):
+            if not 0.0 < getattr(self, name) < self.outlet_axial:
+                raise BladeShapeError(
+                    f"{self.label}: {name} is {getattr(self, name):g} m; it must lie between 0 and outlet_axial "
+                    f"({self.outlet_axial:g} m)"
+                )
+
 
 @dataclass(frozen=True)
 class Surface:
@@ -109,7 +127,7 @@ class Profile:
 
     def __init__(self, parameters: ProfileParameters):
         self.parameters = parameters
-        _check_parameters(parameters)
+        parameters.check()
         rise = parameters.outlet_radius - parameters.inlet_radius
         self.cone = Cone(parameters.inlet_radius, float(np.arctan2(rise, parameters.outlet_axial)))
         self._build_centreline()
@@ -265,24 +283,3 @@ class Profile:
         theta_inlet, theta_outlet = -self.centroid[1], self._theta_outlet - self.centroid[1]
         rise = p.outlet_radius * np.sin(theta_outlet) - p.inlet_radius * np.sin(theta_inlet)
         return float(np.arctan2(rise, p.outlet_axial))
-
-
-def _check_parameters(p: ProfileParameters) -> None:
-    for name in ("inlet_radius", "outlet_radius"):
-        if not getattr(p, name) > 0.0:
-            raise BladeShapeError(f"{p.label}: {name} is {getattr(p, name):g} m; it must be positive")
-    for name in ("inlet_thickness", "maximum_thickness", "outlet_thickness"):
-        if not getattr(p, name) > 0.0:
-            raise BladeShapeError(f"{p.label}: {name} is {getattr(p, name):g} m; a thickness must be positive")
-    for name in ("inlet_angle", "transition_angle", "outlet_angle"):
-        if not abs(getattr(p, name)) < _QUARTER_TURN:
-            raise BladeShapeError(
-                f"{p.label}: {name} is {np.degrees(getattr(p, name)):g} degrees, so |sin kappa| passes 1 on the "
-                "segment; it must lie between -90 and 90"
-            )
-    for name in ("maximum_thickness_axial", "transition_axial"):
-        if not 0.0 < getattr(p, name) < p.outlet_axial:
-            raise BladeShapeError(
-                f"{p.label}: {name} is {getattr(p, name):g} m; it must lie between 0 and outlet_axial "
-                f"({p.outlet_axial:g} m)"
-            )

@@ -15,7 +15,7 @@ _BULGE_REACH = 4.0  # in edge radii: how far from a round edge the lines chord =
 
 
 class Blade:
-    """A blade: profiles from hub to tip, stacked, swept and leaned, joined by a cubic spline along the span.
+    """A blade: profiles from hub to tip, each placed on its cone, joined by a cubic spline along the span.
 
     Parameters run over chord 0 (leading) to 1 (trailing edge), span 0 (hub) to 1 (tip) and thickness -1 (pressure) to
     1 (suction side). Frame: z along the axis, downstream, 0 at the centre of the hub profile's leading-edge circle;
@@ -25,15 +25,19 @@ class Blade:
     Raises BladeShapeError when the profiles cross or cannot be stacked.
     """
 
-    def __init__(self, profiles: Sequence[Profile], shift: Placement | None = None, round_edges: bool = True):
+    def __init__(self, profiles: Sequence[Profile], placement: Placement, round_edges: bool = True):
         self.profiles = list(profiles)
+        self.placement = placement
         self.spans = np.array([p.parameters.span for p in self.profiles])
         self.round_edges = round_edges
-        self._check_order()
-        self.stacking = plane_section_stacking(self.profiles)
-        self.placement = self.stacking if shift is None else self.stacking + shift
         self._loft = SpanLoft(self.spans)
         self._check_orientation()
+
+    @classmethod
+    def stacked(cls, profiles: Sequence[Profile], shift: Placement | None = None, round_edges: bool = True) -> Blade:
+        """Stack the profiles by their plane sections, then apply the sweep and lean of `shift`."""
+        placement = plane_section_stacking(profiles)
+        return cls(profiles, placement if shift is None else placement + shift, round_edges)
 
     def position(self, chord, span, thickness) -> np.ndarray:
         """Cartesian coordinates (m), shape (points, 3), of parameter points given as arrays of one shape (points,)."""
@@ -47,6 +51,12 @@ class Blade:
             cylindrical[2] += weights[:, i] * (profile.cone.axial(m) + self.placement.axial[i])
         radius, theta, axial = cylindrical
         return np.stack([radius * np.cos(theta), radius * np.sin(theta), axial], axis=1)
+
+    def normal(self, chord, span) -> np.ndarray:
+        """Unit vector from the pressure to the suction side, shape (points, 3)."""
+        ones = np.ones_like(chord)
+        across = self.position(chord, span, ones) - self.position(chord, span, -ones)
+        return across / np.linalg.norm(across, axis=1, keepdims=True)
 
     def dimensions(self) -> tuple[float, float]:
         """Mean length along the chord and along the span (m), on the camber surface: the scale of the parameter plane."""
@@ -93,15 +103,6 @@ class Blade:
             behind[axis] = behind[axis] - step
             columns.append((self.position(*ahead) - self.position(*behind)) / (2.0 * step))
         return np.linalg.det(np.stack(columns, axis=2))
-
-    def _check_order(self) -> None:
-        for below, above in zip(self.profiles[:-1], self.profiles[1:], strict=True):
-            for name in ("inlet_radius", "outlet_radius"):
-                if not getattr(above.parameters, name) > getattr(below.parameters, name):
-                    raise BladeShapeError(
-                        f"{above.parameters.label}: the profile crosses the one at {below.parameters.label}: its {name} "
-                        f"({getattr(above.parameters, name):g} m) is not larger than {getattr(below.parameters, name):g} m"
-                    )
 
     def _check_orientation(self) -> None:
         """The map must not fold: neighbouring profiles, or the two sides, would cross.

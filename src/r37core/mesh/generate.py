@@ -37,10 +37,10 @@ def generate_mesh(blade: Blade, nodes: int, layers: int, tip_elements: int, msh_
         tags = tags[order]
         plane = coordinates.reshape(-1, 3)[order]
         parameters = _snapped(plane / np.array([chord_length, span_length, 1.0]) - np.array([0.0, 0.0, 1.0]))
-        points = blade.position(*parameters.T)
         _, element_nodes = gmsh.model.mesh.getElementsByType(_PRISM15)
         elements = np.searchsorted(tags, element_nodes).reshape(-1, 15)[:, _FROM_GMSH]
-        mesh = WedgeMesh(points, elements, parameters)
+        chord, span, thickness = parameters.T
+        mesh = WedgeMesh(blade.position(chord, span, thickness), elements, parameters, blade.normal(chord, span))
         if msh_file is not None:
             _write_msh(mesh, tags, top[1][1], msh_file)
     return mesh

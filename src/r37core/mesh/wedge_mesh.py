@@ -21,12 +21,14 @@ class WedgeMesh:
     """A mesh of 15-node wedges.
 
     `points`: coordinates (m), shape (nodes, 3); `elements`: node numbers from 0, shape (elements, 15), in the order of
-    C3D15; `parameters`: (chord, span, thickness) of each node, shape (nodes, 3).
+    C3D15; `parameters`: (chord, span, thickness) of each node, shape (nodes, 3); `normals`: unit vector from the
+    pressure to the suction side at each node, shape (nodes, 3).
     """
 
     points: np.ndarray
     elements: np.ndarray
     parameters: np.ndarray
+    normals: np.ndarray
 
     def node_set(self, name: str) -> np.ndarray:
         """Node numbers of a named set; lines along the tip run from the leading to the trailing edge.

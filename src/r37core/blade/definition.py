@@ -1,0 +1,38 @@
+"""A blade's definition: profiles plus sweep and lean, and the blade built from it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from .errors import BladeShapeError
+from .profile import Profile, ProfileParameters
+from .surface import Blade
+from .sweep import chordwise_sweep, sweep_and_lean
+
+
+@dataclass(frozen=True)
+class BladeDefinition:
+    """What a user gives: profiles from hub to tip, and either a sweep and lean table, a chordwise sweep, or neither.
+
+    `stacking`: columns span, sweep (m), lean (rad); `chordwise_sweep_angle` in rad, positive forward.
+    """
+
+    name: str
+    profiles: tuple[ProfileParameters, ...]
+    stacking: np.ndarray | None = None
+    chordwise_sweep_angle: float | None = None
+
+    def build(self, round_edges: bool = True) -> Blade:
+        """Build the blade; BladeShapeError, with the blade's name, where the shape is impossible."""
+        try:
+            profiles = [Profile(parameters) for parameters in self.profiles]
+            shift = None
+            if self.stacking is not None:
+                shift = sweep_and_lean(np.array([p.span for p in self.profiles]), self.stacking)
+            elif self.chordwise_sweep_angle is not None:
+                shift = chordwise_sweep(profiles, self.chordwise_sweep_angle)
+            return Blade.stacked(profiles, shift, round_edges)
+        except BladeShapeError as error:
+            raise BladeShapeError(f"blade {self.name}: {error}") from None

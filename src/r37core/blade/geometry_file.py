@@ -1,0 +1,86 @@
+"""geometry.nc: the whole shape of one blade, and what was derived on the way to it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import fields
+from pathlib import Path
+
+import numpy as np
+import xarray as xr
+
+from r37core.io import read_dataset, readable, write_dataset
+
+from .profile import PRESSURE, SUCTION, Profile, ProfileParameters
+from .stacking import Placement, conical_stacking
+from .surface import Blade
+
+_UNITS = {"span": "1", "inlet_angle": "rad", "transition_angle": "rad", "outlet_angle": "rad"}
+_SAMPLES = 41
+
+
+def write_geometry(blade: Blade, file: Path | str, provenance: Mapping[str, object] | None = None) -> None:
+    """Write the blade: table rows, placement, section properties, surface rates, volume, and both surfaces sampled."""
+    names = [field.name for field in fields(ProfileParameters)]
+    data: dict = {
+        name: (
+            "profile",
+            [getattr(p.parameters, name) for p in blade.profiles],
+            {"units": _UNITS.get(name, "m"), "long_name": name.replace("_", " ")},
+        )
+        for name in names
+    }
+    conical = conical_stacking(blade.profiles)
+    data |= {
+        "axial_placement": ("profile", blade.placement.axial, _about("m", "axial shift of the profile")),
+        "rotation": ("profile", blade.placement.rotation, _about("rad", "rotation of the profile about the axis")),
+        "conical_axial_placement": ("profile", conical.axial, _about("m", "axial shift by conical stacking alone")),
+        "conical_rotation": ("profile", conical.rotation, _about("rad", "rotation by conical stacking alone")),
+        "section_area": ("profile", [p.area for p in blade.profiles], _about("m2", "area on the unrolled cone")),
+        "stagger": ("profile", [p.stagger for p in blade.profiles], _about("rad", "stagger angle")),
+        "surface_rate": (
+            ("profile", "side", "segment"),
+            [[[p.surfaces[s].front.rate, p.surfaces[s].rear.rate] for s in (PRESSURE, SUCTION)] for p in blade.profiles],
+            _about("rad m-1", "turning rate of the surface segment"),
+        ),
+        "volume": ((), blade.volume(), _about("m3", "volume of the blade")),
+        "surface": (
+            ("side", "chord", "span_sample", "axis"),
+            _sampled_surfaces(blade),
+            _about("m", "points of the pressure and suction surfaces"),
+        ),
+    }
+    steps = np.linspace(0.0, 1.0, _SAMPLES)
+    coordinates = {
+        "side": ["pressure", "suction"],
+        "segment": ["inlet", "outlet"],
+        "axis": ["x", "y", "z"],
+        "chord": ("chord", steps, _about("1", "fraction of the surface's length from the leading edge")),
+        "span_sample": ("span_sample", steps, _about("1", "fraction of the span from the hub")),
+    }
+    dataset = xr.Dataset(data, coordinates, attrs={"edges": "round" if blade.round_edges else "blunt"})
+    write_dataset(dataset, file, provenance)
+
+
+def read_geometry(file: Path | str) -> Blade:
+    """The blade of a geometry.nc; InputFileError when the file cannot be read."""
+    dataset = read_dataset(file)
+    with readable(file):
+        names = [field.name for field in fields(ProfileParameters)]
+        profiles = [
+            Profile(ProfileParameters(**{name: float(dataset[name][i]) for name in names}))
+            for i in range(dataset.sizes["profile"])
+        ]
+        placement = Placement(dataset["axial_placement"].values, dataset["rotation"].values)
+        return Blade(profiles, placement, round_edges=dataset.attrs["edges"] == "round")
+
+
+def _about(units: str, long_name: str) -> dict[str, str]:
+    return {"units": units, "long_name": long_name}
+
+
+def _sampled_surfaces(blade: Blade) -> np.ndarray:
+    steps = np.linspace(0.0, 1.0, _SAMPLES)
+    chord, span = (a.ravel() for a in np.meshgrid(steps, steps, indexing="ij"))
+    sides = [blade.position(chord, span, np.full_like(chord, side)) for side in (PRESSURE, SUCTION)]
+    return np.array(sides).reshape(2, _SAMPLES, _SAMPLES, 3)

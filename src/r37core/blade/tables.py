@@ -1,0 +1,120 @@
+"""Profile and stacking tables: reading them, and checking them before any work starts."""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+
+from .errors import BladeShapeError
+from .profile import ProfileParameters
+
+_CENTIMETRE = 0.01
+_DEGREE = np.pi / 180.0
+
+PROFILE_COLUMNS = {
+    "span_percent": ("span", 0.01),
+    "r_ic_cm": ("inlet_radius", _CENTIMETRE),
+    "r_oc_cm": ("outlet_radius", _CENTIMETRE),
+    "kappa_ic_deg": ("inlet_angle", _DEGREE),
+    "kappa_tc_deg": ("transition_angle", _DEGREE),
+    "kappa_oc_deg": ("outlet_angle", _DEGREE),
+    "t_i_cm": ("inlet_thickness", _CENTIMETRE),
+    "t_m_cm": ("maximum_thickness", _CENTIMETRE),
+    "t_o_cm": ("outlet_thickness", _CENTIMETRE),
+    "z_mc_cm": ("maximum_thickness_axial", _CENTIMETRE),
+    "z_tc_cm": ("transition_axial", _CENTIMETRE),
+    "z_oc_cm": ("outlet_axial", _CENTIMETRE),
+}
+"""Column of a profile table -> (attribute of ProfileParameters, factor to SI)."""
+
+STACKING_COLUMNS = {"span_percent": 0.01, "sweep_cm": _CENTIMETRE, "lean_deg": _DEGREE}
+"""Column of a sweep and lean table -> factor to SI."""
+
+
+def read_profile_table(file: Path) -> list[ProfileParameters]:
+    """Profiles of a CSV table, from hub to tip; the rows may run either way.
+
+    Raises BladeShapeError for missing columns, unreadable numbers, spans out of order or not reaching 0 and 100%,
+    impossible rows and profiles that cross.
+    """
+    rows = _read_rows(file, PROFILE_COLUMNS)
+    profiles = [
+        ProfileParameters(**{name: row[column] * factor for column, (name, factor) in PROFILE_COLUMNS.items()})
+        for row in rows
+    ]
+    if len(profiles) > 1 and profiles[0].span > profiles[-1].span:
+        profiles.reverse()
+    if len(profiles) < 4:
+        raise BladeShapeError(f"the table has {len(profiles)} profiles; the spline along the span needs at least 4")
+    check_spans([p.span for p in profiles])
+    for profile in profiles:
+        profile.check()
+    _check_order(profiles)
+    return profiles
+
+
+def read_stacking_table(file: Path, blade: str) -> np.ndarray:
+    """Rows of one blade from a sweep and lean CSV with a `blade` column; columns span, sweep (m), lean (rad).
+
+    Raises BladeShapeError as `stacking_rows` does, and when the table has no row for the blade.
+    """
+    rows = [row for row in _read_rows(file, STACKING_COLUMNS, text_columns=("blade",)) if row["blade"] == blade]
+    if not rows:
+        raise BladeShapeError(f"no row of the table has '{blade}' in its column 'blade'")
+    return stacking_rows(rows)
+
+
+def stacking_rows(rows: Sequence[dict]) -> np.ndarray:
+    """Sweep and lean rows (keys as in STACKING_COLUMNS) in SI: columns span, sweep (m), lean (rad).
+
+    Raises BladeShapeError for spans out of order or not reaching 0 and 100%.
+    """
+    table = np.array([[float(row[column]) * factor for column, factor in STACKING_COLUMNS.items()] for row in rows])
+    check_spans(list(table[:, 0]))
+    return table
+
+
+def check_spans(spans: Sequence[float]) -> None:
+    """Raise BladeShapeError unless the span fractions rise from 0 to 1."""
+    for below, above in zip(spans[:-1], spans[1:], strict=True):
+        if not above > below:
+            raise BladeShapeError(f"span {100 * above:g}%: comes after {100 * below:g}%; spans must be in order, each once")
+    if abs(spans[0]) > 1e-9 or abs(spans[-1] - 1.0) > 1e-9:
+        raise BladeShapeError(
+            f"the spans run from {100 * spans[0]:g}% to {100 * spans[-1]:g}%; the table must reach 0 and 100%"
+        )
+
+
+def _check_order(profiles: Sequence[ProfileParameters]) -> None:
+    for below, above in zip(profiles[:-1], profiles[1:], strict=True):
+        for name in ("inlet_radius", "outlet_radius"):
+            if not getattr(above, name) > getattr(below, name):
+                raise BladeShapeError(
+                    f"{above.label}: the profile crosses the one at {below.label}: its {name} ({getattr(above, name):g} m) "
+                    f"is not larger than {getattr(below, name):g} m"
+                )
+
+
+def _read_rows(file: Path, number_columns, text_columns: tuple[str, ...] = ()) -> list[dict]:
+    wanted = [*text_columns, *number_columns]
+    with open(file, newline="", encoding="utf-8") as stream:
+        reader = csv.DictReader(stream)
+        found = reader.fieldnames or []
+        missing = [column for column in wanted if column not in found]
+        if missing:
+            raise BladeShapeError(f"the table lacks the columns {', '.join(missing)}; it has {', '.join(found)}")
+        rows = []
+        for number, raw in enumerate(reader, start=2):
+            row: dict = {column: raw[column] for column in text_columns}
+            for column in number_columns:
+                try:
+                    row[column] = float(raw[column])
+                except (TypeError, ValueError):
+                    raise BladeShapeError(f"line {number}, column {column}: '{raw[column]}' is not a number") from None
+                if not np.isfinite(row[column]):
+                    raise BladeShapeError(f"line {number}, column {column}: '{raw[column]}' is not finite")
+            rows.append(row)
+    return rows

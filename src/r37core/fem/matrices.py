@@ -1,0 +1,99 @@
+"""The finite-element matrices of one blade, as later stages use them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.sparse as sp
+
+from r37core.mesh.wedge_mesh import WedgeMesh
+
+from .assembly import NodePattern, assemble_mass, assemble_stiffness, block_matrix
+from .centrifugal import assemble_geometric_stiffness, centrifugal_load
+from .material import Material
+from .solver import factorise
+
+_SPIN_PLANE = np.diag([1.0, 1.0, 0.0])
+_SPIN_CROSS = np.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 0.0]])
+
+
+@dataclass(frozen=True)
+class StructuralMatrices:
+    """Matrices over node pairs; the methods return sparse matrices over the unclamped degrees of freedom (x y z per node).
+
+    `indptr`, `indices`: pattern of node pairs; `stiffness_blocks` (N/m), shape (pairs, 3, 3); `mass_pairs` (kg) and
+    `geometric_pairs` (N/m per rad2/s2), shape (pairs,), both times the identity; `free_nodes`: unclamped node numbers.
+    """
+
+    indptr: np.ndarray
+    indices: np.ndarray
+    stiffness_blocks: np.ndarray
+    mass_pairs: np.ndarray
+    geometric_pairs: np.ndarray
+    free_nodes: np.ndarray
+
+    @property
+    def free_dofs(self) -> np.ndarray:
+        """Numbers of the unclamped degrees of freedom in the order of the returned matrices."""
+        return (3 * self.free_nodes[:, None] + np.arange(3)).ravel()
+
+    @property
+    def total_mass(self) -> float:
+        """Mass of the blade (kg)."""
+        return float(np.sum(self.mass_pairs))
+
+    def stiffness(self) -> sp.csr_array:
+        """Elastic stiffness (N/m)."""
+        return self._free(self.stiffness_blocks)
+
+    def mass(self) -> sp.csr_array:
+        """Consistent mass (kg)."""
+        return self._free(self.mass_pairs[:, None, None] * np.eye(3))
+
+    def geometric_stiffness(self) -> sp.csr_array:
+        """Geometric stiffness per Omega^2 (N/m per rad2/s2)."""
+        return self._free(self.geometric_pairs[:, None, None] * np.eye(3))
+
+    def spin_softening(self) -> sp.csr_array:
+        """Spin softening per Omega^2 (kg): minus the mass of the motion normal to the axis; added to the stiffness."""
+        return self._free(-self.mass_pairs[:, None, None] * _SPIN_PLANE)
+
+    def coriolis(self) -> sp.csr_array:
+        """Coriolis matrix per Omega (kg), skew-symmetric: 2 Omega z x velocity, for rotation towards negative theta."""
+        return self._free(-2.0 * self.mass_pairs[:, None, None] * _SPIN_CROSS)
+
+    def _free(self, blocks: np.ndarray) -> sp.csr_array:
+        dofs = self.free_dofs
+        return block_matrix(self.indptr, self.indices, blocks)[dofs][:, dofs]
+
+
+def assemble(mesh: WedgeMesh, material: Material) -> StructuralMatrices:
+    """Assemble the matrices of a mesh clamped at its root, with the geometric stiffness of the centrifugal stress.
+
+    The static displacement under rotation comes from the elastic stiffness at rest (linear theory).
+    """
+    elements, points = mesh.elements, mesh.points
+    pattern = NodePattern.of(elements, len(points))
+    partial = StructuralMatrices(
+        indptr=pattern.indptr,
+        indices=pattern.indices,
+        stiffness_blocks=assemble_stiffness(pattern, elements, points, material),
+        mass_pairs=assemble_mass(pattern, elements, points, material.density),
+        geometric_pairs=np.zeros(len(pattern.indices)),
+        free_nodes=mesh.free_nodes,
+    )
+    displacement = static_displacement(partial, centrifugal_load(elements, points, material.density))
+    geometric = assemble_geometric_stiffness(pattern, elements, points, material, displacement)
+    return StructuralMatrices(
+        partial.indptr, partial.indices, partial.stiffness_blocks, partial.mass_pairs, geometric, partial.free_nodes
+    )
+
+
+def static_displacement(matrices: StructuralMatrices, load: np.ndarray) -> np.ndarray:
+    """Displacement (m), shape (nodes, 3), of the clamped blade at rest under nodal forces (N), shape (nodes, 3)."""
+    displacement = np.zeros_like(load)
+    free = matrices.free_nodes
+    solution = factorise(matrices.stiffness())(load[free].ravel())
+    displacement[free] = solution.reshape(-1, 3)
+    return displacement

@@ -1,0 +1,41 @@
+"""Sparse direct solution and the lowest modes of the clamped blade."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+import scipy.sparse as sp
+import scipy.sparse.linalg as sla
+
+
+def factorise(matrix: sp.sparray) -> Callable[[np.ndarray], np.ndarray]:
+    """Factorise a symmetric positive definite matrix once; the returned function solves for one or more right sides.
+
+    SuperLU in symmetric mode with minimum-degree ordering of A^T + A. On this project's meshes (thin, almost
+    two-dimensional) it is within a factor of two of CHOLMOD, without its licence and platform limits.
+    """
+    factors = sla.splu(
+        sp.csc_array(matrix), permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True}
+    )
+    return factors.solve
+
+
+def lowest_modes(
+    stiffness: sp.sparray, mass: sp.sparray, count: int, solve: Callable[[np.ndarray], np.ndarray] | None = None
+) -> tuple[np.ndarray, np.ndarray]:
+    """The `count` lowest eigenvalues (rad2/s2), ascending, and mass-normalised modes, shape (dofs, count).
+
+    Shift-invert Lanczos about zero with a fixed start vector, so the result is reproducible; `solve` is the
+    factorised stiffness if the caller already has it.
+    """
+    size = stiffness.shape[0]
+    if count == 0:
+        return np.empty(0), np.empty((size, 0))
+    inverse = sla.LinearOperator((size, size), matvec=solve or factorise(stiffness), dtype=float)
+    start = np.random.default_rng(37).standard_normal(size)
+    eigenvalues, modes = sla.eigsh(stiffness, count, M=mass, sigma=0.0, OPinv=inverse, v0=start)
+    order = np.argsort(eigenvalues)
+    eigenvalues, modes = eigenvalues[order], modes[:, order]
+    largest = np.abs(modes).argmax(axis=0)
+    return eigenvalues, modes * np.sign(modes[largest, np.arange(count)])
