@@ -16,12 +16,13 @@ from .sweep import chordwise_sweep, sweep_and_lean
 class BladeDefinition:
     """What a user gives: profiles from hub to tip, and either a sweep and lean table, a chordwise sweep, or neither.
 
-    `stacking`: columns span, sweep (m), lean (rad); `chordwise_sweep_angle` in rad, positive forward.
+    `stacking`: rows of span, sweep (m), lean (rad); `chordwise_sweep_angle` in rad, positive forward. Made of plain
+    numbers, so that its repr is exact and tells whether a blade was edited.
     """
 
     name: str
     profiles: tuple[ProfileParameters, ...]
-    stacking: np.ndarray | None = None
+    stacking: tuple[tuple[float, float, float], ...] | None = None
     chordwise_sweep_angle: float | None = None
 
     def build(self, round_edges: bool = True) -> Blade:
@@ -30,7 +31,7 @@ class BladeDefinition:
             profiles = [Profile(parameters) for parameters in self.profiles]
             shift = None
             if self.stacking is not None:
-                shift = sweep_and_lean(np.array([p.span for p in self.profiles]), self.stacking)
+                shift = sweep_and_lean(np.array([p.span for p in self.profiles]), np.array(self.stacking))
             elif self.chordwise_sweep_angle is not None:
                 shift = chordwise_sweep(profiles, self.chordwise_sweep_angle)
             return Blade.stacked(profiles, shift, round_edges)

@@ -56,8 +56,8 @@ def read_profile_table(file: Path) -> list[ProfileParameters]:
     return profiles
 
 
-def read_stacking_table(file: Path, blade: str) -> np.ndarray:
-    """Rows of one blade from a sweep and lean CSV with a `blade` column; columns span, sweep (m), lean (rad).
+def read_stacking_table(file: Path, blade: str) -> tuple[tuple[float, float, float], ...]:
+    """Rows of one blade from a sweep and lean CSV with a `blade` column; as (span, sweep (m), lean (rad)).
 
     Raises BladeShapeError as `stacking_rows` does, and when the table has no row for the blade.
     """
@@ -67,13 +67,22 @@ def read_stacking_table(file: Path, blade: str) -> np.ndarray:
     return stacking_rows(rows)
 
 
-def stacking_rows(rows: Sequence[dict]) -> np.ndarray:
-    """Sweep and lean rows (keys as in STACKING_COLUMNS) in SI: columns span, sweep (m), lean (rad).
+def stacking_rows(rows: Sequence[dict]) -> tuple[tuple[float, float, float], ...]:
+    """Sweep and lean rows (keys as in STACKING_COLUMNS) in SI: (span, sweep (m), lean (rad)).
 
     Raises BladeShapeError for spans out of order or not reaching 0 and 100%.
     """
-    table = np.array([[float(row[column]) * factor for column, factor in STACKING_COLUMNS.items()] for row in rows])
-    check_spans(list(table[:, 0]))
+    table = tuple(
+        (
+            float(row["span_percent"]) * STACKING_COLUMNS["span_percent"],
+            float(row["sweep_cm"]) * STACKING_COLUMNS["sweep_cm"],
+            float(row["lean_deg"]) * STACKING_COLUMNS["lean_deg"],
+        )
+        for row in rows
+    )
+    if len(table) < 2:
+        raise BladeShapeError("a sweep and lean table needs at least two rows, for 0 and 100% span")
+    check_spans([row[0] for row in table])
     return table
 
 

@@ -1,0 +1,34 @@
+# Two commands: `make campbell` runs the main job, `make test` the tests. Both make the virtual environment themselves.
+PYTHON ?= python3
+CORES ?= 2
+VENV := .venv
+BIN := $(VENV)/bin
+
+.PHONY: campbell test lint setup clean-results
+
+campbell: $(VENV)/.ready
+	$(BIN)/snakemake campbell --cores $(CORES)
+
+test: $(VENV)/.ready
+	$(BIN)/python -m pytest
+
+lint: $(VENV)/.ready
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+	$(BIN)/snakefmt --check Snakefile workflow
+	$(BIN)/mypy
+	$(BIN)/snakemake --lint
+
+setup: $(VENV)/.ready
+
+$(VENV)/.ready: pyproject.toml envs/system_libraries.sh
+	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || \
+		{ echo "r37 needs Python 3.11 or newer; say which with: make PYTHON=/path/to/python3.11 ..." >&2; exit 1; }
+	@$(PYTHON) -m venv $(VENV) || \
+		{ echo "the venv module is missing; on Debian: apt-get install python3-venv" >&2; exit 1; }
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[test]'
+	sh envs/system_libraries.sh $(BIN)/python
+	@touch $@
+
+clean-results:
+	rm -rf results logs

@@ -1,0 +1,214 @@
+"""Configuration: YAML files checked by JSON schemas, and the settings made of them."""
+
+from __future__ import annotations
+
+import hashlib
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import yaml
+from jsonschema import Draft202012Validator
+from jsonschema.exceptions import ValidationError, best_match
+
+from r37core.blade.definition import BladeDefinition
+from r37core.blade.errors import BladeShapeError
+from r37core.blade.tables import read_profile_table, read_stacking_table, stacking_rows
+from r37core.fem.material import Material
+from r37core.yaml_file import load_yaml
+
+_SHIFT_KEYS = ("stacking_table", "sweep_lean", "chordwise_sweep_deg")
+_MATERIAL_KEYS = {
+    "youngs_modulus_pa": "youngs_modulus",
+    "density_kg_m3": "density",
+    "poissons_ratio": "poissons_ratio",
+    "yield_stress_pa": "yield_stress",
+}
+
+
+class ConfigError(ValueError):
+    """A configuration that cannot be used; the message names the file, the key, what was found and what is allowed."""
+
+
+@dataclass(frozen=True)
+class BladeSettings:
+    """One blade: its shape and its material."""
+
+    definition: BladeDefinition
+    material: Material
+
+
+@dataclass(frozen=True)
+class Settings:
+    """Everything the workflow needs to know, checked.
+
+    `blades` are those to run, in order; `fidelity` the chosen level's entry; `structure` and `campbell` as in the file,
+    with defaults filled in.
+    """
+
+    blades: dict[str, BladeSettings]
+    fidelity_name: str
+    fidelity: dict[str, Any]
+    structure: dict[str, Any]
+    campbell: dict[str, Any]
+
+    def input_hash(self, blade: str) -> str:
+        """Short hash of all that a blade's structural results depend on."""
+        everything = (self.blades[blade], self.fidelity, self.structure)
+        return hashlib.sha256(repr(everything).encode()).hexdigest()[:16]
+
+
+def load_settings(config: Mapping[str, Any], root: Path, config_name: str = "config/config.yaml") -> Settings:
+    """Check a configuration (the content of config.yaml) and the files it names, relative to the folder `root`.
+
+    Raises ConfigError for anything wrong, before any work is done.
+    """
+    schemas = root / "config" / "schemas"
+    checked = _validated(dict(config), schemas / "config.schema.yaml", config_name)
+    fidelity_file, blades_file = checked["fidelity_file"], checked["blades_file"]
+    levels = _validated(_load(root, fidelity_file), schemas / "fidelity.schema.yaml", fidelity_file)
+    level = checked["fidelity"]
+    if level not in levels:
+        raise ConfigError(f"{config_name}: fidelity: found '{level}'; allowed: {', '.join(levels)} ({fidelity_file})")
+    entries = _validated(_load(root, blades_file), schemas / "blades.schema.yaml", blades_file)
+    names = list(entries) if checked["blades"] == "all" else checked["blades"]
+    for name in names:
+        if name not in entries:
+            raise ConfigError(f"{config_name}: blades: found '{name}'; allowed: {', '.join(entries)} ({blades_file})")
+    submesh = checked["structure"]["stress_submesh"]
+    if not submesh["minimum_z_m"] < submesh["maximum_z_m"]:
+        raise ConfigError(
+            f"{config_name}: structure.stress_submesh.minimum_z_m: found {submesh['minimum_z_m']}; "
+            f"allowed: less than maximum_z_m ({submesh['maximum_z_m']})"
+        )
+    return Settings(
+        blades={name: _blade(name, entries, root, blades_file) for name in names},
+        fidelity_name=level,
+        fidelity=levels[level],
+        structure=checked["structure"],
+        campbell=checked["campbell"],
+    )
+
+
+def _load(root: Path, file: str) -> Any:
+    try:
+        return load_yaml(root / file)
+    except FileNotFoundError:
+        raise ConfigError(f"{file}: there is no such file; check blades_file and fidelity_file in config.yaml") from None
+    except yaml.YAMLError as error:
+        raise ConfigError(f"{file}: not readable as YAML: {error}") from None
+
+
+def _validated(content: Any, schema_file: Path, name: str) -> Any:
+    """`content` with the schema's defaults filled in; ConfigError at the first thing wrong."""
+    schema = load_yaml(schema_file)
+    content = _with_defaults(content, schema)
+    error = best_match(Draft202012Validator(schema).iter_errors(content))
+    if error is not None:
+        raise ConfigError(f"{name}: {_explain(error)}")
+    return content
+
+
+def _with_defaults(content: Any, schema: Mapping[str, Any]) -> Any:
+    if not isinstance(content, Mapping):
+        return content
+    filled = dict(content)
+    properties = schema.get("properties", {})
+    for key, part in properties.items():
+        if key not in filled and "default" in part:
+            filled[key] = part["default"]
+    others = schema.get("additionalProperties")
+    for key, value in filled.items():
+        part = properties.get(key, others)
+        if isinstance(part, Mapping):
+            filled[key] = _with_defaults(value, part)
+    return filled
+
+
+def _explain(error: ValidationError) -> str:
+    """`key: found ...; allowed: ...` for a schema violation."""
+    key = ".".join(str(part) for part in error.absolute_path) or "top level"
+    schema = error.schema
+    if error.validator == "required":
+        missing = [name for name in error.validator_value if name not in error.instance]
+        return f"{key}: missing key {', '.join(missing)}; allowed keys: {', '.join(schema['properties'])}"
+    if error.validator == "additionalProperties":
+        unknown = [str(name) for name in error.instance if name not in schema["properties"]]
+        return f"{key}: found unknown key {', '.join(unknown)}; allowed keys: {', '.join(schema['properties'])}"
+    bounds = {
+        "minimum": "at least",
+        "exclusiveMinimum": "more than",
+        "maximum": "at most",
+        "exclusiveMaximum": "less than",
+        "minItems": "rows: at least",
+        "minProperties": "entries: at least",
+        "pattern": "text like",
+    }
+    allowed = [f"one of {', '.join(map(str, schema['enum']))}"] if "enum" in schema else []
+    if "oneOf" in schema:
+        allowed.append(" or ".join(str(part.get("const", part.get("type"))) for part in schema["oneOf"]))
+    if "type" in schema:
+        allowed.append(str(schema["type"]))
+    allowed += [f"{words} {schema[name]}" for name, words in bounds.items() if name in schema]
+    return f"{key}: found {error.instance!r}; allowed: {', '.join(allowed) or error.message}"
+
+
+def _blade(name: str, entries: Mapping[str, Any], root: Path, file: str) -> BladeSettings:
+    chain = _inheritance(name, entries, file)
+    material: dict[str, float] = {}
+    shift: dict[str, Any] = {}
+    for link in chain:
+        entry = entries[link]
+        given = [key for key in _SHIFT_KEYS if key in entry]
+        if len(given) > 1:
+            raise ConfigError(f"{file}: {link}: found {' and '.join(given)}; allowed: at most one of {', '.join(_SHIFT_KEYS)}")
+        if given:
+            shift = {"blade": link, "key": given[0], "value": entry[given[0]]}
+        material |= entry.get("material", {})
+    missing = [key for key in _MATERIAL_KEYS if key not in material]
+    if missing:
+        raise ConfigError(f"{file}: {name}.material: missing key {', '.join(missing)} (give it here or in the base)")
+    table = entries[chain[0]]["profiles"]
+    try:
+        profiles = tuple(read_profile_table(root / table))
+    except FileNotFoundError:
+        raise ConfigError(f"{file}: {chain[0]}.profiles: there is no file {table}") from None
+    except BladeShapeError as error:
+        raise ConfigError(f"{table}: blade {name}: {error}") from None
+    definition = BladeDefinition(name, profiles, **_shift(shift, root, file))
+    return BladeSettings(definition, Material(**{_MATERIAL_KEYS[key]: float(material[key]) for key in _MATERIAL_KEYS}))
+
+
+def _inheritance(name: str, entries: Mapping[str, Any], file: str) -> list[str]:
+    """Names from the blade with a profile table down to `name`."""
+    chain = [name]
+    while "profiles" not in entries[chain[0]]:
+        base = entries[chain[0]].get("base")
+        if base is None:
+            raise ConfigError(f"{file}: {chain[0]}: missing key profiles or base; a blade needs one of them")
+        if base not in entries or base in chain:
+            others = ", ".join(entry for entry in entries if entry not in chain)
+            raise ConfigError(f"{file}: {chain[0]}.base: found '{base}'; allowed: another blade of this file ({others})")
+        chain.insert(0, base)
+    if "base" in entries[chain[0]]:
+        raise ConfigError(f"{file}: {chain[0]}: found both profiles and base; allowed: one of them")
+    return chain
+
+
+def _shift(shift: Mapping[str, Any], root: Path, file: str) -> dict[str, Any]:
+    """Arguments of BladeDefinition for a sweep given in one of the three ways."""
+    if not shift:
+        return {}
+    blade, key, value = shift["blade"], shift["key"], shift["value"]
+    if key == "chordwise_sweep_deg":
+        return {"chordwise_sweep_angle": math.radians(value)}
+    try:
+        rows = read_stacking_table(root / value, blade) if key == "stacking_table" else stacking_rows(value)
+    except FileNotFoundError:
+        raise ConfigError(f"{file}: {blade}.{key}: there is no file {value}") from None
+    except BladeShapeError as error:
+        where = value if key == "stacking_table" else f"{file}: {blade}.{key}"
+        raise ConfigError(f"{where}: blade {blade}: {error}") from None
+    return {"stacking": rows}

@@ -1,0 +1,64 @@
+"""Campbell diagrams."""
+
+from __future__ import annotations
+
+import matplotlib.pyplot as plt
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from . import style  # noqa: F401  (sets the style)
+
+_NAMED = ["1B", "1T", "2B"]
+
+
+def draw_campbell(dataset: xr.Dataset, blade: str) -> Figure:
+    """One blade: frequencies over speed with engine orders and crossings, and the dynamic clearance of 1B and 1T."""
+    figure, (left, right) = plt.subplots(1, 2, figsize=(9.5, 4.5), width_ratios=[1.7, 1.0])
+    speed = dataset["speed"].values
+    highest = 1.15 * float(dataset["frequency"].sel(mode="2B").max())
+    _draw_engine_orders(left, dataset["engine_order"].values, speed, highest)
+    for name in dataset["mode"].values:
+        frequency = dataset["frequency"].sel(mode=name)
+        if float(frequency.min()) > highest:
+            continue
+        (line,) = left.plot(speed, frequency, label=str(name))
+        crossing = dataset["crossing_speed"].sel(mode=name)
+        left.plot(
+            crossing, crossing * dataset["engine_order"] / (2.0 * np.pi), "o", color=line.get_color(), markersize=3.5
+        )
+    left.set(xlabel="speed (rad/s)", ylabel="frequency (Hz)", ylim=(0.0, highest), xlim=(0.0, speed[-1]))
+    left.set_title(f"Campbell diagram, blade {blade}")
+    left.legend(title="mode", loc="upper left")
+    for name in _NAMED[:2]:
+        clearance = dataset["dynamic_clearance"].sel(mode=name)
+        right.plot(1e3 * clearance["tangential_displacement"], 1e3 * clearance, label=name)
+    right.set(xlabel="tangential displacement, leading edge (mm)", ylabel="change of clearance (mm)")
+    right.set_title("dynamic clearance")
+    right.legend()
+    return figure
+
+
+def draw_campbell_overview(dataset: xr.Dataset) -> Figure:
+    """All blades: one panel for each named mode."""
+    figure, panels = plt.subplots(1, len(_NAMED), figsize=(12.0, 4.5))
+    speed = dataset["speed"].values
+    for axes, name in zip(panels, _NAMED, strict=True):
+        frequencies = dataset["frequency"].sel(mode=name)
+        for blade in dataset["blade"].values:
+            axes.plot(speed, frequencies.sel(blade=blade), label=str(blade))
+        low, high = float(frequencies.min()), float(frequencies.max())
+        margin = 0.08 * (high - low)
+        axes.set(xlabel="speed (rad/s)", title=name, xlim=(0.0, speed[-1]), ylim=(low - margin, high + margin))
+        _draw_engine_orders(axes, dataset["engine_order"].values, speed, high)
+    panels[0].set_ylabel("frequency (Hz)")
+    panels[0].legend(title="blade")
+    return figure
+
+
+def _draw_engine_orders(axes: Axes, orders: np.ndarray, speed: np.ndarray, highest: float) -> None:
+    for order in orders:
+        axes.plot(speed, order * speed / (2.0 * np.pi), color="0.7", linewidth=0.6, zorder=0)
+        end = min(speed[-1], 2.0 * np.pi * highest / order)
+        axes.annotate(str(order), (end, order * end / (2.0 * np.pi)), fontsize=6, color="0.5", clip_on=True)

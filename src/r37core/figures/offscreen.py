@@ -1,0 +1,24 @@
+"""Rendering without a display. Run as a program it draws one test picture and fails if that does not work."""
+
+from __future__ import annotations
+
+import os
+import sys
+
+# VTK picks its window when first imported; this one needs neither a display nor a graphics card
+if sys.platform == "linux":
+    os.environ.setdefault("VTK_DEFAULT_OPENGL_WINDOW", "vtkOSOpenGLRenderWindow")
+
+import pyvista  # noqa: E402
+
+
+def new_plotter(columns: int, size: tuple[int, int]) -> pyvista.Plotter:
+    """An off-screen plotter with `columns` panels side by side and a window of `size` pixels."""
+    return pyvista.Plotter(shape=(1, columns), off_screen=True, window_size=list(size), border=False)
+
+
+if __name__ == "__main__":
+    plotter = new_plotter(1, (64, 64))
+    plotter.add_mesh(pyvista.Sphere())
+    if plotter.screenshot(return_img=True).min() == plotter.screenshot(return_img=True).max():
+        sys.exit("VTK rendered an empty picture")

@@ -1,0 +1,38 @@
+"""One style for all figures."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import matplotlib
+
+matplotlib.use("Agg")
+
+import matplotlib.pyplot as plt  # noqa: E402
+from matplotlib.figure import Figure  # noqa: E402
+
+from r37core.io import atomic_write  # noqa: E402
+
+plt.rcParams.update(
+    {
+        "figure.dpi": 110,
+        "savefig.dpi": 150,
+        "figure.constrained_layout.use": True,
+        "font.size": 9,
+        "axes.grid": True,
+        "grid.alpha": 0.25,
+        "axes.spines.top": False,
+        "axes.spines.right": False,
+        "lines.linewidth": 1.4,
+        "legend.frameon": False,
+        # no creation date, so that the same data give the same bytes
+        "svg.hashsalt": "r37",
+    }
+)
+
+
+def save(figure: Figure, file: Path | str) -> None:
+    """Write the figure atomically and close it; the same data give the same bytes."""
+    with atomic_write(file) as partial:
+        figure.savefig(partial, metadata={"Software": None})
+    plt.close(figure)

@@ -1,0 +1,28 @@
+"""Ideal bending and torsion shapes, by which the first modes get their names."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from r37core.mesh.wedge_mesh import WedgeMesh
+
+# roots of cos(x) cosh(x) = -1: clamped-free beam (Blevins, Formulas for Natural Frequency and Mode Shape)
+_BEAM_ROOTS = (1.875104068711961, 4.694091132974175)
+
+
+def ideal_shapes(mesh: WedgeMesh) -> dict[str, np.ndarray]:
+    """Displacement fields, shape (nodes, 3), named 1B, 1T and 2B.
+
+    Bending moves along the blade's local normal as a clamped-free beam; torsion turns each section about mid-chord by
+    a quarter sine along the span.
+    """
+    chord, span, _ = mesh.parameters.T
+    twist = (chord - 0.5) * np.sin(0.5 * np.pi * span)
+    amplitudes = {"1B": _beam_shape(span, _BEAM_ROOTS[0]), "1T": twist, "2B": _beam_shape(span, _BEAM_ROOTS[1])}
+    return {name: amplitude[:, None] * mesh.normals for name, amplitude in amplitudes.items()}
+
+
+def _beam_shape(span: np.ndarray, root: float) -> np.ndarray:
+    ratio = (np.cosh(root) + np.cos(root)) / (np.sinh(root) + np.sin(root))
+    x = root * span
+    return np.cosh(x) - np.cos(x) - ratio * (np.sinh(x) - np.sin(x))

@@ -1,0 +1,146 @@
+"""Building the reduced model of a blade from its mesh and matrices."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import scipy.sparse as sp
+
+from r37core.fem.matrices import StructuralMatrices
+from r37core.mesh.wedge_mesh import WedgeMesh
+
+from .boundary import TIP_LINES, BoundaryChoice, boundary_nodes
+from .craig_bampton import multi_speed_basis
+from .naming import ideal_shapes
+from .reduced_model import RecoveryNodes, ReducedModel
+
+
+@dataclass(frozen=True)
+class StressSubmesh:
+    """Where stress is recovered: nodes with x < `maximum_x` and `minimum_z` < z < `maximum_z` (m), none of them clamped."""
+
+    maximum_x: float
+    minimum_z: float
+    maximum_z: float
+
+    def elements(self, mesh: WedgeMesh) -> np.ndarray:
+        """Numbers of the elements all of whose nodes qualify."""
+        x, _, z = mesh.points.T
+        qualifies = (x < self.maximum_x) & (z > self.minimum_z) & (z < self.maximum_z)
+        qualifies[mesh.node_set("root")] = False
+        return np.flatnonzero(qualifies[mesh.elements].all(axis=1))
+
+
+@dataclass(frozen=True)
+class ReductionChoice:
+    """What the reduced model is made of.
+
+    Boundary nodes, speeds (rad/s) at which the basis is computed, fixed-interface modes at each, tolerance of
+    dependence, which rotation terms are kept, where stress is recovered, and whether the whole blade is.
+    """
+
+    boundary: BoundaryChoice
+    speeds: tuple[float, ...]
+    fixed_interface_modes: int
+    tolerance: float
+    spin_softening: bool
+    coriolis: bool
+    stress_submesh: StressSubmesh
+    whole_blade: bool
+
+    @classmethod
+    def from_config(cls, structure: Mapping[str, Any], reduction: Mapping[str, Any]) -> ReductionChoice:
+        """From the section `structure` of config.yaml and the section `reduction` of a fidelity level.
+
+        The basis is computed at rest, at half the maximum speed and at the maximum speed.
+        """
+        submesh = structure["stress_submesh"]
+        return cls(
+            boundary=BoundaryChoice(**structure["boundary"]),
+            speeds=tuple(share * structure["maximum_speed_rad_s"] for share in (0.0, 0.5, 1.0)),
+            fixed_interface_modes=reduction["fixed_interface_modes"],
+            tolerance=reduction["basis_tolerance"],
+            spin_softening=structure["spin_softening"],
+            coriolis=structure["coriolis"],
+            stress_submesh=StressSubmesh(submesh["maximum_x_m"], submesh["minimum_z_m"], submesh["maximum_z_m"]),
+            whole_blade=structure["recover_whole_blade"],
+        )
+
+
+def reduce_blade(mesh: WedgeMesh, matrices: StructuralMatrices, choice: ReductionChoice) -> ReducedModel:
+    """Project the blade's matrices on a Craig-Bampton basis over several speeds.
+
+    Raises BoundaryError when the mesh has too few tip nodes.
+    """
+    stiffness, geometric, mass = matrices.stiffness(), matrices.geometric_stiffness(), matrices.mass()
+    softening = matrices.spin_softening() if choice.spin_softening else None
+    per_square = geometric if softening is None else geometric + softening
+    nodes = boundary_nodes(mesh, choice.boundary)
+    boundary_dofs = (3 * np.searchsorted(matrices.free_nodes, nodes)[:, None] + np.arange(3)).ravel()
+    basis = multi_speed_basis(
+        lambda speed: sp.csr_array(stiffness + speed**2 * per_square),
+        mass,
+        boundary_dofs,
+        choice.speeds,
+        choice.fixed_interface_modes,
+        choice.tolerance,
+    )
+    vectors = basis.vectors
+    whole = np.zeros((len(mesh.points), 3, vectors.shape[1]))
+    whole[matrices.free_nodes] = vectors.reshape(-1, 3, vectors.shape[1])
+
+    def recovery(of: np.ndarray) -> RecoveryNodes:
+        return RecoveryNodes(of, mesh.points[of], whole[of])
+
+    stress_nodes, local = np.unique(mesh.elements[choice.stress_submesh.elements(mesh)], return_inverse=True)
+    shapes = {name: shape[matrices.free_nodes].ravel() for name, shape in ideal_shapes(mesh).items()}
+    mass_times_vectors = mass @ vectors
+    return ReducedModel(
+        stiffness=_projected(stiffness, vectors),
+        geometric_stiffness=_projected(geometric, vectors),
+        mass=_symmetric(vectors.T @ mass_times_vectors),
+        spin_softening=None if softening is None else _projected(softening, vectors),
+        coriolis=vectors.T @ (matrices.coriolis() @ vectors) if choice.coriolis else None,
+        boundary_nodes=nodes,
+        boundary_chord=mesh.parameters[nodes, 0],
+        tip_lines={line: recovery(mesh.node_set(name)) for line, name in TIP_LINES.items()},
+        stress_submesh=recovery(stress_nodes),
+        stress_elements=local.reshape(-1, 15),
+        whole_blade=recovery(np.arange(len(mesh.points))) if choice.whole_blade else None,
+        shape_names=tuple(shapes),
+        shape_products=np.array([shape @ mass_times_vectors for shape in shapes.values()]),
+        shape_norms=np.array([np.sqrt(shape @ (mass @ shape)) for shape in shapes.values()]),
+        columns=basis.columns,
+        tolerance=basis.tolerance,
+        singular_values=basis.singular_values,
+        quadratic_residual=_quadratic_residual(stiffness, per_square, vectors, max(choice.speeds)),
+    )
+
+
+def _projected(matrix: sp.csr_array, vectors: np.ndarray) -> np.ndarray:
+    return _symmetric(vectors.T @ (matrix @ vectors))
+
+
+def _symmetric(matrix: np.ndarray) -> np.ndarray:
+    return 0.5 * (matrix + matrix.T)
+
+
+def _quadratic_residual(
+    stiffness: sp.csr_array, per_square: sp.csr_array, vectors: np.ndarray, highest: float
+) -> float:
+    """Largest entry of the Omega^4 term (at the highest speed) of the reduced stiffness, over that of the stiffness.
+
+    The term is fitted through the stiffness reduced at three speeds; the linear theory makes it zero.
+    """
+    if highest == 0.0:
+        return 0.0
+    at_rest, middle, top = (
+        vectors.T @ (sp.csr_array(stiffness + (share * highest) ** 2 * per_square) @ vectors)
+        for share in (0.0, 0.5, 1.0)
+    )
+    # with s = (Omega / highest)^2: K(1/4), K(1) give K2 = (16 K(1/4) - 4 K(1) - 12 K(0)) / -3
+    quadratic = (16.0 * middle - 4.0 * top - 12.0 * at_rest) / -3.0
+    return float(np.max(np.abs(quadratic)) / np.max(np.abs(at_rest)))

@@ -1,0 +1,118 @@
+"""The reduced model of one blade: small dense matrices, and the rows of the basis that later stages need."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.linalg as la
+
+
+@dataclass(frozen=True)
+class RecoveryNodes:
+    """Nodes whose displacement can be recovered from the reduced coordinates.
+
+    `nodes`: mesh node numbers, shape (n,); `points` (m), shape (n, 3); `basis`, shape (n, 3, coordinates): displacement
+    (x, y, z) per unit of each reduced coordinate.
+    """
+
+    nodes: np.ndarray
+    points: np.ndarray
+    basis: np.ndarray
+
+    def node(self, i: int) -> RecoveryNodes:
+        """The i-th node alone."""
+        return RecoveryNodes(self.nodes[[i]], self.points[[i]], self.basis[[i]])
+
+    def displacement(self, coordinates: np.ndarray) -> np.ndarray:
+        """Displacement (m), shape (n, 3), for reduced `coordinates`, shape (coordinates,)."""
+        return self.basis @ coordinates
+
+    def cylindrical(self, displacement: np.ndarray) -> np.ndarray:
+        """Turn displacements (..., n, 3) from x, y, z to radial, tangential (growing theta) and axial parts."""
+        theta = np.arctan2(self.points[:, 1], self.points[:, 0])
+        x, y, z = np.moveaxis(displacement, -1, 0)
+        cosine, sine = np.cos(theta), np.sin(theta)
+        return np.stack([cosine * x + sine * y, cosine * y - sine * x, z], axis=-1)
+
+
+@dataclass(frozen=True)
+class ReducedModel:
+    """Reduced matrices and recovery data; coordinates 0 to 3 n_b - 1 are the boundary displacements (x y z per node).
+
+    `stiffness` (N/m), `geometric_stiffness` (per Omega^2), `mass` (kg), and, only when asked for, `spin_softening`
+    (per Omega^2) and `coriolis` (per Omega): each of shape (coordinates, coordinates). `boundary_nodes`: mesh numbers;
+    `boundary_chord`: their chord fractions. `tip_lines`: recovery along each tip line; `stress_submesh` with
+    `stress_elements`, shape (elements, 15), indexing its nodes; `whole_blade` only on request.
+    `shape_names`, `shape_products`, shape (shapes, coordinates), and `shape_norms`: mass products of the basis with the
+    ideal bending and torsion shapes, by which modes are named. `columns`, `tolerance`, `singular_values`: of the basis.
+    `quadratic_residual`: size of the Omega^4 term of the reduced stiffness at the highest speed against the stiffness.
+    """
+
+    stiffness: np.ndarray
+    geometric_stiffness: np.ndarray
+    mass: np.ndarray
+    spin_softening: np.ndarray | None
+    coriolis: np.ndarray | None
+    boundary_nodes: np.ndarray
+    boundary_chord: np.ndarray
+    tip_lines: dict[str, RecoveryNodes]
+    stress_submesh: RecoveryNodes
+    stress_elements: np.ndarray
+    whole_blade: RecoveryNodes | None
+    shape_names: tuple[str, ...]
+    shape_products: np.ndarray
+    shape_norms: np.ndarray
+    columns: int
+    tolerance: float
+    singular_values: np.ndarray
+    quadratic_residual: float
+
+    @property
+    def size(self) -> int:
+        """Number of reduced coordinates."""
+        return self.mass.shape[0]
+
+    def stiffness_at(self, speed: float) -> np.ndarray:
+        """Stiffness (N/m) at `speed` (rad/s): K0 + Omega^2 K1, with spin softening if the model has it."""
+        per_square = self.geometric_stiffness
+        if self.spin_softening is not None:
+            per_square = per_square + self.spin_softening
+        return self.stiffness + speed**2 * per_square
+
+    def modes(self, speed: float, count: int | None = None) -> tuple[np.ndarray, np.ndarray]:
+        """Lowest angular frequencies (rad/s), ascending, and mode shapes, shape (coordinates, modes), at `speed`.
+
+        Shapes are mass-normalised; complex when the model has a Coriolis matrix. Frequencies below zero stiffness are
+        given as negative numbers (a blade that buckles under rotation).
+        """
+        squares, shapes = la.eigh(self.stiffness_at(speed), self.mass)
+        if self.coriolis is not None and speed != 0.0:
+            return _gyroscopic_modes(squares, shapes, speed * self.coriolis, count)
+        frequencies = np.sign(squares) * np.sqrt(np.abs(squares))
+        return frequencies[:count], shapes[:, :count]
+
+
+def _gyroscopic_modes(
+    squares: np.ndarray, shapes: np.ndarray, gyroscopic: np.ndarray, count: int | None
+) -> tuple[np.ndarray, np.ndarray]:
+    """Modes of q'' + g q' + diag(squares) q = 0 in modal coordinates q, with g skew-symmetric.
+
+    With y = (sqrt(squares) q, q') the system is y' = A y, A real and skew-symmetric, so i A is Hermitian and its
+    eigenvalues are the angular frequencies, without the loss of digits of a general eigensolver.
+    """
+    if squares[0] <= 0.0:
+        raise ValueError("the blade has no stable position at this speed (a stiffness is not positive)")
+    root = np.sqrt(squares)
+    coupling = shapes.T @ gyroscopic @ shapes
+    size = len(root)
+    system = np.zeros((2 * size, 2 * size))
+    system[:size, size:] = np.diag(root)
+    system[size:, :size] = -np.diag(root)
+    system[size:, size:] = -0.5 * (coupling - coupling.T)
+    values, vectors = la.eigh(1j * system)
+    positive = np.flatnonzero(values > 0.0)[:count]
+    modal = vectors[:size, positive] / root[:, None]
+    complex_shapes = shapes @ modal
+    norms = np.sqrt(np.sum(np.abs(modal) ** 2, axis=0))
+    return values[positive], complex_shapes / norms

@@ -1,0 +1,93 @@
+"""rom.nc: the reduced model of one blade."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+
+import numpy as np
+import xarray as xr
+
+from r37core.io import read_dataset, readable, write_dataset
+
+from .reduced_model import RecoveryNodes, ReducedModel
+
+_MATRICES = {
+    "stiffness": ("N m-1", "reduced elastic stiffness"),
+    "geometric_stiffness": ("N m-1 s2 rad-2", "reduced geometric stiffness per squared speed"),
+    "mass": ("kg", "reduced mass"),
+    "spin_softening": ("kg", "reduced spin softening per squared speed"),
+    "coriolis": ("kg", "reduced Coriolis matrix per speed"),
+}
+
+
+def write_reduced_model(model: ReducedModel, file: Path | str, provenance: Mapping[str, object] | None = None) -> None:
+    """Write the model; terms that it lacks are absent from the file."""
+    data: dict = {}
+    for name, (units, long_name) in _MATRICES.items():
+        matrix = getattr(model, name)
+        if matrix is not None:
+            data[name] = (("row", "column"), matrix, {"units": units, "long_name": long_name})
+    node_groups = {f"tip_{line}": nodes for line, nodes in model.tip_lines.items()}
+    node_groups["stress"] = model.stress_submesh
+    if model.whole_blade is not None:
+        node_groups["blade"] = model.whole_blade
+    for group, recovery in node_groups.items():
+        data |= _recovery_variables(group, recovery)
+    data |= {
+        "stress_elements": (("stress_element", "element_node"), model.stress_elements, _about("1", "submesh elements")),
+        "boundary_nodes": ("boundary_node", model.boundary_nodes, _about("1", "mesh numbers of the boundary nodes")),
+        "boundary_chord": ("boundary_node", model.boundary_chord, _about("1", "chord fraction of the boundary nodes")),
+        "shape_products": (("shape", "column"), model.shape_products, _about("kg1/2", "mass product with ideal shapes")),
+        "shape_norms": ("shape", model.shape_norms, _about("kg1/2", "mass norm of the ideal shapes")),
+        "singular_values": ("basis_column", model.singular_values, _about("1", "singular values of the basis columns")),
+    }
+    attributes = {
+        "basis_columns": model.columns,
+        "basis_independent_columns": model.size,
+        "basis_tolerance": model.tolerance,
+        "quadratic_residual": model.quadratic_residual,
+        "tip_line_names": list(model.tip_lines),
+    }
+    dataset = xr.Dataset(data, coords={"shape": list(model.shape_names)}, attrs=attributes)
+    write_dataset(dataset, file, provenance)
+
+
+def read_reduced_model(file: Path | str) -> ReducedModel:
+    """The model of a rom.nc; InputFileError when the file cannot be read."""
+    dataset = read_dataset(file)
+    with readable(file):
+        matrices = {name: dataset[name].values if name in dataset else None for name in _MATRICES}
+        return ReducedModel(
+            **matrices,
+            boundary_nodes=dataset["boundary_nodes"].values,
+            boundary_chord=dataset["boundary_chord"].values,
+            tip_lines={line: _recovery(dataset, f"tip_{line}") for line in np.atleast_1d(dataset.tip_line_names)},
+            stress_submesh=_recovery(dataset, "stress"),
+            stress_elements=dataset["stress_elements"].values,
+            whole_blade=_recovery(dataset, "blade") if "blade_basis" in dataset else None,
+            shape_names=tuple(str(name) for name in dataset["shape"].values),
+            shape_products=dataset["shape_products"].values,
+            shape_norms=dataset["shape_norms"].values,
+            columns=int(dataset.attrs["basis_columns"]),
+            tolerance=float(dataset.attrs["basis_tolerance"]),
+            singular_values=dataset["singular_values"].values,
+            quadratic_residual=float(dataset.attrs["quadratic_residual"]),
+        )
+
+
+def _about(units: str, long_name: str) -> dict[str, str]:
+    return {"units": units, "long_name": long_name}
+
+
+def _recovery_variables(group: str, recovery: RecoveryNodes) -> dict:
+    node = f"{group}_node"
+    return {
+        f"{group}_nodes": (node, recovery.nodes, _about("1", f"mesh node numbers ({group})")),
+        f"{group}_points": ((node, "axis"), recovery.points, _about("m", f"coordinates ({group})")),
+        f"{group}_basis": ((node, "axis", "column"), recovery.basis, _about("1", f"displacement per coordinate ({group})")),
+    }
+
+
+def _recovery(dataset: xr.Dataset, group: str) -> RecoveryNodes:
+    return RecoveryNodes(*(dataset[f"{group}_{part}"].values for part in ("nodes", "points", "basis")))

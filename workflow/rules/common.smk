@@ -1,0 +1,37 @@
+# Settings, and what every rule shares.
+import hashlib
+from pathlib import Path
+
+from snakemake.exceptions import WorkflowError
+
+from r37core.config import ConfigError, load_settings
+
+ROOT = Path(workflow.basedir)
+ENVIRONMENT = ROOT / "envs" / "r37.yaml"
+
+try:
+    settings = load_settings(config, ROOT)
+except ConfigError as error:
+    raise WorkflowError(str(error)) from None
+
+
+wildcard_constraints:
+    blade="|".join(settings.blades),
+
+
+def code(*packages):
+    """Hash of the modules a stage uses: as a rule parameter it re-runs the stage when they change."""
+    digest = hashlib.sha256()
+    for package in packages:
+        for module in sorted((ROOT / "src" / "r37core").glob(package)):
+            digest.update(module.read_bytes())
+    return digest.hexdigest()[:16]
+
+
+def provenance(wildcards):
+    """What a blade's files say about their making."""
+    return {
+        "blade": wildcards.blade,
+        "fidelity": settings.fidelity_name,
+        "input_hash": settings.input_hash(wildcards.blade),
+    }

@@ -1,0 +1,123 @@
+# Blade shape -> mesh -> matrices -> reduced model -> Campbell diagram, for each blade.
+
+
+rule geometry:
+    output:
+        "results/{blade}/geometry.nc",
+    params:
+        definition=lambda wildcards: settings.blades[wildcards.blade].definition,
+        edges=settings.structure["edges"],
+        provenance=provenance,
+        code=code("io.py", "blade/*.py"),
+    # an impossible shape should stop the run before any long work
+    priority: 10
+    log:
+        "logs/{blade}/geometry.log",
+    conda:
+        ENVIRONMENT
+    script:
+        "../scripts/geometry.py"
+
+
+rule mesh:
+    input:
+        "results/{blade}/geometry.nc",
+    output:
+        msh="results/{blade}/mesh.msh",
+        vtu="results/{blade}/mesh.vtu",
+    params:
+        mesh=settings.fidelity["mesh"],
+        code=code("blade/*.py", "mesh/*.py", "fem/wedge15.py", "fem/mesh_quality.py"),
+    log:
+        "logs/{blade}/mesh.log",
+    conda:
+        ENVIRONMENT
+    script:
+        "../scripts/mesh.py"
+
+
+rule abaqus_deck:
+    input:
+        "results/{blade}/mesh.vtu",
+    output:
+        "results/{blade}/mesh.inp",
+    params:
+        material=lambda wildcards: settings.blades[wildcards.blade].material,
+        code=code("mesh/*.py"),
+    log:
+        "logs/{blade}/abaqus_deck.log",
+    conda:
+        ENVIRONMENT
+    script:
+        "../scripts/abaqus_deck.py"
+
+
+rule matrices:
+    input:
+        "results/{blade}/mesh.vtu",
+    output:
+        "results/{blade}/matrices.npz",
+    params:
+        material=lambda wildcards: settings.blades[wildcards.blade].material,
+        code=code("mesh/wedge_mesh.py", "mesh/mesh_files.py", "fem/*.py"),
+    log:
+        "logs/{blade}/matrices.log",
+    conda:
+        ENVIRONMENT
+    script:
+        "../scripts/matrices.py"
+
+
+rule reduced_model:
+    input:
+        mesh="results/{blade}/mesh.vtu",
+        matrices="results/{blade}/matrices.npz",
+    output:
+        "results/{blade}/rom.nc",
+    params:
+        structure={key: value for key, value in settings.structure.items() if key != "edges"},
+        reduction=settings.fidelity["reduction"],
+        provenance=provenance,
+        code=code("io.py", "mesh/wedge_mesh.py", "fem/matrices.py", "fem/solver.py", "rom/*.py"),
+    log:
+        "logs/{blade}/reduced_model.log",
+    conda:
+        ENVIRONMENT
+    script:
+        "../scripts/reduced_model.py"
+
+
+rule campbell_of_blade:
+    input:
+        "results/{blade}/rom.nc",
+    output:
+        "results/{blade}/campbell.nc",
+    params:
+        campbell=settings.campbell,
+        maximum_speed=settings.structure["maximum_speed_rad_s"],
+        tip_line=settings.structure["boundary"]["tip_line"],
+        provenance=provenance,
+        code=code("io.py", "rom/*.py", "results/campbell*.py"),
+    log:
+        "logs/{blade}/campbell.log",
+    conda:
+        ENVIRONMENT
+    script:
+        "../scripts/campbell_of_blade.py"
+
+
+rule campbell_of_all:
+    input:
+        expand("results/{blade}/campbell.nc", blade=settings.blades),
+    output:
+        "results/campbell.nc",
+    params:
+        blades=list(settings.blades),
+        fidelity=settings.fidelity_name,
+        code=code("io.py", "results/gather.py"),
+    log:
+        "logs/campbell_of_all.log",
+    conda:
+        ENVIRONMENT
+    script:
+        "../scripts/campbell_of_all.py"

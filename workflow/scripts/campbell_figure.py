@@ -1,0 +1,14 @@
+"""Draw one blade's Campbell diagram. Input: campbell.nc of the blade. Output: picture."""
+
+from job import run
+
+from r37core.figures.campbell import draw_campbell
+from r37core.figures.style import save
+from r37core.io import read_dataset
+
+
+def main(snakemake):
+    save(draw_campbell(read_dataset(snakemake.input[0]), snakemake.wildcards.blade), snakemake.output[0])
+
+
+run(snakemake, main)

@@ -1,0 +1,24 @@
+"""Campbell diagram of one blade. Input: rom.nc. Params: campbell, maximum_speed, tip_line. Output: campbell.nc."""
+
+from job import run
+
+from r37core.io import write_dataset
+from r37core.results.campbell_dataset import campbell_dataset
+from r37core.rom.rom_file import read_reduced_model
+
+
+def main(snakemake):
+    params = snakemake.params
+    dataset = campbell_dataset(
+        read_reduced_model(snakemake.input[0]),
+        maximum_speed=params.maximum_speed,
+        speed_step=params.campbell["speed_step_rad_s"],
+        modes=params.campbell["modes"],
+        highest_engine_order=params.campbell["highest_engine_order"],
+        largest_tangential_displacement=params.campbell["largest_tangential_displacement_m"],
+        tip_line=params.tip_line,
+    )
+    write_dataset(dataset, snakemake.output[0], params.provenance)
+
+
+run(snakemake, main)

@@ -1,0 +1,14 @@
+"""Draw the Campbell diagrams of all blades together. Input: campbell.nc of all. Output: picture."""
+
+from job import run
+
+from r37core.figures.campbell import draw_campbell_overview
+from r37core.figures.style import save
+from r37core.io import read_dataset
+
+
+def main(snakemake):
+    save(draw_campbell_overview(read_dataset(snakemake.input[0])), snakemake.output[0])
+
+
+run(snakemake, main)
