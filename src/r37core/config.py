@@ -54,10 +54,18 @@ class Settings:
     structure: dict[str, Any]
     campbell: dict[str, Any]
 
-    def input_hash(self, blade: str) -> str:
+    def shape_hash(self, blade: str) -> str:
+        """Short hash of all that a blade's geometry depends on."""
+        return _short_hash(self.blades[blade].definition, self.structure["edges"])
+
+    def structure_hash(self, blade: str) -> str:
         """Short hash of all that a blade's structural results depend on."""
-        everything = (self.blades[blade], self.fidelity, self.structure)
-        return hashlib.sha256(repr(everything).encode()).hexdigest()[:16]
+        return _short_hash(self.blades[blade], self.fidelity["mesh"], self.fidelity["reduction"], self.structure)
+
+
+def _short_hash(*parts: object) -> str:
+    """Hash of plain numbers, texts and frozen dataclasses, whose repr is exact."""
+    return hashlib.sha256(repr(parts).encode()).hexdigest()[:16]
 
 
 def load_settings(config: Mapping[str, Any], root: Path, config_name: str = "config/config.yaml") -> Settings:

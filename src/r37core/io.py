@@ -37,9 +37,7 @@ def readable(file: Path | str) -> Iterator[None]:
         yield
     except Exception as error:
         reason = f"{type(error).__name__}: {error}" if Path(file).exists() else "there is no such file"
-        raise InputFileError(
-            f"{file}: cannot be read ({reason}); if it is a result, delete it and run again"
-        ) from error
+        raise InputFileError(f"{file}: cannot be read ({reason}); if it is a result, delete it and run again") from error
 
 
 def write_dataset(dataset: xr.Dataset, file: Path | str, provenance: Mapping[str, object] | None = None) -> None:
@@ -48,7 +46,7 @@ def write_dataset(dataset: xr.Dataset, file: Path | str, provenance: Mapping[str
     Coordinates carry no fill value, as the CF conventions ask.
     """
     dataset = dataset.assign_attrs(Conventions="CF-1.11", r37core_version=__version__, **dict(provenance or {}))
-    encoding = {str(name): {"_FillValue": None} for name in dataset.coords}
+    encoding: dict[str, dict[str, float | None]] = {str(name): {"_FillValue": None} for name in dataset.coords}
     for name, variable in dataset.data_vars.items():
         encoding[str(name)] = {"_FillValue": np.nan if variable.dtype.kind == "f" else None}
     with atomic_write(file) as partial:

@@ -28,10 +28,15 @@ def code(*packages):
     return digest.hexdigest()[:16]
 
 
-def provenance(wildcards):
-    """What a blade's files say about their making."""
+def shape_provenance(wildcards):
+    """What a blade's geometry says about its making."""
+    return {"blade": wildcards.blade, "input_hash": settings.shape_hash(wildcards.blade)}
+
+
+def structure_provenance(wildcards):
+    """What a blade's structural results say about their making."""
     return {
         "blade": wildcards.blade,
         "fidelity": settings.fidelity_name,
-        "input_hash": settings.input_hash(wildcards.blade),
+        "input_hash": settings.structure_hash(wildcards.blade),
     }

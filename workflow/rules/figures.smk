@@ -6,12 +6,12 @@ rule campbell_figure:
         "results/{blade}/campbell.nc",
     output:
         "results/figures/campbell_{blade}.png",
-    params:
-        code=code("figures/style.py", "figures/campbell.py"),
     log:
         "logs/figures/campbell_{blade}.log",
     conda:
         ENVIRONMENT
+    params:
+        code=code("figures/style.py", "figures/campbell.py"),
     script:
         "../scripts/campbell_figure.py"
 
@@ -21,12 +21,12 @@ rule campbell_overview:
         "results/campbell.nc",
     output:
         "results/figures/campbell.png",
-    params:
-        code=code("figures/style.py", "figures/campbell.py"),
     log:
         "logs/figures/campbell_overview.log",
     conda:
         ENVIRONMENT
+    params:
+        code=code("figures/style.py", "figures/campbell.py"),
     script:
         "../scripts/campbell_overview.py"
 
@@ -36,12 +36,12 @@ rule blade_shapes_figure:
         expand("results/{blade}/mesh.vtu", blade=settings.blades),
     output:
         "results/figures/blades.png",
-    params:
-        blades=list(settings.blades),
-        code=code("figures/blade_shapes.py"),
     log:
         "logs/figures/blades.log",
     conda:
         ENVIRONMENT
+    params:
+        blades=list(settings.blades),
+        code=code("figures/blade_shapes.py"),
     script:
         "../scripts/blade_shapes_figure.py"

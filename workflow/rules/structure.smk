@@ -4,17 +4,17 @@
 rule geometry:
     output:
         "results/{blade}/geometry.nc",
+    log:
+        "logs/{blade}/geometry.log",
+    # an impossible shape should stop the run before any long work
+    priority: 10
+    conda:
+        ENVIRONMENT
     params:
         definition=lambda wildcards: settings.blades[wildcards.blade].definition,
         edges=settings.structure["edges"],
-        provenance=provenance,
+        provenance=shape_provenance,
         code=code("io.py", "blade/*.py"),
-    # an impossible shape should stop the run before any long work
-    priority: 10
-    log:
-        "logs/{blade}/geometry.log",
-    conda:
-        ENVIRONMENT
     script:
         "../scripts/geometry.py"
 
@@ -25,13 +25,13 @@ rule mesh:
     output:
         msh="results/{blade}/mesh.msh",
         vtu="results/{blade}/mesh.vtu",
-    params:
-        mesh=settings.fidelity["mesh"],
-        code=code("blade/*.py", "mesh/*.py", "fem/wedge15.py", "fem/mesh_quality.py"),
     log:
         "logs/{blade}/mesh.log",
     conda:
         ENVIRONMENT
+    params:
+        mesh=settings.fidelity["mesh"],
+        code=code("blade/*.py", "mesh/*.py", "fem/wedge15.py", "fem/mesh_quality.py"),
     script:
         "../scripts/mesh.py"
 
@@ -41,13 +41,13 @@ rule abaqus_deck:
         "results/{blade}/mesh.vtu",
     output:
         "results/{blade}/mesh.inp",
-    params:
-        material=lambda wildcards: settings.blades[wildcards.blade].material,
-        code=code("mesh/*.py"),
     log:
         "logs/{blade}/abaqus_deck.log",
     conda:
         ENVIRONMENT
+    params:
+        material=lambda wildcards: settings.blades[wildcards.blade].material,
+        code=code("mesh/*.py"),
     script:
         "../scripts/abaqus_deck.py"
 
@@ -57,13 +57,13 @@ rule matrices:
         "results/{blade}/mesh.vtu",
     output:
         "results/{blade}/matrices.npz",
-    params:
-        material=lambda wildcards: settings.blades[wildcards.blade].material,
-        code=code("mesh/wedge_mesh.py", "mesh/mesh_files.py", "fem/*.py"),
     log:
         "logs/{blade}/matrices.log",
     conda:
         ENVIRONMENT
+    params:
+        material=lambda wildcards: settings.blades[wildcards.blade].material,
+        code=code("mesh/wedge_mesh.py", "mesh/mesh_files.py", "fem/*.py"),
     script:
         "../scripts/matrices.py"
 
@@ -74,15 +74,15 @@ rule reduced_model:
         matrices="results/{blade}/matrices.npz",
     output:
         "results/{blade}/rom.nc",
-    params:
-        structure={key: value for key, value in settings.structure.items() if key != "edges"},
-        reduction=settings.fidelity["reduction"],
-        provenance=provenance,
-        code=code("io.py", "mesh/wedge_mesh.py", "fem/matrices.py", "fem/solver.py", "rom/*.py"),
     log:
         "logs/{blade}/reduced_model.log",
     conda:
         ENVIRONMENT
+    params:
+        structure={key: value for key, value in settings.structure.items() if key != "edges"},
+        reduction=settings.fidelity["reduction"],
+        provenance=structure_provenance,
+        code=code("io.py", "mesh/wedge_mesh.py", "fem/matrices.py", "fem/solver.py", "rom/*.py"),
     script:
         "../scripts/reduced_model.py"
 
@@ -92,16 +92,16 @@ rule campbell_of_blade:
         "results/{blade}/rom.nc",
     output:
         "results/{blade}/campbell.nc",
-    params:
-        campbell=settings.campbell,
-        maximum_speed=settings.structure["maximum_speed_rad_s"],
-        tip_line=settings.structure["boundary"]["tip_line"],
-        provenance=provenance,
-        code=code("io.py", "rom/*.py", "results/campbell*.py"),
     log:
         "logs/{blade}/campbell.log",
     conda:
         ENVIRONMENT
+    params:
+        campbell=settings.campbell,
+        maximum_speed=settings.structure["maximum_speed_rad_s"],
+        tip_line=settings.structure["boundary"]["tip_line"],
+        provenance=structure_provenance,
+        code=code("io.py", "rom/*.py", "results/campbell*.py"),
     script:
         "../scripts/campbell_of_blade.py"
 
@@ -111,13 +111,13 @@ rule campbell_of_all:
         expand("results/{blade}/campbell.nc", blade=settings.blades),
     output:
         "results/campbell.nc",
-    params:
-        blades=list(settings.blades),
-        fidelity=settings.fidelity_name,
-        code=code("io.py", "results/gather.py"),
     log:
         "logs/campbell_of_all.log",
     conda:
         ENVIRONMENT
+    params:
+        blades=list(settings.blades),
+        fidelity=settings.fidelity_name,
+        code=code("io.py", "results/gather.py"),
     script:
         "../scripts/campbell_of_all.py"

@@ -33,11 +33,11 @@ class Cone:
     inlet_radius: float
     half_angle: float
 
-    def radius(self, m: np.ndarray) -> np.ndarray:
+    def radius(self, m):
         """Distance from the axis (m)."""
         return self.inlet_radius + np.asarray(m) * np.sin(self.half_angle)
 
-    def axial(self, m: np.ndarray) -> np.ndarray:
+    def axial(self, m):
         """Axial distance from the inlet circle (m)."""
         return np.asarray(m) * np.cos(self.half_angle)
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 from collections.abc import Sequence
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -42,8 +43,7 @@ def read_profile_table(file: Path) -> list[ProfileParameters]:
     """
     rows = _read_rows(file, PROFILE_COLUMNS)
     profiles = [
-        ProfileParameters(**{name: row[column] * factor for column, (name, factor) in PROFILE_COLUMNS.items()})
-        for row in rows
+        ProfileParameters(**{name: row[column] * factor for column, (name, factor) in PROFILE_COLUMNS.items()}) for row in rows
     ]
     if len(profiles) > 1 and profiles[0].span > profiles[-1].span:
         profiles.reverse()
@@ -88,7 +88,7 @@ def stacking_rows(rows: Sequence[dict]) -> tuple[tuple[float, float, float], ...
 
 def check_spans(spans: Sequence[float]) -> None:
     """Raise BladeShapeError unless the span fractions rise from 0 to 1."""
-    for below, above in zip(spans[:-1], spans[1:], strict=True):
+    for below, above in pairwise(spans):
         if not above > below:
             raise BladeShapeError(f"span {100 * above:g}%: comes after {100 * below:g}%; spans must be in order, each once")
     if abs(spans[0]) > 1e-9 or abs(spans[-1] - 1.0) > 1e-9:
@@ -98,7 +98,7 @@ def check_spans(spans: Sequence[float]) -> None:
 
 
 def _check_order(profiles: Sequence[ProfileParameters]) -> None:
-    for below, above in zip(profiles[:-1], profiles[1:], strict=True):
+    for below, above in pairwise(profiles):
         for name in ("inlet_radius", "outlet_radius"):
             if not getattr(above, name) > getattr(below, name):
                 raise BladeShapeError(

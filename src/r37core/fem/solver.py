@@ -15,9 +15,7 @@ def factorise(matrix: sp.sparray) -> Callable[[np.ndarray], np.ndarray]:
     SuperLU in symmetric mode with minimum-degree ordering of A^T + A. On this project's meshes (thin, almost
     two-dimensional) it is within a factor of two of CHOLMOD, without its licence and platform limits.
     """
-    factors = sla.splu(
-        sp.csc_array(matrix), permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True}
-    )
+    factors = sla.splu(sp.csc_array(matrix), permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
     return factors.solve
 
 

@@ -18,20 +18,22 @@ def draw_blade_shapes(meshes: Mapping[str, Path | str], file: Path | str) -> Non
     for i, (name, mesh_file) in enumerate(meshes.items()):
         plotter.subplot(0, i)
         with readable(mesh_file):
-            grid = pyvista.read(mesh_file)
+            surface = pyvista.read(mesh_file).extract_surface(nonlinear_subdivision=1, algorithm="dataset_surface")
         last = i == len(meshes) - 1
         plotter.add_mesh(
-            grid,
+            surface,
             scalars="scaled_jacobian",
             clim=(0.0, 1.0),
             cmap="viridis",
-            show_edges=True,
-            line_width=0.3,
+            smooth_shading=True,
+            split_sharp_edges=True,
             show_scalar_bar=last,
             scalar_bar_args={"title": "scaled Jacobian", "width": 0.8, "position_x": 0.1} if last else None,
         )
         plotter.add_text(name, font_size=10)
-        plotter.view_vector((0.3, 1.0, 0.35), viewup=(1.0, 0.0, 0.0))
+        plotter.camera_position = [(0.25, -1.0, 0.9), (0.0, 0.0, 0.0), (1.0, 0.0, 0.0)]
+        plotter.reset_camera()  # type: ignore[call-arg]  # the wrapper hides the method from mypy
+        plotter.camera.zoom(1.3)
     with atomic_write(file) as partial:
         plotter.screenshot(partial)
     plotter.close()

@@ -25,9 +25,7 @@ def draw_campbell(dataset: xr.Dataset, blade: str) -> Figure:
             continue
         (line,) = left.plot(speed, frequency, label=str(name))
         crossing = dataset["crossing_speed"].sel(mode=name)
-        left.plot(
-            crossing, crossing * dataset["engine_order"] / (2.0 * np.pi), "o", color=line.get_color(), markersize=3.5
-        )
+        left.plot(crossing, crossing * dataset["engine_order"] / (2.0 * np.pi), "o", color=line.get_color(), markersize=3.5)
     left.set(xlabel="speed (rad/s)", ylabel="frequency (Hz)", ylim=(0.0, highest), xlim=(0.0, speed[-1]))
     left.set_title(f"Campbell diagram, blade {blade}")
     left.legend(title="mode", loc="upper left")
@@ -60,5 +58,5 @@ def draw_campbell_overview(dataset: xr.Dataset) -> Figure:
 def _draw_engine_orders(axes: Axes, orders: np.ndarray, speed: np.ndarray, highest: float) -> None:
     for order in orders:
         axes.plot(speed, order * speed / (2.0 * np.pi), color="0.7", linewidth=0.6, zorder=0)
-        end = min(speed[-1], 2.0 * np.pi * highest / order)
-        axes.annotate(str(order), (end, order * end / (2.0 * np.pi)), fontsize=6, color="0.5", clip_on=True)
+        end = 0.97 * min(speed[-1], 2.0 * np.pi * highest / order)
+        axes.annotate(str(order), (end, order * end / (2.0 * np.pi)), fontsize=6, color="0.4", annotation_clip=True)

@@ -9,7 +9,7 @@ import sys
 if sys.platform == "linux":
     os.environ.setdefault("VTK_DEFAULT_OPENGL_WINDOW", "vtkOSOpenGLRenderWindow")
 
-import pyvista  # noqa: E402
+import pyvista
 
 
 def new_plotter(columns: int, size: tuple[int, int]) -> pyvista.Plotter:
@@ -20,5 +20,6 @@ def new_plotter(columns: int, size: tuple[int, int]) -> pyvista.Plotter:
 if __name__ == "__main__":
     plotter = new_plotter(1, (64, 64))
     plotter.add_mesh(pyvista.Sphere())
-    if plotter.screenshot(return_img=True).min() == plotter.screenshot(return_img=True).max():
+    picture = plotter.screenshot(return_img=True)
+    if picture is None or picture.min() == picture.max():
         sys.exit("VTK rendered an empty picture")

@@ -54,10 +54,18 @@ def multi_speed_basis(
         constraint, fixed = constraint_and_fixed_modes(stiffness_at(speed), mass, boundary_dofs, fixed_interface_modes)
         static.append(constraint)
         columns += [constraint, fixed]
-    internal, singular_values = _internal_vectors(np.hstack(columns), mass, boundary_dofs, tolerance)
-    return MultiSpeedBasis(
-        np.hstack([static[0], internal]), sum(c.shape[1] for c in columns), singular_values, tolerance
-    )
+    return combine_columns(static[0], np.hstack(columns), mass, boundary_dofs, tolerance)
+
+
+def combine_columns(
+    constraint_modes: np.ndarray, columns: np.ndarray, mass: sp.csr_array, boundary_dofs: np.ndarray, tolerance: float
+) -> MultiSpeedBasis:
+    """Basis spanning `columns`, shape (dofs, columns): `constraint_modes` as they are, then internal vectors.
+
+    Neither the order nor the scale of the columns matters.
+    """
+    internal, singular_values = _internal_vectors(columns, mass, boundary_dofs, tolerance)
+    return MultiSpeedBasis(np.hstack([constraint_modes, internal]), columns.shape[1], singular_values, tolerance)
 
 
 def constraint_and_fixed_modes(

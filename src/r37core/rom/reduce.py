@@ -128,9 +128,7 @@ def _symmetric(matrix: np.ndarray) -> np.ndarray:
     return 0.5 * (matrix + matrix.T)
 
 
-def _quadratic_residual(
-    stiffness: sp.csr_array, per_square: sp.csr_array, vectors: np.ndarray, highest: float
-) -> float:
+def _quadratic_residual(stiffness: sp.csr_array, per_square: sp.csr_array, vectors: np.ndarray, highest: float) -> float:
     """Largest entry of the Omega^4 term (at the highest speed) of the reduced stiffness, over that of the stiffness.
 
     The term is fitted through the stiffness reduced at three speeds; the linear theory makes it zero.
@@ -138,8 +136,7 @@ def _quadratic_residual(
     if highest == 0.0:
         return 0.0
     at_rest, middle, top = (
-        vectors.T @ (sp.csr_array(stiffness + (share * highest) ** 2 * per_square) @ vectors)
-        for share in (0.0, 0.5, 1.0)
+        vectors.T @ (sp.csr_array(stiffness + (share * highest) ** 2 * per_square) @ vectors) for share in (0.0, 0.5, 1.0)
     )
     # with s = (Omega / highest)^2: K(1/4), K(1) give K2 = (16 K(1/4) - 4 K(1) - 12 K(0)) / -3
     quadratic = (16.0 * middle - 4.0 * top - 12.0 * at_rest) / -3.0

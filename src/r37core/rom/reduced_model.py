@@ -98,8 +98,8 @@ def _gyroscopic_modes(
 ) -> tuple[np.ndarray, np.ndarray]:
     """Modes of q'' + g q' + diag(squares) q = 0 in modal coordinates q, with g skew-symmetric.
 
-    With y = (sqrt(squares) q, q') the system is y' = A y, A real and skew-symmetric, so i A is Hermitian and its
-    eigenvalues are the angular frequencies, without the loss of digits of a general eigensolver.
+    With y = (sqrt(squares) q, q') the system is y' = A y, A real and skew-symmetric, so -i A is Hermitian and its
+    eigenvalues are the angular frequencies w of motions exp(i w t), without the loss of digits of a general eigensolver.
     """
     if squares[0] <= 0.0:
         raise ValueError("the blade has no stable position at this speed (a stiffness is not positive)")
@@ -110,7 +110,7 @@ def _gyroscopic_modes(
     system[:size, size:] = np.diag(root)
     system[size:, :size] = -np.diag(root)
     system[size:, size:] = -0.5 * (coupling - coupling.T)
-    values, vectors = la.eigh(1j * system)
+    values, vectors = la.eigh(-1j * system)
     positive = np.flatnonzero(values > 0.0)[:count]
     modal = vectors[:size, positive] / root[:, None]
     complex_shapes = shapes @ modal

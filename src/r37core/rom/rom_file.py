@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -57,7 +58,7 @@ def read_reduced_model(file: Path | str) -> ReducedModel:
     """The model of a rom.nc; InputFileError when the file cannot be read."""
     dataset = read_dataset(file)
     with readable(file):
-        matrices = {name: dataset[name].values if name in dataset else None for name in _MATRICES}
+        matrices: dict[str, Any] = {name: dataset[name].values if name in dataset else None for name in _MATRICES}
         return ReducedModel(
             **matrices,
             boundary_nodes=dataset["boundary_nodes"].values,

@@ -1,0 +1,70 @@
+"""What many tests share: the reference blade, a coarse mesh of it, its matrices and its reduced model."""
+
+import os
+from pathlib import Path
+
+import pytest
+
+for library in ("OPENBLAS", "OMP", "MKL"):
+    os.environ[f"{library}_NUM_THREADS"] = "1"
+
+ROOT = Path(__file__).parent.parent
+
+
+@pytest.fixture(scope="session")
+def root():
+    return ROOT
+
+
+@pytest.fixture(scope="session")
+def settings():
+    from r37core.config import load_settings
+    from r37core.yaml_file import load_yaml
+
+    return load_settings(load_yaml(ROOT / "config" / "config.yaml"), ROOT)
+
+
+@pytest.fixture(scope="session")
+def steel(settings):
+    return settings.blades["Ref"].material
+
+
+@pytest.fixture(scope="session")
+def profiles(settings):
+    """Profiles of the reference blade, from hub to tip."""
+    from r37core.blade.profile import Profile
+
+    return [Profile(parameters) for parameters in settings.blades["Ref"].definition.profiles]
+
+
+@pytest.fixture(scope="session")
+def blade(settings):
+    return settings.blades["Ref"].definition.build()
+
+
+@pytest.fixture(scope="session")
+def mesh(blade):
+    from r37core.mesh.generate import generate_mesh
+
+    return generate_mesh(blade, nodes=2500, layers=1, tip_elements=14)
+
+
+@pytest.fixture(scope="session")
+def matrices(mesh, steel):
+    from r37core.fem.matrices import assemble
+
+    return assemble(mesh, steel)
+
+
+@pytest.fixture(scope="session")
+def choice(settings):
+    from r37core.rom.reduce import ReductionChoice
+
+    return ReductionChoice.from_config(settings.structure, settings.fidelity["reduction"])
+
+
+@pytest.fixture(scope="session")
+def model(mesh, matrices, choice):
+    from r37core.rom.reduce import reduce_blade
+
+    return reduce_blade(mesh, matrices, choice)

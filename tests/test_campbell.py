@@ -1,0 +1,99 @@
+"""Campbell diagrams: naming, following, crossings, dynamic clearance."""
+
+import numpy as np
+import pytest
+import scipy.linalg as la
+import xarray as xr
+
+from r37core.results.campbell import campbell_diagram, dynamic_clearance, modal_assurance
+from r37core.results.campbell_dataset import campbell_dataset
+from r37core.results.gather import gather_blades
+
+PUBLISHED = {7: 806.0, 6: 965.0, 5: 1213.0, 4: 1672.0}
+
+
+@pytest.fixture(scope="module")
+def diagram(model):
+    return campbell_diagram(model, np.linspace(0.0, 2000.0, 41), 10)
+
+
+def test_published_crossings(diagram):
+    """On the coarse mesh of the tests already within 0.3% of section 7 of the benchmark."""
+    crossings = diagram.crossing_speeds(np.array(list(PUBLISHED)))[0]
+    np.testing.assert_allclose(crossings, list(PUBLISHED.values()), rtol=3e-3)
+
+
+def test_crossings_against_the_exact_eigenproblem(model, diagram):
+    """K0 + W^2 K1 = n^2 W^2 M is itself an eigenproblem in 1/W^2: a second formulation."""
+    for order in (4, 5, 6, 7, 12):
+        matrix = order**2 * model.mass - model.geometric_stiffness
+        exact = 1.0 / np.sqrt(la.eigh(matrix, model.stiffness, eigvals_only=True)[::-1][:3])
+        ours = diagram.crossing_speeds(np.array([order]))[:3, 0]
+        within = exact < 2000.0
+        np.testing.assert_allclose(ours[within], exact[within], rtol=1e-8)
+        assert np.all(np.isnan(ours[~within]))
+
+
+def test_modes_are_named_by_shape(diagram):
+    assert diagram.mode_names[:4] == ("1B", "1T", "2B", "4")
+    np.testing.assert_allclose(diagram.frequencies[:3, 0], [839.3, 2510.0, 3033.0], rtol=5e-3)
+    assert np.all(diagram.continuity > 0.9)
+
+
+def test_modes_are_followed_through_a_crossing(model):
+    """Two uncoupled oscillators whose frequencies cross: the names stay with the shapes."""
+    from dataclasses import replace
+
+    names = 6
+    toy = replace(
+        model,
+        stiffness=np.diag([1.0, 4.0, 100.0, 121.0, 144.0, 169.0]),
+        geometric_stiffness=np.diag([5.0, 0.1, 0.0, 0.0, 0.0, 0.0]),
+        mass=np.eye(names),
+        shape_products=np.eye(3, names),
+        shape_norms=np.ones(3),
+    )
+    followed = campbell_diagram(toy, np.linspace(0.0, 2.0, 21), 4)
+    speeds = followed.speeds
+    np.testing.assert_allclose(2 * np.pi * followed.frequencies[0], np.sqrt(1.0 + 5.0 * speeds**2))
+    np.testing.assert_allclose(2 * np.pi * followed.frequencies[1], np.sqrt(4.0 + 0.1 * speeds**2))
+    np.testing.assert_allclose(followed.crossing_speeds(np.array([3]))[:2, 0], [0.5, np.sqrt(4.0 / 8.9)], rtol=1e-9)
+
+
+def test_modal_assurance_is_one_for_equal_shapes(model):
+    _, shapes = model.modes(0.0, 4)
+    np.testing.assert_allclose(modal_assurance(shapes, -3.0 * shapes, model.mass), np.eye(4), atol=1e-9)
+
+
+def test_dynamic_clearance(model, diagram):
+    """At zero there is no change; the slope is minus radial over tangential part; far out the arc closes the gap."""
+    displacement = np.array([-1e-2, -1e-6, 0.0, 1e-6, 1e-2])
+    clearance = dynamic_clearance(model, diagram.shapes[:2, 0].T, "pressure_edge", displacement)
+    np.testing.assert_array_equal(clearance[:, 2], 0.0)
+    node = model.tip_lines["pressure_edge"]
+    theta = np.arctan2(node.points[0, 1], node.points[0, 0])
+    for row, shape in zip(clearance, diagram.shapes[:2, 0], strict=True):
+        x, y, _ = node.basis[0] @ shape
+        radial, tangential = np.cos(theta) * x + np.sin(theta) * y, np.cos(theta) * y - np.sin(theta) * x
+        assert (row[3] - row[1]) / 2e-6 == pytest.approx(-radial / tangential, rel=1e-5)
+        radius = np.hypot(*node.points[0, :2])
+        assert row[0] + row[4] == pytest.approx(-(displacement[-1] ** 2) / radius, rel=0.02)
+
+
+def test_dataset_and_gathering(model, tmp_path):
+    from r37core.io import write_dataset
+
+    dataset = campbell_dataset(model, 2000.0, 100.0, 10, 16, 0.01, "pressure_edge")
+    for blade in ("Ref", "Other"):
+        write_dataset(dataset, tmp_path / f"{blade}.nc", {"blade": blade, "fidelity": "draft"})
+    together = gather_blades(["Ref", "Other"], [tmp_path / "Ref.nc", tmp_path / "Other.nc"])
+    write_dataset(together, tmp_path / "campbell.nc", {"fidelity": "draft"})
+    with xr.open_dataset(tmp_path / "campbell.nc") as again:
+        assert again["frequency"].dims == ("blade", "mode", "speed")
+        assert again["crossing_speed"].dims == ("blade", "mode", "engine_order")
+        assert again["dynamic_clearance"].dims == ("blade", "mode", "tangential_displacement")
+        assert again["frequency"].attrs["units"] == "Hz"
+        assert again.attrs["fidelity"] == "draft"
+        for variable in again.variables.values():
+            assert variable.dtype.kind not in "fi" or {"units", "long_name"} <= set(variable.attrs)
+        np.testing.assert_array_equal(again["frequency"].sel(blade="Other"), dataset["frequency"])

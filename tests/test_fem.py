@@ -1,0 +1,173 @@
+"""Matrices against closed-form answers."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from box_mesh import box_mesh
+
+from r37core.fem.assembly import NodePattern, block_matrix
+from r37core.fem.centrifugal import centrifugal_load
+from r37core.fem.material import Material
+from r37core.fem.matrices import assemble, static_displacement
+from r37core.fem.matrices_file import read_matrices, write_matrices
+from r37core.fem.solver import lowest_modes
+from r37core.fem.stress import stress_at
+from r37core.fem.wedge15 import STIFFNESS_RULE, physical_gradients
+from r37core.io import InputFileError
+
+MATERIAL = Material(youngs_modulus=180e9, density=8000.0, poissons_ratio=0.3, yield_stress=1.38e9)
+
+
+def unclamped(matrices):
+    """The same matrices with every node free."""
+    return replace(matrices, free_nodes=np.arange(len(matrices.indptr) - 1))
+
+
+def test_patch():
+    """A linear displacement field is carried exactly by distorted elements: constant stress, no inner forces."""
+    mesh = box_mesh(1.0, 0.7, 0.5, (2, 2, 2), warp=1.5)
+    gradient = 1e-3 * np.array([[1.0, 0.4, -0.2], [0.3, -0.7, 0.5], [0.1, 0.2, 0.9]])
+    displacement = mesh.points @ gradient.T
+    gradients, _ = physical_gradients(mesh.points[mesh.elements], STIFFNESS_RULE[0])
+    stress = stress_at(gradients, displacement[mesh.elements], MATERIAL)
+    strain = 0.5 * (gradient + gradient.T)
+    lame, shear = MATERIAL.lame_constants
+    expected = 2 * shear * strain + lame * np.trace(strain) * np.eye(3)
+    np.testing.assert_allclose(stress, np.broadcast_to(expected, stress.shape), rtol=0, atol=1e-9 * np.abs(expected).max())
+    matrices = unclamped(assemble(mesh, MATERIAL))
+    force = (matrices.stiffness() @ displacement.ravel()).reshape(-1, 3)
+    low, high = mesh.points.min(axis=0), mesh.points.max(axis=0)
+    inner = np.all((mesh.points > low + 1e-9) & (mesh.points < high - 1e-9), axis=1)
+    assert inner.sum() > 10
+    assert np.abs(force[inner]).max() < 1e-9 * np.abs(force).max()
+
+
+def test_rigid_motions_have_no_energy(mesh, matrices):
+    stiffness = unclamped(matrices).stiffness()
+    x, y, z = mesh.points.T
+    zero = np.zeros_like(x)
+    motions = [[1 + zero, zero, zero], [zero, 1 + zero, zero], [zero, zero, 1 + zero]]
+    motions += [[zero, -z, y], [z, zero, -x], [-y, x, zero]]
+    scale = stiffness.diagonal().max()
+    for motion in motions:
+        field = np.stack(motion, axis=1).ravel()
+        assert abs(field @ (stiffness @ field)) < 1e-12 * scale * (field @ field)
+
+
+def test_mass_is_density_times_volume(blade, mesh, matrices):
+    mass = unclamped(matrices).mass()
+    for axis in range(3):
+        field = np.zeros((len(mesh.points), 3))
+        field[:, axis] = 1.0
+        assert field.ravel() @ (mass @ field.ravel()) == pytest.approx(matrices.total_mass, rel=1e-12)
+    assert matrices.total_mass == pytest.approx(8000.0 * blade.volume(), rel=1e-3)
+
+
+def test_matrices_are_symmetric_and_positive(matrices):
+    for matrix in (matrices.stiffness(), matrices.mass(), matrices.geometric_stiffness()):
+        assert abs(matrix - matrix.T).max() < 1e-12 * abs(matrix).max()
+    values, _ = lowest_modes(matrices.stiffness(), matrices.mass(), 1)
+    assert values[0] > 0.0
+
+
+def beam_modes(mesh, count, material=MATERIAL, speed=0.0, softening=False):
+    matrices = assemble(mesh, material)
+    stiffness = matrices.stiffness() + speed**2 * matrices.geometric_stiffness()
+    if softening:
+        stiffness = stiffness + speed**2 * matrices.spin_softening()
+    values, modes = lowest_modes(stiffness, matrices.mass(), count)
+    return values, modes.reshape(-1, 3, count)
+
+
+def test_cantilever_frequencies():
+    """Euler-Bernoulli with Timoshenko's correction below 0.1% at this slenderness (Blevins)."""
+    length, side = 1.0, 0.02
+    slender = replace(MATERIAL, poissons_ratio=0.0)
+    values, _ = beam_modes(box_mesh(length, side, side, (24, 1, 1)), 4, slender)
+    bending = np.sqrt(180e9 * side**2 / 12.0 / 8000.0) / length**2
+    assert np.sqrt(values[:2]) == pytest.approx([1.87510407**2 * bending] * 2, rel=1e-3)
+    assert np.sqrt(values[2:4]) == pytest.approx([4.69409113**2 * bending] * 2, rel=4e-3)
+
+
+def test_cantilever_tip_load():
+    length, side, force = 1.0, 0.02, 100.0
+    mesh = box_mesh(length, side, side, (24, 1, 1))
+    slender = replace(MATERIAL, poissons_ratio=0.0)
+    matrices = assemble(mesh, slender)
+    load = np.zeros_like(mesh.points)
+    tip = np.flatnonzero(mesh.parameters[:, 1] == 1.0)
+    load[tip, 2] = force / len(tip)
+    deflection = static_displacement(matrices, load)[tip, 2].mean()
+    inertia = side**4 / 12.0
+    shear = 1.2 * force * length / (0.5 * 180e9 * side**2)
+    assert deflection == pytest.approx(force * length**3 / (3 * 180e9 * inertia) + shear, rel=2e-3)
+
+
+def test_centrifugal_load_is_mass_times_radius(mesh, matrices):
+    load = centrifugal_load(mesh.elements, mesh.points, 8000.0)
+    mass = unclamped(matrices).mass()
+    arm = mesh.points * np.array([1.0, 1.0, 0.0])
+    # a linear field is in the element's space only with straight sides, hence not to round-off
+    np.testing.assert_allclose(load.sum(axis=0), (mass @ arm.ravel()).reshape(-1, 3).sum(axis=0), rtol=1e-9, atol=1e-9)
+
+
+@pytest.mark.parametrize("hub_ratio", [0.0, 1.0, 3.0])
+def test_rotating_beam_flapwise_coefficient(hub_ratio):
+    """omega^2 = omega_0^2 + (1.193 + 1.571 R/L) Omega^2 for the first flapwise mode of a uniform cantilever."""
+    length, side = 1.0, 0.02
+    mesh = box_mesh(length, side, side, (16, 1, 1), origin=(hub_ratio * length, -side / 2, -side / 2))
+    speed = 20.0
+    at_rest, _ = beam_modes(mesh, 2)
+    turning, modes = beam_modes(mesh, 2, speed=speed)
+    flapwise = int(np.argmax(np.sum(modes[:, 2, :] ** 2, axis=0)))
+    coefficient = (turning[flapwise] - at_rest[:2].mean()) / speed**2
+    assert coefficient == pytest.approx(1.193 + 1.571 * hub_ratio, rel=0.01)
+
+
+def test_spin_softening_lowers_lead_lag_by_omega_squared():
+    side, speed = 0.02, 20.0
+    mesh = box_mesh(1.0, side, 1.5 * side, (16, 1, 1), origin=(0.5, -side / 2, -0.75 * side))
+    without, modes = beam_modes(mesh, 2, speed=speed)
+    with_softening, softened = beam_modes(mesh, 2, speed=speed, softening=True)
+    lag = int(np.argmax(np.sum(modes[:, 1, :] ** 2, axis=0)))
+    softened_lag = int(np.argmax(np.sum(softened[:, 1, :] ** 2, axis=0)))
+    assert without[lag] - with_softening[softened_lag] == pytest.approx(speed**2, rel=1e-4)
+    # flapwise motion is parallel to the axis but for the turning of the sections
+    assert without[1 - lag] - with_softening[1 - softened_lag] == pytest.approx(0.0, abs=2e-3 * speed**2)
+
+
+def test_coriolis_is_skew_and_does_no_work(matrices):
+    coriolis = matrices.coriolis()
+    assert abs(coriolis + coriolis.T).max() == 0.0
+    # Omega = -z: the Coriolis term 2 Omega x v of a velocity along x points towards -y
+    velocity = np.tile([1.0, 0.0, 0.0], len(matrices.free_nodes))
+    force = (coriolis @ velocity).reshape(-1, 3).sum(axis=0)
+    assert force[0] == force[2] == 0.0
+    assert force[1] < 0.0
+
+
+def test_pattern_sums_shared_nodes():
+    elements = np.array([range(15), [0, 1, 2, *range(15, 27)]])
+    pattern = NodePattern.of(elements, 27)
+    matrix = block_matrix(pattern.indptr, pattern.indices, pattern.scatter(np.ones((2, 15, 15)))[:, None, None] * np.eye(3))
+    assert matrix[0, 0] == 2.0
+    assert matrix[0, 3] == 2.0
+    assert matrix[9, 9] == 1.0
+    assert matrix[30, 60] == 0.0
+
+
+def test_matrices_file(matrices, tmp_path):
+    file = tmp_path / "matrices.npz"
+    write_matrices(matrices, file)
+    again = read_matrices(file)
+    assert (again.stiffness() != matrices.stiffness()).nnz == 0
+    file.write_bytes(file.read_bytes()[:1000])
+    with pytest.raises(InputFileError, match=r"matrices\.npz: cannot be read .* delete it and run again"):
+        read_matrices(file)
+
+
+def test_results_do_not_change_from_run_to_run(mesh, matrices):
+    again = assemble(mesh, MATERIAL)
+    np.testing.assert_array_equal(again.stiffness_blocks, matrices.stiffness_blocks)
+    np.testing.assert_array_equal(again.geometric_pairs, matrices.geometric_pairs)

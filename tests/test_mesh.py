@@ -1,0 +1,119 @@
+"""Meshes: node counts, node sets, quality, files."""
+
+import shutil
+import subprocess
+
+import numpy as np
+import pytest
+import pyvista
+
+from r37core.fem.mesh_quality import MeshQualityError, mesh_quality
+from r37core.fem.solver import lowest_modes
+from r37core.fem.wedge15 import MASS_RULE, physical_gradients
+from r37core.io import InputFileError
+from r37core.mesh.generate import generate_mesh
+from r37core.mesh.mesh_files import read_vtu, write_abaqus, write_vtu
+from r37core.mesh.wedge_mesh import NODE_SETS
+
+
+@pytest.mark.parametrize(("nodes", "layers", "tip_elements"), [(2500, 1, 14), (10000, 1, 28), (20000, 1, 42), (9000, 2, 21)])
+def test_node_count_is_met(blade, nodes, layers, tip_elements):
+    mesh = generate_mesh(blade, nodes, layers, tip_elements)
+    assert len(mesh.points) == pytest.approx(nodes, rel=0.02)
+    assert len(mesh.node_set("tip_pressure_edge")) == 2 * tip_elements + 1
+    assert len(mesh.node_set("tip_camber_line")) == tip_elements + 1 if layers == 1 else 2 * tip_elements + 1
+    assert mesh_quality(mesh).minimum > 0.2
+    _, determinant = physical_gradients(mesh.points[mesh.elements], MASS_RULE[0])
+    assert np.sum(determinant @ MASS_RULE[1]) == pytest.approx(blade.volume(), rel=2e-3)
+
+
+def test_impossible_count_is_refused(blade):
+    with pytest.raises(ValueError, match=r"mesh: no mesh of about 600 nodes has 300 elements"):
+        generate_mesh(blade, 600, 1, 300)
+
+
+def test_every_node_is_used_once(mesh):
+    assert np.array_equal(np.unique(mesh.elements), np.arange(len(mesh.points)))
+    assert len(np.unique(np.round(mesh.points, 9), axis=0)) == len(mesh.points)
+
+
+def test_node_sets_lie_where_they_should(blade, mesh):
+    for name, parameters in {
+        "tip_pressure_edge": (1.0, -1.0),
+        "tip_suction_edge": (1.0, 1.0),
+        "tip_camber_line": (1.0, 0.0),
+    }.items():
+        nodes = mesh.node_set(name)
+        assert np.all(np.diff(mesh.parameters[nodes, 0]) > 0.0)
+        assert np.all(mesh.parameters[nodes, 1:] == parameters)
+    np.testing.assert_array_equal(mesh.points, blade.position(*mesh.parameters.T))
+    assert np.all(mesh.parameters[mesh.node_set("root"), 1] == 0.0)
+    assert set(mesh.node_set("root")).isdisjoint(mesh.free_nodes)
+    with pytest.raises(KeyError):
+        mesh.node_set("hub")
+
+
+def test_same_mesh_every_time(blade, mesh):
+    again = generate_mesh(blade, nodes=2500, layers=1, tip_elements=14)
+    np.testing.assert_array_equal(again.points, mesh.points)
+    np.testing.assert_array_equal(again.elements, mesh.elements)
+
+
+def test_quality_check_names_the_key(mesh):
+    quality = mesh_quality(mesh)
+    assert quality.minimum <= quality.one_percent_quantile <= 1.0
+    with pytest.raises(MeshQualityError, match="minimum_scaled_jacobian"):
+        quality.check(0.9)
+
+
+def test_vtu_round_trip(mesh, tmp_path):
+    quality = mesh_quality(mesh).per_element
+    write_vtu(mesh, tmp_path / "mesh.vtu", quality)
+    again = read_vtu(tmp_path / "mesh.vtu")
+    for field in ("points", "elements", "parameters", "normals"):
+        np.testing.assert_array_equal(getattr(again, field), getattr(mesh, field))
+    grid = pyvista.read(tmp_path / "mesh.vtu")
+    assert grid.field_data["scaled_jacobian_minimum"][0] == quality.min()
+    assert grid.compute_cell_sizes()["Volume"].min() > 0.0
+    for name in NODE_SETS:
+        np.testing.assert_array_equal(np.flatnonzero(grid.point_data[name]), np.sort(mesh.node_set(name)))
+
+
+def test_half_written_vtu_is_named(mesh, tmp_path):
+    file = tmp_path / "mesh.vtu"
+    write_vtu(mesh, file, mesh_quality(mesh).per_element)
+    file.write_bytes(file.read_bytes()[:2000])
+    with pytest.raises(InputFileError, match=r"mesh\.vtu: cannot be read"):
+        read_vtu(file)
+
+
+def test_msh_has_the_mapped_nodes_and_named_groups(blade, tmp_path):
+    import gmsh
+
+    file = tmp_path / "mesh.msh"
+    mesh = generate_mesh(blade, 1500, 1, 10, file)
+    gmsh.initialize(interruptible=False)
+    try:
+        gmsh.option.setNumber("General.Terminal", 0)
+        gmsh.open(str(file))
+        groups = {gmsh.model.getPhysicalName(*group): group for group in gmsh.model.getPhysicalGroups()}
+        assert set(groups) == {"blade", *NODE_SETS}
+        tags, points, _ = gmsh.model.mesh.getNodes()
+        np.testing.assert_allclose(points.reshape(-1, 3)[np.argsort(tags)], mesh.points, atol=1e-12)
+        for name in NODE_SETS:
+            nodes, _ = gmsh.model.mesh.getNodesForPhysicalGroup(*groups[name])
+            assert len(nodes) == len(mesh.node_set(name))
+        assert gmsh.model.mesh.getElementsByType(18)[0].size == len(mesh.elements)
+    finally:
+        gmsh.finalize()
+
+
+@pytest.mark.skipif(shutil.which("ccx") is None, reason="CalculiX (Debian: calculix-ccx) is not installed")
+def test_calculix_finds_the_same_frequencies(mesh, matrices, steel, tmp_path):
+    write_abaqus(mesh, tmp_path / "mesh.inp", steel.youngs_modulus, steel.density, steel.poissons_ratio, "check")
+    subprocess.run(["ccx", "mesh"], cwd=tmp_path, check=True, capture_output=True, timeout=120)
+    lines = (tmp_path / "mesh.dat").read_text().splitlines()
+    rows = [line.split() for line in lines if len(line.split()) == 5 and line.split()[0].isdigit()]
+    calculix = np.array([float(row[3]) for row in rows[:10]])
+    values, _ = lowest_modes(matrices.stiffness(), matrices.mass(), 10)
+    np.testing.assert_allclose(np.sqrt(values) / (2 * np.pi), calculix, rtol=1e-4)

@@ -1,0 +1,47 @@
+"""The project's own promises: pins, layers, README."""
+
+import ast
+import re
+import tomllib
+
+import yaml
+
+LAYERS = ["errors", "io", "yaml_file", "blade", "mesh", "fem", "rom", "contact", "march", "results", "figures", "config"]
+
+
+def test_conda_environment_has_the_pins_of_pyproject(root):
+    pins = tomllib.loads((root / "pyproject.toml").read_text())["project"]["dependencies"]
+    environment = yaml.safe_load((root / "envs/r37.yaml").read_text())["dependencies"]
+    pip_section = next(entry["pip"] for entry in environment if isinstance(entry, dict))
+    assert sorted(pip_section) == sorted(pins)
+    assert all("==" in pin for pin in pins)
+
+
+def test_packages_import_only_those_above_them(root):
+    """blade, mesh, fem, rom, ...: a package may use those above it, never one below it; Snakemake nowhere."""
+    core = root / "src/r37core"
+    for file in core.rglob("*.py"):
+        layer = file.relative_to(core).parts[0].removesuffix(".py")
+        for node in ast.walk(ast.parse(file.read_text())):
+            names = [node.module or ""] if isinstance(node, ast.ImportFrom) and node.level == 0 else []
+            names += [alias.name for alias in node.names] if isinstance(node, ast.Import) else []
+            for name in names:
+                assert not name.startswith(("snakemake", "workflow")), f"{file} imports {name}"
+                if name.startswith("r37core.") and layer != "__init__":
+                    used = name.split(".")[1]
+                    assert LAYERS.index(used) <= LAYERS.index(layer), f"{file} imports {name}, which is below it"
+
+
+def test_scripts_are_thin(root):
+    for script in (root / "workflow/scripts").glob("*.py"):
+        assert len(script.read_text().splitlines()) <= 40, script
+    rules = "".join(file.read_text() for file in (root / "workflow/rules").glob("*.smk"))
+    for script in re.findall(r"scripts/(\w+\.py)", rules):
+        assert (root / "workflow/scripts" / script).exists()
+
+
+def test_no_machine_paths(root):
+    for pattern in ("Snakefile", "Makefile", "*.md", "config/**/*.yaml", "workflow/**/*", "src/**/*.py", "docs/*"):
+        for file in root.glob(pattern):
+            if file.is_file() and file.suffix in {"", ".md", ".yaml", ".smk", ".py"}:
+                assert not re.search(r"/(home|root|work|Users)/", file.read_text()), file

@@ -1,0 +1,167 @@
+"""The reduced model against the full one."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import scipy.linalg as la
+
+from r37core.fem.solver import lowest_modes
+from r37core.io import InputFileError
+from r37core.rom.boundary import BoundaryChoice, BoundaryError, boundary_nodes
+from r37core.rom.craig_bampton import combine_columns, constraint_and_fixed_modes
+from r37core.rom.reduce import reduce_blade
+from r37core.rom.rom_file import read_reduced_model, write_reduced_model
+
+SPEEDS = [0.0, 450.0, 1000.0, 1630.0, 2000.0]
+
+
+def full_frequencies(matrices, speed, count=10):
+    stiffness = matrices.stiffness() + speed**2 * matrices.geometric_stiffness()
+    return np.sqrt(lowest_modes(stiffness, matrices.mass(), count)[0])
+
+
+@pytest.fixture(scope="module")
+def rich_model(mesh, matrices, choice):
+    return reduce_blade(mesh, matrices, replace(choice, fixed_interface_modes=20))
+
+
+@pytest.mark.parametrize("speed", SPEEDS)
+def test_published_size_against_the_full_model(matrices, model, speed):
+    """Ten fixed-interface modes: six frequencies within 1e-4, ten within 5e-4, all from above (Rayleigh)."""
+    error = model.modes(speed, 10)[0] / full_frequencies(matrices, speed) - 1.0
+    assert np.all(error > -1e-9)
+    assert np.all(error[:6] < 1e-4)
+    assert np.all(error < 5e-4)
+
+
+@pytest.mark.parametrize("speed", SPEEDS)
+def test_twenty_fixed_modes_bring_ten_frequencies_within_1e_4(matrices, rich_model, speed):
+    error = rich_model.modes(speed, 10)[0] / full_frequencies(matrices, speed) - 1.0
+    assert np.all(np.abs(error) < 1e-4)
+
+
+def test_columns_are_counted(model, choice):
+    assert model.columns == 3 * (8 * 3 + 10) == 102
+    assert model.size == np.sum(model.singular_values > choice.tolerance * model.singular_values[0])
+    assert 60 < model.size <= 102
+
+
+def test_stiffness_has_no_fourth_power_of_speed(model):
+    assert model.quadratic_residual < 1e-11
+
+
+def test_boundary_coordinates_are_the_displacements(mesh, model):
+    line = model.tip_lines["pressure_edge"]
+    for i, node in enumerate(model.boundary_nodes):
+        row = int(np.flatnonzero(line.nodes == node)[0])
+        np.testing.assert_allclose(line.basis[row], np.eye(3, model.size, 3 * i), atol=1e-12)
+
+
+def test_static_response_to_a_tip_load_is_exact(mesh, matrices, model):
+    from r37core.fem.matrices import static_displacement
+
+    load = np.zeros_like(mesh.points)
+    load[model.boundary_nodes[2]] = [10.0, -40.0, 25.0]
+    exact = static_displacement(matrices, load)
+    force = np.zeros(model.size)
+    force[6:9] = [10.0, -40.0, 25.0]
+    reduced = la.solve(model.stiffness, force, assume_a="pos")
+    for line in model.tip_lines.values():
+        error = line.displacement(reduced) - exact[line.nodes]
+        assert np.abs(error).max() < 1e-9 * np.abs(exact).max()
+    error = model.stress_submesh.displacement(reduced) - exact[model.stress_submesh.nodes]
+    assert np.abs(error).max() < 1e-9 * np.abs(exact).max()
+
+
+def test_order_and_scale_of_columns_do_not_matter(matrices, mesh, model, choice):
+    dofs = (3 * np.searchsorted(matrices.free_nodes, model.boundary_nodes)[:, None] + np.arange(3)).ravel()
+    stiffness, geometric, mass = matrices.stiffness(), matrices.geometric_stiffness(), matrices.mass()
+    sets = [constraint_and_fixed_modes((stiffness + speed**2 * geometric).tocsr(), mass, dofs, 10) for speed in choice.speeds]
+    columns = np.hstack([part for pair in sets for part in pair])
+    generator = np.random.default_rng(5)
+    shuffled = columns[:, generator.permutation(102)] * 10.0 ** generator.uniform(-6.0, 6.0, 102)
+
+    def frequencies(some_columns):
+        vectors = combine_columns(sets[0][0], some_columns, mass, dofs, choice.tolerance).vectors
+        reduced = vectors.T @ (stiffness @ vectors) + 1500.0**2 * (vectors.T @ (geometric @ vectors))
+        return np.sqrt(la.eigh(reduced, vectors.T @ (mass @ vectors), eigvals_only=True)[:10])
+
+    np.testing.assert_allclose(frequencies(shuffled), frequencies(columns), rtol=1e-10)
+
+
+def test_dependent_columns_are_dropped(matrices, model, choice):
+    dofs = (3 * np.searchsorted(matrices.free_nodes, model.boundary_nodes)[:, None] + np.arange(3)).ravel()
+    mass = matrices.mass()
+    constraint, fixed = constraint_and_fixed_modes(matrices.stiffness(), mass, dofs, 10)
+    twice = np.hstack([constraint, fixed, 3.0 * constraint, fixed])
+    basis = combine_columns(constraint, twice, mass, dofs, 1e-8)
+    assert basis.columns == 68
+    assert basis.independent_columns == 34
+
+
+def test_rotation_terms_only_when_asked(mesh, matrices, choice, model, tmp_path):
+    assert model.spin_softening is None
+    assert model.coriolis is None
+    assert model.whole_blade is None
+    write_reduced_model(model, tmp_path / "rom.nc")
+    again = read_reduced_model(tmp_path / "rom.nc")
+    assert again.spin_softening is None and again.coriolis is None and again.whole_blade is None
+    full = reduce_blade(
+        mesh, matrices, replace(choice, spin_softening=True, coriolis=True, whole_blade=True, fixed_interface_modes=20)
+    )
+    assert full.whole_blade.basis.shape == (len(mesh.points), 3, full.size)
+    stiffness = matrices.stiffness() + 1500.0**2 * (matrices.geometric_stiffness() + matrices.spin_softening())
+    exact = np.sqrt(lowest_modes(stiffness, matrices.mass(), 10)[0])
+    without_coriolis = replace(full, coriolis=None)
+    np.testing.assert_allclose(without_coriolis.modes(1500.0, 10)[0], exact, rtol=1e-4)
+
+
+def test_coriolis_modes_satisfy_the_quadratic_eigenproblem(mesh, matrices, choice):
+    model = reduce_blade(mesh, matrices, replace(choice, coriolis=True))
+    speed = 1500.0
+    frequencies, shapes = model.modes(speed, 6)
+    for frequency, shape in zip(frequencies, shapes.T, strict=True):
+        elastic = model.stiffness_at(speed) @ shape
+        residual = elastic + 1j * frequency * speed * (model.coriolis @ shape) - frequency**2 * (model.mass @ shape)
+        assert np.linalg.norm(residual) < 1e-7 * np.linalg.norm(elastic)
+
+
+def test_file_holds_the_model(model, tmp_path):
+    file = tmp_path / "rom.nc"
+    write_reduced_model(model, file, {"blade": "Ref"})
+    again = read_reduced_model(file)
+    for name in ("stiffness", "mass", "geometric_stiffness", "shape_products", "boundary_chord", "stress_elements"):
+        np.testing.assert_array_equal(getattr(again, name), getattr(model, name))
+    for line in model.tip_lines:
+        np.testing.assert_array_equal(again.tip_lines[line].basis, model.tip_lines[line].basis)
+    assert (again.columns, again.tolerance, again.shape_names) == (model.columns, model.tolerance, model.shape_names)
+    file.write_bytes(file.read_bytes()[:5000])
+    with pytest.raises(InputFileError, match=r"rom\.nc: cannot be read"):
+        read_reduced_model(file)
+
+
+@pytest.mark.parametrize("tip_line", ["pressure_edge", "camber", "suction_edge"])
+@pytest.mark.parametrize("corners", [True, False])
+@pytest.mark.parametrize("count", [1, 8])
+def test_boundary_nodes_lie_on_their_line(mesh, tip_line, corners, count):
+    choice = BoundaryChoice(tip_line, count, corners)
+    nodes = boundary_nodes(mesh, choice)
+    chord, span, thickness = mesh.parameters[nodes].T
+    assert np.all(span == 1.0)
+    assert np.all(thickness == {"pressure_edge": -1.0, "camber": 0.0, "suction_edge": 1.0}[tip_line])
+    np.testing.assert_allclose(chord, choice.chord_positions, atol=0.5 / 14)
+    assert (corners and count > 1) == (chord[0] == 0.0 and chord[-1] == 1.0)
+
+
+def test_too_many_boundary_nodes_are_refused(mesh):
+    with pytest.raises(BoundaryError, match="40 boundary nodes do not fit on the 15 mesh nodes of the tip line 'camber'"):
+        boundary_nodes(mesh, BoundaryChoice("camber", 40))
+
+
+def test_stress_submesh(mesh, model, choice):
+    x, _, z = model.stress_submesh.points.T
+    assert len(model.stress_elements) >= 4
+    assert x.max() < 0.197 and z.min() > 0.0165 and z.max() < 0.0265
+    assert not set(model.stress_submesh.nodes) & set(mesh.node_set("root"))
+    assert model.stress_elements.max() == len(model.stress_submesh.nodes) - 1
