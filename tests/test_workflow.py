@@ -149,3 +149,31 @@ def test_one_core_gives_the_same_bits(finished, project):
         return {str(f.relative_to(folder)): hashlib.sha256(f.read_bytes()).hexdigest() for f in files}
 
     assert digests(project) == digests(finished)
+
+
+def readme_blocks(root, language):
+    return re.findall(rf"```{language}\n(.*?)```", (root / "README.md").read_text(), re.DOTALL)
+
+
+def test_readme_python_runs(root, finished):
+    blocks = readme_blocks(root, "python")
+    assert len(blocks) >= 2
+    for block in blocks:
+        code = "import matplotlib\nmatplotlib.use('Agg')\n" + block
+        subprocess.run([sys.executable, "-c", code], cwd=finished, check=True, capture_output=True, timeout=300)
+
+
+def test_readme_blades_are_accepted(root, project):
+    with open(project / "config/blades.yaml", "a") as stream:
+        stream.write("\n" + "\n".join(readme_blocks(root, "yaml")))
+    config = project / "config/config.yaml"
+    config.write_text(config.read_text().replace("[Ref, CS100]", "[Mine, Stiffer, Drawn]"))
+    assert planned(project)["geometry"] == {"Mine", "Stiffer", "Drawn"}
+
+
+def test_readme_commands_exist(root):
+    targets = re.findall(r"^make (\w+)", "\n".join(readme_blocks(root, "sh")), re.MULTILINE)
+    makefile = (root / "Makefile").read_text()
+    assert targets
+    for target in targets:
+        assert re.search(rf"^{target}:", makefile, re.MULTILINE)
