@@ -1,0 +1,111 @@
+"""Campbell diagram: frequencies over speed, modes followed and named by shape, crossings with engine orders."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.interpolate import CubicSpline
+from scipy.optimize import brentq, linear_sum_assignment
+
+from r37core.rom.reduced_model import ReducedModel
+
+_SPARE_MODES = 6
+_NAMED_AMONG = 8
+
+
+@dataclass(frozen=True)
+class Campbell:
+    """Campbell diagram of one blade.
+
+    `speeds` (rad/s), shape (speeds,); `mode_names`, shape (modes,): 1B, 1T, 2B, then 4, 5, ... by frequency at rest;
+    `frequencies` (Hz), shape (modes, speeds); `shapes`, shape (modes, speeds, coordinates), reduced, mass-normalised;
+    `continuity`: smallest MAC between neighbouring speeds of each mode, shape (modes,).
+    """
+
+    speeds: np.ndarray
+    mode_names: tuple[str, ...]
+    frequencies: np.ndarray
+    shapes: np.ndarray
+    continuity: np.ndarray
+
+    def crossing_speeds(self, engine_orders: np.ndarray) -> np.ndarray:
+        """Speeds (rad/s), shape (modes, orders), where a mode's frequency is an engine order of the speed.
+
+        The first such speed within the diagram, NaN where there is none. The squared frequency, almost linear in the
+        squared speed, is interpolated by a cubic spline.
+        """
+        squared_speeds = self.speeds**2
+        crossings = np.full((len(self.mode_names), len(engine_orders)), np.nan)
+        for i, frequency in enumerate(self.frequencies):
+            spline = CubicSpline(squared_speeds, (2.0 * np.pi * frequency) ** 2)
+            for j, order in enumerate(engine_orders):
+                above = spline(squared_speeds) - order**2 * squared_speeds
+                change = np.flatnonzero((above[:-1] > 0.0) & (above[1:] <= 0.0))
+                if len(change):
+                    bracket = squared_speeds[change[0]], squared_speeds[change[0] + 1]
+                    crossings[i, j] = np.sqrt(brentq(lambda s, f=spline, n=order: float(f(s)) - n**2 * s, *bracket, xtol=1e-9))
+        return crossings
+
+
+def modal_assurance(first: np.ndarray, second: np.ndarray, mass: np.ndarray) -> np.ndarray:
+    """Mass-weighted modal assurance criterion between two sets of shapes (columns), shape (first, second)."""
+    product = np.abs(first.conj().T @ mass @ second) ** 2
+    norms_first = np.einsum("ik,ij,jk->k", first.conj(), mass, first).real
+    norms_second = np.einsum("ik,ij,jk->k", second.conj(), mass, second).real
+    return product / norms_first[:, None] / norms_second[None, :]
+
+
+def campbell_diagram(model: ReducedModel, speeds: np.ndarray, modes: int) -> Campbell:
+    """Follow the `modes` lowest modes at the first speed over ascending `speeds` (rad/s)."""
+    speeds = np.asarray(speeds, dtype=float)
+    frequency, shape = model.modes(speeds[0], modes + _SPARE_MODES)
+    names, order = name_modes(model, shape[:, : max(modes, _NAMED_AMONG)], modes)
+    followed = shape[:, order]
+    frequencies, shapes, continuity = [frequency[order]], [followed], []
+    for speed in speeds[1:]:
+        frequency, shape = model.modes(speed, modes + _SPARE_MODES)
+        assurance = modal_assurance(followed, shape, model.mass)
+        _, match = linear_sum_assignment(-assurance)
+        continuity.append(assurance[np.arange(len(match)), match])
+        followed = shape[:, match]
+        frequencies.append(frequency[match])
+        shapes.append(followed)
+    return Campbell(
+        speeds=speeds,
+        mode_names=names,
+        frequencies=np.array(frequencies).T / (2.0 * np.pi),
+        shapes=np.array(shapes).transpose(2, 0, 1),
+        continuity=np.min(continuity, axis=0) if continuity else np.ones(len(names)),
+    )
+
+
+def name_modes(model: ReducedModel, shapes: np.ndarray, count: int) -> tuple[tuple[str, ...], np.ndarray]:
+    """Names and order of `count` modes among `shapes` (columns, ascending frequency): 1B, 1T, 2B, then 4, 5, ...
+
+    The three names go to the modes with the largest MAC against the ideal shapes; the others follow by frequency.
+    """
+    norms = np.einsum("ik,ij,jk->k", shapes.conj(), model.mass, shapes).real
+    assurance = np.abs(model.shape_products @ shapes) ** 2 / model.shape_norms[:, None] ** 2 / norms
+    _, named = linear_sum_assignment(-assurance)
+    others = [rank for rank in range(shapes.shape[1]) if rank not in set(named.tolist())]
+    order = np.array([*named, *others])[:count]
+    names = (*model.shape_names, *map(str, range(len(named) + 1, count + 1)))[:count]
+    return names, order
+
+
+def dynamic_clearance(
+    model: ReducedModel, shapes: np.ndarray, tip_line: str, tangential_displacement: np.ndarray
+) -> np.ndarray:
+    """Change of the leading-edge clearance (m), shape (modes, displacements), as the blade swings along free modes.
+
+    `shapes`: reduced shapes (columns); `tangential_displacement` (m), positive towards growing theta, of the tip's
+    leading edge on `tip_line`. With the mode scaled to that displacement u_theta, and u_r its radial part, the node's
+    radius goes from r to sqrt((r + u_r)^2 + u_theta^2); the clearance changes by the opposite.
+    """
+    leading_edge = model.tip_lines[tip_line].node(0)
+    displacement = np.moveaxis(leading_edge.basis @ shapes.real, 2, 0)
+    radial, tangential, _ = leading_edge.cylindrical(displacement)[:, 0].T
+    scale = tangential_displacement[None, :] / tangential[:, None]
+    radius = np.hypot(*leading_edge.points[0, :2])
+    return radius - np.hypot(radius + scale * radial[:, None], tangential_displacement[None, :])
