@@ -2,7 +2,7 @@
 import os
 
 # one thread per job: Snakemake runs jobs side by side, and results must not depend on the number of cores
-for library in ("OPENBLAS", "OMP", "MKL"):
+for library in ("OPENBLAS", "OMP", "MKL", "NUMBA"):
     os.environ[f"{library}_NUM_THREADS"] = "1"
 
 
@@ -11,14 +11,15 @@ configfile: "config/config.yaml"
 
 include: "workflow/rules/common.smk"
 include: "workflow/rules/structure.smk"
+include: "workflow/rules/sweep.smk"
+include: "workflow/rules/results.smk"
 include: "workflow/rules/figures.smk"
 
 
-rule campbell:
+rule all_blades:
     default_target: True
     input:
-        "results/campbell.nc",
-        expand("results/{blade}/mesh.{format}", blade=settings.blades, format=["msh", "inp"]),
-        expand("results/figures/campbell_{blade}.png", blade=settings.blades),
-        "results/figures/campbell.png",
-        "results/figures/blades.png",
+        rules.campbell.input,
+        expand("results/{kind}.nc", kind=KINDS),
+        "results/summary.csv",
+        expand("results/figures/{figure}.png", figure=SWEEP_FIGURES),

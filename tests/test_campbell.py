@@ -81,7 +81,7 @@ def test_dynamic_clearance(model, diagram):
 
 
 def test_dataset_and_gathering(model, tmp_path):
-    from r37core.io import write_dataset
+    from r37core.dataset_file import write_dataset
 
     dataset = campbell_dataset(model, 2000.0, 100.0, 10, 16, 0.01, "pressure_edge")
     for blade in ("Ref", "Other"):

@@ -16,7 +16,11 @@ from jsonschema.exceptions import ValidationError, best_match
 from r37core.blade.definition import BladeDefinition
 from r37core.blade.errors import BladeShapeError
 from r37core.blade.tables import read_profile_table, read_stacking_table, stacking_rows
+from r37core.contact.casing import Casing
+from r37core.contact.scene import Friction, Lining, Scene
 from r37core.fem.material import Material
+from r37core.march.choice import MarchChoice
+from r37core.speeds import SpeedError, expand_speeds
 from r37core.yaml_file import load_yaml
 
 _SHIFT_KEYS = ("stacking_table", "sweep_lean", "chordwise_sweep_deg")
@@ -41,18 +45,32 @@ class BladeSettings:
 
 
 @dataclass(frozen=True)
+class SceneSettings:
+    """One scene: what the blade meets, on which tip line, how long, and which results are wanted."""
+
+    scene: Scene
+    tip_line: str
+    revolutions: int
+    results: tuple[str, ...]
+    stress_history_speeds: tuple[float, ...]
+
+
+@dataclass(frozen=True)
 class Settings:
     """Everything the workflow needs to know, checked.
 
-    `blades` are those to run, in order; `fidelity` the chosen level's entry; `structure` and `campbell` as in the file,
-    with defaults filled in.
+    `blades` and `scenes` are those to run, in order; `speeds` (rad/s) of each (blade, scene); `fidelity` the chosen
+    level's entry; `structure` and `campbell` as in the file, with defaults filled in.
     """
 
     blades: dict[str, BladeSettings]
+    scenes: dict[str, SceneSettings]
+    speeds: dict[tuple[str, str], tuple[float, ...]]
     fidelity_name: str
     fidelity: dict[str, Any]
     structure: dict[str, Any]
     campbell: dict[str, Any]
+    interactions: dict[str, float]
 
     def shape_hash(self, blade: str) -> str:
         """Short hash of all that a blade's geometry depends on."""
@@ -61,6 +79,25 @@ class Settings:
     def structure_hash(self, blade: str) -> str:
         """Short hash of all that a blade's structural results depend on."""
         return _short_hash(self.blades[blade], self.fidelity["mesh"], self.fidelity["reduction"], self.structure)
+
+    def structure_with(self, tip_line: str) -> dict[str, Any]:
+        """The section `structure`, without what only the geometry uses, for contact nodes on `tip_line`."""
+        kept = {key: value for key, value in self.structure.items() if key != "edges"}
+        return kept | {"boundary": self.structure["boundary"] | {"tip_line": tip_line}}
+
+    def march_choice(self, scene: str, speed: float) -> MarchChoice:
+        """Numbers of the march at one speed of a scene, with only what its results need."""
+        level, chosen = self.fidelity["march"], self.scenes[scene]
+        stress = "stress" in chosen.results
+        history = speed in chosen.stress_history_speeds
+        return MarchChoice(
+            time_step=level["time_step_s"],
+            revolutions=chosen.revolutions,
+            samples_per_revolution=level["stress_instants"] * level["samples_per_stress_instant"],
+            snapshots_per_revolution=level["stress_instants"] if stress else 0,
+            snapshot_revolutions=(chosen.revolutions if history else 1) if stress else 0,
+            energy="energy" in chosen.results,
+        )
 
 
 def _short_hash(*parts: object) -> str:
@@ -85,6 +122,7 @@ def load_settings(config: Mapping[str, Any], root: Path, config_name: str = "con
     for name in names:
         if name not in entries:
             raise ConfigError(f"{config_name}: blades: found '{name}'; allowed: {', '.join(entries)} ({blades_file})")
+    scenes = _scenes(checked, levels[level], root, schemas, config_name)
     submesh = checked["structure"]["stress_submesh"]
     if not submesh["minimum_z_m"] < submesh["maximum_z_m"]:
         raise ConfigError(
@@ -93,10 +131,13 @@ def load_settings(config: Mapping[str, Any], root: Path, config_name: str = "con
         )
     return Settings(
         blades={name: _blade(name, entries, root, blades_file) for name in names},
+        scenes=scenes,
+        speeds=_speeds(checked, names, list(scenes), levels[level]["march"]["speed_step_rad_s"], config_name),
         fidelity_name=level,
         fidelity=levels[level],
         structure=checked["structure"],
         campbell=checked["campbell"],
+        interactions=checked["interactions"],
     )
 
 
@@ -104,7 +145,7 @@ def _load(root: Path, file: str) -> Any:
     try:
         return load_yaml(root / file)
     except FileNotFoundError:
-        raise ConfigError(f"{file}: there is no such file; check blades_file and fidelity_file in config.yaml") from None
+        raise ConfigError(f"{file}: there is no such file; check the keys ..._file in config.yaml") from None
     except yaml.YAMLError as error:
         raise ConfigError(f"{file}: not readable as YAML: {error}") from None
 
@@ -220,3 +261,84 @@ def _shift(shift: Mapping[str, Any], root: Path, file: str) -> dict[str, Any]:
         where = value if key == "stacking_table" else f"{file}: {blade}.{key}"
         raise ConfigError(f"{where}: blade {blade}: {error}") from None
     return {"stacking": rows}
+
+
+def _scenes(
+    checked: Mapping[str, Any], level: Mapping[str, Any], root: Path, schemas: Path, config_name: str
+) -> dict[str, SceneSettings]:
+    file = checked["scenes_file"]
+    entries = _validated(_load(root, file), schemas / "scenes.schema.yaml", file)
+    names = list(entries) if checked["scenes"] == "all" else checked["scenes"]
+    for name in names:
+        if name not in entries:
+            raise ConfigError(f"{config_name}: scenes: found '{name}'; allowed: {', '.join(entries)} ({file})")
+    tip_line = checked["structure"]["boundary"]["tip_line"]
+    return {name: _scene(name, entries[name], level["march"], tip_line, file) for name in names}
+
+
+def _scene(name: str, entry: Mapping[str, Any], march: Mapping[str, Any], tip_line: str, file: str) -> SceneSettings:
+    casing, lining, friction = entry["casing"], entry.get("lining"), entry.get("friction")
+    if "wear" in entry["results"] and lining is None:
+        raise ConfigError(f"{file}: {name}.results: found wear; allowed: only in a scene with a lining")
+    if entry["stress_history_speeds_rad_s"] and "stress" not in entry["results"]:
+        raise ConfigError(f"{file}: {name}.stress_history_speeds_rad_s: allowed: only with stress among the results")
+    scene = Scene(
+        casing=Casing(
+            clearance=casing["clearance_m"],
+            lobes=casing["lobes"],
+            width=casing["width"],
+            amplitude=casing["amplitude_clearances"],
+            rise_fraction=casing["rise_fraction"],
+        ),
+        lining=None
+        if lining is None
+        else Lining(
+            thickness=lining["thickness_m"],
+            elastic_modulus=lining["elastic_modulus_pa"],
+            plastic_modulus=lining["plastic_modulus_pa"],
+            yield_stress=lining["yield_stress_pa"],
+            bars=lining["bars"],
+            shared_ring=lining["rings"] == "shared",
+            natural_areas=lining["natural_bar_areas"],
+            bar_area=lining.get("bar_area_m2"),
+        ),
+        friction=None
+        if friction is None
+        else Friction(
+            coefficient=friction["coefficient"],
+            vector=friction["form"] == "vector",
+            against_rotation=friction["direction"] == "against_rotation",
+            coupled=friction["coupling"] == "coupled",
+        ),
+        damping_ratio=entry["damping_ratio"],
+        exact_gap=entry["gap"] == "exact",
+        divergence_limit=entry["divergence_limit_m"],
+    )
+    return SceneSettings(
+        scene=scene,
+        tip_line=entry.get("tip_line", tip_line),
+        revolutions=entry.get("revolutions", march["revolutions"]),
+        results=tuple(entry["results"]),
+        stress_history_speeds=tuple(float(speed) for speed in entry["stress_history_speeds_rad_s"]),
+    )
+
+
+def _speeds(
+    checked: Mapping[str, Any], blades: list[str], scenes: list[str], default_step: float, config_name: str
+) -> dict[tuple[str, str], tuple[float, ...]]:
+    def expanded(ranges: list[Any], key: str) -> tuple[float, ...]:
+        try:
+            return expand_speeds(ranges, default_step)
+        except SpeedError as error:
+            raise ConfigError(f"{config_name}: {key}: {error}") from None
+
+    general = expanded(checked["speeds"], "speeds")
+    special = [expanded(rule["speeds"], f"speeds_for.{i}.speeds") for i, rule in enumerate(checked["speeds_for"])]
+
+    def of(blade: str, scene: str) -> tuple[float, ...]:
+        for rule, speeds in zip(checked["speeds_for"], special, strict=True):
+            if blade in rule.get("blades", [blade]) and scene in rule.get("scenes", [scene]):
+                return speeds
+        return general
+
+    return {(blade, scene): of(blade, scene) for blade in blades for scene in scenes}

@@ -17,6 +17,9 @@ except ConfigError as error:
 
 wildcard_constraints:
     blade="|".join(settings.blades),
+    scene="|".join(settings.scenes),
+    tip_line="pressure_edge|camber|suction_edge",
+    speed=r"[0-9.e+]+",
 
 
 def code(*packages):

@@ -1,4 +1,5 @@
 # Blade shape -> mesh -> matrices -> reduced model -> Campbell diagram, for each blade.
+CAMPBELL_TIP_LINE = settings.structure["boundary"]["tip_line"]
 
 
 rule geometry:
@@ -14,7 +15,7 @@ rule geometry:
         definition=lambda wildcards: settings.blades[wildcards.blade].definition,
         edges=settings.structure["edges"],
         provenance=shape_provenance,
-        code=code("io.py", "blade/*.py"),
+        code=code("io.py", "dataset_file.py", "blade/*.py"),
     script:
         "../scripts/geometry.py"
 
@@ -73,23 +74,23 @@ rule reduced_model:
         mesh="results/{blade}/mesh.vtu",
         matrices="results/{blade}/matrices.npz",
     output:
-        "results/{blade}/rom.nc",
+        "results/{blade}/rom_{tip_line}.nc",
     log:
-        "logs/{blade}/reduced_model.log",
+        "logs/{blade}/reduced_model_{tip_line}.log",
     conda:
         ENVIRONMENT
     params:
-        structure={key: value for key, value in settings.structure.items() if key != "edges"},
+        structure=lambda wildcards: settings.structure_with(wildcards.tip_line),
         reduction=settings.fidelity["reduction"],
         provenance=structure_provenance,
-        code=code("io.py", "mesh/wedge_mesh.py", "fem/matrices.py", "fem/solver.py", "rom/*.py"),
+        code=code("io.py", "dataset_file.py", "mesh/wedge_mesh.py", "fem/matrices.py", "fem/solver.py", "rom/*.py"),
     script:
         "../scripts/reduced_model.py"
 
 
 rule campbell_of_blade:
     input:
-        "results/{blade}/rom.nc",
+        f"results/{{blade}}/rom_{CAMPBELL_TIP_LINE}.nc",
     output:
         "results/{blade}/campbell.nc",
     log:
@@ -99,9 +100,9 @@ rule campbell_of_blade:
     params:
         campbell=settings.campbell,
         maximum_speed=settings.structure["maximum_speed_rad_s"],
-        tip_line=settings.structure["boundary"]["tip_line"],
+        tip_line=CAMPBELL_TIP_LINE,
         provenance=structure_provenance,
-        code=code("io.py", "rom/*.py", "results/campbell*.py"),
+        code=code("io.py", "dataset_file.py", "rom/*.py", "results/campbell*.py"),
     script:
         "../scripts/campbell_of_blade.py"
 
@@ -118,6 +119,15 @@ rule campbell_of_all:
     params:
         blades=list(settings.blades),
         fidelity=settings.fidelity_name,
-        code=code("io.py", "results/gather.py"),
+        code=code("io.py", "dataset_file.py", "results/gather.py"),
     script:
         "../scripts/campbell_of_all.py"
+
+
+rule campbell:
+    input:
+        "results/campbell.nc",
+        expand("results/{blade}/mesh.{format}", blade=settings.blades, format=["msh", "inp"]),
+        expand("results/figures/campbell_{blade}.png", blade=settings.blades),
+        "results/figures/campbell.png",
+        "results/figures/blades.png",

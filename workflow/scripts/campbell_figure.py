@@ -2,9 +2,9 @@
 
 from job import run
 
+from r37core.dataset_file import read_dataset
 from r37core.figures.campbell import draw_campbell
 from r37core.figures.style import save
-from r37core.io import read_dataset
 
 
 def main(snakemake):

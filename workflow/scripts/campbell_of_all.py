@@ -2,7 +2,7 @@
 
 from job import run
 
-from r37core.io import write_dataset
+from r37core.dataset_file import write_dataset
 from r37core.results.gather import gather_blades
 
 

@@ -103,7 +103,7 @@ def dynamic_clearance(
     leading edge on `tip_line`. With the mode scaled to that displacement u_theta, and u_r its radial part, the node's
     radius goes from r to sqrt((r + u_r)^2 + u_theta^2); the clearance changes by the opposite.
     """
-    leading_edge = model.tip_lines[tip_line].node(0)
+    leading_edge = model.tip_lines[tip_line].select([0])
     displacement = np.moveaxis(leading_edge.basis @ shapes.real, 2, 0)
     radial, tangential, _ = leading_edge.cylindrical(displacement)[:, 0].T
     scale = tangential_displacement[None, :] / tangential[:, None]

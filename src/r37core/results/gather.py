@@ -8,7 +8,7 @@ from pathlib import Path
 import pandas as pd
 import xarray as xr
 
-from r37core.io import read_dataset
+from r37core.dataset_file import read_dataset
 
 
 def gather_blades(blades: Sequence[str], files: Iterable[Path | str]) -> xr.Dataset:

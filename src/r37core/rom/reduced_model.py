@@ -20,9 +20,9 @@ class RecoveryNodes:
     points: np.ndarray
     basis: np.ndarray
 
-    def node(self, i: int) -> RecoveryNodes:
-        """The i-th node alone."""
-        return RecoveryNodes(self.nodes[[i]], self.points[[i]], self.basis[[i]])
+    def select(self, which: list[int]) -> RecoveryNodes:
+        """Some of the nodes, by their place."""
+        return RecoveryNodes(self.nodes[which], self.points[which], self.basis[which])
 
     def displacement(self, coordinates: np.ndarray) -> np.ndarray:
         """Displacement (m), shape (n, 3), for reduced `coordinates`, shape (coordinates,)."""

@@ -9,7 +9,8 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from r37core.io import read_dataset, readable, write_dataset
+from r37core.dataset_file import read_dataset, write_dataset
+from r37core.io import readable
 
 from .reduced_model import RecoveryNodes, ReducedModel
 

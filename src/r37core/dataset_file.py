@@ -1,0 +1,31 @@
+"""Datasets as netCDF4 files."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+
+import numpy as np
+import xarray as xr
+
+from . import __version__
+from .io import atomic_write, readable
+
+
+def write_dataset(dataset: xr.Dataset, file: Path | str, provenance: Mapping[str, object] | None = None) -> None:
+    """Write a dataset as netCDF4, atomically, with version and `provenance` as global attributes.
+
+    Coordinates carry no fill value, as the CF conventions ask.
+    """
+    dataset = dataset.assign_attrs(Conventions="CF-1.11", r37core_version=__version__, **dict(provenance or {}))
+    encoding: dict[str, dict[str, float | None]] = {str(name): {"_FillValue": None} for name in dataset.coords}
+    for name, variable in dataset.data_vars.items():
+        encoding[str(name)] = {"_FillValue": np.nan if variable.dtype.kind == "f" else None}
+    with atomic_write(file) as partial:
+        dataset.to_netcdf(partial, engine="netcdf4", encoding=encoding)
+
+
+def read_dataset(file: Path | str) -> xr.Dataset:
+    """Read a netCDF file into memory; InputFileError when it cannot be read."""
+    with readable(file), xr.open_dataset(file, engine="netcdf4") as dataset:
+        return dataset.load()

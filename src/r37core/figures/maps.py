@@ -1,0 +1,55 @@
+"""Maps over speed: the spectrum against engine order, the wear against angle."""
+
+from __future__ import annotations
+
+import matplotlib.pyplot as plt
+import numpy as np
+import xarray as xr
+from matplotlib.colors import LogNorm
+from matplotlib.figure import Figure
+
+from . import style  # noqa: F401  (sets the style)
+
+_DECADES = 4.0
+
+
+def draw_spectral_map(maps: xr.Dataset, campbell: xr.Dataset, title: str) -> Figure:
+    """Amplitude over speed and engine order of one blade and scene, with the named modes' frequencies as lines."""
+    amplitude = maps["amplitude"].dropna("speed", how="all")
+    figure, axes = plt.subplots(figsize=(8.0, 5.0))
+    values = np.maximum(1e3 * amplitude.transpose("engine_order", "speed").values, 1e-12)
+    top = max(float(np.nanmax(values)), 1e-11) if values.size else 1.0
+    picture = axes.pcolormesh(
+        amplitude["speed"], amplitude["engine_order"], values, norm=LogNorm(top / 10**_DECADES, top), cmap="magma"
+    )
+    figure.colorbar(picture, ax=axes, label="amplitude, radial, leading edge (mm)")
+    for mode in ("1B", "1T", "2B"):
+        frequency = campbell["frequency"].sel(mode=mode)
+        speed = frequency["speed"].values[1:]
+        order = 2.0 * np.pi * frequency.values[1:] / speed
+        axes.plot(speed, order, color="white", linewidth=0.8, linestyle="--")
+        axes.annotate(mode, (0.99, np.interp(amplitude["speed"].values[-1], speed, order)), color="white",
+                      xycoords=("axes fraction", "data"), ha="right", va="bottom", fontsize=8)  # fmt: skip
+    axes.set(xlabel="speed (rad/s)", ylabel="engine order", title=f"spectrum: {title}")
+    axes.set_ylim(0.0, float(amplitude["engine_order"].max()))
+    axes.set_xlim(float(amplitude["speed"].min()), float(amplitude["speed"].max()))
+    axes.grid(False)
+    return figure
+
+
+def draw_wear_map(maps: xr.Dataset, campbell: xr.Dataset, title: str) -> Figure:
+    """Wear over speed and angle of one blade and scene; ticks mark the crossings of 1B with engine orders."""
+    wear = maps["wear"].dropna("speed", how="all")
+    figure, axes = plt.subplots(figsize=(8.0, 5.0))
+    picture = axes.pcolormesh(
+        wear["speed"], np.degrees(wear["angle"]), 1e3 * wear.transpose("angle", "speed").values, cmap="viridis"
+    )
+    figure.colorbar(picture, ax=axes, label="wear (mm)")
+    low, high = axes.get_xlim()
+    for order, speed in campbell["crossing_speed"].sel(mode="1B").to_series().dropna().items():
+        if low <= speed <= high:
+            axes.axvline(speed, color="white", linewidth=0.7, linestyle=":")
+            axes.annotate(f"1B/{order}", (speed, 350.0), color="white", fontsize=7)
+    axes.set(xlabel="speed (rad/s)", ylabel="angle round the casing (degrees)", title=f"wear: {title}")
+    axes.grid(False)
+    return figure

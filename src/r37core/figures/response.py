@@ -1,0 +1,68 @@
+"""Response over speed: rms of the leading edge, largest stress against yield."""
+
+from __future__ import annotations
+
+import matplotlib.pyplot as plt
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from . import style  # noqa: F401  (sets the style)
+
+
+def draw_response(blade: str, campbell: xr.Dataset, rms: xr.Dataset, stress: xr.Dataset | None) -> Figure:
+    """One blade: radial and tangential rms of the leading edge in every scene, and the largest stress with the yield line."""
+    figure, panels = plt.subplots(2 if stress is None else 3, 1, figsize=(8.5, 7.5), sharex=True)
+    for axes, part in zip(panels, ("radial", "tangential"), strict=False):
+        for scene in rms["scene"].values:
+            response = rms[f"rms_{part}"].sel(scene=scene, tip_point="leading_edge").dropna("speed")
+            axes.plot(response["speed"], 1e3 * response, ".-", label=str(scene))
+            _mark_diverged(axes, rms.sel(scene=scene))
+        axes.set_ylabel(f"rms, {part} (mm)")
+        _mark_crossings(axes, campbell)
+    panels[0].set_title(f"blade {blade}: leading edge over the last half of the run; dotted: 1B with engine orders")
+    panels[0].legend()
+    if stress is not None:
+        for scene in stress["scene"].values:
+            level = stress["max_von_mises"].sel(scene=scene).dropna("speed")
+            panels[2].plot(level["speed"], 1e-9 * level, ".-", label=str(scene))
+        panels[2].axhline(1e-9 * float(stress["yield_stress"].max()), color="0.3", linewidth=0.9, linestyle="--")
+        panels[2].set_ylabel("largest von Mises (GPa)")
+        _mark_crossings(panels[2], campbell)
+    panels[-1].set_xlabel("speed (rad/s)")
+    return figure
+
+
+def draw_response_overview(rms: xr.Dataset) -> Figure:
+    """All blades: radial rms of the leading edge, one panel per blade, all scenes, on one scale."""
+    blades = rms["blade"].values
+    rows = int(np.ceil(len(blades) / 2))
+    figure, grid = plt.subplots(rows, 2, figsize=(11.0, 1.9 * rows + 0.8), sharex=True, sharey=True, squeeze=False)
+    for axes, blade in zip(grid.ravel(), blades, strict=False):
+        for scene in rms["scene"].values:
+            response = rms["rms_radial"].sel(blade=blade, scene=scene, tip_point="leading_edge").dropna("speed")
+            axes.plot(response["speed"], 1e3 * response, ".-", markersize=3, label=str(scene))
+            _mark_diverged(axes, rms.sel(blade=blade, scene=scene))
+        axes.set_title(str(blade), fontsize=9)
+    for axes in grid.ravel()[len(blades) :]:
+        axes.set_visible(False)
+    grid[0, 0].legend()
+    figure.supxlabel("speed (rad/s)", fontsize=9)
+    figure.supylabel("rms of radial displacement, leading edge (mm)", fontsize=9)
+    return figure
+
+
+def _mark_diverged(axes: Axes, runs: xr.Dataset) -> None:
+    """Red crosses on the axis at speeds whose run diverged."""
+    diverged = runs["speed"].values[runs["status"].values == 1]
+    if len(diverged):
+        axes.plot(diverged, np.zeros(len(diverged)), "x", color="red", label="diverged")
+
+
+def _mark_crossings(axes: Axes, campbell: xr.Dataset) -> None:
+    low, high = axes.get_xlim()
+    for order, speed in campbell["crossing_speed"].sel(mode="1B").to_series().dropna().items():
+        if low <= speed <= high:
+            axes.axvline(speed, color="0.5", linewidth=0.8, linestyle=":")
+            axes.annotate(f"{order}", (speed, 0.93), xycoords=("data", "axes fraction"), fontsize=7, color="0.4")

@@ -1,0 +1,21 @@
+"""Numbers of a march."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class MarchChoice:
+    """Numbers of the march: largest time step (s), revolutions, samples per revolution, and what is recorded.
+
+    `snapshots_per_revolution` modal states are kept in each of the last `snapshot_revolutions`; `energy`: whether the loss
+    to damping is added up.
+    """
+
+    time_step: float
+    revolutions: int
+    samples_per_revolution: int
+    snapshots_per_revolution: int = 0
+    snapshot_revolutions: int = 0
+    energy: bool = False

@@ -1,0 +1,199 @@
+"""One simulation: a blade at one speed in one scene."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from r37core.contact.scene import Scene
+from r37core.rom.contact_model import ContactModel
+
+from . import kernel
+from .choice import MarchChoice
+
+
+class UnstableStepError(ValueError):
+    """A time step beyond the stability limit of central differences."""
+
+
+@dataclass
+class MarchState:
+    """Where a run stands; a run may be stopped after any revolution and go on from its state."""
+
+    displacement: np.ndarray
+    previous: np.ndarray
+    wear: np.ndarray | None
+    revolutions: int = 0
+    totals: np.ndarray = field(default_factory=lambda: np.zeros(kernel.TOTALS))
+
+
+@dataclass(frozen=True)
+class MarchRecord:
+    """What a stretch of revolutions left behind.
+
+    `samples` (m), shape (samples, 4): radial and tangential displacement of the leading edge, then of the trailing edge;
+    `snapshots`, shape (snapshots, modes), in the speed's modes; `diverged`.
+    """
+
+    samples: np.ndarray
+    snapshots: np.ndarray
+    diverged: bool
+
+
+class March:
+    """The march of one blade at one speed in one scene.
+
+    Attributes: `frequencies` (rad/s), `modes` (in modes at rest), `time_step` (s): the largest one not above the chosen one
+    that divides a revolution into whole samples, `steps_per_revolution`.
+
+    Raises UnstableStepError for a step at or above the stability limit 2/omega_max.
+    """
+
+    def __init__(self, model: ContactModel, speed: float, scene: Scene, choice: MarchChoice):
+        self.model, self.speed, self.scene, self.choice = model, speed, scene, choice
+        self.frequencies, self.modes = model.modes_at(speed)
+        period = 2.0 * np.pi / speed
+        self.steps_per_sample = int(np.ceil(period / (choice.samples_per_revolution * choice.time_step) - 1e-9))
+        self.steps_per_revolution = self.steps_per_sample * choice.samples_per_revolution
+        self.time_step = period / self.steps_per_revolution
+        self._check_stability()
+        self.rows = np.ascontiguousarray(model.rows @ self.modes)
+        self.recursion = recursion_coefficients(self.frequencies, scene.damping_ratio, self.time_step)
+        self.coupling = np.einsum("akm,m,bjm->abkj", self.rows, self.recursion[2], self.rows)
+        angle = model.theta - 2.0 * np.pi * np.arange(self.steps_per_revolution)[:, None] / self.steps_per_revolution
+        self.casing_shape = scene.casing.shape(angle)
+        tip_rows = (model.tip_rows @ self.modes)[:, :2]
+        self.output_rows = np.ascontiguousarray(tip_rows.reshape(4, -1))
+
+    @property
+    def duration(self) -> float:
+        """Length of the whole run (s)."""
+        return self.choice.revolutions * self.steps_per_revolution * self.time_step
+
+    def _check_stability(self) -> None:
+        limit = 2.0 / self.frequencies[-1]
+        if not self.time_step < limit:
+            raise UnstableStepError(
+                f"time_step_s: {self.choice.time_step:g} s gives steps of {self.time_step:.6g} s, not below the stability "
+                f"limit of this reduced model, {limit:.6g} s (highest mode {self.frequencies[-1] / 2e3 / np.pi:.1f} kHz); "
+                "use a smaller one, or raise basis_tolerance to drop the highest modes"
+            )
+
+    def start(self) -> MarchState:
+        """The blade at rest in an unworn lining."""
+        lining = self.scene.lining
+        wear = None
+        if lining is not None:
+            wear = np.zeros((1 if lining.shared_ring else self.rows.shape[1], lining.bars))
+        zero = np.zeros(len(self.frequencies))
+        return MarchState(zero.copy(), zero.copy(), wear)
+
+    def advance(self, state: MarchState, revolutions: int) -> MarchRecord:
+        """Go on by `revolutions` from `state`, which is changed."""
+        choice = self.choice
+        blocks = revolutions * choice.samples_per_revolution
+        samples = np.zeros((blocks, 4))
+        which, snapshots = self._snapshot_plan(state.revolutions, blocks)
+        buffers = np.array([state.displacement, state.previous, np.zeros_like(state.previous)])
+        done = kernel.advance(
+            buffers,
+            self.recursion,
+            self.rows,
+            self.coupling,
+            self.casing_shape,
+            self._distance_numbers(),
+            self.model.radius if self.scene.exact_gap else None,
+            self._lining_numbers(),
+            state.wear,
+            self._bar_positions(),
+            self._friction_numbers(),
+            self._rotation_velocity(),
+            self._loss_numbers(),
+            self.time_step,
+            state.revolutions * self.steps_per_revolution,
+            blocks,
+            self.steps_per_sample,
+            self.output_rows,
+            samples,
+            which,
+            snapshots,
+            state.totals,
+            self.scene.divergence_limit,
+        )
+        state.displacement, state.previous = buffers[0], buffers[1]
+        state.revolutions += revolutions
+        if which is None or snapshots is None:
+            kept = np.empty((0, len(self.frequencies)))
+        else:
+            kept = snapshots[: np.count_nonzero(which[:done] >= 0)]
+        diverged = done < blocks or not np.all(np.abs(samples[done - 1]) < self.scene.divergence_limit)
+        return MarchRecord(samples[:done], kept, bool(diverged))
+
+    def energy(self, state: MarchState) -> float:
+        """Energy (J) of the vibration: kinetic at mid-step plus elastic; conserved by the free undamped recursion.
+
+        E = (v^2 + omega^2 u_n u_{n-1})/2 with v = (u_n - u_{n-1})/h (Belytschko, Liu, Moran, section 6.2).
+        """
+        velocity = (state.displacement - state.previous) / self.time_step
+        elastic = self.frequencies**2 * state.displacement * state.previous
+        return float(0.5 * np.sum(velocity**2 + elastic))
+
+    def _distance_numbers(self) -> np.ndarray:
+        casing = self.scene.casing
+        at_once = casing.rise_fraction == 0.0
+        rate = 0.0 if at_once else casing.rise_rate(self.duration) * self.time_step
+        return np.array([casing.clearance, casing.amplitude * casing.clearance, rate, float(at_once)])
+
+    def _lining_numbers(self) -> np.ndarray | None:
+        lining = self.scene.lining
+        if lining is None:
+            return None
+        area = lining.area(float(np.mean(self.model.radius)), self.model.chord_share)
+        return np.array(
+            [lining.thickness, lining.elastic_modulus, lining.plastic_modulus, lining.yield_stress, area, float(lining.bars)]
+        )
+
+    def _bar_positions(self) -> np.ndarray | None:
+        lining = self.scene.lining
+        return None if lining is None else self.model.theta / (2.0 * np.pi) * lining.bars
+
+    def _friction_numbers(self) -> np.ndarray | None:
+        friction = self.scene.friction
+        if friction is None:
+            return None
+        return np.array([friction.coefficient, float(friction.vector), float(friction.coupled)])
+
+    def _rotation_velocity(self) -> np.ndarray | None:
+        friction = self.scene.friction
+        if friction is None:
+            return None
+        return self.model.radius * self.speed * (-1.0 if friction.against_rotation else 1.0)
+
+    def _loss_numbers(self) -> np.ndarray | None:
+        if not self.choice.energy:
+            return None
+        return 2.0 * self.scene.damping_ratio * self.frequencies / (4.0 * self.time_step)
+
+    def _snapshot_plan(self, revolutions_done: int, blocks: int) -> tuple[np.ndarray | None, np.ndarray | None]:
+        choice = self.choice
+        if choice.snapshots_per_revolution == 0 or choice.snapshot_revolutions == 0:
+            return None, None
+        every = choice.samples_per_revolution // choice.snapshots_per_revolution
+        number = revolutions_done * choice.samples_per_revolution + np.arange(1, blocks + 1)
+        first = (choice.revolutions - choice.snapshot_revolutions) * choice.samples_per_revolution
+        taken = (number > first) & ((number - first) % every == 0)
+        which = np.where(taken, np.cumsum(taken) - 1, -1)
+        return which, np.zeros((int(taken.sum()), len(self.frequencies)))
+
+
+def recursion_coefficients(frequencies: np.ndarray, damping_ratio: float, step: float) -> np.ndarray:
+    """Coefficients a, b, c of u_{n+1} = a u_n + b u_{n-1} + c F for unit-mass modes, shape (3, modes).
+
+    c = (1/h^2 + xi omega/h)^-1, a = c (2/h^2 - omega^2), b = c (xi omega/h - 1/h^2): section 5 of the benchmark with
+    D = 2 xi omega.
+    """
+    inverse = 1.0 / (1.0 / step**2 + damping_ratio * frequencies / step)
+    a = inverse * (2.0 / step**2 - frequencies**2)
+    b = inverse * (damping_ratio * frequencies / step - 1.0 / step**2)
+    return np.array([a, b, inverse])

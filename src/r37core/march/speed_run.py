@@ -1,0 +1,110 @@
+"""One speed of one scene, from model to the small set of numbers that its file keeps."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from r37core.contact.scene import Scene
+from r37core.rom.contact_model import ContactModel
+
+from . import kernel
+from .choice import MarchChoice
+from .simulate import March, MarchState
+
+COMPLETED, DIVERGED = 0, 1
+"""Status of a run."""
+
+_WEAR_LOBES = 20
+
+
+def run_speed(
+    model: ContactModel,
+    speed: float,
+    scene: Scene,
+    choice: MarchChoice,
+    results: Sequence[str],
+    spectrum_highest_order: int,
+    signal_revolutions: int,
+    wear_angles: int,
+) -> dict[str, np.ndarray]:
+    """Simulate one speed (rad/s) and keep what is asked for in `results` (spectrum, signal, stress, wear, energy).
+
+    Always: `status`, `diverged_revolution` and `diverged_time` (NaN unless diverged), `time_step`, `rms` and `peak` (m) over
+    the last half, shape (2, 2): leading and trailing edge by radial and tangential, `revolution_maxima` (m), shape
+    (revolutions, 2, 2), and contact statistics. A diverged run has NaN where a number would need the rest of the run.
+    Raises UnstableStepError for a step beyond the stability limit.
+    """
+    march = March(model, speed, scene, choice)
+    state = march.start()
+    record = march.advance(state, choice.revolutions)
+    per_revolution = choice.samples_per_revolution
+    samples = np.full((choice.revolutions * per_revolution, 4), np.nan)
+    samples[: len(record.samples)] = record.samples
+    if record.diverged:
+        # the last sample is past the limit, and may be infinite
+        samples[len(record.samples) - 1] = np.nan
+    maxima = np.abs(samples).reshape(choice.revolutions, per_revolution, 2, 2).max(axis=1)
+    half = samples[(choice.revolutions // 2) * per_revolution :]
+    diverged_at = len(record.samples) / per_revolution if record.diverged else np.nan
+    totals = state.totals
+    kept = {
+        "status": np.array(DIVERGED if record.diverged else COMPLETED),
+        "speed": np.array(speed),
+        "diverged_revolution": np.array(diverged_at),
+        "diverged_time": np.array(diverged_at * 2.0 * np.pi / speed),
+        "time_step": np.array(march.time_step),
+        "rms": np.sqrt(np.mean(half**2, axis=0)).reshape(2, 2),
+        "peak": np.abs(half).max(axis=0).reshape(2, 2),
+        "revolution_maxima": maxima,
+        "share_of_time_in_contact": np.array(totals[kernel.STEPS_IN_CONTACT] / totals[kernel.STEPS]),
+        "largest_normal_force": np.array(totals[kernel.LARGEST_FORCE]),
+        "casing_hits": np.array(totals[kernel.CASING_HITS]),
+        "worst_complementarity": np.array(totals[kernel.WORST_COMPLEMENTARITY]),
+    }
+    if "spectrum" in results:
+        kept |= _spectrum(half[:, 0], len(half) // per_revolution, spectrum_highest_order)
+    if "signal" in results:
+        kept["signal"] = samples[-signal_revolutions * per_revolution :].astype(np.float32)
+    if "stress" in results:
+        kept["snapshots"] = record.snapshots @ (model.to_reduced @ march.modes).T
+    if "wear" in results:
+        kept |= _wear(state, wear_angles)
+    if "energy" in results:
+        kept |= _energy_balance(march, state)
+    return kept
+
+
+def _spectrum(radial: np.ndarray, revolutions: int, highest_order: int) -> dict[str, np.ndarray]:
+    """Amplitude (m) of the leading edge's radial displacement at multiples of 1/revolutions of the engine order."""
+    amplitude = 2.0 * np.abs(np.fft.rfft(radial)) / len(radial)
+    count = min(highest_order * revolutions + 1, len(amplitude))
+    amplitude[0] /= 2.0
+    return {"amplitude": amplitude[:count].astype(np.float32), "engine_order": np.arange(count) / revolutions}
+
+
+def _wear(state: MarchState, angles: int) -> dict[str, np.ndarray]:
+    """Largest wear (m) over the rings: its profile as the maximum in each of `angles` sectors, and its lobes."""
+    assert state.wear is not None
+    profile = state.wear.max(axis=0)
+    sectors = np.linspace(0, len(profile), min(angles, len(profile)), endpoint=False).astype(int)
+    lobes = np.abs(np.fft.rfft(profile))[: _WEAR_LOBES + 1] * 2.0 / len(profile)
+    lobes[0] /= 2.0
+    return {
+        "wear": np.maximum.reduceat(profile, sectors).astype(np.float32),
+        "max_wear": np.array(profile.max()),
+        "wear_harmonic": lobes,
+    }
+
+
+def _energy_balance(march: March, state: MarchState) -> dict[str, np.ndarray]:
+    """Work of the contact forces, loss to damping, change of energy, and what does not close (all J)."""
+    work, loss = state.totals[kernel.WORK], state.totals[kernel.LOSS]
+    change = march.energy(state)
+    return {
+        "contact_work": np.array(work),
+        "damping_loss": np.array(loss),
+        "energy_change": np.array(change),
+        "energy_residual": np.array(change - work + loss),
+    }

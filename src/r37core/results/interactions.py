@@ -1,0 +1,149 @@
+"""Interactions: peaks of the response over speed, matched with modes and engine orders."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+import pandas as pd
+import xarray as xr
+from scipy.signal import find_peaks
+
+COLUMNS = (
+    "blade",
+    "scene",
+    "mode",
+    "engine_order",
+    "campbell_speed",
+    "peak_speed",
+    "shift",
+    "peak_rms_radial",
+    "jump",
+    "width_above_yield",
+    "max_von_mises",
+    "max_wear",
+    "status",
+)
+"""Columns of summary.csv; speeds, shift and width in rad/s, `jump` the drop to the next speed as a share of the peak."""
+
+
+@dataclass(frozen=True)
+class InteractionChoice:
+    """What counts as an interaction.
+
+    A peak of the leading edge's radial rms must rise above its surroundings by `prominence` of the largest one, and lie
+    between `below` and `above` (shares of the Campbell speed) about the crossing it is matched with.
+    """
+
+    prominence: float = 0.1
+    below: float = 0.02
+    above: float = 0.06
+
+
+def find_interactions(
+    rms: xr.Dataset, campbell: xr.Dataset, stress: xr.Dataset | None, wear: xr.Dataset | None, choice: InteractionChoice
+) -> list[dict[str, object]]:
+    """Interactions of one blade and scene, by ascending speed; keys as in COLUMNS but for blade and scene.
+
+    The datasets are those of the project with `blade` and `scene` already selected; `stress` and `wear` None where a
+    scene has none. Only the named modes 1B, 1T and 2B are matched.
+    """
+    run = rms["status"].values != 2
+    speed = rms["speed"].values[run]
+    response = rms["rms_radial"].sel(tip_point="leading_edge").values[run]
+    level = np.nan_to_num(response, nan=0.0)
+    if level.size == 0 or not level.max() > 0.0:
+        return []
+    # a floor at both ends, so that a peak on the first or last speed counts
+    peaks, _ = find_peaks(np.concatenate([[0.0], level, [0.0]]), prominence=choice.prominence * level.max())
+    rows = []
+    for peak in peaks - 1:
+        match = _nearest_crossing(campbell, speed[peak], choice)
+        if match is None:
+            continue
+        mode, order, crossing = match
+        after = level[peak + 1] if peak + 1 < len(level) else np.nan
+        rows.append(
+            {
+                "mode": mode,
+                "engine_order": order,
+                "campbell_speed": crossing,
+                "peak_speed": speed[peak],
+                "shift": speed[peak] - crossing,
+                "peak_rms_radial": response[peak],
+                "jump": 1.0 - after / level[peak],
+                "width_above_yield": _width_above_yield(stress, speed[peak]),
+                "max_von_mises": _at(stress, "max_von_mises", speed[peak]),
+                "max_wear": _at(wear, "max_wear", speed[peak]),
+                "status": ("completed", "diverged")[int(rms["status"].values[run][peak])],
+            }
+        )
+    return _strongest_of_each(rows)
+
+
+def _nearest_crossing(campbell: xr.Dataset, speed: float, choice: InteractionChoice) -> tuple[str, int, float] | None:
+    """Mode, engine order and speed of the Campbell crossing nearest to `speed` within the allowed window."""
+    best: tuple[float, str, int, float] | None = None
+    for mode in ("1B", "1T", "2B"):
+        for order, crossing in campbell["crossing_speed"].sel(mode=mode).to_series().dropna().items():
+            if -choice.below * crossing <= speed - crossing <= choice.above * crossing:
+                candidate = (abs(speed - crossing), mode, int(order), float(crossing))
+                best = candidate if best is None or candidate < best else best
+    return None if best is None else best[1:]
+
+
+def _at(dataset: xr.Dataset | None, name: str, speed: float) -> float:
+    return float("nan") if dataset is None else float(dataset[name].sel(speed=speed))
+
+
+def _width_above_yield(stress: xr.Dataset | None, speed: float) -> float:
+    """Length (rad/s) of the range of speeds about `speed` over which the largest stress exceeds yield."""
+    if stress is None:
+        return float("nan")
+    series = stress["max_von_mises"].dropna("speed")
+    speeds, level = series["speed"].values, series.values / float(stress["yield_stress"]) - 1.0
+    at = np.flatnonzero(speeds == speed)
+    if not len(at) or level[at[0]] <= 0.0:
+        return 0.0
+    low = high = int(at[0])
+    while low > 0 and level[low - 1] > 0.0:
+        low -= 1
+    while high + 1 < len(level) and level[high + 1] > 0.0:
+        high += 1
+    # linear interpolation to the yield line on both sides
+    start, end = speeds[low], speeds[high]
+    if low > 0:
+        start -= (speeds[low] - speeds[low - 1]) * level[low] / (level[low] - level[low - 1])
+    if high + 1 < len(level):
+        end += (speeds[high + 1] - speeds[high]) * level[high] / (level[high] - level[high + 1])
+    return float(end - start)
+
+
+def _strongest_of_each(rows: list[dict[str, object]]) -> list[dict[str, object]]:
+    """One row for each mode and engine order: the highest peak."""
+    strongest: dict[tuple[object, object], dict[str, object]] = {}
+    for row in rows:
+        key = (row["mode"], row["engine_order"])
+        if key not in strongest or row["peak_rms_radial"] > strongest[key]["peak_rms_radial"]:  # type: ignore[operator]
+            strongest[key] = row
+    return sorted(strongest.values(), key=lambda row: row["peak_speed"])  # type: ignore[arg-type, return-value]
+
+
+def summarise(datasets: Mapping[str, xr.Dataset], choice: InteractionChoice) -> pd.DataFrame:
+    """Table of all interactions, columns as in COLUMNS, from the datasets `campbell`, `rms` and, if there, `stress`, `wear`."""
+
+    def part(kind: str, blade: str, scene: str) -> xr.Dataset | None:
+        dataset = datasets.get(kind)
+        if dataset is None or scene not in dataset["scene"].values:
+            return None
+        return dataset.sel(blade=blade, scene=scene)
+
+    rows = []
+    for blade in datasets["rms"]["blade"].values:
+        campbell = datasets["campbell"].sel(blade=blade)
+        for scene in datasets["rms"]["scene"].values:
+            rms = datasets["rms"].sel(blade=blade, scene=scene)
+            found = find_interactions(rms, campbell, part("stress", blade, scene), part("wear", blade, scene), choice)
+            rows += [{"blade": blade, "scene": scene} | row for row in found]
+    return pd.DataFrame(rows, columns=list(COLUMNS))

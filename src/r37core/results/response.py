@@ -1,0 +1,119 @@
+"""response.nc: all speeds of one blade and scene, written row by row so that memory does not grow with the speeds."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from pathlib import Path
+
+import netCDF4
+import numpy as np
+
+from r37core import __version__
+from r37core.io import atomic_write
+from r37core.march.speed_file import read_speed
+
+from .stress import StressRecovery
+from .variables import STATUS_MEANINGS, VARIABLES
+
+_TIP_POINTS = ("leading_edge", "trailing_edge")
+
+
+def write_response(
+    files: Iterable[Path | str],
+    speeds: Sequence[float],
+    file: Path | str,
+    recovery: StressRecovery | None,
+    stress_history_speeds: Sequence[float],
+    stress_instants: int,
+    yield_stress: float,
+    provenance: Mapping[str, object],
+) -> None:
+    """Reduce the files of the `speeds` (rad/s, ascending), in the same order, to one file; one is in memory at a time.
+
+    `recovery`: for the stress, None when it is not wanted; speeds in `stress_history_speeds` keep the largest stress of
+    every revolution (of `stress_instants` evaluations each). Raises InputFileError for a file that cannot be read.
+    """
+    history_speeds = [speed for speed in speeds if speed in stress_history_speeds]
+    with atomic_write(file) as partial, netCDF4.Dataset(partial, "w") as dataset:
+        dataset.setncatts(
+            {"Conventions": "CF-1.11", "r37core_version": __version__}
+            | {name: str(value) for name, value in provenance.items()}
+        )
+        if recovery is not None:
+            _create_variable(dataset, "yield_stress", "f8", (), "Pa", "yield stress of the blade's material")
+            dataset["yield_stress"][...] = yield_stress
+        for row, (speed, source) in enumerate(zip(speeds, files, strict=True)):
+            values = _row(read_speed(source), recovery, stress_instants)
+            if row == 0:
+                _create(dataset, speeds, values, history_speeds)
+            for name in VARIABLES:
+                if name in values:
+                    dataset[name][row] = values[name]
+            if speed in history_speeds:
+                _write_history(dataset, history_speeds.index(speed), values["von_mises_history"], stress_instants, yield_stress)
+
+
+def _row(run: Mapping[str, np.ndarray], recovery: StressRecovery | None, stress_instants: int) -> dict[str, np.ndarray]:
+    """The variables of one speed, and the coordinates they need."""
+    values = dict(run)
+    for kind in ("rms", "peak"):
+        values[f"{kind}_radial"], values[f"{kind}_tangential"] = run[kind].T
+    values["revolution_maximum"] = run["revolution_maxima"][:, :, 0]
+    if recovery is not None:
+        per_instant = recovery.max_von_mises(run["snapshots"])
+        values["von_mises_history"] = per_instant
+        values["max_von_mises"] = np.array(np.nan if run["status"] else per_instant[-stress_instants:].max())
+    return values
+
+
+def _create(
+    dataset: netCDF4.Dataset, speeds: Sequence[float], values: Mapping[str, np.ndarray], history_speeds: Sequence[float]
+) -> None:
+    coordinates: dict[str, tuple[np.ndarray, str, str]] = {"speed": (np.array(speeds), "rad s-1", "angular speed of the rotor")}
+    revolutions = len(values["revolution_maximum"])
+    coordinates["revolution"] = (np.arange(1, revolutions + 1), "1", "number of the revolution")
+    if "amplitude" in values:
+        coordinates["engine_order"] = (values["engine_order"], "1", "engine order")
+    if "wear" in values:
+        sectors = len(values["wear"])
+        coordinates["angle"] = (np.arange(sectors) * 2.0 * np.pi / sectors, "rad", "start of the sector round the casing")
+        coordinates["lobes"] = (np.arange(len(values["wear_harmonic"])), "1", "number of lobes")
+    if history_speeds:
+        coordinates["history_speed"] = (np.array(history_speeds), "rad s-1", "speed with a stress history")
+    dataset.createDimension("tip_point", len(_TIP_POINTS))
+    dataset.createVariable("tip_point", str, ("tip_point",))[:] = np.array(_TIP_POINTS, dtype=object)
+    for name, (data, units, long_name) in coordinates.items():
+        dataset.createDimension(name, len(data))
+        variable = dataset.createVariable(name, "f8", (name,), fill_value=False)
+        variable.setncatts({"units": units, "long_name": long_name})
+        variable[:] = data
+    for name, about in VARIABLES.items():
+        if name in values:
+            _create_variable(dataset, name, about.dtype, ("speed", *about.dims), about.units, about.long_name)
+    dataset["status"].setncatts({"flag_values": np.array([0, 1, 2], dtype="i1"), "flag_meanings": STATUS_MEANINGS})
+    if history_speeds:
+        dims = ("history_speed", "revolution")
+        _create_variable(dataset, "max_von_mises_history", "f4", dims, "Pa", "largest von Mises stress of each revolution")
+        _create_variable(
+            dataset, "first_yield_revolution", "f8", dims[:1], "1", "first revolution whose largest stress exceeds yield"
+        )
+
+
+def _create_variable(
+    dataset: netCDF4.Dataset, name: str, dtype: str, dims: tuple[str, ...], units: str, long_name: str
+) -> None:
+    fill = np.nan if dtype.startswith("f") else False
+    variable = dataset.createVariable(name, dtype, dims, fill_value=fill)
+    variable.setncatts({"units": units, "long_name": long_name})
+
+
+def _write_history(
+    dataset: netCDF4.Dataset, row: int, per_instant: np.ndarray, stress_instants: int, yield_stress: float
+) -> None:
+    history = np.full(dataset.dimensions["revolution"].size, np.nan)
+    # a diverged run has fewer instants; its unfinished revolution is left out
+    whole = len(per_instant) // stress_instants
+    history[:whole] = per_instant[: whole * stress_instants].reshape(whole, stress_instants).max(axis=1)
+    dataset["max_von_mises_history"][row] = history
+    above = np.flatnonzero(history > yield_stress)
+    dataset["first_yield_revolution"][row] = above[0] + 1 if len(above) else np.nan

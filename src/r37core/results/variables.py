@@ -1,0 +1,68 @@
+"""What the sweep's datasets hold: name, dimensions beyond blade, scene and speed, units, meaning."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Variable:
+    """A variable of the datasets. `dims`: beyond (blade, scene, speed); `dtype` as stored."""
+
+    dims: tuple[str, ...]
+    units: str
+    long_name: str
+    dtype: str = "f8"
+
+
+_TIP = ("tip_point",)
+
+VARIABLES = {
+    "status": Variable((), "1", "how the run ended", "i1"),
+    "diverged_revolution": Variable((), "1", "revolution at which the run diverged"),
+    "rms_radial": Variable(_TIP, "m", "rms of the radial displacement over the last half of the run"),
+    "rms_tangential": Variable(_TIP, "m", "rms of the tangential displacement over the last half of the run"),
+    "peak_radial": Variable(_TIP, "m", "largest radial displacement over the last half of the run"),
+    "peak_tangential": Variable(_TIP, "m", "largest tangential displacement over the last half of the run"),
+    "share_of_time_in_contact": Variable((), "1", "share of the steps with a contact force"),
+    "largest_normal_force": Variable((), "N", "largest normal force on a tip node"),
+    "casing_hits": Variable((), "1", "how often a tip node came upon the casing"),
+    "worst_complementarity": Variable((), "1", "largest relative violation of the contact conditions"),
+    "contact_work": Variable((), "J", "work of the contact forces on the blade"),
+    "damping_loss": Variable((), "J", "energy lost to damping"),
+    "energy_change": Variable((), "J", "energy of the vibration at the end"),
+    "energy_residual": Variable((), "J", "energy change minus contact work plus damping loss"),
+    "revolution_maximum": Variable(("revolution", "tip_point"), "m", "largest radial displacement of each revolution", "f4"),
+    "amplitude": Variable(("engine_order",), "m", "amplitude of the leading edge's radial displacement", "f4"),
+    "max_von_mises": Variable((), "Pa", "largest von Mises stress on the submesh in the last revolution"),
+    "wear": Variable(("angle",), "m", "wear of the lining, largest over the rings, at the end", "f4"),
+    "max_wear": Variable((), "m", "largest wear of the lining at the end"),
+    "wear_harmonic": Variable(("lobes",), "m", "amplitude of the wear profile's lobes"),
+}
+
+DATASETS = {
+    "rms": (
+        "rms_radial",
+        "rms_tangential",
+        "peak_radial",
+        "peak_tangential",
+        "share_of_time_in_contact",
+        "largest_normal_force",
+        "casing_hits",
+        "worst_complementarity",
+        "contact_work",
+        "damping_loss",
+        "energy_change",
+        "energy_residual",
+        "revolution_maximum",
+    ),
+    "spectrum": ("amplitude",),
+    "stress": ("max_von_mises", "yield_stress"),
+    "wear": ("wear", "max_wear", "wear_harmonic"),
+}
+"""Dataset -> its variables; each also carries `status` and `diverged_revolution`."""
+
+FLAGS = ("status", "diverged_revolution")
+STATUS_MEANINGS = "completed diverged not_run"
+NOT_RUN = 2
+"""Status of a speed that this blade and scene was not asked for, where another one was."""

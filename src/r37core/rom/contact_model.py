@@ -1,0 +1,62 @@
+"""What a simulation needs of a blade: the reduced model in its modes at rest, and the rows of its contact nodes.
+
+Light: the simulation jobs import it.
+
+In the modes at rest the mass is the identity and the stiffness at speed Omega is diag(frequencies^2) + Omega^2 K1, so a
+speed's own modes follow from a plain symmetric eigenproblem, without loss of digits and without SciPy.
+"""
+
+from __future__ import annotations
+
+from dataclasses import asdict, dataclass, fields
+from pathlib import Path
+
+import numpy as np
+
+from r37core.io import atomic_write, readable
+
+
+@dataclass(frozen=True)
+class ContactModel:
+    """A blade in the coordinates of its modes at rest.
+
+    `squared_frequencies` (rad2/s2), shape (modes,); `stiffness_per_square` (1/rad2), shape (modes, modes): change of the
+    stiffness per Omega^2; `rows`, shape (3, nodes, modes): radial, tangential (growing theta) and axial displacement of the
+    contact nodes, from leading to trailing edge; `radius` (m) and `theta` (rad) of the nodes, shape (nodes,);
+    `chord_share` (m): length of the tip line divided by the nodes; `tip_rows`, shape (2, 3, modes): the same for the tip's
+    leading and trailing edge; `to_reduced`, shape (coordinates, modes): modes at rest in the reduced model's coordinates.
+    """
+
+    squared_frequencies: np.ndarray
+    stiffness_per_square: np.ndarray
+    rows: np.ndarray
+    radius: np.ndarray
+    theta: np.ndarray
+    chord_share: float
+    tip_rows: np.ndarray
+    to_reduced: np.ndarray
+
+    def modes_at(self, speed: float) -> tuple[np.ndarray, np.ndarray]:
+        """Angular frequencies (rad/s), ascending, and modes, shape (modes at rest, modes), at `speed` (rad/s).
+
+        Raises ValueError when a stiffness is not positive (the blade has no stable position at this speed).
+        """
+        stiffness = np.diag(self.squared_frequencies) + speed**2 * self.stiffness_per_square
+        squares, modes = np.linalg.eigh(stiffness)
+        if not squares[0] > 0.0:
+            raise ValueError(f"the blade has no stable position at {speed:g} rad/s (a stiffness is not positive)")
+        return np.sqrt(squares), modes
+
+
+def write_contact_model(model: ContactModel, file: Path | str) -> None:
+    """Write the model as a small .npz."""
+    with atomic_write(file) as partial:
+        np.savez(partial, **asdict(model))
+
+
+def read_contact_model(file: Path | str) -> ContactModel:
+    """The model of a file; InputFileError when it cannot be read."""
+    with readable(file), np.load(file) as stored:
+        content = {field.name: stored[field.name] for field in fields(ContactModel)}
+        content["chord_share"] = float(content["chord_share"])
+        return ContactModel(**content)

@@ -1,0 +1,25 @@
+"""Reduce the speeds of one blade and scene. Inputs: rom, speeds. Params: speeds, stress, material, ... Output: response.nc."""
+
+from job import run
+
+from r37core.results.response import write_response
+from r37core.results.stress import StressRecovery
+from r37core.rom.rom_file import read_reduced_model
+
+
+def main(snakemake):
+    params = snakemake.params
+    recovery = StressRecovery(read_reduced_model(snakemake.input.rom), params.material) if params.stress else None
+    write_response(
+        [snakemake.input.speeds] if isinstance(snakemake.input.speeds, str) else snakemake.input.speeds,
+        params.speeds,
+        snakemake.output[0],
+        recovery,
+        params.stress_history_speeds,
+        params.stress_instants,
+        params.material.yield_stress,
+        params.provenance,
+    )
+
+
+run(snakemake, main)

@@ -1,0 +1,14 @@
+"""Draw the responses of all blades. Input: rms.nc. Output: picture."""
+
+from job import run
+
+from r37core.dataset_file import read_dataset
+from r37core.figures.response import draw_response_overview
+from r37core.figures.style import save
+
+
+def main(snakemake):
+    save(draw_response_overview(read_dataset(snakemake.input[0])), snakemake.output[0])
+
+
+run(snakemake, main)
