@@ -6,8 +6,22 @@ import tomllib
 
 import yaml
 
-LAYERS = "io dataset_file yaml_file speeds blade mesh fem rom contact march results figures config".split()
+LAYERS = [
     "io",
+    "dataset_file",
+    "yaml_file",
+    "speeds",
+    "blade",
+    "mesh",
+    "fem",
+    "rom",
+    "contact",
+    "march",
+    "results",
+    "figures",
+    "config",
+]
+
 
 def test_conda_environment_has_the_pins_of_pyproject(root):
     pins = tomllib.loads((root / "pyproject.toml").read_text())["project"]["dependencies"]

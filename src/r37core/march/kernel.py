@@ -2,7 +2,8 @@
 
 Arguments that a scene lacks are None: numba compiles a version of its own for them, in which their code is gone.
 Recursion (section 5 of the benchmark, diagonal in the modes of one speed): u* = a u_n + b u_{n-1}; where a tip node
-passes the lining or the casing, u_{n+1} = u* + c F.
+passes the lining or the casing, u_{n+1} = u* + c F. It is carried in displacement u and increment d = u_n - u_{n-1}, which is
+the same recursion without its loss of digits (a + b differs from 1 by only c omega^2): d* = -b d - c omega^2 u, u* = u + d*.
 """
 
 from __future__ import annotations
@@ -25,8 +26,8 @@ TOTALS = 7
 
 @njit(cache=True, fastmath=_FAST)
 def advance(
-    state,  # (3, modes): u_n, u_{n-1}, scratch
-    recursion,  # (3, modes): a, b, c
+    state,  # (2, modes): u_n, u_n - u_{n-1}
+    recursion,  # (3, modes): -b, c omega^2, c
     rows,  # (3, nodes, modes): radial, tangential, axial
     coupling,  # (3, 3, nodes, nodes): rows[i] c rows[j]^T
     casing,  # (steps per revolution, nodes): f(theta) of each node at each step of a revolution
@@ -34,6 +35,7 @@ def advance(
     radius,  # None or (nodes,): exact radial position in the gap
     lining,  # None or (6,): thickness, elastic and plastic modulus, yield stress, bar area, bars
     wear,  # None or (rings, bars)
+    on_casing,  # (nodes,): 1 where the node touched the casing in the last step
     bar_position,  # None or (nodes,): angle of each node at step 0, in bars
     friction,  # None or (3,): coefficient, 1 for vector, 1 for coupled
     rotation_velocity,  # None or (nodes,): signed tangential velocity of the rotation
@@ -53,8 +55,8 @@ def advance(
     modes = state.shape[1]
     nodes = rows.shape[1]
     steps_per_revolution = casing.shape[0]
-    a, b, c = recursion[0], recursion[1], recursion[2]
-    now, before, after = state[0].copy(), state[1].copy(), state[2].copy()
+    keep, pull, c = recursion[0], recursion[1], recursion[2]
+    now, step_before, step_now = state[0].copy(), state[1].copy(), state[1].copy()
     radial = rows[0]
     position = np.empty(nodes)
     gap = np.empty(nodes)
@@ -62,9 +64,9 @@ def advance(
     scratch = np.empty((nodes, nodes + 2))
     matrix = np.empty((nodes, nodes))
     directions = np.zeros((2, nodes))
+    sliding_known = np.zeros(nodes, dtype=np.bool_)
     multipliers = np.zeros(nodes)
     push = np.empty(modes)
-    on_casing = np.zeros(nodes)
     done = 0
     for block in range(blocks):
         start = first_step + block * steps_per_block
@@ -79,25 +81,26 @@ def advance(
             remaining *= decay
             if loss is None:
                 for i in range(modes):
-                    after[i] = a[i] * now[i] + b[i] * before[i]
+                    step_now[i] = keep[i] * step_before[i] - pull[i] * now[i]
+                    now[i] += step_now[i]
             else:
                 step_loss = 0.0
                 for i in range(modes):
-                    value = a[i] * now[i] + b[i] * before[i]
-                    after[i] = value
-                    difference = value - before[i]
-                    step_loss += loss[i] * difference * difference
+                    step_now[i] = keep[i] * step_before[i] - pull[i] * now[i]
+                    now[i] += step_now[i]
+                    moved = step_now[i] + step_before[i]
+                    step_loss += loss[i] * moved * moved
                 block_loss += step_loss
             touching = False
             amplitude = distance[1] * (1.0 - remaining)
             for k in range(nodes):
                 total = 0.0
                 for i in range(modes):
-                    total += radial[k, i] * after[i]
+                    total += radial[k, i] * now[i]
                 if radius is not None:
                     across = 0.0
                     for i in range(modes):
-                        across += rows[1, k, i] * after[i]
+                        across += rows[1, k, i] * now[i]
                     total = np.sqrt((radius[k] + total) ** 2 + across * across) - radius[k]
                 position[k] = total
                 gap[k] = distance[0] - amplitude * casing[place, k] - total
@@ -110,18 +113,11 @@ def advance(
                     forces[0, k] = 0.0
                     forces[1, k] = 0.0
                     forces[2, k] = 0.0
-                    directions[0, k] = 0.0
-                    directions[1, k] = 0.0
+                    multipliers[k] = 0.0
+                    sliding_known[k] = False
                     if friction is not None and gap[k] < 0.0:
-                        tangential, axial = 0.0, 0.0
-                        if friction[1] > 0.0:
-                            for i in range(modes):
-                                difference = now[i] - before[i]
-                                tangential += rows[1, k, i] * difference
-                                axial += rows[2, k, i] * difference
-                        directions[0, k], directions[1, k] = friction_direction(
-                            rotation_velocity[k], tangential / step, axial / step, friction[1] > 0.0
-                        )
+                        _set_direction(k, rows, step_before, step, friction, rotation_velocity, directions)
+                        sliding_known[k] = True
                 if lining is not None:
                     turned = place * lining[5] / steps_per_revolution
                     _press_lining(gap, wear, lining, bar_position, turned, forces)
@@ -134,8 +130,18 @@ def advance(
                 for k in range(nodes):
                     closed = closed or gap[k] < 0.0
                 if closed:
-                    _casing_matrix(coupling, directions, friction, matrix)
-                    violation = solve_complementarity(matrix, gap, multipliers, scratch)
+                    # a node that only the others' reaction brings to the casing needs its friction direction too
+                    unknown = True
+                    while unknown:
+                        _casing_matrix(coupling, directions, friction, matrix)
+                        violation = solve_complementarity(matrix, gap, multipliers, scratch)
+                        unknown = False
+                        if friction is not None:
+                            for k in range(nodes):
+                                if multipliers[k] > 0.0 and not sliding_known[k]:
+                                    _set_direction(k, rows, step_before, step, friction, rotation_velocity, directions)
+                                    sliding_known[k] = True
+                                    unknown = True
                     totals[WORST_COMPLEMENTARITY] = max(totals[WORST_COMPLEMENTARITY], violation)
                     for k in range(nodes):
                         if multipliers[k] > 0.0:
@@ -169,15 +175,17 @@ def advance(
                                     push[i] += rows[1, k, i] * forces[1, k] + rows[2, k, i] * forces[2, k]
                     work, extra_loss = 0.0, 0.0
                     for i in range(modes):
-                        free = after[i] - before[i]
-                        after[i] += c[i] * push[i]
-                        moved = after[i] - before[i]
+                        free = step_now[i] + step_before[i]
+                        pushed = c[i] * push[i]
+                        step_now[i] += pushed
+                        now[i] += pushed
+                        moved = free + pushed
                         work += 0.5 * push[i] * moved
                         if loss is not None:
                             extra_loss += loss[i] * (moved * moved - free * free)
                     totals[WORK] += work
                     block_loss += extra_loss
-            before, now, after = now, after, before
+            step_before, step_now = step_now, step_before
         totals[LOSS] += block_loss
         totals[STEPS] += steps_per_block
         done = block + 1
@@ -194,8 +202,21 @@ def advance(
                 snapshots[snapshot_of_block[block], i] = now[i]
         if not bounded:
             break
-    state[0], state[1] = now, before
+    state[0], state[1] = now, step_before
     return done
+
+
+@njit(cache=True, fastmath=_FAST)
+def _set_direction(k, rows, increment, step, friction, rotation_velocity, directions):
+    """Direction of the friction force on node k, from its sliding velocity over the last step."""
+    tangential, axial = 0.0, 0.0
+    if friction[1] > 0.0:
+        for i in range(len(increment)):
+            tangential += rows[1, k, i] * increment[i]
+            axial += rows[2, k, i] * increment[i]
+    directions[0, k], directions[1, k] = friction_direction(
+        rotation_velocity[k], tangential / step, axial / step, friction[1] > 0.0
+    )
 
 
 @njit(cache=True)

@@ -19,11 +19,15 @@ class UnstableStepError(ValueError):
 
 @dataclass
 class MarchState:
-    """Where a run stands; a run may be stopped after any revolution and go on from its state."""
+    """Where a run stands; a run may be stopped after any revolution and go on from its state.
+
+    `displacement` u_n and `increment` u_n - u_{n-1}, shape (modes,), in the speed's modes; `wear` (m), shape (rings, bars).
+    """
 
     displacement: np.ndarray
-    previous: np.ndarray
+    increment: np.ndarray
     wear: np.ndarray | None
+    on_casing: np.ndarray
     revolutions: int = 0
     totals: np.ndarray = field(default_factory=lambda: np.zeros(kernel.TOTALS))
 
@@ -47,7 +51,8 @@ class March:
     Attributes: `frequencies` (rad/s), `modes` (in modes at rest), `time_step` (s): the largest one not above the chosen one
     that divides a revolution into whole samples, `steps_per_revolution`.
 
-    Raises UnstableStepError for a step at or above the stability limit 2/omega_max.
+    Raises UnstableStepError for a step at or above the stability limit 2/omega_max of the blade, or that of a node pressed
+    on the lining's bars.
     """
 
     def __init__(self, model: ContactModel, speed: float, scene: Scene, choice: MarchChoice):
@@ -57,10 +62,10 @@ class March:
         self.steps_per_sample = int(np.ceil(period / (choice.samples_per_revolution * choice.time_step) - 1e-9))
         self.steps_per_revolution = self.steps_per_sample * choice.samples_per_revolution
         self.time_step = period / self.steps_per_revolution
-        self._check_stability()
         self.rows = np.ascontiguousarray(model.rows @ self.modes)
         self.recursion = recursion_coefficients(self.frequencies, scene.damping_ratio, self.time_step)
         self.coupling = np.einsum("akm,m,bjm->abkj", self.rows, self.recursion[2], self.rows)
+        self._check_stability()
         angle = model.theta - 2.0 * np.pi * np.arange(self.steps_per_revolution)[:, None] / self.steps_per_revolution
         self.casing_shape = scene.casing.shape(angle)
         tip_rows = (model.tip_rows @ self.modes)[:, :2]
@@ -79,6 +84,19 @@ class March:
                 f"limit of this reduced model, {limit:.6g} s (highest mode {self.frequencies[-1] / 2e3 / np.pi:.1f} kHz); "
                 "use a smaller one, or raise basis_tolerance to drop the highest modes"
             )
+        lining = self._lining_numbers()
+        if lining is None:
+            return
+        # a node pressed by x on an elastic bar follows x_{n+1} = (1 - g)(2 x_n - x_{n-1}), g = bar stiffness times c at the
+        # node; both roots of the recursion lie inside the unit circle for 0 < g < 4/3
+        bar_stiffness = lining[1] * lining[4] / lining[0]
+        ratio = bar_stiffness * float(np.linalg.eigvalsh(self.coupling[0, 0])[-1]) * 0.75
+        if not ratio < 1.0:
+            raise UnstableStepError(
+                f"time_step_s: {self.choice.time_step:g} s gives steps of {self.time_step:.6g} s, not below the limit for this "
+                f"lining, about {self.time_step / np.sqrt(ratio):.6g} s (bars of {bar_stiffness:.4g} N/m); use a smaller one, "
+                "or a softer, thicker or narrower lining"
+            )
 
     def start(self) -> MarchState:
         """The blade at rest in an unworn lining."""
@@ -87,7 +105,7 @@ class March:
         if lining is not None:
             wear = np.zeros((1 if lining.shared_ring else self.rows.shape[1], lining.bars))
         zero = np.zeros(len(self.frequencies))
-        return MarchState(zero.copy(), zero.copy(), wear)
+        return MarchState(zero.copy(), zero.copy(), wear, np.zeros(self.rows.shape[1]))
 
     def advance(self, state: MarchState, revolutions: int) -> MarchRecord:
         """Go on by `revolutions` from `state`, which is changed."""
@@ -95,7 +113,7 @@ class March:
         blocks = revolutions * choice.samples_per_revolution
         samples = np.zeros((blocks, 4))
         which, snapshots = self._snapshot_plan(state.revolutions, blocks)
-        buffers = np.array([state.displacement, state.previous, np.zeros_like(state.previous)])
+        buffers = np.array([state.displacement, state.increment])
         done = kernel.advance(
             buffers,
             self.recursion,
@@ -106,6 +124,7 @@ class March:
             self.model.radius if self.scene.exact_gap else None,
             self._lining_numbers(),
             state.wear,
+            state.on_casing,
             self._bar_positions(),
             self._friction_numbers(),
             self._rotation_velocity(),
@@ -121,7 +140,7 @@ class March:
             state.totals,
             self.scene.divergence_limit,
         )
-        state.displacement, state.previous = buffers[0], buffers[1]
+        state.displacement, state.increment = buffers[0], buffers[1]
         state.revolutions += revolutions
         if which is None or snapshots is None:
             kept = np.empty((0, len(self.frequencies)))
@@ -135,8 +154,8 @@ class March:
 
         E = (v^2 + omega^2 u_n u_{n-1})/2 with v = (u_n - u_{n-1})/h (Belytschko, Liu, Moran, section 6.2).
         """
-        velocity = (state.displacement - state.previous) / self.time_step
-        elastic = self.frequencies**2 * state.displacement * state.previous
+        velocity = state.increment / self.time_step
+        elastic = self.frequencies**2 * state.displacement * (state.displacement - state.increment)
         return float(0.5 * np.sum(velocity**2 + elastic))
 
     def _distance_numbers(self) -> np.ndarray:
@@ -188,12 +207,11 @@ class March:
 
 
 def recursion_coefficients(frequencies: np.ndarray, damping_ratio: float, step: float) -> np.ndarray:
-    """Coefficients a, b, c of u_{n+1} = a u_n + b u_{n-1} + c F for unit-mass modes, shape (3, modes).
+    """Coefficients -b, c omega^2 and c of the recursion for unit-mass modes, shape (3, modes).
 
-    c = (1/h^2 + xi omega/h)^-1, a = c (2/h^2 - omega^2), b = c (xi omega/h - 1/h^2): section 5 of the benchmark with
-    D = 2 xi omega.
+    u_{n+1} = a u_n + b u_{n-1} + c F with c = (1/h^2 + xi omega/h)^-1, b = c (xi omega/h - 1/h^2) and
+    a = c (2/h^2 - omega^2) = 1 - b - c omega^2: section 5 of the benchmark with D = 2 xi omega.
     """
     inverse = 1.0 / (1.0 / step**2 + damping_ratio * frequencies / step)
-    a = inverse * (2.0 / step**2 - frequencies**2)
-    b = inverse * (damping_ratio * frequencies / step - 1.0 / step**2)
-    return np.array([a, b, inverse])
+    minus_b = inverse * (1.0 / step**2 - damping_ratio * frequencies / step)
+    return np.array([minus_b, inverse * frequencies**2, inverse])

@@ -16,7 +16,7 @@ def contact_model(model: ReducedModel, tip_line: str) -> ContactModel:
     if model.coriolis is not None:
         raise ValueError("simulations cannot carry the Coriolis matrix yet; set structure.coriolis to false in config.yaml")
     frequencies, modes = model.modes(0.0)
-    per_square = modes.T @ (model.stiffness_at(1.0) - model.stiffness) @ modes
+    per_square = modes.T @ model.stiffness_per_square @ modes
     line = model.tip_lines[tip_line]
     nodes = line.select([int(np.flatnonzero(line.nodes == node)[0]) for node in model.boundary_nodes])
     length = float(np.linalg.norm(np.diff(line.points, axis=0), axis=1).sum())

@@ -73,12 +73,14 @@ class ReducedModel:
         """Number of reduced coordinates."""
         return self.mass.shape[0]
 
+    @property
+    def stiffness_per_square(self) -> np.ndarray:
+        """Change of the stiffness per squared speed: K1, with spin softening if the model has it."""
+        return self.geometric_stiffness + (0.0 if self.spin_softening is None else self.spin_softening)
+
     def stiffness_at(self, speed: float) -> np.ndarray:
-        """Stiffness (N/m) at `speed` (rad/s): K0 + Omega^2 K1, with spin softening if the model has it."""
-        per_square = self.geometric_stiffness
-        if self.spin_softening is not None:
-            per_square = per_square + self.spin_softening
-        return self.stiffness + speed**2 * per_square
+        """Stiffness (N/m) at `speed` (rad/s): K0 + Omega^2 K1."""
+        return self.stiffness + speed**2 * self.stiffness_per_square
 
     def modes(self, speed: float, count: int | None = None) -> tuple[np.ndarray, np.ndarray]:
         """Lowest angular frequencies (rad/s), ascending, and mode shapes, shape (coordinates, modes), at `speed`.

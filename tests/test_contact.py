@@ -1,0 +1,123 @@
+"""Casing, lining, friction and the complementarity solve, each against hand or brute-force answers."""
+
+import itertools
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from r37core.contact.casing import Casing
+from r37core.contact.complementarity import solve_complementarity
+from r37core.contact.friction import friction_direction
+from r37core.contact.lining import return_mapping
+from r37core.contact.scene import Lining
+
+BAR = (5e-3, 20e9, 5e9, 1e6)  # thickness, moduli, yield stress
+
+
+def test_casing_of_the_benchmark():
+    casing = Casing(0.356e-3)
+    assert casing.shape(np.array([np.pi / 2, 3 * np.pi / 2])) == pytest.approx([1.0, 1.0])
+    assert casing.shape(np.array([0.0])) == pytest.approx(np.exp(-((0.5 / 0.15) ** 2)))
+    assert casing.distance(np.array([1.0]), 0.0, 1.0) == pytest.approx(0.356e-3)
+    late = casing.distance(np.array([np.pi / 2]), 0.2, 1.0)
+    assert late == pytest.approx(0.356e-3 * (1.0 - 2.0 * 0.99))
+
+
+@pytest.mark.parametrize("lobes", [1, 2, 5])
+def test_lobes_repeat(lobes):
+    theta = np.linspace(0.0, 6.0, 50)
+    casing = Casing(1e-3, lobes=lobes)
+    np.testing.assert_allclose(casing.shape(theta), casing.shape(theta - 2 * np.pi / lobes), rtol=1e-9)
+
+
+def test_circular_casing_and_casing_deformed_from_the_start():
+    theta = np.linspace(0.0, 6.0, 50)
+    np.testing.assert_array_equal(Casing(1e-3, lobes=0).distance(theta, 5.0, 10.0), 1e-3)
+    at_once = Casing(1e-3, rise_fraction=0.0)
+    np.testing.assert_allclose(at_once.distance(theta, 0.0, 10.0), 1e-3 * (1.0 - 2.0 * at_once.shape(theta)))
+
+
+def test_natural_bar_area():
+    lining = Lining(5e-3, 20e9, 5e9, 1.5)
+    assert lining.area(0.2486, 0.0070) == pytest.approx(2 * np.pi * 0.2486 / 1e4 * 0.0070)
+    assert Lining(5e-3, 20e9, 5e9, 1.5, bar_area=3e-6).area(0.2486, 0.0070) == 3e-6
+
+
+def test_bar_pushed_released_and_pushed_again():
+    """By hand: E = 20, K = 5 GPa, 1 MPa to yield, 5 mm thick."""
+    stress, wear = return_mapping(2e-7, 0.0, *BAR)  # strain 4e-5: 0.8 MPa, elastic
+    assert (stress, wear) == (pytest.approx(0.8e6), 0.0)
+    stress, wear = return_mapping(1e-6, wear, *BAR)  # trial 4 MPa; plastic strain (4 - 1)e6/25e9 = 1.2e-4
+    assert wear == pytest.approx(1.2e-4 * 5e-3)
+    assert stress == pytest.approx(4e6 - 20e9 * 1.2e-4)  # 1.6 MPa = 1 MPa + 5 GPa * 1.2e-4
+    worn = wear
+    assert return_mapping(5e-7, worn, *BAR) == (0.0, worn)  # released: the bar is shorter by its wear
+    stress, wear = return_mapping(8e-7, worn, *BAR)  # reloaded elastically below the hardened yield
+    assert (stress, wear) == (pytest.approx(20e9 * (8e-7 - worn) / 5e-3), worn)
+    stress, wear = return_mapping(2e-6, worn, *BAR)  # same as if pushed there at once
+    at_once = return_mapping(2e-6, 0.0, *BAR)
+    assert (stress, wear) == (pytest.approx(at_once[0]), pytest.approx(at_once[1]))
+
+
+@given(
+    st.lists(st.floats(-1e-3, 8e-3), min_size=1, max_size=30),
+    st.floats(1e6, 1e12),
+    st.floats(0.0, 1e12),
+    st.floats(0.0, 1e9),
+)
+def test_wear_never_shrinks_and_a_bar_never_pulls(pushes, elastic, plastic, yield_stress):
+    wear = 0.0
+    for push in pushes:
+        stress, new = return_mapping(push, wear, 5e-3, elastic, plastic, yield_stress)
+        assert stress >= 0.0
+        assert wear <= new <= 5e-3
+        wear = new
+
+
+def test_friction_opposes_sliding():
+    assert friction_direction(-250.0, 0.0, 0.0, False) == (1.0, 0.0)
+    assert friction_direction(250.0, 99.0, 9.0, False) == (-1.0, 0.0)
+    tangential, axial = friction_direction(-250.0, 50.0, 100.0, True)
+    assert (tangential, axial) == (pytest.approx(200 / np.hypot(200, 100)), pytest.approx(-100 / np.hypot(200, 100)))
+    assert friction_direction(-1.0, 1.0, 0.0, True) == (0.0, 0.0)
+
+
+def brute_force(matrix, gap):
+    """Try every set of touching nodes."""
+    n = len(gap)
+    for touching in itertools.chain.from_iterable(itertools.combinations(range(n), k) for k in range(n + 1)):
+        multipliers = np.zeros(n)
+        index = list(touching)
+        if index:
+            multipliers[index] = np.linalg.solve(matrix[np.ix_(index, index)], -gap[index])
+        opened = gap + matrix @ multipliers
+        if np.all(multipliers >= -1e-12) and np.all(opened >= -1e-12 * np.abs(gap).max()):
+            return multipliers
+    raise AssertionError
+
+
+@settings(deadline=None, max_examples=200)
+@given(st.integers(0, 2**31 - 1), st.integers(1, 6), st.floats(0.0, 0.3))
+def test_complementarity_against_brute_force(seed, n, skew):
+    generator = np.random.default_rng(seed)
+    factor = generator.standard_normal((n, n + 2))
+    matrix = factor @ factor.T
+    part = generator.standard_normal((n, n))
+    matrix = matrix + skew * np.diag(matrix).min() * (part - part.T) / n  # friction makes it unsymmetric, still a P-matrix
+    gap = generator.standard_normal(n)
+    multipliers = np.empty(n)
+    violation = solve_complementarity(matrix, gap, multipliers, np.empty((n, n + 2)))
+    assert violation == 0.0
+    np.testing.assert_allclose(multipliers, brute_force(matrix, gap), rtol=1e-7, atol=1e-9)
+    opened = gap + matrix @ multipliers
+    assert np.all(multipliers >= 0.0)
+    assert np.all(opened >= -1e-9)
+    assert np.abs(opened * multipliers).max() < 1e-8
+
+
+def test_open_gaps_need_no_force():
+    multipliers = np.ones(3)
+    assert solve_complementarity(np.eye(3), np.array([1.0, 0.0, 2.0]), multipliers, np.empty((3, 5))) == 0.0
+    np.testing.assert_array_equal(multipliers, 0.0)

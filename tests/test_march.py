@@ -1,0 +1,281 @@
+"""The march against exact solutions and its dense twin."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from dense_twin import dense_march
+
+from r37core.contact.casing import Casing
+from r37core.contact.scene import Friction, Lining, Scene
+from r37core.march import kernel
+from r37core.march.choice import MarchChoice
+from r37core.march.simulate import March, UnstableStepError
+from r37core.march.speed_file import read_speed, write_speed
+from r37core.march.speed_run import DIVERGED, run_speed
+from r37core.rom.contact_model import ContactModel, read_contact_model, write_contact_model
+from r37core.rom.contact_reduction import contact_model
+
+LINING = Lining(5e-3, 20e9, 5e9, 1.5, natural_areas=8.0)
+AT_ONCE = Casing(0.356e-3, rise_fraction=0.0)
+ABRADABLE = Scene(AT_ONCE, LINING, Friction(0.15))
+DIRECT = Scene(AT_ONCE, None, Friction(0.15))
+
+
+@pytest.fixture(scope="module")
+def contact(model):
+    return contact_model(model, "pressure_edge")
+
+
+def oscillator(frequency, radius=0.25):
+    """One mode whose amplitude is the radial displacement of one node."""
+    return ContactModel(
+        squared_frequencies=np.array([frequency**2]),
+        stiffness_per_square=np.zeros((1, 1)),
+        rows=np.array([[[1.0]], [[0.0]], [[0.0]]]),
+        radius=np.array([radius]),
+        theta=np.array([0.0]),
+        chord_share=0.01,
+        tip_rows=np.array([[[1.0], [0.0], [0.0]], [[1.0], [0.0], [0.0]]]),
+        to_reduced=np.eye(1),
+    )
+
+
+def run(model, scene, choice, speed=1000.0, displacement=None, velocity=0.0):
+    march = March(model, speed, scene, choice)
+    state = march.start()
+    if displacement is not None:
+        state.displacement[:] = displacement
+        state.increment[:] = march.time_step * velocity
+    return march, state, march.advance(state, choice.revolutions)
+
+
+def test_free_decay():
+    """u = u0 exp(-xi omega t) (cos + xi/sqrt(1 - xi^2) sin) for a start at rest."""
+    frequency, ratio = 6000.0, 0.02
+    scene = Scene(Casing(1.0, lobes=0), damping_ratio=ratio)
+    march, _, record = run(oscillator(frequency), scene, MarchChoice(1e-7, 3, 500), displacement=1e-3)
+    time = (1 + np.arange(len(record.samples))) * march.steps_per_sample * march.time_step
+    damped = frequency * np.sqrt(1 - ratio**2)
+    phase = np.cos(damped * time) + ratio * frequency / damped * np.sin(damped * time)
+    exact = 1e-3 * np.exp(-ratio * frequency * time) * phase
+    assert np.abs(record.samples[:, 0] - exact).max() < 1e-6
+    envelope = np.abs(record.samples[:, 0]).reshape(3, -1).max(axis=1)
+    assert envelope[2] / envelope[1] == pytest.approx(np.exp(-ratio * frequency * 2 * np.pi / 1000.0), rel=0.05)
+
+
+def test_mass_against_a_rigid_stop():
+    """An oscillator swings into a stop at half its amplitude: it loses its speed there, then swings with the stop's gap."""
+    frequency, start, stop = 5000.0, -1e-3, 0.5e-3
+    scene = Scene(Casing(stop, lobes=0), damping_ratio=0.0)
+    errors = []
+    for step in (4e-7, 1e-7):
+        march, state, record = run(oscillator(frequency), scene, MarchChoice(step, 2, 1000), displacement=start)
+        time = (1 + np.arange(len(record.samples))) * march.steps_per_sample * march.time_step
+        hit = np.arccos(stop / start) / frequency
+        exact = np.where(time < hit, start * np.cos(frequency * time), stop * np.cos(frequency * (time - hit)))
+        errors.append(np.abs(record.samples[:, 0] - exact).max())
+        assert record.samples[:, 0].max() <= stop * (1 + 1e-12)
+        assert state.totals[kernel.CASING_HITS] >= 1
+        lost = 0.5 * frequency**2 * (start**2 - stop**2)
+        assert state.totals[kernel.WORK] == pytest.approx(-lost, rel=0.01)
+    assert errors[0] < 0.01 * stop
+    assert errors[1] < 0.4 * errors[0]
+
+
+def test_blade_without_friction_in_a_circular_casing_never_moves(contact):
+    scene = Scene(Casing(1e-6, lobes=0), LINING)
+    _, state, record = run(contact, scene, MarchChoice(2e-7, 2, 62))
+    assert not record.samples.any()
+    assert not state.wear.any()
+    assert state.totals[kernel.STEPS_IN_CONTACT] == 0
+
+
+SCENES = {
+    "free": Scene(Casing(1.0, lobes=0)),
+    "direct": DIRECT,
+    "direct_constant_after": replace(DIRECT, friction=Friction(0.15, vector=False, coupled=False)),
+    "direct_along": replace(DIRECT, friction=Friction(0.15, against_rotation=False)),
+    "frictionless_exact": Scene(AT_ONCE, exact_gap=True),
+    "abradable": ABRADABLE,
+    "abradable_rings": replace(ABRADABLE, lining=replace(LINING, shared_ring=False)),
+    "thin_lining": replace(ABRADABLE, lining=Lining(1e-4, 1e8, 5e7, 1e5, natural_areas=8.0)),
+}
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_modal_march_is_the_dense_recursion(contact, name):
+    """10,000 steps in modes against 10,000 steps with dense matrices, to 1e-10."""
+    scene, speed = SCENES[name], 6000.0
+    march = March(contact, speed, scene, MarchChoice(1e-7, 1, 62))
+    assert march.steps_per_revolution > 10_000
+    state = march.start()
+    if name == "free":
+        state.displacement[:] = 1e-5 / (1 + np.arange(len(march.frequencies)))
+    start = march.modes @ state.displacement
+    march.advance(state, 1)
+    steps = march.steps_per_revolution
+    theirs, wear = dense_march(contact, scene, speed, march.time_step, steps, steps, march.duration, start)
+    ours = march.modes @ state.displacement
+    assert np.abs(contact.rows @ ours).max() > 1e-6
+    np.testing.assert_allclose(ours, theirs, rtol=0, atol=1e-10 * np.abs(theirs).max())
+    if name != "free":
+        assert state.totals[kernel.STEPS_IN_CONTACT] > 100
+    if wear is not None:
+        np.testing.assert_allclose(state.wear, wear, rtol=0, atol=1e-10 * wear.max())
+    if name == "thin_lining":
+        assert state.totals[kernel.CASING_HITS] > 0
+    assert state.totals[kernel.WORST_COMPLEMENTARITY] == 0.0
+
+
+@pytest.mark.parametrize("scene", [ABRADABLE, DIRECT], ids=["abradable", "direct"])
+def test_split_run_is_the_whole_run(contact, scene):
+    choice = MarchChoice(2e-7, 4, 62)
+    march, whole, record = run(contact, scene, choice)
+    state = march.start()
+    parts = [march.advance(state, revolutions) for revolutions in (1, 2, 1)]
+    np.testing.assert_array_equal(np.concatenate([p.samples for p in parts]), record.samples)
+    np.testing.assert_array_equal(state.displacement, whole.displacement)
+    np.testing.assert_array_equal(state.totals, whole.totals)
+    if scene.lining:
+        np.testing.assert_array_equal(state.wear, whole.wear)
+
+
+@pytest.mark.parametrize("scene", [ABRADABLE, DIRECT], ids=["abradable", "direct"])
+def test_order_of_the_contact_nodes_does_not_matter(contact, scene):
+    order = np.random.default_rng(3).permutation(8)
+    shuffled = replace(contact, rows=contact.rows[:, order], radius=contact.radius[order], theta=contact.theta[order])
+    choice = MarchChoice(2e-7, 1, 62)
+    _, _, first = run(contact, scene, choice)
+    _, _, second = run(shuffled, scene, choice)
+    np.testing.assert_allclose(second.samples, first.samples, rtol=0, atol=1e-9 * np.abs(first.samples).max())
+
+
+@pytest.mark.parametrize("scene", [ABRADABLE, DIRECT], ids=["abradable", "direct"])
+def test_energy_balance_closes(contact, scene):
+    march, state, _ = run(contact, scene, MarchChoice(2e-7, 3, 62, energy=True), speed=1600.0)
+    work, loss = state.totals[kernel.WORK], state.totals[kernel.LOSS]
+    assert loss > 0.0
+    assert abs(march.energy(state) - work + loss) < 1e-9 * (abs(work) + loss)
+
+
+def test_discrete_energy_tends_to_the_exact_one_with_the_step():
+    """E of a free oscillator started at rest is omega^2 u0^2 / 2; the mid-step energy differs by the order of the step squared."""
+    frequency = 50_000.0
+    errors = []
+    for step in (4e-6, 2e-6, 1e-6):
+        scene = Scene(Casing(1.0, lobes=0), damping_ratio=0.0)
+        march, state, _ = run(oscillator(frequency), scene, MarchChoice(step, 2, 100), displacement=1e-3)
+        samples_energy = march.energy(state)
+        exact = 0.5 * (frequency * 1e-3) ** 2
+        # a start at rest at t = 0 and t = -h is a start at rest at mid-step: the energy is that of u0
+        errors.append(abs(samples_energy / exact - 1.0))
+    assert max(errors) < 1e-9
+
+
+def test_unstable_step_is_refused_with_the_limit(contact):
+    highest = np.sqrt(contact.modes_at(1000.0)[0][-1] ** 2)
+    limit = 2.0 / highest
+    with pytest.raises(UnstableStepError, match=rf"time_step_s: .* stability limit .* {limit:.6g} s"):
+        March(contact, 1000.0, DIRECT, MarchChoice(1.02 * limit, 1, 62))
+    March(contact, 1000.0, DIRECT, MarchChoice(0.98 * limit, 1, 62))
+
+
+def test_step_too_long_for_the_lining_is_refused(contact):
+    stiff = replace(ABRADABLE, lining=replace(LINING, elastic_modulus=20e12))
+    with pytest.raises(UnstableStepError, match=r"limit for this lining, about .* N/m"):
+        March(contact, 1000.0, stiff, MarchChoice(2e-7, 1, 62))
+
+
+def test_divergence_is_a_result(contact, tmp_path):
+    scene = replace(DIRECT, divergence_limit=2e-5)
+    choice = MarchChoice(2e-7, 6, 62, snapshots_per_revolution=62, snapshot_revolutions=1, energy=True)
+    results = ("spectrum", "signal", "stress", "energy")
+    kept = run_speed(contact, 1000.0, scene, choice, results, 10, 2, 100)
+    assert kept["status"] == DIVERGED
+    assert 0.0 < kept["diverged_revolution"] < 6.0
+    assert kept["diverged_time"] == pytest.approx(kept["diverged_revolution"] * 2 * np.pi / 1000.0)
+    assert np.all(np.isnan(kept["rms"]))
+    assert len(kept["snapshots"]) == 0
+    write_speed(kept, tmp_path / "speed_1000.npz", {"blade": "Ref"})
+    assert read_speed(tmp_path / "speed_1000.npz")["status"] == DIVERGED
+
+
+def test_a_run_that_blows_up_is_flagged_without_infinities(contact):
+    """Friction feeding the blade through an absurd coefficient: numbers overflow, the file does not."""
+    scene = Scene(AT_ONCE, None, Friction(8.0, vector=False, coupled=False), damping_ratio=0.0, divergence_limit=1e300)
+    with np.errstate(all="ignore"):
+        kept = run_speed(contact, 1500.0, scene, MarchChoice(2e-7, 6, 62), (), 10, 2, 100)
+    for name, values in kept.items():
+        assert kept["status"] == DIVERGED or np.all(np.isfinite(values) | np.isnan(values)), name
+        assert not np.any(np.isinf(values[~np.isnan(values)])) or name in {"largest_normal_force"}, name
+
+
+def test_only_what_is_asked_for_is_kept(contact):
+    choice = MarchChoice(2e-7, 2, 62)
+    kept = run_speed(contact, 1000.0, DIRECT, choice, (), 10, 1, 100)
+    asked = {"amplitude", "signal", "snapshots", "wear", "contact_work", "damping_loss"}
+    assert not asked & set(kept)
+    rich = replace(choice, snapshots_per_revolution=62, snapshot_revolutions=1, energy=True)
+    everything = run_speed(contact, 1000.0, ABRADABLE, rich, ("spectrum", "signal", "stress", "wear", "energy"), 10, 1, 100)
+    assert asked <= set(everything)
+    np.testing.assert_array_equal(everything["snapshots"].shape, (62, len(contact.squared_frequencies)))
+
+
+def test_what_a_scene_lacks_is_not_compiled(contact):
+    """The kernel's version for a scene without lining and friction takes None for them, so it cannot touch such arrays."""
+    march = March(contact, 1000.0, Scene(AT_ONCE), MarchChoice(2e-7, 1, 62))
+    assert march.start().wear is None
+    for absent in (march._lining_numbers, march._bar_positions, march._friction_numbers, march._rotation_velocity):
+        assert absent() is None
+    assert march._loss_numbers() is None
+    march.advance(march.start(), 1)
+    lacking = [s for s in kernel.advance.signatures if str(s[7]) == "none" and str(s[11]) == "none"]
+    assert lacking
+
+
+def test_speed_run_numbers(contact):
+    """rms, peak and spectrum of a run against direct sums over its samples."""
+    choice = MarchChoice(2e-7, 8, 62)
+    _, _, record = run(contact, ABRADABLE, choice)
+    kept = run_speed(contact, 1000.0, ABRADABLE, choice, ("spectrum", "wear"), 20, 1, 100)
+    half = record.samples[4 * 62 :]
+    np.testing.assert_allclose(kept["rms"].ravel(), np.sqrt(np.mean(half**2, axis=0)), rtol=1e-12)
+    np.testing.assert_allclose(kept["peak"].ravel(), np.abs(half).max(axis=0), rtol=1e-12)
+    np.testing.assert_allclose(kept["revolution_maxima"][3, 0, 0], np.abs(record.samples[3 * 62 : 4 * 62, 0]).max())
+    turn = 2 * np.pi * np.arange(len(half)) / 62
+    by_hand = 2 * abs(np.mean(half[:, 0] * np.exp(-2j * turn)))
+    where = np.flatnonzero(kept["engine_order"] == 2.0)[0]
+    assert kept["amplitude"][where] == pytest.approx(by_hand, rel=1e-5)
+    assert kept["engine_order"][1] == 0.25
+    assert kept["max_wear"] == pytest.approx(kept["wear"].max(), rel=1e-6)
+    assert kept["wear"].shape == (100,)
+
+
+def test_contact_model(model, contact, tmp_path):
+    frequencies, modes = contact.modes_at(1500.0)
+    np.testing.assert_allclose(frequencies[:10], model.modes(1500.0, 10)[0], rtol=1e-9)
+    np.testing.assert_allclose(modes.T @ modes, np.eye(len(modes)), atol=1e-12)
+    line = model.tip_lines["pressure_edge"]
+    assert 8 * contact.chord_share == pytest.approx(np.linalg.norm(np.diff(line.points, axis=0), axis=1).sum())
+    # the boundary coordinates are the displacements themselves
+    coordinates = np.zeros(model.size)
+    coordinates[:3] = [1e-3, 2e-3, 3e-3]
+    at_rest = np.linalg.solve(contact.to_reduced, coordinates)
+    radial, tangential, axial = contact.rows[:, 0] @ at_rest
+    theta = contact.theta[0]
+    assert radial == pytest.approx(np.cos(theta) * 1e-3 + np.sin(theta) * 2e-3, rel=1e-6)
+    assert tangential == pytest.approx(np.cos(theta) * 2e-3 - np.sin(theta) * 1e-3, rel=1e-6)
+    assert axial == pytest.approx(3e-3, rel=1e-6)
+    write_contact_model(contact, tmp_path / "contact.npz")
+    again = read_contact_model(tmp_path / "contact.npz")
+    np.testing.assert_array_equal(again.rows, contact.rows)
+    assert again.chord_share == contact.chord_share
+
+
+def test_coriolis_is_refused(mesh, matrices, choice):
+    from r37core.rom.reduce import reduce_blade
+
+    model = reduce_blade(mesh, matrices, replace(choice, coriolis=True))
+    with pytest.raises(ValueError, match=r"structure\.coriolis"):
+        contact_model(model, "pressure_edge")
