@@ -19,11 +19,13 @@ def copy_project(root, to):
         shutil.copytree(root / folder, to / folder, ignore=shutil.ignore_patterns("__pycache__", "*.egg-info"))
     shutil.copy(root / "Snakefile", to / "Snakefile")
     config = (to / "config/config.yaml").read_text()
-    config = config.replace("blades: all ", "blades: [Ref, CS100] ").replace("fidelity: paper ", "fidelity: tiny ")
+    config = config.replace("blades: all ", "blades: [Ref, CS100] ").replace("fidelity: standard ", "fidelity: tiny ")
+    config = config.replace("stop: 2000 }", "stop: 1600 }")
     (to / "config/config.yaml").write_text(config)
     with open(to / "config/fidelity.yaml", "a") as stream:
         stream.write(
             "\ntiny:\n  mesh: { nodes: 1500, layers: 1, tip_elements: 14 }\n  reduction: { fixed_interface_modes: 10 }\n"
+            "  march: { time_step_s: 2.0e-7, revolutions: 8, speed_step_rad_s: 400 }\n"
         )
 
 
@@ -46,7 +48,7 @@ def snakemake(folder, *arguments, check=True):
 def planned(folder, *arguments):
     """Jobs of a dry run: rule -> blades (None for a rule without the wildcard)."""
     jobs = {}
-    text = snakemake(folder, *(arguments or ("campbell",)), "--cores", "2", "--dry-run")
+    text = snakemake(folder, *(arguments or ("all_blades",)), "--cores", "2", "--dry-run")
     for block in re.split(r"\n\[", text.split("Job stats:")[1] if text.startswith("Job stats") else text):
         rule = re.search(r"^(?:local)?rule (\w+):", block, re.MULTILINE)
         if rule:
@@ -59,7 +61,7 @@ def planned(folder, *arguments):
 def finished(root, tmp_path_factory):
     folder = tmp_path_factory.mktemp("two_cores")
     copy_project(root, folder)
-    snakemake(folder, "campbell", "--cores", "2")
+    snakemake(folder, "all_blades", "--cores", "2")
     return folder
 
 
@@ -69,8 +71,18 @@ def finished_copy(finished, tmp_path):
     return tmp_path / "project"
 
 
-PER_BLADE = {"geometry", "mesh", "abaqus_deck", "matrices", "reduced_model", "campbell_of_blade", "campbell_figure"}
-GATHERED = {"campbell_of_all", "campbell_overview", "blade_shapes_figure"}
+STRUCTURE = {"geometry", "mesh", "abaqus_deck", "matrices", "reduced_model", "contact_model"}
+PER_BLADE = STRUCTURE | {"campbell_of_blade", "campbell_figure", "simulate", "response"}
+GATHERED = {
+    "campbell_of_all",
+    "campbell_overview",
+    "blade_shapes_figure",
+    "sweep_dataset",
+    "summary",
+    "response_figure",
+    "response_overview",
+    "map_figure",
+}
 
 
 def test_results_of_a_real_run(finished):
@@ -78,11 +90,27 @@ def test_results_of_a_real_run(finished):
         assert list(dataset["blade"].values) == ["Ref", "CS100"]
         assert dataset["frequency"].sel(blade="Ref", mode="1B", speed=0.0).item() == pytest.approx(839.3, rel=0.01)
         assert dataset["crossing_speed"].sel(blade="Ref", mode="1B", engine_order=4).item() == pytest.approx(1672, rel=0.01)
-    with xr.open_dataset(finished / "results/CS100/rom.nc") as dataset:
+    with xr.open_dataset(finished / "results/CS100/rom_pressure_edge.nc") as dataset:
         assert dataset.attrs["blade"] == "CS100"
         assert dataset.attrs["fidelity"] == "tiny"
         assert dataset.attrs["basis_columns"] == 102
-    for name in ("campbell.png", "campbell_Ref.png", "campbell_CS100.png", "blades.png"):
+    with xr.open_dataset(finished / "results/rms.nc") as dataset:
+        assert dataset["rms_radial"].dims == ("blade", "scene", "speed", "tip_point")
+        assert dataset["rms_radial"].shape == (2, 2, 3, 2)
+        assert (dataset["status"] == 0).all()
+        assert (dataset["rms_radial"] > 0.0).all()
+        balance = abs(dataset["energy_residual"]) / (abs(dataset["contact_work"]) + dataset["damping_loss"])
+        assert float(balance.max()) < 1e-9
+    with xr.open_dataset(finished / "results/wear.nc") as dataset:
+        assert list(dataset["scene"].values) == ["abradable"]
+        assert (dataset["max_wear"] > 0.0).all()
+    with xr.open_dataset(finished / "results/stress.nc") as dataset:
+        assert (dataset["max_von_mises"] > 0.0).all()
+    with xr.open_dataset(finished / "results/spectrum.nc") as dataset:
+        assert float(dataset["engine_order"][1]) == 0.25
+    assert (finished / "results/summary.csv").read_text().startswith("blade,scene,mode,engine_order,campbell_speed")
+    names = ["campbell", "campbell_Ref", "campbell_CS100", "blades", "response", "response_Ref", "spectrum_Ref_direct"]
+    for name in (f"{name}.png" for name in [*names, "wear_CS100_abradable"]):
         assert (finished / "results/figures" / name).stat().st_size > 10_000
     for name in ("mesh.msh", "mesh.vtu", "mesh.inp", "geometry.nc", "matrices.npz"):
         assert (finished / "results/Ref" / name).exists()
@@ -100,7 +128,7 @@ def test_an_added_blade_runs_its_own_jobs_only(finished_copy):
         stream.write("\nEighth: { base: Ref, chordwise_sweep_deg: 7.5 }\n")
     jobs = planned(finished_copy)
     assert {rule: blades for rule, blades in jobs.items() if rule in PER_BLADE} == {rule: {"Eighth"} for rule in PER_BLADE}
-    assert set(jobs) - PER_BLADE <= GATHERED | {"campbell"}
+    assert set(jobs) - PER_BLADE <= GATHERED | {"all_blades"}
 
 
 def test_editing_one_blade_runs_that_blade_only(finished_copy):
@@ -117,6 +145,91 @@ def test_editing_a_rotation_option_keeps_the_meshes(finished_copy):
     jobs = planned(finished_copy)
     assert jobs["reduced_model"] == {"Ref", "CS100"}
     assert not {"geometry", "mesh", "matrices", "abaqus_deck"} & set(jobs)
+
+
+def test_editing_the_material_keeps_the_mesh(finished_copy):
+    blades = finished_copy / "config/blades.yaml"
+    blades.write_text(blades.read_text().replace("density_kg_m3: 8000.0", "density_kg_m3: 8001.0"))
+    jobs = planned(finished_copy)
+    assert jobs["matrices"] == {"Ref", "CS100"}
+    assert not {"geometry", "mesh"} & set(jobs)
+
+
+def test_a_stress_history_runs_its_speed_only(finished_copy):
+    scenes = finished_copy / "config/scenes.yaml"
+    scenes.write_text(scenes.read_text() + "  stress_history_speeds_rad_s: [1150]\n")
+    text = snakemake(finished_copy, "all_blades", "--cores", "2", "--dry-run")
+    assert set(re.findall(r"output: results/\w+/(direct/speed_\d+)\.npz", text)) == {"direct/speed_1150"}
+
+
+def test_editing_friction_runs_that_scene_and_no_mesh(finished_copy):
+    scenes = finished_copy / "config/scenes.yaml"
+    parts = scenes.read_text().split("direct:")
+    scenes.write_text(parts[0] + "direct:" + parts[1].replace("coefficient: 0.15", "coefficient: 0.2"))
+    text = snakemake(finished_copy, "all_blades", "--cores", "2", "--dry-run")
+    jobs = planned(finished_copy)
+    assert not STRUCTURE & set(jobs)
+    assert jobs["simulate"] == {"Ref", "CS100"}
+    assert len(re.findall(r"output: results/\w+/direct/speed_\d+\.npz", text)) == 6
+    assert not re.findall(r"output: results/\w+/abradable/speed_\d+\.npz", text)
+
+
+def test_an_added_speed_runs_alone(finished_copy):
+    config = finished_copy / "config/config.yaml"
+    config.write_text(
+        config.read_text().replace("  - { start: 750, stop: 1600 }", "  - { start: 750, stop: 1600 }\n  - 1000.5")
+    )
+    text = snakemake(finished_copy, "all_blades", "--cores", "2", "--dry-run")
+    assert set(re.findall(r"speed_([\d.]+)\.npz\n    log", text)) == {"1000.5"}
+
+
+def test_interrupted_sweep_keeps_what_is_done(finished_copy):
+    (finished_copy / "results/Ref/direct/speed_1150.npz").unlink()
+    jobs = planned(finished_copy)
+    assert jobs["simulate"] == {"Ref"}
+    text = snakemake(finished_copy, "all_blades", "--cores", "2")
+    assert len(re.findall(r"rule simulate:", text)) == 1
+
+
+def test_results_not_wanted_are_not_planned(project):
+    scenes = project / "config/scenes.yaml"
+    scenes.write_text(re.sub(r"results: \[.*\]", "results: []", scenes.read_text()))
+    text = snakemake(project, "all_blades", "--cores", "2", "--dry-run")
+    assert "results/rms.nc" in text
+    for absent in ("stress.nc", "wear.nc", "spectrum.nc", "map_figure"):
+        assert absent not in text
+    assert "simulate" not in planned(project, "campbell")
+
+
+def test_step_beyond_the_limit_stops_with_the_limit(finished_copy):
+    levels = finished_copy / "config/fidelity.yaml"
+    levels.write_text(levels.read_text().replace("2.0e-7, revolutions: 8", "9.0e-7, revolutions: 8"))
+    text = snakemake(finished_copy, "results/Ref/direct/speed_1150.npz", "--cores", "1", check=False)
+    assert re.search(r"rule simulate: time_step_s: 9e-07 s .* stability limit of this reduced model, [\d.e-]+ s", text)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        ("- { start: 750, stop: 1600 }", "- { start: 1600, stop: 750 }", r"speeds: found a range from 1600 to 750"),
+        ("- { start: 750, stop: 1600 }", "- 900\n  - 900", r"speeds: found 900 rad/s twice"),
+        ("- { start: 750, stop: 1600 }", "- -900", r"speeds\.0: found -900; allowed:"),
+        ("scenes: all ", "scenes: [oval] ", r"scenes: found 'oval'; allowed: abradable, direct"),
+    ],
+)
+def test_bad_speeds_and_scenes_are_refused(project, old, new, message):
+    config = project / "config/config.yaml"
+    text = config.read_text()
+    assert old in text
+    config.write_text(text.replace(old, new))
+    assert re.search(message, snakemake(project, "all_blades", "--cores", "1", check=False))
+
+
+def test_wear_without_a_lining_is_refused(project):
+    scenes = project / "config/scenes.yaml"
+    scenes.write_text(scenes.read_text().replace("results: [spectrum, signal, stress, energy]", "results: [wear]"))
+    text = snakemake(project, "all_blades", "--cores", "1", check=False)
+    assert "config/scenes.yaml: direct.results: found wear; allowed: only in a scene with a lining" in text
 
 
 def test_bad_configuration_stops_before_the_dag(project):
@@ -136,16 +249,18 @@ def test_impossible_blade_ends_in_one_message(project):
 def test_half_written_input_is_named(finished_copy):
     file = finished_copy / "results/Ref/matrices.npz"
     file.write_bytes(file.read_bytes()[:5000])
-    text = snakemake(finished_copy, "results/Ref/rom.nc", "--cores", "1", "--forcerun", "reduced_model", check=False)
+    text = snakemake(
+        finished_copy, "results/Ref/rom_pressure_edge.nc", "--cores", "1", "--forcerun", "reduced_model", check=False
+    )
     assert "results/Ref/matrices.npz: cannot be read" in text
     assert "delete it and run again" in text
 
 
 def test_one_core_gives_the_same_bits(finished, project):
-    snakemake(project, "campbell", "--cores", "1")
+    snakemake(project, "all_blades", "--cores", "1")
 
     def digests(folder):
-        files = [f for f in sorted(folder.glob("results/**/*")) if f.is_file() and f.suffix != ".npz"]
+        files = [f for f in sorted(folder.glob("results/**/*")) if f.is_file()]
         return {str(f.relative_to(folder)): hashlib.sha256(f.read_bytes()).hexdigest() for f in files}
 
     assert digests(project) == digests(finished)

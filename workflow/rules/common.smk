@@ -1,5 +1,8 @@
 # Settings, and what every rule shares.
+# Snakemake notices a changed parameter only if it is made of plain types: dataclasses are passed as dictionaries, or with a
+# hash or repr of theirs beside them.
 import hashlib
+from dataclasses import asdict
 from pathlib import Path
 
 from snakemake.exceptions import WorkflowError

@@ -35,7 +35,7 @@ rule sweep_dataset:
 
 rule summary:
     input:
-        **{kind: f"results/{kind}.nc" for kind in KINDS if kind != "spectrum"},
+        **{kind: f"results/{kind}.nc" for kind in KINDS},
         campbell="results/campbell.nc",
     output:
         "results/summary.csv",

@@ -47,7 +47,7 @@ rule abaqus_deck:
     conda:
         ENVIRONMENT
     params:
-        material=lambda wildcards: settings.blades[wildcards.blade].material,
+        material=lambda wildcards: asdict(settings.blades[wildcards.blade].material),
         code=code("mesh/*.py"),
     script:
         "../scripts/abaqus_deck.py"
@@ -63,7 +63,7 @@ rule matrices:
     conda:
         ENVIRONMENT
     params:
-        material=lambda wildcards: settings.blades[wildcards.blade].material,
+        material=lambda wildcards: asdict(settings.blades[wildcards.blade].material),
         code=code("mesh/wedge_mesh.py", "mesh/mesh_files.py", "fem/*.py"),
     script:
         "../scripts/matrices.py"

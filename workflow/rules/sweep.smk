@@ -39,15 +39,17 @@ rule contact_model:
 
 rule warm_kernels:
     output:
-        touch("results/kernels.stamp"),
+        touch("results/kernels/{scene}.stamp"),
     log:
-        "logs/warm_kernels.log",
-    # compiled once before the sweep: jobs that compile side by side could spoil the cache
+        "logs/warm_kernels_{scene}.log",
     priority: 20
     conda:
         ENVIRONMENT
+    # alone: jobs that compile side by side could spoil numba's cache
+    threads: workflow.cores
     params:
-        scenes=[(chosen.scene, chosen.results) for chosen in settings.scenes.values()],
+        # only what makes another version of the kernel, so that a changed number re-compiles nothing
+        parts=lambda wildcards: settings.kernel_parts(wildcards.scene),
         code=code("contact/*.py", "march/*.py"),
     script:
         "../scripts/warm_kernels.py"
@@ -56,7 +58,7 @@ rule warm_kernels:
 rule simulate:
     input:
         model=lambda wildcards: f"results/{wildcards.blade}/contact_{settings.scenes[wildcards.scene].tip_line}.npz",
-        kernels=ancient("results/kernels.stamp"),
+        kernels="results/kernels/{scene}.stamp",
     output:
         "results/{blade}/{scene}/speed_{speed}.npz",
     log:
@@ -65,7 +67,7 @@ rule simulate:
         ENVIRONMENT
     params:
         scene=lambda wildcards: settings.scenes[wildcards.scene].scene,
-        choice=lambda wildcards: settings.march_choice(wildcards.scene, float(wildcards.speed)),
+        choice=lambda wildcards: asdict(settings.march_choice(wildcards.scene, float(wildcards.speed))),
         results=lambda wildcards: settings.scenes[wildcards.scene].results,
         kept={
             key: settings.fidelity["march"][key]
@@ -93,7 +95,7 @@ rule response:
         stress=lambda wildcards: "stress" in settings.scenes[wildcards.scene].results,
         stress_history_speeds=lambda wildcards: settings.scenes[wildcards.scene].stress_history_speeds,
         stress_instants=settings.fidelity["march"]["stress_instants"],
-        material=lambda wildcards: settings.blades[wildcards.blade].material,
+        material=lambda wildcards: asdict(settings.blades[wildcards.blade].material),
         provenance=sweep_provenance,
         code=code(
             "io.py",

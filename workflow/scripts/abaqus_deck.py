@@ -10,9 +10,9 @@ def main(snakemake):
     write_abaqus(
         read_vtu(snakemake.input[0]),
         snakemake.output[0],
-        material.youngs_modulus,
-        material.density,
-        material.poissons_ratio,
+        material["youngs_modulus"],
+        material["density"],
+        material["poissons_ratio"],
         title=f"blade {snakemake.wildcards.blade}, SI units",
     )
 

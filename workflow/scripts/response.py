@@ -2,6 +2,7 @@
 
 from job import run
 
+from r37core.fem.material import Material
 from r37core.results.response import write_response
 from r37core.results.stress import StressRecovery
 from r37core.rom.rom_file import read_reduced_model
@@ -9,7 +10,8 @@ from r37core.rom.rom_file import read_reduced_model
 
 def main(snakemake):
     params = snakemake.params
-    recovery = StressRecovery(read_reduced_model(snakemake.input.rom), params.material) if params.stress else None
+    material = Material(**params.material)
+    recovery = StressRecovery(read_reduced_model(snakemake.input.rom), material) if params.stress else None
     write_response(
         [snakemake.input.speeds] if isinstance(snakemake.input.speeds, str) else snakemake.input.speeds,
         params.speeds,
@@ -17,7 +19,7 @@ def main(snakemake):
         recovery,
         params.stress_history_speeds,
         params.stress_instants,
-        params.material.yield_stress,
+        material.yield_stress,
         params.provenance,
     )
 

@@ -2,6 +2,7 @@
 
 from job import run
 
+from r37core.march.choice import MarchChoice
 from r37core.march.speed_file import write_speed
 from r37core.march.speed_run import run_speed
 from r37core.rom.contact_model import read_contact_model
@@ -13,7 +14,7 @@ def main(snakemake):
         read_contact_model(snakemake.input.model),
         float(snakemake.wildcards.speed),
         params.scene,
-        params.choice,
+        MarchChoice(**params.choice),
         params.results,
         **params.kept,
     )

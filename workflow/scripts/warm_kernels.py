@@ -1,4 +1,4 @@
-"""Compile the march for every scene, into numba's cache. Params: scenes. Output: a stamp."""
+"""Compile the march for one scene, into numba's cache. Params: parts. Output: a stamp."""
 
 from job import run
 
@@ -6,8 +6,7 @@ from r37core.march.warm import warm_kernel
 
 
 def main(snakemake):
-    for scene, results in snakemake.params.scenes:
-        warm_kernel(scene, stress="stress" in results, energy="energy" in results)
+    warm_kernel(**snakemake.params.parts)
 
 
 run(snakemake, main)

@@ -34,7 +34,8 @@ def solve_complementarity(matrix, gap, multipliers, work):
             else:
                 opened = gap[i]
                 for j in range(n):
-                    opened += matrix[i, j] * multipliers[j]
+                    if multipliers[j] != 0.0:
+                        opened += matrix[i, j] * multipliers[j]
                 bad = -opened
             if bad > tolerance:
                 violation = max(violation, bad)
@@ -52,9 +53,17 @@ def solve_complementarity(matrix, gap, multipliers, work):
 def _solve_active(matrix, gap, multipliers, work):
     """Gap zero at the active nodes, multiplier zero at the others: Gaussian elimination with partial pivoting."""
     n = len(gap)
-    size = 0
+    size, last = 0, 0
     for i in range(n):
         multipliers[i] = 0.0
+        if work[i, n + 1] > 0.0:
+            size += 1
+            last = i
+    if size == 1:
+        multipliers[last] = -gap[last] / matrix[last, last] if matrix[last, last] != 0.0 else 0.0
+        return
+    size = 0
+    for i in range(n):
         if work[i, n + 1] > 0.0:
             column = 0
             for j in range(n):

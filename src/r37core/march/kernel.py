@@ -57,7 +57,7 @@ def advance(
     steps_per_revolution = casing.shape[0]
     keep, pull, c = recursion[0], recursion[1], recursion[2]
     now, step_before, step_now = state[0].copy(), state[1].copy(), state[1].copy()
-    radial = rows[0]
+    radial, tangential, axial = rows[0], rows[1], rows[2]
     position = np.empty(nodes)
     gap = np.empty(nodes)
     forces = np.zeros((3, nodes))
@@ -100,7 +100,7 @@ def advance(
                 if radius is not None:
                     across = 0.0
                     for i in range(modes):
-                        across += rows[1, k, i] * now[i]
+                        across += tangential[k, i] * now[i]
                     total = np.sqrt((radius[k] + total) ** 2 + across * across) - radius[k]
                 position[k] = total
                 gap[k] = distance[0] - amplitude * casing[place, k] - total
@@ -168,11 +168,13 @@ def advance(
                         push[i] = 0.0
                     for k in range(nodes):
                         if forces[0, k] < 0.0:
+                            normal = forces[0, k]
                             for i in range(modes):
-                                push[i] += rows[0, k, i] * forces[0, k]
+                                push[i] += radial[k, i] * normal
                             if friction is not None:
+                                along, across = forces[1, k], forces[2, k]
                                 for i in range(modes):
-                                    push[i] += rows[1, k, i] * forces[1, k] + rows[2, k, i] * forces[2, k]
+                                    push[i] += tangential[k, i] * along + axial[k, i] * across
                     work, extra_loss = 0.0, 0.0
                     for i in range(modes):
                         free = step_now[i] + step_before[i]
@@ -209,13 +211,14 @@ def advance(
 @njit(cache=True, fastmath=_FAST)
 def _set_direction(k, rows, increment, step, friction, rotation_velocity, directions):
     """Direction of the friction force on node k, from its sliding velocity over the last step."""
-    tangential, axial = 0.0, 0.0
+    along, across = 0.0, 0.0
     if friction[1] > 0.0:
+        tangential, axial = rows[1, k], rows[2, k]
         for i in range(len(increment)):
-            tangential += rows[1, k, i] * increment[i]
-            axial += rows[2, k, i] * increment[i]
+            along += tangential[i] * increment[i]
+            across += axial[i] * increment[i]
     directions[0, k], directions[1, k] = friction_direction(
-        rotation_velocity[k], tangential / step, axial / step, friction[1] > 0.0
+        rotation_velocity[k], along / step, across / step, friction[1] > 0.0
     )
 
 
@@ -246,8 +249,9 @@ def _push(coupling, forces, k):
     """Radial displacement (m) of node k caused in one step by the forces on all nodes."""
     total = 0.0
     for j in range(forces.shape[1]):
-        for axis in range(3):
-            total += coupling[0, axis, k, j] * forces[axis, j]
+        if forces[0, j] != 0.0:
+            for axis in range(3):
+                total += coupling[0, axis, k, j] * forces[axis, j]
     return total
 
 
@@ -255,10 +259,12 @@ def _push(coupling, forces, k):
 def _casing_matrix(coupling, directions, friction, matrix):
     """Opening of each gap per unit multiplier of each node, with the friction it causes where that is coupled."""
     nodes = matrix.shape[0]
+    normal, tangential, axial = coupling[0, 0], coupling[0, 1], coupling[0, 2]
     for i in range(nodes):
         for j in range(nodes):
-            entry = coupling[0, 0, i, j]
-            if friction is not None and friction[2] > 0.0:
-                along = coupling[0, 1, i, j] * directions[0, j] + coupling[0, 2, i, j] * directions[1, j]
-                entry -= friction[0] * along
-            matrix[i, j] = entry
+            matrix[i, j] = normal[i, j]
+    if friction is not None and friction[2] > 0.0:
+        for i in range(nodes):
+            for j in range(nodes):
+                along = tangential[i, j] * directions[0, j] + axial[i, j] * directions[1, j]
+                matrix[i, j] -= friction[0] * along

@@ -4,15 +4,22 @@ from __future__ import annotations
 
 import numpy as np
 
-from r37core.contact.scene import Scene
+from r37core.contact.casing import Casing
+from r37core.contact.scene import Friction, Lining, Scene
 from r37core.rom.contact_model import ContactModel
 
 from .choice import MarchChoice
 from .simulate import March
 
 
-def warm_kernel(scene: Scene, stress: bool, energy: bool) -> None:
-    """Run a blade of three modes for one revolution, so that numba compiles and caches what the scene needs."""
+def warm_kernel(lining: bool, friction: bool, exact_gap: bool, stress: bool, energy: bool) -> None:
+    """Run a blade of three modes for one revolution, so that numba compiles and caches what such a scene needs."""
+    scene = Scene(
+        Casing(1e-4),
+        Lining(5e-3, 1e9, 1e9, 1.0) if lining else None,
+        Friction(0.1) if friction else None,
+        exact_gap=exact_gap,
+    )
     toy = ContactModel(
         squared_frequencies=np.array([1.0e6, 4.0e6, 9.0e6]),
         stiffness_per_square=np.zeros((3, 3)),

@@ -32,8 +32,9 @@ COLUMNS = (
 class InteractionChoice:
     """What counts as an interaction.
 
-    A peak of the leading edge's radial rms must rise above its surroundings by `prominence` of the largest one, and lie
-    between `below` and `above` (shares of the Campbell speed) about the crossing it is matched with.
+    A peak of the leading edge's radial rms must rise above its surroundings by `prominence` of the largest one. It is
+    matched with a crossing of the engine order that is strongest in its spectrum if it lies between `below` and `above`
+    (shares of the Campbell speed) about it; without a spectrum, with the nearest crossing of any order.
     """
 
     prominence: float = 0.1
@@ -42,12 +43,18 @@ class InteractionChoice:
 
 
 def find_interactions(
-    rms: xr.Dataset, campbell: xr.Dataset, stress: xr.Dataset | None, wear: xr.Dataset | None, choice: InteractionChoice
+    rms: xr.Dataset,
+    campbell: xr.Dataset,
+    spectrum: xr.Dataset | None,
+    stress: xr.Dataset | None,
+    wear: xr.Dataset | None,
+    choice: InteractionChoice,
 ) -> list[dict[str, object]]:
-    """Interactions of one blade and scene, by ascending speed; keys as in COLUMNS but for blade and scene.
+    """Peaks of one blade and scene, by ascending speed; keys as in COLUMNS but for blade and scene.
 
-    The datasets are those of the project with `blade` and `scene` already selected; `stress` and `wear` None where a
-    scene has none. Only the named modes 1B, 1T and 2B are matched.
+    The datasets are those of the project with `blade` and `scene` already selected; `spectrum`, `stress` and `wear` None
+    where a scene has none. Only the named modes 1B, 1T and 2B are matched; a peak that belongs to none of their crossings
+    has an empty mode and no Campbell speed.
     """
     run = rms["status"].values != 2
     speed = rms["speed"].values[run]
@@ -59,10 +66,8 @@ def find_interactions(
     peaks, _ = find_peaks(np.concatenate([[0.0], level, [0.0]]), prominence=choice.prominence * level.max())
     rows = []
     for peak in peaks - 1:
-        match = _nearest_crossing(campbell, speed[peak], choice)
-        if match is None:
-            continue
-        mode, order, crossing = match
+        strongest = _strongest_order(spectrum, speed[peak])
+        mode, order, crossing = _nearest_crossing(campbell, speed[peak], strongest, choice)
         after = level[peak + 1] if peak + 1 < len(level) else np.nan
         rows.append(
             {
@@ -82,15 +87,26 @@ def find_interactions(
     return _strongest_of_each(rows)
 
 
-def _nearest_crossing(campbell: xr.Dataset, speed: float, choice: InteractionChoice) -> tuple[str, int, float] | None:
-    """Mode, engine order and speed of the Campbell crossing nearest to `speed` within the allowed window."""
-    best: tuple[float, str, int, float] | None = None
+def _strongest_order(spectrum: xr.Dataset | None, speed: float) -> int | None:
+    """The whole engine order with the largest amplitude at `speed`; None without a spectrum."""
+    if spectrum is None:
+        return None
+    amplitude = spectrum["amplitude"].sel(speed=speed)
+    vibration = amplitude.where(amplitude["engine_order"] >= 0.5, 0.0).fillna(0.0)
+    return round(float(vibration["engine_order"][int(np.argmax(vibration.values))]))
+
+
+def _nearest_crossing(
+    campbell: xr.Dataset, speed: float, strongest: int | None, choice: InteractionChoice
+) -> tuple[str, int | None, float]:
+    """Mode, engine order and speed of the nearest Campbell crossing in the allowed window, of the strongest order if known."""
+    candidates = []
     for mode in ("1B", "1T", "2B"):
         for order, crossing in campbell["crossing_speed"].sel(mode=mode).to_series().dropna().items():
-            if -choice.below * crossing <= speed - crossing <= choice.above * crossing:
-                candidate = (abs(speed - crossing), mode, int(order), float(crossing))
-                best = candidate if best is None or candidate < best else best
-    return None if best is None else best[1:]
+            fits = strongest is None or order == strongest
+            if fits and -choice.below * crossing <= speed - crossing <= choice.above * crossing:
+                candidates.append((abs(speed - crossing), mode, int(order), float(crossing)))
+    return min(candidates)[1:] if candidates else ("", strongest, float("nan"))
 
 
 def _at(dataset: xr.Dataset | None, name: str, speed: float) -> float:
@@ -131,7 +147,7 @@ def _strongest_of_each(rows: list[dict[str, object]]) -> list[dict[str, object]]
 
 
 def summarise(datasets: Mapping[str, xr.Dataset], choice: InteractionChoice) -> pd.DataFrame:
-    """Table of all interactions, columns as in COLUMNS, from the datasets `campbell`, `rms` and, if there, `stress`, `wear`."""
+    """Table of all interactions, columns as in COLUMNS, from the datasets `campbell`, `rms` and, if there, others."""
 
     def part(kind: str, blade: str, scene: str) -> xr.Dataset | None:
         dataset = datasets.get(kind)
@@ -144,6 +160,7 @@ def summarise(datasets: Mapping[str, xr.Dataset], choice: InteractionChoice) -> 
         campbell = datasets["campbell"].sel(blade=blade)
         for scene in datasets["rms"]["scene"].values:
             rms = datasets["rms"].sel(blade=blade, scene=scene)
-            found = find_interactions(rms, campbell, part("stress", blade, scene), part("wear", blade, scene), choice)
+            spectrum, stress, wear = (part(kind, blade, scene) for kind in ("spectrum", "stress", "wear"))
+            found = find_interactions(rms, campbell, spectrum, stress, wear, choice)
             rows += [{"blade": blade, "scene": scene} | row for row in found]
     return pd.DataFrame(rows, columns=list(COLUMNS))

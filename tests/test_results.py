@@ -1,0 +1,238 @@
+"""Stress recovery, reduction of the sweep, interactions."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pandas as pd
+import pytest
+import xarray as xr
+from box_mesh import box_mesh
+
+from r37core.contact.casing import Casing
+from r37core.contact.scene import Friction, Lining, Scene
+from r37core.fem.material import Material
+from r37core.io import InputFileError
+from r37core.march.choice import MarchChoice
+from r37core.march.speed_file import write_speed
+from r37core.march.speed_run import run_speed
+from r37core.results.datasets import write_sweep_dataset
+from r37core.results.interactions import COLUMNS, InteractionChoice, find_interactions, summarise
+from r37core.results.response import write_response
+from r37core.results.stress import StressRecovery
+from r37core.rom.contact_reduction import contact_model
+from r37core.rom.reduced_model import RecoveryNodes
+from r37core.speeds import SpeedError, expand_speeds
+
+MATERIAL = Material(180e9, 8000.0, 0.3, 1.38e9)
+
+
+def box_model(*fields):
+    """A stand-in for a reduced model: a box whose reduced coordinates are given displacement fields."""
+    mesh = box_mesh(1.0, 0.5, 0.2, (3, 2, 1))
+    basis = np.stack([field(mesh.points) for field in fields], axis=2)
+    nodes = RecoveryNodes(np.arange(len(mesh.points)), mesh.points, basis)
+    return SimpleNamespace(stress_submesh=nodes, stress_elements=mesh.elements, size=len(fields))
+
+
+def test_stress_of_simple_states():
+    """Uniaxial strain energy-free side: von Mises of tension is E times strain; of shear sqrt(3) times the shear stress."""
+
+    def tension(p):
+        return 1e-3 * p * np.array([1.0, -0.3, -0.3])
+
+    def shear(p):
+        return 1e-3 * np.stack([p[:, 1], 0 * p[:, 0], 0 * p[:, 0]], axis=1)
+
+    def bending(p):
+        # pure bending about y: stress E kappa z along x
+        x, y, z = p.T
+        kappa, nu = 1e-2, 0.3
+        return kappa * np.stack([x * z, -nu * y * z, -0.5 * (x**2 + nu * (z**2 - y**2))], axis=1)
+
+    recovery = StressRecovery(box_model(tension, shear, bending), MATERIAL)
+    levels = recovery.max_von_mises(np.eye(3))
+    assert levels[0] == pytest.approx(180e6, rel=1e-9)
+    assert levels[1] == pytest.approx(np.sqrt(3.0) * 180e9 / 2.6 * 1e-3, rel=1e-9)
+    assert levels[2] == pytest.approx(180e9 * 1e-2 * 0.2, rel=1e-9)
+    assert recovery.max_von_mises(np.array([[-2.0, 0.0, 0.0]]))[0] == pytest.approx(360e6)
+
+
+def test_empty_submesh_is_refused():
+    model = box_model(lambda p: p)
+    model.stress_elements = np.empty((0, 15), dtype=int)
+    with pytest.raises(ValueError, match=r"structure\.stress_submesh"):
+        StressRecovery(model, MATERIAL)
+
+
+SPEEDS = (900.0, 1200.0, 1600.0)
+RESULTS = ("spectrum", "signal", "stress", "wear", "energy")
+
+
+@pytest.fixture(scope="module")
+def sweep(model, tmp_path_factory):
+    """Two scenes at three speeds of the coarse reference blade; the direct one diverges at the last speed."""
+    folder = tmp_path_factory.mktemp("sweep")
+    contact = contact_model(model, "pressure_edge")
+    casing = Casing(0.356e-3, rise_fraction=0.5)
+    abradable = Scene(casing, Lining(5e-3, 20e9, 5e9, 1.5, natural_areas=8.0), Friction(0.15))
+    recovery = StressRecovery(model, MATERIAL)
+    files = {}
+    for name, lined in (("abradable", abradable), ("direct", Scene(casing, None, Friction(0.15)))):
+        sources = []
+        for speed in SPEEDS if lined.lining else SPEEDS[1:]:
+            limit = 1e-7 if name == "direct" and speed == SPEEDS[-1] else 0.05
+            scene = Scene(lined.casing, lined.lining, lined.friction, divergence_limit=limit)
+            history = 4 if speed == 1200.0 else 1
+            choice = MarchChoice(2e-7, 4, 62, snapshots_per_revolution=31, snapshot_revolutions=history, energy=True)
+            wanted = [kind for kind in RESULTS if kind != "wear" or lined.lining]
+            kept = run_speed(contact, speed, scene, choice, wanted, 10, 1, 60)
+            sources.append(folder / f"{name}_{speed:g}.npz")
+            write_speed(kept, sources[-1], {})
+        file = folder / f"{name}.nc"
+        speeds = SPEEDS if lined.lining else SPEEDS[1:]
+        write_response(sources, speeds, file, recovery, (1200.0,), 31, 1.0, {"blade": "Ref", "scene": name})
+        files["Ref", name] = file
+    return folder, files
+
+
+def test_response_holds_every_speed(sweep):
+    _, files = sweep
+    with xr.open_dataset(files["Ref", "abradable"]) as response:
+        np.testing.assert_array_equal(response["speed"], SPEEDS)
+        assert response["rms_radial"].dims == ("speed", "tip_point")
+        assert response["amplitude"].dims == ("speed", "engine_order")
+        assert response["wear"].shape == (3, 60)
+        assert np.all(response["status"] == 0)
+        assert np.all(response["max_von_mises"] > 0.0)
+        history = response["max_von_mises_history"].sel(history_speed=1200.0)
+        assert history.shape == (4,)
+        assert history[-1] == pytest.approx(float(response["max_von_mises"].sel(speed=1200.0)), rel=1e-6)
+        first = int(np.flatnonzero(history.values > 1.0)[0]) + 1
+        assert response["first_yield_revolution"].sel(history_speed=1200.0) == first
+        for name, variable in response.variables.items():
+            assert name == "tip_point" or {"units", "long_name"} <= set(variable.attrs), name
+        assert "_FillValue" not in response["speed"].encoding or response["speed"].encoding["_FillValue"] is None
+    with xr.open_dataset(files["Ref", "direct"]) as response:
+        assert "wear" not in response
+        np.testing.assert_array_equal(response["status"], [0, 1])
+        assert np.isnan(response["rms_radial"].isel(speed=1)).all()
+        assert np.isnan(response["max_von_mises"].isel(speed=1))
+        assert response["diverged_revolution"].isel(speed=1) > 0.0
+
+
+@pytest.mark.parametrize("kind", ["rms", "spectrum", "stress", "wear"])
+def test_datasets_join_blades_and_scenes(sweep, kind):
+    folder, files = sweep
+    files = {key: file for key, file in files.items() if kind != "wear" or key[1] == "abradable"}
+    write_sweep_dataset(kind, files, folder / f"{kind}.nc", {"fidelity": "draft"})
+    with xr.open_dataset(folder / f"{kind}.nc") as dataset:
+        assert dataset.attrs["fidelity"] == "draft"
+        assert list(dataset["blade"].values) == ["Ref"]
+        np.testing.assert_array_equal(dataset["speed"], SPEEDS)
+        for (blade, scene), file in files.items():
+            with xr.open_dataset(file) as response:
+                for name in dataset.data_vars:
+                    part = dataset[name].sel(blade=blade, scene=scene)
+                    if "speed" in part.dims:
+                        part = part.sel(speed=response["speed"])
+                    np.testing.assert_array_equal(part, response[name])
+        if kind != "wear":
+            np.testing.assert_array_equal(dataset["status"].sel(scene="direct", blade="Ref"), [2, 0, 1])
+            assert dataset["status"].attrs["flag_meanings"] == "completed diverged not_run"
+        for name, variable in dataset.data_vars.items():
+            if variable.dtype.kind == "f" and "scene" in variable.dims and "speed" in variable.dims and kind == "rms":
+                missing = np.isnan(variable.sel(scene="direct", blade="Ref", speed=900.0))
+                assert missing.all(), name
+
+
+def test_unreadable_speed_is_named(sweep, model):
+    folder, _ = sweep
+    broken = folder / "broken_900.npz"
+    broken.write_bytes(b"PK half of a file")
+    with pytest.raises(InputFileError, match=r"broken_900\.npz: cannot be read .* delete it and run again"):
+        write_response([broken], (900.0,), folder / "never.nc", None, (), 31, 1.0, {})
+    assert not (folder / "never.nc").exists()
+
+
+def synthetic(peaks):
+    """Datasets with triangular rms peaks at given speeds, each with the given engine order."""
+    speeds = np.arange(750.0, 2001.0, 5.0)
+    level = np.full(len(speeds), 1e-5)
+    order = np.full(len(speeds), 2)
+    for speed, height, number in peaks:
+        rising = (speeds <= speed) & (speeds > speed - 50.0)
+        level[rising] = np.maximum(level[rising], height * (1.0 - (speed - speeds[rising]) / 50.0))
+        order[rising] = number
+    orders = np.arange(0.0, 10.01, 0.5)
+    amplitude = np.where(orders[None, :] == order[:, None], level[:, None], 1e-9)
+    rms = xr.Dataset(
+        {
+            "rms_radial": (("blade", "scene", "speed", "tip_point"), level[None, None, :, None]),
+            "status": (("blade", "scene", "speed"), np.zeros((1, 1, len(speeds)), dtype="i1")),
+        },
+        {"blade": ["Ref"], "scene": ["abradable"], "speed": speeds, "tip_point": ["leading_edge"]},
+    )
+    spectrum = xr.Dataset(
+        {"amplitude": (("blade", "scene", "speed", "engine_order"), amplitude[None, None])},
+        {"blade": ["Ref"], "scene": ["abradable"], "speed": speeds, "engine_order": orders},
+    )
+    stress = xr.Dataset(
+        {
+            "max_von_mises": (("blade", "scene", "speed"), 2e12 * level[None, None]),
+            "yield_stress": (("blade", "scene"), np.array([[1e9]])),
+        },
+        {"blade": ["Ref"], "scene": ["abradable"], "speed": speeds},
+    )
+    crossing = np.full((1, 3, 10), np.nan)
+    crossing[0, 0, 3:7] = [1672.0, 1213.0, 965.0, 806.0]
+    crossing[0, 1, 8] = 1680.0
+    campbell = xr.Dataset(
+        {"crossing_speed": (("blade", "mode", "engine_order"), crossing)},
+        {"blade": ["Ref"], "mode": ["1B", "1T", "2B"], "engine_order": np.arange(1, 11)},
+    )
+    return {"rms": rms, "spectrum": spectrum, "stress": stress, "campbell": campbell}
+
+
+def test_interactions_of_a_synthetic_response():
+    table = summarise(synthetic([(840.0, 6e-4, 7), (1265.0, 8e-4, 5), (1715.0, 1e-3, 4)]), InteractionChoice())
+    assert list(table.columns) == list(COLUMNS)
+    assert list(table["mode"]) == ["1B"] * 3
+    assert list(table["engine_order"]) == [7, 5, 4]
+    np.testing.assert_allclose(table["shift"], [34.0, 52.0, 43.0])
+    np.testing.assert_allclose(table["jump"], 1.0, atol=0.02)
+    # stress is 2e9 at the last peak, 1e9 at half its height: 25 rad/s before it; after it the drop is within one step
+    assert table["width_above_yield"].iloc[2] == pytest.approx(25.0 + 5.0 * 1.0 / 1.98, rel=0.02)
+    assert np.isnan(table["max_wear"]).all()
+    assert list(table["status"]) == ["completed"] * 3
+
+
+def test_a_peak_of_another_order_is_not_matched():
+    table = summarise(synthetic([(1715.0, 1e-3, 2)]), InteractionChoice())
+    assert list(table["mode"]) == [""]
+    assert list(table["engine_order"]) == [2]
+    assert np.isnan(table["campbell_speed"]).all()
+
+
+def test_without_a_spectrum_the_nearest_crossing_counts():
+    datasets = {kind: dataset.isel(blade=0) for kind, dataset in synthetic([(1685.0, 1e-3, 4)]).items()}
+    rows = find_interactions(datasets["rms"].isel(scene=0), datasets["campbell"], None, None, None, InteractionChoice())
+    assert [(row["mode"], row["engine_order"]) for row in rows] == [("1T", 9)]
+
+
+def test_no_response_no_interaction():
+    datasets = synthetic([])
+    datasets["rms"]["rms_radial"][:] = np.nan
+    assert isinstance(summarise(datasets, InteractionChoice()), pd.DataFrame)
+    assert summarise(datasets, InteractionChoice()).empty
+
+
+def test_speeds():
+    assert expand_speeds([{"start": 750, "stop": 800, "step": 25}, 1000, {"start": 900, "stop": 901}], 0.5) == (
+        750.0, 775.0, 800.0, 900.0, 900.5, 901.0, 1000.0,
+    )  # fmt: skip
+    assert len(expand_speeds([{"start": 750, "stop": 2000}], 1.0)) == 1251
+    assert expand_speeds([{"start": 1.0, "stop": 1.3, "step": 0.1}], 1.0) == (1.0, 1.1, 1.2, 1.3)
+    with pytest.raises(SpeedError, match="800 rad/s twice"):
+        expand_speeds([{"start": 750, "stop": 800, "step": 50}, 800], 1.0)
+    with pytest.raises(SpeedError, match="from 900 to 800"):
+        expand_speeds([{"start": 900, "stop": 800}], 1.0)
