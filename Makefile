@@ -1,13 +1,14 @@
-# Two commands: `make campbell` runs the main job, `make test` the tests. Both make the virtual environment themselves.
+# Two commands: `make all_blades` runs the main job, `make test` the tests. Both make the virtual environment themselves.
+# `make campbell` does the structural half alone. CORES=8 uses more cores, FIDELITY=paper another accuracy level.
 PYTHON ?= python3
 CORES ?= 2
 VENV := .venv
 BIN := $(VENV)/bin
 
-.PHONY: campbell test lint setup clean-results
+.PHONY: all_blades campbell test lint setup clean-results
 
-campbell: $(VENV)/.ready
-	$(BIN)/snakemake campbell --cores $(CORES)
+all_blades campbell: $(VENV)/.ready
+	$(BIN)/snakemake $@ --cores $(CORES) $(if $(FIDELITY),--config fidelity=$(FIDELITY))
 
 test: $(VENV)/.ready
 	$(BIN)/python -m pytest

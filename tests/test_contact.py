@@ -108,7 +108,7 @@ def test_complementarity_against_brute_force(seed, n, skew):
     matrix = matrix + skew * np.diag(matrix).min() * (part - part.T) / n  # friction makes it unsymmetric, still a P-matrix
     gap = generator.standard_normal(n)
     multipliers = np.empty(n)
-    violation = solve_complementarity(matrix, gap, multipliers, np.empty((n, n + 2)))
+    violation = solve_complementarity(matrix, gap, multipliers, np.empty((n, n + 2)), np.zeros(n))
     assert violation == 0.0
     np.testing.assert_allclose(multipliers, brute_force(matrix, gap), rtol=1e-7, atol=1e-9)
     opened = gap + matrix @ multipliers
@@ -119,5 +119,18 @@ def test_complementarity_against_brute_force(seed, n, skew):
 
 def test_open_gaps_need_no_force():
     multipliers = np.ones(3)
-    assert solve_complementarity(np.eye(3), np.array([1.0, 0.0, 2.0]), multipliers, np.empty((3, 5))) == 0.0
+    assert solve_complementarity(np.eye(3), np.array([1.0, 0.0, 2.0]), multipliers, np.empty((3, 5)), np.zeros(3)) == 0.0
     np.testing.assert_array_equal(multipliers, 0.0)
+
+
+@settings(deadline=None, max_examples=100)
+@given(st.integers(0, 2**31 - 1), st.integers(1, 6))
+def test_a_guess_does_not_change_the_answer(seed, n):
+    generator = np.random.default_rng(seed)
+    factor = generator.standard_normal((n, n + 2))
+    matrix, gap = factor @ factor.T, generator.standard_normal(n)
+    plain, guessed = np.empty(n), np.empty(n)
+    work = np.empty((n, n + 2))
+    assert solve_complementarity(matrix, gap, plain, work, np.zeros(n)) == 0.0
+    assert solve_complementarity(matrix, gap, guessed, work, (generator.random(n) < 0.5).astype(float)) == 0.0
+    np.testing.assert_allclose(guessed, plain, rtol=1e-7, atol=1e-9)

@@ -12,6 +12,11 @@ from . import __version__
 from .io import atomic_write, readable
 
 
+def about(units: str, long_name: str) -> dict[str, str]:
+    """Attributes of a variable, after the CF conventions."""
+    return {"units": units, "long_name": long_name}
+
+
 def write_dataset(dataset: xr.Dataset, file: Path | str, provenance: Mapping[str, object] | None = None) -> None:
     """Write a dataset as netCDF4, atomically, with version and `provenance` as global attributes.
 

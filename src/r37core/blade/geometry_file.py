@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 
-from r37core.dataset_file import read_dataset, write_dataset
+from r37core.dataset_file import about, read_dataset, write_dataset
 from r37core.io import readable
 
 from .profile import PRESSURE, SUCTION, Profile, ProfileParameters
@@ -33,22 +33,22 @@ def write_geometry(blade: Blade, file: Path | str, provenance: Mapping[str, obje
     }
     conical = conical_stacking(blade.profiles)
     data |= {
-        "axial_placement": ("profile", blade.placement.axial, _about("m", "axial shift of the profile")),
-        "rotation": ("profile", blade.placement.rotation, _about("rad", "rotation of the profile about the axis")),
-        "conical_axial_placement": ("profile", conical.axial, _about("m", "axial shift by conical stacking alone")),
-        "conical_rotation": ("profile", conical.rotation, _about("rad", "rotation by conical stacking alone")),
-        "section_area": ("profile", [p.area for p in blade.profiles], _about("m2", "area on the unrolled cone")),
-        "stagger": ("profile", [p.stagger for p in blade.profiles], _about("rad", "stagger angle")),
+        "axial_placement": ("profile", blade.placement.axial, about("m", "axial shift of the profile")),
+        "rotation": ("profile", blade.placement.rotation, about("rad", "rotation of the profile about the axis")),
+        "conical_axial_placement": ("profile", conical.axial, about("m", "axial shift by conical stacking alone")),
+        "conical_rotation": ("profile", conical.rotation, about("rad", "rotation by conical stacking alone")),
+        "section_area": ("profile", [p.area for p in blade.profiles], about("m2", "area on the unrolled cone")),
+        "stagger": ("profile", [p.stagger for p in blade.profiles], about("rad", "stagger angle")),
         "surface_rate": (
             ("profile", "side", "segment"),
             [[[p.surfaces[s].front.rate, p.surfaces[s].rear.rate] for s in (PRESSURE, SUCTION)] for p in blade.profiles],
-            _about("rad m-1", "turning rate of the surface segment"),
+            about("rad m-1", "turning rate of the surface segment"),
         ),
-        "volume": ((), blade.volume(), _about("m3", "volume of the blade")),
+        "volume": ((), blade.volume(), about("m3", "volume of the blade")),
         "surface": (
             ("side", "chord", "span_sample", "axis"),
             _sampled_surfaces(blade),
-            _about("m", "points of the pressure and suction surfaces"),
+            about("m", "points of the pressure and suction surfaces"),
         ),
     }
     steps = np.linspace(0.0, 1.0, _SAMPLES)
@@ -56,8 +56,8 @@ def write_geometry(blade: Blade, file: Path | str, provenance: Mapping[str, obje
         "side": ["pressure", "suction"],
         "segment": ["inlet", "outlet"],
         "axis": ["x", "y", "z"],
-        "chord": ("chord", steps, _about("1", "fraction of the surface's length from the leading edge")),
-        "span_sample": ("span_sample", steps, _about("1", "fraction of the span from the hub")),
+        "chord": ("chord", steps, about("1", "fraction of the surface's length from the leading edge")),
+        "span_sample": ("span_sample", steps, about("1", "fraction of the span from the hub")),
     }
     dataset = xr.Dataset(data, coordinates, attrs={"edges": "round" if blade.round_edges else "blunt"})
     write_dataset(dataset, file, provenance)
@@ -74,10 +74,6 @@ def read_geometry(file: Path | str) -> Blade:
         ]
         placement = Placement(dataset["axial_placement"].values, dataset["rotation"].values)
         return Blade(profiles, placement, round_edges=dataset.attrs["edges"] == "round")
-
-
-def _about(units: str, long_name: str) -> dict[str, str]:
-    return {"units": units, "long_name": long_name}
 
 
 def _sampled_surfaces(blade: Blade) -> np.ndarray:

@@ -8,9 +8,11 @@ _BLOCK_ROUNDS = 8
 _SINGLE_ROUNDS = 500
 
 
-@njit(cache=True)
-def solve_complementarity(matrix, gap, multipliers, work):
+@njit(cache=True, forceinline=True)
+def solve_complementarity(matrix, gap, multipliers, work, guess):
     """Find multipliers >= 0 with gap + matrix @ multipliers >= 0 and the two never both positive.
+
+    `guess`, shape (n,): positive where a node is expected to touch, as in the step before; without any, the closed gaps.
 
     `matrix`, shape (n, n); `gap`, shape (n,); the answer goes into `multipliers`, shape (n,); `work`: scratch, shape
     (n, n + 2). Block principal pivoting, then Murty's least-index rule, which ends for every P-matrix (Cottle, Pang and
@@ -20,9 +22,12 @@ def solve_complementarity(matrix, gap, multipliers, work):
     n = len(gap)
     active = work[:, n + 1]
     scale = 0.0
+    guessed = False
     for i in range(n):
-        active[i] = 1.0 if gap[i] < 0.0 else 0.0
+        guessed = guessed or guess[i] > 0.0
         scale = max(scale, abs(gap[i]))
+    for i in range(n):
+        active[i] = 1.0 if (guess[i] > 0.0 if guessed else gap[i] < 0.0) else 0.0
     tolerance = 1e-12 * scale
     violation = 0.0
     for iteration in range(_BLOCK_ROUNDS + _SINGLE_ROUNDS):
@@ -49,7 +54,7 @@ def solve_complementarity(matrix, gap, multipliers, work):
     return violation / scale if scale > 0.0 else 0.0
 
 
-@njit(cache=True)
+@njit(cache=True, forceinline=True)
 def _solve_active(matrix, gap, multipliers, work):
     """Gap zero at the active nodes, multiplier zero at the others: Gaussian elimination with partial pivoting."""
     n = len(gap)

@@ -6,7 +6,7 @@ import numpy as np
 from numba import njit
 
 
-@njit(cache=True)
+@njit(cache=True, forceinline=True)
 def friction_direction(rotation_velocity, tangential_velocity, axial_velocity, vector):
     """Unit vector (tangential, axial) of the friction force on a node; opposite to its sliding velocity.
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from numba import njit
 
 
-@njit(cache=True)
+@njit(cache=True, forceinline=True)
 def return_mapping(penetration, wear, thickness, elastic_modulus, plastic_modulus, yield_stress):
     """Press a bar's surface to `penetration` (m) beyond its first position. Returns (stress in Pa, new wear in m).
 

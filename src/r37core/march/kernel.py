@@ -134,7 +134,7 @@ def advance(
                     unknown = True
                     while unknown:
                         _casing_matrix(coupling, directions, friction, matrix)
-                        violation = solve_complementarity(matrix, gap, multipliers, scratch)
+                        violation = solve_complementarity(matrix, gap, multipliers, scratch, on_casing)
                         unknown = False
                         if friction is not None:
                             for k in range(nodes):
@@ -168,13 +168,13 @@ def advance(
                         push[i] = 0.0
                     for k in range(nodes):
                         if forces[0, k] < 0.0:
-                            normal = forces[0, k]
-                            for i in range(modes):
-                                push[i] += radial[k, i] * normal
-                            if friction is not None:
-                                along, across = forces[1, k], forces[2, k]
+                            normal, along, across = forces[0, k], forces[1, k], forces[2, k]
+                            if friction is None:
                                 for i in range(modes):
-                                    push[i] += tangential[k, i] * along + axial[k, i] * across
+                                    push[i] += radial[k, i] * normal
+                            else:
+                                for i in range(modes):
+                                    push[i] += radial[k, i] * normal + tangential[k, i] * along + axial[k, i] * across
                     work, extra_loss = 0.0, 0.0
                     for i in range(modes):
                         free = step_now[i] + step_before[i]
@@ -222,7 +222,7 @@ def _set_direction(k, rows, increment, step, friction, rotation_velocity, direct
     )
 
 
-@njit(cache=True)
+@njit(cache=True, forceinline=True)
 def _press_lining(gap, wear, lining, bar_position, turned, forces):
     """Normal forces of the bars that the nodes press, from the predicted positions; wears them."""
     rings = wear.shape[0]
@@ -237,14 +237,14 @@ def _press_lining(gap, wear, lining, bar_position, turned, forces):
             forces[0, k] = -stress * lining[4]
 
 
-@njit(cache=True)
+@njit(cache=True, forceinline=True)
 def _add_friction(forces, directions, coefficient):
     for k in range(forces.shape[1]):
         forces[1, k] = -coefficient * forces[0, k] * directions[0, k]
         forces[2, k] = -coefficient * forces[0, k] * directions[1, k]
 
 
-@njit(cache=True)
+@njit(cache=True, forceinline=True)
 def _push(coupling, forces, k):
     """Radial displacement (m) of node k caused in one step by the forces on all nodes."""
     total = 0.0
@@ -255,7 +255,7 @@ def _push(coupling, forces, k):
     return total
 
 
-@njit(cache=True)
+@njit(cache=True, forceinline=True)
 def _casing_matrix(coupling, directions, friction, matrix):
     """Opening of each gap per unit multiplier of each node, with the friction it causes where that is coupled."""
     nodes = matrix.shape[0]

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import xarray as xr
 
+from r37core.dataset_file import about
 from r37core.rom.reduced_model import ReducedModel
 
 from .campbell import campbell_diagram, dynamic_clearance
@@ -32,32 +33,28 @@ def campbell_dataset(
     clearance = dynamic_clearance(model, diagram.shapes[:, 0].T, tip_line, displacement)
     return xr.Dataset(
         {
-            "frequency": (("mode", "speed"), diagram.frequencies, _about("Hz", "natural frequency")),
+            "frequency": (("mode", "speed"), diagram.frequencies, about("Hz", "natural frequency")),
             "crossing_speed": (
                 ("mode", "engine_order"),
                 diagram.crossing_speeds(orders),
-                _about("rad s-1", "speed at which the frequency is the engine order times the speed"),
+                about("rad s-1", "speed at which the frequency is the engine order times the speed"),
             ),
             "dynamic_clearance": (
                 ("mode", "tangential_displacement"),
                 clearance,
-                _about("m", "change of the leading-edge tip clearance as the blade swings along the free mode"),
+                about("m", "change of the leading-edge tip clearance as the blade swings along the free mode"),
             ),
-            "smallest_mac": ("mode", diagram.continuity, _about("1", "smallest MAC between neighbouring speeds")),
+            "smallest_mac": ("mode", diagram.continuity, about("1", "smallest MAC between neighbouring speeds")),
         },
         coords={
             "mode": list(diagram.mode_names),
-            "speed": ("speed", speeds, _about("rad s-1", "angular speed of the rotor")),
-            "engine_order": ("engine_order", orders, _about("1", "engine order")),
+            "speed": ("speed", speeds, about("rad s-1", "angular speed of the rotor")),
+            "engine_order": ("engine_order", orders, about("1", "engine order")),
             "tangential_displacement": (
                 "tangential_displacement",
                 displacement,
-                _about("m", "tangential displacement of the leading edge, positive against the rotation"),
+                about("m", "tangential displacement of the leading edge, positive against the rotation"),
             ),
         },
         attrs={"dynamic_clearance_tip_line": tip_line},
     )
-
-
-def _about(units: str, long_name: str) -> dict[str, str]:
-    return {"units": units, "long_name": long_name}

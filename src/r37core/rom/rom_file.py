@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from r37core.dataset_file import read_dataset, write_dataset
+from r37core.dataset_file import about, read_dataset, write_dataset
 from r37core.io import readable
 
 from .reduced_model import RecoveryNodes, ReducedModel
@@ -37,12 +37,12 @@ def write_reduced_model(model: ReducedModel, file: Path | str, provenance: Mappi
     for group, recovery in node_groups.items():
         data |= _recovery_variables(group, recovery)
     data |= {
-        "stress_elements": (("stress_element", "element_node"), model.stress_elements, _about("1", "submesh elements")),
-        "boundary_nodes": ("boundary_node", model.boundary_nodes, _about("1", "mesh numbers of the boundary nodes")),
-        "boundary_chord": ("boundary_node", model.boundary_chord, _about("1", "chord fraction of the boundary nodes")),
-        "shape_products": (("shape", "column"), model.shape_products, _about("kg1/2", "mass product with ideal shapes")),
-        "shape_norms": ("shape", model.shape_norms, _about("kg1/2", "mass norm of the ideal shapes")),
-        "singular_values": ("basis_column", model.singular_values, _about("1", "singular values of the basis columns")),
+        "stress_elements": (("stress_element", "element_node"), model.stress_elements, about("1", "submesh elements")),
+        "boundary_nodes": ("boundary_node", model.boundary_nodes, about("1", "mesh numbers of the boundary nodes")),
+        "boundary_chord": ("boundary_node", model.boundary_chord, about("1", "chord fraction of the boundary nodes")),
+        "shape_products": (("shape", "column"), model.shape_products, about("kg1/2", "mass product with ideal shapes")),
+        "shape_norms": ("shape", model.shape_norms, about("kg1/2", "mass norm of the ideal shapes")),
+        "singular_values": ("basis_column", model.singular_values, about("1", "singular values of the basis columns")),
     }
     attributes = {
         "basis_columns": model.columns,
@@ -78,16 +78,12 @@ def read_reduced_model(file: Path | str) -> ReducedModel:
         )
 
 
-def _about(units: str, long_name: str) -> dict[str, str]:
-    return {"units": units, "long_name": long_name}
-
-
 def _recovery_variables(group: str, recovery: RecoveryNodes) -> dict:
     node = f"{group}_node"
     return {
-        f"{group}_nodes": (node, recovery.nodes, _about("1", f"mesh node numbers ({group})")),
-        f"{group}_points": ((node, "axis"), recovery.points, _about("m", f"coordinates ({group})")),
-        f"{group}_basis": ((node, "axis", "column"), recovery.basis, _about("1", f"displacement per coordinate ({group})")),
+        f"{group}_nodes": (node, recovery.nodes, about("1", f"mesh node numbers ({group})")),
+        f"{group}_points": ((node, "axis"), recovery.points, about("m", f"coordinates ({group})")),
+        f"{group}_basis": ((node, "axis", "column"), recovery.basis, about("1", f"displacement per coordinate ({group})")),
     }
 
 
