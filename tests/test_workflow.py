@@ -72,7 +72,7 @@ def finished_copy(finished, tmp_path):
 
 
 STRUCTURE = {"geometry", "mesh", "abaqus_deck", "matrices", "reduced_model", "contact_model"}
-PER_BLADE = STRUCTURE | {"campbell_of_blade", "campbell_figure", "simulate", "response"}
+PER_BLADE = STRUCTURE | {"campbell_of_blade", "campbell_figure", "check_step", "simulate", "response"}
 GATHERED = {
     "campbell_of_all",
     "campbell_overview",
@@ -204,8 +204,9 @@ def test_results_not_wanted_are_not_planned(project):
 def test_step_beyond_the_limit_stops_with_the_limit(finished_copy):
     levels = finished_copy / "config/fidelity.yaml"
     levels.write_text(levels.read_text().replace("2.0e-7, revolutions: 8", "9.0e-7, revolutions: 8"))
-    text = snakemake(finished_copy, "results/Ref/direct/speed_1150.npz", "--cores", "1", check=False)
-    assert re.search(r"rule simulate: time_step_s: 9e-07 s .* stability limit of this reduced model, [\d.e-]+ s", text)
+    text = snakemake(finished_copy, "results/Ref/direct/response.nc", "--cores", "1", check=False)
+    assert "rule simulate:" not in text
+    assert re.search(r"rule check_step: time_step_s: 9e-07 s .* stability limit of this reduced model, [\d.e-]+ s", text)
 
 
 @pytest.mark.parametrize(
@@ -223,6 +224,13 @@ def test_bad_speeds_and_scenes_are_refused(project, old, new, message):
     assert old in text
     config.write_text(text.replace(old, new))
     assert re.search(message, snakemake(project, "all_blades", "--cores", "1", check=False))
+
+
+def test_history_of_a_speed_that_is_not_run_is_refused(project):
+    scenes = project / "config/scenes.yaml"
+    scenes.write_text(scenes.read_text() + "  stress_history_speeds_rad_s: [1717]\n")
+    text = snakemake(project, "all_blades", "--cores", "1", check=False)
+    assert "direct.stress_history_speeds_rad_s: found 1717; allowed: speeds that are simulated" in text
 
 
 def test_wear_without_a_lining_is_refused(project):

@@ -140,10 +140,12 @@ def load_settings(config: Mapping[str, Any], root: Path, config_name: str = "con
             f"{config_name}: structure.stress_submesh.minimum_z_m: found {submesh['minimum_z_m']}; "
             f"allowed: less than maximum_z_m ({submesh['maximum_z_m']})"
         )
+    speeds = _speeds(checked, names, list(scenes), levels[level]["march"]["speed_step_rad_s"], config_name)
+    _check_history_speeds(scenes, speeds, checked["scenes_file"])
     return Settings(
         blades={name: _blade(name, entries, root, blades_file) for name in names},
         scenes=scenes,
-        speeds=_speeds(checked, names, list(scenes), levels[level]["march"]["speed_step_rad_s"], config_name),
+        speeds=speeds,
         fidelity_name=level,
         fidelity=levels[level],
         structure=checked["structure"],
@@ -353,3 +355,16 @@ def _speeds(
         return general
 
     return {(blade, scene): of(blade, scene) for blade in blades for scene in scenes}
+
+
+def _check_history_speeds(
+    scenes: Mapping[str, SceneSettings], speeds: Mapping[tuple[str, str], tuple[float, ...]], file: str
+) -> None:
+    for name, chosen in scenes.items():
+        run = {speed for (_, scene), several in speeds.items() if scene == name for speed in several}
+        for speed in chosen.stress_history_speeds:
+            if speed not in run:
+                raise ConfigError(
+                    f"{file}: {name}.stress_history_speeds_rad_s: found {speed:g}; allowed: speeds that are simulated "
+                    "(add it to speeds or speeds_for in config.yaml)"
+                )

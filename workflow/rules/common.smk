@@ -46,3 +46,42 @@ def structure_provenance(wildcards):
         "fidelity": settings.fidelity_name,
         "input_hash": settings.structure_hash(wildcards.blade),
     }
+
+
+def contact_model_file(wildcards):
+    """What the simulations of a blade and scene start from."""
+    return f"results/{wildcards.blade}/contact_{settings.scenes[wildcards.scene].tip_line}.npz"
+
+
+def speed_file(blade, scene, speed):
+    return f"results/{blade}/{scene}/speed_{speed:.10g}.npz"
+
+
+def speed_files(wildcards):
+    """The simulations of one blade and scene, by ascending speed."""
+    blade, scene = wildcards.blade, wildcards.scene
+    return [speed_file(blade, scene, speed) for speed in settings.speeds[blade, scene]]
+
+
+def sweep_provenance(wildcards):
+    """What the results of one blade and scene say about their making."""
+    chosen = settings.scenes[wildcards.scene]
+    return structure_provenance(wildcards) | {
+        "scene": wildcards.scene,
+        "scene_parameters": repr(chosen.scene),
+        "revolutions": chosen.revolutions,
+        "largest_time_step": settings.fidelity["march"]["time_step_s"],
+    }
+
+
+def scenes_with(kind):
+    """Scenes whose results hold this kind of dataset."""
+    return [name for name, chosen in settings.scenes.items() if kind == "rms" or kind in chosen.results]
+
+
+KINDS = [kind for kind in ("rms", "spectrum", "stress", "wear") if scenes_with(kind)]
+
+
+def runs_with(kind):
+    """Pairs of blade and scene that hold this kind of dataset."""
+    return [(blade, scene) for blade in settings.blades for scene in scenes_with(kind)]

@@ -1,19 +1,6 @@
 # The datasets over all blades and scenes, and the list of interactions.
 
 
-def scenes_with(kind):
-    """Scenes whose results hold this kind of dataset."""
-    return [name for name, chosen in settings.scenes.items() if kind == "rms" or kind in chosen.results]
-
-
-KINDS = [kind for kind in ("rms", "spectrum", "stress", "wear") if scenes_with(kind)]
-
-
-def runs_with(kind):
-    """Pairs of blade and scene that hold this kind of dataset."""
-    return [(blade, scene) for blade in settings.blades for scene in scenes_with(kind)]
-
-
 rule sweep_dataset:
     input:
         lambda wildcards: [f"results/{blade}/{scene}/response.nc" for blade, scene in runs_with(wildcards.kind)],

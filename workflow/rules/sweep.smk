@@ -1,27 +1,6 @@
 # Reduced model -> one simulation per blade, scene and speed -> all speeds of a blade and scene.
 
 
-def speed_file(blade, scene, speed):
-    return f"results/{blade}/{scene}/speed_{speed:.10g}.npz"
-
-
-def speed_files(wildcards):
-    """The simulations of one blade and scene, by ascending speed."""
-    blade, scene = wildcards.blade, wildcards.scene
-    return [speed_file(blade, scene, speed) for speed in settings.speeds[blade, scene]]
-
-
-def sweep_provenance(wildcards):
-    """What the results of one blade and scene say about their making."""
-    chosen = settings.scenes[wildcards.scene]
-    return structure_provenance(wildcards) | {
-        "scene": wildcards.scene,
-        "scene_parameters": repr(chosen.scene),
-        "revolutions": chosen.revolutions,
-        "largest_time_step": settings.fidelity["march"]["time_step_s"],
-    }
-
-
 rule contact_model:
     input:
         "results/{blade}/rom_{tip_line}.nc",
@@ -55,9 +34,33 @@ rule warm_kernels:
         "../scripts/warm_kernels.py"
 
 
+rule check_step:
+    input:
+        contact_model_file,
+    output:
+        touch("results/{blade}/{scene}/step.stamp"),
+    log:
+        "logs/{blade}/{scene}/check_step.log",
+    # one message before the sweep instead of one from each of its jobs
+    priority: 15
+    conda:
+        ENVIRONMENT
+    params:
+        scene=lambda wildcards: settings.scenes[wildcards.scene].scene,
+        described=lambda wildcards: repr(settings.scenes[wildcards.scene].scene),
+        speed=settings.structure["maximum_speed_rad_s"],
+        choice=lambda wildcards: asdict(
+            settings.march_choice(wildcards.scene, settings.structure["maximum_speed_rad_s"])
+        ),
+        code=code("march/simulate.py"),
+    script:
+        "../scripts/check_step.py"
+
+
 rule simulate:
     input:
-        model=lambda wildcards: f"results/{wildcards.blade}/contact_{settings.scenes[wildcards.scene].tip_line}.npz",
+        checked="results/{blade}/{scene}/step.stamp",
+        model=contact_model_file,
         kernels="results/kernels/{scene}.stamp",
     output:
         "results/{blade}/{scene}/speed_{speed}.npz",
