@@ -1,4 +1,4 @@
-"""Refuse a time step that is too long, before any simulation. Input: contact model. Params: scene, choice, speed. Output: stamp."""
+"""Refuse a time step that is too long. Input: contact model. Params: scene, choice, speed. Output: stamp."""
 
 from job import run
 
