@@ -59,12 +59,16 @@ def test_defaults_are_filled_in(project):
     content = {
         "blades_file": "config/blades.yaml",
         "fidelity_file": "config/fidelity.yaml",
+        "scenes_file": "config/scenes.yaml",
         "blades": ["Ref"],
+        "scenes": ["direct"],
         "fidelity": "draft",
     }
     settings = load_settings(content, project)
     assert settings.structure["boundary"] == {"tip_line": "pressure_edge", "nodes": 8, "corners": True}
     assert settings.campbell["highest_engine_order"] == 16
+    assert list(settings.scenes) == ["direct"]
+    assert settings.speeds["Ref", "direct"][:2] == (750.0, 800.0)
 
 
 @pytest.mark.parametrize(
