@@ -184,8 +184,15 @@ def test_an_added_speed_runs_alone(finished_copy):
 
 
 def test_interrupted_sweep_keeps_what_is_done(finished_copy):
-    for lost in ("speed_1150.npz", "response.nc"):
-        (finished_copy / "results/Ref/direct" / lost).unlink()
+    results = finished_copy / "results"
+    for later in (
+        results / "Ref/direct/response.nc",
+        results / "summary.csv",
+        *results.glob("*.nc"),
+        *results.glob("figures/*"),
+    ):
+        later.unlink()
+    (results / "Ref/direct/speed_1150.npz").unlink()
     jobs = planned(finished_copy)
     assert jobs["simulate"] == {"Ref"}
     text = snakemake(finished_copy, "all_blades", "--cores", "2")
