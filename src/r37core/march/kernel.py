@@ -57,8 +57,7 @@ def advance(
     steps_per_revolution = casing.shape[0]
     keep, pull, c = recursion[0], recursion[1], recursion[2]
     now, step_before, step_now = state[0].copy(), state[1].copy(), state[1].copy()
-    radial, tangential, axial = rows[0], rows[1], rows[2]
-    position = np.empty(nodes)
+    radial, tangential = rows[0], rows[1]
     gap = np.empty(nodes)
     forces = np.zeros((3, nodes))
     scratch = np.empty((nodes, nodes + 2))
@@ -102,7 +101,6 @@ def advance(
                     for i in range(modes):
                         across += tangential[k, i] * now[i]
                     total = np.sqrt((radius[k] + total) ** 2 + across * across) - radius[k]
-                position[k] = total
                 gap[k] = distance[0] - amplitude * casing[place, k] - total
                 touching = touching or gap[k] < 0.0
             if not touching:
@@ -115,6 +113,8 @@ def advance(
                     forces[2, k] = 0.0
                     multipliers[k] = 0.0
                     sliding_known[k] = False
+                    directions[0, k] = 0.0
+                    directions[1, k] = 0.0
                     if friction is not None and gap[k] < 0.0:
                         _set_direction(k, rows, step_before, step, friction, rotation_velocity, directions)
                         sliding_known[k] = True
@@ -130,63 +130,27 @@ def advance(
                 for k in range(nodes):
                     closed = closed or gap[k] < 0.0
                 if closed:
-                    # a node that only the others' reaction brings to the casing needs its friction direction too
-                    unknown = True
-                    while unknown:
-                        _casing_matrix(coupling, directions, friction, matrix)
-                        violation = solve_complementarity(matrix, gap, multipliers, scratch, on_casing)
-                        unknown = False
-                        if friction is not None:
-                            for k in range(nodes):
-                                if multipliers[k] > 0.0 and not sliding_known[k]:
-                                    _set_direction(k, rows, step_before, step, friction, rotation_velocity, directions)
-                                    sliding_known[k] = True
-                                    unknown = True
-                    totals[WORST_COMPLEMENTARITY] = max(totals[WORST_COMPLEMENTARITY], violation)
-                    for k in range(nodes):
-                        if multipliers[k] > 0.0:
-                            forces[0, k] -= multipliers[k]
-                            if friction is not None:
-                                forces[1, k] += friction[0] * multipliers[k] * directions[0, k]
-                                forces[2, k] += friction[0] * multipliers[k] * directions[1, k]
-                            if on_casing[k] == 0.0:
-                                totals[CASING_HITS] += 1.0
-                            on_casing[k] = 1.0
-                        else:
-                            on_casing[k] = 0.0
+                    _press_casing(
+                        gap,
+                        coupling,
+                        rows,
+                        step_before,
+                        step,
+                        friction,
+                        rotation_velocity,
+                        directions,
+                        sliding_known,
+                        matrix,
+                        multipliers,
+                        scratch,
+                        on_casing,
+                        forces,
+                        totals,
+                    )
                 else:
                     for k in range(nodes):
                         on_casing[k] = 0.0
-                pressed = False
-                for k in range(nodes):
-                    if forces[0, k] < 0.0:
-                        pressed = True
-                        totals[LARGEST_FORCE] = max(totals[LARGEST_FORCE], -forces[0, k])
-                if pressed:
-                    totals[STEPS_IN_CONTACT] += 1.0
-                    for i in range(modes):
-                        push[i] = 0.0
-                    for k in range(nodes):
-                        if forces[0, k] < 0.0:
-                            normal, along, across = forces[0, k], forces[1, k], forces[2, k]
-                            if friction is None:
-                                for i in range(modes):
-                                    push[i] += radial[k, i] * normal
-                            else:
-                                for i in range(modes):
-                                    push[i] += radial[k, i] * normal + tangential[k, i] * along + axial[k, i] * across
-                    work, extra_loss = 0.0, 0.0
-                    for i in range(modes):
-                        free = step_now[i] + step_before[i]
-                        pushed = c[i] * push[i]
-                        step_now[i] += pushed
-                        now[i] += pushed
-                        moved = free + pushed
-                        work += 0.5 * push[i] * moved
-                        if loss is not None:
-                            extra_loss += loss[i] * (moved * moved - free * free)
-                    totals[WORK] += work
-                    block_loss += extra_loss
+                block_loss += _push_blade(forces, rows, friction, c, loss, now, step_before, step_now, push, totals)
             step_before, step_now = step_now, step_before
         totals[LOSS] += block_loss
         totals[STEPS] += steps_per_block
@@ -208,15 +172,14 @@ def advance(
     return done
 
 
-@njit(cache=True, fastmath=_FAST)
+@njit(cache=True, forceinline=True, fastmath=_FAST)
 def _set_direction(k, rows, increment, step, friction, rotation_velocity, directions):
     """Direction of the friction force on node k, from its sliding velocity over the last step."""
     along, across = 0.0, 0.0
     if friction[1] > 0.0:
-        tangential, axial = rows[1, k], rows[2, k]
         for i in range(len(increment)):
-            along += tangential[i] * increment[i]
-            across += axial[i] * increment[i]
+            along += rows[1, k, i] * increment[i]
+            across += rows[2, k, i] * increment[i]
     directions[0, k], directions[1, k] = friction_direction(
         rotation_velocity[k], along / step, across / step, friction[1] > 0.0
     )
@@ -253,6 +216,88 @@ def _push(coupling, forces, k):
             for axis in range(3):
                 total += coupling[0, axis, k, j] * forces[axis, j]
     return total
+
+
+@njit(cache=True, forceinline=True)
+def _press_casing(
+    gap,
+    coupling,
+    rows,
+    increment,
+    step,
+    friction,
+    rotation_velocity,
+    directions,
+    sliding_known,
+    matrix,
+    multipliers,
+    scratch,
+    on_casing,
+    forces,
+    totals,
+):
+    """Add the forces of casing contact: multipliers that close no gap beyond zero, and the friction they cause."""
+    nodes = len(gap)
+    violation = 0.0
+    # a node that only the others' reaction brings to the casing needs its friction direction too
+    unknown = True
+    while unknown:
+        _casing_matrix(coupling, directions, friction, matrix)
+        violation = solve_complementarity(matrix, gap, multipliers, scratch, on_casing)
+        unknown = False
+        if friction is not None:
+            for k in range(nodes):
+                if multipliers[k] > 0.0 and not sliding_known[k]:
+                    _set_direction(k, rows, increment, step, friction, rotation_velocity, directions)
+                    sliding_known[k] = True
+                    unknown = True
+    totals[WORST_COMPLEMENTARITY] = max(totals[WORST_COMPLEMENTARITY], violation)
+    for k in range(nodes):
+        if multipliers[k] > 0.0:
+            forces[0, k] -= multipliers[k]
+            if friction is not None:
+                forces[1, k] += friction[0] * multipliers[k] * directions[0, k]
+                forces[2, k] += friction[0] * multipliers[k] * directions[1, k]
+            if on_casing[k] == 0.0:
+                totals[CASING_HITS] += 1.0
+            on_casing[k] = 1.0
+        else:
+            on_casing[k] = 0.0
+
+
+@njit(cache=True, forceinline=True, fastmath=_FAST)
+def _push_blade(forces, rows, friction, c, loss, now, step_before, step_now, push, totals):
+    """Correct the predicted displacement and increment for the nodes' forces; returns the change of the damping loss."""
+    modes = len(now)
+    pressed = False
+    for i in range(modes):
+        push[i] = 0.0
+    for k in range(forces.shape[1]):
+        normal, along, across = forces[0, k], forces[1, k], forces[2, k]
+        if normal < 0.0:
+            pressed = True
+            totals[LARGEST_FORCE] = max(totals[LARGEST_FORCE], -normal)
+            if friction is None:
+                for i in range(modes):
+                    push[i] += rows[0, k, i] * normal
+            else:
+                for i in range(modes):
+                    push[i] += rows[0, k, i] * normal + rows[1, k, i] * along + rows[2, k, i] * across
+    if not pressed:
+        return 0.0
+    totals[STEPS_IN_CONTACT] += 1.0
+    work, extra_loss = 0.0, 0.0
+    for i in range(modes):
+        free = step_now[i] + step_before[i]
+        pushed = c[i] * push[i]
+        step_now[i] += pushed
+        now[i] += pushed
+        moved = free + pushed
+        work += 0.5 * push[i] * moved
+        if loss is not None:
+            extra_loss += loss[i] * (moved * moved - free * free)
+    totals[WORK] += work
+    return extra_loss
 
 
 @njit(cache=True, forceinline=True)
