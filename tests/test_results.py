@@ -35,7 +35,7 @@ def box_model(*fields):
 
 
 def test_stress_of_simple_states():
-    """Uniaxial strain energy-free side: von Mises of tension is E times strain; of shear sqrt(3) times the shear stress."""
+    """Von Mises: tension E times strain, shear sqrt(3) times the shear stress, bending E times curvature times height."""
 
     def tension(p):
         return 1e-3 * p * np.array([1.0, -0.3, -0.3])

@@ -126,13 +126,9 @@ def load_settings(config: Mapping[str, Any], root: Path, config_name: str = "con
     fidelity_file, blades_file = checked["fidelity_file"], checked["blades_file"]
     levels = _validated(_load(root, fidelity_file), schemas / "fidelity.schema.yaml", fidelity_file)
     level = checked["fidelity"]
-    if level not in levels:
-        raise ConfigError(f"{config_name}: fidelity: found '{level}'; allowed: {', '.join(levels)} ({fidelity_file})")
+    _check_known("fidelity", [level], levels, fidelity_file, config_name)
     entries = _validated(_load(root, blades_file), schemas / "blades.schema.yaml", blades_file)
-    names = list(entries) if checked["blades"] == "all" else checked["blades"]
-    for name in names:
-        if name not in entries:
-            raise ConfigError(f"{config_name}: blades: found '{name}'; allowed: {', '.join(entries)} ({blades_file})")
+    names = _selected("blades", checked, entries, blades_file, config_name)
     scenes = _scenes(checked, levels[level], root, schemas, config_name)
     submesh = checked["structure"]["stress_submesh"]
     if not submesh["minimum_z_m"] < submesh["maximum_z_m"]:
@@ -152,6 +148,19 @@ def load_settings(config: Mapping[str, Any], root: Path, config_name: str = "con
         campbell=checked["campbell"],
         interactions=checked["interactions"],
     )
+
+
+def _selected(key: str, checked: Mapping[str, Any], entries: Mapping[str, Any], file: str, config_name: str) -> list[str]:
+    """Names that config.yaml asks for under `key`, which may be `all`; ConfigError for one that `file` lacks."""
+    names = list(entries) if checked[key] == "all" else list(checked[key])
+    _check_known(key, names, entries, file, config_name)
+    return names
+
+
+def _check_known(key: str, names: list[str], entries: Mapping[str, Any], file: str, config_name: str) -> None:
+    for name in names:
+        if name not in entries:
+            raise ConfigError(f"{config_name}: {key}: found '{name}'; allowed: {', '.join(entries)} ({file})")
 
 
 def _load(root: Path, file: str) -> Any:
@@ -281,10 +290,7 @@ def _scenes(
 ) -> dict[str, SceneSettings]:
     file = checked["scenes_file"]
     entries = _validated(_load(root, file), schemas / "scenes.schema.yaml", file)
-    names = list(entries) if checked["scenes"] == "all" else checked["scenes"]
-    for name in names:
-        if name not in entries:
-            raise ConfigError(f"{config_name}: scenes: found '{name}'; allowed: {', '.join(entries)} ({file})")
+    names = _selected("scenes", checked, entries, file, config_name)
     tip_line = checked["structure"]["boundary"]["tip_line"]
     return {name: _scene(name, entries[name], level["march"], tip_line, file) for name in names}
 

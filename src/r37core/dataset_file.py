@@ -8,8 +8,7 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 
-from . import __version__
-from .io import atomic_write, readable
+from .io import FILE_ATTRIBUTES, atomic_write, readable
 
 
 def about(units: str, long_name: str) -> dict[str, str]:
@@ -22,7 +21,7 @@ def write_dataset(dataset: xr.Dataset, file: Path | str, provenance: Mapping[str
 
     Coordinates carry no fill value, as the CF conventions ask.
     """
-    dataset = dataset.assign_attrs(Conventions="CF-1.11", r37core_version=__version__, **dict(provenance or {}))
+    dataset = dataset.assign_attrs(FILE_ATTRIBUTES | dict(provenance or {}))
     encoding: dict[str, dict[str, float | None]] = {str(name): {"_FillValue": None} for name in dataset.coords}
     for name, variable in dataset.data_vars.items():
         encoding[str(name)] = {"_FillValue": np.nan if variable.dtype.kind == "f" else None}

@@ -7,6 +7,11 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
+from . import __version__
+
+FILE_ATTRIBUTES = {"Conventions": "CF-1.11", "r37core_version": __version__}
+"""Global attributes of every netCDF file."""
+
 
 class InputFileError(RuntimeError):
     """A file that is missing, corrupt or of another make; the message names it and the remedy."""

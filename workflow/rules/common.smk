@@ -53,14 +53,10 @@ def contact_model_file(wildcards):
     return f"results/{wildcards.blade}/contact_{settings.scenes[wildcards.scene].tip_line}.npz"
 
 
-def speed_file(blade, scene, speed):
-    return f"results/{blade}/{scene}/speed_{speed:.10g}.npz"
-
-
 def speed_files(wildcards):
     """The simulations of one blade and scene, by ascending speed."""
     blade, scene = wildcards.blade, wildcards.scene
-    return [speed_file(blade, scene, speed) for speed in settings.speeds[blade, scene]]
+    return [f"results/{blade}/{scene}/speed_{speed:.10g}.npz" for speed in settings.speeds[blade, scene]]
 
 
 def sweep_provenance(wildcards):

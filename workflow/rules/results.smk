@@ -15,7 +15,7 @@ rule sweep_dataset:
     params:
         runs=lambda wildcards: runs_with(wildcards.kind),
         fidelity=settings.fidelity_name,
-        code=code("io.py", "results/datasets.py", "results/variables.py"),
+        code=code("io.py", "results/datasets.py", "results/netcdf.py", "results/variables.py"),
     script:
         "../scripts/sweep_dataset.py"
 

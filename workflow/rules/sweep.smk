@@ -104,6 +104,7 @@ rule response:
             "io.py",
             "fem/stress.py",
             "fem/wedge15.py",
+            "results/netcdf.py",
             "results/response.py",
             "results/stress.py",
             "results/variables.py",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import scipy.sparse as sp
@@ -85,9 +85,7 @@ def assemble(mesh: WedgeMesh, material: Material) -> StructuralMatrices:
     )
     displacement = static_displacement(partial, centrifugal_load(elements, points, material.density))
     geometric = assemble_geometric_stiffness(pattern, elements, points, material, displacement)
-    return StructuralMatrices(
-        partial.indptr, partial.indices, partial.stiffness_blocks, partial.mass_pairs, geometric, partial.free_nodes
-    )
+    return replace(partial, geometric_pairs=geometric)
 
 
 def static_displacement(matrices: StructuralMatrices, load: np.ndarray) -> np.ndarray:

@@ -8,14 +8,12 @@ from pathlib import Path
 import netCDF4
 import numpy as np
 
-from r37core import __version__
-from r37core.io import atomic_write
+from r37core.io import FILE_ATTRIBUTES, atomic_write
 from r37core.march.speed_file import read_speed
 
+from .netcdf import create_axis, create_labels, create_variable
 from .stress import StressRecovery
-from .variables import STATUS_MEANINGS, VARIABLES
-
-_TIP_POINTS = ("leading_edge", "trailing_edge")
+from .variables import STATUS_MEANINGS, TIP_POINTS, VARIABLES
 
 
 def write_response(
@@ -35,13 +33,10 @@ def write_response(
     """
     history_speeds = [speed for speed in speeds if speed in stress_history_speeds]
     with atomic_write(file) as partial, netCDF4.Dataset(partial, "w") as dataset:
-        dataset.setncatts(
-            {"Conventions": "CF-1.11", "r37core_version": __version__}
-            | {name: str(value) for name, value in provenance.items()}
-        )
+        dataset.setncatts(FILE_ATTRIBUTES | {name: str(value) for name, value in provenance.items()})
         if recovery is not None:
-            _create_variable(dataset, "yield_stress", "f8", (), "Pa", "yield stress of the blade's material")
-            dataset["yield_stress"][...] = yield_stress
+            about = {"units": "Pa", "long_name": "yield stress of the blade's material"}
+            create_variable(dataset, "yield_stress", "f8", (), about)[...] = yield_stress
         for row, (speed, source) in enumerate(zip(speeds, files, strict=True)):
             values = _row(read_speed(source), recovery, stress_instants)
             if row == 0:
@@ -80,31 +75,19 @@ def _create(
         coordinates["lobes"] = (np.arange(len(values["wear_harmonic"])), "1", "number of lobes")
     if history_speeds:
         coordinates["history_speed"] = (np.array(history_speeds), "rad s-1", "speed with a stress history")
-    dataset.createDimension("tip_point", len(_TIP_POINTS))
-    dataset.createVariable("tip_point", str, ("tip_point",))[:] = np.array(_TIP_POINTS, dtype=object)
+    create_labels(dataset, "tip_point", TIP_POINTS)
     for name, (data, units, long_name) in coordinates.items():
-        dataset.createDimension(name, len(data))
-        variable = dataset.createVariable(name, "f8", (name,), fill_value=False)
-        variable.setncatts({"units": units, "long_name": long_name})
-        variable[:] = data
+        create_axis(dataset, name, data, {"units": units, "long_name": long_name})
     for name, about in VARIABLES.items():
         if name in values:
-            _create_variable(dataset, name, about.dtype, ("speed", *about.dims), about.units, about.long_name)
+            attributes = {"units": about.units, "long_name": about.long_name}
+            create_variable(dataset, name, about.dtype, ("speed", *about.dims), attributes)
     dataset["status"].setncatts({"flag_values": np.array([0, 1, 2], dtype="i1"), "flag_meanings": STATUS_MEANINGS})
     if history_speeds:
-        dims = ("history_speed", "revolution")
-        _create_variable(dataset, "max_von_mises_history", "f4", dims, "Pa", "largest von Mises stress of each revolution")
-        _create_variable(
-            dataset, "first_yield_revolution", "f8", dims[:1], "1", "first revolution whose largest stress exceeds yield"
-        )
-
-
-def _create_variable(
-    dataset: netCDF4.Dataset, name: str, dtype: str, dims: tuple[str, ...], units: str, long_name: str
-) -> None:
-    fill = np.nan if dtype.startswith("f") else False
-    variable = dataset.createVariable(name, dtype, dims, fill_value=fill)
-    variable.setncatts({"units": units, "long_name": long_name})
+        history = {"units": "Pa", "long_name": "largest von Mises stress of each revolution"}
+        create_variable(dataset, "max_von_mises_history", "f4", ("history_speed", "revolution"), history)
+        first = {"units": "1", "long_name": "first revolution whose largest stress exceeds yield"}
+        create_variable(dataset, "first_yield_revolution", "f8", ("history_speed",), first)
 
 
 def _write_history(

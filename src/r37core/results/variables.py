@@ -15,6 +15,7 @@ class Variable:
     dtype: str = "f8"
 
 
+TIP_POINTS = ("leading_edge", "trailing_edge")
 _TIP = ("tip_point",)
 
 VARIABLES = {
@@ -57,10 +58,10 @@ DATASETS = {
         "revolution_maximum",
     ),
     "spectrum": ("amplitude",),
-    "stress": ("max_von_mises", "yield_stress"),
+    "stress": ("max_von_mises", "yield_stress", "max_von_mises_history", "first_yield_revolution"),
     "wear": ("wear", "max_wear", "wear_harmonic"),
 }
-"""Dataset -> its variables; each also carries `status` and `diverged_revolution`."""
+"""Dataset -> its variables, where a response has them; each also carries those of FLAGS."""
 
 FLAGS = ("status", "diverged_revolution")
 STATUS_MEANINGS = "completed diverged not_run"

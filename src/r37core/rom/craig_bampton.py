@@ -49,12 +49,10 @@ def multi_speed_basis(
     `stiffness_at` gives the stiffness at a speed. The first speed's constraint modes stay as they are, so that static
     responses to boundary loads at that speed are exact.
     """
-    static, columns = [], []
+    columns: list[np.ndarray] = []
     for speed in speeds:
-        constraint, fixed = constraint_and_fixed_modes(stiffness_at(speed), mass, boundary_dofs, fixed_interface_modes)
-        static.append(constraint)
-        columns += [constraint, fixed]
-    return combine_columns(static[0], np.hstack(columns), mass, boundary_dofs, tolerance)
+        columns += constraint_and_fixed_modes(stiffness_at(speed), mass, boundary_dofs, fixed_interface_modes)
+    return combine_columns(columns[0], np.hstack(columns), mass, boundary_dofs, tolerance)
 
 
 def combine_columns(

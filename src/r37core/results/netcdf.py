@@ -1,0 +1,33 @@
+"""Creating labels, axes and variables in an open netCDF4 file, for the datasets that are written row by row."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import netCDF4
+import numpy as np
+
+
+def create_labels(dataset: netCDF4.Dataset, name: str, labels: Sequence[str]) -> None:
+    """A dimension with text labels."""
+    dataset.createDimension(name, len(labels))
+    dataset.createVariable(name, str, (name,))[:] = np.array(labels, dtype=object)
+
+
+def create_axis(dataset: netCDF4.Dataset, name: str, values: np.ndarray, attributes: Mapping[str, Any]) -> None:
+    """A dimension with numbers; coordinates carry no fill value, as the CF conventions ask."""
+    dataset.createDimension(name, len(values))
+    axis = dataset.createVariable(name, "f8", (name,), fill_value=False)
+    axis.setncatts(attributes)
+    axis[:] = values
+
+
+def create_variable(
+    dataset: netCDF4.Dataset, name: str, dtype: str | np.dtype, dims: Sequence[str], attributes: Mapping[str, Any]
+) -> netCDF4.Variable:
+    """A variable; floats are NaN where nothing is written."""
+    fill = np.nan if np.dtype(dtype).kind == "f" else False
+    variable = dataset.createVariable(name, dtype, tuple(dims), fill_value=fill)
+    variable.setncatts(attributes)
+    return variable
