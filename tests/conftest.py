@@ -68,3 +68,10 @@ def model(mesh, matrices, choice):
     from r37core.rom.reduce import reduce_blade
 
     return reduce_blade(mesh, matrices, choice)
+
+
+@pytest.fixture(scope="session")
+def contact(model):
+    from r37core.rom.contact_reduction import contact_model
+
+    return contact_model(model, "pressure_edge")

@@ -9,6 +9,7 @@ import yaml
 LAYERS = [
     "io",
     "dataset_file",
+    "native",
     "yaml_file",
     "speeds",
     "blade",

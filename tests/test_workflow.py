@@ -72,7 +72,7 @@ def finished_copy(finished, tmp_path):
 
 
 STRUCTURE = {"geometry", "mesh", "abaqus_deck", "matrices", "reduced_model", "contact_model"}
-PER_BLADE = STRUCTURE | {"campbell_of_blade", "campbell_figure", "check_step", "simulate", "response"}
+PER_BLADE = STRUCTURE | {"campbell_of_blade", "campbell_figure", "prepare_march", "simulate", "response"}
 GATHERED = {
     "campbell_of_all",
     "campbell_overview",
@@ -214,7 +214,7 @@ def test_step_beyond_the_limit_stops_with_the_limit(finished_copy):
     levels.write_text(levels.read_text().replace("2.0e-7, revolutions: 8", "9.0e-7, revolutions: 8"))
     text = snakemake(finished_copy, "results/Ref/direct/response.nc", "--cores", "1", check=False)
     assert "rule simulate:" not in text
-    assert re.search(r"rule check_step: time_step_s: 9e-07 s .* stability limit of this reduced model, [\d.e-]+ s", text)
+    assert re.search(r"rule prepare_march: time_step_s: 9e-07 s .* stability limit of this reduced model, [\d.e-]+ s", text)
 
 
 @pytest.mark.parametrize(

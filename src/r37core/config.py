@@ -85,17 +85,6 @@ class Settings:
         kept = {key: value for key, value in self.structure.items() if key != "edges"}
         return kept | {"boundary": self.structure["boundary"] | {"tip_line": tip_line}}
 
-    def kernel_parts(self, scene: str) -> dict[str, bool]:
-        """Which parts of the march a scene compiles."""
-        chosen = self.scenes[scene]
-        return {
-            "lining": chosen.scene.lining is not None,
-            "friction": chosen.scene.friction is not None,
-            "exact_gap": chosen.scene.exact_gap,
-            "stress": "stress" in chosen.results,
-            "energy": "energy" in chosen.results,
-        }
-
     def march_choice(self, scene: str, speed: float) -> MarchChoice:
         """Numbers of the march at one speed of a scene, with only what its results need."""
         level, chosen = self.fidelity["march"], self.scenes[scene]

@@ -16,32 +16,14 @@ rule contact_model:
         "../scripts/contact_model.py"
 
 
-rule warm_kernels:
-    output:
-        touch("results/kernels/{scene}.stamp"),
-    log:
-        "logs/warm_kernels_{scene}.log",
-    priority: 20
-    conda:
-        ENVIRONMENT
-    # alone: jobs that compile side by side could spoil numba's cache
-    threads: workflow.cores
-    params:
-        # only what makes another version of the kernel, so that a changed number re-compiles nothing
-        parts=lambda wildcards: settings.kernel_parts(wildcards.scene),
-        code=code("contact/*.py", "march/*.py"),
-    script:
-        "../scripts/warm_kernels.py"
-
-
-rule check_step:
+rule prepare_march:
     input:
         contact_model_file,
     output:
-        touch("results/{blade}/{scene}/step.stamp"),
+        touch("results/{blade}/{scene}/march.stamp"),
     log:
-        "logs/{blade}/{scene}/check_step.log",
-    # one message before the sweep instead of one from each of its jobs
+        "logs/{blade}/{scene}/prepare_march.log",
+    # the sweep's jobs find the march compiled; one message before the sweep instead of one from each of its jobs
     priority: 15
     conda:
         ENVIRONMENT
@@ -52,16 +34,15 @@ rule check_step:
         choice=lambda wildcards: asdict(
             settings.march_choice(wildcards.scene, settings.structure["maximum_speed_rad_s"])
         ),
-        code=code("march/simulate.py"),
+        code=code("native.py", "contact/*.[ch]", "march/*.[ch]", "march/simulate.py", "march/kernel.py"),
     script:
-        "../scripts/check_step.py"
+        "../scripts/prepare_march.py"
 
 
 rule simulate:
     input:
-        checked="results/{blade}/{scene}/step.stamp",
+        prepared="results/{blade}/{scene}/march.stamp",
         model=contact_model_file,
-        kernels="results/kernels/{scene}.stamp",
     output:
         "results/{blade}/{scene}/speed_{speed}.npz",
     log:
@@ -77,7 +58,7 @@ rule simulate:
             for key in ("spectrum_highest_order", "signal_revolutions", "wear_angles")
         },
         provenance=sweep_provenance,
-        code=code("io.py", "contact/*.py", "march/*.py", "rom/contact_model.py"),
+        code=code("io.py", "native.py", "contact/*.*", "march/*.*", "rom/contact_model.py"),
     script:
         "../scripts/simulate.py"
 

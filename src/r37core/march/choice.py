@@ -10,7 +10,7 @@ class MarchChoice:
     """Numbers of the march: largest time step (s), revolutions, samples per revolution, and what is recorded.
 
     `snapshots_per_revolution` modal states are kept in each of the last `snapshot_revolutions`; `energy`: whether the loss
-    to damping is added up.
+    to damping is added up; `precision`: double or single; `jumps`: whether free flight is jumped over or stepped through.
     """
 
     time_step: float
@@ -19,3 +19,5 @@ class MarchChoice:
     snapshots_per_revolution: int = 0
     snapshot_revolutions: int = 0
     energy: bool = False
+    precision: str = "double"
+    jumps: bool = True

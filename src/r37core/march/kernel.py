@@ -1,315 +1,221 @@
-"""The central-difference march in modal coordinates, compiled for what the scene needs.
-
-Arguments that a scene lacks are None: numba compiles a version of its own for them, in which their code is gone.
-Recursion (section 5 of the benchmark, diagonal in the modes of one speed): u* = a u_n + b u_{n-1}; where a tip node
-passes the lining or the casing, u_{n+1} = u* + c F. It is carried in displacement u and increment d = u_n - u_{n-1}, which is
-the same recursion without its loss of digits (a + b differs from 1 by only c omega^2): d* = -b d - c omega^2 u, u* = u + d*.
-"""
+"""The compiled march (march.c), called with NumPy arrays."""
 
 from __future__ import annotations
 
+import ctypes
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+
 import numpy as np
-from numba import njit
 
-from r37core.contact.complementarity import solve_complementarity
-from r37core.contact.friction import friction_direction
-from r37core.contact.lining import return_mapping
+from r37core.native import load_library
 
-# sums may be reordered and contracted, so that they vectorise; NaN and infinity keep their meaning
-_FAST = {"reassoc", "contract", "nsz"}
+from .flight import FlightPlan
 
-STEPS_IN_CONTACT, CASING_HITS, LARGEST_FORCE, WORST_COMPLEMENTARITY, WORK, LOSS, STEPS = range(7)
-"""Places in the array of totals: steps with any contact force, onsets of casing contact, largest normal force (N),
-largest relative complementarity violation, work of the contact forces (J), energy lost to damping (J), steps done."""
-TOTALS = 7
+STEPS_IN_CONTACT, CASING_HITS, LARGEST_FORCE, WORST_COMPLEMENTARITY, WORK, LOSS, STEPS, STEPS_JUMPED = range(8)
+"""Places in the array of totals: steps with any contact force, onsets of casing contact, largest normal force (N), largest
+relative complementarity violation, work of the contact forces (J), energy lost to damping (J), steps done, and those of
+them that were part of a jump over free flight."""
+TOTALS = 8
 
-
-@njit(cache=True, fastmath=_FAST)
-def advance(
-    state,  # (2, modes): u_n, u_n - u_{n-1}
-    recursion,  # (3, modes): -b, c omega^2, c
-    rows,  # (3, nodes, modes): radial, tangential, axial
-    coupling,  # (3, 3, nodes, nodes): rows[i] c rows[j]^T
-    casing,  # (steps per revolution, nodes): f(theta) of each node at each step of a revolution
-    distance,  # clearance, amplitude (m), rise rate times step, 1 where the casing is deformed from the start
-    radius,  # None or (nodes,): exact radial position in the gap
-    lining,  # None or (6,): thickness, elastic and plastic modulus, yield stress, bar area, bars
-    wear,  # None or (rings, bars)
-    on_casing,  # (nodes,): 1 where the node touched the casing in the last step
-    bar_position,  # None or (nodes,): angle of each node at step 0, in bars
-    friction,  # None or (3,): coefficient, 1 for vector, 1 for coupled
-    rotation_velocity,  # None or (nodes,): signed tangential velocity of the rotation
-    loss,  # None or (modes,): energy lost per step and squared central difference
-    step,  # time step (s)
-    first_step,  # number of steps already done
-    blocks,  # blocks of steps to do
-    steps_per_block,
-    output_rows,  # (outputs, modes)
-    samples,  # (blocks, outputs): written at the end of each block
-    snapshot_of_block,  # None or (blocks,): row of `snapshots` to write at the end of the block, or -1
-    snapshots,  # None or (rows, modes)
-    totals,  # (TOTALS,), added to
-    limit,  # largest displacement of an output allowed (m)
-):
-    """Do up to `blocks` blocks of steps. Returns how many were done; fewer when an output passed the limit or is NaN."""
-    modes = state.shape[1]
-    nodes = rows.shape[1]
-    steps_per_revolution = casing.shape[0]
-    keep, pull, c = recursion[0], recursion[1], recursion[2]
-    now, step_before, step_now = state[0].copy(), state[1].copy(), state[1].copy()
-    radial, tangential = rows[0], rows[1]
-    gap = np.empty(nodes)
-    forces = np.zeros((3, nodes))
-    scratch = np.empty((nodes, nodes + 2))
-    matrix = np.empty((nodes, nodes))
-    directions = np.zeros((2, nodes))
-    sliding_known = np.zeros(nodes, dtype=np.bool_)
-    multipliers = np.zeros(nodes)
-    push = np.empty(modes)
-    done = 0
-    for block in range(blocks):
-        start = first_step + block * steps_per_block
-        place = start % steps_per_revolution
-        remaining = 0.0 if distance[3] > 0.0 else np.exp(-distance[2] * start)
-        decay = 0.0 if distance[3] > 0.0 else np.exp(-distance[2])
-        block_loss = 0.0
-        for _ in range(steps_per_block):
-            place += 1
-            if place == steps_per_revolution:
-                place = 0
-            remaining *= decay
-            if loss is None:
-                for i in range(modes):
-                    step_now[i] = keep[i] * step_before[i] - pull[i] * now[i]
-                    now[i] += step_now[i]
-            else:
-                step_loss = 0.0
-                for i in range(modes):
-                    step_now[i] = keep[i] * step_before[i] - pull[i] * now[i]
-                    now[i] += step_now[i]
-                    moved = step_now[i] + step_before[i]
-                    step_loss += loss[i] * moved * moved
-                block_loss += step_loss
-            touching = False
-            amplitude = distance[1] * (1.0 - remaining)
-            for k in range(nodes):
-                total = 0.0
-                for i in range(modes):
-                    total += radial[k, i] * now[i]
-                if radius is not None:
-                    across = 0.0
-                    for i in range(modes):
-                        across += tangential[k, i] * now[i]
-                    total = np.sqrt((radius[k] + total) ** 2 + across * across) - radius[k]
-                gap[k] = distance[0] - amplitude * casing[place, k] - total
-                touching = touching or gap[k] < 0.0
-            if not touching:
-                for k in range(nodes):
-                    on_casing[k] = 0.0
-            else:
-                for k in range(nodes):
-                    forces[0, k] = 0.0
-                    forces[1, k] = 0.0
-                    forces[2, k] = 0.0
-                    multipliers[k] = 0.0
-                    sliding_known[k] = False
-                    directions[0, k] = 0.0
-                    directions[1, k] = 0.0
-                    if friction is not None and gap[k] < 0.0:
-                        _set_direction(k, rows, step_before, step, friction, rotation_velocity, directions)
-                        sliding_known[k] = True
-                if lining is not None:
-                    turned = place * lining[5] / steps_per_revolution
-                    _press_lining(gap, wear, lining, bar_position, turned, forces)
-                    if friction is not None:
-                        _add_friction(forces, directions, friction[0])
-                    # the casing lies behind the lining; its gap after the lining's forces
-                    for k in range(nodes):
-                        gap[k] += lining[0] - _push(coupling, forces, k)
-                closed = False
-                for k in range(nodes):
-                    closed = closed or gap[k] < 0.0
-                if closed:
-                    _press_casing(
-                        gap,
-                        coupling,
-                        rows,
-                        step_before,
-                        step,
-                        friction,
-                        rotation_velocity,
-                        directions,
-                        sliding_known,
-                        matrix,
-                        multipliers,
-                        scratch,
-                        on_casing,
-                        forces,
-                        totals,
-                    )
-                else:
-                    for k in range(nodes):
-                        on_casing[k] = 0.0
-                block_loss += _push_blade(forces, rows, friction, c, loss, now, step_before, step_now, push, totals)
-            step_before, step_now = step_now, step_before
-        totals[LOSS] += block_loss
-        totals[STEPS] += steps_per_block
-        done = block + 1
-        bounded = True
-        for o in range(output_rows.shape[0]):
-            total = 0.0
-            for i in range(modes):
-                total += output_rows[o, i] * now[i]
-            samples[block, o] = total
-            # written so that NaN fails as well
-            bounded = bounded and abs(total) < limit
-        if snapshot_of_block is not None and snapshot_of_block[block] >= 0:
-            for i in range(modes):
-                snapshots[snapshot_of_block[block], i] = now[i]
-        if not bounded:
-            break
-    state[0], state[1] = now, step_before
-    return done
+_VECTOR_BYTES = 64
 
 
-@njit(cache=True, forceinline=True, fastmath=_FAST)
-def _set_direction(k, rows, increment, step, friction, rotation_velocity, directions):
-    """Direction of the friction force on node k, from its sliding velocity over the last step."""
-    along, across = 0.0, 0.0
-    if friction[1] > 0.0:
-        for i in range(len(increment)):
-            along += rows[1, k, i] * increment[i]
-            across += rows[2, k, i] * increment[i]
-    directions[0, k], directions[1, k] = friction_direction(
-        rotation_velocity[k], along / step, across / step, friction[1] > 0.0
-    )
+@dataclass
+class KernelInput:
+    """What `advance` needs; fields that a scene lacks are None. See march.h for how each is used.
+
+    `recursion` (-b, c omega^2, c), shape (3, modes); `rows`, shape (3, nodes, modes); `coupling` (m/N), shape (3, nodes,
+    nodes): radial displacement of the last node per radial, tangential or axial force on the one before; `casing`, shape
+    (steps per revolution, nodes); `casing_most`: of r37core.march.flight.nearest_casing; `distance`: clearance (m),
+    amplitude (m), rise rate times step; `lining`: thickness, moduli, yield stress, bar area, bars; `friction`: coefficient,
+    1 for vector, 1 for coupled; `loss`, shape (modes,); `output_rows`, shape (outputs, modes).
+    """
+
+    step: float
+    steps_per_block: int
+    recursion: np.ndarray
+    rows: np.ndarray
+    coupling: np.ndarray
+    casing: np.ndarray
+    distance: tuple[float, float, float]
+    output_rows: np.ndarray
+    limit: float
+    precision: type = np.float64
+    radius: np.ndarray | None = None
+    lining: tuple[float, float, float, float, float, float] | None = None
+    bar_position: np.ndarray | None = None
+    friction: tuple[float, float, float] | None = None
+    rotation_velocity: np.ndarray | None = None
+    loss: np.ndarray | None = None
+    flight: FlightPlan | None = None
+    casing_most: np.ndarray | None = None
 
 
-@njit(cache=True, forceinline=True)
-def _press_lining(gap, wear, lining, bar_position, turned, forces):
-    """Normal forces of the bars that the nodes press, from the predicted positions; wears them."""
-    rings = wear.shape[0]
-    bars = wear.shape[1]
-    for k in range(len(gap)):
-        if gap[k] < 0.0:
-            # the rotor turns towards negative theta
-            bar = int(np.floor(bar_position[k] - turned)) % bars
-            ring = k if rings > 1 else 0
-            stress, worn = return_mapping(-gap[k], wear[ring, bar], lining[0], lining[1], lining[2], lining[3])
-            wear[ring, bar] = worn
-            forces[0, k] = -stress * lining[4]
+def _fields(kind: type, names: str) -> list[tuple[str, type]]:
+    return [(name, kind) for name in names.split()]
 
 
-@njit(cache=True, forceinline=True)
-def _add_friction(forces, directions, coefficient):
-    for k in range(forces.shape[1]):
-        forces[1, k] = -coefficient * forces[0, k] * directions[0, k]
-        forces[2, k] = -coefficient * forces[0, k] * directions[1, k]
+class _March(ctypes.Structure):
+    """struct march of march.h."""
+
+    _fields_ = [
+        *_fields(ctypes.c_int64, "first_step steps_per_revolution steps_per_block blocks outputs bars rings levels"),
+        *_fields(ctypes.c_double, "step clearance amplitude rise limit"),
+        *_fields(ctypes.c_double, "thickness elastic_modulus plastic_modulus yield_stress bar_area"),
+        *_fields(ctypes.c_double, "friction vector_friction coupled_friction"),
+        *_fields(ctypes.c_void_p, "displacement increment recursion loss rows coupling casing casing_most radius"),
+        *_fields(ctypes.c_void_p, "bar_position rotation_velocity wear on_casing jump_length jump_chunks jump jump_decay"),
+        *_fields(ctypes.c_void_p, "amplitude_rows output_rows samples snapshot_of_block snapshots totals"),
+    ]
 
 
-@njit(cache=True, forceinline=True)
-def _push(coupling, forces, k):
-    """Radial displacement (m) of node k caused in one step by the forces on all nodes."""
-    total = 0.0
-    for j in range(forces.shape[1]):
-        if forces[0, j] != 0.0:
-            for axis in range(3):
-                total += coupling[0, axis, k, j] * forces[axis, j]
-    return total
+def lanes(precision: type) -> int:
+    """Numbers in a vector."""
+    return _VECTOR_BYTES // np.dtype(precision).itemsize
 
 
-@njit(cache=True, forceinline=True)
-def _press_casing(
-    gap,
-    coupling,
-    rows,
-    increment,
-    step,
-    friction,
-    rotation_velocity,
-    directions,
-    sliding_known,
-    matrix,
-    multipliers,
-    scratch,
-    on_casing,
-    forces,
-    totals,
-):
-    """Add the forces of casing contact: multipliers that close no gap beyond zero, and the friction they cause."""
-    nodes = len(gap)
-    violation = 0.0
-    # a node that only the others' reaction brings to the casing needs its friction direction too
-    unknown = True
-    while unknown:
-        _casing_matrix(coupling, directions, friction, matrix)
-        violation = solve_complementarity(matrix, gap, multipliers, scratch, on_casing)
-        unknown = False
-        if friction is not None:
-            for k in range(nodes):
-                if multipliers[k] > 0.0 and not sliding_known[k]:
-                    _set_direction(k, rows, increment, step, friction, rotation_velocity, directions)
-                    sliding_known[k] = True
-                    unknown = True
-    totals[WORST_COMPLEMENTARITY] = max(totals[WORST_COMPLEMENTARITY], violation)
-    for k in range(nodes):
-        if multipliers[k] > 0.0:
-            forces[0, k] -= multipliers[k]
-            if friction is not None:
-                forces[1, k] += friction[0] * multipliers[k] * directions[0, k]
-                forces[2, k] += friction[0] * multipliers[k] * directions[1, k]
-            if on_casing[k] == 0.0:
-                totals[CASING_HITS] += 1.0
-            on_casing[k] = 1.0
-        else:
-            on_casing[k] = 0.0
+class Kernel:
+    """The march compiled for one model and scene, with its constant arrays laid out for it. Raises CompilerError."""
+
+    def __init__(self, given: KernelInput):
+        self._given = given
+        _, self._nodes, self._modes = given.rows.shape
+        self._lanes = lanes(given.precision)
+        self._chunks = -(-self._modes // self._lanes)
+        self._padded_nodes = -(-self._nodes // self._lanes) * self._lanes
+        self._library = _library(
+            HAS_LINING=int(given.lining is not None),
+            HAS_FRICTION=int(given.friction is not None),
+            HAS_EXACT_GAP=int(given.radius is not None),
+            HAS_LOSS=int(given.loss is not None),
+            NODES=self._nodes,
+            CHUNKS=self._chunks,
+            REAL="double" if given.precision is np.float64 else "float",
+        )
+        self._kept: list[np.ndarray] = []
+        self._march = self._constants()
+
+    def advance(
+        self,
+        displacement: np.ndarray,
+        increment: np.ndarray,
+        on_casing: np.ndarray,
+        wear: np.ndarray | None,
+        totals: np.ndarray,
+        first_step: int,
+        samples: np.ndarray,
+        snapshot_of_block: np.ndarray | None,
+        snapshots: np.ndarray | None,
+    ) -> int:
+        """Do one block of steps per row of `samples`; changes the state and fills samples and snapshots.
+
+        Returns the blocks done: fewer when an output passed the limit or is NaN.
+        """
+        modal = [self._modal(displacement), self._modal(increment)]
+        touching = self._nodal(on_casing)
+        march = self._march
+        march.first_step, march.blocks = first_step, len(samples)
+        march.displacement, march.increment, march.on_casing = modal[0].ctypes.data, modal[1].ctypes.data, touching.ctypes.data
+        march.samples, march.totals = samples.ctypes.data, totals.ctypes.data
+        if wear is not None:
+            march.rings, march.wear = wear.shape[0], wear.ctypes.data
+        padded_snapshots = None
+        march.snapshot_of_block = march.snapshots = None
+        if snapshot_of_block is not None and snapshots is not None:
+            padded_snapshots = self._modal(snapshots)
+            rows = np.ascontiguousarray(snapshot_of_block, dtype=np.int64)
+            march.snapshot_of_block, march.snapshots = rows.ctypes.data, padded_snapshots.ctypes.data
+        done = int(self._library.advance(ctypes.byref(march)))
+        displacement[:], increment[:] = modal[0][: self._modes], modal[1][: self._modes]
+        on_casing[:] = touching[: self._nodes]
+        if snapshots is not None and padded_snapshots is not None:
+            snapshots[:] = padded_snapshots[:, : self._modes]
+        return done
+
+    def _constants(self) -> _March:
+        given = self._given
+        clearance, amplitude, rise = given.distance
+        march = _March(
+            steps_per_revolution=len(given.casing),
+            steps_per_block=given.steps_per_block,
+            outputs=len(given.output_rows),
+            step=given.step,
+            clearance=clearance,
+            amplitude=amplitude,
+            rise=rise,
+            limit=given.limit,
+            recursion=self._keep(self._modal(given.recursion)),
+            rows=self._keep(self._rows()),
+            coupling=self._keep(self._coupling()),
+            casing=self._keep(self._nodal(given.casing)),
+            output_rows=self._keep(self._modal(given.output_rows)),
+        )
+        if given.radius is not None:
+            # a node that only pads the vector must not sit on the axis
+            radius = self._nodal(given.radius)
+            radius[self._nodes :] = 1.0
+            march.radius = self._keep(radius)
+        if given.lining is not None and given.bar_position is not None:
+            march.thickness, march.elastic_modulus, march.plastic_modulus, march.yield_stress, march.bar_area = given.lining[:5]
+            march.bars = int(given.lining[5])
+            march.bar_position = self._keep(self._nodal(given.bar_position))
+        if given.friction is not None and given.rotation_velocity is not None:
+            march.friction, march.vector_friction, march.coupled_friction = given.friction
+            march.rotation_velocity = self._keep(self._nodal(given.rotation_velocity))
+        if given.loss is not None:
+            march.loss = self._keep(self._modal(given.loss))
+        if given.flight is not None and given.casing_most is not None:
+            flight = given.flight
+            march.levels = len(flight.lengths)
+            march.jump_length = self._keep(flight.lengths)
+            march.jump_chunks = self._keep(flight.slow_modes // self._lanes)
+            march.jump = self._keep(self._modal(flight.jumps))
+            march.jump_decay = self._keep(np.exp(-rise * flight.lengths) if np.isfinite(rise) else np.zeros(march.levels))
+            march.amplitude_rows = self._keep(self._modal(flight.amplitude_rows))
+            march.casing_most = self._keep(self._nodal(given.casing_most))
+        return march
+
+    def _keep(self, array: np.ndarray) -> int:
+        """Address of an array that lives as long as the kernel."""
+        self._kept.append(array)
+        return int(array.ctypes.data)
+
+    def _modal(self, array: np.ndarray) -> np.ndarray:
+        return _aligned(array, self._chunks * self._lanes, self._given.precision)
+
+    def _nodal(self, array: np.ndarray) -> np.ndarray:
+        return _aligned(array, self._padded_nodes, self._given.precision)
+
+    def _rows(self) -> np.ndarray:
+        """Rows as (3, chunks, padded nodes, lanes)."""
+        padded = np.zeros((3, self._padded_nodes, self._chunks * self._lanes))
+        padded[:, : self._nodes, : self._modes] = self._given.rows
+        chunked = padded.reshape(3, self._padded_nodes, self._chunks, self._lanes).transpose(0, 2, 1, 3)
+        return _aligned(chunked, self._lanes, self._given.precision)
+
+    def _coupling(self) -> np.ndarray:
+        padded = np.zeros((3, self._padded_nodes, self._padded_nodes))
+        padded[:, : self._nodes, : self._nodes] = self._given.coupling
+        return _aligned(padded, self._padded_nodes, self._given.precision)
 
 
-@njit(cache=True, forceinline=True, fastmath=_FAST)
-def _push_blade(forces, rows, friction, c, loss, now, step_before, step_now, push, totals):
-    """Correct the predicted displacement and increment for the nodes' forces; returns the change of the damping loss."""
-    modes = len(now)
-    pressed = False
-    for i in range(modes):
-        push[i] = 0.0
-    for k in range(forces.shape[1]):
-        normal, along, across = forces[0, k], forces[1, k], forces[2, k]
-        if normal < 0.0:
-            pressed = True
-            totals[LARGEST_FORCE] = max(totals[LARGEST_FORCE], -normal)
-            if friction is None:
-                for i in range(modes):
-                    push[i] += rows[0, k, i] * normal
-            else:
-                for i in range(modes):
-                    push[i] += rows[0, k, i] * normal + rows[1, k, i] * along + rows[2, k, i] * across
-    if not pressed:
-        return 0.0
-    totals[STEPS_IN_CONTACT] += 1.0
-    work, extra_loss = 0.0, 0.0
-    for i in range(modes):
-        free = step_now[i] + step_before[i]
-        pushed = c[i] * push[i]
-        step_now[i] += pushed
-        now[i] += pushed
-        moved = free + pushed
-        work += 0.5 * push[i] * moved
-        if loss is not None:
-            extra_loss += loss[i] * (moved * moved - free * free)
-    totals[WORK] += work
-    return extra_loss
+@cache
+def _library(**definitions: str | int) -> ctypes.CDLL:
+    library = load_library(Path(__file__).parent / "march.c", definitions)
+    library.advance.restype = library.size_of_march.restype = ctypes.c_int64
+    if library.size_of_march() != ctypes.sizeof(_March):
+        raise AssertionError("struct march of march.h and of kernel.py differ")
+    return library
 
 
-@njit(cache=True, forceinline=True)
-def _casing_matrix(coupling, directions, friction, matrix):
-    """Opening of each gap per unit multiplier of each node, with the friction it causes where that is coupled."""
-    nodes = matrix.shape[0]
-    normal, tangential, axial = coupling[0, 0], coupling[0, 1], coupling[0, 2]
-    for i in range(nodes):
-        for j in range(nodes):
-            matrix[i, j] = normal[i, j]
-    if friction is not None and friction[2] > 0.0:
-        for i in range(nodes):
-            for j in range(nodes):
-                along = tangential[i, j] * directions[0, j] + axial[i, j] * directions[1, j]
-                matrix[i, j] -= friction[0] * along
+def _aligned(array: np.ndarray, length: int, kind: type) -> np.ndarray:
+    """A copy whose last axis is padded with zeros to `length`, starting on a vector's boundary."""
+    shape = (*array.shape[:-1], length)
+    size = int(np.prod(shape)) * np.dtype(kind).itemsize
+    buffer = np.zeros(size + _VECTOR_BYTES, dtype=np.uint8)
+    offset = -buffer.ctypes.data % _VECTOR_BYTES
+    result = buffer[offset : offset + size].view(kind).reshape(shape)
+    result[..., : array.shape[-1]] = array
+    return result

@@ -11,6 +11,7 @@ from r37core.rom.contact_model import ContactModel
 
 from . import kernel
 from .choice import MarchChoice
+from .flight import nearest_casing, plan_flight
 
 
 class UnstableStepError(ValueError):
@@ -62,14 +63,15 @@ class March:
         self.steps_per_sample = int(np.ceil(period / (choice.samples_per_revolution * choice.time_step) - 1e-9))
         self.steps_per_revolution = self.steps_per_sample * choice.samples_per_revolution
         self.time_step = period / self.steps_per_revolution
-        self.rows = np.ascontiguousarray(model.rows @ self.modes)
+        self.rows = model.rows @ self.modes
         self.recursion = recursion_coefficients(self.frequencies, scene.damping_ratio, self.time_step)
-        self.coupling = np.einsum("akm,m,bjm->abkj", self.rows, self.recursion[2], self.rows)
+        self.coupling = np.array([(rows * self.recursion[2]) @ self.rows[0].T for rows in self.rows])
         self._check_stability()
-        angle = model.theta - 2.0 * np.pi * np.arange(self.steps_per_revolution)[:, None] / self.steps_per_revolution
-        self.casing_shape = scene.casing.shape(angle)
-        tip_rows = (model.tip_rows @ self.modes)[:, :2]
-        self.output_rows = np.ascontiguousarray(tip_rows.reshape(4, -1))
+        self._kernel: kernel.Kernel | None = None
+
+    @property
+    def _precision(self) -> type:
+        return np.float64 if self.choice.precision == "double" else np.float32
 
     @property
     def duration(self) -> float:
@@ -90,7 +92,7 @@ class March:
         # a node pressed by x on an elastic bar follows x_{n+1} = (1 - g)(2 x_n - x_{n-1}), g = bar stiffness times c at the
         # node; both roots of the recursion lie inside the unit circle for 0 < g < 4/3
         bar_stiffness = lining[1] * lining[4] / lining[0]
-        ratio = bar_stiffness * float(np.linalg.eigvalsh(self.coupling[0, 0])[-1]) * 0.75
+        ratio = bar_stiffness * float(np.linalg.eigvalsh(self.coupling[0])[-1]) * 0.75
         if not ratio < 1.0:
             raise UnstableStepError(
                 f"time_step_s: {self.choice.time_step:g} s gives steps of {self.time_step:.6g} s, not below the limit for this "
@@ -98,12 +100,16 @@ class March:
                 "or a softer, thicker or narrower lining"
             )
 
+    def compile(self) -> None:
+        """Compile the march for this model and scene, unless it is there already. Raises CompilerError."""
+        self._compiled()
+
     def start(self) -> MarchState:
         """The blade at rest in an unworn lining."""
         lining = self.scene.lining
         wear = None
         if lining is not None:
-            wear = np.zeros((1 if lining.shared_ring else self.rows.shape[1], lining.bars))
+            wear = np.zeros((1 if lining.shared_ring else self.rows.shape[1], lining.bars), dtype=self._precision)
         zero = np.zeros(len(self.frequencies))
         return MarchState(zero.copy(), zero.copy(), wear, np.zeros(self.rows.shape[1]))
 
@@ -113,34 +119,17 @@ class March:
         blocks = revolutions * choice.samples_per_revolution
         samples = np.zeros((blocks, 4))
         which, snapshots = self._snapshot_plan(state.revolutions, blocks)
-        buffers = np.array([state.displacement, state.increment])
-        done = kernel.advance(
-            buffers,
-            self.recursion,
-            self.rows,
-            self.coupling,
-            self.casing_shape,
-            self._distance_numbers(),
-            self.model.radius if self.scene.exact_gap else None,
-            self._lining_numbers(),
-            state.wear,
+        done = self._compiled().advance(
+            state.displacement,
+            state.increment,
             state.on_casing,
-            self._bar_positions(),
-            self._friction_numbers(),
-            self._rotation_velocity(),
-            self._loss_numbers(),
-            self.time_step,
+            state.wear,
+            state.totals,
             state.revolutions * self.steps_per_revolution,
-            blocks,
-            self.steps_per_sample,
-            self.output_rows,
             samples,
             which,
             snapshots,
-            state.totals,
-            self.scene.divergence_limit,
         )
-        state.displacement, state.increment = buffers[0], buffers[1]
         state.revolutions += revolutions
         if which is None or snapshots is None:
             kept = np.empty((0, len(self.frequencies)))
@@ -158,36 +147,47 @@ class March:
         elastic = self.frequencies**2 * state.displacement * (state.displacement - state.increment)
         return float(0.5 * np.sum(velocity**2 + elastic))
 
-    def _distance_numbers(self) -> np.ndarray:
-        casing = self.scene.casing
-        at_once = casing.rise_fraction == 0.0
-        rate = 0.0 if at_once else casing.rise_rate(self.duration) * self.time_step
-        return np.array([casing.clearance, casing.amplitude * casing.clearance, rate, float(at_once)])
+    def _compiled(self) -> kernel.Kernel:
+        if self._kernel is None:
+            self._kernel = kernel.Kernel(self._kernel_input())
+        return self._kernel
 
-    def _lining_numbers(self) -> np.ndarray | None:
+    def _kernel_input(self) -> kernel.KernelInput:
+        model, scene = self.model, self.scene
+        angle = model.theta - 2.0 * np.pi * np.arange(self.steps_per_revolution)[:, None] / self.steps_per_revolution
+        shape = scene.casing.shape(angle)
+        loss = self._loss_numbers()
+        flight = None
+        if self.choice.jumps:
+            flight = plan_flight(self.recursion, loss, self.steps_per_sample, kernel.lanes(self._precision))
+        casing, friction = scene.casing, scene.friction
+        return kernel.KernelInput(
+            step=self.time_step,
+            steps_per_block=self.steps_per_sample,
+            recursion=self.recursion,
+            rows=self.rows,
+            coupling=self.coupling,
+            casing=shape,
+            distance=(casing.clearance, casing.amplitude * casing.clearance, casing.rise_rate(self.duration) * self.time_step),
+            output_rows=(model.tip_rows @ self.modes)[:, :2].reshape(4, -1),
+            limit=scene.divergence_limit,
+            precision=self._precision,
+            radius=model.radius if scene.exact_gap else None,
+            lining=self._lining_numbers(),
+            bar_position=model.theta / (2.0 * np.pi) * scene.lining.bars if scene.lining else None,
+            friction=(friction.coefficient, float(friction.vector), float(friction.coupled)) if friction else None,
+            rotation_velocity=model.radius * self.speed * (-1.0 if friction.against_rotation else 1.0) if friction else None,
+            loss=loss,
+            flight=flight,
+            casing_most=nearest_casing(shape, self.steps_per_sample) if flight else None,
+        )
+
+    def _lining_numbers(self) -> tuple[float, float, float, float, float, float] | None:
         lining = self.scene.lining
         if lining is None:
             return None
         area = lining.area(float(np.mean(self.model.radius)), self.model.chord_share)
-        return np.array(
-            [lining.thickness, lining.elastic_modulus, lining.plastic_modulus, lining.yield_stress, area, float(lining.bars)]
-        )
-
-    def _bar_positions(self) -> np.ndarray | None:
-        lining = self.scene.lining
-        return None if lining is None else self.model.theta / (2.0 * np.pi) * lining.bars
-
-    def _friction_numbers(self) -> np.ndarray | None:
-        friction = self.scene.friction
-        if friction is None:
-            return None
-        return np.array([friction.coefficient, float(friction.vector), float(friction.coupled)])
-
-    def _rotation_velocity(self) -> np.ndarray | None:
-        friction = self.scene.friction
-        if friction is None:
-            return None
-        return self.model.radius * self.speed * (-1.0 if friction.against_rotation else 1.0)
+        return lining.thickness, lining.elastic_modulus, lining.plastic_modulus, lining.yield_stress, area, float(lining.bars)
 
     def _loss_numbers(self) -> np.ndarray | None:
         if not self.choice.energy:

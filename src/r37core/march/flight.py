@@ -1,0 +1,123 @@
+"""Numbers for jumping over free flight: many steps of every mode as one map, and what bounds the motion meanwhile.
+
+flight.h says how they are used.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+COARSE = 8
+"""Steps between which a jump may begin; the casing's nearest position is kept for each such stretch."""
+
+_LONGEST = 1024
+
+
+@dataclass(frozen=True)
+class FlightPlan:
+    """Jumps of `lengths` steps, shape (levels,): what is left of a block after whole stretches, then doubling stretches.
+
+    `slow_modes`, shape (levels,): modes followed along their tangent; `jumps`, shape (levels, 8, modes): the entries of the map
+    less the identity (u from u, u from d, d from u, d from d), the loss as a quadratic form (uu, ud, dd), and how far a
+    mode of unit amplitude gets beyond its tangent or, for fast ones, from zero; `amplitude_rows`, shape (2, modes): the
+    imaginary part of a mode's complex amplitude from u and d.
+    """
+
+    lengths: np.ndarray
+    slow_modes: np.ndarray
+    jumps: np.ndarray
+    amplitude_rows: np.ndarray
+
+
+def plan_flight(recursion: np.ndarray, loss: np.ndarray | None, steps_per_block: int, multiple: int) -> FlightPlan | None:
+    """Plan for the recursion's coefficients -b, c omega^2 (first two rows), ascending modes; None if a mode does not oscillate.
+
+    One step maps (u, d) to d' = k d - p u, u' = u + d', with k = -b and p = c omega^2. Its eigenvalues lambda are complex with
+    |lambda|^2 = k while (1 + k - p)^2 < 4 k, so u_n = Re(C lambda^n). `multiple`: slow modes are counted in these.
+    """
+    keep, pull = recursion[0], recursion[1]
+    half_trace = 0.5 * (1.0 + keep - pull)
+    if not np.all((keep > 0.0) & (keep <= 1.0) & (half_trace**2 < keep)):
+        return None
+    modulus = np.sqrt(keep)
+    # lambda = modulus * (cosine + i sine); u_{n-1} = u - d = Re(C / lambda)
+    cosine = half_trace / modulus
+    sine = np.sqrt(1.0 - cosine**2)
+    amplitude_rows = np.array([(modulus - cosine) / sine, -modulus / sine])
+    curvature = np.abs(1.0 - 1.0 / (modulus * (cosine + 1j * sine))) ** 2
+    lengths = [steps_per_block % COARSE]
+    while COARSE << (len(lengths) - 1) <= min(steps_per_block, _LONGEST):
+        lengths.append(COARSE << (len(lengths) - 1))
+    jumps = np.zeros((len(lengths), 8, len(keep)))
+    slow = np.zeros(len(lengths), dtype=np.int64)
+    for level, length in enumerate(lengths):
+        if level >= 2:
+            jumps[level, :7] = _twice(jumps[level - 1, :7])
+        else:
+            jumps[level, :7] = _repeated(keep, pull, loss, length)
+        beyond = 0.5 * curvature * length * (length + 1)
+        slow[level] = int(np.count_nonzero(beyond < 1.0)) // multiple * multiple
+        jumps[level, 7] = np.where(np.arange(len(keep)) < slow[level], beyond, 1.0)
+    return FlightPlan(np.array(lengths, dtype=np.int64), slow, jumps, amplitude_rows)
+
+
+def _repeated(keep: np.ndarray, pull: np.ndarray, loss: np.ndarray | None, length: int) -> np.ndarray:
+    """Map less the identity, and loss, of `length` single steps, shape (7, modes)."""
+    result = np.zeros((7, len(keep)))
+    for _ in range(length):
+        result = _after(result, _single(keep, pull, loss))
+    return result
+
+
+def _single(keep: np.ndarray, pull: np.ndarray, loss: np.ndarray | None) -> np.ndarray:
+    """One step; its loss is that of the central difference (u' - u_before) = (1 + k) d - p u."""
+    per_square = np.zeros(len(keep)) if loss is None else loss
+    return np.array(
+        [
+            -pull,
+            keep,
+            -pull,
+            keep - 1.0,
+            per_square * pull**2,
+            -2.0 * per_square * pull * (1.0 + keep),
+            per_square * (1.0 + keep) ** 2,
+        ]
+    )
+
+
+def _twice(once: np.ndarray) -> np.ndarray:
+    return _after(once, once)
+
+
+def _after(first: np.ndarray, second: np.ndarray) -> np.ndarray:
+    """`second` done after `first`: (I + F)(I + E) = I + E + F + F E, and the loss of both."""
+    a, b, c, d, q, r, s = first
+    e, f, g, h, t, v, w = second
+    mapped_u, mapped_d = (1.0 + a, b), (c, 1.0 + d)
+    return np.array(
+        [
+            a + e + e * a + f * c,
+            b + f + e * b + f * d,
+            c + g + g * a + h * c,
+            d + h + g * b + h * d,
+            q + t * mapped_u[0] ** 2 + v * mapped_u[0] * mapped_d[0] + w * mapped_d[0] ** 2,
+            r
+            + 2.0 * t * mapped_u[0] * mapped_u[1]
+            + v * (mapped_u[0] * mapped_d[1] + mapped_u[1] * mapped_d[0])
+            + 2.0 * w * mapped_d[0] * mapped_d[1],
+            s + t * mapped_u[1] ** 2 + v * mapped_u[1] * mapped_d[1] + w * mapped_d[1] ** 2,
+        ]
+    )
+
+
+def nearest_casing(shape: np.ndarray, steps_per_block: int) -> np.ndarray:
+    """Largest f(theta) in the COARSE steps that follow each place a jump may begin at.
+
+    `shape`, shape (steps per revolution, nodes), f at each step. Returns shape (blocks per revolution, ceil(steps per block /
+    COARSE), nodes).
+    """
+    nodes = shape.shape[1]
+    following = np.roll(shape, -1, axis=0).reshape(-1, steps_per_block, nodes)
+    return np.maximum.reduceat(following, np.arange(0, steps_per_block, COARSE), axis=1)

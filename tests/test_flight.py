@@ -1,0 +1,128 @@
+"""Jumps over free flight against plain stepping."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from march_cases import ABRADABLE, AT_ONCE, DIRECT, oscillator
+
+from r37core.contact.casing import Casing
+from r37core.contact.scene import Scene
+from r37core.march import kernel
+from r37core.march.choice import MarchChoice
+from r37core.march.flight import nearest_casing, plan_flight
+from r37core.march.simulate import March, recursion_coefficients
+
+
+def both(model, scene, choice, speed, displacement=None, increment=None):
+    """State and record of the same run with jumps and without."""
+    results = []
+    for jumps in (True, False):
+        march = March(model, speed, scene, replace(choice, jumps=jumps))
+        state = march.start()
+        if displacement is not None:
+            state.displacement[:] = displacement
+            state.increment[:] = increment
+        results.append((march, state, march.advance(state, choice.revolutions)))
+    return results
+
+
+@pytest.mark.parametrize("scene", [ABRADABLE, DIRECT, replace(ABRADABLE, exact_gap=True)], ids=["abradable", "direct", "exact"])
+@pytest.mark.parametrize("speed", [900.0, 1600.0])
+def test_long_run_with_jumps_is_the_plain_run(contact, scene, speed):
+    """20 revolutions, 500,000 steps and more, to 1e-10 of the largest displacement."""
+    choice = MarchChoice(2e-7, 20, 496, energy=True)
+    (_, jumped, with_jumps), (_, plain, without) = both(contact, replace(scene, casing=Casing(0.356e-3)), choice, speed)
+    assert jumped.totals[kernel.STEPS_JUMPED] > 0.1 * jumped.totals[kernel.STEPS]
+    assert plain.totals[kernel.STEPS_JUMPED] == 0
+    largest = np.abs(without.samples).max()
+    np.testing.assert_allclose(with_jumps.samples, without.samples, rtol=0, atol=1e-10 * largest)
+    for count in (kernel.STEPS_IN_CONTACT, kernel.CASING_HITS):
+        assert jumped.totals[count] == plain.totals[count]
+    np.testing.assert_allclose(jumped.totals[[kernel.WORK, kernel.LOSS]], plain.totals[[kernel.WORK, kernel.LOSS]], rtol=1e-9)
+    if plain.wear is not None:
+        np.testing.assert_allclose(jumped.wear, plain.wear, rtol=0, atol=1e-10 * plain.wear.max())
+
+
+@settings(deadline=None, max_examples=40)
+@given(st.integers(0, 2**31 - 1), st.sampled_from([1e-3, 1e-6, 1e-9, -1e-9, -1e-6]), st.booleans(), st.booleans())
+def test_no_contact_is_missed(contact, seed, excess, exact, rotating_lobes):
+    """Random states of many modes; the casing is put where a step of the free motion just passes it, or just does not."""
+    generator = np.random.default_rng(seed)
+    frequencies = contact.modes_at(1500.0)[0]
+    share = generator.uniform(0, 1) ** np.arange(len(frequencies))
+    displacement = generator.standard_normal(len(frequencies)) * share / frequencies
+    choice = MarchChoice(generator.uniform(5e-8, 4e-7), 1, int(generator.integers(20, 200)))
+    increment = generator.standard_normal(len(frequencies)) * share * choice.time_step
+    lobes = int(generator.integers(1, 6)) if rotating_lobes else 0
+    open_scene = Scene(Casing(1.0, lobes=lobes, amplitude=0.0), exact_gap=exact)
+    reach = largest_reach(contact, open_scene, choice, displacement, increment)
+    scene = replace(open_scene, casing=replace(open_scene.casing, clearance=reach * (1.0 - excess)))
+    (_, jumped, _), (_, plain, _) = both(contact, scene, choice, 1500.0, displacement, increment)
+    assert (plain.totals[kernel.STEPS_IN_CONTACT] > 0) == (excess > 0)
+    assert jumped.totals[kernel.STEPS_IN_CONTACT] == plain.totals[kernel.STEPS_IN_CONTACT]
+    scale = np.abs(plain.displacement).max()
+    np.testing.assert_allclose(jumped.displacement, plain.displacement, rtol=0, atol=1e-9 * scale)
+
+
+def largest_reach(model, scene, choice, displacement, increment):
+    """Largest radial position of a node over all steps of a free run, by the recursion in NumPy."""
+    march = March(model, 1500.0, scene, choice)
+    keep, pull, _ = march.recursion
+    u, d, largest = displacement.copy(), increment.copy(), -np.inf
+    for _ in range(choice.revolutions * march.steps_per_revolution):
+        d = keep * d - pull * u
+        u = u + d
+        radial, tangential, _ = march.rows @ u
+        if scene.exact_gap:
+            radial = np.hypot(model.radius + radial, tangential) - model.radius
+        largest = max(largest, radial.max())
+    return largest
+
+
+def test_lobes_that_pass_during_a_jump_are_met():
+    """A blade at rest is hit by every lobe of a casing deformed from the start, though no node moves."""
+    model = oscillator(6000.0)
+    scene = Scene(replace(AT_ONCE, lobes=7, width=0.01, amplitude=1.001))
+    (_, jumped, _), (_, plain, _) = both(model, scene, MarchChoice(1e-6, 2, 3), 1000.0)
+    assert plain.totals[kernel.STEPS_IN_CONTACT] > 0
+    assert jumped.totals[kernel.STEPS_IN_CONTACT] == plain.totals[kernel.STEPS_IN_CONTACT]
+    assert jumped.totals[kernel.STEPS_JUMPED] > 0
+
+
+@pytest.mark.parametrize("ratio", [0.0, 5e-4, 0.3])
+def test_jump_is_the_power_of_the_step(ratio):
+    frequencies = np.array([3e3, 4e4, 9e5])
+    recursion = recursion_coefficients(frequencies, ratio, 1e-6)
+    loss = np.array([1.0, 2.0, 3.0])
+    plan = plan_flight(recursion, loss, 77, 1)
+    np.testing.assert_array_equal(plan.lengths, [5, 8, 16, 32, 64])
+    for length, jump in zip(plan.lengths, plan.jumps, strict=True):
+        u, d, lost = np.array([1.0, -2.0, 0.5]), np.array([0.1, 0.2, -0.3]), np.zeros(3)
+        mapped_u = u + jump[0] * u + jump[1] * d
+        mapped_d = d + jump[2] * u + jump[3] * d
+        mapped_loss = jump[4] * u * u + jump[5] * u * d + jump[6] * d * d
+        for _ in range(length):
+            following = recursion[0] * d - recursion[1] * u
+            lost += loss * (following + d) ** 2
+            u, d = u + following, following
+        np.testing.assert_allclose(mapped_u, u, rtol=1e-11, atol=1e-12)
+        np.testing.assert_allclose(mapped_d, d, rtol=1e-11, atol=1e-12)
+        np.testing.assert_allclose(mapped_loss, lost, rtol=1e-11)
+
+
+def test_modes_that_do_not_oscillate_are_stepped():
+    assert plan_flight(recursion_coefficients(np.array([1e4, 1e6]), 1.0, 1e-7), None, 64, 8) is None
+
+
+def test_nearest_casing_of_every_stretch():
+    shape = np.random.default_rng(1).random((3 * 21, 2))
+    most = nearest_casing(shape, 21)
+    assert most.shape == (3, 3, 2)
+    for block in range(3):
+        for stretch, length in enumerate((8, 8, 5)):
+            first = block * 21 + stretch * 8 + 1
+            expected = shape[np.arange(first, first + length) % len(shape)].max(axis=0)
+            np.testing.assert_array_equal(most[block, stretch], expected)
