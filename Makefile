@@ -5,7 +5,7 @@ CORES ?= 2
 VENV := .venv
 BIN := $(VENV)/bin
 
-.PHONY: all_blades campbell test lint setup clean-results
+.PHONY: all_blades campbell test lint bench setup clean-results
 
 all_blades campbell: $(VENV)/.ready
 	$(BIN)/snakemake $@ --cores $(CORES) $(if $(FIDELITY),--config fidelity=$(FIDELITY))
@@ -19,6 +19,12 @@ lint: $(VENV)/.ready
 	$(BIN)/snakefmt --check Snakefile workflow
 	$(BIN)/mypy
 	$(BIN)/snakemake --lint
+
+# the march against plainer ways to write it; numba is only for these
+bench: $(VENV)/.ready
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[bench]'
+	$(BIN)/snakemake results/Ref/contact_pressure_edge.npz --cores $(CORES) $(if $(FIDELITY),--config fidelity=$(FIDELITY))
+	$(BIN)/python benchmarks/march_speed.py $(BENCH)
 
 setup: $(VENV)/.ready
 

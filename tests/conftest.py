@@ -75,3 +75,12 @@ def contact(model):
     from r37core.rom.contact_reduction import contact_model
 
     return contact_model(model, "pressure_edge")
+
+
+@pytest.fixture
+def project(root, tmp_path):
+    """A copy of the project with a small sweep."""
+    from workflow_runs import copy_project
+
+    copy_project(root, tmp_path)
+    return tmp_path

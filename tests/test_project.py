@@ -20,6 +20,7 @@ LAYERS = [
     "march",
     "results",
     "figures",
+    "studies",
     "config",
 ]
 

@@ -1,60 +1,14 @@
 """The workflow through Snakemake: what is planned, what is re-run, and a small real run."""
 
 import hashlib
-import os
 import re
 import shutil
 import subprocess
 import sys
-from pathlib import Path
 
 import pytest
 import xarray as xr
-
-SNAKEMAKE = str(Path(sys.executable).with_name("snakemake"))
-
-
-def copy_project(root, to):
-    for folder in ("config", "workflow", "profiles", "envs", "src"):
-        shutil.copytree(root / folder, to / folder, ignore=shutil.ignore_patterns("__pycache__", "*.egg-info"))
-    shutil.copy(root / "Snakefile", to / "Snakefile")
-    config = (to / "config/config.yaml").read_text()
-    config = config.replace("blades: all ", "blades: [Ref, CS100] ").replace("fidelity: standard ", "fidelity: tiny ")
-    config = config.replace("stop: 2000 }", "stop: 1600 }")
-    (to / "config/config.yaml").write_text(config)
-    with open(to / "config/fidelity.yaml", "a") as stream:
-        stream.write(
-            "\ntiny:\n  mesh: { nodes: 1500, layers: 1, tip_elements: 14 }\n  reduction: { fixed_interface_modes: 10 }\n"
-            "  march: { time_step_s: 2.0e-7, revolutions: 8, speed_step_rad_s: 400 }\n"
-        )
-
-
-@pytest.fixture
-def project(root, tmp_path):
-    copy_project(root, tmp_path)
-    return tmp_path
-
-
-def snakemake(folder, *arguments, check=True):
-    environment = {key: value for key, value in os.environ.items() if not key.startswith("SNAKEMAKE")}
-    environment["PYTHONPATH"] = str(folder / "src")
-    done = subprocess.run(
-        [SNAKEMAKE, *arguments], cwd=folder, env=environment, capture_output=True, text=True, timeout=600, check=False
-    )
-    assert not check or done.returncode == 0, done.stdout + done.stderr
-    return done.stdout + done.stderr
-
-
-def planned(folder, *arguments):
-    """Jobs of a dry run: rule -> blades (None for a rule without the wildcard)."""
-    jobs = {}
-    text = snakemake(folder, *(arguments or ("all_blades",)), "--cores", "2", "--dry-run")
-    for block in re.split(r"\n\[", text.split("Job stats:")[1] if text.startswith("Job stats") else text):
-        rule = re.search(r"^(?:local)?rule (\w+):", block, re.MULTILINE)
-        if rule:
-            blade = re.search(r"wildcards: blade=(\w+)", block)
-            jobs.setdefault(rule[1], set()).add(blade[1] if blade else None)
-    return jobs
+from workflow_runs import copy_project, planned, snakemake
 
 
 @pytest.fixture(scope="module")
@@ -115,6 +69,16 @@ def test_results_of_a_real_run(finished):
     for name in ("mesh.msh", "mesh.vtu", "mesh.inp", "geometry.nc", "matrices.npz"):
         assert (finished / "results/Ref" / name).exists()
     assert not list(finished.glob("results/**/.*partial*"))
+
+
+def test_blades_are_finished_one_after_another(project):
+    text = snakemake(project, "all_blades", "--cores", "2", "--dry-run")
+    priorities = {}
+    for block in text.split("\n["):
+        found = re.search(r"rule simulate:.*?wildcards: blade=(\w+).*?priority: ([\d.]+)", block, re.DOTALL)
+        if found:
+            priorities.setdefault(found[1], set()).add(float(found[2]))
+    assert priorities == {"Ref": {1.0}, "CS100": {0.5}}
 
 
 def test_nothing_to_do_after_a_run(finished_copy):

@@ -71,6 +71,7 @@ class Settings:
     structure: dict[str, Any]
     campbell: dict[str, Any]
     interactions: dict[str, float]
+    studies: dict[str, Any]
 
     def shape_hash(self, blade: str) -> str:
         """Short hash of all that a blade's geometry depends on."""
@@ -136,6 +137,7 @@ def load_settings(config: Mapping[str, Any], root: Path, config_name: str = "con
         structure=checked["structure"],
         campbell=checked["campbell"],
         interactions=checked["interactions"],
+        studies=checked["studies"],
     )
 
 

@@ -59,15 +59,19 @@ def _processor() -> str:
 
 def _cache(source: Path) -> Path:
     beside = source.parent / "__pycache__"
-    try:
-        beside.mkdir(exist_ok=True)
-        if os.access(beside, os.W_OK):
-            return beside
-    except OSError:
-        pass
+    if _writable(beside):
+        return beside
     users = Path(os.environ.get("XDG_CACHE_HOME", Path.home() / ".cache")) / "r37"
     users.mkdir(parents=True, exist_ok=True)
     return users
+
+
+def _writable(folder: Path) -> bool:
+    try:
+        folder.mkdir(exist_ok=True)
+    except OSError:
+        return False
+    return os.access(folder, os.W_OK)
 
 
 def _compile(source: Path, command: list[str], library: Path) -> None:

@@ -3,11 +3,13 @@
 # hash or repr of theirs beside them.
 import hashlib
 from dataclasses import asdict
+from functools import cache
 from pathlib import Path
 
 from snakemake.exceptions import WorkflowError
 
 from r37core.config import ConfigError, load_settings
+from r37core.studies.sampling import sample
 
 ROOT = Path(workflow.basedir)
 ENVIRONMENT = ROOT / "envs" / "r37.yaml"
@@ -59,15 +61,41 @@ def speed_files(wildcards):
     return [f"results/{blade}/{scene}/speed_{speed:.10g}.npz" for speed in settings.speeds[blade, scene]]
 
 
-def sweep_provenance(wildcards):
-    """What the results of one blade and scene say about their making."""
-    chosen = settings.scenes[wildcards.scene]
-    return structure_provenance(wildcards) | {
-        "scene": wildcards.scene,
+@cache
+def provenance_of_sweep(blade, scene):
+    """What the results of one blade and scene say about their making: once, not for each of thousands of jobs."""
+    chosen = settings.scenes[scene]
+    return {
+        "blade": blade,
+        "fidelity": settings.fidelity_name,
+        "input_hash": settings.structure_hash(blade),
+        "scene": scene,
         "scene_parameters": repr(chosen.scene),
         "revolutions": chosen.revolutions,
         "largest_time_step": settings.fidelity["march"]["time_step_s"],
     }
+
+
+def sweep_provenance(wildcards):
+    """What the results of one blade and scene say about their making."""
+    return provenance_of_sweep(wildcards.blade, wildcards.scene)
+
+
+def blade_by_blade(wildcards):
+    """Priority of a blade's simulations, above 0 and up to 1: results should be complete one blade after another."""
+    blades = list(settings.blades)
+    return 1 - blades.index(wildcards.blade) / len(blades)
+
+
+def kept_of_a_run():
+    """How much of a run its file keeps."""
+    keys = ("spectrum_highest_order", "signal_revolutions", "wear_angles")
+    return {key: settings.fidelity["march"][key] for key in keys}
+
+
+def sample_of_sweep(blade, scene):
+    """Some of the speeds of one blade and scene, evenly spread."""
+    return sample(settings.speeds[blade, scene], settings.studies["estimate"]["every"])
 
 
 def scenes_with(kind):

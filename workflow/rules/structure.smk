@@ -28,6 +28,8 @@ rule mesh:
         vtu="results/{blade}/mesh.vtu",
     log:
         "logs/{blade}/mesh.log",
+    # a mesh or model that fails should do so before the first simulation
+    priority: 2
     conda:
         ENVIRONMENT
     params:
@@ -60,6 +62,7 @@ rule matrices:
         "results/{blade}/matrices.npz",
     log:
         "logs/{blade}/matrices.log",
+    priority: 2
     conda:
         ENVIRONMENT
     params:
@@ -77,6 +80,7 @@ rule reduced_model:
         "results/{blade}/rom_{tip_line}.nc",
     log:
         "logs/{blade}/reduced_model_{tip_line}.log",
+    priority: 2
     conda:
         ENVIRONMENT
     params:

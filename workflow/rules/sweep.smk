@@ -8,6 +8,7 @@ rule contact_model:
         "results/{blade}/contact_{tip_line}.npz",
     log:
         "logs/{blade}/contact_model_{tip_line}.log",
+    priority: 2
     conda:
         ENVIRONMENT
     params:
@@ -47,16 +48,14 @@ rule simulate:
         "results/{blade}/{scene}/speed_{speed}.npz",
     log:
         "logs/{blade}/{scene}/speed_{speed}.log",
+    priority: blade_by_blade
     conda:
         ENVIRONMENT
     params:
         scene=lambda wildcards: settings.scenes[wildcards.scene].scene,
         choice=lambda wildcards: asdict(settings.march_choice(wildcards.scene, float(wildcards.speed))),
         results=lambda wildcards: settings.scenes[wildcards.scene].results,
-        kept={
-            key: settings.fidelity["march"][key]
-            for key in ("spectrum_highest_order", "signal_revolutions", "wear_angles")
-        },
+        kept=kept_of_a_run(),
         provenance=sweep_provenance,
         code=code("io.py", "native.py", "contact/*.*", "march/*.*", "rom/contact_model.py"),
     script:

@@ -1,0 +1,161 @@
+"""How fast the march is, against plain ways to write it: ratios inside one run, on the reference blade's reduced model.
+
+Run: make bench   (builds the reduced model first; about three minutes). Writes march_speed.json beside this file and the tables
+of docs/speed.md. Fails if results of the ways differ by more than round-off.
+"""
+
+import copy
+import json
+import os
+import platform
+import sys
+import time
+from pathlib import Path
+
+os.environ["OPENBLAS_NUM_THREADS"] = "1"
+
+import numpy as np
+from plain_march import PlainProblem
+
+from r37core.config import load_settings
+from r37core.march import kernel
+from r37core.march.choice import MarchChoice
+from r37core.march.simulate import March
+from r37core.rom.contact_model import read_contact_model
+from r37core.yaml_file import load_yaml
+
+ROOT = Path(__file__).parent.parent
+SPEEDS = (900.0, 1344.0, 1660.0)
+GRID = np.arange(750.0, 2000.0, 62.5)
+STEP = 1e-7
+"""The published step (s)."""
+
+SETTLED = 40
+ROUNDS = 3
+WAYS = ("dense NumPy, recursion alone", "dense, numba", "scalar modes, numba", "r37, every step", "r37, jumps")
+
+
+def main():
+    settings = load_settings(load_yaml(ROOT / "config/config.yaml"), ROOT)
+    model = read_contact_model(ROOT / "results/Ref" / f"contact_{settings.scenes['abradable'].tip_line}.npz")
+    cases = [compare(model, settings.scenes[name].scene, name, speed) for name in ("abradable", "direct") for speed in SPEEDS]
+    grids = {name: over_grid(model, settings.scenes[name].scene) for name in ("abradable", "direct")}
+    report = {
+        "machine": machine(),
+        "modes": len(model.squared_frequencies),
+        "nodes": model.rows.shape[1],
+        "step_s": STEP,
+        "cases": cases,
+        "speed_grid": grids,
+    }
+    (Path(__file__).parent / "march_speed.json").write_text(json.dumps(report, indent=1) + "\n", encoding="utf-8")
+    text = tables(report)
+    print(text)
+    if "--docs" in sys.argv:
+        replace_tables(ROOT / "docs/speed.md", text)
+
+
+def settled(model, scene, speed, jumps):
+    """A march and its state after some revolutions: the timed ones are like most of a run."""
+    march = March(model, speed, scene, MarchChoice(STEP, 200, 496, energy=True, jumps=jumps))
+    state = march.start()
+    march.advance(state, SETTLED)
+    return march, state
+
+
+def compare(model, scene, name, speed):
+    """Nanoseconds per step of each way, from the same state, the best of some rounds that take turns."""
+    stepping, state = settled(model, scene, speed, jumps=False)
+    jumping = March(model, speed, scene, MarchChoice(STEP, 200, 496, energy=True))
+    jumping.compile()
+    plain = PlainProblem(stepping)
+    first, steps = SETTLED * stepping.steps_per_revolution, stepping.steps_per_revolution
+    best = dict.fromkeys(WAYS, np.inf)
+    answers = {}
+    for _ in range(ROUNDS):
+        for way in WAYS:
+            trial = copy.deepcopy(state)
+            wear = np.zeros((1, 1)) if trial.wear is None else trial.wear
+            u, d = trial.displacement, trial.increment
+            at_rest = [stepping.modes @ u, stepping.modes @ d]
+            count = steps
+            start = time.perf_counter()
+            if way == WAYS[0]:
+                count = steps // 20
+                plain.dense_recursion_numpy(*at_rest, count)
+            elif way == WAYS[1]:
+                plain.dense_numba(*at_rest, wear, first, steps)
+            elif way == WAYS[2]:
+                plain.modal(u, d, wear, first, steps)
+            else:
+                (stepping if way == WAYS[3] else jumping).advance(trial, 1)
+            best[way] = min(best[way], (time.perf_counter() - start) * 1e9 / count)
+            answers[way] = at_rest[0] if way == WAYS[1] else stepping.modes @ trial.displacement
+            contact = (trial.totals - state.totals) if way == WAYS[4] else None
+    for way in WAYS[1:]:
+        np.testing.assert_allclose(answers[way], answers[WAYS[3]], rtol=0, atol=1e-9 * np.abs(answers[WAYS[3]]).max())
+    share = float(contact[kernel.STEPS_IN_CONTACT] / contact[kernel.STEPS])
+    jumped = float(contact[kernel.STEPS_JUMPED] / contact[kernel.STEPS])
+    return {"scene": name, "speed": speed, "contact": share, "jumped": jumped, "ns_per_step": best}
+
+
+def over_grid(model, scene):
+    """Mean cost over the published range of speeds, with jumps and without, in turns."""
+    spent, steps, contact = {True: 0.0, False: 0.0}, 0.0, 0.0
+    for speed in GRID:
+        for jumps in (True, False):
+            march, state = settled(model, scene, float(speed), jumps)
+            before = state.totals.copy()
+            start = time.perf_counter()
+            march.advance(state, 8)
+            spent[jumps] += time.perf_counter() - start
+        done = state.totals - before
+        steps += done[kernel.STEPS]
+        contact += done[kernel.STEPS_IN_CONTACT]
+    return {"contact": contact / steps, "every_step_ns": spent[False] * 1e9 / steps, "jumps_ns": spent[True] * 1e9 / steps}
+
+
+def machine():
+    """Processor, and whether it has 512-bit vectors."""
+    try:
+        text = Path("/proc/cpuinfo").read_text(encoding="ascii", errors="replace")
+    except OSError:
+        return platform.processor() or platform.machine()
+    name = next((line.split(":")[1].strip() for line in text.splitlines() if line.startswith("model name")), platform.machine())
+    return f"{name}, {'with' if 'avx512f' in text else 'without'} AVX-512"
+
+
+def tables(report):
+    size = f"{report['modes']} modes, {report['nodes']} nodes, steps of {report['step_s']:g} s"
+    lines = [
+        f"Machine: {report['machine']}; {size}. Nanoseconds per step.",
+        "",
+        "| scene | rad/s | steps in contact | " + " | ".join(WAYS) + " | times (a) | times (c) |",
+        "|---" * 10 + "|",
+    ]
+    for case in report["cases"]:
+        times = [case["ns_per_step"][way] for way in WAYS]
+        cells = [case["scene"], f"{case['speed']:g}", f"{100 * case['contact']:.0f}%", *[f"{t:,.0f}" for t in times]]
+        lines.append("| " + " | ".join([*cells, f"{times[0] / times[4]:.0f}", f"{times[2] / times[4]:.1f}"]) + " |")
+    lines += [
+        "",
+        "| scene, 20 speeds from 750 to 1940 rad/s | steps in contact | every step | jumps | ratio |",
+        "|---|---|---|---|---|",
+    ]
+    for name, grid in report["speed_grid"].items():
+        ratio = grid["jumps_ns"] / grid["every_step_ns"]
+        lines.append(
+            f"| {name} | {100 * grid['contact']:.0f}% | {grid['every_step_ns']:.1f} | {grid['jumps_ns']:.1f} | {ratio:.2f} |"
+        )
+    return "\n".join(lines)
+
+
+def replace_tables(page, text):
+    """Put the tables between the page's markers."""
+    before, rest = page.read_text(encoding="utf-8").split("<!-- march_speed -->\n", 1)
+    after = rest.split("<!-- end -->", 1)[1]
+    page.write_text(f"{before}<!-- march_speed -->\n{text}\n<!-- end -->{after}", encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()

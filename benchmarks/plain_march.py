@@ -1,0 +1,188 @@
+"""The march as one would first write it: dense matrices or scalar loops over modes, compiled by numba. For comparison only.
+
+Written from section 5 of the benchmark page, like the tests' NumPy twin; shares nothing with r37core's march but parameters.
+"""
+
+import numpy as np
+from numba import njit
+
+
+class PlainProblem:
+    """Constants of a run, taken from a March, in its modes and as dense matrices in the model's modes at rest."""
+
+    def __init__(self, march):
+        model, scene = march.model, march.scene
+        step, modes = march.time_step, march.modes
+        damping = 2.0 * scene.damping_ratio * march.frequencies
+        self.inverse = 1.0 / (1.0 / step**2 + damping / (2.0 * step))
+        self.keep = self.inverse * (1.0 / step**2 - damping / (2.0 * step))
+        self.pull = self.inverse * march.frequencies**2
+        self.dense = [np.ascontiguousarray(modes @ np.diag(d) @ modes.T) for d in (self.keep, self.pull, self.inverse)]
+        self.rows, self.dense_rows = march.rows, model.rows
+        self.coupling = np.array([march.rows[0] * self.inverse @ rows.T for rows in march.rows])
+        steps = march.steps_per_revolution
+        theta = model.theta - 2.0 * np.pi * np.arange(steps)[:, None] / steps
+        self.shape = scene.casing.shape(theta)
+        lining, friction = scene.lining, scene.friction
+        bars = 0.0 if lining is None else float(lining.bars)
+        self.bar_position = model.theta / (2.0 * np.pi) * bars
+        area = 0.0 if lining is None else lining.area(float(np.mean(model.radius)), model.chord_share)
+        law = (1.0, 1.0, 0.0, 0.0) if lining is None else lining_law(lining)
+        self.numbers = np.array(
+            [
+                scene.casing.clearance,
+                scene.casing.amplitude * scene.casing.clearance,
+                scene.casing.rise_rate(march.duration) * step,
+                *law,
+                area,
+                bars,
+                friction.coefficient,
+                step,
+            ]
+        )
+        self.rotation = -model.radius * march.speed
+
+    def modal(self, u, d, wear, first_step, steps):
+        """March in modes; changes its arguments."""
+        march_modal(u, d, wear, first_step, steps, self.keep, self.pull, self.inverse, self.rows, *self._contact())
+
+    def dense_numba(self, u, d, wear, first_step, steps):
+        """March with dense matrices, in the coordinates of the modes at rest."""
+        march_dense(u, d, wear, first_step, steps, *self.dense, self.dense_rows, *self._contact())
+
+    def dense_recursion_numpy(self, u, d, steps):
+        """The two dense products of every step alone, in NumPy: what contact costs is left out."""
+        keep, pull, _ = self.dense
+        for _ in range(steps):
+            d = keep @ d - pull @ u
+            u = u + d
+        return u
+
+    def _contact(self):
+        return self.coupling, self.shape, self.bar_position, self.numbers, self.rotation
+
+
+def lining_law(lining):
+    return lining.thickness, lining.elastic_modulus, lining.plastic_modulus, lining.yield_stress
+
+
+@njit
+def contact_forces(gap, along, across, place, wear, coupling, bar_position, numbers, rotation, turn):
+    """Forces (3, nodes) on the nodes from their predicted gaps and their velocities."""
+    thickness, elastic, plastic, limit, area, bars, coefficient = numbers[3:10]
+    nodes = len(gap)
+    forces = np.zeros((3, nodes))
+    directions = np.zeros((2, nodes))
+    for k in range(nodes):
+        slide = rotation[k] + along[k]
+        size = np.sqrt(slide**2 + across[k] ** 2)
+        directions[0, k], directions[1, k] = -slide / size, -across[k] / size
+    left = gap.copy()
+    if bars > 0.0:
+        for k in range(nodes):
+            if gap[k] < 0.0:
+                bar = int(np.floor(bar_position[k] - turn * bars)) % int(bars)
+                strain, worn = -gap[k] / thickness, wear[0, bar] / thickness
+                if strain > worn:
+                    over = elastic * (strain - worn) - limit - plastic * worn
+                    if over > 0.0:
+                        worn = min(worn + over / (elastic + plastic), 1.0)
+                    wear[0, bar] = worn * thickness
+                    forces[0, k] = -max(elastic * (strain - worn), 0.0) * area
+                    forces[1, k] = -coefficient * forces[0, k] * directions[0, k]
+                    forces[2, k] = -coefficient * forces[0, k] * directions[1, k]
+        for k in range(nodes):
+            left[k] += thickness
+        for j in range(nodes):
+            if forces[0, j] < 0.0:
+                for k in range(nodes):
+                    for axis in range(3):
+                        left[k] -= coupling[axis, k, j] * forces[axis, j]
+    closed = 0
+    for k in range(nodes):
+        closed += left[k] < 0.0
+    if closed == 0:
+        return forces
+    touching = left < 0.0
+    while np.any(touching):
+        active = np.flatnonzero(touching)
+        matrix = np.empty((nodes, len(active)))
+        for j in range(len(active)):
+            node = active[j]
+            for k in range(nodes):
+                along_push = coupling[1, k, node] * directions[0, node] + coupling[2, k, node] * directions[1, node]
+                matrix[k, j] = coupling[0, k, node] - coefficient * along_push
+        multipliers = np.linalg.solve(matrix[active], -left[active])
+        opened = left + matrix @ multipliers
+        following = opened < 0.0
+        for j in range(len(active)):
+            following[active[j]] = multipliers[j] > 0.0
+        if np.all(following == touching):
+            for j in range(len(active)):
+                node = active[j]
+                forces[0, node] -= multipliers[j]
+                forces[1, node] += coefficient * multipliers[j] * directions[0, node]
+                forces[2, node] += coefficient * multipliers[j] * directions[1, node]
+            break
+        touching = following
+    return forces
+
+
+@njit(fastmath=True)
+def march_modal(u, d, wear, first, steps, keep, pull, inverse, rows, coupling, shape, bar_position, numbers, rotation):
+    """Scalar loops over modes."""
+    nodes, modes = rows.shape[1], rows.shape[2]
+    per_revolution = len(shape)
+    gap, along, across = np.empty(nodes), np.empty(nodes), np.empty(nodes)
+    old, push = np.empty(modes), np.empty(modes)
+    for n in range(first + 1, first + steps + 1):
+        place = n % per_revolution
+        lobes = numbers[1] * (1.0 - np.exp(-numbers[2] * n))
+        for i in range(modes):
+            old[i] = d[i]
+            d[i] = keep[i] * d[i] - pull[i] * u[i]
+            u[i] += d[i]
+        touching = False
+        for k in range(nodes):
+            position = 0.0
+            for i in range(modes):
+                position += rows[0, k, i] * u[i]
+            gap[k] = numbers[0] - lobes * shape[place, k] - position
+            touching = touching or gap[k] < 0.0
+        if touching:
+            for k in range(nodes):
+                total_along = total_across = 0.0
+                for i in range(modes):
+                    total_along += rows[1, k, i] * old[i]
+                    total_across += rows[2, k, i] * old[i]
+                along[k], across[k] = total_along / numbers[10], total_across / numbers[10]
+            turn = place / per_revolution
+            forces = contact_forces(gap, along, across, place, wear, coupling, bar_position, numbers, rotation, turn)
+            push[:] = 0.0
+            for k in range(nodes):
+                if forces[0, k] < 0.0:
+                    for i in range(modes):
+                        push[i] += rows[0, k, i] * forces[0, k] + rows[1, k, i] * forces[1, k] + rows[2, k, i] * forces[2, k]
+            for i in range(modes):
+                d[i] += inverse[i] * push[i]
+                u[i] += inverse[i] * push[i]
+
+
+@njit
+def march_dense(u, d, wear, first, steps, keep, pull, inverse, rows, coupling, shape, bar_position, numbers, rotation):
+    """Dense matrices, products by BLAS."""
+    per_revolution = len(shape)
+    for n in range(first + 1, first + steps + 1):
+        place = n % per_revolution
+        lobes = numbers[1] * (1.0 - np.exp(-numbers[2] * n))
+        old = d.copy()
+        d[:] = keep @ d - pull @ u
+        u += d
+        gap = numbers[0] - lobes * shape[place] - rows[0] @ u
+        if np.any(gap < 0.0):
+            along, across = rows[1] @ old / numbers[10], rows[2] @ old / numbers[10]
+            turn = place / per_revolution
+            forces = contact_forces(gap, along, across, place, wear, coupling, bar_position, numbers, rotation, turn)
+            push = inverse @ (forces[0] @ rows[0] + forces[1] @ rows[1] + forces[2] @ rows[2])
+            d += push
+            u += push

@@ -1,0 +1,47 @@
+"""Copies of the project with a small sweep, and Snakemake run on them."""
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+SNAKEMAKE = str(Path(sys.executable).with_name("snakemake"))
+
+
+def copy_project(root, to):
+    for folder in ("config", "workflow", "profiles", "envs", "src"):
+        shutil.copytree(root / folder, to / folder, ignore=shutil.ignore_patterns("__pycache__", "*.egg-info"))
+    shutil.copy(root / "Snakefile", to / "Snakefile")
+    config = (to / "config/config.yaml").read_text()
+    config = config.replace("blades: all ", "blades: [Ref, CS100] ").replace("fidelity: standard ", "fidelity: tiny ")
+    config = config.replace("stop: 2000 }", "stop: 1600 }")
+    (to / "config/config.yaml").write_text(config)
+    with open(to / "config/fidelity.yaml", "a") as stream:
+        stream.write(
+            "\ntiny:\n  mesh: { nodes: 1500, layers: 1, tip_elements: 14 }\n  reduction: { fixed_interface_modes: 10 }\n"
+            "  march: { time_step_s: 2.0e-7, revolutions: 8, speed_step_rad_s: 400 }\n"
+        )
+
+
+def snakemake(folder, *arguments, check=True):
+    environment = {key: value for key, value in os.environ.items() if not key.startswith("SNAKEMAKE")}
+    environment["PYTHONPATH"] = str(folder / "src")
+    done = subprocess.run(
+        [SNAKEMAKE, *arguments], cwd=folder, env=environment, capture_output=True, text=True, timeout=600, check=False
+    )
+    assert not check or done.returncode == 0, done.stdout + done.stderr
+    return done.stdout + done.stderr
+
+
+def planned(folder, *arguments):
+    """Jobs of a dry run: rule -> blades (None for a rule without the wildcard)."""
+    jobs = {}
+    text = snakemake(folder, *(arguments or ("all_blades",)), "--cores", "2", "--dry-run")
+    for block in re.split(r"\n\[", text.split("Job stats:")[1] if text.startswith("Job stats") else text):
+        rule = re.search(r"^(?:local)?rule (\w+):", block, re.MULTILINE)
+        if rule:
+            blade = re.search(r"wildcards: blade=(\w+)", block)
+            jobs.setdefault(rule[1], set()).add(blade[1] if blade else None)
+    return jobs

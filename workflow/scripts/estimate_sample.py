@@ -1,0 +1,37 @@
+"""Time a sample of the runs of one blade and scene. Inputs: rom, contact model. Params: choices by speed, ... Output: JSON."""
+
+import json
+
+from job import run
+
+from r37core.fem.material import Material
+from r37core.io import atomic_write
+from r37core.march.choice import MarchChoice
+from r37core.march.speed_run import run_speed
+from r37core.rom.contact_model import read_contact_model
+from r37core.rom.rom_file import read_reduced_model
+from r37core.studies.estimate import time_runs
+
+
+def main(snakemake):
+    params = snakemake.params
+
+    def simulate(speed):
+        choice = MarchChoice(**params.choices[speed])
+        model = read_contact_model(snakemake.input.model)
+        return run_speed(model, speed, params.scene, choice, params.results, **params.kept)
+
+    times = time_runs(
+        simulate,
+        list(params.choices),
+        params.number,
+        read_reduced_model(snakemake.input.rom),
+        Material(**params.material),
+        "stress" in params.results,
+        params.stress_instants,
+    )
+    with atomic_write(snakemake.output[0]) as partial:
+        partial.write_text(json.dumps(times) + "\n", encoding="utf-8")
+
+
+run(snakemake, main)
