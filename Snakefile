@@ -14,6 +14,7 @@ include: "workflow/rules/structure.smk"
 include: "workflow/rules/sweep.smk"
 include: "workflow/rules/results.smk"
 include: "workflow/rules/figures.smk"
+include: "workflow/rules/studies_common.smk"
 include: "workflow/rules/studies.smk"
 
 

@@ -19,8 +19,8 @@ LAYERS = [
     "contact",
     "march",
     "results",
-    "figures",
     "studies",
+    "figures",
     "config",
 ]
 

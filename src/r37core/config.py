@@ -72,6 +72,9 @@ class Settings:
     campbell: dict[str, Any]
     interactions: dict[str, float]
     studies: dict[str, Any]
+    levels: dict[str, Any]
+    scene_entries: dict[str, Any]
+    tolerance: float
 
     def shape_hash(self, blade: str) -> str:
         """Short hash of all that a blade's geometry depends on."""
@@ -98,6 +101,8 @@ class Settings:
             snapshots_per_revolution=level["stress_instants"] if stress else 0,
             snapshot_revolutions=(chosen.revolutions if history else 1) if stress else 0,
             energy="energy" in chosen.results,
+            precision=level["precision"],
+            highest_frequency=level.get("highest_frequency_hz", math.inf),
         )
 
 
@@ -119,7 +124,11 @@ def load_settings(config: Mapping[str, Any], root: Path, config_name: str = "con
     _check_known("fidelity", [level], levels, fidelity_file, config_name)
     entries = _validated(_load(root, blades_file), schemas / "blades.schema.yaml", blades_file)
     names = _selected("blades", checked, entries, blades_file, config_name)
-    scenes = _scenes(checked, levels[level], root, schemas, config_name)
+    entries_of_scenes = _scene_entries(checked, root, schemas, config_name)
+    scenes = {
+        name: _scene(name, entry, levels[level]["march"], checked["structure"]["boundary"]["tip_line"], checked["scenes_file"])
+        for name, entry in entries_of_scenes.items()
+    }
     submesh = checked["structure"]["stress_submesh"]
     if not submesh["minimum_z_m"] < submesh["maximum_z_m"]:
         raise ConfigError(
@@ -138,6 +147,9 @@ def load_settings(config: Mapping[str, Any], root: Path, config_name: str = "con
         campbell=checked["campbell"],
         interactions=checked["interactions"],
         studies=checked["studies"],
+        levels=levels,
+        scene_entries=entries_of_scenes,
+        tolerance=checked["tolerance"],
     )
 
 
@@ -276,23 +288,20 @@ def _shift(shift: Mapping[str, Any], root: Path, file: str) -> dict[str, Any]:
     return {"stacking": rows}
 
 
-def _scenes(
-    checked: Mapping[str, Any], level: Mapping[str, Any], root: Path, schemas: Path, config_name: str
-) -> dict[str, SceneSettings]:
+def _scene_entries(checked: Mapping[str, Any], root: Path, schemas: Path, config_name: str) -> dict[str, Any]:
     file = checked["scenes_file"]
     entries = _validated(_load(root, file), schemas / "scenes.schema.yaml", file)
-    names = _selected("scenes", checked, entries, file, config_name)
-    tip_line = checked["structure"]["boundary"]["tip_line"]
-    return {name: _scene(name, entries[name], level["march"], tip_line, file) for name in names}
+    return {name: entries[name] for name in _selected("scenes", checked, entries, file, config_name)}
 
 
-def _scene(name: str, entry: Mapping[str, Any], march: Mapping[str, Any], tip_line: str, file: str) -> SceneSettings:
+def checked_scene(entry: Mapping[str, Any], schemas: Path) -> Scene:
+    """The scene of one entry of scenes.yaml; ConfigError where the schema in the folder `schemas` forbids it."""
+    return _contact_scene(_validated({"scene": entry}, schemas / "scenes.schema.yaml", "scenes.yaml")["scene"])
+
+
+def _contact_scene(entry: Mapping[str, Any]) -> Scene:
     casing, lining, friction = entry["casing"], entry.get("lining"), entry.get("friction")
-    if "wear" in entry["results"] and lining is None:
-        raise ConfigError(f"{file}: {name}.results: found wear; allowed: only in a scene with a lining")
-    if entry["stress_history_speeds_rad_s"] and "stress" not in entry["results"]:
-        raise ConfigError(f"{file}: {name}.stress_history_speeds_rad_s: allowed: only with stress among the results")
-    scene = Scene(
+    return Scene(
         casing=Casing(
             clearance=casing["clearance_m"],
             lobes=casing["lobes"],
@@ -324,8 +333,15 @@ def _scene(name: str, entry: Mapping[str, Any], march: Mapping[str, Any], tip_li
         exact_gap=entry["gap"] == "exact",
         divergence_limit=entry["divergence_limit_m"],
     )
+
+
+def _scene(name: str, entry: Mapping[str, Any], march: Mapping[str, Any], tip_line: str, file: str) -> SceneSettings:
+    if "wear" in entry["results"] and "lining" not in entry:
+        raise ConfigError(f"{file}: {name}.results: found wear; allowed: only in a scene with a lining")
+    if entry["stress_history_speeds_rad_s"] and "stress" not in entry["results"]:
+        raise ConfigError(f"{file}: {name}.stress_history_speeds_rad_s: allowed: only with stress among the results")
     return SceneSettings(
-        scene=scene,
+        scene=_contact_scene(entry),
         tip_line=entry.get("tip_line", tip_line),
         revolutions=entry.get("revolutions", march["revolutions"]),
         results=tuple(entry["results"]),

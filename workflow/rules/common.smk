@@ -81,6 +81,12 @@ def sweep_provenance(wildcards):
     return provenance_of_sweep(wildcards.blade, wildcards.scene)
 
 
+def extreme_speeds(blade, scene):
+    """The slowest speed of a sweep, and the fastest one or the basis's, whichever is faster: what limits of the step are for."""
+    speeds = settings.speeds[blade, scene]
+    return [speeds[0], max(speeds[-1], settings.structure["maximum_speed_rad_s"])]
+
+
 def blade_by_blade(wildcards):
     """Priority of a blade's simulations, above 0 and up to 1: results should be complete one blade after another."""
     blades = list(settings.blades)

@@ -46,3 +46,134 @@ rule estimate:
         code=code("studies/estimate.py"),
     script:
         "../scripts/estimate.py"
+
+
+rule study_model:
+    input:
+        "results/{blade}/geometry.nc",
+    output:
+        rom="results/studies/models/{blade}/{nodes}_{boundary_nodes}_{fixed_interface_modes}_{region}_rom.nc",
+        contact="results/studies/models/{blade}/{nodes}_{boundary_nodes}_{fixed_interface_modes}_{region}_contact.npz",
+        cost="results/studies/models/{blade}/{nodes}_{boundary_nodes}_{fixed_interface_modes}_{region}_cost.json",
+    log:
+        "logs/studies/models/{blade}_{nodes}_{boundary_nodes}_{fixed_interface_modes}_{region}.log",
+    wildcard_constraints:
+        nodes=r"\d+",
+        boundary_nodes=r"\d+",
+        fixed_interface_modes=r"\d+",
+        region="submesh|whole",
+    priority: 2
+    conda:
+        ENVIRONMENT
+    params:
+        choice=model_choice,
+        structure=settings.structure,
+        reduction=settings.levels[TRADEOFF["base"]]["reduction"],
+        material=lambda wildcards: asdict(settings.blades[wildcards.blade].material),
+        provenance=structure_provenance,
+        code=code("mesh/*.py", "fem/*.py", "rom/*.py", "studies/models.py"),
+    script:
+        "../scripts/study_model.py"
+
+
+rule tradeoff_case:
+    input:
+        unpack(tradeoff_model),
+        campbell="results/{blade}/campbell.nc",
+    output:
+        "results/studies/tradeoff/{blade}/{knob}/{value}.nc",
+    log:
+        "logs/studies/tradeoff/{blade}_{knob}_{value}.log",
+    wildcard_constraints:
+        knob="|".join(TRADEOFF_VALUES),
+        value=r"[\w.+-]+",
+    conda:
+        ENVIRONMENT
+    params:
+        scenes={scene: settings.scenes[scene].scene for scene in TRADEOFF_SCENES},
+        described=[repr(settings.scenes[scene].scene) for scene in TRADEOFF_SCENES],
+        choices=tradeoff_choices,
+        places=TRADEOFF["places"],
+        engine_order=TRADEOFF["engine_order"],
+        material=lambda wildcards: asdict(settings.blades[wildcards.blade].material),
+        code=code("contact/*.*", "march/*.*", "studies/case.py", "studies/tradeoff.py"),
+    script:
+        "../scripts/tradeoff_case.py"
+
+
+rule tradeoff:
+    input:
+        [
+            f"results/studies/tradeoff/{TRADEOFF_BLADE}/{knob}/{value}.nc"
+            for knob, values in TRADEOFF_VALUES.items()
+            for value in values
+        ],
+    output:
+        dataset="results/studies/tradeoff.nc",
+        table="results/studies/tradeoff.md",
+        knobs=expand("results/studies/figures/tradeoff_{knob}.png", knob=TRADEOFF_VALUES),
+        pareto="results/studies/figures/tradeoff_pareto.png",
+    log:
+        "logs/studies/tradeoff.log",
+    conda:
+        ENVIRONMENT
+    params:
+        knobs=list(TRADEOFF_VALUES),
+        references=TRADEOFF_REFERENCES,
+        tolerance=settings.tolerance,
+        provenance={"blade": TRADEOFF_BLADE, "base_level": TRADEOFF["base"]},
+        code=code("studies/tradeoff*.py", "figures/style.py", "figures/tradeoff.py"),
+    script:
+        "../scripts/tradeoff.py"
+
+
+rule stability_case:
+    input:
+        contact=stability_model,
+    output:
+        "results/studies/stability/{extreme}.json",
+    log:
+        "logs/studies/stability/{extreme}.log",
+    wildcard_constraints:
+        extreme=r"[\w.+-]+",
+    conda:
+        ENVIRONMENT
+    params:
+        extreme=lambda wildcards: asdict(EXTREMES[wildcards.extreme]),
+        entry=lambda wildcards: settings.scene_entries[EXTREMES[wildcards.extreme].scene],
+        choice=lambda wildcards: study_choice(STABILITY["base"]),
+        schemas=str(ROOT / "config" / "schemas"),
+        code=code("contact/*.*", "march/*.*", "studies/case.py", "studies/stability.py"),
+    script:
+        "../scripts/stability_case.py"
+
+
+rule stability:
+    input:
+        expand("results/studies/stability/{extreme}.json", extreme=EXTREMES),
+    output:
+        "results/studies/stability.md",
+    log:
+        "logs/studies/stability.log",
+    conda:
+        ENVIRONMENT
+    params:
+        code=code("studies/stability.py"),
+    script:
+        "../scripts/stability.py"
+
+
+rule growth:
+    input:
+        "results/studies/tradeoff.nc",
+    output:
+        table="results/studies/growth.md",
+        figure="results/studies/figures/growth.png",
+    log:
+        "logs/studies/growth.log",
+    conda:
+        ENVIRONMENT
+    params:
+        code=code("studies/growth.py", "figures/style.py", "figures/growth.py"),
+    script:
+        "../scripts/growth.py"

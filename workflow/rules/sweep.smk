@@ -31,7 +31,7 @@ rule prepare_march:
     params:
         scene=lambda wildcards: settings.scenes[wildcards.scene].scene,
         described=lambda wildcards: repr(settings.scenes[wildcards.scene].scene),
-        speed=settings.structure["maximum_speed_rad_s"],
+        speeds=lambda wildcards: extreme_speeds(wildcards.blade, wildcards.scene),
         choice=lambda wildcards: asdict(
             settings.march_choice(wildcards.scene, settings.structure["maximum_speed_rad_s"])
         ),

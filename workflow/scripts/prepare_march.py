@@ -1,4 +1,4 @@
-"""Compile the march and refuse a step that is too long. Input: contact model. Params: scene, choice, speed. Output: stamp."""
+"""Compile the march and refuse a step that is too long. Input: contact model. Params: scene, choice, speeds. Output: stamp."""
 
 from job import run
 
@@ -9,9 +9,10 @@ from r37core.rom.contact_model import read_contact_model
 
 def main(snakemake):
     params = snakemake.params
-    march = March(read_contact_model(snakemake.input[0]), params.speed, params.scene, MarchChoice(**params.choice))
+    for speed in params.speeds:
+        march = March(read_contact_model(snakemake.input[0]), speed, params.scene, MarchChoice(**params.choice))
+        print(f"{speed:g} rad/s: highest mode {march.frequencies[-1]:.6g} rad/s, steps of {march.time_step:.6g} s")
     march.compile()
-    print(f"highest mode {march.frequencies[-1]:.6g} rad/s, steps of {march.time_step:.6g} s")
 
 
 run(snakemake, main)

@@ -10,7 +10,8 @@ class MarchChoice:
     """Numbers of the march: largest time step (s), revolutions, samples per revolution, and what is recorded.
 
     `snapshots_per_revolution` modal states are kept in each of the last `snapshot_revolutions`; `energy`: whether the loss
-    to damping is added up; `precision`: double or single; `jumps`: whether free flight is jumped over or stepped through.
+    to damping is added up; `precision`: double or single; `jumps`: whether free flight is jumped over or stepped through;
+    `highest_frequency` (Hz): faster modes are left out.
     """
 
     time_step: float
@@ -21,3 +22,4 @@ class MarchChoice:
     energy: bool = False
     precision: str = "double"
     jumps: bool = True
+    highest_frequency: float = float("inf")

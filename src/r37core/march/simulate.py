@@ -18,6 +18,14 @@ class UnstableStepError(ValueError):
     """A time step beyond the stability limit of central differences."""
 
 
+class LongRevolutionError(ValueError):
+    """A revolution of so many steps that the casing's table would not fit in memory."""
+
+
+_LARGEST_TABLE = 2**30
+"""Bytes."""
+
+
 @dataclass
 class MarchState:
     """Where a run stands; a run may be stopped after any revolution and go on from its state.
@@ -53,16 +61,19 @@ class March:
     that divides a revolution into whole samples, `steps_per_revolution`.
 
     Raises UnstableStepError for a step at or above the stability limit 2/omega_max of the blade, or that of a node pressed
-    on the lining's bars.
+    on the lining's bars; LongRevolutionError for a revolution of too many steps.
     """
 
     def __init__(self, model: ContactModel, speed: float, scene: Scene, choice: MarchChoice):
         self.model, self.speed, self.scene, self.choice = model, speed, scene, choice
         self.frequencies, self.modes = model.modes_at(speed)
+        kept = self.frequencies <= 2.0 * np.pi * choice.highest_frequency
+        self.frequencies, self.modes = self.frequencies[kept], np.ascontiguousarray(self.modes[:, kept])
         period = 2.0 * np.pi / speed
         self.steps_per_sample = int(np.ceil(period / (choice.samples_per_revolution * choice.time_step) - 1e-9))
         self.steps_per_revolution = self.steps_per_sample * choice.samples_per_revolution
         self.time_step = period / self.steps_per_revolution
+        self._check_length()
         self.rows = model.rows @ self.modes
         self.recursion = recursion_coefficients(self.frequencies, scene.damping_ratio, self.time_step)
         self.coupling = np.array([(rows * self.recursion[2]) @ self.rows[0].T for rows in self.rows])
@@ -77,6 +88,15 @@ class March:
     def duration(self) -> float:
         """Length of the whole run (s)."""
         return self.choice.revolutions * self.steps_per_revolution * self.time_step
+
+    def _check_length(self) -> None:
+        table = 8 * self.steps_per_revolution * len(self.model.radius)
+        if table > _LARGEST_TABLE:
+            steps = f"{self.steps_per_revolution} steps of {self.time_step:.3g} s"
+            raise LongRevolutionError(
+                f"speeds: at {self.speed:g} rad/s a revolution has {steps}, "
+                f"and the casing's shape at each would take {table / 2**30:.1f} GiB; use a higher speed or a larger time_step_s"
+            )
 
     def _check_stability(self) -> None:
         limit = 2.0 / self.frequencies[-1]

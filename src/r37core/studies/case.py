@@ -1,0 +1,94 @@
+"""One case of a study: a blade's model in one scene at some speeds, what came out and what it cost."""
+
+from __future__ import annotations
+
+import resource
+import tempfile
+import time
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from r37core.contact.scene import Scene
+from r37core.march.choice import MarchChoice
+from r37core.march.speed_file import write_speed
+from r37core.march.speed_run import run_speed
+from r37core.results.stress import StressRecovery
+from r37core.rom.contact_model import ContactModel
+
+QUANTITIES = ("rms_radial", "peak_radial", "max_von_mises", "max_wear")
+"""What a case keeps of every run: of the leading edge (m), over the last revolution (Pa), of the lining (m)."""
+
+CHECKS = ("status", "energy_residual", "worst_complementarity", "share_of_time_in_contact")
+COSTS = ("cpu_s", "wall_s", "peak_memory_bytes", "bytes_written")
+
+
+class Stopwatch:
+    """Adds up CPU and wall seconds of this process over the blocks it is used for."""
+
+    def __init__(self) -> None:
+        self.cpu = self.wall = 0.0
+
+    def __enter__(self) -> None:
+        self._start = time.process_time(), time.perf_counter()
+
+    def __exit__(self, *_: object) -> None:
+        self.cpu += time.process_time() - self._start[0]
+        self.wall += time.perf_counter() - self._start[1]
+
+
+@dataclass(frozen=True)
+class Case:
+    """Arrays of shape (speeds,) by the names of QUANTITIES and CHECKS, NaN where a scene has none, and costs per run."""
+
+    speeds: np.ndarray
+    values: dict[str, np.ndarray]
+    costs: dict[str, float]
+
+
+def run_case(
+    model: ContactModel,
+    scene: Scene,
+    choice: MarchChoice,
+    speeds: np.ndarray,
+    recovery: StressRecovery | None = None,
+) -> Case:
+    """Run all `speeds` (rad/s). Costs are means over the runs; memory is the largest of the process so far.
+
+    Raises UnstableStepError for a step beyond the stability limit.
+    """
+    results = ["energy", "spectrum", *(["stress"] if recovery else []), *(["wear"] if scene.lining else [])]
+    values = {name: np.full(len(speeds), np.nan) for name in (*QUANTITIES, *CHECKS)}
+    written = 0
+    clock = Stopwatch()
+    with tempfile.TemporaryDirectory() as folder:
+        file = Path(folder) / "speed.npz"
+        for row, speed in enumerate(speeds):
+            with clock:
+                run = run_speed(model, speed, scene, choice, results, 20, min(4, choice.revolutions), 1000)
+            write_speed(run, file, {})
+            written += file.stat().st_size
+            _keep(values, row, run, recovery, choice)
+    costs = {
+        "cpu_s": clock.cpu / len(speeds),
+        "wall_s": clock.wall / len(speeds),
+        "peak_memory_bytes": float(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024),
+        "bytes_written": written / len(speeds),
+    }
+    return Case(np.array(speeds, dtype=float), values, costs)
+
+
+def _keep(
+    values: dict[str, np.ndarray], row: int, run: dict[str, np.ndarray], recovery: StressRecovery | None, choice: MarchChoice
+) -> None:
+    values["rms_radial"][row], values["peak_radial"][row] = run["rms"][0, 0], run["peak"][0, 0]
+    for name in ("status", "worst_complementarity", "share_of_time_in_contact"):
+        values[name][row] = run[name]
+    # what the energy balance does not close, as a share of all that went in and out
+    turned_over = abs(run["contact_work"]) + run["damping_loss"]
+    values["energy_residual"][row] = run["energy_residual"] / turned_over if turned_over > 0.0 else 0.0
+    if "max_wear" in run:
+        values["max_wear"][row] = run["max_wear"]
+    if recovery and len(run["snapshots"]):
+        values["max_von_mises"][row] = recovery.max_von_mises(run["snapshots"]).max()

@@ -1,0 +1,54 @@
+"""Models of a blade that differ from its level's in one thing, and what making them costs."""
+
+from __future__ import annotations
+
+import resource
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from r37core.blade.surface import Blade
+from r37core.fem.material import Material
+from r37core.fem.matrices import assemble
+from r37core.mesh.generate import generate_mesh
+from r37core.rom.reduce import ReductionChoice, StressSubmesh, reduce_blade
+from r37core.rom.reduced_model import ReducedModel
+
+from .case import Stopwatch
+
+EVERYWHERE = StressSubmesh(np.inf, -np.inf, np.inf)
+"""Stress on the whole blade but for the clamped elements."""
+
+
+@dataclass(frozen=True)
+class ModelChoice:
+    """Nodes of the mesh, boundary nodes, fixed-interface modes, and where stress is recovered: submesh or whole blade."""
+
+    nodes: int
+    boundary_nodes: int
+    fixed_interface_modes: int
+    whole_blade_stress: bool = False
+
+
+def tip_elements(nodes: int) -> int:
+    """Elements along the tip that suit a mesh, as in fidelity.yaml: a multiple of 7, for 8 evenly spaced boundary nodes."""
+    return 7 * max(1, round(0.04 * np.sqrt(nodes)))
+
+
+def build_model(
+    blade: Blade, material: Material, choice: ModelChoice, base: ReductionChoice
+) -> tuple[ReducedModel, Mapping[str, float]]:
+    """Mesh, assemble and reduce; `base` gives what `choice` leaves open. Also the cost: CPU and wall s, memory (bytes)."""
+    clock = Stopwatch()
+    reduction = replace(
+        base,
+        boundary=replace(base.boundary, nodes=choice.boundary_nodes),
+        fixed_interface_modes=choice.fixed_interface_modes,
+        stress_submesh=EVERYWHERE if choice.whole_blade_stress else base.stress_submesh,
+    )
+    with clock:
+        mesh = generate_mesh(blade, choice.nodes, 1, tip_elements(choice.nodes))
+        model = reduce_blade(mesh, assemble(mesh, material), reduction)
+    memory = float(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024)
+    return model, {"cpu_s": clock.cpu, "wall_s": clock.wall, "peak_memory_bytes": memory}

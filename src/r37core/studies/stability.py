@@ -1,0 +1,92 @@
+"""What happens at extremes: every case is a real run, judged against itself with half the step."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from r37core.contact.scene import Scene
+from r37core.march.choice import MarchChoice
+from r37core.march.simulate import UnstableStepError
+from r37core.rom.contact_model import ContactModel
+
+from .case import Case, run_case
+
+ACCURATE, DEGRADED, DIVERGED, REFUSED = "accurate", "degraded", "diverged", "refused"
+"""Outcomes. Accurate: half the step gives the same mean rms within ACCURATE_WITHIN; degraded: it does not; diverged: the run
+says so itself, and the half step tells whether it is the model or the step; refused: with a reason, before anything ran."""
+
+ACCURATE_WITHIN = 0.05
+ENERGY_WITHIN = 1e-6
+COMPLEMENTARITY_WITHIN = 1e-8
+
+
+def judge(model: ContactModel, scene: Scene, choice: MarchChoice, speed: float) -> dict[str, Any]:
+    """Run three speeds within 0.3% of `speed` (rad/s), then with half the step. Returns outcome, detail and numbers.
+
+    Raises AssertionError for a wrong number that nothing flags: not finite, open energy balance, violated contact conditions.
+    """
+    speeds = speed * np.array([0.997, 1.0, 1.003])
+    try:
+        case = run_case(model, scene, choice, speeds)
+    except (UnstableStepError, ValueError) as error:
+        return {"outcome": REFUSED, "detail": str(error).split(";")[0]}
+    half = run_case(model, scene, replace(choice, time_step=0.5 * choice.time_step), speeds)
+    for one in (case, half):
+        _check_sound(one)
+    numbers = {
+        "rms": float(case.values["rms_radial"].mean()),
+        "contact": float(case.values["share_of_time_in_contact"].mean()),
+        "energy_residual": float(np.abs(case.values["energy_residual"]).max()),
+        "cpu_s": case.costs["cpu_s"],
+    }
+    if case.values["status"].any():
+        also = "so does half the step" if half.values["status"].any() else "half the step does not"
+        return numbers | {"outcome": DIVERGED, "detail": f"{also}; recorded with status 1"}
+    mine, theirs = numbers["rms"], float(half.values["rms_radial"].mean())
+    if half.values["status"].any():
+        return numbers | {"outcome": DEGRADED, "detail": "half the step diverges"}
+    if theirs == 0.0 and mine == 0.0:
+        return numbers | {"outcome": ACCURATE, "detail": "nothing touches"}
+    change = abs(mine - theirs) / theirs
+    outcome = ACCURATE if change < ACCURATE_WITHIN else DEGRADED
+    return numbers | {"outcome": outcome, "detail": f"mean rms changes by {100 * change:.2g}% with half the step"}
+
+
+def _check_sound(case: Case) -> None:
+    """AssertionError unless every run either diverged and says so, or has finite, balanced numbers."""
+    completed = case.values["status"] == 0
+    for name in ("rms_radial", "peak_radial"):
+        assert np.all(np.isfinite(case.values[name][completed])), f"{name} is not finite in a run that counts as completed"
+    energy = np.abs(case.values["energy_residual"][completed])
+    assert np.all(energy < ENERGY_WITHIN), f"energy balance open by {energy.max():.2g} of the work"
+    violation = case.values["worst_complementarity"][completed]
+    assert np.all(violation < COMPLEMENTARITY_WITHIN), f"contact conditions violated by {violation.max():.2g} of the gap"
+
+
+def changed(entry: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
+    """A copy of a scene's entry with the values at dotted paths replaced."""
+    result: dict[str, Any] = {key: dict(value) if isinstance(value, Mapping) else value for key, value in entry.items()}
+    for path, value in changes.items():
+        *parents, last = path.split(".")
+        target = result
+        for parent in parents:
+            target = target[parent]
+        target[last] = value
+    return result
+
+
+def stability_table(rows: Sequence[Mapping[str, Any]]) -> str:
+    """The outcomes as Markdown: how many of each, then every case."""
+    counts = {outcome: sum(row["outcome"] == outcome for row in rows) for outcome in (ACCURATE, DEGRADED, DIVERGED, REFUSED)}
+    lines = [", ".join(f"{number} {outcome}" for outcome, number in counts.items()) + f", of {len(rows)} cases.", ""]
+    lines += ["| what | value | scene | outcome | how it shows | rms (mm) | in contact |", "|---|---|---|---|---|---|---|"]
+    for row in rows:
+        rms = f"{1e3 * row['rms']:.3g}" if np.isfinite(row.get("rms", np.nan)) else ""
+        contact = f"{100 * row['contact']:.0f}%" if "contact" in row else ""
+        cells = [row["what"], row["value"], row["scene"], row["outcome"], row["detail"], rms, contact]
+        lines.append("| " + " | ".join(cells) + " |")
+    return "\n".join(lines) + "\n"

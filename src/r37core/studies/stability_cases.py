@@ -1,0 +1,85 @@
+"""The extremes that the stability study tries: what is changed in the configuration, in which scene, at which speed."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+
+@dataclass(frozen=True)
+class Extreme:
+    """One case. `changes`: dotted path in the scene's entry of scenes.yaml -> value; the rest: of the march and the model.
+
+    `share_of_limit`: time step as a share of the blade's stability limit, in place of the level's; `model`: fields of
+    ModelChoice.
+    """
+
+    what: str
+    value: str
+    scene: str
+    changes: Mapping[str, Any] = field(default_factory=dict)
+    speed: float = 1344.0
+    revolutions: int = 60
+    share_of_limit: float | None = None
+    model: Mapping[str, int] = field(default_factory=dict)
+
+    @property
+    def name(self) -> str:
+        """Name in file names."""
+        return f"{self.what}_{self.value}_{self.scene}".replace(" ", "_")
+
+
+def extremes(lined: str, rigid: str) -> list[Extreme]:
+    """All cases; `lined` and `rigid`: names of a scene with a lining and of one without."""
+    both = (lined, rigid)
+    cases = [
+        Extreme("step over limit", f"{share:g}", scene, share_of_limit=share, revolutions=20)
+        for share in (0.01, 0.1, 0.5, 0.9, 0.99, 1.0, 1.05)
+        for scene in both
+    ]
+    cases += [
+        Extreme("speed", f"{speed:g}", scene, speed=float(speed), revolutions=2 if speed <= 10 else 60)
+        for speed in (1, 10, 100, 3000, 5000)
+        for scene in both
+    ]
+    cases += [
+        Extreme(what, f"{value:g}", scene, {path: value})
+        for what, path, values in (
+            ("clearance", "casing.clearance_m", (0.0, 1e-9, 1e-2)),
+            ("lobes", "casing.lobes", (1, 5, 20)),
+            ("ovalisation in clearances", "casing.amplitude_clearances", (0.0, 10.0)),
+            ("damping ratio", "damping_ratio", (0.0, 0.1, 0.999, 1.0)),
+        )
+        for value in values
+        for scene in both
+    ]
+    cases += [
+        Extreme("friction " + direction, f"{value:g}", scene, {"friction.coefficient": value, "friction.direction": direction})
+        for direction in ("against_rotation", "along_rotation")
+        for value in (0.0, 0.5, 1.0)
+        for scene in both
+    ]
+    cases += [
+        Extreme(what, f"{value:g}", lined, {path: value})
+        for what, path, values in (
+            ("lining thickness", "lining.thickness_m", (1e-6, 1e-4, 5e-2)),
+            ("elastic modulus", "lining.elastic_modulus_pa", (1e4, 1e6, 1e8, 1e10, 1e12)),
+            ("plastic modulus", "lining.plastic_modulus_pa", (0.0, 1e4, 1e12)),
+            ("yield stress", "lining.yield_stress_pa", (0.0, 1e6, 1e9)),
+            ("bars", "lining.bars", (10, 100, 100000, 1000000)),
+        )
+        for value in values
+    ]
+    cases += [
+        Extreme(what, f"{value:g}", scene, model={key: value})
+        for what, key, values in (
+            ("boundary nodes", "boundary_nodes", (1, 2, 20, 40)),
+            ("fixed-interface modes", "fixed_interface_modes", (0, 60, 200)),
+            ("mesh nodes", "nodes", (500, 1000, 60000)),
+        )
+        for value in values
+        for scene in both
+    ]
+    cases += [Extreme("revolutions", str(number), scene, revolutions=number) for number in (1, 2, 5000) for scene in both]
+    return cases

@@ -1,0 +1,172 @@
+"""What accuracy costs: one knob at a time against a fine setting of it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from r37core.contact.scene import Scene
+from r37core.dataset_file import about
+from r37core.march.choice import MarchChoice
+from r37core.march.simulate import UnstableStepError
+from r37core.results.stress import StressRecovery
+from r37core.rom.contact_model import ContactModel
+
+from .case import COSTS, QUANTITIES, Case, run_case
+
+MODEL_KNOBS = ("mesh_nodes", "boundary_nodes", "fixed_interface_modes", "stress_region", "level")
+"""Knobs that need a model of their own, or a level's."""
+
+UNITS = {"time_step": "s", "highest_frequency": "Hz"}
+"""Units of the knobs that have one."""
+
+
+@dataclass(frozen=True)
+class Place:
+    """Neighbouring speeds, as shares of a Campbell speed: single ones close to an interaction are too sensitive to compare."""
+
+    first: float
+    last: float
+    speeds: int
+
+    def of(self, crossing: float) -> np.ndarray:
+        """The speeds (rad/s) about a Campbell speed (rad/s)."""
+        return np.linspace(self.first, self.last, self.speeds) * crossing
+
+
+def vary(knob: str, value: str, scene: Scene, choice: MarchChoice) -> tuple[Scene, MarchChoice]:
+    """Scene and march with one knob set; knobs of the model change neither.
+
+    Raises ValueError for an unknown knob.
+    """
+    if knob in MODEL_KNOBS:
+        return scene, choice
+    if knob == "time_step":
+        return scene, replace(choice, time_step=float(value))
+    if knob == "revolutions":
+        return scene, replace(choice, revolutions=int(value))
+    if knob == "highest_frequency":
+        return scene, replace(choice, highest_frequency=float(value))
+    if knob == "precision":
+        return scene, replace(choice, precision=value)
+    if knob == "stress_instants":
+        return scene, replace(choice, snapshots_per_revolution=int(value))
+    if knob == "bars":
+        return replace(scene, lining=scene.lining and replace(scene.lining, bars=int(value))), choice
+    if knob == "friction_form":
+        return replace(scene, friction=scene.friction and replace(scene.friction, vector=value == "vector")), choice
+    raise ValueError(f"unknown knob {knob}")
+
+
+def run_scenes(
+    knob: str,
+    value: str,
+    model: ContactModel,
+    recovery: StressRecovery,
+    scenes: Mapping[str, Scene],
+    choices: Mapping[str, MarchChoice],
+    places: Mapping[str, np.ndarray],
+) -> dict[str, Case | str]:
+    """Run every scene at all places' speeds with one knob set; the reason instead of a case where a step is refused."""
+    speeds = np.concatenate(list(places.values()))
+    runs: dict[str, Case | str] = {}
+    for name, scene in scenes.items():
+        varied, choice = vary(knob, value, scene, choices[name])
+        try:
+            runs[name] = run_case(model, varied, choice, speeds, recovery)
+        except UnstableStepError as error:
+            runs[name] = str(error).split(";")[0]
+    return runs
+
+
+def case_dataset(
+    knob: str, value: str, places: Mapping[str, np.ndarray], runs: Mapping[str, Case | str], model_cost: Mapping[str, float]
+) -> xr.Dataset:
+    """One case as a dataset: quantities over (scene, speed), costs over scene; a scene that was refused has NaN and its reason.
+
+    `runs`: for each scene the case, or why there is none.
+    """
+    speeds = np.concatenate(list(places.values()))
+    names = np.concatenate([[name] * len(values) for name, values in places.items()])
+    done = {scene: case for scene, case in runs.items() if isinstance(case, Case)}
+    nothing = np.full(len(speeds), np.nan)
+    data: dict[str, Any] = {}
+    for name in (*QUANTITIES, "status", "energy_residual"):
+        rows = [done[scene].values[name] if scene in done else nothing for scene in runs]
+        data[name] = (("scene", "speed_number"), np.array(rows))
+    for name in COSTS:
+        data[name] = ("scene", np.array([done[scene].costs[name] if scene in done else np.nan for scene in runs]))
+    data["refused"] = ("scene", np.array([run if isinstance(run, str) else "" for run in runs.values()], dtype=object))
+    for name in ("cpu_s", "peak_memory_bytes"):
+        data[f"model_{name}"] = ((), model_cost.get(name, np.nan))
+    coordinates = {"scene": list(runs), "speed": ("speed_number", speeds), "place": ("speed_number", names)}
+    return xr.Dataset(data, coords=coordinates).assign_coords(knob=knob, value=value)
+
+
+def gather_cases(cases: Sequence[xr.Dataset], references: Mapping[str, str]) -> xr.Dataset:
+    """All cases along `case`, with errors against the reference value of each knob.
+
+    `error(case, scene, at, quantity)`: relative difference of the means over the speeds of a place. `scatter`, same shape: root
+    mean square of the relative differences at its single speeds. `peak_speed_error(case, scene)`: of the rms-weighted mean
+    speed over `peak` and `jump`.
+    """
+    together = xr.concat(cases, dim="case")
+    knobs, values = together["knob"].values, together["value"].values
+    places = list(dict.fromkeys(cases[0]["place"].values))
+    shape = (len(knobs), together.sizes["scene"], len(places), len(QUANTITIES))
+    error, scatter, speed_error = np.full(shape, np.nan), np.full(shape, np.nan), np.full(shape[:2], np.nan)
+    for row, knob in enumerate(knobs):
+        reference = int(np.flatnonzero((knobs == knob) & (values == references[knob]))[0])
+        for column in range(shape[1]):
+            ours, theirs = (together.isel(case=number, scene=column) for number in (row, reference))
+            speed_error[row, column] = abs(centre_of_peak(ours) / centre_of_peak(theirs) - 1.0)
+            for number, place in enumerate(places):
+                error[row, column, number], scatter[row, column, number] = compare(ours, theirs, place)
+    together = together.assign_coords(quantity=list(QUANTITIES), at=places)
+    dims = ("case", "scene", "at", "quantity")
+    together["error"] = (
+        dims,
+        error,
+        about("1", "relative difference of means over neighbouring speeds"),
+    )
+    together["scatter"] = (dims, scatter, about("1", "root mean square of the relative differences at the single speeds"))
+    together["peak_speed_error"] = (dims[:2], speed_error, about("1", "relative difference of the rms-weighted mean speed"))
+    units = {"rms_radial": "m", "peak_radial": "m", "max_von_mises": "Pa", "max_wear": "m", "cpu_s": "s", "wall_s": "s"}
+    for name, unit in units.items():
+        together[name].attrs.update(about(unit, name.replace("_", " ")))
+    together["speed"].attrs.update(about("rad s-1", "angular speed of the rotor"))
+    return together
+
+
+def compare(ours: xr.Dataset, theirs: xr.Dataset, place: str) -> tuple[np.ndarray, np.ndarray]:
+    """Errors and scatter of one scene at one place, by QUANTITIES; NaN where the reference has nothing."""
+    at = ours["place"].values == place
+    errors, scatters = [], []
+    for name in QUANTITIES:
+        x, y = ours[name].values[at], theirs[name].values[at]
+        errors.append(abs(x.mean() / y.mean() - 1.0) if y.mean() > 0.0 else np.nan)
+        scatters.append(np.sqrt(np.mean((x / y - 1.0) ** 2)) if np.all(y > 0.0) else np.nan)
+    return np.array(errors), np.array(scatters)
+
+
+def centre_of_peak(case: xr.Dataset) -> float:
+    """Mean speed (rad/s) over peak and jump, weighted with the squared rms: moves smoothly where the largest one jumps."""
+    at = np.isin(case["place"].values, ["peak", "jump"])
+    weight = case["rms_radial"].values[at] ** 2
+    return float((case["speed"].values[at] * weight).sum() / weight.sum())
+
+
+def level_error(together: xr.Dataset, value: str) -> float:
+    """Error of a fidelity level: the largest at the peak, over scenes, of rms, largest displacement and stress."""
+    case = together.isel(case=(together["knob"].values == "level") & (together["value"].values == value))
+    return float(case["error"].sel(at="peak", quantity=["rms_radial", "peak_radial", "max_von_mises"]).max())
+
+
+def recommended_level(errors: Mapping[str, float], costs: Mapping[str, float], tolerance: float) -> str | None:
+    """The cheapest level whose error is within the tolerance; None if there is none."""
+    fitting = [level for level, error in errors.items() if error <= tolerance]
+    return min(fitting, key=lambda level: costs[level]) if fitting else None

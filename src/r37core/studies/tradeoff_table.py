@@ -1,0 +1,62 @@
+"""The trade-off study as Markdown tables."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+import xarray as xr
+
+from .tradeoff import level_error, recommended_level
+
+_COLUMNS = ("rms_radial", "peak_radial", "max_von_mises", "max_wear")
+
+
+def knob_tables(together: xr.Dataset, references: Mapping[str, str]) -> str:
+    """One table per knob: errors at the peak and off resonance, and cost, for every value and scene."""
+    lines = []
+    for knob in dict.fromkeys(together["knob"].values):
+        lines += ["", f"### {knob.replace('_', ' ')} (reference: {references[knob]})", ""]
+        lines.append(
+            "| value | scene | rms | largest | stress | wear | peak speed | rms off resonance | CPU s | MB | kB written |"
+        )
+        lines.append("|---" * 11 + "|")
+        for row in np.flatnonzero(together["knob"].values == knob):
+            case = together.isel(case=row)
+            for scene in case["scene"].values:
+                lines.append(_line(case.sel(scene=scene), str(scene)))
+    return "\n".join(lines).lstrip("\n") + "\n"
+
+
+def _line(one: xr.Dataset, scene: str) -> str:
+    value = str(one["value"].item())
+    if str(one["refused"].item()):
+        return f"| {value} | {scene} | refused: {one['refused'].item()} |" + " |" * 8
+    errors = [_percent(one["error"].sel(at="peak", quantity=name)) for name in _COLUMNS]
+    memory, written = float(one["peak_memory_bytes"]) / 1e6, float(one["bytes_written"]) / 1e3
+    cost = [f"{float(one['cpu_s']):.2f}", f"{memory:.0f}", f"{written:.0f}"]
+    off = _percent(one["error"].sel(at="off_resonance", quantity="rms_radial"))
+    return "| " + " | ".join([value, scene, *errors, _percent(one["peak_speed_error"]), off, *cost]) + " |"
+
+
+def _percent(value: xr.DataArray) -> str:
+    number = 100.0 * float(value)
+    return "" if np.isnan(number) else f"{number:.2g}%"
+
+
+def level_table(together: xr.Dataset, tolerance: float) -> str:
+    """The levels' errors and costs, and the one recommended for the tolerance."""
+    rows = np.flatnonzero(together["knob"].values == "level")
+    names = [str(together["value"].values[row]) for row in rows]
+    errors = {name: level_error(together, name) for name in names}
+    costs = {name: float(together["cpu_s"].isel(case=row).mean()) for name, row in zip(names, rows, strict=True)}
+    lines = ["| level | error at the peak | CPU s per run | building the model, CPU s |", "|---|---|---|---|"]
+    for name, row in zip(names, rows, strict=True):
+        model = float(together["model_cpu_s"].isel(case=row))
+        lines.append(f"| `{name}` | {100 * errors[name]:.1f}% | {costs[name]:.2f} | {model:.0f} |")
+    chosen = recommended_level(errors, costs, tolerance)
+    if chosen is None:
+        advice = f"No level is within the tolerance of {100 * tolerance:g}%: the best has {100 * min(errors.values()):.1f}%."
+    else:
+        advice = f"Recommended for a tolerance of {100 * tolerance:g}%: `{chosen}`."
+    return "\n".join([*lines, "", advice]) + "\n"

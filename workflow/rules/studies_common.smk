@@ -1,0 +1,100 @@
+# What the rules of the studies share.
+from r37core.march.choice import MarchChoice
+from r37core.studies.stability_cases import extremes
+
+TRADEOFF = settings.studies["tradeoff"]
+TRADEOFF_BLADE = TRADEOFF["blade"]
+TRADEOFF_SCENES = list(settings.scenes) if TRADEOFF["scenes"] == "all" else TRADEOFF["scenes"]
+
+
+def text_of(value):
+    """A knob's value as it stands in file names."""
+    return value if isinstance(value, str) else f"{value:.10g}"
+
+
+TRADEOFF_VALUES = {knob: [text_of(value) for value in entry["values"]] for knob, entry in TRADEOFF["knobs"].items()}
+TRADEOFF_REFERENCES = {knob: text_of(entry["reference"]) for knob, entry in TRADEOFF["knobs"].items()}
+
+
+def model_of_level(level, **changes):
+    """Name of the model of a fidelity level, with something changed: see model_choice."""
+    entry = settings.levels[level]
+    parts = {
+        "nodes": entry["mesh"]["nodes"],
+        "boundary_nodes": settings.structure["boundary"]["nodes"],
+        "fixed_interface_modes": entry["reduction"]["fixed_interface_modes"],
+        "region": "submesh",
+    } | changes
+    return "{nodes}_{boundary_nodes}_{fixed_interface_modes}_{region}".format(**parts)
+
+
+def model_choice(wildcards):
+    """What a model's name says."""
+    return {
+        "nodes": int(wildcards.nodes),
+        "boundary_nodes": int(wildcards.boundary_nodes),
+        "fixed_interface_modes": int(wildcards.fixed_interface_modes),
+        "whole_blade_stress": wildcards.region == "whole",
+    }
+
+
+def study_model_files(blade, model):
+    """The files of a study's model."""
+    stem = f"results/studies/models/{blade}/{model}"
+    return {"rom": f"{stem}_rom.nc", "contact": f"{stem}_contact.npz", "cost": f"{stem}_cost.json"}
+
+
+def tradeoff_model(wildcards):
+    """Files of the model that a knob's value needs."""
+    knob, value = wildcards.knob, wildcards.value
+    model_knobs = {
+        "mesh_nodes": "nodes",
+        "boundary_nodes": "boundary_nodes",
+        "fixed_interface_modes": "fixed_interface_modes",
+    }
+    if knob == "level":
+        model = model_of_level(value)
+    elif knob == "stress_region":
+        model = model_of_level(TRADEOFF["base"], region=value)
+    elif knob in model_knobs:
+        model = model_of_level(TRADEOFF["base"], **{model_knobs[knob]: int(value)})
+    else:
+        model = model_of_level(TRADEOFF["base"])
+    return study_model_files(wildcards.blade, model)
+
+
+def study_choice(level):
+    """The march of a fidelity level, with the stress of the last revolution and the energy balance."""
+    march = settings.levels[level]["march"]
+    return asdict(
+        MarchChoice(
+            time_step=march["time_step_s"],
+            revolutions=march["revolutions"],
+            samples_per_revolution=march["stress_instants"] * march["samples_per_stress_instant"],
+            snapshots_per_revolution=march["stress_instants"],
+            snapshot_revolutions=1,
+            energy=True,
+            precision=march["precision"],
+            highest_frequency=march.get("highest_frequency_hz", float("inf")),
+        )
+    )
+
+
+def tradeoff_choices(wildcards):
+    """The march of every scene, before the knob is turned."""
+    level = wildcards.value if wildcards.knob == "level" else TRADEOFF["base"]
+    return {scene: study_choice(level) for scene in TRADEOFF_SCENES}
+
+
+STABILITY = settings.studies["stability"]
+EXTREMES = {
+    extreme.name: extreme
+    for extreme in extremes(STABILITY["lined_scene"], STABILITY["rigid_scene"])
+    if {STABILITY["lined_scene"], STABILITY["rigid_scene"]} <= set(settings.scenes)
+}
+
+
+def stability_model(wildcards):
+    """Contact model of an extreme."""
+    changes = EXTREMES[wildcards.extreme].model
+    return study_model_files(STABILITY["blade"], model_of_level(STABILITY["base"], **changes))["contact"]

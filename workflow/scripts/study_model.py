@@ -1,0 +1,28 @@
+"""Build a model unlike its level's. Input: geometry.nc. Params: choice, structure, ... Outputs: rom, contact, cost."""
+
+import json
+
+from job import run
+
+from r37core.blade.geometry_file import read_geometry
+from r37core.fem.material import Material
+from r37core.io import atomic_write
+from r37core.rom.contact_model import write_contact_model
+from r37core.rom.contact_reduction import contact_model
+from r37core.rom.reduce import ReductionChoice
+from r37core.rom.rom_file import write_reduced_model
+from r37core.studies.models import ModelChoice, build_model
+
+
+def main(snakemake):
+    params = snakemake.params
+    base = ReductionChoice.from_config(params.structure, params.reduction)
+    blade = read_geometry(snakemake.input[0])
+    model, cost = build_model(blade, Material(**params.material), ModelChoice(**params.choice), base)
+    write_reduced_model(model, snakemake.output.rom, params.provenance)
+    write_contact_model(contact_model(model, base.boundary.tip_line), snakemake.output.contact)
+    with atomic_write(snakemake.output.cost) as partial:
+        partial.write_text(json.dumps(cost) + "\n", encoding="utf-8")
+
+
+run(snakemake, main)

@@ -1,0 +1,25 @@
+"""Gather the cases of the trade-off study. Inputs: cases. Params: references, tolerance. Outputs: dataset, tables, figures."""
+
+from job import run
+
+from r37core.dataset_file import read_dataset, write_dataset
+from r37core.figures.style import save
+from r37core.figures.tradeoff import draw_knob, draw_pareto
+from r37core.io import atomic_write
+from r37core.studies.tradeoff import gather_cases
+from r37core.studies.tradeoff_table import knob_tables, level_table
+
+
+def main(snakemake):
+    params, made = snakemake.params, snakemake.output
+    together = gather_cases([read_dataset(file) for file in snakemake.input], params.references)
+    write_dataset(together, made.dataset, params.provenance)
+    with atomic_write(made.table) as partial:
+        tables = level_table(together, params.tolerance), knob_tables(together, params.references)
+        partial.write_text("\n".join(tables), encoding="utf-8")
+    for knob, file in zip(params.knobs, made.knobs, strict=True):
+        save(draw_knob(together, knob), file)
+    save(draw_pareto(together), made.pareto)
+
+
+run(snakemake, main)
