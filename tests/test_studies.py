@@ -1,12 +1,26 @@
 """The studies: their numbers by hand, and small real runs of their rules."""
 
 import json
+from dataclasses import replace
 
+import numpy as np
 import pytest
+import xarray as xr
+from march_cases import ABRADABLE, DIRECT
 from workflow_runs import snakemake
 
+from r37core.march.choice import MarchChoice
+from r37core.march.simulate import March
+from r37core.studies.case import QUANTITIES, Case
 from r37core.studies.estimate import describe, project_costs
+from r37core.studies.growth import exponent_of
+from r37core.studies.readings import OUTSIDE
 from r37core.studies.sampling import sample
+from r37core.studies.stability import changed, judge
+from r37core.studies.stability_cases import extremes
+from r37core.studies.tradeoff import case_dataset, gather_cases, level_error, recommended_level, vary
+from r37core.studies.tradeoff_table import knob_tables
+from r37core.studies.validation import Check, lined_checks, rigid_checks, validation_table
 
 
 def test_sample_stands_for_the_whole_range():
@@ -33,3 +47,176 @@ def test_estimate_of_a_small_sweep(project):
     assert 0.0 < estimate["march"] < 60.0
     assert 0.01 < estimate["start-up"] / 12 < 2.0
     assert (project / "results/studies/estimate.md").read_text().startswith("Level `tiny`: 12 simulations")
+
+
+def small_case(knob, value, rms, scenes=("lined",)):
+    """A case with one speed at each place but three at the peak, and errors that are easy to see."""
+    places = {"peak": np.array([100.0, 101.0, 102.0]), "jump": np.array([105.0]), "off_resonance": np.array([90.0])}
+    values = {name: np.array(rms, dtype=float) for name in QUANTITIES}
+    values |= {name: np.zeros(5) for name in ("status", "energy_residual")}
+    costs = {"cpu_s": 1.0, "wall_s": 1.0, "peak_memory_bytes": 1e8, "bytes_written": 1e4}
+    runs = {scene: Case(np.concatenate(list(places.values())), values, costs) for scene in scenes}
+    return case_dataset(knob, value, places, runs, {"cpu_s": 7.0})
+
+
+def test_errors_compare_means_over_neighbouring_speeds():
+    cases = [small_case("bars", "1", [1.0, 2.0, 3.0, 1.0, 0.5]), small_case("bars", "2", [3.0, 2.0, 1.0, 1.0, 1.0])]
+    together = gather_cases(cases, {"bars": "2"})
+    error = together["error"].isel(case=0, scene=0).sel(quantity="rms_radial")
+    assert error.sel(at="peak").item() == pytest.approx(0.0)  # means agree though no speed but one does
+    assert error.sel(at="off_resonance").item() == pytest.approx(0.5)
+    assert together["scatter"].isel(case=0, scene=0).sel(quantity="rms_radial", at="peak").item() == pytest.approx(
+        np.sqrt((4 / 9 + 0 + 4) / 3)
+    )
+    first = (100 * 1 + 101 * 4 + 102 * 9 + 105) / 15
+    second = (100 * 9 + 101 * 4 + 102 + 105) / 15
+    assert together["peak_speed_error"].isel(case=0, scene=0).item() == pytest.approx(abs(first / second - 1))
+    assert np.all(together["error"].isel(case=1).sel(at="peak") == 0.0)
+
+
+def test_level_error_and_recommendation():
+    cases = [small_case("level", "coarse", [1.2, 1.2, 1.2, 1.0, 1.0]), small_case("level", "fine", [1.0, 1.0, 1.0, 1.0, 1.0])]
+    together = gather_cases(cases, {"level": "fine"})
+    assert level_error(together, "coarse") == pytest.approx(0.2)
+    errors, costs = {"draft": 0.2, "standard": 0.04, "paper": 0.01}, {"draft": 1.0, "standard": 3.0, "paper": 9.0}
+    assert recommended_level(errors, costs, 0.3) == "draft"
+    assert recommended_level(errors, costs, 0.05) == "standard"
+    assert recommended_level(errors, costs, 0.001) is None
+
+
+def test_refused_values_are_rows_of_the_table():
+    refused = small_case("bars", "1", [np.nan] * 5)
+    refused["refused"][0] = "too stiff"
+    together = gather_cases([refused, small_case("bars", "2", [1.0] * 5)], {"bars": "2"})
+    assert "| 1 | lined | refused: too stiff |" in knob_tables(together, {"bars": "2"})
+
+
+def test_knobs_turn_what_they_say():
+    scene, choice = vary("bars", "300", ABRADABLE, MarchChoice(1e-7, 10, 62))
+    assert scene.lining.bars == 300
+    assert vary("time_step", "2e-08", ABRADABLE, choice)[1].time_step == 2e-8
+    assert vary("friction_form", "constant", ABRADABLE, choice)[0].friction.vector is False
+    assert vary("precision", "single", DIRECT, choice) == (DIRECT, replace(choice, precision="single"))
+    assert vary("bars", "300", DIRECT, choice) == (DIRECT, choice)
+    with pytest.raises(ValueError, match="unknown knob colour"):
+        vary("colour", "red", DIRECT, choice)
+
+
+def test_exponent_of_a_power_law():
+    values = np.array([1.0, 2.0, 4.0, 8.0, 16.0])
+    assert exponent_of(values, 3.0 * values**1.5) == pytest.approx(1.5)
+    # what is fixed does not hide the growth
+    assert exponent_of(values, 100.0 + values**3) > 1.0
+
+
+def test_judging_a_case(contact):
+    choice = MarchChoice(2e-7, 4, 62)
+    assert judge(contact, DIRECT, choice, 1500.0)["outcome"] == "accurate"
+    assert judge(contact, replace(DIRECT, divergence_limit=1e-6), choice, 1500.0)["outcome"] == "diverged"
+    refused = judge(contact, DIRECT, replace(choice, time_step=2e-6), 1500.0)
+    assert refused["outcome"] == "refused"
+    assert "stability limit" in refused["detail"]
+    far = replace(DIRECT, casing=replace(DIRECT.casing, amplitude=0.0))
+    assert judge(contact, far, choice, 1500.0)["detail"] == "nothing touches"
+
+
+def test_a_silent_wrong_number_is_not_accepted(contact, monkeypatch):
+    from r37core.studies import stability
+
+    monkeypatch.setattr(stability, "ENERGY_WITHIN", 1e-30)
+    with pytest.raises(AssertionError, match="energy balance open"):
+        judge(contact, DIRECT, MarchChoice(2e-7, 4, 62), 1500.0)
+
+
+def test_changes_leave_the_entry_alone():
+    entry = {"casing": {"lobes": 2}, "damping_ratio": 0.1}
+    assert changed(entry, {"casing.lobes": 5, "damping_ratio": 0.0}) == {"casing": {"lobes": 5}, "damping_ratio": 0.0}
+    assert entry == {"casing": {"lobes": 2}, "damping_ratio": 0.1}
+
+
+def test_every_extreme_has_a_name_of_its_own():
+    names = [extreme.name for extreme in extremes("abradable", "direct")]
+    assert len(names) == len(set(names)) > 90
+
+
+def test_single_precision_is_close_for_a_few_revolutions(contact):
+    results = []
+    for precision in ("double", "single"):
+        march = March(contact, 1500.0, ABRADABLE, MarchChoice(2e-7, 2, 62, precision=precision))
+        state = march.start()
+        results.append(march.advance(state, 2).samples)
+    assert 0.0 < np.abs(results[1] - results[0]).max() < 1e-3 * np.abs(results[0]).max()
+
+
+def test_modes_that_are_left_out(contact):
+    march = March(contact, 1500.0, DIRECT, MarchChoice(2e-7, 1, 62, highest_frequency=2e4))
+    assert march.frequencies[-1] <= 2 * np.pi * 2e4
+    assert 5 < len(march.frequencies) < len(contact.squared_frequencies)
+
+
+def test_tradeoff_of_a_small_sweep(project):
+    config = project / "config/config.yaml"
+    text = config.read_text()
+    start, end = text.index("    knobs:"), len(text)
+    knobs = "    knobs:\n      level: { values: [tiny, draft], reference: draft }\n"
+    knobs += "      precision: { values: [single, double], reference: double }\n"
+    knobs += "      revolutions: { values: [2, 3, 4], reference: 4 }\n"
+    config.write_text(text[:start].replace("base: standard", "base: tiny") + knobs + text[end:])
+    snakemake(project, "growth", "--cores", "2")
+    table = (project / "results/studies/tradeoff.md").read_text()
+    assert "| `tiny` |" in table
+    assert "Recommended for a tolerance of 5%: `" in table
+    assert "### precision (reference: double)" in table
+    with xr.open_dataset(project / "results/studies/tradeoff.nc") as dataset:
+        assert dataset.sizes["case"] == 7
+        assert np.isfinite(dataset["cpu_s"]).all()
+    assert "| revolutions | one run | 2 to 4 |" in (project / "results/studies/growth.md").read_text()
+
+
+def test_an_extreme_and_a_reading_run(project):
+    config = project / "config/config.yaml"
+    config.write_text(config.read_text() + "  stability: { base: tiny }\n  readings: { base: tiny, speed_step_rad_s: 100 }\n")
+    extreme = "results/studies/stability/lobes_5_direct.json"
+    reading = "results/studies/readings/lined_inside.nc"
+    snakemake(project, extreme, reading, "--cores", "2")
+    assert json.loads((project / extreme).read_text())["outcome"] in ("accurate", "degraded")
+    with xr.open_dataset(project / reading) as dataset:
+        assert (dataset["rms_radial"] > 0.0).all()
+        assert dataset.attrs["reading"] == "corners not among the nodes"
+
+
+def reading_of(peaks, lobes, step=4.0):
+    """A run with a triangle at every peak that ends in a drop."""
+    speeds = np.unique(np.concatenate([np.arange(750.0, 2001.0, step), OUTSIDE, [1717.0, 1344.0]]))
+    rms = np.full(len(speeds), 1e-5)
+    for peak in peaks:
+        rising = (speeds > peak - 30) & (speeds <= peak)
+        rms[rising] = 1e-3 * (1 - (peak - speeds[rising]) / 40)
+    data = {"rms_radial": rms, "max_wear": 5 * rms, "lobes": np.full(len(speeds), lobes), "max_von_mises": 1e12 * rms}
+    data["first_yield_revolution"] = np.full(len(speeds), 42.0)
+    return xr.Dataset({name: ("speed", values) for name, values in data.items()}, coords={"speed": speeds})
+
+
+def test_checks_of_a_perfect_and_of_a_poor_reading():
+    rigid = reading_of([1344.0], 0)
+    perfect = reading_of([838.0, 996.0, 1264.0, 1717.0], 4)
+    checks = {check.name: check for check in lined_checks(perfect, rigid, 1.38e9)}
+    assert all(checks[f"abradable: peak of 1B/{order}"].error < 0.004 for order in (4, 5, 6, 7))
+    assert checks["abradable: sharp drop after the peak of 1B/4"].met
+    assert checks["abradable: lobes of the wear at the peak of 1B/4"].met
+    assert not checks["abradable: lobes of the wear at the peak of 1B/7"].met
+    assert checks["abradable: first yield at 1717"].error == pytest.approx(0.05)
+    poor = {check.name: check for check in lined_checks(reading_of([850.0], 4), None, 1.38e9)}
+    assert not poor["abradable: peak of 1B/7"].met
+    direct = {check.name: check for check in rigid_checks(rigid, 1.38e9)}
+    assert direct["direct: largest rms"].error == 0.0
+    assert direct["direct: response above 1400 below half of the largest"].met
+    assert direct["direct: stress below yield at 1800 rad/s"].met
+
+
+def test_missed_checks_come_first():
+    checks = [Check("good", 10.0, 10.01), Check("bad", 10.0, 12.0), Check("worst", "yes", "no")]
+    lines = validation_table(checks, {"half_step": {"good": 10.02}}).splitlines()
+    assert [line.split("|")[1].strip() for line in lines[2:]] == ["worst", "bad", "good"]
+    assert lines[2].split("|")[4].strip() == "**missed**"
+    assert lines[4].split("|")[5].strip() == "10.02"

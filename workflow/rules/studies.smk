@@ -52,16 +52,18 @@ rule study_model:
     input:
         "results/{blade}/geometry.nc",
     output:
-        rom="results/studies/models/{blade}/{nodes}_{boundary_nodes}_{fixed_interface_modes}_{region}_rom.nc",
-        contact="results/studies/models/{blade}/{nodes}_{boundary_nodes}_{fixed_interface_modes}_{region}_contact.npz",
-        cost="results/studies/models/{blade}/{nodes}_{boundary_nodes}_{fixed_interface_modes}_{region}_cost.json",
+        rom="results/studies/models/{blade}/{nodes}_{boundary_nodes}_{fixed_interface_modes}_{region}_{line}_{ends}_rom.nc",
+        contact="results/studies/models/{blade}/{nodes}_{boundary_nodes}_{fixed_interface_modes}_{region}_{line}_{ends}_contact.npz",
+        cost="results/studies/models/{blade}/{nodes}_{boundary_nodes}_{fixed_interface_modes}_{region}_{line}_{ends}_cost.json",
     log:
-        "logs/studies/models/{blade}_{nodes}_{boundary_nodes}_{fixed_interface_modes}_{region}.log",
+        "logs/studies/models/{blade}_{nodes}_{boundary_nodes}_{fixed_interface_modes}_{region}_{line}_{ends}.log",
     wildcard_constraints:
         nodes=r"\d+",
         boundary_nodes=r"\d+",
         fixed_interface_modes=r"\d+",
         region="submesh|whole",
+        line="pressure_edge|camber|suction_edge",
+        ends="corners|inside",
     priority: 2
     conda:
         ENVIRONMENT
@@ -177,3 +179,50 @@ rule growth:
         code=code("studies/growth.py", "figures/style.py", "figures/growth.py"),
     script:
         "../scripts/growth.py"
+
+
+rule reading:
+    input:
+        unpack(reading_model),
+    output:
+        "results/studies/readings/{kind}_{reading}.nc",
+    log:
+        "logs/studies/readings/{kind}_{reading}.log",
+    wildcard_constraints:
+        kind="lined|rigid",
+        reading="|".join({*LINED, *RIGID}),
+    conda:
+        ENVIRONMENT
+    params:
+        reading=lambda wildcards: asdict(READINGS_OF[wildcards.kind][wildcards.reading]),
+        entry=lambda wildcards: settings.scene_entries[READINGS[f"{wildcards.kind}_scene"]],
+        choice=lambda wildcards: study_choice(READINGS["base"]),
+        speed_step=READINGS["speed_step_rad_s"],
+        schemas=str(ROOT / "config" / "schemas"),
+        material=asdict(settings.blades[READINGS["blade"]].material),
+        code=code("contact/*.*", "march/*.*", "studies/readings.py"),
+    script:
+        "../scripts/reading.py"
+
+
+rule readings:
+    input:
+        geometry=f"results/{READINGS['blade']}/geometry.nc",
+        campbell=f"results/{READINGS['blade']}/campbell.nc",
+        lined=reading_files("lined"),
+        rigid=reading_files("rigid"),
+    output:
+        validation="results/studies/validation.md",
+        readings="results/studies/readings.md",
+        figure="results/studies/figures/readings.png",
+    log:
+        "logs/studies/readings.log",
+    conda:
+        ENVIRONMENT
+    params:
+        yield_stress=settings.blades[READINGS["blade"]].material.yield_stress,
+        lined=list(LINED),
+        rigid=list(RIGID),
+        code=code("studies/readings.py", "studies/validation.py", "figures/style.py", "figures/readings.py"),
+    script:
+        "../scripts/validation.py"

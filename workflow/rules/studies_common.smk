@@ -1,5 +1,6 @@
 # What the rules of the studies share.
 from r37core.march.choice import MarchChoice
+from r37core.studies.readings import LINED, RIGID
 from r37core.studies.stability_cases import extremes
 
 TRADEOFF = settings.studies["tradeoff"]
@@ -24,8 +25,10 @@ def model_of_level(level, **changes):
         "boundary_nodes": settings.structure["boundary"]["nodes"],
         "fixed_interface_modes": entry["reduction"]["fixed_interface_modes"],
         "region": "submesh",
+        "line": settings.structure["boundary"]["tip_line"],
+        "ends": "corners" if settings.structure["boundary"]["corners"] else "inside",
     } | changes
-    return "{nodes}_{boundary_nodes}_{fixed_interface_modes}_{region}".format(**parts)
+    return "{nodes}_{boundary_nodes}_{fixed_interface_modes}_{region}_{line}_{ends}".format(**parts)
 
 
 def model_choice(wildcards):
@@ -35,6 +38,8 @@ def model_choice(wildcards):
         "boundary_nodes": int(wildcards.boundary_nodes),
         "fixed_interface_modes": int(wildcards.fixed_interface_modes),
         "whole_blade_stress": wildcards.region == "whole",
+        "tip_line": wildcards.line,
+        "corners": wildcards.ends == "corners",
     }
 
 
@@ -98,3 +103,18 @@ def stability_model(wildcards):
     """Contact model of an extreme."""
     changes = EXTREMES[wildcards.extreme].model
     return study_model_files(STABILITY["blade"], model_of_level(STABILITY["base"], **changes))["contact"]
+
+
+READINGS = settings.studies["readings"]
+READINGS_OF = {"lined": LINED, "rigid": RIGID}
+
+
+def reading_model(wildcards):
+    """Files of the model that a reading needs."""
+    changes = READINGS_OF[wildcards.kind][wildcards.reading].model
+    return study_model_files(READINGS["blade"], model_of_level(READINGS["base"], **changes))
+
+
+def reading_files(kind):
+    """The readings of one kind of scene."""
+    return [f"results/studies/readings/{kind}_{reading}.nc" for reading in READINGS_OF[kind]]

@@ -18,9 +18,10 @@ def main(snakemake):
     params = snakemake.params
     base = ReductionChoice.from_config(params.structure, params.reduction)
     blade = read_geometry(snakemake.input[0])
-    model, cost = build_model(blade, Material(**params.material), ModelChoice(**params.choice), base)
+    choice = ModelChoice(**params.choice)
+    model, cost = build_model(blade, Material(**params.material), choice, base)
     write_reduced_model(model, snakemake.output.rom, params.provenance)
-    write_contact_model(contact_model(model, base.boundary.tip_line), snakemake.output.contact)
+    write_contact_model(contact_model(model, choice.tip_line), snakemake.output.contact)
     with atomic_write(snakemake.output.cost) as partial:
         partial.write_text(json.dumps(cost) + "\n", encoding="utf-8")
 

@@ -23,7 +23,7 @@ class ContactModel:
     `squared_frequencies` (rad2/s2), shape (modes,); `stiffness_per_square` (1/rad2), shape (modes, modes): change of the
     stiffness per Omega^2; `rows`, shape (3, nodes, modes): radial, tangential (growing theta) and axial displacement of the
     contact nodes, from leading to trailing edge; `radius` (m) and `theta` (rad) of the nodes, shape (nodes,);
-    `chord_share` (m): length of the tip line divided by the nodes; `tip_rows`, shape (2, 3, modes): the same for the tip's
+    `chord_share` (m): mean spacing of the nodes along the tip line; `tip_rows`, shape (2, 3, modes): the same for the tip's
     leading and trailing edge; `to_reduced`, shape (coordinates, modes): modes at rest in the reduced model's coordinates.
     """
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import resource
 import tempfile
 import time
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -54,10 +54,11 @@ def run_case(
     speeds: np.ndarray,
     recovery: StressRecovery | None = None,
 ) -> Case:
-    """Run all `speeds` (rad/s). Costs are means over the runs; memory is the largest of the process so far.
+    """Run all `speeds` (rad/s), with the energy balance. Costs are means over the runs; memory is the largest of the process so far.
 
     Raises UnstableStepError for a step beyond the stability limit.
     """
+    choice = replace(choice, energy=True)
     results = ["energy", "spectrum", *(["stress"] if recovery else []), *(["wear"] if scene.lining else [])]
     values = {name: np.full(len(speeds), np.nan) for name in (*QUANTITIES, *CHECKS)}
     written = 0

@@ -12,6 +12,7 @@ from r37core.blade.surface import Blade
 from r37core.fem.material import Material
 from r37core.fem.matrices import assemble
 from r37core.mesh.generate import generate_mesh
+from r37core.rom.boundary import BoundaryChoice
 from r37core.rom.reduce import ReductionChoice, StressSubmesh, reduce_blade
 from r37core.rom.reduced_model import ReducedModel
 
@@ -23,12 +24,14 @@ EVERYWHERE = StressSubmesh(np.inf, -np.inf, np.inf)
 
 @dataclass(frozen=True)
 class ModelChoice:
-    """Nodes of the mesh, boundary nodes, fixed-interface modes, and where stress is recovered: submesh or whole blade."""
+    """Nodes of the mesh, boundary nodes and their line, fixed-interface modes, where stress is recovered: submesh or all."""
 
     nodes: int
     boundary_nodes: int
     fixed_interface_modes: int
     whole_blade_stress: bool = False
+    tip_line: str = "pressure_edge"
+    corners: bool = True
 
 
 def tip_elements(nodes: int) -> int:
@@ -43,7 +46,7 @@ def build_model(
     clock = Stopwatch()
     reduction = replace(
         base,
-        boundary=replace(base.boundary, nodes=choice.boundary_nodes),
+        boundary=BoundaryChoice(choice.tip_line, choice.boundary_nodes, choice.corners),
         fixed_interface_modes=choice.fixed_interface_modes,
         stress_submesh=EVERYWHERE if choice.whole_blade_stress else base.stress_submesh,
     )

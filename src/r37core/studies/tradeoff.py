@@ -114,8 +114,9 @@ def gather_cases(cases: Sequence[xr.Dataset], references: Mapping[str, str]) -> 
     mean square of the relative differences at its single speeds. `peak_speed_error(case, scene)`: of the rms-weighted mean
     speed over `peak` and `jump`.
     """
-    together = xr.concat(cases, dim="case")
-    knobs, values = together["knob"].values, together["value"].values
+    knobs, values = (np.array([str(case[name].item()) for case in cases]) for name in ("knob", "value"))
+    together = xr.concat([case.drop_vars(["knob", "value"]) for case in cases], dim="case")
+    together = together.assign_coords(knob=("case", knobs), value=("case", values))
     places = list(dict.fromkeys(cases[0]["place"].values))
     shape = (len(knobs), together.sizes["scene"], len(places), len(QUANTITIES))
     error, scatter, speed_error = np.full(shape, np.nan), np.full(shape, np.nan), np.full(shape[:2], np.nan)
