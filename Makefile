@@ -5,7 +5,7 @@ CORES ?= 2
 VENV := .venv
 BIN := $(VENV)/bin
 
-.PHONY: all_blades campbell test lint bench setup clean-results
+.PHONY: all_blades campbell test lint bench docs setup clean-results
 
 all_blades campbell: $(VENV)/.ready
 	$(BIN)/snakemake $@ --cores $(CORES) $(if $(FIDELITY),--config fidelity=$(FIDELITY))
@@ -25,6 +25,11 @@ bench: $(VENV)/.ready
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[bench]'
 	$(BIN)/snakemake results/Ref/contact_pressure_edge.npz --cores $(CORES) $(if $(FIDELITY),--config fidelity=$(FIDELITY))
 	$(BIN)/python benchmarks/march_speed.py $(BENCH)
+
+# all studies, at their default size about half an hour on two cores, and their tables into the pages of docs/
+docs: $(VENV)/.ready
+	$(BIN)/snakemake tradeoff growth stability readings --cores $(CORES)
+	$(BIN)/python benchmarks/pages.py
 
 setup: $(VENV)/.ready
 

@@ -15,6 +15,7 @@ from pathlib import Path
 os.environ["OPENBLAS_NUM_THREADS"] = "1"
 
 import numpy as np
+from pages import fill
 from plain_march import PlainProblem
 
 from r37core.config import load_settings
@@ -52,7 +53,7 @@ def main():
     text = tables(report)
     print(text)
     if "--docs" in sys.argv:
-        replace_tables(ROOT / "docs/speed.md", text)
+        fill(ROOT / "docs/speed.md", "march_speed", text)
 
 
 def settled(model, scene, speed, jumps):
@@ -148,13 +149,6 @@ def tables(report):
             f"| {name} | {100 * grid['contact']:.0f}% | {grid['every_step_ns']:.1f} | {grid['jumps_ns']:.1f} | {ratio:.2f} |"
         )
     return "\n".join(lines)
-
-
-def replace_tables(page, text):
-    """Put the tables between the page's markers."""
-    before, rest = page.read_text(encoding="utf-8").split("<!-- march_speed -->\n", 1)
-    after = rest.split("<!-- end -->", 1)[1]
-    page.write_text(f"{before}<!-- march_speed -->\n{text}\n<!-- end -->{after}", encoding="utf-8")
 
 
 if __name__ == "__main__":

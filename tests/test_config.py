@@ -137,6 +137,19 @@ def test_profile_table_refusals(project, old, new, message):
         load(project)
 
 
+def test_tolerance_picks_the_cheapest_level_that_keeps_it(project):
+    file = project / "config/fidelity.yaml"
+    levels = load_yaml(file)
+    for name, error, cost in (("draft", 0.3, 0.1), ("standard", 0.08, 0.5), ("paper", 0.02, 1.0)):
+        levels[name]["measured"] = {"error": error, "cpu_s_per_run": cost}
+    file.write_text(yaml.safe_dump(levels))
+    for tolerance, level in ((0.5, "draft"), (0.1, "standard"), (0.02, "paper")):
+        assert load(project, fidelity="auto", tolerance=tolerance).fidelity_name == level
+    assert load(project, fidelity="draft", tolerance=0.02).fidelity_name == "draft"
+    with pytest.raises(ConfigError, match=r"tolerance: found 0\.001; measured errors .*; accept more"):
+        load(project, fidelity="auto", tolerance=0.001)
+
+
 def test_structure_hash_follows_what_the_blade_depends_on(project):
     before = load(project)
     assert load(project, blades=["Ref"]).structure_hash("Ref") == before.structure_hash("Ref")

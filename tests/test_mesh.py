@@ -1,18 +1,14 @@
 """Meshes: node counts, node sets, quality, files."""
 
-import shutil
-import subprocess
-
 import numpy as np
 import pytest
 import pyvista
 
 from r37core.fem.mesh_quality import MeshQualityError, mesh_quality
-from r37core.fem.solver import lowest_modes
 from r37core.fem.wedge15 import MASS_RULE, physical_gradients
 from r37core.io import InputFileError
 from r37core.mesh.generate import generate_mesh
-from r37core.mesh.mesh_files import read_vtu, write_abaqus, write_vtu
+from r37core.mesh.mesh_files import read_vtu, write_vtu
 from r37core.mesh.wedge_mesh import NODE_SETS
 
 
@@ -106,14 +102,3 @@ def test_msh_has_the_mapped_nodes_and_named_groups(blade, tmp_path):
         assert gmsh.model.mesh.getElementsByType(18)[0].size == len(mesh.elements)
     finally:
         gmsh.finalize()
-
-
-@pytest.mark.skipif(shutil.which("ccx") is None, reason="CalculiX (Debian: calculix-ccx) is not installed")
-def test_calculix_finds_the_same_frequencies(mesh, matrices, steel, tmp_path):
-    write_abaqus(mesh, tmp_path / "mesh.inp", steel.youngs_modulus, steel.density, steel.poissons_ratio, "check")
-    subprocess.run(["ccx", "mesh"], cwd=tmp_path, check=True, capture_output=True, timeout=120)
-    lines = (tmp_path / "mesh.dat").read_text().splitlines()
-    rows = [line.split() for line in lines if len(line.split()) == 5 and line.split()[0].isdigit()]
-    calculix = np.array([float(row[3]) for row in rows[:10]])
-    values, _ = lowest_modes(matrices.stiffness(), matrices.mass(), 10)
-    np.testing.assert_allclose(np.sqrt(values) / (2 * np.pi), calculix, rtol=1e-4)

@@ -14,11 +14,12 @@ from r37core.march.simulate import March
 from r37core.studies.case import QUANTITIES, Case
 from r37core.studies.estimate import describe, project_costs
 from r37core.studies.growth import exponent_of
+from r37core.studies.levels import recommended_level
 from r37core.studies.readings import OUTSIDE
 from r37core.studies.sampling import sample
 from r37core.studies.stability import changed, judge
 from r37core.studies.stability_cases import extremes
-from r37core.studies.tradeoff import case_dataset, gather_cases, level_error, recommended_level, vary
+from r37core.studies.tradeoff import case_dataset, gather_cases, level_error, vary
 from r37core.studies.tradeoff_table import knob_tables
 from r37core.studies.validation import Check, lined_checks, rigid_checks, validation_table
 
@@ -164,8 +165,9 @@ def test_tradeoff_of_a_small_sweep(project):
     config.write_text(text[:start].replace("base: standard", "base: tiny") + knobs + text[end:])
     snakemake(project, "growth", "--cores", "2")
     table = (project / "results/studies/tradeoff.md").read_text()
-    assert "| `tiny` |" in table
-    assert "Recommended for a tolerance of 5%: `" in table
+    levels = (project / "results/studies/levels.md").read_text()
+    assert "| `tiny` |" in levels
+    assert "Recommended for a tolerance of 5%: `" in levels
     assert "### precision (reference: double)" in table
     with xr.open_dataset(project / "results/studies/tradeoff.nc") as dataset:
         assert dataset.sizes["case"] == 7

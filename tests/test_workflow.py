@@ -6,6 +6,7 @@ import shutil
 import subprocess
 import sys
 
+import numpy as np
 import pytest
 import xarray as xr
 from workflow_runs import copy_project, planned, snakemake
@@ -171,6 +172,35 @@ def test_results_not_wanted_are_not_planned(project):
     for absent in ("stress.nc", "wear.nc", "spectrum.nc", "map_figure"):
         assert absent not in text
     assert "simulate" not in planned(project, "campbell")
+
+
+def test_only_what_a_scene_requires(project):
+    """Rules and arrays: no recovery basis without stress, no bars without a lining, no simulation for a Campbell diagram."""
+    scenes = project / "config/scenes.yaml"
+    parts = scenes.read_text().split("direct:")
+    bare = re.sub(r"results: \[.*\]", "results: []", parts[0])
+    scenes.write_text(bare + "direct:" + re.sub(r"results: \[.*\]", "results: [stress]", parts[1]))
+    config = project / "config/config.yaml"
+    config.write_text(config.read_text().replace("  - { start: 750, stop: 1600 }", "  - 900").replace("[Ref, CS100]", "[Ref]"))
+    text = snakemake(project, "all_blades", "--cores", "2", "--dry-run")
+    inputs = dict(re.findall(r"rule response:\n    input: (.*)\n    output: results/Ref/(\w+)/response.nc", text))
+    assert sorted(scene for given, scene in inputs.items() if "rom_" in given) == ["direct"]
+    counts = dict(re.findall(r"^(\w+) +(\d+)$", text, re.MULTILINE))
+    assert counts["simulate"] == "2"
+    assert counts["prepare_march"] == "2"
+    assert "map_figure" not in counts
+    campbell = planned(project, "campbell")
+    assert not {"simulate", "prepare_march", "contact_model", "response"} & set(campbell)
+    snakemake(project, "results/Ref/abradable/response.nc", "results/Ref/direct/response.nc", "--cores", "2")
+    with np.load(project / "results/Ref/abradable/speed_900.npz") as run:
+        assert not {"wear", "snapshots", "signal", "amplitude", "contact_work"} & set(run.files)
+    with xr.open_dataset(project / "results/Ref/abradable/response.nc") as dataset:
+        assert not {"max_von_mises", "wear", "amplitude", "yield_stress", "angle", "lobes", "engine_order"} & set(
+            dataset.variables
+        )
+    with xr.open_dataset(project / "results/Ref/direct/response.nc") as dataset:
+        assert "max_von_mises" in dataset
+        assert not {"wear", "amplitude", "contact_work"} & set(dataset.variables)
 
 
 def test_step_beyond_the_limit_stops_with_the_limit(finished_copy):

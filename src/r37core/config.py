@@ -21,6 +21,7 @@ from r37core.contact.scene import Friction, Lining, Scene
 from r37core.fem.material import Material
 from r37core.march.choice import MarchChoice
 from r37core.speeds import SpeedError, expand_speeds
+from r37core.studies.levels import recommended_level
 from r37core.yaml_file import load_yaml
 
 _SHIFT_KEYS = ("stacking_table", "sweep_lean", "chordwise_sweep_deg")
@@ -120,8 +121,7 @@ def load_settings(config: Mapping[str, Any], root: Path, config_name: str = "con
     checked = _validated(dict(config), schemas / "config.schema.yaml", config_name)
     fidelity_file, blades_file = checked["fidelity_file"], checked["blades_file"]
     levels = _validated(_load(root, fidelity_file), schemas / "fidelity.schema.yaml", fidelity_file)
-    level = checked["fidelity"]
-    _check_known("fidelity", [level], levels, fidelity_file, config_name)
+    level = _level(checked, levels, fidelity_file, config_name)
     entries = _validated(_load(root, blades_file), schemas / "blades.schema.yaml", blades_file)
     names = _selected("blades", checked, entries, blades_file, config_name)
     entries_of_scenes = _scene_entries(checked, root, schemas, config_name)
@@ -151,6 +151,24 @@ def load_settings(config: Mapping[str, Any], root: Path, config_name: str = "con
         scene_entries=entries_of_scenes,
         tolerance=checked["tolerance"],
     )
+
+
+def _level(checked: Mapping[str, Any], levels: Mapping[str, Any], fidelity_file: str, config_name: str) -> str:
+    """The level that is named, or for `auto` the cheapest one whose measured error is within the tolerance."""
+    if checked["fidelity"] != "auto":
+        _check_known("fidelity", [checked["fidelity"]], levels, fidelity_file, config_name)
+        return checked["fidelity"]
+    measured = {name: level["measured"] for name, level in levels.items() if "measured" in level}
+    errors = {name: entry["error"] for name, entry in measured.items()}
+    costs = {name: entry["cpu_s_per_run"] for name, entry in measured.items()}
+    chosen = recommended_level(errors, costs, checked["tolerance"])
+    if chosen is None:
+        known = ", ".join(f"{name} {error:g}" for name, error in errors.items()) or "none"
+        raise ConfigError(
+            f"{config_name}: tolerance: found {checked['tolerance']:g}; measured errors of the levels in {fidelity_file}: "
+            f"{known}; accept more, or name a level under fidelity"
+        )
+    return chosen
 
 
 def _selected(key: str, checked: Mapping[str, Any], entries: Mapping[str, Any], file: str, config_name: str) -> list[str]:

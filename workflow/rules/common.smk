@@ -20,6 +20,14 @@ except ConfigError as error:
     raise WorkflowError(str(error)) from None
 
 
+if config.get("fidelity") == "auto":
+    measured = settings.fidelity["measured"]
+    logger.info(
+        f"fidelity auto: level {settings.fidelity_name}, measured error {100 * measured['error']:g}%, "
+        f"{measured['cpu_s_per_run']:g} CPU s per run"
+    )
+
+
 wildcard_constraints:
     blade="|".join(settings.blades),
     scene="|".join(settings.scenes),
@@ -79,6 +87,12 @@ def provenance_of_sweep(blade, scene):
 def sweep_provenance(wildcards):
     """What the results of one blade and scene say about their making."""
     return provenance_of_sweep(wildcards.blade, wildcards.scene)
+
+
+def recovery_file(wildcards):
+    """The reduced model, for a scene whose stress is wanted."""
+    chosen = settings.scenes[wildcards.scene]
+    return {"rom": f"results/{wildcards.blade}/rom_{chosen.tip_line}.nc"} if "stress" in chosen.results else {}
 
 
 def extreme_speeds(blade, scene):

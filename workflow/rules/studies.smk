@@ -112,6 +112,7 @@ rule tradeoff:
         ],
     output:
         dataset="results/studies/tradeoff.nc",
+        levels="results/studies/levels.md",
         table="results/studies/tradeoff.md",
         knobs=expand("results/studies/figures/tradeoff_{knob}.png", knob=TRADEOFF_VALUES),
         pareto="results/studies/figures/tradeoff_pareto.png",

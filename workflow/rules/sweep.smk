@@ -64,7 +64,7 @@ rule simulate:
 
 rule response:
     input:
-        rom=lambda wildcards: f"results/{wildcards.blade}/rom_{settings.scenes[wildcards.scene].tip_line}.nc",
+        unpack(recovery_file),
         speeds=speed_files,
     output:
         "results/{blade}/{scene}/response.nc",

@@ -14,9 +14,10 @@ def main(snakemake):
     params, made = snakemake.params, snakemake.output
     together = gather_cases([read_dataset(file) for file in snakemake.input], params.references)
     write_dataset(together, made.dataset, params.provenance)
+    with atomic_write(made.levels) as partial:
+        partial.write_text(level_table(together, params.tolerance), encoding="utf-8")
     with atomic_write(made.table) as partial:
-        tables = level_table(together, params.tolerance), knob_tables(together, params.references)
-        partial.write_text("\n".join(tables), encoding="utf-8")
+        partial.write_text(knob_tables(together, params.references), encoding="utf-8")
     for knob, file in zip(params.knobs, made.knobs, strict=True):
         save(draw_knob(together, knob), file)
     save(draw_pareto(together), made.pareto)

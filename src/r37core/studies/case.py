@@ -54,7 +54,7 @@ def run_case(
     speeds: np.ndarray,
     recovery: StressRecovery | None = None,
 ) -> Case:
-    """Run all `speeds` (rad/s), with the energy balance. Costs are means over the runs; memory is the largest of the process so far.
+    """Run all `speeds` (rad/s), with the energy balance. Costs are means over the runs; memory is the process.s largest so far.
 
     Raises UnstableStepError for a step beyond the stability limit.
     """

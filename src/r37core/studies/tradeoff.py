@@ -165,9 +165,3 @@ def level_error(together: xr.Dataset, value: str) -> float:
     """Error of a fidelity level: the largest at the peak, over scenes, of rms, largest displacement and stress."""
     case = together.isel(case=(together["knob"].values == "level") & (together["value"].values == value))
     return float(case["error"].sel(at="peak", quantity=["rms_radial", "peak_radial", "max_von_mises"]).max())
-
-
-def recommended_level(errors: Mapping[str, float], costs: Mapping[str, float], tolerance: float) -> str | None:
-    """The cheapest level whose error is within the tolerance; None if there is none."""
-    fitting = [level for level, error in errors.items() if error <= tolerance]
-    return min(fitting, key=lambda level: costs[level]) if fitting else None

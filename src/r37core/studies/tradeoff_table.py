@@ -7,7 +7,8 @@ from collections.abc import Mapping
 import numpy as np
 import xarray as xr
 
-from .tradeoff import level_error, recommended_level
+from .levels import recommended_level
+from .tradeoff import level_error
 
 _COLUMNS = ("rms_radial", "peak_radial", "max_von_mises", "max_wear")
 
