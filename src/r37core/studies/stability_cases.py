@@ -72,7 +72,7 @@ def extremes(lined: str, rigid: str) -> list[Extreme]:
         for value in values
     ]
     cases += [
-        Extreme(what, f"{value:g}", scene, model={key: value})
+        Extreme(what, f"{value:g}", scene, model={key: value}, share_of_limit=0.4)
         for what, key, values in (
             ("boundary nodes", "boundary_nodes", (1, 2, 20, 40)),
             ("fixed-interface modes", "fixed_interface_modes", (0, 60, 200)),
