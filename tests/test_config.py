@@ -68,13 +68,13 @@ def test_defaults_are_filled_in(project):
     assert settings.structure["boundary"] == {"tip_line": "pressure_edge", "nodes": 8, "corners": True}
     assert settings.campbell["highest_engine_order"] == 16
     assert list(settings.scenes) == ["direct"]
-    assert settings.speeds["Ref", "direct"][:2] == (750.0, 800.0)
+    assert settings.speeds["Ref", "direct"][:2] == (750.0, 790.0)
 
 
 @pytest.mark.parametrize(
     ("changes", "message"),
     [
-        ({"fidelity": "fine"}, r"config\.yaml: fidelity: found 'fine'; allowed: draft, standard, paper"),
+        ({"fidelity": "finest"}, r"config\.yaml: fidelity: found 'finest'; allowed: draft, standard, paper, fine, reference"),
         ({"blades": ["Ref", "R2"]}, r"config\.yaml: blades: found 'R2'; allowed: Ref, L50"),
         ({"blades": []}, r"config\.yaml: blades: found \[\]"),
         ({"bladez": 1}, r"config\.yaml: top level: found unknown key bladez; allowed keys: blades_file"),

@@ -174,6 +174,13 @@ def test_results_not_wanted_are_not_planned(project):
     assert "simulate" not in planned(project, "campbell")
 
 
+def test_physical_scenes_are_planned_in_a_folder_of_their_own(root, tmp_path):
+    files = ["--configfile", str(root / "config/config.yaml"), str(root / "config/physical.yaml")]
+    text = snakemake(root, "all_blades", "--cores", "2", *files, "--directory", str(tmp_path), "--dry-run")
+    assert "results/CS100/physical_direct/speed_750.npz" in text
+    assert "/abradable/speed" not in text.replace("physical_abradable", "")
+
+
 def test_only_what_a_scene_requires(project):
     """Rules and arrays: no recovery basis without stress, no bars without a lining, no simulation for a Campbell diagram."""
     scenes = project / "config/scenes.yaml"
@@ -244,7 +251,7 @@ def test_wear_without_a_lining_is_refused(project):
 
 def test_bad_configuration_stops_before_the_dag(project):
     text = snakemake(project, "campbell", "--cores", "2", "--config", "fidelity=finest", check=False)
-    assert "config/config.yaml: fidelity: found 'finest'; allowed: draft, standard, paper, tiny" in text
+    assert "config/config.yaml: fidelity: found 'finest'; allowed: draft, standard, paper, fine, reference, tiny" in text
     assert not (project / "results").exists()
 
 

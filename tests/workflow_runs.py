@@ -18,6 +18,8 @@ def copy_project(root, to):
     config = config.replace("blades: all ", "blades: [Ref, CS100] ").replace("fidelity: standard ", "fidelity: tiny ")
     config = config.replace("stop: 2000 }", "stop: 1600 }")
     (to / "config/config.yaml").write_text(config)
+    scenes = (to / "config/scenes.yaml").read_text()
+    (to / "config/scenes.yaml").write_text(scenes.split("\n# The physically motivated")[0])
     with open(to / "config/fidelity.yaml", "a") as stream:
         stream.write(
             "\ntiny:\n  mesh: { nodes: 1500, layers: 1, tip_elements: 14 }\n  reduction: { fixed_interface_modes: 10 }\n"

@@ -1,0 +1,65 @@
+"""Numbers in README and configuration are those of the generated pages."""
+
+import re
+
+import pytest
+
+from r37core.yaml_file import load_yaml
+
+
+def section(page, name):
+    """What stands between a page's markers."""
+    return page.split(f"<!-- {name} -->\n", 1)[1].split("<!-- end -->", 1)[0]
+
+
+@pytest.fixture(scope="module")
+def pages(root):
+    names = ("accuracy", "stability", "validation", "speed")
+    return {name: (root / "docs" / f"{name}.md").read_text() for name in names}
+
+
+@pytest.fixture(scope="module")
+def readme(root):
+    return (root / "README.md").read_text()
+
+
+@pytest.fixture(scope="module")
+def measured(pages):
+    """Level -> error and CPU seconds per run, as the trade-off study wrote them."""
+    rows = re.findall(r"^\| `(\w+)` \| ([\d.]+)% \| ([\d.]+) \|", section(pages["accuracy"], "levels"), re.MULTILINE)
+    return {name: (error, cost) for name, error, cost in rows}
+
+
+def test_levels_carry_their_measured_error_and_cost(root, measured):
+    levels = load_yaml(root / "config/fidelity.yaml")
+    assert set(measured) == set(levels)
+    for name, level in levels.items():
+        assert f"{100 * level['measured']['error']:.1f}" == measured[name][0]
+        assert f"{level['measured']['cpu_s_per_run']:.2f}" == measured[name][1]
+
+
+def test_readme_has_the_levels_errors_and_costs(readme, measured):
+    rows = dict(re.findall(r"^\| `(\w+)`[^|]*\|(.*)\|$", readme, re.MULTILINE))
+    for name in ("draft", "standard", "paper", "fine"):
+        error, cost = measured[name]
+        assert f" {error}% | {cost} s |" in rows[name], name
+
+
+def test_readme_has_the_estimate(readme, pages):
+    hours = re.search(r"17514 simulations, ([\d.]+) h on 2 cores", section(pages["speed"], "estimate"))[1]
+    assert f"{float(hours):.1f} hours (`snakemake estimate`)" in readme
+
+
+def test_readme_has_the_peaks(readme, pages):
+    table = section(pages["validation"], "validation")
+    for order in (4, 5, 6, 7):
+        row = next(line for line in table.splitlines() if f"abradable: peak of 1B/{order} " in line)
+        published, ours = (cell.strip().removesuffix(" rad/s") for cell in row.split("|")[2:4])
+        assert f"{ours} ({published})" in readme
+
+
+def test_every_extreme_has_an_outcome(pages):
+    table = section(pages["stability"], "stability")
+    counted = re.match(r"(\d+) accurate, (\d+) degraded, (\d+) diverged, (\d+) refused, of (\d+) cases", table.strip())
+    numbers = [int(number) for number in counted.groups()]
+    assert sum(numbers[:4]) == numbers[4] == len(re.findall(r"\| (?:accurate|degraded|diverged|refused) \|", table)) > 90
