@@ -13,8 +13,8 @@ from r37core.studies.validation import DIRECT_PEAK, PEAKS
 
 from . import style  # noqa: F401  (sets the style)
 
-_SHOWN_LINED = ("benchmark", "against_shared", "shared", "camber", "area_half", "area_double")
-_SHOWN_RIGID = ("benchmark", "against", "camber", "inside")
+_SHOWN_LINED = ("benchmark", "vector", "against", "against_shared", "shared", "camber")
+_SHOWN_RIGID = ("benchmark", "vector", "against", "against_vector")
 
 
 def draw_readings(lined: Mapping[str, xr.Dataset], rigid: Mapping[str, xr.Dataset]) -> Figure:
