@@ -1,6 +1,7 @@
 """The studies: their numbers by hand, and small real runs of their rules."""
 
 import json
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -173,6 +174,14 @@ def test_tradeoff_of_a_small_sweep(project):
         assert dataset.sizes["case"] == 7
         assert np.isfinite(dataset["cpu_s"]).all()
     assert "| revolutions | one run | 2 to 4 |" in (project / "results/studies/growth.md").read_text()
+
+
+def test_studies_do_not_stand_in_the_way_of_another_blade(project):
+    config = project / "config/config.yaml"
+    config.write_text(config.read_text().replace("[Ref, CS100]", "[CS100]").replace("[abradable, direct]", "[direct]"))
+    assert "simulate" in snakemake(project, "all_blades", "--cores", "2", "--dry-run")
+    text = snakemake(project, "readings", "--cores", "2", "--dry-run", check=False)
+    assert re.search(r"config\.yaml: studies\.\S+: found '(Ref|abradable)'; allowed: (CS100|direct)", text)
 
 
 def test_an_extreme_and_a_reading_run(project):

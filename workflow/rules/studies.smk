@@ -70,8 +70,8 @@ rule study_model:
     params:
         choice=model_choice,
         structure=settings.structure,
-        reduction=settings.levels[TRADEOFF["base"]]["reduction"],
-        material=lambda wildcards: asdict(settings.blades[wildcards.blade].material),
+        reduction=lambda wildcards: known("tradeoff.base", TRADEOFF["base"], settings.levels)["reduction"],
+        material=study_material,
         provenance=structure_provenance,
         code=code("mesh/*.py", "fem/*.py", "rom/*.py", "studies/models.py"),
     script:
@@ -92,12 +92,12 @@ rule tradeoff_case:
     conda:
         ENVIRONMENT
     params:
-        scenes={scene: settings.scenes[scene].scene for scene in TRADEOFF_SCENES},
-        described=[repr(settings.scenes[scene].scene) for scene in TRADEOFF_SCENES],
+        scenes=lambda wildcards: {scene: study_scene("tradeoff.scenes", scene) for scene in TRADEOFF_SCENES},
+        described=lambda wildcards: [repr(study_scene("tradeoff.scenes", scene)) for scene in TRADEOFF_SCENES],
         choices=tradeoff_choices,
         places=TRADEOFF["places"],
         engine_order=TRADEOFF["engine_order"],
-        material=lambda wildcards: asdict(settings.blades[wildcards.blade].material),
+        material=study_material,
         code=code("contact/*.*", "march/*.*", "studies/case.py", "studies/tradeoff.py"),
     script:
         "../scripts/tradeoff_case.py"
@@ -143,7 +143,7 @@ rule stability_case:
         ENVIRONMENT
     params:
         extreme=lambda wildcards: asdict(EXTREMES[wildcards.extreme]),
-        entry=lambda wildcards: settings.scene_entries[EXTREMES[wildcards.extreme].scene],
+        entry=lambda wildcards: known("stability.*_scene", EXTREMES[wildcards.extreme].scene, settings.scene_entries),
         choice=lambda wildcards: study_choice(STABILITY["base"]),
         schemas=str(ROOT / "config" / "schemas"),
         code=code("contact/*.*", "march/*.*", "studies/case.py", "studies/stability.py"),
@@ -196,12 +196,12 @@ rule reading:
         ENVIRONMENT
     params:
         reading=lambda wildcards: asdict(READINGS_OF[wildcards.kind][wildcards.reading]),
-        entry=lambda wildcards: settings.scene_entries[READINGS[f"{wildcards.kind}_scene"]],
+        entry=lambda wildcards: known("readings.*_scene", READINGS[f"{wildcards.kind}_scene"], settings.scene_entries),
         choice=lambda wildcards: study_choice(READINGS["base"]),
         speed_step=READINGS["speed_step_rad_s"],
         schemas=str(ROOT / "config" / "schemas"),
-        material=asdict(settings.blades[READINGS["blade"]].material),
-        code=code("contact/*.*", "march/*.*", "studies/readings.py"),
+        material=lambda wildcards: asdict(known("readings.blade", READINGS["blade"], settings.blades).material),
+        code=code("contact/*.*", "march/*.*", "studies/reading*.py"),
     script:
         "../scripts/reading.py"
 
@@ -221,9 +221,9 @@ rule readings:
     conda:
         ENVIRONMENT
     params:
-        yield_stress=settings.blades[READINGS["blade"]].material.yield_stress,
+        yield_stress=lambda wildcards: known("readings.blade", READINGS["blade"], settings.blades).material.yield_stress,
         lined=list(LINED),
         rigid=list(RIGID),
-        code=code("studies/readings.py", "studies/validation.py", "figures/style.py", "figures/readings.py"),
+        code=code("studies/reading*.py", "studies/validation.py", "figures/style.py", "figures/readings.py"),
     script:
         "../scripts/validation.py"

@@ -1,11 +1,28 @@
 # What the rules of the studies share.
 from r37core.march.choice import MarchChoice
-from r37core.studies.readings import LINED, RIGID
+from r37core.studies.reading_list import LINED, RIGID
 from r37core.studies.stability_cases import extremes
 
 TRADEOFF = settings.studies["tradeoff"]
 TRADEOFF_BLADE = TRADEOFF["blade"]
 TRADEOFF_SCENES = list(settings.scenes) if TRADEOFF["scenes"] == "all" else TRADEOFF["scenes"]
+
+
+def known(key, name, entries):
+    """The entry of this name; a study may name what this run leaves out, which matters only when the study is asked for."""
+    if name not in entries:
+        raise WorkflowError(f"config.yaml: studies.{key}: found '{name}'; allowed: {', '.join(entries)}")
+    return entries[name]
+
+
+def study_material(wildcards):
+    """Material of a study's blade."""
+    return asdict(known("*.blade", wildcards.blade, settings.blades).material)
+
+
+def study_scene(key, name):
+    """Contact scene of a study."""
+    return known(key, name, settings.scenes).scene
 
 
 def text_of(value):
@@ -19,7 +36,7 @@ TRADEOFF_REFERENCES = {knob: text_of(entry["reference"]) for knob, entry in TRAD
 
 def model_of_level(level, **changes):
     """Name of the model of a fidelity level, with something changed: see model_choice."""
-    entry = settings.levels[level]
+    entry = known("*.base", level, settings.levels)
     parts = {
         "nodes": entry["mesh"]["nodes"],
         "boundary_nodes": settings.structure["boundary"]["nodes"],
@@ -45,6 +62,7 @@ def model_choice(wildcards):
 
 def study_model_files(blade, model):
     """The files of a study's model."""
+    known("*.blade", blade, settings.blades)
     stem = f"results/studies/models/{blade}/{model}"
     return {"rom": f"{stem}_rom.nc", "contact": f"{stem}_contact.npz", "cost": f"{stem}_cost.json"}
 
@@ -70,7 +88,7 @@ def tradeoff_model(wildcards):
 
 def study_choice(level):
     """The march of a fidelity level, with the stress of the last revolution and the energy balance."""
-    march = settings.levels[level]["march"]
+    march = known("*.base", level, settings.levels)["march"]
     return asdict(
         MarchChoice(
             time_step=march["time_step_s"],
@@ -92,11 +110,7 @@ def tradeoff_choices(wildcards):
 
 
 STABILITY = settings.studies["stability"]
-EXTREMES = {
-    extreme.name: extreme
-    for extreme in extremes(STABILITY["lined_scene"], STABILITY["rigid_scene"])
-    if {STABILITY["lined_scene"], STABILITY["rigid_scene"]} <= set(settings.scenes)
-}
+EXTREMES = {extreme.name: extreme for extreme in extremes(STABILITY["lined_scene"], STABILITY["rigid_scene"])}
 
 
 def stability_model(wildcards):

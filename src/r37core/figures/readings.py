@@ -8,7 +8,8 @@ import matplotlib.pyplot as plt
 import xarray as xr
 from matplotlib.figure import Figure
 
-from r37core.studies.readings import LINED, RIGID, WINDOWS
+from r37core.studies.reading_list import LINED, RIGID
+from r37core.studies.readings import WINDOWS
 from r37core.studies.validation import DIRECT_PEAK, PEAKS
 
 from . import style  # noqa: F401  (sets the style)
@@ -19,7 +20,7 @@ _SHOWN_RIGID = ("benchmark", "vector", "against", "against_vector")
 
 def draw_readings(lined: Mapping[str, xr.Dataset], rigid: Mapping[str, xr.Dataset]) -> Figure:
     """Radial rms of the leading edge; dotted: the published peaks."""
-    figure = plt.figure(figsize=(11.0, 6.4))
+    figure = plt.figure(figsize=(11.0, 7.2))
     grid = figure.add_gridspec(2, len(WINDOWS))
     for column, order in enumerate(sorted(WINDOWS, reverse=True)):
         axes = figure.add_subplot(grid[0, column])
@@ -31,7 +32,7 @@ def draw_readings(lined: Mapping[str, xr.Dataset], rigid: Mapping[str, xr.Datase
         axes.set_title(f"abradable, 1B/{order}", fontsize=9)
         if column == 0:
             axes.set_ylabel("rms, radial (mm)")
-            axes.legend(fontsize=6)
+            figure.legend(loc="outside upper center", ncols=2, fontsize=8)
     axes = figure.add_subplot(grid[1, :])
     for name in _SHOWN_RIGID:
         run = rigid[name]

@@ -8,7 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 import xarray as xr
 
-from .readings import HISTORIES, LINED, OUTSIDE, RIGID, WINDOWS
+from .reading_list import LINED, RIGID
+from .readings import HISTORIES, OUTSIDE, WINDOWS
 
 AREAS_CM2 = {0: 1.8427, 30: 1.4094, 50: 1.1842, 70: 0.9806, 100: 0.7059}
 VOLUME_CM3 = 8.08
