@@ -14,7 +14,7 @@ TABLES = {
     "validation": {"validation": "validation.md", "readings": "readings.md"},
     "speed": {"estimate": "estimate.md"},
 }
-PICTURES = ("tradeoff_pareto", "tradeoff_time_step", "growth", "readings")
+PICTURES = ("tradeoff_pareto", "growth", "readings")
 
 
 def fill(page, name, text):
