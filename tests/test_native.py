@@ -71,7 +71,7 @@ def test_the_c_sources_have_no_warnings(root):
     source = Path(root / "src/r37core/march/march.c")
     scene = ["LINING", "FRICTION", "EXACT_GAP", "LOSS"]
     for given in (0, 1):
-        flags = [f"-DHAS_{name}={given}" for name in scene] + ["-DNODES=8", "-DCHUNKS=3", "-DREAL=double"]
+        flags = [f"-DHAS_{name}={given}" for name in scene] + ["-DNODES=8", "-DCHUNKS=3", "-DCOARSE=8", "-DREAL=double"]
         command = [
             "cc",
             "-std=gnu11",

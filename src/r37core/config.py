@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -92,19 +92,31 @@ class Settings:
 
     def march_choice(self, scene: str, speed: float) -> MarchChoice:
         """Numbers of the march at one speed of a scene, with only what its results need."""
-        level, chosen = self.fidelity["march"], self.scenes[scene]
+        chosen = self.scenes[scene]
+        everything = march_of_level(self.fidelity["march"])
         stress = "stress" in chosen.results
         history = speed in chosen.stress_history_speeds
-        return MarchChoice(
-            time_step=level["time_step_s"],
+        return replace(
+            everything,
             revolutions=chosen.revolutions,
-            samples_per_revolution=level["stress_instants"] * level["samples_per_stress_instant"],
-            snapshots_per_revolution=level["stress_instants"] if stress else 0,
+            snapshots_per_revolution=everything.snapshots_per_revolution if stress else 0,
             snapshot_revolutions=(chosen.revolutions if history else 1) if stress else 0,
             energy="energy" in chosen.results,
-            precision=level["precision"],
-            highest_frequency=level.get("highest_frequency_hz", math.inf),
         )
+
+
+def march_of_level(march: Mapping[str, Any]) -> MarchChoice:
+    """The march of a fidelity level's section `march`, with the stress of the last revolution and the energy balance."""
+    return MarchChoice(
+        time_step=march["time_step_s"],
+        revolutions=march["revolutions"],
+        samples_per_revolution=march["stress_instants"] * march["samples_per_stress_instant"],
+        snapshots_per_revolution=march["stress_instants"],
+        snapshot_revolutions=1,
+        energy=True,
+        precision=march["precision"],
+        highest_frequency=march.get("highest_frequency_hz", math.inf),
+    )
 
 
 def _short_hash(*parts: object) -> str:

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import json
 import os
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from typing import Any
 
 from . import __version__
 
@@ -38,3 +40,20 @@ def readable(file: Path | str) -> Iterator[None]:
     except Exception as error:
         reason = f"{type(error).__name__}: {error}" if Path(file).exists() else "there is no such file"
         raise InputFileError(f"{file}: cannot be read ({reason}); if it is a result, delete it and run again") from error
+
+
+def write_text(text: str, file: Path | str) -> None:
+    """Write a text file, atomically."""
+    with atomic_write(file) as partial:
+        partial.write_text(text, encoding="utf-8")
+
+
+def write_json(content: object, file: Path | str) -> None:
+    """Write plain numbers, texts, lists and dictionaries as JSON, atomically."""
+    write_text(json.dumps(content, indent=1) + "\n", file)
+
+
+def read_json(file: Path | str) -> Any:
+    """Content of a JSON file; InputFileError when it cannot be read."""
+    with readable(file):
+        return json.loads(Path(file).read_text(encoding="utf-8"))

@@ -49,13 +49,15 @@ def shape_provenance(wildcards):
     return {"blade": wildcards.blade, "input_hash": settings.shape_hash(wildcards.blade)}
 
 
+@cache
+def provenance_of_structure(blade):
+    """What a blade's structural results say about their making: once, not for each of thousands of jobs."""
+    return {"blade": blade, "fidelity": settings.fidelity_name, "input_hash": settings.structure_hash(blade)}
+
+
 def structure_provenance(wildcards):
     """What a blade's structural results say about their making."""
-    return {
-        "blade": wildcards.blade,
-        "fidelity": settings.fidelity_name,
-        "input_hash": settings.structure_hash(wildcards.blade),
-    }
+    return provenance_of_structure(wildcards.blade)
 
 
 def contact_model_file(wildcards):
@@ -71,12 +73,9 @@ def speed_files(wildcards):
 
 @cache
 def provenance_of_sweep(blade, scene):
-    """What the results of one blade and scene say about their making: once, not for each of thousands of jobs."""
+    """What the results of one blade and scene say about their making."""
     chosen = settings.scenes[scene]
-    return {
-        "blade": blade,
-        "fidelity": settings.fidelity_name,
-        "input_hash": settings.structure_hash(blade),
+    return provenance_of_structure(blade) | {
         "scene": scene,
         "scene_parameters": repr(chosen.scene),
         "revolutions": chosen.revolutions,

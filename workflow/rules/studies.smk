@@ -3,7 +3,7 @@
 
 rule estimate_sample:
     input:
-        rom=lambda wildcards: f"results/{wildcards.blade}/rom_{settings.scenes[wildcards.scene].tip_line}.nc",
+        unpack(recovery_file),
         model=contact_model_file,
         prepared="results/{blade}/{scene}/march.stamp",
     output:

@@ -1,5 +1,5 @@
 # What the rules of the studies share.
-from r37core.march.choice import MarchChoice
+from r37core.config import march_of_level
 from r37core.studies.reading_list import LINED, RIGID
 from r37core.studies.stability_cases import extremes
 
@@ -88,19 +88,7 @@ def tradeoff_model(wildcards):
 
 def study_choice(level):
     """The march of a fidelity level, with the stress of the last revolution and the energy balance."""
-    march = known("*.base", level, settings.levels)["march"]
-    return asdict(
-        MarchChoice(
-            time_step=march["time_step_s"],
-            revolutions=march["revolutions"],
-            samples_per_revolution=march["stress_instants"] * march["samples_per_stress_instant"],
-            snapshots_per_revolution=march["stress_instants"],
-            snapshot_revolutions=1,
-            energy=True,
-            precision=march["precision"],
-            highest_frequency=march.get("highest_frequency_hz", float("inf")),
-        )
-    )
+    return asdict(march_of_level(known("*.base", level, settings.levels)["march"]))
 
 
 def tradeoff_choices(wildcards):

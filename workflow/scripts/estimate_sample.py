@@ -1,11 +1,9 @@
 """Time a sample of the runs of one blade and scene. Inputs: rom, contact model. Params: choices by speed, ... Output: JSON."""
 
-import json
-
 from job import run
 
 from r37core.fem.material import Material
-from r37core.io import atomic_write
+from r37core.io import write_json
 from r37core.march.choice import MarchChoice
 from r37core.march.speed_run import run_speed
 from r37core.rom.contact_model import read_contact_model
@@ -25,13 +23,11 @@ def main(snakemake):
         simulate,
         list(params.choices),
         params.number,
-        read_reduced_model(snakemake.input.rom),
+        read_reduced_model(snakemake.input.rom) if "stress" in params.results else None,
         Material(**params.material),
-        "stress" in params.results,
         params.stress_instants,
     )
-    with atomic_write(snakemake.output[0]) as partial:
-        partial.write_text(json.dumps(times) + "\n", encoding="utf-8")
+    write_json(times, snakemake.output[0])
 
 
 run(snakemake, main)

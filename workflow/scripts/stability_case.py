@@ -1,13 +1,12 @@
 """One extreme. Input: model (contact). Params: extreme, entry, choice, schemas. Output: JSON."""
 
-import json
 from dataclasses import replace
 from pathlib import Path
 
 from job import run
 
 from r37core.config import ConfigError, checked_scene
-from r37core.io import atomic_write
+from r37core.io import write_json
 from r37core.march.choice import MarchChoice
 from r37core.rom.contact_model import read_contact_model
 from r37core.studies.stability import REFUSED, changed, judge
@@ -27,8 +26,7 @@ def main(snakemake):
     except ConfigError as error:
         outcome = {"outcome": REFUSED, "detail": str(error)}
     row = {"what": extreme.what, "value": extreme.value, "scene": extreme.scene} | outcome
-    with atomic_write(snakemake.output[0]) as partial:
-        partial.write_text(json.dumps(row) + "\n", encoding="utf-8")
+    write_json(row, snakemake.output[0])
 
 
 run(snakemake, main)

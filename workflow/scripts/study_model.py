@@ -1,12 +1,10 @@
 """Build a model unlike its level's. Input: geometry.nc. Params: choice, structure, ... Outputs: rom, contact, cost."""
 
-import json
-
 from job import run
 
 from r37core.blade.geometry_file import read_geometry
 from r37core.fem.material import Material
-from r37core.io import atomic_write
+from r37core.io import write_json
 from r37core.rom.contact_model import write_contact_model
 from r37core.rom.contact_reduction import contact_model
 from r37core.rom.reduce import ReductionChoice
@@ -22,8 +20,7 @@ def main(snakemake):
     model, cost = build_model(blade, Material(**params.material), choice, base)
     write_reduced_model(model, snakemake.output.rom, params.provenance)
     write_contact_model(contact_model(model, choice.tip_line), snakemake.output.contact)
-    with atomic_write(snakemake.output.cost) as partial:
-        partial.write_text(json.dumps(cost) + "\n", encoding="utf-8")
+    write_json(cost, snakemake.output.cost)
 
 
 run(snakemake, main)

@@ -5,7 +5,7 @@ from job import run
 from r37core.dataset_file import read_dataset, write_dataset
 from r37core.figures.style import save
 from r37core.figures.tradeoff import draw_knob, draw_pareto
-from r37core.io import atomic_write
+from r37core.io import write_text
 from r37core.studies.tradeoff import gather_cases
 from r37core.studies.tradeoff_table import knob_tables, level_table
 
@@ -14,10 +14,8 @@ def main(snakemake):
     params, made = snakemake.params, snakemake.output
     together = gather_cases([read_dataset(file) for file in snakemake.input], params.references)
     write_dataset(together, made.dataset, params.provenance)
-    with atomic_write(made.levels) as partial:
-        partial.write_text(level_table(together, params.tolerance), encoding="utf-8")
-    with atomic_write(made.table) as partial:
-        partial.write_text(knob_tables(together, params.references), encoding="utf-8")
+    write_text(level_table(together, params.tolerance), made.levels)
+    write_text(knob_tables(together, params.references), made.table)
     for knob, file in zip(params.knobs, made.knobs, strict=True):
         save(draw_knob(together, knob), file)
     save(draw_pareto(together), made.pareto)

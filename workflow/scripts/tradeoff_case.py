@@ -1,11 +1,10 @@
 """One value of one knob. Inputs: model (rom, contact, cost), campbell. Params: scenes, choices, places, ... Output: netCDF."""
 
-import json
-
 from job import run
 
 from r37core.dataset_file import read_dataset, write_dataset
 from r37core.fem.material import Material
+from r37core.io import read_json
 from r37core.march.choice import MarchChoice
 from r37core.results.stress import StressRecovery
 from r37core.rom.contact_model import read_contact_model
@@ -22,8 +21,7 @@ def main(snakemake):
     choices = {scene: MarchChoice(**choice) for scene, choice in params.choices.items()}
     knob, value = snakemake.wildcards.knob, snakemake.wildcards.value
     runs = run_scenes(knob, value, model, recovery, params.scenes, choices, places)
-    with open(given.cost, encoding="utf-8") as stream:
-        cost = json.load(stream)
+    cost = read_json(given.cost)
     write_dataset(case_dataset(knob, value, places, runs, cost), snakemake.output[0])
 
 

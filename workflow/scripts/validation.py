@@ -5,7 +5,7 @@ from job import run
 from r37core.dataset_file import read_dataset
 from r37core.figures.readings import draw_readings
 from r37core.figures.style import save
-from r37core.io import atomic_write
+from r37core.io import write_text
 from r37core.studies.validation import CONVERGENCE, lined_checks, rigid_checks, score_table, structure_checks, validation_table
 
 
@@ -21,10 +21,8 @@ def main(snakemake):
         ours = lined_checks(lined[name], None, params.yield_stress) if name in lined else []
         ours += rigid_checks(rigid[name], params.yield_stress) if name in rigid else []
         variants[name] = {check.name: check.ours for check in ours}
-    with atomic_write(made.validation) as partial:
-        partial.write_text(validation_table(checks, variants), encoding="utf-8")
-    with atomic_write(made.readings) as partial:
-        partial.write_text(score_table(lined, rigid, params.yield_stress), encoding="utf-8")
+    write_text(validation_table(checks, variants), made.validation)
+    write_text(score_table(lined, rigid, params.yield_stress), made.readings)
     save(draw_readings(lined, rigid), made.figure)
 
 

@@ -21,18 +21,6 @@ struct flight {
     REAL across[PADDED] ALIGNED;          /* how far each node may get sideways */
 };
 
-INLINE void bound_amplitudes(const struct march *m, const REAL *u, const REAL *d, struct flight *flight)
-{
-    const REAL *by_u = m->amplitude_rows + AMPLITUDE_U * MODES, *by_d = m->amplitude_rows + AMPLITUDE_D * MODES;
-    for (int i = 0; i < MODES; i++) {
-        const REAL imaginary = by_u[i] * u[i] + by_d[i] * d[i];
-        flight->amplitude[i] = (REAL)sqrt(u[i] * u[i] + imaginary * imaginary);
-    }
-    for (int l = 0; l < MOST_LEVELS; l++)
-        flight->bound_known[l] = 0;
-    flight->known = 1;
-}
-
 /* Sum over the modes of |row| times amplitude times, if given, a factor of each mode: for every node. */
 static void bound_nodes(const REAL *rows, const REAL *amplitude, const REAL *factor, REAL *bound)
 {
@@ -52,6 +40,20 @@ static void bound_nodes(const REAL *rows, const REAL *amplitude, const REAL *fac
         bound[k] = 0;
 }
 
+INLINE void bound_amplitudes(const struct march *m, const REAL *u, const REAL *d, struct flight *flight)
+{
+    const REAL *by_u = m->amplitude_rows + AMPLITUDE_U * MODES, *by_d = m->amplitude_rows + AMPLITUDE_D * MODES;
+    for (int i = 0; i < MODES; i++) {
+        const REAL imaginary = by_u[i] * u[i] + by_d[i] * d[i];
+        flight->amplitude[i] = (REAL)sqrt(u[i] * u[i] + imaginary * imaginary);
+    }
+    if (HAS_EXACT_GAP)
+        bound_nodes(m->rows + MODES * PADDED, flight->amplitude, 0, flight->across);
+    for (int l = 0; l < MOST_LEVELS; l++)
+        flight->bound_known[l] = 0;
+    flight->known = 1;
+}
+
 /* Whether no node can touch anything in the jump. `remaining`: what the casing's lobes lack before it. */
 INLINE int is_clear(const struct march *m, const REAL *u, const REAL *d, struct flight *flight, int level,
                     const REAL *casing_most, double remaining)
@@ -59,8 +61,6 @@ INLINE int is_clear(const struct march *m, const REAL *u, const REAL *d, struct 
     const REAL *jump = m->jump + level * JUMP_ROWS * MODES;
     if (!flight->bound_known[level]) {
         bound_nodes(m->rows, flight->amplitude, jump + BEYOND_LINE * MODES, flight->beyond[level]);
-        if (HAS_EXACT_GAP)
-            bound_nodes(m->rows + MODES * PADDED, flight->amplitude, 0, flight->across);
         flight->bound_known[level] = 1;
     }
     const REAL length = (REAL)m->jump_length[level];

@@ -11,7 +11,7 @@ import numpy as np
 
 from r37core.native import load_library
 
-from .flight import FlightPlan
+from .flight import COARSE, FlightPlan
 
 STEPS_IN_CONTACT, CASING_HITS, LARGEST_FORCE, WORST_COMPLEMENTARITY, WORK, LOSS, STEPS, STEPS_JUMPED = range(8)
 """Places in the array of totals: steps with any contact force, onsets of casing contact, largest normal force (N), largest
@@ -92,6 +92,7 @@ class Kernel:
             HAS_LOSS=int(given.loss is not None),
             NODES=self._nodes,
             CHUNKS=self._chunks,
+            COARSE=COARSE,
             REAL="double" if given.precision is np.float64 else "float",
         )
         self._kept: list[np.ndarray] = []

@@ -1,8 +1,8 @@
-/* What the march works on. Filled in by compiled_march.py, whose fields are in the same order. All arrays of numbers start on
+/* What the march works on. Filled in by kernel.py, whose fields are in the same order. All arrays of numbers start on
  * a vector's boundary and are padded with zeros: MODES = CHUNKS * LANES, PADDED = nodes rounded up to whole vectors.
  *
- * The compiler's command line says what the scene has (HAS_LINING, HAS_FRICTION, HAS_EXACT_GAP, HAS_LOSS), NODES, CHUNKS and
- * REAL: what a scene lacks is not in the program. */
+ * The compiler's command line says what the scene has (HAS_LINING, HAS_FRICTION, HAS_EXACT_GAP, HAS_LOSS), NODES, CHUNKS,
+ * COARSE (see flight.py) and REAL: what a scene lacks is not in the program. */
 #pragma once
 
 #include "contact/vector.h"
@@ -10,7 +10,6 @@
 #define MODES (CHUNKS * LANES)
 #define GROUPS ((NODES + LANES - 1) / LANES)
 #define PADDED (GROUPS * LANES)
-#define COARSE 8
 #define MOST_LEVELS 16
 
 enum { KEEP, PULL, INVERSE, RECURSION_ROWS };

@@ -38,6 +38,11 @@ class Stopwatch:
         self.wall += time.perf_counter() - self._start[1]
 
 
+def peak_memory() -> float:
+    """Largest memory (bytes) of this process so far."""
+    return float(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024)
+
+
 @dataclass(frozen=True)
 class Case:
     """Arrays of shape (speeds,) by the names of QUANTITIES and CHECKS, NaN where a scene has none, and costs per run."""
@@ -54,7 +59,7 @@ def run_case(
     speeds: np.ndarray,
     recovery: StressRecovery | None = None,
 ) -> Case:
-    """Run all `speeds` (rad/s), with the energy balance. Costs are means over the runs; memory is the process.s largest so far.
+    """Run all `speeds` (rad/s), with the energy balance. Costs are means over the runs; memory: see peak_memory.
 
     Raises UnstableStepError for a step beyond the stability limit.
     """
@@ -74,7 +79,7 @@ def run_case(
     costs = {
         "cpu_s": clock.cpu / len(speeds),
         "wall_s": clock.wall / len(speeds),
-        "peak_memory_bytes": float(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024),
+        "peak_memory_bytes": peak_memory(),
         "bytes_written": written / len(speeds),
     }
     return Case(np.array(speeds, dtype=float), values, costs)

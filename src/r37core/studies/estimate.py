@@ -26,15 +26,14 @@ def time_runs(
     run: Callable[[float], Mapping[str, np.ndarray]],
     speeds: Sequence[float],
     number: int,
-    model: ReducedModel,
+    model: ReducedModel | None,
     material: Material,
-    stress: bool,
     stress_instants: int,
 ) -> dict[str, float]:
     """CPU seconds that `number` runs of a blade and scene take, projected from runs at `speeds`.
 
-    `run(speed)`: the arrays of one run, everything a job does after its imports but writing. Returns `march`, `reduction`
-    and `runs`.
+    `run(speed)`: the arrays of one run, everything a job does after its imports but writing. `model`: for the
+    stress, None when it is not wanted. Returns `march`, `reduction` and `runs`.
     """
     with tempfile.TemporaryDirectory() as folder:
         files = [Path(folder) / f"{row}.npz" for row in range(len(speeds))]
@@ -43,7 +42,7 @@ def time_runs(
             write_speed(run(speed), file, {})
         march = time.process_time() - start
         start = time.process_time()
-        recovery = StressRecovery(model, material) if stress else None
+        recovery = StressRecovery(model, material) if model else None
         fixed = time.process_time() - start
         write_response(files, speeds, Path(folder) / "response.nc", recovery, (), stress_instants, material.yield_stress, {})
         reduction = time.process_time() - start - fixed

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import resource
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
@@ -16,7 +15,7 @@ from r37core.rom.boundary import BoundaryChoice
 from r37core.rom.reduce import ReductionChoice, StressSubmesh, reduce_blade
 from r37core.rom.reduced_model import ReducedModel
 
-from .case import Stopwatch
+from .case import Stopwatch, peak_memory
 
 EVERYWHERE = StressSubmesh(np.inf, -np.inf, np.inf)
 """Stress on the whole blade but for the clamped elements."""
@@ -53,5 +52,4 @@ def build_model(
     with clock:
         mesh = generate_mesh(blade, choice.nodes, 1, tip_elements(choice.nodes))
         model = reduce_blade(mesh, assemble(mesh, material), reduction)
-    memory = float(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024)
-    return model, {"cpu_s": clock.cpu, "wall_s": clock.wall, "peak_memory_bytes": memory}
+    return model, {"cpu_s": clock.cpu, "wall_s": clock.wall, "peak_memory_bytes": peak_memory()}

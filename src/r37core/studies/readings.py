@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import xarray as xr
 
@@ -29,7 +31,7 @@ def lined_speeds(step: float) -> np.ndarray:
 
 
 def rigid_speeds(step: float) -> np.ndarray:
-    """The whole range every ten steps, and about the published maximum every step."""
+    """The whole range every ten steps, and about the published maximum every two steps."""
     return np.unique(
         np.concatenate([np.arange(750.0, 2001.0, 10 * step), np.arange(1320.0, 1369.0, 2 * step), OUTSIDE, [1344.0]])
     )
@@ -50,7 +52,7 @@ def run_reading(
     results = ["stress", *(["wear"] if scene.lining else [])]
     for row, speed in enumerate(speeds):
         kept = choice.revolutions if speed == history_speed else 1
-        one = MarchChoice(**{**vars(choice), "snapshot_revolutions": kept})
+        one = replace(choice, snapshot_revolutions=kept)
         run = run_speed(model, float(speed), scene, one, results, 20, 1, 1000)
         values["rms_radial"][row], values["rms_tangential"][row] = run["rms"][0]
         values["status"][row] = run["status"]

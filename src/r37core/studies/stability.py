@@ -10,7 +10,6 @@ import numpy as np
 
 from r37core.contact.scene import Scene
 from r37core.march.choice import MarchChoice
-from r37core.march.simulate import UnstableStepError
 from r37core.rom.contact_model import ContactModel
 
 from .case import Case, run_case
@@ -32,7 +31,7 @@ def judge(model: ContactModel, scene: Scene, choice: MarchChoice, speed: float) 
     speeds = speed * np.array([0.997, 1.0, 1.003])
     try:
         case = run_case(model, scene, choice, speeds)
-    except (UnstableStepError, ValueError) as error:
+    except ValueError as error:
         return {"outcome": REFUSED, "detail": str(error).split(";")[0]}
     half = run_case(model, scene, replace(choice, time_step=0.5 * choice.time_step), speeds)
     for one in (case, half):

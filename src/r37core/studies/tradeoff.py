@@ -21,9 +21,6 @@ from .case import COSTS, QUANTITIES, Case, run_case
 MODEL_KNOBS = ("mesh_nodes", "boundary_nodes", "fixed_interface_modes", "stress_region", "level")
 """Knobs that need a model of their own, or a level's."""
 
-UNITS = {"time_step": "s", "highest_frequency": "Hz"}
-"""Units of the knobs that have one."""
-
 
 @dataclass(frozen=True)
 class Place:
