@@ -33,7 +33,7 @@ STEP = 1e-7
 
 CASING = Casing(3.56e-4)
 SCENES = {
-    "abradable": Scene(CASING, Lining(5e-3, 20e9, 5e9, 1.5, natural_areas=7.0), Friction(0.15)),
+    "abradable": Scene(CASING, Lining(5e-3, 20e9, 5e9, 1.5, bar_width=0.028), Friction(0.15)),
     "direct": Scene(CASING, None, Friction(0.15)),
 }
 """Vector friction against the rotation, one shared ring of wide bars: more contact, and dearer, than in the shipped scenes."""

@@ -6,6 +6,8 @@ Written from section 5 of the benchmark page, like the tests' NumPy twin; shares
 import numpy as np
 from numba import njit
 
+from r37core.contact.casing import casing_axes
+
 
 class PlainProblem:
     """Constants of a run, taken from a March, in its modes and as dense matrices in the model's modes at rest."""
@@ -18,7 +20,7 @@ class PlainProblem:
         self.keep = self.inverse * (1.0 / step**2 - damping / (2.0 * step))
         self.pull = self.inverse * march.frequencies**2
         self.dense = [np.ascontiguousarray(modes @ np.diag(d) @ modes.T) for d in (self.keep, self.pull, self.inverse)]
-        self.rows, self.dense_rows = march.rows, model.rows
+        self.rows, self.dense_rows = march.rows, casing_axes(model.rows, march.cone_angle)
         self.coupling = np.array([march.rows[0] * self.inverse @ rows.T for rows in march.rows])
         steps = march.steps_per_revolution
         theta = model.theta - 2.0 * np.pi * np.arange(steps)[:, None] / steps
@@ -26,7 +28,7 @@ class PlainProblem:
         lining, friction = scene.lining, scene.friction
         bars = 0.0 if lining is None else float(lining.bars)
         self.bar_position = model.theta / (2.0 * np.pi) * bars
-        area = 0.0 if lining is None else lining.area(float(np.mean(model.radius)), model.chord_share)
+        area = 0.0 if lining is None else lining.area(float(np.max(model.radius)))
         law = (1.0, 1.0, 0.0, 0.0) if lining is None else lining_law(lining)
         self.numbers = np.array(
             [

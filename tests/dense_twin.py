@@ -6,6 +6,8 @@ Written from section 5 of the benchmark, sharing nothing with the kernel but the
 import numpy as np
 import scipy.linalg as la
 
+from r37core.contact.casing import casing_axes
+
 
 def dense_march(contact, scene, speed, step, steps_per_revolution, steps, duration, start):
     """March `steps` steps from rest at `start`; returns the final coordinates and the wear (rings, bars)."""
@@ -17,12 +19,12 @@ def dense_march(contact, scene, speed, step, steps_per_revolution, steps, durati
     # A + B = 1 - C K: the same recursion as u_{n+1} = A u_n + B u_{n-1} + C F, whose A alone rounds away 1e-9 of omega^2
     b = inverse @ (damping / (2 * step) - mass / step**2)
     pull = inverse @ stiffness
-    radial, tangential, axial = contact.rows
+    radial, tangential, axial = casing_axes(contact.rows, scene.casing.angle(contact.tip_cone_angle))
     nodes = radial.shape[0]
     now, increment = start, np.zeros(len(start))
     lining, friction = scene.lining, scene.friction
     wear = np.zeros((1 if lining and lining.shared_ring else nodes, lining.bars)) if lining else None
-    area = lining.area(contact.radius.mean(), contact.chord_share) if lining else None
+    area = lining.area(contact.radius.max()) if lining else None
     for n in range(1, steps + 1):
         predicted = -b @ increment - pull @ now
         after = now + predicted

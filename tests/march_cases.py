@@ -6,7 +6,7 @@ from r37core.contact.casing import Casing
 from r37core.contact.scene import Friction, Lining, Scene
 from r37core.rom.contact_model import ContactModel
 
-LINING = Lining(5e-3, 20e9, 5e9, 1.5, natural_areas=8.0)
+LINING = Lining(5e-3, 20e9, 5e9, 1.5, bar_width=0.03)
 AT_ONCE = Casing(0.356e-3, rise_fraction=0.0)
 ABRADABLE = Scene(AT_ONCE, LINING, Friction(0.15))
 DIRECT = Scene(AT_ONCE, None, Friction(0.15))
@@ -20,7 +20,7 @@ def oscillator(frequency, radius=0.25):
         rows=np.array([[[1.0]], [[0.0]], [[0.0]]]),
         radius=np.array([radius]),
         theta=np.array([0.0]),
-        chord_share=0.01,
-        tip_rows=np.array([[[1.0], [0.0], [0.0]], [[1.0], [0.0], [0.0]]]),
+        tip_cone_angle=0.0,
+        tip_rows=np.array([[[1.0], [1.0]], [[0.0], [0.0]], [[0.0], [0.0]]]),
         to_reduced=np.eye(1),
     )

@@ -74,7 +74,7 @@ def sweep(model, tmp_path_factory):
     folder = tmp_path_factory.mktemp("sweep")
     contact = contact_model(model, "pressure_edge")
     casing = Casing(0.356e-3, rise_fraction=0.5)
-    abradable = Scene(casing, Lining(5e-3, 20e9, 5e9, 1.5, natural_areas=8.0), Friction(0.15))
+    abradable = Scene(casing, Lining(5e-3, 20e9, 5e9, 1.5, bar_width=0.03), Friction(0.15))
     recovery = StressRecovery(model, MATERIAL)
     files = {}
     for name, lined in (("abradable", abradable), ("direct", Scene(casing, None, Friction(0.15)))):
@@ -167,13 +167,17 @@ def synthetic(peaks):
     amplitude = np.where(orders[None, :] == order[:, None], level[:, None], 1e-9)
     rms = xr.Dataset(
         {
-            "rms_radial": (("blade", "scene", "speed", "tip_point"), level[None, None, :, None]),
+            "rms_normal": (("blade", "scene", "speed", "tip_point"), 0.01 * level[None, None, :, None]),
+            "rms_tangential": (("blade", "scene", "speed", "tip_point"), level[None, None, :, None]),
             "status": (("blade", "scene", "speed"), np.zeros((1, 1, len(speeds)), dtype="i1")),
         },
         {"blade": ["Ref"], "scene": ["abradable"], "speed": speeds, "tip_point": ["leading_edge"]},
     )
     spectrum = xr.Dataset(
-        {"amplitude": (("blade", "scene", "speed", "engine_order"), amplitude[None, None])},
+        {
+            name: (("blade", "scene", "speed", "engine_order"), amplitude[None, None])
+            for name in ("amplitude", "amplitude_tangential")
+        },
         {"blade": ["Ref"], "scene": ["abradable"], "speed": speeds, "engine_order": orders},
     )
     stress = xr.Dataset(
@@ -221,7 +225,7 @@ def test_without_a_spectrum_the_nearest_crossing_counts():
 
 def test_no_response_no_interaction():
     datasets = synthetic([])
-    datasets["rms"]["rms_radial"][:] = np.nan
+    datasets["rms"]["rms_normal"][:] = datasets["rms"]["rms_tangential"][:] = np.nan
     assert isinstance(summarise(datasets, InteractionChoice()), pd.DataFrame)
     assert summarise(datasets, InteractionChoice()).empty
 

@@ -338,6 +338,7 @@ def _contact_scene(entry: Mapping[str, Any]) -> Scene:
             width=casing["width"],
             amplitude=casing["amplitude_clearances"],
             rise_fraction=casing["rise_fraction"],
+            cone_angle=None if casing["cone_angle_deg"] == "tip" else math.radians(casing["cone_angle_deg"]),
         ),
         lining=None
         if lining is None
@@ -346,9 +347,9 @@ def _contact_scene(entry: Mapping[str, Any]) -> Scene:
             elastic_modulus=lining["elastic_modulus_pa"],
             plastic_modulus=lining["plastic_modulus_pa"],
             yield_stress=lining["yield_stress_pa"],
+            bar_width=lining["bar_width_m"],
             bars=lining["bars"],
             shared_ring=lining["rings"] == "shared",
-            natural_areas=lining["natural_bar_areas"],
             bar_area=lining.get("bar_area_m2"),
         ),
         friction=None

@@ -13,7 +13,9 @@ class Casing:
 
     Distance = clearance - amplitude * clearance * (1 - exp(-a t)) f(theta), with
     f = exp(-[((theta mod p)/p - 1/2)/width]^2), p = 2 pi / lobes, and a such that 99% is reached at `rise_fraction` of the
-    run. `clearance` in m, `amplitude` in clearances; no lobes: a circular casing. Source: section 5 of the benchmark.
+    run. `clearance` in m, normal to the casing; `amplitude` in clearances; no lobes: a circular casing. `cone_angle`: half
+    angle (rad) of the cone that the casing is, negative where it narrows downstream, 0 for a cylinder; None: that of the
+    blade's tip. Source: section 5 of the benchmark.
     """
 
     clearance: float
@@ -21,6 +23,7 @@ class Casing:
     width: float = 0.15
     amplitude: float = 2.0
     rise_fraction: float = 0.2
+    cone_angle: float | None = None
 
     def shape(self, theta: np.ndarray) -> np.ndarray:
         """f(theta), between 0 and 1, for angles in rad."""
@@ -28,6 +31,10 @@ class Casing:
             return np.zeros_like(theta)
         period = 2.0 * np.pi / self.lobes
         return np.exp(-((((theta % period) / period - 0.5) / self.width) ** 2))
+
+    def angle(self, tip_cone_angle: float) -> float:
+        """Half angle (rad) of the casing's cone round a blade whose tip has `tip_cone_angle` (rad)."""
+        return tip_cone_angle if self.cone_angle is None else self.cone_angle
 
     def rise_rate(self, duration: float) -> float:
         """The rate a (1/s) for a run of `duration` (s); infinite when the casing is deformed from the start."""
@@ -37,3 +44,15 @@ class Casing:
         """Distance (m) between tip and casing or lining at angles (rad) and times (s) of a run of `duration` (s)."""
         grown = 1.0 - np.exp(-self.rise_rate(duration) * np.asarray(time)) if self.rise_fraction > 0.0 else 1.0
         return self.clearance * (1.0 - self.amplitude * grown * self.shape(theta))
+
+
+def casing_axes(cylindrical: np.ndarray, cone_angle: float) -> np.ndarray:
+    """Turn radial, tangential and axial parts into those along the normal, the tangent and the meridian of a cone.
+
+    `cylindrical`, shape (3, ...); `cone_angle` alpha (rad). Normal cos(alpha) u_r - sin(alpha) u_z, positive towards the
+    casing; meridional sin(alpha) u_r + cos(alpha) u_z, positive downstream. Source: section 5 of the benchmark; drawing in
+    docs/simulation.md.
+    """
+    radial, tangential, axial = cylindrical
+    cosine, sine = np.cos(cone_angle), np.sin(cone_angle)
+    return np.stack([cosine * radial - sine * axial, tangential, sine * radial + cosine * axial])

@@ -13,26 +13,23 @@ from .casing import Casing
 class Lining:
     """Lining of bars in front of the casing.
 
-    `thickness` (m), moduli and yield stress in Pa, `bars` round the circumference; `shared_ring`: all tip nodes wear one
-    ring, else each has its own; area of a bar as a multiple of the natural one (bar arc length times the node's share of the
-    chord), or `bar_area` in m2. Law after Legrand, Batailly and Pierre, J. Comput. Nonlinear Dyn. 7 (2012): yield in
-    compression with linear hardening; the plastic shortening is the wear.
+    `thickness` (m), moduli and yield stress in Pa, `bars` round the circumference, each `bar_width` (m) wide, or of a given
+    `bar_area` (m2); `shared_ring`: all tip nodes wear one ring, else each has its own. Law after Legrand, Batailly and
+    Pierre, J. Comput. Nonlinear Dyn. 7 (2012): yield in compression with linear hardening; the plastic shortening is the wear.
     """
 
     thickness: float
     elastic_modulus: float
     plastic_modulus: float
     yield_stress: float
+    bar_width: float
     bars: int = 10000
-    shared_ring: bool = True
-    natural_areas: float = 1.0
+    shared_ring: bool = False
     bar_area: float | None = None
 
-    def area(self, radius: float, chord_share: float) -> float:
-        """Area of one bar (m2) at `radius` (m), for a node's share of the chord (m)."""
-        if self.bar_area is not None:
-            return self.bar_area
-        return self.natural_areas * 2.0 * np.pi * radius / self.bars * chord_share
+    def area(self, radius: float) -> float:
+        """Area of one bar (m2): its width times the arc length of a bar at `radius` (m)."""
+        return 2.0 * np.pi * radius / self.bars * self.bar_width if self.bar_area is None else self.bar_area
 
 
 @dataclass(frozen=True)
@@ -54,8 +51,9 @@ class Friction:
 class Scene:
     """What the blade meets: casing, lining or None, friction or None, and how the gap is measured.
 
-    `damping_ratio`: of every mode; `exact_gap`: radius of the displaced node, sqrt((r + u_r)^2 + u_theta^2), instead of
-    r + u_r; `divergence_limit` (m): a tip displacement beyond it ends the run as diverged.
+    `damping_ratio`: of every mode; `exact_gap`: distance of the displaced node from the conical, lobed casing, instead of
+    the clearance at the undeformed node's angle less the normal displacement; `divergence_limit` (m): a tip displacement
+    beyond it ends the run as diverged.
     """
 
     casing: Casing
@@ -63,4 +61,4 @@ class Scene:
     friction: Friction | None = None
     damping_ratio: float = 0.0005
     exact_gap: bool = False
-    divergence_limit: float = 0.05
+    divergence_limit: float = 0.1

@@ -27,7 +27,7 @@ class KernelInput:
     """What `advance` needs; fields that a scene lacks are None. See march.h for how each is used.
 
     `recursion` (-b, c omega^2, c), shape (3, modes); `rows`, shape (3, nodes, modes); `coupling` (m/N), shape (3, nodes,
-    nodes): radial displacement of the last node per radial, tangential or axial force on the one before; `casing`, shape
+    nodes): normal displacement of the last node per normal, tangential or meridional force on the one before; `casing`, shape
     (steps per revolution, nodes); `casing_most`: of r37core.march.flight.nearest_casing; `distance`: clearance (m),
     amplitude (m), rise rate times step; `lining`: thickness, moduli, yield stress, bar area, bars; `friction`: coefficient,
     1 for vector, 1 for coupled; `loss`, shape (modes,); `output_rows`, shape (outputs, modes).

@@ -16,7 +16,7 @@ struct contact {
     int pressed[NODES], count; /* nodes with a force */
     int sliding_known[NODES];
     REAL gap[PADDED] ALIGNED;
-    REAL force[3][PADDED] ALIGNED; /* radial, tangential, axial */
+    REAL force[3][PADDED] ALIGNED; /* normal, tangential, meridional */
     REAL direction[2][PADDED] ALIGNED;
     REAL multiplier[PADDED] ALIGNED;
     REAL columns[NODES][PADDED] ALIGNED; /* opening of each gap per unit multiplier of a node */

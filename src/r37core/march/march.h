@@ -31,8 +31,8 @@ struct march {
     REAL *displacement, *increment;            /* (MODES): u_n, u_n - u_{n-1} */
     const REAL *recursion;                     /* (RECURSION_ROWS, MODES): -b, c omega^2, c */
     const REAL *loss;                          /* (MODES): energy lost per step and squared central difference */
-    const REAL *rows;                          /* (3, CHUNKS, PADDED, LANES): radial, tangential, axial */
-    const REAL *coupling;                      /* (3, PADDED, PADDED): radial push on the last per force on the one before */
+    const REAL *rows;                          /* (3, CHUNKS, PADDED, LANES): normal, tangential, meridional */
+    const REAL *coupling;                      /* (3, PADDED, PADDED): normal push on the last per force on the one before */
     const REAL *casing;                        /* (steps per revolution, PADDED): f(theta) of each node at each step */
     const REAL *casing_most;                   /* (samples, coarse steps, PADDED): largest f in the COARSE steps that follow */
     const REAL *radius;                        /* (PADDED): exact radial position in the gap */

@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from r37core.contact.casing import casing_axes
 from r37core.contact.scene import Scene
 from r37core.rom.contact_model import ContactModel
 
@@ -24,6 +25,10 @@ class LongRevolutionError(ValueError):
 
 _LARGEST_TABLE = 2**30
 """Bytes."""
+
+TIP_POINTS, DIRECTIONS = ("leading_edge", "trailing_edge"), ("normal", "radial", "tangential")
+"""What the samples are of: every direction at the first tip point, then at the second."""
+OUTPUTS = len(TIP_POINTS) * len(DIRECTIONS)
 
 
 @dataclass
@@ -45,8 +50,8 @@ class MarchState:
 class MarchRecord:
     """What a stretch of revolutions left behind.
 
-    `samples` (m), shape (samples, 4): radial and tangential displacement of the leading edge, then of the trailing edge;
-    `snapshots`, shape (snapshots, modes), in the speed's modes; `diverged`.
+    `samples` (m), shape (samples, 6): normal, radial and tangential displacement of the leading edge, then of the trailing
+    edge; `snapshots`, shape (snapshots, modes), in the speed's modes; `diverged`.
     """
 
     samples: np.ndarray
@@ -58,7 +63,8 @@ class March:
     """The march of one blade at one speed in one scene.
 
     Attributes: `frequencies` (rad/s), `modes` (in modes at rest), `time_step` (s): the largest one not above the chosen one
-    that divides a revolution into whole samples, `steps_per_revolution`.
+    that divides a revolution into whole samples, `steps_per_revolution`; `rows`, shape (3, nodes, modes): displacement of the
+    contact nodes along the casing's normal, tangent and meridian.
 
     Raises UnstableStepError for a step at or above the stability limit 2/omega_max of the blade, or that of a node pressed
     on the lining's bars; LongRevolutionError for a revolution of too many steps.
@@ -74,7 +80,8 @@ class March:
         self.steps_per_revolution = self.steps_per_sample * choice.samples_per_revolution
         self.time_step = period / self.steps_per_revolution
         self._check_length()
-        self.rows = model.rows @ self.modes
+        self.cone_angle = scene.casing.angle(model.tip_cone_angle)
+        self.rows = casing_axes(model.rows, self.cone_angle) @ self.modes
         self.recursion = recursion_coefficients(self.frequencies, scene.damping_ratio, self.time_step)
         self.coupling = np.array([(rows * self.recursion[2]) @ self.rows[0].T for rows in self.rows])
         self._check_stability()
@@ -137,7 +144,7 @@ class March:
         """Go on by `revolutions` from `state`, which is changed."""
         choice = self.choice
         blocks = revolutions * choice.samples_per_revolution
-        samples = np.zeros((blocks, 4))
+        samples = np.zeros((blocks, OUTPUTS))
         which, snapshots = self._snapshot_plan(state.revolutions, blocks)
         done = self._compiled().advance(
             state.displacement,
@@ -189,7 +196,7 @@ class March:
             coupling=self.coupling,
             casing=shape,
             distance=(casing.clearance, casing.amplitude * casing.clearance, casing.rise_rate(self.duration) * self.time_step),
-            output_rows=(model.tip_rows @ self.modes)[:, :2].reshape(4, -1),
+            output_rows=self._output_rows(),
             limit=scene.divergence_limit,
             precision=self._precision,
             radius=model.radius if scene.exact_gap else None,
@@ -202,11 +209,17 @@ class March:
             casing_most=nearest_casing(shape, self.steps_per_sample) if flight else None,
         )
 
+    def _output_rows(self) -> np.ndarray:
+        """Rows of the samples, shape (OUTPUTS, modes)."""
+        radial, tangential, _ = self.model.tip_rows
+        normal = casing_axes(self.model.tip_rows, self.cone_angle)[0]
+        return np.stack([normal, radial, tangential], axis=1).reshape(OUTPUTS, -1) @ self.modes
+
     def _lining_numbers(self) -> tuple[float, float, float, float, float, float] | None:
         lining = self.scene.lining
         if lining is None:
             return None
-        area = lining.area(float(np.mean(self.model.radius)), self.model.chord_share)
+        area = lining.area(float(np.max(self.model.radius)))
         return lining.thickness, lining.elastic_modulus, lining.plastic_modulus, lining.yield_stress, area, float(lining.bars)
 
     def _loss_numbers(self) -> np.ndarray | None:

@@ -11,12 +11,14 @@ from r37core.rom.contact_model import ContactModel
 
 from . import kernel
 from .choice import MarchChoice
-from .simulate import March, MarchState
+from .simulate import DIRECTIONS, TIP_POINTS, March, MarchState
 
 COMPLETED, DIVERGED = 0, 1
 """Status of a run."""
 
 _WEAR_LOBES = 20
+_KEPT = [DIRECTIONS.index("normal"), DIRECTIONS.index("tangential")]
+"""Directions of the spectrum and the signal."""
 
 
 def run_speed(
@@ -31,21 +33,23 @@ def run_speed(
 ) -> dict[str, np.ndarray]:
     """Simulate one speed (rad/s) and keep what is asked for in `results` (spectrum, signal, stress, wear, energy).
 
-    Always: `status`, `diverged_revolution` and `diverged_time` (NaN unless diverged), `time_step`, `rms` and `peak` (m) over
-    the last half, shape (2, 2): leading and trailing edge by radial and tangential, `revolution_maxima` (m), shape
-    (revolutions, 2, 2), and contact statistics. A diverged run has NaN where a number would need the rest of the run.
+    Always: `status`, `diverged_revolution` and `diverged_time` (NaN unless diverged), `time_step`, the casing's `cone_angle`
+    (rad), `rms` and `peak` (m) over the last half, shape (2, 3): TIP_POINTS by DIRECTIONS, `revolution_maxima` (m), shape
+    (revolutions, 2, 3), and contact statistics. `amplitude`, shape (2, orders): spectrum of the leading edge's normal and
+    tangential motion; `signal`,
+    shape (samples, 2, 2), of both tip points along both. A diverged run has NaN where a number would need the rest of the run.
     Raises UnstableStepError for a step beyond the stability limit.
     """
     march = March(model, speed, scene, choice)
     state = march.start()
     record = march.advance(state, choice.revolutions)
     per_revolution = choice.samples_per_revolution
-    samples = np.full((choice.revolutions * per_revolution, 4), np.nan)
-    samples[: len(record.samples)] = record.samples
+    samples = np.full((choice.revolutions * per_revolution, len(TIP_POINTS), len(DIRECTIONS)), np.nan)
+    samples[: len(record.samples)] = record.samples.reshape(-1, *samples.shape[1:])
     if record.diverged:
         # the last sample is past the limit, and may be infinite
         samples[len(record.samples) - 1] = np.nan
-    maxima = np.abs(samples).reshape(choice.revolutions, per_revolution, 2, 2).max(axis=1)
+    maxima = np.abs(samples).reshape(choice.revolutions, per_revolution, *samples.shape[1:]).max(axis=1)
     half = samples[(choice.revolutions // 2) * per_revolution :]
     diverged_at = len(record.samples) / per_revolution if record.diverged else np.nan
     totals = state.totals
@@ -55,8 +59,9 @@ def run_speed(
         "diverged_revolution": np.array(diverged_at),
         "diverged_time": np.array(diverged_at * 2.0 * np.pi / speed),
         "time_step": np.array(march.time_step),
-        "rms": np.sqrt(np.mean(half**2, axis=0)).reshape(2, 2),
-        "peak": np.abs(half).max(axis=0).reshape(2, 2),
+        "cone_angle": np.array(march.cone_angle),
+        "rms": np.sqrt(np.mean(half**2, axis=0)),
+        "peak": np.abs(half).max(axis=0),
         "revolution_maxima": maxima,
         "share_of_time_in_contact": np.array(totals[kernel.STEPS_IN_CONTACT] / totals[kernel.STEPS]),
         "largest_normal_force": np.array(totals[kernel.LARGEST_FORCE]),
@@ -64,9 +69,9 @@ def run_speed(
         "worst_complementarity": np.array(totals[kernel.WORST_COMPLEMENTARITY]),
     }
     if "spectrum" in results:
-        kept |= _spectrum(half[:, 0], len(half) // per_revolution, spectrum_highest_order)
+        kept |= _spectrum(half[:, 0, _KEPT].T, len(half) // per_revolution, spectrum_highest_order)
     if "signal" in results:
-        kept["signal"] = samples[-signal_revolutions * per_revolution :].astype(np.float32)
+        kept["signal"] = samples[-signal_revolutions * per_revolution :, :, _KEPT].astype(np.float32)
     if "stress" in results:
         kept["snapshots"] = record.snapshots @ (model.to_reduced @ march.modes).T
     if "wear" in results:
@@ -76,12 +81,12 @@ def run_speed(
     return kept
 
 
-def _spectrum(radial: np.ndarray, revolutions: int, highest_order: int) -> dict[str, np.ndarray]:
-    """Amplitude (m) of the leading edge's radial displacement at multiples of 1/revolutions of the engine order."""
-    amplitude = 2.0 * np.abs(np.fft.rfft(radial)) / len(radial)
-    count = min(highest_order * revolutions + 1, len(amplitude))
-    amplitude[0] /= 2.0
-    return {"amplitude": amplitude[:count].astype(np.float32), "engine_order": np.arange(count) / revolutions}
+def _spectrum(displacement: np.ndarray, revolutions: int, highest_order: int) -> dict[str, np.ndarray]:
+    """Amplitude (m) of displacements, shape (directions, samples), at multiples of 1/revolutions of the engine order."""
+    amplitude = 2.0 * np.abs(np.fft.rfft(displacement)) / displacement.shape[1]
+    count = min(highest_order * revolutions + 1, amplitude.shape[1])
+    amplitude[:, 0] /= 2.0
+    return {"amplitude": amplitude[:, :count].astype(np.float32), "engine_order": np.arange(count) / revolutions}
 
 
 def _wear(state: MarchState, angles: int) -> dict[str, np.ndarray]:

@@ -8,6 +8,7 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 from scipy.optimize import brentq, linear_sum_assignment
 
+from r37core.contact.casing import casing_axes
 from r37core.rom.reduced_model import ReducedModel
 
 _SPARE_MODES = 6
@@ -95,17 +96,26 @@ def name_modes(model: ReducedModel, shapes: np.ndarray, count: int) -> tuple[tup
 
 
 def dynamic_clearance(
-    model: ReducedModel, shapes: np.ndarray, tip_line: str, tangential_displacement: np.ndarray
+    model: ReducedModel,
+    shapes: np.ndarray,
+    tip_line: str,
+    tangential_displacement: np.ndarray,
+    cone_angle: float | None = None,
 ) -> np.ndarray:
     """Change of the leading-edge clearance (m), shape (modes, displacements), as the blade swings along free modes.
 
     `shapes`: reduced shapes (columns); `tangential_displacement` (m), positive towards growing theta, of the tip's
-    leading edge on `tip_line`. With the mode scaled to that displacement u_theta, and u_r its radial part, the node's
-    radius goes from r to sqrt((r + u_r)^2 + u_theta^2); the clearance changes by the opposite.
+    leading edge on `tip_line`; `cone_angle` (rad) of the casing, the tip's own without it. The mode is scaled to that
+    displacement u_theta; with u_r and u_z its other parts, the node moves normal to the casing by
+    cos(alpha) (sqrt((r + u_r)^2 + u_theta^2) - r) - sin(alpha) u_z, and the clearance changes by the opposite.
     """
-    leading_edge = model.tip_lines[tip_line].select([0])
+    line = model.tip_lines[tip_line]
+    leading_edge = line.select([0])
     displacement = np.moveaxis(leading_edge.basis @ shapes.real, 2, 0)
-    radial, tangential, _ = leading_edge.cylindrical(displacement)[:, 0].T
-    scale = tangential_displacement[None, :] / tangential[:, None]
+    radial, tangential, axial = leading_edge.cylindrical(displacement)[:, 0].T[:, :, None]
+    scale = tangential_displacement / tangential
     radius = np.hypot(*leading_edge.points[0, :2])
-    return radius - np.hypot(radius + scale * radial[:, None], tangential_displacement[None, :])
+    outwards = np.hypot(radius + scale * radial, tangential_displacement) - radius
+    return -casing_axes(
+        np.stack([outwards, np.zeros_like(outwards), scale * axial]), line.cone_angle if cone_angle is None else cone_angle
+    )[0]

@@ -42,7 +42,10 @@ def campbell_dataset(
             "dynamic_clearance": (
                 ("mode", "tangential_displacement"),
                 clearance,
-                about("m", "change of the leading-edge tip clearance as the blade swings along the free mode"),
+                about(
+                    "m",
+                    "change of the leading-edge clearance, normal to the tip's cone, as the blade swings along the mode",
+                ),
             ),
             "smallest_mac": ("mode", diagram.continuity, about("1", "smallest MAC between neighbouring speeds")),
         },
@@ -56,5 +59,8 @@ def campbell_dataset(
                 about("m", "tangential displacement of the leading edge, positive against the rotation"),
             ),
         },
-        attrs={"dynamic_clearance_tip_line": tip_line},
+        attrs={
+            "dynamic_clearance_tip_line": tip_line,
+            "tip_cone_angle_deg": float(np.degrees(model.tip_lines[tip_line].cone_angle)),
+        },
     )

@@ -9,9 +9,10 @@ import netCDF4
 import numpy as np
 
 from r37core.io import FILE_ATTRIBUTES, atomic_write, readable
+from r37core.march.simulate import TIP_POINTS
 
 from .netcdf import create_axis, create_labels, create_variable
-from .variables import DATASETS, FLAGS, NOT_RUN, TIP_POINTS
+from .variables import DATASETS, FLAGS, NOT_RUN
 
 
 def write_sweep_dataset(

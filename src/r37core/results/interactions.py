@@ -10,6 +10,8 @@ import pandas as pd
 import xarray as xr
 from scipy.signal import find_peaks
 
+from .variables import NOT_RUN
+
 COLUMNS = (
     "blade",
     "scene",
@@ -18,7 +20,8 @@ COLUMNS = (
     "campbell_speed",
     "peak_speed",
     "shift",
-    "peak_rms_radial",
+    "peak_rms_normal",
+    "peak_rms_tangential",
     "jump",
     "width_above_yield",
     "max_von_mises",
@@ -27,14 +30,18 @@ COLUMNS = (
 )
 """Columns of summary.csv; speeds, shift and width in rad/s, `jump` the drop to the next speed as a share of the peak."""
 
+SPECTRA = {"normal": "amplitude", "tangential": "amplitude_tangential"}
+"""Directions whose peaks are looked for, and the name of their spectrum in spectrum.nc."""
+
 
 @dataclass(frozen=True)
 class InteractionChoice:
     """What counts as an interaction.
 
-    A peak of the leading edge's radial rms must rise above its surroundings by `prominence` of the largest one. It is
-    matched with a crossing of the engine order that is strongest in its spectrum if it lies between `below` and `above`
-    (shares of the Campbell speed) about it; without a spectrum, with the nearest crossing of any order.
+    A peak of the leading edge's normal or tangential rms must rise above its surroundings by `prominence` of the largest one
+    in that direction. It is matched with a crossing of the engine order that is strongest in that direction's spectrum if it
+    lies between `below` and `above` (shares of the Campbell speed) about it; without a spectrum, with the nearest crossing
+    of any order.
     """
 
     prominence: float = 0.1
@@ -56,17 +63,31 @@ def find_interactions(
     where a scene has none. Only the named modes 1B, 1T and 2B are matched; a peak that belongs to none of their crossings
     has an empty mode and no Campbell speed.
     """
-    run = rms["status"].values != 2
-    speed = rms["speed"].values[run]
-    response = rms["rms_radial"].sel(tip_point="leading_edge").values[run]
-    level = np.nan_to_num(response, nan=0.0)
+    return _strongest_of_each(
+        [row for direction in SPECTRA for row in _peaks(direction, rms, campbell, spectrum, choice, stress, wear)]
+    )
+
+
+def _peaks(
+    direction: str,
+    rms: xr.Dataset,
+    campbell: xr.Dataset,
+    spectrum: xr.Dataset | None,
+    choice: InteractionChoice,
+    stress: xr.Dataset | None,
+    wear: xr.Dataset | None,
+) -> list[dict[str, object]]:
+    """Peaks of the leading edge's rms in one direction."""
+    rms = rms.isel(speed=np.flatnonzero(rms["status"].values != NOT_RUN)).sel(tip_point="leading_edge")
+    speed = rms["speed"].values
+    level = rms[f"rms_{direction}"].fillna(0.0).values
     if level.size == 0 or not level.max() > 0.0:
         return []
     # a floor at both ends, so that a peak on the first or last speed counts
     peaks, _ = find_peaks(np.concatenate([[0.0], level, [0.0]]), prominence=choice.prominence * level.max())
-    rows = []
+    rows: list[dict[str, object]] = []
     for peak in peaks - 1:
-        strongest = _strongest_order(spectrum, speed[peak])
+        strongest = _strongest_order(spectrum, SPECTRA[direction], speed[peak])
         mode, order, crossing = _nearest_crossing(campbell, speed[peak], strongest, choice)
         after = level[peak + 1] if peak + 1 < len(level) else np.nan
         rows.append(
@@ -76,22 +97,23 @@ def find_interactions(
                 "campbell_speed": crossing,
                 "peak_speed": speed[peak],
                 "shift": speed[peak] - crossing,
-                "peak_rms_radial": response[peak],
+                "peak_rms_normal": float(rms["rms_normal"][peak]),
+                "peak_rms_tangential": float(rms["rms_tangential"][peak]),
                 "jump": 1.0 - after / level[peak],
                 "width_above_yield": _width_above_yield(stress, speed[peak]),
                 "max_von_mises": _at(stress, "max_von_mises", speed[peak]),
                 "max_wear": _at(wear, "max_wear", speed[peak]),
-                "status": ("completed", "diverged")[int(rms["status"].values[run][peak])],
+                "status": ("completed", "diverged")[int(rms["status"][peak])],
             }
         )
-    return _strongest_of_each(rows)
+    return rows
 
 
-def _strongest_order(spectrum: xr.Dataset | None, speed: float) -> int | None:
-    """The whole engine order with the largest amplitude at `speed`; None without a spectrum."""
+def _strongest_order(spectrum: xr.Dataset | None, name: str, speed: float) -> int | None:
+    """The whole engine order with the largest amplitude at `speed` in the spectrum's variable; None without a spectrum."""
     if spectrum is None:
         return None
-    amplitude = spectrum["amplitude"].sel(speed=speed)
+    amplitude = spectrum[name].sel(speed=speed)
     vibration = amplitude.where(amplitude["engine_order"] >= 0.5, 0.0).fillna(0.0)
     return round(float(vibration["engine_order"][int(np.argmax(vibration.values))]))
 
@@ -137,11 +159,15 @@ def _width_above_yield(stress: xr.Dataset | None, speed: float) -> float:
 
 
 def _strongest_of_each(rows: list[dict[str, object]]) -> list[dict[str, object]]:
-    """One row for each mode and engine order: the highest peak."""
+    """One row for each mode and engine order: the peak with the largest motion, in both directions together."""
+
+    def motion(row: dict[str, object]) -> float:
+        return float(np.hypot(row["peak_rms_normal"], row["peak_rms_tangential"]))  # type: ignore[call-overload]
+
     strongest: dict[tuple[object, object], dict[str, object]] = {}
     for row in rows:
         key = (row["mode"], row["engine_order"])
-        if key not in strongest or row["peak_rms_radial"] > strongest[key]["peak_rms_radial"]:  # type: ignore[operator]
+        if key not in strongest or motion(row) > motion(strongest[key]):
             strongest[key] = row
     return sorted(strongest.values(), key=lambda row: row["peak_speed"])  # type: ignore[arg-type, return-value]
 

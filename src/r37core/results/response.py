@@ -9,11 +9,12 @@ import netCDF4
 import numpy as np
 
 from r37core.io import FILE_ATTRIBUTES, atomic_write
+from r37core.march.simulate import DIRECTIONS, TIP_POINTS
 from r37core.march.speed_file import read_speed
 
 from .netcdf import create_axis, create_labels, create_variable
 from .stress import StressRecovery
-from .variables import STATUS_MEANINGS, TIP_POINTS, VARIABLES
+from .variables import STATUS_MEANINGS, VARIABLES
 
 
 def write_response(
@@ -41,6 +42,8 @@ def write_response(
             values = _row(read_speed(source), recovery, stress_instants)
             if row == 0:
                 _create(dataset, speeds, values, history_speeds)
+                about = {"units": "rad", "long_name": "half angle of the casing's cone, negative where it narrows downstream"}
+                create_variable(dataset, "casing_cone_angle", "f8", (), about)[...] = values["cone_angle"]
             for name in VARIABLES:
                 if name in values:
                     dataset[name][row] = values[name]
@@ -52,8 +55,10 @@ def _row(run: Mapping[str, np.ndarray], recovery: StressRecovery | None, stress_
     """The variables of one speed, and the coordinates they need."""
     values = dict(run)
     for kind in ("rms", "peak"):
-        values[f"{kind}_radial"], values[f"{kind}_tangential"] = run[kind].T
-    values["revolution_maximum"] = run["revolution_maxima"][:, :, 0]
+        values |= {f"{kind}_{direction}": column for direction, column in zip(DIRECTIONS, run[kind].T, strict=True)}
+    values["revolution_maximum"] = run["revolution_maxima"][:, :, DIRECTIONS.index("normal")]
+    if "amplitude" in run:
+        values["amplitude"], values["amplitude_tangential"] = run["amplitude"]
     if recovery is not None:
         per_instant = recovery.max_von_mises(run["snapshots"])
         values["von_mises_history"] = per_instant

@@ -15,16 +15,16 @@ class Variable:
     dtype: str = "f8"
 
 
-TIP_POINTS = ("leading_edge", "trailing_edge")
 _TIP = ("tip_point",)
 
 VARIABLES = {
     "status": Variable((), "1", "how the run ended", "i1"),
     "diverged_revolution": Variable((), "1", "revolution at which the run diverged"),
-    "rms_radial": Variable(_TIP, "m", "rms of the radial displacement over the last half of the run"),
-    "rms_tangential": Variable(_TIP, "m", "rms of the tangential displacement over the last half of the run"),
-    "peak_radial": Variable(_TIP, "m", "largest radial displacement over the last half of the run"),
-    "peak_tangential": Variable(_TIP, "m", "largest tangential displacement over the last half of the run"),
+    **{
+        f"{kind}_{direction}": Variable(_TIP, "m", f"{measure} {direction} displacement over the last half of the run{note}")
+        for kind, measure in (("rms", "rms of the"), ("peak", "largest"))
+        for direction, note in (("normal", " (along the casing's normal)"), ("radial", ""), ("tangential", ""))
+    },
     "share_of_time_in_contact": Variable((), "1", "share of the steps with a contact force"),
     "largest_normal_force": Variable((), "N", "largest normal force on a tip node"),
     "casing_hits": Variable((), "1", "how often a tip node came upon the casing"),
@@ -33,8 +33,9 @@ VARIABLES = {
     "damping_loss": Variable((), "J", "energy lost to damping"),
     "energy_change": Variable((), "J", "energy of the vibration at the end"),
     "energy_residual": Variable((), "J", "energy change minus contact work plus damping loss"),
-    "revolution_maximum": Variable(("revolution", "tip_point"), "m", "largest radial displacement of each revolution", "f4"),
-    "amplitude": Variable(("engine_order",), "m", "amplitude of the leading edge's radial displacement", "f4"),
+    "revolution_maximum": Variable(("revolution", "tip_point"), "m", "largest normal displacement of each revolution", "f4"),
+    "amplitude": Variable(("engine_order",), "m", "amplitude of the leading edge's normal displacement", "f4"),
+    "amplitude_tangential": Variable(("engine_order",), "m", "amplitude of the leading edge's tangential displacement", "f4"),
     "max_von_mises": Variable((), "Pa", "largest von Mises stress on the submesh in the last revolution"),
     "wear": Variable(("angle",), "m", "wear of the lining, largest over the rings, at the end", "f4"),
     "max_wear": Variable((), "m", "largest wear of the lining at the end"),
@@ -43,8 +44,11 @@ VARIABLES = {
 
 DATASETS = {
     "rms": (
+        "casing_cone_angle",
+        "rms_normal",
         "rms_radial",
         "rms_tangential",
+        "peak_normal",
         "peak_radial",
         "peak_tangential",
         "share_of_time_in_contact",
@@ -57,7 +61,7 @@ DATASETS = {
         "energy_residual",
         "revolution_maximum",
     ),
-    "spectrum": ("amplitude",),
+    "spectrum": ("amplitude", "amplitude_tangential"),
     "stress": ("max_von_mises", "yield_stress", "max_von_mises_history", "first_yield_revolution"),
     "wear": ("wear", "max_wear", "wear_harmonic"),
 }

@@ -23,8 +23,9 @@ class ContactModel:
     `squared_frequencies` (rad2/s2), shape (modes,); `stiffness_per_square` (1/rad2), shape (modes, modes): change of the
     stiffness per Omega^2; `rows`, shape (3, nodes, modes): radial, tangential (growing theta) and axial displacement of the
     contact nodes, from leading to trailing edge; `radius` (m) and `theta` (rad) of the nodes, shape (nodes,);
-    `chord_share` (m): mean spacing of the nodes along the tip line; `tip_rows`, shape (2, 3, modes): the same for the tip's
-    leading and trailing edge; `to_reduced`, shape (coordinates, modes): modes at rest in the reduced model's coordinates.
+    `tip_cone_angle` (rad): half angle of the tip line's cone, negative where it narrows downstream; `tip_rows`, shape
+    (3, 2, modes): the same displacements of the tip's leading and trailing edge; `to_reduced`, shape (coordinates, modes):
+    modes at rest in the reduced model's coordinates.
     """
 
     squared_frequencies: np.ndarray
@@ -32,7 +33,7 @@ class ContactModel:
     rows: np.ndarray
     radius: np.ndarray
     theta: np.ndarray
-    chord_share: float
+    tip_cone_angle: float
     tip_rows: np.ndarray
     to_reduced: np.ndarray
 
@@ -58,5 +59,5 @@ def read_contact_model(file: Path | str) -> ContactModel:
     """The model of a file; InputFileError when it cannot be read."""
     with readable(file), np.load(file) as stored:
         content = {field.name: stored[field.name] for field in fields(ContactModel)}
-        content["chord_share"] = float(content["chord_share"])
+        content["tip_cone_angle"] = float(content["tip_cone_angle"])
         return ContactModel(**content)
