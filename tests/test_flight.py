@@ -13,7 +13,8 @@ from r37core.contact.scene import Scene
 from r37core.march import kernel
 from r37core.march.choice import MarchChoice
 from r37core.march.flight import nearest_casing, plan_flight
-from r37core.march.simulate import March, recursion_coefficients
+from r37core.march.integrators import central_difference
+from r37core.march.simulate import March
 
 
 def both(model, scene, choice, speed, displacement=None, increment=None):
@@ -95,7 +96,7 @@ def test_lobes_that_pass_during_a_jump_are_met():
 @pytest.mark.parametrize("ratio", [0.0, 5e-4, 0.3])
 def test_jump_is_the_power_of_the_step(ratio):
     frequencies = np.array([3e3, 4e4, 9e5])
-    recursion = recursion_coefficients(frequencies, ratio, 1e-6)
+    recursion = central_difference(frequencies, ratio, 1e-6).coefficients
     loss = np.array([1.0, 2.0, 3.0])
     plan = plan_flight(recursion, loss, 77, 1)
     np.testing.assert_array_equal(plan.lengths, [5, 8, 16, 32, 64])
@@ -114,7 +115,7 @@ def test_jump_is_the_power_of_the_step(ratio):
 
 
 def test_modes_that_do_not_oscillate_are_stepped():
-    assert plan_flight(recursion_coefficients(np.array([1e4, 1e6]), 1.0, 1e-7), None, 64, 8) is None
+    assert plan_flight(central_difference(np.array([1e4, 1e6]), 1.0, 1e-7).coefficients, None, 64, 8) is None
 
 
 def test_nearest_casing_of_every_stretch():

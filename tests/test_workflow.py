@@ -50,10 +50,10 @@ def test_results_of_a_real_run(finished):
         assert dataset.attrs["fidelity"] == "tiny"
         assert dataset.attrs["basis_columns"] == 102
     with xr.open_dataset(finished / "results/rms.nc") as dataset:
-        assert dataset["rms_radial"].dims == ("blade", "scene", "speed", "tip_point")
-        assert dataset["rms_radial"].shape == (2, 2, 3, 2)
+        assert dataset["rms_normal"].dims == ("blade", "scene", "speed", "tip_point")
+        assert dataset["rms_normal"].shape == (2, 2, 3, 2)
         assert (dataset["status"] == 0).all()
-        assert (dataset["rms_radial"] > 0.0).all()
+        assert (dataset["rms_normal"] > 0.0).all()
         balance = abs(dataset["energy_residual"]) / (abs(dataset["contact_work"]) + dataset["damping_loss"])
         assert float(balance.max()) < 1e-9
     with xr.open_dataset(finished / "results/wear.nc") as dataset:

@@ -116,6 +116,8 @@ def march_of_level(march: Mapping[str, Any]) -> MarchChoice:
         energy=True,
         precision=march["precision"],
         highest_frequency=march.get("highest_frequency_hz", math.inf),
+        integrator=march["integrator"],
+        engine=march["engine"],
     )
 
 

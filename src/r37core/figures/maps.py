@@ -5,6 +5,7 @@ from __future__ import annotations
 import matplotlib.pyplot as plt
 import numpy as np
 import xarray as xr
+from matplotlib.axes import Axes
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 
@@ -14,15 +15,22 @@ _DECADES = 4.0
 
 
 def draw_spectral_map(maps: xr.Dataset, campbell: xr.Dataset, title: str) -> Figure:
-    """Amplitude over speed and engine order of one blade and scene, with the named modes' frequencies as lines."""
-    amplitude = maps["amplitude"].dropna("speed", how="all")
-    figure, axes = plt.subplots(figsize=(8.0, 5.0))
+    """Amplitudes, normal and tangential, over speed and engine order, with the named modes' frequencies as lines."""
+    figure, panels = plt.subplots(1, 2, figsize=(12.0, 5.0), sharex=True, sharey=True)
+    figure.suptitle(f"spectrum: {title}")
+    for axes, (name, direction) in zip(panels, (("amplitude", "normal"), ("amplitude_tangential", "tangential")), strict=True):
+        _draw_spectrum(axes, maps[name].dropna("speed", how="all"), campbell, direction)
+    panels[0].set_ylabel("engine order")
+    return figure
+
+
+def _draw_spectrum(axes: Axes, amplitude: xr.DataArray, campbell: xr.Dataset, direction: str) -> None:
     values = np.maximum(1e3 * amplitude.transpose("engine_order", "speed").values, 1e-12)
     top = max(float(np.nanmax(values)), 1e-11) if values.size else 1.0
     picture = axes.pcolormesh(
         amplitude["speed"], amplitude["engine_order"], values, norm=LogNorm(top / 10**_DECADES, top), cmap="magma"
     )
-    figure.colorbar(picture, ax=axes, label="amplitude, radial, leading edge (mm)")
+    axes.figure.colorbar(picture, ax=axes, label=f"amplitude, {direction}, leading edge (mm)")
     for mode in ("1B", "1T", "2B"):
         frequency = campbell["frequency"].sel(mode=mode)
         speed = frequency["speed"].values[1:]
@@ -30,11 +38,10 @@ def draw_spectral_map(maps: xr.Dataset, campbell: xr.Dataset, title: str) -> Fig
         axes.plot(speed, order, color="white", linewidth=0.8, linestyle="--")
         axes.annotate(mode, (0.99, np.interp(amplitude["speed"].values[-1], speed, order)), color="white",
                       xycoords=("axes fraction", "data"), ha="right", va="bottom", fontsize=8)  # fmt: skip
-    axes.set(xlabel="speed (rad/s)", ylabel="engine order", title=f"spectrum: {title}")
+    axes.set(xlabel="speed (rad/s)")
     axes.set_ylim(0.0, float(amplitude["engine_order"].max()))
     axes.set_xlim(float(amplitude["speed"].min()), float(amplitude["speed"].max()))
     axes.grid(False)
-    return figure
 
 
 def draw_wear_map(maps: xr.Dataset, campbell: xr.Dataset, title: str) -> Figure:

@@ -12,9 +12,9 @@ from . import style  # noqa: F401  (sets the style)
 
 
 def draw_response(blade: str, campbell: xr.Dataset, rms: xr.Dataset, stress: xr.Dataset | None) -> Figure:
-    """One blade: radial and tangential rms of the leading edge in every scene, and the largest stress with the yield line."""
+    """One blade: normal and tangential rms of the leading edge in every scene, and the largest stress with the yield line."""
     figure, panels = plt.subplots(2 if stress is None else 3, 1, figsize=(8.5, 7.5), sharex=True)
-    for axes, part in zip(panels, ("radial", "tangential"), strict=False):
+    for axes, part in zip(panels, ("normal", "tangential"), strict=False):
         for scene in rms["scene"].values:
             response = rms[f"rms_{part}"].sel(scene=scene, tip_point="leading_edge").dropna("speed")
             axes.plot(response["speed"], 1e3 * response, ".-", label=str(scene))
@@ -35,21 +35,22 @@ def draw_response(blade: str, campbell: xr.Dataset, rms: xr.Dataset, stress: xr.
 
 
 def draw_response_overview(rms: xr.Dataset) -> Figure:
-    """All blades: radial rms of the leading edge, one panel per blade, all scenes, on one scale."""
+    """All blades: normal and tangential rms of the leading edge, one row per blade, all scenes, each column on one scale."""
     blades = rms["blade"].values
-    rows = int(np.ceil(len(blades) / 2))
-    figure, grid = plt.subplots(rows, 2, figsize=(11.0, 1.9 * rows + 0.8), sharex=True, sharey=True, squeeze=False)
-    for axes, blade in zip(grid.ravel(), blades, strict=False):
-        for scene in rms["scene"].values:
-            response = rms["rms_radial"].sel(blade=blade, scene=scene, tip_point="leading_edge").dropna("speed")
-            axes.plot(response["speed"], 1e3 * response, ".-", markersize=3, label=str(scene))
-            _mark_diverged(axes, rms.sel(blade=blade, scene=scene))
-        axes.set_title(str(blade), fontsize=9)
-    for axes in grid.ravel()[len(blades) :]:
-        axes.set_visible(False)
+    figure, grid = plt.subplots(
+        len(blades), 2, figsize=(11.0, 1.3 * len(blades) + 0.8), sharex=True, sharey="col", squeeze=False
+    )
+    for row, blade in zip(grid, blades, strict=True):
+        for axes, direction in zip(row, ("normal", "tangential"), strict=True):
+            for scene in rms["scene"].values:
+                response = rms[f"rms_{direction}"].sel(blade=blade, scene=scene, tip_point="leading_edge").dropna("speed")
+                axes.plot(response["speed"], 1e3 * response, ".-", markersize=3, label=str(scene))
+                _mark_diverged(axes, rms.sel(blade=blade, scene=scene))
+        row[0].set_ylabel(str(blade))
+    for axes, title in zip(grid[0], ("normal to the casing", "tangential"), strict=True):
+        axes.set_title(f"rms, {title}, leading edge (mm)")
     grid[0, 0].legend()
     figure.supxlabel("speed (rad/s)", fontsize=9)
-    figure.supylabel("rms of radial displacement, leading edge (mm)", fontsize=9)
     return figure
 
 

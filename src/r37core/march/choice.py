@@ -11,7 +11,8 @@ class MarchChoice:
 
     `snapshots_per_revolution` modal states are kept in each of the last `snapshot_revolutions`; `energy`: whether the loss
     to damping is added up; `precision`: double or single; `jumps`: whether free flight is jumped over or stepped through;
-    `highest_frequency` (Hz): faster modes are left out.
+    `highest_frequency` (Hz): faster modes are left out; `integrator`: one of r37core.march.integrators; `engine`: the compiled
+    march, or the plain one of r37core.march.reference.
     """
 
     time_step: float
@@ -23,3 +24,5 @@ class MarchChoice:
     precision: str = "double"
     jumps: bool = True
     highest_frequency: float = float("inf")
+    integrator: str = "central_difference"
+    engine: str = "compiled"

@@ -13,10 +13,12 @@ from r37core.rom.contact_model import ContactModel
 from . import kernel
 from .choice import MarchChoice
 from .flight import nearest_casing, plan_flight
+from .integrators import CENTRAL_DIFFERENCE, recursion
+from .reference import Clock, ReferenceMarch
 
 
 class UnstableStepError(ValueError):
-    """A time step beyond the stability limit of central differences."""
+    """A time step beyond a stability limit."""
 
 
 class LongRevolutionError(ValueError):
@@ -66,8 +68,8 @@ class March:
     that divides a revolution into whole samples, `steps_per_revolution`; `rows`, shape (3, nodes, modes): displacement of the
     contact nodes along the casing's normal, tangent and meridian.
 
-    Raises UnstableStepError for a step at or above the stability limit 2/omega_max of the blade, or that of a node pressed
-    on the lining's bars; LongRevolutionError for a revolution of too many steps.
+    Raises UnstableStepError for a step at or above the stability limit 2/omega_max of central differences, or that of a node
+    pressed on the lining's bars; LongRevolutionError for a revolution of too many steps.
     """
 
     def __init__(self, model: ContactModel, speed: float, scene: Scene, choice: MarchChoice):
@@ -82,10 +84,11 @@ class March:
         self._check_length()
         self.cone_angle = scene.casing.angle(model.tip_cone_angle)
         self.rows = casing_axes(model.rows, self.cone_angle) @ self.modes
-        self.recursion = recursion_coefficients(self.frequencies, scene.damping_ratio, self.time_step)
-        self.coupling = np.array([(rows * self.recursion[2]) @ self.rows[0].T for rows in self.rows])
+        self.integration = recursion(choice.integrator, self.frequencies, scene.damping_ratio, self.time_step)
+        self.recursion = self.integration.coefficients
+        self.coupling = np.array([(rows * self.integration.inverse) @ self.rows[0].T for rows in self.rows])
         self._check_stability()
-        self._kernel: kernel.Kernel | None = None
+        self._made: kernel.Kernel | ReferenceMarch | None = None
 
     @property
     def _precision(self) -> type:
@@ -107,11 +110,11 @@ class March:
 
     def _check_stability(self) -> None:
         limit = 2.0 / self.frequencies[-1]
-        if not self.time_step < limit:
+        if self.choice.integrator == CENTRAL_DIFFERENCE and not self.time_step < limit:
             raise UnstableStepError(
                 f"time_step_s: {self.choice.time_step:g} s gives steps of {self.time_step:.6g} s, not below the stability "
                 f"limit of this reduced model, {limit:.6g} s (highest mode {self.frequencies[-1] / 2e3 / np.pi:.1f} kHz); "
-                "use a smaller one, or raise basis_tolerance to drop the highest modes"
+                "use a smaller one, raise basis_tolerance to drop the highest modes, or take the integrator exact_modal"
             )
         lining = self._lining_numbers()
         if lining is None:
@@ -129,7 +132,7 @@ class March:
 
     def compile(self) -> None:
         """Compile the march for this model and scene, unless it is there already. Raises CompilerError."""
-        self._compiled()
+        self._engine()
 
     def start(self) -> MarchState:
         """The blade at rest in an unworn lining."""
@@ -146,7 +149,7 @@ class March:
         blocks = revolutions * choice.samples_per_revolution
         samples = np.zeros((blocks, OUTPUTS))
         which, snapshots = self._snapshot_plan(state.revolutions, blocks)
-        done = self._compiled().advance(
+        done = self._engine().advance(
             state.displacement,
             state.increment,
             state.on_casing,
@@ -166,18 +169,19 @@ class March:
         return MarchRecord(samples[:done], kept, bool(diverged))
 
     def energy(self, state: MarchState) -> float:
-        """Energy (J) of the vibration: kinetic at mid-step plus elastic; conserved by the free undamped recursion.
+        """Energy (J) of the vibration; see Recursion."""
+        return self.integration.energy(state.displacement, state.increment)
 
-        E = (v^2 + omega^2 u_n u_{n-1})/2 with v = (u_n - u_{n-1})/h (Belytschko, Liu, Moran, section 6.2).
-        """
-        velocity = state.increment / self.time_step
-        elastic = self.frequencies**2 * state.displacement * (state.displacement - state.increment)
-        return float(0.5 * np.sum(velocity**2 + elastic))
+    def _engine(self) -> kernel.Kernel | ReferenceMarch:
+        if self._made is None:
+            self._made = self._reference() if self.choice.engine == "reference" else kernel.Kernel(self._kernel_input())
+        return self._made
 
-    def _compiled(self) -> kernel.Kernel:
-        if self._kernel is None:
-            self._kernel = kernel.Kernel(self._kernel_input())
-        return self._kernel
+    def _reference(self) -> ReferenceMarch:
+        clock = Clock(self.time_step, self.steps_per_revolution, self.steps_per_sample, self.duration, self.speed)
+        return ReferenceMarch(
+            self.model, self.scene, clock, self.cone_angle, self.modes, self.integration, self.rows, self._output_rows()
+        )
 
     def _kernel_input(self) -> kernel.KernelInput:
         model, scene = self.model, self.scene
@@ -223,9 +227,7 @@ class March:
         return lining.thickness, lining.elastic_modulus, lining.plastic_modulus, lining.yield_stress, area, float(lining.bars)
 
     def _loss_numbers(self) -> np.ndarray | None:
-        if not self.choice.energy:
-            return None
-        return 2.0 * self.scene.damping_ratio * self.frequencies / (4.0 * self.time_step)
+        return self.integration.loss if self.choice.energy else None
 
     def _snapshot_plan(self, revolutions_done: int, blocks: int) -> tuple[np.ndarray | None, np.ndarray | None]:
         choice = self.choice
@@ -237,14 +239,3 @@ class March:
         taken = (number > first) & ((number - first) % every == 0)
         which = np.where(taken, np.cumsum(taken) - 1, -1)
         return which, np.zeros((int(taken.sum()), len(self.frequencies)))
-
-
-def recursion_coefficients(frequencies: np.ndarray, damping_ratio: float, step: float) -> np.ndarray:
-    """Coefficients -b, c omega^2 and c of the recursion for unit-mass modes, shape (3, modes).
-
-    u_{n+1} = a u_n + b u_{n-1} + c F with c = (1/h^2 + xi omega/h)^-1, b = c (xi omega/h - 1/h^2) and
-    a = c (2/h^2 - omega^2) = 1 - b - c omega^2: section 5 of the benchmark with D = 2 xi omega.
-    """
-    inverse = 1.0 / (1.0 / step**2 + damping_ratio * frequencies / step)
-    minus_b = inverse * (1.0 / step**2 - damping_ratio * frequencies / step)
-    return np.array([minus_b, inverse * frequencies**2, inverse])

@@ -1,0 +1,78 @@
+"""The two ways of stepping a mode in time: central differences, and its motion between contacts in closed form."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+CENTRAL_DIFFERENCE, EXACT_MODAL = INTEGRATORS = ("central_difference", "exact_modal")
+
+
+@dataclass(frozen=True)
+class Recursion:
+    """u_{n+1} = a u_n + b u_{n-1} + c F of unit-mass modes under modal forces F; arrays of shape (modes,).
+
+    `keep` -b, `pull` 1 - a - b and `inverse` c: carried in displacement and increment d_n = u_n - u_{n-1} it reads
+    d_{n+1} = keep d_n - pull u_n + inverse F, which keeps the digits that a + b = 1 - pull loses. `lost` = 1 - keep.
+
+    Multiplied with (u_{n+1} - u_{n-1})/(2c) it is a balance of energies, whatever a, b and c are:
+    E_{n+1} - E_n = F (u_{n+1} - u_{n-1})/2 - (1 - keep)/(4c) (u_{n+1} - u_{n-1})^2 with
+    E_n = ((1 + keep)/2 d_n^2 + pull u_n u_{n-1})/(2c), kinetic plus elastic energy up to the order of the step.
+    """
+
+    keep: np.ndarray
+    pull: np.ndarray
+    inverse: np.ndarray
+    lost: np.ndarray
+
+    @property
+    def coefficients(self) -> np.ndarray:
+        """`keep`, `pull` and `inverse`, shape (3, modes)."""
+        return np.array([self.keep, self.pull, self.inverse])
+
+    @property
+    def loss(self) -> np.ndarray:
+        """Energy lost to damping per step and squared u_{n+1} - u_{n-1}, shape (modes,)."""
+        return self.lost / (4.0 * self.inverse)
+
+    def energy(self, displacement: np.ndarray, increment: np.ndarray) -> float:
+        """Energy E_n (J) of u_n and d_n, shape (modes,); conserved by the free undamped recursion."""
+        kinetic = 0.5 * (1.0 + self.keep) * increment**2
+        return float(np.sum((kinetic + self.pull * displacement * (displacement - increment)) / (2.0 * self.inverse)))
+
+
+def central_difference(frequencies: np.ndarray, damping_ratio: float, step: float) -> Recursion:
+    """Central differences for modes of angular `frequencies` (rad/s), stable for steps (s) below 2/frequency.
+
+    c = (1/h^2 + xi omega/h)^-1, b = c (xi omega/h - 1/h^2), a = c (2/h^2 - omega^2) = 1 - b - c omega^2: section 5 of the
+    benchmark with D = 2 xi omega. Energy: Belytschko, Liu, Moran, Nonlinear Finite Elements, section 6.2.
+    """
+    inverse = 1.0 / (1.0 / step**2 + damping_ratio * frequencies / step)
+    return Recursion(
+        keep=inverse * (1.0 / step**2 - damping_ratio * frequencies / step),
+        pull=inverse * frequencies**2,
+        inverse=inverse,
+        lost=2.0 * inverse * damping_ratio * frequencies / step,
+    )
+
+
+def exact_modal(frequencies: np.ndarray, damping_ratio: float, step: float) -> Recursion:
+    """The free motion of underdamped modes (damping ratio below 1) without error, for any step (s).
+
+    u(t) = e^(-xi omega t) (A cos omega_d t + B sin omega_d t) satisfies u_{n+1} = a u_n + b u_{n-1} with
+    a = 2 e^(-xi omega h) cos(omega_d h), b = -e^(-2 xi omega h), omega_d = omega sqrt(1 - xi^2): sum and product of the two
+    values of e^(lambda h), lambda the roots of lambda^2 + 2 xi omega lambda + omega^2 (Meirovitch, Fundamentals of Vibrations,
+    section 2.2). A force enters with c = (1 - a - b)/omega^2, so that under a constant one the mode rests at F/omega^2.
+    """
+    decay = damping_ratio * frequencies * step
+    half_angle = 0.5 * frequencies * np.sqrt(1.0 - damping_ratio**2) * step
+    # 1 - a - b = (1 - e^-decay)^2 + 2 e^-decay (1 - cos), without the cancellation of small steps
+    pull = np.expm1(-decay) ** 2 + 4.0 * np.exp(-decay) * np.sin(half_angle) ** 2
+    return Recursion(keep=np.exp(-2.0 * decay), pull=pull, inverse=pull / frequencies**2, lost=-np.expm1(-2.0 * decay))
+
+
+def recursion(integrator: str, frequencies: np.ndarray, damping_ratio: float, step: float) -> Recursion:
+    """The recursion of one of INTEGRATORS."""
+    of = {CENTRAL_DIFFERENCE: central_difference, EXACT_MODAL: exact_modal}
+    return of[integrator](frequencies, damping_ratio, step)
