@@ -57,7 +57,7 @@ def test_both_tend_to_each_other_with_the_step():
 
 @pytest.mark.parametrize("integrator", INTEGRATORS)
 def test_a_pushed_oscillator_against_an_ode_solver(integrator):
-    """Bars that never yield are a spring pressed by the lobes that pass; its force comes a step late, so the error is of order h."""
+    """Bars that never yield are a spring pressed by the lobes that pass; its force comes a step late: an error of order h."""
     frequency, ratio, speed = 8000.0, 0.02, 1000.0
     lining = Lining(5e-3, 4e6, 0.0, 1e12, bar_width=1.0, bars=10)
     casing = Casing(1e-4, lobes=2, amplitude=2.0, rise_fraction=0.0)

@@ -1,0 +1,104 @@
+"""Every key of scenes.yaml reaches the field of the scene that it names, and no other."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+from r37core.config import checked_scene
+
+CASING = {
+    "cone_angle_deg": 3.0,
+    "clearance_m": 2e-4,
+    "lobes": 3,
+    "width": 0.2,
+    "amplitude_clearances": 1.5,
+    "rise_fraction": 0.3,
+}
+LINING = {
+    "thickness_m": 4e-3,
+    "elastic_modulus_pa": 1e10,
+    "plastic_modulus_pa": 2e9,
+    "yield_stress_pa": 3.0,
+    "bars": 500,
+    "rings": "per_node",
+    "bar_width_m": 2e-3,
+}
+FRICTION = {"form": "vector", "coefficient": 0.2, "direction": "against_rotation", "coupling": "coupled"}
+ENTRY = {
+    "casing": CASING,
+    "lining": LINING,
+    "friction": FRICTION,
+    "damping_ratio": 1e-3,
+    "gap": "linear",
+    "divergence_limit_m": 0.03,
+}
+
+REACHES = {
+    "casing.cone_angle_deg": (-7.0, "casing.cone_angle", np.radians(-7.0)),
+    "casing.clearance_m": (5e-4, "casing.clearance", 5e-4),
+    "casing.lobes": (6, "casing.lobes", 6),
+    "casing.width": (0.11, "casing.width", 0.11),
+    "casing.amplitude_clearances": (2.5, "casing.amplitude", 2.5),
+    "casing.rise_fraction": (0.6, "casing.rise_fraction", 0.6),
+    "lining.thickness_m": (7e-3, "lining.thickness", 7e-3),
+    "lining.elastic_modulus_pa": (7e9, "lining.elastic_modulus", 7e9),
+    "lining.plastic_modulus_pa": (7e8, "lining.plastic_modulus", 7e8),
+    "lining.yield_stress_pa": (7e6, "lining.yield_stress", 7e6),
+    "lining.bars": (70, "lining.bars", 70),
+    "lining.rings": ("shared", "lining.shared_ring", True),
+    "lining.bar_width_m": (7e-4, "lining.bar_width", 7e-4),
+    "lining.bar_area_m2": (7e-7, "lining.bar_area", 7e-7),
+    "friction.form": ("constant", "friction.vector", False),
+    "friction.coefficient": (0.7, "friction.coefficient", 0.7),
+    "friction.direction": ("along_rotation", "friction.against_rotation", False),
+    "friction.coupling": ("after", "friction.coupled", False),
+    "damping_ratio": (0.07, "damping_ratio", 0.07),
+    "gap": ("exact", "exact_gap", True),
+    "divergence_limit_m": (0.07, "divergence_limit", 0.07),
+}
+
+
+def flat(scene):
+    """Dotted field -> value."""
+    fields = {}
+    for name, value in dataclasses.asdict(scene).items():
+        fields |= {f"{name}.{inner}": one for inner, one in value.items()} if isinstance(value, dict) else {name: value}
+    return fields
+
+
+def with_key(path, value):
+    entry = {name: dict(part) if isinstance(part, dict) else part for name, part in ENTRY.items()}
+    *parents, last = path.split(".")
+    (entry[parents[0]] if parents else entry)[last] = value
+    return entry
+
+
+@pytest.fixture(scope="module")
+def schemas(root):
+    return root / "config" / "schemas"
+
+
+@pytest.mark.parametrize("path", REACHES)
+def test_a_key_reaches_its_field_only(schemas, path):
+    value, field, expected = REACHES[path]
+    before, after = flat(checked_scene(ENTRY, schemas)), flat(checked_scene(with_key(path, value), schemas))
+    assert before[field] != after[field] == expected
+    assert {name for name in before if before[name] != after[name]} == {field}
+
+
+def test_every_field_has_a_key(schemas):
+    assert {field for _, field, _ in REACHES.values()} == set(flat(checked_scene(ENTRY, schemas)))
+
+
+def test_the_tip_decides_the_cone_angle_by_default(schemas):
+    casing = {key: value for key, value in CASING.items() if key != "cone_angle_deg"}
+    scene = checked_scene(ENTRY | {"casing": casing}, schemas)
+    assert scene.casing.cone_angle is None
+    assert scene.casing.angle(-0.26) == -0.26
+    assert checked_scene(ENTRY, schemas).casing.angle(-0.26) == np.radians(3.0)
+
+
+def test_bars_are_a_millimetre_wide_by_default(schemas):
+    lining = {key: value for key, value in LINING.items() if key != "bar_width_m"}
+    assert checked_scene(ENTRY | {"lining": lining}, schemas).lining.bar_width == 1e-3
