@@ -217,6 +217,20 @@ def test_a_peak_of_another_order_is_not_matched():
     assert np.isnan(table["campbell_speed"]).all()
 
 
+def test_an_interaction_that_moves_the_tip_tangentially_only_is_found():
+    """As of S100: the normal motion peaks elsewhere, with another order; direction and its spectrum go together."""
+    aside, towards = synthetic([(1640.0, 9e-3, 4)]), synthetic([(1660.0, 5e-5, 2)])
+    aside["rms"]["rms_normal"] = towards["rms"]["rms_tangential"]
+    aside["spectrum"]["amplitude"] = towards["spectrum"]["amplitude"]
+    aside["campbell"]["crossing_speed"][0, 0, 3] = 1635.0
+    table = summarise(aside, InteractionChoice()).set_index("peak_speed")
+    assert list(table.index) == [1640.0, 1660.0]
+    assert list(table["engine_order"]) == [4, 2]
+    assert list(table["mode"]) == ["1B", ""]
+    assert table["peak_rms_tangential"][1640.0] == pytest.approx(9e-3)
+    assert table["peak_rms_normal"][1660.0] == pytest.approx(5e-5)
+
+
 def test_without_a_spectrum_the_nearest_crossing_counts():
     datasets = {kind: dataset.isel(blade=0) for kind, dataset in synthetic([(1685.0, 1e-3, 4)]).items()}
     rows = find_interactions(datasets["rms"].isel(scene=0), datasets["campbell"], None, None, None, InteractionChoice())
