@@ -13,7 +13,7 @@ from r37core.contact.scene import Friction, Lining, Scene
 from r37core.fem.material import Material
 from r37core.io import InputFileError
 from r37core.march.choice import MarchChoice
-from r37core.march.speed_file import write_speed
+from r37core.march.speed_file import read_speed, write_speed
 from r37core.march.speed_run import run_speed
 from r37core.results.datasets import write_sweep_dataset
 from r37core.results.interactions import COLUMNS, InteractionChoice, find_interactions, summarise
@@ -118,6 +118,26 @@ def test_response_holds_every_speed(sweep):
         assert np.isnan(response["rms_radial"].isel(speed=1)).all()
         assert np.isnan(response["max_von_mises"].isel(speed=1))
         assert response["diverged_revolution"].isel(speed=1) > 0.0
+
+
+def test_response_names_directions_and_tip_points(sweep):
+    """Against the signal of a run: tip point by direction (normal, tangential)."""
+    folder, files = sweep
+    with xr.open_dataset(files["Ref", "abradable"]) as response:
+        for speed in SPEEDS:
+            run = read_speed(folder / f"abradable_{speed:g}.npz")
+            at = response.sel(speed=speed)
+            for point, tip_point in enumerate(("leading_edge", "trailing_edge")):
+                tip = at.sel(tip_point=tip_point)
+                for column, direction in enumerate(("normal", "radial", "tangential")):
+                    assert tip[f"rms_{direction}"] == run["rms"][point, column]
+                    assert tip[f"peak_{direction}"] == run["peak"][point, column]
+                last = np.abs(run["signal"][-62:, point]).max(axis=0)
+                np.testing.assert_allclose(last, run["revolution_maxima"][-1, point, [0, 2]], rtol=1e-6)
+                np.testing.assert_array_equal(tip["revolution_maximum"], run["revolution_maxima"][:, point, 0].astype("f4"))
+            np.testing.assert_array_equal(at["amplitude"], run["amplitude"][0])
+            np.testing.assert_array_equal(at["amplitude_tangential"], run["amplitude"][1])
+        assert np.degrees(float(response["casing_cone_angle"])) == pytest.approx(-15.24, abs=0.01)
 
 
 @pytest.mark.parametrize("kind", ["rms", "spectrum", "stress", "wear"])
