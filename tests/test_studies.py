@@ -96,7 +96,9 @@ def test_refused_values_are_rows_of_the_table():
 def test_knobs_turn_what_they_say():
     scene, choice = vary("bars", "300", ABRADABLE, MarchChoice(1e-7, 10, 62))
     assert scene.lining.bars == 300
-    assert vary("time_step", "2e-08", ABRADABLE, choice)[1].time_step == 2e-8
+    assert vary("central_difference_step", "2e-08", ABRADABLE, choice)[1].time_step == 2e-8
+    exact = vary("exact_modal_step", "8e-07", ABRADABLE, choice)[1]
+    assert exact == replace(choice, time_step=8e-7, integrator="exact_modal")
     assert vary("friction_form", "constant", ABRADABLE, choice)[0].friction.vector is False
     assert vary("precision", "single", DIRECT, choice) == (DIRECT, replace(choice, precision="single"))
     assert vary("bars", "300", DIRECT, choice) == (DIRECT, choice)

@@ -20,6 +20,8 @@ def main(snakemake):
     choice = replace(MarchChoice(**params.choice), revolutions=extreme.revolutions)
     if extreme.share_of_limit is not None:
         choice = replace(choice, time_step=extreme.share_of_limit * 2.0 / model.modes_at(1.01 * extreme.speed)[0][-1])
+    if extreme.integrator is not None:
+        choice = replace(choice, integrator=extreme.integrator)
     try:
         scene = checked_scene(changed(params.entry, extreme.changes), Path(params.schemas))
         outcome = judge(model, scene, choice, extreme.speed)

@@ -15,7 +15,8 @@ PAIRS = (
     ("boundary_nodes", "model_cpu_s", "making the model"),
     ("revolutions", "cpu_s", "one run"),
     ("revolutions", "bytes_written", "file of one run"),
-    ("time_step", "cpu_s", "one run"),
+    ("central_difference_step", "cpu_s", "one run"),
+    ("exact_modal_step", "cpu_s", "one run"),
 )
 """Knob, cost, and what the cost is of."""
 

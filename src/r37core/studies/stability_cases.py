@@ -6,13 +6,15 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
+from r37core.march.integrators import CENTRAL_DIFFERENCE, EXACT_MODAL
+
 
 @dataclass(frozen=True)
 class Extreme:
     """One case. `changes`: dotted path in the scene's entry of scenes.yaml -> value; the rest: of the march and the model.
 
-    `share_of_limit`: time step as a share of the blade's stability limit, in place of the level's; `model`: fields of
-    ModelChoice.
+    `share_of_limit`: time step as a share of the blade's stability limit under central differences, and `integrator`, in place
+    of the level's; `model`: fields of ModelChoice.
     """
 
     what: str
@@ -22,6 +24,7 @@ class Extreme:
     speed: float = 1344.0
     revolutions: int = 60
     share_of_limit: float | None = None
+    integrator: str | None = None
     model: Mapping[str, int] = field(default_factory=dict)
 
     @property
@@ -34,8 +37,14 @@ def extremes(lined: str, rigid: str) -> list[Extreme]:
     """All cases; `lined` and `rigid`: names of a scene with a lining and of one without."""
     both = (lined, rigid)
     cases = [
-        Extreme("step over limit", f"{share:g}", scene, share_of_limit=share, revolutions=20)
-        for share in (0.01, 0.1, 0.5, 0.9, 0.99, 1.0, 1.05)
+        Extreme(
+            f"{integrator} step over limit", f"{share:g}", scene, share_of_limit=share, integrator=integrator, revolutions=20
+        )
+        for integrator, shares in (
+            (CENTRAL_DIFFERENCE, (0.01, 0.1, 0.5, 0.9, 0.99, 1.0, 1.05)),
+            (EXACT_MODAL, (0.1, 1.0, 3.0, 10.0, 100.0)),
+        )
+        for share in shares
         for scene in both
     ]
     cases += [
@@ -72,7 +81,7 @@ def extremes(lined: str, rigid: str) -> list[Extreme]:
         for value in values
     ]
     cases += [
-        Extreme(what, f"{value:g}", scene, model={key: value}, share_of_limit=0.4)
+        Extreme(what, f"{value:g}", scene, model={key: value}, share_of_limit=0.4, integrator=CENTRAL_DIFFERENCE)
         for what, key, values in (
             ("boundary nodes", "boundary_nodes", (1, 2, 20, 40)),
             ("fixed-interface modes", "fixed_interface_modes", (0, 60, 200)),

@@ -12,6 +12,7 @@ import xarray as xr
 from r37core.contact.scene import Scene
 from r37core.dataset_file import about
 from r37core.march.choice import MarchChoice
+from r37core.march.integrators import CENTRAL_DIFFERENCE, EXACT_MODAL
 from r37core.march.simulate import UnstableStepError
 from r37core.results.stress import StressRecovery
 from r37core.rom.contact_model import ContactModel
@@ -42,8 +43,10 @@ def vary(knob: str, value: str, scene: Scene, choice: MarchChoice) -> tuple[Scen
     """
     if knob in MODEL_KNOBS:
         return scene, choice
-    if knob == "time_step":
-        return scene, replace(choice, time_step=float(value))
+    if knob == "central_difference_step":
+        return scene, replace(choice, time_step=float(value), integrator=CENTRAL_DIFFERENCE)
+    if knob == "exact_modal_step":
+        return scene, replace(choice, time_step=float(value), integrator=EXACT_MODAL)
     if knob == "revolutions":
         return scene, replace(choice, revolutions=int(value))
     if knob == "highest_frequency":
