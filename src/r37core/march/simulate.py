@@ -38,7 +38,8 @@ OUTPUTS = len(TIP_POINTS) * len(DIRECTIONS)
 class MarchState:
     """Where a run stands; a run may be stopped after any revolution and go on from its state.
 
-    `displacement` u_n and `increment` u_n - u_{n-1}, shape (modes,), in the speed's modes; `wear` (m), shape (rings, bars).
+    `displacement` u_n and `increment` u_n - u_{n-1}, shape (modes,), in the speed's modes; `wear` (m), shape (rings, bars);
+    `on_casing`, shape (nodes,): whether a node touched the casing in the last step; `totals`: see layout.TOTALS.
     """
 
     displacement: np.ndarray
