@@ -31,6 +31,7 @@ SOURCES = (
     "lanes.py",
     "native.py",
     "contact/exact_gap.py",
+    "contact/casing.py",
     "contact/complementarity.py",
     "contact/friction.py",
     "contact/lining.py",
