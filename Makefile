@@ -20,9 +20,8 @@ lint: $(VENV)/.ready
 	$(BIN)/mypy
 	$(BIN)/snakemake --lint
 
-# the march against plainer ways to write it; numba is only for these
+# the march against plainer ways to write it
 bench: $(VENV)/.ready
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[bench]'
 	$(BIN)/snakemake results/Ref/contact_pressure_edge.npz --cores $(CORES) $(if $(FIDELITY),--config fidelity=$(FIDELITY))
 	$(BIN)/python benchmarks/march_speed.py $(BENCH)
 

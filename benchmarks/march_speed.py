@@ -20,7 +20,6 @@ from plain_march import PlainProblem
 
 from r37core.contact.casing import Casing
 from r37core.contact.scene import Friction, Lining, Scene
-from r37core.march import kernel
 from r37core.march.choice import MarchChoice
 from r37core.march.simulate import March
 from r37core.rom.contact_model import read_contact_model
@@ -101,8 +100,8 @@ def compare(model, scene, name, speed):
             contact = (trial.totals - state.totals) if way == WAYS[4] else None
     for way in WAYS[1:]:
         np.testing.assert_allclose(answers[way], answers[WAYS[3]], rtol=0, atol=1e-9 * np.abs(answers[WAYS[3]]).max())
-    share = float(contact[kernel.STEPS_IN_CONTACT] / contact[kernel.STEPS])
-    jumped = float(contact[kernel.STEPS_JUMPED] / contact[kernel.STEPS])
+    share = float(contact["steps_in_contact"] / contact["steps"])
+    jumped = float(contact["steps_jumped"] / contact["steps"])
     return {"scene": name, "speed": speed, "contact": share, "jumped": jumped, "ns_per_step": best}
 
 
@@ -117,8 +116,8 @@ def over_grid(model, scene):
             march.advance(state, 8)
             spent[jumps] += time.perf_counter() - start
         done = state.totals - before
-        steps += done[kernel.STEPS]
-        contact += done[kernel.STEPS_IN_CONTACT]
+        steps += done["steps"]
+        contact += done["steps_in_contact"]
     return {"contact": contact / steps, "every_step_ns": spent[False] * 1e9 / steps, "jumps_ns": spent[True] * 1e9 / steps}
 
 

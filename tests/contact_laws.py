@@ -1,41 +1,62 @@
-"""The compiled laws of contact, called one at a time."""
+"""The laws of contact as the march compiles them, called one at a time."""
 
-import ctypes
-from pathlib import Path
+from dataclasses import fields
 
 import numpy as np
+from numba import njit
 
-from r37core.native import load_library
+from r37core.alignment import aligned_record, aligned_zeros, padded
+from r37core.contact import complementarity, friction, lining
+from r37core.lanes import OPTIONS, inlined, load, store
+from r37core.march.layout import LINING, problem
 
-
-def _library(nodes):
-    library = load_library(Path(__file__).parent / "contact_laws.c", {"NODES": nodes, "REAL": "double"})
-    number = ctypes.c_double
-    library.press_bar.restype = library.complement.restype = number
-    library.press_bar.argtypes = [number, ctypes.POINTER(number), ctypes.c_void_p]
-    library.direct_friction.argtypes = [number, number, number, ctypes.c_void_p]
-    library.complement.argtypes = [ctypes.c_void_p] * 4
-    return library
+_return_mapping, _friction_direction = inlined(lining.return_mapping), inlined(friction.friction_direction)
 
 
-def return_mapping(penetration, wear, *bar):
-    """Stress and new wear of a bar: thickness, elastic and plastic modulus, yield stress."""
-    worn = ctypes.c_double(wear)
-    numbers = np.array(bar, dtype=float)
-    stress = _library(1).press_bar(penetration, ctypes.byref(worn), numbers.ctypes.data)
-    return stress, worn.value
+@njit(**OPTIONS)
+def _press(penetration, wear, law):
+    return _return_mapping(penetration, wear, law[0])
 
 
-def friction_direction(rotation, tangential, axial):
-    answer = np.empty(2)
-    _library(1).direct_friction(rotation, tangential, axial, answer.ctypes.data)
-    return tuple(answer)
+@njit(**OPTIONS)
+def _direct(room):
+    m = room[0]
+    tangential, meridional = _friction_direction(load(m.values, (0, 0)), load(m.values, (1, 0)))
+    store(m.values, (0, 0), tangential)
+    store(m.values, (1, 0), meridional)
+
+
+@njit(**OPTIONS)
+def _complement(room):
+    return complementarity.solve_complementarity(room[0].problem, room[0].columns)
+
+
+def return_mapping(penetration, wear, bar):
+    """Stress and new wear of a bar with the numbers of a lining."""
+    law = np.zeros(1, LINING)
+    for field in fields(bar):
+        law[field.name] = getattr(bar, field.name) or 0.0
+    return _press(penetration, wear, law)
+
+
+def friction_direction(tangential, meridional):
+    """Tangential and meridional part of the friction's direction, from those of the sliding."""
+    room = aligned_zeros((1,), aligned_record([("values", np.float64, (2, padded(1)))]))
+    room[0]["values"][:, 0] = tangential, meridional
+    _direct(room)
+    return tuple(room[0]["values"][:, 0])
 
 
 def solve_complementarity(matrix, gap, guess=None):
     """Multipliers and the largest violation."""
-    matrix, gap = np.ascontiguousarray(matrix), np.ascontiguousarray(gap)
-    guess = np.zeros(len(gap)) if guess is None else np.ascontiguousarray(guess, dtype=float)
-    multipliers = np.ones(len(gap))
-    addresses = [array.ctypes.data for array in (matrix, gap, guess, multipliers)]
-    return multipliers, _library(len(gap)).complement(*addresses)
+    count, nodes = len(gap), padded(len(gap))
+    room = aligned_zeros((1,), aligned_record([("problem", problem(nodes), ()), ("columns", np.float64, (nodes, nodes))]))
+    p = room[0]["problem"]
+    room[0]["columns"][:count, :count] = np.transpose(matrix)
+    p["diagonal"] = 1.0
+    p["diagonal"][:count], p["gap"][:count] = np.diag(matrix), gap
+    if guess is None or not np.any(guess):
+        guess = np.asarray(gap) < 0.0
+    p["touching"] = np.packbits(np.pad(guess, (0, nodes - count)), bitorder="little")
+    violation = _complement(room)
+    return p["multiplier"][:count].copy(), violation

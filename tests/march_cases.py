@@ -24,3 +24,20 @@ def oscillator(frequency, radius=0.25):
         tip_rows=np.array([[[1.0], [1.0]], [[0.0], [0.0]], [[0.0], [0.0]]]),
         to_reduced=np.eye(1),
     )
+
+
+def random_model(nodes):
+    """A blade of so many contact nodes on a cone, each moving on its own."""
+    generator = np.random.default_rng(nodes)
+    modes = max(nodes, 8) + 16
+    frequencies = np.sort(generator.uniform(5e3, 3e6, modes))
+    return ContactModel(
+        squared_frequencies=frequencies**2,
+        stiffness_per_square=np.zeros((modes, modes)),
+        rows=generator.standard_normal((3, nodes, modes)) * [[[1.0]], [[0.5]], [[0.5]]] * 3.0,
+        radius=np.linspace(0.252, 0.245, nodes),
+        theta=np.linspace(0.1, -0.05, nodes),
+        tip_cone_angle=-0.26,
+        tip_rows=generator.standard_normal((3, 2, modes)),
+        to_reduced=np.eye(modes),
+    )

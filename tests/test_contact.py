@@ -8,10 +8,12 @@ from contact_laws import friction_direction, return_mapping, solve_complementari
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from r37core.contact.casing import Casing
+from r37core.contact import lining
+from r37core.contact.casing import Casing, casing_axes
+from r37core.contact.exact_gap import displaced_position, lobe_shape
 from r37core.contact.scene import Lining
 
-BAR = (5e-3, 20e9, 5e9, 1e6)  # thickness, moduli, yield stress
+BAR = Lining(5e-3, 20e9, 5e9, 1e6, bar_width=1e-3)
 
 
 def test_casing_of_the_benchmark():
@@ -38,27 +40,28 @@ def test_circular_casing_and_casing_deformed_from_the_start():
 
 
 def test_bar_area():
-    lining = Lining(5e-3, 20e9, 5e9, 1.5, bar_width=1e-3)
-    assert lining.area(0.2523) == pytest.approx(1.585e-7, rel=1e-3)
+    bar = Lining(5e-3, 20e9, 5e9, 1.5, bar_width=1e-3)
+    assert bar.area(0.2523) == pytest.approx(1.585e-7, rel=1e-3)
     assert Lining(5e-3, 20e9, 5e9, 1.5, bar_width=1e-3, bar_area=3e-6).area(0.2523) == 3e-6
 
 
 def test_bar_pushed_released_and_pushed_again():
     """By hand: E = 20, K = 5 GPa, 1 MPa to yield, 5 mm thick."""
-    stress, wear = return_mapping(2e-7, 0.0, *BAR)  # strain 4e-5: 0.8 MPa, elastic
+    stress, wear = return_mapping(2e-7, 0.0, BAR)  # strain 4e-5: 0.8 MPa, elastic
     assert (stress, wear) == (pytest.approx(0.8e6), 0.0)
-    stress, wear = return_mapping(1e-6, wear, *BAR)  # trial 4 MPa; plastic strain (4 - 1)e6/25e9 = 1.2e-4
+    stress, wear = return_mapping(1e-6, wear, BAR)  # trial 4 MPa; plastic strain (4 - 1)e6/25e9 = 1.2e-4
     assert wear == pytest.approx(1.2e-4 * 5e-3)
     assert stress == pytest.approx(4e6 - 20e9 * 1.2e-4)  # 1.6 MPa = 1 MPa + 5 GPa * 1.2e-4
     worn = wear
-    assert return_mapping(5e-7, worn, *BAR) == (0.0, worn)  # released: the bar is shorter by its wear
-    stress, wear = return_mapping(8e-7, worn, *BAR)  # reloaded elastically below the hardened yield
+    assert return_mapping(5e-7, worn, BAR) == (0.0, worn)  # released: the bar is shorter by its wear
+    stress, wear = return_mapping(8e-7, worn, BAR)  # reloaded elastically below the hardened yield
     assert (stress, wear) == (pytest.approx(20e9 * (8e-7 - worn) / 5e-3), worn)
-    stress, wear = return_mapping(2e-6, worn, *BAR)  # same as if pushed there at once
-    at_once = return_mapping(2e-6, 0.0, *BAR)
+    stress, wear = return_mapping(2e-6, worn, BAR)  # same as if pushed there at once
+    at_once = return_mapping(2e-6, 0.0, BAR)
     assert (stress, wear) == (pytest.approx(at_once[0]), pytest.approx(at_once[1]))
 
 
+@settings(deadline=None)
 @given(
     st.lists(st.floats(-1e-3, 8e-3), min_size=1, max_size=30),
     st.floats(1e6, 1e12),
@@ -66,20 +69,38 @@ def test_bar_pushed_released_and_pushed_again():
     st.floats(0.0, 1e9),
 )
 def test_wear_never_shrinks_and_a_bar_never_pulls(pushes, elastic, plastic, yield_stress):
-    wear = 0.0
+    wear, bar = 0.0, Lining(5e-3, elastic, plastic, yield_stress, bar_width=1e-3)
     for push in pushes:
-        stress, new = return_mapping(push, wear, 5e-3, elastic, plastic, yield_stress)
+        stress, new = return_mapping(push, wear, bar)
+        assert (stress, new) == pytest.approx(lining.return_mapping(push, wear, bar), rel=1e-12)
         assert stress >= 0.0
         assert wear <= new <= 5e-3
         wear = new
 
 
 def test_friction_opposes_sliding():
-    assert friction_direction(-250.0, 0.0, 0.0) == (1.0, 0.0)
-    assert friction_direction(250.0, 0.0, 0.0) == (-1.0, 0.0)
-    tangential, axial = friction_direction(-250.0, 50.0, 100.0)
-    assert (tangential, axial) == (pytest.approx(200 / np.hypot(200, 100)), pytest.approx(-100 / np.hypot(200, 100)))
-    assert friction_direction(-1.0, 1.0, 0.0) == (0.0, 0.0)
+    assert friction_direction(-250.0, 0.0) == (1.0, 0.0)
+    assert friction_direction(250.0, 0.0) == (-1.0, 0.0)
+    tangential, meridional = friction_direction(-200.0, 100.0)
+    assert (tangential, meridional) == (pytest.approx(200 / np.hypot(200, 100)), pytest.approx(-100 / np.hypot(200, 100)))
+    assert friction_direction(0.0, 0.0) == (0.0, 0.0)
+
+
+def test_displaced_position_by_geometry():
+    """Against the distance from the cone of the point moved in space, cylindrical coordinates and all."""
+    radius, alpha = 0.25, -0.26
+    radial, tangential, axial = 2e-3, 15e-3, -1e-3
+    normal, _, meridional = casing_axes(np.array([radial, tangential, axial]), alpha)
+    position, turn = displaced_position(normal, tangential, meridional, radius, np.cos(alpha), np.sin(alpha))
+    point = np.array([radius + radial, tangential])
+    from_cone = np.cos(alpha) * (np.linalg.norm(point) - radius) - np.sin(alpha) * axial
+    assert position == pytest.approx(from_cone, rel=1e-13)
+    assert turn == pytest.approx(np.arctan2(*point[::-1]))
+
+
+def test_lobes_as_the_casing_has_them():
+    theta, casing = np.linspace(-7.0, 7.0, 101), Casing(1e-3, lobes=3, width=0.2)
+    np.testing.assert_array_equal(lobe_shape(theta, 2.0 * np.pi / 3, 0.2), casing.shape(theta))
 
 
 def brute_force(matrix, gap):

@@ -1,88 +1,154 @@
-"""Compiling: kept, shared by processes, and clear errors."""
+"""Object code: made once, kept, shared by processes, checked, and loaded without its compiler."""
 
+import ast
+import ctypes
+import os
 import subprocess
 import sys
-from pathlib import Path
+from itertools import pairwise
 
+import numpy as np
 import pytest
+from march_cases import DIRECT, LINING, oscillator
 
 from r37core import native
-from r37core.native import CompilerError, load_library
+from r37core.contact.scene import Scene
+from r37core.march import kernel
+from r37core.march.choice import MarchChoice
+from r37core.march.layout import Kind, layout_of, march_record
+from r37core.march.simulate import March
+from r37core.native import ObjectCodeError, cached_object, load_function, object_code
 
-TWICE = "#include <stdint.h>\nint64_t twice(int64_t x) { return FACTOR * x; }\n"
+TWICE = """
+define i64 @odd_name(i64 %x) {
+  %y = mul i64 %x, 2
+  ret i64 %y
+}
+"""
 
 
 @pytest.fixture
-def source(tmp_path):
-    file = tmp_path / "twice.c"
-    file.write_text(TWICE)
-    return file
-
-
-def test_compiled_once(source):
-    assert load_library(source, {"FACTOR": 2}).twice(21) == 42
-    assert load_library(source, {"FACTOR": 3}).twice(21) == 63
-    libraries = sorted((source.parent / "__pycache__").iterdir())
-    assert len(libraries) == 2
-    before = [file.stat().st_mtime_ns for file in libraries]
-    load_library(source, {"FACTOR": 2})
-    assert [file.stat().st_mtime_ns for file in sorted((source.parent / "__pycache__").iterdir())] == before
-
-
-def test_an_edited_source_is_compiled_again(source):
-    assert load_library(source, {"FACTOR": 2}).twice(1) == 2
-    source.write_text(TWICE.replace("FACTOR * x", "FACTOR * x + 1"))
-    assert load_library(source, {"FACTOR": 2}).twice(1) == 3
-
-
-def test_side_by_side(source):
-    """Processes that compile the same library at once all get a whole one."""
-    lines = [
-        "from pathlib import Path",
-        "from r37core.native import load_library",
-        f"print(load_library(Path({str(source)!r}), {{'FACTOR': 5}}).twice(2))",
-    ]
-    command = "\n".join(lines)
-    running = [subprocess.Popen([sys.executable, "-c", command], stdout=subprocess.PIPE, text=True) for _ in range(4)]
-    assert [process.communicate()[0].strip() for process in running] == ["10"] * 4
-    assert len(list((source.parent / "__pycache__").iterdir())) == 1
-
-
-def test_no_compiler(source, monkeypatch):
-    monkeypatch.setenv("CC", "no-such-compiler")
-    with pytest.raises(CompilerError, match=r"'no-such-compiler' not found.*environment variable CC"):
-        load_library(source, {"FACTOR": 2})
-
-
-def test_an_error_of_the_compiler_is_shown_and_leaves_nothing(source):
-    with pytest.raises(CompilerError, match=r"(?s)twice\.c.*FACTOR"):
-        load_library(source, {})
-    assert not list((source.parent / "__pycache__").iterdir())
-
-
-def test_a_package_that_cannot_be_written(source, monkeypatch, tmp_path):
-    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+def cache(monkeypatch, tmp_path):
+    """An empty cache folder, as of a package that cannot be written."""
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
     monkeypatch.setattr(native, "_writable", lambda _: False)
-    assert load_library(source, {"FACTOR": 2}).twice(4) == 8
-    assert len(list((tmp_path / "cache/r37").iterdir())) == 1
+    return tmp_path / "r37"
 
 
-def test_the_c_sources_have_no_warnings(root):
-    source = Path(root / "src/r37core/march/march.c")
-    scene = ["LINING", "FRICTION", "EXACT_GAP", "LOSS"]
-    for given in (0, 1):
-        flags = [f"-DHAS_{name}={given}" for name in scene] + ["-DNODES=8", "-DCHUNKS=3", "-DCOARSE=8", "-DREAL=double"]
-        command = [
-            "cc",
-            "-std=gnu11",
-            "-O2",
-            "-Wall",
-            "-Wextra",
-            "-Wno-psabi",
-            "-fsyntax-only",
-            f"-I{root / 'src/r37core'}",
-            *flags,
-            str(source),
-        ]
-        done = subprocess.run(command, capture_output=True, text=True, check=True)
-        assert done.stderr == ""
+def make():
+    return object_code(TWICE, "odd_name", "twice")
+
+
+def twice(code):
+    return load_function(code, "twice", ctypes.c_int64, ctypes.c_int64)(21)
+
+
+def test_made_once(cache):
+    made = []
+
+    def build():
+        made.append(make())
+        return made[-1]
+
+    for _ in range(2):
+        assert twice(cached_object("twice", (), 1, build)) == 42
+    assert len(made) == 1
+    cached_object("twice", (), 2, build)
+    assert len(made) == 2
+    assert len(list(cache.iterdir())) == 2
+
+
+def test_an_edited_source_or_another_processor_is_made_again(cache, monkeypatch, tmp_path):
+    monkeypatch.setattr(native, "_PACKAGE", tmp_path)
+    (tmp_path / "law.py").write_text("1")
+    cached_object("twice", ["law.py"], None, make)
+    (tmp_path / "law.py").write_text("2")
+    cached_object("twice", ["law.py"], None, make)
+    assert len(list(cache.iterdir())) == 2
+    monkeypatch.setenv("NUMBA_CPU_NAME", "x86-64-v3")
+    cached_object("twice", ["law.py"], None, lambda: b"")
+    assert len(list(cache.iterdir())) == 3
+
+
+@pytest.mark.parametrize("damage", [lambda c: c[:100], lambda c: c[:-1], lambda c: b"", lambda c: c[:80] + b"?" + c[81:]])
+def test_a_damaged_file_is_made_again(cache, damage):
+    cached_object("twice", (), None, make)
+    (file,) = cache.iterdir()
+    whole = file.read_bytes()
+    file.write_bytes(damage(whole))
+    assert twice(cached_object("twice", (), None, make)) == 42
+    assert file.read_bytes() == whole
+
+
+def test_what_only_the_compiler_has_is_refused():
+    needing = "declare i64 @no_such_thing(i64)\n" + TWICE.replace("mul i64 %x, 2", "call i64 @no_such_thing(i64 %x)")
+    with pytest.raises(ObjectCodeError, match="no_such_thing"):
+        object_code(needing, "odd_name", "twice")
+
+
+def test_side_by_side(tmp_path):
+    """Processes that make the same object at once all get a whole one, though the package cannot be written."""
+    code = (
+        "import ctypes\nfrom r37core import native\nnative._writable = lambda _: False\n"
+        f"assembly = {TWICE!r}\n"
+        "code = native.cached_object('twice', (), 5, lambda: native.object_code(assembly, 'odd_name', 'twice'))\n"
+        "print(native.load_function(code, 'twice', ctypes.c_int64, ctypes.c_int64)(5))"
+    )
+    environment = os.environ | {"XDG_CACHE_HOME": str(tmp_path)}
+    command = [sys.executable, "-c", code]
+    running = [subprocess.Popen(command, stdout=subprocess.PIPE, text=True, env=environment) for _ in range(4)]
+    assert [process.communicate()[0].strip() for process in running] == ["10"] * 4
+    assert len(list((tmp_path / "r37").iterdir())) == 1
+
+
+def test_a_job_does_not_import_numba(contact, tmp_path, root):
+    """With the march compiled, a simulation's process never sees its compiler, nor SciPy."""
+    from r37core.rom.contact_model import write_contact_model
+
+    write_contact_model(contact, tmp_path / "contact.npz")
+    March(contact, 1000.0, DIRECT, MarchChoice(2e-7, 1, 62)).compile()
+    code = (
+        "import sys; sys.path.insert(0, 'tests')\n"
+        "from march_cases import DIRECT\nfrom r37core.march.choice import MarchChoice\n"
+        "from r37core.march.speed_run import run_speed\nfrom r37core.rom.contact_model import read_contact_model\n"
+        f"model = read_contact_model({str(tmp_path / 'contact.npz')!r})\n"
+        "run_speed(model, 1000.0, DIRECT, MarchChoice(2e-7, 2, 62), ('spectrum',), 10, 1, 100)\n"
+        "assert not {'numba', 'scipy'} & set(sys.modules)"
+    )
+    subprocess.run([sys.executable, "-c", code], check=True, cwd=root)
+
+
+def test_sources_of_the_march_are_all_that_it_is_compiled_from(root):
+    """What the compiled modules import of the package is itself among the sources."""
+    core = root / "src/r37core"
+    for source in kernel.SOURCES:
+        folder = (core / source).parent.relative_to(core)
+        for node in ast.walk(ast.parse((core / source).read_text())):
+            if not isinstance(node, ast.ImportFrom) or not (node.level or (node.module or "").startswith("r37core")):
+                continue
+            module = (node.module or "").removeprefix("r37core").strip(".").replace(".", "/")
+            names = [f"{folder / module if node.level else module}.py"]
+            if not (core / names[0]).exists():
+                names = [f"{module}/{alias.name}.py" for alias in node.names]
+            assert set(names) <= set(kernel.SOURCES), source
+
+
+def test_arrays_of_the_record_are_aligned_and_apart():
+    kind = march_record(layout_of(88, 9, 6))
+    places = sorted((offset, offset + field.itemsize) for field, offset in kind.fields.values())
+    assert all(end <= start for (_, end), (start, _) in pairwise(places))
+    for name, (field, offset) in kind.fields.items():
+        assert offset % (64 if field.shape or field.names else 8) == 0, name
+
+
+def test_a_parameter_of_the_lining_reaches_the_law():
+    """Every field of Lining is a number of the record, under its name."""
+    march = March(oscillator(6000.0), 1000.0, Scene(DIRECT.casing, LINING), MarchChoice(1e-6, 1, 8))
+    compiled = march._engine()
+    for name in ("thickness", "elastic_modulus", "plastic_modulus", "yield_stress", "bar_width", "bars", "shared_ring"):
+        assert compiled._record[0]["lining"][name] == getattr(LINING, name)
+    assert np.isnan(compiled._record[0]["lining"]["bar_area"])
+
+
+def test_kinds_are_told_apart():
+    assert len({repr((layout_of(88, 8, 6), Kind(*flags))) for flags in ([True] * 6, [False] * 6)}) == 2

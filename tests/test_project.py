@@ -9,6 +9,8 @@ import yaml
 LAYERS = [
     "io",
     "dataset_file",
+    "alignment",
+    "lanes",
     "native",
     "yaml_file",
     "speeds",

@@ -100,7 +100,7 @@ def test_knobs_turn_what_they_say():
     exact = vary("exact_modal_step", "8e-07", ABRADABLE, choice)[1]
     assert exact == replace(choice, time_step=8e-7, integrator="exact_modal")
     assert vary("friction_form", "constant", ABRADABLE, choice)[0].friction.vector is False
-    assert vary("precision", "single", DIRECT, choice) == (DIRECT, replace(choice, precision="single"))
+    assert vary("highest_frequency", "2e4", DIRECT, choice) == (DIRECT, replace(choice, highest_frequency=2e4))
     assert vary("bars", "300", DIRECT, choice) == (DIRECT, choice)
     with pytest.raises(ValueError, match="unknown knob colour"):
         vary("colour", "red", DIRECT, choice)
@@ -143,15 +143,6 @@ def test_every_extreme_has_a_name_of_its_own():
     assert len(names) == len(set(names)) > 90
 
 
-def test_single_precision_is_close_for_a_few_revolutions(contact):
-    results = []
-    for precision in ("double", "single"):
-        march = March(contact, 1500.0, ABRADABLE, MarchChoice(2e-7, 2, 62, precision=precision))
-        state = march.start()
-        results.append(march.advance(state, 2).samples)
-    assert 0.0 < np.abs(results[1] - results[0]).max() < 1e-3 * np.abs(results[0]).max()
-
-
 def test_modes_that_are_left_out(contact):
     march = March(contact, 1500.0, DIRECT, MarchChoice(2e-7, 1, 62, highest_frequency=2e4))
     assert march.frequencies[-1] <= 2 * np.pi * 2e4
@@ -163,7 +154,7 @@ def test_tradeoff_of_a_small_sweep(project):
     text = config.read_text()
     start, end = text.index("    knobs:"), len(text)
     knobs = "    knobs:\n      level: { values: [tiny, draft], reference: draft }\n"
-    knobs += "      precision: { values: [single, double], reference: double }\n"
+    knobs += "      bars: { values: [3000, 10000], reference: 10000 }\n"
     knobs += "      revolutions: { values: [2, 3, 4], reference: 4 }\n"
     config.write_text(text[:start].replace("base: standard", "base: tiny") + knobs + text[end:])
     snakemake(project, "growth", "--cores", "2")
@@ -171,7 +162,7 @@ def test_tradeoff_of_a_small_sweep(project):
     levels = (project / "results/studies/levels.md").read_text()
     assert "| `tiny` |" in levels
     assert "Recommended for a tolerance of 5%: `" in levels
-    assert "### precision (reference: double)" in table
+    assert "### bars (reference: 10000)" in table
     with xr.open_dataset(project / "results/studies/tradeoff.nc") as dataset:
         assert dataset.sizes["case"] == 7
         assert np.isfinite(dataset["cpu_s"]).all()

@@ -114,7 +114,6 @@ def march_of_level(march: Mapping[str, Any]) -> MarchChoice:
         snapshots_per_revolution=march["stress_instants"],
         snapshot_revolutions=1,
         energy=True,
-        precision=march["precision"],
         highest_frequency=march.get("highest_frequency_hz", math.inf),
         integrator=march["integrator"],
         engine=march["engine"],

@@ -1,7 +1,7 @@
-"""Compiling C sources for this machine's processor and loading them. Light: the simulation jobs import it.
+"""Object code for this machine's processor: made once, kept, checked, and loaded without its compiler.
 
-A library is built once for its sources, its definitions, the compiler and the processor, and kept beside the package, or
-in the user's cache folder where the package cannot be written.
+Light: the simulation jobs import it. An object is kept beside the package, or in the user's cache folder where the package
+cannot be written, under a name made of everything it depends on. A file that is cut short or damaged is made again.
 """
 
 from __future__ import annotations
@@ -9,56 +9,113 @@ from __future__ import annotations
 import ctypes
 import hashlib
 import os
-import platform
-import shlex
-import shutil
-import subprocess
 import tempfile
-from collections.abc import Mapping
+from collections.abc import Callable, Iterable
+from importlib.metadata import version
 from pathlib import Path
+from typing import Any
 
-# sums may be reordered and contracted, so that they vectorise; NaN and infinity keep their meaning
-_FLAGS = "-std=gnu11 -O3 -march=native -fPIC -shared -fno-math-errno -fno-trapping-math -fno-signed-zeros -fassociative-math"
-
-
-class CompilerError(RuntimeError):
-    """No C compiler, or one that fails."""
-
+import llvmlite.binding as llvm
 
 _PACKAGE = Path(__file__).parent
+_DIGEST_BYTES = 32
 
 
-def load_library(source: Path, definitions: Mapping[str, str | int]) -> ctypes.CDLL:
-    """The shared library of a C file, compiled with `-Dname=value` for each definition if it is not there yet.
+class ObjectCodeError(RuntimeError):
+    """Object code that needs what is not there."""
 
-    The file may include the package's headers, as "march/flight.h". Raises CompilerError.
+
+def processor() -> tuple[str, str]:
+    """Name and features that code is made for: this machine's, or numba's NUMBA_CPU_NAME and NUMBA_CPU_FEATURES."""
+    named = os.environ.get("NUMBA_CPU_NAME")
+    name = llvm.get_host_cpu_name() if named in (None, "host") else named
+    features = os.environ.get("NUMBA_CPU_FEATURES")
+    if features is None:
+        features = llvm.get_host_cpu_features().flatten() if named in (None, "host") else ""
+    return str(name), features
+
+
+def cached_object(name: str, sources: Iterable[str], about: object, build: Callable[[], bytes]) -> bytes:
+    """The object code called `name`; `build` is called when it is not there, or damaged.
+
+    `sources`: files of the package that it is made from; `about`: what else it depends on, told apart by its repr. The
+    compiler's versions and the processor are taken along.
     """
-    compiler = shlex.split(os.environ.get("CC", "cc"))
-    flags = _FLAGS.split() + [f"-D{name}={value}" for name, value in sorted(definitions.items())]
-    flags.append(f"-I{_PACKAGE}")
-    version = hashlib.sha256(repr((compiler, flags, _processor())).encode())
-    for file in [source, *sorted(_PACKAGE.glob("*/*.h"))]:
-        version.update(file.read_bytes())
-    name = f"{source.stem}-{version.hexdigest()[:16]}.so"
-    folder = _cache(source)
-    library = folder / name
-    if not library.exists():
-        _compile(source, [*compiler, *flags], library)
-    return ctypes.CDLL(str(library))
+    key = hashlib.sha256(repr((name, about, version("numba"), version("llvmlite"), processor())).encode())
+    for source in sources:
+        key.update((_PACKAGE / source).read_bytes())
+    file = _cache() / f"{name}-{key.hexdigest()[:16]}.o"
+    code = _read(file)
+    if code is None:
+        code = build()
+        _write(code, file)
+    return code
 
 
-def _processor() -> str:
-    """What the compiler's -march=native depends on."""
+def object_code(assembly: str, symbol: str, name: str) -> bytes:
+    """Object code for the processor from LLVM's assembly language, its function `symbol` renamed to `name`.
+
+    Raises ObjectCodeError if it needs functions that a process without the compiler lacks.
+    """
+    _start_llvm()
+    module = llvm.parse_assembly(assembly)
+    module.verify()
+    module.get_function(symbol).name = name
+    outside = [f.name for f in module.functions if f.is_declaration and not f.name.startswith("llvm.")]
+    missing = [function for function in outside if not _in_process(function)]
+    if missing:
+        raise ObjectCodeError(f"{name} needs {', '.join(missing)}, which only its compiler has")
+    return _target_machine(opt=3, reloc="pic", codemodel="small").emit_object(module)
+
+
+def load_function(code: bytes, name: str, result: Any, *arguments: Any) -> Callable:
+    """A function of some object code, called through ctypes."""
+    _start_llvm()
+    engine = llvm.create_mcjit_compiler(llvm.parse_assembly(""), _target_machine())
+    engine.add_object_file(llvm.ObjectFileRef.from_data(code))
+    engine.finalize_object()
+    function = ctypes.CFUNCTYPE(result, *arguments)(engine.get_function_address(name))
+    function.engine = engine  # type: ignore[attr-defined]  # the code lives as long as its engine
+    return function
+
+
+def _start_llvm() -> None:
+    llvm.initialize_native_target()
+    llvm.initialize_native_asmprinter()
+
+
+def _target_machine(**options: Any) -> llvm.TargetMachine:
+    cpu, features = processor()
+    return llvm.Target.from_default_triple().create_target_machine(cpu=cpu, features=features, **options)
+
+
+def _in_process(function: str) -> bool:
+    return hasattr(ctypes.CDLL(None), function)
+
+
+def _read(file: Path) -> bytes | None:
+    """Content of a kept file; None if it is not there or not what was written."""
     try:
-        lines = Path("/proc/cpuinfo").read_text(encoding="ascii", errors="replace").splitlines()
-    except OSError:
-        lines = []
-    features = next((line for line in lines if line.lower().startswith(("flags", "features"))), "")
-    return f"{platform.machine()} {platform.processor()} {features}"
+        content = file.read_bytes()
+    except FileNotFoundError:
+        return None
+    digest, code = content[:_DIGEST_BYTES], content[_DIGEST_BYTES:]
+    return code if digest == hashlib.sha256(code).digest() else None
 
 
-def _cache(source: Path) -> Path:
-    beside = source.parent / "__pycache__"
+def _write(code: bytes, file: Path) -> None:
+    """Write to a file of its own and move it into place, so that processes may do so side by side."""
+    handle, partial = tempfile.mkstemp(suffix=".partial", dir=file.parent)
+    try:
+        with os.fdopen(handle, "wb") as stream:
+            stream.write(hashlib.sha256(code).digest() + code)
+        os.replace(partial, file)
+    finally:
+        Path(partial).unlink(missing_ok=True)
+
+
+def _cache() -> Path:
+    beside = _PACKAGE / "__pycache__"
     if _writable(beside):
         return beside
     users = Path(os.environ.get("XDG_CACHE_HOME", Path.home() / ".cache")) / "r37"
@@ -72,21 +129,3 @@ def _writable(folder: Path) -> bool:
     except OSError:
         return False
     return os.access(folder, os.W_OK)
-
-
-def _compile(source: Path, command: list[str], library: Path) -> None:
-    """Compile to a file of its own and move it into place, so that processes may do so side by side."""
-    if shutil.which(command[0]) is None:
-        raise CompilerError(
-            f"C compiler {command[0]!r} not found: the simulations are compiled for this machine; install one "
-            "(on Debian: apt-get install gcc libc6-dev) or name it in the environment variable CC"
-        )
-    handle, partial = tempfile.mkstemp(suffix=".so", dir=library.parent)
-    os.close(handle)
-    try:
-        done = subprocess.run([*command, "-o", partial, str(source), "-lm"], capture_output=True, text=True, check=False)
-        if done.returncode != 0:
-            raise CompilerError(f"{' '.join(command)} failed on {source.name}:\n{done.stderr.strip()}")
-        os.replace(partial, library)
-    finally:
-        Path(partial).unlink(missing_ok=True)

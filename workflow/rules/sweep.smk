@@ -35,7 +35,7 @@ rule prepare_march:
         choice=lambda wildcards: asdict(
             settings.march_choice(wildcards.scene, settings.structure["maximum_speed_rad_s"])
         ),
-        code=code("native.py", "contact/*.[ch]", "march/*.[ch]", "march/simulate.py", "march/kernel.py"),
+        code=code("alignment.py", "lanes.py", "native.py", "contact/*.py", "march/*.py"),
     script:
         "../scripts/prepare_march.py"
 
@@ -57,7 +57,7 @@ rule simulate:
         results=lambda wildcards: settings.scenes[wildcards.scene].results,
         kept=kept_of_a_run(),
         provenance=sweep_provenance,
-        code=code("io.py", "native.py", "contact/*.*", "march/*.*", "rom/contact_model.py"),
+        code=code("*.py", "contact/*.py", "march/*.py", "rom/contact_model.py"),
     script:
         "../scripts/simulate.py"
 

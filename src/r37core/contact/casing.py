@@ -6,6 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .exact_gap import lobe_shape
+
 
 @dataclass(frozen=True)
 class Casing:
@@ -30,7 +32,7 @@ class Casing:
         if self.lobes == 0:
             return np.zeros_like(theta)
         period = 2.0 * np.pi / self.lobes
-        return np.exp(-((((theta % period) / period - 0.5) / self.width) ** 2))
+        return lobe_shape(theta, period, self.width)
 
     def angle(self, tip_cone_angle: float) -> float:
         """Half angle (rad) of the casing's cone round a blade whose tip has `tip_cone_angle` (rad)."""

@@ -10,7 +10,7 @@ class MarchChoice:
     """Numbers of the march: largest time step (s), revolutions, samples per revolution, and what is recorded.
 
     `snapshots_per_revolution` modal states are kept in each of the last `snapshot_revolutions`; `energy`: whether the loss
-    to damping is added up; `precision`: double or single; `jumps`: whether free flight is jumped over or stepped through;
+    to damping is added up; `jumps`: whether free flight is jumped over or stepped through;
     `highest_frequency` (Hz): faster modes are left out; `integrator`: one of r37core.march.integrators; `engine`: the compiled
     march, or the plain one of r37core.march.reference.
     """
@@ -21,7 +21,6 @@ class MarchChoice:
     snapshots_per_revolution: int = 0
     snapshot_revolutions: int = 0
     energy: bool = False
-    precision: str = "double"
     jumps: bool = True
     highest_frequency: float = float("inf")
     integrator: str = "central_difference"

@@ -1,6 +1,6 @@
 """Numbers for jumping over free flight: many steps of every mode as one map, and what bounds the motion meanwhile.
 
-flight.h says how they are used.
+march.jumps says how they are used.
 """
 
 from __future__ import annotations
@@ -9,10 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-COARSE = 8
-"""Steps between which a jump may begin; the casing's nearest position is kept for each such stretch."""
-
-_LONGEST = 1024
+from .layout import COARSE, LEVELS
 
 
 @dataclass(frozen=True)
@@ -48,7 +45,7 @@ def plan_flight(recursion: np.ndarray, loss: np.ndarray | None, steps_per_block:
     amplitude_rows = np.array([(modulus - cosine) / sine, -modulus / sine])
     curvature = np.abs(1.0 - 1.0 / (modulus * (cosine + 1j * sine))) ** 2
     lengths = [steps_per_block % COARSE]
-    while COARSE << (len(lengths) - 1) <= min(steps_per_block, _LONGEST):
+    while len(lengths) < LEVELS and COARSE << (len(lengths) - 1) <= steps_per_block:
         lengths.append(COARSE << (len(lengths) - 1))
     jumps = np.zeros((len(lengths), 8, len(keep)))
     slow = np.zeros(len(lengths), dtype=np.int64)

@@ -1,36 +1,60 @@
-"""The compiled march (march.c), called with NumPy arrays."""
+"""The compiled march, called with NumPy arrays. Light: the simulation jobs import it, and find the march compiled."""
 
 from __future__ import annotations
 
 import ctypes
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
-from pathlib import Path
 
 import numpy as np
 
-from r37core.native import load_library
+from r37core.alignment import aligned_copy, aligned_zeros
+from r37core.contact.scene import Friction, Lining
+from r37core.native import cached_object, load_function
 
-from .flight import COARSE, FlightPlan
+from .flight import FlightPlan
+from .layout import (
+    LINING,
+    NEVER,
+    NORMAL,
+    TANGENTIAL,
+    TOTALS,
+    Kind,
+    Layout,
+    layout_of,
+    march_record,
+)
 
-STEPS_IN_CONTACT, CASING_HITS, LARGEST_FORCE, WORST_COMPLEMENTARITY, WORK, LOSS, STEPS, STEPS_JUMPED = range(8)
-"""Places in the array of totals: steps with any contact force, onsets of casing contact, largest normal force (N), largest
-relative complementarity violation, work of the contact forces (J), energy lost to damping (J), steps done, and those of
-them that were part of a jump over free flight."""
-TOTALS = 8
-
-_VECTOR_BYTES = 64
+SOURCES = (
+    "alignment.py",
+    "lanes.py",
+    "native.py",
+    "contact/exact_gap.py",
+    "contact/casing.py",
+    "contact/complementarity.py",
+    "contact/friction.py",
+    "contact/lining.py",
+    "contact/scene.py",
+    "march/compiled.py",
+    "march/jumps.py",
+    "march/layout.py",
+    "march/steps.py",
+)
+"""What the compiled march is made from: a change in one of these compiles it anew."""
 
 
 @dataclass
 class KernelInput:
-    """What `advance` needs; fields that a scene lacks are None. See march.h for how each is used.
+    """What `advance` needs; what a scene lacks is None.
 
-    `recursion` (-b, c omega^2, c), shape (3, modes); `rows`, shape (3, nodes, modes); `coupling` (m/N), shape (3, nodes,
-    nodes): normal displacement of the last node per normal, tangential or meridional force on the one before; `casing`, shape
-    (steps per revolution, nodes); `casing_most`: of r37core.march.flight.nearest_casing; `distance`: clearance (m),
-    amplitude (m), rise rate times step; `lining`: thickness, moduli, yield stress, bar area, bars; `friction`: coefficient,
-    1 for vector, 1 for coupled; `loss`, shape (modes,); `output_rows`, shape (outputs, modes).
+    `step` (s); `recursion` (keep, pull, inverse: see march.steps), shape (3, modes); `rows`, shape (3, nodes, modes): normal,
+    tangential, meridional; `coupling` (m/N), shape (3, nodes, nodes): normal displacement of the last node per normal,
+    tangential or meridional force on the one before; `casing`, shape (steps per revolution, nodes): f(theta);
+    `casing_most`: of r37core.march.flight.nearest_casing; `distance`: clearance (m), amplitude (m), rise rate times step;
+    `lobes`: angle between two (rad), and width of one relative to it; `cone_angle` (rad); `exact_gap`: measure it to the lobed
+    cone; `radius` (m), `theta` (rad) of the nodes; `area` (m2) of a bar; `rotation_velocity` (m/s), signed; `loss`, shape
+    (modes,); `output_rows`, shape (outputs, modes); `limit` (m) of the outputs.
     """
 
     step: float
@@ -42,61 +66,48 @@ class KernelInput:
     distance: tuple[float, float, float]
     output_rows: np.ndarray
     limit: float
-    precision: type = np.float64
-    radius: np.ndarray | None = None
-    lining: tuple[float, float, float, float, float, float] | None = None
-    bar_position: np.ndarray | None = None
-    friction: tuple[float, float, float] | None = None
+    radius: np.ndarray
+    theta: np.ndarray
+    lobes: tuple[float, float] = (2.0 * np.pi, 1.0)
+    cone_angle: float = 0.0
+    exact_gap: bool = False
+    lining: Lining | None = None
+    area: float = 0.0
+    friction: Friction | None = None
     rotation_velocity: np.ndarray | None = None
     loss: np.ndarray | None = None
     flight: FlightPlan | None = None
     casing_most: np.ndarray | None = None
 
 
-def _fields(kind: type, names: str) -> list[tuple[str, type]]:
-    return [(name, kind) for name in names.split()]
-
-
-class _March(ctypes.Structure):
-    """struct march of march.h."""
-
-    _fields_ = [
-        *_fields(ctypes.c_int64, "first_step steps_per_revolution steps_per_block blocks outputs bars rings levels"),
-        *_fields(ctypes.c_double, "step clearance amplitude rise limit"),
-        *_fields(ctypes.c_double, "thickness elastic_modulus plastic_modulus yield_stress bar_area"),
-        *_fields(ctypes.c_double, "friction vector_friction coupled_friction"),
-        *_fields(ctypes.c_void_p, "displacement increment recursion loss rows coupling casing casing_most radius"),
-        *_fields(ctypes.c_void_p, "bar_position rotation_velocity wear on_casing jump_length jump_chunks jump jump_decay"),
-        *_fields(ctypes.c_void_p, "amplitude_rows output_rows samples snapshot_of_block snapshots totals"),
-    ]
-
-
-def lanes(precision: type) -> int:
-    """Numbers in a vector."""
-    return _VECTOR_BYTES // np.dtype(precision).itemsize
-
-
 class Kernel:
-    """The march compiled for one model and scene, with its constant arrays laid out for it. Raises CompilerError."""
+    """The march compiled for one model and scene, with its constants laid out for it."""
 
     def __init__(self, given: KernelInput):
-        self._given = given
         _, self._nodes, self._modes = given.rows.shape
-        self._lanes = lanes(given.precision)
-        self._chunks = -(-self._modes // self._lanes)
-        self._padded_nodes = -(-self._nodes // self._lanes) * self._lanes
-        self._library = _library(
-            HAS_LINING=int(given.lining is not None),
-            HAS_FRICTION=int(given.friction is not None),
-            HAS_EXACT_GAP=int(given.radius is not None),
-            HAS_LOSS=int(given.loss is not None),
-            NODES=self._nodes,
-            CHUNKS=self._chunks,
-            COARSE=COARSE,
-            REAL="double" if given.precision is np.float64 else "float",
+        self._layout = layout_of(self._modes, self._nodes, len(given.output_rows))
+        vector = given.friction is not None and given.friction.vector
+        self._advance = _compiled(
+            self._layout,
+            Kind(
+                lined=given.lining is not None,
+                vector_friction=vector,
+                coupled=given.friction is None or given.friction.coupled,
+                exact_gap=given.exact_gap,
+                energy=given.loss is not None,
+                jumps=given.flight is not None,
+            ),
         )
-        self._kept: list[np.ndarray] = []
-        self._march = self._constants()
+        self._record = aligned_zeros((1,), march_record(self._layout))
+        self._casing = aligned_copy(given.casing, self._layout.nodes)
+        self._casing_most = None if given.casing_most is None else aligned_copy(given.casing_most, self._layout.nodes)
+        self._fill(given)
+        if given.friction is not None:
+            self._fill_friction(given)
+        if given.lining is not None:
+            self._fill_lining(given.lining, given)
+        if given.flight is not None:
+            self._fill_flight(given.flight)
 
     def advance(
         self,
@@ -112,111 +123,87 @@ class Kernel:
     ) -> int:
         """Do one block of steps per row of `samples`; changes the state and fills samples and snapshots.
 
-        Returns the blocks done: fewer when an output passed the limit or is NaN.
+        `on_casing`, bool, shape (nodes,); `totals`: a record of layout.TOTALS, added to. Returns the blocks done: fewer when
+        an output passed the limit or is NaN.
         """
-        modal = [self._modal(displacement), self._modal(increment)]
-        touching = self._nodal(on_casing)
-        march = self._march
-        march.first_step, march.blocks = first_step, len(samples)
-        march.displacement, march.increment, march.on_casing = modal[0].ctypes.data, modal[1].ctypes.data, touching.ctypes.data
-        march.samples, march.totals = samples.ctypes.data, totals.ctypes.data
+        m, blocks = self._record[0], len(samples)
+        m["u"][: self._modes], m["now"][: self._modes] = displacement, increment
+        m["on_casing"] = np.packbits(aligned_copy(on_casing, self._layout.nodes) > 0, bitorder="little")
+        m["totals"] = totals
+        rows = np.full(blocks, -1) if snapshot_of_block is None else np.ascontiguousarray(snapshot_of_block, dtype=np.int64)
+        kept = np.zeros((0 if snapshots is None else len(snapshots), self._layout.modes))
         if wear is not None:
-            march.rings, march.wear = wear.shape[0], wear.ctypes.data
-        padded_snapshots = None
-        march.snapshot_of_block = march.snapshots = None
-        if snapshot_of_block is not None and snapshots is not None:
-            padded_snapshots = self._modal(snapshots)
-            rows = np.ascontiguousarray(snapshot_of_block, dtype=np.int64)
-            march.snapshot_of_block, march.snapshots = rows.ctypes.data, padded_snapshots.ctypes.data
-        done = int(self._library.advance(ctypes.byref(march)))
-        displacement[:], increment[:] = modal[0][: self._modes], modal[1][: self._modes]
-        on_casing[:] = touching[: self._nodes]
-        if snapshots is not None and padded_snapshots is not None:
-            snapshots[:] = padded_snapshots[:, : self._modes]
+            m["rings"] = len(wear)
+        arrays = (self._record, self._casing, self._casing_most, wear, samples, rows, kept)
+        done = int(self._advance(*(None if array is None else array.ctypes.data for array in arrays), first_step, blocks))
+        displacement[:], increment[:] = m["u"][: self._modes], m["now"][: self._modes]
+        on_casing[:] = np.unpackbits(m["on_casing"].astype(np.uint8), bitorder="little")[: self._nodes]
+        totals[()] = m["totals"]
+        if snapshots is not None:
+            snapshots[:] = kept[:, : self._modes]
         return done
 
-    def _constants(self) -> _March:
-        given = self._given
-        clearance, amplitude, rise = given.distance
-        march = _March(
-            steps_per_revolution=len(given.casing),
-            steps_per_block=given.steps_per_block,
-            outputs=len(given.output_rows),
-            step=given.step,
-            clearance=clearance,
-            amplitude=amplitude,
-            rise=rise,
-            limit=given.limit,
-            recursion=self._keep(self._modal(given.recursion)),
-            rows=self._keep(self._rows()),
-            coupling=self._keep(self._coupling()),
-            casing=self._keep(self._nodal(given.casing)),
-            output_rows=self._keep(self._modal(given.output_rows)),
-        )
-        if given.radius is not None:
-            # a node that only pads the vector must not sit on the axis
-            radius = self._nodal(given.radius)
-            radius[self._nodes :] = 1.0
-            march.radius = self._keep(radius)
-        if given.lining is not None and given.bar_position is not None:
-            march.thickness, march.elastic_modulus, march.plastic_modulus, march.yield_stress, march.bar_area = given.lining[:5]
-            march.bars = int(given.lining[5])
-            march.bar_position = self._keep(self._nodal(given.bar_position))
-        if given.friction is not None and given.rotation_velocity is not None:
-            march.friction, march.vector_friction, march.coupled_friction = given.friction
-            march.rotation_velocity = self._keep(self._nodal(given.rotation_velocity))
+    def _fill(self, given: KernelInput) -> None:
+        m, nodes, modes = self._record[0], self._nodes, self._modes
+        m["keep"][:modes], m["pull"][:modes], m["inverse"][:modes] = given.recursion
+        m["rows"].reshape(3, -1, self._layout.modes)[:, :nodes, :modes] = given.rows
+        m["push_rows"][:nodes, :modes] = given.rows[NORMAL]
+        m["coupling"][:, :nodes, :nodes] = given.coupling
+        m["response"][:nodes, :nodes] = m["columns"][:nodes, :nodes] = given.coupling[NORMAL]
+        # a node that only pads the vector must neither sit on the axis nor cancel a pivot
+        m["radius"], m["towards"], m["problem"]["diagonal"] = 1.0, 1.0, 1.0
+        m["radius"][:nodes], m["theta"][:nodes] = given.radius, given.theta
+        m["problem"]["diagonal"][:nodes] = np.diag(given.coupling[NORMAL])
+        m["outputs"][:, :modes] = given.output_rows
+        m["casing"] = (*given.distance, *given.lobes, np.cos(given.cone_angle), np.sin(given.cone_angle))
+        m["limit"], m["nodes"] = given.limit, nodes
+        m["steps_per_revolution"], m["steps_per_block"] = len(given.casing), given.steps_per_block
         if given.loss is not None:
-            march.loss = self._keep(self._modal(given.loss))
-        if given.flight is not None and given.casing_most is not None:
-            flight = given.flight
-            march.levels = len(flight.lengths)
-            march.jump_length = self._keep(flight.lengths)
-            march.jump_chunks = self._keep(flight.slow_modes // self._lanes)
-            march.jump = self._keep(self._modal(flight.jumps))
-            march.jump_decay = self._keep(np.exp(-rise * flight.lengths) if np.isfinite(rise) else np.zeros(march.levels))
-            march.amplitude_rows = self._keep(self._modal(flight.amplitude_rows))
-            march.casing_most = self._keep(self._nodal(given.casing_most))
-        return march
+            m["loss"][:modes] = given.loss
 
-    def _keep(self, array: np.ndarray) -> int:
-        """Address of an array that lives as long as the kernel."""
-        self._kept.append(array)
-        return int(array.ctypes.data)
+    def _fill_friction(self, given: KernelInput) -> None:
+        """Friction; one of constant direction becomes part of what a normal force does."""
+        m, nodes, modes = self._record[0], self._nodes, self._modes
+        assert given.friction is not None and given.rotation_velocity is not None
+        m["friction"] = given.friction.coefficient
+        m["rotation"][:nodes] = given.rotation_velocity * given.step
+        if given.friction.vector:
+            return
+        share = given.friction.coefficient * np.sign(given.rotation_velocity)[:, None]
+        m["push_rows"][:nodes, :modes] += share * given.rows[TANGENTIAL]
+        m["response"][:nodes, :nodes] += share * given.coupling[TANGENTIAL]
 
-    def _modal(self, array: np.ndarray) -> np.ndarray:
-        return _aligned(array, self._chunks * self._lanes, self._given.precision)
+    def _fill_lining(self, lining: Lining, given: KernelInput) -> None:
+        m = self._record[0]
+        for name in LINING.names or ():
+            value = given.area if name == "area" else getattr(lining, name)
+            m["lining"][name] = np.nan if value is None else value
+        m["bar_position"][: self._nodes] = given.theta / (2.0 * np.pi) * lining.bars
 
-    def _nodal(self, array: np.ndarray) -> np.ndarray:
-        return _aligned(array, self._padded_nodes, self._given.precision)
-
-    def _rows(self) -> np.ndarray:
-        """Rows as (3, chunks, padded nodes, lanes)."""
-        padded = np.zeros((3, self._padded_nodes, self._chunks * self._lanes))
-        padded[:, : self._nodes, : self._modes] = self._given.rows
-        chunked = padded.reshape(3, self._padded_nodes, self._chunks, self._lanes).transpose(0, 2, 1, 3)
-        return _aligned(chunked, self._lanes, self._given.precision)
-
-    def _coupling(self) -> np.ndarray:
-        padded = np.zeros((3, self._padded_nodes, self._padded_nodes))
-        padded[:, : self._nodes, : self._nodes] = self._given.coupling
-        return _aligned(padded, self._padded_nodes, self._given.precision)
+    def _fill_flight(self, flight: FlightPlan) -> None:
+        m, modes, levels = self._record[0], self._modes, len(flight.lengths)
+        m["lengths"] = NEVER
+        m["lengths"][:levels], m["slow_modes"][:levels] = flight.lengths, flight.slow_modes
+        m["jumps"][:levels, :, :modes] = flight.jumps
+        m["amplitude_by_u"][:modes], m["amplitude_by_d"][:modes] = flight.amplitude_rows
+        rise = m["casing"]["rise"]
+        m["decay"][:levels] = np.exp(-rise * flight.lengths) if np.isfinite(rise) else 0.0
 
 
 @cache
-def _library(**definitions: str | int) -> ctypes.CDLL:
-    library = load_library(Path(__file__).parent / "march.c", definitions)
-    library.advance.restype = library.size_of_march.restype = ctypes.c_int64
-    if library.size_of_march() != ctypes.sizeof(_March):
-        raise AssertionError("struct march of march.h and of kernel.py differ")
-    return library
+def _compiled(layout: Layout, kind: Kind) -> Callable:
+    """The compiled march of march.compiled, made if it is not there yet."""
+
+    def build() -> bytes:
+        from .compiled import compile_march
+
+        return compile_march(layout, kind)
+
+    code = cached_object("march", SOURCES, (layout, kind), build)
+    pointers, numbers = [ctypes.c_void_p] * 7, [ctypes.c_int64] * 2
+    return load_function(code, "advance", ctypes.c_int64, *pointers, *numbers)
 
 
-def _aligned(array: np.ndarray, length: int, kind: type) -> np.ndarray:
-    """A copy whose last axis is padded with zeros to `length`, starting on a vector's boundary."""
-    shape = (*array.shape[:-1], length)
-    size = int(np.prod(shape)) * np.dtype(kind).itemsize
-    buffer = np.zeros(size + _VECTOR_BYTES, dtype=np.uint8)
-    offset = -buffer.ctypes.data % _VECTOR_BYTES
-    result = buffer[offset : offset + size].view(kind).reshape(shape)
-    result[..., : array.shape[-1]] = array
-    return result
+def no_totals() -> np.ndarray:
+    """Totals of a run that has not begun, shape ()."""
+    return np.zeros((), TOTALS)

@@ -14,7 +14,6 @@ from r37core.contact.scene import Scene
 from r37core.rom.contact_model import ContactModel
 
 from .integrators import Recursion
-from .kernel import CASING_HITS, LARGEST_FORCE, LOSS, STEPS, STEPS_IN_CONTACT, WORK
 
 
 @dataclass(frozen=True)
@@ -101,12 +100,12 @@ class ReferenceMarch:
         following = predicted + self.inverse @ force
         moved = d + following  # u_{n+1} - u_{n-1}
         normal_force = pressure + multipliers
-        totals[STEPS] += 1
-        totals[STEPS_IN_CONTACT] += np.any(normal_force > 0.0)
-        totals[CASING_HITS] += np.sum((multipliers > 0.0) & (on_casing == 0.0))
-        totals[LARGEST_FORCE] = max(totals[LARGEST_FORCE], normal_force.max())
-        totals[WORK] += 0.5 * force @ moved
-        totals[LOSS] += moved @ self.loss @ moved
+        totals["steps"] += 1
+        totals["steps_in_contact"] += np.any(normal_force > 0.0)
+        totals["casing_hits"] += np.sum((multipliers > 0.0) & (on_casing == 0.0))
+        totals["largest_force"] = max(totals["largest_force"], normal_force.max())
+        totals["work"] += 0.5 * force @ moved
+        totals["loss"] += moved @ self.loss @ moved
         on_casing[:] = multipliers > 0.0
         return u + following, following
 

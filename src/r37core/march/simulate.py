@@ -6,8 +6,9 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from r37core.alignment import LANES
 from r37core.contact.casing import casing_axes
-from r37core.contact.scene import Scene
+from r37core.contact.scene import Lining, Scene
 from r37core.rom.contact_model import ContactModel
 
 from . import kernel
@@ -37,7 +38,8 @@ OUTPUTS = len(TIP_POINTS) * len(DIRECTIONS)
 class MarchState:
     """Where a run stands; a run may be stopped after any revolution and go on from its state.
 
-    `displacement` u_n and `increment` u_n - u_{n-1}, shape (modes,), in the speed's modes; `wear` (m), shape (rings, bars).
+    `displacement` u_n and `increment` u_n - u_{n-1}, shape (modes,), in the speed's modes; `wear` (m), shape (rings, bars);
+    `on_casing`, shape (nodes,): whether a node touched the casing in the last step; `totals`: see layout.TOTALS.
     """
 
     displacement: np.ndarray
@@ -45,7 +47,7 @@ class MarchState:
     wear: np.ndarray | None
     on_casing: np.ndarray
     revolutions: int = 0
-    totals: np.ndarray = field(default_factory=lambda: np.zeros(kernel.TOTALS))
+    totals: np.ndarray = field(default_factory=kernel.no_totals)
 
 
 @dataclass(frozen=True)
@@ -91,10 +93,6 @@ class March:
         self._made: kernel.Kernel | ReferenceMarch | None = None
 
     @property
-    def _precision(self) -> type:
-        return np.float64 if self.choice.precision == "double" else np.float32
-
-    @property
     def duration(self) -> float:
         """Length of the whole run (s)."""
         return self.choice.revolutions * self.steps_per_revolution * self.time_step
@@ -116,12 +114,12 @@ class March:
                 f"limit of this reduced model, {limit:.6g} s (highest mode {self.frequencies[-1] / 2e3 / np.pi:.1f} kHz); "
                 "use a smaller one, raise basis_tolerance to drop the highest modes, or take the integrator exact_modal"
             )
-        lining = self._lining_numbers()
+        lining = self.scene.lining
         if lining is None:
             return
         # a node pressed by x on an elastic bar follows x_{n+1} = (1 - g)(2 x_n - x_{n-1}), g = bar stiffness times c at the
         # node; both roots of the recursion lie inside the unit circle for 0 < g < 4/3
-        bar_stiffness = lining[1] * lining[4] / lining[0]
+        bar_stiffness = lining.elastic_modulus * self._bar_area(lining) / lining.thickness
         ratio = bar_stiffness * float(np.linalg.eigvalsh(self.coupling[0])[-1]) * 0.75
         if not ratio < 1.0:
             raise UnstableStepError(
@@ -131,7 +129,7 @@ class March:
             )
 
     def compile(self) -> None:
-        """Compile the march for this model and scene, unless it is there already. Raises CompilerError."""
+        """Compile the march for this model and scene, unless it is there already."""
         self._engine()
 
     def start(self) -> MarchState:
@@ -139,9 +137,9 @@ class March:
         lining = self.scene.lining
         wear = None
         if lining is not None:
-            wear = np.zeros((1 if lining.shared_ring else self.rows.shape[1], lining.bars), dtype=self._precision)
+            wear = np.zeros((1 if lining.shared_ring else self.rows.shape[1], lining.bars))
         zero = np.zeros(len(self.frequencies))
-        return MarchState(zero.copy(), zero.copy(), wear, np.zeros(self.rows.shape[1]))
+        return MarchState(zero.copy(), zero.copy(), wear, np.zeros(self.rows.shape[1], dtype=bool))
 
     def advance(self, state: MarchState, revolutions: int) -> MarchRecord:
         """Go on by `revolutions` from `state`, which is changed."""
@@ -190,8 +188,10 @@ class March:
         loss = self._loss_numbers()
         flight = None
         if self.choice.jumps:
-            flight = plan_flight(self.recursion, loss, self.steps_per_sample, kernel.lanes(self._precision))
-        casing, friction = scene.casing, scene.friction
+            flight = plan_flight(self.recursion, loss, self.steps_per_sample, LANES)
+        casing, lining, friction = scene.casing, scene.lining, scene.friction
+        # without lobes f is 0 everywhere, and so is what it is multiplied by
+        amplitude = casing.amplitude * casing.clearance if casing.lobes else 0.0
         return kernel.KernelInput(
             step=self.time_step,
             steps_per_block=self.steps_per_sample,
@@ -199,14 +199,17 @@ class March:
             rows=self.rows,
             coupling=self.coupling,
             casing=shape,
-            distance=(casing.clearance, casing.amplitude * casing.clearance, casing.rise_rate(self.duration) * self.time_step),
+            distance=(casing.clearance, amplitude, casing.rise_rate(self.duration) * self.time_step),
             output_rows=self._output_rows(),
             limit=scene.divergence_limit,
-            precision=self._precision,
-            radius=model.radius if scene.exact_gap else None,
-            lining=self._lining_numbers(),
-            bar_position=model.theta / (2.0 * np.pi) * scene.lining.bars if scene.lining else None,
-            friction=(friction.coefficient, float(friction.vector), float(friction.coupled)) if friction else None,
+            radius=model.radius,
+            theta=model.theta,
+            lobes=(2.0 * np.pi / max(casing.lobes, 1), casing.width),
+            cone_angle=self.cone_angle,
+            exact_gap=scene.exact_gap,
+            lining=lining,
+            area=self._bar_area(lining) if lining else 0.0,
+            friction=friction,
             rotation_velocity=model.radius * self.speed * (-1.0 if friction.against_rotation else 1.0) if friction else None,
             loss=loss,
             flight=flight,
@@ -219,12 +222,8 @@ class March:
         normal = casing_axes(self.model.tip_rows, self.cone_angle)[0]
         return np.stack([normal, radial, tangential], axis=1).reshape(OUTPUTS, -1) @ self.modes
 
-    def _lining_numbers(self) -> tuple[float, float, float, float, float, float] | None:
-        lining = self.scene.lining
-        if lining is None:
-            return None
-        area = lining.area(float(np.max(self.model.radius)))
-        return lining.thickness, lining.elastic_modulus, lining.plastic_modulus, lining.yield_stress, area, float(lining.bars)
+    def _bar_area(self, lining: Lining) -> float:
+        return lining.area(float(np.max(self.model.radius)))
 
     def _loss_numbers(self) -> np.ndarray | None:
         return self.integration.loss if self.choice.energy else None

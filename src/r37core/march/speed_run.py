@@ -9,7 +9,6 @@ import numpy as np
 from r37core.contact.scene import Scene
 from r37core.rom.contact_model import ContactModel
 
-from . import kernel
 from .choice import MarchChoice
 from .simulate import DIRECTIONS, TIP_POINTS, March, MarchState
 
@@ -63,10 +62,10 @@ def run_speed(
         "rms": np.sqrt(np.mean(half**2, axis=0)),
         "peak": np.abs(half).max(axis=0),
         "revolution_maxima": maxima,
-        "share_of_time_in_contact": np.array(totals[kernel.STEPS_IN_CONTACT] / totals[kernel.STEPS]),
-        "largest_normal_force": np.array(totals[kernel.LARGEST_FORCE]),
-        "casing_hits": np.array(totals[kernel.CASING_HITS]),
-        "worst_complementarity": np.array(totals[kernel.WORST_COMPLEMENTARITY]),
+        "share_of_time_in_contact": np.array(totals["steps_in_contact"] / totals["steps"]),
+        "largest_normal_force": np.array(totals["largest_force"]),
+        "casing_hits": np.array(totals["casing_hits"]),
+        "worst_complementarity": np.array(totals["worst_complementarity"]),
     }
     if "spectrum" in results:
         kept |= _spectrum(half[:, 0, _KEPT].T, len(half) // per_revolution, spectrum_highest_order)
@@ -105,7 +104,7 @@ def _wear(state: MarchState, angles: int) -> dict[str, np.ndarray]:
 
 def _energy_balance(march: March, state: MarchState) -> dict[str, np.ndarray]:
     """Work of the contact forces, loss to damping, change of energy, and what does not close (all J)."""
-    work, loss = state.totals[kernel.WORK], state.totals[kernel.LOSS]
+    work, loss = state.totals["work"], state.totals["loss"]
     change = march.energy(state)
     return {
         "contact_work": np.array(work),

@@ -51,8 +51,6 @@ def vary(knob: str, value: str, scene: Scene, choice: MarchChoice) -> tuple[Scen
         return scene, replace(choice, revolutions=int(value))
     if knob == "highest_frequency":
         return scene, replace(choice, highest_frequency=float(value))
-    if knob == "precision":
-        return scene, replace(choice, precision=value)
     if knob == "stress_instants":
         return scene, replace(choice, snapshots_per_revolution=int(value))
     if knob == "bars":

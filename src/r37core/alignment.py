@@ -1,0 +1,50 @@
+"""Arrays and records that vectors of numbers can be loaded from."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+LANES = 8
+"""Numbers that the compiled march handles at once (r37core.lanes)."""
+
+_VECTOR_BYTES = 8 * LANES
+
+Field = tuple[str, object, tuple[int, ...]]
+"""Name, dtype and shape of a field of a record."""
+
+
+def padded(count: int) -> int:
+    """`count` rounded up to whole vectors."""
+    return -(-count // LANES) * LANES
+
+
+def aligned_record(fields: Sequence[Field]) -> np.dtype:
+    """A record whose arrays start on a vector's boundary; plain numbers are packed."""
+    offsets, end = [], 0
+    for _, kind, shape in fields:
+        if shape or np.dtype(kind).names:  # type: ignore[call-overload]
+            end = -(-end // _VECTOR_BYTES) * _VECTOR_BYTES
+        offsets.append(end)
+        end += np.dtype((kind, shape)).itemsize  # type: ignore[call-overload]
+    names = [name for name, _, _ in fields]
+    formats = [(kind, shape) for _, kind, shape in fields]
+    size = -(-end // _VECTOR_BYTES) * _VECTOR_BYTES
+    return np.dtype({"names": names, "formats": formats, "offsets": offsets, "itemsize": size})  # type: ignore[call-overload]
+
+
+def aligned_zeros(shape: tuple[int, ...], kind: np.dtype | type = np.float64) -> np.ndarray:
+    """Zeros that start on a vector's boundary."""
+    kind = np.dtype(kind)
+    size = int(np.prod(shape)) * kind.itemsize
+    buffer = np.zeros(size + _VECTOR_BYTES, dtype=np.uint8)
+    start = -buffer.ctypes.data % _VECTOR_BYTES
+    return buffer[start : start + size].view(kind).reshape(shape)
+
+
+def aligned_copy(array: np.ndarray, length: int) -> np.ndarray:
+    """A copy on a vector's boundary whose last axis is padded with zeros to `length`."""
+    result = aligned_zeros((*array.shape[:-1], length))
+    result[..., : array.shape[-1]] = array
+    return result

@@ -1,0 +1,253 @@
+"""Eight numbers at once for numba: what is written with them becomes vector instructions, whatever the optimiser thinks.
+
+The operators + - * / < > and np.sqrt, np.where, np.maximum and np.abs act on every lane; a number among them counts for all
+lanes. So a formula in NumPy can be applied to arrays as it stands, and to lanes once it is compiled. Eight numbers fill one
+register with AVX-512, two with AVX2, four with SSE2 or NEON. Made with numba's extension interface (numba.extending).
+
+Imported only where something is compiled, never by a simulation job that finds it compiled.
+"""
+
+from __future__ import annotations
+
+import operator
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from llvmlite import ir
+from numba import njit, types
+from numba.core import cgutils
+from numba.extending import intrinsic, lower_builtin, models, register_model, type_callable
+
+from .alignment import LANES
+
+OPTIONS = {"fastmath": {"reassoc", "contract", "nsz", "arcp"}, "error_model": "numpy"}
+"""Sums may be reordered and contracted; NaN and infinity keep their meaning, and a division by zero is no error."""
+
+inlined = njit(**OPTIONS, forceinline=True)
+"""Compiles a function into those that call it: what a flag given as a constant leaves unused is then not in the program."""
+
+_INTEGER = ir.IntType(32)
+_NUMBERS, _TRUTHS = ir.VectorType(ir.DoubleType(), LANES), ir.VectorType(ir.IntType(1), LANES)
+
+
+class Lanes(types.Type):
+    """Eight doubles."""
+
+
+class Flags(types.Type):
+    """Eight truth values."""
+
+
+_lanes, _flags = Lanes("lanes"), Flags("flags")
+_KINDS = (Lanes, types.Number)
+
+
+def _represent(kind: type, content: ir.Type) -> None:
+    @register_model(kind)
+    class _(models.PrimitiveModel):
+        def __init__(self, manager: Any, numba_type: types.Type):
+            super().__init__(manager, numba_type, content)
+
+
+_represent(Lanes, _NUMBERS)
+_represent(Flags, _TRUTHS)
+
+
+def _shuffle(builder: Any, a: Any, b: Any, numbers: list[int]) -> Any:
+    return builder.shuffle_vector(a, b, ir.Constant(ir.VectorType(_INTEGER, LANES), numbers))
+
+
+def _spread(context: Any, builder: Any, kind: types.Type, value: Any) -> Any:
+    """Lanes as they are, a number in every lane."""
+    if kind == _lanes:
+        return value
+    number = context.cast(builder, value, kind, types.float64)
+    single = builder.insert_element(ir.Constant(_NUMBERS, ir.Undefined), number, _INTEGER(0))
+    return _shuffle(builder, single, single, [0] * LANES)
+
+
+def _of_lanes(symbol: Callable, result: types.Type, count: int, build: Callable) -> None:
+    """Let `symbol` act on `count` arguments, lanes or numbers but not numbers alone, by `build(builder, *lanes)`."""
+
+    @type_callable(symbol)
+    def _(context: Any) -> Callable:
+        def one(a: types.Type) -> types.Type | None:
+            return result if a == _lanes else None
+
+        def two(a: types.Type, b: types.Type) -> types.Type | None:
+            return result if _lanes in (a, b) and isinstance(a, _KINDS) and isinstance(b, _KINDS) else None
+
+        return one if count == 1 else two
+
+    def lower(context: Any, builder: Any, sig: Any, args: Any) -> Any:
+        return build(builder, *(_spread(context, builder, kind, value) for kind, value in zip(sig.args, args, strict=True)))
+
+    for kinds in [(Lanes,)] if count == 1 else [(Lanes, Lanes), (Lanes, types.Number), (types.Number, Lanes)]:
+        lower_builtin(symbol, *kinds)(lower)
+
+
+def _intrinsic_of_llvm(name: str) -> Callable:
+    def build(builder: Any, value: Any) -> Any:
+        kind = ir.FunctionType(_NUMBERS, [_NUMBERS])
+        return builder.call(cgutils.get_or_insert_function(builder.module, kind, f"llvm.{name}.v{LANES}f64"), [value])
+
+    return build
+
+
+for _symbols, _name in {
+    (operator.add, operator.iadd): "fadd",
+    (operator.sub, operator.isub): "fsub",
+    (operator.mul, operator.imul): "fmul",
+    (operator.truediv,): "fdiv",
+}.items():
+    for _symbol in _symbols:
+        _of_lanes(_symbol, _lanes, 2, lambda builder, a, b, name=_name: getattr(builder, name)(a, b))
+_of_lanes(operator.lt, _flags, 2, lambda builder, a, b: builder.fcmp_ordered("<", a, b))
+_of_lanes(operator.gt, _flags, 2, lambda builder, a, b: builder.fcmp_ordered(">", a, b))
+_of_lanes(np.maximum, _lanes, 2, lambda builder, a, b: builder.select(builder.fcmp_ordered(">", a, b), a, b))
+_of_lanes(np.sqrt, _lanes, 1, _intrinsic_of_llvm("sqrt"))
+_of_lanes(np.abs, _lanes, 1, _intrinsic_of_llvm("fabs"))
+
+
+@type_callable(np.where)
+def _type_where(context: Any) -> Callable:
+    def typer(flags: types.Type, yes: types.Type, no: types.Type) -> types.Type | None:
+        return _lanes if flags == _flags and isinstance(yes, _KINDS) and isinstance(no, _KINDS) else None
+
+    return typer
+
+
+def _where(context: Any, builder: Any, sig: Any, args: Any) -> Any:
+    values = [_spread(context, builder, kind, value) for kind, value in zip(sig.args[1:], args[1:], strict=True)]
+    return builder.select(args[0], *values)
+
+
+for _yes in _KINDS:
+    for _no in _KINDS:
+        lower_builtin(np.where, Flags, _yes, _no)(_where)
+
+
+def _address(context: Any, builder: Any, kinds: Any, array: Any, place: Any) -> Any:
+    """Where lanes begin: at a place of a pointer, or at an index (last axis: number) of an array of a record."""
+    kind, index = kinds
+    indices = cgutils.unpack_tuple(builder, place) if isinstance(index, types.BaseTuple) else [place]
+    index_kinds = list(index) if isinstance(index, types.BaseTuple) else [index]
+    indices = [context.cast(builder, i, k, types.intp) for i, k in zip(indices, index_kinds, strict=True)]
+    flat = indices[0]
+    if isinstance(kind, types.CPointer):
+        data = array
+    else:
+        data = context.make_array(kind)(context, builder, array).data
+        for length, i in zip(kind.shape[1:], indices[1:], strict=True):
+            flat = builder.add(builder.mul(flat, context.get_constant(types.intp, length)), i)
+    return builder.bitcast(builder.gep(data, [flat]), _NUMBERS.as_pointer())
+
+
+@intrinsic
+def load(typingctx, array, place):
+    """The eight numbers from `place` on: an index of an array in a record, whose last is a multiple of eight; or of a pointer."""
+
+    def build(context, builder, sig, args):
+        return builder.load(_address(context, builder, sig.args, *args), align=8 * LANES)
+
+    return _lanes(array, place), build
+
+
+@intrinsic
+def store(typingctx, array, place, value):
+    """Put eight numbers there."""
+
+    def build(context, builder, sig, args):
+        lanes = _spread(context, builder, sig.args[2], args[2])
+        builder.store(lanes, _address(context, builder, sig.args[:2], *args[:2]), align=8 * LANES)
+        return context.get_dummy_value()
+
+    return types.void(array, place, value), build
+
+
+@intrinsic
+def spread(typingctx, number):
+    """A number in every lane."""
+    return _lanes(number), lambda context, builder, sig, args: _spread(context, builder, sig.args[0], args[0])
+
+
+@intrinsic
+def bits_of(typingctx, flags):
+    """Flags as the lowest bits of an integer."""
+
+    def build(context, builder, sig, args):
+        return builder.zext(builder.bitcast(args[0], ir.IntType(LANES)), ir.IntType(64))
+
+    return types.int64(flags), build
+
+
+@intrinsic
+def flags_of(typingctx, bits):
+    """Flags from the lowest bits of an integer."""
+
+    def build(context, builder, sig, args):
+        return builder.bitcast(builder.trunc(args[0], ir.IntType(LANES)), _TRUTHS)
+
+    return _flags(bits), build
+
+
+@intrinsic
+def flag_at(typingctx, number):
+    """The flag of lane `number` set and no other; none if there is no such lane."""
+
+    def build(context, builder, sig, args):
+        kind = ir.VectorType(ir.IntType(64), LANES)
+        lane = context.cast(builder, args[0], sig.args[0], types.int64)
+        single = builder.insert_element(ir.Constant(kind, ir.Undefined), lane, _INTEGER(0))
+        return builder.icmp_signed("==", _shuffle(builder, single, single, [0] * LANES), ir.Constant(kind, list(range(LANES))))
+
+    return _flags(number), build
+
+
+@intrinsic
+def first_bit(typingctx, bits):
+    """Number of the lowest bit that is set."""
+    return types.int64(bits), lambda context, builder, sig, args: builder.cttz(args[0], ir.Constant(ir.IntType(1), 1))
+
+
+@intrinsic
+def sums_of_lanes(typingctx, a, b, c, d, e, f, g, h):
+    """Lane k of the result is the sum of all lanes of the k-th argument: every stage halves the number of vectors."""
+
+    def build(context, builder, sig, args):
+        sums, half = list(args), LANES // 2
+        while half:
+            upper = [LANES * bool(lane & half) for lane in range(LANES)]
+            kept = [lane + upper[lane] for lane in range(LANES)]
+            added = [(lane ^ half) + upper[lane] for lane in range(LANES)]
+            pairs = [(sums[j], sums[j + half]) for j in range(half)]
+            sums = [builder.fadd(_shuffle(builder, *pair, kept), _shuffle(builder, *pair, added)) for pair in pairs]
+            half //= 2
+        return sums[0]
+
+    return _lanes(*[_lanes] * LANES), build
+
+
+@intrinsic
+def sum_of_lanes(typingctx, value):
+    """The sum of all lanes."""
+
+    def build(context, builder, sig, args):
+        total, half = args[0], LANES // 2
+        while half:
+            total = builder.fadd(total, _shuffle(builder, total, total, [lane ^ half for lane in range(LANES)]))
+            half //= 2
+        return builder.extract_element(total, _INTEGER(0))
+
+    return types.float64(value), build
+
+
+@intrinsic
+def pointed_at(typingctx, pointer):
+    """The record that a pointer points at, not a copy of it."""
+
+    def build(context, builder, sig, args):
+        return builder.bitcast(args[0], context.get_value_type(sig.return_type))
+
+    return pointer.dtype(pointer), build

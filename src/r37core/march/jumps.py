@@ -1,0 +1,120 @@
+"""Free flight without stepping, compiled: while no node can reach the lining or casing, many steps are done at once.
+
+Each mode is u_n = Re(C lambda^n) with |lambda| <= 1, so m steps are a 2 x 2 map of (u, d), made once (march.flight), and |C|
+bounds the mode until the next contact. A jump is taken only if a bound on every node's position over all the steps it skips
+stays clear of the casing's nearest position over them: modes slow in the jump follow their tangent within
+|C| |1 - 1/lambda|^2 m (m + 1)/2, the others stay within |C|.
+
+With the exact gap a node's position is at most n + cos(alpha) y^2/(2 R), and the lobes at its displaced angle at most
+their greatest slope times |y|/R nearer than at its undeformed one; n, y (sideways) and R (distance from the axis) are bounded.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from r37core.alignment import LANES
+from r37core.lanes import bits_of, inlined, load, store
+
+from .layout import (
+    BEYOND,
+    COARSE,
+    D_FROM_D,
+    D_FROM_U,
+    LEVELS,
+    LOSS_DD,
+    LOSS_UD,
+    LOSS_UU,
+    NORMAL,
+    U_FROM_D,
+    U_FROM_U,
+)
+from .steps import along
+
+ROUNDING_MARGIN = 1e-9
+"""Of the distances compared; generous beside what summing rounds."""
+
+
+@inlined
+def bound_amplitudes(m, exact):
+    """|C| of each mode from displacement and increment and, for the exact gap, how far nodes can get sideways and inwards."""
+    for i in range(len(m.u)):
+        imaginary = m.amplitude_by_u[i] * m.u[i] + m.amplitude_by_d[i] * m.now[i]
+        m.amplitude[i] = np.sqrt(m.u[i] * m.u[i] + imaginary * imaginary)
+    if exact:
+        nodes = len(m.force)
+        for k in range(m.nodes):
+            normal = sideways = meridional = 0.0
+            for i in range(len(m.u)):
+                normal += abs(m.rows[k, i]) * m.amplitude[i]
+                sideways += abs(m.rows[nodes + k, i]) * m.amplitude[i]
+                meridional += abs(m.rows[2 * nodes + k, i]) * m.amplitude[i]
+            m.across[k] = sideways
+            m.towards[k] = m.radius[k] - m.casing.cosine * normal - abs(m.casing.sine) * meridional
+    for level in range(LEVELS):
+        m.reach_known[level] = 0
+
+
+@inlined
+def _is_clear(m, casing_most, place, level, remaining, exact):
+    """Whether no node can touch anything in a jump; `remaining`: what the casing's lobes lack before it."""
+    if m.reach_known[level] == 0:
+        for k in range(m.nodes):
+            bound = 0.0
+            for i in range(len(m.u)):
+                bound += abs(m.rows[k, i]) * (m.amplitude[i] * m.jumps[level, BEYOND, i])
+            m.reach[level, k] = bound
+        m.reach_known[level] = 1
+    nodes, length = len(m.force), m.lengths[level]
+    lobes = m.casing.amplitude * (1.0 - remaining * m.decay[level])
+    for g in range(0, nodes, LANES):
+        velocity = along(m, NORMAL, m.now, g, m.slow_modes[level])
+        position = along(m, NORMAL, m.u, g, m.slow_modes[level])
+        position += np.maximum(velocity, velocity * length) + load(m.reach, (level, g))
+        nearest = load(casing_most, place + g)
+        for j in range(1, (length + COARSE - 1) // COARSE):
+            nearest = np.maximum(nearest, load(casing_most, place + j * nodes + g))
+        if exact:
+            across, towards = load(m.across, g), load(m.towards, g)
+            position += across * across * (0.5 * m.casing.cosine) / towards
+            # the greatest slope of exp(-x^2) is sqrt(2/e)
+            slope = np.sqrt(2.0 / np.e) / (m.casing.width * m.casing.period)
+            nearest = nearest + across / towards * slope
+            nearest = np.where(nearest < 1.0, nearest, 1.0)
+            if bits_of(towards > 0.0) != (1 << LANES) - 1:
+                return False
+        gap = m.casing.clearance - lobes * nearest - position
+        # written so that NaN is not clear
+        clear = bits_of(gap > ROUNDING_MARGIN * (m.casing.clearance + lobes + np.abs(position)))
+        if clear != (1 << LANES) - 1:
+            return False
+    return True
+
+
+@inlined
+def choose_jump(m, casing_most, place, first_level, left, remaining, exact):
+    """Level of the longest jump that the rest of the block and the bounds allow, -1 if there is none."""
+    level = first_level
+    if left < COARSE:
+        level = 0
+    else:
+        while m.lengths[level] > left:
+            level -= 1
+    while not _is_clear(m, casing_most, place, level, remaining, exact):
+        if level <= 1:
+            return -1
+        level -= 1
+    return level
+
+
+@inlined
+def jump_ahead(m, level, energy, lost):
+    """Do the steps of a jump; adds the energy they lose to damping, in lanes."""
+    for i in range(0, len(m.u), LANES):
+        u, d = load(m.u, i), load(m.now, i)
+        store(m.u, i, u + (load(m.jumps, (level, U_FROM_U, i)) * u + load(m.jumps, (level, U_FROM_D, i)) * d))
+        store(m.now, i, d + (load(m.jumps, (level, D_FROM_U, i)) * u + load(m.jumps, (level, D_FROM_D, i)) * d))
+        if energy:
+            lost += (load(m.jumps, (level, LOSS_UU, i)) * u + load(m.jumps, (level, LOSS_UD, i)) * d) * u
+            lost += load(m.jumps, (level, LOSS_DD, i)) * d * d
+    return lost

@@ -1,0 +1,135 @@
+"""The one description of what the compiled march works on: a NumPy record, whose shapes are known when it is compiled.
+
+Only padded sizes and numbers that no speed changes are in it, so all speeds of a sweep share one compiled march.
+"""
+
+from __future__ import annotations
+
+from dataclasses import fields
+from typing import NamedTuple
+
+import numpy as np
+
+from r37core.alignment import Field, aligned_record, padded
+from r37core.contact.scene import Lining
+
+COARSE = 8
+"""Steps between which a jump may begin; the casing's nearest position is kept for each such stretch."""
+
+LEVELS = 9
+"""Lengths of jumps: what is left of a block after whole stretches, then stretches doubled up to 1024 steps."""
+
+U_FROM_U, U_FROM_D, D_FROM_U, D_FROM_D, LOSS_UU, LOSS_UD, LOSS_DD, BEYOND = range(8)
+"""Rows of the numbers of a jump: its map of displacement u and increment d less the identity, its loss as a quadratic form,
+and how far a mode of unit amplitude gets beyond its tangent (fast modes: from zero)."""
+
+NORMAL, TANGENTIAL, MERIDIONAL = range(3)
+"""Directions of contact: along the casing's normal, positive towards it; growing theta; along its meridian, downstream."""
+
+NEVER = 2**60
+"""More steps than there are: the length of a jump that is not to be had."""
+
+
+class Layout(NamedTuple):
+    """Numbers of modes and nodes, both rounded up to whole vectors, and of outputs."""
+
+    modes: int
+    nodes: int
+    outputs: int
+
+
+class Kind(NamedTuple):
+    """What a march has; what it lacks is not in the program.
+
+    `vector_friction`: along the real sliding velocity; friction of constant direction is in the push rows and responses.
+    `coupled`: friction is part of the complementarity problem. `exact_gap`, `energy`, `jumps`: see Scene and MarchChoice.
+    """
+
+    lined: bool
+    vector_friction: bool
+    coupled: bool
+    exact_gap: bool
+    energy: bool
+    jumps: bool
+
+
+def layout_of(modes: int, nodes: int, outputs: int) -> Layout:
+    """The layout that holds so many."""
+    return Layout(padded(modes), padded(nodes), outputs)
+
+
+def _numbers(names: str, kind: type = np.float64) -> list[Field]:
+    return [(name, kind, ()) for name in names.split()]
+
+
+def _arrays(names: str, *shape: int, kind: type = np.float64) -> list[Field]:
+    return [(name, kind, shape) for name in names.split()]
+
+
+TOTALS = np.dtype(
+    [(name, np.float64) for name in "steps_in_contact casing_hits largest_force worst_complementarity".split()]
+    + [(name, np.float64) for name in "work loss steps steps_jumped".split()]
+)
+"""Sums over a run: steps with any contact force, onsets of casing contact, largest normal force (N), largest relative violation of
+complementarity, work of the contact forces (J), energy lost to damping (J), steps done, those of them that were jumped."""
+
+LINING = aligned_record(_numbers(" ".join(field.name for field in fields(Lining)) + " area"))
+"""What the law of the lining may use: every field of Lining as a number, and a bar's area (m2)."""
+
+CASING = aligned_record(_numbers("clearance amplitude rise period width cosine sine"))
+"""Clearance and amplitude (m); rise rate times step; angle (rad) between lobes and their relative width; cone angle."""
+
+
+def problem(nodes: int) -> np.dtype:
+    """The record of a complementarity problem of `nodes` nodes, a multiple of the lanes; see r37core.contact.complementarity."""
+    groups = padded(nodes) // padded(1)
+    return aligned_record(
+        [
+            *_arrays("gap multiplier answer short diagonal", nodes),
+            *_arrays("left", nodes + 1, nodes),
+            *_arrays("matrix", nodes, nodes + 1),
+            *_arrays("listed", nodes, kind=np.int64),
+            *_arrays("touching wrong", groups, kind=np.int64),
+        ]
+    )
+
+
+def march_record(layout: Layout) -> np.dtype:
+    """The record of a march: its state, its constants, room to work in, and its totals."""
+    modes, nodes, outputs = layout
+    groups = nodes // padded(1)
+    return aligned_record(
+        [
+            # displacement u_n; increments u_n - u_{n-1} of this step and of the one before; forces on the modes
+            *_arrays("u now before push", modes),
+            # of the recursion: see march.steps; energy lost per step and squared central difference
+            *_arrays("keep pull inverse loss", modes),
+            # displacement of the nodes per mode, and what a unit normal force does to the modes, with constant friction
+            *_arrays("rows", 3 * nodes, modes),
+            *_arrays("push_rows", nodes, modes),
+            *_arrays("outputs", outputs, modes),
+            # normal displacement of the last node per force in the three directions on the one before
+            *_arrays("coupling", 3, nodes, nodes),
+            # opening of the last node's gap per unit multiplier of the one before: with friction, and as the problem has it
+            *_arrays("response columns", nodes, nodes),
+            # tangential and meridional sliding in a step (m), and friction per normal force
+            *_arrays("sliding friction_share", 2, nodes),
+            *_arrays("force largest", nodes),
+            *_arrays("rotation", nodes),  # signed sliding in a step by the rotation (m)
+            *_arrays("bar_position radius theta shift", nodes),  # angle at step 0, in bars; m; angle at step 0, gained by vibration (rad)
+            ("problem", problem(nodes), ()),
+            *_arrays("beyond pressed on_casing", groups, kind=np.int64),
+            # flight: see march.flight
+            *_arrays("jumps", LEVELS, 8, modes),
+            *_arrays("amplitude_by_u amplitude_by_d amplitude", modes),
+            *_arrays("reach", LEVELS, nodes),
+            *_arrays("across towards", nodes),
+            *_arrays("decay", LEVELS),
+            *_arrays("lengths slow_modes reach_known", LEVELS, kind=np.int64),
+            ("lining", LINING, ()),
+            ("casing", CASING, ()),
+            ("totals", TOTALS, ()),
+            *_numbers("limit friction"),
+            *_numbers("nodes rings steps_per_revolution steps_per_block", kind=np.int64),
+        ]
+    )

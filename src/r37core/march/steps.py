@@ -1,0 +1,289 @@
+"""The steps of the march, compiled for what a scene has.
+
+Recursion (section 5 of the benchmark, diagonal in the modes of one speed): u* = a u_n + b u_{n-1}; where a tip node passes the
+lining or the casing, u_{n+1} = u* + c F. It is carried in displacement u and increment d = u_n - u_{n-1}, which is the same
+recursion without its loss of digits: d* = keep d - pull u, u* = u + d*, with keep = -b, pull = 1 - a - b, inverse = c.
+
+`m` is a record of march.layout; tip nodes are lanes (r37core.lanes), sets of nodes are bits, eight nodes to an integer. Arguments that
+choose (`lined`, `exact`, ...) are constants where the march is compiled.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from r37core.alignment import LANES
+from r37core.contact.exact_gap import displaced_position, lobe_shape
+from r37core.contact.complementarity import list_nodes, solve_complementarity
+from r37core.contact.friction import friction_direction
+from r37core.contact.lining import return_mapping
+from r37core.lanes import bits_of, inlined, load, spread, store, sums_of_lanes
+
+from .layout import MERIDIONAL, NORMAL, TANGENTIAL
+
+_friction_direction = inlined(friction_direction)
+_return_mapping = inlined(return_mapping)
+_displaced_position = inlined(displaced_position)
+_lobe_shape = inlined(lobe_shape)
+
+
+@inlined
+def eight_rows(m, a, b, c, d, e, f, p, q, modal, used):
+    """Displacement by eight of the rows, of the first `used` modes."""
+    s = t = u = v = w = x = y = z = spread(0.0)
+    for i in range(0, used, LANES):
+        now = load(modal, i)
+        s += load(m.rows, (a, i)) * now
+        t += load(m.rows, (b, i)) * now
+        u += load(m.rows, (c, i)) * now
+        v += load(m.rows, (d, i)) * now
+        w += load(m.rows, (e, i)) * now
+        x += load(m.rows, (f, i)) * now
+        y += load(m.rows, (p, i)) * now
+        z += load(m.rows, (q, i)) * now
+    return sums_of_lanes(s, t, u, v, w, x, y, z)
+
+
+@inlined
+def along(m, direction, modal, g, used):
+    """Displacement in a direction of the eight nodes from g on, by the first `used` modes."""
+    r = direction * len(m.force) + g
+    return eight_rows(m, r, r + 1, r + 2, r + 3, r + 4, r + 5, r + 6, r + 7, modal, used)
+
+
+@inlined
+def predict(m, energy, lost):
+    """The free step of every mode; returns `lost` and the energy it loses, in lanes."""
+    for i in range(0, len(m.u), LANES):
+        u, before = load(m.u, i), load(m.now, i)
+        d = load(m.keep, i) * before - load(m.pull, i) * u
+        store(m.before, i, before)
+        store(m.now, i, d)
+        store(m.u, i, u + d)
+        if energy:
+            lost += load(m.loss, i) * (d + before) * (d + before)
+    return lost
+
+
+@inlined
+def measure_gaps(m, casing, place, lobes):
+    """Linear gaps: clearance, less the lobes at the undeformed angle, less the normal displacement. Whether any is passed."""
+    any_beyond = 0
+    for g in range(0, len(m.force), LANES):
+        normal = along(m, NORMAL, m.u, g, len(m.u))
+        gap = m.casing.clearance - lobes * load(casing, place * len(m.force) + g) - normal
+        store(m.problem.gap, g, gap)
+        beyond = bits_of(gap < 0.0)
+        m.beyond[g // LANES] = beyond
+        any_beyond |= beyond
+    return any_beyond != 0
+
+
+@inlined
+def measure_exact_gaps(m, place, lobes):
+    """Gaps between the displaced nodes and the lobed cone: see r37core.contact.casing. Whether any is passed."""
+    turned = place * (2.0 * np.pi / m.steps_per_revolution)
+    any_beyond = False
+    for g in range(0, len(m.force), LANES):
+        # room that is free before contact
+        store(m.problem.multiplier, g, along(m, NORMAL, m.u, g, len(m.u)))
+        store(m.problem.answer, g, along(m, TANGENTIAL, m.u, g, len(m.u)))
+        store(m.problem.short, g, along(m, MERIDIONAL, m.u, g, len(m.u)))
+        m.beyond[g // LANES] = 0
+    for k in range(m.nodes):
+        p, casing = m.problem, m.casing
+        position, m.shift[k] = _displaced_position(
+            p.multiplier[k], p.answer[k], p.short[k], m.radius[k], casing.cosine, casing.sine
+        )
+        shape = _lobe_shape(m.theta[k] - turned + m.shift[k], casing.period, casing.width)
+        p.gap[k] = casing.clearance - lobes * shape - position
+        if p.gap[k] < 0.0:
+            m.beyond[k // LANES] |= 1 << (k % LANES)
+            any_beyond = True
+    return any_beyond
+
+
+@inlined
+def set_sliding_of(m, count):
+    """Sliding in the last step of the listed nodes, four at a time."""
+    nodes, p = len(m.force), m.problem
+    for j in range(0, count, 4):
+        a, b, c, d = p.listed[j], p.listed[j + 1], p.listed[j + 2], p.listed[j + 3]
+        t, r = TANGENTIAL * nodes, MERIDIONAL * nodes
+        store(p.short, 0, eight_rows(m, t + a, t + b, t + c, t + d, r + a, r + b, r + c, r + d, m.before, len(m.u)))
+        for i in range(4):
+            k = p.listed[j + i]
+            m.sliding[0, k] = m.rotation[k] + p.short[i]
+            m.sliding[1, k] = p.short[4 + i]
+
+
+@inlined
+def set_sliding(m):
+    """Sliding in the last step of all nodes."""
+    for g in range(0, len(m.force), LANES):
+        store(m.sliding, (0, g), load(m.rotation, g) + along(m, TANGENTIAL, m.before, g, len(m.u)))
+        store(m.sliding, (1, g), along(m, MERIDIONAL, m.before, g, len(m.u)))
+
+
+@inlined
+def set_friction(m):
+    """Vector friction per normal force, against the nodes' sliding."""
+    for g in range(0, len(m.force), LANES):
+        tangential, meridional = _friction_direction(load(m.sliding, (0, g)), load(m.sliding, (1, g)))
+        store(m.friction_share, (0, g), tangential * (0.0 - m.friction))
+        store(m.friction_share, (1, g), meridional * (0.0 - m.friction))
+
+
+@inlined
+def response_with_friction(m, k, g):
+    """Opening of gaps per unit multiplier of a node, with the vector friction that comes with it."""
+    response = load(m.coupling, (NORMAL, k, g)) + load(m.coupling, (TANGENTIAL, k, g)) * m.friction_share[0, k]
+    return response + load(m.coupling, (MERIDIONAL, k, g)) * m.friction_share[1, k]
+
+
+@inlined
+def press_lining(m, wear, place, kind):
+    """Normal forces of the bars that the nodes press; wears them. Whether a node reaches the casing behind the lining."""
+    p, lining = m.problem, m.lining
+    bars = int(lining.bars)
+    turned = place * lining.bars / m.steps_per_revolution
+    count = list_nodes(m.beyond, p.listed)
+    if kind.vector_friction:
+        set_sliding_of(m, count)
+        set_friction(m)
+    for j in range(count):
+        k = p.listed[j]
+        position = m.bar_position[k] - turned
+        if kind.exact_gap:
+            position += m.shift[k] * (lining.bars / (2.0 * np.pi))
+        bar = int(np.floor(position))
+        while bar < 0:
+            bar += bars
+        if kind.exact_gap:
+            while bar >= bars:
+                bar -= bars
+        if m.rings > 1:
+            bar += k * bars
+        stress, wear[bar] = _return_mapping(-p.gap[k], wear[bar], lining)
+        m.force[k] = -stress * lining.area
+    any_closed = 0
+    for g in range(0, len(m.force), LANES):
+        gap = load(p.gap, g) + lining.thickness
+        for j in range(count):
+            k = p.listed[j]
+            if kind.vector_friction:
+                gap -= response_with_friction(m, k, g) * m.force[k]
+            else:
+                gap -= load(m.response, (k, g)) * m.force[k]
+        store(p.gap, g, gap)
+        any_closed |= bits_of(gap < 0.0)
+    return any_closed != 0
+
+
+@inlined
+def press_casing(m, kind):
+    """Add the forces of casing contact, and keep the set of nodes that touch it."""
+    p = m.problem
+    if kind.vector_friction:
+        # of all nodes: the others' reaction may bring any of them to the casing
+        set_sliding(m)
+        set_friction(m)
+        for k in range(m.nodes):
+            for g in range(0, len(m.force), LANES):
+                store(m.response, (k, g), response_with_friction(m, k, g))
+    guessed = 0
+    for g in range(len(m.on_casing)):
+        p.touching[g] = m.on_casing[g]
+        guessed |= m.on_casing[g]
+    if guessed == 0:
+        for g in range(0, len(m.force), LANES):
+            p.touching[g // LANES] = bits_of(load(p.gap, g) < 0.0)
+    violation = solve_complementarity(p, m.response if kind.coupled else m.columns)
+    m.totals.worst_complementarity = max(m.totals.worst_complementarity, violation)
+    for g in range(0, len(m.force), LANES):
+        multiplier = load(p.multiplier, g)
+        store(m.force, g, load(m.force, g) - multiplier)
+        touching = bits_of(multiplier > 0.0)
+        p.wrong[g // LANES] = touching & ~m.on_casing[g // LANES]
+        m.on_casing[g // LANES] = touching
+    m.totals.casing_hits += list_nodes(p.wrong, p.listed)
+
+
+@inlined
+def push_blade(m, vector, energy, work, lost):
+    """Correct displacement and increment for the nodes' forces; adds the work of the forces, doubled, and the energy lost."""
+    if vector:
+        for i in range(0, len(m.u), LANES):
+            store(m.push, i, 0.0)
+        for j in range(list_nodes(m.pressed, m.problem.listed)):
+            k = m.problem.listed[j]
+            normal, nodes = m.force[k], len(m.force)
+            tangential, meridional = normal * m.friction_share[0, k], normal * m.friction_share[1, k]
+            for i in range(0, len(m.u), LANES):
+                push = load(m.push, i) + load(m.rows, (k, i)) * normal + load(m.rows, (nodes + k, i)) * tangential
+                store(m.push, i, push + load(m.rows, (2 * nodes + k, i)) * meridional)
+    else:
+        for i in range(0, len(m.u), LANES):
+            push = spread(0.0)
+            for k in range(len(m.force)):
+                push += load(m.push_rows, (k, i)) * m.force[k]
+            store(m.push, i, push)
+    for i in range(0, len(m.u), LANES):
+        free, push = load(m.now, i) + load(m.before, i), load(m.push, i)
+        pushed = load(m.inverse, i) * push
+        store(m.now, i, load(m.now, i) + pushed)
+        store(m.u, i, load(m.u, i) + pushed)
+        work += push * (free + pushed)
+        if energy:
+            lost += load(m.loss, i) * pushed * (free + free + pushed)
+    return work, lost
+
+
+@inlined
+def meet(m, wear, place, kind, work, lost):
+    """Everything that happens in a step in which nodes are beyond the lining or casing; adds work, doubled, and loss."""
+    for g in range(0, len(m.force), LANES):
+        store(m.force, g, 0.0)
+    closed = True
+    if kind.lined:
+        closed = press_lining(m, wear, place, kind)
+    if closed:
+        press_casing(m, kind)
+    else:
+        leave_casing(m)
+    any_pressed = 0
+    for g in range(0, len(m.force), LANES):
+        force = load(m.force, g)
+        store(m.largest, g, np.maximum(load(m.largest, g), 0.0 - force))
+        pressed = bits_of(force < 0.0)
+        m.pressed[g // LANES] = pressed
+        any_pressed |= pressed
+    if any_pressed == 0:
+        return work, lost
+    m.totals.steps_in_contact += 1.0
+    return push_blade(m, kind.vector_friction, kind.energy, work, lost)
+
+
+@inlined
+def leave_casing(m):
+    """No node touches the casing."""
+    for g in range(len(m.on_casing)):
+        m.on_casing[g] = 0
+
+
+@inlined
+def record(m, block, row, samples, snapshots):
+    """Samples and, in this row, a snapshot at the end of a block; returns whether the outputs are within the limit."""
+    outputs = m.outputs.shape[0]
+    bounded = True
+    for o in range(outputs):
+        total = 0.0
+        for i in range(len(m.u)):
+            total += m.outputs[o, i] * m.u[i]
+        samples[block * outputs + o] = total
+        # written so that NaN fails as well
+        bounded &= abs(total) < m.limit
+    if row >= 0:
+        for i in range(len(m.u)):
+            snapshots[row * len(m.u) + i] = m.u[i]
+    return bounded
