@@ -1,4 +1,4 @@
-"""One reading at one place. Inputs: model (rom, contact). Params: reading, place, entry, choice, schemas, ... Output: netCDF."""
+"""One reading at one place. Inputs: model (rom, contact). Params: reading, place, entry, choice, ... Output: netCDF."""
 
 from dataclasses import replace
 from pathlib import Path

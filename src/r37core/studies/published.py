@@ -1,4 +1,4 @@
-"""What the paper publishes about its seven blades (section 7 of the benchmark). Speeds in rad/s. Light: the workflow imports it."""
+"""What the paper publishes about its seven blades (section 7 of the benchmark). Speeds in rad/s. Light."""
 
 from __future__ import annotations
 

@@ -56,13 +56,10 @@ def places(reading: Reading, steps: Mapping[str, float]) -> dict[str, Place]:
 
 
 def _interaction(one: Interaction, fine: bool, steps: Mapping[str, float]) -> Place:
-    if fine:
-        speeds = grid(one.campbell, *(share * one.campbell for share in FINE_WINDOW), steps["fine"])
-    else:
-        speeds = grid(one.peak, *(share * one.peak for share in COARSE_WINDOW), steps["coarse"])
+    speeds = _window(one.campbell, FINE_WINDOW, steps["fine"]) if fine else _window(one.peak, COARSE_WINDOW, steps["coarse"])
     histories: tuple[float, ...] = ()
     if one.engine_order == 4 and one.blade == REFERENCE:
-        histories = (one.peak, QUIET)
+        histories = (one.peak, DIRECT_PEAK, QUIET)
     return Place(one.blade, "lined", speeds, histories, follow=fine)
 
 
@@ -81,6 +78,10 @@ def _surveys(step: float) -> dict[str, Place]:
         "Ref_rigid": Place(REFERENCE, "rigid", every_other, spectrum=True),
         "CS100_lined": Place("CS100", "lined", every, spectrum=True),
     }
+
+
+def _window(centre: float, shares: tuple[float, float], step: float) -> tuple[float, ...]:
+    return grid(centre, shares[0] * centre, shares[1] * centre, step)
 
 
 def grid(centre: float, below: float, above: float, step: float) -> tuple[float, ...]:

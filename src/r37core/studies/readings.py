@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -82,7 +82,7 @@ def run_place(bench: Bench, place: Place) -> xr.Dataset:
     histories = list(place.histories)
     if place.follow:
         _extend(runs, bench)
-        histories.append(max(runs, key=lambda speed: motion_of(runs[speed])))
+        histories.append(max(runs, key=lambda speed: float(motion(runs[speed]))))
     runs = dict(sorted(runs.items()))
     speed = ("speed", list(runs), about("rad s-1", "angular speed of the rotor"))
     dataset = xr.Dataset(coords={"speed": speed})
@@ -90,18 +90,25 @@ def run_place(bench: Bench, place: Place) -> xr.Dataset:
         dataset[name] = ("speed", [float(run[name]) for run in runs.values()], about(unit, name.replace("_", " ")))
     if place.spectrum:
         dataset = dataset.assign_coords(engine_order=next(iter(runs.values()))["engine_order"])
-        amplitude = np.array([run["amplitude"][0] for run in runs.values()])
-        dataset["amplitude"] = (("speed", "engine_order"), amplitude, about("m", "amplitude of the normal displacement"))
+        for row, (name, direction) in enumerate((("amplitude", "normal"), ("amplitude_tangential", "tangential"))):
+            values = np.array([run["amplitude"][row] for run in runs.values()])
+            about_it = about("m", f"amplitude of the {direction} displacement")
+            dataset[name] = (("speed", "engine_order"), values, about_it)
     if histories:
-        dataset = dataset.assign_coords(history_speed=sorted(set(histories)), revolution=1 + np.arange(bench.choice.revolutions))
+        dataset = dataset.assign_coords(
+            history_speed=sorted(set(histories)), revolution=1 + np.arange(bench.choice.revolutions)
+        )
         stress = np.array([bench.history(speed) for speed in dataset["history_speed"].values])
         dataset["history"] = (("history_speed", "revolution"), stress, about("Pa", "largest stress of each revolution"))
     return dataset
 
 
-def motion_of(run: Mapping[str, float]) -> float:
-    """Rms (m) of the leading edge's motion in the casing's normal and tangent together; 0 where it diverged."""
-    return float(np.nan_to_num(np.hypot(run["rms_normal"], run["rms_tangential"])))
+def motion(run: Any) -> np.ndarray:
+    """Rms (m) of the leading edge's normal and tangential motion together, of one run or of every speed of a dataset.
+
+    0 where it diverged.
+    """
+    return np.nan_to_num(np.hypot(np.asarray(run["rms_normal"]), np.asarray(run["rms_tangential"])))
 
 
 def _extend(runs: dict[float, dict[str, np.ndarray]], bench: Bench) -> None:
