@@ -1,9 +1,12 @@
 """Scores of the readings against the published numbers, on runs made by hand."""
 
+import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 import xarray as xr
 
+from r37core.figures.readings import draw_readings
+from r37core.figures.validation import draw_blades, draw_reference, draw_stress
 from r37core.march.choice import MarchChoice
 from r37core.studies import measures
 from r37core.studies.check import Check, claim, score, validation_table
@@ -186,3 +189,18 @@ def test_a_window_is_followed_to_where_the_stress_is_below_yield():
     still = run_place(FakeBench(), Place("Ref", "lined", (1000.0, 1005.0)))
     assert still.sizes["speed"] == 2
     assert "history" not in still
+
+
+def test_pictures_show_every_blade_and_both_scenes():
+    shipped = published_runs()
+    survey = {name: branch(1200.0, low=750.0, high=2000.0) for name in ("Ref_lined", "Ref_rigid")}
+    figures = [draw_reference(survey, shipped), draw_blades(shipped), draw_stress(shipped, YIELD)]
+    for figure, legend in zip(figures, (["abradable lining", "direct contact"], list(BLADES), [*BLADES, "yield"]), strict=True):
+        assert figure.axes[0].get_legend_handles_labels()[1] == legend
+    speed, level = figures[0].axes[0].lines[0].get_data()
+    assert np.all(np.diff(speed) > 0.0)
+    # the finer windows stand in the survey's curve
+    assert level[np.searchsorted(speed, 838.0)] == pytest.approx(4.0)
+    errors = draw_readings({SHIPPED: shipped}).axes[0]
+    assert "10 of 10" in [text.get_text() for text in errors.texts]
+    plt.close("all")

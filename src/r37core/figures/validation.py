@@ -20,7 +20,7 @@ _DIRECTIONS = {"rms_normal": "normal to the casing", "rms_tangential": "tangenti
 def draw_reference(survey: Runs, shipped: Runs) -> Figure:
     """Rms of both scenes over the whole range, the survey and the finer windows together; dotted: published peaks."""
     windows = [shipped[one.name] for one in INTERACTIONS if one.blade == "Ref"]
-    runs = {"lined": joined(survey["Ref_lined"], *windows), "rigid": joined(survey["Ref_rigid"], shipped[DIRECT])}
+    runs = {"lined": joined(*windows, survey["Ref_lined"]), "rigid": joined(shipped[DIRECT], survey["Ref_rigid"])}
     figure, panels = plt.subplots(2, 1, figsize=(9.0, 6.4), sharex=True)
     for axes, (name, direction) in zip(panels, _DIRECTIONS.items(), strict=True):
         for scene, run in runs.items():
