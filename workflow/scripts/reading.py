@@ -21,12 +21,10 @@ def main(snakemake):
     params, given = snakemake.params, snakemake.input
     material = Material(**params.material)
     choice = MarchChoice(**params.choice)
-    lined = params.place["kind"] == "lined"
-    changes = {path: value for path, value in params.reading["changes"].items() if lined or not path.startswith("lining.")}
     bench = Bench(
         read_contact_model(given.contact),
         StressRecovery(read_reduced_model(given.rom), material),
-        checked_scene(changed(params.entry, changes), Path(params.schemas)),
+        checked_scene(changed(params.entry, params.reading["changes"]), Path(params.schemas)),
         replace(choice, time_step=params.reading["steps"] * choice.time_step),
         material.yield_stress,
     )
