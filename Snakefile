@@ -16,6 +16,8 @@ include: "workflow/rules/results.smk"
 include: "workflow/rules/figures.smk"
 include: "workflow/rules/studies_common.smk"
 include: "workflow/rules/studies.smk"
+include: "workflow/rules/readings_common.smk"
+include: "workflow/rules/readings.smk"
 
 
 rule all_blades:

@@ -14,7 +14,12 @@ TABLES = {
     "validation": {"validation": "validation.md", "readings": "readings.md"},
     "speed": {"estimate": "estimate.md"},
 }
-PICTURES = ("tradeoff_pareto", "growth", "readings")
+PICTURES = (
+    "tradeoff_pareto",
+    "growth",
+    "readings",
+    *(f"validation_{name}" for name in ("reference", "blades", "stress", "histories", "spectrum_lined", "spectrum_rigid")),
+)
 
 
 def fill(page, name, text):

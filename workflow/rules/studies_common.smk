@@ -1,6 +1,5 @@
 # What the rules of the studies share.
 from r37core.config import march_of_level
-from r37core.studies.reading_list import LINED, RIGID
 from r37core.studies.stability_cases import extremes
 
 TRADEOFF = settings.studies["tradeoff"]
@@ -105,18 +104,3 @@ def stability_model(wildcards):
     """Contact model of an extreme."""
     changes = EXTREMES[wildcards.extreme].model
     return study_model_files(STABILITY["blade"], model_of_level(STABILITY["base"], **changes))["contact"]
-
-
-READINGS = settings.studies["readings"]
-READINGS_OF = {"lined": LINED, "rigid": RIGID}
-
-
-def reading_model(wildcards):
-    """Files of the model that a reading needs."""
-    changes = READINGS_OF[wildcards.kind][wildcards.reading].model
-    return study_model_files(READINGS["blade"], model_of_level(READINGS["base"], **changes))
-
-
-def reading_files(kind):
-    """The readings of one kind of scene."""
-    return [f"results/studies/readings/{kind}_{reading}.nc" for reading in READINGS_OF[kind]]

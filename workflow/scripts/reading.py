@@ -1,4 +1,4 @@
-"""One reading of one scene. Inputs: model (rom, contact). Params: reading, entry, choice, schemas, ... Output: netCDF."""
+"""One reading at one place. Inputs: model (rom, contact). Params: reading, place, entry, choice, ... Output: netCDF."""
 
 from dataclasses import replace
 from pathlib import Path
@@ -12,27 +12,23 @@ from r37core.march.choice import MarchChoice
 from r37core.results.stress import StressRecovery
 from r37core.rom.contact_model import read_contact_model
 from r37core.rom.rom_file import read_reduced_model
-from r37core.studies.readings import HISTORIES, lined_speeds, rigid_speeds, run_reading
+from r37core.studies.reading_places import Place
+from r37core.studies.readings import Bench, run_place
 from r37core.studies.stability import changed
 
 
 def main(snakemake):
-    params = snakemake.params
+    params, given = snakemake.params, snakemake.input
     material = Material(**params.material)
-    scene = checked_scene(changed(params.entry, params.reading["changes"]), Path(params.schemas))
     choice = MarchChoice(**params.choice)
-    choice = replace(choice, time_step=params.reading["steps"] * choice.time_step)
-    lined = snakemake.wildcards.kind == "lined"
-    dataset = run_reading(
-        read_contact_model(snakemake.input.contact),
-        StressRecovery(read_reduced_model(snakemake.input.rom), material),
-        scene,
-        choice,
-        (lined_speeds if lined else rigid_speeds)(params.speed_step),
-        HISTORIES[snakemake.wildcards.kind],
+    bench = Bench(
+        read_contact_model(given.contact),
+        StressRecovery(read_reduced_model(given.rom), material),
+        checked_scene(changed(params.entry, params.reading["changes"]), Path(params.schemas)),
+        replace(choice, time_step=params.reading["steps"] * choice.time_step),
         material.yield_stress,
     )
-    write_dataset(dataset, snakemake.output[0], {"reading": params.reading["what"]})
+    write_dataset(run_place(bench, Place(**params.place)), snakemake.output[0], {"reading": params.reading["what"]})
 
 
 run(snakemake, main)

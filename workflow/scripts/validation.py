@@ -1,29 +1,43 @@
-"""Published numbers beside ours. Inputs: geometry, campbell, readings. Params: yield_stress, names. Outputs: tables, figure."""
+"""Published numbers beside ours. Inputs: geometry, campbells, runs. Params: names, yield_stress. Outputs: tables, figures."""
 
 from job import run
 
 from r37core.dataset_file import read_dataset
+from r37core.figures.maps import draw_spectral_map
 from r37core.figures.readings import draw_readings
 from r37core.figures.style import save
+from r37core.figures.validation import draw_blades, draw_histories, draw_reference, draw_stress
 from r37core.io import write_text
-from r37core.studies.validation import CONVERGENCE, lined_checks, rigid_checks, score_table, structure_checks, validation_table
+from r37core.studies.check import validation_table
+from r37core.studies.reading_list import CONVERGENCE, SHIPPED, SURVEY, TURNED
+from r37core.studies.reading_table import readings_table
+from r37core.studies.validation import reading_checks, structure_checks, survey_checks
 
 
 def main(snakemake):
-    given, made, params = snakemake.input, snakemake.output, snakemake.params
-    lined = {name: read_dataset(file) for name, file in zip(params.lined, given.lined, strict=True)}
-    rigid = {name: read_dataset(file) for name, file in zip(params.rigid, given.rigid, strict=True)}
-    checks = structure_checks(read_dataset(given.geometry), read_dataset(given.campbell))
-    checks += lined_checks(lined["benchmark"], rigid["benchmark"], params.yield_stress)
-    checks += rigid_checks(rigid["benchmark"], params.yield_stress)
-    variants = {}
-    for name in CONVERGENCE:
-        ours = lined_checks(lined[name], None, params.yield_stress) if name in lined else []
-        ours += rigid_checks(rigid[name], params.yield_stress) if name in rigid else []
-        variants[name] = {check.name: check.ours for check in ours}
-    write_text(validation_table(checks, variants), made.validation)
-    write_text(score_table(lined, rigid, params.yield_stress), made.readings)
-    save(draw_readings(lined, rigid), made.figure)
+    params, given, made = snakemake.params, snakemake.input, snakemake.output
+    runs = {}
+    for (reading, place), file in zip(params.runs, given.runs, strict=True):
+        runs.setdefault(reading, {})[place] = read_dataset(file)
+    meshes = {}
+    for (blade, mesh), file in zip(params.campbells, given.campbells, strict=True):
+        meshes.setdefault(mesh, {})[blade] = read_dataset(file)
+    shipped, survey = runs[SHIPPED], runs[SURVEY]
+    checks = structure_checks(read_dataset(given.geometry), meshes["level"]) + reading_checks(shipped, params.yield_stress)
+    checks += survey_checks(survey, shipped, params.yield_stress)
+    others = {name: reading_checks(runs[name], params.yield_stress) for name in CONVERGENCE}
+    for nodes in params.meshes:
+        others[f"mesh_{nodes}"] += structure_checks(None, meshes[str(nodes)])
+    write_text(validation_table(checks, others), made.validation)
+    turned = {name: runs[name] for name in (SHIPPED, *TURNED)}
+    write_text(readings_table(turned, params.yield_stress), made.readings)
+    save(draw_readings(turned), made.picture)
+    save(draw_reference(survey, shipped), made.reference)
+    save(draw_blades(shipped), made.blades)
+    save(draw_stress(shipped, params.yield_stress), made.stress)
+    save(draw_histories(shipped, params.yield_stress), made.histories)
+    for place, file in (("Ref_lined", made.spectrum_lined), ("Ref_rigid", made.spectrum_rigid)):
+        save(draw_spectral_map(survey[place], meshes["level"]["Ref"], place.replace("_", " ")), file)
 
 
 run(snakemake, main)

@@ -1,43 +1,41 @@
-"""Response of the readings about the four interactions, and of direct contact over the whole range."""
+"""Peak speeds of every reading beside the published ones."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 
 import matplotlib.pyplot as plt
-import xarray as xr
+import numpy as np
 from matplotlib.figure import Figure
 
-from r37core.studies.reading_list import LINED, RIGID
-from r37core.studies.readings import WINDOWS
-from r37core.studies.validation import DIRECT_PEAK, PEAKS
+from r37core.studies.measures import peak_speed
+from r37core.studies.published import INTERACTIONS
+from r37core.studies.reading_list import READINGS
+from r37core.studies.validation import PEAK_WITHIN, Runs
 
 from . import style  # noqa: F401  (sets the style)
 
-_SHOWN_LINED = ("benchmark", "vector", "against", "against_shared", "shared", "camber")
-_SHOWN_RIGID = ("benchmark", "vector", "against", "against_vector")
 
-
-def draw_readings(lined: Mapping[str, xr.Dataset], rigid: Mapping[str, xr.Dataset]) -> Figure:
-    """Radial rms of the leading edge; dotted: the published peaks."""
-    figure = plt.figure(figsize=(11.0, 7.2))
-    grid = figure.add_gridspec(2, len(WINDOWS))
-    for column, order in enumerate(sorted(WINDOWS, reverse=True)):
-        axes = figure.add_subplot(grid[0, column])
-        for name in _SHOWN_LINED:
-            run = lined[name].sel(speed=slice(*WINDOWS[order]))
-            line = 1.8 if name == "benchmark" else 0.9
-            axes.plot(run["speed"], 1e3 * run["rms_radial"], linewidth=line, label=LINED[name].what)
-        axes.axvline(PEAKS[order], color="0.4", linestyle=":")
-        axes.set_title(f"abradable, 1B/{order}", fontsize=9)
-        if column == 0:
-            axes.set_ylabel("rms, radial (mm)")
-            figure.legend(loc="outside upper center", ncols=2, fontsize=8)
-    axes = figure.add_subplot(grid[1, :])
-    for name in _SHOWN_RIGID:
-        run = rigid[name]
-        axes.plot(run["speed"], 1e3 * run["rms_radial"], linewidth=1.8 if name == "benchmark" else 0.9, label=RIGID[name].what)
-    axes.axvline(DIRECT_PEAK, color="0.4", linestyle=":")
-    axes.set(xlabel="speed (rad/s)", ylabel="rms, radial (mm)", title="direct contact")
-    axes.legend(fontsize=7)
+def draw_readings(readings: Mapping[str, Runs]) -> Figure:
+    """One row for each reading: error of every peak speed in percent, and how many there are; grey: what counts as met."""
+    figure, axes = plt.subplots(figsize=(9.0, 0.32 * len(readings) + 1.6))
+    axes.axvspan(-100 * PEAK_WITHIN, 100 * PEAK_WITHIN, color="0.92", zorder=0)
+    rows = np.arange(len(readings))
+    for number, one in enumerate(INTERACTIONS):
+        speeds = [peak_speed(runs[one.name]) if one.name in runs else np.nan for runs in readings.values()]
+        errors = 100.0 * (np.array(speeds) / one.peak - 1.0)
+        marker = "o" if one.engine_order == 4 else "^sD"[one.engine_order - 5]
+        color = f"C{number}" if one.engine_order == 4 else "C0"
+        label = f"{one.blade} 1B/{one.engine_order}"
+        axes.plot(errors, rows, marker, color=color, alpha=0.8, markersize=5, linestyle="none", label=label)
+    for row, runs in enumerate(readings.values()):
+        found = sum(np.isfinite(peak_speed(runs[one.name])) for one in INTERACTIONS if one.name in runs)
+        axes.annotate(
+            f"{found} of {len(INTERACTIONS)}", (1.01, row), xycoords=("axes fraction", "data"), va="center", fontsize=8
+        )
+    axes.set_yticks(rows, [READINGS[name].what for name in readings])
+    axes.invert_yaxis()
+    axes.set(xlabel="peak speed less the published one (%)")
+    axes.annotate("peaks found", (1.01, 1.0), xycoords="axes fraction", va="bottom", fontsize=8)
+    figure.legend(loc="outside lower center", ncols=5, fontsize=8)
     return figure

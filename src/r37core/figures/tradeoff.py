@@ -7,10 +7,11 @@ import numpy as np
 import xarray as xr
 from matplotlib.figure import Figure
 
+from r37core.studies.case import QUANTITIES
+
 from . import style  # noqa: F401  (sets the style)
 
 _FLOOR = 1e-7
-_SHOWN = ("rms_radial", "peak_radial", "max_von_mises", "max_wear")
 
 
 def draw_knob(together: xr.Dataset, knob: str) -> Figure:
@@ -21,7 +22,7 @@ def draw_knob(together: xr.Dataset, knob: str) -> Figure:
     figure, panels = plt.subplots(2, len(scenes), figsize=(4.6 * len(scenes), 5.2), sharex=True, sharey="row", squeeze=False)
     for column, scene in enumerate(scenes):
         cases = together.isel(case=rows).sel(scene=scene)
-        for name in _SHOWN:
+        for name in QUANTITIES:
             error = cases["error"].sel(at="peak", quantity=name).values
             if np.any(np.isfinite(error)):
                 panels[0, column].plot(labels, np.maximum(error, _FLOOR), "o-", label=name.replace("_", " "))
@@ -38,14 +39,14 @@ def draw_knob(together: xr.Dataset, knob: str) -> Figure:
 
 
 def draw_pareto(together: xr.Dataset) -> Figure:
-    """Error of the rms at the peak over CPU time per run, all knobs; levels stand out."""
+    """Error of the normal rms at the peak over CPU time per run, all knobs; levels stand out."""
     scenes = together["scene"].values
     figure, panels = plt.subplots(1, len(scenes), figsize=(5.4 * len(scenes), 4.6), sharey=True, squeeze=False)
     knobs = list(dict.fromkeys(together["knob"].values))
     for axes, scene in zip(panels[0], scenes, strict=True):
         for number, knob in enumerate(knobs):
             cases = together.isel(case=np.flatnonzero(together["knob"].values == knob)).sel(scene=scene)
-            error = np.maximum(cases["error"].sel(at="peak", quantity="rms_radial").values, _FLOOR)
+            error = np.maximum(cases["error"].sel(at="peak", quantity="rms_normal").values, _FLOOR)
             level = knob == "level"
             marker = "*" if level else "osv^Dx+"[number % 7]
             axes.loglog(cases["cpu_s"].values, error, marker, label=knob.replace("_", " "), markersize=11 if level else 5)
@@ -53,6 +54,6 @@ def draw_pareto(together: xr.Dataset) -> Figure:
                 for x, y, name in zip(cases["cpu_s"].values, error, cases["value"].values, strict=True):
                     axes.annotate(str(name), (x, y), fontsize=7, xytext=(4, 4), textcoords="offset points")
         axes.set(xlabel="CPU s per run", title=str(scene))
-    panels[0, 0].set_ylabel("relative error of the mean rms at the peak")
+    panels[0, 0].set_ylabel("relative error of the mean normal rms at the peak")
     panels[0, -1].legend(fontsize=7)
     return figure

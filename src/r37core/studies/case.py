@@ -12,13 +12,17 @@ import numpy as np
 
 from r37core.contact.scene import Scene
 from r37core.march.choice import MarchChoice
+from r37core.march.simulate import DIRECTIONS, TIP_POINTS
 from r37core.march.speed_file import write_speed
 from r37core.march.speed_run import run_speed
 from r37core.results.stress import StressRecovery
 from r37core.rom.contact_model import ContactModel
 
-QUANTITIES = ("rms_radial", "peak_radial", "max_von_mises", "max_wear")
-"""What a case keeps of every run: of the leading edge (m), over the last revolution (Pa), of the lining (m)."""
+MOTION = {"rms_normal": "m", "rms_tangential": "m", "peak_normal": "m"}
+"""Of the leading edge, as name -> unit: named after a kind and a direction of the march."""
+
+QUANTITIES = {**MOTION, "max_von_mises": "Pa", "max_wear": "m"}
+"""What a case keeps of every run, name -> unit; the stress over the last revolution, the wear at the end."""
 
 CHECKS = ("status", "energy_residual", "worst_complementarity", "share_of_time_in_contact")
 COSTS = ("cpu_s", "wall_s", "peak_memory_bytes", "bytes_written")
@@ -88,7 +92,9 @@ def run_case(
 def _keep(
     values: dict[str, np.ndarray], row: int, run: dict[str, np.ndarray], recovery: StressRecovery | None, choice: MarchChoice
 ) -> None:
-    values["rms_radial"][row], values["peak_radial"][row] = run["rms"][0, 0], run["peak"][0, 0]
+    for name in MOTION:
+        kind, direction = name.split("_")
+        values[name][row] = run[kind][TIP_POINTS.index("leading_edge"), DIRECTIONS.index(direction)]
     for name in ("status", "worst_complementarity", "share_of_time_in_contact"):
         values[name][row] = run[name]
     # what the energy balance does not close, as a share of all that went in and out

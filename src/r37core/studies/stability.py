@@ -12,7 +12,7 @@ from r37core.contact.scene import Scene
 from r37core.march.choice import MarchChoice
 from r37core.rom.contact_model import ContactModel
 
-from .case import Case, run_case
+from .case import MOTION, Case, run_case
 
 ACCURATE, DEGRADED, DIVERGED, REFUSED = "accurate", "degraded", "diverged", "refused"
 """Outcomes. Accurate: half the step gives the same mean rms within ACCURATE_WITHIN; degraded: it does not; diverged: the run
@@ -37,7 +37,7 @@ def judge(model: ContactModel, scene: Scene, choice: MarchChoice, speed: float) 
     for one in (case, half):
         _check_sound(one)
     numbers = {
-        "rms": float(case.values["rms_radial"].mean()),
+        "rms": _motion(case),
         "contact": float(case.values["share_of_time_in_contact"].mean()),
         "energy_residual": float(np.abs(case.values["energy_residual"]).max()),
         "cpu_s": case.costs["cpu_s"],
@@ -45,7 +45,7 @@ def judge(model: ContactModel, scene: Scene, choice: MarchChoice, speed: float) 
     if case.values["status"].any():
         also = "so does half the step" if half.values["status"].any() else "half the step does not"
         return numbers | {"outcome": DIVERGED, "detail": f"{also}; recorded with status 1"}
-    mine, theirs = numbers["rms"], float(half.values["rms_radial"].mean())
+    mine, theirs = numbers["rms"], _motion(half)
     if half.values["status"].any():
         return numbers | {"outcome": DEGRADED, "detail": "half the step diverges"}
     if theirs == 0.0 and mine == 0.0:
@@ -55,10 +55,15 @@ def judge(model: ContactModel, scene: Scene, choice: MarchChoice, speed: float) 
     return numbers | {"outcome": outcome, "detail": f"mean rms changes by {100 * change:.2g}% with half the step"}
 
 
+def _motion(case: Case) -> float:
+    """Mean over the speeds of the rms (m) of the leading edge's normal and tangential motion together."""
+    return float(np.hypot(case.values["rms_normal"], case.values["rms_tangential"]).mean())
+
+
 def _check_sound(case: Case) -> None:
     """AssertionError unless every run either diverged and says so, or has finite, balanced numbers."""
     completed = case.values["status"] == 0
-    for name in ("rms_radial", "peak_radial"):
+    for name in MOTION:
         assert np.all(np.isfinite(case.values[name][completed])), f"{name} is not finite in a run that counts as completed"
     energy = np.abs(case.values["energy_residual"][completed])
     assert np.all(energy < ENERGY_WITHIN), f"energy balance open by {energy.max():.2g} of the work"

@@ -17,7 +17,7 @@ from r37core.march.simulate import UnstableStepError
 from r37core.results.stress import StressRecovery
 from r37core.rom.contact_model import ContactModel
 
-from .case import COSTS, QUANTITIES, Case, run_case
+from .case import COSTS, MOTION, QUANTITIES, Case, run_case
 
 MODEL_KNOBS = ("mesh_nodes", "boundary_nodes", "fixed_interface_modes", "stress_region", "level")
 """Knobs that need a model of their own, or a level's."""
@@ -134,8 +134,7 @@ def gather_cases(cases: Sequence[xr.Dataset], references: Mapping[str, str]) -> 
     )
     together["scatter"] = (dims, scatter, about("1", "root mean square of the relative differences at the single speeds"))
     together["peak_speed_error"] = (dims[:2], speed_error, about("1", "relative difference of the rms-weighted mean speed"))
-    units = {"rms_radial": "m", "peak_radial": "m", "max_von_mises": "Pa", "max_wear": "m", "cpu_s": "s", "wall_s": "s"}
-    for name, unit in units.items():
+    for name, unit in {**QUANTITIES, "cpu_s": "s", "wall_s": "s"}.items():
         together[name].attrs.update(about(unit, name.replace("_", " ")))
     together["speed"].attrs.update(about("rad s-1", "angular speed of the rotor"))
     return together
@@ -155,11 +154,11 @@ def compare(ours: xr.Dataset, theirs: xr.Dataset, place: str) -> tuple[np.ndarra
 def centre_of_peak(case: xr.Dataset) -> float:
     """Mean speed (rad/s) over peak and jump, weighted with the squared rms: moves smoothly where the largest one jumps."""
     at = np.isin(case["place"].values, ["peak", "jump"])
-    weight = case["rms_radial"].values[at] ** 2
+    weight = case["rms_normal"].values[at] ** 2 + case["rms_tangential"].values[at] ** 2
     return float((case["speed"].values[at] * weight).sum() / weight.sum())
 
 
 def level_error(together: xr.Dataset, value: str) -> float:
-    """Error of a fidelity level: the largest at the peak, over scenes, of rms, largest displacement and stress."""
+    """Error of a fidelity level: the largest at the peak, over scenes, of motion and stress."""
     case = together.isel(case=(together["knob"].values == "level") & (together["value"].values == value))
-    return float(case["error"].sel(at="peak", quantity=["rms_radial", "peak_radial", "max_von_mises"]).max())
+    return float(case["error"].sel(at="peak", quantity=[*MOTION, "max_von_mises"]).max())

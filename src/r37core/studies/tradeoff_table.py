@@ -7,10 +7,9 @@ from collections.abc import Mapping
 import numpy as np
 import xarray as xr
 
+from .case import QUANTITIES
 from .levels import recommended_level
 from .tradeoff import level_error
-
-_COLUMNS = ("rms_radial", "peak_radial", "max_von_mises", "max_wear")
 
 
 def knob_tables(together: xr.Dataset, references: Mapping[str, str]) -> str:
@@ -19,9 +18,10 @@ def knob_tables(together: xr.Dataset, references: Mapping[str, str]) -> str:
     for knob in dict.fromkeys(together["knob"].values):
         lines += ["", f"### {knob.replace('_', ' ')} (reference: {references[knob]})", ""]
         lines.append(
-            "| value | scene | rms | largest | stress | wear | peak speed | rms off resonance | CPU s | MB | kB written |"
+            "| value | scene | rms, normal | rms, tangential | largest, normal | stress | wear | peak speed "
+            "| rms, normal, off resonance | CPU s | MB | kB written |"
         )
-        lines.append("|---" * 11 + "|")
+        lines.append("|---" * 12 + "|")
         for row in np.flatnonzero(together["knob"].values == knob):
             case = together.isel(case=row)
             for scene in case["scene"].values:
@@ -32,11 +32,11 @@ def knob_tables(together: xr.Dataset, references: Mapping[str, str]) -> str:
 def _line(one: xr.Dataset, scene: str) -> str:
     value = str(one["value"].item())
     if str(one["refused"].item()):
-        return f"| {value} | {scene} | refused: {one['refused'].item()} |" + " |" * 8
-    errors = [_percent(one["error"].sel(at="peak", quantity=name)) for name in _COLUMNS]
+        return f"| {value} | {scene} | refused: {one['refused'].item()} |" + " |" * 9
+    errors = [_percent(one["error"].sel(at="peak", quantity=name)) for name in QUANTITIES]
     memory, written = float(one["peak_memory_bytes"]) / 1e6, float(one["bytes_written"]) / 1e3
     cost = [f"{float(one['cpu_s']):.2f}", f"{memory:.0f}", f"{written:.0f}"]
-    off = _percent(one["error"].sel(at="off_resonance", quantity="rms_radial"))
+    off = _percent(one["error"].sel(at="off_resonance", quantity="rms_normal"))
     return "| " + " | ".join([value, scene, *errors, _percent(one["peak_speed_error"]), off, *cost]) + " |"
 
 

@@ -1,0 +1,99 @@
+"""The published results in the manner of the field: response, stress and yield of the shipped reading."""
+
+from __future__ import annotations
+
+import matplotlib.pyplot as plt
+import numpy as np
+import xarray as xr
+from matplotlib.figure import Figure
+
+from r37core.studies.published import BLADES, DIRECT_PEAK, INTERACTIONS
+from r37core.studies.reading_places import DIRECT
+from r37core.studies.validation import Runs
+
+from . import style  # noqa: F401  (sets the style)
+
+_SCENES = {"lined": ("abradable lining", "C0"), "rigid": ("direct contact", "C3")}
+_DIRECTIONS = {"rms_normal": "normal to the casing", "rms_tangential": "tangential"}
+
+
+def draw_reference(survey: Runs, shipped: Runs) -> Figure:
+    """Rms of both scenes over the whole range, the survey and the finer windows together; dotted: published peaks."""
+    windows = [shipped[one.name] for one in INTERACTIONS if one.blade == "Ref"]
+    runs = {"lined": joined(*windows, survey["Ref_lined"]), "rigid": joined(shipped[DIRECT], survey["Ref_rigid"])}
+    figure, panels = plt.subplots(2, 1, figsize=(9.0, 6.4), sharex=True)
+    for axes, (name, direction) in zip(panels, _DIRECTIONS.items(), strict=True):
+        for scene, run in runs.items():
+            label, color = _SCENES[scene]
+            axes.semilogy(run["speed"], 1e3 * run[name], color=color, linewidth=1.1, label=label)
+        for one in INTERACTIONS:
+            if one.blade == "Ref":
+                axes.axvline(one.peak, color="C0", linestyle=":", linewidth=0.9)
+                axes.annotate(
+                    f"1B/{one.engine_order}", (one.peak + 4, 0.96), xycoords=("data", "axes fraction"), fontsize=7, va="top"
+                )
+        axes.axvline(DIRECT_PEAK, color="C3", linestyle=":", linewidth=0.9)
+        axes.set_ylabel(f"rms, {direction} (mm)")
+    panels[0].legend(loc="upper left")
+    panels[0].set_title("blade Ref, leading edge, last 100 revolutions; dotted: published peaks", fontsize=9)
+    panels[1].set_xlabel("speed (rad/s)")
+    return figure
+
+
+def draw_blades(shipped: Runs) -> Figure:
+    """Rms of all blades about their interaction of 1B with order 4; dotted: published peaks."""
+    figure, panels = plt.subplots(2, 1, figsize=(9.0, 6.4), sharex=True)
+    for axes, (name, direction) in zip(panels, _DIRECTIONS.items(), strict=True):
+        for number, one in enumerate(INTERACTIONS[: len(BLADES)]):
+            run = shipped[one.name]
+            axes.plot(
+                run["speed"], 1e3 * run[name], color=f"C{number}", marker=".", markersize=3, linewidth=1.0, label=one.blade
+            )
+            axes.axvline(one.peak, color=f"C{number}", linestyle=":", linewidth=0.9)
+        axes.set_ylabel(f"rms, {direction} (mm)")
+    panels[0].legend(ncols=len(BLADES), fontsize=8, loc="upper left")
+    panels[1].set_xlabel("speed (rad/s)")
+    return figure
+
+
+def draw_stress(shipped: Runs, yield_stress: float) -> Figure:
+    """Largest stress of the last revolution of all blades about 1B/4, with the yield line."""
+    figure, axes = plt.subplots(figsize=(9.0, 4.2))
+    for number, one in enumerate(INTERACTIONS[: len(BLADES)]):
+        run = shipped[one.name]
+        axes.semilogy(
+            run["speed"],
+            1e-9 * run["max_von_mises"],
+            color=f"C{number}",
+            marker=".",
+            markersize=3,
+            linewidth=1.0,
+            label=one.blade,
+        )
+        axes.axvline(one.peak, color=f"C{number}", linestyle=":", linewidth=0.9)
+    axes.axhline(1e-9 * yield_stress, color="0.2", linestyle="--", linewidth=1.0, label="yield")
+    axes.set(xlabel="speed (rad/s)", ylabel="largest von Mises, last revolution (GPa)")
+    axes.legend(ncols=4, fontsize=8)
+    return figure
+
+
+def draw_histories(shipped: Runs, yield_stress: float) -> Figure:
+    """Largest stress of every revolution of the reference blade in both scenes, at the speeds of the two published maxima."""
+    runs = {"lined": shipped[INTERACTIONS[0].name], "rigid": shipped[DIRECT]}
+    figure, panels = plt.subplots(1, 2, figsize=(10.0, 3.8), sharey=True)
+    for axes, speed in zip(panels, (INTERACTIONS[0].peak, DIRECT_PEAK), strict=True):
+        for scene, run in runs.items():
+            label, color = _SCENES[scene]
+            history = 1e-9 * run["history"].sel(history_speed=speed)
+            axes.semilogy(history["revolution"], np.maximum(history, 1e-3), color=color, linewidth=1.2, label=label)
+        axes.axhline(1e-9 * yield_stress, color="0.2", linestyle="--", linewidth=1.0)
+        axes.set(xlabel="revolution", title=f"{speed:g} rad/s")
+    panels[0].set_ylabel("largest von Mises of the revolution (GPa)")
+    panels[0].legend()
+    return figure
+
+
+def joined(*runs: xr.Dataset) -> xr.Dataset:
+    """Several runs of one blade and scene as one, by ascending speed; the first counts where two have a speed."""
+    kept = [run[list(_DIRECTIONS)] for run in runs]
+    return xr.concat(kept, "speed").drop_duplicates("speed").sortby("speed")

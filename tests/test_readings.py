@@ -1,0 +1,206 @@
+"""Scores of the readings against the published numbers, on runs made by hand."""
+
+import matplotlib.pyplot as plt
+import numpy as np
+import pytest
+import xarray as xr
+
+from r37core.figures.readings import draw_readings
+from r37core.figures.validation import draw_blades, draw_reference, draw_stress
+from r37core.march.choice import MarchChoice
+from r37core.studies import measures
+from r37core.studies.check import Check, claim, score, validation_table
+from r37core.studies.published import BLADES, INTERACTIONS
+from r37core.studies.reading_list import READINGS, SHIPPED, TURNED
+from r37core.studies.reading_places import DIRECT, Place, grid, places
+from r37core.studies.reading_table import readings_table
+from r37core.studies.readings import UNITS, run_place
+from r37core.studies.validation import Runs, reading_checks, torsion_speed
+
+YIELD = 1.38e9
+STEPS = {"fine": 2.0, "coarse": 4.0, "survey": 5.0}
+
+
+def branch(peak, order=4, normal=4e-3, tangential=19e-3, low=None, high=None):
+    """A branch that rises to its peak and drops, yielding over the 17 rad/s before its end, every 2 rad/s."""
+    speed = np.arange(peak - 40 if low is None else low, peak + 41 if high is None else high, 2.0)
+    level = np.where(speed <= peak, np.maximum(1 - (peak - speed) / 40, 0.02), 0.02)
+    stress = np.where((speed > peak - 17) & (speed <= peak), 2.0 * YIELD, 0.0)
+    values = {name: np.zeros(len(speed)) for name in UNITS}
+    values |= {"rms_normal": normal * level, "rms_tangential": tangential * level, "max_von_mises": stress}
+    values |= {"lobes": np.full(len(speed), float(order)), "max_wear": 5e-3 * level, "casing_hits": level}
+    values["first_contact"] = np.full(len(speed), 8.0)
+    return xr.Dataset({name: ("speed", value) for name, value in values.items()}, coords={"speed": speed})
+
+
+def with_history(run, first_yields):
+    """Add stress per revolution, above yield from a revolution on (NaN: never), by speed."""
+    revolution = np.arange(1, 201)
+    stress = np.array([np.where(revolution >= first, 2.0, 0.5) * YIELD for first in first_yields.values()])
+    run = run.assign_coords(history_speed=list(first_yields), revolution=revolution)
+    return run.assign(history=(("history_speed", "revolution"), stress))
+
+
+def published_runs() -> Runs:
+    """Runs that are as published, but for the reference blade's direct contact, which is silent about 1717."""
+    motion = {"L50": (0.95, 1.2), "S50": (0.55, 0.9), "S100": (0.01, 0.5), "CS50": (1.1, 1.2)}
+    motion |= {"L100": motion["L50"], "CS100": motion["CS50"], "Ref": (1.0, 1.0)}
+    runs = {}
+    for one in INTERACTIONS:
+        normal, tangential = motion[one.blade]
+        run = branch(one.peak, one.engine_order, 4e-3 * normal, 19e-3 * tangential)
+        runs[one.name] = with_history(run, {one.peak: 44 if one.blade == "L50" else 78})
+    runs["S100_4"]["max_von_mises"] *= 0.3
+    runs["Ref_4"] = with_history(branch(1717.0), {1717.0: 40, 1800.0: np.nan})
+    runs["Ref_4"]["history"].loc[{"history_speed": 1800.0}] = 0.1 * YIELD
+    direct = with_history(branch(1344.0, high=1900.0), {1344.0: 88, 1717.0: np.nan, 1800.0: np.nan})
+    direct["history"].loc[{"history_speed": 1717.0}] = np.where(direct["revolution"] < 19, 0.6, 0.4) * YIELD
+    return runs | {DIRECT: direct}
+
+
+def test_runs_as_published_meet_every_check():
+    checks = reading_checks(published_runs(), YIELD)
+    assert [check.name for check in checks if not check.met] == []
+    assert sum(check.published is not None for check in checks) > 50
+    named = {check.name: check.ours for check in checks}
+    assert named["Ref 1B/4: width above yield"] == pytest.approx(17.0, abs=2.0)
+    assert named["Ref lined at 1717: first yield"] == 40
+    assert named["at 1717: lined passes direct contact in stress"] == 19
+    assert named["variants at their peaks: earliest first yield"] == 44
+
+
+@pytest.mark.parametrize(
+    ("change", "missed"),
+    [
+        (lambda runs: {"Ref_4": runs["Ref_4"].assign_coords(speed=runs["Ref_4"]["speed"] + 12)}, "Ref 1B/4: peak"),
+        (lambda runs: {"L50_4": runs["L50_4"].isel(speed=slice(0, 21))}, "L50 1B/4: drop after the peak"),
+        (
+            lambda runs: {"Ref_7": runs["Ref_7"].assign(lobes=runs["Ref_7"]["lobes"] - 1)},
+            "Ref 1B/7: lobes of the wear at the peak",
+        ),
+        (
+            lambda runs: {"S50_4": runs["S50_4"].assign(rms_normal=2 * runs["S50_4"]["rms_normal"])},
+            "S50 at its peak: normal motion",
+        ),
+        (lambda runs: {"S100_4": runs["Ref_4"]}, "stress at the peak: S100 more than three times below Ref"),
+        (lambda runs: {DIRECT: runs[DIRECT].assign(history=3 * runs[DIRECT]["history"])}, "direct at 1800: below yield"),
+        (lambda runs: {DIRECT: branch_that_stays(runs[DIRECT])}, "direct: quiet above, less than half of it"),
+    ],
+)
+def test_what_differs_is_missed(change, missed):
+    runs = published_runs()
+    checks = reading_checks(runs | change(runs), YIELD)
+    assert any(check.name.startswith(missed) for check in checks if not check.met)
+
+
+def branch_that_stays(run):
+    """The same run, which rises again far above its peak."""
+    return run.assign(rms_tangential=run["rms_tangential"] + 12e-3 * (run["speed"] > 1500))
+
+
+def test_a_peak_is_that_of_the_whole_motion():
+    run = branch(1642.0, normal=1e-5, tangential=9e-3)
+    run["rms_normal"][-5] = 5e-5
+    assert measures.peak_speed(run) == 1642.0
+    assert np.isnan(measures.peak_speed(branch(1642.0, normal=1e-5, tangential=1e-3)))
+    assert np.isnan(measures.peak_speed(branch(1642.0, low=1642.0)))
+
+
+def test_width_has_interpolated_ends_and_forgives_single_speeds():
+    stress = np.array([0.0, 0.5, 1.5, 0.9, 2.0, 0.0])
+    run = xr.Dataset({"max_von_mises": ("speed", YIELD * stress)}, coords={"speed": 2.0 * np.arange(6)})
+    assert measures.width_above_yield(run, YIELD) == pytest.approx((8 + 1) - (2 + 1))
+    assert np.isnan(measures.width_above_yield(run.isel(speed=slice(0, 5)), YIELD))
+    assert measures.width_above_yield(run, 10 * YIELD) == 0.0
+
+
+def test_overtaking_must_last():
+    theirs = np.ones(20)
+    ours = np.array([2.0, 0.5, 2.0, *np.full(17, 2.0)])
+    assert measures.overtakes(ours, theirs) == 3
+    assert np.isnan(measures.overtakes(theirs, ours))
+
+
+def test_torsion_is_a_maximum_of_its_own():
+    speed = np.arange(1600.0, 1661.0, 5.0)
+    level = 1e-5 * (speed - 1500.0)
+    run = xr.Dataset({"rms_normal": ("speed", level)}, coords={"speed": speed})
+    assert np.isnan(torsion_speed(run))
+    run["rms_normal"][6] *= 2.0
+    assert torsion_speed(run) == 1630.0
+
+
+def test_missed_checks_come_first_and_ours_alone_last():
+    checks = [Check("alone", None, 19.0), Check("good", 10.0, 10.01), Check("bad", 10.0, 12.0), claim("worst", False, "0.3")]
+    lines = validation_table(checks, {"half_step": [Check("good", 10.0, 10.02)]}).splitlines()
+    assert lines[0].startswith("1 of 3 ")
+    assert [line.split("|")[1].strip() for line in lines[4:]] == ["worst", "bad", "good", "alone"]
+    cells = [[cell.strip() for cell in line.split("|")[1:-1]] for line in lines[4:]]
+    assert cells[0][2:4] == ["no (0.3)", "**missed**"]
+    assert cells[1][3] == "**20%**"
+    assert cells[2][4] == "10.02"
+    assert cells[3][1:4] == ["", "19", ""]
+    assert score(checks) == "1 of 3"
+
+
+def test_table_of_readings_marks_what_is_missing_and_what_goes_on():
+    runs = published_runs()
+    going_on = with_history(branch(1717.0, high=1718.0), {1717.0: 40, 1800.0: np.nan})
+    poor = {"Ref_4": going_on, "L50_4": branch(1672.0, normal=0.0, tangential=1e-4)}
+    lines = readings_table({SHIPPED: runs, "baseline": poor}, YIELD).splitlines()
+    good, bad = ([cell.strip() for cell in line.split("|")[1:-1]] for line in lines[2:])
+    assert good[1:11] == [f"{one.peak:g}" for one in INTERACTIONS]
+    assert good[12] == "10 of 10"
+    assert bad[1:4] == ["≥ 1717", "none", ""]
+    assert bad[11] == "1 missed"
+
+
+def test_every_choice_is_turned_on_all_blades():
+    for name, reading in TURNED.items():
+        found = places(reading, STEPS)
+        assert {place.blade for place in found.values()} == set(BLADES), name
+        assert (DIRECT in found) == (not name.startswith(("width", "shared", "yield"))), name
+        assert all(one.peak in found[one.name].speeds for one in INTERACTIONS)
+    shipped = places(READINGS[SHIPPED], STEPS)
+    assert all(place.follow for name, place in shipped.items() if name != DIRECT)
+    assert {1344.0, 1345.0, 1800.0} <= set(shipped[DIRECT].speeds)
+    assert grid(10.0, -3.0, 4.0, 2.0) == (8.0, 10.0, 12.0, 14.0)
+
+
+class FakeBench:
+    """Stands for the march: above yield from 995 to 1010 rad/s, the largest motion at 1010."""
+
+    yield_stress = YIELD
+    choice = MarchChoice(1e-7, 3, 62)
+
+    def run(self, speed, spectrum=False):
+        level = float(995.0 < speed <= 1010.0)
+        return {name: 0.0 for name in UNITS} | {"rms_tangential": level * speed, "max_von_mises": 2.0 * level * YIELD}
+
+    def history(self, speed):
+        return np.full(3, speed)
+
+
+def test_a_window_is_followed_to_where_the_stress_is_below_yield():
+    found = run_place(FakeBench(), Place("Ref", "lined", (1000.0, 1005.0), (1003.0,), follow=True))
+    assert list(found["speed"].values) == [995.0, 1000.0, 1005.0, 1010.0, 1015.0]
+    assert list(found["history_speed"].values) == [1003.0, 1010.0]
+    assert np.all(found["history"].sel(history_speed=1010.0) == 1010.0)
+    still = run_place(FakeBench(), Place("Ref", "lined", (1000.0, 1005.0)))
+    assert still.sizes["speed"] == 2
+    assert "history" not in still
+
+
+def test_pictures_show_every_blade_and_both_scenes():
+    shipped = published_runs()
+    survey = {name: branch(1200.0, low=750.0, high=2000.0) for name in ("Ref_lined", "Ref_rigid")}
+    figures = [draw_reference(survey, shipped), draw_blades(shipped), draw_stress(shipped, YIELD)]
+    for figure, legend in zip(figures, (["abradable lining", "direct contact"], list(BLADES), [*BLADES, "yield"]), strict=True):
+        assert figure.axes[0].get_legend_handles_labels()[1] == legend
+    speed, level = figures[0].axes[0].lines[0].get_data()
+    assert np.all(np.diff(speed) > 0.0)
+    # the finer windows stand in the survey's curve
+    assert level[np.searchsorted(speed, 838.0)] == pytest.approx(4.0)
+    errors = draw_readings({SHIPPED: shipped}).axes[0]
+    assert "10 of 10" in [text.get_text() for text in errors.texts]
+    plt.close("all")
