@@ -84,7 +84,7 @@ def test_runs_as_published_meet_every_check():
         ),
         (lambda runs: {"S100_4": runs["Ref_4"]}, "stress at the peak: S100 more than three times below Ref"),
         (lambda runs: {DIRECT: runs[DIRECT].assign(history=3 * runs[DIRECT]["history"])}, "direct at 1800: below yield"),
-        (lambda runs: {DIRECT: branch_that_stays(runs[DIRECT])}, "direct: quiet above, less than half of it"),
+        (lambda runs: {DIRECT: branch_that_stays(runs[DIRECT])}, "direct: low above, its median less than half"),
     ],
 )
 def test_what_differs_is_missed(change, missed):
@@ -95,7 +95,7 @@ def test_what_differs_is_missed(change, missed):
 
 def branch_that_stays(run):
     """The same run, which rises again far above its peak."""
-    return run.assign(rms_tangential=run["rms_tangential"] + 12e-3 * (run["speed"] > 1500))
+    return run.assign(rms_tangential=run["rms_tangential"] + 12e-3 * (run["speed"] > 1400))
 
 
 def test_a_peak_is_that_of_the_whole_motion():
