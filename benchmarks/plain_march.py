@@ -1,12 +1,10 @@
-"""The march as one would first write it: dense matrices or scalar loops over modes, compiled by numba. For comparison only.
+"""The march as one would first write it: dense matrices in NumPy, or scalar loops over modes in numba. For comparison only.
 
 Written from section 5 of the benchmark page, like the tests' NumPy twin; shares nothing with r37core's march but parameters.
 """
 
 import numpy as np
 from numba import njit
-
-from r37core.contact.casing import casing_axes
 
 
 class PlainProblem:
@@ -20,7 +18,7 @@ class PlainProblem:
         self.keep = self.inverse * (1.0 / step**2 - damping / (2.0 * step))
         self.pull = self.inverse * march.frequencies**2
         self.dense = [np.ascontiguousarray(modes @ np.diag(d) @ modes.T) for d in (self.keep, self.pull, self.inverse)]
-        self.rows, self.dense_rows = march.rows, casing_axes(model.rows, march.cone_angle)
+        self.rows = march.rows
         self.coupling = np.array([march.rows[0] * self.inverse @ rows.T for rows in march.rows])
         steps = march.steps_per_revolution
         theta = model.theta - 2.0 * np.pi * np.arange(steps)[:, None] / steps
@@ -39,7 +37,8 @@ class PlainProblem:
                 area,
                 bars,
                 friction.coefficient,
-                step,
+                # of the vibration's sliding velocities: constant friction leaves them out
+                1.0 / step if friction.vector else 0.0,
             ]
         )
         self.rotation = -model.radius * march.speed
@@ -47,10 +46,6 @@ class PlainProblem:
     def modal(self, u, d, wear, first_step, steps):
         """March in modes; changes its arguments."""
         march_modal(u, d, wear, first_step, steps, self.keep, self.pull, self.inverse, self.rows, *self._contact())
-
-    def dense_numba(self, u, d, wear, first_step, steps):
-        """March with dense matrices, in the coordinates of the modes at rest."""
-        march_dense(u, d, wear, first_step, steps, *self.dense, self.dense_rows, *self._contact())
 
     def dense_recursion_numpy(self, u, d, steps):
         """The two dense products of every step alone, in NumPy: what contact costs is left out."""
@@ -157,7 +152,7 @@ def march_modal(u, d, wear, first, steps, keep, pull, inverse, rows, coupling, s
                 for i in range(modes):
                     total_along += rows[1, k, i] * old[i]
                     total_across += rows[2, k, i] * old[i]
-                along[k], across[k] = total_along / numbers[10], total_across / numbers[10]
+                along[k], across[k] = total_along * numbers[10], total_across * numbers[10]
             turn = place / per_revolution
             forces = contact_forces(gap, along, across, place, wear, coupling, bar_position, numbers, rotation, turn)
             push[:] = 0.0
@@ -168,23 +163,3 @@ def march_modal(u, d, wear, first, steps, keep, pull, inverse, rows, coupling, s
             for i in range(modes):
                 d[i] += inverse[i] * push[i]
                 u[i] += inverse[i] * push[i]
-
-
-@njit
-def march_dense(u, d, wear, first, steps, keep, pull, inverse, rows, coupling, shape, bar_position, numbers, rotation):
-    """Dense matrices, products by BLAS."""
-    per_revolution = len(shape)
-    for n in range(first + 1, first + steps + 1):
-        place = n % per_revolution
-        lobes = numbers[1] * (1.0 - np.exp(-numbers[2] * n))
-        old = d.copy()
-        d[:] = keep @ d - pull @ u
-        u += d
-        gap = numbers[0] - lobes * shape[place] - rows[0] @ u
-        if np.any(gap < 0.0):
-            along, across = rows[1] @ old / numbers[10], rows[2] @ old / numbers[10]
-            turn = place / per_revolution
-            forces = contact_forces(gap, along, across, place, wear, coupling, bar_position, numbers, rotation, turn)
-            push = inverse @ (forces[0] @ rows[0] + forces[1] @ rows[1] + forces[2] @ rows[2])
-            d += push
-            u += push

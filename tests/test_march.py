@@ -117,7 +117,15 @@ def test_compiled_march_is_the_reference(contact, name, integrator):
 
 @pytest.mark.parametrize(
     ("nodes", "name"),
-    [(1, "direct"), (1, "thin_lining"), (8, "direct"), (8, "thin_lining"), (15, "direct_exact"), (40, "thin_lining"), (200, "direct")],
+    [
+        (1, "direct"),
+        (1, "thin_lining"),
+        (8, "direct"),
+        (8, "thin_lining"),
+        (15, "direct_exact"),
+        (40, "thin_lining"),
+        (200, "direct"),
+    ],
 )
 def test_any_number_of_nodes(nodes, name):
     """Vectors half full and many of them, against the reference."""

@@ -13,6 +13,10 @@ SNAKEMAKE = str(Path(sys.executable).with_name("snakemake"))
 def copy_project(root, to):
     for folder in ("config", "workflow", "profiles", "envs", "src"):
         shutil.copytree(root / folder, to / folder, ignore=shutil.ignore_patterns("__pycache__", "*.egg-info"))
+    # what was compiled for one copy is good for all
+    compiled = Path("src/r37core/__pycache__")
+    (root / compiled).mkdir(exist_ok=True)
+    (to / compiled).symlink_to(root / compiled)
     shutil.copy(root / "Snakefile", to / "Snakefile")
     config = (to / "config/config.yaml").read_text()
     config = config.replace("blades: all ", "blades: [Ref, CS100] ").replace("fidelity: standard ", "fidelity: tiny ")

@@ -21,12 +21,13 @@ from numba.extending import intrinsic, lower_builtin, models, register_model, ty
 
 from .alignment import LANES
 
-OPTIONS = {"fastmath": {"reassoc", "contract", "nsz", "arcp"}, "error_model": "numpy"}
+OPTIONS: dict[str, Any] = {"fastmath": {"reassoc", "contract", "nsz", "arcp"}, "error_model": "numpy"}
 """Sums may be reordered and contracted; NaN and infinity keep their meaning, and a division by zero is no error."""
 
 inlined = njit(**OPTIONS, forceinline=True)
 """Compiles a function into those that call it: what a flag given as a constant leaves unused is then not in the program."""
 
+_FAST = tuple(sorted(OPTIONS["fastmath"]))
 _INTEGER = ir.IntType(32)
 _NUMBERS, _TRUTHS = ir.VectorType(ir.DoubleType(), LANES), ir.VectorType(ir.IntType(1), LANES)
 
@@ -102,7 +103,7 @@ for _symbols, _name in {
     (operator.truediv,): "fdiv",
 }.items():
     for _symbol in _symbols:
-        _of_lanes(_symbol, _lanes, 2, lambda builder, a, b, name=_name: getattr(builder, name)(a, b))
+        _of_lanes(_symbol, _lanes, 2, lambda builder, a, b, name=_name: getattr(builder, name)(a, b, flags=_FAST))
 _of_lanes(operator.lt, _flags, 2, lambda builder, a, b: builder.fcmp_ordered("<", a, b))
 _of_lanes(operator.gt, _flags, 2, lambda builder, a, b: builder.fcmp_ordered(">", a, b))
 _of_lanes(np.maximum, _lanes, 2, lambda builder, a, b: builder.select(builder.fcmp_ordered(">", a, b), a, b))
@@ -146,7 +147,7 @@ def _address(context: Any, builder: Any, kinds: Any, array: Any, place: Any) -> 
 
 @intrinsic
 def load(typingctx, array, place):
-    """The eight numbers from `place` on: an index of an array in a record, whose last is a multiple of eight; or of a pointer."""
+    """The eight numbers from `place` on: a pointer's, or the index of an array in a record, its last a multiple of eight."""
 
     def build(context, builder, sig, args):
         return builder.load(_address(context, builder, sig.args, *args), align=8 * LANES)

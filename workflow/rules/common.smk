@@ -2,17 +2,23 @@
 # Snakemake notices a changed parameter only if it is made of plain types: dataclasses are passed as dictionaries, or with a
 # hash or repr of theirs beside them.
 import hashlib
+import json
+import sys
 from dataclasses import asdict
 from functools import cache
 from pathlib import Path
 
 from snakemake.exceptions import WorkflowError
+from snakemake.settings.types import DeploymentMethod
 
 from r37core.config import ConfigError, load_settings
 from r37core.studies.sampling import sample
 
 ROOT = Path(workflow.basedir)
 ENVIRONMENT = ROOT / "envs" / "r37.yaml"
+SCRIPTS = ROOT / "workflow" / "scripts"
+# of rules that start it themselves
+PYTHON = "python" if DeploymentMethod.CONDA in workflow.deployment_settings.deployment_method else sys.executable
 
 try:
     settings = load_settings(config, ROOT)
@@ -36,11 +42,12 @@ wildcard_constraints:
 
 
 def code(*packages):
-    """Hash of the modules a stage uses: as a rule parameter it re-runs the stage when they change."""
+    """Hash of the modules and scripts a stage uses: as a rule parameter it re-runs the stage when they change."""
     digest = hashlib.sha256()
     for package in packages:
-        for module in sorted((ROOT / "src" / "r37core").glob(package)):
-            digest.update(module.read_bytes())
+        for folder in (ROOT / "src" / "r37core", SCRIPTS):
+            for module in sorted(folder.glob(package)):
+                digest.update(module.read_bytes())
     return digest.hexdigest()[:16]
 
 
@@ -110,6 +117,19 @@ def kept_of_a_run():
     """How much of a run its file keeps."""
     keys = ("spectrum_highest_order", "signal_revolutions", "wear_angles")
     return {key: settings.fidelity["march"][key] for key in keys}
+
+
+def task_of_a_run(wildcards):
+    """What one simulation does, as JSON text."""
+    chosen = settings.scenes[wildcards.scene]
+    task = {
+        "scene": asdict(chosen.scene),
+        "choice": asdict(settings.march_choice(wildcards.scene, float(wildcards.speed))),
+        "results": chosen.results,
+        "kept": kept_of_a_run(),
+        "provenance": sweep_provenance(wildcards),
+    }
+    return json.dumps(task)
 
 
 def sample_of_sweep(blade, scene):

@@ -52,14 +52,22 @@ rule simulate:
     conda:
         ENVIRONMENT
     params:
-        scene=lambda wildcards: settings.scenes[wildcards.scene].scene,
-        choice=lambda wildcards: asdict(settings.march_choice(wildcards.scene, float(wildcards.speed))),
-        results=lambda wildcards: settings.scenes[wildcards.scene].results,
-        kept=kept_of_a_run(),
-        provenance=sweep_provenance,
-        code=code("*.py", "contact/*.py", "march/*.py", "rom/contact_model.py"),
-    script:
-        "../scripts/simulate.py"
+        task=task_of_a_run,
+        python=PYTHON,
+        script=SCRIPTS / "simulate.py",
+        code=code(
+            "io.py",
+            "alignment.py",
+            "lanes.py",
+            "native.py",
+            "contact/*.py",
+            "march/*.py",
+            "rom/contact_model.py",
+            "simulate.py",
+        ),
+    # not `script:`, whose preamble imports Snakemake into each of thousands of jobs
+    shell:
+        "{params.python} {params.script} {input.model} {wildcards.speed} {output} {log} {params.task:q}"
 
 
 rule response:

@@ -5,8 +5,8 @@ from job import run
 from r37core.io import read_json, write_json, write_text
 from r37core.studies.estimate import describe, project_costs, time_start_up
 
-# what the script of a simulation imports, Snakemake's own part of it included
-IMPORTS = "from snakemake import script; import r37core.march.speed_run, r37core.march.speed_file"
+# what the script of a simulation imports
+IMPORTS = "import r37core.march.speed_run, r37core.march.speed_file"
 
 
 def main(snakemake):

@@ -1,24 +1,32 @@
-"""Simulate one blade at one speed in one scene. Input: contact model. Params: scene, choice, ... Output: speed_*.npz."""
+"""Simulate one blade at one speed in one scene. Arguments: contact model, speed, output, log, task (JSON). Output: speed_*.npz.
 
-from job import run
+Started without Snakemake's own preamble; the task is made in rules/common.smk.
+"""
 
+import json
+import sys
+import traceback
+
+from r37core.contact.scene import scene_from
 from r37core.march.choice import MarchChoice
 from r37core.march.speed_file import write_speed
 from r37core.march.speed_run import run_speed
 from r37core.rom.contact_model import read_contact_model
 
 
-def main(snakemake):
-    params = snakemake.params
-    result = run_speed(
-        read_contact_model(snakemake.input.model),
-        float(snakemake.wildcards.speed),
-        params.scene,
-        MarchChoice(**params.choice),
-        params.results,
-        **params.kept,
-    )
-    write_speed(result, snakemake.output[0], params.provenance)
+def main(model, speed, output, task):
+    task = json.loads(task)
+    choice = MarchChoice(**task["choice"])
+    scene = scene_from(task["scene"])
+    result = run_speed(read_contact_model(model), float(speed), scene, choice, task["results"], **task["kept"])
+    write_speed(result, output, task["provenance"])
 
 
-run(snakemake, main)
+model, speed, output, log, task = sys.argv[1:]
+with open(log, "w", encoding="utf-8") as stream:
+    try:
+        main(model, speed, output, task)
+    except Exception as error:
+        traceback.print_exc(file=stream)
+        print(f"rule simulate: {error} (details in {log})", file=sys.stderr)
+        sys.exit(1)

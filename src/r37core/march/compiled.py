@@ -21,8 +21,6 @@ def _march(m, casing, casing_most, wear, samples, rows, snapshots, first_step, b
     decay = 0.0 if at_once else np.exp(-m.casing.rise)
     coarse_per_block = (m.steps_per_block + COARSE - 1) // COARSE
     beyond, bounded, first_level = False, False, 1
-    for k in range(len(m.largest)):
-        m.largest[k] = m.totals.largest_force
     done = 0
     while done < blocks:
         start = first_step + done * m.steps_per_block
@@ -54,10 +52,7 @@ def _march(m, casing, casing_most, wear, samples, rows, snapshots, first_step, b
             lost = predict(m, kind.energy, lost)
             here = place + position if place + position < m.steps_per_revolution else 0
             lobes = m.casing.amplitude * (1.0 - remaining)
-            if kind.exact_gap:
-                beyond = measure_exact_gaps(m, here, lobes)
-            else:
-                beyond = measure_gaps(m, casing, here, lobes)
+            beyond = measure_exact_gaps(m, here, lobes) if kind.exact_gap else measure_gaps(m, casing, here, lobes)
             if beyond:
                 work, lost = meet(m, wear, here, kind, work, lost)
                 bounded = False
@@ -70,8 +65,6 @@ def _march(m, casing, casing_most, wear, samples, rows, snapshots, first_step, b
         done += 1
         if not within:
             break
-    for k in range(len(m.largest)):
-        m.totals.largest_force = max(m.totals.largest_force, m.largest[k])
     return done
 
 

@@ -67,11 +67,18 @@ def _arrays(names: str, *shape: int, kind: type = np.float64) -> list[Field]:
 
 
 TOTALS = np.dtype(
-    [(name, np.float64) for name in "steps_in_contact casing_hits largest_force worst_complementarity".split()]
-    + [(name, np.float64) for name in "work loss steps steps_jumped".split()]
+    [
+        ("steps_in_contact", np.float64),  # steps with any contact force
+        ("casing_hits", np.float64),  # onsets of casing contact
+        ("largest_force", np.float64),  # normal, on a node (N)
+        ("worst_complementarity", np.float64),  # largest relative violation
+        ("work", np.float64),  # of the contact forces (J)
+        ("loss", np.float64),  # of energy to damping (J)
+        ("steps", np.float64),
+        ("steps_jumped", np.float64),  # of them, part of a jump over free flight
+    ]
 )
-"""Sums over a run: steps with any contact force, onsets of casing contact, largest normal force (N), largest relative violation of
-complementarity, work of the contact forces (J), energy lost to damping (J), steps done, those of them that were jumped."""
+"""What is added up over a run."""
 
 LINING = aligned_record(_numbers(" ".join(field.name for field in fields(Lining)) + " area"))
 """What the law of the lining may use: every field of Lining as a number, and a bar's area (m2)."""
@@ -81,7 +88,7 @@ CASING = aligned_record(_numbers("clearance amplitude rise period width cosine s
 
 
 def problem(nodes: int) -> np.dtype:
-    """The record of a complementarity problem of `nodes` nodes, a multiple of the lanes; see r37core.contact.complementarity."""
+    """The record of a complementarity problem of `nodes` nodes, whole vectors of them; see contact.complementarity."""
     groups = padded(nodes) // padded(1)
     return aligned_record(
         [
@@ -112,13 +119,13 @@ def march_record(layout: Layout) -> np.dtype:
             *_arrays("coupling", 3, nodes, nodes),
             # opening of the last node's gap per unit multiplier of the one before: with friction, and as the problem has it
             *_arrays("response columns", nodes, nodes),
-            # tangential and meridional sliding in a step (m), and friction per normal force
-            *_arrays("sliding friction_share", 2, nodes),
-            *_arrays("force largest", nodes),
+            *_arrays("friction_share", 2, nodes),  # tangential and meridional force per normal force
+            *_arrays("force", nodes),
             *_arrays("rotation", nodes),  # signed sliding in a step by the rotation (m)
-            *_arrays("bar_position radius theta shift", nodes),  # angle at step 0, in bars; m; angle at step 0, gained by vibration (rad)
+            *_arrays("bar_position", nodes),  # angle at step 0, in bars
+            *_arrays("radius theta shift", nodes),  # m; angle at step 0 and what vibration adds to it (rad)
             ("problem", problem(nodes), ()),
-            *_arrays("beyond pressed on_casing", groups, kind=np.int64),
+            *_arrays("beyond on_casing", groups, kind=np.int64),
             # flight: see march.flight
             *_arrays("jumps", LEVELS, 8, modes),
             *_arrays("amplitude_by_u amplitude_by_d amplitude", modes),

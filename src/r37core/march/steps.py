@@ -4,8 +4,8 @@ Recursion (section 5 of the benchmark, diagonal in the modes of one speed): u* =
 lining or the casing, u_{n+1} = u* + c F. It is carried in displacement u and increment d = u_n - u_{n-1}, which is the same
 recursion without its loss of digits: d* = keep d - pull u, u* = u + d*, with keep = -b, pull = 1 - a - b, inverse = c.
 
-`m` is a record of march.layout; tip nodes are lanes (r37core.lanes), sets of nodes are bits, eight nodes to an integer. Arguments that
-choose (`lined`, `exact`, ...) are constants where the march is compiled.
+`m` is a record of march.layout; tip nodes are lanes (r37core.lanes), sets of nodes are bits, eight nodes to an integer.
+Arguments that choose (`kind`, `energy`, ...) are constants where the march is compiled.
 """
 
 from __future__ import annotations
@@ -13,11 +13,11 @@ from __future__ import annotations
 import numpy as np
 
 from r37core.alignment import LANES
-from r37core.contact.exact_gap import displaced_position, lobe_shape
 from r37core.contact.complementarity import list_nodes, solve_complementarity
+from r37core.contact.exact_gap import displaced_position, lobe_shape
 from r37core.contact.friction import friction_direction
 from r37core.contact.lining import return_mapping
-from r37core.lanes import bits_of, inlined, load, spread, store, sums_of_lanes
+from r37core.lanes import bits_of, flag_at, inlined, load, spread, store, sum_of_lanes, sums_of_lanes
 
 from .layout import MERIDIONAL, NORMAL, TANGENTIAL
 
@@ -104,34 +104,42 @@ def measure_exact_gaps(m, place, lobes):
 
 
 @inlined
-def set_sliding_of(m, count):
-    """Sliding in the last step of the listed nodes, four at a time."""
-    nodes, p = len(m.force), m.problem
-    for j in range(0, count, 4):
-        a, b, c, d = p.listed[j], p.listed[j + 1], p.listed[j + 2], p.listed[j + 3]
-        t, r = TANGENTIAL * nodes, MERIDIONAL * nodes
-        store(p.short, 0, eight_rows(m, t + a, t + b, t + c, t + d, r + a, r + b, r + c, r + d, m.before, len(m.u)))
-        for i in range(4):
-            k = p.listed[j + i]
-            m.sliding[0, k] = m.rotation[k] + p.short[i]
-            m.sliding[1, k] = p.short[4 + i]
+def set_friction(m, g, tangential, meridional):
+    """Vector friction per normal force on the nodes from g on, against their sliding in the last step (m)."""
+    along_tangent, along_meridian = _friction_direction(load(m.rotation, g) + tangential, meridional)
+    store(m.friction_share, (0, g), along_tangent * (0.0 - m.friction))
+    store(m.friction_share, (1, g), along_meridian * (0.0 - m.friction))
 
 
 @inlined
-def set_sliding(m):
-    """Sliding in the last step of all nodes."""
-    for g in range(0, len(m.force), LANES):
-        store(m.sliding, (0, g), load(m.rotation, g) + along(m, TANGENTIAL, m.before, g, len(m.u)))
-        store(m.sliding, (1, g), along(m, MERIDIONAL, m.before, g, len(m.u)))
+def set_friction_of_listed(m, count):
+    """Vector friction on the listed nodes: dearer for each than `set_friction_of_all`, but they are few."""
+    nodes = len(m.force)
+    for g in range(0, nodes, LANES):
+        tangential = meridional = spread(0.0)
+        for j in range(count):
+            k = m.problem.listed[j]
+            if g <= k < g + LANES:
+                t = r = spread(0.0)
+                for i in range(0, len(m.u), LANES):
+                    before = load(m.before, i)
+                    t += load(m.rows, (TANGENTIAL * nodes + k, i)) * before
+                    r += load(m.rows, (MERIDIONAL * nodes + k, i)) * before
+                # put into lanes here: loading together what was stored one by one stalls the processor
+                tangential = np.where(flag_at(k - g), sum_of_lanes(t), tangential)
+                meridional = np.where(flag_at(k - g), sum_of_lanes(r), meridional)
+        set_friction(m, g, tangential, meridional)
 
 
 @inlined
-def set_friction(m):
-    """Vector friction per normal force, against the nodes' sliding."""
+def set_friction_of_all(m):
+    """Vector friction on all nodes, and the gaps' response with it."""
     for g in range(0, len(m.force), LANES):
-        tangential, meridional = _friction_direction(load(m.sliding, (0, g)), load(m.sliding, (1, g)))
-        store(m.friction_share, (0, g), tangential * (0.0 - m.friction))
-        store(m.friction_share, (1, g), meridional * (0.0 - m.friction))
+        tangential = along(m, TANGENTIAL, m.before, g, len(m.u))
+        set_friction(m, g, tangential, along(m, MERIDIONAL, m.before, g, len(m.u)))
+    for k in range(m.nodes):
+        for g in range(0, len(m.force), LANES):
+            store(m.response, (k, g), response_with_friction(m, k, g))
 
 
 @inlined
@@ -143,14 +151,16 @@ def response_with_friction(m, k, g):
 
 @inlined
 def press_lining(m, wear, place, kind):
-    """Normal forces of the bars that the nodes press; wears them. Whether a node reaches the casing behind the lining."""
+    """Normal forces of the bars that the nodes press; wears them.
+
+    Returns how many nodes are listed as pressing, and whether one reaches the casing behind the lining.
+    """
     p, lining = m.problem, m.lining
     bars = int(lining.bars)
     turned = place * lining.bars / m.steps_per_revolution
     count = list_nodes(m.beyond, p.listed)
     if kind.vector_friction:
-        set_sliding_of(m, count)
-        set_friction(m)
+        set_friction_of_listed(m, count)
     for j in range(count):
         k = p.listed[j]
         position = m.bar_position[k] - turned
@@ -177,20 +187,16 @@ def press_lining(m, wear, place, kind):
                 gap -= load(m.response, (k, g)) * m.force[k]
         store(p.gap, g, gap)
         any_closed |= bits_of(gap < 0.0)
-    return any_closed != 0
+    return count, any_closed != 0
 
 
 @inlined
 def press_casing(m, kind):
-    """Add the forces of casing contact, and keep the set of nodes that touch it."""
+    """Add the forces of casing contact, keep the set of nodes that touch it; returns how many nodes are listed as pressed."""
     p = m.problem
     if kind.vector_friction:
-        # of all nodes: the others' reaction may bring any of them to the casing
-        set_sliding(m)
-        set_friction(m)
-        for k in range(m.nodes):
-            for g in range(0, len(m.force), LANES):
-                store(m.response, (k, g), response_with_friction(m, k, g))
+        # the others' reaction may bring any of them to the casing
+        set_friction_of_all(m)
     guessed = 0
     for g in range(len(m.on_casing)):
         p.touching[g] = m.on_casing[g]
@@ -207,27 +213,35 @@ def press_casing(m, kind):
         p.wrong[g // LANES] = touching & ~m.on_casing[g // LANES]
         m.on_casing[g // LANES] = touching
     m.totals.casing_hits += list_nodes(p.wrong, p.listed)
+    for g in range(0, len(m.force), LANES):
+        p.wrong[g // LANES] = bits_of(load(m.force, g) < 0.0)
+    return list_nodes(p.wrong, p.listed)
 
 
 @inlined
-def push_blade(m, vector, energy, work, lost):
-    """Correct displacement and increment for the nodes' forces; adds the work of the forces, doubled, and the energy lost."""
-    if vector:
+def push_blade(m, count, vector, energy, work, lost):
+    """Correct displacement and increment for the listed nodes' forces; adds the work, doubled, and the energy lost."""
+    nodes, pressed = len(m.force), False
+    for i in range(0, len(m.u), LANES):
+        store(m.push, i, 0.0)
+    for j in range(count):
+        k = m.problem.listed[j]
+        normal = m.force[k]
+        if not normal < 0.0:
+            continue
+        pressed = True
+        m.totals.largest_force = max(m.totals.largest_force, -normal)
+        tangential, meridional = normal * m.friction_share[0, k], normal * m.friction_share[1, k]
         for i in range(0, len(m.u), LANES):
-            store(m.push, i, 0.0)
-        for j in range(list_nodes(m.pressed, m.problem.listed)):
-            k = m.problem.listed[j]
-            normal, nodes = m.force[k], len(m.force)
-            tangential, meridional = normal * m.friction_share[0, k], normal * m.friction_share[1, k]
-            for i in range(0, len(m.u), LANES):
-                push = load(m.push, i) + load(m.rows, (k, i)) * normal + load(m.rows, (nodes + k, i)) * tangential
-                store(m.push, i, push + load(m.rows, (2 * nodes + k, i)) * meridional)
-    else:
-        for i in range(0, len(m.u), LANES):
-            push = spread(0.0)
-            for k in range(len(m.force)):
-                push += load(m.push_rows, (k, i)) * m.force[k]
-            store(m.push, i, push)
+            if vector:
+                push = load(m.rows, (k, i)) * normal + load(m.rows, (nodes + k, i)) * tangential
+                push += load(m.rows, (2 * nodes + k, i)) * meridional
+            else:
+                push = load(m.push_rows, (k, i)) * normal
+            store(m.push, i, load(m.push, i) + push)
+    if not pressed:
+        return work, lost
+    m.totals.steps_in_contact += 1.0
     for i in range(0, len(m.u), LANES):
         free, push = load(m.now, i) + load(m.before, i), load(m.push, i)
         pushed = load(m.inverse, i) * push
@@ -244,24 +258,14 @@ def meet(m, wear, place, kind, work, lost):
     """Everything that happens in a step in which nodes are beyond the lining or casing; adds work, doubled, and loss."""
     for g in range(0, len(m.force), LANES):
         store(m.force, g, 0.0)
-    closed = True
+    count, closed = 0, True
     if kind.lined:
-        closed = press_lining(m, wear, place, kind)
+        count, closed = press_lining(m, wear, place, kind)
     if closed:
-        press_casing(m, kind)
+        count = press_casing(m, kind)
     else:
         leave_casing(m)
-    any_pressed = 0
-    for g in range(0, len(m.force), LANES):
-        force = load(m.force, g)
-        store(m.largest, g, np.maximum(load(m.largest, g), 0.0 - force))
-        pressed = bits_of(force < 0.0)
-        m.pressed[g // LANES] = pressed
-        any_pressed |= pressed
-    if any_pressed == 0:
-        return work, lost
-    m.totals.steps_in_contact += 1.0
-    return push_blade(m, kind.vector_friction, kind.energy, work, lost)
+    return push_blade(m, count, kind.vector_friction, kind.energy, work, lost)
 
 
 @inlined
