@@ -204,3 +204,11 @@ def test_pictures_show_every_blade_and_both_scenes():
     errors = draw_readings({SHIPPED: shipped}).axes[0]
     assert "10 of 10" in [text.get_text() for text in errors.texts]
     plt.close("all")
+
+
+def test_steepest_fall_is_where_a_noisy_branch_ends():
+    level = np.array([1.0, 1.2, 1.1, 1.19, 0.5, 0.4])
+    data = {"rms_normal": ("speed", 0.0 * level), "rms_tangential": ("speed", level)}
+    speed, share = measures.steepest_fall(xr.Dataset(data, coords={"speed": 1340.0 + np.arange(6)}))
+    assert speed == 1343.0
+    assert share == pytest.approx(0.69 / 1.19)

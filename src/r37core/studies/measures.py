@@ -34,6 +34,14 @@ def drop_after(run: xr.Dataset, within: float = _DROP_WITHIN) -> float:
     return float(1.0 - after.min() / motion(peak)) if after.size else np.nan
 
 
+def steepest_fall(run: xr.Dataset) -> tuple[float, float]:
+    """Speed (rad/s) before which the motion loses its largest share to the next speed of the grid, and that share."""
+    level = motion(run)
+    shares = 1.0 - level[1:] / np.maximum(level[:-1], np.finfo(float).tiny)
+    row = int(np.argmax(shares))
+    return float(run["speed"][row]), float(shares[row])
+
+
 def width_above_yield(run: xr.Dataset, yield_stress: float) -> float:
     """Length (rad/s) of the range of speeds whose last revolution is above yield, its ends interpolated.
 
@@ -74,8 +82,8 @@ def overtakes(ours: np.ndarray, theirs: np.ndarray) -> float:
 
 
 def interactions_above(run: xr.Dataset, floor: float) -> int:
-    """Separate stretches of speeds whose normal rms is above `floor` (m)."""
-    above = np.concatenate([[0], run["rms_normal"].fillna(np.inf).values > floor])
+    """Separate stretches of speeds whose radial rms is above `floor` (m)."""
+    above = np.concatenate([[0], run["rms_radial"].fillna(np.inf).values > floor])
     return int(np.count_nonzero(np.diff(above.astype(int)) == 1))
 
 
