@@ -166,7 +166,9 @@ def variant_checks(runs: Runs, yield_stress: float) -> list[Check]:
             continue
         first = read.first_yield(run, speed, yield_stress)
         if one.name != _MAIN:
-            checks.append(Check(f"{name}: width above yield", None, read.width_above_yield(run, yield_stress), "rad/s"))
+            width, span = read.width_above_yield(run, yield_stress), read.span_above_yield(run, yield_stress)
+            detail = "" if span == width else f"{span:.3g} with all speeds of the window"
+            checks.append(Check(f"{name}: width above yield", None, width, "rad/s", detail=detail))
         checks.append(Check(f"{name}: first yield at our peak", None, first, "revolutions"))
         if one.blade in VARIANTS and np.isfinite(first):
             firsts.append(first)
