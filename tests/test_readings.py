@@ -107,11 +107,21 @@ def test_a_peak_is_that_of_the_whole_motion():
 
 
 def test_width_has_interpolated_ends_and_forgives_single_speeds():
-    stress = np.array([0.0, 0.5, 1.5, 0.9, 2.0, 0.0])
-    run = xr.Dataset({"max_von_mises": ("speed", YIELD * stress)}, coords={"speed": 2.0 * np.arange(6)})
-    assert measures.width_above_yield(run, YIELD) == pytest.approx((8 + 1) - (2 + 1))
-    assert np.isnan(measures.width_above_yield(run.isel(speed=slice(0, 5)), YIELD))
+    stress = np.array([0.0, 2.0, 0.0, 0.0, 0.5, 1.5, 0.9, 2.0, 0.0])
+    data = {
+        "max_von_mises": ("speed", YIELD * stress),
+        "rms_normal": ("speed", stress),
+        "rms_tangential": ("speed", 0 * stress),
+    }
+    data["rms_normal"][1][7] = 3.0
+    run = xr.Dataset(data, coords={"speed": 2.0 * np.arange(9)})
+    assert measures.width_above_yield(run, YIELD) == pytest.approx((14 + 1) - (8 + 1))
+    assert measures.span_above_yield(run, YIELD) == pytest.approx((14 + 1) - (0 + 1))
+    assert np.isnan(measures.width_above_yield(run.isel(speed=slice(0, 8)), YIELD))
     assert measures.width_above_yield(run, 10 * YIELD) == 0.0
+    # a run that diverged is above yield, and its end stays where it is
+    run["max_von_mises"][7] = np.nan
+    assert measures.width_above_yield(run, YIELD) == pytest.approx(14 - (8 + 1))
 
 
 def test_overtaking_must_last():
@@ -204,3 +214,11 @@ def test_pictures_show_every_blade_and_both_scenes():
     errors = draw_readings({SHIPPED: shipped}).axes[0]
     assert "10 of 10" in [text.get_text() for text in errors.texts]
     plt.close("all")
+
+
+def test_steepest_fall_is_where_a_noisy_branch_ends():
+    level = np.array([1.0, 1.2, 1.1, 1.19, 0.5, 0.4])
+    data = {"rms_normal": ("speed", 0.0 * level), "rms_tangential": ("speed", level)}
+    speed, share = measures.steepest_fall(xr.Dataset(data, coords={"speed": 1340.0 + np.arange(6)}))
+    assert speed == 1343.0
+    assert share == pytest.approx(0.69 / 1.19)

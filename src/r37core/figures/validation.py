@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import matplotlib.pyplot as plt
-import numpy as np
 import xarray as xr
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from r37core.studies.published import BLADES, DIRECT_PEAK, INTERACTIONS
@@ -34,47 +34,45 @@ def draw_reference(survey: Runs, shipped: Runs) -> Figure:
                 )
         axes.axvline(DIRECT_PEAK, color="C3", linestyle=":", linewidth=0.9)
         axes.set_ylabel(f"rms, {direction} (mm)")
-    panels[0].legend(loc="upper left")
-    panels[0].set_title("blade Ref, leading edge, last 100 revolutions; dotted: published peaks", fontsize=9)
+    panels[0].legend(loc="upper right", bbox_to_anchor=(0.73, 1.0))
+    panels[0].set_title("blade Ref, leading edge, last half of the run; dotted: published peaks", fontsize=9)
     panels[1].set_xlabel("speed (rad/s)")
     return figure
 
 
 def draw_blades(shipped: Runs) -> Figure:
     """Rms of all blades about their interaction of 1B with order 4; dotted: published peaks."""
-    figure, panels = plt.subplots(2, 1, figsize=(9.0, 6.4), sharex=True)
+    figure, panels = plt.subplots(2, 1, figsize=(9.0, 6.8), sharex=True)
     for axes, (name, direction) in zip(panels, _DIRECTIONS.items(), strict=True):
-        for number, one in enumerate(INTERACTIONS[: len(BLADES)]):
-            run = shipped[one.name]
-            axes.plot(
-                run["speed"], 1e3 * run[name], color=f"C{number}", marker=".", markersize=3, linewidth=1.0, label=one.blade
-            )
-            axes.axvline(one.peak, color=f"C{number}", linestyle=":", linewidth=0.9)
+        _draw_about_order_4(axes, shipped, name, 1e3)
         axes.set_ylabel(f"rms, {direction} (mm)")
-    panels[0].legend(ncols=len(BLADES), fontsize=8, loc="upper left")
-    panels[1].set_xlabel("speed (rad/s)")
+    _legend_above(figure, panels[0])
+    panels[1].set_xlabel("speed (rad/s); dotted: published peaks")
     return figure
 
 
 def draw_stress(shipped: Runs, yield_stress: float) -> Figure:
-    """Largest stress of the last revolution of all blades about 1B/4, with the yield line."""
-    figure, axes = plt.subplots(figsize=(9.0, 4.2))
-    for number, one in enumerate(INTERACTIONS[: len(BLADES)]):
-        run = shipped[one.name]
-        axes.semilogy(
-            run["speed"],
-            1e-9 * run["max_von_mises"],
-            color=f"C{number}",
-            marker=".",
-            markersize=3,
-            linewidth=1.0,
-            label=one.blade,
-        )
-        axes.axvline(one.peak, color=f"C{number}", linestyle=":", linewidth=0.9)
+    """Largest stress of the last revolution of all blades about 1B/4, with the yield line; dotted: published peaks."""
+    figure, axes = plt.subplots(figsize=(9.0, 4.4))
+    _draw_about_order_4(axes, shipped, "max_von_mises", 1e-9)
     axes.axhline(1e-9 * yield_stress, color="0.2", linestyle="--", linewidth=1.0, label="yield")
-    axes.set(xlabel="speed (rad/s)", ylabel="largest von Mises, last revolution (GPa)")
-    axes.legend(ncols=4, fontsize=8)
+    axes.set(ylabel="largest von Mises, last revolution (GPa)", yscale="log")
+    axes.set_xlabel("speed (rad/s); dotted: published peaks")
+    _legend_above(figure, axes)
     return figure
+
+
+def _draw_about_order_4(axes: Axes, shipped: Runs, name: str, scale: float) -> None:
+    """One curve for each blade, and its published peak."""
+    for number, one in enumerate(INTERACTIONS[: len(BLADES)]):
+        run, color = shipped[one.name], f"C{number}"
+        axes.plot(run["speed"], scale * run[name], ".-", color=color, markersize=3, linewidth=1.0, label=one.blade)
+        axes.axvline(one.peak, color=color, linestyle=":", linewidth=0.9)
+
+
+def _legend_above(figure: Figure, axes: Axes) -> None:
+    """The legend of one panel above the figure, out of the way of its peaks."""
+    figure.legend(*axes.get_legend_handles_labels(), loc="outside upper center", ncols=len(BLADES) + 1, fontsize=8)
 
 
 def draw_histories(shipped: Runs, yield_stress: float) -> Figure:
@@ -85,7 +83,7 @@ def draw_histories(shipped: Runs, yield_stress: float) -> Figure:
         for scene, run in runs.items():
             label, color = _SCENES[scene]
             history = 1e-9 * run["history"].sel(history_speed=speed)
-            axes.semilogy(history["revolution"], np.maximum(history, 1e-3), color=color, linewidth=1.2, label=label)
+            axes.semilogy(history["revolution"], history.where(history > 0.0), color=color, linewidth=1.2, label=label)
         axes.axhline(1e-9 * yield_stress, color="0.2", linestyle="--", linewidth=1.0)
         axes.set(xlabel="revolution", title=f"{speed:g} rad/s")
     panels[0].set_ylabel("largest von Mises of the revolution (GPa)")

@@ -34,24 +34,47 @@ def drop_after(run: xr.Dataset, within: float = _DROP_WITHIN) -> float:
     return float(1.0 - after.min() / motion(peak)) if after.size else np.nan
 
 
-def width_above_yield(run: xr.Dataset, yield_stress: float) -> float:
-    """Length (rad/s) of the range of speeds whose last revolution is above yield, its ends interpolated.
+def steepest_fall(run: xr.Dataset) -> tuple[float, float]:
+    """Speed (rad/s) before which the motion loses its largest share to the next speed of the grid, and that share."""
+    level = motion(run)
+    shares = 1.0 - level[1:] / np.maximum(level[:-1], np.finfo(float).tiny)
+    row = int(np.argmax(shares))
+    return float(run["speed"][row]), float(shares[row])
 
-    From the first to the last such speed: the motion near the end of a branch is chaotic, and single speeds between
-    them may lie below. NaN where the window ends above yield.
+
+def width_above_yield(run: xr.Dataset, yield_stress: float) -> float:
+    """Length (rad/s) of the range of speeds about the peak whose last revolution is above yield, its ends interpolated.
+
+    A single speed below yield does not end it: near the end of a branch the motion is chaotic. NaN where the window ends
+    above yield.
     """
-    series = run["max_von_mises"].dropna("speed")
-    speed, excess = series["speed"].values, series.values / yield_stress - 1.0
+    return _width(run, yield_stress, allowed=1)
+
+
+def span_above_yield(run: xr.Dataset, yield_stress: float) -> float:
+    """The same from the first to the last speed of the window above yield, whatever lies between."""
+    return _width(run, yield_stress, allowed=run.sizes["speed"])
+
+
+def _width(run: xr.Dataset, yield_stress: float, allowed: int) -> float:
+    """Width, with up to `allowed` speeds in a row below yield."""
+    level = np.nan_to_num(run["max_von_mises"].values, nan=np.inf)
+    speed, excess = run["speed"].values, level / yield_stress - 1.0
     above = np.flatnonzero(excess > 0.0)
     if not len(above):
         return 0.0
-    first, last = above[0], above[-1]
+    stretches = np.split(above, np.flatnonzero(np.diff(above) > allowed + 1) + 1)
+    peak = int(np.argmax(motion(run)))
+    stretch = min(stretches, key=lambda rows: float(np.abs(rows - peak).min()))
+    first, last = stretch[0], stretch[-1]
     if first == 0 or last == len(speed) - 1:
         return np.nan
     return _crossing(speed, excess, last, last + 1) - _crossing(speed, excess, first, first - 1)
 
 
 def _crossing(speed: np.ndarray, excess: np.ndarray, inside: int, outside: int) -> float:
+    if not np.isfinite(excess[inside]):
+        return float(speed[inside])
     share = excess[inside] / (excess[inside] - excess[outside])
     return float(speed[inside] + share * (speed[outside] - speed[inside]))
 
@@ -74,8 +97,8 @@ def overtakes(ours: np.ndarray, theirs: np.ndarray) -> float:
 
 
 def interactions_above(run: xr.Dataset, floor: float) -> int:
-    """Separate stretches of speeds whose normal rms is above `floor` (m)."""
-    above = np.concatenate([[0], run["rms_normal"].fillna(np.inf).values > floor])
+    """Separate stretches of speeds whose radial rms is above `floor` (m)."""
+    above = np.concatenate([[0], run["rms_radial"].fillna(np.inf).values > floor])
     return int(np.count_nonzero(np.diff(above.astype(int)) == 1))
 
 
