@@ -12,6 +12,7 @@ LAYERS = [
     "alignment",
     "lanes",
     "native",
+    "text_file",
     "yaml_file",
     "speeds",
     "blade",

@@ -11,7 +11,8 @@ from pathlib import Path
 from snakemake.exceptions import WorkflowError
 from snakemake.settings.types import DeploymentMethod
 
-from r37core.config import ConfigError, load_settings
+from r37core.config import ConfigError, plain, settings_of_run
+from r37core.speeds import exact_text
 from r37core.studies.sampling import sample
 
 ROOT = Path(workflow.basedir)
@@ -20,17 +21,23 @@ SCRIPTS = ROOT / "workflow" / "scripts"
 # of rules that start it themselves
 PYTHON = "python" if DeploymentMethod.CONDA in workflow.deployment_settings.deployment_method else sys.executable
 
+# read here instead of by a `configfile:`, so that messages have lines and numbers are numbers in every file
 try:
-    settings = load_settings(config, ROOT)
+    settings = settings_of_run(
+        ROOT,
+        workflow.config_settings.configfiles,
+        workflow.config_settings.config,
+        only_given=workflow.config_settings.replace_workflow_config,
+    )
 except ConfigError as error:
     raise WorkflowError(str(error)) from None
 
 
-if config.get("fidelity") == "auto":
-    measured = settings.fidelity["measured"]
+if settings.fidelity_is_chosen:
+    measured = settings.fidelity.measured
     logger.info(
-        f"fidelity auto: level {settings.fidelity_name}, measured error {100 * measured['error']:g}%, "
-        f"{measured['cpu_s_per_run']:g} CPU s per run"
+        f"fidelity auto: level {settings.fidelity_name}, measured error {100 * measured.error:g}%, "
+        f"{measured.cpu_s_per_run:g} CPU s per run"
     )
 
 
@@ -38,7 +45,7 @@ wildcard_constraints:
     blade="|".join(settings.blades),
     scene="|".join(settings.scenes),
     tip_line="pressure_edge|camber|suction_edge",
-    speed=r"[0-9.e+]+",
+    speed=r"[0-9.]+",
 
 
 def code(*packages):
@@ -75,7 +82,7 @@ def contact_model_file(wildcards):
 def speed_files(wildcards):
     """The simulations of one blade and scene, by ascending speed."""
     blade, scene = wildcards.blade, wildcards.scene
-    return [f"results/{blade}/{scene}/speed_{speed:.10g}.npz" for speed in settings.speeds[blade, scene]]
+    return [f"results/{blade}/{scene}/speed_{exact_text(speed)}.npz" for speed in settings.speeds[blade, scene]]
 
 
 @cache
@@ -86,7 +93,7 @@ def provenance_of_sweep(blade, scene):
         "scene": scene,
         "scene_parameters": repr(chosen.scene),
         "revolutions": chosen.revolutions,
-        "largest_time_step": settings.fidelity["march"]["time_step_s"],
+        "largest_time_step": settings.fidelity.march.time_step_s,
     }
 
 
@@ -104,7 +111,7 @@ def recovery_file(wildcards):
 def extreme_speeds(blade, scene):
     """The slowest speed of a sweep, and the fastest one or the basis's, whichever is faster: what limits of the step are for."""
     speeds = settings.speeds[blade, scene]
-    return [speeds[0], max(speeds[-1], settings.structure["maximum_speed_rad_s"])]
+    return [speeds[0], max(speeds[-1], settings.structure.maximum_speed_rad_s)]
 
 
 def blade_by_blade(wildcards):
@@ -116,7 +123,7 @@ def blade_by_blade(wildcards):
 def kept_of_a_run():
     """How much of a run its file keeps."""
     keys = ("spectrum_highest_order", "signal_revolutions", "wear_angles")
-    return {key: settings.fidelity["march"][key] for key in keys}
+    return {key: getattr(settings.fidelity.march, key) for key in keys}
 
 
 def task_of_a_run(wildcards):
@@ -134,7 +141,7 @@ def task_of_a_run(wildcards):
 
 def sample_of_sweep(blade, scene):
     """Some of the speeds of one blade and scene, evenly spread."""
-    return sample(settings.speeds[blade, scene], settings.studies["estimate"]["every"])
+    return sample(settings.speeds[blade, scene], settings.studies.estimate.every)
 
 
 def scenes_with(kind):

@@ -17,8 +17,7 @@ rule reading:
         reading=lambda wildcards: asdict(READINGS[wildcards.reading]),
         place=lambda wildcards: asdict(reading_place(wildcards)),
         entry=reading_entry,
-        choice=lambda wildcards: study_choice(READING_SETTINGS["base"]),
-        schemas=str(ROOT / "config" / "schemas"),
+        choice=lambda wildcards: study_choice(READING_SETTINGS.base),
         material=lambda wildcards: asdict(settings.blades[reading_place(wildcards).blade].material),
         code=code("contact/*.*", "march/*.*", "studies/readings.py"),
     script:
@@ -39,9 +38,9 @@ rule reading_campbell:
     conda:
         ENVIRONMENT
     params:
-        campbell=settings.campbell,
-        maximum_speed=settings.structure["maximum_speed_rad_s"],
-        tip_line=settings.structure["boundary"]["tip_line"],
+        campbell=plain(settings.campbell),
+        maximum_speed=settings.structure.maximum_speed_rad_s,
+        tip_line=settings.structure.boundary.tip_line,
         provenance=structure_provenance,
         code=code("io.py", "dataset_file.py", "rom/*.py", "results/campbell*.py"),
     script:

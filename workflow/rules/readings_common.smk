@@ -3,8 +3,8 @@ from r37core.studies.published import BLADES as PUBLISHED_BLADES
 from r37core.studies.reading_list import READINGS
 from r37core.studies.reading_places import places
 
-READING_SETTINGS = settings.studies["readings"]
-READING_PLACES = {name: places(reading, READING_SETTINGS["speed_steps_rad_s"]) for name, reading in READINGS.items()}
+READING_SETTINGS = settings.studies.readings
+READING_PLACES = {name: places(reading, plain(READING_SETTINGS.speed_steps_rad_s)) for name, reading in READINGS.items()}
 READING_RUNS = [(reading, place) for reading, found in READING_PLACES.items() for place in found]
 READING_MESHES = [10000, 40000]
 READING_CAMPBELLS = [(blade, "level") for blade in PUBLISHED_BLADES] + [("Ref", str(nodes)) for nodes in READING_MESHES]
@@ -13,16 +13,17 @@ READING_CAMPBELLS = [(blade, "level") for blade in PUBLISHED_BLADES] + [("Ref", 
 def same_structure(level):
     """Whether a fidelity level has the mesh and reduction of this run."""
     parts = ("mesh", "reduction")
-    return all(known("readings.base", level, settings.levels)[part] == settings.fidelity[part] for part in parts)
+    entry = known("readings.base", level, settings.levels)
+    return all(getattr(entry, part) == getattr(settings.fidelity, part) for part in parts)
 
 
 def reading_structure(blade, changes):
     """Files of the model that a reading needs: this run's own where that is the same."""
     known("readings", blade, settings.blades)
-    if not changes and same_structure(READING_SETTINGS["base"]):
-        line = settings.structure["boundary"]["tip_line"]
+    if not changes and same_structure(READING_SETTINGS.base):
+        line = settings.structure.boundary.tip_line
         return {"rom": f"results/{blade}/rom_{line}.nc", "contact": f"results/{blade}/contact_{line}.npz"}
-    files = study_model_files(blade, model_of_level(READING_SETTINGS["base"], **changes))
+    files = study_model_files(blade, model_of_level(READING_SETTINGS.base, **changes))
     return {name: files[name] for name in ("rom", "contact")}
 
 
@@ -39,7 +40,7 @@ def reading_model(wildcards):
 def reading_entry(wildcards):
     """The scene's entry of scenes.yaml that a reading starts from."""
     key = f"{reading_place(wildcards).kind}_scene"
-    return known(f"readings.{key}", READING_SETTINGS[key], settings.scene_entries)
+    return plain(known(f"readings.{key}", getattr(READING_SETTINGS, key), settings.scene_entries))
 
 
 def reading_campbell(blade, mesh="level"):

@@ -31,7 +31,7 @@ rule summary:
     conda:
         ENVIRONMENT
     params:
-        choice=settings.interactions,
+        choice=plain(settings.interactions),
         code=code("results/interactions.py"),
     script:
         "../scripts/summary.py"

@@ -1,5 +1,5 @@
 # Blade shape -> mesh -> matrices -> reduced model -> Campbell diagram, for each blade.
-CAMPBELL_TIP_LINE = settings.structure["boundary"]["tip_line"]
+CAMPBELL_TIP_LINE = settings.structure.boundary.tip_line
 
 
 rule geometry:
@@ -13,7 +13,7 @@ rule geometry:
         ENVIRONMENT
     params:
         definition=lambda wildcards: settings.blades[wildcards.blade].definition,
-        edges=settings.structure["edges"],
+        edges=settings.structure.edges,
         provenance=shape_provenance,
         code=code("io.py", "dataset_file.py", "blade/*.py"),
     script:
@@ -33,7 +33,7 @@ rule mesh:
     conda:
         ENVIRONMENT
     params:
-        mesh=settings.fidelity["mesh"],
+        mesh=plain(settings.fidelity.mesh),
         code=code("blade/*.py", "mesh/*.py", "fem/wedge15.py", "fem/mesh_quality.py"),
     script:
         "../scripts/mesh.py"
@@ -84,8 +84,7 @@ rule reduced_model:
     conda:
         ENVIRONMENT
     params:
-        structure=lambda wildcards: settings.structure_with(wildcards.tip_line),
-        reduction=settings.fidelity["reduction"],
+        reduction=lambda wildcards: asdict(settings.reduction_choice(wildcards.tip_line)),
         provenance=structure_provenance,
         code=code("io.py", "dataset_file.py", "mesh/wedge_mesh.py", "fem/matrices.py", "fem/solver.py", "rom/*.py"),
     script:
@@ -102,8 +101,8 @@ rule campbell_of_blade:
     conda:
         ENVIRONMENT
     params:
-        campbell=settings.campbell,
-        maximum_speed=settings.structure["maximum_speed_rad_s"],
+        campbell=plain(settings.campbell),
+        maximum_speed=settings.structure.maximum_speed_rad_s,
         tip_line=CAMPBELL_TIP_LINE,
         provenance=structure_provenance,
         code=code("io.py", "dataset_file.py", "rom/*.py", "results/campbell*.py"),

@@ -7,9 +7,9 @@ rule estimate_sample:
         model=contact_model_file,
         prepared="results/{blade}/{scene}/march.stamp",
     output:
-        "results/studies/estimate/{blade}_{scene}.json",
+        "results/studies/estimate/{blade}__{scene}.json",
     log:
-        "logs/studies/estimate_{blade}_{scene}.log",
+        "logs/studies/estimate_{blade}__{scene}.log",
     conda:
         ENVIRONMENT
     params:
@@ -21,7 +21,7 @@ rule estimate_sample:
         number=lambda wildcards: len(settings.speeds[wildcards.blade, wildcards.scene]),
         results=lambda wildcards: settings.scenes[wildcards.scene].results,
         kept=kept_of_a_run(),
-        stress_instants=settings.fidelity["march"]["stress_instants"],
+        stress_instants=settings.fidelity.march.stress_instants,
         material=lambda wildcards: asdict(settings.blades[wildcards.blade].material),
         described=sweep_provenance,
         code=code("contact/*.*", "march/*.*", "results/response.py", "studies/estimate.py"),
@@ -31,7 +31,7 @@ rule estimate_sample:
 
 rule estimate:
     input:
-        expand("results/studies/estimate/{blade}_{scene}.json", blade=settings.blades, scene=settings.scenes),
+        expand("results/studies/estimate/{blade}__{scene}.json", blade=settings.blades, scene=settings.scenes),
     output:
         json="results/studies/estimate.json",
         table="results/studies/estimate.md",
@@ -40,8 +40,8 @@ rule estimate:
     conda:
         ENVIRONMENT
     params:
-        workflow_s_per_job=settings.studies["estimate"]["workflow_s_per_job"],
-        cores=settings.studies["estimate"]["cores"],
+        workflow_s_per_job=settings.studies.estimate.workflow_s_per_job,
+        cores=settings.studies.estimate.cores,
         fidelity=settings.fidelity_name,
         code=code("studies/estimate.py"),
     script:
@@ -56,7 +56,7 @@ rule study_model:
         contact="results/studies/models/{blade}/{nodes}_{boundary_nodes}_{fixed_interface_modes}_{region}_{line}_{ends}_contact.npz",
         cost="results/studies/models/{blade}/{nodes}_{boundary_nodes}_{fixed_interface_modes}_{region}_{line}_{ends}_cost.json",
     log:
-        "logs/studies/models/{blade}_{nodes}_{boundary_nodes}_{fixed_interface_modes}_{region}_{line}_{ends}.log",
+        "logs/studies/models/{blade}/{nodes}_{boundary_nodes}_{fixed_interface_modes}_{region}_{line}_{ends}.log",
     wildcard_constraints:
         nodes=r"\d+",
         boundary_nodes=r"\d+",
@@ -69,8 +69,7 @@ rule study_model:
         ENVIRONMENT
     params:
         choice=model_choice,
-        structure=settings.structure,
-        reduction=lambda wildcards: known("tradeoff.base", TRADEOFF["base"], settings.levels)["reduction"],
+        reduction=asdict(settings.reduction_choice()),
         material=study_material,
         provenance=structure_provenance,
         code=code("mesh/*.py", "fem/*.py", "rom/*.py", "studies/models.py"),
@@ -85,7 +84,7 @@ rule tradeoff_case:
     output:
         "results/studies/tradeoff/{blade}/{knob}/{value}.nc",
     log:
-        "logs/studies/tradeoff/{blade}_{knob}_{value}.log",
+        "logs/studies/tradeoff/{blade}/{knob}/{value}.log",
     wildcard_constraints:
         knob="|".join(TRADEOFF_VALUES),
         value=r"[\w.+-]+",
@@ -95,8 +94,8 @@ rule tradeoff_case:
         scenes=lambda wildcards: {scene: study_scene("tradeoff.scenes", scene) for scene in TRADEOFF_SCENES},
         described=lambda wildcards: [repr(study_scene("tradeoff.scenes", scene)) for scene in TRADEOFF_SCENES],
         choices=tradeoff_choices,
-        places=TRADEOFF["places"],
-        engine_order=TRADEOFF["engine_order"],
+        places=plain(TRADEOFF.places),
+        engine_order=TRADEOFF.engine_order,
         material=study_material,
         code=code("contact/*.*", "march/*.*", "studies/case.py", "studies/tradeoff.py"),
     script:
@@ -124,7 +123,7 @@ rule tradeoff:
         knobs=list(TRADEOFF_VALUES),
         references=TRADEOFF_REFERENCES,
         tolerance=settings.tolerance,
-        provenance={"blade": TRADEOFF_BLADE, "base_level": TRADEOFF["base"]},
+        provenance={"blade": TRADEOFF_BLADE, "base_level": TRADEOFF.base},
         code=code("studies/tradeoff*.py", "figures/style.py", "figures/tradeoff.py"),
     script:
         "../scripts/tradeoff.py"
@@ -143,9 +142,10 @@ rule stability_case:
         ENVIRONMENT
     params:
         extreme=lambda wildcards: asdict(EXTREMES[wildcards.extreme]),
-        entry=lambda wildcards: known("stability.*_scene", EXTREMES[wildcards.extreme].scene, settings.scene_entries),
-        choice=lambda wildcards: study_choice(STABILITY["base"]),
-        schemas=str(ROOT / "config" / "schemas"),
+        entry=lambda wildcards: plain(
+            known("stability.*_scene", EXTREMES[wildcards.extreme].scene, settings.scene_entries)
+        ),
+        choice=lambda wildcards: study_choice(STABILITY.base),
         code=code("contact/*.*", "march/*.*", "studies/case.py", "studies/stability.py"),
     script:
         "../scripts/stability_case.py"

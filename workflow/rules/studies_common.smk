@@ -1,10 +1,9 @@
 # What the rules of the studies share.
-from r37core.config import march_of_level
 from r37core.studies.stability_cases import extremes
 
-TRADEOFF = settings.studies["tradeoff"]
-TRADEOFF_BLADE = TRADEOFF["blade"]
-TRADEOFF_SCENES = list(settings.scenes) if TRADEOFF["scenes"] == "all" else TRADEOFF["scenes"]
+TRADEOFF = settings.studies.tradeoff
+TRADEOFF_BLADE = TRADEOFF.blade
+TRADEOFF_SCENES = list(settings.scenes) if TRADEOFF.scenes == "all" else TRADEOFF.scenes
 
 
 def known(key, name, entries):
@@ -26,23 +25,23 @@ def study_scene(key, name):
 
 def text_of(value):
     """A knob's value as it stands in file names."""
-    return value if isinstance(value, str) else f"{value:.10g}"
+    return value if isinstance(value, str) else exact_text(value)
 
 
-TRADEOFF_VALUES = {knob: [text_of(value) for value in entry["values"]] for knob, entry in TRADEOFF["knobs"].items()}
-TRADEOFF_REFERENCES = {knob: text_of(entry["reference"]) for knob, entry in TRADEOFF["knobs"].items()}
+TRADEOFF_VALUES = {knob: [text_of(value) for value in entry.values] for knob, entry in TRADEOFF.knobs.given().items()}
+TRADEOFF_REFERENCES = {knob: text_of(entry.reference) for knob, entry in TRADEOFF.knobs.given().items()}
 
 
 def model_of_level(level, **changes):
     """Name of the model of a fidelity level, with something changed: see model_choice."""
     entry = known("*.base", level, settings.levels)
     parts = {
-        "nodes": entry["mesh"]["nodes"],
-        "boundary_nodes": settings.structure["boundary"]["nodes"],
-        "fixed_interface_modes": entry["reduction"]["fixed_interface_modes"],
+        "nodes": entry.mesh.nodes,
+        "boundary_nodes": settings.structure.boundary.nodes,
+        "fixed_interface_modes": entry.reduction.fixed_interface_modes,
         "region": "submesh",
-        "line": settings.structure["boundary"]["tip_line"],
-        "ends": "corners" if settings.structure["boundary"]["corners"] else "inside",
+        "line": settings.structure.boundary.tip_line,
+        "ends": "corners" if settings.structure.boundary.corners else "inside",
     } | changes
     return "{nodes}_{boundary_nodes}_{fixed_interface_modes}_{region}_{line}_{ends}".format(**parts)
 
@@ -77,30 +76,30 @@ def tradeoff_model(wildcards):
     if knob == "level":
         model = model_of_level(value)
     elif knob == "stress_region":
-        model = model_of_level(TRADEOFF["base"], region=value)
+        model = model_of_level(TRADEOFF.base, region=value)
     elif knob in model_knobs:
-        model = model_of_level(TRADEOFF["base"], **{model_knobs[knob]: int(value)})
+        model = model_of_level(TRADEOFF.base, **{model_knobs[knob]: int(value)})
     else:
-        model = model_of_level(TRADEOFF["base"])
+        model = model_of_level(TRADEOFF.base)
     return study_model_files(wildcards.blade, model)
 
 
 def study_choice(level):
     """The march of a fidelity level, with the stress of the last revolution and the energy balance."""
-    return asdict(march_of_level(known("*.base", level, settings.levels)["march"]))
+    return asdict(known("*.base", level, settings.levels).march.choice())
 
 
 def tradeoff_choices(wildcards):
     """The march of every scene, before the knob is turned."""
-    level = wildcards.value if wildcards.knob == "level" else TRADEOFF["base"]
+    level = wildcards.value if wildcards.knob == "level" else TRADEOFF.base
     return {scene: study_choice(level) for scene in TRADEOFF_SCENES}
 
 
-STABILITY = settings.studies["stability"]
-EXTREMES = {extreme.name: extreme for extreme in extremes(STABILITY["lined_scene"], STABILITY["rigid_scene"])}
+STABILITY = settings.studies.stability
+EXTREMES = {extreme.name: extreme for extreme in extremes(STABILITY.lined_scene, STABILITY.rigid_scene)}
 
 
 def stability_model(wildcards):
     """Contact model of an extreme."""
     changes = EXTREMES[wildcards.extreme].model
-    return study_model_files(STABILITY["blade"], model_of_level(STABILITY["base"], **changes))["contact"]
+    return study_model_files(STABILITY.blade, model_of_level(STABILITY.base, **changes))["contact"]

@@ -32,9 +32,7 @@ rule prepare_march:
         scene=lambda wildcards: settings.scenes[wildcards.scene].scene,
         described=lambda wildcards: repr(settings.scenes[wildcards.scene].scene),
         speeds=lambda wildcards: extreme_speeds(wildcards.blade, wildcards.scene),
-        choice=lambda wildcards: asdict(
-            settings.march_choice(wildcards.scene, settings.structure["maximum_speed_rad_s"])
-        ),
+        choice=lambda wildcards: asdict(settings.march_choice(wildcards.scene, settings.structure.maximum_speed_rad_s)),
         code=code("alignment.py", "lanes.py", "native.py", "contact/*.py", "march/*.py"),
     script:
         "../scripts/prepare_march.py"
@@ -85,7 +83,7 @@ rule response:
         speeds=lambda wildcards: settings.speeds[wildcards.blade, wildcards.scene],
         stress=lambda wildcards: "stress" in settings.scenes[wildcards.scene].results,
         stress_history_speeds=lambda wildcards: settings.scenes[wildcards.scene].stress_history_speeds,
-        stress_instants=settings.fidelity["march"]["stress_instants"],
+        stress_instants=settings.fidelity.march.stress_instants,
         material=lambda wildcards: asdict(settings.blades[wildcards.blade].material),
         provenance=sweep_provenance,
         code=code(

@@ -1,7 +1,6 @@
 """One reading at one place. Inputs: model (rom, contact). Params: reading, place, entry, choice, ... Output: netCDF."""
 
 from dataclasses import replace
-from pathlib import Path
 
 from job import run
 
@@ -24,7 +23,7 @@ def main(snakemake):
     bench = Bench(
         read_contact_model(given.contact),
         StressRecovery(read_reduced_model(given.rom), material),
-        checked_scene(changed(params.entry, params.reading["changes"]), Path(params.schemas)),
+        checked_scene(changed(params.entry, params.reading["changes"])),
         replace(choice, time_step=params.reading["steps"] * choice.time_step),
         material.yield_stress,
     )

@@ -1,7 +1,6 @@
-"""One extreme. Input: model (contact). Params: extreme, entry, choice, schemas. Output: JSON."""
+"""One extreme. Input: model (contact). Params: extreme, entry, choice. Output: JSON."""
 
 from dataclasses import replace
-from pathlib import Path
 
 from job import run
 
@@ -23,7 +22,7 @@ def main(snakemake):
     if extreme.integrator is not None:
         choice = replace(choice, integrator=extreme.integrator)
     try:
-        scene = checked_scene(changed(params.entry, extreme.changes), Path(params.schemas))
+        scene = checked_scene(changed(params.entry, extreme.changes))
         outcome = judge(model, scene, choice, extreme.speed)
     except ConfigError as error:
         outcome = {"outcome": REFUSED, "detail": str(error)}
