@@ -69,9 +69,9 @@ rule map_figure:
         campbell="results/campbell.nc",
         maps="results/{kind}.nc",
     output:
-        "results/figures/{kind}_{blade}_{scene}.png",
+        "results/figures/{kind}_{blade}__{scene}.png",
     log:
-        "logs/figures/{kind}_{blade}_{scene}.log",
+        "logs/figures/{kind}_{blade}__{scene}.log",
     wildcard_constraints:
         kind="spectrum|wear",
     conda:
@@ -100,5 +100,5 @@ rule response_overview:
 SWEEP_FIGURES = [
     "response",
     *expand("response_{blade}", blade=settings.blades),
-    *[f"{kind}_{blade}_{scene}" for kind in ("spectrum", "wear") for blade, scene in runs_with(kind)],
+    *[f"{kind}_{blade}__{scene}" for kind in ("spectrum", "wear") for blade, scene in runs_with(kind)],
 ]
