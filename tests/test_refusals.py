@@ -73,10 +73,10 @@ CONFIG_REFUSALS = [
     (
         "      level: {",
         "      levell: {",
-        r"knobs: found unknown key levell; allowed keys: level, time_step.*did you mean level",
+        r"knobs: found unknown key levell; allowed keys: level, central_difference_step.*did you mean level",
     ),
-    ("      precision: {", "      precisionn: {", r"knobs: found unknown key precisionn"),
-    ("precision: { values: [single, double], reference: double }", "precision:", r"knobs\.precision: found nothing"),
+    ("      bars: {", "      barss: {", r"knobs: found unknown key barss"),
+    ("bars: { values: [300, 1000, 3000, 10000, 30000, 100000], reference: 100000 }", "bars:", r"knobs\.bars: found nothing"),
     (
         "[2, 4, 8, 15], reference: 15",
         "[2, 4, 8], reference: 15",
