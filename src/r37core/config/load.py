@@ -63,13 +63,23 @@ class Settings:
     tolerance: float
     fidelity_is_chosen: bool
 
+    @property
+    def remarks(self) -> list[str]:
+        """What a run should say before it starts."""
+        measured = self.fidelity.measured
+        if not self.fidelity_is_chosen or measured is None:
+            return []
+        error, cost = 100 * measured.error, measured.cpu_s_per_run
+        return [f"fidelity auto: level {self.fidelity_name}, measured error {error:g}%, {cost:g} CPU s per run"]
+
     def shape_hash(self, blade: str) -> str:
         """Short hash of all that a blade's geometry depends on."""
         return _short_hash(self.blades[blade].definition, self.structure.edges)
 
     def structure_hash(self, blade: str) -> str:
         """Short hash of all that a blade's structural results depend on."""
-        return _short_hash(self.blades[blade], plain(self.fidelity.mesh), plain(self.fidelity.reduction), plain(self.structure))
+        elastic = replace(self.blades[blade].material, yield_stress=0.0)
+        return _short_hash(self.shape_hash(blade), elastic, plain(self.fidelity.mesh), self.reduction_choice())
 
     def reduction_choice(self, tip_line: str | None = None) -> ReductionChoice:
         """What the reduced model is made of, with contact nodes on `tip_line` or on that of config.yaml."""
