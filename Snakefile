@@ -6,24 +6,22 @@ for library in ("OPENBLAS", "OMP", "MKL", "NUMBA"):
     os.environ[f"{library}_NUM_THREADS"] = "1"
 
 
-configfile: "config/config.yaml"
-
-
 include: "workflow/rules/common.smk"
 include: "workflow/rules/structure.smk"
 include: "workflow/rules/sweep.smk"
 include: "workflow/rules/results.smk"
 include: "workflow/rules/figures.smk"
-include: "workflow/rules/studies_common.smk"
-include: "workflow/rules/studies.smk"
-include: "workflow/rules/readings_common.smk"
-include: "workflow/rules/readings.smk"
+include: "workflow/rules/studies/common.smk"
+include: "workflow/rules/studies/estimate.smk"
+include: "workflow/rules/studies/tradeoff.smk"
+include: "workflow/rules/studies/stability.smk"
+include: "workflow/rules/studies/readings.smk"
 
 
 rule all_blades:
     default_target: True
     input:
         rules.campbell.input,
-        expand("results/{kind}.nc", kind=KINDS),
-        "results/summary.csv",
-        expand("results/figures/{figure}.png", figure=SWEEP_FIGURES),
+        expand("<results>/{kind}.nc", kind=sweep.kinds),
+        "<results>/summary.csv",
+        sweep.figures,

@@ -12,13 +12,12 @@ os.environ["OPENBLAS_NUM_THREADS"] = "1"
 
 import numpy as np
 
-from r37core.config import load_settings
+from r37core.config import read_settings
 from r37core.fem.matrices import assemble
 from r37core.fem.solver import lowest_modes
 from r37core.mesh.generate import generate_mesh
 from r37core.results.campbell import campbell_diagram
-from r37core.rom.reduce import ReductionChoice, reduce_blade
-from r37core.yaml_file import load_yaml
+from r37core.rom.reduce import reduce_blade
 
 ROOT = Path(__file__).parent.parent
 PUBLISHED = {7: 806.0, 6: 965.0, 5: 1213.0, 4: 1672.0}
@@ -35,9 +34,9 @@ CASES = [
 
 
 def main():
-    settings = load_settings(load_yaml(ROOT / "config/config.yaml"), ROOT)
+    settings = read_settings(ROOT)
     reference = settings.blades["Ref"]
-    choice = ReductionChoice.from_config(settings.structure, settings.fidelity["reduction"])
+    choice = settings.reduction_choice()
     print("| edges | nodes | layers | first six frequencies at rest (Hz) | 1B crossings with 7, 6, 5, 4 (rad/s) | off by | s |")
     print("|---|---|---|---|---|---|---|")
     for edges, nodes, layers, tip_elements in CASES:

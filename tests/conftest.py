@@ -1,6 +1,7 @@
 """What many tests share: the reference blade, a coarse mesh of it, its matrices and its reduced model."""
 
 import os
+import shutil
 from pathlib import Path
 
 import pytest
@@ -18,10 +19,9 @@ def root():
 
 @pytest.fixture(scope="session")
 def settings():
-    from r37core.config import load_settings
-    from r37core.yaml_file import load_yaml
+    from r37core.config import read_settings
 
-    return load_settings(load_yaml(ROOT / "config" / "config.yaml"), ROOT)
+    return read_settings(ROOT)
 
 
 @pytest.fixture(scope="session")
@@ -58,9 +58,7 @@ def matrices(mesh, steel):
 
 @pytest.fixture(scope="session")
 def choice(settings):
-    from r37core.rom.reduce import ReductionChoice
-
-    return ReductionChoice.from_config(settings.structure, settings.fidelity["reduction"])
+    return settings.reduction_choice()
 
 
 @pytest.fixture(scope="session")
@@ -75,6 +73,13 @@ def contact(model):
     from r37core.rom.contact_reduction import contact_model
 
     return contact_model(model, "pressure_edge")
+
+
+@pytest.fixture
+def config_copy(root, tmp_path):
+    """A folder with a copy of the configuration alone."""
+    shutil.copytree(root / "config", tmp_path / "config")
+    return tmp_path
 
 
 @pytest.fixture

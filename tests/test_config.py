@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 import yaml
 
-from r37core.config import ConfigError, load_settings
+from r37core.config import ConfigError, load_settings, plain
+from r37core.text_file import TextFileError
 from r37core.yaml_file import load_yaml
 
 
@@ -65,8 +66,8 @@ def test_defaults_are_filled_in(project):
         "fidelity": "draft",
     }
     settings = load_settings(content, project)
-    assert settings.structure["boundary"] == {"tip_line": "pressure_edge", "nodes": 8, "corners": True}
-    assert settings.campbell["highest_engine_order"] == 16
+    assert plain(settings.structure.boundary) == {"tip_line": "pressure_edge", "nodes": 8, "corners": True}
+    assert settings.campbell.highest_engine_order == 16
     assert list(settings.scenes) == ["direct"]
     assert settings.speeds["Ref", "direct"][:2] == (750.0, 770.0)
 
@@ -80,7 +81,7 @@ def test_defaults_are_filled_in(project):
         ({"bladez": 1}, r"config\.yaml: top level: found unknown key bladez; allowed keys: blades_file"),
         ({"structure": {"edges": "sharp"}}, r"structure\.edges: found 'sharp'; allowed: one of round, blunt"),
         ({"structure": {"boundary": {"nodes": 0}}}, r"structure\.boundary\.nodes: found 0; allowed: .*at least 1"),
-        ({"structure": {"maximum_speed_rad_s": -5}}, r"maximum_speed_rad_s: found -5; allowed: .*more than 0"),
+        ({"structure": {"maximum_speed_rad_s": -5}}, r"maximum_speed_rad_s: found -5; allowed: .*at least"),
         ({"structure": {"stress_submesh": {"minimum_z_m": 1}}}, r"stress_submesh\.minimum_z_m: found 1; allowed: less than"),
         ({"campbell": {"modes": 2}}, r"campbell\.modes: found 2; allowed: .*at least 3"),
         ({"blades_file": "config/none.yaml"}, r"config/none\.yaml: there is no such file"),
@@ -94,17 +95,17 @@ def test_config_refusals(project, changes, message):
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("X: {base: Nope}", r"blades\.yaml: X\.base: found 'Nope'; allowed: another blade"),
-        ("X: {base: Y}\nY: {base: X}", r"blades\.yaml: Y\.base: found 'X'; allowed: another blade"),
-        ("X: {}", r"blades\.yaml: X: missing key profiles or base"),
+        ("X: {base: Nope}", r"blades\.yaml:22: X\.base: found 'Nope'; allowed: another blade"),
+        ("X: {base: Y}\nY: {base: X}", r"blades\.yaml:23: Y\.base: found 'X'; allowed: another blade"),
+        ("X: {}", r"blades\.yaml:22: X: found neither profiles nor base"),
         ("X: {base: Ref, chordwise_sweep_deg: 5, stacking_table: t.csv}", r"X: found stacking_table and chordwise_sweep_deg"),
         ("X: {base: Ref, sweep: 5}", r"X: found unknown key sweep; allowed keys: profiles, base"),
         ("X: {base: Ref, chordwise_sweep_deg: 80}", r"X\.chordwise_sweep_deg: found 80; allowed: .*less than 60"),
         ("X: {base: Ref, stacking_table: config/stacking/rotor37.csv}", r"rotor37\.csv: blade X: no row of the table has 'X'"),
         ("X: {base: Ref, stacking_table: none.csv}", r"X\.stacking_table: there is no file none\.csv"),
-        ("X: {base: Ref, material: {density_kg_m3: 0}}", r"X\.material\.density_kg_m3: found 0; allowed: .*more than 0"),
+        ("X: {base: Ref, material: {density_kg_m3: 0}}", r"X\.material\.density_kg_m3: found 0; allowed: .*at least"),
         ("X: {profiles: config/profiles/rotor37.csv}", r"X\.material: missing key youngs_modulus_pa"),
-        ("X: {base: Ref}\nX: {base: L50}", r"blades\.yaml: not readable as YAML: .*the key 'X' is given twice"),
+        ("X: {base: Ref}\nX: {base: L50}", r"blades\.yaml:\d+: not readable as YAML: .*the key 'X' is given twice"),
         (
             "X: {base: Ref, sweep_lean: [{span_percent: 0, sweep_cm: 0, lean_deg: 0}, "
             "{span_percent: 90, sweep_cm: 0, lean_deg: 0}]}",
@@ -168,5 +169,5 @@ def test_numbers_without_a_dot_are_numbers(tmp_path):
     (tmp_path / "a.yaml").write_text("a: 1e9\nb: 2.5E-3\nc: 7\nd: text\n")
     assert load_yaml(tmp_path / "a.yaml") == {"a": 1e9, "b": 2.5e-3, "c": 7, "d": "text"}
     (tmp_path / "b.yaml").write_text("a: 1\na: 2\n")
-    with pytest.raises(yaml.YAMLError, match="'a' is given twice"):
+    with pytest.raises(TextFileError, match=r"line 2: .*'a' is given twice"):
         load_yaml(tmp_path / "b.yaml")

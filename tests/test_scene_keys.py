@@ -74,31 +74,26 @@ def with_key(path, value):
     return entry
 
 
-@pytest.fixture(scope="module")
-def schemas(root):
-    return root / "config" / "schemas"
-
-
 @pytest.mark.parametrize("path", REACHES)
-def test_a_key_reaches_its_field_only(schemas, path):
+def test_a_key_reaches_its_field_only(path):
     value, field, expected = REACHES[path]
-    before, after = flat(checked_scene(ENTRY, schemas)), flat(checked_scene(with_key(path, value), schemas))
+    before, after = flat(checked_scene(ENTRY)), flat(checked_scene(with_key(path, value)))
     assert before[field] != after[field] == expected
     assert {name for name in before if before[name] != after[name]} == {field}
 
 
-def test_every_field_has_a_key(schemas):
-    assert {field for _, field, _ in REACHES.values()} == set(flat(checked_scene(ENTRY, schemas)))
+def test_every_field_has_a_key():
+    assert {field for _, field, _ in REACHES.values()} == set(flat(checked_scene(ENTRY)))
 
 
-def test_the_tip_decides_the_cone_angle_by_default(schemas):
+def test_the_tip_decides_the_cone_angle_by_default():
     casing = {key: value for key, value in CASING.items() if key != "cone_angle_deg"}
-    scene = checked_scene(ENTRY | {"casing": casing}, schemas)
+    scene = checked_scene(ENTRY | {"casing": casing})
     assert scene.casing.cone_angle is None
     assert scene.casing.angle(-0.26) == -0.26
-    assert checked_scene(ENTRY, schemas).casing.angle(-0.26) == np.radians(3.0)
+    assert checked_scene(ENTRY).casing.angle(-0.26) == np.radians(3.0)
 
 
-def test_bars_are_a_millimetre_wide_by_default(schemas):
+def test_bars_are_a_millimetre_wide_by_default():
     lining = {key: value for key, value in LINING.items() if key != "bar_width_m"}
-    assert checked_scene(ENTRY | {"lining": lining}, schemas).lining.bar_width == 1e-3
+    assert checked_scene(ENTRY | {"lining": lining}).lining.bar_width == 1e-3

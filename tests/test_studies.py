@@ -13,11 +13,12 @@ from workflow_runs import snakemake
 from r37core.march.choice import MarchChoice
 from r37core.march.simulate import March
 from r37core.studies.case import QUANTITIES, Case
+from r37core.studies.changes import changed
 from r37core.studies.estimate import describe, project_costs
 from r37core.studies.growth import exponent_of
 from r37core.studies.levels import recommended_level
 from r37core.studies.sampling import sample
-from r37core.studies.stability import changed, judge
+from r37core.studies.stability import judge
 from r37core.studies.stability_cases import extremes
 from r37core.studies.tradeoff import case_dataset, gather_cases, level_error, vary
 from r37core.studies.tradeoff_table import knob_tables

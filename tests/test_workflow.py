@@ -9,7 +9,10 @@ import sys
 import numpy as np
 import pytest
 import xarray as xr
+import yaml
 from workflow_runs import copy_project, planned, snakemake
+
+from r37core.yaml_file import load_yaml
 
 
 @pytest.fixture(scope="module")
@@ -64,8 +67,8 @@ def test_results_of_a_real_run(finished):
     with xr.open_dataset(finished / "results/spectrum.nc") as dataset:
         assert float(dataset["engine_order"][1]) == 0.25
     assert (finished / "results/summary.csv").read_text().startswith("blade,scene,mode,engine_order,campbell_speed")
-    names = ["campbell", "campbell_Ref", "campbell_CS100", "blades", "response", "response_Ref", "spectrum_Ref_direct"]
-    for name in (f"{name}.png" for name in [*names, "wear_CS100_abradable"]):
+    names = ["campbell", "campbell_Ref", "campbell_CS100", "blades", "response", "response_Ref", "spectrum_Ref__direct"]
+    for name in (f"{name}.png" for name in [*names, "wear_CS100__abradable"]):
         assert (finished / "results/figures" / name).stat().st_size > 10_000
     for name in ("mesh.msh", "mesh.vtu", "mesh.inp", "geometry.nc", "matrices.npz"):
         assert (finished / "results/Ref" / name).exists()
@@ -309,3 +312,19 @@ def test_readme_commands_exist(root):
     assert targets
     for target in targets:
         assert re.search(rf"^(\w+ )*{target}( \w+)*:", makefile, re.MULTILINE)
+
+
+def test_names_that_begin_alike_keep_their_files_apart(project):
+    """Blades A and A_b with scenes b_c and c: four figures, each of its own blade and scene."""
+    with open(project / "config/blades.yaml", "a") as stream:
+        stream.write("\nA: { base: Ref }\nA_b: { base: Ref }\n")
+    scenes = load_yaml(project / "config/scenes.yaml")
+    (project / "config/scenes.yaml").write_text(yaml.safe_dump({"b_c": scenes["direct"], "c": scenes["direct"]}))
+    text = snakemake(
+        project, "all_blades", "--cores", "1", "--dry-run", "--config", "blades=[A,A_b]", "scenes=[b_c,c]", "speeds=[900,1e3]"
+    )
+    found = re.findall(r"output: results/figures/spectrum_(\S+)\.png\n.*\n.*\n.*\n    wildcards: kind=spectrum, (.*)\n", text)
+    assert dict(found) == {
+        f"{blade}__{scene}": f"blade={blade}, scene={scene}" for blade in ("A", "A_b") for scene in ("b_c", "c")
+    }
+    assert set(re.findall(r"speed_([\d.]+)\.npz\n    log", text)) == {"900", "1000"}

@@ -23,7 +23,7 @@ def copy_project(root, to):
     config = config.replace("stop: 2000 }", "stop: 1600 }")
     (to / "config/config.yaml").write_text(config)
     scenes = (to / "config/scenes.yaml").read_text()
-    (to / "config/scenes.yaml").write_text(scenes.split("\n# The physically motivated")[0])
+    (to / "config/scenes.yaml").write_text(re.split(r"\n\n(?:#.*\n)*physical_", scenes, maxsplit=1)[0] + "\n")
     with open(to / "config/fidelity.yaml", "a") as stream:
         stream.write(
             "\ntiny:\n  mesh: { nodes: 1500, layers: 1, tip_elements: 14 }\n  reduction: { fixed_interface_modes: 10 }\n"

@@ -1,38 +1,118 @@
-"""YAML as users expect it: 1e9 is a number, and a key given twice is an error."""
+"""YAML as users expect it: 1e-1 is a number, 010 is ten, a key given twice is an error, and every key knows its line."""
 
 from __future__ import annotations
 
 import re
+from collections.abc import Hashable
 from pathlib import Path
 from typing import Any
 
 import yaml
 
+from .text_file import TextFileError, read_text
+
+KeyPath = tuple[str | int, ...]
+"""Where a value stands: keys of mappings and numbers of list entries."""
+
+_LARGEST = 100_000
+"""Values in one file; more than that is an alias that multiplies itself."""
+
+_DIGITS = list("-+0123456789.")
+_INTEGER = re.compile(r"^[-+]?[0-9]{1,400}$")
+_FLOAT = re.compile(r"^[-+]?(\.[0-9]+|[0-9]+(\.[0-9]*)?)([eE][-+]?[0-9]+)?$|^[-+]?\.(inf|Inf|INF)$|^\.(nan|NaN|NAN)$")
+
 
 class _Loader(yaml.SafeLoader):
-    pass
+    """Numbers as in YAML 1.2 and JSON (none octal, sexagesimal or with underscores), no dates, no merged mappings."""
 
 
-# YAML 1.1 reads 1e9 as text; take the JSON notation of numbers as well
-_Loader.add_implicit_resolver(
-    "tag:yaml.org,2002:float",
-    re.compile(r"^[-+]?(\d+\.?\d*|\.\d+)[eE][-+]?\d+$"),
-    list("-+0123456789."),
-)
+_Loader.yaml_implicit_resolvers = {
+    first: [(tag, pattern) for tag, pattern in resolvers if tag.endswith((":bool", ":null"))]
+    for first, resolvers in yaml.SafeLoader.yaml_implicit_resolvers.items()
+}
+_Loader.add_implicit_resolver("tag:yaml.org,2002:int", _INTEGER, _DIGITS)
+_Loader.add_implicit_resolver("tag:yaml.org,2002:float", _FLOAT, _DIGITS)
+_Loader.add_constructor("tag:yaml.org,2002:int", lambda loader, node: int(node.value))
 
 
-def _mapping(loader: _Loader, node: yaml.MappingNode) -> dict:
-    keys = [loader.construct_object(key) for key, _ in node.value]
-    for key in keys:
-        if keys.count(key) > 1:
-            raise yaml.constructor.ConstructorError(None, None, f"the key '{key}' is given twice", node.start_mark)
-    return {loader.construct_object(key): loader.construct_object(value, deep=True) for key, value in node.value}
+def _mapping(loader: _Loader, node: yaml.MappingNode) -> dict[Hashable, Any]:
+    content: dict[Hashable, Any] = {}
+    for key_node, value in node.value:
+        key = loader.construct_object(key_node, deep=True)
+        if not isinstance(key, str):
+            shown = key_node.value if isinstance(key_node, yaml.ScalarNode) else "?"
+            raise _refusal(key_node, f"found the key '{shown}', which is {_kind(key)} in YAML; allowed: a name")
+        if key in content:
+            raise _refusal(key_node, f"the key '{key}' is given twice")
+        content[key] = loader.construct_object(value, deep=True)
+    return content
 
 
 _Loader.add_constructor(yaml.resolver.BaseResolver.DEFAULT_MAPPING_TAG, _mapping)
 
 
+def _kind(value: object) -> str:
+    names = {bool: "true or false", int: "a number", float: "a number", type(None): "nothing"}
+    return names.get(type(value), "no text")
+
+
+def _refusal(node: yaml.Node, reason: str) -> yaml.MarkedYAMLError:
+    return yaml.MarkedYAMLError(problem=reason, problem_mark=node.start_mark)
+
+
 def load_yaml(file: Path) -> Any:
-    """Content of a YAML file; yaml.YAMLError where it is malformed or gives a key twice."""
-    with open(file, encoding="utf-8") as stream:
-        return yaml.load(stream, Loader=_Loader)
+    """Content of a YAML file; TextFileError where it is malformed or gives a key twice, OSError as `open` does."""
+    return load_yaml_with_lines(file)[0]
+
+
+def load_yaml_with_lines(file: Path) -> tuple[Any, dict[KeyPath, int]]:
+    """Content of a YAML file as `load_yaml` gives it, and the number of the line each value stands on."""
+    lines: dict[KeyPath, int] = {}
+    text = read_text(file)
+    try:
+        loader = _Loader(text)
+        node = loader.get_single_node()
+        if node is None:
+            raise TextFileError(1, "the file is empty")
+        _note_lines(node, (), lines)
+        return loader.construct_document(node), lines
+    except yaml.reader.ReaderError as error:
+        line = text.count("\n", 0, error.position) + 1
+        raise TextFileError(line, f"not readable as YAML: found the control character {error.character:#x}") from None
+    except yaml.MarkedYAMLError as error:
+        raise TextFileError(*_explained(error)) from None
+    except RecursionError:
+        raise TextFileError(1, "not readable as YAML: nested too deeply") from None
+
+
+def scalar(text: str) -> Any:
+    """What a plain text is in YAML: a number, true or false, nothing, or the text itself."""
+    loader = _Loader("")
+    return loader.construct_object(yaml.ScalarNode(loader.resolve(yaml.ScalarNode, text, (True, False)), text))
+
+
+def _explained(error: yaml.MarkedYAMLError) -> tuple[int, str]:
+    """Line and reason."""
+    mark = error.problem_mark or error.context_mark
+    problem = error.problem or error.context or "malformed"
+    if "\\t" in problem:
+        problem = "found a tab; indent with blanks"
+    elif isinstance(error, yaml.parser.ParserError | yaml.scanner.ScannerError) and error.context:
+        problem = f"{problem} ({error.context})"
+    elif isinstance(error, yaml.composer.ComposerError):
+        problem = f"{error.context or ''} {problem}".strip()
+    return (mark.line + 1 if mark else 1), f"not readable as YAML: {problem}"
+
+
+def _note_lines(node: yaml.Node, path: KeyPath, lines: dict[KeyPath, int]) -> None:
+    if len(lines) > _LARGEST:
+        raise _refusal(node, f"more than {_LARGEST} values")
+    lines.setdefault(path, node.start_mark.line + 1)
+    if isinstance(node, yaml.MappingNode):
+        for key, value in node.value:
+            inner = (*path, str(key.value))
+            lines[inner] = key.start_mark.line + 1
+            _note_lines(value, inner, lines)
+    elif isinstance(node, yaml.SequenceNode):
+        for number, value in enumerate(node.value):
+            _note_lines(value, (*path, number), lines)

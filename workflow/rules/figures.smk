@@ -3,102 +3,95 @@
 
 rule campbell_figure:
     input:
-        "results/{blade}/campbell.nc",
+        paths.CAMPBELL,
     output:
-        "results/figures/campbell_{blade}.png",
+        "<results>/figures/campbell_{blade}.png",
     log:
-        "logs/figures/campbell_{blade}.log",
+        "<logs>/figures/campbell_{blade}.log",
     conda:
         ENVIRONMENT
     params:
-        code=code("figures/style.py", "figures/campbell.py"),
+        code=code("campbell_figure"),
     script:
         "../scripts/campbell_figure.py"
 
 
 rule campbell_overview:
     input:
-        "results/campbell.nc",
+        "<results>/campbell.nc",
     output:
-        "results/figures/campbell.png",
+        "<results>/figures/campbell.png",
     log:
-        "logs/figures/campbell_overview.log",
+        "<logs>/figures/campbell_overview.log",
     conda:
         ENVIRONMENT
     params:
-        code=code("figures/style.py", "figures/campbell.py"),
+        code=code("campbell_overview"),
     script:
         "../scripts/campbell_overview.py"
 
 
 rule blade_shapes_figure:
     input:
-        expand("results/{blade}/mesh.vtu", blade=settings.blades),
+        expand(paths.MESH, blade=settings.blades),
     output:
-        "results/figures/blades.png",
+        "<results>/figures/blades.png",
     log:
-        "logs/figures/blades.log",
+        "<logs>/figures/blades.log",
     conda:
         ENVIRONMENT
     params:
         blades=list(settings.blades),
-        code=code("figures/blade_shapes.py"),
+        code=code("blade_shapes_figure"),
     script:
         "../scripts/blade_shapes_figure.py"
 
 
 rule response_figure:
     input:
-        **({"stress": "results/stress.nc"} if "stress" in KINDS else {}),
-        campbell="results/campbell.nc",
-        rms="results/rms.nc",
+        **({"stress": "<results>/stress.nc"} if "stress" in sweep.kinds else {}),
+        campbell="<results>/campbell.nc",
+        rms="<results>/rms.nc",
     output:
-        "results/figures/response_{blade}.png",
+        paths.RESPONSE_FIGURE,
     log:
-        "logs/figures/response_{blade}.log",
+        "<logs>/figures/response_{blade}.log",
     conda:
         ENVIRONMENT
     params:
-        code=code("figures/style.py", "figures/response.py"),
+        code=code("response_figure"),
     script:
         "../scripts/response_figure.py"
 
 
 rule map_figure:
     input:
-        campbell="results/campbell.nc",
-        maps="results/{kind}.nc",
+        campbell="<results>/campbell.nc",
+        maps="<results>/{kind}.nc",
     output:
-        "results/figures/{kind}_{blade}_{scene}.png",
+        paths.MAP_FIGURE,
     log:
-        "logs/figures/{kind}_{blade}_{scene}.log",
+        "<logs>/figures/{kind}_{blade}__{scene}.log",
     wildcard_constraints:
         kind="spectrum|wear",
     conda:
         ENVIRONMENT
     params:
-        code=code("figures/style.py", "figures/maps.py"),
+        code=code("map_figure"),
     script:
         "../scripts/map_figure.py"
 
 
 rule response_overview:
     input:
-        "results/rms.nc",
+        "<results>/rms.nc",
     output:
-        "results/figures/response.png",
+        "<results>/figures/response.png",
     log:
-        "logs/figures/response_overview.log",
+        "<logs>/figures/response_overview.log",
     conda:
         ENVIRONMENT
     params:
-        code=code("figures/style.py", "figures/response.py"),
+        code=code("response_overview"),
     script:
         "../scripts/response_overview.py"
-
-
-SWEEP_FIGURES = [
-    "response",
-    *expand("response_{blade}", blade=settings.blades),
-    *[f"{kind}_{blade}_{scene}" for kind in ("spectrum", "wear") for blade, scene in runs_with(kind)],
-]

@@ -3,35 +3,35 @@
 
 rule sweep_dataset:
     input:
-        lambda wildcards: [f"results/{blade}/{scene}/response.nc" for blade, scene in runs_with(wildcards.kind)],
+        sweep.responses,
     output:
-        "results/{kind}.nc",
+        "<results>/{kind}.nc",
     log:
-        "logs/dataset_{kind}.log",
+        "<logs>/dataset_{kind}.log",
     wildcard_constraints:
-        kind="|".join(KINDS),
+        kind="|".join(sweep.kinds),
     conda:
         ENVIRONMENT
     params:
-        runs=lambda wildcards: runs_with(wildcards.kind),
+        runs=sweep.runs,
         fidelity=settings.fidelity_name,
-        code=code("io.py", "results/datasets.py", "results/netcdf.py", "results/variables.py"),
+        code=code("sweep_dataset"),
     script:
         "../scripts/sweep_dataset.py"
 
 
 rule summary:
     input:
-        **{kind: f"results/{kind}.nc" for kind in KINDS},
-        campbell="results/campbell.nc",
+        **{kind: f"<results>/{kind}.nc" for kind in sweep.kinds},
+        campbell="<results>/campbell.nc",
     output:
-        "results/summary.csv",
+        "<results>/summary.csv",
     log:
-        "logs/summary.log",
+        "<logs>/summary.log",
     conda:
         ENVIRONMENT
     params:
-        choice=settings.interactions,
-        code=code("results/interactions.py"),
+        choice=plain(settings.interactions),
+        code=code("summary"),
     script:
         "../scripts/summary.py"

@@ -1,137 +1,136 @@
 # Blade shape -> mesh -> matrices -> reduced model -> Campbell diagram, for each blade.
-CAMPBELL_TIP_LINE = settings.structure["boundary"]["tip_line"]
 
 
 rule geometry:
     output:
-        "results/{blade}/geometry.nc",
+        paths.GEOMETRY,
     log:
-        "logs/{blade}/geometry.log",
+        "<logs>/{blade}/geometry.log",
     # an impossible shape should stop the run before any long work
     priority: 10
     conda:
         ENVIRONMENT
     params:
-        definition=lambda wildcards: settings.blades[wildcards.blade].definition,
-        edges=settings.structure["edges"],
-        provenance=shape_provenance,
-        code=code("io.py", "dataset_file.py", "blade/*.py"),
+        definition=structure.definition,
+        shape_hash=structure.shape_hash,
+        edges=settings.structure.edges,
+        provenance=made.shape,
+        code=code("geometry"),
     script:
         "../scripts/geometry.py"
 
 
 rule mesh:
     input:
-        "results/{blade}/geometry.nc",
+        paths.GEOMETRY,
     output:
-        msh="results/{blade}/mesh.msh",
-        vtu="results/{blade}/mesh.vtu",
+        msh="<results>/{blade}/mesh.msh",
+        vtu=paths.MESH,
     log:
-        "logs/{blade}/mesh.log",
+        "<logs>/{blade}/mesh.log",
     # a mesh or model that fails should do so before the first simulation
     priority: 2
     conda:
         ENVIRONMENT
     params:
-        mesh=settings.fidelity["mesh"],
-        code=code("blade/*.py", "mesh/*.py", "fem/wedge15.py", "fem/mesh_quality.py"),
+        mesh=plain(settings.fidelity.mesh),
+        code=code("mesh"),
     script:
         "../scripts/mesh.py"
 
 
 rule abaqus_deck:
     input:
-        "results/{blade}/mesh.vtu",
+        paths.MESH,
     output:
-        "results/{blade}/mesh.inp",
+        "<results>/{blade}/mesh.inp",
     log:
-        "logs/{blade}/abaqus_deck.log",
+        "<logs>/{blade}/abaqus_deck.log",
     conda:
         ENVIRONMENT
     params:
-        material=lambda wildcards: asdict(settings.blades[wildcards.blade].material),
-        code=code("mesh/*.py"),
+        material=structure.elastic,
+        code=code("abaqus_deck"),
     script:
         "../scripts/abaqus_deck.py"
 
 
 rule matrices:
     input:
-        "results/{blade}/mesh.vtu",
+        paths.MESH,
     output:
-        "results/{blade}/matrices.npz",
+        "<results>/{blade}/matrices.npz",
     log:
-        "logs/{blade}/matrices.log",
+        "<logs>/{blade}/matrices.log",
     priority: 2
     conda:
         ENVIRONMENT
     params:
-        material=lambda wildcards: asdict(settings.blades[wildcards.blade].material),
-        code=code("mesh/wedge_mesh.py", "mesh/mesh_files.py", "fem/*.py"),
+        material=structure.elastic,
+        code=code("matrices"),
     script:
         "../scripts/matrices.py"
 
 
 rule reduced_model:
     input:
-        mesh="results/{blade}/mesh.vtu",
-        matrices="results/{blade}/matrices.npz",
+        mesh=paths.MESH,
+        matrices="<results>/{blade}/matrices.npz",
     output:
-        "results/{blade}/rom_{tip_line}.nc",
+        paths.REDUCED_MODEL,
     log:
-        "logs/{blade}/reduced_model_{tip_line}.log",
+        "<logs>/{blade}/reduced_model_{tip_line}.log",
     priority: 2
     conda:
         ENVIRONMENT
     params:
-        structure=lambda wildcards: settings.structure_with(wildcards.tip_line),
-        reduction=settings.fidelity["reduction"],
-        provenance=structure_provenance,
-        code=code("io.py", "dataset_file.py", "mesh/wedge_mesh.py", "fem/matrices.py", "fem/solver.py", "rom/*.py"),
+        reduction=structure.reduction,
+        provenance=made.structure,
+        code=code("reduced_model"),
     script:
         "../scripts/reduced_model.py"
 
 
 rule campbell_of_blade:
     input:
-        f"results/{{blade}}/rom_{CAMPBELL_TIP_LINE}.nc",
+        paths.REDUCED_MODEL.replace("{tip_line}", settings.structure.boundary.tip_line),
     output:
-        "results/{blade}/campbell.nc",
+        paths.CAMPBELL,
     log:
-        "logs/{blade}/campbell.log",
+        "<logs>/{blade}/campbell.log",
     conda:
         ENVIRONMENT
     params:
-        campbell=settings.campbell,
-        maximum_speed=settings.structure["maximum_speed_rad_s"],
-        tip_line=CAMPBELL_TIP_LINE,
-        provenance=structure_provenance,
-        code=code("io.py", "dataset_file.py", "rom/*.py", "results/campbell*.py"),
+        campbell=plain(settings.campbell),
+        maximum_speed=settings.structure.maximum_speed_rad_s,
+        tip_line=settings.structure.boundary.tip_line,
+        provenance=made.structure,
+        code=code("campbell_of_blade"),
     script:
         "../scripts/campbell_of_blade.py"
 
 
 rule campbell_of_all:
     input:
-        expand("results/{blade}/campbell.nc", blade=settings.blades),
+        expand(paths.CAMPBELL, blade=settings.blades),
     output:
-        "results/campbell.nc",
+        "<results>/campbell.nc",
     log:
-        "logs/campbell_of_all.log",
+        "<logs>/campbell_of_all.log",
     conda:
         ENVIRONMENT
     params:
         blades=list(settings.blades),
         fidelity=settings.fidelity_name,
-        code=code("io.py", "dataset_file.py", "results/gather.py"),
+        code=code("campbell_of_all"),
     script:
         "../scripts/campbell_of_all.py"
 
 
 rule campbell:
     input:
-        "results/campbell.nc",
-        expand("results/{blade}/mesh.{format}", blade=settings.blades, format=["msh", "inp"]),
-        expand("results/figures/campbell_{blade}.png", blade=settings.blades),
-        "results/figures/campbell.png",
-        "results/figures/blades.png",
+        "<results>/campbell.nc",
+        expand("<results>/{blade}/mesh.{format}", blade=settings.blades, format=["msh", "inp"]),
+        expand("<results>/figures/campbell_{blade}.png", blade=settings.blades),
+        "<results>/figures/campbell.png",
+        "<results>/figures/blades.png",

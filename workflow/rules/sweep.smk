@@ -3,99 +3,82 @@
 
 rule contact_model:
     input:
-        "results/{blade}/rom_{tip_line}.nc",
+        paths.REDUCED_MODEL,
     output:
-        "results/{blade}/contact_{tip_line}.npz",
+        paths.CONTACT_MODEL,
     log:
-        "logs/{blade}/contact_model_{tip_line}.log",
+        "<logs>/{blade}/contact_model_{tip_line}.log",
     priority: 2
     conda:
         ENVIRONMENT
     params:
-        code=code("io.py", "rom/reduced_model.py", "rom/contact_*.py"),
+        code=code("contact_model"),
     script:
         "../scripts/contact_model.py"
 
 
 rule prepare_march:
     input:
-        contact_model_file,
+        sweep.contact_model,
     output:
-        touch("results/{blade}/{scene}/march.stamp"),
+        touch(paths.MARCH_STAMP),
     log:
-        "logs/{blade}/{scene}/prepare_march.log",
+        "<logs>/{blade}/{scene}/prepare_march.log",
     # the sweep's jobs find the march compiled; one message before the sweep instead of one from each of its jobs
     priority: 15
     conda:
         ENVIRONMENT
     params:
-        scene=lambda wildcards: settings.scenes[wildcards.scene].scene,
-        described=lambda wildcards: repr(settings.scenes[wildcards.scene].scene),
-        speeds=lambda wildcards: extreme_speeds(wildcards.blade, wildcards.scene),
-        choice=lambda wildcards: asdict(
-            settings.march_choice(wildcards.scene, settings.structure["maximum_speed_rad_s"])
-        ),
-        code=code("alignment.py", "lanes.py", "native.py", "contact/*.py", "march/*.py"),
+        scene=sweep.scene,
+        described=sweep.described,
+        speeds=sweep.extreme_speeds,
+        choice=sweep.choice_of_scene,
+        code=code("prepare_march"),
     script:
         "../scripts/prepare_march.py"
 
 
 rule simulate:
     input:
-        prepared="results/{blade}/{scene}/march.stamp",
-        model=contact_model_file,
+        # other extremes of the speeds renew the stamp, which is no reason to run a speed again
+        prepared=ancient(paths.MARCH_STAMP),
+        model=sweep.contact_model,
     output:
-        "results/{blade}/{scene}/speed_{speed}.npz",
+        paths.SPEED,
     log:
-        "logs/{blade}/{scene}/speed_{speed}.log",
-    priority: blade_by_blade
+        "<logs>/{blade}/{scene}/speed_{speed}.log",
+    priority: sweep.priority
     conda:
         ENVIRONMENT
     params:
-        task=task_of_a_run,
+        task=sweep.task,
+        about=made.sweep,
         python=PYTHON,
         script=SCRIPTS / "simulate.py",
-        code=code(
-            "io.py",
-            "alignment.py",
-            "lanes.py",
-            "native.py",
-            "contact/*.py",
-            "march/*.py",
-            "rom/contact_model.py",
-            "simulate.py",
-        ),
+        code=code("simulate"),
     # not `script:`, whose preamble imports Snakemake into each of thousands of jobs
     shell:
-        "{params.python} {params.script} {input.model} {wildcards.speed} {output} {log} {params.task:q}"
+        "{params.python} {params.script} {input.model} {wildcards.speed} {output} {log} {params.task:q} {params.about:q}"
 
 
 rule response:
     input:
-        unpack(recovery_file),
-        speeds=speed_files,
+        unpack(sweep.recovery),
+        speeds=sweep.speed_files,
     output:
-        "results/{blade}/{scene}/response.nc",
+        paths.RESPONSE,
     log:
-        "logs/{blade}/{scene}/response.log",
+        "<logs>/{blade}/{scene}/response.log",
     priority: 5
     conda:
         ENVIRONMENT
     params:
-        speeds=lambda wildcards: settings.speeds[wildcards.blade, wildcards.scene],
-        stress=lambda wildcards: "stress" in settings.scenes[wildcards.scene].results,
-        stress_history_speeds=lambda wildcards: settings.scenes[wildcards.scene].stress_history_speeds,
-        stress_instants=settings.fidelity["march"]["stress_instants"],
-        material=lambda wildcards: asdict(settings.blades[wildcards.blade].material),
-        provenance=sweep_provenance,
-        code=code(
-            "io.py",
-            "fem/stress.py",
-            "fem/wedge15.py",
-            "results/netcdf.py",
-            "results/response.py",
-            "results/stress.py",
-            "results/variables.py",
-        ),
+        speeds=sweep.speeds,
+        stress=sweep.with_stress,
+        stress_history_speeds=sweep.stress_history_speeds,
+        stress_instants=settings.fidelity.march.stress_instants,
+        material=structure.material,
+        provenance=made.sweep,
+        code=code("response"),
     script:
         "../scripts/response.py"

@@ -1,11 +1,9 @@
-"""One reading at one place. Inputs: model (rom, contact). Params: reading, place, entry, choice, ... Output: netCDF."""
+"""One reading at one place. Inputs: model (rom, contact). Params: reading, place, scene, choice, ... Output: netCDF."""
 
 from dataclasses import replace
-from pathlib import Path
 
 from job import run
 
-from r37core.config import checked_scene
 from r37core.dataset_file import write_dataset
 from r37core.fem.material import Material
 from r37core.march.choice import MarchChoice
@@ -14,7 +12,6 @@ from r37core.rom.contact_model import read_contact_model
 from r37core.rom.rom_file import read_reduced_model
 from r37core.studies.reading_places import Place
 from r37core.studies.readings import Bench, run_place
-from r37core.studies.stability import changed
 
 
 def main(snakemake):
@@ -24,7 +21,7 @@ def main(snakemake):
     bench = Bench(
         read_contact_model(given.contact),
         StressRecovery(read_reduced_model(given.rom), material),
-        checked_scene(changed(params.entry, params.reading["changes"]), Path(params.schemas)),
+        params.scene,
         replace(choice, time_step=params.reading["steps"] * choice.time_step),
         material.yield_stress,
     )

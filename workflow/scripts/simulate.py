@@ -1,6 +1,6 @@
-"""Simulate one blade at one speed in one scene. Arguments: contact model, speed, output, log, task (JSON). Output: speed_*.npz.
+"""Simulate one blade at one speed in one scene. Arguments: contact model, speed, output, log, task, about. Output: speed_*.npz.
 
-Started without Snakemake's own preamble; the task is made in rules/common.smk.
+Started without Snakemake's own preamble; task and attributes of the file, in JSON, are made in r37core.workflow.
 """
 
 import json
@@ -14,18 +14,18 @@ from r37core.march.speed_run import run_speed
 from r37core.rom.contact_model import read_contact_model
 
 
-def main(model, speed, output, task):
+def main(model, speed, output, task, about):
     task = json.loads(task)
     choice = MarchChoice(**task["choice"])
     scene = scene_from(task["scene"])
     result = run_speed(read_contact_model(model), float(speed), scene, choice, task["results"], **task["kept"])
-    write_speed(result, output, task["provenance"])
+    write_speed(result, output, json.loads(about))
 
 
-model, speed, output, log, task = sys.argv[1:]
+model, speed, output, log, task, about = sys.argv[1:]
 with open(log, "w", encoding="utf-8") as stream:
     try:
-        main(model, speed, output, task)
+        main(model, speed, output, task, about)
     except Exception as error:
         traceback.print_exc(file=stream)
         print(f"rule simulate: {error} (details in {log})", file=sys.stderr)

@@ -3,17 +3,23 @@
 from __future__ import annotations
 
 import csv
-from collections.abc import Sequence
+import io
+import re
+from collections.abc import Iterable, Sequence
 from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
+
+from r37core.text_file import read_text
 
 from .errors import BladeShapeError
 from .profile import ProfileParameters
 
 _CENTIMETRE = 0.01
 _DEGREE = np.pi / 180.0
+
+_LARGEST_SWEEP, _LARGEST_LEAN = 1.0, 0.5 * np.pi
 
 PROFILE_COLUMNS = {
     "span_percent": ("span", 0.01),
@@ -31,6 +37,8 @@ PROFILE_COLUMNS = {
 }
 """Column of a profile table -> (attribute of ProfileParameters, factor to SI)."""
 
+_NUMBER = re.compile(r"[-+]?(nan|inf|infinity|(\.[0-9]+|[0-9]+(\.[0-9]*)?)(e[-+]?[0-9]+)?)$", re.IGNORECASE)
+
 STACKING_COLUMNS = {"span_percent": 0.01, "sweep_cm": _CENTIMETRE, "lean_deg": _DEGREE}
 """Column of a sweep and lean table -> factor to SI."""
 
@@ -39,7 +47,7 @@ def read_profile_table(file: Path) -> list[ProfileParameters]:
     """Profiles of a CSV table, from hub to tip; the rows may run either way.
 
     Raises BladeShapeError for missing columns, unreadable numbers, spans out of order or not reaching 0 and 100%,
-    impossible rows and profiles that cross.
+    impossible rows and profiles that cross; TextFileError for a file that is no UTF-8 text.
     """
     rows = _read_rows(file, PROFILE_COLUMNS)
     profiles = [
@@ -83,6 +91,12 @@ def stacking_rows(rows: Sequence[dict]) -> tuple[tuple[float, float, float], ...
     if len(table) < 2:
         raise BladeShapeError("a sweep and lean table needs at least two rows, for 0 and 100% span")
     check_spans([row[0] for row in table])
+    for span, sweep, lean in table:
+        if abs(sweep) > _LARGEST_SWEEP or abs(lean) >= _LARGEST_LEAN:
+            raise BladeShapeError(
+                f"span {100 * span:g}%: found a sweep of {sweep / _CENTIMETRE:g} cm and a lean of {lean / _DEGREE:g} degrees; "
+                "allowed: up to 100 cm, less than 90 degrees"
+            )
     return table
 
 
@@ -107,23 +121,34 @@ def _check_order(profiles: Sequence[ProfileParameters]) -> None:
                 )
 
 
-def _read_rows(file: Path, number_columns, text_columns: tuple[str, ...] = ()) -> list[dict]:
+def _read_rows(file: Path, number_columns: Iterable[str], text_columns: tuple[str, ...] = ()) -> list[dict]:
     wanted = [*text_columns, *number_columns]
-    with open(file, newline="", encoding="utf-8") as stream:
-        reader = csv.DictReader(stream)
-        found = reader.fieldnames or []
+    reader = csv.DictReader(io.StringIO(read_text(file), newline=""), strict=True)
+    try:
+        reader.fieldnames = found = [column.strip() for column in reader.fieldnames or []]
         missing = [column for column in wanted if column not in found]
         if missing:
-            raise BladeShapeError(f"the table lacks the columns {', '.join(missing)}; it has {', '.join(found)}")
-        rows = []
-        for number, raw in enumerate(reader, start=2):
-            row: dict = {column: raw[column] for column in text_columns}
-            for column in number_columns:
-                try:
-                    row[column] = float(raw[column])
-                except (TypeError, ValueError):
-                    raise BladeShapeError(f"line {number}, column {column}: '{raw[column]}' is not a number") from None
-                if not np.isfinite(row[column]):
-                    raise BladeShapeError(f"line {number}, column {column}: '{raw[column]}' is not finite")
-            rows.append(row)
-    return rows
+            raise BladeShapeError(
+                f"line 1: the table lacks the columns {', '.join(missing)}; it has {', '.join(found) or 'none'}, "
+                "separated by commas"
+            )
+        twice = [column for column in wanted if found.count(column) > 1]
+        if twice:
+            raise BladeShapeError(f"line 1: the column {twice[0]} is given twice")
+        return [_row(raw, reader.line_num, number_columns, text_columns) for raw in reader]
+    except csv.Error as error:
+        raise BladeShapeError(f"line {reader.line_num}: not readable as a table separated by commas: {error}") from None
+
+
+def _row(raw: dict, line: int, number_columns: Iterable[str], text_columns: Iterable[str]) -> dict:
+    if None in raw or None in raw.values():
+        raise BladeShapeError(f"line {line}: the row has more or fewer cells than the first line has columns")
+    row: dict = {column: raw[column].strip() for column in text_columns}
+    for column in number_columns:
+        text = raw[column].strip()
+        if not _NUMBER.match(text):
+            raise BladeShapeError(f"line {line}, column {column}: '{text}' is not a number")
+        row[column] = float(text)
+        if not np.isfinite(row[column]):
+            raise BladeShapeError(f"line {line}, column {column}: '{text}' is not finite")
+    return row

@@ -7,12 +7,15 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Material:
-    """Isotropic linear elastic material: Young's modulus (Pa), density (kg/m3), Poisson's ratio, yield stress (Pa)."""
+    """Isotropic linear elastic material: Young's modulus (Pa), density (kg/m3), Poisson's ratio, yield stress (Pa).
+
+    Without a yield stress it never yields.
+    """
 
     youngs_modulus: float
     density: float
     poissons_ratio: float
-    yield_stress: float
+    yield_stress: float = float("inf")
 
     @property
     def lame_constants(self) -> tuple[float, float]:

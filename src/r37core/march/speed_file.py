@@ -14,7 +14,7 @@ from r37core.io import atomic_write, readable
 def write_speed(result: Mapping[str, np.ndarray], file: Path | str, parameters: Mapping[str, object]) -> None:
     """Write the arrays of one run and, as JSON text under `parameters`, what made them."""
     with atomic_write(file) as partial:
-        text = np.array(json.dumps(parameters, sort_keys=True, default=str))
+        text = np.array(json.dumps(dict(parameters), sort_keys=True, default=str))
         np.savez(partial, allow_pickle=False, parameters=text, **result)
 
 

@@ -2,72 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
-from typing import Any
-
 import numpy as np
 import scipy.sparse as sp
 
 from r37core.fem.matrices import StructuralMatrices
 from r37core.mesh.wedge_mesh import WedgeMesh
 
-from .boundary import TIP_LINES, BoundaryChoice, boundary_nodes
+from .boundary import TIP_LINES, boundary_nodes
+from .choice import ReductionChoice
 from .craig_bampton import multi_speed_basis
 from .naming import ideal_shapes
 from .reduced_model import RecoveryNodes, ReducedModel
-
-
-@dataclass(frozen=True)
-class StressSubmesh:
-    """Where stress is recovered: nodes with x < `maximum_x` and `minimum_z` < z < `maximum_z` (m), none of them clamped."""
-
-    maximum_x: float
-    minimum_z: float
-    maximum_z: float
-
-    def elements(self, mesh: WedgeMesh) -> np.ndarray:
-        """Numbers of the elements all of whose nodes qualify."""
-        x, _, z = mesh.points.T
-        qualifies = (x < self.maximum_x) & (z > self.minimum_z) & (z < self.maximum_z)
-        qualifies[mesh.node_set("root")] = False
-        return np.flatnonzero(qualifies[mesh.elements].all(axis=1))
-
-
-@dataclass(frozen=True)
-class ReductionChoice:
-    """What the reduced model is made of.
-
-    Boundary nodes, speeds (rad/s) at which the basis is computed, fixed-interface modes at each, tolerance of
-    dependence, which rotation terms are kept, where stress is recovered, and whether the whole blade is.
-    """
-
-    boundary: BoundaryChoice
-    speeds: tuple[float, ...]
-    fixed_interface_modes: int
-    tolerance: float
-    spin_softening: bool
-    coriolis: bool
-    stress_submesh: StressSubmesh
-    whole_blade: bool
-
-    @classmethod
-    def from_config(cls, structure: Mapping[str, Any], reduction: Mapping[str, Any]) -> ReductionChoice:
-        """From the section `structure` of config.yaml and the section `reduction` of a fidelity level.
-
-        The basis is computed at rest, at half the maximum speed and at the maximum speed.
-        """
-        submesh = structure["stress_submesh"]
-        return cls(
-            boundary=BoundaryChoice(**structure["boundary"]),
-            speeds=tuple(share * structure["maximum_speed_rad_s"] for share in (0.0, 0.5, 1.0)),
-            fixed_interface_modes=reduction["fixed_interface_modes"],
-            tolerance=reduction["basis_tolerance"],
-            spin_softening=structure["spin_softening"],
-            coriolis=structure["coriolis"],
-            stress_submesh=StressSubmesh(submesh["maximum_x_m"], submesh["minimum_z_m"], submesh["maximum_z_m"]),
-            whole_blade=structure["recover_whole_blade"],
-        )
 
 
 def reduce_blade(mesh: WedgeMesh, matrices: StructuralMatrices, choice: ReductionChoice) -> ReducedModel:

@@ -12,7 +12,8 @@ from r37core.fem.material import Material
 from r37core.fem.matrices import assemble
 from r37core.mesh.generate import generate_mesh
 from r37core.rom.boundary import BoundaryChoice
-from r37core.rom.reduce import ReductionChoice, StressSubmesh, reduce_blade
+from r37core.rom.choice import ReductionChoice, StressSubmesh
+from r37core.rom.reduce import reduce_blade
 from r37core.rom.reduced_model import ReducedModel
 
 from .case import Stopwatch, peak_memory

@@ -57,8 +57,8 @@ TURNED = {
         f"width_{width:g}": _turned(f"bars {width:g} mm wide", {"lining.bar_width_m": 1e-3 * width})
         for width in (0.5, 0.8, 1.25, 2.0)
     },
-    "camber": _turned("nodes on the camber line", line="camber"),
-    "suction": _turned("nodes on the suction edge", line="suction_edge"),
+    "camber": _turned("nodes on the camber line", tip_line="camber"),
+    "suction": _turned("nodes on the suction edge", tip_line="suction_edge"),
     "inside": _turned("corners not among the nodes", ends="inside"),
     "exact": _turned("exact gap", {"gap": "exact"}),
     "after": _turned("friction added after the normal solve", {"friction.coupling": "after"}),

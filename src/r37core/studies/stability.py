@@ -71,18 +71,6 @@ def _check_sound(case: Case) -> None:
     assert np.all(violation < COMPLEMENTARITY_WITHIN), f"contact conditions violated by {violation.max():.2g} of the gap"
 
 
-def changed(entry: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
-    """A copy of a scene's entry with the values at dotted paths replaced."""
-    result: dict[str, Any] = {key: dict(value) if isinstance(value, Mapping) else value for key, value in entry.items()}
-    for path, value in changes.items():
-        *parents, last = path.split(".")
-        target = result
-        for parent in parents:
-            target = target[parent]
-        target[last] = value
-    return result
-
-
 def stability_table(rows: Sequence[Mapping[str, Any]]) -> str:
     """The outcomes as Markdown: how many of each, then every case."""
     counts = {outcome: sum(row["outcome"] == outcome for row in rows) for outcome in (ACCURATE, DEGRADED, DIVERGED, REFUSED)}

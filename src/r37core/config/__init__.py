@@ -1,0 +1,23 @@
+"""Configuration: YAML files checked by models, and the settings made of them."""
+
+from .blades import BladeSettings
+from .document import Document, command_line_document, read_document
+from .errors import ConfigError
+from .load import SceneSettings, Settings, checked_scene, load_settings, plain, read_settings, settings_of_run
+from .scenes import SceneEntry
+
+__all__ = [
+    "BladeSettings",
+    "ConfigError",
+    "Document",
+    "SceneEntry",
+    "SceneSettings",
+    "Settings",
+    "checked_scene",
+    "command_line_document",
+    "load_settings",
+    "plain",
+    "read_document",
+    "read_settings",
+    "settings_of_run",
+]

@@ -1,0 +1,161 @@
+"""blades.yaml: blade shapes and materials, and the blades made of them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated, Any, TypeVar
+
+from pydantic import Field, RootModel, model_validator
+
+from r37core.blade import tables
+from r37core.blade.definition import BladeDefinition
+from r37core.blade.errors import BladeShapeError
+from r37core.fem import material as fem_material
+from r37core.text_file import TextFileError
+
+from .document import Document
+from .errors import ConfigError
+from .section import FileName, LeftOut, Name, Section, check_names, refused
+
+Table = TypeVar("Table")
+
+RESERVED = ("figures", "studies", "runs")
+"""Folders beside those of the blades."""
+
+SHIFTS = ("stacking_table", "sweep_lean", "chordwise_sweep_deg")
+"""Keys of the ways to give sweep and lean, of which a blade has at most one."""
+
+
+class Material(Section):
+    """Isotropic material; what is left out comes from the base."""
+
+    youngs_modulus_pa: Annotated[float, Field(ge=1e6, le=1e13)] | LeftOut = None
+    density_kg_m3: Annotated[float, Field(ge=1, le=1e5)] | LeftOut = None
+    poissons_ratio: Annotated[float, Field(gt=-1, lt=0.5)] | LeftOut = None
+    yield_stress_pa: Annotated[float, Field(ge=1, le=1e12)] | LeftOut = None
+
+
+class SweepLean(Section):
+    """One row of sweep and lean."""
+
+    span_percent: float = Field(ge=0, le=100)
+    sweep_cm: float = Field(ge=-100, le=100, description="positive downstream")
+    lean_deg: float = Field(gt=-90, lt=90, description="positive in the direction of rotation")
+
+
+class BladeEntry(Section):
+    """One blade: `profiles` with a material, or a `base` to start from, and at most one way to give sweep and lean."""
+
+    profiles: FileName | LeftOut = Field(default=None, description="profile table (CSV)")
+    base: Name | LeftOut = Field(default=None, description="blade to inherit profiles, sweep and lean, and material from")
+    stacking_table: FileName | LeftOut = Field(default=None, description="sweep and lean table (CSV) with a column `blade`")
+    sweep_lean: Annotated[list[SweepLean], Field(min_length=2)] | LeftOut = None
+    chordwise_sweep_deg: Annotated[float, Field(gt=-60, lt=60)] | LeftOut = Field(default=None, description="positive forward")
+    material: Material = Material()
+
+    @model_validator(mode="after")
+    def _one_shift(self) -> BladeEntry:
+        given = [key for key in SHIFTS if getattr(self, key) is not None]
+        if len(given) > 1:
+            raise refused((), " and ".join(given), f"at most one of {', '.join(SHIFTS)}")
+        if self.profiles is not None and self.base is not None:
+            raise refused((), "both profiles and base", "one of them")
+        if self.profiles is None and self.base is None:
+            raise refused((), "neither profiles nor base", "one of them")
+        return self
+
+
+class Blades(RootModel):
+    """blades.yaml, blade shapes by name."""
+
+    root: Annotated[dict[Name, BladeEntry], Field(min_length=1)]
+
+    @model_validator(mode="after")
+    def _names(self) -> Blades:
+        check_names(self.root)
+        for name in self.root:
+            if name in RESERVED:
+                raise refused((name,), f"the blade '{name}'", f"another name; {', '.join(RESERVED)} are folders of the results")
+        return self
+
+
+@dataclass(frozen=True)
+class BladeSettings:
+    """One blade: its shape and its material."""
+
+    definition: BladeDefinition
+    material: fem_material.Material
+
+
+def blade_settings(name: str, entries: dict[str, BladeEntry], root: Path, document: Document) -> BladeSettings:
+    """The blade `name` of the checked `entries` of `document`, with its tables (relative to `root`) read.
+
+    Raises ConfigError for a base that is not there or runs in a circle, a material with gaps, and tables that cannot be
+    read or have an impossible shape.
+    """
+    chain = _inheritance(name, entries, document)
+    material: dict[str, float] = {}
+    shift: dict[str, Any] = {}
+    for link in chain:
+        entry = entries[link]
+        material |= entry.material.model_dump(exclude_none=True)
+        for key in SHIFTS:
+            if getattr(entry, key) is not None:
+                shift = _shift(link, key, getattr(entry, key), root, document)
+    missing = [key for key in Material.model_fields if key not in material]
+    if missing:
+        raise document.error((name, "material"), f"missing key {', '.join(missing)} (give it here or in the base)")
+    table = entries[chain[0]].profiles
+    assert table is not None
+    profiles = _table(table, name, (chain[0], "profiles"), document, lambda: tables.read_profile_table(root / table))
+    return BladeSettings(
+        BladeDefinition(name, tuple(profiles), **shift),
+        fem_material.Material(
+            youngs_modulus=float(material["youngs_modulus_pa"]),
+            density=float(material["density_kg_m3"]),
+            poissons_ratio=float(material["poissons_ratio"]),
+            yield_stress=float(material["yield_stress_pa"]),
+        ),
+    )
+
+
+def _inheritance(name: str, entries: dict[str, BladeEntry], document: Document) -> list[str]:
+    """Names from the blade with a profile table down to `name`."""
+    chain = [name]
+    while (base := entries[chain[0]].base) is not None:
+        if base not in entries or base in chain:
+            others = ", ".join(entry for entry in entries if entry not in chain)
+            raise document.refusal((chain[0], "base"), f"'{base}'", f"another blade of this file ({others})")
+        chain.insert(0, base)
+    return chain
+
+
+def _shift(blade: str, key: str, value: Any, root: Path, document: Document) -> dict[str, Any]:
+    """Arguments of BladeDefinition for a sweep given in one of the three ways."""
+    if key == "chordwise_sweep_deg":
+        return {"chordwise_sweep_angle": math.radians(value), "stacking": None}
+    if key == "stacking_table":
+        rows = _table(value, blade, (blade, key), document, lambda: tables.read_stacking_table(root / value, blade))
+    else:
+        try:
+            rows = tables.stacking_rows([row.model_dump() for row in value])
+        except BladeShapeError as error:
+            raise document.error((blade, key), f"blade {blade}: {error}") from None
+    return {"stacking": rows, "chordwise_sweep_angle": None}
+
+
+def _table(file: str, blade: str, path: tuple[str, str], document: Document, read: Callable[[], Table]) -> Table:
+    """What `read` makes of the table `file`, that is named at `path`."""
+    try:
+        return read()
+    except FileNotFoundError:
+        raise document.error(path, f"there is no file {file}") from None
+    except OSError as error:
+        raise document.error(path, f"{file} cannot be read: {error.strerror}") from None
+    except TextFileError as error:
+        raise ConfigError(f"{file}:{error.line}: blade {blade}: {error.reason}") from None
+    except BladeShapeError as error:
+        raise ConfigError(f"{file}: blade {blade}: {error}") from None

@@ -1,0 +1,105 @@
+"""A configuration file's content, several on top of each other, and where each value stands."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, TypeVar
+
+from pydantic import BaseModel, ValidationError
+
+from r37core.text_file import TextFileError
+from r37core.yaml_file import KeyPath, load_yaml_with_lines, scalar
+
+from .errors import ConfigError
+from .messages import explain
+
+Model = TypeVar("Model", bound=BaseModel)
+
+
+@dataclass(frozen=True)
+class Document:
+    """What a file says. `name`: of the file, for messages; `places`: file and line of the values, as `file:line`."""
+
+    name: str
+    content: Any
+    places: Mapping[KeyPath, str] = field(default_factory=dict)
+
+    def place(self, path: KeyPath) -> str:
+        """File and line of a value, of what holds it if it is not given, or the file alone."""
+        for length in range(len(path), 0, -1):
+            if path[:length] in self.places:
+                return self.places[path[:length]]
+        return self.name if path else self.places.get((), self.name)
+
+    def error(self, path: KeyPath, text: str, key: KeyPath | None = None) -> ConfigError:
+        """The error of the value at `path`: place, key (where that is not the whole path) and `text`."""
+        named = path if key is None else key
+        return ConfigError(f"{self.place(path)}: {'.'.join(map(str, named)) or 'top level'}: {text}")
+
+    def refusal(self, path: KeyPath, found: str, allowed: str) -> ConfigError:
+        """The error of the value at `path`, with what was found and what is allowed."""
+        return self.error(path, f"found {found}; allowed: {allowed}")
+
+    def check(self, model: type[Model]) -> Model:
+        """The content as a model; ConfigError for the first thing that the model does not allow."""
+        try:
+            return model.model_validate(self.content)
+        except ValidationError as error:
+            path, key, text = explain(error, self.content, model)
+            raise self.error(path, text, key) from None
+
+    def overlaid(self, above: Document) -> Document:
+        """This document with the values of another one on top: mappings are joined, all else is replaced."""
+        places = dict(self.places)
+        content = _overlay(self.content, above.content, (), places)
+        return Document(self.name, content, places | dict(above.places))
+
+
+def read_document(root: Path, name: str) -> Document:
+    """The YAML file `name`, relative to the folder `root`; ConfigError where it cannot be read."""
+    try:
+        content, lines = load_yaml_with_lines(root / name)
+    except TextFileError as error:
+        raise ConfigError(f"{name}:{error.line}: {error.reason}") from None
+    except FileNotFoundError:
+        raise ConfigError(f"{name}: there is no such file; check the keys ..._file in config.yaml") from None
+    except OSError as error:
+        raise ConfigError(f"{name}: cannot be read: {error.strerror}") from None
+    return Document(name, content, {path: f"{name}:{line}" for path, line in lines.items()})
+
+
+def command_line_document(values: Mapping[str, Any], name: str = "--config") -> Document:
+    """What a command line gives: Snakemake hands numbers inside lists and mappings on as texts."""
+    content = _with_numbers(dict(values))
+    places: dict[KeyPath, str] = {}
+    _mark(content, (), name, places)
+    return Document(name, content, places)
+
+
+def _with_numbers(value: Any) -> Any:
+    if isinstance(value, Mapping):
+        return {key: _with_numbers(inner) for key, inner in value.items()}
+    if isinstance(value, list | tuple):
+        return [_with_numbers(inner) for inner in value]
+    return scalar(value) if isinstance(value, str) else value
+
+
+def _mark(content: Any, path: KeyPath, name: str, places: dict[KeyPath, str]) -> None:
+    if path:
+        places[path] = name
+    if isinstance(content, Mapping):
+        for key, value in content.items():
+            _mark(value, (*path, key), name, places)
+
+
+def _overlay(below: Any, above: Any, path: KeyPath, places: dict[KeyPath, str]) -> Any:
+    if not (isinstance(below, Mapping) and isinstance(above, Mapping)):
+        for inside in [place for place in places if place[: len(path)] == path]:
+            del places[inside]
+        return above
+    joined = dict(below)
+    for key, value in above.items():
+        joined[key] = _overlay(below[key], value, (*path, key), places) if key in below else value
+    return joined

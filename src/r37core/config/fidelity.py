@@ -1,0 +1,115 @@
+"""fidelity.yaml: accuracy levels."""
+
+from __future__ import annotations
+
+import math
+from typing import Annotated, Literal
+
+from pydantic import Field, RootModel, model_validator
+
+from r37core.march.choice import MarchChoice
+
+from .section import LeftOut, Name, Section, Speed, check_names, refused
+
+_LARGEST_SIGNAL = 2**31
+"""Bytes of tip motion that one run may keep in memory."""
+
+
+class Mesh(Section):
+    """Size and quality of the mesh."""
+
+    nodes: int = Field(ge=500, le=500_000, description="wanted number of nodes")
+    layers: int = Field(default=1, ge=1, le=8, description="wedges through the thickness")
+    tip_elements: int = Field(ge=2, le=500, description="wedges along the tip")
+    minimum_scaled_jacobian: float = Field(default=0.1, gt=0, le=1, description="meshes below are refused")
+
+
+class Reduction(Section):
+    """Size of the reduced model."""
+
+    fixed_interface_modes: int = Field(ge=0, le=500)
+    basis_tolerance: float = Field(
+        default=1e-8, ge=0, lt=1, description="columns with smaller relative singular values are dropped"
+    )
+
+
+class Measured(Section):
+    """What `snakemake tradeoff` found, on the reference blade; for `fidelity: auto`."""
+
+    error: float = Field(
+        ge=0, le=1e6, description="largest relative error, over scenes, of rms, largest displacement and stress"
+    )
+    cpu_s_per_run: float = Field(gt=0, le=1e9)
+
+
+class March(Section):
+    """The time integration and what it keeps."""
+
+    time_step_s: float = Field(ge=1e-12, le=1e-2, description="largest step; shortened so that it divides a revolution")
+    revolutions: int = Field(ge=2, le=20000)
+    speed_step_rad_s: Speed = Field(description="step of the speed ranges that give none")
+    integrator: Literal["central_difference", "exact_modal"] = Field(
+        default="central_difference",
+        description="exact_modal follows every mode without error between contacts, with any step that the lining bears",
+    )
+    engine: Literal["compiled", "reference"] = Field(default="compiled", description="reference: plain NumPy, for short runs")
+    highest_frequency_hz: Annotated[float, Field(gt=0, le=1e12)] | LeftOut = Field(
+        default=None, description="faster modes are left out of the march; all are kept without it"
+    )
+    stress_instants: int = Field(default=62, ge=1, le=10000, description="stress evaluations per revolution")
+    samples_per_stress_instant: int = Field(default=8, ge=1, le=10000, description="samples of the tip motion between them")
+    spectrum_highest_order: int = Field(default=20, ge=1, le=10000)
+    signal_revolutions: int = Field(default=4, ge=1, le=20000, description="revolutions at the end whose signal is kept")
+    wear_angles: int = Field(default=1000, ge=8, le=1_000_000, description="angles of the wear profile that are kept")
+
+    @model_validator(mode="after")
+    def _signal_fits(self) -> March:
+        size = 32 * self.revolutions * self.samples_per_revolution
+        if size > _LARGEST_SIGNAL:
+            raise refused(
+                ("revolutions",),
+                f"{self.revolutions} of {self.samples_per_revolution} samples, {size / 2**30:.1f} GiB",
+                f"at most {_LARGEST_SIGNAL / 2**30:g} GiB (stress_instants times samples_per_stress_instant are the samples)",
+            )
+        return self
+
+    @property
+    def samples_per_revolution(self) -> int:
+        """Samples of the tip motion per revolution."""
+        return self.stress_instants * self.samples_per_stress_instant
+
+    def choice(self) -> MarchChoice:
+        """The march of this level, with the stress of the last revolution and the energy balance."""
+        return MarchChoice(
+            time_step=self.time_step_s,
+            revolutions=self.revolutions,
+            samples_per_revolution=self.samples_per_revolution,
+            snapshots_per_revolution=self.stress_instants,
+            snapshot_revolutions=1,
+            energy=True,
+            highest_frequency=math.inf if self.highest_frequency_hz is None else self.highest_frequency_hz,
+            integrator=self.integrator,
+            engine=self.engine,
+        )
+
+
+class Level(Section):
+    """One accuracy level."""
+
+    mesh: Mesh
+    reduction: Reduction
+    measured: Measured | LeftOut = None
+    march: March
+
+
+class Levels(RootModel[dict[Name, Level]]):
+    """fidelity.yaml, accuracy levels by name."""
+
+    root: Annotated[dict[Name, Level], Field(min_length=1)]
+
+    @model_validator(mode="after")
+    def _names(self) -> Levels:
+        check_names(self.root)
+        if "auto" in self.root:
+            raise refused(("auto",), "the level 'auto'", "another name; fidelity: auto picks a level")
+        return self

@@ -1,0 +1,300 @@
+"""From config.yaml and the files it names to the settings that the workflow needs, or to one clear refusal."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+from pydantic import BaseModel
+
+from r37core.contact.scene import Scene
+from r37core.march.choice import MarchChoice
+from r37core.rom.choice import ReductionChoice
+from r37core.speeds import SpeedError, expand_speeds
+from r37core.studies.levels import recommended_level
+
+from .blades import Blades, BladeSettings, blade_settings
+from .document import Document, command_line_document, read_document
+from .fidelity import Level, Levels
+from .scenes import SceneEntry, Scenes
+from .settings import Campbell, Config, Interactions, SpeedEntry, SpeedRange, Structure
+from .studies import Studies
+
+CONFIG_FILE = "config/config.yaml"
+
+LARGEST_NUMBER_OF_SIMULATIONS = 200_000
+"""Jobs that Snakemake can still plan: about 25 kB of memory and 1 ms for each."""
+
+
+@dataclass(frozen=True)
+class SceneSettings:
+    """One scene: what the blade meets, on which tip line, how long, and which results are wanted."""
+
+    scene: Scene
+    tip_line: str
+    revolutions: int
+    results: tuple[str, ...]
+    stress_history_speeds: tuple[float, ...]
+
+
+@dataclass(frozen=True)
+class Settings:
+    """Everything the workflow needs to know, checked.
+
+    `blades` and `scenes` are those to run, in order; `speeds` (rad/s) of each (blade, scene); `fidelity` the chosen level;
+    `fidelity_is_chosen`: by its measured error;
+    `levels` and `scene_entries` all that their files have, for the studies; the rest as in config.yaml.
+    """
+
+    blades: dict[str, BladeSettings]
+    scenes: dict[str, SceneSettings]
+    speeds: dict[tuple[str, str], tuple[float, ...]]
+    fidelity_name: str
+    fidelity: Level
+    structure: Structure
+    campbell: Campbell
+    interactions: Interactions
+    studies: Studies
+    levels: dict[str, Level]
+    scene_entries: dict[str, SceneEntry]
+    tolerance: float
+    fidelity_is_chosen: bool
+
+    @property
+    def remarks(self) -> list[str]:
+        """What a run should say before it starts."""
+        measured = self.fidelity.measured
+        if not self.fidelity_is_chosen or measured is None:
+            return []
+        error, cost = 100 * measured.error, measured.cpu_s_per_run
+        return [f"fidelity auto: level {self.fidelity_name}, measured error {error:g}%, {cost:g} CPU s per run"]
+
+    def shape_hash(self, blade: str) -> str:
+        """Short hash of all that a blade's geometry depends on."""
+        return _short_hash(self.blades[blade].definition, self.structure.edges)
+
+    def structure_hash(self, blade: str) -> str:
+        """Short hash of all that a blade's structural results depend on."""
+        elastic = replace(self.blades[blade].material, yield_stress=0.0)
+        return _short_hash(self.shape_hash(blade), elastic, plain(self.fidelity.mesh), self.reduction_choice())
+
+    def reduction_choice(self, tip_line: str | None = None) -> ReductionChoice:
+        """What the reduced model is made of, with contact nodes on `tip_line` or on that of config.yaml."""
+        return self.structure.reduction(self.fidelity.reduction, tip_line)
+
+    def march_choice(self, scene: str, speed: float) -> MarchChoice:
+        """Numbers of the march at one speed of a scene, with only what its results need."""
+        chosen = self.scenes[scene]
+        everything = self.fidelity.march.choice()
+        stress = "stress" in chosen.results
+        history = speed in chosen.stress_history_speeds
+        return replace(
+            everything,
+            revolutions=chosen.revolutions,
+            snapshots_per_revolution=everything.snapshots_per_revolution if stress else 0,
+            snapshot_revolutions=(chosen.revolutions if history else 1) if stress else 0,
+            energy="energy" in chosen.results,
+        )
+
+
+def plain(section: BaseModel) -> dict[str, Any]:
+    """A section as a dictionary of plain values, which Snakemake can compare and a job can read without the models."""
+    return section.model_dump(exclude_none=True)
+
+
+def _short_hash(*parts: object) -> str:
+    """Hash of plain numbers, texts and frozen dataclasses, whose repr is exact."""
+    return hashlib.sha256(repr(parts).encode()).hexdigest()[:16]
+
+
+def read_settings(root: Path, *changes: Document) -> Settings:
+    """Settings of config/config.yaml in the folder `root`, with `changes` on top. Raises ConfigError."""
+    return load_settings(_together(read_document(root, CONFIG_FILE), changes), root)
+
+
+def settings_of_run(root: Path, files: Sequence[Path], values: Mapping[str, Any], only_given: bool = False) -> Settings:
+    """Settings of a run of the workflow in the current folder: the configuration, `files` on top, then `values`.
+
+    The configuration is config/config.yaml of the current folder or, where that has none, of `root`; it is left out if
+    `only_given`. Raises ConfigError.
+    """
+    here = Path.cwd()
+    folder = here if (here / CONFIG_FILE).exists() else root
+    first = [] if only_given and files else [read_document(folder, CONFIG_FILE)]
+    named = [Path(file).relative_to(here) if Path(file).is_relative_to(here) else Path(file) for file in files]
+    changes = [*first, *(read_document(here, str(file)) for file in named), command_line_document(values)]
+    return load_settings(_together(changes[0], changes[1:]), root)
+
+
+def _together(below: Document, changes: Iterable[Document]) -> Document:
+    for change in changes:
+        if not isinstance(change.content, Mapping):
+            raise change.refusal((), repr(change.content)[:60], "keys and values, as in config/config.yaml")
+        below = below.overlaid(change)
+    return below
+
+
+def load_settings(config: Document | Mapping[str, Any], root: Path) -> Settings:
+    """Check a configuration (the content of config.yaml) and the files it names, relative to the folder `root`.
+
+    Raises ConfigError for anything wrong, before any work is done.
+    """
+    document = config if isinstance(config, Document) else Document(CONFIG_FILE, dict(config))
+    checked = document.check(Config)
+    files = _Files(
+        document, *(read_document(root, name) for name in (checked.blades_file, checked.fidelity_file, checked.scenes_file))
+    )
+    blades, levels, scenes = files.blades.check(Blades).root, files.levels.check(Levels).root, files.scenes.check(Scenes).root
+    fidelity_name = _level_name(checked, levels, files)
+    level = levels[fidelity_name]
+    names = files.known(("blades",), list(blades) if checked.blades == "all" else checked.blades, blades, files.blades)
+    scene_names = files.known(("scenes",), list(scenes) if checked.scenes == "all" else checked.scenes, scenes, files.scenes)
+    _check_studies(checked.studies, blades, levels, scenes, files)
+    chosen_scenes = {name: _scene(scenes[name], level, checked.structure.boundary.tip_line) for name in scene_names}
+    speeds = _speeds(checked, names, scene_names, level.march.speed_step_rad_s, blades, scenes, files)
+    _check_history_speeds(chosen_scenes, speeds, files.scenes)
+    return Settings(
+        blades={name: blade_settings(name, blades, root, files.blades) for name in names},
+        scenes=chosen_scenes,
+        speeds=speeds,
+        fidelity_name=fidelity_name,
+        fidelity=level,
+        structure=checked.structure,
+        campbell=checked.campbell,
+        interactions=checked.interactions,
+        studies=checked.studies,
+        levels=levels,
+        scene_entries=scenes,
+        tolerance=checked.tolerance,
+        fidelity_is_chosen=checked.fidelity == "auto",
+    )
+
+
+@dataclass(frozen=True)
+class _Files:
+    """The documents that a message may have to point into."""
+
+    config: Document
+    blades: Document
+    levels: Document
+    scenes: Document
+
+    def known(self, path: tuple[str | int, ...], names: Sequence[str], entries: Iterable[str], file: Document) -> list[str]:
+        """`names`, which stand at `path` of config.yaml; ConfigError for one that `file` lacks."""
+        for name in names:
+            if name not in (known := list(entries)):
+                raise self.config.refusal(path, f"'{name}'", f"{', '.join(known)} ({file.name})")
+        return list(names)
+
+
+def _level_name(checked: Config, levels: Mapping[str, Level], files: _Files) -> str:
+    """The level that is named, or for `auto` the cheapest one whose measured error is within the tolerance."""
+    if checked.fidelity != "auto":
+        return files.known(("fidelity",), [checked.fidelity], levels, files.levels)[0]
+    errors = {name: level.measured.error for name, level in levels.items() if level.measured}
+    costs = {name: level.measured.cpu_s_per_run for name, level in levels.items() if level.measured}
+    chosen = recommended_level(errors, costs, checked.tolerance)
+    if chosen is None:
+        known = ", ".join(f"{name} {error:g}" for name, error in errors.items()) or "none"
+        raise files.config.error(
+            ("tolerance",),
+            f"found {checked.tolerance:g}; measured errors of the levels in {files.levels.name}: {known}; "
+            "accept more, or name a level under fidelity",
+        )
+    return chosen
+
+
+def _check_studies(
+    studies: Studies,
+    blades: Mapping[str, Any],
+    levels: Mapping[str, Level],
+    scenes: Mapping[str, SceneEntry],
+    files: _Files,
+) -> None:
+    """ConfigError for a name in the section `studies` that its file lacks, and for a scene without what its role needs."""
+    for name in ("tradeoff", "readings", "stability"):
+        study = getattr(studies, name)
+        if study is None or name not in studies.model_fields_set:
+            continue
+        if name != "readings":
+            files.known(("studies", name, "blade"), [study.blade], blades, files.blades)
+        files.known(("studies", name, "base"), [study.base], levels, files.levels)
+    if studies.tradeoff:
+        given = studies.tradeoff
+        files.known(("studies", "tradeoff", "knobs", "level"), given.knobs.level.values, levels, files.levels)
+        if given.scenes != "all":
+            files.known(("studies", "tradeoff", "scenes"), given.scenes, scenes, files.scenes)
+    for name in ("readings", "stability"):
+        if name in studies.model_fields_set:
+            study = getattr(studies, name)
+            files.known(("studies", name, "lined_scene"), [study.lined_scene], scenes, files.scenes)
+            files.known(("studies", name, "rigid_scene"), [study.rigid_scene], scenes, files.scenes)
+
+
+def _scene(entry: SceneEntry, level: Level, tip_line: str) -> SceneSettings:
+    return SceneSettings(
+        scene=entry.scene(),
+        tip_line=entry.tip_line or tip_line,
+        revolutions=entry.revolutions or level.march.revolutions,
+        results=tuple(entry.results),
+        stress_history_speeds=tuple(float(speed) for speed in entry.stress_history_speeds_rad_s),
+    )
+
+
+def _speeds(
+    checked: Config,
+    blades: Sequence[str],
+    scenes: Sequence[str],
+    default_step: float,
+    all_blades: Iterable[str],
+    all_scenes: Iterable[str],
+    files: _Files,
+) -> dict[tuple[str, str], tuple[float, ...]]:
+    def expanded(entries: Sequence[SpeedEntry], path: tuple[str | int, ...]) -> tuple[float, ...]:
+        ranges = [plain(entry) if isinstance(entry, SpeedRange) else entry for entry in entries]
+        try:
+            return expand_speeds(ranges, default_step)
+        except SpeedError as error:
+            raise files.config.error(path, str(error)) from None
+
+    general = expanded(checked.speeds, ("speeds",))
+    special = []
+    for number, rule in enumerate(checked.speeds_for):
+        files.known(("speeds_for", number, "blades"), rule.blades or [], all_blades, files.blades)
+        files.known(("speeds_for", number, "scenes"), rule.scenes or [], all_scenes, files.scenes)
+        special.append((rule, expanded(rule.speeds, ("speeds_for", number, "speeds"))))
+
+    def of(blade: str, scene: str) -> tuple[float, ...]:
+        return next((speeds for rule, speeds in special if rule.fits(blade, scene)), general)
+
+    together = {(blade, scene): of(blade, scene) for blade in blades for scene in scenes}
+    number_of_all = sum(map(len, together.values()))
+    if number_of_all > LARGEST_NUMBER_OF_SIMULATIONS:
+        raise files.config.refusal(
+            ("speeds",),
+            f"{number_of_all} simulations of {len(blades)} blades in {len(scenes)} scenes",
+            f"at most {LARGEST_NUMBER_OF_SIMULATIONS} in one run",
+        )
+    return together
+
+
+def _check_history_speeds(
+    scenes: Mapping[str, SceneSettings], speeds: Mapping[tuple[str, str], tuple[float, ...]], document: Document
+) -> None:
+    for name, chosen in scenes.items():
+        run = {speed for (_, scene), several in speeds.items() if scene == name for speed in several}
+        for speed in chosen.stress_history_speeds:
+            if speed not in run:
+                raise document.refusal(
+                    (name, "stress_history_speeds_rad_s"),
+                    f"{speed:g}",
+                    "speeds that are simulated (add it to speeds or speeds_for in config.yaml)",
+                )
+
+
+def checked_scene(entry: Mapping[str, Any]) -> Scene:
+    """The scene of one entry of scenes.yaml; ConfigError where the model of scenes forbids it."""
+    return Document("scenes.yaml", dict(entry)).check(SceneEntry).scene()

@@ -1,0 +1,125 @@
+"""From pydantic's errors to `key`, what was found and what is allowed."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterable, Mapping
+from functools import cache
+from typing import Any
+
+from pydantic import BaseModel, ValidationError
+
+from r37core.yaml_file import KeyPath
+
+_BOUNDS = {
+    "minimum": "at least",
+    "exclusiveMinimum": "more than",
+    "maximum": "at most",
+    "exclusiveMaximum": "less than",
+    "minItems": "entries: at least",
+    "minProperties": "entries: at least",
+    "minLength": "characters: at least",
+    "maxLength": "characters: at most",
+    "pattern": "text like",
+}
+
+
+def explain(error: ValidationError, content: Any, model: type[BaseModel]) -> tuple[KeyPath, KeyPath, str]:
+    """Where the first error stands, which key to name, and what to say about it.
+
+    An unknown key comes first: it may be why another is missing.
+    """
+    errors = error.errors(include_url=False)
+    first = next((one for one in errors if one["type"] == "extra_forbidden"), errors[0])
+    context = first.get("ctx", {})
+    path = _within(content, first["loc"], missing=first["type"] == "missing") + tuple(context.get("at", ()))
+    schema = _schema(model)
+    if first["type"] == "refused":
+        return path, path, f"found {context['found']}; allowed: {context['allowed']}"
+    if first["type"] in ("missing", "extra_forbidden"):
+        *parent, key = path
+        known = list(_at(schema, tuple(parent), schema).get("properties", {}))
+        if first["type"] == "missing":
+            return tuple(parent), tuple(parent), f"missing key {key}; allowed keys: {', '.join(known)}"
+        close = difflib.get_close_matches(str(key), known, 1)
+        meant = f" (did you mean {close[0]}?)" if close else ""
+        return path, tuple(parent), f"found unknown key {key}; allowed keys: {', '.join(known)}{meant}"
+    value = _value(content, path)
+    found = "nothing" if value is None else repr(value)
+    if len(found) > 80:
+        found = found[:76] + " ..."
+    return path, path, f"found {found}; allowed: {describe(_at(schema, path, schema), schema) or first['msg']}"
+
+
+@cache
+def _schema(model: type[BaseModel]) -> dict[str, Any]:
+    return model.model_json_schema()
+
+
+def describe(part: Mapping[str, Any], schema: Mapping[str, Any]) -> str:
+    """What a part of a JSON schema allows, in words."""
+    part = _resolved(part, schema)
+    for key in ("anyOf", "oneOf"):
+        if key in part:
+            return " or ".join(describe(choice, schema) for choice in part[key])
+    if "const" in part:
+        return str(part["const"])
+    if "enum" in part:
+        return f"one of {', '.join(map(str, part['enum']))}"
+    words = [str(part["type"])] if "type" in part else []
+    words += [
+        f"{bound} {part[name]:g}" if isinstance(part[name], float) else f"{bound} {part[name]}" for name, bound in _bounds(part)
+    ]
+    if part.get("type") == "array" and "items" in part:
+        words[0] = f"list of {_resolved(part['items'], schema).get('type', 'values')}"
+    if "properties" in part:
+        words[0] = f"mapping with the keys {', '.join(part['properties'])}"
+    return ", ".join(words)
+
+
+def _bounds(part: Mapping[str, Any]) -> Iterable[tuple[str, str]]:
+    return [(name, words) for name, words in _BOUNDS.items() if name in part]
+
+
+def _within(content: Any, location: Iterable[str | int], missing: bool) -> KeyPath:
+    """A place as the file has it: pydantic's has names of variants in between, and a missing key at its end."""
+    steps = list(location)
+    last = [steps.pop()] if missing else []
+    path: list[str | int] = []
+    for step in steps:
+        in_mapping = isinstance(content, Mapping) and step in content
+        in_list = isinstance(content, list) and isinstance(step, int) and step < len(content)
+        if in_mapping or in_list:
+            content = content[step]
+            path.append(step)
+    return (*path, *last)
+
+
+def _value(content: Any, path: KeyPath) -> Any:
+    for step in path:
+        content = content[step]
+    return content
+
+
+def _resolved(part: Mapping[str, Any], schema: Mapping[str, Any]) -> Mapping[str, Any]:
+    while "$ref" in part:
+        part = schema["$defs"][part["$ref"].rsplit("/", 1)[1]]
+    return part
+
+
+def _at(part: Mapping[str, Any], path: KeyPath, schema: Mapping[str, Any]) -> Mapping[str, Any]:
+    """The part of a JSON schema that is for the value at `path`; empty where there is none."""
+    part = _resolved(part, schema)
+    if not path:
+        return part
+    for choice in [*part.get("anyOf", []), *part.get("oneOf", [])]:
+        found = _at(choice, path, schema)
+        if found:
+            return found
+    step, *rest = path
+    if isinstance(step, int):
+        inner = part.get("items")
+    else:
+        inner = part.get("properties", {}).get(step) or next(iter(part.get("patternProperties", {}).values()), None)
+        inner = inner or part.get("additionalProperties")
+    return _at(inner, tuple(rest), schema) if isinstance(inner, Mapping) else {}

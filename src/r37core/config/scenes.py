@@ -1,0 +1,161 @@
+"""scenes.yaml: what the blade meets."""
+
+from __future__ import annotations
+
+import math
+from typing import Annotated, Literal
+
+from pydantic import Field, RootModel, model_validator
+
+from r37core.contact import casing as casing_shape
+from r37core.contact import scene as contact_scene
+
+from .section import LeftOut, Name, Section, Speed, check_names, refused
+
+TipLine = Literal["pressure_edge", "camber", "suction_edge"]
+Result = Literal["spectrum", "signal", "stress", "wear", "energy"]
+
+
+class Casing(Section):
+    """Shape of the casing."""
+
+    clearance_m: float = Field(ge=0, le=0.1, description="normal to the casing")
+    cone_angle_deg: Literal["tip"] | Annotated[float, Field(ge=-80, le=80)] = Field(
+        default="tip",
+        description="half angle of the casing's cone, negative where it narrows downstream, 0 for a cylinder; "
+        "tip: that of each blade's tip",
+    )
+    lobes: int = Field(default=2, ge=0, le=100, description="0 is a circular casing")
+    width: float = Field(default=0.15, gt=0, le=100, description="width of a lobe in shares of its period")
+    amplitude_clearances: float = Field(default=2.0, ge=0, le=1000)
+    rise_fraction: float = Field(default=0.2, ge=0, le=1, description="share of the run at which 99% is reached")
+
+
+class Lining(Section):
+    """The abradable lining in front of the casing."""
+
+    thickness_m: float = Field(gt=0, le=1)
+    elastic_modulus_pa: float = Field(gt=0, le=1e15)
+    plastic_modulus_pa: float = Field(ge=0, le=1e15)
+    yield_stress_pa: float = Field(ge=0, le=1e15)
+    bars: int = Field(default=10000, ge=10, le=10_000_000)
+    rings: Literal["per_node", "shared"] = Field(
+        default="per_node", description="shared, one ring worn by all nodes, is kept for the study readings"
+    )
+    bar_width_m: float = Field(default=0.001, gt=0, le=1, description="width of a bar, along the casing's meridian")
+    bar_area_m2: Annotated[float, Field(gt=0, le=1)] | LeftOut = Field(
+        default=None, description="area of a bar, in place of its width times its arc length at the tip"
+    )
+
+
+class Friction(Section):
+    """Friction at the tip."""
+
+    form: Literal["constant", "vector"] = "vector"
+    coefficient: float = Field(ge=0, le=10)
+    direction: Literal["against_rotation", "along_rotation"] = Field(
+        default="against_rotation", description="along_rotation, against physics, is kept for the study readings"
+    )
+    coupling: Literal["coupled", "after"] = Field(
+        default="coupled", description="friction inside the normal solve of casing contact or added after it"
+    )
+
+
+class SceneEntry(Section):
+    """One scene of scenes.yaml."""
+
+    tip_line: TipLine | LeftOut = Field(
+        default=None, description="line of the contact nodes; default: structure.boundary.tip_line"
+    )
+    casing: Casing
+    lining: Lining | LeftOut = None
+    friction: Friction | LeftOut = None
+    damping_ratio: float = Field(default=0.0005, ge=0, lt=1)
+    gap: Literal["linear", "exact"] = Field(
+        default="linear",
+        description="clearance less the normal displacement, or distance of the displaced node from the casing",
+    )
+    divergence_limit_m: float = Field(
+        default=0.1,
+        gt=0,
+        le=100,
+        description="a tip displacement beyond it ends the run as diverged; farther no linear model can be asked",
+    )
+    revolutions: Annotated[int, Field(ge=1, le=20000)] | LeftOut = Field(
+        default=None, description="in place of the fidelity level's"
+    )
+    results: list[Result] = Field(default=["spectrum", "stress"], json_schema_extra={"uniqueItems": True})
+    stress_history_speeds_rad_s: list[Speed] = Field(
+        default=[], description="speeds at which the largest stress of every revolution is kept"
+    )
+
+    @model_validator(mode="after")
+    def _results_fit(self) -> SceneEntry:
+        for key, values in (("results", self.results), ("stress_history_speeds_rad_s", self.stress_history_speeds_rad_s)):
+            for number, value in enumerate(values):
+                if value in values[:number]:  # type: ignore[operator]
+                    raise refused((key, number), f"{value} twice", "each once")
+        if "wear" in self.results and self.lining is None:
+            raise refused(("results",), "wear", "only in a scene with a lining")
+        if self.stress_history_speeds_rad_s and "stress" not in self.results:
+            raise refused(("stress_history_speeds_rad_s",), "speeds", "only with stress among the results")
+        return self
+
+    def scene(self) -> contact_scene.Scene:
+        """The scene as the simulations take it."""
+        return contact_scene.Scene(
+            casing=self._casing(),
+            lining=self._lining(),
+            friction=self._friction(),
+            damping_ratio=self.damping_ratio,
+            exact_gap=self.gap == "exact",
+            divergence_limit=self.divergence_limit_m,
+        )
+
+    def _casing(self) -> casing_shape.Casing:
+        given = self.casing
+        return casing_shape.Casing(
+            clearance=given.clearance_m,
+            lobes=given.lobes,
+            width=given.width,
+            amplitude=given.amplitude_clearances,
+            rise_fraction=given.rise_fraction,
+            cone_angle=None if isinstance(given.cone_angle_deg, str) else math.radians(given.cone_angle_deg),
+        )
+
+    def _lining(self) -> contact_scene.Lining | None:
+        given = self.lining
+        if given is None:
+            return None
+        return contact_scene.Lining(
+            thickness=given.thickness_m,
+            elastic_modulus=given.elastic_modulus_pa,
+            plastic_modulus=given.plastic_modulus_pa,
+            yield_stress=given.yield_stress_pa,
+            bar_width=given.bar_width_m,
+            bars=given.bars,
+            shared_ring=given.rings == "shared",
+            bar_area=given.bar_area_m2,
+        )
+
+    def _friction(self) -> contact_scene.Friction | None:
+        given = self.friction
+        if given is None:
+            return None
+        return contact_scene.Friction(
+            coefficient=given.coefficient,
+            vector=given.form == "vector",
+            against_rotation=given.direction == "against_rotation",
+            coupled=given.coupling == "coupled",
+        )
+
+
+class Scenes(RootModel[dict[Name, SceneEntry]]):
+    """scenes.yaml, contact scenes by name."""
+
+    root: Annotated[dict[Name, SceneEntry], Field(min_length=1)]
+
+    @model_validator(mode="after")
+    def _names(self) -> Scenes:
+        check_names(self.root)
+        return self

@@ -1,0 +1,94 @@
+"""What the models of all configuration files share: strictness, and the kinds of values."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from typing import Annotated, Any, Literal, TypeVar
+
+from pydantic import (
+    AfterValidator,
+    BaseModel,
+    ConfigDict,
+    Discriminator,
+    Field,
+    StringConstraints,
+    Tag,
+    WithJsonSchema,
+    model_validator,
+)
+from pydantic.json_schema import SkipJsonSchema
+from pydantic_core import PydanticCustomError
+
+from r37core.yaml_file import KeyPath, scalar
+
+T = TypeVar("T")
+
+
+class Section(BaseModel):
+    """A mapping of a configuration file: only declared keys, no null, no text for a number, nothing infinite."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True, strict=True, allow_inf_nan=False)
+
+    @model_validator(mode="before")
+    @classmethod
+    def _without_nulls(cls, data: Any) -> Any:
+        if isinstance(data, Mapping):
+            for key, value in data.items():
+                if value is None and key in cls.model_fields:
+                    raise refused((key,), "nothing", "a value, or the key left out")
+        return data
+
+
+def refused(at: KeyPath, found: str, allowed: str) -> PydanticCustomError:
+    """The error of a validator that compares several keys; `at` is the one to blame, seen from the validated section."""
+    return PydanticCustomError("refused", "found {found}; allowed: {allowed}", {"at": at, "found": found, "allowed": allowed})
+
+
+def _unique(values: list[T]) -> list[T]:
+    for number, value in enumerate(values):
+        if value in values[:number]:
+            raise refused((number,), f"{value!r} twice", "each once")
+    return values
+
+
+_NAME = r"^[A-Za-z0-9][A-Za-z0-9-]*(_[A-Za-z0-9-]+)*$"
+
+
+def _name(name: str) -> str:
+    if not re.match(_NAME, name) or len(name) > 60 or name == "all" or not isinstance(scalar(name), str):
+        raise refused(
+            (),
+            repr(name),
+            "a name of letters, digits, hyphens and single underscores between them, of at most 60 characters, "
+            "that is neither 'all' nor a number, true, false or null in YAML",
+        )
+    return name
+
+
+Name = Annotated[str, AfterValidator(_name), WithJsonSchema({"type": "string", "pattern": _NAME, "maxLength": 60})]
+"""Of a blade, scene, level or run. They are parts of file names, where two underscores separate them."""
+
+Unique = Annotated[list[T], Field(min_length=1), AfterValidator(_unique)]
+"""A list with at least one value and none twice."""
+
+Names = Unique[Name]
+AllOrNames = Annotated[
+    Annotated[Literal["all"], Tag("all")] | Annotated[Names, Tag("names")],
+    Discriminator(lambda value: "names" if isinstance(value, list) else "all"),
+]
+FileName = Annotated[str, StringConstraints(min_length=1, pattern=r"\S")]
+LeftOut = SkipJsonSchema[None]
+"""What an optional key is when it is not given; null is refused."""
+
+Speed = Annotated[float, Field(ge=1e-3, le=1e6)]
+"""An angular speed (rad/s)."""
+
+
+def check_names(names: Mapping[str, Any]) -> None:
+    """Raise the error of two names that differ in capitals only: their files would be one on some systems."""
+    seen: dict[str, str] = {}
+    for name in names:
+        other = seen.setdefault(name.lower(), name)
+        if other != name:
+            raise refused((name,), f"'{name}' beside '{other}'", "names that differ in more than capitals")

@@ -1,0 +1,148 @@
+"""config.yaml: what to run."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import Discriminator, Field, Tag, model_validator
+
+from r37core.rom.boundary import BoundaryChoice
+from r37core.rom.choice import ReductionChoice, StressSubmesh
+
+from .fidelity import Reduction
+from .scenes import TipLine
+from .section import AllOrNames, FileName, LeftOut, Name, Names, Section, Speed, refused
+from .studies import Studies
+
+
+class SpeedRange(Section):
+    """Speeds from `start` to `stop`, both included."""
+
+    start: Speed
+    stop: Speed
+    step: Speed | LeftOut = Field(default=None, description="without it the fidelity level's")
+
+    @model_validator(mode="after")
+    def _forward(self) -> SpeedRange:
+        if self.stop < self.start:
+            raise refused((), f"a range from {self.start:g} to {self.stop:g}", "stop not below start")
+        return self
+
+
+SpeedEntry = Annotated[
+    Annotated[Speed, Tag("number")] | Annotated[SpeedRange, Tag("range")],
+    Discriminator(lambda value: "range" if isinstance(value, dict | SpeedRange) else "number"),
+]
+SpeedList = Annotated[list[SpeedEntry], Field(min_length=1)]
+
+
+class SpeedRule(Section):
+    """Speeds of some blades or scenes (both, where both are given)."""
+
+    blades: Names | LeftOut = None
+    scenes: Names | LeftOut = None
+    speeds: SpeedList
+
+    def fits(self, blade: str, scene: str) -> bool:
+        """Whether the rule is for this blade in this scene."""
+        return (self.blades is None or blade in self.blades) and (self.scenes is None or scene in self.scenes)
+
+
+class Boundary(Section):
+    """The contact nodes, kept as physical coordinates of the reduced model."""
+
+    tip_line: TipLine = "pressure_edge"
+    nodes: int = Field(default=8, ge=1, le=200)
+    corners: bool = Field(default=True, description="whether leading and trailing corner are among them")
+
+
+class Submesh(Section):
+    """Where stress is recovered; nodes with x below and z between these bounds."""
+
+    maximum_x_m: float = Field(default=0.197, gt=0, le=100)
+    minimum_z_m: float = Field(default=0.0165, ge=-100, le=100)
+    maximum_z_m: float = Field(default=0.0265, ge=-100, le=100)
+
+    @model_validator(mode="after")
+    def _has_a_height(self) -> Submesh:
+        if not self.minimum_z_m < self.maximum_z_m:
+            raise refused(("minimum_z_m",), f"{self.minimum_z_m:g}", f"less than maximum_z_m ({self.maximum_z_m:g})")
+        return self
+
+
+class Structure(Section):
+    """Geometry and reduced model."""
+
+    edges: Literal["round", "blunt"] = Field(default="round", description="how leading and trailing edge are closed")
+    boundary: Boundary = Boundary()
+    maximum_speed_rad_s: Speed = Field(default=2000.0, description="highest speed of the basis and of the Campbell diagram")
+    spin_softening: bool = False
+    coriolis: bool = False
+    stress_submesh: Submesh = Submesh()
+    recover_whole_blade: bool = Field(default=False, description="keep the basis on every node (a large file)")
+
+    def reduction(self, size: Reduction, tip_line: str | None = None) -> ReductionChoice:
+        """The reduced model of a level's size, with contact nodes on `tip_line` or on that of the section `boundary`.
+
+        Its basis is computed at rest, at half the maximum speed and at the maximum speed.
+        """
+        submesh = self.stress_submesh
+        return ReductionChoice(
+            boundary=BoundaryChoice(tip_line or self.boundary.tip_line, self.boundary.nodes, self.boundary.corners),
+            speeds=(0.0, 0.5 * self.maximum_speed_rad_s, float(self.maximum_speed_rad_s)),
+            fixed_interface_modes=size.fixed_interface_modes,
+            tolerance=size.basis_tolerance,
+            spin_softening=self.spin_softening,
+            coriolis=self.coriolis,
+            stress_submesh=StressSubmesh(submesh.maximum_x_m, submesh.minimum_z_m, submesh.maximum_z_m),
+            whole_blade=self.recover_whole_blade,
+        )
+
+
+class Campbell(Section):
+    """The Campbell diagram."""
+
+    speed_step_rad_s: float = Field(default=50.0, ge=0.1, le=1e6)
+    modes: int = Field(default=10, ge=3, le=30)
+    highest_engine_order: int = Field(default=16, ge=1, le=100)
+    largest_tangential_displacement_m: float = Field(default=0.01, gt=0, le=1)
+
+
+class Interactions(Section):
+    """What counts as an interaction, in summary.csv."""
+
+    prominence: float = Field(
+        default=0.1, gt=0, le=1, description="rise of a peak above its surroundings, as a share of the largest"
+    )
+    below: float = Field(default=0.02, ge=0, le=1, description="how far below a Campbell speed its peak may lie, as a share")
+    above: float = Field(default=0.06, ge=0, le=1, description="how far above")
+
+
+class Config(Section):
+    """config.yaml, what to run."""
+
+    blades_file: FileName = Field(default="config/blades.yaml", description="file with the blade shapes")
+    fidelity_file: FileName = Field(default="config/fidelity.yaml", description="file with the accuracy levels")
+    scenes_file: FileName = Field(default="config/scenes.yaml", description="file with the contact scenes")
+    blades: AllOrNames = Field(description="`all`, or the names of the blades to run")
+    scenes: AllOrNames = Field(description="`all`, or the names of the scenes to run")
+    fidelity: Name = Field(description="an accuracy level of the fidelity file, or auto: the cheapest one within the tolerance")
+    speeds: SpeedList = Field(
+        default=[SpeedRange(start=750.0, stop=2000.0)],
+        description="speeds to simulate, as numbers and ranges; a range without a step takes the fidelity level's",
+    )
+    speeds_for: list[SpeedRule] = Field(
+        default=[],
+        description="other speeds for some blades or scenes (both, where both are given); the first entry that fits counts",
+    )
+    structure: Structure = Structure()
+    interactions: Interactions = Interactions()
+    tolerance: float = Field(
+        default=0.05,
+        gt=0,
+        le=1,
+        description="accepted relative error of rms, largest displacement and stress at an interaction; "
+        "with fidelity auto it picks the level",
+    )
+    studies: Studies = Studies()
+    campbell: Campbell = Campbell()

@@ -1,0 +1,126 @@
+"""The section `studies` of config.yaml."""
+
+from __future__ import annotations
+
+from typing import Annotated, Generic, Literal, TypeVar
+
+from pydantic import Field, model_validator
+
+from .section import AllOrNames, LeftOut, Name, Section, Unique, refused
+
+Value = TypeVar("Value")
+Step = Annotated[float, Field(ge=0.05, le=100)]
+
+
+class Knob(Section, Generic[Value]):
+    """Values of one parameter, and the one that the others are compared with."""
+
+    values: Unique[Value]
+    reference: Value
+
+    @model_validator(mode="after")
+    def _reference_is_a_value(self) -> Knob[Value]:
+        if self.reference not in self.values:
+            raise refused(("reference",), repr(self.reference), f"one of the values, {', '.join(map(str, self.values))}")
+        return self
+
+
+class Knobs(Section):
+    """The parameters whose price is measured; `level` always, for the recommended level is the study's result."""
+
+    level: Knob[Name]
+    central_difference_step: Knob[Annotated[float, Field(ge=1e-12, le=1e-2)]] | LeftOut = None
+    exact_modal_step: Knob[Annotated[float, Field(ge=1e-12, le=1e-2)]] | LeftOut = None
+    revolutions: Knob[Annotated[int, Field(ge=2, le=20000)]] | LeftOut = None
+    mesh_nodes: Knob[Annotated[int, Field(ge=500, le=500_000)]] | LeftOut = None
+    boundary_nodes: Knob[Annotated[int, Field(ge=1, le=200)]] | LeftOut = None
+    fixed_interface_modes: Knob[Annotated[int, Field(ge=0, le=500)]] | LeftOut = None
+    highest_frequency: Knob[Annotated[float, Field(gt=0, le=1e12)]] | LeftOut = None
+    bars: Knob[Annotated[int, Field(ge=10, le=10_000_000)]] | LeftOut = None
+    stress_instants: Knob[Annotated[int, Field(ge=1, le=10000)]] | LeftOut = None
+    stress_region: Knob[Literal["submesh", "whole"]] | LeftOut = None
+    friction_form: Knob[Literal["constant", "vector"]] | LeftOut = None
+
+    def given(self) -> dict[str, Knob]:
+        """The parameters that are varied, by name."""
+        return {name: getattr(self, name) for name in type(self).model_fields if getattr(self, name) is not None}
+
+
+class Place(Section):
+    """Neighbouring speeds, as shares of the Campbell speed."""
+
+    first: float = Field(ge=0.01, le=100)
+    last: float = Field(ge=0.01, le=100)
+    speeds: int = Field(ge=1, le=1000)
+
+    @model_validator(mode="after")
+    def _forward(self) -> Place:
+        if self.last < self.first or (self.last == self.first and self.speeds > 1):
+            raise refused(("last",), f"{self.last:g}", f"more than first ({self.first:g})")
+        return self
+
+
+class Places(Section):
+    """Where the study looks."""
+
+    peak: Place = Place(first=1.0, last=1.02, speeds=5)
+    jump: Place = Place(first=1.024, last=1.044, speeds=5)
+    off_resonance: Place = Place(first=0.9, last=0.92, speeds=3)
+
+
+class Tradeoff(Section):
+    """What accuracy costs (snakemake tradeoff)."""
+
+    blade: Name = "Ref"
+    scenes: AllOrNames = "all"
+    base: Name = Field(default="standard", description="fidelity level that all knobs but one keep")
+    engine_order: int = Field(default=4, ge=1, le=100, description="the speeds lie about this crossing of 1B")
+    places: Places = Places()
+    knobs: Knobs
+
+
+class SpeedSteps(Section):
+    """Grids of speeds (rad/s)."""
+
+    fine: Step = Field(default=2.0, description="the shipped reading about interactions")
+    coarse: Step = Field(default=4.0, description="each choice turned once, and convergence")
+    survey: Step = Field(default=5.0, description="the whole range in the lined scene; direct contact every other one")
+
+
+class Readings(Section):
+    """Readings of what the benchmark leaves open, and the published numbers beside ours (snakemake readings)."""
+
+    base: Name = Field(default="paper", description="fidelity level of the published step and mesh")
+    lined_scene: Name = "abradable"
+    rigid_scene: Name = "direct"
+    speed_steps_rad_s: SpeedSteps = SpeedSteps()
+
+
+class Stability(Section):
+    """What happens at extremes (snakemake stability)."""
+
+    blade: Name = "Ref"
+    base: Name = "standard"
+    lined_scene: Name = "abradable"
+    rigid_scene: Name = "direct"
+
+
+class Estimate(Section):
+    """What a whole sweep will cost (snakemake estimate)."""
+
+    every: int = Field(
+        default=50, ge=1, le=1_000_000, description="one of so many speeds is run, in both scenes, for every blade"
+    )
+    cores: int = Field(default=2, ge=1, le=1_000_000, description="cores the projected wall time is for")
+    workflow_s_per_job: float = Field(
+        default=0.045, ge=0, le=1000, description="CPU seconds of Snakemake itself for each job, measured in a sweep of 17,514"
+    )
+
+
+class Studies(Section):
+    """Studies of the model itself; none is part of all_blades."""
+
+    tradeoff: Tradeoff | LeftOut = None
+    readings: Readings = Readings()
+    stability: Stability = Stability()
+    estimate: Estimate = Estimate()

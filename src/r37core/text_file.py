@@ -1,0 +1,37 @@
+"""Text files that people write: read as UTF-8, with the line in the message where that fails."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+_MERGE_MARKER = re.compile(r"(<{7}|>{7}|\|{7})( |$)|={7}$")
+
+
+class TextFileError(ValueError):
+    """Something that a text file must not hold: `reason`, and the number of the `line`."""
+
+    def __init__(self, line: int, reason: str):
+        super().__init__(f"line {line}: {reason}")
+        self.line, self.reason = line, reason
+
+
+def read_text(file: Path) -> str:
+    """Text of a UTF-8 file, with or without a byte order mark.
+
+    Raises TextFileError for another encoding and for a marker that a merge left behind, OSError as `open` does.
+    """
+    data = file.read_bytes()
+    if data.startswith((b"\xff\xfe", b"\xfe\xff")) or b"\x00" in data[:200]:
+        raise TextFileError(1, "found UTF-16 or binary data; allowed: text in UTF-8")
+    try:
+        text = data.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        line = data.count(b"\n", 0, error.start) + 1
+        raise TextFileError(
+            line, f"found the byte 0x{data[error.start]:02x}, which is not UTF-8; save the file as UTF-8"
+        ) from None
+    for number, line_of_text in enumerate(text.splitlines(), start=1):
+        if _MERGE_MARKER.match(line_of_text):
+            raise TextFileError(number, f"found a merge marker, {line_of_text[:20]!r}; resolve the conflict")
+    return text

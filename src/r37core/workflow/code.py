@@ -1,0 +1,110 @@
+"""Hashes of the code that a rule's script runs, so that a rule runs again when that code changes and only then."""
+
+from __future__ import annotations
+
+import ast
+import hashlib
+from collections.abc import Iterator
+from functools import cache
+from pathlib import Path
+
+PACKAGE = "r37core"
+
+
+class CodeHashes:
+    """Hashes of the scripts in the folder `scripts` and of all they import from it and from the package in `source`.
+
+    Comments, docstrings and layout do not count, nor does the version in the package's own __init__.
+    """
+
+    def __init__(self, source: Path, scripts: Path):
+        self._roots = (scripts, source)
+        self._version_file = source / PACKAGE / "__init__.py"
+
+    def __call__(self, script: str) -> str:
+        """Short hash of the script of this name (without .py) and its imports: a parameter of the rule that runs it."""
+        digest = hashlib.sha256()
+        for file in self.closure(script):
+            digest.update(file.name.encode() + fingerprint(file))
+        return digest.hexdigest()[:16]
+
+    def closure(self, script: str) -> list[Path]:
+        """The script's file and those of all modules it imports, directly or not, sorted."""
+        found: set[Path] = set()
+        waiting = [self._roots[0] / f"{script}.py"]
+        while waiting:
+            file = waiting.pop()
+            if file not in found:
+                found.add(file)
+                waiting += [imported for name in imported_names(file) for imported in module_files(name, self._roots)]
+        return sorted(found - {self._version_file})
+
+
+@cache
+def module_files(name: str, roots: tuple[Path, ...]) -> tuple[Path, ...]:
+    """Files of a dotted name, which may end in something that is no module: it and the packages above it."""
+    parts = name.split(".")
+    places = [root.joinpath(*parts[:length]) for root in roots for length in range(1, len(parts) + 1)]
+    candidates = [file for place in places for file in (place.with_suffix(".py"), place / "__init__.py")]
+    return tuple(file for file in candidates if file.exists())
+
+
+@cache
+def imported_names(file: Path) -> tuple[str, ...]:
+    """Absolute dotted names of all that a file imports, functions' own imports included."""
+    names: list[str] = []
+    package = _package_of(file)
+    for node in ast.walk(_tree(file)):
+        if isinstance(node, ast.Import):
+            names += [alias.name for alias in node.names]
+        elif isinstance(node, ast.ImportFrom):
+            above = package[: len(package) - node.level + 1] if node.level else []
+            module = [*above, *([node.module] if node.module else [])]
+            names += [".".join([*module, alias.name]) for alias in node.names]
+    return tuple(names)
+
+
+@cache
+def fingerprint(file: Path) -> bytes:
+    """Hash of what a Python file does: its syntax tree without docstrings, the same in every version of Python."""
+    digest = hashlib.sha256()
+    for part in _parts(_tree(file)):
+        digest.update(part.encode() + b"\0")
+    return digest.digest()
+
+
+@cache
+def _tree(file: Path) -> ast.Module:
+    return ast.parse(file.read_text(encoding="utf-8"))
+
+
+def _package_of(file: Path) -> list[str]:
+    """Names of the packages that a file lies in, from the outermost."""
+    names: list[str] = []
+    folder = file.parent
+    while (folder / "__init__.py").exists():
+        names.insert(0, folder.name)
+        folder = folder.parent
+    return names
+
+
+def _parts(node: ast.AST) -> Iterator[str]:
+    yield type(node).__name__
+    for name, value in ast.iter_fields(node):
+        if name in ("ctx", "kind", "type_comment") or value is None or value == []:
+            continue
+        yield name
+        values = value if isinstance(value, list) else [value]
+        if name == "body" and isinstance(node, ast.Module | ast.ClassDef | ast.FunctionDef | ast.AsyncFunctionDef):
+            values = [one for one in values if not _is_text(one)]
+        for one in values:
+            if isinstance(one, ast.AST):
+                yield from _parts(one)
+            else:
+                yield repr(one)
+        yield "."
+
+
+def _is_text(node: ast.AST) -> bool:
+    """Whether a statement is a text alone: a docstring, or one after an assignment."""
+    return isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant) and isinstance(node.value.value, str)

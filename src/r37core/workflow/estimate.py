@@ -1,0 +1,32 @@
+"""The plan of the study `estimate`: which runs are timed."""
+
+from __future__ import annotations
+
+from dataclasses import asdict, dataclass
+from typing import Any
+
+from r37core.config import Settings
+from r37core.studies.sampling import sample
+
+from . import paths
+
+
+@dataclass(frozen=True)
+class Estimate:
+    """Plan of the study. Methods with `wildcards` are parameters of rules."""
+
+    settings: Settings
+
+    @property
+    def samples(self) -> list[str]:
+        """One file for each blade and scene."""
+        return [paths.fill(paths.ESTIMATE_SAMPLE, blade=blade, scene=scene) for blade, scene in self.settings.speeds]
+
+    def choices(self, wildcards: Any) -> dict[float, dict[str, Any]]:
+        """Numbers of the march at some of the speeds of one blade and scene, evenly spread."""
+        speeds = sample(self.settings.speeds[wildcards.blade, wildcards.scene], self.settings.studies.estimate.every)
+        return {speed: asdict(self.settings.march_choice(wildcards.scene, speed)) for speed in speeds}
+
+    def number(self, wildcards: Any) -> int:
+        """How many runs the blade and scene have in all."""
+        return len(self.settings.speeds[wildcards.blade, wildcards.scene])

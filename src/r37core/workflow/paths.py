@@ -1,0 +1,32 @@
+"""Where the files lie that more than one rule speaks of, as Snakemake's patterns.
+
+`<results>` and `<logs>` are folders of the run; what stands in braces are wildcards. Two underscores separate names.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+GEOMETRY = "<results>/{blade}/geometry.nc"
+MESH = "<results>/{blade}/mesh.vtu"
+REDUCED_MODEL = "<results>/{blade}/rom_{tip_line}.nc"
+CONTACT_MODEL = "<results>/{blade}/contact_{tip_line}.npz"
+CAMPBELL = "<results>/{blade}/campbell.nc"
+MARCH_STAMP = "<results>/{blade}/{scene}/march.stamp"
+SPEED = "<results>/{blade}/{scene}/speed_{speed}.npz"
+RESPONSE = "<results>/{blade}/{scene}/response.nc"
+MAP_FIGURE = "<results>/figures/{kind}_{blade}__{scene}.png"
+RESPONSE_FIGURE = "<results>/figures/response_{blade}.png"
+ESTIMATE_SAMPLE = "<results>/studies/estimate/{blade}__{scene}.json"
+STUDY_MODEL = (
+    "<results>/studies/models/{blade}/{nodes}_{boundary_nodes}_{fixed_interface_modes}_{region}_{tip_line}_{ends}/{file}"
+)
+TRADEOFF_CASE = "<results>/studies/tradeoff/{blade}/{knob}/{value}.nc"
+STABILITY_CASE = "<results>/studies/stability/{extreme}.json"
+READING = "<results>/studies/readings/{reading}/{place}.nc"
+READING_CAMPBELL = "<results>/studies/readings/campbell/{blade}_{mesh}.nc"
+
+
+def fill(pattern: str, **wildcards: Any) -> str:
+    """The pattern with its wildcards replaced."""
+    return pattern.format(**wildcards)

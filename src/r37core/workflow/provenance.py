@@ -1,0 +1,60 @@
+"""What result files say about their making."""
+
+from __future__ import annotations
+
+import json
+from collections import UserDict
+from functools import cache
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from r37core.config import Settings
+
+
+class Attributes(UserDict[str, Any]):
+    """Attributes of a file. As a rule's parameter they re-run nothing: Snakemake compares plain dictionaries, not this.
+
+    What re-runs a job stands beside them: the numbers it computes with, its inputs and its code. So a mesh that serves two
+    fidelity levels is made once, and names the level it was made for.
+    """
+
+    def __str__(self) -> str:
+        return json.dumps(self.data)
+
+
+class Provenance:
+    """Attributes of the files of a run, made once for each blade and scene and not for each of thousands of jobs.
+
+    Its methods are parameters of rules: they take Snakemake's wildcards.
+    """
+
+    def __init__(self, settings: Settings):
+        self._settings = settings
+        self._structure = cache(self._structure_of)
+        self._sweep = cache(self._sweep_of)
+
+    def shape(self, wildcards: Any) -> Attributes:
+        """Of a blade's geometry."""
+        return Attributes(blade=wildcards.blade, input_hash=self._settings.shape_hash(wildcards.blade))
+
+    def structure(self, wildcards: Any) -> Attributes:
+        """Of a blade's mesh, reduced model and Campbell diagram."""
+        return self._structure(wildcards.blade)
+
+    def sweep(self, wildcards: Any) -> Attributes:
+        """Of the simulations of one blade and scene."""
+        return self._sweep(wildcards.blade, wildcards.scene)
+
+    def _structure_of(self, blade: str) -> Attributes:
+        settings = self._settings
+        return Attributes(blade=blade, fidelity=settings.fidelity_name, input_hash=settings.structure_hash(blade))
+
+    def _sweep_of(self, blade: str, scene: str) -> Attributes:
+        chosen = self._settings.scenes[scene]
+        return Attributes(
+            self._structure(blade),
+            scene=scene,
+            scene_parameters=repr(chosen.scene),
+            revolutions=chosen.revolutions,
+            largest_time_step=self._settings.fidelity.march.time_step_s,
+        )

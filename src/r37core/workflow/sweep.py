@@ -1,0 +1,127 @@
+"""The plan of the sweep: which simulations, from which files, with which numbers, and what is made of them."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import asdict, dataclass
+from typing import Any
+
+from r37core.config import Settings
+from r37core.speeds import exact_text
+
+from . import paths
+
+KINDS = ("rms", "spectrum", "stress", "wear")
+"""Kinds of datasets over all blades and scenes; the first of every scene, the others of those that want them."""
+
+MAPS = ("spectrum", "wear")
+"""Kinds that are drawn as maps over speed."""
+
+
+@dataclass(frozen=True)
+class Sweep:
+    """Plan of the sweep that `settings` ask for. Methods with `wildcards` are inputs and parameters of rules."""
+
+    settings: Settings
+
+    def contact_model(self, wildcards: Any) -> str:
+        """What the simulations of a blade and scene start from."""
+        return paths.fill(paths.CONTACT_MODEL, blade=wildcards.blade, tip_line=self._scene(wildcards).tip_line)
+
+    def speed_files(self, wildcards: Any) -> list[str]:
+        """The simulations of one blade and scene, by ascending speed."""
+        blade, scene = wildcards.blade, wildcards.scene
+        return [paths.fill(paths.SPEED, blade=blade, scene=scene, speed=exact_text(speed)) for speed in self.speeds(wildcards)]
+
+    def recovery(self, wildcards: Any) -> dict[str, str]:
+        """The reduced model, for a scene whose stress is wanted."""
+        if not self.with_stress(wildcards):
+            return {}
+        return {"rom": paths.fill(paths.REDUCED_MODEL, blade=wildcards.blade, tip_line=self._scene(wildcards).tip_line)}
+
+    def speeds(self, wildcards: Any) -> tuple[float, ...]:
+        """Speeds (rad/s) of one blade and scene, ascending."""
+        return self.settings.speeds[wildcards.blade, wildcards.scene]
+
+    def extreme_speeds(self, wildcards: Any) -> list[float]:
+        """The slowest speed, and the fastest or the basis's, whichever is faster: what limits of the step are for."""
+        speeds = self.speeds(wildcards)
+        return [speeds[0], max(speeds[-1], self.settings.structure.maximum_speed_rad_s)]
+
+    def task(self, wildcards: Any) -> str:
+        """What one simulation does, as JSON text."""
+        chosen = self._scene(wildcards)
+        task = {
+            "scene": asdict(chosen.scene),
+            "choice": asdict(self.settings.march_choice(wildcards.scene, float(wildcards.speed))),
+            "results": chosen.results,
+            "kept": self.kept,
+        }
+        return json.dumps(task)
+
+    def choice_of_scene(self, wildcards: Any) -> dict[str, Any]:
+        """Numbers of the march at the highest speed of the basis."""
+        return asdict(self.settings.march_choice(wildcards.scene, self.settings.structure.maximum_speed_rad_s))
+
+    def scene(self, wildcards: Any) -> Any:
+        """The scene itself, which Snakemake does not compare."""
+        return self._scene(wildcards).scene
+
+    def described(self, wildcards: Any) -> str:
+        """The scene as a text, which re-runs a job when it changes."""
+        return repr(self._scene(wildcards).scene)
+
+    def results(self, wildcards: Any) -> tuple[str, ...]:
+        """What is wanted of a scene's simulations."""
+        return self._scene(wildcards).results
+
+    def with_stress(self, wildcards: Any) -> bool:
+        """Whether a scene's stress is wanted."""
+        return "stress" in self._scene(wildcards).results
+
+    def stress_history_speeds(self, wildcards: Any) -> tuple[float, ...]:
+        """Speeds (rad/s) of a scene whose stress is kept for every revolution."""
+        return self._scene(wildcards).stress_history_speeds
+
+    def priority(self, wildcards: Any) -> float:
+        """Of a blade's simulations, above 0 and up to 1: results should be complete one blade after another."""
+        blades = list(self.settings.blades)
+        return 1 - blades.index(wildcards.blade) / len(blades)
+
+    @property
+    def kept(self) -> dict[str, int]:
+        """How much of a run its file keeps."""
+        keys = ("spectrum_highest_order", "signal_revolutions", "wear_angles")
+        return {key: getattr(self.settings.fidelity.march, key) for key in keys}
+
+    @property
+    def kinds(self) -> list[str]:
+        """Kinds of datasets that this run ends in."""
+        return [kind for kind in KINDS if self.runs_with(kind)]
+
+    def runs_with(self, kind: str) -> list[tuple[str, str]]:
+        """Pairs of blade and scene that have this kind of result."""
+        scenes = [name for name, chosen in self.settings.scenes.items() if kind == KINDS[0] or kind in chosen.results]
+        return [(blade, scene) for blade in self.settings.blades for scene in scenes]
+
+    def runs(self, wildcards: Any) -> list[tuple[str, str]]:
+        """Pairs of blade and scene in one dataset."""
+        return self.runs_with(wildcards.kind)
+
+    def responses(self, wildcards: Any) -> list[str]:
+        """What one dataset is joined of."""
+        return [paths.fill(paths.RESPONSE, blade=blade, scene=scene) for blade, scene in self.runs(wildcards)]
+
+    @property
+    def figures(self) -> list[str]:
+        """Pictures of the sweep."""
+        of_blades = [paths.fill(paths.RESPONSE_FIGURE, blade=blade) for blade in self.settings.blades]
+        maps = [
+            paths.fill(paths.MAP_FIGURE, kind=kind, blade=blade, scene=scene)
+            for kind in MAPS
+            for blade, scene in self.runs_with(kind)
+        ]
+        return ["<results>/figures/response.png", *of_blades, *maps]
+
+    def _scene(self, wildcards: Any) -> Any:
+        return self.settings.scenes[wildcards.scene]

@@ -1,0 +1,92 @@
+"""The plan of the study `tradeoff`: one case for each value of each knob."""
+
+from __future__ import annotations
+
+from functools import cached_property
+from typing import Any
+
+from r37core.config import ConfigError, Settings, plain
+from r37core.config.studies import Tradeoff as TradeoffSection
+from r37core.contact.scene import Scene
+from r37core.speeds import exact_text
+
+from . import paths
+from .study_models import StudyModels
+
+OF_THE_MODEL = {"mesh_nodes": "nodes", "boundary_nodes": "boundary_nodes", "fixed_interface_modes": "fixed_interface_modes"}
+"""Knob -> part of a model's name, a number."""
+
+
+class Tradeoff:
+    """Plan of the study. Methods with `wildcards` are inputs and parameters of rules; ConfigError if there is no study."""
+
+    def __init__(self, settings: Settings):
+        self._settings = settings
+        self._models = StudyModels(settings)
+        given = settings.studies.tradeoff
+        knobs = given.knobs.given() if given else {}
+        self.values = {name: [text_of(value) for value in knob.values] for name, knob in knobs.items()}
+        self.references = {name: text_of(knob.reference) for name, knob in knobs.items()}
+
+    @cached_property
+    def section(self) -> TradeoffSection:
+        """The section of config.yaml."""
+        if self._settings.studies.tradeoff is None:
+            raise ConfigError("config.yaml: studies.tradeoff: missing; the study needs its knobs, as in the shipped file")
+        return self._settings.studies.tradeoff
+
+    def cases(self, wildcards: Any) -> list[str]:
+        """All cases."""
+        blade = self.section.blade
+        return [
+            paths.fill(paths.TRADEOFF_CASE, blade=blade, knob=knob, value=value)
+            for knob, values in self.values.items()
+            for value in values
+        ]
+
+    def model(self, wildcards: Any) -> dict[str, str]:
+        """Files of the model that a knob's value needs."""
+        knob, value, base = wildcards.knob, wildcards.value, self.section.base
+        if knob == "level":
+            model = self._models.of_level(value)
+        elif knob == "stress_region":
+            model = self._models.of_level(base, region=value)
+        elif knob in OF_THE_MODEL:
+            model = self._models.of_level(base, **{OF_THE_MODEL[knob]: int(value)})
+        else:
+            model = self._models.of_level(base)
+        return self._models.files(wildcards.blade, model)
+
+    @property
+    def _scene_names(self) -> list[str]:
+        return list(self._settings.scenes) if self.section.scenes == "all" else list(self.section.scenes)
+
+    def scenes(self, wildcards: Any) -> dict[str, Scene]:
+        """The scenes that are run."""
+        return {name: self._models.scene_entry(name).scene() for name in self._scene_names}
+
+    def described(self, wildcards: Any) -> list[str]:
+        """The scenes as texts, which re-run a case when they change."""
+        return [repr(scene) for scene in self.scenes(wildcards).values()]
+
+    def choices(self, wildcards: Any) -> dict[str, dict[str, Any]]:
+        """The march of every scene, before the knob is turned."""
+        level = wildcards.value if wildcards.knob == "level" else self.section.base
+        return {name: self._models.march(level) for name in self._scene_names}
+
+    def places(self, wildcards: Any) -> dict[str, Any]:
+        """Neighbouring speeds, as shares of the Campbell speed."""
+        return plain(self.section.places)
+
+    def engine_order(self, wildcards: Any) -> int:
+        """Whose crossing with 1B the speeds lie about."""
+        return self.section.engine_order
+
+    def provenance(self, wildcards: Any) -> dict[str, str]:
+        """Attributes of the study's dataset."""
+        return {"blade": self.section.blade, "base_level": self.section.base}
+
+
+def text_of(value: float | str) -> str:
+    """A knob's value as it stands in file names."""
+    return value if isinstance(value, str) else exact_text(value)

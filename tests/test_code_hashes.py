@@ -1,0 +1,127 @@
+"""Code hashes: what a rule's script imports and nothing else, without comments and docstrings."""
+
+import re
+import subprocess
+import sys
+
+import pytest
+
+from r37core.workflow import code as code_module
+from r37core.workflow.code import CodeHashes, fingerprint, imported_names
+
+SCRIPT = "from job import run\nfrom r37core.a import f\n"
+
+
+@pytest.fixture
+def tree(tmp_path):
+    """A script that imports a package in every way there is."""
+    files = {
+        "scripts/job.py": "import os\n",
+        "scripts/one.py": SCRIPT,
+        "src/r37core/__init__.py": "__version__ = '1'\n",
+        "src/r37core/a.py": "from .b.c import g\n\n\ndef f():\n    from r37core import late\n    return late, g\n",
+        "src/r37core/late.py": "import r37core.b.d as d\n",
+        "src/r37core/b/__init__.py": "",
+        "src/r37core/b/c.py": "from ..e import h as g\n",
+        "src/r37core/b/d.py": "x = 1\n",
+        "src/r37core/e.py": "from r37core.b import c\nh = 1\n",
+        "src/r37core/other.py": "y = 1\n",
+    }
+    for name, text in files.items():
+        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / name).write_text(text)
+    return tmp_path
+
+
+def hashes(tree):
+    for cached in (fingerprint, imported_names, code_module._tree, code_module.module_files):
+        cached.cache_clear()
+    return CodeHashes(tree / "src", tree / "scripts")
+
+
+def test_closure_follows_every_kind_of_import(tree):
+    found = {str(file.relative_to(tree)) for file in hashes(tree).closure("one")}
+    core = {"a.py", "late.py", "b/__init__.py", "b/c.py", "b/d.py", "e.py"}
+    assert found == {"scripts/one.py", "scripts/job.py", *(f"src/r37core/{name}" for name in core)}
+
+
+@pytest.mark.parametrize(
+    ("file", "old", "new", "counts"),
+    [
+        ("scripts/one.py", SCRIPT, '"""What it does."""\n\n' + SCRIPT + "# the end\n", False),
+        ("src/r37core/a.py", "    return late, g", '    """Docstring."""\n\n    return (late,\n        g)  # both', False),
+        ("src/r37core/b/d.py", "x = 1", "x = 1\n'''What x is.'''", False),
+        ("src/r37core/b/d.py", "x = 1", "x = 2", True),
+        ("src/r37core/b/d.py", "x = 1", "x = 1.0", True),
+        ("src/r37core/b/d.py", "x = 1", "y = 1", True),
+        ("src/r37core/b/d.py", "x = 1", "assert 1\nx = 1", True),
+        ("src/r37core/b/__init__.py", "", "z = 1\n", True),
+        ("src/r37core/e.py", "h = 1", "h = 'text'", True),
+        ("src/r37core/other.py", "y = 1", "y = 2", False),
+        ("src/r37core/__init__.py", "'1'", "'2'", False),
+    ],
+)
+def test_what_counts(tree, file, old, new, counts):
+    before = hashes(tree)("one")
+    text = (tree / file).read_text()
+    assert old in text
+    (tree / file).write_text(text.replace(old, new, 1))
+    assert (hashes(tree)("one") != before) == counts
+
+
+@pytest.fixture(scope="module")
+def rules(root):
+    """Rule -> (script, name given to code(...)), from the rules' files."""
+    text = "".join(file.read_text() for file in sorted((root / "workflow/rules").rglob("*.smk")))
+    found = {}
+    for block in re.split(r"^rule ", text, flags=re.MULTILINE)[1:]:
+        script = re.search(r'script:\s+"[./]*scripts/(\w+)\.py"', block)
+        if script:
+            found[block.split(":")[0]] = (script[1], re.findall(r'code=code\("(\w+)"\)', block))
+    return found
+
+
+def test_every_rule_has_the_code_of_its_script(rules):
+    assert len(rules) > 25
+    assert {rule: given for rule, (script, given) in rules.items() if given != [script]} == {}
+
+
+def test_every_rule_runs_again_for_the_modules_of_its_closure_and_no_other(root, rules, monkeypatch):
+    code = CodeHashes(root / "src", root / "workflow/scripts")
+    modules = [*(root / "src/r37core").rglob("*.py"), *(root / "workflow/scripts").glob("*.py")]
+    modules.remove(root / "src/r37core/__init__.py")
+    scripts = {script for script, _ in rules.values()}
+    before = {script: code(script) for script in scripts}
+    closures = {script: set(code.closure(script)) for script in scripts}
+    for edited in modules:
+        monkeypatch.setattr(
+            code_module, "fingerprint", lambda file, edited=edited: b"edited" if file == edited else fingerprint(file)
+        )
+        assert {script for script in scripts if code(script) != before[script]} == {
+            script for script in scripts if edited in closures[script]
+        }
+
+
+@pytest.mark.parametrize("script", ["simulate", "prepare_march", "response", "mesh", "summary", "validation"])
+def test_the_closure_has_all_that_python_loads(root, script):
+    lines = (root / f"workflow/scripts/{script}.py").read_text().splitlines()
+    imports = "\n".join(line for line in lines if re.match(r"(from|import) r37core", line))
+    listed = "print(*(m.__file__ for n, m in sys.modules.items() if n.startswith('r37core') and m.__file__), sep='\\n')"
+    done = subprocess.run(
+        [sys.executable, "-c", f"import sys\n{imports}\n{listed}"], capture_output=True, text=True, check=True
+    )
+    loaded = set(done.stdout.split()) - {str(root / "src/r37core/__init__.py")}
+    assert len(loaded) > 3
+    assert loaded <= {str(file) for file in CodeHashes(root / "src", root / "workflow/scripts").closure(script)}
+
+
+def test_stages_do_not_share_more_than_they_need(root):
+    """A new figure re-runs no simulation, a new march no mesh, and the models of the configuration neither."""
+    code = CodeHashes(root / "src", root / "workflow/scripts")
+    used = {
+        script: {file.parent.name for file in code.closure(script)} for script in ("mesh", "simulate", "response", "reading")
+    }
+    assert not {"march", "contact", "results", "figures", "studies", "config", "workflow"} & used["mesh"]
+    assert not {"mesh", "fem", "blade", "results", "figures", "studies", "config", "workflow"} & used["simulate"]
+    assert not {"figures", "studies", "config", "workflow"} & used["response"]
+    assert not {"config", "workflow"} & used["reading"]

@@ -1,0 +1,301 @@
+"""Configurations that cannot be meant: each ends in one message with file, line and key."""
+
+import re
+
+import numpy as np
+import pytest
+
+from r37core.config import ConfigError, Document, command_line_document, read_settings
+from r37core.config.schemas import MODELS
+from r37core.speeds import LARGEST_NUMBER, SpeedError, exact_text, expand_speeds
+from r37core.text_file import TextFileError
+from r37core.yaml_file import load_yaml
+
+
+def edit(file, old, new):
+    text = file.read_text()
+    assert old in text
+    file.write_text(text.replace(old, new, 1))
+
+
+def numbers(content, path=()):
+    """Path of every number, but not of truth values."""
+    if isinstance(content, bool):
+        return
+    if isinstance(content, int | float):
+        yield path
+    parts = content.items() if isinstance(content, dict) else enumerate(content) if isinstance(content, list) else ()
+    for key, value in parts:
+        yield from numbers(value, (*path, key))
+
+
+def with_value(content, path, value):
+    if not path:
+        return value
+    step, *rest = path
+    changed = list(content) if isinstance(content, list) else dict(content)
+    changed[step] = with_value(content[step], rest, value)
+    return changed
+
+
+@pytest.mark.parametrize("name", MODELS)
+@pytest.mark.parametrize(
+    "value",
+    [float("nan"), float("inf"), -float("inf"), 1e300, pytest.param(10**399, id="400 digits"), "text", None, True, [], {}],
+)
+def test_no_number_may_be_anything_else(root, name, value):
+    """Every number of every file, replaced by something that is none or by one out of all bounds."""
+    content = load_yaml(root / f"config/{name}.yaml")
+    for path in numbers(content):
+        with pytest.raises(ConfigError, match=r"^a\.yaml: .*: (found|at least)"):
+            Document("a.yaml", with_value(content, path, value)).check(MODELS[name])
+
+
+CONFIG_REFUSALS = [
+    (
+        "speeds_for: []",
+        "speeds_for: [{ blades: [Reff], speeds: [900] }]",
+        r"speeds_for\.0\.blades: found 'Reff'; allowed: Ref, L50",
+    ),
+    (
+        "speeds_for: []",
+        "speeds_for: [{ scenes: [dirct], speeds: [900] }]",
+        r"speeds_for\.0\.scenes: found 'dirct'; allowed: abrad",
+    ),
+    ("speeds_for: []", "speeds_for: [{ blades: [Ref, Ref], speeds: [900] }]", r"speeds_for\.0\.blades\.1: found 'Ref' twice"),
+    ("    blade: Ref", "    blade: Reff", r"studies\.tradeoff\.blade: found 'Reff'; allowed: Ref, L50"),
+    ("    base: standard", "    base: standart", r"studies\.tradeoff\.base: found 'standart'; allowed: draft"),
+    (
+        "[draft, standard, paper, fine, reference], ",
+        "[draft, refrence, reference], ",
+        r"knobs\.level: found 'refrence'; allowed: draft",
+    ),
+    (
+        "      level: {",
+        "      levell: {",
+        r"knobs: found unknown key levell; allowed keys: level, central_difference_step.*did you mean level",
+    ),
+    ("      bars: {", "      barss: {", r"knobs: found unknown key barss"),
+    ("bars: { values: [300, 1000, 3000, 10000, 30000, 100000], reference: 100000 }", "bars:", r"knobs\.bars: found nothing"),
+    (
+        "[2, 4, 8, 15], reference: 15",
+        "[2, 4, 8], reference: 15",
+        r"boundary_nodes\.reference: found 15; allowed: one of the values, 2, 4, 8",
+    ),
+    ("[2, 4, 8, 15]", "[2, 4, 4, 15]", r"boundary_nodes\.values\.2: found 4 twice"),
+    ("[2, 4, 8, 15]", "[2, 4.5, 8, 15]", r"boundary_nodes\.values\.1: found 4\.5; allowed: integer"),
+    ("[2, 4, 8, 15]", "[0, 4, 8, 15]", r"boundary_nodes\.values\.0: found 0; allowed: integer, at least 1"),
+    ("[2, 4, 8, 15]", "[]", r"boundary_nodes\.values: found \[\]; allowed: list of integer, entries: at least 1"),
+    (
+        "stress_region: { values: [submesh, whole]",
+        "stress_region: { values: [submesh, everywhere]",
+        r"found 'everywhere'; allowed: one of submesh, whole",
+    ),
+    ("stop: 2000 }", "stop: .inf }", r"speeds\.0\.stop: found inf; allowed: number, at least 0\.001"),
+    ("stop: 2000 }", "stop: 1e12 }", r"speeds\.0\.stop: found 1000000000000\.0; allowed: .*at most 1e\+06"),
+    (
+        "stop: 2000 }",
+        "stop: 2000, step: 1e-3 }",
+        r"speeds: found 1\.25e\+06 speeds from 750 to 2000 .*; allowed: at most 100000",
+    ),
+    (
+        "stop: 2000 }",
+        "stop: 2000, step: 0.02 }",
+        r"speeds: found 875014 simulations of 7 blades in 2 scenes; allowed: at most 200000",
+    ),
+    ("start: 750, ", "start: 0, ", r"speeds\.0\.start: found 0; allowed: number, at least 0\.001"),
+    ("stop: 2000 }", "stop: 700 }", r"speeds\.0: found a range from 750 to 700; allowed: stop not below start"),
+    ("blades: all", "blades: [Ref, Ref]", r"blades\.1: found 'Ref' twice; allowed: each once"),
+    ("blades: all", "blades: [50]", r"blades\.0: found 50; allowed: string"),
+    ("blades: all", "blades:", r"blades: found nothing"),
+    ("blades: all", "blades: Ref", r"blades: found 'Ref'; allowed: all or list of string"),
+    ("blades_file: config/blades.yaml", "blades_file: ''", r"blades_file: found ''; allowed: string, characters: at least 1"),
+    ("blades_file: config/blades.yaml", "blades_file: ' '", r"blades_file: found ' '"),
+    ("tolerance: 0.05", "tolerance: nan", r"tolerance: found 'nan'; allowed: number"),
+    ("tolerance: 0.05", "tolerance: .nan", r"tolerance: found nan; allowed: number"),
+    ("    corners: true", "    corners: 1", r"structure\.boundary\.corners: found 1; allowed: boolean"),
+    ("fidelity: standard", "fidelity: standard\nfidelity: draft", r"the key 'fidelity' is given twice"),
+    ("fidelity: standard", "fidelity:\tstandard", r"found a tab; indent with blanks"),
+    (
+        "fidelity: standard",
+        "<<<<<<< ours\nfidelity: standard\n=======\nfidelity: draft\n>>>>>>> theirs",
+        r"found a merge marker",
+    ),
+    ("fidelity: standard", "yes: standard", r"found the key 'yes', which is true or false in YAML"),
+]
+
+
+@pytest.mark.parametrize(("old", "new", "message"), CONFIG_REFUSALS)
+def test_what_is_refused_in_config_yaml(config_copy, old, new, message):
+    edit(config_copy / "config/config.yaml", old, new)
+    with pytest.raises(ConfigError, match=rf"^config/config\.yaml:\d+: .*{message}"):
+        read_settings(config_copy)
+
+
+BLADE_REFUSALS = [
+    ("50: {base: Ref}", r"found the key '50', which is a number in YAML; allowed: a name"),
+    ("'50': {base: Ref}", r"50: found '50'; allowed: a name of .* that is neither 'all' nor a number"),
+    ("'1e5': {base: Ref}", r"found '1e5'; allowed: a name"),
+    ("all: {base: Ref}", r"all: found 'all'; allowed: a name"),
+    ("A__b: {base: Ref}", r"A__b: found 'A__b'; allowed: a name of letters, digits, hyphens and single underscores"),
+    ("A_: {base: Ref}", r"A_: found 'A_'"),
+    ("A b: {base: Ref}", r"A b: found 'A b'"),
+    ("../A: {base: Ref}", r"\.\./A: found '\.\./A'"),
+    ("figures: {base: Ref}", r"figures: found the blade 'figures'; allowed: another name"),
+    ("ref: {base: Ref}", r"ref: found 'ref' beside 'Ref'; allowed: names that differ in more than capitals"),
+    ("X: {base: Ref, stacking_table: ''}", r"X\.stacking_table: found ''; allowed: string"),
+    ("X: {base: Ref, stacking_table: .}", r"X\.stacking_table: \. cannot be read: Is a directory"),
+    ("X: {base: Ref, profiles: a.csv}", r"X: found both profiles and base; allowed: one of them"),
+    ("X: null", r"X: found nothing; allowed: mapping with the keys profiles, base"),
+    ("X: &x {base: Ref, <<: *x}", r"not readable as YAML"),
+    ("X: {base: Ref, material: {density_kg_m3: 1e30}}", r"X\.material\.density_kg_m3: found 1e\+30; allowed: .*at most 100000"),
+    (
+        "X: {base: Ref, sweep_lean: [{span_percent: 0, sweep_cm: 0, lean_deg: 0}, "
+        "{span_percent: 100, sweep_cm: 1e9, lean_deg: 0}]}",
+        r"X\.sweep_lean\.1\.sweep_cm: found 1000000000\.0; allowed: number, at least -100",
+    ),
+]
+
+
+@pytest.mark.parametrize(("text", "message"), BLADE_REFUSALS)
+def test_what_is_refused_in_blades_yaml(config_copy, text, message):
+    with open(config_copy / "config/blades.yaml", "a") as stream:
+        stream.write("\n" + text + "\n")
+    with pytest.raises(ConfigError, match=rf"^config/blades\.yaml:\d+: .*{message}"):
+        read_settings(config_copy)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        (
+            "results: [spectrum, signal, stress, wear, energy]",
+            "results: [stress, stress]",
+            r"abradable\.results\.1: found stress twice",
+        ),
+        ("abradable:", "abradable__x:", r"abradable__x: found 'abradable__x'"),
+        ("    bars: 10000", "    bars: 10_000", r"lining\.bars: found '10_000'; allowed: integer"),
+    ],
+)
+def test_what_is_refused_in_scenes_yaml(config_copy, old, new, message):
+    edit(config_copy / "config/scenes.yaml", old, new)
+    with pytest.raises(ConfigError, match=rf"^config/scenes\.yaml:\d+: .*{message}"):
+        read_settings(config_copy)
+
+
+def test_a_run_that_would_not_fit_in_memory_is_refused(config_copy):
+    edit(config_copy / "config/fidelity.yaml", "revolutions: 50,", "revolutions: 20000, samples_per_stress_instant: 10000,")
+    with pytest.raises(
+        ConfigError, match=r"fidelity\.yaml:\d+: draft\.march\.revolutions: found 20000 of 620000 samples, .* GiB"
+    ):
+        read_settings(config_copy)
+
+
+@pytest.mark.parametrize("name", ["config/config.yaml", "config/blades.yaml", "config/scenes.yaml", "config/fidelity.yaml"])
+def test_texts_that_are_not_utf8(config_copy, name):
+    file = config_copy / name
+    text = file.read_text()
+    file.write_bytes(b"\xef\xbb\xbf" + text.encode())
+    read_settings(config_copy)
+    file.write_bytes(("# one\n# größe\n" + text).encode("latin-1"))
+    with pytest.raises(ConfigError, match=rf"^{re.escape(name)}:2: found the byte 0xf6, which is not UTF-8"):
+        read_settings(config_copy)
+    file.write_bytes(text.encode("utf-16"))
+    with pytest.raises(ConfigError, match=rf"^{re.escape(name)}:1: found UTF-16 or binary data"):
+        read_settings(config_copy)
+    file.write_text("")
+    with pytest.raises(ConfigError, match=rf"^{re.escape(name)}:1: the file is empty"):
+        read_settings(config_copy)
+    file.write_text("[1, 2]\n")
+    with pytest.raises(ConfigError, match=rf"^{re.escape(name)}:1: top level: found \[1, 2\]; allowed: (mapping|object)"):
+        read_settings(config_copy)
+
+
+TABLES = ["config/profiles/rotor37.csv", "config/stacking/rotor37.csv"]
+
+
+@pytest.mark.parametrize("name", TABLES)
+def test_tables_as_spreadsheets_write_them(config_copy, name):
+    before = read_settings(config_copy).blades
+    file = config_copy / name
+    text = file.read_text()
+    file.write_bytes(b"\xef\xbb\xbf" + text.replace(",", ", ").replace("\n", " \r\n").encode())
+    assert read_settings(config_copy).blades == before
+
+
+@pytest.mark.parametrize("name", TABLES)
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        (lambda text: text.replace("\n", "\n<<<<<<< HEAD\n", 1), r":2: blade \w+: found a merge marker"),
+        (lambda text: text.replace(",", ";"), r": blade \w+: line 1: the table lacks the columns .* separated by commas"),
+        (
+            lambda text: text.replace("\n", ",7\n").replace(",7\n", "\n", 1),
+            r": blade \w+: line 2: the row has more or fewer cells",
+        ),
+        (lambda text: text.replace("\n", "\n\x00", 1), r":1: blade \w+: found UTF-16 or binary data"),
+        (lambda text: "", r": blade \w+: line 1: the table lacks the columns"),
+    ],
+)
+def test_tables_that_cannot_be_read(config_copy, name, change, message):
+    file = config_copy / name
+    file.write_text(change(file.read_text()))
+    with pytest.raises(ConfigError, match=rf"^{re.escape(name)}{message}"):
+        read_settings(config_copy)
+
+
+def test_numbers_are_read_alike_everywhere(tmp_path):
+    file = tmp_path / "a.yaml"
+    file.write_text("[1e-1, 010, .5, -3., 1E+3, 12:30, 1_000, 0x10, 2020-01-01, +7]")
+    assert load_yaml(file) == [0.1, 10, 0.5, -3.0, 1000.0, "12:30", "1_000", "0x10", "2020-01-01", 7]
+
+
+@pytest.mark.parametrize("text", ["a: [" * 2000, "a: \x07", "a: &a [*a]", "a: 1\n---\nb: 2", "a: !!python/name:os.x"])
+def test_odd_yaml_ends_in_one_line(tmp_path, text):
+    file = tmp_path / "a.yaml"
+    file.write_text(text)
+    with pytest.raises(TextFileError) as caught:
+        load_yaml(file)
+    assert "\n" not in str(caught.value)
+    assert caught.value.line >= 1
+
+
+def test_aliases_that_multiply_are_refused(tmp_path):
+    file = tmp_path / "a.yaml"
+    file.write_text("\n".join(["a0: &a0 [1, 1]", *(f"a{i}: &a{i} [*a{i - 1}, *a{i - 1}]" for i in range(1, 40))]))
+    with pytest.raises(TextFileError, match="more than 100000 values"):
+        load_yaml(file)
+
+
+def test_lists_of_numbers_on_the_command_line(config_copy):
+    """Snakemake hands them on as texts."""
+    given = {"speeds": ["900", "1e3", {"start": "1100", "stop": "1200", "step": "50"}], "blades": ["Ref"], "tolerance": 0.1}
+    settings = read_settings(config_copy, command_line_document(given))
+    assert settings.speeds["Ref", "direct"] == (900.0, 1000.0, 1100.0, 1150.0, 1200.0)
+    for value, found in (("nan", "nan"), ("inf", "inf"), ("abc", "abc")):
+        with pytest.raises(ConfigError, match=rf"^--config: speeds\.0: found '?{found}'?; allowed: number"):
+            read_settings(config_copy, command_line_document({"speeds": [value]}))
+    with pytest.raises(ConfigError, match=r"^--config: speeds: found nothing"):
+        read_settings(config_copy, command_line_document({"speeds": None}))
+
+
+def test_the_number_of_speeds_is_bounded_before_any_is_made():
+    with pytest.raises(SpeedError, match="found 1e\\+12 speeds from 1 to 1e\\+12"):
+        expand_speeds([{"start": 1.0, "stop": 1e12, "step": 1.0}], 1.0)
+    with pytest.raises(SpeedError, match="allowed: at most"):
+        expand_speeds([{"start": 1.0, "stop": 1e300, "step": 1e-300}], 1.0)
+    half = 0.75 * LARGEST_NUMBER
+    with pytest.raises(SpeedError, match="allowed: at most"):
+        expand_speeds([{"start": 1.0, "stop": half}, {"start": half + 1.0, "stop": 2 * half}], 1.0)
+
+
+def test_speeds_stand_exactly_in_file_names():
+    near = 1000.0
+    while (near := np.nextafter(near, 2000.0)) < 1000.0000000001:
+        break
+    for speed in (750.0, 1000.5, 0.1, 1e-3, 1e6, 123456.123456789, near, 1000.0 / 3.0):
+        text = exact_text(speed)
+        assert float(text) == speed
+        assert re.fullmatch(r"[0-9.]+", text)
+    assert exact_text(750.0) == "750"
+    assert exact_text(near) != exact_text(1000.0)

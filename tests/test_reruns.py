@@ -1,0 +1,206 @@
+"""What runs again after a change: exactly what the change needs. Jobs only touch their outputs here."""
+
+import re
+import shutil
+
+import pytest
+from stubbed_runs import copy_stubbed, planned_outputs
+from workflow_runs import snakemake
+
+BLADES, SCENES, SPEEDS = ("Ref", "CS100"), ("abradable", "direct"), ("750", "1150", "1550")
+
+# what follows any change of a simulation
+DATASETS = {"sweep_dataset", "summary", "response_figure", "response_overview", "map_figure"}
+STRUCTURE = {"geometry", "mesh", "abaqus_deck", "matrices", "reduced_model", "campbell_of_blade", "campbell_figure"}
+OF_ALL_BLADES = {"campbell_of_all", "campbell_overview", "blade_shapes_figure"}
+
+
+@pytest.fixture(scope="module")
+def finished(root, tmp_path_factory):
+    folder = tmp_path_factory.mktemp("stubbed")
+    copy_stubbed(root, folder)
+    snakemake(folder, "all_blades", "--cores", "2")
+    return folder
+
+
+@pytest.fixture
+def project(finished, tmp_path):
+    shutil.copytree(finished, tmp_path / "project", copy_function=shutil.copy2)
+    return tmp_path / "project"
+
+
+def edit(project, name, old, new):
+    file = project / "config" / name
+    text = file.read_text()
+    assert old in text
+    file.write_text(text.replace(old, new, 1))
+
+
+def runs(speeds=SPEEDS, blades=BLADES, scenes=SCENES):
+    return {f"{blade}/{scene}/speed_{speed}.npz" for blade in blades for scene in scenes for speed in speeds}
+
+
+def per_run(file, blades=BLADES, scenes=SCENES):
+    return {f"{blade}/{scene}/{file}" for blade in blades for scene in scenes}
+
+
+def test_nothing_after_a_run(project):
+    assert planned_outputs(project) == {}
+
+
+@pytest.mark.parametrize(
+    ("speeds", "added"),
+    [
+        ("[{ start: 750, stop: 1600 }, 1000.5]", {"1000.5"}),
+        ("[{ start: 350, stop: 1600 }]", {"350"}),
+        ("[{ start: 750, stop: 2400 }]", {"1950", "2350"}),
+        ("[750, 750.0000000001, 1150, 1550]", {"750.0000000001"}),
+        ("[{ start: 750, stop: 1600 }, 100, 3000]", {"100", "3000"}),
+    ],
+)
+def test_an_added_speed_runs_alone(project, speeds, added):
+    edit(project, "config.yaml", "speeds: # numbers", f"speeds: {speeds}\n# numbers")
+    edit(project, "config.yaml", "  - { start: 750, stop: 1600 }\n", "")
+    jobs = planned_outputs(project)
+    assert jobs.pop("simulate") == runs(added)
+    assert jobs.pop("response") == per_run("response.nc")
+    # the limits of the step are checked at the new ends
+    outside = min(map(float, added)) < 750 or max(map(float, added)) > 2000
+    assert jobs.pop("prepare_march", set()) == (per_run("march.stamp") if outside else set())
+    assert set(jobs) == DATASETS
+
+
+def test_a_removed_speed_runs_no_simulation(project):
+    edit(project, "config.yaml", "stop: 1600 }", "stop: 1200 }")
+    jobs = planned_outputs(project)
+    assert set(jobs) == DATASETS | {"response"}
+
+
+def test_an_added_blade_runs_its_own_jobs(project):
+    edit(project, "config.yaml", "[Ref, CS100]", "[Ref, CS100, L50]")
+    jobs = planned_outputs(project)
+    assert jobs.pop("simulate") == runs(blades=["L50"])
+    for rule in STRUCTURE | {"response", "prepare_march", "contact_model"}:
+        assert all("L50" in file for file in jobs.pop(rule)), rule
+    assert set(jobs) == DATASETS | OF_ALL_BLADES
+
+
+def test_a_removed_blade_runs_no_simulation(project):
+    edit(project, "config.yaml", "[Ref, CS100]", "[Ref]")
+    assert set(planned_outputs(project)) == DATASETS | OF_ALL_BLADES
+
+
+def test_a_renamed_scene_runs_its_own_jobs(project):
+    edit(project, "scenes.yaml", "direct:", "rigid:")
+    edit(project, "config.yaml", "scenes: [abradable, direct]", "scenes: [abradable, rigid]")
+    jobs = planned_outputs(project)
+    assert jobs.pop("simulate") == runs(scenes=["rigid"])
+    assert jobs.pop("response") == per_run("response.nc", scenes=["rigid"])
+    assert jobs.pop("prepare_march") == per_run("march.stamp", scenes=["rigid"])
+    assert set(jobs) == DATASETS
+
+
+def test_friction_runs_its_scene(project):
+    file = project / "config/scenes.yaml"
+    before, direct = file.read_text().split("direct:")
+    file.write_text(before + "direct:" + direct.replace("coefficient: 0.15", "coefficient: 0.2"))
+    jobs = planned_outputs(project)
+    assert jobs.pop("simulate") == runs(scenes=["direct"])
+    assert jobs.pop("response") == per_run("response.nc", scenes=["direct"])
+    assert jobs.pop("prepare_march") == per_run("march.stamp", scenes=["direct"])
+    assert set(jobs) == DATASETS
+
+
+def test_a_wanted_result_runs_its_scene(project):
+    file = project / "config/scenes.yaml"
+    before, direct = file.read_text().split("direct:")
+    file.write_text(before + "direct:" + direct.replace("spectrum, signal, ", "spectrum, "))
+    jobs = planned_outputs(project)
+    assert jobs.pop("simulate") == runs(scenes=["direct"])
+    assert not (STRUCTURE | {"contact_model"}) & set(jobs)
+
+
+def test_a_step_keeps_the_structure_and_back_keeps_all(project):
+    edit(project, "fidelity.yaml", "time_step_s: 2.0e-7, revolutions: 8", "time_step_s: 1.0e-7, revolutions: 8")
+    jobs = planned_outputs(project)
+    assert jobs.pop("simulate") == runs()
+    assert not (STRUCTURE | {"contact_model"} | OF_ALL_BLADES) & set(jobs)
+    edit(project, "fidelity.yaml", "time_step_s: 1.0e-7, revolutions: 8", "time_step_s: 2.0e-7, revolutions: 8")
+    assert planned_outputs(project) == {}
+
+
+def test_another_level_runs_what_differs_and_back_keeps_all(project):
+    """A level with the same mesh and reduction, then one with another mesh, then the first again."""
+    with open(project / "config/fidelity.yaml", "a") as stream:
+        stream.write(
+            "same_mesh:\n  mesh: { nodes: 1500, layers: 1, tip_elements: 14 }\n  reduction: { fixed_interface_modes: 10 }\n"
+            "  march: { time_step_s: 1.0e-7, revolutions: 8, speed_step_rad_s: 400 }\n"
+        )
+    jobs = planned_outputs(project, "all_blades", "--config", "fidelity=same_mesh")
+    assert jobs.pop("simulate") == runs()
+    # the Campbell diagrams of all blades are gathered again: their file names the level
+    assert not (STRUCTURE | {"contact_model"}) & set(jobs)
+    jobs = planned_outputs(project, "all_blades", "--config", "fidelity=draft")
+    assert jobs["mesh"] == {f"{blade}/mesh.msh" for blade in BLADES}
+    assert "geometry" not in jobs
+    assert planned_outputs(project) == {}
+
+
+def test_editing_one_blade_runs_that_blade(project):
+    file = project / "config/stacking/rotor37.csv"
+    file.write_text(file.read_text().replace("CS100,100,-1.16,4.89", "CS100,100,-1.20,4.89"))
+    jobs = planned_outputs(project)
+    assert jobs["geometry"] == {"CS100/geometry.nc"}
+    assert jobs["simulate"] == runs(blades=["CS100"])
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "kept"),
+    [
+        ("density_kg_m3: 8000.0", "density_kg_m3: 8001.0", {"geometry", "mesh"}),
+        ("yield_stress_pa: 1.38e+9", "yield_stress_pa: 1.39e+9", STRUCTURE | {"contact_model", "simulate", "prepare_march"}),
+    ],
+)
+def test_a_material_runs_what_depends_on_it(project, old, new, kept):
+    edit(project, "blades.yaml", old, new)
+    jobs = planned_outputs(project)
+    assert "response" in jobs
+    assert not kept & set(jobs)
+
+
+def test_a_rotation_option_keeps_meshes_and_matrices(project):
+    edit(project, "config.yaml", "spin_softening: false", "spin_softening: true")
+    jobs = planned_outputs(project)
+    assert jobs["reduced_model"] == {f"{blade}/rom_pressure_edge.nc" for blade in BLADES}
+    assert not {"geometry", "mesh", "matrices", "abaqus_deck"} & set(jobs)
+
+
+def test_a_stress_history_runs_its_speed(project):
+    with open(project / "config/scenes.yaml", "a") as stream:
+        stream.write("  stress_history_speeds_rad_s: [1150]\n")
+    assert planned_outputs(project)["simulate"] == runs(["1150"], scenes=["direct"])
+
+
+@pytest.mark.parametrize(
+    ("module", "rules"),
+    [
+        ("march/simulate.py", {"prepare_march", "simulate"}),
+        ("mesh/generate.py", {"mesh"}),
+        ("results/interactions.py", {"summary"}),
+        ("figures/maps.py", {"map_figure"}),
+        ("studies/growth.py", set()),
+        ("config/load.py", set()),
+        ("workflow/sweep.py", set()),
+    ],
+)
+def test_an_edited_module_runs_the_rules_that_import_it(project, module, rules):
+    """A comment runs nothing, a statement the rules that have the module in their closure."""
+    file = project / "src/r37core" / module
+    text = file.read_text()
+    file.write_text(text + "\n# the end\n")
+    assert planned_outputs(project) == {}
+    file.write_text(text + "\nEDITED = True\n")
+    reasons = snakemake(project, "all_blades", "--cores", "1", "--dry-run")
+    blocks = [block for block in re.split(r"\n\[", reasons) if "Params have changed" in block or "param" in block.lower()]
+    changed = {re.search(r"^(?:local)?rule (\w+):", block, re.MULTILINE)[1] for block in blocks if "reason:" in block}
+    assert changed == rules
