@@ -184,7 +184,7 @@ def test_what_is_refused_in_scenes_yaml(config_copy, old, new, message):
 
 
 def test_a_run_that_would_not_fit_in_memory_is_refused(config_copy):
-    edit(config_copy / "config/fidelity.yaml", "revolutions: 50,", "revolutions: 20000, samples_per_stress_instant: 10000,")
+    edit(config_copy / "config/fidelity.yaml", "revolutions: 100,", "revolutions: 20000, samples_per_stress_instant: 10000,")
     with pytest.raises(
         ConfigError, match=r"fidelity\.yaml:\d+: draft\.march\.revolutions: found 20000 of 620000 samples, .* GiB"
     ):
