@@ -14,20 +14,23 @@ from r37core.studies.reading_table import readings_table
 from r37core.studies.validation import reading_checks, structure_checks, survey_checks
 
 
+def grouped(names, files):
+    found = {}
+    for (group, name), file in zip(names, files, strict=True):
+        found.setdefault(group, {})[name] = read_dataset(file)
+    return found
+
+
 def main(snakemake):
     params, given, made = snakemake.params, snakemake.input, snakemake.output
-    runs = {}
-    for (reading, place), file in zip(params.runs, given.runs, strict=True):
-        runs.setdefault(reading, {})[place] = read_dataset(file)
-    meshes = {}
-    for (blade, mesh), file in zip(params.campbells, given.campbells, strict=True):
-        meshes.setdefault(mesh, {})[blade] = read_dataset(file)
+    runs, models = grouped(params.runs, given.runs), grouped(params.campbells, given.campbells)
+    level = {blade: meshes["level"] for blade, meshes in models.items() if "level" in meshes}
     shipped, survey = runs[SHIPPED], runs[SURVEY]
-    checks = structure_checks(read_dataset(given.geometry), meshes["level"]) + reading_checks(shipped, params.yield_stress)
+    checks = structure_checks(read_dataset(given.geometry), level) + reading_checks(shipped, params.yield_stress)
     checks += survey_checks(survey, shipped, params.yield_stress)
     others = {name: reading_checks(runs[name], params.yield_stress) for name in CONVERGENCE}
     for nodes in params.meshes:
-        others[f"mesh_{nodes}"] += structure_checks(None, meshes[str(nodes)])
+        others[f"mesh_{nodes}"] += structure_checks(None, {"Ref": models["Ref"][str(nodes)]})
     write_text(validation_table(checks, others), made.validation)
     turned = {name: runs[name] for name in (SHIPPED, *TURNED)}
     write_text(readings_table(turned, params.yield_stress), made.readings)
@@ -36,8 +39,8 @@ def main(snakemake):
     save(draw_blades(shipped), made.blades)
     save(draw_stress(shipped, params.yield_stress), made.stress)
     save(draw_histories(shipped, params.yield_stress), made.histories)
-    for place, file in (("Ref_lined", made.spectrum_lined), ("Ref_rigid", made.spectrum_rigid)):
-        save(draw_spectral_map(survey[place], meshes["level"]["Ref"], place.replace("_", " ")), file)
+    save(draw_spectral_map(survey["Ref_lined"], level["Ref"], "Ref lined"), made.spectrum_lined)
+    save(draw_spectral_map(survey["Ref_rigid"], level["Ref"], "Ref rigid"), made.spectrum_rigid)
 
 
 run(snakemake, main)
