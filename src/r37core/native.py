@@ -11,10 +11,11 @@ import hashlib
 import os
 import tempfile
 from collections.abc import Callable, Iterable
-from importlib.metadata import version
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
+import llvmlite
 import llvmlite.binding as llvm
 
 _PACKAGE = Path(__file__).parent
@@ -41,7 +42,7 @@ def cached_object(name: str, sources: Iterable[str], about: object, build: Calla
     `sources`: files of the package that it is made from; `about`: what else it depends on, told apart by its repr. The
     compiler's versions and the processor are taken along.
     """
-    key = hashlib.sha256(repr((name, about, version("numba"), version("llvmlite"), processor())).encode())
+    key = hashlib.sha256(repr((name, about, _numba_version(), llvmlite.__version__, processor())).encode())
     for source in sources:
         key.update((_PACKAGE / source).read_bytes())
     file = _cache() / f"{name}-{key.hexdigest()[:16]}.o"
@@ -77,6 +78,12 @@ def load_function(code: bytes, name: str, result: Any, *arguments: Any) -> Calla
     function = ctypes.CFUNCTYPE(result, *arguments)(engine.get_function_address(name))
     function.engine = engine  # type: ignore[attr-defined]  # the code lives as long as its engine
     return function
+
+
+def _numba_version() -> str:
+    """What numba says of its version, without importing it, nor importlib.metadata, which takes as long as all of this."""
+    spec = find_spec("numba")
+    return "" if spec is None or spec.origin is None else Path(spec.origin).with_name("_version.py").read_text(encoding="utf-8")
 
 
 def _start_llvm() -> None:
