@@ -9,9 +9,9 @@ from r37core.figures.style import save
 from r37core.figures.validation import draw_blades, draw_histories, draw_reference, draw_stress
 from r37core.io import write_text
 from r37core.studies.check import validation_table
-from r37core.studies.reading_list import CONVERGENCE, SHIPPED, SURVEY, TURNED
+from r37core.studies.reading_list import SHIPPED, SURVEY, TURNED
 from r37core.studies.reading_table import readings_table
-from r37core.studies.validation import reading_checks, structure_checks, survey_checks
+from r37core.studies.validation import convergence_checks, shipped_checks
 
 
 def grouped(names, files):
@@ -22,25 +22,19 @@ def grouped(names, files):
 
 
 def main(snakemake):
-    params, given, made = snakemake.params, snakemake.input, snakemake.output
-    runs, models = grouped(params.runs, given.runs), grouped(params.campbells, given.campbells)
-    level = {blade: meshes["level"] for blade, meshes in models.items() if "level" in meshes}
-    shipped, survey = runs[SHIPPED], runs[SURVEY]
-    checks = structure_checks(read_dataset(given.geometry), level) + reading_checks(shipped, params.yield_stress)
-    checks += survey_checks(survey, shipped, params.yield_stress)
-    others = {name: reading_checks(runs[name], params.yield_stress) for name in CONVERGENCE}
-    for nodes in params.meshes:
-        others[f"mesh_{nodes}"] += structure_checks(None, {"Ref": models["Ref"][str(nodes)]})
-    write_text(validation_table(checks, others), made.validation)
-    turned = {name: runs[name] for name in (SHIPPED, *TURNED)}
-    write_text(readings_table(turned, params.yield_stress), made.readings)
-    save(draw_readings(turned), made.picture)
-    save(draw_reference(survey, shipped), made.reference)
-    save(draw_blades(shipped), made.blades)
-    save(draw_stress(shipped, params.yield_stress), made.stress)
-    save(draw_histories(shipped, params.yield_stress), made.histories)
-    save(draw_spectral_map(survey["Ref_lined"], level["Ref"], "Ref lined"), made.spectrum_lined)
-    save(draw_spectral_map(survey["Ref_rigid"], level["Ref"], "Ref rigid"), made.spectrum_rigid)
+    params, made, limit = snakemake.params, snakemake.output, snakemake.params.yield_stress
+    geometry = read_dataset(snakemake.input.geometry)
+    runs, campbells = grouped(params.runs, snakemake.input.runs), grouped(params.campbells, snakemake.input.campbells)
+    shipped, survey, turned = runs[SHIPPED], runs[SURVEY], {name: runs[name] for name in (SHIPPED, *TURNED)}
+    checks = shipped_checks(geometry, campbells, runs, limit)
+    write_text(validation_table(checks, convergence_checks(campbells, runs, limit)), made.validation)
+    write_text(readings_table(turned, limit), made.readings)
+    pictures = {"picture": draw_readings(turned), "reference": draw_reference(survey, shipped), "blades": draw_blades(shipped)}
+    pictures |= {"stress": draw_stress(shipped, limit), "histories": draw_histories(shipped, limit)}
+    for place in ("Ref_lined", "Ref_rigid"):
+        pictures[f"spectrum_{place[4:]}"] = draw_spectral_map(survey[place], campbells["Ref"]["level"], place)
+    for name, figure in pictures.items():
+        save(figure, getattr(made, name))
 
 
 run(snakemake, main)

@@ -34,6 +34,7 @@ from .published import (
     VOLUME_CM3,
     WIDTH_ABOVE_YIELD,
 )
+from .reading_list import CONVERGENCE, SHIPPED, SURVEY
 from .reading_places import DIRECT, FINE_WINDOW
 
 Runs = Mapping[str, xr.Dataset]
@@ -44,6 +45,25 @@ _COUNTED_WITHIN = 0.2
 
 _AT = INTERACTIONS[0].peak
 _MAIN = INTERACTIONS[0].name
+
+
+def shipped_checks(
+    geometry: xr.Dataset, campbells: Mapping[str, Runs], runs: Mapping[str, Runs], yield_stress: float
+) -> list[Check]:
+    """All checks of the shipped reading; `campbells` by blade and mesh (`level`: its own), `runs` by reading and place."""
+    level = {blade: meshes["level"] for blade, meshes in campbells.items() if "level" in meshes}
+    checks = structure_checks(geometry, level) + reading_checks(runs[SHIPPED], yield_stress)
+    return checks + survey_checks(runs[SURVEY], runs[SHIPPED], yield_stress)
+
+
+def convergence_checks(campbells: Mapping[str, Runs], runs: Mapping[str, Runs], yield_stress: float) -> dict[str, list[Check]]:
+    """The same checks, as far as they were run, with one numerical choice changed."""
+    checks = {}
+    for name in CONVERGENCE:
+        mesh = name.removeprefix("mesh_")
+        structure = {REFERENCE: campbells[REFERENCE][mesh]} if mesh in campbells[REFERENCE] else {}
+        checks[name] = reading_checks(runs[name], yield_stress) + structure_checks(None, structure)
+    return checks
 
 
 def reading_checks(runs: Runs, yield_stress: float) -> list[Check]:

@@ -1,6 +1,6 @@
 # The study `readings`: what the benchmark leaves open, and its published numbers beside ours.
 from r37core.studies.reading_list import READINGS
-from r37core.workflow.readings import MESHES, Readings
+from r37core.workflow.readings import Readings
 
 readings = Readings(settings)
 
@@ -73,7 +73,6 @@ rule readings:
         yield_stress=readings.yield_stress,
         runs=readings.runs,
         campbells=readings.campbells,
-        meshes=list(MESHES),
         code=code("validation"),
     script:
         "../../scripts/validation.py"
