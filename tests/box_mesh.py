@@ -1,37 +1,57 @@
-"""A box of wedges, clamped at one end: the structure whose exact answers are known."""
+"""A box of elements, clamped at one end: the structure whose exact answers are known."""
+
+from itertools import permutations, product
 
 import numpy as np
 
-from r37core.fem.wedge15 import NODES
-from r37core.mesh.wedge_mesh import WedgeMesh
+from r37core.fem.elements import ELEMENTS
+from r37core.mesh.blade_mesh import BladeMesh, parametric_node_sets
+
+_SQUARE = [(0, 0), (1, 0), (1, 1), (0, 1)]
+_TRIANGLES = [[_SQUARE[0], _SQUARE[1], _SQUARE[2]], [_SQUARE[0], _SQUARE[2], _SQUARE[3]]]
+_STEPS = np.eye(3, dtype=int)
 
 
-def box_mesh(length, width, height, counts, origin=(0.0, 0.0, 0.0), warp=0.0):
-    """Wedges in a box: x along `length` (clamped at its start), y along `width`, z along `height` (extrusion).
+def _tetrahedra():
+    """The six tetrahedra between opposite corners of a cube (Kuhn), right-handed."""
+    cells = []
+    for order in permutations(range(3)):
+        corners = np.concatenate([[[0, 0, 0]], np.cumsum(_STEPS[list(order)], axis=0)])
+        cells.append(corners if np.linalg.det(corners[1:]) > 0 else corners[[0, 2, 1, 3]])
+    return cells
 
-    `counts`: cells along x, y, z, each cut into two wedges. `warp` moves inner nodes smoothly, for the patch test.
+
+_SPLITS = {
+    "hexahedron": [[(*p, up) for up in (0, 1) for p in _SQUARE]],
+    "wedge": [[(*p, up) for up in (0, 1) for p in triangle] for triangle in _TRIANGLES],
+    "tetra": _tetrahedra(),
+}
+
+
+def box_mesh(length, width, height, counts, origin=(0.0, 0.0, 0.0), warp=0.0, element="wedge15"):
+    """Elements in a box: x along `length` (clamped at its start), y along `width`, z along `height` (wedges' axis).
+
+    `counts`: cells along x, y, z, each cut into elements. `warp` moves inner nodes smoothly, for the patch test.
+    `element`: a type, or a function of the cell's (i, j, k) that gives one.
     """
-    cells_x, cells_y, cells_z = counts
-    corners = []
-    for i in range(cells_x):
-        for j in range(cells_y):
-            for k in range(cells_z):
-                quad = [(i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)]
-                for triangle in ((quad[0], quad[1], quad[2]), (quad[0], quad[2], quad[3])):
-                    corners.append([(*p, k + up) for up in (0, 1) for p in triangle])
-    corners = np.array(corners, dtype=float)
-    area = np.stack([1.0 - NODES[:, 0] - NODES[:, 1], NODES[:, 0], NODES[:, 1]], axis=1)
-    rise = (1.0 + NODES[:, 2:]) / 2.0
-    weights = np.concatenate([area * (1.0 - rise), area * rise], axis=1)
-    grid, elements = np.unique(
-        np.round(2.0 * np.einsum("ac,eci->eai", weights, corners)).astype(int).reshape(-1, 3),
-        axis=0,
-        return_inverse=True,
-    )
+    corners = {}
+    for cell in product(*map(range, counts)):
+        name = element(*cell) if callable(element) else element
+        for split in _SPLITS[name.rstrip("0123456789")]:
+            corners.setdefault(name, []).append(np.array(split) + cell)
+    blocks, nodes = {}, []
+    for name in (name for name in ELEMENTS if name in corners):
+        of_element = np.array(corners[name], dtype=float)
+        middle = [of_element[:, list(edge)].mean(axis=1) for edge in ELEMENTS[name].edges]
+        blocks[name] = np.concatenate([of_element, *(m[:, None] for m in middle)], axis=1)
+        nodes.append(np.round(2.0 * blocks[name]).astype(int).reshape(-1, 3))
+    grid, numbers = np.unique(np.concatenate(nodes), axis=0, return_inverse=True)
+    parts = np.split(numbers.ravel(), np.cumsum([len(part) for part in nodes])[:-1])
+    blocks = {name: part.reshape(of.shape[:2]) for (name, of), part in zip(blocks.items(), parts, strict=True)}
     share = grid / (2.0 * np.array(counts))
-    points = share * np.array([length, width, height])
     bump = np.prod(share * (1.0 - share), axis=1)
+    points = share * np.array([length, width, height])
     points = points + warp * bump[:, None] * np.array([length, -width, 0.5 * height]) + np.array(origin)
     parameters = np.stack([share[:, 1], share[:, 0], 2.0 * share[:, 2] - 1.0], axis=1)
     normals = np.tile([0.0, 0.0, 1.0], (len(points), 1))
-    return WedgeMesh(points, elements.reshape(-1, 15), parameters, normals)
+    return BladeMesh(points, blocks, parameters, normals, parametric_node_sets(parameters))

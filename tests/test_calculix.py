@@ -2,16 +2,19 @@
 
 import shutil
 import subprocess
+from dataclasses import replace
 
 import numpy as np
 import pytest
+from box_mesh import box_mesh
 
+from r37core.fem.abaqus_deck import write_abaqus
 from r37core.fem.centrifugal import centrifugal_load
-from r37core.fem.matrices import static_displacement
+from r37core.fem.elements import ELEMENTS
+from r37core.fem.matrices import assemble, static_displacement
+from r37core.fem.quadrature import wedge_rule
 from r37core.fem.solver import lowest_modes
 from r37core.fem.stress import stress_at
-from r37core.fem.wedge15 import STIFFNESS_RULE, physical_gradients
-from r37core.mesh.mesh_files import write_abaqus
 
 pytestmark = pytest.mark.skipif(shutil.which("ccx") is None, reason="CalculiX (Debian: calculix-ccx) is not installed")
 
@@ -21,7 +24,7 @@ SPEED = 1500.0
 def run_calculix(folder, mesh, material, step=None):
     """Run the project's deck, with another step than its own if given; returns the tables it printed."""
     deck = folder / "mesh.inp"
-    write_abaqus(mesh, deck, material.youngs_modulus, material.density, material.poissons_ratio, "check")
+    write_abaqus(mesh, deck, material, "check")
     if step is not None:
         lines = deck.read_text().splitlines()
         deck.write_text("\n".join([*lines[: lines.index("*STEP")], "*STEP", "*STATIC", *step, "*END STEP"]) + "\n")
@@ -58,17 +61,56 @@ def test_static_tip_load(mesh, matrices, steel, tmp_path):
     np.testing.assert_allclose(ours, printed(rows, 4)[:, 1:], rtol=0, atol=1e-5 * np.abs(ours).max())
 
 
-def test_centrifugal_displacement_and_stress(mesh, matrices, steel, tmp_path):
+def check_centrifugal(folder, mesh, matrices, material):
+    """Displacement within 2e-4 and von Mises stress at the integration points within 1e-3 of the largest."""
     spin = f"BLADE, CENTRIF, {SPEED**2}, 0, 0, 0, 0, 0, 1"
     step = ["*DLOAD", spin, "*NODE PRINT, NSET=ALL_NODES", "U", "*EL PRINT, ELSET=BLADE", "S"]
-    rows = run_calculix(tmp_path, mesh, steel, step)
-    ours = static_displacement(matrices, SPEED**2 * centrifugal_load(mesh.elements, mesh.points, steel.density))
+    rows = run_calculix(folder, mesh, material, step)
+    ours = static_displacement(matrices, SPEED**2 * centrifugal_load(mesh.blocks, mesh.points, material.density))
     np.testing.assert_allclose(ours, printed(rows, 4)[:, 1:], rtol=0, atol=2e-4 * np.abs(ours).max())
-    gradients, _ = physical_gradients(mesh.points[mesh.elements], STIFFNESS_RULE[0])
-    stress = np.sort(von_mises(stress_at(gradients, ours[mesh.elements], steel)), axis=1)
-    xx, yy, zz, xy, xz, yz = printed(rows, 8)[:, 2:].T
-    tensors = np.stack([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]).transpose(2, 0, 1)
-    # CalculiX numbers an element's integration points in another order
-    theirs = np.sort(von_mises(tensors).reshape(len(mesh.elements), -1), axis=1)
-    assert stress.max() > 1e8
-    np.testing.assert_allclose(stress, theirs, rtol=0, atol=1e-3 * theirs.max())
+    table = printed(rows, 8)
+    xx, yy, zz, xy, xz, yz = table[:, 2:].T
+    theirs = von_mises(np.stack([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]).transpose(2, 0, 1))
+    first = 1
+    for name, nodes in mesh.blocks.items():
+        element = ELEMENTS[name]
+        gradients, _ = element.physical_gradients(mesh.points[nodes], element.stiffness_rule[0])
+        stress = np.sort(von_mises(stress_at(gradients, ours[nodes], material)), axis=1)
+        # CalculiX numbers an element's integration points in another order
+        of_block = (table[:, 0] >= first) & (table[:, 0] < first + len(nodes))
+        np.testing.assert_allclose(
+            stress, np.sort(theirs[of_block].reshape(len(nodes), -1), axis=1), rtol=0, atol=1e-3 * theirs.max()
+        )
+        first += len(nodes)
+    return theirs.max()
+
+
+def test_centrifugal_displacement_and_stress(mesh, matrices, steel, tmp_path):
+    assert check_centrifugal(tmp_path, mesh, matrices, steel) > 1e8
+
+
+def plate(kind):
+    """A thick plate with curved faces, off the axis."""
+    return box_mesh(0.08, 0.04, 0.012, (4, 3, 2), origin=(0.17, -0.02, -0.004), warp=1.0, element=kind)
+
+
+@pytest.mark.parametrize("kind", ELEMENTS)
+def test_each_element(kind, steel, tmp_path, monkeypatch):
+    """With CalculiX's quadrature: it integrates the mass with the stiffness rule, and C3D6 at two points in all."""
+    rule = wedge_rule(1, 2) if kind == "wedge" else ELEMENTS[kind].stiffness_rule
+    monkeypatch.setitem(ELEMENTS, kind, replace(ELEMENTS[kind], stiffness_rule=rule, mass_rule=rule))
+    mesh = plate(kind)
+    matrices = assemble(mesh, steel)
+    rows = run_calculix(tmp_path, mesh, steel)
+    values, _ = lowest_modes(matrices.stiffness(), matrices.mass(), 10)
+    np.testing.assert_allclose(np.sqrt(values) / (2 * np.pi), printed(rows, 5)[:10, 3], rtol=1e-6)
+    check_centrifugal(tmp_path, mesh, matrices, steel)
+
+
+@pytest.mark.parametrize("kind", ["tetra10", "wedge15", "hexahedron20"])
+def test_exact_mass_makes_little_difference(kind, steel, tmp_path):
+    mesh = box_mesh(0.08, 0.03, 0.003, (18, 8, 1), origin=(0.17, -0.02, -0.004), warp=1.0, element=kind)
+    matrices = assemble(mesh, steel)
+    rows = run_calculix(tmp_path, mesh, steel)
+    values, _ = lowest_modes(matrices.stiffness(), matrices.mass(), 5)
+    np.testing.assert_allclose(np.sqrt(values) / (2 * np.pi), printed(rows, 5)[:5, 3], rtol=1e-4)

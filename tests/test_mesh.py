@@ -4,12 +4,12 @@ import numpy as np
 import pytest
 import pyvista
 
+from r37core.fem.elements import ELEMENTS
 from r37core.fem.mesh_quality import MeshQualityError, mesh_quality
-from r37core.fem.wedge15 import MASS_RULE, physical_gradients
 from r37core.io import InputFileError
+from r37core.mesh.blade_mesh import NODE_SETS
 from r37core.mesh.generate import generate_mesh
 from r37core.mesh.mesh_files import read_vtu, write_vtu
-from r37core.mesh.wedge_mesh import NODE_SETS
 
 
 @pytest.mark.parametrize(("nodes", "layers", "tip_elements"), [(2500, 1, 14), (10000, 1, 28), (20000, 1, 42), (9000, 2, 21)])
@@ -19,8 +19,9 @@ def test_node_count_is_met(blade, nodes, layers, tip_elements):
     assert len(mesh.node_set("tip_pressure_edge")) == 2 * tip_elements + 1
     assert len(mesh.node_set("tip_camber_line")) == tip_elements + 1 if layers == 1 else 2 * tip_elements + 1
     assert mesh_quality(mesh).minimum > 0.2
-    _, determinant = physical_gradients(mesh.points[mesh.elements], MASS_RULE[0])
-    assert np.sum(determinant @ MASS_RULE[1]) == pytest.approx(blade.volume(), rel=2e-3)
+    wedge = ELEMENTS["wedge15"]
+    determinant = np.linalg.det(wedge.jacobian(mesh.points[mesh.blocks["wedge15"]], wedge.mass_rule[0]))
+    assert np.sum(determinant @ wedge.mass_rule[1]) == pytest.approx(blade.volume(), rel=2e-3)
 
 
 def test_impossible_count_is_refused(blade):
@@ -29,7 +30,7 @@ def test_impossible_count_is_refused(blade):
 
 
 def test_every_node_is_used_once(mesh):
-    assert np.array_equal(np.unique(mesh.elements), np.arange(len(mesh.points)))
+    assert np.array_equal(np.unique(mesh.blocks["wedge15"]), np.arange(len(mesh.points)))
     assert len(np.unique(np.round(mesh.points, 9), axis=0)) == len(mesh.points)
 
 
@@ -52,7 +53,7 @@ def test_node_sets_lie_where_they_should(blade, mesh):
 def test_same_mesh_every_time(blade, mesh):
     again = generate_mesh(blade, nodes=2500, layers=1, tip_elements=14)
     np.testing.assert_array_equal(again.points, mesh.points)
-    np.testing.assert_array_equal(again.elements, mesh.elements)
+    np.testing.assert_array_equal(again.blocks["wedge15"], mesh.blocks["wedge15"])
 
 
 def test_quality_check_names_the_key(mesh):
@@ -66,8 +67,11 @@ def test_vtu_round_trip(mesh, tmp_path):
     quality = mesh_quality(mesh).per_element
     write_vtu(mesh, tmp_path / "mesh.vtu", quality)
     again = read_vtu(tmp_path / "mesh.vtu")
-    for field in ("points", "elements", "parameters", "normals"):
+    for field in ("points", "parameters", "normals"):
         np.testing.assert_array_equal(getattr(again, field), getattr(mesh, field))
+    np.testing.assert_array_equal(again.blocks["wedge15"], mesh.blocks["wedge15"])
+    for name in NODE_SETS:
+        np.testing.assert_array_equal(again.node_set(name), mesh.node_set(name))
     grid = pyvista.read(tmp_path / "mesh.vtu")
     assert grid.field_data["scaled_jacobian_minimum"][0] == quality.min()
     assert grid.compute_cell_sizes()["Volume"].min() > 0.0
@@ -99,6 +103,6 @@ def test_msh_has_the_mapped_nodes_and_named_groups(blade, tmp_path):
         for name in NODE_SETS:
             nodes, _ = gmsh.model.mesh.getNodesForPhysicalGroup(*groups[name])
             assert len(nodes) == len(mesh.node_set(name))
-        assert gmsh.model.mesh.getElementsByType(18)[0].size == len(mesh.elements)
+        assert gmsh.model.mesh.getElementsByType(18)[0].size == mesh.element_count
     finally:
         gmsh.finalize()

@@ -131,8 +131,9 @@ def test_file_holds_the_model(model, tmp_path):
     file = tmp_path / "rom.nc"
     write_reduced_model(model, file, {"blade": "Ref"})
     again = read_reduced_model(file)
-    for name in ("stiffness", "mass", "geometric_stiffness", "shape_products", "boundary_chord", "stress_elements"):
+    for name in ("stiffness", "mass", "geometric_stiffness", "shape_products", "boundary_chord"):
         np.testing.assert_array_equal(getattr(again, name), getattr(model, name))
+    np.testing.assert_array_equal(again.stress_elements["wedge15"], model.stress_elements["wedge15"])
     for line in model.tip_lines:
         np.testing.assert_array_equal(again.tip_lines[line].basis, model.tip_lines[line].basis)
     assert (again.columns, again.tolerance, again.shape_names) == (model.columns, model.tolerance, model.shape_names)
@@ -161,7 +162,8 @@ def test_too_many_boundary_nodes_are_refused(mesh):
 
 def test_stress_submesh(mesh, model, choice):
     x, _, z = model.stress_submesh.points.T
-    assert len(model.stress_elements) >= 4
+    elements = model.stress_elements["wedge15"]
+    assert len(elements) >= 4
     assert x.max() < 0.197 and z.min() > 0.0165 and z.max() < 0.0265
     assert not set(model.stress_submesh.nodes) & set(mesh.node_set("root"))
-    assert model.stress_elements.max() == len(model.stress_submesh.nodes) - 1
+    assert elements.max() == len(model.stress_submesh.nodes) - 1

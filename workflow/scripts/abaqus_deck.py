@@ -2,19 +2,15 @@
 
 from job import run
 
-from r37core.mesh.mesh_files import read_vtu, write_abaqus
+from r37core.fem.abaqus_deck import write_abaqus
+from r37core.fem.material import Material
+from r37core.mesh.mesh_files import read_vtu
 
 
 def main(snakemake):
-    material = snakemake.params.material
-    write_abaqus(
-        read_vtu(snakemake.input[0]),
-        snakemake.output[0],
-        material["youngs_modulus"],
-        material["density"],
-        material["poissons_ratio"],
-        title=f"blade {snakemake.wildcards.blade}, SI units",
-    )
+    material = Material(**snakemake.params.material)
+    title = f"blade {snakemake.wildcards.blade}, SI units"
+    write_abaqus(read_vtu(snakemake.input[0]), snakemake.output[0], material, title)
 
 
 run(snakemake, main)

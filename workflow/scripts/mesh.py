@@ -16,7 +16,7 @@ def main(snakemake):
             read_geometry(snakemake.input[0]), level["nodes"], level["layers"], level["tip_elements"], msh_file
         )
         quality = mesh_quality(mesh)
-        print(f"{len(mesh.points)} nodes, {len(mesh.elements)} wedges")
+        print(f"{len(mesh.points)} nodes, {mesh.element_count} wedges")
         print(f"scaled Jacobian: minimum {quality.minimum:.3f}, 1% quantile {quality.one_percent_quantile:.3f}")
         quality.check(level["minimum_scaled_jacobian"])
     write_vtu(mesh, snakemake.output.vtu, quality.per_element)

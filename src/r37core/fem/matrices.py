@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 import scipy.sparse as sp
 
-from r37core.mesh.wedge_mesh import WedgeMesh
+from r37core.mesh.blade_mesh import BladeMesh
 
 from .assembly import NodePattern, assemble_mass, assemble_stiffness, block_matrix
 from .centrifugal import assemble_geometric_stiffness, centrifugal_load
@@ -68,23 +68,23 @@ class StructuralMatrices:
         return block_matrix(self.indptr, self.indices, blocks)[dofs][:, dofs]
 
 
-def assemble(mesh: WedgeMesh, material: Material) -> StructuralMatrices:
+def assemble(mesh: BladeMesh, material: Material) -> StructuralMatrices:
     """Assemble the matrices of a mesh clamped at its root, with the geometric stiffness of the centrifugal stress.
 
     The static displacement under rotation comes from the elastic stiffness at rest (linear theory).
     """
-    elements, points = mesh.elements, mesh.points
-    pattern = NodePattern.of(elements, len(points))
+    blocks, points = mesh.blocks, mesh.points
+    pattern = NodePattern.of(blocks, len(points))
     partial = StructuralMatrices(
         indptr=pattern.indptr,
         indices=pattern.indices,
-        stiffness_blocks=assemble_stiffness(pattern, elements, points, material),
-        mass_pairs=assemble_mass(pattern, elements, points, material.density),
+        stiffness_blocks=assemble_stiffness(pattern, blocks, points, material),
+        mass_pairs=assemble_mass(pattern, blocks, points, material.density),
         geometric_pairs=np.zeros(len(pattern.indices)),
         free_nodes=mesh.free_nodes,
     )
-    displacement = static_displacement(partial, centrifugal_load(elements, points, material.density))
-    geometric = assemble_geometric_stiffness(pattern, elements, points, material, displacement)
+    displacement = static_displacement(partial, centrifugal_load(blocks, points, material.density))
+    geometric = assemble_geometric_stiffness(pattern, blocks, points, material, displacement)
     return replace(partial, geometric_pairs=geometric)
 
 

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import combinations
 
 import numpy as np
 
-from r37core.mesh.wedge_mesh import WedgeMesh
+from r37core.mesh.blade_mesh import BladeMesh
 
-from .wedge15 import MASS_RULE, shape_gradients
+from .assembly import typed_blocks
+from .elements import Element
 
 
 class MeshQualityError(ValueError):
@@ -41,14 +43,21 @@ class MeshQuality:
             )
 
 
-def mesh_quality(mesh: WedgeMesh) -> MeshQuality:
-    """Scaled Jacobian of every element: determinant over the product of the two longest in-plane edge vectors and the
-    through-thickness vector at the point, times 2/sqrt(3), so that an equilateral right prism has 1.
+def mesh_quality(mesh: BladeMesh) -> MeshQuality:
+    """Scaled Jacobian of every element, block after block."""
+    parts = [scaled_jacobian(element, coordinates) for _, element, coordinates in typed_blocks(mesh.blocks, mesh.points)]
+    return MeshQuality(np.concatenate(parts))
+
+
+def scaled_jacobian(element: Element, coordinates: np.ndarray) -> np.ndarray:
+    """Smallest scaled Jacobian over the points of the mass rule, shape (elements,), of nodes (elements, n, 3).
+
+    Determinant over the product of the three longest independent edge vectors at the point, divided by what the ideal
+    element (regular tetrahedron, equilateral right prism, cube) has, so that 1 is ideal; negative where it is inside out.
     """
-    jacobian = np.einsum("qak,eai->eqki", shape_gradients(MASS_RULE[0]), mesh.points[mesh.elements], optimize=True)
-    along_xi, along_eta, along_zeta = (jacobian[:, :, k] for k in range(3))
-    edges = np.stack([np.linalg.norm(v, axis=2) for v in (along_xi, along_eta, along_eta - along_xi)])
-    longest = np.prod(edges, axis=0) / np.min(edges, axis=0)
-    scale = longest * np.linalg.norm(along_zeta, axis=2)
-    scaled = 2.0 / np.sqrt(3.0) * np.linalg.det(jacobian) / scale
-    return MeshQuality(scaled.min(axis=1))
+    jacobian = element.jacobian(coordinates, element.mass_rule[0])
+    lengths = np.linalg.norm(jacobian @ element.edge_directions.T, axis=2)
+    triples = [list(triple) for triple in combinations(range(lengths.shape[2]), 3)]
+    independent = [triple for triple in triples if abs(np.linalg.det(element.edge_directions[triple])) > 0.5]
+    longest = np.max([np.prod(lengths[:, :, triple], axis=2) for triple in independent], axis=0)
+    return (np.linalg.det(jacobian) / longest / element.ideal).min(axis=1)

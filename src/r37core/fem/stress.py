@@ -10,8 +10,8 @@ from .material import Material
 def stress_at(gradients: np.ndarray, displacement: np.ndarray, material: Material) -> np.ndarray:
     """Stress tensors (Pa), shape (elements, points, 3, 3).
 
-    `gradients`: shape-function gradients, shape (elements, points, 15, 3); `displacement` of each element's nodes (m),
-    shape (elements, 15, 3).
+    `gradients`: shape-function gradients, shape (elements, points, n, 3); `displacement` of each element's nodes (m),
+    shape (elements, n, 3).
     """
     lame, shear = material.lame_constants
     displacement_gradient = displacement.transpose(0, 2, 1)[:, None] @ gradients

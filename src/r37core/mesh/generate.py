@@ -11,7 +11,7 @@ import numpy as np
 
 from r37core.blade.surface import Blade
 
-from .wedge_mesh import WedgeMesh
+from .blade_mesh import BladeMesh, parametric_node_sets
 
 _TRIANGLE6, _PRISM15, _LINE2 = 9, 18, 1
 # gmsh numbers the mid-nodes by edge 01 02 03 12 14 25 34 35 45; ours run bottom, top, vertical
@@ -19,7 +19,7 @@ _FROM_GMSH = [0, 1, 2, 3, 4, 5, 6, 9, 7, 12, 14, 13, 8, 10, 11]
 _COUNT_TOLERANCE = 0.02
 
 
-def generate_mesh(blade: Blade, nodes: int, layers: int, tip_elements: int, msh_file: Path | None = None) -> WedgeMesh:
+def generate_mesh(blade: Blade, nodes: int, layers: int, tip_elements: int, msh_file: Path | None = None) -> BladeMesh:
     """Mesh a blade with about `nodes` nodes, `layers` wedges through the thickness and `tip_elements` along the tip.
 
     With `msh_file` the mapped mesh is also written in gmsh's own format, with a physical group for every node set.
@@ -40,7 +40,13 @@ def generate_mesh(blade: Blade, nodes: int, layers: int, tip_elements: int, msh_
         _, element_nodes = gmsh.model.mesh.getElementsByType(_PRISM15)
         elements = np.searchsorted(tags, element_nodes).reshape(-1, 15)[:, _FROM_GMSH]
         chord, span, thickness = parameters.T
-        mesh = WedgeMesh(blade.position(chord, span, thickness), elements, parameters, blade.normal(chord, span))
+        mesh = BladeMesh(
+            blade.position(chord, span, thickness),
+            {"wedge15": elements},
+            parameters,
+            blade.normal(chord, span),
+            parametric_node_sets(parameters),
+        )
         if msh_file is not None:
             _write_msh(mesh, tags, top[1][1], msh_file)
     return mesh
@@ -108,7 +114,7 @@ def _snapped(parameters: np.ndarray) -> np.ndarray:
     return parameters
 
 
-def _write_msh(mesh: WedgeMesh, tags: np.ndarray, volume: int, file: Path) -> None:
+def _write_msh(mesh: BladeMesh, tags: np.ndarray, volume: int, file: Path) -> None:
     """Write the mapped mesh; physical groups: the volume `blade`, and faces or curves for the node sets."""
     for tag, point in zip(tags.tolist(), mesh.points.tolist(), strict=True):
         gmsh.model.mesh.setNode(tag, point, [])

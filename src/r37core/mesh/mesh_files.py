@@ -1,8 +1,7 @@
-"""Mesh files: .vtu, which later stages and ParaView read, and an Abaqus/CalculiX deck to check us in another program."""
+"""Mesh files: .vtu, which later stages and ParaView read."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from pathlib import Path
 
 import numpy as np
@@ -10,19 +9,30 @@ import pyvista
 
 from r37core.io import atomic_write, readable
 
-from .wedge_mesh import NODE_SETS, WedgeMesh
+from .blade_mesh import NODE_SETS, BladeMesh, along_chord
 
 _PARAMETERS = ("chord", "span", "thickness")
+_CELL_TYPES = {
+    "tetra10": pyvista.CellType.QUADRATIC_TETRA,
+    "wedge15": pyvista.CellType.QUADRATIC_WEDGE,
+    "hexahedron20": pyvista.CellType.QUADRATIC_HEXAHEDRON,
+    "tetra": pyvista.CellType.TETRA,
+    "wedge": pyvista.CellType.WEDGE,
+    "hexahedron": pyvista.CellType.HEXAHEDRON,
+}
 
 
-def write_vtu(mesh: WedgeMesh, file: Path | str, scaled_jacobian: np.ndarray) -> None:
+def vtk_grid(mesh: BladeMesh) -> pyvista.UnstructuredGrid:
+    """The bare mesh as VTK's object; cells in the order of the mesh's blocks."""
+    return pyvista.UnstructuredGrid({_CELL_TYPES[name]: nodes for name, nodes in mesh.blocks.items()}, mesh.points)
+
+
+def write_vtu(mesh: BladeMesh, file: Path | str, scaled_jacobian: np.ndarray) -> None:
     """Write the mesh with each node's parameters and normal, its node sets as 0/1 marks, and each element's quality.
 
     `scaled_jacobian`: shape (elements,); its minimum and 1% quantile go into the field data.
     """
-    cells = np.insert(mesh.elements, 0, 15, axis=1).ravel()
-    types = np.full(len(mesh.elements), pyvista.CellType.QUADRATIC_WEDGE)
-    grid = pyvista.UnstructuredGrid(cells, types, mesh.points)
+    grid = vtk_grid(mesh)
     for name, values in zip(_PARAMETERS, mesh.parameters.T, strict=True):
         grid.point_data[name] = values
     grid.point_data["normal"] = mesh.normals
@@ -37,51 +47,16 @@ def write_vtu(mesh: WedgeMesh, file: Path | str, scaled_jacobian: np.ndarray) ->
         grid.save(partial)
 
 
-def read_vtu(file: Path | str) -> WedgeMesh:
+def read_vtu(file: Path | str) -> BladeMesh:
     """The mesh of a .vtu written by `write_vtu`; InputFileError when it cannot be read."""
     with readable(file):
         grid = pyvista.read(file)
         parameters = np.stack([grid.point_data[name] for name in _PARAMETERS], axis=1)
-        elements = grid.cells_dict[pyvista.CellType.QUADRATIC_WEDGE].astype(np.int64)
-        return WedgeMesh(np.array(grid.points), elements, parameters, np.array(grid.point_data["normal"]))
-
-
-def write_abaqus(
-    mesh: WedgeMesh, file: Path | str, youngs_modulus: float, density: float, poissons_ratio: float, title: str
-) -> None:
-    """Write a complete CalculiX/Abaqus deck in SI units: mesh, node sets, material, clamped root, first ten modes.
-
-    Run it with `ccx mesh` (without the suffix).
-    """
-    lines = ["*HEADING", title, "*NODE, NSET=ALL_NODES"]
-    # CalculiX reads at most 20 characters per number
-    lines += [f"{i}, {x:.12e}, {y:.12e}, {z:.12e}" for i, (x, y, z) in enumerate(mesh.points.tolist(), start=1)]
-    lines.append("*ELEMENT, TYPE=C3D15, ELSET=BLADE")
-    for i, nodes in enumerate((mesh.elements + 1).tolist(), start=1):
-        lines.append(", ".join(map(str, [i, *nodes[:9]])) + ",")
-        lines.append(", ".join(map(str, nodes[9:])))
-    for name in NODE_SETS:
-        lines.append(f"*NSET, NSET={name.upper()}")
-        lines += _rows_of_ids(mesh.node_set(name) + 1)
-    lines += [
-        "*MATERIAL, NAME=BLADE_MATERIAL",
-        "*ELASTIC",
-        f"{youngs_modulus:.12g}, {poissons_ratio:.12g}",
-        "*DENSITY",
-        f"{density:.12g}",
-        "*SOLID SECTION, ELSET=BLADE, MATERIAL=BLADE_MATERIAL",
-        "*BOUNDARY",
-        "ROOT, 1, 3",
-        "*STEP",
-        "*FREQUENCY",
-        "10",
-        "*NODE FILE",
-        "U",
-        "*END STEP",
-    ]
-    with atomic_write(file) as partial:
-        partial.write_text("\n".join(lines) + "\n", encoding="ascii")
-
-
-def _rows_of_ids(ids: np.ndarray) -> Iterable[str]:
-    return [", ".join(map(str, ids[i : i + 12].tolist())) + "," for i in range(0, len(ids), 12)]
+        cells = grid.cells_dict
+        return BladeMesh(
+            np.array(grid.points),
+            {name: cells[kind].astype(np.int64) for name, kind in _CELL_TYPES.items() if kind in cells},
+            parameters,
+            np.array(grid.point_data["normal"]),
+            {name: along_chord(np.flatnonzero(grid.point_data[name]), name, parameters[:, 0]) for name in NODE_SETS},
+        )

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from r37core.fem.assembly import typed_blocks
 from r37core.fem.material import Material
 from r37core.fem.stress import stress_at
-from r37core.fem.wedge15 import NODES, physical_gradients
 from r37core.rom.reduced_model import ReducedModel
 
 _COMPONENTS = ((0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (2, 0))
@@ -23,19 +23,23 @@ class StressRecovery:
     """
 
     def __init__(self, model: ReducedModel, material: Material):
-        submesh, elements = model.stress_submesh, model.stress_elements
-        if len(elements) == 0:
+        submesh, blocks = model.stress_submesh, model.stress_elements
+        if not blocks:
             raise ValueError(
                 "the stress submesh has no elements; enlarge structure.stress_submesh in config.yaml or use a finer mesh"
             )
-        gradients, _ = physical_gradients(submesh.points[elements], NODES)
-        count = np.bincount(elements.ravel(), minlength=len(submesh.nodes))
         self.operator = np.zeros((6, len(submesh.nodes), model.size))
-        for j in range(model.size):
-            stress = stress_at(gradients, submesh.basis[elements, :, j], material)
-            for component, (a, b) in enumerate(_COMPONENTS):
-                summed = np.bincount(elements.ravel(), weights=stress[:, :, a, b].ravel(), minlength=len(count))
-                self.operator[component, :, j] = summed / count
+        count = np.zeros(len(submesh.nodes))
+        for name, element, coordinates in typed_blocks(blocks, submesh.points):
+            members = blocks[name].ravel()
+            count += np.bincount(members, minlength=len(count))
+            gradients, _ = element.physical_gradients(coordinates, element.nodes)
+            for j in range(model.size):
+                stress = stress_at(gradients, submesh.basis[blocks[name], :, j], material)
+                for component, (a, b) in enumerate(_COMPONENTS):
+                    weights = stress[:, :, a, b].ravel()
+                    self.operator[component, :, j] += np.bincount(members, weights=weights, minlength=len(count))
+        self.operator /= count[:, None]
 
     def max_von_mises(self, coordinates: np.ndarray) -> np.ndarray:
         """Largest von Mises stress (Pa) over the submesh, shape (instants,), for coordinates, shape (instants, coordinates)."""

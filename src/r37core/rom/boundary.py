@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from r37core.mesh.wedge_mesh import WedgeMesh
+from r37core.mesh.blade_mesh import BladeMesh
 
 TIP_LINES = {
     "pressure_edge": "tip_pressure_edge",
@@ -39,7 +39,7 @@ class BoundaryChoice:
         return (np.arange(self.nodes) + 0.5) / self.nodes
 
 
-def boundary_nodes(mesh: WedgeMesh, choice: BoundaryChoice) -> np.ndarray:
+def boundary_nodes(mesh: BladeMesh, choice: BoundaryChoice) -> np.ndarray:
     """Numbers of the mesh nodes nearest to the wanted positions, from the leading to the trailing edge.
 
     Raises BoundaryError when the line has too few nodes for them to be distinct.

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from r37core.mesh.wedge_mesh import WedgeMesh
+from r37core.mesh.blade_mesh import BladeMesh
 
 from .boundary import BoundaryChoice
 
@@ -21,12 +21,13 @@ class StressSubmesh:
     minimum_z: float
     maximum_z: float
 
-    def elements(self, mesh: WedgeMesh) -> np.ndarray:
-        """Numbers of the elements all of whose nodes qualify."""
+    def elements(self, mesh: BladeMesh) -> dict[str, np.ndarray]:
+        """Nodes of the elements all of whose nodes qualify, by element type."""
         x, _, z = mesh.points.T
         qualifies = (x < self.maximum_x) & (z > self.minimum_z) & (z < self.maximum_z)
         qualifies[mesh.node_set("root")] = False
-        return np.flatnonzero(qualifies[mesh.elements].all(axis=1))
+        chosen = {name: nodes[qualifies[nodes].all(axis=1)] for name, nodes in mesh.blocks.items()}
+        return {name: nodes for name, nodes in chosen.items() if len(nodes)}
 
 
 @dataclass(frozen=True)

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from r37core.mesh.wedge_mesh import WedgeMesh
+from r37core.mesh.blade_mesh import BladeMesh
 
 # roots of cos(x) cosh(x) = -1: clamped-free beam (Blevins, Formulas for Natural Frequency and Mode Shape)
 _BEAM_ROOTS = (1.875104068711961, 4.694091132974175)
 
 
-def ideal_shapes(mesh: WedgeMesh) -> dict[str, np.ndarray]:
+def ideal_shapes(mesh: BladeMesh) -> dict[str, np.ndarray]:
     """Displacement fields, shape (nodes, 3), named 1B, 1T and 2B.
 
     Bending moves along the blade's local normal as a clamped-free beam; torsion turns each section about mid-chord by

@@ -6,7 +6,7 @@ import numpy as np
 import scipy.sparse as sp
 
 from r37core.fem.matrices import StructuralMatrices
-from r37core.mesh.wedge_mesh import WedgeMesh
+from r37core.mesh.blade_mesh import BladeMesh
 
 from .boundary import TIP_LINES, boundary_nodes
 from .choice import ReductionChoice
@@ -15,7 +15,7 @@ from .naming import ideal_shapes
 from .reduced_model import RecoveryNodes, ReducedModel
 
 
-def reduce_blade(mesh: WedgeMesh, matrices: StructuralMatrices, choice: ReductionChoice) -> ReducedModel:
+def reduce_blade(mesh: BladeMesh, matrices: StructuralMatrices, choice: ReductionChoice) -> ReducedModel:
     """Project the blade's matrices on a Craig-Bampton basis over several speeds.
 
     Raises BoundaryError when the mesh has too few tip nodes.
@@ -40,7 +40,8 @@ def reduce_blade(mesh: WedgeMesh, matrices: StructuralMatrices, choice: Reductio
     def recovery(of: np.ndarray) -> RecoveryNodes:
         return RecoveryNodes(of, mesh.points[of], whole[of])
 
-    stress_nodes, local = np.unique(mesh.elements[choice.stress_submesh.elements(mesh)], return_inverse=True)
+    stress_blocks = choice.stress_submesh.elements(mesh)
+    stress_nodes = np.unique(np.concatenate([np.empty(0, int), *(nodes.ravel() for nodes in stress_blocks.values())]))
     shapes = {name: shape[matrices.free_nodes].ravel() for name, shape in ideal_shapes(mesh).items()}
     mass_times_vectors = mass @ vectors
     return ReducedModel(
@@ -53,7 +54,7 @@ def reduce_blade(mesh: WedgeMesh, matrices: StructuralMatrices, choice: Reductio
         boundary_chord=mesh.parameters[nodes, 0],
         tip_lines={line: recovery(mesh.node_set(name)) for line, name in TIP_LINES.items()},
         stress_submesh=recovery(stress_nodes),
-        stress_elements=local.reshape(-1, 15),
+        stress_elements={name: np.searchsorted(stress_nodes, nodes) for name, nodes in stress_blocks.items()},
         whole_blade=recovery(np.arange(len(mesh.points))) if choice.whole_blade else None,
         shape_names=tuple(shapes),
         shape_products=np.array([shape @ mass_times_vectors for shape in shapes.values()]),

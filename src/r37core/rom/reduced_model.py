@@ -53,7 +53,7 @@ class ReducedModel:
     `stiffness` (N/m), `geometric_stiffness` (per Omega^2), `mass` (kg), and, only when asked for, `spin_softening`
     (per Omega^2) and `coriolis` (per Omega): each of shape (coordinates, coordinates). `boundary_nodes`: mesh numbers;
     `boundary_chord`: their chord fractions. `tip_lines`: recovery along each tip line; `stress_submesh` with
-    `stress_elements`, shape (elements, 15), indexing its nodes; `whole_blade` only on request.
+    `stress_elements`, element type -> shape (elements, nodes of the type), indexing its nodes; `whole_blade` only on request.
     `shape_names`, `shape_products`, shape (shapes, coordinates), and `shape_norms`: mass products of the basis with the
     ideal bending and torsion shapes, by which modes are named. `columns`, `tolerance`, `singular_values`: of the basis.
     `quadratic_residual`: size of the Omega^4 term of the reduced stiffness at the highest speed against the stiffness.
@@ -68,7 +68,7 @@ class ReducedModel:
     boundary_chord: np.ndarray
     tip_lines: dict[str, RecoveryNodes]
     stress_submesh: RecoveryNodes
-    stress_elements: np.ndarray
+    stress_elements: dict[str, np.ndarray]
     whole_blade: RecoveryNodes | None
     shape_names: tuple[str, ...]
     shape_products: np.ndarray

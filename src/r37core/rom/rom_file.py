@@ -21,6 +21,7 @@ _MATRICES = {
     "spin_softening": ("kg", "reduced spin softening per squared speed"),
     "coriolis": ("kg", "reduced Coriolis matrix per speed"),
 }
+_ELEMENTS = "stress_elements_"
 
 
 def write_reduced_model(model: ReducedModel, file: Path | str, provenance: Mapping[str, object] | None = None) -> None:
@@ -37,13 +38,15 @@ def write_reduced_model(model: ReducedModel, file: Path | str, provenance: Mappi
     for group, recovery in node_groups.items():
         data |= _recovery_variables(group, recovery)
     data |= {
-        "stress_elements": (("stress_element", "element_node"), model.stress_elements, about("1", "submesh elements")),
         "boundary_nodes": ("boundary_node", model.boundary_nodes, about("1", "mesh numbers of the boundary nodes")),
         "boundary_chord": ("boundary_node", model.boundary_chord, about("1", "chord fraction of the boundary nodes")),
         "shape_products": (("shape", "column"), model.shape_products, about("kg1/2", "mass product with ideal shapes")),
         "shape_norms": ("shape", model.shape_norms, about("kg1/2", "mass norm of the ideal shapes")),
         "singular_values": ("basis_column", model.singular_values, about("1", "singular values of the basis columns")),
     }
+    for name, elements in model.stress_elements.items():
+        dims = (f"stress_{name}", f"node_of_{name}")
+        data[_ELEMENTS + name] = (dims, elements, about("1", f"submesh elements of type {name}"))
     attributes = {
         "basis_columns": model.columns,
         "basis_independent_columns": model.size,
@@ -66,7 +69,9 @@ def read_reduced_model(file: Path | str) -> ReducedModel:
             boundary_chord=dataset["boundary_chord"].values,
             tip_lines={line: _recovery(dataset, f"tip_{line}") for line in np.atleast_1d(dataset.tip_line_names)},
             stress_submesh=_recovery(dataset, "stress"),
-            stress_elements=dataset["stress_elements"].values,
+            stress_elements={
+                name.removeprefix(_ELEMENTS): dataset[name].values for name in map(str, dataset) if name.startswith(_ELEMENTS)
+            },
             whole_blade=_recovery(dataset, "blade") if "blade_basis" in dataset else None,
             shape_names=tuple(str(name) for name in dataset["shape"].values),
             shape_products=dataset["shape_products"].values,

@@ -1,0 +1,66 @@
+"""A blade's mesh as an object: nodes, elements of one or more types, where each node lies on the blade, named node sets."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+TIP_LINES = ("tip_pressure_edge", "tip_suction_edge", "tip_camber_line")
+NODE_SETS = ("root", *TIP_LINES, "leading_edge", "trailing_edge")
+
+
+@dataclass(frozen=True)
+class BladeMesh:
+    """A mesh of solid elements in the blade's frame.
+
+    `points`: coordinates (m), shape (nodes, 3); `blocks`: name of an element type (of meshio) -> node numbers from 0, shape
+    (elements, nodes of the type); `parameters`: (chord, span, thickness) of each node, shape (nodes, 3), chord 0 (leading)
+    to 1 (trailing edge), span 0 (root) to 1 (tip), thickness -1 (pressure) to 1 (suction side); `normals`: unit vector from
+    the pressure to the suction side at each node, shape (nodes, 3); `node_sets`: node numbers of each name in NODE_SETS,
+    those of TIP_LINES from the leading to the trailing edge.
+    """
+
+    points: np.ndarray
+    blocks: Mapping[str, np.ndarray]
+    parameters: np.ndarray
+    normals: np.ndarray
+    node_sets: Mapping[str, np.ndarray]
+
+    def node_set(self, name: str) -> np.ndarray:
+        """Node numbers of a named set; lines along the tip run from the leading to the trailing edge.
+
+        Raises KeyError for a name not in NODE_SETS.
+        """
+        return self.node_sets[name]
+
+    @property
+    def element_count(self) -> int:
+        """Number of elements of all types."""
+        return sum(len(nodes) for nodes in self.blocks.values())
+
+    @property
+    def free_nodes(self) -> np.ndarray:
+        """Numbers of the nodes that are not clamped at the root."""
+        return np.setdiff1d(np.arange(len(self.points)), self.node_set("root"))
+
+
+def parametric_node_sets(parameters: np.ndarray) -> dict[str, np.ndarray]:
+    """Node sets of a mesh whose `parameters`, shape (nodes, 3), are exact on the faces of the blade."""
+    chord, span, thickness = parameters.T
+    at_tip = span == 1.0
+    members = {
+        "root": span == 0.0,
+        "tip_pressure_edge": at_tip & (thickness == -1.0),
+        "tip_suction_edge": at_tip & (thickness == 1.0),
+        "tip_camber_line": at_tip & (thickness == 0.0),
+        "leading_edge": chord == 0.0,
+        "trailing_edge": chord == 1.0,
+    }
+    return {name: along_chord(np.flatnonzero(mask), name, chord) for name, mask in members.items()}
+
+
+def along_chord(nodes: np.ndarray, name: str, chord: np.ndarray) -> np.ndarray:
+    """The nodes of the set `name`, from leading to trailing edge (by `chord` of all nodes) if it is a line of the tip."""
+    return nodes[np.argsort(chord[nodes], kind="stable")] if name in TIP_LINES else nodes
