@@ -22,6 +22,7 @@ LAYERS = [
     "contact",
     "march",
     "results",
+    "exchange",
     "studies",
     "figures",
     "config",

@@ -17,8 +17,7 @@ def write_abaqus(mesh: BladeMesh, file: Path | str, material: Material, title: s
     Run it with `ccx mesh` (without the suffix).
     """
     lines = ["*HEADING", title, "*NODE, NSET=ALL_NODES"]
-    # CalculiX reads at most 20 characters per number
-    lines += [f"{i}, {x:.12e}, {y:.12e}, {z:.12e}" for i, (x, y, z) in enumerate(mesh.points.tolist(), start=1)]
+    lines += [", ".join([str(i), *map(_twenty, point)]) for i, point in enumerate(mesh.points.tolist(), start=1)]
     first = 1
     for name, elements in mesh.blocks.items():
         lines.append(f"*ELEMENT, TYPE={ELEMENTS[name].abaqus}, ELSET=BLADE")
@@ -48,6 +47,11 @@ def write_abaqus(mesh: BladeMesh, file: Path | str, material: Material, title: s
     ]
     with atomic_write(file) as partial:
         partial.write_text("\n".join(lines) + "\n", encoding="ascii")
+
+
+def _twenty(value: float) -> str:
+    """The number, exact where 20 characters suffice: CalculiX reads no more."""
+    return repr(value) if len(repr(value)) <= 20 else f"{value:.17f}"[:20]
 
 
 def _rows(numbers: list[int], width: int) -> list[str]:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 TIP_LINES = ("tip_pressure_edge", "tip_suction_edge", "tip_camber_line")
-NODE_SETS = ("root", *TIP_LINES, "leading_edge", "trailing_edge")
+NODE_SETS = ("root", "tip", *TIP_LINES, "leading_edge", "trailing_edge")
 
 
 @dataclass(frozen=True)
@@ -52,6 +52,7 @@ def parametric_node_sets(parameters: np.ndarray) -> dict[str, np.ndarray]:
     at_tip = span == 1.0
     members = {
         "root": span == 0.0,
+        "tip": at_tip,
         "tip_pressure_edge": at_tip & (thickness == -1.0),
         "tip_suction_edge": at_tip & (thickness == 1.0),
         "tip_camber_line": at_tip & (thickness == 0.0),

@@ -119,7 +119,7 @@ def _write_msh(mesh: BladeMesh, tags: np.ndarray, volume: int, file: Path) -> No
     for tag, point in zip(tags.tolist(), mesh.points.tolist(), strict=True):
         gmsh.model.mesh.setNode(tag, point, [])
     groups = {(3, "blade"): [volume]}
-    for name in ("root", "leading_edge", "trailing_edge"):
+    for name in ("root", "tip", "leading_edge", "trailing_edge"):
         groups[(2, name)] = [_entity_of(2, tags[mesh.node_set(name)])]
     for name in ("tip_pressure_edge", "tip_suction_edge"):
         groups[(1, name)] = [_entity_of(1, tags[mesh.node_set(name)])]

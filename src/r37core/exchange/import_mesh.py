@@ -1,0 +1,83 @@
+"""A mesh from another program as a blade: read, checked, turned to the blade's frame, its root and tip found."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from r37core.fem.material import Material
+from r37core.mesh.blade_mesh import NODE_SETS, BladeMesh
+
+from .checks import checked, without_free_nodes
+from .errors import ImportRefused
+from .frame import blade_parameters
+from .orientation import Orientation
+from .read_mesh import read_mesh
+from .surface import nodes_of, outer_faces
+from .tip import check_revolution, find_tip_lines
+from .where import Where
+
+_SOUND_BETWEEN = (300.0, 20000.0)
+
+
+@dataclass(frozen=True)
+class MeshSource:
+    """Where a blade's mesh is and how to read it.
+
+    `file`; its `orientation`; where `root` and `tip` are; `pressure_side_forward`: whether the pressure side looks towards
+    the rotation, as in a compressor; `revolution_tolerance` (m): how far the tip may be from a surface of revolution;
+    `drop_free_nodes`: whether nodes of no solid element are left out instead of refused.
+    """
+
+    file: str
+    orientation: Orientation
+    root: Where
+    tip: Where
+    pressure_side_forward: bool = True
+    revolution_tolerance: float = 1e-4
+    drop_free_nodes: bool = False
+
+
+def import_mesh(source: MeshSource, minimum_scaled_jacobian: float, folder: Path | str = ".") -> tuple[BladeMesh, np.ndarray]:
+    """The blade's mesh and the scaled Jacobian of each element, shape (elements,); `folder`: what `source.file` starts from.
+
+    Raises ImportRefused, with the file's name and the reason, for a mesh that cannot be computed with.
+    """
+    raw = read_mesh(Path(folder) / source.file)
+    try:
+        if source.drop_free_nodes:
+            raw = without_free_nodes(raw)
+        raw, quality = checked(raw, minimum_scaled_jacobian)
+        raw = source.orientation.to_blade(raw)
+        surface = outer_faces(raw.blocks)
+        root = nodes_of(source.root.faces("root", raw, surface))
+        tip_faces = source.tip.faces("tip", raw, surface)
+        tip = nodes_of(tip_faces)
+        if np.intersect1d(root, tip).size:
+            raise ImportRefused(f"root ({source.root.describe()}) and tip ({source.tip.describe()}) share nodes")
+        check_revolution(raw.points[tip], source.revolution_tolerance)
+        lines = find_tip_lines(raw.points, tip_faces, source.pressure_side_forward)
+    except ImportRefused as error:
+        raise ImportRefused(f"{source.file}: {error}") from None
+    parameters, normals = blade_parameters(raw.points, root, tip, source.pressure_side_forward)
+    sets = dict.fromkeys(NODE_SETS, np.empty(0, dtype=np.int64)) | {"root": root, "tip": tip}
+    for name, (nodes, fractions) in lines.lines.items():
+        sets[name] = nodes
+        parameters[nodes, 0] = fractions
+    sets["leading_edge"], sets["trailing_edge"] = (np.array([node]) for node in lines.corners)
+    parameters[root, 1], parameters[tip, 1] = 0.0, 1.0
+    return BladeMesh(raw.points, raw.blocks, parameters, normals, sets), quality
+
+
+def check_material(material: Material) -> None:
+    """Refuse a stiffness and a density that no solid has in SI units: a sign of N, mm and t mixed with m and kg."""
+    sound = np.sqrt(material.youngs_modulus / material.density)
+    low, high = _SOUND_BETWEEN
+    if not (low < sound < high and 1e8 < material.youngs_modulus < 2e12):
+        raise ImportRefused(
+            f"material: Young's modulus {material.youngs_modulus:g} Pa and density {material.density:g} kg/m3 give a speed of "
+            f"sound of {sound:.3g} m/s; allowed: {low:g} to {high:g}. Units seem to be mixed: give Pa and kg/m3, also for a "
+            "mesh in mm"
+        )

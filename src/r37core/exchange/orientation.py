@@ -1,0 +1,85 @@
+"""From a file's unit and axes to the blade's frame."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from r37core.fem.elements import ELEMENTS
+
+from .errors import ImportRefused
+from .raw_mesh import RawMesh
+
+UNITS = {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "um": 1e-6, "in": 0.0254, "ft": 0.3048}
+"""Name of a length unit -> metres."""
+
+_SPAN_BETWEEN = (1e-3, 5.0)
+_RADIAL_WITHIN = np.cos(np.radians(45.0))
+
+
+@dataclass(frozen=True)
+class Orientation:
+    """How a file describes space.
+
+    `length_unit`: a key of UNITS; `rotor_axis`: direction of the axis, pointing downstream; `axis_point`: a point of it, in
+    the file's unit; `radial`: direction from the axis to the blade; `rotation`: `positive` where the rotor turns by the
+    right hand about `rotor_axis`, else `negative`.
+
+    The blade's frame has z downstream, x radial, and a rotor that turns towards negative theta. A blade that turns the other
+    way is mirrored: in an isotropic material its mirror image has the same motion, and every sign keeps its meaning.
+    """
+
+    length_unit: str
+    rotor_axis: tuple[float, float, float]
+    radial: tuple[float, float, float]
+    rotation: str
+    axis_point: tuple[float, float, float] = (0.0, 0.0, 0.0)
+
+    @property
+    def rows(self) -> np.ndarray:
+        """Orthonormal rows x, y, z of the blade's frame in the file's axes, shape (3, 3); left-handed where mirrored.
+
+        Raises ImportRefused where the two directions are parallel.
+        """
+        axis = np.array(self.rotor_axis, dtype=float)
+        radial = np.array(self.radial, dtype=float)
+        if not (np.linalg.norm(axis) > 0.0 and np.linalg.norm(np.cross(axis, radial)) > 1e-6 * np.linalg.norm(axis)):
+            raise ImportRefused(f"rotor_axis {self.rotor_axis} and radial {self.radial} must be two directions, not parallel")
+        z = axis / np.linalg.norm(axis)
+        x = radial - (radial @ z) * z
+        x /= np.linalg.norm(x)
+        y = np.cross(z, x)
+        return np.stack([x, y if self.rotation == "negative" else -y, z])
+
+    def to_blade(self, mesh: RawMesh) -> RawMesh:
+        """The mesh in metres and the blade's frame. Raises ImportRefused for a blade of no plausible size or place."""
+        rows = self.rows
+        points = UNITS[self.length_unit] * (mesh.points - np.array(self.axis_point, dtype=float)) @ rows.T
+        self._check(points)
+        if np.linalg.det(rows) > 0.0:
+            return replace(mesh, points=points)
+        return replace(mesh, points=points, blocks={n: nodes[:, ELEMENTS[n].mirrored] for n, nodes in mesh.blocks.items()})
+
+    def to_file(self, points: np.ndarray) -> np.ndarray:
+        """Points (m) of the blade's frame, shape (n, 3), in the file's unit and axes."""
+        return points @ self.rows / UNITS[self.length_unit] + np.array(self.axis_point, dtype=float)
+
+    def _check(self, points: np.ndarray) -> None:
+        radius = np.hypot(points[:, 0], points[:, 1])
+        span = float(np.ptp(radius))
+        sizes = " x ".join(f"{size:.3g}" for size in np.ptp(points, axis=0))
+        low, high = _SPAN_BETWEEN
+        if not low < span < high:
+            raise ImportRefused(
+                f"the blade would be {sizes} m in size (radial, tangential, axial) with a span of {span:.3g} m; "
+                f"length_unit '{self.length_unit}' or rotor_axis does not fit the file"
+            )
+        mean = points.mean(axis=0)
+        if not mean[0] > _RADIAL_WITHIN * np.hypot(mean[0], mean[1]):
+            raise ImportRefused(
+                f"the blade's middle lies at {np.degrees(np.arctan2(mean[1], mean[0])):.0f} degrees round the axis from "
+                "`radial`; rotor_axis, axis_point or radial does not fit the file"
+            )
+        if radius.min() < 1e-3 * span:
+            raise ImportRefused("the rotor axis passes through the blade; check rotor_axis and axis_point")

@@ -1,0 +1,38 @@
+"""A mesh file read by the reader of its format."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+from .abaqus_reader import read_abaqus
+from .errors import ImportRefused
+from .meshio_reader import read_ansys, read_nastran, read_with_meshio
+from .raw_mesh import RawMesh
+
+READERS: dict[str, Callable[[Path], RawMesh]] = {
+    ".inp": read_abaqus,
+    ".msh": read_with_meshio,
+    ".vtu": read_with_meshio,
+    ".med": read_with_meshio,
+    ".bdf": read_nastran,
+    ".nas": read_nastran,
+    ".cdb": read_ansys,
+}
+"""Suffix of a file -> its reader."""
+
+
+def read_mesh(file: Path | str) -> RawMesh:
+    """The mesh of a file: ImportRefused, with the file's name, for one that is missing, unknown, broken or unsuitable."""
+    file = Path(file)
+    reader = READERS.get(file.suffix.lower())
+    if reader is None:
+        raise ImportRefused(f"{file}: found a file of kind '{file.suffix}'; allowed: {', '.join(READERS)}")
+    if not file.exists():
+        raise ImportRefused(f"{file}: there is no such file")
+    try:
+        return reader(file)
+    except ImportRefused as error:
+        raise ImportRefused(f"{file}: {error}") from None
+    except Exception as error:
+        raise ImportRefused(f"{file}: cannot be read ({type(error).__name__}: {error})") from error
