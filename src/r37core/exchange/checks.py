@@ -15,7 +15,7 @@ from r37core.fem.mesh_quality import scaled_jacobian
 from .errors import ImportRefused, MeshWarning
 from .raw_mesh import RawMesh
 
-ALONG_EDGE, OFF_EDGE = 0.2, 0.6
+ALONG_EDGE, OFF_EDGE = 0.24, 0.6
 """How far a mid-node may lie from the middle of its edge, along it and across it, in lengths of the edge.
 
 Across: half a circle round a blade's nose in one element has 0.5; a wrong node order has 0.7 and more. Along: at 0.25 the

@@ -26,7 +26,7 @@ def generate_mesh(blade: Blade, nodes: int, layers: int, tip_elements: int, msh_
     Raises ValueError when the node count cannot be met with that many elements along the tip.
     """
     chord_length, span_length = blade.dimensions()
-    with _quiet_gmsh():
+    with quiet_gmsh():
         size = _size_for(nodes, layers, tip_elements, chord_length, span_length)
         _build_rectangle(size, tip_elements, chord_length, span_length)
         top = gmsh.model.geo.extrude([(2, 1)], 0.0, 0.0, 2.0, numElements=[layers], recombine=True)
@@ -53,7 +53,8 @@ def generate_mesh(blade: Blade, nodes: int, layers: int, tip_elements: int, msh_
 
 
 @contextmanager
-def _quiet_gmsh() -> Iterator[None]:
+def quiet_gmsh() -> Iterator[None]:
+    """A gmsh session without output, on one thread, for second-order elements without inner nodes."""
     gmsh.initialize(interruptible=False)
     try:
         gmsh.option.setNumber("General.Terminal", 0)
