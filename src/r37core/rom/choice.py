@@ -15,19 +15,33 @@ from .boundary import BoundaryChoice
 
 @dataclass(frozen=True)
 class StressSubmesh:
-    """Where stress is recovered: nodes with x < `maximum_x` and `minimum_z` < z < `maximum_z` (m), none of them clamped."""
+    """Where stress is recovered: unclamped nodes with x < `maximum_x` and `minimum_z` < z < `maximum_z` (m).
 
-    maximum_x: float
-    minimum_z: float
-    maximum_z: float
+    `excluded_layers`: elements that hold a contact node or a clamped node are left out, and so many further layers round them
+    as this number exceeds one: there a force on a single node and the clamping give stresses that grow with a finer mesh.
+    """
 
-    def elements(self, mesh: BladeMesh) -> dict[str, np.ndarray]:
+    maximum_x: float = np.inf
+    minimum_z: float = -np.inf
+    maximum_z: float = np.inf
+    excluded_layers: int = 0
+
+    def elements(self, mesh: BladeMesh, contact_nodes: np.ndarray) -> dict[str, np.ndarray]:
         """Nodes of the elements all of whose nodes qualify, by element type."""
         x, _, z = mesh.points.T
         qualifies = (x < self.maximum_x) & (z > self.minimum_z) & (z < self.maximum_z)
-        qualifies[mesh.node_set("root")] = False
-        chosen = {name: nodes[qualifies[nodes].all(axis=1)] for name, nodes in mesh.blocks.items()}
-        return {name: nodes for name, nodes in chosen.items() if len(nodes)}
+        root = mesh.node_set("root")
+        qualifies[root] = False
+        near = np.zeros(len(x), dtype=bool)
+        near[contact_nodes] = near[root] = True
+        for _ in range(self.excluded_layers - 1):
+            near[np.concatenate([nodes[near[nodes].any(axis=1)].ravel() for nodes in mesh.blocks.values()])] = True
+        chosen = {}
+        for name, nodes in mesh.blocks.items():
+            kept = qualifies[nodes].all(axis=1) & ~(near[nodes].any(axis=1) & (self.excluded_layers > 0))
+            if kept.any():
+                chosen[name] = nodes[kept]
+        return chosen
 
 
 @dataclass(frozen=True)

@@ -40,7 +40,7 @@ def reduce_blade(mesh: BladeMesh, matrices: StructuralMatrices, choice: Reductio
     def recovery(of: np.ndarray) -> RecoveryNodes:
         return RecoveryNodes(of, mesh.points[of], whole[of])
 
-    stress_blocks = choice.stress_submesh.elements(mesh)
+    stress_blocks = choice.stress_submesh.elements(mesh, nodes)
     stress_nodes = np.unique(np.concatenate([np.empty(0, int), *(nodes.ravel() for nodes in stress_blocks.values())]))
     shapes = {name: shape[matrices.free_nodes].ravel() for name, shape in ideal_shapes(mesh).items()}
     mass_times_vectors = mass @ vectors

@@ -1,0 +1,113 @@
+"""Results for other programs, and matrices that come back."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import pyvista
+
+from r37core.exchange.errors import ImportRefused
+from r37core.exchange.exports import WorstInstant, worst_instant, write_matrices_directory, write_modes, write_stress
+from r37core.exchange.matrices_in import MatricesSource, import_matrices
+from r37core.exchange.orientation import Orientation
+from r37core.results.campbell import campbell_diagram
+from r37core.results.stress import StressRecovery
+from r37core.rom.contact_reduction import contact_model
+from r37core.rom.reduce import reduce_blade
+
+OURS = Orientation("m", (0, 0, 1), (1, 0, 0), "negative")
+
+
+@pytest.fixture(scope="module")
+def whole(mesh, matrices, choice):
+    return reduce_blade(mesh, matrices, replace(choice, whole_blade=True))
+
+
+@pytest.fixture(scope="module")
+def directory(mesh, matrices, model, tmp_path_factory):
+    folder = tmp_path_factory.mktemp("matrices")
+    write_matrices_directory(matrices, mesh, model.boundary_nodes, (0.0, 1000.0, 2000.0), folder)
+    return folder
+
+
+def test_modes(whole, mesh, tmp_path):
+    write_modes(mesh, whole, [0.0, 1500.0], 4, tmp_path)
+    collection = pyvista.get_reader(tmp_path / "modes.pvd")
+    assert list(collection.time_values) == [0.0, 1500.0]
+    grid = pyvista.read(tmp_path / "modes_1500.vtu")
+    assert set(grid.point_data.keys()) == {"mode 1B", "mode 1T", "mode 2B", "mode 4"}
+    frequency = grid.field_data["frequency of mode 1B (Hz)"][0]
+    assert frequency == pytest.approx(whole.modes(1500.0, 1)[0][0] / (2 * np.pi))
+    assert np.abs(grid.point_data["mode 1B"][mesh.node_set("root")]).max() == 0.0
+
+
+def test_stress_of_the_worst_instant(whole, mesh, steel, tmp_path):
+    shapes = whole.modes(0.0, 3)[1].T * 1e-4
+    recovery = StressRecovery(whole, steel)
+    instant = worst_instant(shapes, recovery.max_von_mises(shapes))
+    assert instant.largest == recovery.max_von_mises(shapes).max()
+    write_stress(mesh, whole, steel, {1200.0: instant}, tmp_path, "direct")
+    grid = pyvista.read(tmp_path / "stress_direct_1200.vtu")
+    np.testing.assert_allclose(grid.point_data["displacement"], whole.whole_blade.displacement(instant.coordinates))
+    # averaged over all elements at a node here, over those of the submesh there
+    here = grid.point_data["von Mises stress"][whole.stress_submesh.nodes].max()
+    assert here == pytest.approx(instant.largest, rel=0.25)
+    with pytest.raises(ValueError, match="does not recover the whole blade"):
+        write_stress(mesh, replace(whole, whole_blade=None), steel, {0.0: WorstInstant(shapes[0], 1.0)}, tmp_path, "direct")
+
+
+def test_full_matrices_come_back(directory, model, choice):
+    """The same reduced model to round-off: frequencies, names, contact rows."""
+    again = import_matrices(MatricesSource(str(directory), OURS), choice)
+    speeds = np.array([0.0, 700.0, 1700.0])
+    ours, theirs = (campbell_diagram(m, speeds, 6) for m in (model, again))
+    assert theirs.mode_names == ours.mode_names
+    np.testing.assert_allclose(theirs.frequencies, ours.frequencies, rtol=1e-7)
+    contact, wanted = contact_model(again, "pressure_edge"), contact_model(model, "pressure_edge")
+    np.testing.assert_allclose(contact.radius, wanted.radius, rtol=1e-12)
+    compliance, expected = (np.einsum("anj,bnj,j->abn", m.rows, m.rows, 1.0 / m.squared_frequencies) for m in (contact, wanted))
+    np.testing.assert_allclose(compliance, expected, rtol=1e-6, atol=1e-6 * np.abs(expected).max())
+
+
+def test_reduced_matrices_in_other_axes(model, choice, tmp_path):
+    """Rotor axis along -y, blade along z, mm, .npz: taken as they are, and turned."""
+    turn = np.array([[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])  # file's axes in rows of ours
+    nodes = len(model.boundary_nodes)
+    whole = np.eye(model.size)
+    whole[: 3 * nodes, : 3 * nodes] = np.kron(np.eye(nodes), turn)
+    for name, matrix in {"M": model.mass, **{f"K_{s:g}": model.stiffness_at(s) for s in (0.0, 800.0, 1600.0)}}.items():
+        np.savez(tmp_path / f"{name}.npz", whole.T @ matrix @ whole)
+    line = model.tip_lines["pressure_edge"]
+    points = line.points[[int(np.flatnonzero(line.nodes == node)[0]) for node in model.boundary_nodes]]
+    rows = np.arange(3 * nodes).reshape(-1, 3)
+    header = "x,y,z,dof_x,dof_y,dof_z"
+    np.savetxt(tmp_path / "boundary.csv", np.hstack([1e3 * points @ turn, rows]), delimiter=",", header=header, comments="")
+    table = (tmp_path / "boundary.csv").read_text()
+    (tmp_path / "boundary.csv").write_text(table)
+    orientation = Orientation("mm", rotor_axis=tuple(turn[2]), radial=tuple(turn[0]), rotation="negative")
+    again = import_matrices(MatricesSource(str(tmp_path), orientation), choice)
+    np.testing.assert_allclose(again.modes(1000.0, 10)[0], model.modes(1000.0, 10)[0], rtol=1e-8)
+    np.testing.assert_allclose(again.tip_lines["pressure_edge"].points, points, atol=1e-12)
+    rows_again, rows_ours = contact_model(again, "pressure_edge").rows, contact_model(model, "pressure_edge").rows
+    np.testing.assert_allclose(np.abs(rows_again[:, :, :6]), np.abs(rows_ours[:, :, :6]), rtol=1e-5, atol=1e-6)
+
+
+def test_unsuitable_matrices_are_refused(directory, choice, tmp_path):
+    def refused(message, **files):
+        folder = tmp_path / message[:12].replace(" ", "_")
+        folder.mkdir()
+        small = np.diag([4.0, 5.0, 6.0, 7.0])
+        content = {"M": small, "K_0": small, "K_100": 2 * small, "K_200": 5 * small} | files
+        for name, matrix in content.items():
+            if matrix is not None:
+                np.savez(folder / f"{name}.npz", matrix)
+        (folder / "boundary.csv").write_text("x,y,z,dof_x,dof_y,dof_z\n0.2,0,0,0,1,2\n")
+        with pytest.raises(ImportRefused, match=message):
+            import_matrices(MatricesSource(str(folder), OURS), choice)
+
+    small = np.diag([4.0, 5.0, 6.0, 7.0])
+    refused("needed: M and K_<speed> at three speeds", K_0=None)
+    refused("found speeds 100, 200, 300; allowed: 0", K_0=None, K_300=10 * small)
+    refused("is not linear in the squared speed", K_200=7 * small)
+    refused("matrices differ in size: 4, 3, 4, 4", K_0=small[:3, :3])
+    refused("a matrix that is not symmetric", K_0=small + np.eye(4, k=1))
