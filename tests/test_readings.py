@@ -1,5 +1,8 @@
 """Scores of the readings against the published numbers, on runs made by hand."""
 
+from dataclasses import asdict
+from types import SimpleNamespace
+
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
@@ -16,6 +19,7 @@ from r37core.studies.reading_places import DIRECT, Place, grid, places
 from r37core.studies.reading_table import readings_table
 from r37core.studies.readings import UNITS, run_place
 from r37core.studies.validation import Runs, reading_checks, torsion_speed
+from r37core.workflow.readings import Readings
 
 YIELD = 1.38e9
 STEPS = {"fine": 2.0, "coarse": 4.0, "survey": 5.0}
@@ -222,3 +226,16 @@ def test_steepest_fall_is_where_a_noisy_branch_ends():
     speed, share = measures.steepest_fall(xr.Dataset(data, coords={"speed": 1340.0 + np.arange(6)}))
     assert speed == 1343.0
     assert share == pytest.approx(0.69 / 1.19)
+
+
+def test_turned_choices_take_the_quick_march_and_the_shipped_one_the_published(settings):
+    plan = Readings(settings)
+
+    def march(reading, place="Ref_4"):
+        return plan.choice(SimpleNamespace(reading=reading, place=place))
+
+    published, quick = (asdict(settings.levels[name].march.choice()) for name in ("paper", "standard"))
+    assert march(SHIPPED) == march("half_step") == published
+    assert march("exact") == march("quick") == march("survey", "Ref_lined") == quick
+    assert quick != published
+    assert READINGS["half_step"].steps == 0.5

@@ -222,6 +222,8 @@ def _check_studies(
         if name != "readings":
             files.known(("studies", name, "blade"), [study.blade], blades, files.blades)
         files.known(("studies", name, "base"), [study.base], levels, files.levels)
+    if "readings" in studies.model_fields_set:
+        files.known(("studies", "readings", "quick"), [studies.readings.quick], levels, files.levels)
     if studies.tradeoff:
         given = studies.tradeoff
         files.known(("studies", "tradeoff", "knobs", "level"), given.knobs.level.values, levels, files.levels)
