@@ -173,7 +173,7 @@ def test_studies_do_not_stand_in_the_way_of_another_blade(project):
     config.write_text(config.read_text().replace("[Ref, CS100]", "[CS100]").replace("[abradable, direct]", "[direct]"))
     assert "simulate" in snakemake(project, "all_blades", "--cores", "2", "--dry-run")
     text = snakemake(project, "readings", "--cores", "2", "--dry-run", check=False)
-    assert re.search(r"config\.yaml: studies\.\S+: found '(Ref|abradable)'; allowed: (CS100|direct)", text)
+    assert re.search(r"config\.yaml: studies: found the (blade|scene) '(Ref|abradable)'; allowed: (CS100|direct)", text)
 
 
 def test_an_extreme_and_a_reading_run(project):
