@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -11,7 +12,7 @@ from typing import Any
 from pydantic import BaseModel
 
 from r37core.contact.scene import Scene
-from r37core.march.choice import MarchChoice
+from r37core.march.choice import LARGEST_TABLE, MarchChoice
 from r37core.rom.choice import ReductionChoice
 from r37core.speeds import SpeedError, expand_speeds
 from r37core.studies.levels import recommended_level
@@ -156,6 +157,7 @@ def load_settings(config: Document | Mapping[str, Any], root: Path) -> Settings:
     chosen_scenes = {name: _scene(scenes[name], level, checked.structure.boundary.tip_line) for name in scene_names}
     speeds = _speeds(checked, names, scene_names, level.march.speed_step_rad_s, blades, scenes, files)
     _check_history_speeds(chosen_scenes, speeds, files.scenes)
+    _check_slowest(level, checked.structure.boundary.nodes, speeds, files.config)
     return Settings(
         blades={name: blade_settings(name, blades, root, files.blades) for name in names},
         scenes=chosen_scenes,
@@ -295,6 +297,19 @@ def _check_history_speeds(
                     f"{speed:g}",
                     "speeds that are simulated (add it to speeds or speeds_for in config.yaml)",
                 )
+
+
+def _check_slowest(level: Level, nodes: int, speeds: Mapping[tuple[str, str], tuple[float, ...]], document: Document) -> None:
+    """ConfigError for a speed whose revolution has too many steps."""
+    slowest = min(several[0] for several in speeds.values())
+    size = 8 * nodes * 2.0 * math.pi / slowest / level.march.time_step_s
+    if size > LARGEST_TABLE:
+        raise document.refusal(
+            ("speeds",),
+            f"{slowest:g} rad/s, where a revolution has {size / 8 / nodes:.3g} steps of {level.march.time_step_s:g} s",
+            f"speeds from {slowest * size / LARGEST_TABLE:.3g} rad/s with this step (the casing's shape at every step has to "
+            "fit in memory)",
+        )
 
 
 def checked_scene(entry: Mapping[str, Any]) -> Scene:
