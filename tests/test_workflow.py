@@ -227,7 +227,7 @@ def test_step_beyond_the_limit_stops_with_the_limit(finished_copy):
         (
             "- { start: 750, stop: 1600 }",
             "- { start: 1600, stop: 750 }",
-            r"config\.yaml:\d+: speeds\.0: found a range from 1600 to 750",
+            r"yaml:\d+: speeds\.0: found a range from 1600 to 750",
         ),
         ("- { start: 750, stop: 1600 }", "- 900\n  - 900", r"speeds: found 900 rad/s twice"),
         ("- { start: 750, stop: 1600 }", "- -900", r"speeds\.0: found -900; allowed:"),
