@@ -178,7 +178,7 @@ def test_studies_do_not_stand_in_the_way_of_another_blade(project):
 
 def test_an_extreme_and_a_reading_run(project):
     config = project / "config/config.yaml"
-    steps = "{ fine: 100, coarse: 100, survey: 400 }"
+    steps = "{ fine: 100, coarse: 100, survey: 100 }"
     studies = f"  stability: {{ base: tiny }}\n  readings: {{ base: tiny, quick: tiny, speed_steps_rad_s: {steps} }}\n"
     config.write_text(config.read_text() + studies)
     extreme = "results/studies/stability/lobes_5_direct.json"
