@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import math
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -63,6 +63,27 @@ class Settings:
     scene_entries: dict[str, SceneEntry]
     tolerance: float
     fidelity_is_chosen: bool
+    run_name: str | None
+    config: Config
+
+    @property
+    def results(self) -> Path:
+        """Folder of the results."""
+        return Path("results", "runs", self.run_name) if self.run_name else Path("results")
+
+    @property
+    def logs(self) -> Path:
+        """Folder of the logs."""
+        return Path("logs", "runs", self.run_name) if self.run_name else Path("logs")
+
+    def merged(self) -> dict[str, Any]:
+        """What this run is made with, merged from all files and the command line, as plain values."""
+        return {
+            "config": plain(self.config),
+            "fidelity": {self.fidelity_name: plain(self.fidelity)},
+            "scenes": {name: plain(self.scene_entries[name]) for name in self.scenes},
+            "blades": {name: asdict(blade) for name, blade in self.blades.items()},
+        }
 
     @property
     def remarks(self) -> list[str]:
@@ -172,6 +193,8 @@ def load_settings(config: Document | Mapping[str, Any], root: Path) -> Settings:
         scene_entries=scenes,
         tolerance=checked.tolerance,
         fidelity_is_chosen=checked.fidelity == "auto",
+        run_name=checked.run.name,
+        config=checked,
     )
 
 

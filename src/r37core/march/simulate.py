@@ -75,6 +75,11 @@ class March:
         self.model, self.speed, self.scene, self.choice = model, speed, scene, choice
         self.frequencies, self.modes = model.modes_at(speed)
         kept = self.frequencies <= 2.0 * np.pi * choice.highest_frequency
+        if not kept.any():
+            raise ValueError(
+                f"highest_frequency_hz: found {choice.highest_frequency:g}; allowed: more than the first mode's, "
+                f"{self.frequencies[0] / 2.0 / np.pi:.6g} Hz at {speed:g} rad/s"
+            )
         self.frequencies, self.modes = self.frequencies[kept], np.ascontiguousarray(self.modes[:, kept])
         period = 2.0 * np.pi / speed
         self.steps_per_sample = int(np.ceil(period / (choice.samples_per_revolution * choice.time_step) - 1e-9))
