@@ -5,7 +5,7 @@ CORES ?= 2
 VENV := .venv
 BIN := $(VENV)/bin
 
-.PHONY: all_blades campbell test lint bench docs setup clean-results
+.PHONY: all_blades campbell test lint bench docs setup clean clean-results
 
 all_blades campbell: $(VENV)/.ready
 	$(BIN)/snakemake $@ --cores $(CORES) $(if $(FIDELITY),--config fidelity=$(FIDELITY))
@@ -40,6 +40,10 @@ $(VENV)/.ready: pyproject.toml envs/system_libraries.sh
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[test]'
 	sh envs/system_libraries.sh $(BIN)/python
 	@touch $@
+
+# what the configuration no longer asks for: lists it; REMOVE=yes removes it
+clean: $(VENV)/.ready
+	$(BIN)/python -m r37core.workflow.leftovers $(if $(REMOVE),--remove)
 
 clean-results:
 	rm -rf results logs

@@ -22,6 +22,7 @@ rule all_blades:
     default_target: True
     input:
         rules.campbell.input,
+        rules.configuration.output,
         expand("<results>/{kind}.nc", kind=sweep.kinds),
         "<results>/summary.csv",
         sweep.figures,

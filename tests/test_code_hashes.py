@@ -75,7 +75,7 @@ def rules(root):
     text = "".join(file.read_text() for file in sorted((root / "workflow/rules").rglob("*.smk")))
     found = {}
     for block in re.split(r"^rule ", text, flags=re.MULTILINE)[1:]:
-        script = re.search(r'script:\s+"[./]*scripts/(\w+)\.py"', block)
+        script = re.search(r'script(?::\s+"[./]*scripts/|=SCRIPTS / ")(\w+)\.py"', block)
         if script:
             found[block.split(":")[0]] = (script[1], re.findall(r'code=code\("(\w+)"\)', block))
     return found

@@ -17,7 +17,7 @@ from r37core.march import kernel
 from r37core.march.choice import MarchChoice
 from r37core.march.layout import Kind, layout_of, march_record
 from r37core.march.simulate import March
-from r37core.native import ObjectCodeError, cached_object, load_function, object_code
+from r37core.native import ObjectCodeError, Sources, cached_object, load_function, object_code
 
 TWICE = """
 define i64 @odd_name(i64 %x) {
@@ -51,9 +51,9 @@ def test_made_once(cache):
         return made[-1]
 
     for _ in range(2):
-        assert twice(cached_object("twice", (), 1, build)) == 42
+        assert twice(cached_object("twice", Sources(), 1, build)) == 42
     assert len(made) == 1
-    cached_object("twice", (), 2, build)
+    cached_object("twice", Sources(), 2, build)
     assert len(made) == 2
     assert len(list(cache.iterdir())) == 2
 
@@ -61,22 +61,32 @@ def test_made_once(cache):
 def test_an_edited_source_or_another_processor_is_made_again(cache, monkeypatch, tmp_path):
     monkeypatch.setattr(native, "_PACKAGE", tmp_path)
     (tmp_path / "law.py").write_text("1")
-    cached_object("twice", ["law.py"], None, make)
+    cached_object("twice", Sources("law.py"), None, make)
     (tmp_path / "law.py").write_text("2")
-    cached_object("twice", ["law.py"], None, make)
+    cached_object("twice", Sources("law.py"), None, make)
     assert len(list(cache.iterdir())) == 2
     monkeypatch.setenv("NUMBA_CPU_NAME", "x86-64-v3")
-    cached_object("twice", ["law.py"], None, lambda: b"")
+    cached_object("twice", Sources("law.py"), None, lambda: b"")
     assert len(list(cache.iterdir())) == 3
+
+
+def test_a_source_edited_while_its_importer_runs_leaves_no_object(cache, monkeypatch, tmp_path):
+    """The process still compiles what it imported, which must not stand under the new source's name."""
+    monkeypatch.setattr(native, "_PACKAGE", tmp_path)
+    (tmp_path / "law.py").write_text("1")
+    imported = Sources("law.py")
+    (tmp_path / "law.py").write_text("2")
+    assert twice(cached_object("twice", imported, None, make)) == 42
+    assert not list(cache.iterdir())
 
 
 @pytest.mark.parametrize("damage", [lambda c: c[:100], lambda c: c[:-1], lambda c: b"", lambda c: c[:80] + b"?" + c[81:]])
 def test_a_damaged_file_is_made_again(cache, damage):
-    cached_object("twice", (), None, make)
+    cached_object("twice", Sources(), None, make)
     (file,) = cache.iterdir()
     whole = file.read_bytes()
     file.write_bytes(damage(whole))
-    assert twice(cached_object("twice", (), None, make)) == 42
+    assert twice(cached_object("twice", Sources(), None, make)) == 42
     assert file.read_bytes() == whole
 
 
@@ -91,7 +101,7 @@ def test_side_by_side(tmp_path):
     code = (
         "import ctypes\nfrom r37core import native\nnative._writable = lambda _: False\n"
         f"assembly = {TWICE!r}\n"
-        "code = native.cached_object('twice', (), 5, lambda: native.object_code(assembly, 'odd_name', 'twice'))\n"
+        "code = native.cached_object('twice', native.Sources(), 5, lambda: native.object_code(assembly, 'odd_name', 'twice'))\n"
         "print(native.load_function(code, 'twice', ctypes.c_int64, ctypes.c_int64)(5))"
     )
     environment = os.environ | {"XDG_CACHE_HOME": str(tmp_path)}
@@ -121,7 +131,7 @@ def test_a_job_does_not_import_numba(contact, tmp_path, root):
 def test_sources_of_the_march_are_all_that_it_is_compiled_from(root):
     """What the compiled modules import of the package is itself among the sources."""
     core = root / "src/r37core"
-    for source in kernel.SOURCES:
+    for source in kernel.SOURCES.files:
         folder = (core / source).parent.relative_to(core)
         for node in ast.walk(ast.parse((core / source).read_text())):
             if not isinstance(node, ast.ImportFrom) or not (node.level or (node.module or "").startswith("r37core")):
@@ -130,7 +140,7 @@ def test_sources_of_the_march_are_all_that_it_is_compiled_from(root):
             names = [f"{folder / module if node.level else module}.py"]
             if not (core / names[0]).exists():
                 names = [f"{module}/{alias.name}.py" for alias in node.names]
-            assert set(names) <= set(kernel.SOURCES), source
+            assert set(names) <= set(kernel.SOURCES.files), source
 
 
 def test_arrays_of_the_record_are_aligned_and_apart():

@@ -7,6 +7,7 @@ import tomllib
 import yaml
 
 LAYERS = [
+    "failures",
     "io",
     "dataset_file",
     "alignment",

@@ -1,5 +1,8 @@
 """Scores of the readings against the published numbers, on runs made by hand."""
 
+from dataclasses import asdict
+from types import SimpleNamespace
+
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
@@ -15,7 +18,8 @@ from r37core.studies.reading_list import READINGS, SHIPPED, TURNED
 from r37core.studies.reading_places import DIRECT, Place, grid, places
 from r37core.studies.reading_table import readings_table
 from r37core.studies.readings import UNITS, run_place
-from r37core.studies.validation import Runs, reading_checks, torsion_speed
+from r37core.studies.validation import Runs, reading_checks, survey_checks, torsion_speed
+from r37core.workflow.readings import Readings
 
 YIELD = 1.38e9
 STEPS = {"fine": 2.0, "coarse": 4.0, "survey": 5.0}
@@ -222,3 +226,40 @@ def test_steepest_fall_is_where_a_noisy_branch_ends():
     speed, share = measures.steepest_fall(xr.Dataset(data, coords={"speed": 1340.0 + np.arange(6)}))
     assert speed == 1343.0
     assert share == pytest.approx(0.69 / 1.19)
+
+
+def test_turned_choices_take_the_quick_march_and_the_shipped_one_the_published(settings):
+    plan = Readings(settings)
+
+    def march(reading, place="Ref_4"):
+        return plan.choice(SimpleNamespace(reading=reading, place=place))
+
+    published, quick = (asdict(settings.levels[name].march.choice()) for name in ("paper", "standard"))
+    assert march(SHIPPED) == march("half_step") == published
+    assert march("exact") == march("quick") == march("survey", "Ref_lined") == quick
+    assert quick != published
+    assert READINGS["half_step"].steps == 0.5
+
+
+def survey_of(responses, median):
+    """The whole range with a response of so many metres, normal and radial, at single speeds."""
+    speed = np.arange(750.0, 2001.0, 5.0)
+    run = xr.Dataset({"rms_normal": ("speed", np.full(len(speed), median))}, coords={"speed": speed})
+    run = run.assign(rms_radial=run["rms_normal"].copy())
+    for at, (normal, radial) in responses.items():
+        run["rms_normal"].loc[{"speed": at}], run["rms_radial"].loc[{"speed": at}] = normal, radial
+    return run
+
+
+def test_survey_counts_responses_beside_the_interactions():
+    ref = {840.0: (4e-3, 2e-3), 1630.0: (6e-4, 1e-4), 1345.0: (2e-3, 4e-4), 1350.0: (2e-3, 4e-4)}
+    survey = {"Ref_lined": survey_of(ref, 0.02e-3), "Ref_rigid": survey_of({}, 0.13e-3)}
+    survey["CS100_lined"] = survey_of({900.0: (2e-3, 0.0), 1000.0: (2e-3, 0.0), 1100.0: (2e-3, 0.0)}, 0.02e-3)
+    shipped = {"Ref_4": branch(1717.0), "CS100_4": branch(1407.0)}
+    shipped["CS100_4"]["max_von_mises"][5:] += 1.5 * YIELD * (shipped["CS100_4"]["speed"][5:] < 1400.0)
+    checks = {check.name: check for check in survey_checks(survey, shipped, YIELD)}
+    assert [name for name, check in checks.items() if not check.met] == []
+    assert any(check.detail == "3 and 2" for check in checks.values())
+    survey["Ref_lined"]["rms_radial"].loc[{"speed": 1345.0}] = 0.9e-3
+    missed = [check.name for check in survey_checks(survey, shipped, YIELD) if not check.met]
+    assert missed == ["Ref lined, 750 to 2000: no other radial rms above 0.8 mm"]

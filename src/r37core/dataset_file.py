@@ -19,12 +19,14 @@ def about(units: str, long_name: str) -> dict[str, str]:
 def write_dataset(dataset: xr.Dataset, file: Path | str, provenance: Mapping[str, object] | None = None) -> None:
     """Write a dataset as netCDF4, atomically, with version and `provenance` as global attributes.
 
-    Coordinates carry no fill value, as the CF conventions ask.
+    Coordinates carry no fill value, as the CF conventions ask. Arrays carry checksums, so that reading finds a flipped bit.
     """
     dataset = dataset.assign_attrs(FILE_ATTRIBUTES | dict(provenance or {}))
-    encoding: dict[str, dict[str, float | None]] = {str(name): {"_FillValue": None} for name in dataset.coords}
+    encoding: dict[str, dict[str, float | bool | None]] = {str(name): {"_FillValue": None} for name in dataset.coords}
     for name, variable in dataset.data_vars.items():
         encoding[str(name)] = {"_FillValue": np.nan if variable.dtype.kind == "f" else None}
+        if variable.ndim and variable.size and variable.dtype.kind in "fiu":
+            encoding[str(name)]["fletcher32"] = True
     with atomic_write(file) as partial:
         dataset.to_netcdf(partial, engine="netcdf4", encoding=encoding)
 

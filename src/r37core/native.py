@@ -10,7 +10,7 @@ import ctypes
 import hashlib
 import os
 import tempfile
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
@@ -36,20 +36,35 @@ def processor() -> tuple[str, str]:
     return str(name), features
 
 
-def cached_object(name: str, sources: Iterable[str], about: object, build: Callable[[], bytes]) -> bytes:
+class Sources:
+    """Files of the package that object code is made from, as they were when this was made: where they are imported."""
+
+    def __init__(self, *files: str):
+        self.files = files
+        self.digest = self._read()
+
+    @property
+    def unchanged(self) -> bool:
+        """Whether the files are still those."""
+        return self._read() == self.digest
+
+    def _read(self) -> bytes:
+        return hashlib.sha256(b"".join((_PACKAGE / file).read_bytes() for file in self.files)).digest()
+
+
+def cached_object(name: str, sources: Sources, about: object, build: Callable[[], bytes]) -> bytes:
     """The object code called `name`; `build` is called when it is not there, or damaged.
 
-    `sources`: files of the package that it is made from; `about`: what else it depends on, told apart by its repr. The
-    compiler's versions and the processor are taken along.
+    `about`: what it depends on beside its sources, told apart by its repr. The compiler's versions and the processor are
+    taken along. What is built is not kept if the sources were edited after this process imported them.
     """
-    key = hashlib.sha256(repr((name, about, _numba_version(), llvmlite.__version__, processor())).encode())
-    for source in sources:
-        key.update((_PACKAGE / source).read_bytes())
-    file = _cache() / f"{name}-{key.hexdigest()[:16]}.o"
+    made_of = (name, about, sources.digest, _numba_version(), llvmlite.__version__, processor())
+    file = _cache() / f"{name}-{hashlib.sha256(repr(made_of).encode()).hexdigest()[:16]}.o"
     code = _read(file)
     if code is None:
         code = build()
-        _write(code, file)
+        if sources.unchanged:
+            _write(code, file)
     return code
 
 

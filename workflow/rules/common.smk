@@ -1,5 +1,6 @@
 # Settings of this run, and the plans that the rules take their inputs and parameters from (r37core.workflow).
 # Snakemake re-runs a job when a parameter of plain types changes; of other objects a hash or text stands beside.
+import atexit
 import sys
 from pathlib import Path
 
@@ -7,11 +8,14 @@ from snakemake.exceptions import WorkflowError
 from snakemake.settings.types import DeploymentMethod
 
 from r37core.config import ConfigError, plain, settings_of_run
-from r37core.workflow import paths
+from r37core import failures
+from r37core.workflow import lock, paths
 from r37core.workflow.code import CodeHashes
 from r37core.workflow.provenance import Provenance
 from r37core.workflow.structure import Structure
+from r37core.workflow.run import replaced_level
 from r37core.workflow.sweep import Sweep
+from r37core.workflow.tree import check_tree
 
 ROOT = Path(workflow.basedir)
 ENVIRONMENT = ROOT / "envs" / "r37.yaml"
@@ -21,6 +25,7 @@ PYTHON = Path("python" if DeploymentMethod.CONDA in workflow.deployment_settings
 
 # read here instead of by a `configfile:`, so that messages have lines and numbers are numbers in every file
 try:
+    check_tree(ROOT)
     settings = settings_of_run(
         ROOT,
         workflow.config_settings.configfiles,
@@ -30,13 +35,33 @@ try:
 except ConfigError as error:
     raise WorkflowError(str(error)) from None
 
-for line in settings.remarks:
+for line in [*lock.lift_stale(), *settings.remarks, *replaced_level(settings)]:
     logger.info(line)
 
 code = CodeHashes(ROOT / "src", SCRIPTS)
 made = Provenance(settings)
 structure = Structure(settings)
 sweep = Sweep(settings)
+
+
+pathvars:
+    results=str(settings.results),
+    logs=str(settings.logs),
+
+
+onstart:
+    lock.claim()
+    failures.forget()
+
+
+onsuccess:
+    lock.release()
+
+
+onerror:
+    lock.release()
+    # Snakemake has a few words after this; what matters comes last
+    atexit.register(lambda: print("", *failures.noted(), sep="\n", file=sys.stderr))
 
 
 wildcard_constraints:

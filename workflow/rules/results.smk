@@ -1,6 +1,21 @@
 # The datasets over all blades and scenes, and the list of interactions.
 
 
+rule configuration:
+    output:
+        "<results>/configuration.json",
+    log:
+        "<logs>/configuration.log",
+    priority: 20
+    conda:
+        ENVIRONMENT
+    params:
+        merged=settings.merged(),
+        code=code("configuration"),
+    script:
+        "../scripts/configuration.py"
+
+
 rule sweep_dataset:
     input:
         sweep.responses,

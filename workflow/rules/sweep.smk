@@ -24,14 +24,15 @@ rule prepare_march:
         touch(paths.MARCH_STAMP),
     log:
         "<logs>/{blade}/{scene}/prepare_march.log",
-    # the sweep's jobs find the march compiled; one message before the sweep instead of one from each of its jobs
+    # the sweep's jobs find the march compiled; one message before the sweep instead of one from each of its jobs. Nothing here
+    # may depend on which speeds are run: more speeds would renew the stamp, and with it run all of them again
     priority: 15
     conda:
         ENVIRONMENT
     params:
         scene=sweep.scene,
         described=sweep.described,
-        speeds=sweep.extreme_speeds,
+        speed=settings.structure.maximum_speed_rad_s,
         choice=sweep.choice_of_scene,
         code=code("prepare_march"),
     script:
@@ -40,8 +41,7 @@ rule prepare_march:
 
 rule simulate:
     input:
-        # other extremes of the speeds renew the stamp, which is no reason to run a speed again
-        prepared=ancient(paths.MARCH_STAMP),
+        prepared=paths.MARCH_STAMP,
         model=sweep.contact_model,
     output:
         paths.SPEED,

@@ -1,4 +1,4 @@
-"""Compile the march and refuse a step that is too long. Input: contact model. Params: scene, choice, speeds. Output: stamp."""
+"""Compile the march and refuse a step that is too long. Input: contact model. Params: scene, choice, speed. Output: stamp."""
 
 from job import run
 
@@ -9,9 +9,8 @@ from r37core.rom.contact_model import read_contact_model
 
 def main(snakemake):
     params = snakemake.params
-    for speed in params.speeds:
-        march = March(read_contact_model(snakemake.input[0]), speed, params.scene, MarchChoice(**params.choice))
-        print(f"{speed:g} rad/s: highest mode {march.frequencies[-1]:.6g} rad/s, steps of {march.time_step:.6g} s")
+    march = March(read_contact_model(snakemake.input[0]), params.speed, params.scene, MarchChoice(**params.choice))
+    print(f"{params.speed:g} rad/s: highest mode {march.frequencies[-1]:.6g} rad/s, steps of {march.time_step:.6g} s")
     march.compile()
 
 

@@ -5,9 +5,9 @@ Started without Snakemake's own preamble; task and attributes of the file, in JS
 
 import json
 import sys
-import traceback
 
 from r37core.contact.scene import scene_from
+from r37core.failures import reported
 from r37core.march.choice import MarchChoice
 from r37core.march.speed_file import write_speed
 from r37core.march.speed_run import run_speed
@@ -23,10 +23,5 @@ def main(model, speed, output, task, about):
 
 
 model, speed, output, log, task, about = sys.argv[1:]
-with open(log, "w", encoding="utf-8") as stream:
-    try:
-        main(model, speed, output, task, about)
-    except Exception as error:
-        traceback.print_exc(file=stream)
-        print(f"rule simulate: {error} (details in {log})", file=sys.stderr)
-        sys.exit(1)
+with reported("simulate", log, f"speed {speed}, "):
+    main(model, speed, output, task, about)

@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 import hashlib
+import math
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Any
 
 from pydantic import BaseModel
 
 from r37core.contact.scene import Scene
-from r37core.march.choice import MarchChoice
+from r37core.march.choice import LARGEST_TABLE, MarchChoice
 from r37core.rom.choice import ReductionChoice
 from r37core.speeds import SpeedError, expand_speeds
 from r37core.studies.levels import recommended_level
@@ -62,6 +63,27 @@ class Settings:
     scene_entries: dict[str, SceneEntry]
     tolerance: float
     fidelity_is_chosen: bool
+    run_name: str | None
+    config: Config
+
+    @property
+    def results(self) -> Path:
+        """Folder of the results."""
+        return Path("results", "runs", self.run_name) if self.run_name else Path("results")
+
+    @property
+    def logs(self) -> Path:
+        """Folder of the logs."""
+        return Path("logs", "runs", self.run_name) if self.run_name else Path("logs")
+
+    def merged(self) -> dict[str, Any]:
+        """What this run is made with, merged from all files and the command line, as plain values."""
+        return {
+            "config": plain(self.config),
+            "fidelity": {self.fidelity_name: plain(self.fidelity)},
+            "scenes": {name: plain(self.scene_entries[name]) for name in self.scenes},
+            "blades": {name: asdict(blade) for name, blade in self.blades.items()},
+        }
 
     @property
     def remarks(self) -> list[str]:
@@ -156,6 +178,7 @@ def load_settings(config: Document | Mapping[str, Any], root: Path) -> Settings:
     chosen_scenes = {name: _scene(scenes[name], level, checked.structure.boundary.tip_line) for name in scene_names}
     speeds = _speeds(checked, names, scene_names, level.march.speed_step_rad_s, blades, scenes, files)
     _check_history_speeds(chosen_scenes, speeds, files.scenes)
+    _check_slowest(level, checked.structure.boundary.nodes, speeds, files.config)
     return Settings(
         blades={name: blade_settings(name, blades, root, files.blades) for name in names},
         scenes=chosen_scenes,
@@ -170,6 +193,8 @@ def load_settings(config: Document | Mapping[str, Any], root: Path) -> Settings:
         scene_entries=scenes,
         tolerance=checked.tolerance,
         fidelity_is_chosen=checked.fidelity == "auto",
+        run_name=checked.run.name,
+        config=checked,
     )
 
 
@@ -222,6 +247,8 @@ def _check_studies(
         if name != "readings":
             files.known(("studies", name, "blade"), [study.blade], blades, files.blades)
         files.known(("studies", name, "base"), [study.base], levels, files.levels)
+    if "readings" in studies.model_fields_set:
+        files.known(("studies", "readings", "quick"), [studies.readings.quick], levels, files.levels)
     if studies.tradeoff:
         given = studies.tradeoff
         files.known(("studies", "tradeoff", "knobs", "level"), given.knobs.level.values, levels, files.levels)
@@ -293,6 +320,19 @@ def _check_history_speeds(
                     f"{speed:g}",
                     "speeds that are simulated (add it to speeds or speeds_for in config.yaml)",
                 )
+
+
+def _check_slowest(level: Level, nodes: int, speeds: Mapping[tuple[str, str], tuple[float, ...]], document: Document) -> None:
+    """ConfigError for a speed whose revolution has too many steps."""
+    slowest = min(several[0] for several in speeds.values())
+    size = 8 * nodes * 2.0 * math.pi / slowest / level.march.time_step_s
+    if size > LARGEST_TABLE:
+        raise document.refusal(
+            ("speeds",),
+            f"{slowest:g} rad/s, where a revolution has {size / 8 / nodes:.3g} steps of {level.march.time_step_s:g} s",
+            f"speeds from {slowest * size / LARGEST_TABLE:.3g} rad/s with this step (the casing's shape at every step has to "
+            "fit in memory)",
+        )
 
 
 def checked_scene(entry: Mapping[str, Any]) -> Scene:

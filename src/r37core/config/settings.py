@@ -118,6 +118,14 @@ class Interactions(Section):
     above: float = Field(default=0.06, ge=0, le=1, description="how far above")
 
 
+class Run(Section):
+    """Where the results go."""
+
+    name: Name | LeftOut = Field(
+        default=None, description="a run with a name has its results in results/runs/<name>, beside those of others"
+    )
+
+
 class Config(Section):
     """config.yaml, what to run."""
 
@@ -144,5 +152,6 @@ class Config(Section):
         description="accepted relative error of rms, largest displacement and stress at an interaction; "
         "with fidelity auto it picks the level",
     )
+    run: Run = Run()
     studies: Studies = Studies()
     campbell: Campbell = Campbell()

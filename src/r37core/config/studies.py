@@ -91,6 +91,7 @@ class Readings(Section):
     """Readings of what the benchmark leaves open, and the published numbers beside ours (snakemake readings)."""
 
     base: Name = Field(default="paper", description="fidelity level of the published step and mesh")
+    quick: Name = Field(default="standard", description="level whose march the turned choices and the whole range take")
     lined_scene: Name = "abradable"
     rigid_scene: Name = "direct"
     speed_steps_rad_s: SpeedSteps = SpeedSteps()

@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+LARGEST_TABLE = 2**30
+"""Bytes of the casing's shape at every step of a revolution."""
+
 
 @dataclass(frozen=True)
 class MarchChoice:

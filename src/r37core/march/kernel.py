@@ -11,7 +11,7 @@ import numpy as np
 
 from r37core.alignment import aligned_copy, aligned_zeros
 from r37core.contact.scene import Friction, Lining
-from r37core.native import cached_object, load_function
+from r37core.native import Sources, cached_object, load_function
 
 from .flight import FlightPlan
 from .layout import (
@@ -26,7 +26,7 @@ from .layout import (
     march_record,
 )
 
-SOURCES = (
+SOURCES = Sources(
     "alignment.py",
     "lanes.py",
     "native.py",

@@ -12,7 +12,7 @@ from r37core.contact.scene import Lining, Scene
 from r37core.rom.contact_model import ContactModel
 
 from . import kernel
-from .choice import MarchChoice
+from .choice import LARGEST_TABLE, MarchChoice
 from .flight import nearest_casing, plan_flight
 from .integrators import CENTRAL_DIFFERENCE, recursion
 from .reference import Clock, ReferenceMarch
@@ -25,9 +25,6 @@ class UnstableStepError(ValueError):
 class LongRevolutionError(ValueError):
     """A revolution of so many steps that the casing's table would not fit in memory."""
 
-
-_LARGEST_TABLE = 2**30
-"""Bytes."""
 
 TIP_POINTS, DIRECTIONS = ("leading_edge", "trailing_edge"), ("normal", "radial", "tangential")
 """What the samples are of: every direction at the first tip point, then at the second."""
@@ -78,6 +75,11 @@ class March:
         self.model, self.speed, self.scene, self.choice = model, speed, scene, choice
         self.frequencies, self.modes = model.modes_at(speed)
         kept = self.frequencies <= 2.0 * np.pi * choice.highest_frequency
+        if not kept.any():
+            raise ValueError(
+                f"highest_frequency_hz: found {choice.highest_frequency:g}; allowed: more than the first mode's, "
+                f"{self.frequencies[0] / 2.0 / np.pi:.6g} Hz at {speed:g} rad/s"
+            )
         self.frequencies, self.modes = self.frequencies[kept], np.ascontiguousarray(self.modes[:, kept])
         period = 2.0 * np.pi / speed
         self.steps_per_sample = int(np.ceil(period / (choice.samples_per_revolution * choice.time_step) - 1e-9))
@@ -99,7 +101,7 @@ class March:
 
     def _check_length(self) -> None:
         table = 8 * self.steps_per_revolution * len(self.model.radius)
-        if table > _LARGEST_TABLE:
+        if table > LARGEST_TABLE:
             steps = f"{self.steps_per_revolution} steps of {self.time_step:.3g} s"
             raise LongRevolutionError(
                 f"speeds: at {self.speed:g} rad/s a revolution has {steps}, "

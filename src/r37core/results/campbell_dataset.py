@@ -6,6 +6,7 @@ import numpy as np
 import xarray as xr
 
 from r37core.dataset_file import about
+from r37core.rom.contact_model import BucklingError
 from r37core.rom.reduced_model import ReducedModel
 
 from .campbell import campbell_diagram, dynamic_clearance
@@ -28,6 +29,9 @@ def campbell_dataset(
     """
     speeds = np.linspace(0.0, maximum_speed, max(4, round(maximum_speed / speed_step) + 1))
     diagram = campbell_diagram(model, speeds, modes)
+    unstable = np.flatnonzero((diagram.frequencies <= 0.0).any(axis=0))
+    if len(unstable):
+        raise BucklingError(speeds[unstable[0]])
     orders = np.arange(1, highest_engine_order + 1)
     displacement = np.linspace(-1.0, 1.0, _CLEARANCE_POINTS) * largest_tangential_displacement
     clearance = dynamic_clearance(model, diagram.shapes[:, 0].T, tip_line, displacement)

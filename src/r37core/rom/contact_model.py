@@ -16,6 +16,16 @@ import numpy as np
 from r37core.io import atomic_write, readable
 
 
+class BucklingError(ValueError):
+    """A blade without a stable position at a speed."""
+
+    def __init__(self, speed: float):
+        super().__init__(
+            f"the blade has no stable position at {speed:g} rad/s: its stiffness is not positive there; choose lower speeds "
+            "(speeds, and structure.maximum_speed_rad_s), or a stiffer or lighter material, or less sweep and lean"
+        )
+
+
 @dataclass(frozen=True)
 class ContactModel:
     """A blade in the coordinates of its modes at rest.
@@ -40,12 +50,12 @@ class ContactModel:
     def modes_at(self, speed: float) -> tuple[np.ndarray, np.ndarray]:
         """Angular frequencies (rad/s), ascending, and modes, shape (modes at rest, modes), at `speed` (rad/s).
 
-        Raises ValueError when a stiffness is not positive (the blade has no stable position at this speed).
+        Raises BucklingError when a stiffness is not positive.
         """
         stiffness = np.diag(self.squared_frequencies) + speed**2 * self.stiffness_per_square
         squares, modes = np.linalg.eigh(stiffness)
         if not squares[0] > 0.0:
-            raise ValueError(f"the blade has no stable position at {speed:g} rad/s (a stiffness is not positive)")
+            raise BucklingError(speed)
         return np.sqrt(squares), modes
 
 

@@ -7,6 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.linalg as la
 
+from .contact_model import BucklingError
+
 
 @dataclass(frozen=True)
 class RecoveryNodes:
@@ -100,13 +102,13 @@ class ReducedModel:
         """
         squares, shapes = la.eigh(self.stiffness_at(speed), self.mass)
         if self.coriolis is not None and speed != 0.0:
-            return _gyroscopic_modes(squares, shapes, speed * self.coriolis, count)
+            return _gyroscopic_modes(squares, shapes, speed * self.coriolis, count, speed)
         frequencies = np.sign(squares) * np.sqrt(np.abs(squares))
         return frequencies[:count], shapes[:, :count]
 
 
 def _gyroscopic_modes(
-    squares: np.ndarray, shapes: np.ndarray, gyroscopic: np.ndarray, count: int | None
+    squares: np.ndarray, shapes: np.ndarray, gyroscopic: np.ndarray, count: int | None, speed: float
 ) -> tuple[np.ndarray, np.ndarray]:
     """Modes of q'' + g q' + diag(squares) q = 0 in modal coordinates q, with g skew-symmetric.
 
@@ -114,7 +116,7 @@ def _gyroscopic_modes(
     eigenvalues are the angular frequencies w of motions exp(i w t), without the loss of digits of a general eigensolver.
     """
     if squares[0] <= 0.0:
-        raise ValueError("the blade has no stable position at this speed (a stiffness is not positive)")
+        raise BucklingError(speed)
     root = np.sqrt(squares)
     coupling = shapes.T @ gyroscopic @ shapes
     size = len(root)

@@ -97,8 +97,8 @@ def overtakes(ours: np.ndarray, theirs: np.ndarray) -> float:
 
 
 def interactions_above(run: xr.Dataset, floor: float) -> int:
-    """Separate stretches of speeds whose radial rms is above `floor` (m)."""
-    above = np.concatenate([[0], run["rms_radial"].fillna(np.inf).values > floor])
+    """Separate stretches of speeds whose normal rms is above `floor` (m)."""
+    above = np.concatenate([[0], run["rms_normal"].fillna(np.inf).values > floor])
     return int(np.count_nonzero(np.diff(above.astype(int)) == 1))
 
 

@@ -207,17 +207,25 @@ def survey_checks(runs: Runs, shipped: Runs, yield_stress: float) -> list[Check]
         if one.blade == REFERENCE:
             low, high = ((1.0 + share) * one.campbell for share in (FINE_WINDOW[0] - 0.01, FINE_WINDOW[1]))
             outside = outside.where((outside["speed"] < low) | (outside["speed"] > high), drop=True)
-    rest = 1e3 * float(outside["rms_radial"].max())
+    rest, normal = (1e3 * float(outside[name].max()) for name in ("rms_radial", "rms_normal"))
     medians = [1e3 * float(run["rms_radial"].median()) for run in (lined, rigid)]
     counts = [read.interactions_above(run, LARGEST_ELSEWHERE) for run in (other, lined)]
     widths = [read.width_above_yield(run, yield_stress) for run in (shipped["CS100_4"], shipped[_MAIN])]
     torsion = torsion_speed(lined)
     return [
-        claim("Ref lined, 750 to 2000: no other radial rms above 0.8 mm", rest < 1e3 * LARGEST_ELSEWHERE, f"{rest:.2g} mm"),
+        claim(
+            "Ref lined, 750 to 2000: no other radial rms above 0.8 mm",
+            rest < 1e3 * LARGEST_ELSEWHERE,
+            f"{rest:.2g} mm; normal to the casing {normal:.2g}",
+        ),
         Check("Ref lined, 750 to 2000: median radial rms", 1e3 * MEDIAN["lined"], medians[0], "mm", 0.5),
         Check("Ref direct, 750 to 2000: median radial rms", 1e3 * MEDIAN["rigid"], medians[1], "mm", 0.5),
         Check("Ref lined: response of the torsion near", TORSION, torsion, "rad/s"),
-        claim("CS100 has more interactions than Ref", counts[0] > counts[1], f"{counts[0]} and {counts[1]}"),
+        claim(
+            "CS100 has more responses above 0.8 mm, normal to the casing, than Ref",
+            counts[0] > counts[1],
+            f"{counts[0]} and {counts[1]}",
+        ),
         claim(
             "CS100 has a wider one than Ref", widths[0] > widths[1], f"{widths[0]:.0f} and {widths[1]:.0f} rad/s above yield"
         ),

@@ -43,11 +43,6 @@ class Sweep:
         """Speeds (rad/s) of one blade and scene, ascending."""
         return self.settings.speeds[wildcards.blade, wildcards.scene]
 
-    def extreme_speeds(self, wildcards: Any) -> list[float]:
-        """The slowest speed, and the fastest or the basis's, whichever is faster: what limits of the step are for."""
-        speeds = self.speeds(wildcards)
-        return [speeds[0], max(speeds[-1], self.settings.structure.maximum_speed_rad_s)]
-
     def task(self, wildcards: Any) -> str:
         """What one simulation does, as JSON text."""
         chosen = self._scene(wildcards)

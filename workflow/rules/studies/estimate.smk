@@ -8,7 +8,7 @@ rule estimate_sample:
     input:
         unpack(sweep.recovery),
         model=sweep.contact_model,
-        prepared=ancient(paths.MARCH_STAMP),
+        prepared=paths.MARCH_STAMP,
     output:
         paths.ESTIMATE_SAMPLE,
     log:

@@ -1,0 +1,67 @@
+"""What went wrong in the jobs of a run, kept so that the run can end with it. Light: every job imports it."""
+
+from __future__ import annotations
+
+import contextlib
+import errno
+import shutil
+import sys
+import traceback
+from collections.abc import Iterator
+from pathlib import Path
+
+_NOTES = Path(".snakemake/r37_failures.txt")
+"""In the folder that Snakemake works in."""
+
+_FULL = 2**20
+"""Bytes left on a disk that counts as full."""
+
+
+@contextlib.contextmanager
+def reported(rule: str, log: Path | str, about: str = "") -> Iterator[None]:
+    """Send all output to the file `log`; an error ends the process with one clear line, and its traceback goes to the log.
+
+    `about`: what the job is of, for the line.
+    """
+    with open(log, "w", encoding="utf-8") as stream:
+        try:
+            with contextlib.redirect_stdout(stream), contextlib.redirect_stderr(stream):
+                yield
+        except Exception as error:
+            line = f"rule {rule}: {_explained(error)} ({about}details in {log})"
+            with contextlib.suppress(OSError):
+                traceback.print_exc(file=stream)
+                note(line)
+            print(line, file=sys.stderr)
+            sys.exit(1)
+
+
+def note(line: str) -> None:
+    """Keep the line for the end of the run."""
+    if _NOTES.parent.is_dir():
+        with open(_NOTES, "a", encoding="utf-8") as stream:
+            stream.write(line.replace("\n", " ") + "\n")
+
+
+def noted(most: int = 5) -> list[str]:
+    """The lines kept since the last `forget`, each once."""
+    if not _NOTES.exists():
+        return []
+    lines = list(dict.fromkeys(_NOTES.read_text(encoding="utf-8").splitlines()))
+    more = [f"... and {len(lines) - most} more, see the logs"] if len(lines) > most else []
+    return [*lines[:most], *more]
+
+
+def forget() -> None:
+    """Begin anew."""
+    _NOTES.unlink(missing_ok=True)
+
+
+def _explained(error: Exception) -> str:
+    text = str(error).strip() or type(error).__name__
+    full = isinstance(error, OSError) and error.errno in (errno.ENOSPC, errno.EDQUOT)
+    if full or shutil.disk_usage(".").free < _FULL:
+        return f"the disk is full ({text}); free some space and give the same command again"
+    if isinstance(error, MemoryError):
+        return f"not enough memory ({text}); run fewer jobs at once (--cores), or choose a smaller fidelity level"
+    return text

@@ -1,0 +1,60 @@
+"""Results that the configuration no longer asks for: `python -m r37core.workflow.leftovers` lists or removes them."""
+
+from __future__ import annotations
+
+import argparse
+import shutil
+from collections.abc import Iterator
+from pathlib import Path
+
+from r37core.config import Settings, read_settings
+from r37core.config.blades import RESERVED
+from r37core.speeds import exact_text
+
+
+def leftovers(results: Path, settings: Settings) -> list[Path]:
+    """Folders and files of blades, scenes and speeds that are not run any more, in the folder `results`."""
+    return sorted(_of_blades(results, settings)) if results.is_dir() else []
+
+
+def _of_blades(results: Path, settings: Settings) -> Iterator[Path]:
+    for folder in results.iterdir():
+        if folder.is_dir() and folder.name not in (*settings.blades, *RESERVED):
+            yield folder
+    for blade in settings.blades:
+        for folder in (results / blade).glob("*/"):
+            if folder.is_dir() and folder.name not in settings.scenes:
+                yield folder
+    for (blade, scene), speeds in settings.speeds.items():
+        wanted = {f"speed_{exact_text(speed)}.npz" for speed in speeds}
+        yield from (file for file in (results / blade / scene).glob("speed_*.npz") if file.name not in wanted)
+    for figure in (results / "figures").glob("*_*.png"):
+        _, name = figure.stem.split("_", 1)
+        blade, _, scene = name.partition("__")
+        if blade not in settings.blades or (scene and scene not in settings.scenes):
+            yield figure
+
+
+def size(path: Path) -> int:
+    """Bytes of a file, or of all files in a folder."""
+    return sum(file.stat().st_size for file in path.rglob("*") if file.is_file()) if path.is_dir() else path.stat().st_size
+
+
+def main() -> None:
+    """List what is left over, or remove it."""
+    parser = argparse.ArgumentParser(description="Results that the configuration no longer asks for.")
+    parser.add_argument("--remove", action="store_true", help="remove them; without it they are listed")
+    chosen = parser.parse_args()
+    settings = read_settings(Path("."))
+    found = leftovers(settings.results, settings)
+    for path in found:
+        print(f"{size(path) / 1e6:10.2f} MB  {path}")
+        if chosen.remove:
+            shutil.rmtree(path) if path.is_dir() else path.unlink()
+    print(
+        f"{len(found)} left over" + (", removed" if chosen.remove else "; make clean REMOVE=yes removes them" if found else "")
+    )
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,234 @@
+"""What a user sees when something goes wrong: one clear line, and a way on."""
+
+import dataclasses
+import json
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import time
+
+import numpy as np
+import pytest
+import xarray as xr
+from stubbed_runs import copy_stubbed, planned_outputs
+from workflow_runs import SNAKEMAKE, copy_project, snakemake
+
+from r37core import failures
+from r37core.config import ConfigError, command_line_document, read_settings
+from r37core.contact.casing import Casing
+from r37core.contact.scene import Scene
+from r37core.dataset_file import about, read_dataset, write_dataset
+from r37core.io import InputFileError, write_json
+from r37core.march.choice import MarchChoice
+from r37core.march.simulate import March
+from r37core.results.campbell_dataset import campbell_dataset
+from r37core.results.netcdf import create_axis, create_variable
+from r37core.rom.contact_model import BucklingError
+from r37core.workflow import lock
+from r37core.workflow.leftovers import leftovers
+from r37core.workflow.run import replaced_level
+from r37core.workflow.tree import check_tree
+
+
+@pytest.fixture
+def folder(tmp_path, monkeypatch):
+    (tmp_path / ".snakemake").mkdir()
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def fail(error, about=""):
+    with pytest.raises(SystemExit), failures.reported("mesh", "a.log", about):
+        print("working")
+        raise error
+
+
+def test_a_failure_is_one_line_and_its_traceback_is_in_the_log(folder, capsys):
+    fail(ValueError("too thin;\nmake it thicker"), "blade Ref, ")
+    assert capsys.readouterr().err == "rule mesh: too thin;\nmake it thicker (blade Ref, details in a.log)\n"
+    log = (folder / "a.log").read_text()
+    assert log.startswith("working\nTraceback")
+    assert failures.noted() == ["rule mesh: too thin; make it thicker (blade Ref, details in a.log)"]
+    failures.forget()
+    assert failures.noted() == []
+
+
+def test_an_error_without_words_is_named(folder, capsys):
+    fail(ZeroDivisionError())
+    assert capsys.readouterr().err.startswith("rule mesh: ZeroDivisionError (")
+
+
+def test_many_failures_are_not_all_repeated(folder):
+    for number in range(9):
+        failures.note(f"rule {number % 7}")
+    assert failures.noted(3) == ["rule 0", "rule 1", "rule 2", "... and 4 more, see the logs"]
+
+
+def test_a_full_disk_is_said_as_such(folder, capsys, monkeypatch):
+    fail(OSError(28, "No space left on device", "x.nc"))
+    assert "rule mesh: the disk is full" in capsys.readouterr().err
+    # netCDF says something else
+    monkeypatch.setattr(failures.shutil, "disk_usage", lambda place: shutil._ntuple_diskusage(10, 10, 0))
+    fail(RuntimeError("NetCDF: HDF error"))
+    line = capsys.readouterr().err
+    assert "the disk is full (NetCDF: HDF error); free some space and give the same command again" in line
+
+
+def test_too_little_memory_is_said_as_such(folder, capsys):
+    fail(MemoryError())
+    assert "not enough memory (MemoryError); run fewer jobs at once" in capsys.readouterr().err
+
+
+def test_the_lock_of_a_killed_run_is_lifted(folder):
+    locks = folder / ".snakemake/locks"
+    locks.mkdir()
+    assert lock.lift_stale() == []
+    (locks / "0.input.lock").write_text("x")
+    assert lock.lift_stale() == []  # nobody said whose it is
+    lock.claim()
+    assert lock.lift_stale() == []  # this process, alive
+    assert locks.exists()
+    holder = folder / ".snakemake/r37_running.json"
+    mine = json.loads(holder.read_text())
+    holder.write_text(json.dumps(mine | {"host": "elsewhere", "began": "1"}))
+    assert lock.lift_stale() == []  # another machine, which cannot be asked
+    holder.write_text(json.dumps(mine | {"began": "1"}))
+    assert "was killed" in lock.lift_stale()[0]
+    assert not locks.exists()
+    assert not holder.exists()
+
+
+def test_another_trees_package_is_refused(root, tmp_path):
+    check_tree(root)
+    with pytest.raises(ConfigError, match=r"r37core: found the package in .*; allowed: the one beside the Snakefile"):
+        check_tree(tmp_path)
+
+
+def test_leftovers_of_removed_blades_scenes_and_speeds(root, tmp_path):
+    changes = command_line_document({"blades": ["Ref"], "scenes": ["direct"], "speeds": [900]})
+    settings = read_settings(root, changes)
+    kept = ["Ref/direct/speed_900.npz", "Ref/mesh.vtu", "studies/a.md", "runs/x/L50/a.nc", "figures/response_Ref.png"]
+    kept += ["rms.nc", "figures/spectrum_Ref__direct.png", "figures/response.png", "figures/campbell.png"]
+    gone = ["L50/mesh.vtu", "Ref/abradable/speed_900.npz", "Ref/direct/speed_901.npz", "figures/response_L50.png"]
+    gone += ["figures/wear_Ref__abradable.png"]
+    for name in [*kept, *gone]:
+        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / name).write_text("x")
+    found = {str(path.relative_to(tmp_path)) for path in leftovers(tmp_path, settings)}
+    assert found == {"L50", "Ref/abradable", *gone[2:]}
+    assert leftovers(tmp_path / "none", settings) == []
+
+
+def test_make_clean_lists_and_removes(config_copy):
+    (config_copy / "results/Gone").mkdir(parents=True)
+    (config_copy / "results/Gone/mesh.vtu").write_text("x")
+    command = [sys.executable, "-m", "r37core.workflow.leftovers"]
+    listed = subprocess.run(command, cwd=config_copy, capture_output=True, text=True, check=True).stdout
+    assert "results/Gone" in listed
+    assert (config_copy / "results/Gone").exists()
+    subprocess.run([*command, "--remove"], cwd=config_copy, capture_output=True, check=True)
+    assert not (config_copy / "results/Gone").exists()
+
+
+def test_a_blade_that_buckles_is_refused_with_the_speed(model):
+    weak = dataclasses.replace(model, geometric_stiffness=model.geometric_stiffness - 1e-3 * model.stiffness)
+    with pytest.raises(BucklingError, match=r"no stable position at 50 rad/s: its stiffness is not positive .* stiffer"):
+        campbell_dataset(weak, 2000.0, 50.0, 6, 8, 0.01, "pressure_edge")
+
+
+def test_a_simulation_of_a_blade_that_buckles_is_refused(contact):
+    weak = dataclasses.replace(contact, stiffness_per_square=-np.diag(contact.squared_frequencies))
+    with pytest.raises(BucklingError, match="no stable position at 900 rad/s"):
+        March(weak, 900.0, Scene(Casing(3.5e-4)), MarchChoice(2e-7, 2, 496))
+
+
+def test_a_filter_below_the_first_mode_is_refused(contact):
+    choice = MarchChoice(2e-7, 2, 496, highest_frequency=100.0)
+    with pytest.raises(
+        ValueError, match=r"highest_frequency_hz: found 100; allowed: more than the first mode's, [89]\d\d\.\d+ Hz"
+    ):
+        March(contact, 900.0, Scene(Casing(3.5e-4)), choice)
+
+
+def test_a_flipped_bit_is_found(tmp_path):
+    file = tmp_path / "a.nc"
+    values = np.random.default_rng(1).normal(size=(40, 50))
+    write_dataset(xr.Dataset({"a": (("x", "y"), values, about("m", "a"))}, {"x": ("x", np.arange(40.0))}), file)
+    assert np.array_equal(read_dataset(file)["a"].values, values)
+    content = bytearray(file.read_bytes())
+    place = bytes(content).index(values[20].tobytes())
+    content[place + 100] ^= 4
+    file.write_bytes(content)
+    with pytest.raises(InputFileError, match=r"a\.nc: cannot be read .* delete it and run again"):
+        read_dataset(file)
+
+
+def test_a_flipped_bit_of_a_response_is_found(tmp_path):
+    import netCDF4
+
+    file = tmp_path / "a.nc"
+    values = np.random.default_rng(1).normal(size=300)
+    with netCDF4.Dataset(file, "w") as dataset:
+        create_axis(dataset, "speed", np.arange(300.0), about("rad s-1", "speed"))
+        create_variable(dataset, "a", "f8", ("speed",), about("m", "a"))[:] = values
+    content = bytearray(file.read_bytes())
+    content[bytes(content).index(values.tobytes()) + 1000] ^= 1
+    file.write_bytes(content)
+    with pytest.raises(InputFileError):
+        read_dataset(file)
+
+
+def test_a_run_with_a_name_has_its_results_apart(root, tmp_path):
+    copy_stubbed(root, tmp_path)
+    jobs = planned_outputs(tmp_path, "all_blades", "--config", "run={name: trial}")
+    files = {file for several in jobs.values() for file in several}
+    assert all(file.startswith("runs/trial/") for file in files)
+    assert "runs/trial/Ref/direct/speed_750.npz" in jobs["simulate"]
+    assert jobs["configuration"] == {"runs/trial/configuration.json"}
+
+
+def test_replaced_results_are_announced(root, folder):
+    draft = read_settings(root, command_line_document({"fidelity": "draft"}))
+    assert replaced_level(draft) == []
+    (folder / "results").mkdir()
+    write_json(draft.merged(), folder / "results/configuration.json")
+    assert replaced_level(draft) == []
+    line = replaced_level(read_settings(root, command_line_document({"fidelity": "fine"})))[0]
+    assert line.startswith(
+        "fidelity: results in results that depend on the level are replaced, draft by fine; give this run a name"
+    )
+    named = read_settings(root, command_line_document({"fidelity": "fine", "run": {"name": "trial"}}))
+    assert replaced_level(named) == []
+
+
+def test_the_clear_line_comes_last(root, tmp_path):
+    copy_project(root, tmp_path)
+    table = tmp_path / "config/profiles/rotor37.csv"
+    table.write_text(table.read_text().replace("50,21.761,21.622,56.190", "50,21.761,21.622,89.000"))
+    text = snakemake(tmp_path, "results/Ref/geometry.nc", "--cores", "1", check=False)
+    last = text.strip().splitlines()[-1]
+    assert last.startswith("rule geometry: blade Ref: span 50%: no ")
+    assert last.endswith("(blade Ref, details in logs/Ref/geometry.log)")
+    assert "Traceback" not in text
+
+
+def test_a_killed_run_goes_on_with_the_same_command(root, tmp_path):
+    copy_stubbed(root, tmp_path)
+    slow = tmp_path / "workflow/scripts/geometry.py"
+    slow.write_text("import time\ntime.sleep(30)\n" + slow.read_text())
+    environment = os.environ | {"PYTHONPATH": str(tmp_path / "src")}
+    command = [SNAKEMAKE, "results/Ref/geometry.nc", "--cores", "1"]
+    first = subprocess.Popen(command, cwd=tmp_path, env=environment, stderr=subprocess.DEVNULL, start_new_session=True)
+    for _ in range(600):
+        if (tmp_path / ".snakemake/r37_running.json").exists():
+            break
+        time.sleep(0.2)
+    time.sleep(1.0)
+    os.killpg(first.pid, signal.SIGKILL)
+    first.wait()
+    slow.write_text(slow.read_text().replace("time.sleep(30)", ""))
+    text = snakemake(tmp_path, *command[1:])
+    assert "the last run here was killed" in text
+    assert (tmp_path / "results/Ref/geometry.nc").exists()
