@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -11,33 +10,14 @@ from r37core.fem.material import Material
 from r37core.mesh.blade_mesh import NODE_SETS, BladeMesh
 
 from .checks import checked, without_free_nodes
-from .errors import ImportRefused
+from .errors import ImportRefused, blamed
 from .frame import blade_parameters
-from .orientation import Orientation
 from .read_mesh import read_mesh
+from .source import MeshSource
 from .surface import nodes_of, outer_faces
 from .tip import check_revolution, find_tip_lines
-from .where import Where
 
 _SOUND_BETWEEN = (300.0, 20000.0)
-
-
-@dataclass(frozen=True)
-class MeshSource:
-    """Where a blade's mesh is and how to read it.
-
-    `file`; its `orientation`; where `root` and `tip` are; `pressure_side_forward`: whether the pressure side looks towards
-    the rotation, as in a compressor; `revolution_tolerance` (m): how far the tip may be from a surface of revolution;
-    `drop_free_nodes`: whether nodes of no solid element are left out instead of refused.
-    """
-
-    file: str
-    orientation: Orientation
-    root: Where
-    tip: Where
-    pressure_side_forward: bool = True
-    revolution_tolerance: float = 1e-4
-    drop_free_nodes: bool = False
 
 
 def import_mesh(source: MeshSource, minimum_scaled_jacobian: float, folder: Path | str = ".") -> tuple[BladeMesh, np.ndarray]:
@@ -45,22 +25,22 @@ def import_mesh(source: MeshSource, minimum_scaled_jacobian: float, folder: Path
 
     Raises ImportRefused, with the file's name and the reason, for a mesh that cannot be computed with.
     """
-    raw = read_mesh(Path(folder) / source.file)
-    try:
-        if source.drop_free_nodes:
-            raw = without_free_nodes(raw)
-        raw, quality = checked(raw, minimum_scaled_jacobian)
+    with blamed("mesh"):
+        raw = read_mesh(Path(folder) / source.file)
+    with blamed("mesh", source.file):
+        raw, quality = checked(without_free_nodes(raw) if source.drop_free_nodes else raw, minimum_scaled_jacobian)
+    with blamed("rotor_axis", source.file):
         raw = source.orientation.to_blade(raw)
-        surface = outer_faces(raw.blocks)
+    surface = outer_faces(raw.blocks)
+    with blamed("root", source.file):
         root = nodes_of(source.root.faces("root", raw, surface))
+    with blamed("tip", source.file):
         tip_faces = source.tip.faces("tip", raw, surface)
         tip = nodes_of(tip_faces)
         if np.intersect1d(root, tip).size:
             raise ImportRefused(f"root ({source.root.describe()}) and tip ({source.tip.describe()}) share nodes")
         check_revolution(raw.points[tip], source.revolution_tolerance)
         lines = find_tip_lines(raw.points, tip_faces, source.pressure_side_forward)
-    except ImportRefused as error:
-        raise ImportRefused(f"{source.file}: {error}") from None
     parameters, normals = blade_parameters(raw.points, root, tip, source.pressure_side_forward)
     sets = dict.fromkeys(NODE_SETS, np.empty(0, dtype=np.int64)) | {"root": root, "tip": tip}
     for name, (nodes, fractions) in lines.lines.items():

@@ -1,8 +1,8 @@
 """Matrices of another program as a reduced model: the second way in, from a directory of files.
 
-`M.mtx` (kg) and `K_<speed>.mtx` (N/m) at rest and at two speeds in rad/s, full or already reduced, the root clamped; Matrix
-Market or .npz (of SciPy's sparse matrices, or of one array). `boundary.csv`: the contact nodes from the leading to the trailing
-edge, with columns x, y, z (file's unit and axes) and dof_x, dof_y, dof_z: rows of the matrices, from 0.
+`M.mtx` and `K_<speed>.mtx` at rest and at two speeds in rad/s, full or already reduced, the root clamped; Matrix Market or .npz
+(of SciPy's sparse matrices, or of one array). `boundary.csv`: the contact nodes from the leading to the trailing edge, with
+columns x, y, z (file's unit and axes) and dof_x, dof_y, dof_z: rows of the matrices, from 0.
 """
 
 from __future__ import annotations
@@ -13,6 +13,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 import scipy.io
+import scipy.linalg as la
 import scipy.sparse as sp
 
 from r37core.fem.solver import factorise
@@ -20,22 +21,15 @@ from r37core.rom.choice import ReductionChoice
 from r37core.rom.craig_bampton import multi_speed_basis
 from r37core.rom.reduced_model import RecoveryNodes, ReducedModel
 
-from .errors import ImportRefused
-from .orientation import UNITS, Orientation
+from .errors import ImportRefused, blamed
+from .source import MASS_UNITS, STIFFNESS_UNITS, MatricesSource, matrix_files
 
 COLUMNS = ("x", "y", "z", "dof_x", "dof_y", "dof_z")
 _REDUCED_UP_TO = 500  # coordinates beside those of the contact nodes: matrices that small are taken as they are
+_FEWEST = 20  # rows: the Campbell diagram follows some more modes than it shows
 _SYMMETRIC = 1e-8
+_RIGID = 1e-15
 _LINEAR = 1e-6
-
-
-@dataclass(frozen=True)
-class MatricesSource:
-    """A directory of matrices, the axes of its boundary nodes, and a hash of the files."""
-
-    folder: str
-    orientation: Orientation
-    digest: str = ""
 
 
 @dataclass(frozen=True)
@@ -49,20 +43,6 @@ class _Given:
     points: np.ndarray
 
 
-def matrix_files(folder: Path) -> dict[str, Path]:
-    """`M`, `K_<speed>` and `boundary` -> file; ImportRefused where M, three stiffnesses or the table is missing."""
-    files = [file for file in sorted(folder.glob("*")) if file.suffix in (".mtx", ".npz") or file.name == "boundary.csv"]
-    found = {file.stem: file for file in files}
-    speeds = [name for name in found if name.startswith("K_")]
-    missing = [name for name in ("M", "boundary") if name not in found]
-    if missing or len(speeds) != 3:
-        raise ImportRefused(
-            f"{folder}: found {', '.join(found) or 'no files'}; needed: M and K_<speed> at three speeds in rad/s, one of them "
-            "0 (.mtx or .npz), and boundary.csv"
-        )
-    return found
-
-
 def import_matrices(source: MatricesSource, choice: ReductionChoice, folder: Path | str = ".") -> ReducedModel:
     """The reduced model of the matrices: as they are if small, else reduced as `choice` says (its boundary is the table's).
 
@@ -70,7 +50,12 @@ def import_matrices(source: MatricesSource, choice: ReductionChoice, folder: Pat
     linear in the squared speed. Spin softening and Coriolis terms must be in the matrices already: they are not added.
     """
     where = Path(folder) / source.folder
-    given = _read(where, source.orientation)
+    with blamed("matrices"):
+        given = _read(where, source)
+        return _reduced(given, choice, where)
+
+
+def _reduced(given: _Given, choice: ReductionChoice, where: Path) -> ReducedModel:
     boundary = np.arange(3 * len(given.points))
     if given.mass.shape[0] <= len(boundary) + _REDUCED_UP_TO:
         vectors = np.eye(given.mass.shape[0])
@@ -85,14 +70,16 @@ def import_matrices(source: MatricesSource, choice: ReductionChoice, folder: Pat
             choice.tolerance,
         )
         vectors, columns, tolerance, singular = basis.vectors, basis.columns, basis.tolerance, basis.singular_values
+    mass, stiffness = _projected(given.mass, vectors), _projected(given.stiffness, vectors)
+    _check_positive(mass, stiffness, where)
     shapes = _ideal_shapes(given)
     nodes = np.arange(len(given.points))
     size = vectors.shape[1]
     line = RecoveryNodes(nodes, given.points, vectors[boundary].reshape(-1, 3, size))
     return ReducedModel(
-        stiffness=_projected(given.stiffness, vectors),
+        stiffness=stiffness,
         geometric_stiffness=_projected(given.per_square, vectors),
-        mass=_projected(given.mass, vectors),
+        mass=mass,
         spin_softening=None,
         coriolis=None,
         boundary_nodes=nodes,
@@ -111,29 +98,58 @@ def import_matrices(source: MatricesSource, choice: ReductionChoice, folder: Pat
     )
 
 
-def _read(folder: Path, orientation: Orientation) -> _Given:
-    files = matrix_files(folder)
-    table = pd.read_csv(files["boundary"])
-    if tuple(table.columns) != COLUMNS or table.empty:
-        raise ImportRefused(f"{files['boundary']}: found columns {', '.join(table.columns)}; allowed: {', '.join(COLUMNS)}")
+def _check_positive(mass: np.ndarray, stiffness: np.ndarray, folder: Path) -> None:
+    """ImportRefused for a mass or stiffness at rest that is not positive."""
+    lowest = np.linalg.eigvalsh(mass)[0]
+    if not lowest > 0.0:
+        raise ImportRefused(f"{folder}: the mass is not positive (lowest eigenvalue {lowest:.3g} kg); leave no massless rows")
+    squares = la.eigvalsh(stiffness, mass)
+    if not squares[0] > _RIGID * squares[-1]:
+        raise ImportRefused(
+            f"{folder}: the stiffness at rest is not positive (lowest squared frequency {squares[0]:.3g} rad2/s2); clamp the "
+            "root: leave out its rows and columns"
+        )
+
+
+def _read(folder: Path, source: MatricesSource) -> _Given:
+    orientation, files = source.orientation, matrix_files(folder)
+    points, dofs = _boundary(files["boundary"])
     try:
         speeds = sorted((float(name.removeprefix("K_")), name) for name in files if name.startswith("K_"))
     except ValueError:
         raise ImportRefused(f"{folder}: the speed in a name K_<speed> must be a number in rad/s") from None
     mass, *stiffness = (_matrix(files[name]) for name in ("M", *(name for _, name in speeds)))
-    dofs = table[["dof_x", "dof_y", "dof_z"]].to_numpy().ravel()
     size = mass.shape[0]
     if any(matrix.shape != (size, size) for matrix in stiffness):
         raise ImportRefused(f"{folder}: the matrices differ in size: {', '.join(str(m.shape[0]) for m in (mass, *stiffness))}")
+    if size < _FEWEST:
+        raise ImportRefused(f"{folder}: found matrices of {size} rows; allowed: {_FEWEST} or more")
     if len(np.unique(dofs)) != len(dofs) or dofs.min() < 0 or dofs.max() >= size:
         raise ImportRefused(
             f"{files['boundary']}: the columns dof_... must name {len(dofs)} different rows from 0 to {size - 1}"
         )
     rest, per_square, residual = _fitted(folder, np.array([speed for speed, _ in speeds]), stiffness)
     turn = _boundary_first(size, dofs, orientation.rows)
-    points = UNITS[orientation.length_unit] * (table[["x", "y", "z"]].to_numpy() - orientation.axis_point) @ orientation.rows.T
     mass, rest, per_square = (sp.csr_array(turn.T @ matrix @ turn) for matrix in (mass, rest, per_square))
-    return _Given(mass, rest, per_square, residual, points)
+    kilograms, newtons = MASS_UNITS[source.mass_unit], STIFFNESS_UNITS[source.stiffness_unit]
+    return _Given(kilograms * mass, newtons * rest, newtons * per_square, residual, orientation.points_to_blade(points))
+
+
+def _boundary(file: Path) -> tuple[np.ndarray, np.ndarray]:
+    """Positions of the contact nodes, shape (nodes, 3), and the rows of their displacements, shape (3 nodes,)."""
+    try:
+        table = pd.read_csv(file, skipinitialspace=True)
+    except Exception as error:
+        raise ImportRefused(f"{file}: cannot be read as a table ({error})") from None
+    if tuple(table.columns) != COLUMNS or table.empty:
+        raise ImportRefused(f"{file}: found columns {', '.join(map(str, table.columns))}; allowed: {', '.join(COLUMNS)}")
+    numbers = table.apply(pd.to_numeric, errors="coerce").to_numpy(dtype=float)
+    wrong = ~np.isfinite(numbers).all(axis=1) | (numbers[:, 3:] % 1.0 != 0.0).any(axis=1)
+    if wrong.any():
+        raise ImportRefused(f"{file}:{np.argmax(wrong) + 2}: each row must have three coordinates and three row numbers")
+    if len(np.unique(numbers[:, :3], axis=0)) < len(numbers):
+        raise ImportRefused(f"{file}: two contact nodes lie at the same place")
+    return numbers[:, :3], numbers[:, 3:].astype(np.int64).ravel()
 
 
 def _matrix(file: Path) -> sp.csr_array:

@@ -44,8 +44,10 @@ class Orientation:
         """
         axis = np.array(self.rotor_axis, dtype=float)
         radial = np.array(self.radial, dtype=float)
-        if not (np.linalg.norm(axis) > 0.0 and np.linalg.norm(np.cross(axis, radial)) > 1e-6 * np.linalg.norm(axis)):
-            raise ImportRefused(f"rotor_axis {self.rotor_axis} and radial {self.radial} must be two directions, not parallel")
+        if not np.linalg.norm(np.cross(axis, radial)) > 1e-6 * np.linalg.norm(axis) * np.linalg.norm(radial):
+            raise ImportRefused(
+                f"rotor_axis {self.rotor_axis} and radial {self.radial} must be two directions, not parallel", "radial"
+            )
         z = axis / np.linalg.norm(axis)
         x = radial - (radial @ z) * z
         x /= np.linalg.norm(x)
@@ -55,11 +57,15 @@ class Orientation:
     def to_blade(self, mesh: RawMesh) -> RawMesh:
         """The mesh in metres and the blade's frame. Raises ImportRefused for a blade of no plausible size or place."""
         rows = self.rows
-        points = UNITS[self.length_unit] * (mesh.points - np.array(self.axis_point, dtype=float)) @ rows.T
+        points = self.points_to_blade(mesh.points)
         self._check(points)
         if np.linalg.det(rows) > 0.0:
             return replace(mesh, points=points)
         return replace(mesh, points=points, blocks={n: nodes[:, ELEMENTS[n].mirrored] for n, nodes in mesh.blocks.items()})
+
+    def points_to_blade(self, points: np.ndarray) -> np.ndarray:
+        """Points of the file, shape (n, 3), in metres and the blade's frame."""
+        return UNITS[self.length_unit] * (points - np.array(self.axis_point, dtype=float)) @ self.rows.T
 
     def to_file(self, points: np.ndarray) -> np.ndarray:
         """Points (m) of the blade's frame, shape (n, 3), in the file's unit and axes."""
@@ -73,13 +79,15 @@ class Orientation:
         if not low < span < high:
             raise ImportRefused(
                 f"the blade would be {sizes} m in size (radial, tangential, axial) with a span of {span:.3g} m; "
-                f"length_unit '{self.length_unit}' or rotor_axis does not fit the file"
+                f"length_unit '{self.length_unit}' or rotor_axis does not fit the file",
+                "length_unit",
             )
         mean = points.mean(axis=0)
         if not mean[0] > _RADIAL_WITHIN * np.hypot(mean[0], mean[1]):
             raise ImportRefused(
                 f"the blade's middle lies at {np.degrees(np.arctan2(mean[1], mean[0])):.0f} degrees round the axis from "
-                "`radial`; rotor_axis, axis_point or radial does not fit the file"
+                "`radial`; rotor_axis, axis_point or radial does not fit the file",
+                "radial",
             )
         if radius.min() < 1e-3 * span:
             raise ImportRefused("the rotor axis passes through the blade; check rotor_axis and axis_point")

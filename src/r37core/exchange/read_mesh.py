@@ -9,8 +9,9 @@ from .abaqus_reader import read_abaqus
 from .errors import ImportRefused
 from .meshio_reader import read_ansys, read_nastran, read_with_meshio
 from .raw_mesh import RawMesh
+from .source import mesh_files
 
-READERS: dict[str, Callable[[Path], RawMesh]] = {
+_READERS: dict[str, Callable[[Path], RawMesh]] = {
     ".inp": read_abaqus,
     ".msh": read_with_meshio,
     ".vtu": read_with_meshio,
@@ -19,19 +20,14 @@ READERS: dict[str, Callable[[Path], RawMesh]] = {
     ".nas": read_nastran,
     ".cdb": read_ansys,
 }
-"""Suffix of a file -> its reader."""
 
 
 def read_mesh(file: Path | str) -> RawMesh:
     """The mesh of a file: ImportRefused, with the file's name, for one that is missing, unknown, broken or unsuitable."""
     file = Path(file)
-    reader = READERS.get(file.suffix.lower())
-    if reader is None:
-        raise ImportRefused(f"{file}: found a file of kind '{file.suffix}'; allowed: {', '.join(READERS)}")
-    if not file.exists():
-        raise ImportRefused(f"{file}: there is no such file")
+    mesh_files(file)
     try:
-        return reader(file)
+        return _READERS[file.suffix.lower()](file)
     except ImportRefused as error:
         raise ImportRefused(f"{file}: {error}") from None
     except Exception as error:

@@ -26,7 +26,10 @@ def campbell_dataset(
     """Frequencies from 0 to `maximum_speed` (rad/s), crossings with engine orders, dynamic clearance at rest.
 
     Speeds and the step in rad/s, displacement in m; `tip_line` carries the leading-edge node of the dynamic clearance.
+    Raises ValueError for more modes than the model has coordinates, BucklingError where it has no stable position.
     """
+    if modes > model.size:
+        raise ValueError(f"campbell.modes in config.yaml: found {modes}; allowed: up to {model.size}, the reduced model's size")
     speeds = np.linspace(0.0, maximum_speed, max(4, round(maximum_speed / speed_step) + 1))
     diagram = campbell_diagram(model, speeds, modes)
     unstable = np.flatnonzero((diagram.frequencies <= 0.0).any(axis=0))

@@ -1,0 +1,64 @@
+"""Where stress is recovered: of blades given by profiles, and of those of other programs."""
+
+from __future__ import annotations
+
+import math
+from typing import Annotated
+
+from pydantic import Field, model_validator
+
+from r37core.rom.choice import StressSubmesh
+
+from .section import LeftOut, Section, refused
+
+Coordinate = Annotated[float, Field(ge=-100, le=100)]
+Layers = Annotated[int, Field(ge=0, le=20)]
+_LAYERS = "layers of elements left out round contact nodes and root, where stress grows with every finer mesh"
+
+
+class Submesh(Section):
+    """Where stress is recovered; nodes with x (radial) below and z (downstream) between these bounds."""
+
+    maximum_x_m: float = Field(default=0.197, gt=0, le=100)
+    minimum_z_m: Coordinate = 0.0165
+    maximum_z_m: Coordinate = 0.0265
+    excluded_layers: Layers = Field(default=0, description=_LAYERS)
+
+    @model_validator(mode="after")
+    def _has_a_height(self) -> Submesh:
+        check_height(self.minimum_z_m, self.maximum_z_m)
+        return self
+
+    def region(self) -> StressSubmesh:
+        """As the reduced model takes it."""
+        return StressSubmesh(self.maximum_x_m, self.minimum_z_m, self.maximum_z_m, self.excluded_layers)
+
+
+class ImportedSubmesh(Section):
+    """Where stress is recovered on a blade of another program: everywhere but near contact nodes and root, or in a box too."""
+
+    maximum_x_m: Annotated[float, Field(gt=0, le=100)] | LeftOut = None
+    minimum_z_m: Coordinate | LeftOut = None
+    maximum_z_m: Coordinate | LeftOut = None
+    excluded_layers: Layers = Field(default=1, description=_LAYERS)
+
+    @model_validator(mode="after")
+    def _has_a_height(self) -> ImportedSubmesh:
+        if self.minimum_z_m is not None and self.maximum_z_m is not None:
+            check_height(self.minimum_z_m, self.maximum_z_m)
+        return self
+
+    def region(self) -> StressSubmesh:
+        """As the reduced model takes it."""
+        return StressSubmesh(
+            math.inf if self.maximum_x_m is None else self.maximum_x_m,
+            -math.inf if self.minimum_z_m is None else self.minimum_z_m,
+            math.inf if self.maximum_z_m is None else self.maximum_z_m,
+            self.excluded_layers,
+        )
+
+
+def check_height(minimum: float, maximum: float) -> None:
+    """Raise the error of bounds with nothing between them."""
+    if not minimum < maximum:
+        raise refused(("minimum_z_m",), f"{minimum:g}", f"less than maximum_z_m ({maximum:g})")
