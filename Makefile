@@ -20,10 +20,10 @@ lint: $(VENV)/.ready
 	$(BIN)/mypy
 	$(BIN)/snakemake --lint
 
-# the march against plainer ways to write it
+# the time integration against plainer ways to write it
 bench: $(VENV)/.ready
 	$(BIN)/snakemake results/Ref/contact_pressure_edge.npz --cores $(CORES) $(if $(FIDELITY),--config fidelity=$(FIDELITY))
-	$(BIN)/python benchmarks/march_speed.py $(BENCH)
+	$(BIN)/python benchmarks/integration_speed.py $(BENCH)
 
 # all studies, at their default size about half an hour on two cores, and their tables into the pages of docs/
 docs: $(VENV)/.ready

@@ -18,7 +18,7 @@ PICTURES = (
     "tradeoff_pareto",
     "growth",
     "readings",
-    *(f"validation_{name}" for name in ("reference", "blades", "stress", "histories", "spectrum_lined", "spectrum_rigid")),
+    *(f"validation_{name}" for name in ("reference", "blades", "stress", "histories", "spectrum_lined", "spectrum_direct")),
 )
 
 

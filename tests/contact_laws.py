@@ -1,4 +1,4 @@
-"""The laws of contact as the march compiles them, called one at a time."""
+"""The laws of contact as the time integration compiles them, called one at a time."""
 
 from dataclasses import fields
 
@@ -8,7 +8,7 @@ from numba import njit
 from r37core.alignment import aligned_record, aligned_zeros, padded
 from r37core.contact import complementarity, friction, lining
 from r37core.lanes import OPTIONS, inlined, load, store
-from r37core.march.layout import LINING, problem
+from r37core.time_integration.layout import LINING, problem
 
 _return_mapping, _friction_direction = inlined(lining.return_mapping), inlined(friction.friction_direction)
 

@@ -102,7 +102,7 @@ def test_every_rule_runs_again_for_the_modules_of_its_closure_and_no_other(root,
         }
 
 
-@pytest.mark.parametrize("script", ["simulate", "prepare_march", "response", "mesh", "summary", "validation"])
+@pytest.mark.parametrize("script", ["simulate", "prepare_time_integration", "response", "mesh", "summary", "validation"])
 def test_the_closure_has_all_that_python_loads(root, script):
     lines = (root / f"workflow/scripts/{script}.py").read_text().splitlines()
     imports = "\n".join(line for line in lines if re.match(r"(from|import) r37core", line))
@@ -116,12 +116,12 @@ def test_the_closure_has_all_that_python_loads(root, script):
 
 
 def test_stages_do_not_share_more_than_they_need(root):
-    """A new figure re-runs no simulation, a new march no mesh, and the models of the configuration neither."""
+    """A new figure re-runs no simulation, a new time integration no mesh, and the models of the configuration neither."""
     code = CodeHashes(root / "src", root / "workflow/scripts")
     used = {
         script: {file.parent.name for file in code.closure(script)} for script in ("mesh", "simulate", "response", "reading")
     }
-    assert not {"march", "contact", "results", "figures", "studies", "config", "workflow"} & used["mesh"]
+    assert not {"time_integration", "contact", "results", "figures", "studies", "config", "workflow"} & used["mesh"]
     assert not {"mesh", "fem", "blade", "results", "figures", "studies", "config", "workflow"} & used["simulate"]
     assert not {"figures", "studies", "config", "workflow"} & used["response"]
     assert not {"config", "workflow"} & used["reading"]

@@ -4,17 +4,17 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from march_cases import ABRADABLE, AT_ONCE, DIRECT
+from integration_cases import ABRADABLE, AT_ONCE, DIRECT
 
 from r37core.contact.casing import Casing, casing_axes
 from r37core.contact.scene import Scene
-from r37core.march.choice import MarchChoice
-from r37core.march.reference import ReferenceMarch
-from r37core.march.simulate import March
 from r37core.results.campbell import campbell_diagram, dynamic_clearance
 from r37core.rom.contact_model import ContactModel
 from r37core.rom.contact_reduction import contact_model
 from r37core.rom.reduce import reduce_blade
+from r37core.time_integration.choice import IntegrationChoice
+from r37core.time_integration.reference import ReferenceIntegration
+from r37core.time_integration.simulate import Simulation
 
 ANGLE = np.radians(-15.24)
 
@@ -25,11 +25,11 @@ def moving_along(directions, frequencies):
     return ContactModel(
         squared_frequencies=np.array(frequencies) ** 2,
         stiffness_per_square=np.zeros((len(frequencies),) * 2),
-        rows=rows,
+        displacement_operator=rows,
         radius=np.array([0.25]),
         theta=np.array([0.0]),
         tip_cone_angle=ANGLE,
-        tip_rows=np.repeat(rows, 2, axis=1),
+        tip_displacement_operator=np.repeat(rows, 2, axis=1),
         to_reduced=np.eye(len(frequencies)),
     )
 
@@ -52,10 +52,10 @@ def test_axes_of_the_cone():
 def test_a_node_sliding_along_the_cone_does_not_touch(engine, cone_angle, touches):
     """It swings by far more than the clearance along its meridian; a cylinder would be hit."""
     scene = Scene(Casing(1e-4, lobes=0, cone_angle=cone_angle), damping_ratio=0.0)
-    march = March(moving_along([MERIDIAN], [5e3]), 1000.0, scene, MarchChoice(1e-6, 1, 62, engine=engine))
-    state = march.start()
+    simulation = Simulation(moving_along([MERIDIAN], [5e3]), 1000.0, scene, IntegrationChoice(1e-6, 1, 62, engine=engine))
+    state = simulation.start()
     state.displacement[:] = 2e-3
-    march.advance(state, 1)
+    simulation.advance(state, 1)
     assert (state.totals["steps_in_contact"] > 0) == touches
 
 
@@ -64,12 +64,12 @@ def test_the_normal_force_does_no_work_along_the_casing(aside):
     """Without friction the mode along the casing swings on as if nothing touched, while the normal one bounces."""
     model = moving_along([NORMAL, aside], [5e3, 6e3])
     scene = Scene(Casing(1e-4, lobes=0), damping_ratio=0.0)
-    march = March(model, 1000.0, scene, MarchChoice(1e-6, 2, 62))
-    state = march.start()
+    simulation = Simulation(model, 1000.0, scene, IntegrationChoice(1e-6, 2, 62))
+    state = simulation.start()
     state.displacement[:] = -3e-4
-    record = march.advance(state, 2)
+    record = simulation.advance(state, 2)
     assert state.totals["steps_in_contact"] > 0
-    free = March(model, 1000.0, Scene(Casing(1.0, lobes=0), damping_ratio=0.0), march.choice)
+    free = Simulation(model, 1000.0, Scene(Casing(1.0, lobes=0), damping_ratio=0.0), simulation.choice)
     alone = free.start()
     alone.displacement[:] = -3e-4
     free.advance(alone, 2)
@@ -83,12 +83,14 @@ def test_cylinder_and_cone_are_the_same_round_an_untapered_tip(contact, scene):
     untapered = replace(contact, tip_cone_angle=0.0)
     samples = []
     for angle in (None, 0.0):
-        march = March(untapered, 1000.0, replace(scene, casing=replace(AT_ONCE, cone_angle=angle)), MarchChoice(2e-7, 1, 62))
-        samples.append(march.advance(march.start(), 1).samples)
+        simulation = Simulation(
+            untapered, 1000.0, replace(scene, casing=replace(AT_ONCE, cone_angle=angle)), IntegrationChoice(2e-7, 1, 62)
+        )
+        samples.append(simulation.advance(simulation.start(), 1).samples)
     np.testing.assert_array_equal(*samples)
     assert np.abs(samples[0]).max() > 0.0
-    march = March(contact, 1000.0, scene, MarchChoice(2e-7, 1, 62))
-    assert np.abs(march.advance(march.start(), 1).samples - samples[0]).max() > 1e-6
+    simulation = Simulation(contact, 1000.0, scene, IntegrationChoice(2e-7, 1, 62))
+    assert np.abs(simulation.advance(simulation.start(), 1).samples - samples[0]).max() > 1e-6
 
 
 def test_exact_and_linear_gap_differ_by_the_square_of_the_motion(contact):
@@ -99,22 +101,22 @@ def test_exact_and_linear_gap_differ_by_the_square_of_the_motion(contact):
         gaps = []
         for exact in (False, True):
             scene = Scene(replace(AT_ONCE, clearance=size * 0.356e-3), exact_gap=exact)
-            march = March(contact, speed, scene, MarchChoice(1e-7, 1, 62, engine="reference"))
-            twin = march._engine()
-            assert isinstance(twin, ReferenceMarch)
-            shape = march.modes[:, 0] + 0.3 * march.modes[:, 1]
-            gaps.append(twin.gap(size * 1e-3 / np.abs(contact.rows @ shape).max() * shape, step)[0])
+            simulation = Simulation(contact, speed, scene, IntegrationChoice(1e-7, 1, 62, engine="reference"))
+            twin = simulation._engine()
+            assert isinstance(twin, ReferenceIntegration)
+            shape = simulation.modes[:, 0] + 0.3 * simulation.modes[:, 1]
+            gaps.append(twin.gap(size * 1e-3 / np.abs(contact.displacement_operator @ shape).max() * shape, step)[0])
         differences.append(np.abs(gaps[1] - gaps[0]).max())
     np.testing.assert_allclose(np.array(differences[:-1]) / differences[1:], 100.0, rtol=0.1)
 
 
 def test_exact_gap_is_the_distance_from_the_cone():
-    """Points put into space and measured along the cone's normal, without the march's formulas."""
+    """Points put into space and measured along the cone's normal, without the time integration's formulas."""
     radial, tangential, axial = 2e-3, 1.5e-2, 4e-3
     model = moving_along([(1, 0, 0), (0, 1, 0), (0, 0, 1)], [1e3, 2e3, 3e3])
     casing = Casing(1e-3, lobes=3, width=0.2, rise_fraction=0.0)
-    march = March(model, 1000.0, Scene(casing, exact_gap=True), MarchChoice(1e-6, 1, 62, engine="reference"))
-    gap, theta = march._engine().gap(np.array([radial, tangential, axial]), march.steps_per_revolution)
+    simulation = Simulation(model, 1000.0, Scene(casing, exact_gap=True), IntegrationChoice(1e-6, 1, 62, engine="reference"))
+    gap, theta = simulation._engine().gap(np.array([radial, tangential, axial]), simulation.steps_per_revolution)
     point = np.array([0.25 + radial, tangential, axial])
     radius, angle = np.hypot(point[0], point[1]), np.arctan2(point[1], point[0])
     # a line along the cone's ruling through the undeformed node, in the plane of radius and axis

@@ -6,26 +6,26 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from march_cases import ABRADABLE, AT_ONCE, DIRECT, oscillator
+from integration_cases import ABRADABLE, AT_ONCE, DIRECT, oscillator
 
 from r37core.contact.casing import Casing
 from r37core.contact.scene import Scene
-from r37core.march.choice import MarchChoice
-from r37core.march.flight import nearest_casing, plan_flight
-from r37core.march.integrators import central_difference
-from r37core.march.simulate import March
+from r37core.time_integration.choice import IntegrationChoice
+from r37core.time_integration.flight import nearest_casing, plan_flight
+from r37core.time_integration.integrators import central_difference
+from r37core.time_integration.simulate import Simulation
 
 
 def both(model, scene, choice, speed, displacement=None, increment=None):
     """State and record of the same run with jumps and without."""
     results = []
     for jumps in (True, False):
-        march = March(model, speed, scene, replace(choice, jumps=jumps))
-        state = march.start()
+        simulation = Simulation(model, speed, scene, replace(choice, jumps=jumps))
+        state = simulation.start()
         if displacement is not None:
             state.displacement[:] = displacement
             state.increment[:] = increment
-        results.append((march, state, march.advance(state, choice.revolutions)))
+        results.append((simulation, state, simulation.advance(state, choice.revolutions)))
     return results
 
 
@@ -33,7 +33,7 @@ def both(model, scene, choice, speed, displacement=None, increment=None):
 @pytest.mark.parametrize("speed", [900.0, 1600.0])
 def test_long_run_with_jumps_is_the_plain_run(contact, scene, speed):
     """10 revolutions, 190,000 steps and more; after 20, a start moved by 1e-18 m makes a difference of 1e-8."""
-    choice = MarchChoice(2e-7, 10, 496, energy=True)
+    choice = IntegrationChoice(2e-7, 10, 496, energy=True)
     (_, jumped, with_jumps), (_, plain, without) = both(contact, replace(scene, casing=Casing(0.356e-3)), choice, speed)
     assert jumped.totals["steps_jumped"] > 0.1 * jumped.totals["steps"]
     assert plain.totals["steps_jumped"] == 0
@@ -61,7 +61,7 @@ def test_no_contact_is_missed(contact, seed, excess, exact, lobes, cone_angle):
     frequencies = contact.modes_at(1500.0)[0]
     share = generator.uniform(0, 1) ** np.arange(len(frequencies)) * generator.choice([1.0, 50.0])
     displacement = generator.standard_normal(len(frequencies)) * share / frequencies
-    choice = MarchChoice(generator.uniform(1e-7, 4e-7), 1, int(generator.integers(20, 200)))
+    choice = IntegrationChoice(generator.uniform(1e-7, 4e-7), 1, int(generator.integers(20, 200)))
     increment = generator.standard_normal(len(frequencies)) * share * choice.time_step
     amplitude, width = (generator.uniform(0.1, 0.7), generator.uniform(0.05, 0.3)) if lobes else (0.0, 1.0)
     casing = Casing(1.0, lobes, width, amplitude, rise_fraction=0.0, cone_angle=cone_angle)
@@ -77,16 +77,16 @@ def test_no_contact_is_missed(contact, seed, excess, exact, lobes, cone_angle):
 
 def largest_reach(model, scene, choice, displacement, increment):
     """The smallest clearance that a free run never uses up, by the recursion in NumPy."""
-    march = March(model, 1500.0, scene, choice)
-    keep, pull, _ = march.recursion
-    cosine, sine = np.cos(march.cone_angle), np.sin(march.cone_angle)
-    u, d = np.empty((march.steps_per_revolution + 1, len(keep))), increment
+    simulation = Simulation(model, 1500.0, scene, choice)
+    keep, pull, _ = simulation.recursion
+    cosine, sine = np.cos(simulation.cone_angle), np.sin(simulation.cone_angle)
+    u, d = np.empty((simulation.steps_per_revolution + 1, len(keep))), increment
     u[0] = displacement
-    for n in range(march.steps_per_revolution):
+    for n in range(simulation.steps_per_revolution):
         d = keep * d - pull * u[n]
         u[n + 1] = u[n] + d
-    position, tangential, meridional = (u[1:] @ rows.T for rows in march.rows)
-    turned = 2.0 * np.pi * np.arange(1, len(u)) / march.steps_per_revolution
+    position, tangential, meridional = (u[1:] @ rows.T for rows in simulation.displacement_operator)
+    turned = 2.0 * np.pi * np.arange(1, len(u)) / simulation.steps_per_revolution
     theta = model.theta - turned[:, None]
     if scene.exact_gap:
         from_axis = model.radius + cosine * position + sine * meridional
@@ -99,7 +99,7 @@ def test_lobes_that_pass_during_a_jump_are_met():
     """A blade at rest is hit by every lobe of a casing deformed from the start, though no node moves."""
     model = oscillator(6000.0)
     scene = Scene(replace(AT_ONCE, lobes=7, width=0.01, amplitude=1.001))
-    (_, jumped, _), (_, plain, _) = both(model, scene, MarchChoice(1e-6, 2, 3), 1000.0)
+    (_, jumped, _), (_, plain, _) = both(model, scene, IntegrationChoice(1e-6, 2, 3), 1000.0)
     assert plain.totals["steps_in_contact"] > 0
     assert jumped.totals["steps_in_contact"] == plain.totals["steps_in_contact"]
     assert jumped.totals["steps_jumped"] > 0

@@ -4,14 +4,14 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from march_cases import ABRADABLE, DIRECT, LINING, oscillator
+from integration_cases import ABRADABLE, DIRECT, LINING, oscillator
 from scipy.integrate import solve_ivp
 
 from r37core.contact.casing import Casing
 from r37core.contact.scene import Lining, Scene
-from r37core.march.choice import MarchChoice
-from r37core.march.integrators import EXACT_MODAL, INTEGRATORS, central_difference, exact_modal, recursion
-from r37core.march.simulate import March
+from r37core.time_integration.choice import IntegrationChoice
+from r37core.time_integration.integrators import EXACT_MODAL, INTEGRATORS, central_difference, exact_modal, recursion
+from r37core.time_integration.simulate import Simulation
 
 
 def free_motion(frequency, ratio, time, start, velocity):
@@ -71,9 +71,9 @@ def test_a_pushed_oscillator_against_an_ode_solver(integrator):
 
     errors = []
     for step in (1e-6, 1e-7):
-        march = March(model, speed, scene, MarchChoice(step, 3, 500, integrator=integrator))
-        ours = march.advance(march.start(), 3).samples[:, 0]
-        time = (1 + np.arange(len(ours))) * march.steps_per_sample * march.time_step
+        simulation = Simulation(model, speed, scene, IntegrationChoice(step, 3, 500, integrator=integrator))
+        ours = simulation.advance(simulation.start(), 3).samples[:, 0]
+        time = (1 + np.arange(len(ours))) * simulation.steps_per_sample * simulation.time_step
         exact = solve_ivp(motion, (0.0, time[-1]), [0.0, 0.0], t_eval=time, rtol=1e-10, atol=1e-14, max_step=1e-5).y[0]
         errors.append(np.abs(ours - exact).max() / np.abs(exact).max())
     assert errors[0] < 0.02
@@ -86,21 +86,21 @@ NARROW = replace(ABRADABLE, lining=replace(LINING, bar_width=1e-3))
 @pytest.mark.parametrize("scene", [NARROW, DIRECT], ids=["abradable", "direct"])
 @pytest.mark.parametrize("step", [2e-7, 8e-7])
 def test_energy_balance_of_exact_modal_steps_closes(contact, scene, step):
-    march = March(contact, 1600.0, scene, MarchChoice(step, 3, 62, energy=True, integrator=EXACT_MODAL))
-    state = march.start()
-    march.advance(state, 3)
+    simulation = Simulation(contact, 1600.0, scene, IntegrationChoice(step, 3, 62, energy=True, integrator=EXACT_MODAL))
+    state = simulation.start()
+    simulation.advance(state, 3)
     work, loss = state.totals["work"], state.totals["loss"]
     assert loss > 0.0
-    assert abs(march.energy(state) - work + loss) < 1e-9 * (abs(work) + loss)
+    assert abs(simulation.energy(state) - work + loss) < 1e-9 * (abs(work) + loss)
 
 
 def test_exact_modal_steps_have_no_limit_from_the_blade(contact):
     """Four times the limit of central differences, free of contact: the energy of a damped blade only falls."""
     highest = contact.modes_at(1000.0)[0][-1]
     scene = Scene(Casing(1.0, lobes=0), damping_ratio=5e-4)
-    march = March(contact, 1000.0, scene, MarchChoice(8.0 / highest, 4, 62, integrator=EXACT_MODAL))
-    state = march.start()
-    state.displacement[:] = 1e-6 / (1.0 + np.arange(len(march.frequencies)))
-    start = march.energy(state)
-    march.advance(state, 4)
-    assert 0.0 < march.energy(state) < start
+    simulation = Simulation(contact, 1000.0, scene, IntegrationChoice(8.0 / highest, 4, 62, integrator=EXACT_MODAL))
+    state = simulation.start()
+    state.displacement[:] = 1e-6 / (1.0 + np.arange(len(simulation.frequencies)))
+    start = simulation.energy(state)
+    simulation.advance(state, 4)
+    assert 0.0 < simulation.energy(state) < start

@@ -9,15 +9,15 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from march_cases import DIRECT, LINING, oscillator
+from integration_cases import DIRECT, LINING, oscillator
 
 from r37core import native
 from r37core.contact.scene import Scene
-from r37core.march import kernel
-from r37core.march.choice import MarchChoice
-from r37core.march.layout import Kind, layout_of, march_record
-from r37core.march.simulate import March
 from r37core.native import ObjectCodeError, Sources, cached_object, load_function, object_code
+from r37core.time_integration import kernel
+from r37core.time_integration.choice import IntegrationChoice
+from r37core.time_integration.layout import Kind, integration_record, layout_of
+from r37core.time_integration.simulate import Simulation
 
 TWICE = """
 define i64 @odd_name(i64 %x) {
@@ -112,23 +112,23 @@ def test_side_by_side(tmp_path):
 
 
 def test_a_job_does_not_import_numba(contact, tmp_path, root):
-    """With the march compiled, a simulation's process never sees its compiler, nor SciPy."""
+    """With the time integration compiled, a simulation's process never sees its compiler, nor SciPy."""
     from r37core.rom.contact_model import write_contact_model
 
     write_contact_model(contact, tmp_path / "contact.npz")
-    March(contact, 1000.0, DIRECT, MarchChoice(2e-7, 1, 62)).compile()
+    Simulation(contact, 1000.0, DIRECT, IntegrationChoice(2e-7, 1, 62)).compile()
     code = (
         "import sys; sys.path.insert(0, 'tests')\n"
-        "from march_cases import DIRECT\nfrom r37core.march.choice import MarchChoice\n"
-        "from r37core.march.speed_run import run_speed\nfrom r37core.rom.contact_model import read_contact_model\n"
+        "from integration_cases import DIRECT\nfrom r37core.time_integration.choice import IntegrationChoice\n"
+        "from r37core.time_integration.speed_run import run_speed\nfrom r37core.rom.contact_model import read_contact_model\n"
         f"model = read_contact_model({str(tmp_path / 'contact.npz')!r})\n"
-        "run_speed(model, 1000.0, DIRECT, MarchChoice(2e-7, 2, 62), ('spectrum',), 10, 1, 100)\n"
+        "run_speed(model, 1000.0, DIRECT, IntegrationChoice(2e-7, 2, 62), ('spectrum',), 10, 1, 100)\n"
         "assert not {'numba', 'scipy'} & set(sys.modules)"
     )
     subprocess.run([sys.executable, "-c", code], check=True, cwd=root)
 
 
-def test_sources_of_the_march_are_all_that_it_is_compiled_from(root):
+def test_sources_of_the_compiled_code_are_all_that_it_is_compiled_from(root):
     """What the compiled modules import of the package is itself among the sources."""
     core = root / "src/r37core"
     for source in kernel.SOURCES.files:
@@ -144,7 +144,7 @@ def test_sources_of_the_march_are_all_that_it_is_compiled_from(root):
 
 
 def test_arrays_of_the_record_are_aligned_and_apart():
-    kind = march_record(layout_of(88, 9, 6))
+    kind = integration_record(layout_of(88, 9, 6))
     places = sorted((offset, offset + field.itemsize) for field, offset in kind.fields.values())
     assert all(end <= start for (_, end), (start, _) in pairwise(places))
     for name, (field, offset) in kind.fields.items():
@@ -153,8 +153,8 @@ def test_arrays_of_the_record_are_aligned_and_apart():
 
 def test_a_parameter_of_the_lining_reaches_the_law():
     """Every field of Lining is a number of the record, under its name."""
-    march = March(oscillator(6000.0), 1000.0, Scene(DIRECT.casing, LINING), MarchChoice(1e-6, 1, 8))
-    compiled = march._engine()
+    simulation = Simulation(oscillator(6000.0), 1000.0, Scene(DIRECT.casing, LINING), IntegrationChoice(1e-6, 1, 8))
+    compiled = simulation._engine()
     for name in ("thickness", "elastic_modulus", "plastic_modulus", "yield_stress", "bar_width", "bars", "shared_ring"):
         assert compiled._record[0]["lining"][name] == getattr(LINING, name)
     assert np.isnan(compiled._record[0]["lining"]["bar_area"])

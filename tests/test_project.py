@@ -21,7 +21,7 @@ LAYERS = [
     "fem",
     "rom",
     "contact",
-    "march",
+    "time_integration",
     "results",
     "exchange",
     "studies",

@@ -10,7 +10,6 @@ import xarray as xr
 
 from r37core.figures.readings import draw_readings
 from r37core.figures.validation import draw_blades, draw_reference, draw_stress
-from r37core.march.choice import MarchChoice
 from r37core.studies import measures
 from r37core.studies.check import Check, claim, score, validation_table
 from r37core.studies.published import BLADES, INTERACTIONS
@@ -19,6 +18,7 @@ from r37core.studies.reading_places import DIRECT, Place, grid, places
 from r37core.studies.reading_table import readings_table
 from r37core.studies.readings import UNITS, run_place
 from r37core.studies.validation import Runs, reading_checks, survey_checks, torsion_speed
+from r37core.time_integration.choice import IntegrationChoice
 from r37core.workflow.readings import Readings
 
 YIELD = 1.38e9
@@ -182,10 +182,10 @@ def test_every_choice_is_turned_on_all_blades():
 
 
 class FakeBench:
-    """Stands for the march: above yield from 995 to 1010 rad/s, the largest motion at 1010."""
+    """Stands for the time integration: above yield from 995 to 1010 rad/s, the largest motion at 1010."""
 
     yield_stress = YIELD
-    choice = MarchChoice(1e-7, 3, 62)
+    choice = IntegrationChoice(1e-7, 3, 62)
 
     def run(self, speed, spectrum=False):
         level = float(995.0 < speed <= 1010.0)
@@ -207,7 +207,7 @@ def test_a_window_is_followed_to_where_the_stress_is_below_yield():
 
 def test_pictures_show_every_blade_and_both_scenes():
     shipped = published_runs()
-    survey = {name: branch(1200.0, low=750.0, high=2000.0) for name in ("Ref_lined", "Ref_rigid")}
+    survey = {name: branch(1200.0, low=750.0, high=2000.0) for name in ("Ref_lined", "Ref_direct")}
     figures = [draw_reference(survey, shipped), draw_blades(shipped), draw_stress(shipped, YIELD)]
     for figure, legend in zip(figures, (["abradable lining", "direct contact"], list(BLADES), [*BLADES, "yield"]), strict=True):
         assert figure.axes[0].get_legend_handles_labels()[1] == legend
@@ -228,15 +228,15 @@ def test_steepest_fall_is_where_a_noisy_branch_ends():
     assert share == pytest.approx(0.69 / 1.19)
 
 
-def test_turned_choices_take_the_quick_march_and_the_shipped_one_the_published(settings):
+def test_turned_choices_take_the_quick_level_and_the_shipped_one_the_published(settings):
     plan = Readings(settings)
 
-    def march(reading, place="Ref_4"):
+    def simulation(reading, place="Ref_4"):
         return plan.choice(SimpleNamespace(reading=reading, place=place))
 
-    published, quick = (asdict(settings.levels[name].march.choice()) for name in ("paper", "standard"))
-    assert march(SHIPPED) == march("half_step") == published
-    assert march("exact") == march("quick") == march("survey", "Ref_lined") == quick
+    published, quick = (asdict(settings.levels[name].time_integration.choice()) for name in ("paper", "standard"))
+    assert simulation(SHIPPED) == simulation("half_step") == published
+    assert simulation("exact") == simulation("quick") == simulation("survey", "Ref_lined") == quick
     assert quick != published
     assert READINGS["half_step"].steps == 0.5
 
@@ -253,7 +253,7 @@ def survey_of(responses, median):
 
 def test_survey_counts_responses_beside_the_interactions():
     ref = {840.0: (4e-3, 2e-3), 1630.0: (6e-4, 1e-4), 1345.0: (2e-3, 4e-4), 1350.0: (2e-3, 4e-4)}
-    survey = {"Ref_lined": survey_of(ref, 0.02e-3), "Ref_rigid": survey_of({}, 0.13e-3)}
+    survey = {"Ref_lined": survey_of(ref, 0.02e-3), "Ref_direct": survey_of({}, 0.13e-3)}
     survey["CS100_lined"] = survey_of({900.0: (2e-3, 0.0), 1000.0: (2e-3, 0.0), 1100.0: (2e-3, 0.0)}, 0.02e-3)
     shipped = {"Ref_4": branch(1717.0), "CS100_4": branch(1407.0)}
     shipped["CS100_4"]["max_von_mises"][5:] += 1.5 * YIELD * (shipped["CS100_4"]["speed"][5:] < 1400.0)

@@ -68,15 +68,19 @@ CONFIG_REFUSALS = [
     (
         "[draft, standard, paper, fine, reference], ",
         "[draft, refrence, reference], ",
-        r"knobs\.level: found 'refrence'; allowed: draft",
+        r"parameters\.level: found 'refrence'; allowed: draft",
     ),
     (
         "      level: {",
         "      levell: {",
-        r"knobs: found unknown key levell; allowed keys: level, central_difference_step.*did you mean level",
+        r"parameters: found unknown key levell; allowed keys: level, central_difference_step.*did you mean level",
     ),
-    ("      bars: {", "      barss: {", r"knobs: found unknown key barss"),
-    ("bars: { values: [300, 1000, 3000, 10000, 30000, 100000], reference: 100000 }", "bars:", r"knobs\.bars: found nothing"),
+    ("      bars: {", "      barss: {", r"parameters: found unknown key barss"),
+    (
+        "bars: { values: [300, 1000, 3000, 10000, 30000, 100000], reference: 100000 }",
+        "bars:",
+        r"parameters\.bars: found nothing",
+    ),
     (
         "[2, 4, 8, 15], reference: 15",
         "[2, 4, 8], reference: 15",
@@ -186,7 +190,7 @@ def test_what_is_refused_in_scenes_yaml(config_copy, old, new, message):
 def test_a_run_that_would_not_fit_in_memory_is_refused(config_copy):
     edit(config_copy / "config/fidelity.yaml", "revolutions: 100,", "revolutions: 20000, samples_per_stress_instant: 10000,")
     with pytest.raises(
-        ConfigError, match=r"fidelity\.yaml:\d+: draft\.march\.revolutions: found 20000 of 620000 samples, .* GiB"
+        ConfigError, match=r"fidelity\.yaml:\d+: draft\.time_integration\.revolutions: found 20000 of 620000 samples, .* GiB"
     ):
         read_settings(config_copy)
 

@@ -21,11 +21,11 @@ from r37core.contact.casing import Casing
 from r37core.contact.scene import Scene
 from r37core.dataset_file import about, read_dataset, write_dataset
 from r37core.io import InputFileError, write_json
-from r37core.march.choice import MarchChoice
-from r37core.march.simulate import March
 from r37core.results.campbell_dataset import campbell_dataset
 from r37core.results.netcdf import create_axis, create_variable
 from r37core.rom.contact_model import BucklingError
+from r37core.time_integration.choice import IntegrationChoice
+from r37core.time_integration.simulate import Simulation
 from r37core.workflow import lock
 from r37core.workflow.leftovers import leftovers
 from r37core.workflow.run import replaced_level
@@ -141,15 +141,15 @@ def test_a_blade_that_buckles_is_refused_with_the_speed(model):
 def test_a_simulation_of_a_blade_that_buckles_is_refused(contact):
     weak = dataclasses.replace(contact, stiffness_per_square=-np.diag(contact.squared_frequencies))
     with pytest.raises(BucklingError, match="no stable position at 900 rad/s"):
-        March(weak, 900.0, Scene(Casing(3.5e-4)), MarchChoice(2e-7, 2, 496))
+        Simulation(weak, 900.0, Scene(Casing(3.5e-4)), IntegrationChoice(2e-7, 2, 496))
 
 
 def test_a_filter_below_the_first_mode_is_refused(contact):
-    choice = MarchChoice(2e-7, 2, 496, highest_frequency=100.0)
+    choice = IntegrationChoice(2e-7, 2, 496, highest_frequency=100.0)
     with pytest.raises(
         ValueError, match=r"highest_frequency_hz: found 100; allowed: more than the first mode's, [89]\d\d\.\d+ Hz"
     ):
-        March(contact, 900.0, Scene(Casing(3.5e-4)), choice)
+        Simulation(contact, 900.0, Scene(Casing(3.5e-4)), choice)
 
 
 def test_a_flipped_bit_is_found(tmp_path):

@@ -77,7 +77,7 @@ def test_an_added_blade_runs_its_own_jobs(project):
     edit(project, "config.yaml", "[Ref, CS100]", "[Ref, CS100, L50]")
     jobs = planned_outputs(project)
     assert jobs.pop("simulate") == runs(blades=["L50"])
-    for rule in STRUCTURE | {"response", "prepare_march", "contact_model"}:
+    for rule in STRUCTURE | {"response", "prepare_time_integration", "contact_model"}:
         assert all("L50" in file for file in jobs.pop(rule)), rule
     assert set(jobs) == DATASETS | OF_ALL_BLADES
 
@@ -88,12 +88,12 @@ def test_a_removed_blade_runs_no_simulation(project):
 
 
 def test_a_renamed_scene_runs_its_own_jobs(project):
-    edit(project, "scenes.yaml", "direct:", "rigid:")
-    edit(project, "config.yaml", "scenes: [abradable, direct]", "scenes: [abradable, rigid]")
+    edit(project, "scenes.yaml", "direct:", "bare:")
+    edit(project, "config.yaml", "scenes: [abradable, direct]", "scenes: [abradable, bare]")
     jobs = planned_outputs(project)
-    assert jobs.pop("simulate") == runs(scenes=["rigid"])
-    assert jobs.pop("response") == per_run("response.nc", scenes=["rigid"])
-    assert jobs.pop("prepare_march") == per_run("march.stamp", scenes=["rigid"])
+    assert jobs.pop("simulate") == runs(scenes=["bare"])
+    assert jobs.pop("response") == per_run("response.nc", scenes=["bare"])
+    assert jobs.pop("prepare_time_integration") == per_run("time_integration.stamp", scenes=["bare"])
     assert set(jobs) == DATASETS
 
 
@@ -104,7 +104,7 @@ def test_friction_runs_its_scene(project):
     jobs = planned_outputs(project)
     assert jobs.pop("simulate") == runs(scenes=["direct"])
     assert jobs.pop("response") == per_run("response.nc", scenes=["direct"])
-    assert jobs.pop("prepare_march") == per_run("march.stamp", scenes=["direct"])
+    assert jobs.pop("prepare_time_integration") == per_run("time_integration.stamp", scenes=["direct"])
     assert set(jobs) == DATASETS
 
 
@@ -131,7 +131,7 @@ def test_another_level_runs_what_differs_and_back_keeps_all(project):
     with open(project / "config/fidelity.yaml", "a") as stream:
         stream.write(
             "same_mesh:\n  mesh: { nodes: 1500, layers: 1, tip_elements: 14 }\n  reduction: { fixed_interface_modes: 10 }\n"
-            "  march: { time_step_s: 1.0e-7, revolutions: 8, speed_step_rad_s: 400 }\n"
+            "  time_integration: { time_step_s: 1.0e-7, revolutions: 8, speed_step_rad_s: 400 }\n"
         )
     jobs = planned_outputs(project, "all_blades", "--config", "fidelity=same_mesh")
     assert jobs.pop("simulate") == runs()
@@ -155,7 +155,11 @@ def test_editing_one_blade_runs_that_blade(project):
     ("old", "new", "kept"),
     [
         ("density_kg_m3: 8000.0", "density_kg_m3: 8001.0", {"geometry", "mesh"}),
-        ("yield_stress_pa: 1.38e+9", "yield_stress_pa: 1.39e+9", STRUCTURE | {"contact_model", "simulate", "prepare_march"}),
+        (
+            "yield_stress_pa: 1.38e+9",
+            "yield_stress_pa: 1.39e+9",
+            STRUCTURE | {"contact_model", "simulate", "prepare_time_integration"},
+        ),
     ],
 )
 def test_a_material_runs_what_depends_on_it(project, old, new, kept):
@@ -181,7 +185,7 @@ def test_a_stress_history_runs_its_speed(project):
 @pytest.mark.parametrize(
     ("module", "rules"),
     [
-        ("march/simulate.py", {"prepare_march"}),
+        ("time_integration/simulate.py", {"prepare_time_integration"}),
         ("mesh/generate.py", {"mesh"}),
         ("results/interactions.py", {"summary"}),
         ("figures/maps.py", {"map_figure"}),
@@ -203,4 +207,4 @@ def test_an_edited_module_runs_the_rules_that_import_it(project, module, rules):
     assert changed == rules
     # a renewed stamp runs the simulations, of which Snakemake then says that alone
     simulated = any(re.search(r"^(?:local)?rule simulate:", block, re.MULTILINE) for block in blocks)
-    assert simulated or "prepare_march" not in changed
+    assert simulated or "prepare_time_integration" not in changed

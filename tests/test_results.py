@@ -12,9 +12,6 @@ from r37core.contact.casing import Casing
 from r37core.contact.scene import Friction, Lining, Scene
 from r37core.fem.material import Material
 from r37core.io import InputFileError
-from r37core.march.choice import MarchChoice
-from r37core.march.speed_file import read_speed, write_speed
-from r37core.march.speed_run import run_speed
 from r37core.results.datasets import write_sweep_dataset
 from r37core.results.interactions import COLUMNS, InteractionChoice, find_interactions, summarise
 from r37core.results.response import write_response
@@ -22,6 +19,9 @@ from r37core.results.stress import StressRecovery
 from r37core.rom.contact_reduction import contact_model
 from r37core.rom.reduced_model import RecoveryNodes
 from r37core.speeds import SpeedError, expand_speeds
+from r37core.time_integration.choice import IntegrationChoice
+from r37core.time_integration.speed_file import read_speed, write_speed
+from r37core.time_integration.speed_run import run_speed
 
 MATERIAL = Material(180e9, 8000.0, 0.3, 1.38e9)
 
@@ -83,7 +83,7 @@ def sweep(model, tmp_path_factory):
             limit = 1e-7 if name == "direct" and speed == SPEEDS[-1] else 0.05
             scene = Scene(lined.casing, lined.lining, lined.friction, divergence_limit=limit)
             history = 4 if speed == 1200.0 else 1
-            choice = MarchChoice(2e-7, 4, 62, snapshots_per_revolution=31, snapshot_revolutions=history, energy=True)
+            choice = IntegrationChoice(2e-7, 4, 62, snapshots_per_revolution=31, snapshot_revolutions=history, energy=True)
             wanted = [kind for kind in RESULTS if kind != "wear" or lined.lining]
             kept = run_speed(contact, speed, scene, choice, wanted, 10, 1, 60)
             sources.append(folder / f"{name}_{speed:g}.npz")

@@ -7,11 +7,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import xarray as xr
-from march_cases import ABRADABLE, DIRECT
+from integration_cases import ABRADABLE, DIRECT
 from workflow_runs import snakemake
 
-from r37core.march.choice import MarchChoice
-from r37core.march.simulate import March
 from r37core.studies.case import QUANTITIES, Case
 from r37core.studies.changes import changed
 from r37core.studies.estimate import describe, project_costs
@@ -21,7 +19,9 @@ from r37core.studies.sampling import sample
 from r37core.studies.stability import judge
 from r37core.studies.stability_cases import extremes
 from r37core.studies.tradeoff import case_dataset, gather_cases, level_error, vary
-from r37core.studies.tradeoff_table import knob_tables
+from r37core.studies.tradeoff_table import parameter_tables
+from r37core.time_integration.choice import IntegrationChoice
+from r37core.time_integration.simulate import Simulation
 
 
 def test_sample_stands_for_the_whole_range():
@@ -33,31 +33,31 @@ def test_sample_stands_for_the_whole_range():
 
 
 def test_projection_by_hand():
-    samples = [{"march": 10.0, "reduction": 1.0, "runs": 4}, {"march": 30.0, "reduction": 2.0, "runs": 6}]
+    samples = [{"time integration": 10.0, "reduction": 1.0, "runs": 4}, {"time integration": 30.0, "reduction": 2.0, "runs": 6}]
     estimate = project_costs(samples, start_up=0.1, workflow_per_job=0.05, cores=2)
     assert estimate["total"] == pytest.approx(40.0 + 3.0 + 10 * 0.15)
     assert estimate["wall"] == pytest.approx(estimate["total"] / 2)
     assert "10 simulations" in describe(estimate, "paper")
-    assert "| march | 0.01 | 4.000 |" in describe(estimate, "paper")
+    assert "| time integration | 0.01 | 4.000 |" in describe(estimate, "paper")
 
 
 def test_estimate_of_a_small_sweep(project):
     snakemake(project, "estimate", "--cores", "2")
     estimate = json.loads((project / "results/studies/estimate.json").read_text())
     assert estimate["runs"] == 12
-    assert 0.0 < estimate["march"] < 60.0
+    assert 0.0 < estimate["time integration"] < 60.0
     assert 0.01 < estimate["start-up"] / 12 < 2.0
     assert (project / "results/studies/estimate.md").read_text().startswith("Level `tiny`: 12 simulations")
 
 
-def small_case(knob, value, rms, scenes=("lined",)):
+def small_case(parameter, value, rms, scenes=("lined",)):
     """A case with one speed at each place but three at the peak, and errors that are easy to see."""
     places = {"peak": np.array([100.0, 101.0, 102.0]), "jump": np.array([105.0]), "off_resonance": np.array([90.0])}
     values = {name: np.array(rms, dtype=float) for name in QUANTITIES}
     values |= {name: np.zeros(5) for name in ("status", "energy_residual")}
     costs = {"cpu_s": 1.0, "wall_s": 1.0, "peak_memory_bytes": 1e8, "bytes_written": 1e4}
     runs = {scene: Case(np.concatenate(list(places.values())), values, costs) for scene in scenes}
-    return case_dataset(knob, value, places, runs, {"cpu_s": 7.0})
+    return case_dataset(parameter, value, places, runs, {"cpu_s": 7.0})
 
 
 def test_errors_compare_means_over_neighbouring_speeds():
@@ -89,11 +89,11 @@ def test_refused_values_are_rows_of_the_table():
     refused = small_case("bars", "1", [np.nan] * 5)
     refused["refused"][0] = "too stiff"
     together = gather_cases([refused, small_case("bars", "2", [1.0] * 5)], {"bars": "2"})
-    assert "| 1 | lined | refused: too stiff |" in knob_tables(together, {"bars": "2"})
+    assert "| 1 | lined | refused: too stiff |" in parameter_tables(together, {"bars": "2"})
 
 
-def test_knobs_turn_what_they_say():
-    scene, choice = vary("bars", "300", ABRADABLE, MarchChoice(1e-7, 10, 62))
+def test_parameters_turn_what_they_say():
+    scene, choice = vary("bars", "300", ABRADABLE, IntegrationChoice(1e-7, 10, 62))
     assert scene.lining.bars == 300
     assert vary("central_difference_step", "2e-08", ABRADABLE, choice)[1].time_step == 2e-8
     exact = vary("exact_modal_step", "8e-07", ABRADABLE, choice)[1]
@@ -101,7 +101,7 @@ def test_knobs_turn_what_they_say():
     assert vary("friction_form", "constant", ABRADABLE, choice)[0].friction.vector is False
     assert vary("highest_frequency", "2e4", DIRECT, choice) == (DIRECT, replace(choice, highest_frequency=2e4))
     assert vary("bars", "300", DIRECT, choice) == (DIRECT, choice)
-    with pytest.raises(ValueError, match="unknown knob colour"):
+    with pytest.raises(ValueError, match="unknown parameter colour"):
         vary("colour", "red", DIRECT, choice)
 
 
@@ -113,7 +113,7 @@ def test_exponent_of_a_power_law():
 
 
 def test_judging_a_case(contact):
-    choice = MarchChoice(2e-7, 4, 62)
+    choice = IntegrationChoice(2e-7, 4, 62)
     assert judge(contact, DIRECT, choice, 1500.0)["outcome"] == "accurate"
     assert judge(contact, replace(DIRECT, divergence_limit=1e-6), choice, 1500.0)["outcome"] == "diverged"
     refused = judge(contact, DIRECT, replace(choice, time_step=2e-6), 1500.0)
@@ -128,7 +128,7 @@ def test_a_silent_wrong_number_is_not_accepted(contact, monkeypatch):
 
     monkeypatch.setattr(stability, "ENERGY_WITHIN", 1e-30)
     with pytest.raises(AssertionError, match="energy balance open"):
-        judge(contact, DIRECT, MarchChoice(2e-7, 4, 62), 1500.0)
+        judge(contact, DIRECT, IntegrationChoice(2e-7, 4, 62), 1500.0)
 
 
 def test_changes_leave_the_entry_alone():
@@ -143,19 +143,19 @@ def test_every_extreme_has_a_name_of_its_own():
 
 
 def test_modes_that_are_left_out(contact):
-    march = March(contact, 1500.0, DIRECT, MarchChoice(2e-7, 1, 62, highest_frequency=2e4))
-    assert march.frequencies[-1] <= 2 * np.pi * 2e4
-    assert 5 < len(march.frequencies) < len(contact.squared_frequencies)
+    simulation = Simulation(contact, 1500.0, DIRECT, IntegrationChoice(2e-7, 1, 62, highest_frequency=2e4))
+    assert simulation.frequencies[-1] <= 2 * np.pi * 2e4
+    assert 5 < len(simulation.frequencies) < len(contact.squared_frequencies)
 
 
 def test_tradeoff_of_a_small_sweep(project):
     config = project / "config/config.yaml"
     text = config.read_text()
-    start, end = text.index("    knobs:"), len(text)
-    knobs = "    knobs:\n      level: { values: [tiny, draft], reference: draft }\n"
-    knobs += "      bars: { values: [3000, 10000], reference: 10000 }\n"
-    knobs += "      revolutions: { values: [2, 3, 4], reference: 4 }\n"
-    config.write_text(text[:start].replace("base: standard", "base: tiny") + knobs + text[end:])
+    start, end = text.index("    parameters:"), len(text)
+    parameters = "    parameters:\n      level: { values: [tiny, draft], reference: draft }\n"
+    parameters += "      bars: { values: [3000, 10000], reference: 10000 }\n"
+    parameters += "      revolutions: { values: [2, 3, 4], reference: 4 }\n"
+    config.write_text(text[:start].replace("base: standard", "base: tiny") + parameters + text[end:])
     snakemake(project, "growth", "--cores", "2")
     table = (project / "results/studies/tradeoff.md").read_text()
     levels = (project / "results/studies/levels.md").read_text()

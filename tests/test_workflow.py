@@ -30,7 +30,7 @@ def finished_copy(finished, tmp_path):
 
 
 STRUCTURE = {"geometry", "mesh", "abaqus_deck", "matrices", "reduced_model", "contact_model"}
-PER_BLADE = STRUCTURE | {"campbell_of_blade", "campbell_figure", "prepare_march", "simulate", "response"}
+PER_BLADE = STRUCTURE | {"campbell_of_blade", "campbell_figure", "prepare_time_integration", "simulate", "response"}
 GATHERED = {
     "campbell_of_all",
     "campbell_overview",
@@ -197,10 +197,10 @@ def test_only_what_a_scene_requires(project):
     assert sorted(scene for given, scene in inputs.items() if "rom_" in given) == ["direct"]
     counts = dict(re.findall(r"^(\w+) +(\d+)$", text, re.MULTILINE))
     assert counts["simulate"] == "2"
-    assert counts["prepare_march"] == "2"
+    assert counts["prepare_time_integration"] == "2"
     assert "map_figure" not in counts
     campbell = planned(project, "campbell")
-    assert not {"simulate", "prepare_march", "contact_model", "response"} & set(campbell)
+    assert not {"simulate", "prepare_time_integration", "contact_model", "response"} & set(campbell)
     snakemake(project, "results/Ref/abradable/response.nc", "results/Ref/direct/response.nc", "--cores", "2")
     with np.load(project / "results/Ref/abradable/speed_900.npz") as run:
         assert not {"wear", "snapshots", "signal", "amplitude", "contact_work"} & set(run.files)
@@ -218,7 +218,9 @@ def test_step_beyond_the_limit_stops_with_the_limit(finished_copy):
     levels.write_text(levels.read_text().replace("2.0e-7, revolutions: 8", "9.0e-7, revolutions: 8"))
     text = snakemake(finished_copy, "results/Ref/direct/response.nc", "--cores", "1", check=False)
     assert "rule simulate:" not in text
-    assert re.search(r"rule prepare_march: time_step_s: 9e-07 s .* stability limit of this reduced model, [\d.e-]+ s", text)
+    assert re.search(
+        r"rule prepare_time_integration: time_step_s: 9e-07 s .* stability limit of this reduced model, [\d.e-]+ s", text
+    )
 
 
 @pytest.mark.parametrize(

@@ -27,7 +27,7 @@ def copy_project(root, to):
     with open(to / "config/fidelity.yaml", "a") as stream:
         stream.write(
             "\ntiny:\n  mesh: { nodes: 1500, layers: 1, tip_elements: 14 }\n  reduction: { fixed_interface_modes: 10 }\n"
-            "  march: { time_step_s: 2.0e-7, revolutions: 8, speed_step_rad_s: 400 }\n"
+            "  time_integration: { time_step_s: 2.0e-7, revolutions: 8, speed_step_rad_s: 400 }\n"
         )
 
 

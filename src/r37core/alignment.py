@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 LANES = 8
-"""Numbers that the compiled march handles at once (r37core.lanes)."""
+"""Numbers that the compiled time integration handles at once (r37core.lanes)."""
 
 _VECTOR_BYTES = 8 * LANES
 

@@ -17,14 +17,14 @@ rule contact_model:
         "../scripts/contact_model.py"
 
 
-rule prepare_march:
+rule prepare_time_integration:
     input:
         sweep.contact_model,
     output:
-        touch(paths.MARCH_STAMP),
+        touch(paths.INTEGRATION_STAMP),
     log:
-        "<logs>/{blade}/{scene}/prepare_march.log",
-    # the sweep's jobs find the march compiled; one message before the sweep instead of one from each of its jobs. Nothing here
+        "<logs>/{blade}/{scene}/prepare_time_integration.log",
+    # the sweep's jobs find the time integration compiled; one message before the sweep instead of one from each of its jobs. Nothing here
     # may depend on which speeds are run: more speeds would renew the stamp, and with it run all of them again
     priority: 15
     conda:
@@ -34,14 +34,14 @@ rule prepare_march:
         described=sweep.described,
         speed=settings.structure.maximum_speed_rad_s,
         choice=sweep.choice_of_scene,
-        code=code("prepare_march"),
+        code=code("prepare_time_integration"),
     script:
-        "../scripts/prepare_march.py"
+        "../scripts/prepare_time_integration.py"
 
 
 rule simulate:
     input:
-        prepared=paths.MARCH_STAMP,
+        prepared=paths.INTEGRATION_STAMP,
         model=sweep.contact_model,
     output:
         paths.SPEED,
@@ -76,7 +76,7 @@ rule response:
         speeds=sweep.speeds,
         stress=sweep.with_stress,
         stress_history_speeds=sweep.stress_history_speeds,
-        stress_instants=settings.fidelity.march.stress_instants,
+        stress_instants=settings.fidelity.time_integration.stress_instants,
         material=structure.material,
         provenance=made.sweep,
         code=code("response"),

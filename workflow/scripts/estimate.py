@@ -6,7 +6,7 @@ from r37core.io import read_json, write_json, write_text
 from r37core.studies.estimate import describe, project_costs, time_start_up
 
 # what the script of a simulation imports
-IMPORTS = "import r37core.march.speed_run, r37core.march.speed_file"
+IMPORTS = "import r37core.time_integration.speed_run, r37core.time_integration.speed_file"
 
 
 def main(snakemake):

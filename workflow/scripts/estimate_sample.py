@@ -4,18 +4,18 @@ from job import run
 
 from r37core.fem.material import Material
 from r37core.io import write_json
-from r37core.march.choice import MarchChoice
-from r37core.march.speed_run import run_speed
 from r37core.rom.contact_model import read_contact_model
 from r37core.rom.rom_file import read_reduced_model
 from r37core.studies.estimate import time_runs
+from r37core.time_integration.choice import IntegrationChoice
+from r37core.time_integration.speed_run import run_speed
 
 
 def main(snakemake):
     params = snakemake.params
 
     def simulate(speed):
-        choice = MarchChoice(**params.choices[speed])
+        choice = IntegrationChoice(**params.choices[speed])
         model = read_contact_model(snakemake.input.model)
         return run_speed(model, speed, params.scene, choice, params.results, **params.kept)
 

@@ -8,15 +8,15 @@ import sys
 
 from r37core.contact.scene import scene_from
 from r37core.failures import reported
-from r37core.march.choice import MarchChoice
-from r37core.march.speed_file import write_speed
-from r37core.march.speed_run import run_speed
 from r37core.rom.contact_model import read_contact_model
+from r37core.time_integration.choice import IntegrationChoice
+from r37core.time_integration.speed_file import write_speed
+from r37core.time_integration.speed_run import run_speed
 
 
 def main(model, speed, output, task, about):
     task = json.loads(task)
-    choice = MarchChoice(**task["choice"])
+    choice = IntegrationChoice(**task["choice"])
     scene = scene_from(task["scene"])
     result = run_speed(read_contact_model(model), float(speed), scene, choice, task["results"], **task["kept"])
     write_speed(result, output, json.loads(about))

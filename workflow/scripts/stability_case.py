@@ -5,17 +5,17 @@ from dataclasses import replace
 from job import run
 
 from r37core.io import write_json
-from r37core.march.choice import MarchChoice
 from r37core.rom.contact_model import read_contact_model
 from r37core.studies.stability import REFUSED, judge
 from r37core.studies.stability_cases import Extreme
+from r37core.time_integration.choice import IntegrationChoice
 
 
 def main(snakemake):
     params = snakemake.params
     extreme = Extreme(**params.extreme)
     model = read_contact_model(snakemake.input.contact)
-    choice = replace(MarchChoice(**params.choice), revolutions=extreme.revolutions)
+    choice = replace(IntegrationChoice(**params.choice), revolutions=extreme.revolutions)
     if extreme.share_of_limit is not None:
         choice = replace(choice, time_step=extreme.share_of_limit * 2.0 / model.modes_at(1.01 * extreme.speed)[0][-1])
     if extreme.integrator is not None:

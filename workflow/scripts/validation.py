@@ -31,7 +31,7 @@ def main(snakemake):
     write_text(readings_table(turned, limit), made.readings)
     pictures = {"picture": draw_readings(turned), "reference": draw_reference(survey, shipped), "blades": draw_blades(shipped)}
     pictures |= {"stress": draw_stress(shipped, limit), "histories": draw_histories(shipped, limit)}
-    for place in ("Ref_lined", "Ref_rigid"):
+    for place in ("Ref_lined", "Ref_direct"):
         pictures[f"spectrum_{place[4:]}"] = draw_spectral_map(survey[place], campbells["Ref"]["level"], place)
     for name, figure in pictures.items():
         save(figure, getattr(made, name))

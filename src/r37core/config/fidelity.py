@@ -7,7 +7,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field, RootModel, model_validator
 
-from r37core.march.choice import MarchChoice
+from r37core.time_integration.choice import IntegrationChoice
 
 from .section import LeftOut, Name, Section, Speed, check_names, refused
 
@@ -42,7 +42,7 @@ class Measured(Section):
     cpu_s_per_run: float = Field(gt=0, le=1e9)
 
 
-class March(Section):
+class TimeIntegration(Section):
     """The time integration and what it keeps."""
 
     time_step_s: float = Field(ge=1e-12, le=1e-2, description="largest step; shortened so that it divides a revolution")
@@ -54,7 +54,7 @@ class March(Section):
     )
     engine: Literal["compiled", "reference"] = Field(default="compiled", description="reference: plain NumPy, for short runs")
     highest_frequency_hz: Annotated[float, Field(gt=0, le=1e12)] | LeftOut = Field(
-        default=None, description="faster modes are left out of the march; all are kept without it"
+        default=None, description="faster modes are left out of the time integration; all are kept without it"
     )
     stress_instants: int = Field(default=62, ge=1, le=10000, description="stress evaluations per revolution")
     samples_per_stress_instant: int = Field(default=8, ge=1, le=10000, description="samples of the tip motion between them")
@@ -63,7 +63,7 @@ class March(Section):
     wear_angles: int = Field(default=1000, ge=8, le=1_000_000, description="angles of the wear profile that are kept")
 
     @model_validator(mode="after")
-    def _signal_fits(self) -> March:
+    def _signal_fits(self) -> TimeIntegration:
         size = 32 * self.revolutions * self.samples_per_revolution
         if size > _LARGEST_SIGNAL:
             raise refused(
@@ -78,9 +78,9 @@ class March(Section):
         """Samples of the tip motion per revolution."""
         return self.stress_instants * self.samples_per_stress_instant
 
-    def choice(self) -> MarchChoice:
-        """The march of this level, with the stress of the last revolution and the energy balance."""
-        return MarchChoice(
+    def choice(self) -> IntegrationChoice:
+        """The time integration of this level, with the stress of the last revolution and the energy balance."""
+        return IntegrationChoice(
             time_step=self.time_step_s,
             revolutions=self.revolutions,
             samples_per_revolution=self.samples_per_revolution,
@@ -99,7 +99,7 @@ class Level(Section):
     mesh: Mesh
     reduction: Reduction
     measured: Measured | LeftOut = None
-    march: March
+    time_integration: TimeIntegration
 
 
 class Levels(RootModel[dict[Name, Level]]):

@@ -12,10 +12,10 @@ from typing import Any
 from pydantic import BaseModel
 
 from r37core.contact.scene import Scene
-from r37core.march.choice import LARGEST_TABLE, MarchChoice
 from r37core.rom.choice import ReductionChoice
 from r37core.speeds import SpeedError, expand_speeds
 from r37core.studies.levels import recommended_level
+from r37core.time_integration.choice import LARGEST_TABLE, IntegrationChoice
 
 from .blades import Blades, BladeSettings, blade_settings
 from .document import Document, command_line_document, read_document
@@ -107,10 +107,10 @@ class Settings:
         """What the reduced model is made of, with contact nodes on `tip_line` or on that of config.yaml."""
         return self.structure.reduction(self.fidelity.reduction, tip_line)
 
-    def march_choice(self, scene: str, speed: float) -> MarchChoice:
-        """Numbers of the march at one speed of a scene, with only what its results need."""
+    def integration_choice(self, scene: str, speed: float) -> IntegrationChoice:
+        """Numbers of the time integration at one speed of a scene, with only what its results need."""
         chosen = self.scenes[scene]
-        everything = self.fidelity.march.choice()
+        everything = self.fidelity.time_integration.choice()
         stress = "stress" in chosen.results
         history = speed in chosen.stress_history_speeds
         return replace(
@@ -176,7 +176,7 @@ def load_settings(config: Document | Mapping[str, Any], root: Path) -> Settings:
     scene_names = files.known(("scenes",), list(scenes) if checked.scenes == "all" else checked.scenes, scenes, files.scenes)
     _check_studies(checked.studies, blades, levels, scenes, files)
     chosen_scenes = {name: _scene(scenes[name], level, checked.structure.boundary.tip_line) for name in scene_names}
-    speeds = _speeds(checked, names, scene_names, level.march.speed_step_rad_s, blades, scenes, files)
+    speeds = _speeds(checked, names, scene_names, level.time_integration.speed_step_rad_s, blades, scenes, files)
     _check_history_speeds(chosen_scenes, speeds, files.scenes)
     _check_slowest(level, checked.structure.boundary.nodes, speeds, files.config)
     return Settings(
@@ -251,21 +251,21 @@ def _check_studies(
         files.known(("studies", "readings", "quick"), [studies.readings.quick], levels, files.levels)
     if studies.tradeoff:
         given = studies.tradeoff
-        files.known(("studies", "tradeoff", "knobs", "level"), given.knobs.level.values, levels, files.levels)
+        files.known(("studies", "tradeoff", "parameters", "level"), given.parameters.level.values, levels, files.levels)
         if given.scenes != "all":
             files.known(("studies", "tradeoff", "scenes"), given.scenes, scenes, files.scenes)
     for name in ("readings", "stability"):
         if name in studies.model_fields_set:
             study = getattr(studies, name)
             files.known(("studies", name, "lined_scene"), [study.lined_scene], scenes, files.scenes)
-            files.known(("studies", name, "rigid_scene"), [study.rigid_scene], scenes, files.scenes)
+            files.known(("studies", name, "direct_scene"), [study.direct_scene], scenes, files.scenes)
 
 
 def _scene(entry: SceneEntry, level: Level, tip_line: str) -> SceneSettings:
     return SceneSettings(
         scene=entry.scene(),
         tip_line=entry.tip_line or tip_line,
-        revolutions=entry.revolutions or level.march.revolutions,
+        revolutions=entry.revolutions or level.time_integration.revolutions,
         results=tuple(entry.results),
         stress_history_speeds=tuple(float(speed) for speed in entry.stress_history_speeds_rad_s),
     )
@@ -325,11 +325,11 @@ def _check_history_speeds(
 def _check_slowest(level: Level, nodes: int, speeds: Mapping[tuple[str, str], tuple[float, ...]], document: Document) -> None:
     """ConfigError for a speed whose revolution has too many steps."""
     slowest = min(several[0] for several in speeds.values())
-    size = 8 * nodes * 2.0 * math.pi / slowest / level.march.time_step_s
+    size = 8 * nodes * 2.0 * math.pi / slowest / level.time_integration.time_step_s
     if size > LARGEST_TABLE:
         raise document.refusal(
             ("speeds",),
-            f"{slowest:g} rad/s, where a revolution has {size / 8 / nodes:.3g} steps of {level.march.time_step_s:g} s",
+            f"{slowest:g} rad/s, a revolution of {size / 8 / nodes:.3g} steps of {level.time_integration.time_step_s:g} s",
             f"speeds from {slowest * size / LARGEST_TABLE:.3g} rad/s with this step (the casing's shape at every step has to "
             "fit in memory)",
         )

@@ -57,7 +57,7 @@ class Friction(Section):
         default="against_rotation", description="along_rotation, against physics, is kept for the study readings"
     )
     coupling: Literal["coupled", "after"] = Field(
-        default="coupled", description="friction inside the normal solve of casing contact or added after it"
+        default="coupled", description="friction inside the normal solve of direct contact or added after it"
     )
 
 

@@ -12,36 +12,36 @@ Value = TypeVar("Value")
 Step = Annotated[float, Field(ge=0.05, le=100)]
 
 
-class Knob(Section, Generic[Value]):
+class Parameter(Section, Generic[Value]):
     """Values of one parameter, and the one that the others are compared with."""
 
     values: Unique[Value]
     reference: Value
 
     @model_validator(mode="after")
-    def _reference_is_a_value(self) -> Knob[Value]:
+    def _reference_is_a_value(self) -> Parameter[Value]:
         if self.reference not in self.values:
             raise refused(("reference",), repr(self.reference), f"one of the values, {', '.join(map(str, self.values))}")
         return self
 
 
-class Knobs(Section):
+class Parameters(Section):
     """The parameters whose price is measured; `level` always, for the recommended level is the study's result."""
 
-    level: Knob[Name]
-    central_difference_step: Knob[Annotated[float, Field(ge=1e-12, le=1e-2)]] | LeftOut = None
-    exact_modal_step: Knob[Annotated[float, Field(ge=1e-12, le=1e-2)]] | LeftOut = None
-    revolutions: Knob[Annotated[int, Field(ge=2, le=20000)]] | LeftOut = None
-    mesh_nodes: Knob[Annotated[int, Field(ge=500, le=500_000)]] | LeftOut = None
-    boundary_nodes: Knob[Annotated[int, Field(ge=1, le=200)]] | LeftOut = None
-    fixed_interface_modes: Knob[Annotated[int, Field(ge=0, le=500)]] | LeftOut = None
-    highest_frequency: Knob[Annotated[float, Field(gt=0, le=1e12)]] | LeftOut = None
-    bars: Knob[Annotated[int, Field(ge=10, le=10_000_000)]] | LeftOut = None
-    stress_instants: Knob[Annotated[int, Field(ge=1, le=10000)]] | LeftOut = None
-    stress_region: Knob[Literal["submesh", "whole"]] | LeftOut = None
-    friction_form: Knob[Literal["constant", "vector"]] | LeftOut = None
+    level: Parameter[Name]
+    central_difference_step: Parameter[Annotated[float, Field(ge=1e-12, le=1e-2)]] | LeftOut = None
+    exact_modal_step: Parameter[Annotated[float, Field(ge=1e-12, le=1e-2)]] | LeftOut = None
+    revolutions: Parameter[Annotated[int, Field(ge=2, le=20000)]] | LeftOut = None
+    mesh_nodes: Parameter[Annotated[int, Field(ge=500, le=500_000)]] | LeftOut = None
+    boundary_nodes: Parameter[Annotated[int, Field(ge=1, le=200)]] | LeftOut = None
+    fixed_interface_modes: Parameter[Annotated[int, Field(ge=0, le=500)]] | LeftOut = None
+    highest_frequency: Parameter[Annotated[float, Field(gt=0, le=1e12)]] | LeftOut = None
+    bars: Parameter[Annotated[int, Field(ge=10, le=10_000_000)]] | LeftOut = None
+    stress_instants: Parameter[Annotated[int, Field(ge=1, le=10000)]] | LeftOut = None
+    stress_region: Parameter[Literal["submesh", "whole"]] | LeftOut = None
+    friction_form: Parameter[Literal["constant", "vector"]] | LeftOut = None
 
-    def given(self) -> dict[str, Knob]:
+    def given(self) -> dict[str, Parameter]:
         """The parameters that are varied, by name."""
         return {name: getattr(self, name) for name in type(self).model_fields if getattr(self, name) is not None}
 
@@ -73,10 +73,10 @@ class Tradeoff(Section):
 
     blade: Name = "Ref"
     scenes: AllOrNames = "all"
-    base: Name = Field(default="standard", description="fidelity level that all knobs but one keep")
+    base: Name = Field(default="standard", description="fidelity level that all parameters but one keep")
     engine_order: int = Field(default=4, ge=1, le=100, description="the speeds lie about this crossing of 1B")
     places: Places = Places()
-    knobs: Knobs
+    parameters: Parameters
 
 
 class SpeedSteps(Section):
@@ -91,9 +91,11 @@ class Readings(Section):
     """Readings of what the benchmark leaves open, and the published numbers beside ours (snakemake readings)."""
 
     base: Name = Field(default="paper", description="fidelity level of the published step and mesh")
-    quick: Name = Field(default="standard", description="level whose march the turned choices and the whole range take")
+    quick: Name = Field(
+        default="standard", description="level whose time integration the turned choices and the whole range take"
+    )
     lined_scene: Name = "abradable"
-    rigid_scene: Name = "direct"
+    direct_scene: Name = "direct"
     speed_steps_rad_s: SpeedSteps = SpeedSteps()
 
 
@@ -103,7 +105,7 @@ class Stability(Section):
     blade: Name = "Ref"
     base: Name = "standard"
     lined_scene: Name = "abradable"
-    rigid_scene: Name = "direct"
+    direct_scene: Name = "direct"
 
 
 class Estimate(Section):

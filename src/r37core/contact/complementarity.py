@@ -1,8 +1,8 @@
-"""The small complementarity problem of rigid contact, compiled into the march.
+"""The small complementarity problem of direct contact, compiled into the time integration.
 
-Nodes are lanes. A problem `p` is a record of r37core.march.layout.problem: `gap` (m) of the nodes before the casing pushes, and
-room to work in. `columns[j, i]`: opening of gap i per unit multiplier of node j. Sets of nodes are bits, eight nodes to an
-integer.
+Nodes are lanes. A problem `p` is a record of r37core.time_integration.layout.problem: `gap` (m) of the nodes before the
+casing pushes, and room to work in. `columns[j, i]`: opening of gap i per unit multiplier of node j. Sets of nodes are bits,
+eight nodes to an integer.
 """
 
 from __future__ import annotations

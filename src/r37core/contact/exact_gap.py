@@ -1,4 +1,4 @@
-"""Where a displaced tip node is, seen from the casing. Formulas for arrays; the march compiles them as they stand."""
+"""Where a displaced tip node is, seen from the casing. Formulas for arrays; time integration compiles them as they stand."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Direction of Coulomb friction. A formula for arrays; the march compiles it as it stands."""
+"""Direction of Coulomb friction. A formula for arrays; the time integration compiles it as it stands."""
 
 from __future__ import annotations
 

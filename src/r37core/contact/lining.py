@@ -1,4 +1,4 @@
-"""The law of one bar of the abradable lining. Plain numbers here; the march compiles it as it stands."""
+"""The law of one bar of the abradable lining. Plain numbers here; the time integration compiles it as it stands."""
 
 from __future__ import annotations
 

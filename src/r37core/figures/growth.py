@@ -1,4 +1,4 @@
-"""How cost grows with each knob."""
+"""How cost grows with each parameter."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from . import style  # noqa: F401  (sets the style)
 
 
 def draw_growth(found: Sequence[Growth]) -> Figure:
-    """One panel per pair of knob and cost, with the fitted power law."""
+    """One panel per pair of parameter and cost, with the fitted power law."""
     columns = 4
     rows = -(-len(found) // columns)
     figure, panels = plt.subplots(rows, columns, figsize=(3.0 * columns, 2.6 * rows), squeeze=False)
@@ -22,7 +22,7 @@ def draw_growth(found: Sequence[Growth]) -> Figure:
         axes.loglog(one.values, one.costs, "o")
         axes.loglog(one.values, one.costs[-1] * (one.values / one.values[-1]) ** one.exponent, "--", color="0.5")
         axes.set_title(f"{one.of}: exponent {one.exponent:.2f}", fontsize=8)
-        axes.set(xlabel=one.knob.replace("_", " "), ylabel=one.cost.replace("_", " "))
+        axes.set(xlabel=one.parameter.replace("_", " "), ylabel=one.cost.replace("_", " "))
     for axes in np.ravel(panels)[len(found) :]:
         axes.set_visible(False)
     return figure

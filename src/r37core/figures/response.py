@@ -8,6 +8,8 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from r37core.time_integration.status import RunStatus
+
 from . import style  # noqa: F401  (sets the style)
 
 
@@ -25,8 +27,8 @@ def draw_response(blade: str, campbell: xr.Dataset, rms: xr.Dataset, stress: xr.
     panels[0].legend()
     if stress is not None:
         for scene in stress["scene"].values:
-            level = stress["max_von_mises"].sel(scene=scene).dropna("speed")
-            panels[2].plot(level["speed"], 1e-9 * level, ".-", label=str(scene))
+            largest = stress["max_von_mises"].sel(scene=scene).dropna("speed")
+            panels[2].plot(largest["speed"], 1e-9 * largest, ".-", label=str(scene))
         panels[2].axhline(1e-9 * float(stress["yield_stress"].max()), color="0.3", linewidth=0.9, linestyle="--")
         panels[2].set_ylabel("largest von Mises (GPa)")
         _mark_crossings(panels[2], campbell)
@@ -56,7 +58,7 @@ def draw_response_overview(rms: xr.Dataset) -> Figure:
 
 def _mark_diverged(axes: Axes, runs: xr.Dataset) -> None:
     """Red crosses on the axis at speeds whose run diverged."""
-    diverged = runs["speed"].values[runs["status"].values == 1]
+    diverged = runs["speed"].values[runs["status"].values == RunStatus.DIVERGED]
     if len(diverged):
         axes.plot(diverged, np.zeros(len(diverged)), "x", color="red", label="diverged")
 

@@ -13,14 +13,14 @@ from r37core.studies.validation import Runs
 
 from . import style  # noqa: F401  (sets the style)
 
-_SCENES = {"lined": ("abradable lining", "C0"), "rigid": ("direct contact", "C3")}
+_SCENES = {"lined": ("abradable lining", "C0"), "direct": ("direct contact", "C3")}
 _DIRECTIONS = {"rms_normal": "normal to the casing", "rms_tangential": "tangential"}
 
 
 def draw_reference(survey: Runs, shipped: Runs) -> Figure:
     """Rms of both scenes over the whole range, the survey and the finer windows together; dotted: published peaks."""
     windows = [shipped[one.name] for one in INTERACTIONS if one.blade == "Ref"]
-    runs = {"lined": joined(*windows, survey["Ref_lined"]), "rigid": joined(shipped[DIRECT], survey["Ref_rigid"])}
+    runs = {"lined": joined(*windows, survey["Ref_lined"]), "direct": joined(shipped[DIRECT], survey["Ref_direct"])}
     figure, panels = plt.subplots(2, 1, figsize=(9.0, 6.4), sharex=True)
     for axes, (name, direction) in zip(panels, _DIRECTIONS.items(), strict=True):
         for scene, run in runs.items():
@@ -77,7 +77,7 @@ def _legend_above(figure: Figure, axes: Axes) -> None:
 
 def draw_histories(shipped: Runs, yield_stress: float) -> Figure:
     """Largest stress of every revolution of the reference blade in both scenes, at the speeds of the two published maxima."""
-    runs = {"lined": shipped[INTERACTIONS[0].name], "rigid": shipped[DIRECT]}
+    runs = {"lined": shipped[INTERACTIONS[0].name], "direct": shipped[DIRECT]}
     figure, panels = plt.subplots(1, 2, figsize=(10.0, 3.8), sharey=True)
     for axes, speed in zip(panels, (INTERACTIONS[0].peak, DIRECT_PEAK), strict=True):
         for scene, run in runs.items():

@@ -9,10 +9,11 @@ import netCDF4
 import numpy as np
 
 from r37core.io import FILE_ATTRIBUTES, atomic_write, readable
-from r37core.march.simulate import TIP_POINTS
+from r37core.time_integration.simulate import TIP_POINTS
+from r37core.time_integration.status import RunStatus
 
 from .netcdf import create_axis, create_labels, create_variable
-from .variables import DATASETS, FLAGS, NOT_RUN
+from .variables import DATASETS, FLAGS
 
 
 def write_sweep_dataset(
@@ -63,12 +64,12 @@ def _copy(
             dims = ("blade", "scene", *source.dimensions)
             created = create_variable(target, name, source.dtype, dims, _attributes(source))
             if name == "status":
-                created[:] = NOT_RUN
+                created[:] = RunStatus.NOT_RUN
         rows = [
             np.searchsorted(axes[dim], response[dim][:]) if dim in axes else np.arange(len(target.dimensions[dim]))
             for dim in source.dimensions
         ]
-        slab = np.full(target[name].shape[2:], NOT_RUN if name == "status" else np.nan, dtype=source.dtype)
+        slab = np.full(target[name].shape[2:], RunStatus.NOT_RUN if name == "status" else np.nan, dtype=source.dtype)
         slab[np.ix_(*rows)] = np.ma.filled(source[:], np.nan) if source.dtype.kind == "f" else source[:]
         target[name][place] = slab
 

@@ -10,7 +10,7 @@ import pandas as pd
 import xarray as xr
 from scipy.signal import find_peaks
 
-from .variables import NOT_RUN
+from r37core.time_integration.status import RunStatus
 
 COLUMNS = (
     "blade",
@@ -78,18 +78,18 @@ def _peaks(
     wear: xr.Dataset | None,
 ) -> list[dict[str, object]]:
     """Peaks of the leading edge's rms in one direction."""
-    rms = rms.isel(speed=np.flatnonzero(rms["status"].values != NOT_RUN)).sel(tip_point="leading_edge")
+    rms = rms.isel(speed=np.flatnonzero(rms["status"].values != RunStatus.NOT_RUN)).sel(tip_point="leading_edge")
     speed = rms["speed"].values
-    level = rms[f"rms_{direction}"].fillna(0.0).values
-    if level.size == 0 or not level.max() > 0.0:
+    rms_of_speed = rms[f"rms_{direction}"].fillna(0.0).values
+    if rms_of_speed.size == 0 or not rms_of_speed.max() > 0.0:
         return []
     # a floor at both ends, so that a peak on the first or last speed counts
-    peaks, _ = find_peaks(np.concatenate([[0.0], level, [0.0]]), prominence=choice.prominence * level.max())
+    peaks, _ = find_peaks(np.concatenate([[0.0], rms_of_speed, [0.0]]), prominence=choice.prominence * rms_of_speed.max())
     rows: list[dict[str, object]] = []
     for peak in peaks - 1:
         strongest = _strongest_order(spectrum, SPECTRA[direction], speed[peak])
         mode, order, crossing = _nearest_crossing(campbell, speed[peak], strongest, choice)
-        after = level[peak + 1] if peak + 1 < len(level) else np.nan
+        after = rms_of_speed[peak + 1] if peak + 1 < len(rms_of_speed) else np.nan
         rows.append(
             {
                 "mode": mode,
@@ -99,11 +99,11 @@ def _peaks(
                 "shift": speed[peak] - crossing,
                 "peak_rms_normal": float(rms["rms_normal"][peak]),
                 "peak_rms_tangential": float(rms["rms_tangential"][peak]),
-                "jump": 1.0 - after / level[peak],
+                "jump": 1.0 - after / rms_of_speed[peak],
                 "width_above_yield": _width_above_yield(stress, speed[peak]),
                 "max_von_mises": _at(stress, "max_von_mises", speed[peak]),
                 "max_wear": _at(wear, "max_wear", speed[peak]),
-                "status": ("completed", "diverged")[int(rms["status"][peak])],
+                "status": RunStatus(int(rms["status"][peak])).text,
             }
         )
     return rows
@@ -140,21 +140,21 @@ def _width_above_yield(stress: xr.Dataset | None, speed: float) -> float:
     if stress is None:
         return float("nan")
     series = stress["max_von_mises"].dropna("speed")
-    speeds, level = series["speed"].values, series.values / float(stress["yield_stress"]) - 1.0
+    speeds, excess = series["speed"].values, series.values / float(stress["yield_stress"]) - 1.0
     at = np.flatnonzero(speeds == speed)
-    if not len(at) or level[at[0]] <= 0.0:
+    if not len(at) or excess[at[0]] <= 0.0:
         return 0.0
     low = high = int(at[0])
-    while low > 0 and level[low - 1] > 0.0:
+    while low > 0 and excess[low - 1] > 0.0:
         low -= 1
-    while high + 1 < len(level) and level[high + 1] > 0.0:
+    while high + 1 < len(excess) and excess[high + 1] > 0.0:
         high += 1
     # linear interpolation to the yield line on both sides
     start, end = speeds[low], speeds[high]
     if low > 0:
-        start -= (speeds[low] - speeds[low - 1]) * level[low] / (level[low] - level[low - 1])
-    if high + 1 < len(level):
-        end += (speeds[high + 1] - speeds[high]) * level[high] / (level[high] - level[high + 1])
+        start -= (speeds[low] - speeds[low - 1]) * excess[low] / (excess[low] - excess[low - 1])
+    if high + 1 < len(excess):
+        end += (speeds[high + 1] - speeds[high]) * excess[high] / (excess[high] - excess[high + 1])
     return float(end - start)
 
 

@@ -9,12 +9,13 @@ import netCDF4
 import numpy as np
 
 from r37core.io import FILE_ATTRIBUTES, atomic_write
-from r37core.march.simulate import DIRECTIONS, TIP_POINTS
-from r37core.march.speed_file import read_speed
+from r37core.time_integration.simulate import DIRECTIONS, TIP_POINTS
+from r37core.time_integration.speed_file import read_speed
+from r37core.time_integration.status import RunStatus
 
 from .netcdf import create_axis, create_labels, create_variable
 from .stress import StressRecovery
-from .variables import STATUS_MEANINGS, VARIABLES
+from .variables import VARIABLES
 
 
 def write_response(
@@ -87,7 +88,9 @@ def _create(
         if name in values:
             attributes = {"units": about.units, "long_name": about.long_name}
             create_variable(dataset, name, about.dtype, ("speed", *about.dims), attributes)
-    dataset["status"].setncatts({"flag_values": np.array([0, 1, 2], dtype="i1"), "flag_meanings": STATUS_MEANINGS})
+    dataset["status"].setncatts(
+        {"flag_values": np.array(list(RunStatus), dtype="i1"), "flag_meanings": " ".join(status.text for status in RunStatus)}
+    )
     if history_speeds:
         history = {"units": "Pa", "long_name": "largest von Mises stress of each revolution"}
         create_variable(dataset, "max_von_mises_history", "f4", ("history_speed", "revolution"), history)

@@ -68,6 +68,3 @@ DATASETS = {
 """Dataset -> its variables, where a response has them; each also carries those of FLAGS."""
 
 FLAGS = ("status", "diverged_revolution")
-STATUS_MEANINGS = "completed diverged not_run"
-NOT_RUN = 2
-"""Status of a speed that this blade and scene was not asked for, where another one was."""

@@ -1,4 +1,4 @@
-"""What a simulation needs of a blade: the reduced model in its modes at rest, and the rows of its contact nodes.
+"""What a simulation needs of a blade: the reduced model in its modes at rest, and its contact nodes' displacement operator.
 
 Light: the simulation jobs import it.
 
@@ -31,20 +31,20 @@ class ContactModel:
     """A blade in the coordinates of its modes at rest.
 
     `squared_frequencies` (rad2/s2), shape (modes,); `stiffness_per_square` (1/rad2), shape (modes, modes): change of the
-    stiffness per Omega^2; `rows`, shape (3, nodes, modes): radial, tangential (growing theta) and axial displacement of the
-    contact nodes, from leading to trailing edge; `radius` (m) and `theta` (rad) of the nodes, shape (nodes,);
-    `tip_cone_angle` (rad): half angle of the tip line's cone, negative where it narrows downstream; `tip_rows`, shape
-    (3, 2, modes): the same displacements of the tip's leading and trailing edge; `to_reduced`, shape (coordinates, modes):
-    modes at rest in the reduced model's coordinates.
+    stiffness per Omega^2; `displacement_operator`, shape (3, nodes, modes): radial, tangential (growing theta) and axial
+    displacement of the contact nodes, from leading to trailing edge; `radius` (m) and `theta` (rad) of the nodes, shape
+    (nodes,); `tip_cone_angle` (rad): half angle of the tip line's cone, negative where it narrows downstream;
+    `tip_displacement_operator`, shape (3, 2, modes): the same displacements of the tip's leading and trailing edge;
+    `to_reduced`, shape (coordinates, modes): modes at rest in the reduced model's coordinates.
     """
 
     squared_frequencies: np.ndarray
     stiffness_per_square: np.ndarray
-    rows: np.ndarray
+    displacement_operator: np.ndarray
     radius: np.ndarray
     theta: np.ndarray
     tip_cone_angle: float
-    tip_rows: np.ndarray
+    tip_displacement_operator: np.ndarray
     to_reduced: np.ndarray
 
     def modes_at(self, speed: float) -> tuple[np.ndarray, np.ndarray]:

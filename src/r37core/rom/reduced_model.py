@@ -1,4 +1,4 @@
-"""The reduced model of one blade: small dense matrices, and the rows of the basis that later stages need."""
+"""The reduced model of one blade: small dense matrices, and the parts of the basis that later stages need."""
 
 from __future__ import annotations
 

@@ -11,15 +11,15 @@ from pathlib import Path
 import numpy as np
 
 from r37core.contact.scene import Scene
-from r37core.march.choice import MarchChoice
-from r37core.march.simulate import DIRECTIONS, TIP_POINTS
-from r37core.march.speed_file import write_speed
-from r37core.march.speed_run import run_speed
 from r37core.results.stress import StressRecovery
 from r37core.rom.contact_model import ContactModel
+from r37core.time_integration.choice import IntegrationChoice
+from r37core.time_integration.simulate import DIRECTIONS, TIP_POINTS
+from r37core.time_integration.speed_file import write_speed
+from r37core.time_integration.speed_run import run_speed
 
 MOTION = {"rms_normal": "m", "rms_tangential": "m", "peak_normal": "m"}
-"""Of the leading edge, as name -> unit: named after a kind and a direction of the march."""
+"""Of the leading edge, as name -> unit: named after a kind and a direction of the time integration."""
 
 QUANTITIES = {**MOTION, "max_von_mises": "Pa", "max_wear": "m"}
 """What a case keeps of every run, name -> unit; the stress over the last revolution, the wear at the end."""
@@ -59,7 +59,7 @@ class Case:
 def run_case(
     model: ContactModel,
     scene: Scene,
-    choice: MarchChoice,
+    choice: IntegrationChoice,
     speeds: np.ndarray,
     recovery: StressRecovery | None = None,
 ) -> Case:
@@ -90,7 +90,11 @@ def run_case(
 
 
 def _keep(
-    values: dict[str, np.ndarray], row: int, run: dict[str, np.ndarray], recovery: StressRecovery | None, choice: MarchChoice
+    values: dict[str, np.ndarray],
+    row: int,
+    run: dict[str, np.ndarray],
+    recovery: StressRecovery | None,
+    choice: IntegrationChoice,
 ) -> None:
     for name in MOTION:
         kind, direction = name.split("_")

@@ -14,12 +14,12 @@ from pathlib import Path
 import numpy as np
 
 from r37core.fem.material import Material
-from r37core.march.speed_file import write_speed
 from r37core.results.response import write_response
 from r37core.results.stress import StressRecovery
 from r37core.rom.reduced_model import ReducedModel
+from r37core.time_integration.speed_file import write_speed
 
-PARTS = ("march", "start-up", "workflow", "reduction")
+PARTS = ("time integration", "start-up", "workflow", "reduction")
 
 
 def time_runs(
@@ -33,21 +33,21 @@ def time_runs(
     """CPU seconds that `number` runs of a blade and scene take, projected from runs at `speeds`.
 
     `run(speed)`: the arrays of one run, everything a job does after its imports but writing. `model`: for the
-    stress, None when it is not wanted. Returns `march`, `reduction` and `runs`.
+    stress, None when it is not wanted. Returns `time integration`, `reduction` and `runs`.
     """
     with tempfile.TemporaryDirectory() as folder:
         files = [Path(folder) / f"{row}.npz" for row in range(len(speeds))]
         start = time.process_time()
         for speed, file in zip(speeds, files, strict=True):
             write_speed(run(speed), file, {})
-        march = time.process_time() - start
+        simulation = time.process_time() - start
         start = time.process_time()
         recovery = StressRecovery(model, material) if model else None
         fixed = time.process_time() - start
         write_response(files, speeds, Path(folder) / "response.nc", recovery, (), stress_instants, material.yield_stress, {})
         reduction = time.process_time() - start - fixed
     share = number / len(speeds)
-    return {"march": share * march, "reduction": fixed + share * reduction, "runs": number}
+    return {"time integration": share * simulation, "reduction": fixed + share * reduction, "runs": number}
 
 
 def time_start_up(imports: str, rounds: int = 7) -> float:
@@ -68,7 +68,7 @@ def project_costs(
     """Core seconds of each part, their sum, and the wall seconds on so many cores when all are kept busy."""
     runs = sum(one["runs"] for one in samples)
     parts = {
-        "march": sum(one["march"] for one in samples),
+        "time integration": sum(one["time integration"] for one in samples),
         "start-up": start_up * runs,
         "workflow": workflow_per_job * runs,
         "reduction": sum(one["reduction"] for one in samples),

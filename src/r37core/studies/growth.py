@@ -18,14 +18,14 @@ PAIRS = (
     ("central_difference_step", "cpu_s", "one run"),
     ("exact_modal_step", "cpu_s", "one run"),
 )
-"""Knob, cost, and what the cost is of."""
+"""Parameter, cost, and what the cost is of."""
 
 
 @dataclass(frozen=True)
 class Growth:
-    """Costs at a knob's values, and the exponent of the power law fitted to the larger half of them."""
+    """Costs at a parameter's values, and the exponent of the power law fitted to the larger half of them."""
 
-    knob: str
+    parameter: str
     cost: str
     of: str
     values: np.ndarray
@@ -34,18 +34,18 @@ class Growth:
 
 
 def growths(together: xr.Dataset) -> list[Growth]:
-    """All pairs whose knob the study turned; costs are means over the scenes."""
+    """All pairs whose parameter the study turned; costs are means over the scenes."""
     found = []
-    for knob, cost, of in PAIRS:
-        rows = np.flatnonzero(together["knob"].values == knob)
+    for parameter, cost, of in PAIRS:
+        rows = np.flatnonzero(together["parameter"].values == parameter)
         values = np.array([float(value) for value in together["value"].values[rows]])
         costs = together[cost].isel(case=rows)
-        level = costs.mean("scene").values if "scene" in costs.dims else costs.values
-        usable = np.isfinite(level) & (level > 0.0) & (values > 0.0)
+        cost_of_value = costs.mean("scene").values if "scene" in costs.dims else costs.values
+        usable = np.isfinite(cost_of_value) & (cost_of_value > 0.0) & (values > 0.0)
         if usable.sum() >= 3:
             order = np.argsort(values[usable])
-            values, level = values[usable][order], level[usable][order]
-            found.append(Growth(knob, cost, of, values, level, exponent_of(values, level)))
+            values, cost_of_value = values[usable][order], cost_of_value[usable][order]
+            found.append(Growth(parameter, cost, of, values, cost_of_value, exponent_of(values, cost_of_value)))
     return found
 
 
@@ -57,10 +57,10 @@ def exponent_of(values: np.ndarray, costs: np.ndarray) -> float:
 
 def growth_table(found: list[Growth]) -> str:
     """The exponents as Markdown."""
-    lines = ["| knob | cost | range | from | to | exponent |", "|---|---|---|---|---|---|"]
+    lines = ["| parameter | cost | range | from | to | exponent |", "|---|---|---|---|---|---|"]
     for one in found:
         unit, scale = ("MB", 1e-6) if "memory" in one.cost or "bytes" in one.cost else ("s", 1.0)
         first, last = (f"{scale * value:.3g} {unit}" for value in (one.costs[0], one.costs[-1]))
         span = f"{one.values[0]:g} to {one.values[-1]:g}"
-        lines.append(f"| {one.knob.replace('_', ' ')} | {one.of} | {span} | {first} | {last} | {one.exponent:.2f} |")
+        lines.append(f"| {one.parameter.replace('_', ' ')} | {one.of} | {span} | {first} | {last} | {one.exponent:.2f} |")
     return "\n".join(lines) + "\n"

@@ -36,8 +36,8 @@ def drop_after(run: xr.Dataset, within: float = _DROP_WITHIN) -> float:
 
 def steepest_fall(run: xr.Dataset) -> tuple[float, float]:
     """Speed (rad/s) before which the motion loses its largest share to the next speed of the grid, and that share."""
-    level = motion(run)
-    shares = 1.0 - level[1:] / np.maximum(level[:-1], np.finfo(float).tiny)
+    rms = motion(run)
+    shares = 1.0 - rms[1:] / np.maximum(rms[:-1], np.finfo(float).tiny)
     row = int(np.argmax(shares))
     return float(run["speed"][row]), float(shares[row])
 
@@ -58,8 +58,8 @@ def span_above_yield(run: xr.Dataset, yield_stress: float) -> float:
 
 def _width(run: xr.Dataset, yield_stress: float, allowed: int) -> float:
     """Width, with up to `allowed` speeds in a row below yield."""
-    level = np.nan_to_num(run["max_von_mises"].values, nan=np.inf)
-    speed, excess = run["speed"].values, level / yield_stress - 1.0
+    largest = np.nan_to_num(run["max_von_mises"].values, nan=np.inf)
+    speed, excess = run["speed"].values, largest / yield_stress - 1.0
     above = np.flatnonzero(excess > 0.0)
     if not len(above):
         return 0.0

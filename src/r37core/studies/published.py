@@ -47,7 +47,7 @@ QUIET = 1800.0
 WIDTH_ABOVE_YIELD = 17.0
 """Range of speeds (rad/s) about 1B/4 over which the reference blade's last revolution is above yield."""
 
-FIRST_YIELD = {"lined": 40, "rigid": 90}
+FIRST_YIELD = {"lined": 40, "direct": 90}
 """Revolution of the reference blade's first yield: at its 1B/4 peak, and at DIRECT_PEAK (shortly before)."""
 
 VARIANTS_FIRST_YIELD = (44, 78)
@@ -71,7 +71,7 @@ TORSION = 1630.0
 LARGEST_ELSEWHERE = 0.8e-3
 """Nothing but the four interactions has a larger rms (m, radial, lined, 750 to 2000 rad/s)."""
 
-MEDIAN = {"lined": 0.02e-3, "rigid": 0.13e-3}
+MEDIAN = {"lined": 0.02e-3, "direct": 0.13e-3}
 """Median rms (m, radial) over 750 to 2000 rad/s."""
 
 AREAS_CM2 = {0: 1.8427, 30: 1.4094, 50: 1.1842, 70: 0.9806, 100: 0.7059}

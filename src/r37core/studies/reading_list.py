@@ -11,9 +11,9 @@ from typing import Any
 class Reading:
     """One reading: `changes`: dotted path in a scene's entry of scenes.yaml -> value; `model`: parts of a model's name.
 
-    `quick`: the march of the study's quick level in place of the base level's; `steps`: its time step times this; `fine`: wide
-    windows on the fine grid of speeds, else narrow ones on the coarse grid; `surveys`: the whole range of speeds; `blades`:
-    whose interactions, None: all.
+    `quick`: the time integration of the study's quick level in place of the base level's; `steps`: its time step times this;
+    `fine`: wide windows on the fine grid of speeds, else narrow ones on the coarse grid; `surveys`: the whole range of
+    speeds; `blades`: whose interactions, None: all.
     """
 
     what: str
@@ -40,7 +40,7 @@ CONVERGENCE = {
     "half_step": Reading("half the published step", steps=0.5, blades=("Ref",)),
     "mesh_10000": Reading("mesh of 10,000 nodes", model={"nodes": 10000}),
     "mesh_40000": Reading("mesh of 40,000 nodes", model={"nodes": 40000}, blades=("Ref",)),
-    "quick": Reading("march of the quick level", quick=True),
+    "quick": Reading("time integration of the quick level", quick=True),
     "nudged": Reading("clearance 0.01% larger", {"casing.clearance_m": 3.56e-4 * 1.0001}),
 }
 """The shipped reading with one numerical choice changed; `nudged` shows what the motion's sensitivity alone does."""
@@ -67,7 +67,7 @@ TURNED = {
     "after": _turned("friction added after the normal solve", {"friction.coupling": "after"}),
     "yield_mpa": _turned("yield stress of the lining in MPa", {"lining.yield_stress_pa": 1.5e6}),
 }
-"""Each choice turned once, cheaply: march of the quick level, 10,000 nodes. Compare with the first."""
+"""Each choice turned once, cheaply: time integration of the quick level, 10,000 nodes. Compare with the first."""
 
 READINGS = {
     SHIPPED: Reading("as shipped", fine=True),

@@ -27,7 +27,7 @@ DIRECT = "Ref_direct"
 
 @dataclass(frozen=True)
 class Place:
-    """One job: a blade in one kind of scene (lined or rigid) at some speeds (rad/s, ascending).
+    """One job: a blade in one kind of scene (lined or direct) at some speeds (rad/s, ascending).
 
     `histories`: speeds whose stress is kept for every revolution; `follow`: go on beyond the window while its ends are above
     yield, and keep the history of the peak; `spectrum`: keep the spectra.
@@ -67,7 +67,7 @@ def _direct(fine: bool, steps: Mapping[str, float]) -> Place:
     window = grid(DIRECT_PEAK, *DIRECT_WINDOW, steps["fine" if fine else "coarse"])
     others = {*ELSEWHERE, DIRECT_PEAK + 1.0} if fine else {*ELSEWHERE}
     reference = INTERACTIONS[0].peak
-    return Place(REFERENCE, "rigid", tuple(sorted({*window, *others})), (DIRECT_PEAK, reference, QUIET), follow=False)
+    return Place(REFERENCE, "direct", tuple(sorted({*window, *others})), (DIRECT_PEAK, reference, QUIET), follow=False)
 
 
 def _surveys(step: float) -> dict[str, Place]:
@@ -75,7 +75,7 @@ def _surveys(step: float) -> dict[str, Place]:
     every, every_other = grid(low, 0.0, high - low, step), grid(low, 0.0, high - low, 2.0 * step)
     return {
         "Ref_lined": Place(REFERENCE, "lined", every, spectrum=True),
-        "Ref_rigid": Place(REFERENCE, "rigid", every_other, spectrum=True),
+        "Ref_direct": Place(REFERENCE, "direct", every_other, spectrum=True),
         "CS100_lined": Place("CS100", "lined", every, spectrum=True),
     }
 

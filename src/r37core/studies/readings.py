@@ -10,11 +10,11 @@ import xarray as xr
 
 from r37core.contact.scene import Scene
 from r37core.dataset_file import about
-from r37core.march.choice import MarchChoice
-from r37core.march.simulate import DIRECTIONS
-from r37core.march.speed_run import run_speed
 from r37core.results.stress import StressRecovery
 from r37core.rom.contact_model import ContactModel
+from r37core.time_integration.choice import IntegrationChoice
+from r37core.time_integration.simulate import DIRECTIONS
+from r37core.time_integration.speed_run import run_speed
 
 from .reading_places import Place
 
@@ -41,7 +41,7 @@ class Bench:
     model: ContactModel
     recovery: StressRecovery
     scene: Scene
-    choice: MarchChoice
+    choice: IntegrationChoice
     yield_stress: float
 
     def run(self, speed: float, spectrum: bool = False) -> dict[str, np.ndarray]:

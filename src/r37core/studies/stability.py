@@ -9,8 +9,9 @@ from typing import Any
 import numpy as np
 
 from r37core.contact.scene import Scene
-from r37core.march.choice import MarchChoice
 from r37core.rom.contact_model import ContactModel
+from r37core.time_integration.choice import IntegrationChoice
+from r37core.time_integration.status import RunStatus
 
 from .case import MOTION, Case, run_case
 
@@ -23,7 +24,7 @@ ENERGY_WITHIN = 1e-6
 COMPLEMENTARITY_WITHIN = 1e-8
 
 
-def judge(model: ContactModel, scene: Scene, choice: MarchChoice, speed: float) -> dict[str, Any]:
+def judge(model: ContactModel, scene: Scene, choice: IntegrationChoice, speed: float) -> dict[str, Any]:
     """Run three speeds within 0.3% of `speed` (rad/s), then with half the step. Returns outcome, detail and numbers.
 
     Raises AssertionError for a wrong number that nothing flags: not finite, open energy balance, violated contact conditions.
@@ -44,7 +45,7 @@ def judge(model: ContactModel, scene: Scene, choice: MarchChoice, speed: float) 
     }
     if case.values["status"].any():
         also = "so does half the step" if half.values["status"].any() else "half the step does not"
-        return numbers | {"outcome": DIVERGED, "detail": f"{also}; recorded with status 1"}
+        return numbers | {"outcome": DIVERGED, "detail": f"{also}; recorded as diverged"}
     mine, theirs = numbers["rms"], _motion(half)
     if half.values["status"].any():
         return numbers | {"outcome": DEGRADED, "detail": "half the step diverges"}
@@ -62,7 +63,7 @@ def _motion(case: Case) -> float:
 
 def _check_sound(case: Case) -> None:
     """AssertionError unless every run either diverged and says so, or has finite, balanced numbers."""
-    completed = case.values["status"] == 0
+    completed = case.values["status"] == RunStatus.COMPLETED
     for name in MOTION:
         assert np.all(np.isfinite(case.values[name][completed])), f"{name} is not finite in a run that counts as completed"
     energy = np.abs(case.values["energy_residual"][completed])

@@ -6,12 +6,12 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from r37core.march.integrators import CENTRAL_DIFFERENCE, EXACT_MODAL
+from r37core.time_integration.integrators import CENTRAL_DIFFERENCE, EXACT_MODAL
 
 
 @dataclass(frozen=True)
 class Extreme:
-    """One case. `changes`: dotted path in the scene's entry of scenes.yaml -> value; the rest: of the march and the model.
+    """One case. `changes`: dotted path in the scene's entry of scenes.yaml -> value; the rest: of integration and model.
 
     `share_of_limit`: time step as a share of the blade's stability limit under central differences, and `integrator`, in place
     of the level's; `model`: fields of ModelChoice.
@@ -33,9 +33,9 @@ class Extreme:
         return f"{self.what}_{self.value}_{self.scene}".replace(" ", "_")
 
 
-def extremes(lined: str, rigid: str) -> list[Extreme]:
-    """All cases; `lined` and `rigid`: names of a scene with a lining and of one without."""
-    both = (lined, rigid)
+def extremes(lined: str, direct: str) -> list[Extreme]:
+    """All cases; `lined` and `direct`: names of a scene with a lining and of one without."""
+    both = (lined, direct)
     cases = [
         Extreme(
             f"{integrator} step over limit", f"{share:g}", scene, share_of_limit=share, integrator=integrator, revolutions=20

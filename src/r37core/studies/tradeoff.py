@@ -1,4 +1,4 @@
-"""What accuracy costs: one knob at a time against a fine setting of it."""
+"""What accuracy costs: one parameter at a time against a fine setting of it."""
 
 from __future__ import annotations
 
@@ -11,16 +11,16 @@ import xarray as xr
 
 from r37core.contact.scene import Scene
 from r37core.dataset_file import about
-from r37core.march.choice import MarchChoice
-from r37core.march.integrators import CENTRAL_DIFFERENCE, EXACT_MODAL
-from r37core.march.simulate import UnstableStepError
 from r37core.results.stress import StressRecovery
 from r37core.rom.contact_model import ContactModel
+from r37core.time_integration.choice import IntegrationChoice
+from r37core.time_integration.integrators import CENTRAL_DIFFERENCE, EXACT_MODAL
+from r37core.time_integration.simulate import UnstableStepError
 
 from .case import COSTS, MOTION, QUANTITIES, Case, run_case
 
-MODEL_KNOBS = ("mesh_nodes", "boundary_nodes", "fixed_interface_modes", "stress_region", "level")
-"""Knobs that need a model of their own, or a level's."""
+MODEL_PARAMETERS = ("mesh_nodes", "boundary_nodes", "fixed_interface_modes", "stress_region", "level")
+"""Parameters that need a model of their own, or a level's."""
 
 
 @dataclass(frozen=True)
@@ -36,44 +36,44 @@ class Place:
         return np.linspace(self.first, self.last, self.speeds) * crossing
 
 
-def vary(knob: str, value: str, scene: Scene, choice: MarchChoice) -> tuple[Scene, MarchChoice]:
-    """Scene and march with one knob set; knobs of the model change neither.
+def vary(parameter: str, value: str, scene: Scene, choice: IntegrationChoice) -> tuple[Scene, IntegrationChoice]:
+    """Scene and time integration with one parameter set; parameters of the model change neither.
 
-    Raises ValueError for an unknown knob.
+    Raises ValueError for an unknown parameter.
     """
-    if knob in MODEL_KNOBS:
+    if parameter in MODEL_PARAMETERS:
         return scene, choice
-    if knob == "central_difference_step":
+    if parameter == "central_difference_step":
         return scene, replace(choice, time_step=float(value), integrator=CENTRAL_DIFFERENCE)
-    if knob == "exact_modal_step":
+    if parameter == "exact_modal_step":
         return scene, replace(choice, time_step=float(value), integrator=EXACT_MODAL)
-    if knob == "revolutions":
+    if parameter == "revolutions":
         return scene, replace(choice, revolutions=int(value))
-    if knob == "highest_frequency":
+    if parameter == "highest_frequency":
         return scene, replace(choice, highest_frequency=float(value))
-    if knob == "stress_instants":
+    if parameter == "stress_instants":
         return scene, replace(choice, snapshots_per_revolution=int(value))
-    if knob == "bars":
+    if parameter == "bars":
         return replace(scene, lining=scene.lining and replace(scene.lining, bars=int(value))), choice
-    if knob == "friction_form":
+    if parameter == "friction_form":
         return replace(scene, friction=scene.friction and replace(scene.friction, vector=value == "vector")), choice
-    raise ValueError(f"unknown knob {knob}")
+    raise ValueError(f"unknown parameter {parameter}")
 
 
 def run_scenes(
-    knob: str,
+    parameter: str,
     value: str,
     model: ContactModel,
     recovery: StressRecovery,
     scenes: Mapping[str, Scene],
-    choices: Mapping[str, MarchChoice],
+    choices: Mapping[str, IntegrationChoice],
     places: Mapping[str, np.ndarray],
 ) -> dict[str, Case | str]:
-    """Run every scene at all places' speeds with one knob set; the reason instead of a case where a step is refused."""
+    """Run every scene at all places' speeds with one parameter set; the reason instead of a case where a step is refused."""
     speeds = np.concatenate(list(places.values()))
     runs: dict[str, Case | str] = {}
     for name, scene in scenes.items():
-        varied, choice = vary(knob, value, scene, choices[name])
+        varied, choice = vary(parameter, value, scene, choices[name])
         try:
             runs[name] = run_case(model, varied, choice, speeds, recovery)
         except UnstableStepError as error:
@@ -82,7 +82,11 @@ def run_scenes(
 
 
 def case_dataset(
-    knob: str, value: str, places: Mapping[str, np.ndarray], runs: Mapping[str, Case | str], model_cost: Mapping[str, float]
+    parameter: str,
+    value: str,
+    places: Mapping[str, np.ndarray],
+    runs: Mapping[str, Case | str],
+    model_cost: Mapping[str, float],
 ) -> xr.Dataset:
     """One case as a dataset: quantities over (scene, speed), costs over scene; a scene that was refused has NaN and its reason.
 
@@ -102,24 +106,24 @@ def case_dataset(
     for name in ("cpu_s", "peak_memory_bytes"):
         data[f"model_{name}"] = ((), model_cost.get(name, np.nan))
     coordinates = {"scene": list(runs), "speed": ("speed_number", speeds), "place": ("speed_number", names)}
-    return xr.Dataset(data, coords=coordinates).assign_coords(knob=knob, value=value)
+    return xr.Dataset(data, coords=coordinates).assign_coords(parameter=parameter, value=value)
 
 
 def gather_cases(cases: Sequence[xr.Dataset], references: Mapping[str, str]) -> xr.Dataset:
-    """All cases along `case`, with errors against the reference value of each knob.
+    """All cases along `case`, with errors against the reference value of each parameter.
 
     `error(case, scene, at, quantity)`: relative difference of the means over the speeds of a place. `scatter`, same shape: root
     mean square of the relative differences at its single speeds. `peak_speed_error(case, scene)`: of the rms-weighted mean
     speed over `peak` and `jump`.
     """
-    knobs, values = (np.array([str(case[name].item()) for case in cases]) for name in ("knob", "value"))
-    together = xr.concat([case.drop_vars(["knob", "value"]) for case in cases], dim="case")
-    together = together.assign_coords(knob=("case", knobs), value=("case", values))
+    parameters, values = (np.array([str(case[name].item()) for case in cases]) for name in ("parameter", "value"))
+    together = xr.concat([case.drop_vars(["parameter", "value"]) for case in cases], dim="case")
+    together = together.assign_coords(parameter=("case", parameters), value=("case", values))
     places = list(dict.fromkeys(cases[0]["place"].values))
-    shape = (len(knobs), together.sizes["scene"], len(places), len(QUANTITIES))
+    shape = (len(parameters), together.sizes["scene"], len(places), len(QUANTITIES))
     error, scatter, speed_error = np.full(shape, np.nan), np.full(shape, np.nan), np.full(shape[:2], np.nan)
-    for row, knob in enumerate(knobs):
-        reference = int(np.flatnonzero((knobs == knob) & (values == references[knob]))[0])
+    for row, parameter in enumerate(parameters):
+        reference = int(np.flatnonzero((parameters == parameter) & (values == references[parameter]))[0])
         for column in range(shape[1]):
             ours, theirs = (together.isel(case=number, scene=column) for number in (row, reference))
             speed_error[row, column] = abs(centre_of_peak(ours) / centre_of_peak(theirs) - 1.0)
@@ -160,5 +164,5 @@ def centre_of_peak(case: xr.Dataset) -> float:
 
 def level_error(together: xr.Dataset, value: str) -> float:
     """Error of a fidelity level: the largest at the peak, over scenes, of motion and stress."""
-    case = together.isel(case=(together["knob"].values == "level") & (together["value"].values == value))
+    case = together.isel(case=(together["parameter"].values == "level") & (together["value"].values == value))
     return float(case["error"].sel(at="peak", quantity=[*MOTION, "max_von_mises"]).max())

@@ -12,17 +12,17 @@ from .levels import recommended_level
 from .tradeoff import level_error
 
 
-def knob_tables(together: xr.Dataset, references: Mapping[str, str]) -> str:
-    """One table per knob: errors at the peak and off resonance, and cost, for every value and scene."""
+def parameter_tables(together: xr.Dataset, references: Mapping[str, str]) -> str:
+    """One table per parameter: errors at the peak and off resonance, and cost, for every value and scene."""
     lines = []
-    for knob in dict.fromkeys(together["knob"].values):
-        lines += ["", f"### {knob.replace('_', ' ')} (reference: {references[knob]})", ""]
+    for parameter in dict.fromkeys(together["parameter"].values):
+        lines += ["", f"### {parameter.replace('_', ' ')} (reference: {references[parameter]})", ""]
         lines.append(
             "| value | scene | rms, normal | rms, tangential | largest, normal | stress | wear | peak speed "
             "| rms, normal, off resonance | CPU s | MB | kB written |"
         )
         lines.append("|---" * 12 + "|")
-        for row in np.flatnonzero(together["knob"].values == knob):
+        for row in np.flatnonzero(together["parameter"].values == parameter):
             case = together.isel(case=row)
             for scene in case["scene"].values:
                 lines.append(_line(case.sel(scene=scene), str(scene)))
@@ -47,7 +47,7 @@ def _percent(value: xr.DataArray) -> str:
 
 def level_table(together: xr.Dataset, tolerance: float) -> str:
     """The levels' errors and costs, and the one recommended for the tolerance."""
-    rows = np.flatnonzero(together["knob"].values == "level")
+    rows = np.flatnonzero(together["parameter"].values == "level")
     names = [str(together["value"].values[row]) for row in rows]
     errors = {name: level_error(together, name) for name in names}
     costs = {name: float(together["cpu_s"].isel(case=row).mean()) for name, row in zip(names, rows, strict=True)}

@@ -129,15 +129,15 @@ def direct_checks(run: xr.Dataset, yield_stress: float) -> list[Check]:
             shares[0] < 0.5,
             f"{_percent(shares[0])}, at most {_percent(shares[1])}",
         ),
-        Check(f"direct at {DIRECT_PEAK:g}: first yield, shortly before", FIRST_YIELD["rigid"], first, "revolutions", 0.1),
+        Check(f"direct at {DIRECT_PEAK:g}: first yield, shortly before", FIRST_YIELD["direct"], first, "revolutions", 0.1),
         _below_yield("direct", run, yield_stress),
     ]
 
 
-def scene_checks(lined: xr.Dataset, rigid: xr.Dataset) -> list[Check]:
+def scene_checks(lined: xr.Dataset, direct: xr.Dataset) -> list[Check]:
     """Both scenes of the reference blade side by side."""
-    ratio = float(np.nanmax(read.history_of(lined, QUIET)) / np.nanmax(read.history_of(rigid, QUIET)))
-    passes = read.overtakes(read.history_of(lined, _AT), read.history_of(rigid, _AT))
+    ratio = float(np.nanmax(read.history_of(lined, QUIET)) / np.nanmax(read.history_of(direct, QUIET)))
+    passes = read.overtakes(read.history_of(lined, _AT), read.history_of(direct, _AT))
     return [
         claim(f"at {QUIET:g}: lined far below direct contact in stress", ratio < 0.5, f"{ratio:.2f} of it"),
         Check(f"at {_AT:g}: lined passes direct contact in stress", OVERTAKES, passes, "revolutions", _COUNTED_WITHIN),
@@ -201,14 +201,14 @@ def variant_checks(runs: Runs, yield_stress: float) -> list[Check]:
 
 def survey_checks(runs: Runs, shipped: Runs, yield_stress: float) -> list[Check]:
     """The whole range of speeds: `runs` of the survey; `shipped`: the windows about the interactions."""
-    lined, rigid, other = (runs[name] for name in ("Ref_lined", "Ref_rigid", "CS100_lined"))
+    lined, direct, other = (runs[name] for name in ("Ref_lined", "Ref_direct", "CS100_lined"))
     outside = lined
     for one in INTERACTIONS:
         if one.blade == REFERENCE:
             low, high = ((1.0 + share) * one.campbell for share in (FINE_WINDOW[0] - 0.01, FINE_WINDOW[1]))
             outside = outside.where((outside["speed"] < low) | (outside["speed"] > high), drop=True)
     rest, normal = (1e3 * float(outside[name].max()) for name in ("rms_radial", "rms_normal"))
-    medians = [1e3 * float(run["rms_radial"].median()) for run in (lined, rigid)]
+    medians = [1e3 * float(run["rms_radial"].median()) for run in (lined, direct)]
     counts = [read.interactions_above(run, LARGEST_ELSEWHERE) for run in (other, lined)]
     widths = [read.width_above_yield(run, yield_stress) for run in (shipped["CS100_4"], shipped[_MAIN])]
     torsion = torsion_speed(lined)
@@ -219,7 +219,7 @@ def survey_checks(runs: Runs, shipped: Runs, yield_stress: float) -> list[Check]
             f"{rest:.2g} mm; normal to the casing {normal:.2g}",
         ),
         Check("Ref lined, 750 to 2000: median radial rms", 1e3 * MEDIAN["lined"], medians[0], "mm", 0.5),
-        Check("Ref direct, 750 to 2000: median radial rms", 1e3 * MEDIAN["rigid"], medians[1], "mm", 0.5),
+        Check("Ref direct, 750 to 2000: median radial rms", 1e3 * MEDIAN["direct"], medians[1], "mm", 0.5),
         Check("Ref lined: response of the torsion near", TORSION, torsion, "rad/s"),
         claim(
             "CS100 has more responses above 0.8 mm, normal to the casing, than Ref",

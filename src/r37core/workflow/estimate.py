@@ -23,9 +23,9 @@ class Estimate:
         return [paths.fill(paths.ESTIMATE_SAMPLE, blade=blade, scene=scene) for blade, scene in self.settings.speeds]
 
     def choices(self, wildcards: Any) -> dict[float, dict[str, Any]]:
-        """Numbers of the march at some of the speeds of one blade and scene, evenly spread."""
+        """Numbers of the time integration at some of the speeds of one blade and scene, evenly spread."""
         speeds = sample(self.settings.speeds[wildcards.blade, wildcards.scene], self.settings.studies.estimate.every)
-        return {speed: asdict(self.settings.march_choice(wildcards.scene, speed)) for speed in speeds}
+        return {speed: asdict(self.settings.integration_choice(wildcards.scene, speed)) for speed in speeds}
 
     def number(self, wildcards: Any) -> int:
         """How many runs the blade and scene have in all."""

@@ -56,5 +56,5 @@ class Provenance:
             scene=scene,
             scene_parameters=repr(chosen.scene),
             revolutions=chosen.revolutions,
-            largest_time_step=self._settings.fidelity.march.time_step_s,
+            largest_time_step=self._settings.fidelity.time_integration.time_step_s,
         )

@@ -68,9 +68,9 @@ class Readings:
         return repr(self.scene(wildcards))
 
     def choice(self, wildcards: Any) -> dict[str, Any]:
-        """The march of the readings' level, or of their quick one."""
+        """The time integration of the readings' level, or of their quick one."""
         level = self._section.quick if READINGS[wildcards.reading].quick else self._section.base
-        return self._models.march(level)
+        return self._models.integration(level)
 
     def material(self, wildcards: Any) -> dict[str, float]:
         """Material of a reading's blade."""

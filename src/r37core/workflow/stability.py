@@ -20,7 +20,7 @@ class Stability:
     def __init__(self, settings: Settings):
         self._section = settings.studies.stability
         self._models = StudyModels(settings)
-        self._extremes = {one.name: one for one in extremes(self._section.lined_scene, self._section.rigid_scene)}
+        self._extremes = {one.name: one for one in extremes(self._section.lined_scene, self._section.direct_scene)}
 
     @property
     def cases(self) -> list[str]:
@@ -37,8 +37,8 @@ class Stability:
         return asdict(self._extremes[wildcards.extreme])
 
     def choice(self, wildcards: Any) -> dict[str, Any]:
-        """The march, before it is changed."""
-        return self._models.march(self._section.base)
+        """The time integration, before it is changed."""
+        return self._models.integration(self._section.base)
 
     def scene(self, wildcards: Any) -> Scene | None:
         """The changed scene, which Snakemake does not compare; None where the configuration refuses it."""

@@ -62,9 +62,9 @@ class StudyModels:
         """Material of a study's blade."""
         return asdict(self.blade(wildcards.blade).material)
 
-    def march(self, level: str) -> dict[str, Any]:
-        """The march of a fidelity level, with the stress of the last revolution and the energy balance."""
-        return asdict(self.level(level).march.choice())
+    def integration(self, level: str) -> dict[str, Any]:
+        """The time integration of a fidelity level, with the stress of the last revolution and the energy balance."""
+        return asdict(self.level(level).time_integration.choice())
 
     def level(self, name: str) -> Any:
         """A level of the fidelity file."""

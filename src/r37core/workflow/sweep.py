@@ -48,15 +48,15 @@ class Sweep:
         chosen = self._scene(wildcards)
         task = {
             "scene": asdict(chosen.scene),
-            "choice": asdict(self.settings.march_choice(wildcards.scene, float(wildcards.speed))),
+            "choice": asdict(self.settings.integration_choice(wildcards.scene, float(wildcards.speed))),
             "results": chosen.results,
             "kept": self.kept,
         }
         return json.dumps(task)
 
     def choice_of_scene(self, wildcards: Any) -> dict[str, Any]:
-        """Numbers of the march at the highest speed of the basis."""
-        return asdict(self.settings.march_choice(wildcards.scene, self.settings.structure.maximum_speed_rad_s))
+        """Numbers of the time integration at the highest speed of the basis."""
+        return asdict(self.settings.integration_choice(wildcards.scene, self.settings.structure.maximum_speed_rad_s))
 
     def scene(self, wildcards: Any) -> Any:
         """The scene itself, which Snakemake does not compare."""
@@ -87,7 +87,7 @@ class Sweep:
     def kept(self) -> dict[str, int]:
         """How much of a run its file keeps."""
         keys = ("spectrum_highest_order", "signal_revolutions", "wear_angles")
-        return {key: getattr(self.settings.fidelity.march, key) for key in keys}
+        return {key: getattr(self.settings.fidelity.time_integration, key) for key in keys}
 
     @property
     def kinds(self) -> list[str]:

@@ -1,4 +1,4 @@
-"""The plan of the study `tradeoff`: one case for each value of each knob."""
+"""The plan of the study `tradeoff`: one case for each value of each parameter."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from . import paths
 from .study_models import StudyModels
 
 OF_THE_MODEL = {"mesh_nodes": "nodes", "boundary_nodes": "boundary_nodes", "fixed_interface_modes": "fixed_interface_modes"}
-"""Knob -> part of a model's name, a number."""
+"""Parameter -> part of a model's name, a number."""
 
 
 class Tradeoff:
@@ -24,35 +24,35 @@ class Tradeoff:
         self._settings = settings
         self._models = StudyModels(settings)
         given = settings.studies.tradeoff
-        knobs = given.knobs.given() if given else {}
-        self.values = {name: [text_of(value) for value in knob.values] for name, knob in knobs.items()}
-        self.references = {name: text_of(knob.reference) for name, knob in knobs.items()}
+        parameters = given.parameters.given() if given else {}
+        self.values = {name: [text_of(value) for value in parameter.values] for name, parameter in parameters.items()}
+        self.references = {name: text_of(parameter.reference) for name, parameter in parameters.items()}
 
     @cached_property
     def section(self) -> TradeoffSection:
         """The section of config.yaml."""
         if self._settings.studies.tradeoff is None:
-            raise ConfigError("config.yaml: studies.tradeoff: missing; the study needs its knobs, as in the shipped file")
+            raise ConfigError("config.yaml: studies.tradeoff: missing; the study needs its parameters, as in the shipped file")
         return self._settings.studies.tradeoff
 
     def cases(self, wildcards: Any) -> list[str]:
         """All cases."""
         blade = self.section.blade
         return [
-            paths.fill(paths.TRADEOFF_CASE, blade=blade, knob=knob, value=value)
-            for knob, values in self.values.items()
+            paths.fill(paths.TRADEOFF_CASE, blade=blade, parameter=parameter, value=value)
+            for parameter, values in self.values.items()
             for value in values
         ]
 
     def model(self, wildcards: Any) -> dict[str, str]:
-        """Files of the model that a knob's value needs."""
-        knob, value, base = wildcards.knob, wildcards.value, self.section.base
-        if knob == "level":
+        """Files of the model that a parameter's value needs."""
+        parameter, value, base = wildcards.parameter, wildcards.value, self.section.base
+        if parameter == "level":
             model = self._models.of_level(value)
-        elif knob == "stress_region":
+        elif parameter == "stress_region":
             model = self._models.of_level(base, region=value)
-        elif knob in OF_THE_MODEL:
-            model = self._models.of_level(base, **{OF_THE_MODEL[knob]: int(value)})
+        elif parameter in OF_THE_MODEL:
+            model = self._models.of_level(base, **{OF_THE_MODEL[parameter]: int(value)})
         else:
             model = self._models.of_level(base)
         return self._models.files(wildcards.blade, model)
@@ -70,9 +70,9 @@ class Tradeoff:
         return [repr(scene) for scene in self.scenes(wildcards).values()]
 
     def choices(self, wildcards: Any) -> dict[str, dict[str, Any]]:
-        """The march of every scene, before the knob is turned."""
-        level = wildcards.value if wildcards.knob == "level" else self.section.base
-        return {name: self._models.march(level) for name in self._scene_names}
+        """The time integration of every scene, before the parameter is turned."""
+        level = wildcards.value if wildcards.parameter == "level" else self.section.base
+        return {name: self._models.integration(level) for name in self._scene_names}
 
     def places(self, wildcards: Any) -> dict[str, Any]:
         """Neighbouring speeds, as shares of the Campbell speed."""
@@ -88,5 +88,5 @@ class Tradeoff:
 
 
 def text_of(value: float | str) -> str:
-    """A knob's value as it stands in file names."""
+    """A parameter's value as it stands in file names."""
     return value if isinstance(value, str) else exact_text(value)

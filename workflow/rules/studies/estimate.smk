@@ -8,7 +8,7 @@ rule estimate_sample:
     input:
         unpack(sweep.recovery),
         model=sweep.contact_model,
-        prepared=paths.MARCH_STAMP,
+        prepared=paths.INTEGRATION_STAMP,
     output:
         paths.ESTIMATE_SAMPLE,
     log:
@@ -22,7 +22,7 @@ rule estimate_sample:
         number=estimate.number,
         results=sweep.results,
         kept=sweep.kept,
-        stress_instants=settings.fidelity.march.stress_instants,
+        stress_instants=settings.fidelity.time_integration.stress_instants,
         material=structure.material,
         code=code("estimate_sample"),
     script:

@@ -64,7 +64,7 @@ rule readings:
         stress="<results>/studies/figures/validation_stress.png",
         histories="<results>/studies/figures/validation_histories.png",
         spectrum_lined="<results>/studies/figures/validation_spectrum_lined.png",
-        spectrum_rigid="<results>/studies/figures/validation_spectrum_rigid.png",
+        spectrum_direct="<results>/studies/figures/validation_spectrum_direct.png",
     log:
         "<logs>/studies/readings.log",
     conda:

@@ -11,9 +11,9 @@ rule tradeoff_case:
     output:
         paths.TRADEOFF_CASE,
     log:
-        "<logs>/studies/tradeoff/{blade}/{knob}/{value}.log",
+        "<logs>/studies/tradeoff/{blade}/{parameter}/{value}.log",
     wildcard_constraints:
-        knob="|".join(tradeoff.values),
+        parameter="|".join(tradeoff.values),
         value=r"[\w.+-]+",
     conda:
         ENVIRONMENT
@@ -36,14 +36,14 @@ rule tradeoff:
         dataset="<results>/studies/tradeoff.nc",
         levels="<results>/studies/levels.md",
         table="<results>/studies/tradeoff.md",
-        knobs=expand("<results>/studies/figures/tradeoff_{knob}.png", knob=tradeoff.values),
+        parameters=expand("<results>/studies/figures/tradeoff_{parameter}.png", parameter=tradeoff.values),
         pareto="<results>/studies/figures/tradeoff_pareto.png",
     log:
         "<logs>/studies/tradeoff.log",
     conda:
         ENVIRONMENT
     params:
-        knobs=list(tradeoff.values),
+        parameters=list(tradeoff.values),
         references=tradeoff.references,
         tolerance=settings.tolerance,
         provenance=tradeoff.provenance,

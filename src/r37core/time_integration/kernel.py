@@ -1,4 +1,4 @@
-"""The compiled march, called with NumPy arrays. Light: the simulation jobs import it, and find the march compiled."""
+"""The compiled time integration, called with NumPy arrays. Light: simulation jobs import it and find it compiled."""
 
 from __future__ import annotations
 
@@ -22,8 +22,8 @@ from .layout import (
     TOTALS,
     Kind,
     Layout,
+    integration_record,
     layout_of,
-    march_record,
 )
 
 SOURCES = Sources(
@@ -36,31 +36,31 @@ SOURCES = Sources(
     "contact/friction.py",
     "contact/lining.py",
     "contact/scene.py",
-    "march/compiled.py",
-    "march/jumps.py",
-    "march/layout.py",
-    "march/steps.py",
+    "time_integration/compiled.py",
+    "time_integration/jumps.py",
+    "time_integration/layout.py",
+    "time_integration/steps.py",
 )
-"""What the compiled march is made from: a change in one of these compiles it anew."""
+"""What the compiled time integration is made from: a change in one of these compiles it anew."""
 
 
 @dataclass
 class KernelInput:
     """What `advance` needs; what a scene lacks is None.
 
-    `step` (s); `recursion` (keep, pull, inverse: see march.steps), shape (3, modes); `rows`, shape (3, nodes, modes): normal,
-    tangential, meridional; `coupling` (m/N), shape (3, nodes, nodes): normal displacement of the last node per normal,
-    tangential or meridional force on the one before; `casing`, shape (steps per revolution, nodes): f(theta);
-    `casing_most`: of r37core.march.flight.nearest_casing; `distance`: clearance (m), amplitude (m), rise rate times step;
-    `lobes`: angle between two (rad), and width of one relative to it; `cone_angle` (rad); `exact_gap`: measure it to the lobed
-    cone; `radius` (m), `theta` (rad) of the nodes; `area` (m2) of a bar; `rotation_velocity` (m/s), signed; `loss`, shape
-    (modes,); `output_rows`, shape (outputs, modes); `limit` (m) of the outputs.
+    `step` (s); `recursion` (keep, pull, inverse: see time_integration.steps), shape (3, modes); `displacement_operator`,
+    shape (3, nodes, modes): normal, tangential, meridional; `coupling` (m/N), shape (3, nodes, nodes): normal displacement of
+    the last node per normal, tangential or meridional force on the one before; `casing`, shape (steps per revolution, nodes):
+    f(theta); `casing_most`: of r37core.time_integration.flight.nearest_casing; `distance`: clearance (m), amplitude (m), rise
+    rate times step; `lobes`: angle between two (rad), and width of one relative to it; `cone_angle` (rad); `exact_gap`:
+    measure it to the lobed cone; `radius` (m), `theta` (rad) of the nodes; `area` (m2) of a bar; `rotation_velocity` (m/s),
+    signed; `loss`, shape (modes,); `output_rows`, shape (outputs, modes); `limit` (m) of the outputs.
     """
 
     step: float
     steps_per_block: int
     recursion: np.ndarray
-    rows: np.ndarray
+    displacement_operator: np.ndarray
     coupling: np.ndarray
     casing: np.ndarray
     distance: tuple[float, float, float]
@@ -81,10 +81,10 @@ class KernelInput:
 
 
 class Kernel:
-    """The march compiled for one model and scene, with its constants laid out for it."""
+    """The time integration compiled for one model and scene, with its constants laid out for it."""
 
     def __init__(self, given: KernelInput):
-        _, self._nodes, self._modes = given.rows.shape
+        _, self._nodes, self._modes = given.displacement_operator.shape
         self._layout = layout_of(self._modes, self._nodes, len(given.output_rows))
         vector = given.friction is not None and given.friction.vector
         self._advance = _compiled(
@@ -98,7 +98,7 @@ class Kernel:
                 jumps=given.flight is not None,
             ),
         )
-        self._record = aligned_zeros((1,), march_record(self._layout))
+        self._record = aligned_zeros((1,), integration_record(self._layout))
         self._casing = aligned_copy(given.casing, self._layout.nodes)
         self._casing_most = None if given.casing_most is None else aligned_copy(given.casing_most, self._layout.nodes)
         self._fill(given)
@@ -146,8 +146,8 @@ class Kernel:
     def _fill(self, given: KernelInput) -> None:
         m, nodes, modes = self._record[0], self._nodes, self._modes
         m["keep"][:modes], m["pull"][:modes], m["inverse"][:modes] = given.recursion
-        m["rows"].reshape(3, -1, self._layout.modes)[:, :nodes, :modes] = given.rows
-        m["push_rows"][:nodes, :modes] = given.rows[NORMAL]
+        m["displacement_operator"].reshape(3, -1, self._layout.modes)[:, :nodes, :modes] = given.displacement_operator
+        m["push_operator"][:nodes, :modes] = given.displacement_operator[NORMAL]
         m["coupling"][:, :nodes, :nodes] = given.coupling
         m["response"][:nodes, :nodes] = m["columns"][:nodes, :nodes] = given.coupling[NORMAL]
         # a node that only pads the vector must neither sit on the axis nor cancel a pivot
@@ -170,7 +170,7 @@ class Kernel:
         if given.friction.vector:
             return
         share = given.friction.coefficient * np.sign(given.rotation_velocity)[:, None]
-        m["push_rows"][:nodes, :modes] += share * given.rows[TANGENTIAL]
+        m["push_operator"][:nodes, :modes] += share * given.displacement_operator[TANGENTIAL]
         m["response"][:nodes, :nodes] += share * given.coupling[TANGENTIAL]
 
     def _fill_lining(self, lining: Lining, given: KernelInput) -> None:
@@ -181,25 +181,25 @@ class Kernel:
         m["bar_position"][: self._nodes] = given.theta / (2.0 * np.pi) * lining.bars
 
     def _fill_flight(self, flight: FlightPlan) -> None:
-        m, modes, levels = self._record[0], self._modes, len(flight.lengths)
+        m, modes, strides = self._record[0], self._modes, len(flight.lengths)
         m["lengths"] = NEVER
-        m["lengths"][:levels], m["slow_modes"][:levels] = flight.lengths, flight.slow_modes
-        m["jumps"][:levels, :, :modes] = flight.jumps
+        m["lengths"][:strides], m["slow_modes"][:strides] = flight.lengths, flight.slow_modes
+        m["jumps"][:strides, :, :modes] = flight.jumps
         m["amplitude_by_u"][:modes], m["amplitude_by_d"][:modes] = flight.amplitude_rows
         rise = m["casing"]["rise"]
-        m["decay"][:levels] = np.exp(-rise * flight.lengths) if np.isfinite(rise) else 0.0
+        m["decay"][:strides] = np.exp(-rise * flight.lengths) if np.isfinite(rise) else 0.0
 
 
 @cache
 def _compiled(layout: Layout, kind: Kind) -> Callable:
-    """The compiled march of march.compiled, made if it is not there yet."""
+    """The compiled time integration of time_integration.compiled, made if it is not there yet."""
 
     def build() -> bytes:
-        from .compiled import compile_march
+        from .compiled import compile_integration
 
-        return compile_march(layout, kind)
+        return compile_integration(layout, kind)
 
-    code = cached_object("march", SOURCES, (layout, kind), build)
+    code = cached_object("time_integration", SOURCES, (layout, kind), build)
     pointers, numbers = [ctypes.c_void_p] * 7, [ctypes.c_int64] * 2
     return load_function(code, "advance", ctypes.c_int64, *pointers, *numbers)
 

@@ -1,4 +1,4 @@
-"""Scenes and a model that the tests of the march share."""
+"""Scenes and a model that the tests of the time integration share."""
 
 import numpy as np
 
@@ -17,11 +17,11 @@ def oscillator(frequency, radius=0.25):
     return ContactModel(
         squared_frequencies=np.array([frequency**2]),
         stiffness_per_square=np.zeros((1, 1)),
-        rows=np.array([[[1.0]], [[0.0]], [[0.0]]]),
+        displacement_operator=np.array([[[1.0]], [[0.0]], [[0.0]]]),
         radius=np.array([radius]),
         theta=np.array([0.0]),
         tip_cone_angle=0.0,
-        tip_rows=np.array([[[1.0], [1.0]], [[0.0], [0.0]], [[0.0], [0.0]]]),
+        tip_displacement_operator=np.array([[[1.0], [1.0]], [[0.0], [0.0]], [[0.0], [0.0]]]),
         to_reduced=np.eye(1),
     )
 
@@ -34,10 +34,10 @@ def random_model(nodes):
     return ContactModel(
         squared_frequencies=frequencies**2,
         stiffness_per_square=np.zeros((modes, modes)),
-        rows=generator.standard_normal((3, nodes, modes)) * [[[1.0]], [[0.5]], [[0.5]]] * 3.0,
+        displacement_operator=generator.standard_normal((3, nodes, modes)) * [[[1.0]], [[0.5]], [[0.5]]] * 3.0,
         radius=np.linspace(0.252, 0.245, nodes),
         theta=np.linspace(0.1, -0.05, nodes),
         tip_cone_angle=-0.26,
-        tip_rows=generator.standard_normal((3, 2, modes)),
+        tip_displacement_operator=generator.standard_normal((3, 2, modes)),
         to_reduced=np.eye(modes),
     )

@@ -1,4 +1,4 @@
-"""The march as it reads on paper: dense matrices, plain NumPy, one step at a time. Slow; the compiled march must equal it.
+"""Time integration as it reads on paper: dense matrices, plain NumPy, step by step. Slow; the compiled one must equal it.
 
 Equations after section 5 of the benchmark, in the coordinates of the modes at rest, where the mass is the identity:
 u* = A u_n + B u_{n-1} without contact, u_{n+1} = u* + C F with it. Work per step is of the order of modes squared.
@@ -27,11 +27,11 @@ class Clock:
     speed: float
 
 
-class ReferenceMarch:
-    """The march of one blade in one scene with dense matrices.
+class ReferenceIntegration:
+    """The time integration of one blade in one scene with dense matrices.
 
-    `modes`, shape (modes at rest, modes): of the speed; `rows`, shape (3, nodes, modes): normal, tangential and meridional
-    displacement of the contact nodes, and `output_rows`, shape (outputs, modes), in the speed's modes.
+    `modes`, shape (modes at rest, modes): of the speed; `displacement_operator`, shape (3, nodes, modes): normal, tangential
+    and meridional displacement of the contact nodes, and `output_rows`, shape (outputs, modes), in the speed's modes.
     """
 
     def __init__(
@@ -42,11 +42,11 @@ class ReferenceMarch:
         cone_angle: float,
         modes: np.ndarray,
         recursion: Recursion,
-        rows: np.ndarray,
+        displacement_operator: np.ndarray,
         output_rows: np.ndarray,
     ):
         self.model, self.scene, self.clock, self.cone_angle, self.modes = model, scene, clock, cone_angle, modes
-        self.normal, self.tangential, self.meridional = rows @ modes.T
+        self.normal, self.tangential, self.meridional = displacement_operator @ modes.T
         self.outputs = output_rows @ modes.T
         # -B, I - A - B, C and the loss per squared central difference, as matrices
         self.keep, self.pull, self.inverse, self.loss = (
@@ -66,7 +66,7 @@ class ReferenceMarch:
         snapshot_of_block: np.ndarray | None,
         snapshots: np.ndarray | None,
     ) -> int:
-        """Do one block of steps per row of `samples`, as the compiled march does; returns the blocks done."""
+        """Do one block of steps per row of `samples`, as the compiled time integration does; returns the blocks done."""
         # u_n and d_n = u_n - u_{n-1}: A + B rounds to 1 - 1e-9 of omega^2 away, so the recursion is carried in these
         u, d = self.modes @ displacement, self.modes @ increment
         done, bounded = 0, True

@@ -1,11 +1,11 @@
-"""The steps of the march, compiled for what a scene has.
+"""The steps of the time integration, compiled for what a scene has.
 
 Recursion (section 5 of the benchmark, diagonal in the modes of one speed): u* = a u_n + b u_{n-1}; where a tip node passes the
 lining or the casing, u_{n+1} = u* + c F. It is carried in displacement u and increment d = u_n - u_{n-1}, which is the same
 recursion without its loss of digits: d* = keep d - pull u, u* = u + d*, with keep = -b, pull = 1 - a - b, inverse = c.
 
-`m` is a record of march.layout; tip nodes are lanes (r37core.lanes), sets of nodes are bits, eight nodes to an integer.
-Arguments that choose (`kind`, `energy`, ...) are constants where the march is compiled.
+`m` is a record of time_integration.layout; tip nodes are lanes (r37core.lanes), sets of nodes are bits, eight nodes to an
+integer. Arguments that choose (`kind`, `energy`, ...) are constants where the time integration is compiled.
 """
 
 from __future__ import annotations
@@ -33,14 +33,14 @@ def eight_rows(m, a, b, c, d, e, f, p, q, modal, used):
     s = t = u = v = w = x = y = z = spread(0.0)
     for i in range(0, used, LANES):
         now = load(modal, i)
-        s += load(m.rows, (a, i)) * now
-        t += load(m.rows, (b, i)) * now
-        u += load(m.rows, (c, i)) * now
-        v += load(m.rows, (d, i)) * now
-        w += load(m.rows, (e, i)) * now
-        x += load(m.rows, (f, i)) * now
-        y += load(m.rows, (p, i)) * now
-        z += load(m.rows, (q, i)) * now
+        s += load(m.displacement_operator, (a, i)) * now
+        t += load(m.displacement_operator, (b, i)) * now
+        u += load(m.displacement_operator, (c, i)) * now
+        v += load(m.displacement_operator, (d, i)) * now
+        w += load(m.displacement_operator, (e, i)) * now
+        x += load(m.displacement_operator, (f, i)) * now
+        y += load(m.displacement_operator, (p, i)) * now
+        z += load(m.displacement_operator, (q, i)) * now
     return sums_of_lanes(s, t, u, v, w, x, y, z)
 
 
@@ -123,8 +123,8 @@ def set_friction_of_listed(m, count):
                 t = r = spread(0.0)
                 for i in range(0, len(m.u), LANES):
                     before = load(m.before, i)
-                    t += load(m.rows, (TANGENTIAL * nodes + k, i)) * before
-                    r += load(m.rows, (MERIDIONAL * nodes + k, i)) * before
+                    t += load(m.displacement_operator, (TANGENTIAL * nodes + k, i)) * before
+                    r += load(m.displacement_operator, (MERIDIONAL * nodes + k, i)) * before
                 # put into lanes here: loading together what was stored one by one stalls the processor
                 tangential = np.where(flag_at(k - g), sum_of_lanes(t), tangential)
                 meridional = np.where(flag_at(k - g), sum_of_lanes(r), meridional)
@@ -192,7 +192,7 @@ def press_lining(m, wear, place, kind):
 
 @inlined
 def press_casing(m, kind):
-    """Add the forces of casing contact, keep the set of nodes that touch it; returns how many nodes are listed as pressed."""
+    """Add the Lagrange multipliers of direct contact, keep the set of touching nodes; returns how many are pressed."""
     p = m.problem
     if kind.vector_friction:
         # the others' reaction may bring any of them to the casing
@@ -234,10 +234,12 @@ def push_blade(m, count, vector, energy, work, lost):
         tangential, meridional = normal * m.friction_share[0, k], normal * m.friction_share[1, k]
         for i in range(0, len(m.u), LANES):
             if vector:
-                push = load(m.rows, (k, i)) * normal + load(m.rows, (nodes + k, i)) * tangential
-                push += load(m.rows, (2 * nodes + k, i)) * meridional
+                push = (
+                    load(m.displacement_operator, (k, i)) * normal + load(m.displacement_operator, (nodes + k, i)) * tangential
+                )
+                push += load(m.displacement_operator, (2 * nodes + k, i)) * meridional
             else:
-                push = load(m.push_rows, (k, i)) * normal
+                push = load(m.push_operator, (k, i)) * normal
             store(m.push, i, load(m.push, i) + push)
     if not pressed:
         return work, lost

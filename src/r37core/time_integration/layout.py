@@ -1,6 +1,6 @@
-"""The one description of what the compiled march works on: a NumPy record, whose shapes are known when it is compiled.
+"""What the compiled time integration works on, described once: a NumPy record, whose shapes are known when it is compiled.
 
-Only padded sizes and numbers that no speed changes are in it, so all speeds of a sweep share one compiled march.
+Only padded sizes and numbers that no speed changes are in it, so all speeds of a sweep share one compiled time integration.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from r37core.contact.scene import Lining
 COARSE = 8
 """Steps between which a jump may begin; the casing's nearest position is kept for each such stretch."""
 
-LEVELS = 9
+STRIDES = 9
 """Lengths of jumps: what is left of a block after whole stretches, then stretches doubled up to 1024 steps."""
 
 U_FROM_U, U_FROM_D, D_FROM_U, D_FROM_D, LOSS_UU, LOSS_UD, LOSS_DD, BEYOND = range(8)
@@ -39,10 +39,10 @@ class Layout(NamedTuple):
 
 
 class Kind(NamedTuple):
-    """What a march has; what it lacks is not in the program.
+    """What a time integration has; what it lacks is not in the program.
 
     `vector_friction`: along the real sliding velocity; friction of constant direction is in the push rows and responses.
-    `coupled`: friction is part of the complementarity problem. `exact_gap`, `energy`, `jumps`: see Scene and MarchChoice.
+    `coupled`: friction is part of the complementarity problem. `exact_gap`, `energy`, `jumps`: see Scene and IntegrationChoice.
     """
 
     lined: bool
@@ -69,7 +69,7 @@ def _arrays(names: str, *shape: int, kind: type = np.float64) -> list[Field]:
 TOTALS = np.dtype(
     [
         ("steps_in_contact", np.float64),  # steps with any contact force
-        ("casing_hits", np.float64),  # onsets of casing contact
+        ("casing_hits", np.float64),  # onsets of direct contact
         ("largest_force", np.float64),  # normal, on a node (N)
         ("worst_complementarity", np.float64),  # largest relative violation
         ("work", np.float64),  # of the contact forces (J)
@@ -101,19 +101,19 @@ def problem(nodes: int) -> np.dtype:
     )
 
 
-def march_record(layout: Layout) -> np.dtype:
-    """The record of a march: its state, its constants, room to work in, and its totals."""
+def integration_record(layout: Layout) -> np.dtype:
+    """The record of a time integration: its state, its constants, room to work in, and its totals."""
     modes, nodes, outputs = layout
     groups = nodes // padded(1)
     return aligned_record(
         [
             # displacement u_n; increments u_n - u_{n-1} of this step and of the one before; forces on the modes
             *_arrays("u now before push", modes),
-            # of the recursion: see march.steps; energy lost per step and squared central difference
+            # of the recursion: see time_integration.steps; energy lost per step and squared central difference
             *_arrays("keep pull inverse loss", modes),
             # displacement of the nodes per mode, and what a unit normal force does to the modes, with constant friction
-            *_arrays("rows", 3 * nodes, modes),
-            *_arrays("push_rows", nodes, modes),
+            *_arrays("displacement_operator", 3 * nodes, modes),
+            *_arrays("push_operator", nodes, modes),
             *_arrays("outputs", outputs, modes),
             # normal displacement of the last node per force in the three directions on the one before
             *_arrays("coupling", 3, nodes, nodes),
@@ -126,13 +126,13 @@ def march_record(layout: Layout) -> np.dtype:
             *_arrays("radius theta shift", nodes),  # m; angle at step 0 and what vibration adds to it (rad)
             ("problem", problem(nodes), ()),
             *_arrays("beyond on_casing", groups, kind=np.int64),
-            # flight: see march.flight
-            *_arrays("jumps", LEVELS, 8, modes),
+            # flight: see time_integration.flight
+            *_arrays("jumps", STRIDES, 8, modes),
             *_arrays("amplitude_by_u amplitude_by_d amplitude", modes),
-            *_arrays("reach", LEVELS, nodes),
+            *_arrays("reach", STRIDES, nodes),
             *_arrays("across towards", nodes),
-            *_arrays("decay", LEVELS),
-            *_arrays("lengths slow_modes reach_known", LEVELS, kind=np.int64),
+            *_arrays("decay", STRIDES),
+            *_arrays("lengths slow_modes reach_known", STRIDES, kind=np.int64),
             ("lining", LINING, ()),
             ("casing", CASING, ()),
             ("totals", TOTALS, ()),

@@ -1,7 +1,7 @@
-"""How fast the march is, against plain ways to write it: ratios inside one run, on the reference blade's reduced model.
+"""How fast the time integration is, against plain ways to write it: ratios inside one run, on the reference blade.
 
-Run: make bench   (builds the reduced model first; about three minutes). Writes march_speed.json beside this file and the tables
-of docs/speed.md. Fails if results of the ways differ by more than round-off.
+Run: make bench   (builds the reduced model first; about three minutes). Writes integration_speed.json beside this file and
+the tables of docs/speed.md. Fails if results of the ways differ by more than round-off.
 """
 
 import copy
@@ -16,13 +16,13 @@ os.environ["OPENBLAS_NUM_THREADS"] = "1"
 
 import numpy as np
 from pages import fill
-from plain_march import PlainProblem
+from plain_integration import PlainProblem
 
 from r37core.contact.casing import Casing
 from r37core.contact.scene import Friction, Lining, Scene
-from r37core.march.choice import MarchChoice
-from r37core.march.simulate import March
 from r37core.rom.contact_model import read_contact_model
+from r37core.time_integration.choice import IntegrationChoice
+from r37core.time_integration.simulate import Simulation
 
 ROOT = Path(__file__).parent.parent
 SPEEDS = (900.0, 1344.0, 1660.0)
@@ -53,30 +53,30 @@ def main():
     report = {
         "machine": machine(),
         "modes": len(model.squared_frequencies),
-        "nodes": model.rows.shape[1],
+        "nodes": model.displacement_operator.shape[1],
         "step_s": STEP,
         "cases": cases,
         "speed_grid": grids,
     }
-    (Path(__file__).parent / "march_speed.json").write_text(json.dumps(report, indent=1) + "\n", encoding="utf-8")
+    (Path(__file__).parent / "integration_speed.json").write_text(json.dumps(report, indent=1) + "\n", encoding="utf-8")
     text = tables(report)
     print(text)
     if "--docs" in sys.argv:
-        fill(ROOT / "docs/speed.md", "march_speed", text)
+        fill(ROOT / "docs/speed.md", "integration_speed", text)
 
 
 def settled(model, scene, speed, jumps):
-    """A march and its state after some revolutions: the timed ones are like most of a run."""
-    march = March(model, speed, scene, MarchChoice(STEP, 200, 496, energy=True, jumps=jumps))
-    state = march.start()
-    march.advance(state, SETTLED)
-    return march, state
+    """A time integration and its state after some revolutions: the timed ones are like most of a run."""
+    simulation = Simulation(model, speed, scene, IntegrationChoice(STEP, 200, 496, energy=True, jumps=jumps))
+    state = simulation.start()
+    simulation.advance(state, SETTLED)
+    return simulation, state
 
 
 def compare(model, scene, name, speed):
     """Nanoseconds per step of each way, from the same state, the best of some rounds that take turns."""
     stepping, state = settled(model, scene, speed, jumps=False)
-    jumping = March(model, speed, scene, MarchChoice(STEP, 200, 496, energy=True))
+    jumping = Simulation(model, speed, scene, IntegrationChoice(STEP, 200, 496, energy=True))
     jumping.compile()
     plain = PlainProblem(stepping)
     first, steps = SETTLED * stepping.steps_per_revolution, stepping.steps_per_revolution
@@ -115,10 +115,10 @@ def over_grid(model, scene):
     spent, steps, contact = {True: 0.0, False: 0.0}, 0.0, 0.0
     for speed in GRID:
         for jumps in (True, False):
-            march, state = settled(model, scene, float(speed), jumps)
+            simulation, state = settled(model, scene, float(speed), jumps)
             before = copy.deepcopy(state)
             start = time.process_time()
-            march.advance(state, 8)
+            simulation.advance(state, 8)
             spent[jumps] += time.process_time() - start
         steps += gained(state, before, "steps")
         contact += gained(state, before, "steps_in_contact")

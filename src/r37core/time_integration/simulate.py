@@ -12,10 +12,10 @@ from r37core.contact.scene import Lining, Scene
 from r37core.rom.contact_model import ContactModel
 
 from . import kernel
-from .choice import LARGEST_TABLE, MarchChoice
+from .choice import LARGEST_TABLE, IntegrationChoice
 from .flight import nearest_casing, plan_flight
 from .integrators import CENTRAL_DIFFERENCE, recursion
-from .reference import Clock, ReferenceMarch
+from .reference import Clock, ReferenceIntegration
 
 
 class UnstableStepError(ValueError):
@@ -32,7 +32,7 @@ OUTPUTS = len(TIP_POINTS) * len(DIRECTIONS)
 
 
 @dataclass
-class MarchState:
+class SimulationState:
     """Where a run stands; a run may be stopped after any revolution and go on from its state.
 
     `displacement` u_n and `increment` u_n - u_{n-1}, shape (modes,), in the speed's modes; `wear` (m), shape (rings, bars);
@@ -48,7 +48,7 @@ class MarchState:
 
 
 @dataclass(frozen=True)
-class MarchRecord:
+class SimulationRecord:
     """What a stretch of revolutions left behind.
 
     `samples` (m), shape (samples, 6): normal, radial and tangential displacement of the leading edge, then of the trailing
@@ -60,18 +60,18 @@ class MarchRecord:
     diverged: bool
 
 
-class March:
-    """The march of one blade at one speed in one scene.
+class Simulation:
+    """The time integration of one blade at one speed in one scene.
 
     Attributes: `frequencies` (rad/s), `modes` (in modes at rest), `time_step` (s): the largest one not above the chosen one
-    that divides a revolution into whole samples, `steps_per_revolution`; `rows`, shape (3, nodes, modes): displacement of the
-    contact nodes along the casing's normal, tangent and meridian.
+    that divides a revolution into whole samples, `steps_per_revolution`; `displacement_operator`, shape (3, nodes, modes):
+    displacement of the contact nodes along the casing's normal, tangent and meridian.
 
     Raises UnstableStepError for a step at or above the stability limit 2/omega_max of central differences, or that of a node
     pressed on the lining's bars; LongRevolutionError for a revolution of too many steps.
     """
 
-    def __init__(self, model: ContactModel, speed: float, scene: Scene, choice: MarchChoice):
+    def __init__(self, model: ContactModel, speed: float, scene: Scene, choice: IntegrationChoice):
         self.model, self.speed, self.scene, self.choice = model, speed, scene, choice
         self.frequencies, self.modes = model.modes_at(speed)
         kept = self.frequencies <= 2.0 * np.pi * choice.highest_frequency
@@ -87,12 +87,14 @@ class March:
         self.time_step = period / self.steps_per_revolution
         self._check_length()
         self.cone_angle = scene.casing.angle(model.tip_cone_angle)
-        self.rows = casing_axes(model.rows, self.cone_angle) @ self.modes
+        self.displacement_operator = casing_axes(model.displacement_operator, self.cone_angle) @ self.modes
         self.integration = recursion(choice.integrator, self.frequencies, scene.damping_ratio, self.time_step)
         self.recursion = self.integration.coefficients
-        self.coupling = np.array([(rows * self.integration.inverse) @ self.rows[0].T for rows in self.rows])
+        self.coupling = np.array(
+            [(rows * self.integration.inverse) @ self.displacement_operator[0].T for rows in self.displacement_operator]
+        )
         self._check_stability()
-        self._made: kernel.Kernel | ReferenceMarch | None = None
+        self._made: kernel.Kernel | ReferenceIntegration | None = None
 
     @property
     def duration(self) -> float:
@@ -131,19 +133,19 @@ class March:
             )
 
     def compile(self) -> None:
-        """Compile the march for this model and scene, unless it is there already."""
+        """Compile the time integration for this model and scene, unless it is there already."""
         self._engine()
 
-    def start(self) -> MarchState:
+    def start(self) -> SimulationState:
         """The blade at rest in an unworn lining."""
         lining = self.scene.lining
         wear = None
         if lining is not None:
-            wear = np.zeros((1 if lining.shared_ring else self.rows.shape[1], lining.bars))
+            wear = np.zeros((1 if lining.shared_ring else self.displacement_operator.shape[1], lining.bars))
         zero = np.zeros(len(self.frequencies))
-        return MarchState(zero.copy(), zero.copy(), wear, np.zeros(self.rows.shape[1], dtype=bool))
+        return SimulationState(zero.copy(), zero.copy(), wear, np.zeros(self.displacement_operator.shape[1], dtype=bool))
 
-    def advance(self, state: MarchState, revolutions: int) -> MarchRecord:
+    def advance(self, state: SimulationState, revolutions: int) -> SimulationRecord:
         """Go on by `revolutions` from `state`, which is changed."""
         choice = self.choice
         blocks = revolutions * choice.samples_per_revolution
@@ -166,21 +168,28 @@ class March:
         else:
             kept = snapshots[: np.count_nonzero(which[:done] >= 0)]
         diverged = done < blocks or not np.all(np.abs(samples[done - 1]) < self.scene.divergence_limit)
-        return MarchRecord(samples[:done], kept, bool(diverged))
+        return SimulationRecord(samples[:done], kept, bool(diverged))
 
-    def energy(self, state: MarchState) -> float:
+    def energy(self, state: SimulationState) -> float:
         """Energy (J) of the vibration; see Recursion."""
         return self.integration.energy(state.displacement, state.increment)
 
-    def _engine(self) -> kernel.Kernel | ReferenceMarch:
+    def _engine(self) -> kernel.Kernel | ReferenceIntegration:
         if self._made is None:
             self._made = self._reference() if self.choice.engine == "reference" else kernel.Kernel(self._kernel_input())
         return self._made
 
-    def _reference(self) -> ReferenceMarch:
+    def _reference(self) -> ReferenceIntegration:
         clock = Clock(self.time_step, self.steps_per_revolution, self.steps_per_sample, self.duration, self.speed)
-        return ReferenceMarch(
-            self.model, self.scene, clock, self.cone_angle, self.modes, self.integration, self.rows, self._output_rows()
+        return ReferenceIntegration(
+            self.model,
+            self.scene,
+            clock,
+            self.cone_angle,
+            self.modes,
+            self.integration,
+            self.displacement_operator,
+            self._output_operator(),
         )
 
     def _kernel_input(self) -> kernel.KernelInput:
@@ -198,11 +207,11 @@ class March:
             step=self.time_step,
             steps_per_block=self.steps_per_sample,
             recursion=self.recursion,
-            rows=self.rows,
+            displacement_operator=self.displacement_operator,
             coupling=self.coupling,
             casing=shape,
             distance=(casing.clearance, amplitude, casing.rise_rate(self.duration) * self.time_step),
-            output_rows=self._output_rows(),
+            output_rows=self._output_operator(),
             limit=scene.divergence_limit,
             radius=model.radius,
             theta=model.theta,
@@ -218,10 +227,10 @@ class March:
             casing_most=nearest_casing(shape, self.steps_per_sample) if flight else None,
         )
 
-    def _output_rows(self) -> np.ndarray:
+    def _output_operator(self) -> np.ndarray:
         """Rows of the samples, shape (OUTPUTS, modes)."""
-        radial, tangential, _ = self.model.tip_rows
-        normal = casing_axes(self.model.tip_rows, self.cone_angle)[0]
+        radial, tangential, _ = self.model.tip_displacement_operator
+        normal = casing_axes(self.model.tip_displacement_operator, self.cone_angle)[0]
         return np.stack([normal, radial, tangential], axis=1).reshape(OUTPUTS, -1) @ self.modes
 
     def _bar_area(self, lining: Lining) -> float:

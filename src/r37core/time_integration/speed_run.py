@@ -9,11 +9,9 @@ import numpy as np
 from r37core.contact.scene import Scene
 from r37core.rom.contact_model import ContactModel
 
-from .choice import MarchChoice
-from .simulate import DIRECTIONS, TIP_POINTS, March, MarchState
-
-COMPLETED, DIVERGED = 0, 1
-"""Status of a run."""
+from .choice import IntegrationChoice
+from .simulate import DIRECTIONS, TIP_POINTS, Simulation, SimulationState
+from .status import RunStatus
 
 _WEAR_LOBES = 20
 _KEPT = [DIRECTIONS.index("normal"), DIRECTIONS.index("tangential")]
@@ -24,7 +22,7 @@ def run_speed(
     model: ContactModel,
     speed: float,
     scene: Scene,
-    choice: MarchChoice,
+    choice: IntegrationChoice,
     results: Sequence[str],
     spectrum_highest_order: int,
     signal_revolutions: int,
@@ -39,9 +37,9 @@ def run_speed(
     shape (samples, 2, 2), of both tip points along both. A diverged run has NaN where a number would need the rest of the run.
     Raises UnstableStepError for a step beyond the stability limit.
     """
-    march = March(model, speed, scene, choice)
-    state = march.start()
-    record = march.advance(state, choice.revolutions)
+    simulation = Simulation(model, speed, scene, choice)
+    state = simulation.start()
+    record = simulation.advance(state, choice.revolutions)
     per_revolution = choice.samples_per_revolution
     samples = np.full((choice.revolutions * per_revolution, len(TIP_POINTS), len(DIRECTIONS)), np.nan)
     samples[: len(record.samples)] = record.samples.reshape(-1, *samples.shape[1:])
@@ -53,12 +51,12 @@ def run_speed(
     diverged_at = len(record.samples) / per_revolution if record.diverged else np.nan
     totals = state.totals
     kept = {
-        "status": np.array(DIVERGED if record.diverged else COMPLETED),
+        "status": np.array(int(RunStatus.DIVERGED if record.diverged else RunStatus.COMPLETED)),
         "speed": np.array(speed),
         "diverged_revolution": np.array(diverged_at),
         "diverged_time": np.array(diverged_at * 2.0 * np.pi / speed),
-        "time_step": np.array(march.time_step),
-        "cone_angle": np.array(march.cone_angle),
+        "time_step": np.array(simulation.time_step),
+        "cone_angle": np.array(simulation.cone_angle),
         "rms": np.sqrt(np.mean(half**2, axis=0)),
         "peak": np.abs(half).max(axis=0),
         "revolution_maxima": maxima,
@@ -72,11 +70,11 @@ def run_speed(
     if "signal" in results:
         kept["signal"] = samples[-signal_revolutions * per_revolution :, :, _KEPT].astype(np.float32)
     if "stress" in results:
-        kept["snapshots"] = record.snapshots @ (model.to_reduced @ march.modes).T
+        kept["snapshots"] = record.snapshots @ (model.to_reduced @ simulation.modes).T
     if "wear" in results:
         kept |= _wear(state, wear_angles)
     if "energy" in results:
-        kept |= _energy_balance(march, state)
+        kept |= _energy_balance(simulation, state)
     return kept
 
 
@@ -88,7 +86,7 @@ def _spectrum(displacement: np.ndarray, revolutions: int, highest_order: int) ->
     return {"amplitude": amplitude[:, :count].astype(np.float32), "engine_order": np.arange(count) / revolutions}
 
 
-def _wear(state: MarchState, angles: int) -> dict[str, np.ndarray]:
+def _wear(state: SimulationState, angles: int) -> dict[str, np.ndarray]:
     """Largest wear (m) over the rings: its profile as the maximum in each of `angles` sectors, and its lobes."""
     assert state.wear is not None
     profile = state.wear.max(axis=0)
@@ -102,10 +100,10 @@ def _wear(state: MarchState, angles: int) -> dict[str, np.ndarray]:
     }
 
 
-def _energy_balance(march: March, state: MarchState) -> dict[str, np.ndarray]:
+def _energy_balance(simulation: Simulation, state: SimulationState) -> dict[str, np.ndarray]:
     """Work of the contact forces, loss to damping, change of energy, and what does not close (all J)."""
     work, loss = state.totals["work"], state.totals["loss"]
-    change = march.energy(state)
+    change = simulation.energy(state)
     return {
         "contact_work": np.array(work),
         "damping_loss": np.array(loss),

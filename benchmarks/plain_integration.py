@@ -1,6 +1,7 @@
-"""The march as one would first write it: dense matrices in NumPy, or scalar loops over modes in numba. For comparison only.
+"""Time integration as first written: dense matrices in NumPy, or scalar loops over modes in numba, for comparison.
 
-Written from section 5 of the benchmark page, like the tests' NumPy twin; shares nothing with r37core's march but parameters.
+Written from section 5 of the benchmark page, like the tests' NumPy twin; shares nothing with r37core's time integration but
+parameters.
 """
 
 import numpy as np
@@ -8,19 +9,21 @@ from numba import njit
 
 
 class PlainProblem:
-    """Constants of a run, taken from a March, in its modes and as dense matrices in the model's modes at rest."""
+    """Constants of a run, taken from a TimeIntegration, in its modes and as dense matrices in the model's modes at rest."""
 
-    def __init__(self, march):
-        model, scene = march.model, march.scene
-        step, modes = march.time_step, march.modes
-        damping = 2.0 * scene.damping_ratio * march.frequencies
+    def __init__(self, simulation):
+        model, scene = simulation.model, simulation.scene
+        step, modes = simulation.time_step, simulation.modes
+        damping = 2.0 * scene.damping_ratio * simulation.frequencies
         self.inverse = 1.0 / (1.0 / step**2 + damping / (2.0 * step))
         self.keep = self.inverse * (1.0 / step**2 - damping / (2.0 * step))
-        self.pull = self.inverse * march.frequencies**2
+        self.pull = self.inverse * simulation.frequencies**2
         self.dense = [np.ascontiguousarray(modes @ np.diag(d) @ modes.T) for d in (self.keep, self.pull, self.inverse)]
-        self.rows = march.rows
-        self.coupling = np.array([march.rows[0] * self.inverse @ rows.T for rows in march.rows])
-        steps = march.steps_per_revolution
+        self.displacement_operator = simulation.displacement_operator
+        self.coupling = np.array(
+            [simulation.displacement_operator[0] * self.inverse @ rows.T for rows in simulation.displacement_operator]
+        )
+        steps = simulation.steps_per_revolution
         theta = model.theta - 2.0 * np.pi * np.arange(steps)[:, None] / steps
         self.shape = scene.casing.shape(theta)
         lining, friction = scene.lining, scene.friction
@@ -32,7 +35,7 @@ class PlainProblem:
             [
                 scene.casing.clearance,
                 scene.casing.amplitude * scene.casing.clearance,
-                scene.casing.rise_rate(march.duration) * step,
+                scene.casing.rise_rate(simulation.duration) * step,
                 *law,
                 area,
                 bars,
@@ -41,11 +44,11 @@ class PlainProblem:
                 1.0 / step if friction.vector else 0.0,
             ]
         )
-        self.rotation = -model.radius * march.speed
+        self.rotation = -model.radius * simulation.speed
 
     def modal(self, u, d, wear, first_step, steps):
-        """March in modes; changes its arguments."""
-        march_modal(u, d, wear, first_step, steps, self.keep, self.pull, self.inverse, self.rows, *self._contact())
+        """TimeIntegration in modes; changes its arguments."""
+        modal(u, d, wear, first_step, steps, self.keep, self.pull, self.inverse, self.displacement_operator, *self._contact())
 
     def dense_recursion_numpy(self, u, d, steps):
         """The two dense products of every step alone, in NumPy: what contact costs is left out."""
@@ -126,7 +129,7 @@ def contact_forces(gap, along, across, place, wear, coupling, bar_position, numb
 
 
 @njit(fastmath=True)
-def march_modal(u, d, wear, first, steps, keep, pull, inverse, rows, coupling, shape, bar_position, numbers, rotation):
+def modal(u, d, wear, first, steps, keep, pull, inverse, rows, coupling, shape, bar_position, numbers, rotation):
     """Scalar loops over modes."""
     nodes, modes = rows.shape[1], rows.shape[2]
     per_revolution = len(shape)

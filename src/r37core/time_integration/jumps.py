@@ -1,9 +1,9 @@
 """Free flight without stepping, compiled: while no node can reach the lining or casing, many steps are done at once.
 
-Each mode is u_n = Re(C lambda^n) with |lambda| <= 1, so m steps are a 2 x 2 map of (u, d), made once (march.flight), and |C|
-bounds the mode until the next contact. A jump is taken only if a bound on every node's position over all the steps it skips
-stays clear of the casing's nearest position over them: modes slow in the jump follow their tangent within
-|C| |1 - 1/lambda|^2 m (m + 1)/2, the others stay within |C|.
+Each mode is u_n = Re(C lambda^n) with |lambda| <= 1, so m steps are a 2 x 2 map of (u, d), made once
+(time_integration.flight), and |C| bounds the mode until the next contact. A jump is taken only if a bound on every node's
+position over all the steps it skips stays clear of the casing's nearest position over them: modes slow in the jump follow
+their tangent within |C| |1 - 1/lambda|^2 m (m + 1)/2, the others stay within |C|.
 
 With the exact gap a node's position is at most n + cos(alpha) y^2/(2 R), and the lobes at its displaced angle at most
 their greatest slope times |y|/R nearer than at its undeformed one; n, y (sideways) and R (distance from the axis) are bounded.
@@ -21,11 +21,11 @@ from .layout import (
     COARSE,
     D_FROM_D,
     D_FROM_U,
-    LEVELS,
     LOSS_DD,
     LOSS_UD,
     LOSS_UU,
     NORMAL,
+    STRIDES,
     U_FROM_D,
     U_FROM_U,
 )
@@ -46,31 +46,31 @@ def bound_amplitudes(m, exact):
         for k in range(m.nodes):
             normal = sideways = meridional = 0.0
             for i in range(len(m.u)):
-                normal += abs(m.rows[k, i]) * m.amplitude[i]
-                sideways += abs(m.rows[nodes + k, i]) * m.amplitude[i]
-                meridional += abs(m.rows[2 * nodes + k, i]) * m.amplitude[i]
+                normal += abs(m.displacement_operator[k, i]) * m.amplitude[i]
+                sideways += abs(m.displacement_operator[nodes + k, i]) * m.amplitude[i]
+                meridional += abs(m.displacement_operator[2 * nodes + k, i]) * m.amplitude[i]
             m.across[k] = sideways
             m.towards[k] = m.radius[k] - m.casing.cosine * normal - abs(m.casing.sine) * meridional
-    for level in range(LEVELS):
-        m.reach_known[level] = 0
+    for stride in range(STRIDES):
+        m.reach_known[stride] = 0
 
 
 @inlined
-def _is_clear(m, casing_most, place, level, remaining, exact):
+def _is_clear(m, casing_most, place, stride, remaining, exact):
     """Whether no node can touch anything in a jump; `remaining`: what the casing's lobes lack before it."""
-    if m.reach_known[level] == 0:
+    if m.reach_known[stride] == 0:
         for k in range(m.nodes):
             bound = 0.0
             for i in range(len(m.u)):
-                bound += abs(m.rows[k, i]) * (m.amplitude[i] * m.jumps[level, BEYOND, i])
-            m.reach[level, k] = bound
-        m.reach_known[level] = 1
-    nodes, length = len(m.force), m.lengths[level]
-    lobes = m.casing.amplitude * (1.0 - remaining * m.decay[level])
+                bound += abs(m.displacement_operator[k, i]) * (m.amplitude[i] * m.jumps[stride, BEYOND, i])
+            m.reach[stride, k] = bound
+        m.reach_known[stride] = 1
+    nodes, length = len(m.force), m.lengths[stride]
+    lobes = m.casing.amplitude * (1.0 - remaining * m.decay[stride])
     for g in range(0, nodes, LANES):
-        velocity = along(m, NORMAL, m.now, g, m.slow_modes[level])
-        position = along(m, NORMAL, m.u, g, m.slow_modes[level])
-        position += np.maximum(velocity, velocity * length) + load(m.reach, (level, g))
+        velocity = along(m, NORMAL, m.now, g, m.slow_modes[stride])
+        position = along(m, NORMAL, m.u, g, m.slow_modes[stride])
+        position += np.maximum(velocity, velocity * length) + load(m.reach, (stride, g))
         nearest = load(casing_most, place + g)
         for j in range(1, (length + COARSE - 1) // COARSE):
             nearest = np.maximum(nearest, load(casing_most, place + j * nodes + g))
@@ -92,29 +92,29 @@ def _is_clear(m, casing_most, place, level, remaining, exact):
 
 
 @inlined
-def choose_jump(m, casing_most, place, first_level, left, remaining, exact):
-    """Level of the longest jump that the rest of the block and the bounds allow, -1 if there is none."""
-    level = first_level
+def choose_jump(m, casing_most, place, first_stride, left, remaining, exact):
+    """Stride of the longest jump that the rest of the block and the bounds allow, -1 if there is none."""
+    stride = first_stride
     if left < COARSE:
-        level = 0
+        stride = 0
     else:
-        while m.lengths[level] > left:
-            level -= 1
-    while not _is_clear(m, casing_most, place, level, remaining, exact):
-        if level <= 1:
+        while m.lengths[stride] > left:
+            stride -= 1
+    while not _is_clear(m, casing_most, place, stride, remaining, exact):
+        if stride <= 1:
             return -1
-        level -= 1
-    return level
+        stride -= 1
+    return stride
 
 
 @inlined
-def jump_ahead(m, level, energy, lost):
+def jump_ahead(m, stride, energy, lost):
     """Do the steps of a jump; adds the energy they lose to damping, in lanes."""
     for i in range(0, len(m.u), LANES):
         u, d = load(m.u, i), load(m.now, i)
-        store(m.u, i, u + (load(m.jumps, (level, U_FROM_U, i)) * u + load(m.jumps, (level, U_FROM_D, i)) * d))
-        store(m.now, i, d + (load(m.jumps, (level, D_FROM_U, i)) * u + load(m.jumps, (level, D_FROM_D, i)) * d))
+        store(m.u, i, u + (load(m.jumps, (stride, U_FROM_U, i)) * u + load(m.jumps, (stride, U_FROM_D, i)) * d))
+        store(m.now, i, d + (load(m.jumps, (stride, D_FROM_U, i)) * u + load(m.jumps, (stride, D_FROM_D, i)) * d))
         if energy:
-            lost += (load(m.jumps, (level, LOSS_UU, i)) * u + load(m.jumps, (level, LOSS_UD, i)) * d) * u
-            lost += load(m.jumps, (level, LOSS_DD, i)) * d * d
+            lost += (load(m.jumps, (stride, LOSS_UU, i)) * u + load(m.jumps, (stride, LOSS_UD, i)) * d) * u
+            lost += load(m.jumps, (stride, LOSS_DD, i)) * d * d
     return lost

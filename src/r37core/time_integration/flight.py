@@ -1,6 +1,6 @@
 """Numbers for jumping over free flight: many steps of every mode as one map, and what bounds the motion meanwhile.
 
-march.jumps says how they are used.
+time_integration.jumps says how they are used.
 """
 
 from __future__ import annotations
@@ -9,15 +9,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .layout import COARSE, LEVELS
+from .layout import COARSE, STRIDES
 
 
 @dataclass(frozen=True)
 class FlightPlan:
-    """Jumps of `lengths` steps, shape (levels,): what is left of a block after whole stretches, then doubling stretches.
+    """Jumps of `lengths` steps, shape (strides,): what is left of a block after whole stretches, then doubling stretches.
 
-    `slow_modes`, shape (levels,): modes followed along their tangent; `jumps`, shape (levels, 8, modes): the entries of the map
-    less the identity (u from u, u from d, d from u, d from d), the loss as a quadratic form (uu, ud, dd), and how far a
+    `slow_modes`, shape (strides,): modes followed along their tangent; `jumps`, shape (strides, 8, modes): the entries of the
+    map less the identity (u from u, u from d, d from u, d from d), the loss as a quadratic form (uu, ud, dd), and how far a
     mode of unit amplitude gets beyond its tangent or, for fast ones, from zero; `amplitude_rows`, shape (2, modes): the
     imaginary part of a mode's complex amplitude from u and d.
     """
@@ -45,18 +45,18 @@ def plan_flight(recursion: np.ndarray, loss: np.ndarray | None, steps_per_block:
     amplitude_rows = np.array([(modulus - cosine) / sine, -modulus / sine])
     curvature = np.abs(1.0 - 1.0 / (modulus * (cosine + 1j * sine))) ** 2
     lengths = [steps_per_block % COARSE]
-    while len(lengths) < LEVELS and COARSE << (len(lengths) - 1) <= steps_per_block:
+    while len(lengths) < STRIDES and COARSE << (len(lengths) - 1) <= steps_per_block:
         lengths.append(COARSE << (len(lengths) - 1))
     jumps = np.zeros((len(lengths), 8, len(keep)))
     slow = np.zeros(len(lengths), dtype=np.int64)
-    for level, length in enumerate(lengths):
-        if level >= 2:
-            jumps[level, :7] = _twice(jumps[level - 1, :7])
+    for stride, length in enumerate(lengths):
+        if stride >= 2:
+            jumps[stride, :7] = _twice(jumps[stride - 1, :7])
         else:
-            jumps[level, :7] = _repeated(keep, pull, loss, length)
+            jumps[stride, :7] = _repeated(keep, pull, loss, length)
         beyond = 0.5 * curvature * length * (length + 1)
-        slow[level] = int(np.count_nonzero(beyond < 1.0)) // multiple * multiple
-        jumps[level, 7] = np.where(np.arange(len(keep)) < slow[level], beyond, 1.0)
+        slow[stride] = int(np.count_nonzero(beyond < 1.0)) // multiple * multiple
+        jumps[stride, 7] = np.where(np.arange(len(keep)) < slow[stride], beyond, 1.0)
     return FlightPlan(np.array(lengths, dtype=np.int64), slow, jumps, amplitude_rows)
 
 

@@ -1,37 +1,38 @@
-"""The march against exact solutions and its plain reference."""
+"""The time integration against exact solutions and its plain reference."""
 
 from dataclasses import replace
 
 import numpy as np
 import pytest
-from march_cases import ABRADABLE, AT_ONCE, DIRECT, LINING, oscillator, random_model
+from integration_cases import ABRADABLE, AT_ONCE, DIRECT, LINING, oscillator, random_model
 
 from r37core.contact.casing import Casing
 from r37core.contact.scene import Friction, Lining, Scene
-from r37core.march.choice import MarchChoice
-from r37core.march.integrators import INTEGRATORS
-from r37core.march.simulate import March, UnstableStepError
-from r37core.march.speed_file import read_speed, write_speed
-from r37core.march.speed_run import DIVERGED, run_speed
 from r37core.rom.contact_model import read_contact_model, write_contact_model
 from r37core.rom.contact_reduction import contact_model
+from r37core.time_integration.choice import IntegrationChoice
+from r37core.time_integration.integrators import INTEGRATORS
+from r37core.time_integration.simulate import Simulation, UnstableStepError
+from r37core.time_integration.speed_file import read_speed, write_speed
+from r37core.time_integration.speed_run import run_speed
+from r37core.time_integration.status import RunStatus
 
 
 def run(model, scene, choice, speed=1000.0, displacement=None, velocity=0.0):
-    march = March(model, speed, scene, choice)
-    state = march.start()
+    simulation = Simulation(model, speed, scene, choice)
+    state = simulation.start()
     if displacement is not None:
         state.displacement[:] = displacement
-        state.increment[:] = march.time_step * velocity
-    return march, state, march.advance(state, choice.revolutions)
+        state.increment[:] = simulation.time_step * velocity
+    return simulation, state, simulation.advance(state, choice.revolutions)
 
 
 def test_free_decay():
     """u = u0 exp(-xi omega t) (cos + xi/sqrt(1 - xi^2) sin) for a start at rest."""
     frequency, ratio = 6000.0, 0.02
     scene = Scene(Casing(1.0, lobes=0), damping_ratio=ratio)
-    march, _, record = run(oscillator(frequency), scene, MarchChoice(1e-7, 3, 500), displacement=1e-3)
-    time = (1 + np.arange(len(record.samples))) * march.steps_per_sample * march.time_step
+    simulation, _, record = run(oscillator(frequency), scene, IntegrationChoice(1e-7, 3, 500), displacement=1e-3)
+    time = (1 + np.arange(len(record.samples))) * simulation.steps_per_sample * simulation.time_step
     damped = frequency * np.sqrt(1 - ratio**2)
     phase = np.cos(damped * time) + ratio * frequency / damped * np.sin(damped * time)
     exact = 1e-3 * np.exp(-ratio * frequency * time) * phase
@@ -46,8 +47,8 @@ def test_mass_against_a_rigid_stop():
     scene = Scene(Casing(stop, lobes=0), damping_ratio=0.0)
     errors = []
     for step in (4e-7, 1e-7):
-        march, state, record = run(oscillator(frequency), scene, MarchChoice(step, 2, 1000), displacement=start)
-        time = (1 + np.arange(len(record.samples))) * march.steps_per_sample * march.time_step
+        simulation, state, record = run(oscillator(frequency), scene, IntegrationChoice(step, 2, 1000), displacement=start)
+        time = (1 + np.arange(len(record.samples))) * simulation.steps_per_sample * simulation.time_step
         hit = np.arccos(stop / start) / frequency
         exact = np.where(time < hit, start * np.cos(frequency * time), stop * np.cos(frequency * (time - hit)))
         errors.append(np.abs(record.samples[:, 0] - exact).max())
@@ -61,7 +62,7 @@ def test_mass_against_a_rigid_stop():
 
 def test_blade_without_friction_in_a_circular_casing_never_moves(contact):
     scene = Scene(Casing(1e-6, lobes=0), LINING)
-    _, state, record = run(contact, scene, MarchChoice(2e-7, 2, 62))
+    _, state, record = run(contact, scene, IntegrationChoice(2e-7, 2, 62))
     assert not record.samples.any()
     assert not state.wear.any()
     assert state.totals["steps_in_contact"] == 0
@@ -85,18 +86,18 @@ SCENES = {
 
 @pytest.mark.parametrize("integrator", INTEGRATORS)
 @pytest.mark.parametrize("name", SCENES)
-def test_compiled_march_is_the_reference(contact, name, integrator):
-    """10,000 steps of the compiled march against the plain one with dense matrices, to 1e-10."""
+def test_compiled_time_integration_is_the_reference(contact, name, integrator):
+    """10,000 steps of the compiled time integration against the plain one with dense matrices, to 1e-10."""
     scene, speed = SCENES[name], 6000.0
-    choice = MarchChoice(1e-7, 1, 62, integrator=integrator, energy=True)
+    choice = IntegrationChoice(1e-7, 1, 62, integrator=integrator, energy=True)
     states = []
     for engine in ENGINES:
-        march = March(contact, speed, scene, replace(choice, engine=engine))
-        assert march.steps_per_revolution > 10_000
-        state = march.start()
+        simulation = Simulation(contact, speed, scene, replace(choice, engine=engine))
+        assert simulation.steps_per_revolution > 10_000
+        state = simulation.start()
         if name == "free":
-            state.displacement[:] = 1e-5 / (1 + np.arange(len(march.frequencies)))
-        states.append((state, march.advance(state, 1)))
+            state.displacement[:] = 1e-5 / (1 + np.arange(len(simulation.frequencies)))
+        states.append((state, simulation.advance(state, 1)))
     (ours, record), (theirs, plain) = states
     largest = np.abs(plain.samples).max()
     assert largest > 1e-6
@@ -122,7 +123,7 @@ MANY += [(15, "direct_exact"), (40, "thin_lining"), (200, "direct")]
 @pytest.mark.parametrize(("nodes", "name"), MANY)
 def test_any_number_of_nodes(nodes, name):
     """Vectors half full and many of them, against the reference."""
-    choice = MarchChoice(2e-7, 1, 31)
+    choice = IntegrationChoice(2e-7, 1, 31)
     ours, theirs = (run(random_model(nodes), SCENES[name], replace(choice, engine=engine), 12_000.0) for engine in ENGINES)
     assert ours[1].totals["steps_in_contact"] > 100
     scale = np.abs(theirs[1].displacement).max()
@@ -133,10 +134,10 @@ def test_any_number_of_nodes(nodes, name):
 
 @pytest.mark.parametrize("scene", [ABRADABLE, DIRECT], ids=["abradable", "direct"])
 def test_split_run_is_the_whole_run(contact, scene):
-    choice = MarchChoice(2e-7, 4, 62)
-    march, whole, record = run(contact, scene, choice)
-    state = march.start()
-    parts = [march.advance(state, revolutions) for revolutions in (1, 2, 1)]
+    choice = IntegrationChoice(2e-7, 4, 62)
+    simulation, whole, record = run(contact, scene, choice)
+    state = simulation.start()
+    parts = [simulation.advance(state, revolutions) for revolutions in (1, 2, 1)]
     np.testing.assert_array_equal(np.concatenate([p.samples for p in parts]), record.samples)
     np.testing.assert_array_equal(state.displacement, whole.displacement)
     np.testing.assert_array_equal(state.totals, whole.totals)
@@ -147,8 +148,13 @@ def test_split_run_is_the_whole_run(contact, scene):
 @pytest.mark.parametrize("scene", [ABRADABLE, DIRECT], ids=["abradable", "direct"])
 def test_order_of_the_contact_nodes_does_not_matter(contact, scene):
     order = np.random.default_rng(3).permutation(8)
-    shuffled = replace(contact, rows=contact.rows[:, order], radius=contact.radius[order], theta=contact.theta[order])
-    choice = MarchChoice(2e-7, 1, 62)
+    shuffled = replace(
+        contact,
+        displacement_operator=contact.displacement_operator[:, order],
+        radius=contact.radius[order],
+        theta=contact.theta[order],
+    )
+    choice = IntegrationChoice(2e-7, 1, 62)
     _, _, first = run(contact, scene, choice)
     _, _, second = run(shuffled, scene, choice)
     np.testing.assert_allclose(second.samples, first.samples, rtol=0, atol=1e-9 * np.abs(first.samples).max())
@@ -156,10 +162,10 @@ def test_order_of_the_contact_nodes_does_not_matter(contact, scene):
 
 @pytest.mark.parametrize("scene", [ABRADABLE, DIRECT], ids=["abradable", "direct"])
 def test_energy_balance_closes(contact, scene):
-    march, state, _ = run(contact, scene, MarchChoice(2e-7, 3, 62, energy=True), speed=1600.0)
+    simulation, state, _ = run(contact, scene, IntegrationChoice(2e-7, 3, 62, energy=True), speed=1600.0)
     work, loss = state.totals["work"], state.totals["loss"]
     assert loss > 0.0
-    assert abs(march.energy(state) - work + loss) < 1e-9 * (abs(work) + loss)
+    assert abs(simulation.energy(state) - work + loss) < 1e-9 * (abs(work) + loss)
 
 
 def test_discrete_energy_tends_to_the_exact_one_with_the_step():
@@ -168,12 +174,12 @@ def test_discrete_energy_tends_to_the_exact_one_with_the_step():
     errors = []
     for step in (4e-6, 2e-6, 1e-6):
         scene = Scene(Casing(1.0, lobes=0), damping_ratio=ratio)
-        choice = MarchChoice(step, 2, 100, energy=True)
-        march, state, _ = run(oscillator(frequency), scene, choice, displacement=1e-3)
+        choice = IntegrationChoice(step, 2, 100, energy=True)
+        simulation, state, _ = run(oscillator(frequency), scene, choice, displacement=1e-3)
         exact = 0.5 * (frequency * 1e-3) ** 2
-        lost = exact * (1.0 - np.exp(-2.0 * ratio * frequency * march.duration))
+        lost = exact * (1.0 - np.exp(-2.0 * ratio * frequency * simulation.duration))
         errors.append(abs(state.totals["loss"] / lost - 1.0))
-        assert march.energy(state) + state.totals["loss"] == pytest.approx(exact, rel=1e-10)
+        assert simulation.energy(state) + state.totals["loss"] == pytest.approx(exact, rel=1e-10)
     assert errors[0] < 0.01
     assert errors[2] < errors[1] < errors[0]
 
@@ -182,42 +188,42 @@ def test_unstable_step_is_refused_with_the_limit(contact):
     highest = np.sqrt(contact.modes_at(1000.0)[0][-1] ** 2)
     limit = 2.0 / highest
     with pytest.raises(UnstableStepError, match=rf"time_step_s: .* stability limit .* {limit:.6g} s"):
-        March(contact, 1000.0, DIRECT, MarchChoice(1.02 * limit, 1, 62))
-    March(contact, 1000.0, DIRECT, MarchChoice(0.98 * limit, 1, 62))
+        Simulation(contact, 1000.0, DIRECT, IntegrationChoice(1.02 * limit, 1, 62))
+    Simulation(contact, 1000.0, DIRECT, IntegrationChoice(0.98 * limit, 1, 62))
 
 
 def test_step_too_long_for_the_lining_is_refused(contact):
     stiff = replace(ABRADABLE, lining=replace(LINING, elastic_modulus=20e12))
     with pytest.raises(UnstableStepError, match=r"limit for this lining, about .* N/m"):
-        March(contact, 1000.0, stiff, MarchChoice(2e-7, 1, 62))
+        Simulation(contact, 1000.0, stiff, IntegrationChoice(2e-7, 1, 62))
 
 
 def test_divergence_is_a_result(contact, tmp_path):
     scene = replace(DIRECT, divergence_limit=2e-5)
-    choice = MarchChoice(2e-7, 6, 62, snapshots_per_revolution=62, snapshot_revolutions=1, energy=True)
+    choice = IntegrationChoice(2e-7, 6, 62, snapshots_per_revolution=62, snapshot_revolutions=1, energy=True)
     results = ("spectrum", "signal", "stress", "energy")
     kept = run_speed(contact, 1000.0, scene, choice, results, 10, 2, 100)
-    assert kept["status"] == DIVERGED
+    assert kept["status"] == RunStatus.DIVERGED
     assert 0.0 < kept["diverged_revolution"] < 6.0
     assert kept["diverged_time"] == pytest.approx(kept["diverged_revolution"] * 2 * np.pi / 1000.0)
     assert np.all(np.isnan(kept["rms"]))
     assert len(kept["snapshots"]) == 0
     write_speed(kept, tmp_path / "speed_1000.npz", {"blade": "Ref"})
-    assert read_speed(tmp_path / "speed_1000.npz")["status"] == DIVERGED
+    assert read_speed(tmp_path / "speed_1000.npz")["status"] == RunStatus.DIVERGED
 
 
 def test_a_run_that_blows_up_is_flagged_without_infinities(contact):
     """Friction feeding the blade through an absurd coefficient: numbers overflow, the file does not."""
     scene = Scene(AT_ONCE, None, Friction(8.0, vector=False, coupled=False), damping_ratio=0.0, divergence_limit=1e300)
     with np.errstate(all="ignore"):
-        kept = run_speed(contact, 1500.0, scene, MarchChoice(2e-7, 6, 62), (), 10, 2, 100)
+        kept = run_speed(contact, 1500.0, scene, IntegrationChoice(2e-7, 6, 62), (), 10, 2, 100)
     for name, values in kept.items():
-        assert kept["status"] == DIVERGED or np.all(np.isfinite(values) | np.isnan(values)), name
+        assert kept["status"] == RunStatus.DIVERGED or np.all(np.isfinite(values) | np.isnan(values)), name
         assert not np.any(np.isinf(values[~np.isnan(values)])) or name in {"largest_normal_force"}, name
 
 
 def test_only_what_is_asked_for_is_kept(contact):
-    choice = MarchChoice(2e-7, 2, 62)
+    choice = IntegrationChoice(2e-7, 2, 62)
     kept = run_speed(contact, 1000.0, DIRECT, choice, (), 10, 1, 100)
     asked = {"amplitude", "signal", "snapshots", "wear", "contact_work", "damping_loss"}
     assert not asked & set(kept)
@@ -229,19 +235,19 @@ def test_only_what_is_asked_for_is_kept(contact):
 
 def test_what_a_scene_lacks_is_not_compiled(contact):
     """The kernel of a scene without lining and friction is not given their arrays: it would crash if it read them."""
-    march = March(contact, 1000.0, Scene(AT_ONCE), MarchChoice(2e-7, 1, 62))
-    given = march._kernel_input()
+    simulation = Simulation(contact, 1000.0, Scene(AT_ONCE), IntegrationChoice(2e-7, 1, 62))
+    given = simulation._kernel_input()
     for absent in ("lining", "friction", "rotation_velocity", "loss"):
         assert getattr(given, absent) is None
-    state = march.start()
+    state = simulation.start()
     assert state.wear is None
-    march.advance(state, 1)
+    simulation.advance(state, 1)
     assert state.totals["steps_in_contact"] > 0
 
 
 def test_speed_run_numbers(contact):
     """rms, peak and spectrum of a run against direct sums over its samples."""
-    choice = MarchChoice(2e-7, 8, 62)
+    choice = IntegrationChoice(2e-7, 8, 62)
     _, _, record = run(contact, ABRADABLE, choice)
     kept = run_speed(contact, 1000.0, ABRADABLE, choice, ("spectrum", "wear"), 20, 1, 100)
     half = record.samples[4 * 62 :]
@@ -269,14 +275,14 @@ def test_contact_model(model, contact, tmp_path):
     coordinates = np.zeros(model.size)
     coordinates[:3] = [1e-3, 2e-3, 3e-3]
     at_rest = np.linalg.solve(contact.to_reduced, coordinates)
-    radial, tangential, axial = contact.rows[:, 0] @ at_rest
+    radial, tangential, axial = contact.displacement_operator[:, 0] @ at_rest
     theta = contact.theta[0]
     assert radial == pytest.approx(np.cos(theta) * 1e-3 + np.sin(theta) * 2e-3, rel=1e-6)
     assert tangential == pytest.approx(np.cos(theta) * 2e-3 - np.sin(theta) * 1e-3, rel=1e-6)
     assert axial == pytest.approx(3e-3, rel=1e-6)
     write_contact_model(contact, tmp_path / "contact.npz")
     again = read_contact_model(tmp_path / "contact.npz")
-    np.testing.assert_array_equal(again.rows, contact.rows)
+    np.testing.assert_array_equal(again.displacement_operator, contact.displacement_operator)
     assert again.tip_cone_angle == contact.tip_cone_angle
 
 

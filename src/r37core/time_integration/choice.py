@@ -1,0 +1,30 @@
+"""Numbers of a time integration."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+LARGEST_TABLE = 2**30
+"""Bytes of the casing's shape at every step of a revolution."""
+
+
+@dataclass(frozen=True)
+class IntegrationChoice:
+    """Numbers of the time integration: largest time step (s), revolutions, samples per revolution, and what is recorded.
+
+    `snapshots_per_revolution` modal states are kept in each of the last `snapshot_revolutions`; `energy`: whether the loss to
+    damping is added up; `jumps`: whether free flight is jumped over or stepped through; `highest_frequency` (Hz): faster
+    modes are left out; `integrator`: one of r37core.time_integration.integrators; `engine`: the compiled time integration, or
+    the plain one of r37core.time_integration.reference.
+    """
+
+    time_step: float
+    revolutions: int
+    samples_per_revolution: int
+    snapshots_per_revolution: int = 0
+    snapshot_revolutions: int = 0
+    energy: bool = False
+    jumps: bool = True
+    highest_frequency: float = float("inf")
+    integrator: str = "central_difference"
+    engine: str = "compiled"

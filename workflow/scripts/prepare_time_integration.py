@@ -1,0 +1,19 @@
+"""Compile the time integration; refuse a step too long. Input: contact model. Params: scene, choice, speed. Output: stamp."""
+
+from job import run
+
+from r37core.rom.contact_model import read_contact_model
+from r37core.time_integration.choice import IntegrationChoice
+from r37core.time_integration.simulate import Simulation
+
+
+def main(snakemake):
+    params = snakemake.params
+    simulation = Simulation(
+        read_contact_model(snakemake.input[0]), params.speed, params.scene, IntegrationChoice(**params.choice)
+    )
+    print(f"{params.speed:g} rad/s: highest mode {simulation.frequencies[-1]:.6g} rad/s, steps of {simulation.time_step:.6g} s")
+    simulation.compile()
+
+
+run(snakemake, main)
