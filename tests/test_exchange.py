@@ -10,9 +10,11 @@ import pytest
 from box_mesh import box_mesh
 
 from r37core.exchange.errors import ImportRefused, MeshWarning
-from r37core.exchange.import_mesh import MeshSource, check_material, import_mesh
+from r37core.exchange.import_mesh import import_mesh
+from r37core.exchange.material import check_material
 from r37core.exchange.meshio_reader import quietly
 from r37core.exchange.orientation import Orientation
+from r37core.exchange.source import MeshSource
 from r37core.exchange.where import Where
 from r37core.exchange.write_mesh import write_mesh
 from r37core.fem.abaqus_deck import write_abaqus
@@ -60,7 +62,7 @@ def files(blade, steel, tmp_path_factory):
 def test_our_own_mesh_comes_back_from_every_format(files, steel, name):
     mesh, matrices, folder = files
     sets = ("nastran:ref=2", "nastran:ref=3") if name == "mesh.bdf" else ("root", "tip")
-    again, quality = import_mesh(source(name, root=Where(sets[0]), tip=Where(sets[1])), 0.05, folder)
+    again, quality = import_mesh(source(name, root=Where(sets[0]), tip=Where(sets[1])), folder)
     # a field of Nastran has sixteen characters: eleven digits
     assert difference(assemble(again, steel), matrices) < (1e-7 if name == "mesh.bdf" else 1e-12)
     assert quality.min() == pytest.approx(mesh_quality(mesh).minimum, rel=1e-6)
@@ -90,7 +92,7 @@ def test_every_element_in_every_format(element, tmp_path):
         if suffix != "inp":
             write_mesh(mesh, tmp_path / f"mesh.{suffix}")
         sets = ("nastran:ref=2", "nastran:ref=3") if suffix == "bdf" else ("root", "tip")
-        again, _ = import_mesh(source(f"mesh.{suffix}", root=Where(sets[0]), tip=Where(sets[1])), 0.05, tmp_path)
+        again, _ = import_mesh(source(f"mesh.{suffix}", root=Where(sets[0]), tip=Where(sets[1])), tmp_path)
         assert difference(assemble(again, TITANIUM), expected) < (1e-8 if suffix == "bdf" else 1e-12), suffix
 
 
@@ -116,7 +118,7 @@ def test_files_written_by_gmsh(tmp_path, suffix):
     rules = {"root": Where(limits=(("x", "at_most", 0.2),)), "tip": Where(limits=(("r", "at_least", 0.26),))}
     orientation = Orientation("mm", rotor_axis=(1, 0, 0), radial=(0, 0, 1), rotation="negative")
     given = source(file, orientation=orientation, **rules if suffix == "bdf" else {})
-    mesh, _ = import_mesh(given, 0.05)
+    mesh, _ = import_mesh(given)
     assert list(mesh.blocks) == ["tetra10"]
     values, _ = lowest_modes(*(getattr(assemble(mesh, TITANIUM), name)() for name in ("stiffness", "mass")), 1)
     # clamped beam, within what plate action and shear do to it
@@ -130,7 +132,7 @@ def test_files_written_by_gmsh(tmp_path, suffix):
 def test_the_other_rotation_mirrors_the_blade(files, steel):
     mesh, matrices, folder = files
     turned = replace(OURS, rotation="positive")
-    again, quality = import_mesh(source("deck.inp", orientation=turned), 0.05, folder)
+    again, quality = import_mesh(source("deck.inp", orientation=turned), folder)
     assert quality.min() > 0.0
     np.testing.assert_allclose(again.points, mesh.points * [1, -1, 1], atol=1e-15)
     # what looked against the rotation now looks along it
@@ -142,7 +144,7 @@ def test_the_other_rotation_mirrors_the_blade(files, steel):
 
 def test_pressure_side_of_a_turbine(files):
     mesh, _, folder = files
-    again, _ = import_mesh(source("deck.inp", pressure_side_forward=False), 0.05, folder)
+    again, _ = import_mesh(source("deck.inp", pressure_side_forward=False), folder)
     np.testing.assert_array_equal(again.node_set("tip_pressure_edge"), mesh.node_set("tip_suction_edge"))
 
 
@@ -167,14 +169,14 @@ def test_decks_as_other_programs_write_them(tmp_path):
             "*MATERIAL", "*ASSEMBLY\n*NODE\n1, 9., 9., 9.\n*END ASSEMBLY\n*Nset, nset=Clamped\nROOT,\n*MATERIAL"
         )
 
-    mesh, _ = import_mesh(source(deck(tmp_path, rewritten), root=Where("CLAMPED")), 0.05)
+    mesh, _ = import_mesh(source(deck(tmp_path, rewritten), root=Where("CLAMPED")))
     assert difference(assemble(mesh, TITANIUM), expected) < 1e-12
     tip = plate()
     on_tip = np.isin(tip.blocks["hexahedron20"], tip.node_set("tip"))
     # x grows along local xi: corners 2 3 7 6, face S4 of Abaqus
     members = ", ".join(map(str, np.flatnonzero(on_tip.sum(axis=1) == 8) + 1))
     faces = f"*ELSET, ELSET=LAST\n{members}\n*SURFACE, NAME=CROWN\nLAST, S4\n*MATERIAL"
-    mesh, _ = import_mesh(source(deck(tmp_path, lambda text: text.replace("*MATERIAL", faces)), tip=Where("crown")), 0.05)
+    mesh, _ = import_mesh(source(deck(tmp_path, lambda text: text.replace("*MATERIAL", faces)), tip=Where("crown")))
     np.testing.assert_array_equal(mesh.node_set("tip"), tip.node_set("tip"))
 
 
@@ -212,12 +214,12 @@ def second_part(text):
 )
 def test_unsuitable_decks_are_refused(tmp_path, change, message):
     with pytest.raises(ImportRefused, match=rf"mesh\.inp: .*({message})"):
-        import_mesh(source(deck(tmp_path, change)), 0.05)
+        import_mesh(source(deck(tmp_path, change)))
 
 
 def test_free_nodes_may_be_dropped(tmp_path):
     file = deck(tmp_path, lambda text: text.replace("*ELEMENT", "99999, 0.2, 0., 0.\n*ELEMENT"))
-    mesh, _ = import_mesh(source(file, drop_free_nodes=True), 0.05)
+    mesh, _ = import_mesh(source(file, drop_free_nodes=True))
     assert difference(assemble(mesh, TITANIUM), assemble(plate(), TITANIUM)) < 1e-12
 
 
@@ -242,13 +244,13 @@ def some_turned(mesh):
 def test_bad_elements_are_refused(tmp_path, change, message):
     write_mesh(change(plate()), tmp_path / "mesh.vtu")
     with pytest.raises(ImportRefused, match=message):
-        import_mesh(source("mesh.vtu"), 0.3, tmp_path)
+        import_mesh(source("mesh.vtu", minimum_scaled_jacobian=0.3), tmp_path)
 
 
 def test_all_elements_of_the_other_winding_are_turned(tmp_path):
     mesh = reordered(plate(), ELEMENTS["hexahedron20"].mirrored)
     write_mesh(mesh, tmp_path / "mesh.vtu")
-    again, quality = import_mesh(source("mesh.vtu"), 0.05, tmp_path)
+    again, quality = import_mesh(source("mesh.vtu"), tmp_path)
     assert quality.min() > 0.0
     assert assemble(again, TITANIUM).total_mass == pytest.approx(4400 * 0.06 * 0.004 * 0.03)
 
@@ -271,7 +273,7 @@ def test_all_elements_of_the_other_winding_are_turned(tmp_path):
 def test_wrong_orientation_and_rules_are_refused(tmp_path, changes, message):
     write_mesh(plate(), tmp_path / "mesh.vtu")
     with pytest.raises(ImportRefused, match=message):
-        import_mesh(source("mesh.vtu", **changes), 0.01, tmp_path)
+        import_mesh(source("mesh.vtu", **changes), tmp_path)
 
 
 def test_files_that_cannot_be_read(tmp_path):
@@ -284,11 +286,11 @@ def test_files_that_cannot_be_read(tmp_path):
     }.items():
         (tmp_path / name).write_text(text)
         with pytest.raises(ImportRefused, match=name.replace(".", r"\.")):
-            import_mesh(source(name), 0.05, tmp_path)
-    with pytest.raises(ImportRefused, match=r"none\.msh: there is no such file"):
-        import_mesh(source("none.msh"), 0.05, tmp_path)
+            import_mesh(source(name), tmp_path)
+    with pytest.raises(ImportRefused, match=r"there is no file .*none\.msh"):
+        import_mesh(source("none.msh"), tmp_path)
     with pytest.raises(ImportRefused, match=r"found a file of kind '\.step'; allowed: \.inp"):
-        import_mesh(source("a.step"), 0.05, tmp_path)
+        import_mesh(source("a.step"), tmp_path)
 
 
 def test_a_reader_that_exits_does_not_escape(tmp_path):
@@ -303,7 +305,7 @@ def test_a_reader_that_exits_does_not_escape(tmp_path):
 def test_linear_elements_are_warned_of(tmp_path):
     file = deck(tmp_path, element="hexahedron")
     with pytest.warns(MeshWarning, match=r"first order \(hexahedron\) are too stiff in bending"):
-        import_mesh(source(file), 0.05)
+        import_mesh(source(file))
 
 
 def test_mixed_units_of_the_material():

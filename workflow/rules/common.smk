@@ -11,6 +11,7 @@ from r37core.config import ConfigError, plain, settings_of_run
 from r37core import failures
 from r37core.workflow import lock, paths
 from r37core.workflow.code import CodeHashes
+from r37core.workflow.imported import Imported
 from r37core.workflow.provenance import Provenance
 from r37core.workflow.structure import Structure
 from r37core.workflow.run import replaced_level
@@ -41,6 +42,7 @@ for line in [*lock.lift_stale(), *settings.remarks, *replaced_level(settings)]:
 code = CodeHashes(ROOT / "src", SCRIPTS)
 made = Provenance(settings)
 structure = Structure(settings)
+imported = Imported(settings, ROOT)
 sweep = Sweep(settings)
 
 

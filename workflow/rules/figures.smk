@@ -33,7 +33,7 @@ rule campbell_overview:
 
 rule blade_shapes_figure:
     input:
-        expand(paths.MESH, blade=settings.blades),
+        expand(paths.MESH, blade=imported.with_mesh),
     output:
         "<results>/figures/blades.png",
     log:
@@ -41,7 +41,7 @@ rule blade_shapes_figure:
     conda:
         ENVIRONMENT
     params:
-        blades=list(settings.blades),
+        blades=imported.with_mesh,
         code=code("blade_shapes_figure"),
     script:
         "../scripts/blade_shapes_figure.py"
@@ -49,9 +49,7 @@ rule blade_shapes_figure:
 
 rule response_figure:
     input:
-        **({"stress": "<results>/stress.nc"} if "stress" in sweep.kinds else {}),
-        campbell="<results>/campbell.nc",
-        rms="<results>/rms.nc",
+        unpack(sweep.response_pictured),
     output:
         paths.RESPONSE_FIGURE,
     log:

@@ -1,4 +1,5 @@
-# Blade shape -> mesh -> matrices -> reduced model -> Campbell diagram, for each blade.
+# Blade shape -> mesh -> matrices -> reduced model -> Campbell diagram, for each blade. A blade of another program comes in as
+# a mesh (imported_mesh) or as matrices (imported_matrices) and takes the same way from there.
 
 
 rule geometry:
@@ -6,6 +7,8 @@ rule geometry:
         paths.GEOMETRY,
     log:
         "<logs>/{blade}/geometry.log",
+    wildcard_constraints:
+        blade=imported.profiles,
     # an impossible shape should stop the run before any long work
     priority: 10
     conda:
@@ -28,6 +31,8 @@ rule mesh:
         vtu=paths.MESH,
     log:
         "<logs>/{blade}/mesh.log",
+    wildcard_constraints:
+        blade=imported.profiles,
     # a mesh or model that fails should do so before the first simulation
     priority: 2
     conda:
@@ -37,6 +42,30 @@ rule mesh:
         code=code("mesh"),
     script:
         "../scripts/mesh.py"
+
+
+rule imported_mesh:
+    input:
+        imported.files,
+    output:
+        msh="<results>/{blade}/mesh.msh",
+        vtu=paths.MESH,
+    log:
+        "<logs>/{blade}/mesh.log",
+    wildcard_constraints:
+        blade=imported.meshes,
+    # as of geometry: an unsuitable mesh should stop the run before any long work
+    priority: 10
+    conda:
+        ENVIRONMENT
+    params:
+        source=imported.source,
+        described=imported.described,
+        folder=imported.folder,
+        places=imported.places,
+        code=code("imported_mesh"),
+    script:
+        "../scripts/imported_mesh.py"
 
 
 rule abaqus_deck:
@@ -80,6 +109,8 @@ rule reduced_model:
         paths.REDUCED_MODEL,
     log:
         "<logs>/{blade}/reduced_model_{tip_line}.log",
+    wildcard_constraints:
+        blade=f"{imported.profiles}|{imported.meshes}",
     priority: 2
     conda:
         ENVIRONMENT
@@ -89,6 +120,30 @@ rule reduced_model:
         code=code("reduced_model"),
     script:
         "../scripts/reduced_model.py"
+
+
+rule imported_matrices:
+    input:
+        imported.files,
+    output:
+        paths.REDUCED_MODEL,
+    log:
+        "<logs>/{blade}/reduced_model_{tip_line}.log",
+    wildcard_constraints:
+        blade=imported.matrices,
+    priority: 10
+    conda:
+        ENVIRONMENT
+    params:
+        source=imported.source,
+        described=imported.described,
+        folder=imported.folder,
+        places=imported.places,
+        reduction=structure.reduction,
+        provenance=made.structure,
+        code=code("imported_matrices"),
+    script:
+        "../scripts/imported_matrices.py"
 
 
 rule campbell_of_blade:
@@ -130,7 +185,7 @@ rule campbell_of_all:
 rule campbell:
     input:
         "<results>/campbell.nc",
-        expand("<results>/{blade}/mesh.{format}", blade=settings.blades, format=["msh", "inp"]),
+        expand("<results>/{blade}/mesh.{format}", blade=imported.with_mesh, format=["msh", "inp"]),
         expand("<results>/figures/campbell_{blade}.png", blade=settings.blades),
         "<results>/figures/campbell.png",
-        "<results>/figures/blades.png",
+        ["<results>/figures/blades.png"] if imported.with_mesh else [],

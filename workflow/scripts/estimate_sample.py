@@ -24,7 +24,7 @@ def main(snakemake):
         list(params.choices),
         params.number,
         read_reduced_model(snakemake.input.rom) if "stress" in params.results else None,
-        Material(**params.material),
+        Material(**params.material) if params.material else None,
         params.stress_instants,
     )
     write_json(times, snakemake.output[0])

@@ -1,5 +1,7 @@
 """Reduce the speeds of one blade and scene. Inputs: rom, speeds. Params: speeds, stress, material, ... Output: response.nc."""
 
+import math
+
 from job import run
 
 from r37core.fem.material import Material
@@ -10,8 +12,7 @@ from r37core.rom.rom_file import read_reduced_model
 
 def main(snakemake):
     params = snakemake.params
-    material = Material(**params.material)
-    recovery = StressRecovery(read_reduced_model(snakemake.input.rom), material) if params.stress else None
+    recovery = StressRecovery(read_reduced_model(snakemake.input.rom), Material(**params.material)) if params.stress else None
     write_response(
         [snakemake.input.speeds] if isinstance(snakemake.input.speeds, str) else snakemake.input.speeds,
         params.speeds,
@@ -19,7 +20,7 @@ def main(snakemake):
         recovery,
         params.stress_history_speeds,
         params.stress_instants,
-        material.yield_stress,
+        params.material.get("yield_stress", math.inf),
         params.provenance,
     )
 

@@ -1,41 +1,38 @@
-"""blades.yaml: blade shapes and materials, and the blades made of them."""
+"""blades.yaml: blades by their shape, mesh or matrices, and their materials."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Any, TypeVar
 
-from pydantic import Field, RootModel, model_validator
+from pydantic import Discriminator, Field, RootModel, Tag, model_validator
 
 from r37core.blade import tables
 from r37core.blade.definition import BladeDefinition
 from r37core.blade.errors import BladeShapeError
+from r37core.exchange.errors import ImportRefused
+from r37core.exchange.material import check_material
+from r37core.exchange.source import MatricesSource, MeshSource
 from r37core.fem import material as fem_material
+from r37core.rom.choice import StressSubmesh
 from r37core.text_file import TextFileError
 
 from .document import Document
 from .errors import ConfigError
+from .imported import MatricesEntry, MeshEntry
+from .material import Material
 from .section import FileName, LeftOut, Name, Section, check_names, refused
 
 Table = TypeVar("Table")
 
-RESERVED = ("figures", "studies", "runs")
+RESERVED = ("figures", "studies", "runs", "exports")
 """Folders beside those of the blades."""
 
 SHIFTS = ("stacking_table", "sweep_lean", "chordwise_sweep_deg")
 """Keys of the ways to give sweep and lean, of which a blade has at most one."""
-
-
-class Material(Section):
-    """Isotropic material; what is left out comes from the base."""
-
-    youngs_modulus_pa: Annotated[float, Field(ge=1e6, le=1e13)] | LeftOut = None
-    density_kg_m3: Annotated[float, Field(ge=1, le=1e5)] | LeftOut = None
-    poissons_ratio: Annotated[float, Field(gt=-1, lt=0.5)] | LeftOut = None
-    yield_stress_pa: Annotated[float, Field(ge=1, le=1e12)] | LeftOut = None
 
 
 class SweepLean(Section):
@@ -68,10 +65,26 @@ class BladeEntry(Section):
         return self
 
 
-class Blades(RootModel):
-    """blades.yaml, blade shapes by name."""
+def _kind(value: Any) -> str:
+    """Which model an entry is for: what it is given by decides."""
+    if isinstance(value, BladeEntry | MeshEntry | MatricesEntry):
+        return type(value).__name__
+    given = value if isinstance(value, dict) else {}
+    return "MeshEntry" if "mesh" in given else "MatricesEntry" if "matrices" in given else "BladeEntry"
 
-    root: Annotated[dict[Name, BladeEntry], Field(min_length=1)]
+
+Entry = Annotated[
+    Annotated[BladeEntry, Tag("BladeEntry")]
+    | Annotated[MeshEntry, Tag("MeshEntry")]
+    | Annotated[MatricesEntry, Tag("MatricesEntry")],
+    Discriminator(_kind),
+]
+
+
+class Blades(RootModel):
+    """blades.yaml, blades by name."""
+
+    root: Annotated[dict[Name, Entry], Field(min_length=1)]
 
     @model_validator(mode="after")
     def _names(self) -> Blades:
@@ -84,48 +97,75 @@ class Blades(RootModel):
 
 @dataclass(frozen=True)
 class BladeSettings:
-    """One blade: its shape and its material."""
+    """One blade: what gives its shape, its material (none for matrices) and, for a mesh, its own region of stress."""
 
-    definition: BladeDefinition
-    material: fem_material.Material
+    definition: BladeDefinition | MeshSource | MatricesSource
+    material: fem_material.Material | None
+    stress_submesh: StressSubmesh | None = None
 
 
-def blade_settings(name: str, entries: dict[str, BladeEntry], root: Path, document: Document) -> BladeSettings:
-    """The blade `name` of the checked `entries` of `document`, with its tables (relative to `root`) read.
+def blade_settings(name: str, entries: Mapping[str, Any], root: Path, document: Document) -> BladeSettings:
+    """The blade `name` of the checked `entries` of `document`, with its tables and files (relative to `root`) read.
 
-    Raises ConfigError for a base that is not there or runs in a circle, a material with gaps, and tables that cannot be
-    read or have an impossible shape.
+    Raises ConfigError for a base that is not there or runs in a circle, a material with gaps, tables that cannot be read or
+    have an impossible shape, and a mesh or matrices that are not there; a mesh itself is looked into when it is imported.
     """
     chain = _inheritance(name, entries, document)
-    material: dict[str, float] = {}
+    first, entry = chain[0], entries[chain[0]]
+    if isinstance(entry, MatricesEntry):
+        if len(chain) > 1:
+            raise document.refusal((chain[1], "base"), f"'{first}', a blade of matrices", "a blade with profiles or a mesh")
+        return BladeSettings(_source(entry, first, root, document), None)
+    material = _material(chain, entries, document)
+    if isinstance(entry, MeshEntry):
+        for link in chain[1:]:
+            if given := [key for key in SHIFTS if getattr(entries[link], key) is not None]:
+                raise document.refusal(
+                    (link, given[0]), f"{given[0]} with the mesh of {first}", "another material, no other shape"
+                )
+        try:
+            check_material(material)
+        except ImportRefused as error:
+            raise document.error((name, "material"), str(error)) from None
+        return BladeSettings(_source(entry, first, root, document), material, entry.stress_submesh.region())
     shift: dict[str, Any] = {}
     for link in chain:
-        entry = entries[link]
-        material |= entry.material.model_dump(exclude_none=True)
         for key in SHIFTS:
-            if getattr(entry, key) is not None:
-                shift = _shift(link, key, getattr(entry, key), root, document)
+            if getattr(entries[link], key) is not None:
+                shift = _shift(link, key, getattr(entries[link], key), root, document)
+    table = entry.profiles
+    profiles = _table(table, name, (first, "profiles"), document, lambda: tables.read_profile_table(root / table))
+    return BladeSettings(BladeDefinition(name, tuple(profiles), **shift), material)
+
+
+def _source(entry: MeshEntry | MatricesEntry, name: str, root: Path, document: Document) -> MeshSource | MatricesSource:
+    """What to import, its directions checked and its files found."""
+    try:
+        entry.orientation().check()
+        return entry.source(root)
+    except ImportRefused as error:
+        raise document.error((name, error.key or "mesh"), str(error)) from None
+
+
+def _material(chain: Sequence[str], entries: Mapping[str, Any], document: Document) -> fem_material.Material:
+    material: dict[str, float] = {}
+    for link in chain:
+        material |= entries[link].material.model_dump(exclude_none=True)
     missing = [key for key in Material.model_fields if key not in material]
     if missing:
-        raise document.error((name, "material"), f"missing key {', '.join(missing)} (give it here or in the base)")
-    table = entries[chain[0]].profiles
-    assert table is not None
-    profiles = _table(table, name, (chain[0], "profiles"), document, lambda: tables.read_profile_table(root / table))
-    return BladeSettings(
-        BladeDefinition(name, tuple(profiles), **shift),
-        fem_material.Material(
-            youngs_modulus=float(material["youngs_modulus_pa"]),
-            density=float(material["density_kg_m3"]),
-            poissons_ratio=float(material["poissons_ratio"]),
-            yield_stress=float(material["yield_stress_pa"]),
-        ),
+        raise document.error((chain[-1], "material"), f"missing key {', '.join(missing)} (give it here or in the base)")
+    return fem_material.Material(
+        youngs_modulus=float(material["youngs_modulus_pa"]),
+        density=float(material["density_kg_m3"]),
+        poissons_ratio=float(material["poissons_ratio"]),
+        yield_stress=float(material["yield_stress_pa"]),
     )
 
 
-def _inheritance(name: str, entries: dict[str, BladeEntry], document: Document) -> list[str]:
-    """Names from the blade with a profile table down to `name`."""
+def _inheritance(name: str, entries: Mapping[str, Any], document: Document) -> list[str]:
+    """Names from the blade with profiles, mesh or matrices down to `name`."""
     chain = [name]
-    while (base := entries[chain[0]].base) is not None:
+    while (base := getattr(entries[chain[0]], "base", None)) is not None:
         if base not in entries or base in chain:
             others = ", ".join(entry for entry in entries if entry not in chain)
             raise document.refusal((chain[0], "base"), f"'{base}'", f"another blade of this file ({others})")

@@ -94,6 +94,9 @@ class MeshEntry(Oriented):
         default=1e-4, gt=0, le=0.1, description="how far the tip may be from a surface of revolution"
     )
     drop_free_nodes: bool = Field(default=False, description="leave out nodes of no solid element instead of refusing them")
+    minimum_scaled_jacobian: float = Field(
+        default=0.02, gt=0, le=1, description="meshes with elements below are refused; 1 is ideal, 0 folded"
+    )
     stress_submesh: ImportedSubmesh = ImportedSubmesh()
 
     def source(self, root: Path) -> MeshSource:
@@ -106,6 +109,7 @@ class MeshEntry(Oriented):
             pressure_side_forward=self.pressure_side == "forward",
             revolution_tolerance=self.revolution_tolerance_m,
             drop_free_nodes=self.drop_free_nodes,
+            minimum_scaled_jacobian=self.minimum_scaled_jacobian,
         )
         return replace(source, digest=digest_of(mesh_files(root / self.mesh)))
 

@@ -12,6 +12,7 @@ from typing import Any
 from pydantic import BaseModel
 
 from r37core.contact.scene import Scene
+from r37core.exchange.source import MatricesSource
 from r37core.rom.choice import ReductionChoice
 from r37core.speeds import SpeedError, expand_speeds
 from r37core.studies.levels import recommended_level
@@ -47,6 +48,7 @@ class Settings:
 
     `blades` and `scenes` are those to run, in order; `speeds` (rad/s) of each (blade, scene); `fidelity` the chosen level;
     `fidelity_is_chosen`: by its measured error;
+    `places`: blade -> key -> `file:line: blade.key`, for what is found out later;
     `levels` and `scene_entries` all that their files have, for the studies; the rest as in config.yaml.
     """
 
@@ -65,6 +67,7 @@ class Settings:
     fidelity_is_chosen: bool
     run_name: str | None
     config: Config
+    places: dict[str, dict[str, str]]
 
     @property
     def results(self) -> Path:
@@ -100,18 +103,30 @@ class Settings:
 
     def structure_hash(self, blade: str) -> str:
         """Short hash of all that a blade's structural results depend on."""
-        elastic = replace(self.blades[blade].material, yield_stress=0.0)
-        return _short_hash(self.shape_hash(blade), elastic, plain(self.fidelity.mesh), self.reduction_choice())
+        material = self.blades[blade].material
+        elastic = material and replace(material, yield_stress=0.0)
+        choice = self.reduction_choice(blade=blade)
+        return _short_hash(self.shape_hash(blade), elastic, plain(self.fidelity.mesh), choice)
 
-    def reduction_choice(self, tip_line: str | None = None) -> ReductionChoice:
-        """What the reduced model is made of, with contact nodes on `tip_line` or on that of config.yaml."""
-        return self.structure.reduction(self.fidelity.reduction, tip_line)
+    def reduction_choice(self, tip_line: str | None = None, blade: str | None = None) -> ReductionChoice:
+        """What the reduced model is made of, with contact nodes on `tip_line` or on that of config.yaml.
 
-    def integration_choice(self, scene: str, speed: float) -> IntegrationChoice:
-        """Numbers of the time integration at one speed of a scene, with only what its results need."""
+        `blade`: whose region of stress counts, where it has one of its own.
+        """
+        submesh = self.blades[blade].stress_submesh if blade else None
+        return self.structure.reduction(self.fidelity.reduction, tip_line, submesh)
+
+    def results_of(self, blade: str, scene: str) -> tuple[str, ...]:
+        """What is wanted of a scene's simulations, as far as the blade can give it: matrices have no stress."""
+        wanted = self.scenes[scene].results
+        matrices = isinstance(self.blades[blade].definition, MatricesSource)
+        return tuple(result for result in wanted if not (matrices and result == "stress"))
+
+    def integration_choice(self, blade: str, scene: str, speed: float) -> IntegrationChoice:
+        """Numbers of the time integration at one speed of a blade and scene, with only what its results need."""
         chosen = self.scenes[scene]
         everything = self.fidelity.time_integration.choice()
-        stress = "stress" in chosen.results
+        stress = "stress" in self.results_of(blade, scene)
         history = speed in chosen.stress_history_speeds
         return replace(
             everything,
@@ -179,8 +194,10 @@ def load_settings(config: Document | Mapping[str, Any], root: Path) -> Settings:
     speeds = _speeds(checked, names, scene_names, level.time_integration.speed_step_rad_s, blades, scenes, files)
     _check_history_speeds(chosen_scenes, speeds, files.scenes)
     _check_slowest(level, checked.structure.boundary.nodes, speeds, files.config)
+    chosen_blades = {name: blade_settings(name, blades, root, files.blades) for name in names}
+    _check_matrices(chosen_blades, checked, files.config)
     return Settings(
-        blades={name: blade_settings(name, blades, root, files.blades) for name in names},
+        blades=chosen_blades,
         scenes=chosen_scenes,
         speeds=speeds,
         fidelity_name=fidelity_name,
@@ -195,6 +212,7 @@ def load_settings(config: Document | Mapping[str, Any], root: Path) -> Settings:
         fidelity_is_chosen=checked.fidelity == "auto",
         run_name=checked.run.name,
         config=checked,
+        places={name: _places(name, blades, files.blades) for name in names},
     )
 
 
@@ -333,6 +351,26 @@ def _check_slowest(level: Level, nodes: int, speeds: Mapping[tuple[str, str], tu
             f"speeds from {slowest * size / LARGEST_TABLE:.3g} rad/s with this step (the casing's shape at every step has to "
             "fit in memory)",
         )
+
+
+def _places(blade: str, entries: Mapping[str, Any], document: Document) -> dict[str, str]:
+    """Where each key of a blade's entry, or of the entry that its base has it from, stands."""
+    entry = entries[blade]
+    if base := getattr(entry, "base", None):
+        return _places(base, entries, document)
+    return {key: f"{document.place((blade, key))}: {blade}.{key}" for key in type(entry).model_fields}
+
+
+def _check_matrices(blades: Mapping[str, BladeSettings], checked: Config, document: Document) -> None:
+    """ConfigError for a term of rotation that cannot be added to matrices of another program."""
+    given = [name for name, blade in blades.items() if isinstance(blade.definition, MatricesSource)]
+    for key in ("spin_softening", "coriolis"):
+        if given and getattr(checked.structure, key):
+            raise document.refusal(
+                ("structure", key),
+                f"true with the blade '{given[0]}', given by matrices",
+                "false; put the term into its K_<speed>",
+            )
 
 
 def checked_scene(entry: Mapping[str, Any]) -> Scene:

@@ -33,12 +33,12 @@ def explain(error: ValidationError, content: Any, model: type[BaseModel]) -> tup
     first = next((one for one in errors if one["type"] == "extra_forbidden"), errors[0])
     context = first.get("ctx", {})
     path = _within(content, first["loc"], missing=first["type"] == "missing") + tuple(context.get("at", ()))
-    schema = _schema(model)
+    schema, variants = _schema(model), frozenset(map(str, first["loc"]))
     if first["type"] == "refused":
         return path, path, f"found {context['found']}; allowed: {context['allowed']}"
     if first["type"] in ("missing", "extra_forbidden"):
         *parent, key = path
-        known = list(_at(schema, tuple(parent), schema).get("properties", {}))
+        known = list(_at(schema, tuple(parent), schema, variants).get("properties", {}))
         if first["type"] == "missing":
             return tuple(parent), tuple(parent), f"missing key {key}; allowed keys: {', '.join(known)}"
         close = difflib.get_close_matches(str(key), known, 1)
@@ -48,7 +48,7 @@ def explain(error: ValidationError, content: Any, model: type[BaseModel]) -> tup
     found = "nothing" if value is None else repr(value)
     if len(found) > 80:
         found = found[:76] + " ..."
-    return path, path, f"found {found}; allowed: {describe(_at(schema, path, schema), schema) or first['msg']}"
+    return path, path, f"found {found}; allowed: {describe(_at(schema, path, schema, variants), schema) or first['msg']}"
 
 
 @cache
@@ -107,13 +107,20 @@ def _resolved(part: Mapping[str, Any], schema: Mapping[str, Any]) -> Mapping[str
     return part
 
 
-def _at(part: Mapping[str, Any], path: KeyPath, schema: Mapping[str, Any]) -> Mapping[str, Any]:
-    """The part of a JSON schema that is for the value at `path`; empty where there is none."""
+def _at(part: Mapping[str, Any], path: KeyPath, schema: Mapping[str, Any], variants: frozenset[str]) -> Mapping[str, Any]:
+    """The part of a JSON schema that is for the value at `path`; empty where there is none.
+
+    Among several models that of a title in `variants` counts, which pydantic has in the place of an error.
+    """
     part = _resolved(part, schema)
+    choices = [_resolved(choice, schema) for choice in [*part.get("anyOf", []), *part.get("oneOf", [])]]
+    named = [choice for choice in choices if choice.get("title") in variants]
+    if named:
+        return _at(named[0], path, schema, variants)
     if not path:
         return part
-    for choice in [*part.get("anyOf", []), *part.get("oneOf", [])]:
-        found = _at(choice, path, schema)
+    for choice in choices:
+        found = _at(choice, path, schema, variants)
         if found:
             return found
     step, *rest = path
@@ -122,4 +129,4 @@ def _at(part: Mapping[str, Any], path: KeyPath, schema: Mapping[str, Any]) -> Ma
     else:
         inner = part.get("properties", {}).get(step) or next(iter(part.get("patternProperties", {}).values()), None)
         inner = inner or part.get("additionalProperties")
-    return _at(inner, tuple(rest), schema) if isinstance(inner, Mapping) else {}
+    return _at(inner, tuple(rest), schema, variants) if isinstance(inner, Mapping) else {}

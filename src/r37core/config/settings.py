@@ -13,6 +13,7 @@ from .fidelity import Reduction
 from .scenes import TipLine
 from .section import AllOrNames, FileName, LeftOut, Name, Names, Section, Speed, refused
 from .studies import Studies
+from .submesh import Submesh
 
 
 class SpeedRange(Section):
@@ -56,20 +57,6 @@ class Boundary(Section):
     corners: bool = Field(default=True, description="whether leading and trailing corner are among them")
 
 
-class Submesh(Section):
-    """Where stress is recovered; nodes with x below and z between these bounds."""
-
-    maximum_x_m: float = Field(default=0.197, gt=0, le=100)
-    minimum_z_m: float = Field(default=0.0165, ge=-100, le=100)
-    maximum_z_m: float = Field(default=0.0265, ge=-100, le=100)
-
-    @model_validator(mode="after")
-    def _has_a_height(self) -> Submesh:
-        if not self.minimum_z_m < self.maximum_z_m:
-            raise refused(("minimum_z_m",), f"{self.minimum_z_m:g}", f"less than maximum_z_m ({self.maximum_z_m:g})")
-        return self
-
-
 class Structure(Section):
     """Geometry and reduced model."""
 
@@ -81,12 +68,14 @@ class Structure(Section):
     stress_submesh: Submesh = Submesh()
     recover_whole_blade: bool = Field(default=False, description="keep the basis on every node (a large file)")
 
-    def reduction(self, size: Reduction, tip_line: str | None = None) -> ReductionChoice:
+    def reduction(
+        self, size: Reduction, tip_line: str | None = None, stress_submesh: StressSubmesh | None = None
+    ) -> ReductionChoice:
         """The reduced model of a level's size, with contact nodes on `tip_line` or on that of the section `boundary`.
 
-        Its basis is computed at rest, at half the maximum speed and at the maximum speed.
+        Stress is recovered on `stress_submesh`, or where the section of this name says. Its basis is computed at rest, at half
+        the maximum speed and at the maximum speed.
         """
-        submesh = self.stress_submesh
         return ReductionChoice(
             boundary=BoundaryChoice(tip_line or self.boundary.tip_line, self.boundary.nodes, self.boundary.corners),
             speeds=(0.0, 0.5 * self.maximum_speed_rad_s, float(self.maximum_speed_rad_s)),
@@ -94,7 +83,7 @@ class Structure(Section):
             tolerance=size.basis_tolerance,
             spin_softening=self.spin_softening,
             coriolis=self.coriolis,
-            stress_submesh=StressSubmesh(submesh.maximum_x_m, submesh.minimum_z_m, submesh.maximum_z_m),
+            stress_submesh=stress_submesh or self.stress_submesh.region(),
             whole_blade=self.recover_whole_blade,
         )
 

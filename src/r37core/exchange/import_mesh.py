@@ -6,7 +6,6 @@ from pathlib import Path
 
 import numpy as np
 
-from r37core.fem.material import Material
 from r37core.mesh.blade_mesh import NODE_SETS, BladeMesh
 
 from .checks import checked, without_free_nodes
@@ -17,10 +16,8 @@ from .source import MeshSource
 from .surface import nodes_of, outer_faces
 from .tip import check_revolution, find_tip_lines
 
-_SOUND_BETWEEN = (300.0, 20000.0)
 
-
-def import_mesh(source: MeshSource, minimum_scaled_jacobian: float, folder: Path | str = ".") -> tuple[BladeMesh, np.ndarray]:
+def import_mesh(source: MeshSource, folder: Path | str = ".") -> tuple[BladeMesh, np.ndarray]:
     """The blade's mesh and the scaled Jacobian of each element, shape (elements,); `folder`: what `source.file` starts from.
 
     Raises ImportRefused, with the file's name and the reason, for a mesh that cannot be computed with.
@@ -28,7 +25,7 @@ def import_mesh(source: MeshSource, minimum_scaled_jacobian: float, folder: Path
     with blamed("mesh"):
         raw = read_mesh(Path(folder) / source.file)
     with blamed("mesh", source.file):
-        raw, quality = checked(without_free_nodes(raw) if source.drop_free_nodes else raw, minimum_scaled_jacobian)
+        raw, quality = checked(without_free_nodes(raw) if source.drop_free_nodes else raw, source.minimum_scaled_jacobian)
     with blamed("rotor_axis", source.file):
         raw = source.orientation.to_blade(raw)
     surface = outer_faces(raw.blocks)
@@ -49,15 +46,3 @@ def import_mesh(source: MeshSource, minimum_scaled_jacobian: float, folder: Path
     sets["leading_edge"], sets["trailing_edge"] = (np.array([node]) for node in lines.corners)
     parameters[root, 1], parameters[tip, 1] = 0.0, 1.0
     return BladeMesh(raw.points, raw.blocks, parameters, normals, sets), quality
-
-
-def check_material(material: Material) -> None:
-    """Refuse a stiffness and a density that no solid has in SI units: a sign of N, mm and t mixed with m and kg."""
-    sound = np.sqrt(material.youngs_modulus / material.density)
-    low, high = _SOUND_BETWEEN
-    if not (low < sound < high and 1e8 < material.youngs_modulus < 2e12):
-        raise ImportRefused(
-            f"material: Young's modulus {material.youngs_modulus:g} Pa and density {material.density:g} kg/m3 give a speed of "
-            f"sound of {sound:.3g} m/s; allowed: {low:g} to {high:g}. Units seem to be mixed: give Pa and kg/m3, also for a "
-            "mesh in mm"
-        )

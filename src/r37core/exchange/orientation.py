@@ -36,18 +36,22 @@ class Orientation:
     rotation: str
     axis_point: tuple[float, float, float] = (0.0, 0.0, 0.0)
 
+    def check(self) -> None:
+        """Raise ImportRefused where the two directions are none or parallel."""
+        axis, radial = np.array(self.rotor_axis, dtype=float), np.array(self.radial, dtype=float)
+        if not np.linalg.norm(np.cross(axis, radial)) > 1e-6 * np.linalg.norm(axis) * np.linalg.norm(radial):
+            raise ImportRefused(
+                f"rotor_axis {self.rotor_axis} and radial {self.radial} must be two directions, not parallel", "radial"
+            )
+
     @property
     def rows(self) -> np.ndarray:
         """Orthonormal rows x, y, z of the blade's frame in the file's axes, shape (3, 3); left-handed where mirrored.
 
         Raises ImportRefused where the two directions are parallel.
         """
-        axis = np.array(self.rotor_axis, dtype=float)
-        radial = np.array(self.radial, dtype=float)
-        if not np.linalg.norm(np.cross(axis, radial)) > 1e-6 * np.linalg.norm(axis) * np.linalg.norm(radial):
-            raise ImportRefused(
-                f"rotor_axis {self.rotor_axis} and radial {self.radial} must be two directions, not parallel", "radial"
-            )
+        self.check()
+        axis, radial = np.array(self.rotor_axis, dtype=float), np.array(self.radial, dtype=float)
         z = axis / np.linalg.norm(axis)
         x = radial - (radial @ z) * z
         x /= np.linalg.norm(x)

@@ -28,7 +28,8 @@ class MeshSource:
 
     `file`; its `orientation`; where `root` and `tip` are; `pressure_side_forward`: whether the pressure side looks towards
     the rotation, as in a compressor; `revolution_tolerance` (m): how far the tip may be from a surface of revolution;
-    `drop_free_nodes`: whether nodes of no solid element are left out instead of refused; `digest`: hash of the files.
+    `drop_free_nodes`: whether nodes of no solid element are left out instead of refused; `minimum_scaled_jacobian`: elements
+    below are refused; `digest`: hash of the files.
     """
 
     file: str
@@ -38,6 +39,7 @@ class MeshSource:
     pressure_side_forward: bool = True
     revolution_tolerance: float = 1e-4
     drop_free_nodes: bool = False
+    minimum_scaled_jacobian: float = 0.02
     digest: str = ""
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 import statistics
 import subprocess
@@ -27,13 +28,13 @@ def time_runs(
     speeds: Sequence[float],
     number: int,
     model: ReducedModel | None,
-    material: Material,
+    material: Material | None,
     stress_instants: int,
 ) -> dict[str, float]:
     """CPU seconds that `number` runs of a blade and scene take, projected from runs at `speeds`.
 
-    `run(speed)`: the arrays of one run, everything a job does after its imports but writing. `model`: for the
-    stress, None when it is not wanted. Returns `time integration`, `reduction` and `runs`.
+    `run(speed)`: the arrays of one run, everything a job does after its imports but writing. `model` and
+    `material`: for the stress, None when it is not wanted. Returns `time integration`, `reduction` and `runs`.
     """
     with tempfile.TemporaryDirectory() as folder:
         files = [Path(folder) / f"{row}.npz" for row in range(len(speeds))]
@@ -42,9 +43,10 @@ def time_runs(
             write_speed(run(speed), file, {})
         simulation = time.process_time() - start
         start = time.process_time()
-        recovery = StressRecovery(model, material) if model else None
+        recovery = StressRecovery(model, material) if model and material else None
         fixed = time.process_time() - start
-        write_response(files, speeds, Path(folder) / "response.nc", recovery, (), stress_instants, material.yield_stress, {})
+        yield_stress = material.yield_stress if material else math.inf
+        write_response(files, speeds, Path(folder) / "response.nc", recovery, (), stress_instants, yield_stress, {})
         reduction = time.process_time() - start - fixed
     share = number / len(speeds)
     return {"time integration": share * simulation, "reduction": fixed + share * reduction, "runs": number}

@@ -25,7 +25,7 @@ class Estimate:
     def choices(self, wildcards: Any) -> dict[float, dict[str, Any]]:
         """Numbers of the time integration at some of the speeds of one blade and scene, evenly spread."""
         speeds = sample(self.settings.speeds[wildcards.blade, wildcards.scene], self.settings.studies.estimate.every)
-        return {speed: asdict(self.settings.integration_choice(wildcards.scene, speed)) for speed in speeds}
+        return {speed: asdict(self.settings.integration_choice(wildcards.blade, wildcards.scene, speed)) for speed in speeds}
 
     def number(self, wildcards: Any) -> int:
         """How many runs the blade and scene have in all."""

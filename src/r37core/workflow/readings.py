@@ -74,11 +74,11 @@ class Readings:
 
     def material(self, wildcards: Any) -> dict[str, float]:
         """Material of a reading's blade."""
-        return asdict(self._models.blade(self._place(wildcards).blade).material)
+        return asdict(self._models.material_of(self._place(wildcards).blade))
 
     def yield_stress(self, wildcards: Any) -> float:
         """Of the reference blade (Pa)."""
-        return self._models.blade(REFERENCE).material.yield_stress
+        return self._models.material_of(REFERENCE).yield_stress
 
     def _place(self, wildcards: Any) -> Place:
         return self._places[wildcards.reading][wildcards.place]

@@ -23,8 +23,9 @@ class Structure:
         return self.settings.shape_hash(wildcards.blade)
 
     def material(self, wildcards: Any) -> dict[str, float]:
-        """Material of a blade."""
-        return asdict(self.settings.blades[wildcards.blade].material)
+        """Material of a blade; empty for one of matrices."""
+        material = self.settings.blades[wildcards.blade].material
+        return asdict(material) if material else {}
 
     def elastic(self, wildcards: Any) -> dict[str, float]:
         """Material of a blade with what stiffness and mass depend on: a new yield stress asks for no new matrices."""
@@ -37,4 +38,4 @@ class Structure:
 
     def reduction(self, wildcards: Any) -> dict[str, Any]:
         """What the reduced model is made of, with contact nodes on the line that the wildcard names."""
-        return asdict(self.settings.reduction_choice(wildcards.tip_line))
+        return asdict(self.settings.reduction_choice(wildcards.tip_line, wildcards.blade))

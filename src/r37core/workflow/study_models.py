@@ -6,7 +6,9 @@ from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from typing import Any, TypeVar
 
+from r37core.blade.definition import BladeDefinition
 from r37core.config import BladeSettings, ConfigError, SceneEntry, Settings, plain
+from r37core.fem.material import Material
 
 from . import paths
 
@@ -60,7 +62,13 @@ class StudyModels:
 
     def material(self, wildcards: Any) -> dict[str, float]:
         """Material of a study's blade."""
-        return asdict(self.blade(wildcards.blade).material)
+        return asdict(self.material_of(wildcards.blade))
+
+    def material_of(self, blade: str) -> Material:
+        """Material of the blade of this name."""
+        material = self.blade(blade).material
+        assert material is not None
+        return material
 
     def integration(self, level: str) -> dict[str, Any]:
         """The time integration of a fidelity level, with the stress of the last revolution and the energy balance."""
@@ -71,8 +79,9 @@ class StudyModels:
         return _known("fidelity level", name, self.settings.levels)
 
     def blade(self, name: str) -> BladeSettings:
-        """A blade of this run."""
-        return _known("blade", name, self.settings.blades)
+        """A blade of this run that is given by profiles: the studies mesh it in several ways."""
+        blades = self.settings.blades
+        return _known("blade", name, {name: one for name, one in blades.items() if isinstance(one.definition, BladeDefinition)})
 
     def scene_entry(self, name: str) -> SceneEntry:
         """A scene of the scenes file."""

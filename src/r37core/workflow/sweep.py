@@ -48,15 +48,16 @@ class Sweep:
         chosen = self._scene(wildcards)
         task = {
             "scene": asdict(chosen.scene),
-            "choice": asdict(self.settings.integration_choice(wildcards.scene, float(wildcards.speed))),
-            "results": chosen.results,
+            "choice": asdict(self.settings.integration_choice(wildcards.blade, wildcards.scene, float(wildcards.speed))),
+            "results": self.results(wildcards),
             "kept": self.kept,
         }
         return json.dumps(task)
 
     def choice_of_scene(self, wildcards: Any) -> dict[str, Any]:
         """Numbers of the time integration at the highest speed of the basis."""
-        return asdict(self.settings.integration_choice(wildcards.scene, self.settings.structure.maximum_speed_rad_s))
+        highest = self.settings.structure.maximum_speed_rad_s
+        return asdict(self.settings.integration_choice(wildcards.blade, wildcards.scene, highest))
 
     def scene(self, wildcards: Any) -> Any:
         """The scene itself, which Snakemake does not compare."""
@@ -67,16 +68,16 @@ class Sweep:
         return repr(self._scene(wildcards).scene)
 
     def results(self, wildcards: Any) -> tuple[str, ...]:
-        """What is wanted of a scene's simulations."""
-        return self._scene(wildcards).results
+        """What is wanted of the simulations of a blade and scene."""
+        return self.settings.results_of(wildcards.blade, wildcards.scene)
 
     def with_stress(self, wildcards: Any) -> bool:
-        """Whether a scene's stress is wanted."""
-        return "stress" in self._scene(wildcards).results
+        """Whether the stress of a blade and scene is wanted."""
+        return "stress" in self.results(wildcards)
 
     def stress_history_speeds(self, wildcards: Any) -> tuple[float, ...]:
-        """Speeds (rad/s) of a scene whose stress is kept for every revolution."""
-        return self._scene(wildcards).stress_history_speeds
+        """Speeds (rad/s) of a blade and scene whose stress is kept for every revolution."""
+        return self._scene(wildcards).stress_history_speeds if self.with_stress(wildcards) else ()
 
     def priority(self, wildcards: Any) -> float:
         """Of a blade's simulations, above 0 and up to 1: results should be complete one blade after another."""
@@ -96,8 +97,8 @@ class Sweep:
 
     def runs_with(self, kind: str) -> list[tuple[str, str]]:
         """Pairs of blade and scene that have this kind of result."""
-        scenes = [name for name, chosen in self.settings.scenes.items() if kind == KINDS[0] or kind in chosen.results]
-        return [(blade, scene) for blade in self.settings.blades for scene in scenes]
+        pairs = [(blade, scene) for blade in self.settings.blades for scene in self.settings.scenes]
+        return [pair for pair in pairs if kind == KINDS[0] or kind in self.settings.results_of(*pair)]
 
     def runs(self, wildcards: Any) -> list[tuple[str, str]]:
         """Pairs of blade and scene in one dataset."""
@@ -117,6 +118,11 @@ class Sweep:
             for blade, scene in self.runs_with(kind)
         ]
         return ["<results>/figures/response.png", *of_blades, *maps]
+
+    def response_pictured(self, wildcards: Any) -> dict[str, str]:
+        """Datasets that a blade's response is drawn from."""
+        with_stress = any(blade == wildcards.blade for blade, _ in self.runs_with("stress"))
+        return {kind: f"<results>/{kind}.nc" for kind in ("campbell", "rms", *(["stress"] if with_stress else []))}
 
     def _scene(self, wildcards: Any) -> Any:
         return self.settings.scenes[wildcards.scene]

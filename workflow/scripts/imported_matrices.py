@@ -1,0 +1,20 @@
+"""Reduced model from matrices of another program. Input: their files. Params: source, places, reduction. Output: rom.nc."""
+
+from job import run
+
+from r37core.exchange.errors import placed
+from r37core.exchange.matrices_in import import_matrices
+from r37core.rom.choice import ReductionChoice
+from r37core.rom.rom_file import write_reduced_model
+
+
+def main(snakemake):
+    params = snakemake.params
+    choice = ReductionChoice.from_plain(params.reduction)
+    with placed(params.places):
+        model = import_matrices(params.source, choice, params.folder["folder"])
+    print(f"{model.columns} columns, {model.size} independent at {model.tolerance:g}")
+    write_reduced_model(model, snakemake.output[0], params.provenance)
+
+
+run(snakemake, main)

@@ -1,0 +1,28 @@
+"""Import the mesh of another program. Input: mesh file. Params: source, places. Outputs: mesh.msh, mesh.vtu."""
+
+import sys
+import warnings
+
+from job import run
+
+from r37core.exchange.errors import placed
+from r37core.exchange.import_mesh import import_mesh
+from r37core.exchange.write_mesh import write_mesh
+from r37core.mesh.mesh_files import write_vtu
+
+
+def main(snakemake):
+    params = snakemake.params
+    with placed(params.places), warnings.catch_warnings(record=True) as said:
+        warnings.simplefilter("always")
+        mesh, quality = import_mesh(params.source, params.folder["folder"])
+    print(f"{len(mesh.points)} nodes, " + ", ".join(f"{len(nodes)} {name}" for name, nodes in mesh.blocks.items()))
+    print(f"scaled Jacobian: minimum {quality.min():.3f}")
+    for warning in said:
+        # on the screen, not only in the log
+        print(f"{params.places['mesh']}: {warning.message}", file=sys.__stderr__)
+    write_mesh(mesh, snakemake.output.msh)
+    write_vtu(mesh, snakemake.output.vtu, quality)
+
+
+run(snakemake, main)
