@@ -2,21 +2,25 @@
 
 from dataclasses import replace
 
+import meshio
 import numpy as np
 import pytest
 import pyvista
 
 from r37core.exchange.errors import ImportRefused
-from r37core.exchange.exports import WorstInstant, worst_instant, write_matrices_directory, write_modes, write_stress
+from r37core.exchange.exports import Target, WorstInstant, worst_instants, write_modes, write_stress
 from r37core.exchange.matrices_in import import_matrices
+from r37core.exchange.matrices_out import write_full_matrices, write_reduced_matrices
 from r37core.exchange.orientation import Orientation
 from r37core.exchange.source import MatricesSource
 from r37core.results.campbell import campbell_diagram
 from r37core.results.stress import StressRecovery
 from r37core.rom.contact_reduction import contact_model
 from r37core.rom.reduce import reduce_blade
+from r37core.time_integration.speed_file import write_speed
 
 OURS = Orientation("m", (0, 0, 1), (1, 0, 0), "negative")
+FOREIGN = Orientation("mm", (1, 0, 0), (0, 0, 1), "positive", (5.0, 6.0, 7.0))
 
 
 @pytest.fixture(scope="module")
@@ -27,12 +31,12 @@ def whole(mesh, matrices, choice):
 @pytest.fixture(scope="module")
 def directory(mesh, matrices, model, tmp_path_factory):
     folder = tmp_path_factory.mktemp("matrices")
-    write_matrices_directory(matrices, mesh, model.boundary_nodes, (0.0, 1000.0, 2000.0), folder)
+    write_full_matrices(matrices, mesh, model.boundary_nodes, (0.0, 1000.0, 2000.0), folder)
     return folder
 
 
 def test_modes(whole, mesh, tmp_path):
-    write_modes(mesh, whole, [0.0, 1500.0], 4, tmp_path)
+    write_modes(mesh, whole, [0.0, 1500.0], 4, Target(tmp_path))
     collection = pyvista.get_reader(tmp_path / "modes.pvd")
     assert list(collection.time_values) == [0.0, 1500.0]
     grid = pyvista.read(tmp_path / "modes_1500.vtu")
@@ -42,19 +46,50 @@ def test_modes(whole, mesh, tmp_path):
     assert np.abs(grid.point_data["mode 1B"][mesh.node_set("root")]).max() == 0.0
 
 
-def test_stress_of_the_worst_instant(whole, mesh, steel, tmp_path):
+@pytest.fixture
+def instant(whole, steel, tmp_path):
+    """The worst of three runs, of which the second diverged."""
     shapes = whole.modes(0.0, 3)[1].T * 1e-4
-    recovery = StressRecovery(whole, steel)
-    instant = worst_instant(shapes, recovery.max_von_mises(shapes))
-    assert instant.largest == recovery.max_von_mises(shapes).max()
-    write_stress(mesh, whole, steel, {1200.0: instant}, tmp_path, "direct")
-    grid = pyvista.read(tmp_path / "stress_direct_1200.vtu")
-    np.testing.assert_allclose(grid.point_data["displacement"], whole.whole_blade.displacement(instant.coordinates))
+    recovery, speeds = StressRecovery(whole, steel), (900.0, 1000.0, 1200.0)
+    for speed, scale in zip(speeds, (1.0, 9.0, 2.0), strict=True):
+        write_speed({"status": np.array(int(speed == 1000.0)), "snapshots": scale * shapes}, tmp_path / f"{speed}.npz", {})
+    files = [tmp_path / f"{speed}.npz" for speed in speeds]
+    assert list(worst_instants(files, speeds, recovery, only_worst=False)) == [900.0, 1200.0]
+    assert worst_instants(files[1:2], speeds[1:2], recovery, only_worst=True) == {}
+    found = worst_instants(files, speeds, recovery, only_worst=True)
+    assert list(found) == [1200.0]
+    assert found[1200.0].largest == pytest.approx(2 * recovery.max_von_mises(shapes).max())
+    return found
+
+
+def test_stress_of_the_worst_instant(whole, mesh, steel, instant, tmp_path):
+    write_stress(mesh, whole, steel, instant, Target(tmp_path))
+    grid = pyvista.read(tmp_path / "stress_1200.vtu")
+    np.testing.assert_allclose(grid.point_data["displacement"], whole.whole_blade.displacement(instant[1200.0].coordinates))
     # averaged over all elements at a node here, over those of the submesh there
     here = grid.point_data["von Mises stress"][whole.stress_submesh.nodes].max()
-    assert here == pytest.approx(instant.largest, rel=0.25)
+    assert here == pytest.approx(instant[1200.0].largest, rel=0.25)
     with pytest.raises(ValueError, match="does not recover the whole blade"):
-        write_stress(mesh, replace(whole, whole_blade=None), steel, {0.0: WorstInstant(shapes[0], 1.0)}, tmp_path, "direct")
+        write_stress(mesh, replace(whole, whole_blade=None), steel, {0.0: WorstInstant(np.zeros(1), 1.0)}, Target(tmp_path))
+
+
+def test_results_in_the_axes_of_another_program(whole, mesh, steel, instant, tmp_path):
+    """Points, displacement and stress turn together: the same strain energy density, and elements the right way out."""
+    write_stress(mesh, whole, steel, instant, Target(tmp_path, ("vtu", "med")))
+    ours = pyvista.read(tmp_path / "stress_1200.vtu")
+    write_stress(mesh, whole, steel, instant, Target(tmp_path, ("vtu", "med"), FOREIGN))
+    theirs = pyvista.read(tmp_path / "stress_1200.vtu")
+    rows = FOREIGN.rows
+    np.testing.assert_allclose((theirs.points - [5, 6, 7]) * 1e-3 @ rows.T, ours.points, atol=1e-12)
+    np.testing.assert_allclose(1e-3 * theirs.point_data["displacement"] @ rows.T, ours.point_data["displacement"], atol=1e-15)
+    xx, yy, zz, xy, yz, zx = theirs.point_data["stress"].T
+    tensor = np.stack([[xx, xy, zx], [xy, yy, yz], [zx, yz, zz]]).transpose(2, 0, 1)
+    back = rows @ tensor @ rows.T
+    components = np.stack([back[:, a, b] for a, b in ((0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (2, 0))], axis=1)
+    np.testing.assert_allclose(components, ours.point_data["stress"], atol=1e-6 * np.abs(components).max())
+    assert theirs.compute_cell_sizes()["Volume"].min() > 0.0
+    again = meshio.read(tmp_path / "stress_1200.med")
+    np.testing.assert_allclose(again.point_data["displacement"], theirs.point_data["displacement"])
 
 
 def test_full_matrices_come_back(directory, model, choice):
@@ -71,6 +106,13 @@ def test_full_matrices_come_back(directory, model, choice):
         for m in (contact, wanted)
     )
     np.testing.assert_allclose(compliance, expected, rtol=1e-6, atol=1e-6 * np.abs(expected).max())
+
+
+def test_reduced_matrices_come_back(model, choice, tmp_path):
+    write_reduced_matrices(model, "pressure_edge", (0.0, 1000.0, 2000.0), tmp_path)
+    again = import_matrices(MatricesSource(str(tmp_path), OURS), choice)
+    np.testing.assert_allclose(again.mass, model.mass, atol=1e-12 * np.abs(model.mass).max())
+    np.testing.assert_allclose(again.modes(1400.0, 12)[0], model.modes(1400.0, 12)[0], rtol=1e-8)
 
 
 def test_reduced_matrices_in_other_axes(model, choice, tmp_path):

@@ -193,6 +193,7 @@ def load_settings(config: Document | Mapping[str, Any], root: Path) -> Settings:
     chosen_scenes = {name: _scene(scenes[name], level, checked.structure.boundary.tip_line) for name in scene_names}
     speeds = _speeds(checked, names, scene_names, level.time_integration.speed_step_rad_s, blades, scenes, files)
     _check_history_speeds(chosen_scenes, speeds, files.scenes)
+    _check_exports(checked, speeds, files.config)
     _check_slowest(level, checked.structure.boundary.nodes, speeds, files.config)
     chosen_blades = {name: blade_settings(name, blades, root, files.blades) for name in names}
     _check_matrices(chosen_blades, checked, files.config)
@@ -338,6 +339,20 @@ def _check_history_speeds(
                     f"{speed:g}",
                     "speeds that are simulated (add it to speeds or speeds_for in config.yaml)",
                 )
+
+
+def _check_exports(checked: Config, speeds: Mapping[Any, tuple[float, ...]], document: Document) -> None:
+    """ConfigError for a speed of `exports` that is not simulated, or beyond the reduced model's basis."""
+    given, highest = checked.exports, checked.structure.maximum_speed_rad_s
+    run = {speed for several in speeds.values() for speed in several}
+    wanted = given.stress_speeds_rad_s if isinstance(given.stress_speeds_rad_s, list) else []
+    for number, speed in enumerate(wanted):
+        if speed not in run:
+            raise document.refusal(("exports", "stress_speeds_rad_s", number), f"{speed:g}", "speeds that are simulated")
+    for number, speed in enumerate(given.mode_speeds_rad_s or []):
+        if speed > highest:
+            allowed = f"up to structure.maximum_speed_rad_s, {highest:g}"
+            raise document.refusal(("exports", "mode_speeds_rad_s", number), f"{speed:g}", allowed)
 
 
 def _check_slowest(level: Level, nodes: int, speeds: Mapping[tuple[str, str], tuple[float, ...]], document: Document) -> None:

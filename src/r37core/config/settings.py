@@ -9,6 +9,7 @@ from pydantic import Discriminator, Field, Tag, model_validator
 from r37core.rom.boundary import BoundaryChoice
 from r37core.rom.choice import ReductionChoice, StressSubmesh
 
+from .exports import Exports
 from .fidelity import Reduction
 from .scenes import TipLine
 from .section import AllOrNames, FileName, LeftOut, Name, Names, Section, Speed, refused
@@ -144,3 +145,4 @@ class Config(Section):
     run: Run = Run()
     studies: Studies = Studies()
     campbell: Campbell = Campbell()
+    exports: Exports = Exports()

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from r37core.fem.elements import ELEMENTS
+from r37core.mesh.blade_mesh import BladeMesh
 
 from .errors import ImportRefused
 from .raw_mesh import RawMesh
@@ -74,6 +75,17 @@ class Orientation:
     def to_file(self, points: np.ndarray) -> np.ndarray:
         """Points (m) of the blade's frame, shape (n, 3), in the file's unit and axes."""
         return points @ self.rows / UNITS[self.length_unit] + np.array(self.axis_point, dtype=float)
+
+    def vectors_to_file(self, vectors: np.ndarray) -> np.ndarray:
+        """Displacements (m) of the blade's frame, shape (n, 3), in the file's unit and axes."""
+        return vectors @ self.rows / UNITS[self.length_unit]
+
+    def mesh_to_file(self, mesh: BladeMesh) -> BladeMesh:
+        """The blade's mesh in the file's unit and axes, its elements the right way out there."""
+        blocks = mesh.blocks
+        if np.linalg.det(self.rows) < 0.0:
+            blocks = {name: nodes[:, ELEMENTS[name].mirrored] for name, nodes in blocks.items()}
+        return replace(mesh, points=self.to_file(mesh.points), blocks=blocks)
 
     def _check(self, points: np.ndarray) -> None:
         radius = np.hypot(points[:, 0], points[:, 1])

@@ -18,6 +18,7 @@ RESPONSE = "<results>/{blade}/{scene}/response.nc"
 MAP_FIGURE = "<results>/figures/{kind}_{blade}__{scene}.png"
 RESPONSE_FIGURE = "<results>/figures/response_{blade}.png"
 ESTIMATE_SAMPLE = "<results>/studies/estimate/{blade}__{scene}.json"
+EXPORTS = "<results>/exports/{blade}"
 STUDY_MODEL = (
     "<results>/studies/models/{blade}/{nodes}_{boundary_nodes}_{fixed_interface_modes}_{region}_{tip_line}_{ends}/{file}"
 )

@@ -1,0 +1,121 @@
+# Results for other programs: mesh, surface, modes, worst stress, matrices. Not part of all_blades: snakemake exports
+from r37core.workflow.exports import Exports
+
+exported = Exports(imported, sweep)
+
+
+rule exported_mesh:
+    input:
+        paths.MESH,
+    output:
+        paths.EXPORTS + "/mesh.{format}",
+    log:
+        "<logs>/exports/{blade}_mesh_{format}.log",
+    wildcard_constraints:
+        format="msh|vtu|med|bdf|inp",
+    conda:
+        ENVIRONMENT
+    params:
+        material=structure.elastic,
+        orientation=exported.orientation,
+        described=exported.described,
+        code=code("exported_mesh"),
+    script:
+        "../scripts/exported_mesh.py"
+
+
+rule exported_surface:
+    input:
+        paths.GEOMETRY,
+    output:
+        paths.EXPORTS + "/surface.step",
+    log:
+        "<logs>/exports/{blade}_surface.log",
+    conda:
+        ENVIRONMENT
+    params:
+        code=code("exported_surface"),
+    script:
+        "../scripts/exported_surface.py"
+
+
+rule whole_blade_model:
+    input:
+        mesh=paths.MESH,
+        matrices="<results>/{blade}/matrices.npz",
+    output:
+        temp(paths.EXPORTS + "/rom_{tip_line}.nc"),
+    log:
+        "<logs>/exports/{blade}_model_{tip_line}.log",
+    conda:
+        ENVIRONMENT
+    params:
+        reduction=exported.reduction,
+        provenance=made.structure,
+        code=code("reduced_model"),
+    script:
+        "../scripts/reduced_model.py"
+
+
+rule exported_modes:
+    input:
+        mesh=paths.MESH,
+        model=exported.model,
+    output:
+        directory(paths.EXPORTS + "/modes"),
+    log:
+        "<logs>/exports/{blade}_modes.log",
+    conda:
+        ENVIRONMENT
+    params:
+        choice=exported.choice,
+        orientation=exported.orientation,
+        described=exported.described,
+        code=code("exported_modes"),
+    script:
+        "../scripts/exported_modes.py"
+
+
+rule exported_stress:
+    input:
+        mesh=paths.MESH,
+        model=exported.model,
+        speeds=exported.speed_files,
+    output:
+        directory(paths.EXPORTS + "/stress_{scene}"),
+    log:
+        "<logs>/exports/{blade}_stress_{scene}.log",
+    conda:
+        ENVIRONMENT
+    params:
+        choice=exported.choice,
+        speeds=exported.stress_speeds,
+        only_worst=exported.only_worst,
+        material=structure.elastic,
+        orientation=exported.orientation,
+        described=exported.described,
+        code=code("exported_stress"),
+    script:
+        "../scripts/exported_stress.py"
+
+
+rule exported_matrices:
+    input:
+        unpack(exported.matrix_files),
+    output:
+        directory(paths.EXPORTS + "/matrices"),
+    log:
+        "<logs>/exports/{blade}_matrices.log",
+    conda:
+        ENVIRONMENT
+    params:
+        choice=exported.choice,
+        tip_line=settings.structure.boundary.tip_line,
+        code=code("exported_matrices"),
+    script:
+        "../scripts/exported_matrices.py"
+
+
+rule exports:
+    input:
+        exported.files,

@@ -1,0 +1,19 @@
+"""Write modes on the mesh. Inputs: mesh (vtu), model. Params: choice, orientation. Output: folder."""
+
+from pathlib import Path
+
+from job import run
+
+from r37core.exchange.exports import OURS, Target, write_modes
+from r37core.mesh.mesh_files import read_vtu
+from r37core.rom.rom_file import read_reduced_model
+
+
+def main(snakemake):
+    given, params = snakemake.input, snakemake.params
+    choice = params.choice
+    target = Target(Path(snakemake.output[0]), choice["formats"], params.orientation or OURS)
+    write_modes(read_vtu(given.mesh), read_reduced_model(given.model), choice["mode_speeds"], choice["modes"], target)
+
+
+run(snakemake, main)
