@@ -4,7 +4,8 @@ Each blade goes out as STEP, is meshed by gmsh in tetrahedra and hexahedra with 
 `standard`, comes back as a mesh of another program in mm, and is taken to its frequencies and through a sweep over its
 interaction of 1B with order 4 in the scene `abradable`. The table goes into docs/your_blade.md.
 
-Run: python benchmarks/remeshed_blades.py   (about twenty minutes on one core; --quick: the reference blade alone, no table)
+Run: python benchmarks/remeshed_blades.py [blade ...]   (about two minutes for each blade; --frequencies: without the sweeps)
+What was measured before is kept in results/studies/remeshed.json; delete that to measure again.
 """
 
 import os
@@ -26,6 +27,7 @@ from r37core.exchange.step import write_step
 from r37core.exchange.where import Where
 from r37core.fem.matrices import assemble
 from r37core.fem.solver import lowest_modes
+from r37core.io import read_json, write_json
 from r37core.mesh.generate import generate_mesh
 from r37core.results.campbell import campbell_diagram
 from r37core.rom.contact_reduction import contact_model
@@ -33,6 +35,8 @@ from r37core.rom.reduce import reduce_blade
 from r37core.time_integration.speed_run import run_speed
 
 ROOT = Path(__file__).parent.parent
+KEPT = ROOT / "results" / "studies" / "remeshed.json"
+OURS = "wedge15"
 ELEMENTS = {"tetra10": (31, 50), "hexahedron20": (42, 68)}
 """Element -> how many along chord and span."""
 
@@ -51,52 +55,76 @@ def imported(blade, element, folder):
     return import_mesh(MeshSource(str(msh), orientation, Where("root"), Where("tip")))[0]
 
 
-def measured(mesh, material, settings):
-    """Nodes, first six frequencies (Hz) at rest, and speed (rad/s) and rms (m) of the peak of 1B/4."""
-    matrices = assemble(mesh, material)
+def frequencies_of(matrices):
+    """First six frequencies (Hz) at rest."""
     values, _ = lowest_modes(matrices.stiffness(), matrices.mass(), 6)
-    model = reduce_blade(mesh, matrices, settings.reduction_choice())
+    return (np.sqrt(values) / (2.0 * np.pi)).tolist()
+
+
+def peak_of(name, mesh, matrices, settings):
+    """Speed (rad/s) and rms (m) of the peak of 1B/4."""
+    model = reduce_blade(mesh, matrices, settings.reduction_choice(blade=name))
     crossing = campbell_diagram(model, np.linspace(0.0, 2000.0, 41), 3).crossing_speeds(np.array([ORDER]))[0, 0]
     contact = contact_model(model, settings.structure.boundary.tip_line)
     chosen = settings.scenes["abradable"]
     speeds = np.arange(np.ceil(RANGE[0] * crossing / SPEED_STEP), RANGE[1] * crossing / SPEED_STEP) * SPEED_STEP
     rms = []
     for speed in speeds:
-        choice = settings.integration_choice("Ref", "abradable", speed)
+        choice = settings.integration_choice(name, "abradable", speed)
         rms.append(run_speed(contact, speed, chosen.scene, choice, (), 1, 1, 8)["rms"][0, 0])
     peak = int(np.argmax(rms))
-    return len(mesh.points), np.sqrt(values) / (2.0 * np.pi), float(speeds[peak]), float(rms[peak])
+    return float(speeds[peak]), float(rms[peak])
 
 
-def main():
-    settings = read_settings(ROOT)
-    level = settings.fidelity.mesh
+def measure(name, settings, with_peak, found):
+    """Measure what `found` lacks of a blade."""
+    given, level = settings.blades[name], settings.fidelity.mesh
+    blade = given.definition.build()
+    with tempfile.TemporaryDirectory() as folder:
+        for element in (OURS, *ELEMENTS):
+            one = found.setdefault(f"{name} {element}", {})
+            if "frequencies" in one and ("peak" in one or not with_peak):
+                continue
+            if element == OURS:
+                mesh = generate_mesh(blade, level.nodes, level.layers, level.tip_elements)
+            else:
+                mesh = imported(blade, element, Path(folder))
+            matrices = assemble(mesh, given.material)
+            one |= {"nodes": len(mesh.points), "frequencies": frequencies_of(matrices)}
+            if with_peak:
+                one["peak"], one["rms"] = peak_of(name, mesh, matrices, settings)
+            write_json(found, KEPT)
+
+
+def table(found, blades):
+    """The table of what was measured; differences from our wedges."""
     lines = [
         "| blade | mesh | nodes | first six frequencies at rest (Hz) | off by up to | peak of 1B/4 (rad/s) | off by |",
         "|---|---|---|---|---|---|---|",
     ]
-    print(*lines, sep="\n")
-    for name in ["Ref"] if "--quick" in sys.argv else settings.blades:
-        given = settings.blades[name]
-        blade = given.definition.build()
-        ours = None
-        with tempfile.TemporaryDirectory() as folder:
-            for element in ("wedge15", *ELEMENTS):
-                if element == "wedge15":
-                    mesh = generate_mesh(blade, level.nodes, level.layers, level.tip_elements)
-                else:
-                    mesh = imported(blade, element, Path(folder))
-                nodes, frequencies, peak, _ = found = measured(mesh, given.material, settings)
-                ours = ours or found
-                off = np.abs(frequencies / ours[1] - 1.0).max()
-                cells = [name, element, str(nodes), ", ".join(f"{f:.2f}" for f in frequencies)]
-                cells += [f"{100.0 * off:.3f}%", f"{peak:g}", f"{100.0 * (peak / ours[2] - 1.0):+.2f}%"]
-                if element == "wedge15":
-                    cells[4] = cells[6] = ""
-                lines.append(f"| {' | '.join(cells)} |")
-                print(lines[-1], f"<!-- rms {1e3 * found[3]:.4f} mm -->", flush=True)
-    if "--quick" not in sys.argv:
-        fill(ROOT / "docs" / "your_blade.md", "remeshed", "\n".join(lines))
+    for name in blades:
+        ours = found.get(f"{name} {OURS}")
+        for element in (OURS, *ELEMENTS):
+            one = found.get(f"{name} {element}")
+            if not one:
+                continue
+            cells = [name, element, str(one["nodes"]), ", ".join(f"{f:.2f}" for f in one["frequencies"])]
+            off = np.abs(np.array(one["frequencies"]) / ours["frequencies"] - 1.0).max()
+            cells.append("" if element == OURS else f"{100.0 * off:.3f}%")
+            cells.append(f"{one['peak']:g}" if "peak" in one else "")
+            cells.append(f"{100.0 * (one['peak'] / ours['peak'] - 1.0):+.2f}%" if "peak" in one and element != OURS else "")
+            lines.append(f"| {' | '.join(cells)} |")
+    return "\n".join(lines)
+
+
+def main():
+    settings = read_settings(ROOT)
+    asked = [word for word in sys.argv[1:] if not word.startswith("--")]
+    found = read_json(KEPT) if KEPT.exists() else {}
+    for name in asked or settings.blades:
+        measure(name, settings, "--frequencies" not in sys.argv, found)
+        print(table(found, [name]), flush=True)
+    fill(ROOT / "docs" / "your_blade.md", "remeshed", table(found, settings.blades))
 
 
 if __name__ == "__main__":

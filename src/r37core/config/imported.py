@@ -111,7 +111,7 @@ class MeshEntry(Oriented):
             drop_free_nodes=self.drop_free_nodes,
             minimum_scaled_jacobian=self.minimum_scaled_jacobian,
         )
-        return replace(source, digest=digest_of(mesh_files(root / self.mesh)))
+        return replace(source, digest=digest_of(mesh_files(self.mesh, root)))
 
 
 class MatricesEntry(Oriented):
@@ -123,7 +123,7 @@ class MatricesEntry(Oriented):
 
     def source(self, root: Path) -> MatricesSource:
         """What to import, from the folder `root`; ImportRefused where files are missing."""
-        digest = digest_of(matrix_files(root / self.matrices).values())
+        digest = digest_of(matrix_files(self.matrices, root).values())
         return MatricesSource(self.matrices, self.orientation(), self.mass_unit, self.stiffness_unit, digest)
 
 

@@ -17,6 +17,7 @@ _BOUNDS = {
     "maximum": "at most",
     "exclusiveMaximum": "less than",
     "minItems": "entries: at least",
+    "maxItems": "at most",
     "minProperties": "entries: at least",
     "minLength": "characters: at least",
     "maxLength": "characters: at most",

@@ -23,7 +23,7 @@ def import_mesh(source: MeshSource, folder: Path | str = ".") -> tuple[BladeMesh
     Raises ImportRefused, with the file's name and the reason, for a mesh that cannot be computed with.
     """
     with blamed("mesh"):
-        raw = read_mesh(Path(folder) / source.file)
+        raw = read_mesh(source.file, folder)
     with blamed("mesh", source.file):
         raw, quality = checked(without_free_nodes(raw) if source.drop_free_nodes else raw, source.minimum_scaled_jacobian)
     with blamed("rotor_axis", source.file):

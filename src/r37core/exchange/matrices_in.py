@@ -7,6 +7,7 @@ columns x, y, z (file's unit and axes) and dof_x, dof_y, dof_z: rows of the matr
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -49,13 +50,13 @@ def import_matrices(source: MatricesSource, choice: ReductionChoice, folder: Pat
     Raises ImportRefused for files that do not fit together, matrices that are not symmetric, and a stiffness that is not
     linear in the squared speed. Spin softening and Coriolis terms must be in the matrices already: they are not added.
     """
-    where = Path(folder) / source.folder
     with blamed("matrices"):
-        given = _read(where, source)
-        return _reduced(given, choice, where)
+        files = matrix_files(source.folder, Path(folder))
+    with blamed("matrices", source.folder):
+        return _reduced(_read(files, source), choice)
 
 
-def _reduced(given: _Given, choice: ReductionChoice, where: Path) -> ReducedModel:
+def _reduced(given: _Given, choice: ReductionChoice) -> ReducedModel:
     boundary = np.arange(3 * len(given.points))
     if given.mass.shape[0] <= len(boundary) + _REDUCED_UP_TO:
         vectors = np.eye(given.mass.shape[0])
@@ -71,7 +72,7 @@ def _reduced(given: _Given, choice: ReductionChoice, where: Path) -> ReducedMode
         )
         vectors, columns, tolerance, singular = basis.vectors, basis.columns, basis.tolerance, basis.singular_values
     mass, stiffness = _projected(given.mass, vectors), _projected(given.stiffness, vectors)
-    _check_positive(mass, stiffness, where)
+    _check_positive(mass, stiffness)
     shapes = _ideal_shapes(given)
     nodes = np.arange(len(given.points))
     size = vectors.shape[1]
@@ -98,37 +99,35 @@ def _reduced(given: _Given, choice: ReductionChoice, where: Path) -> ReducedMode
     )
 
 
-def _check_positive(mass: np.ndarray, stiffness: np.ndarray, folder: Path) -> None:
+def _check_positive(mass: np.ndarray, stiffness: np.ndarray) -> None:
     """ImportRefused for a mass or stiffness at rest that is not positive."""
     lowest = np.linalg.eigvalsh(mass)[0]
     if not lowest > 0.0:
-        raise ImportRefused(f"{folder}: the mass is not positive (lowest eigenvalue {lowest:.3g} kg); leave no massless rows")
+        raise ImportRefused(f"the mass is not positive (lowest eigenvalue {lowest:.3g} kg); leave no massless rows")
     squares = la.eigvalsh(stiffness, mass)
     if not squares[0] > _RIGID * squares[-1]:
         raise ImportRefused(
-            f"{folder}: the stiffness at rest is not positive (lowest squared frequency {squares[0]:.3g} rad2/s2); clamp the "
+            f"the stiffness at rest is not positive (lowest squared frequency {squares[0]:.3g} rad2/s2); clamp the "
             "root: leave out its rows and columns"
         )
 
 
-def _read(folder: Path, source: MatricesSource) -> _Given:
-    orientation, files = source.orientation, matrix_files(folder)
+def _read(files: Mapping[str, Path], source: MatricesSource) -> _Given:
+    orientation = source.orientation
     points, dofs = _boundary(files["boundary"])
     try:
         speeds = sorted((float(name.removeprefix("K_")), name) for name in files if name.startswith("K_"))
     except ValueError:
-        raise ImportRefused(f"{folder}: the speed in a name K_<speed> must be a number in rad/s") from None
+        raise ImportRefused("the speed in a name K_<speed> must be a number in rad/s") from None
     mass, *stiffness = (_matrix(files[name]) for name in ("M", *(name for _, name in speeds)))
     size = mass.shape[0]
     if any(matrix.shape != (size, size) for matrix in stiffness):
-        raise ImportRefused(f"{folder}: the matrices differ in size: {', '.join(str(m.shape[0]) for m in (mass, *stiffness))}")
+        raise ImportRefused(f"the matrices differ in size: {', '.join(str(m.shape[0]) for m in (mass, *stiffness))}")
     if size < _FEWEST:
-        raise ImportRefused(f"{folder}: found matrices of {size} rows; allowed: {_FEWEST} or more")
+        raise ImportRefused(f"found matrices of {size} rows; allowed: {_FEWEST} or more")
     if len(np.unique(dofs)) != len(dofs) or dofs.min() < 0 or dofs.max() >= size:
-        raise ImportRefused(
-            f"{files['boundary']}: the columns dof_... must name {len(dofs)} different rows from 0 to {size - 1}"
-        )
-    rest, per_square, residual = _fitted(folder, np.array([speed for speed, _ in speeds]), stiffness)
+        raise ImportRefused(f"boundary.csv: the columns dof_... must name {len(dofs)} different rows from 0 to {size - 1}")
+    rest, per_square, residual = _fitted(np.array([speed for speed, _ in speeds]), stiffness)
     turn = _boundary_first(size, dofs, orientation.rows)
     mass, rest, per_square = (sp.csr_array(turn.T @ matrix @ turn) for matrix in (mass, rest, per_square))
     kilograms, newtons = MASS_UNITS[source.mass_unit], STIFFNESS_UNITS[source.stiffness_unit]
@@ -140,15 +139,15 @@ def _boundary(file: Path) -> tuple[np.ndarray, np.ndarray]:
     try:
         table = pd.read_csv(file, skipinitialspace=True)
     except Exception as error:
-        raise ImportRefused(f"{file}: cannot be read as a table ({error})") from None
+        raise ImportRefused(f"{file.name}: cannot be read as a table ({error})") from None
     if tuple(table.columns) != COLUMNS or table.empty:
-        raise ImportRefused(f"{file}: found columns {', '.join(map(str, table.columns))}; allowed: {', '.join(COLUMNS)}")
+        raise ImportRefused(f"{file.name}: found columns {', '.join(map(str, table.columns))}; allowed: {', '.join(COLUMNS)}")
     numbers = table.apply(pd.to_numeric, errors="coerce").to_numpy(dtype=float)
     wrong = ~np.isfinite(numbers).all(axis=1) | (numbers[:, 3:] % 1.0 != 0.0).any(axis=1)
     if wrong.any():
-        raise ImportRefused(f"{file}:{np.argmax(wrong) + 2}: each row must have three coordinates and three row numbers")
+        raise ImportRefused(f"{file.name}:{np.argmax(wrong) + 2}: each row must have three coordinates and three row numbers")
     if len(np.unique(numbers[:, :3], axis=0)) < len(numbers):
-        raise ImportRefused(f"{file}: two contact nodes lie at the same place")
+        raise ImportRefused(f"{file.name}: two contact nodes lie at the same place")
     return numbers[:, :3], numbers[:, 3:].astype(np.int64).ravel()
 
 
@@ -161,25 +160,27 @@ def _matrix(file: Path) -> sp.csr_array:
                 arrays = dict(stored)
             matrix = sp.csr_array(sp.load_npz(file) if "indptr" in arrays else next(iter(arrays.values())))
     except Exception as error:
-        raise ImportRefused(f"{file}: cannot be read as a matrix ({type(error).__name__}: {error})") from None
+        raise ImportRefused(f"{file.name}: cannot be read as a matrix ({type(error).__name__}: {error})") from None
     off = abs(matrix - matrix.T).max() if matrix.shape[0] == matrix.shape[1] else np.inf
     if not off <= _SYMMETRIC * abs(matrix).max():
-        raise ImportRefused(f"{file}: found a matrix that is not symmetric; allowed: clamped, symmetric mass and stiffness")
+        raise ImportRefused(
+            f"{file.name}: found a matrix that is not symmetric; allowed: clamped, symmetric mass and stiffness"
+        )
     return 0.5 * (matrix + matrix.T)
 
 
-def _fitted(folder: Path, speeds: np.ndarray, stiffness: list[sp.csr_array]) -> tuple[sp.csr_array, sp.csr_array, float]:
+def _fitted(speeds: np.ndarray, stiffness: list[sp.csr_array]) -> tuple[sp.csr_array, sp.csr_array, float]:
     """K0 and K1 of K = K0 + s K1 + s^2 K2 with s the squared speed, and the size of the last term at the highest speed."""
     squares = speeds**2
     if squares[0] != 0.0 or len(np.unique(squares)) != 3:
-        raise ImportRefused(f"{folder}: found speeds {', '.join(f'{s:g}' for s in speeds)}; allowed: 0 and two others")
+        raise ImportRefused(f"found speeds {', '.join(f'{s:g}' for s in speeds)}; allowed: 0 and two others")
     rest = stiffness[0]
     middle, top = ((k - rest) / square for k, square in zip(stiffness[1:], squares[1:], strict=True))
     quadratic = (top - middle) / (squares[2] - squares[1])
     residual = float(abs(quadratic).max() * squares[2] ** 2 / abs(rest).max())
     if residual > _LINEAR:
         raise ImportRefused(
-            f"{folder}: the stiffness is not linear in the squared speed (the next term has {residual:.2g} of its size, "
+            f"the stiffness is not linear in the squared speed (the next term has {residual:.2g} of its size, "
             f"allowed {_LINEAR:g}); give stiffnesses about one static state, of the linear theory"
         )
     return rest, top, residual

@@ -31,7 +31,9 @@ def mesh_step(step: Path | str, msh: Path | str, element: str, along_chord: int,
         if element == "hexahedron20":
             gmsh.model.mesh.setTransfiniteVolume(1)
         else:
+            # without both, flat tetrahedra at the round edges fold
             gmsh.option.setNumber("Mesh.HighOrderOptimize", 1)
+            gmsh.option.setNumber("Mesh.OptimizeNetgen", 1)
         gmsh.model.mesh.generate(3)
         gmsh.write(str(msh))
 

@@ -22,13 +22,12 @@ _READERS: dict[str, Callable[[Path], RawMesh]] = {
 }
 
 
-def read_mesh(file: Path | str) -> RawMesh:
-    """The mesh of a file: ImportRefused, with the file's name, for one that is missing, unknown, broken or unsuitable."""
-    file = Path(file)
-    mesh_files(file)
+def read_mesh(name: str, root: Path | str = ".") -> RawMesh:
+    """The mesh of the file `name` in the folder `root`; ImportRefused for a file that is missing, unknown or unsuitable."""
+    file = mesh_files(name, Path(root))[0]
     try:
         return _READERS[file.suffix.lower()](file)
     except ImportRefused as error:
-        raise ImportRefused(f"{file}: {error}") from None
+        raise ImportRefused(f"{name}: {error}") from None
     except Exception as error:
-        raise ImportRefused(f"{file}: cannot be read ({type(error).__name__}: {error})") from error
+        raise ImportRefused(f"{name}: cannot be read ({type(error).__name__}: {error})") from error

@@ -54,35 +54,37 @@ class MatricesSource:
     digest: str = ""
 
 
-def mesh_files(file: Path) -> list[Path]:
-    """The file of a mesh and those that it includes (*INCLUDE of an Abaqus deck).
+def mesh_files(name: str, root: Path) -> list[Path]:
+    """The mesh file `name` in the folder `root` and those that it includes (*INCLUDE of an Abaqus deck).
 
     Raises ImportRefused for a file of an unknown kind and for one that is not there.
     """
+    file = root / name
     if file.suffix.lower() not in SUFFIXES:
         raise ImportRefused(f"found a file of kind '{file.suffix}'; allowed: {', '.join(SUFFIXES)}", "mesh")
     found: list[Path] = []
-    waiting = [file]
+    waiting = [(name, file)]
     while waiting:
-        one = waiting.pop(0)
+        called, one = waiting.pop(0)
         if not one.is_file():
-            raise ImportRefused(f"there is no file {one}", "mesh")
+            raise ImportRefused(f"there is no file {called}", "mesh")
         if one not in found:
             found.append(one)
-            waiting += [one.parent / name for name in _included(one)] if one.suffix.lower() == ".inp" else []
+            waiting += [(part, one.parent / part) for part in _included(one)] if one.suffix.lower() == ".inp" else []
     return found
 
 
-def matrix_files(folder: Path) -> dict[str, Path]:
-    """`M`, `K_<speed>` and `boundary` -> file; ImportRefused where M, three stiffnesses or the table is missing."""
+def matrix_files(name: str, root: Path) -> dict[str, Path]:
+    """`M`, `K_<speed>` and `boundary` -> file, in the folder `name` of `root`; ImportRefused where one is missing."""
+    folder = root / name
     files = [file for file in sorted(folder.glob("*")) if file.suffix in (".mtx", ".npz") or file.name == "boundary.csv"]
     found = {file.stem: file for file in files}
-    speeds = [name for name in found if name.startswith("K_")]
-    missing = [name for name in ("M", "boundary") if name not in found]
+    speeds = [stem for stem in found if stem.startswith("K_")]
+    missing = [stem for stem in ("M", "boundary") if stem not in found]
     if missing or len(speeds) != 3 or len(found) != len(files):
         raise ImportRefused(
-            f"{folder}: found {', '.join(file.name for file in files) or 'no files'}; needed: M and K_<speed> at three speeds "
-            "in rad/s, one of them 0 (each .mtx or .npz), and boundary.csv",
+            f"{name}: found {', '.join(file.name for file in files) or 'no files'}; needed: M and K_<speed> at three speeds in "
+            "rad/s, one of them 0 (each .mtx or .npz), and boundary.csv",
             "matrices",
         )
     return found

@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+import os
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 import gmsh
@@ -36,7 +40,22 @@ def write_step(blade: Blade, file: Path | str) -> None:
         occ.synchronize()
         if [len(gmsh.model.getEntities(dimension)) for dimension in range(4)] != [8, 12, 6, 1]:
             raise RuntimeError(f"{file}: the faces of the blade do not close to a solid")
-        gmsh.write(str(partial))
+        with _nothing_printed():
+            gmsh.write(str(partial))
+
+
+@contextmanager
+def _nothing_printed() -> Iterator[None]:
+    """Keep OpenCASCADE's statistics, which it prints past Python and gmsh, off the screen."""
+    sys.stdout.flush()
+    kept, nowhere = os.dup(1), os.open(os.devnull, os.O_WRONLY)
+    try:
+        os.dup2(nowhere, 1)
+        yield
+    finally:
+        os.dup2(kept, 1)
+        os.close(kept)
+        os.close(nowhere)
 
 
 def _sampled(blade: Blade) -> list[np.ndarray]:

@@ -177,7 +177,7 @@ def summarise(datasets: Mapping[str, xr.Dataset], choice: InteractionChoice) -> 
 
     def part(kind: str, blade: str, scene: str) -> xr.Dataset | None:
         dataset = datasets.get(kind)
-        if dataset is None or scene not in dataset["scene"].values:
+        if dataset is None or scene not in dataset["scene"].values or blade not in dataset["blade"].values:
             return None
         return dataset.sel(blade=blade, scene=scene)
 

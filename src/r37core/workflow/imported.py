@@ -54,9 +54,9 @@ class Imported:
         """What a blade is imported from, as seen from the current folder where that is possible."""
         source = self.source(wildcards)
         if isinstance(source, MeshSource):
-            found = mesh_files(self.root / source.file)
+            found = mesh_files(source.file, self.root)
         else:
-            found = list(matrix_files(self.root / source.folder).values())
+            found = list(matrix_files(source.folder, self.root).values())
         return [_seen_from_here(file) for file in found]
 
     def source(self, wildcards: Any) -> Any:
