@@ -40,7 +40,8 @@ def import_mesh(source: MeshSource, folder: Path | str = ".") -> tuple[BladeMesh
         lines = find_tip_lines(raw.points, tip_faces, source.pressure_side_forward)
     parameters, normals = blade_parameters(raw.points, root, tip, source.pressure_side_forward)
     sets = dict.fromkeys(NODE_SETS, np.empty(0, dtype=np.int64)) | {"root": root, "tip": tip}
-    for name, (nodes, fractions) in lines.lines.items():
+    # the edges come last: nodes that they share with the camber line count by their place on the edge
+    for name, (nodes, fractions) in reversed(lines.lines.items()):
         sets[name] = nodes
         parameters[nodes, 0] = fractions
     sets["leading_edge"], sets["trailing_edge"] = (np.array([node]) for node in lines.corners)
