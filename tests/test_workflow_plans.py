@@ -93,7 +93,7 @@ def test_matrices_do_not_depend_on_the_yield_stress(chosen):
     assert structure.material(REF)["yield_stress"] == 1.38e9
     assert "yield_stress" not in structure.elastic(REF)
     assert structure.shape_hash(REF) != structure.shape_hash(L50)
-    assert structure.reduction(of(tip_line="camber"))["boundary"]["tip_line"] == "camber"
+    assert structure.reduction(of(blade="Ref", tip_line="camber"))["boundary"]["tip_line"] == "camber"
 
 
 def test_provenance(chosen):

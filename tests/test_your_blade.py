@@ -1,0 +1,166 @@
+"""The worked example of docs/your_blade.md, and imported blades through the workflow."""
+
+import re
+import runpy
+import shlex
+import shutil
+
+import numpy as np
+import pandas as pd
+import pytest
+import xarray as xr
+import yaml
+from stubbed_runs import copy_stubbed, planned_outputs
+from workflow_runs import copy_project, snakemake
+
+
+def blocks(root, language):
+    return re.findall(rf"```{language}\n(.*?)```", (root / "docs/your_blade.md").read_text(), re.DOTALL)
+
+
+@pytest.fixture(scope="module")
+def drawn(root, tmp_path_factory):
+    """The folder in which the page's drawing was made."""
+    folder = tmp_path_factory.mktemp("drawn")
+    (folder / "draw.py").write_text(blocks(root, "python")[0])
+    with pytest.MonkeyPatch.context() as patch:
+        patch.chdir(folder)
+        runpy.run_path("draw.py")
+    return folder
+
+
+def with_example(root, drawn, to, copy):
+    """A project with the example's blade instead of the benchmark's, and a short sweep over its crossing with order 6."""
+    copy(root, to)
+    shutil.copytree(drawn / "meshes", to / "meshes")
+    with open(to / "config/blades.yaml", "a") as stream:
+        stream.write("\n" + blocks(root, "yaml")[0])
+    file = to / "config/config.yaml"
+    text = (
+        file.read_text().replace("[Ref, CS100]", "[Fan]").replace("- { start: 750, stop: 1600 }", "- 1450\n  - 1500\n  - 1550")
+    )
+    file.write_text(text)
+    return to
+
+
+@pytest.mark.slow
+def test_the_example_runs_to_its_interactions(root, drawn, tmp_path, monkeypatch, capsys):
+    project = with_example(root, drawn, tmp_path, copy_project)
+    fidelity = (project / "config/fidelity.yaml").read_text()
+    (project / "config/fidelity.yaml").write_text(fidelity.replace("revolutions: 8,", "revolutions: 60,"))
+    command = re.search(r"^snakemake (.*)$", blocks(root, "sh")[0], re.MULTILINE)[1]
+    snakemake(project, *shlex.split(command))
+    monkeypatch.chdir(project)
+    exec(blocks(root, "python")[1], {})
+    assert "peak_rms_normal" in capsys.readouterr().out
+    table = pd.read_csv("results/summary.csv")
+    assert set(table["blade"]) == {"Fan"}
+    with xr.open_dataset("results/campbell.nc") as dataset:
+        crossing = dataset["crossing_speed"].sel(blade="Fan", mode="1B", engine_order=6).item()
+        assert crossing == pytest.approx(1492, rel=0.01)
+        assert dataset["smallest_mac"].min() > 0.99
+    with xr.open_dataset("results/stress.nc") as dataset:
+        assert (dataset["max_von_mises"] > 0.0).all()
+    for name in ("campbell_Fan", "response_Fan", "blades", "wear_Fan__abradable"):
+        assert (project / f"results/figures/{name}.png").exists()
+
+
+@pytest.fixture(scope="module")
+def stubbed(root, drawn, tmp_path_factory):
+    folder = with_example(root, drawn, tmp_path_factory.mktemp("stubbed"), copy_stubbed)
+    snakemake(folder, "all_blades", "exports", "--cores", "2")
+    return folder
+
+
+@pytest.fixture
+def project(stubbed, tmp_path):
+    shutil.copytree(stubbed, tmp_path / "project", copy_function=shutil.copy2)
+    return tmp_path / "project"
+
+
+def edit(project, name, old, new):
+    file = project / "config" / name
+    text = file.read_text()
+    assert old in text
+    file.write_text(text.replace(old, new, 1))
+
+
+@pytest.mark.slow
+class TestWhatRunsAgain:
+    """Jobs only touch their outputs here."""
+
+    def test_nothing_after_a_run(self, project):
+        assert planned_outputs(project, "all_blades", "exports") == {}
+        ran = {file.name for file in (project / "results/Fan").iterdir()}
+        assert {"mesh.msh", "mesh.vtu", "mesh.inp"} <= ran
+        assert "geometry.nc" not in ran
+
+    def test_an_edited_mesh(self, project):
+        file = project / "meshes/fan.msh"
+        file.write_bytes(file.read_bytes() + b"\n")
+        jobs = planned_outputs(project)
+        assert jobs["imported_mesh"] == {"Fan/mesh.msh"}
+        assert "simulate" in jobs
+
+    @pytest.mark.parametrize(
+        ("old", "new"), [("root: hub", "root: tip"), ("length_unit: mm", "length_unit: cm"), ("[1, 0, 0]", "[1, 0, 0.0001]")]
+    )
+    def test_a_key_of_the_mesh(self, project, old, new):
+        edit(project, "blades.yaml", old, new)
+        assert planned_outputs(project)["imported_mesh"] == {"Fan/mesh.msh"}
+
+    @pytest.mark.parametrize(
+        ("old", "new"),
+        [
+            ("  length_unit: mm", "  stress_submesh: { excluded_layers: 2 }\n  length_unit: mm"),
+            ("density_kg_m3: 4430", "density_kg_m3: 4440"),
+        ],
+    )
+    def test_a_key_behind_the_mesh(self, project, old, new):
+        edit(project, "blades.yaml", old, new)
+        jobs = planned_outputs(project)
+        assert "imported_mesh" not in jobs
+        assert jobs["reduced_model"] == {"Fan/rom_pressure_edge.nc"}
+
+    def test_another_line_number_runs_nothing(self, project):
+        edit(project, "blades.yaml", "Fan:", "# a comment\n\nFan:")
+        assert planned_outputs(project) == {}
+
+    def test_another_level_keeps_the_mesh(self, project):
+        assert "imported_mesh" not in planned_outputs(project, "all_blades", "--config", "fidelity=draft")
+
+    def test_the_project_elsewhere_runs_nothing(self, project, tmp_path):
+        project.rename(tmp_path / "elsewhere")
+        assert planned_outputs(tmp_path / "elsewhere") == {}
+
+
+@pytest.mark.slow
+def test_matrices_run_to_the_same_response(root, drawn, tmp_path):
+    """The reduced matrices that `snakemake exports` writes, given back as a blade of their own, beside the mesh."""
+    project = with_example(root, drawn, tmp_path, copy_project)
+    snakemake(project, "results/exports/Fan/matrices", "--cores", "1")
+    shutil.copytree(project / "results/exports/Fan/matrices", project / "meshes/elsewhere")
+    (given,) = yaml.safe_load(blocks(root, "yaml")[1]).values()
+    # matrices are written in the blade's frame
+    given |= {"length_unit": "m", "rotor_axis": [0, 0, 1], "radial": [1, 0, 0], "rotation": "negative"}
+    with open(project / "config/blades.yaml", "a") as stream:
+        stream.write("\n" + yaml.safe_dump({"FromElsewhere": given}))
+    edit(project, "config.yaml", "[Fan]", "[Fan, FromElsewhere]")
+    snakemake(project, "all_blades", "--cores", "1", "--config", "speeds=[1500]")
+    with xr.open_dataset(project / "results/rms.nc") as dataset:
+        ours, theirs = (dataset["rms_normal"].sel(blade=blade).values for blade in ("Fan", "FromElsewhere"))
+        np.testing.assert_allclose(theirs, ours, rtol=1e-6)
+    with xr.open_dataset(project / "results/stress.nc") as dataset:
+        assert list(dataset["blade"].values) == ["Fan"]
+    assert (project / "results/figures/response_FromElsewhere.png").exists()
+
+
+@pytest.mark.slow
+def test_a_refusal_names_its_line_before_anything_long(root, drawn, tmp_path):
+    project = with_example(root, drawn, tmp_path, copy_project)
+    edit(project, "blades.yaml", "root: hub", "root: clamp")
+    line = 1 + (project / "config/blades.yaml").read_text().splitlines().index("  root: clamp # a set of the file")
+    said = snakemake(project, "all_blades", "--cores", "1", check=False)
+    place = f"config/blades.yaml:{line}: Fan.root: meshes/fan.msh"
+    assert f"rule imported_mesh: {place}: root: found no set 'clamp'; the file has: blade, " in said
+    assert not list((project / "results/Fan").glob("*"))
