@@ -9,7 +9,11 @@ import sys
 from pathlib import Path
 
 for file in snakemake.output if "snakemake" in globals() else sys.argv[3:4]:
-    Path(file).write_text(f"made by {Path(__file__).name}")
+    path = Path(file)
+    if not path.suffix:  # a folder
+        path.mkdir()
+        path = path / "content"
+    path.write_text(f"made by {Path(__file__).name}")
 """
 
 

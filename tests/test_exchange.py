@@ -9,12 +9,13 @@ import numpy as np
 import pytest
 from box_mesh import box_mesh
 
-from r37core.exchange.errors import ImportRefused, MeshWarning
+from r37core.exchange.errors import ImportRefused, MeshWarning, placed
 from r37core.exchange.import_mesh import import_mesh
 from r37core.exchange.material import check_material
 from r37core.exchange.meshio_reader import quietly
 from r37core.exchange.orientation import Orientation
-from r37core.exchange.source import MeshSource
+from r37core.exchange.read_mesh import _READERS
+from r37core.exchange.source import SUFFIXES, MeshSource, digest_of, mesh_files
 from r37core.exchange.where import Where
 from r37core.exchange.write_mesh import write_mesh
 from r37core.fem.abaqus_deck import write_abaqus
@@ -96,6 +97,27 @@ def test_every_element_in_every_format(element, tmp_path):
         assert difference(assemble(again, TITANIUM), expected) < (1e-8 if suffix == "bdf" else 1e-12), suffix
 
 
+@pytest.mark.parametrize("element", ELEMENTS)
+@pytest.mark.filterwarnings("ignore:elements of first order")
+def test_archives_of_ansys(element, tmp_path):
+    """Written by the extra package that reads them, with components of nodes; wedges as hexahedra with repeated nodes."""
+    meshlane = pytest.importorskip("meshlane")
+    mesh = plate(element)
+    sets = {name.upper(): mesh.node_set(name) for name in ("root", "tip")}
+    content = meshlane.Mesh(mesh.points, list(mesh.blocks.items()), point_sets=sets)
+    meshlane.write(tmp_path / "mesh.cdb", content, file_format="ansysInp")
+    again, _ = import_mesh(source("mesh.cdb"), tmp_path)
+    assert list(again.blocks) == [element]
+    assert difference(assemble(again, TITANIUM), assemble(mesh, TITANIUM)) < 1e-8
+
+
+def test_archives_of_ansys_need_the_extra_package(tmp_path, monkeypatch):
+    monkeypatch.setitem(sys.modules, "meshlane", None)
+    (tmp_path / "mesh.cdb").write_text("NBLOCK")
+    with pytest.raises(ImportRefused, match=r"mesh\.cdb: Ansys archives need .* pip install 'r37\[ansys\]'"):
+        import_mesh(source("mesh.cdb"), tmp_path)
+
+
 @pytest.mark.parametrize("suffix", ["msh", "inp", "bdf", "med"])
 def test_files_written_by_gmsh(tmp_path, suffix):
     """Millimetres, rotor axis along x, blade along z, and gmsh's own way to write each format."""
@@ -165,6 +187,7 @@ def test_decks_as_other_programs_write_them(tmp_path):
             "NSET=ALL_NODES", "nset=all"
         )
         text = text.replace("\n20, ", "\n** half of them\n*NODE\n20, ", 1)
+        text = text.replace(", ELSET=BLADE", ",\n ELSET=BLADE").replace("NSET=TIP\n", 'NSET="TIP"\n')
         return text.replace(
             "*MATERIAL", "*ASSEMBLY\n*NODE\n1, 9., 9., 9.\n*END ASSEMBLY\n*Nset, nset=Clamped\nROOT,\n*MATERIAL"
         )
@@ -210,6 +233,9 @@ def second_part(text):
         (lambda text: moved(text, 100, "0.5"), r"mid-nodes off their edges in .* edge lengths|inside out or folded"),
         (lambda text: text.replace("\n2, ", "\n2002, ", 1), "names node 2, which the deck lacks"),
         (lambda text: text[:400], "no solid elements"),
+        (lambda text: text.replace("*NODE,", "*NODE, SYSTEM=C,"), "cylindrical or spherical coordinates"),
+        (lambda text: text.replace("*ELEMENT", "*NGEN\n1, 9, 1\n*ELEMENT"), r"found \*NGEN; write the deck with every node"),
+        (lambda text: text.replace("*ELEMENT", "*System\n1, 9, 1\n*ELEMENT"), r"found \*SYSTEM"),
     ],
 )
 def test_unsuitable_decks_are_refused(tmp_path, change, message):
@@ -274,6 +300,47 @@ def test_wrong_orientation_and_rules_are_refused(tmp_path, changes, message):
     write_mesh(plate(), tmp_path / "mesh.vtu")
     with pytest.raises(ImportRefused, match=message):
         import_mesh(source("mesh.vtu", **changes), tmp_path)
+
+
+def test_every_suffix_has_a_reader():
+    assert tuple(_READERS) == SUFFIXES
+
+
+def test_an_included_file_is_one_of_the_mesh(tmp_path):
+    deck(tmp_path, lambda text: text.replace("*MATERIAL", "*Include, Input=parts/more.inp\n*MATERIAL"))
+    (tmp_path / "parts").mkdir()
+    with pytest.raises(ImportRefused, match=r"there is no file parts/more\.inp"):
+        mesh_files("mesh.inp", tmp_path)
+    (tmp_path / "parts/more.inp").write_text("*NSET, NSET=EXTRA\n1, 2\n")
+    assert [file.name for file in mesh_files("mesh.inp", tmp_path)] == ["mesh.inp", "more.inp"]
+    before = digest_of(mesh_files("mesh.inp", tmp_path))
+    (tmp_path / "parts/more.inp").write_text("*NSET, NSET=EXTRA\n1, 3\n")
+    assert digest_of(mesh_files("mesh.inp", tmp_path)) != before
+    with pytest.raises(ImportRefused, match=r"found no set 'MISSING'; the file has: .*EXTRA"):
+        import_mesh(source("mesh.inp", root=Where("MISSING")), tmp_path)
+
+
+@pytest.mark.parametrize(
+    ("changes", "key"),
+    [
+        ({"file": "none.vtu"}, "mesh"),
+        ({"minimum_scaled_jacobian": 1.0}, "mesh"),
+        ({"orientation": replace(OURS, length_unit="mm")}, "length_unit"),
+        ({"orientation": replace(OURS, radial=(0, 1, 0))}, "radial"),
+        ({"root": Where("HUB")}, "root"),
+        ({"tip": Where("HUB")}, "tip"),
+        ({"tip": Where(limits=(("r", "at_least", 0.2495),))}, "tip"),
+    ],
+)
+def test_a_refusal_blames_a_key(tmp_path, changes, key):
+    """The key's place goes in front where the configuration gives one."""
+    write_mesh(plate(), tmp_path / "mesh.vtu")
+    with (
+        pytest.raises(ImportRefused, match=f"^blades.yaml:3: Fan.{key}: ") as refusal,
+        placed({key: f"blades.yaml:3: Fan.{key}"}),
+    ):
+        import_mesh(replace(source("mesh.vtu"), **changes), tmp_path)
+    assert refusal.value.key == key
 
 
 def test_files_that_cannot_be_read(tmp_path):

@@ -61,7 +61,7 @@ class BladeEntry(Section):
         if self.profiles is not None and self.base is not None:
             raise refused((), "both profiles and base", "one of them")
         if self.profiles is None and self.base is None:
-            raise refused((), "neither profiles nor base", "one of them")
+            raise refused((), "neither profiles nor base", "one of them, or a mesh or matrices of another program")
         return self
 
 

@@ -19,6 +19,8 @@ from .errors import ImportRefused
 from .raw_mesh import RawMesh, solid_blocks
 
 _TYPES = {element.abaqus: name for name, element in ELEMENTS.items()}
+# they make or move nodes and elements
+_GENERATORS = ("SYSTEM", "NGEN", "NFILL", "NCOPY", "NMAP", "ELGEN", "ELCOPY")
 # faces of Abaqus by the corners that they join: *SURFACE, TYPE=ELEMENT
 _FACE_CORNERS = {
     4: ((0, 1, 2), (0, 1, 3), (1, 2, 3), (0, 2, 3)),
@@ -63,17 +65,23 @@ def _blocks(file: Path) -> Iterator[tuple[str, dict[str, str], list[list[str]]]]
     keyword = ""
     options: dict[str, str] = {}
     rows: list[list[str]] = []
+    unfinished = ""
     for line in file.read_text(encoding="utf-8", errors="replace").splitlines():
-        line = line.strip()
+        line = unfinished + line.strip()
+        unfinished = ""
         if not line or line.startswith("**"):
             continue
         if not line.startswith("*"):
             rows.append([cell.strip() for cell in line.split(",")])
             continue
+        if line.endswith(","):
+            unfinished = line
+            continue
         yield keyword, options, rows
         words = [word.strip() for word in line[1:].split(",")]
         keyword, rows = words[0].upper(), []
-        options = {key.strip().upper(): value.strip() for key, _, value in (word.partition("=") for word in words[1:])}
+        pairs = (word.partition("=") for word in words[1:])
+        options = {key.strip().upper(): value.strip().strip('"') for key, _, value in pairs}
         if keyword == "INCLUDE":
             yield from _blocks(file.parent / options.get("INPUT", ""))
             keyword = ""
@@ -81,6 +89,10 @@ def _blocks(file: Path) -> Iterator[tuple[str, dict[str, str], list[list[str]]]]
 
 
 def _take(deck: _Deck, keyword: str, options: dict[str, str], rows: list[list[str]]) -> None:
+    if keyword in _GENERATORS:
+        raise ImportRefused(f"found *{keyword}; write the deck with every node and element in one Cartesian system")
+    if keyword == "NODE" and options.get("SYSTEM", "R").upper() != "R":
+        raise ImportRefused("found *NODE in cylindrical or spherical coordinates; write the deck in Cartesian ones")
     if keyword in ("PART", "ASSEMBLY", "INSTANCE"):
         deck.scope = keyword
         _check_parts(deck, keyword, options, rows)
@@ -140,7 +152,7 @@ def _members(sets: dict[str, list[int]], generated: bool, rows: list[list[str]])
             continue
         for cell in cells:
             # Part-1-1.12 is node 12 of an instance
-            plain = cell.rpartition(".")[2]
+            plain = cell.strip('"').rpartition(".")[2]
             members += [int(plain)] if plain.isdigit() else sets.get(_found(sets, plain), [])
     return members
 

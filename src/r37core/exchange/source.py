@@ -104,6 +104,6 @@ def _included(deck: Path) -> list[str]:
     names = []
     with open(deck, encoding="utf-8", errors="replace") as lines:
         for line in lines:
-            if line[:9].upper() == "*INCLUDE":
+            if line[:8].upper() == "*INCLUDE":
                 names += [word.partition("=")[2].strip() for word in line.split(",")[1:] if "=" in word]
     return names
