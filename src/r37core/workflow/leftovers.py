@@ -21,6 +21,7 @@ def _of_blades(results: Path, settings: Settings) -> Iterator[Path]:
     for folder in results.iterdir():
         if folder.is_dir() and folder.name not in (*settings.blades, *RESERVED):
             yield folder
+    yield from (folder for folder in (results / "exports").glob("*/") if folder.name not in settings.blades)
     for blade in settings.blades:
         for folder in (results / blade).glob("*/"):
             if folder.is_dir() and folder.name not in settings.scenes:

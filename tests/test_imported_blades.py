@@ -1,0 +1,199 @@
+"""Blades of other programs in the configuration, and the plans of their rules."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+import yaml
+
+from r37core.config import ConfigError, read_settings
+from r37core.exchange.where import Where
+from r37core.workflow.exports import Exports
+from r37core.workflow.imported import Imported
+from r37core.workflow.study_models import StudyModels
+from r37core.workflow.sweep import Sweep
+
+MATERIAL = {"youngs_modulus_pa": 115e9, "density_kg_m3": 4430.0, "poissons_ratio": 0.32, "yield_stress_pa": 9e8}
+AXES = {"length_unit": "mm", "rotor_axis": [1, 0, 0], "radial": [0, 0, 1], "rotation": "positive"}
+MESH = {"mesh": "meshes/fan.inp", "material": MATERIAL, **AXES, "root": "hub", "tip": {"r_at_least_m": 0.25}}
+MATRICES = {"matrices": "meshes/fan", "mass_unit": "t", "stiffness_unit": "N/mm", **AXES}
+
+
+@pytest.fixture
+def settings_with(config_copy):
+    """Settings of a project with a blade Fan and what else is given; a value None takes a key out of Fan."""
+    folder = config_copy / "meshes/fan"
+    folder.mkdir(parents=True)
+    (config_copy / "meshes/fan.inp").write_text("*NODE\n*INCLUDE, INPUT=more.inc\n")
+    (config_copy / "meshes/more.inc").write_text("1, 0, 0, 0\n")
+    for name in ("M.mtx", "K_0.mtx", "K_1000.npz", "K_2000.mtx", "boundary.csv"):
+        (folder / name).write_text("")
+
+    def read(entry, others=(), config=(), blades=("Fan",)):
+        fan = {key: value for key, value in entry.items() if value is not None}
+        with open(config_copy / "config/blades.yaml", "a") as stream:
+            stream.write(yaml.safe_dump({"Fan": fan} | dict(others), sort_keys=False))
+        file = config_copy / "config/config.yaml"
+        text = file.read_text().replace("blades: all ", f"blades: [{', '.join(blades)}] ")
+        for old, new in dict(config).items():
+            assert old in text
+            text = text.replace(old, new)
+        file.write_text(text)
+        return read_settings(config_copy)
+
+    return read
+
+
+def test_a_mesh(settings_with, config_copy):
+    settings = settings_with(MESH | {"pressure_side": "backward", "axis_point": [1, 2, 3]})
+    source = settings.blades["Fan"].definition
+    assert (source.file, source.root) == ("meshes/fan.inp", Where("hub"))
+    assert source.tip == Where(limits=(("r", "at_least", 0.25),))
+    assert not source.pressure_side_forward
+    np.testing.assert_allclose(source.orientation.points_to_blade(np.array([[1.0, 2.0, 1003.0]])), [[1.0, 0.0, 0.0]])
+    choice = settings.reduction_choice(blade="Fan")
+    assert (choice.stress_submesh.maximum_x, choice.stress_submesh.excluded_layers) == (np.inf, 1)
+    assert settings.reduction_choice().stress_submesh.maximum_x == 0.197
+    before = settings.structure_hash("Fan")
+    (config_copy / "meshes/more.inc").write_text("1, 0, 0, 1\n")
+    assert read_settings(config_copy).structure_hash("Fan") != before
+
+
+def test_a_mesh_with_another_material(settings_with):
+    settings = settings_with(MESH, {"Heavy": {"base": "Fan", "material": {"density_kg_m3": 4500}}}, blades=("Fan", "Heavy"))
+    assert settings.blades["Heavy"].material.density == 4500.0
+    assert settings.blades["Heavy"].definition == settings.blades["Fan"].definition
+    assert settings.places["Heavy"]["root"].endswith(": Fan.root")
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"mesh": "meshes/none.inp"}, r"Fan\.mesh: there is no file meshes/none\.inp$"),
+        ({"mesh": "meshes/fan.stl"}, r"Fan\.mesh: found a file of kind '\.stl'; allowed: \.inp, \.msh"),
+        ({"mesh": 3}, r"Fan\.mesh: found 3; allowed: string"),
+        ({"root": 3}, r"Fan\.root: found 3; allowed: string, .* or mapping with the keys r_at_least_m, "),
+        ({"root": None}, r"Fan: missing key root; allowed keys: .*mesh, material, root, tip"),
+        ({"tip": {}}, r"Fan\.tip: found a rule without limits; allowed: a limit such as r_at_least_m, or cone_zr_m"),
+        ({"tip": {"r_at_leest_m": 1}}, r"Fan\.tip: found unknown key r_at_leest_m; .*did you mean r_at_least_m"),
+        ({"tip": {"r_at_least_m": "0.25"}}, r"Fan\.tip\.r_at_least_m: found '0\.25'; allowed: number, at least -100"),
+        ({"tip": {"cone_zr_m": [[0, 1], [0, 1]]}}, r"Fan\.tip\.cone_zr_m: found one point twice"),
+        ({"tip": {"cone_zr_m": [[0, 1, 2], [0, 1]]}}, r"Fan\.tip\.cone_zr_m\.0: found \[0, 1, 2\]; .* at most 2"),
+        ({"rotor_axis": [0, 0, 0]}, r"Fan\.radial: rotor_axis \(0.0, 0.0, 0.0\) and radial .* two directions, not parallel"),
+        ({"rotor_axis": [0, 0, 2]}, r"Fan\.radial: .* must be two directions, not parallel"),
+        ({"rotor_axis": [1, 0]}, r"Fan\.rotor_axis: found \[1, 0\]; allowed: list of number, entries: at least 3, at most 3"),
+        ({"length_unit": "inch"}, r"Fan\.length_unit: found 'inch'; allowed: one of m, cm, mm, um, in, ft"),
+        ({"rotation": "clockwise"}, r"Fan\.rotation: found 'clockwise'; allowed: one of positive, negative"),
+        ({"rotoraxis": [1, 0, 0]}, r"Fan: found unknown key rotoraxis; .*did you mean rotor_axis"),
+        ({"profiles": "a.csv"}, r"Fan: found unknown key profiles; allowed keys: length_unit, "),
+        (
+            {"material": {"density_kg_m3": 4430.0}},
+            r"Fan\.material: missing key youngs_modulus_pa, poissons_ratio, yield_stress_pa",
+        ),
+        (
+            {"material": MATERIAL | {"youngs_modulus_pa": 1.15e6}},
+            r"Fan\.material: .* Units seem to be mixed: give Pa and kg/m3",
+        ),
+        ({"stress_submesh": {"minimum_z_m": 1, "maximum_z_m": 0}}, r"Fan\.stress_submesh\.minimum_z_m: found 1; allowed: less"),
+    ],
+)
+def test_meshes_that_cannot_be_meant(settings_with, changes, message):
+    with pytest.raises(ConfigError, match=rf"^config/blades\.yaml:\d+: {message}"):
+        settings_with(MESH | changes)
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"matrices": "meshes"}, r"Fan\.matrices: meshes: found no files; needed: M and K_<speed> at three speeds"),
+        ({"mass_unit": None}, r"Fan: missing key mass_unit"),
+        ({"stiffness_unit": "N/cm"}, r"Fan\.stiffness_unit: found 'N/cm'; allowed: one of N/m, N/mm"),
+        ({"material": MATERIAL}, r"Fan: found unknown key material"),
+    ],
+)
+def test_matrices_that_cannot_be_meant(settings_with, changes, message):
+    with pytest.raises(ConfigError, match=rf"^config/blades\.yaml:\d+: {message}"):
+        settings_with(MATRICES | changes)
+
+
+def test_bases_that_cannot_be_meant(settings_with):
+    with pytest.raises(ConfigError, match=r"Other\.chordwise_sweep_deg: found chordwise_sweep_deg with the mesh of Fan"):
+        settings_with(MESH, {"Other": {"base": "Fan", "chordwise_sweep_deg": 3}}, blades=("Other",))
+
+
+def test_matrices_are_no_base(settings_with):
+    with pytest.raises(
+        ConfigError, match=r"Other\.base: found 'Fan', a blade of matrices; allowed: a blade with profiles or a mesh"
+    ):
+        settings_with(MATRICES, {"Other": {"base": "Fan"}}, blades=("Other",))
+
+
+@pytest.mark.parametrize("key", ["spin_softening", "coriolis"])
+def test_terms_of_rotation_cannot_be_added_to_matrices(settings_with, key):
+    with pytest.raises(
+        ConfigError, match=rf"structure\.{key}: found true with the blade 'Fan', given by matrices; allowed: false"
+    ):
+        settings_with(MATRICES, config={f"{key}: false": f"{key}: true"})
+
+
+def test_exports_of_speeds_that_are_not_run(settings_with):
+    with pytest.raises(
+        ConfigError, match=r"exports\.stress_speeds_rad_s\.0: found 1000\.5; allowed: speeds that are simulated"
+    ):
+        settings_with(MESH, config={"stress_speeds_rad_s: worst": "stress_speeds_rad_s: [1000.5]"})
+
+
+def test_exports_beyond_the_basis(settings_with):
+    with pytest.raises(
+        ConfigError, match=r"exports\.mode_speeds_rad_s\.1: found 2500; allowed: up to .*maximum_speed_rad_s, 2000"
+    ):
+        settings_with(MESH, config={"full_matrices: false": "mode_speeds_rad_s: [0, 2500]"})
+
+
+@pytest.fixture
+def three(settings_with, config_copy, monkeypatch):
+    """A blade of each kind, seen from the project's folder."""
+    monkeypatch.chdir(config_copy)
+    settings = settings_with(MESH, {"Given": MATRICES}, blades=("Ref", "Fan", "Given"))
+    return Imported(settings, config_copy), Sweep(settings)
+
+
+def test_plan_of_imported_blades(three, tmp_path, monkeypatch):
+    imported, sweep = three
+    fan, given = (SimpleNamespace(blade=blade, scene="direct", speed="750") for blade in ("Fan", "Given"))
+    assert (imported.profiles, imported.meshes, imported.matrices) == ("Ref", "Fan", "Given")
+    assert imported.files(fan) == ["meshes/fan.inp", "meshes/more.inc"]
+    assert [file.rsplit("/", 1)[1] for file in imported.files(given)] == [
+        "K_0.mtx",
+        "K_1000.npz",
+        "K_2000.mtx",
+        "M.mtx",
+        "boundary.csv",
+    ]
+    assert imported.places(fan)["tip"].endswith(": Fan.tip")
+    assert sweep.runs_with("stress") == [(blade, scene) for blade in ("Ref", "Fan") for scene in ("abradable", "direct")]
+    assert "stress" not in sweep.results(given)
+    assert '"snapshots_per_revolution": 0' in sweep.task(given)
+    assert set(sweep.response_pictured(given)) == {"campbell", "rms"}
+    with pytest.raises(ConfigError, match="studies: found the blade 'Fan'; allowed: Ref"):
+        StudyModels(imported.settings).blade("Fan")
+    monkeypatch.chdir(tmp_path / "config")
+    assert all(file.startswith("/") for file in imported.files(fan))
+
+
+def test_plan_of_exports(three):
+    imported, sweep = three
+    exports = Exports(imported, sweep)
+    files = {file.removeprefix("<results>/exports/") for file in exports.files}
+    assert {"Ref/surface.step", "Ref/modes", "Fan/mesh.med", "Fan/stress_direct", "Given/matrices"} <= files
+    assert not files & {"Fan/surface.step", "Given/mesh.med", "Given/modes", "Given/stress_direct"}
+    fan = SimpleNamespace(blade="Fan", scene="direct", tip_line="camber")
+    assert exports.model(fan) == "<results>/exports/Fan/rom_pressure_edge.nc"
+    assert exports.reduction(fan)["whole_blade"]
+    assert exports.reduction(fan)["boundary"]["tip_line"] == "camber"
+    assert exports.orientation(fan).length_unit == "mm"
+    assert exports.orientation(SimpleNamespace(blade="Ref")) is None
+    assert exports.choice["mode_speeds"] == (0.0, 2000.0)
+    assert len(exports.speed_files(fan)) == len(sweep.speeds(fan))
+    assert exports.only_worst(fan)
+    assert set(exports.matrix_files(fan)) == {"rom"}
