@@ -52,7 +52,9 @@ def quietly(read: Callable[[Path], Any], file: Path) -> Any:
         with contextlib.redirect_stdout(said), contextlib.redirect_stderr(said):
             return read(file)
     except (Exception, SystemExit) as error:
-        reason = " ".join(said.getvalue().split()) or f"{type(error).__name__}: {error}"
+        lacking = f"something names {error}, which the file lacks; are there elements without their mid-nodes?"
+        found = lacking if isinstance(error, KeyError) else f"{type(error).__name__}: {error}"
+        reason = " ".join(said.getvalue().split()) or found
         raise ImportRefused(f"the reader gave up: {reason}") from None
 
 
