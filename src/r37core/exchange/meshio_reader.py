@@ -41,7 +41,9 @@ def read_ansys(file: Path) -> RawMesh:
     try:
         import meshlane
     except ImportError:
-        raise ImportRefused("Ansys archives need the extra package meshlane: pip install 'r37[ansys]'") from None
+        raise ImportRefused(
+            "Ansys archives need the extra package meshlane: pip install '.[ansys]' in the project's folder"
+        ) from None
     return _raw(quietly(meshlane.read, file))
 
 

@@ -22,7 +22,8 @@ class StressRecovery:
         submesh = model.stress_submesh
         if not model.stress_elements:
             raise ValueError(
-                "the stress submesh has no elements; enlarge structure.stress_submesh in config.yaml or use a finer mesh"
+                "the stress submesh has no elements; enlarge structure.stress_submesh in config.yaml (of an imported mesh, its "
+                "own stress_submesh in blades.yaml), or use a finer mesh"
             )
         self.operator = nodal_stress(model.stress_elements, submesh.points, submesh.basis, material)
 

@@ -52,6 +52,6 @@ def boundary_nodes(mesh: BladeMesh, choice: BoundaryChoice) -> np.ndarray:
         raise BoundaryError(
             f"{choice.nodes} boundary nodes do not fit on the {len(line)} mesh nodes of the tip line "
             f"'{choice.tip_line}'; ask for fewer, or raise tip_elements (for the camber line also: an odd number of "
-            "layers, or an even one with nodes at mid-thickness) in the fidelity level"
+            "layers, or an even one with nodes at mid-thickness) in the fidelity level; of an imported mesh, refine the tip"
         )
     return line[nearest]
