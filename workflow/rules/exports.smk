@@ -8,7 +8,7 @@ rule exported_mesh:
     input:
         paths.MESH,
     output:
-        paths.EXPORTS + "/mesh.{format}",
+        paths.EXPORTED_MESH,
     log:
         "<logs>/exports/{blade}_mesh_{format}.log",
     wildcard_constraints:
@@ -28,7 +28,7 @@ rule exported_surface:
     input:
         paths.GEOMETRY,
     output:
-        paths.EXPORTS + "/surface.step",
+        paths.EXPORTED_SURFACE,
     log:
         "<logs>/exports/{blade}_surface.log",
     conda:
@@ -44,7 +44,7 @@ rule whole_blade_model:
         mesh=paths.MESH,
         matrices="<results>/{blade}/matrices.npz",
     output:
-        temp(paths.EXPORTS + "/rom_{tip_line}.nc"),
+        temp(paths.WHOLE_BLADE_MODEL),
     log:
         "<logs>/exports/{blade}_model_{tip_line}.log",
     conda:
@@ -62,7 +62,7 @@ rule exported_modes:
         mesh=paths.MESH,
         model=exported.model,
     output:
-        directory(paths.EXPORTS + "/modes"),
+        directory(paths.EXPORTED_MODES),
     log:
         "<logs>/exports/{blade}_modes.log",
     conda:
@@ -82,7 +82,7 @@ rule exported_stress:
         model=exported.model,
         speeds=exported.speed_files,
     output:
-        directory(paths.EXPORTS + "/stress_{scene}"),
+        directory(paths.EXPORTED_STRESS),
     log:
         "<logs>/exports/{blade}_stress_{scene}.log",
     conda:
@@ -103,7 +103,7 @@ rule exported_matrices:
     input:
         unpack(exported.matrix_files),
     output:
-        directory(paths.EXPORTS + "/matrices"),
+        directory(paths.EXPORTED_MATRICES),
     log:
         "<logs>/exports/{blade}_matrices.log",
     conda:

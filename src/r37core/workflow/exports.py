@@ -24,14 +24,15 @@ class Exports:
     @property
     def files(self) -> list[str]:
         """All files and folders that this run's configuration asks for."""
-        settings = self.imported.settings
+        settings, with_mesh = self.imported.settings, self.imported.with_mesh
+        shaped = self.imported.given_by(BladeDefinition)
         formats = settings.config.exports.mesh_formats
-        folder = {blade: paths.fill(paths.EXPORTS, blade=blade) for blade in settings.blades}
-        found = [f"{folder[blade]}/mesh.{name}" for blade in self.imported.with_mesh for name in formats]
-        found += [f"{folder[blade]}/modes" for blade in self.imported.with_mesh]
-        found += [f"{folder[blade]}/surface.step" for blade in self.imported.given_by(BladeDefinition)]
-        found += [f"{folder[blade]}/matrices" for blade in settings.blades]
-        return found + [f"{folder[blade]}/stress_{scene}" for blade, scene in self.sweep.runs_with("stress")]
+        found = [paths.fill(paths.EXPORTED_MESH, blade=blade, format=name) for blade in with_mesh for name in formats]
+        found += [paths.fill(paths.EXPORTED_MODES, blade=blade) for blade in with_mesh]
+        found += [paths.fill(paths.EXPORTED_SURFACE, blade=blade) for blade in shaped]
+        found += [paths.fill(paths.EXPORTED_MATRICES, blade=blade) for blade in settings.blades]
+        stressed = self.sweep.runs_with("stress")
+        return found + [paths.fill(paths.EXPORTED_STRESS, blade=blade, scene=scene) for blade, scene in stressed]
 
     @property
     def choice(self) -> dict[str, Any]:
@@ -51,7 +52,7 @@ class Exports:
         settings = self.imported.settings
         scene = getattr(wildcards, "scene", None)
         tip_line = settings.scenes[scene].tip_line if scene else settings.structure.boundary.tip_line
-        return f"{paths.fill(paths.EXPORTS, blade=wildcards.blade)}/rom_{tip_line}.nc"
+        return paths.fill(paths.WHOLE_BLADE_MODEL, blade=wildcards.blade, tip_line=tip_line)
 
     def reduction(self, wildcards: Any) -> dict[str, Any]:
         """What the model of the whole blade is made of: the sweep's, recovered everywhere."""

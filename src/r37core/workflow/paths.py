@@ -18,7 +18,12 @@ RESPONSE = "<results>/{blade}/{scene}/response.nc"
 MAP_FIGURE = "<results>/figures/{kind}_{blade}__{scene}.png"
 RESPONSE_FIGURE = "<results>/figures/response_{blade}.png"
 ESTIMATE_SAMPLE = "<results>/studies/estimate/{blade}__{scene}.json"
-EXPORTS = "<results>/exports/{blade}"
+EXPORTED_MESH = "<results>/exports/{blade}/mesh.{format}"
+EXPORTED_SURFACE = "<results>/exports/{blade}/surface.step"
+EXPORTED_MODES = "<results>/exports/{blade}/modes"
+EXPORTED_STRESS = "<results>/exports/{blade}/stress_{scene}"
+EXPORTED_MATRICES = "<results>/exports/{blade}/matrices"
+WHOLE_BLADE_MODEL = "<results>/exports/{blade}/rom_{tip_line}.nc"
 STUDY_MODEL = (
     "<results>/studies/models/{blade}/{nodes}_{boundary_nodes}_{fixed_interface_modes}_{region}_{tip_line}_{ends}/{file}"
 )
