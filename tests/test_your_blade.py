@@ -102,22 +102,12 @@ class TestWhatRunsAgain:
         assert jobs["imported_mesh"] == {"Fan/mesh.msh"}
         assert "simulate" in jobs
 
-    @pytest.mark.parametrize(
-        ("old", "new"), [("root: hub", "root: tip"), ("length_unit: mm", "length_unit: cm"), ("[1, 0, 0]", "[1, 0, 0.0001]")]
-    )
-    def test_a_key_of_the_mesh(self, project, old, new):
-        edit(project, "blades.yaml", old, new)
+    def test_a_key_of_the_mesh(self, project):
+        edit(project, "blades.yaml", "[1, 0, 0]", "[1, 0, 0.0001]")
         assert planned_outputs(project)["imported_mesh"] == {"Fan/mesh.msh"}
 
-    @pytest.mark.parametrize(
-        ("old", "new"),
-        [
-            ("  length_unit: mm", "  stress_submesh: { excluded_layers: 2 }\n  length_unit: mm"),
-            ("density_kg_m3: 4430", "density_kg_m3: 4440"),
-        ],
-    )
-    def test_a_key_behind_the_mesh(self, project, old, new):
-        edit(project, "blades.yaml", old, new)
+    def test_a_key_behind_the_mesh(self, project):
+        edit(project, "blades.yaml", "  length_unit: mm", "  stress_submesh: { excluded_layers: 2 }\n  length_unit: mm")
         jobs = planned_outputs(project)
         assert "imported_mesh" not in jobs
         assert jobs["reduced_model"] == {"Fan/rom_pressure_edge.nc"}
