@@ -135,7 +135,15 @@ def test_make_clean_lists_and_removes(config_copy):
 def test_a_blade_that_buckles_is_refused_with_the_speed(model):
     weak = dataclasses.replace(model, geometric_stiffness=model.geometric_stiffness - 1e-3 * model.stiffness)
     with pytest.raises(BucklingError, match=r"no stable position at 50 rad/s: its stiffness is not positive .* stiffer"):
-        campbell_dataset(weak, 2000.0, 50.0, 6, 8, 0.01, "pressure_edge")
+        campbell_dataset(
+            weak,
+            maximum_speed=2000.0,
+            speed_step=50.0,
+            modes=6,
+            highest_engine_order=8,
+            largest_tangential_displacement=0.01,
+            tip_line="pressure_edge",
+        )
 
 
 def test_a_simulation_of_a_blade_that_buckles_is_refused(contact):

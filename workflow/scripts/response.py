@@ -18,10 +18,10 @@ def main(snakemake):
         params.speeds,
         snakemake.output[0],
         recovery,
-        params.stress_history_speeds,
-        params.stress_instants,
-        params.material.get("yield_stress", math.inf),
-        params.provenance,
+        stress_history_speeds=params.stress_history_speeds,
+        stress_instants=params.stress_instants,
+        yield_stress=params.material.get("yield_stress", math.inf),
+        provenance=params.provenance,
     )
 
 

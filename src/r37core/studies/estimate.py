@@ -45,8 +45,16 @@ def time_runs(
         start = time.process_time()
         recovery = StressRecovery(model, material) if model and material else None
         fixed = time.process_time() - start
-        yield_stress = material.yield_stress if material else math.inf
-        write_response(files, speeds, Path(folder) / "response.nc", recovery, (), stress_instants, yield_stress, {})
+        write_response(
+            files,
+            speeds,
+            Path(folder) / "response.nc",
+            recovery,
+            stress_history_speeds=(),
+            stress_instants=stress_instants,
+            yield_stress=material.yield_stress if material else math.inf,
+            provenance={},
+        )
         reduction = time.process_time() - start - fixed
     share = number / len(speeds)
     return {"time integration": share * simulation, "reduction": fixed + share * reduction, "runs": number}
