@@ -121,6 +121,7 @@ def test_leftovers_of_removed_blades_scenes_and_speeds(root, tmp_path):
     assert leftovers(tmp_path / "none", settings) == []
 
 
+@pytest.mark.slow
 def test_make_clean_lists_and_removes(config_copy):
     (config_copy / "results/Gone").mkdir(parents=True)
     (config_copy / "results/Gone/mesh.vtu").write_text("x")
@@ -188,6 +189,7 @@ def test_a_flipped_bit_of_a_response_is_found(tmp_path):
         read_dataset(file)
 
 
+@pytest.mark.slow
 def test_a_run_with_a_name_has_its_results_apart(root, tmp_path):
     copy_stubbed(root, tmp_path)
     jobs = planned_outputs(tmp_path, "all_blades", "--config", "run={name: trial}")
@@ -211,6 +213,7 @@ def test_replaced_results_are_announced(root, folder):
     assert replaced_level(named) == []
 
 
+@pytest.mark.slow
 def test_the_clear_line_comes_last(root, tmp_path):
     copy_project(root, tmp_path)
     table = tmp_path / "config/profiles/rotor37.csv"
@@ -222,6 +225,7 @@ def test_the_clear_line_comes_last(root, tmp_path):
     assert "Traceback" not in text
 
 
+@pytest.mark.slow
 def test_a_killed_run_goes_on_with_the_same_command(root, tmp_path):
     copy_stubbed(root, tmp_path)
     slow = tmp_path / "workflow/scripts/geometry.py"

@@ -84,6 +84,7 @@ SCENES = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("integrator", INTEGRATORS)
 @pytest.mark.parametrize("name", SCENES)
 def test_compiled_time_integration_is_the_reference(contact, name, integrator):
@@ -120,6 +121,7 @@ MANY = [(nodes, name) for nodes in (1, 8) for name in ("direct", "thin_lining")]
 MANY += [(15, "direct_exact"), (40, "thin_lining"), (200, "direct")]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("nodes", "name"), MANY)
 def test_any_number_of_nodes(nodes, name):
     """Vectors half full and many of them, against the reference."""
