@@ -20,7 +20,7 @@ from r37core.rom.reduce import reduce_blade
 from r37core.time_integration.speed_file import write_speed
 
 OURS = Orientation("m", (0, 0, 1), (1, 0, 0), "negative")
-FOREIGN = Orientation("mm", (1, 0, 0), (0, 0, 1), "positive", (5.0, 6.0, 7.0))
+FOREIGN = Orientation("mm", (0.6, 0.8, 0), (0, 0, 1), "positive", (5.0, 6.0, 7.0))
 
 
 @pytest.fixture(scope="module")
