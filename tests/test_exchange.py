@@ -151,6 +151,16 @@ def test_files_written_by_gmsh(tmp_path, suffix):
     np.testing.assert_allclose(last, [0.26, -0.002, 0.03], atol=1e-9)
 
 
+def test_the_edges_of_the_tip_keep_their_arc_length(files):
+    """Nodes near the ends of an edge are near the camber line too; they count by their place on the edge."""
+    *_, folder = files
+    again, _ = import_mesh(source("deck.inp"), folder)
+    line = again.node_set("tip_pressure_edge")
+    length = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(again.points[line], axis=0), axis=1))])
+    np.testing.assert_allclose(again.parameters[line, 0], length / length[-1], atol=1e-12)
+    assert np.intersect1d(line, again.node_set("tip_camber_line")).size
+
+
 def test_the_other_rotation_mirrors_the_blade(files, steel):
     mesh, matrices, folder = files
     turned = replace(OURS, rotation="positive")

@@ -138,6 +138,16 @@ def test_reduced_matrices_in_other_axes(model, choice, tmp_path):
     np.testing.assert_allclose(np.abs(rows_again[:, :, :6]), np.abs(rows_ours[:, :, :6]), rtol=1e-5, atol=1e-6)
 
 
+def test_units_of_matrices(model, choice, tmp_path):
+    """Tonnes and N/mm, as programs in millimetres have them."""
+    write_reduced_matrices(model, "pressure_edge", (0.0, 1000.0, 2000.0), tmp_path)
+    again = import_matrices(MatricesSource(str(tmp_path), OURS, "t", "N/mm"), choice)
+    np.testing.assert_allclose(again.mass, 1e3 * model.mass, atol=1e-9 * np.abs(model.mass).max())
+    np.testing.assert_allclose(
+        again.stiffness_at(900.0), 1e3 * model.stiffness_at(900.0), atol=1e-6 * np.abs(model.stiffness).max()
+    )
+
+
 def test_unsuitable_matrices_are_refused(directory, choice, tmp_path):
     def refused(message, **files):
         folder = tmp_path / message[:12].replace(" ", "_")
@@ -157,3 +167,35 @@ def test_unsuitable_matrices_are_refused(directory, choice, tmp_path):
     refused("is not linear in the squared speed", K_200=7 * small)
     refused("matrices differ in size: 24, 3, 24, 24", K_0=small[:3, :3])
     refused("a matrix that is not symmetric", K_0=small + np.eye(24, k=1))
+    refused(
+        "the mass is not positive .lowest eigenvalue -1 kg.; leave no massless rows",
+        M=small - np.diag(22 * [0.0] + [0.0, 28.0]),
+    )
+    free = np.diag([0.0, *np.arange(5.0, 28.0)])
+    refused("the stiffness at rest is not positive .* clamp the root", K_0=free, K_100=free + small, K_200=free + 4 * small)
+    refused("found matrices of 19 rows; allowed: 20", **{name: small[:19, :19] for name in ("M", "K_0", "K_100", "K_200")})
+    broken = small.copy()
+    broken[3, 3] = np.nan
+    refused("M.npz: found a matrix that is not symmetric", M=broken)
+
+
+@pytest.mark.parametrize(
+    ("table", "message"),
+    [
+        ("x,y,z\n0.2,0,0\n", "found columns x, y, z; allowed: x, y, z, dof_x, dof_y, dof_z"),
+        ("x,y,z,dof_x,dof_y,dof_z\n", "found columns .*; allowed"),
+        ("x,y,z,dof_x,dof_y,dof_z\n0.2,0,0,0,1,2\n0.2,0,1,3,4,\n", r"boundary\.csv:3: each row must have three coordinates"),
+        ("x,y,z,dof_x,dof_y,dof_z\n0.2,0,0,0,1,1.5\n", r"boundary\.csv:2: each row must have"),
+        ("x,y,z,dof_x,dof_y,dof_z\n0.2,0,0,0,1,2\n0.2,0,0,3,4,5\n", "two contact nodes lie at the same place"),
+        ("x,y,z,dof_x,dof_y,dof_z\n0.2,0,0,0,1,99\n", "must name 3 different rows from 0 to 23"),
+        ("x,y,z,dof_x,dof_y,dof_z\n0.2,0,0,0,1,1\n", "must name 3 different rows from 0 to 23"),
+    ],
+)
+def test_unsuitable_tables_are_refused(choice, tmp_path, table, message):
+    small = np.diag(np.arange(4.0, 28.0))
+    for name, factor in {"M": 1, "K_0": 1, "K_100": 2, "K_200": 5}.items():
+        np.savez(tmp_path / f"{name}.npz", factor * small)
+    (tmp_path / "boundary.csv").write_text(table)
+    with pytest.raises(ImportRefused, match=message) as refusal:
+        import_matrices(MatricesSource(str(tmp_path), OURS), choice)
+    assert refusal.value.key == "matrices"
