@@ -78,3 +78,14 @@ def test_rule_graph_is_that_of_the_workflow(root):
 
 def test_readme_is_short(readme):
     assert len(readme.split()) <= 700
+
+
+def test_remeshed_blades_are_within_their_bounds(root):
+    """The first six frequencies of every blade within 0.3% of our wedges, peaks that were measured within 0.5%."""
+    table = section((root / "docs" / "your_blade.md").read_text(), "remeshed")
+    rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in table.splitlines()[2:]]
+    assert len(rows) == 3 * len(load_yaml(root / "config/blades.yaml"))
+    others = [row for row in rows if row[1] != "wedge15"]
+    assert max(float(row[4].rstrip("%")) for row in others) < 0.3
+    peaks = [abs(float(row[6].rstrip("%"))) for row in others if row[6]]
+    assert max(peaks) < 0.5

@@ -16,6 +16,7 @@ from r37core.exchange.meshio_reader import quietly
 from r37core.exchange.orientation import Orientation
 from r37core.exchange.read_mesh import _READERS
 from r37core.exchange.source import SUFFIXES, MeshSource, digest_of, mesh_files
+from r37core.exchange.surface import faces_within, outer_faces
 from r37core.exchange.where import Where
 from r37core.exchange.write_mesh import write_mesh
 from r37core.fem.abaqus_deck import write_abaqus
@@ -211,6 +212,15 @@ def test_decks_as_other_programs_write_them(tmp_path):
     faces = f"*ELSET, ELSET=LAST\n{members}\n*SURFACE, NAME=CROWN\nLAST, S4\n*MATERIAL"
     mesh, _ = import_mesh(source(deck(tmp_path, lambda text: text.replace("*MATERIAL", faces)), tip=Where("crown")))
     np.testing.assert_array_equal(mesh.node_set("tip"), tip.node_set("tip"))
+    skin = [", ".join(map(str, [9000 + i, *(face + 1)])) for i, face in enumerate(tip_faces(tip))]
+    shells = "*ELEMENT, TYPE=S8R, ELSET=SKIN\n" + "\n".join(skin) + "\n*NSET, NSET=CAP, ELSET=skin\n*MATERIAL"
+    mesh, _ = import_mesh(source(deck(tmp_path, lambda text: text.replace("*MATERIAL", shells)), tip=Where("cap")))
+    np.testing.assert_array_equal(mesh.node_set("tip"), tip.node_set("tip"))
+
+
+def tip_faces(mesh):
+    members = np.isin(np.arange(len(mesh.points)), mesh.node_set("tip"))
+    return np.concatenate([part.nodes for part in faces_within(outer_faces(mesh.blocks), members)])
 
 
 def moved(text, node, x):

@@ -36,6 +36,7 @@ class _Deck:
     others: dict[int, list[int]] = field(default_factory=dict)
     node_sets: dict[str, list[int]] = field(default_factory=dict)
     element_sets: dict[str, list[int]] = field(default_factory=dict)
+    nodes_of_elements: list[tuple[str, str]] = field(default_factory=list)
     surfaces: dict[str, list[tuple[str, str]]] = field(default_factory=dict)
     parts: list[str] = field(default_factory=list)
     scope: str = ""
@@ -105,6 +106,8 @@ def _take(deck: _Deck, keyword: str, options: dict[str, str], rows: list[list[st
         _add(deck.node_sets, options.get("NSET"), [int(row[0]) for row in rows])
     elif keyword == "ELEMENT":
         _take_elements(deck, options, rows)
+    elif keyword == "NSET" and "ELSET" in options:
+        deck.nodes_of_elements.append((options.get("NSET", ""), options["ELSET"]))
     elif keyword in ("NSET", "ELSET"):
         sets = deck.node_sets if keyword == "NSET" else deck.element_sets
         _add(sets, options.get(keyword), _members(sets, "GENERATE" in options, rows))
@@ -160,8 +163,10 @@ def _members(sets: dict[str, list[int]], generated: bool, rows: list[list[str]])
 def _node_lists(deck: _Deck) -> Iterator[tuple[str, list[int]]]:
     """Every set as node labels: of nodes, of elements (their nodes), of element faces."""
     elements = {label: nodes for of_type in deck.solids.values() for label, nodes in of_type.items()} | deck.others
-    for name, members in deck.element_sets.items():
-        yield name, [node for element in members for node in elements.get(element, [])]
+    of_elements = {name: [n for e in members for n in elements.get(e, [])] for name, members in deck.element_sets.items()}
+    yield from of_elements.items()
+    for name, element_set in deck.nodes_of_elements:
+        yield name, of_elements.get(_found(deck.element_sets, element_set), [])
     for name, faces in deck.surfaces.items():
         nodes: list[int] = []
         for of, face in faces:
