@@ -5,8 +5,8 @@ Each blade goes out as STEP, is meshed by gmsh in tetrahedra and hexahedra with 
 interaction of 1B with order 4 in the scene `abradable`. The table goes into docs/your_blade.md.
 
 Run: python benchmarks/remeshed_blades.py [blade ...]   (about two minutes for each blade; --frequencies: without the sweeps)
-What was measured before is kept in results/studies/remeshed.json; delete that to measure again. The peak is looked for every 2 rad/s,
-on a branch that rises steeply to its drop, so its rms may differ by some percent where its speed differs by one step.
+What was measured before is kept in results/studies/remeshed.json; delete that to measure again. The peak is looked for every
+2 rad/s on a branch that rises steeply to its drop: one step more or less is some percent of its rms.
 """
 
 import os
@@ -101,7 +101,7 @@ def measure(name, settings, with_peak, found):
 def table(found, blades):
     """The table of what was measured; differences from our wedges."""
     lines = [
-        "| blade | mesh | nodes | first six frequencies at rest (Hz) | off by up to | peak of 1B/4 (rad/s) | off by | its rms (mm) |",
+        "| blade | mesh | nodes | six frequencies at rest (Hz) | off by up to | peak of 1B/4 (rad/s) | off by | its rms (mm) |",
         "|---|---|---|---|---|---|---|---|",
     ]
     for name in blades:
