@@ -111,13 +111,14 @@ def test_leftovers_of_removed_blades_scenes_and_speeds(root, tmp_path):
     settings = read_settings(root, changes)
     kept = ["Ref/direct/speed_900.npz", "Ref/mesh.vtu", "studies/a.md", "runs/x/L50/a.nc", "figures/response_Ref.png"]
     kept += ["rms.nc", "figures/spectrum_Ref__direct.png", "figures/response.png", "figures/campbell.png"]
+    kept += ["exports/Ref/mesh.med"]
     gone = ["L50/mesh.vtu", "Ref/abradable/speed_900.npz", "Ref/direct/speed_901.npz", "figures/response_L50.png"]
-    gone += ["figures/wear_Ref__abradable.png"]
+    gone += ["figures/wear_Ref__abradable.png", "exports/L50/surface.step"]
     for name in [*kept, *gone]:
         (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
         (tmp_path / name).write_text("x")
     found = {str(path.relative_to(tmp_path)) for path in leftovers(tmp_path, settings)}
-    assert found == {"L50", "Ref/abradable", *gone[2:]}
+    assert found == {"L50", "Ref/abradable", "exports/L50", *gone[2:-1]}
     assert leftovers(tmp_path / "none", settings) == []
 
 
