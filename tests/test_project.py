@@ -25,6 +25,7 @@ LAYERS = [
     "results",
     "studies",
     "figures",
+    "explorer",
     "config",
     "workflow",
 ]
