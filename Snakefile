@@ -26,4 +26,5 @@ rule all_blades:
         rules.configuration.output,
         expand("<results>/{kind}.nc", kind=sweep.kinds),
         "<results>/summary.csv",
+        "<results>/explorer.html",
         sweep.figures,

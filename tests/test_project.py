@@ -26,6 +26,7 @@ LAYERS = [
     "exchange",
     "studies",
     "figures",
+    "explorer",
     "config",
     "workflow",
 ]
