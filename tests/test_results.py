@@ -174,6 +174,8 @@ def test_datasets_join_blades_and_scenes(sweep, kind):
         assert dataset.attrs["fidelity"] == "draft"
         assert list(dataset["blade"].values) == ["Ref"]
         np.testing.assert_array_equal(dataset["speed"], SPEEDS)
+        assert "speed_rpm" in dataset.coords
+        np.testing.assert_allclose(dataset["speed_rpm"], 60.0 * np.array(SPEEDS) / (2.0 * np.pi))
         for (blade, scene), file in files.items():
             with xr.open_dataset(file) as response:
                 for name in dataset.data_vars:
