@@ -321,6 +321,11 @@ def test_interactions_of_a_synthetic_response():
     assert list(table["status"]) == ["completed"] * 3
 
 
+def test_a_peak_on_the_last_speed_counts():
+    table = summarise(synthetic([(2000.0, 1e-3, 4)]), InteractionChoice())
+    assert list(table["peak_speed"]) == [2000.0]
+
+
 def test_a_peak_of_another_order_is_not_matched():
     table = summarise(synthetic([(1715.0, 1e-3, 2)]), InteractionChoice())
     assert list(table["mode"]) == [""]
