@@ -16,6 +16,7 @@ LAYERS = [
     "text_file",
     "yaml_file",
     "speeds",
+    "units",
     "blade",
     "mesh",
     "fem",

@@ -129,6 +129,7 @@ def test_make_clean_lists_and_removes(config_copy):
     command = [sys.executable, "-m", "r37core.workflow.leftovers"]
     listed = subprocess.run(command, cwd=config_copy, capture_output=True, text=True, check=True).stdout
     assert "results/Gone" in listed
+    assert listed.endswith("1 left over; make clean REMOVE=yes removes them\n")
     assert (config_copy / "results/Gone").exists()
     subprocess.run([*command, "--remove"], cwd=config_copy, capture_output=True, check=True)
     assert not (config_copy / "results/Gone").exists()

@@ -10,6 +10,9 @@ import xarray as xr
 
 from .io import FILE_ATTRIBUTES, atomic_write, readable
 
+SPEED_RPM = {"units": "rpm", "long_name": "angular speed of the rotor in revolutions per minute"}
+"""Of the coordinate `speed_rpm`, which stands beside `speed`."""
+
 
 def about(units: str, long_name: str) -> dict[str, str]:
     """Attributes of a variable, after the CF conventions."""

@@ -2,6 +2,7 @@
 # Snakemake re-runs a job when a parameter of plain types changes; of other objects a hash or text stands beside.
 import atexit
 import sys
+import time
 from pathlib import Path
 
 from snakemake.exceptions import WorkflowError
@@ -11,6 +12,7 @@ from r37core.config import ConfigError, plain, settings_of_run
 from r37core import failures
 from r37core.explorer import PARTS as EXPLORER_PARTS
 from r37core.workflow import lock, paths
+from r37core.workflow.closing import closing_lines
 from r37core.workflow.code import CodeHashes
 from r37core.workflow.imported import Imported
 from r37core.workflow.provenance import Provenance
@@ -19,6 +21,7 @@ from r37core.workflow.run import replaced_level
 from r37core.workflow.sweep import Sweep
 from r37core.workflow.tree import check_tree
 
+BEGAN = time.time()
 ROOT = Path(workflow.basedir)
 ENVIRONMENT = ROOT / "envs" / "r37.yaml"
 SCRIPTS = ROOT / "workflow" / "scripts"
@@ -59,6 +62,7 @@ onstart:
 
 onsuccess:
     lock.release()
+    atexit.register(lambda: print(*closing_lines(settings.results, BEGAN, time.time()), sep="\n", file=sys.stderr))
 
 
 onerror:
