@@ -185,10 +185,14 @@ def test_a_flipped_bit_of_a_response_is_found(tmp_path):
         create_axis(dataset, "speed", np.arange(300.0), about("rad s-1", "speed"))
         create_variable(dataset, "a", "f8", ("speed",), about("m", "a"))[:] = values
     content = bytearray(file.read_bytes())
-    content[bytes(content).index(values.tobytes()) + 1000] ^= 1
-    file.write_bytes(content)
-    with pytest.raises(InputFileError):
-        read_dataset(file)
+    sound = file.read_bytes()
+    # the variable, and the axis
+    for stored in (values, np.arange(300.0)):
+        content = bytearray(sound)
+        content[sound.index(stored.tobytes()) + 1000] ^= 1
+        file.write_bytes(content)
+        with pytest.raises(InputFileError):
+            read_dataset(file)
 
 
 @pytest.mark.slow
