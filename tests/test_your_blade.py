@@ -13,7 +13,6 @@ import yaml
 from stubbed_runs import copy_stubbed, planned_outputs
 from workflow_runs import copy_project, snakemake
 
-
 MOVED = {"explorer"}
 """Rules that name files by where the project lies; the copies here lie elsewhere."""
 
