@@ -10,7 +10,7 @@ from snakemake.settings.types import DeploymentMethod
 
 from r37core.config import ConfigError, plain, settings_of_run
 from r37core import failures
-from r37core.explorer import PARTS as EXPLORER_PARTS
+from r37core.explorer import parts_hash
 from r37core.workflow import lock, paths
 from r37core.workflow.closing import closing_lines
 from r37core.workflow.code import CodeHashes

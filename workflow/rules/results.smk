@@ -57,7 +57,6 @@ rule explorer:
         **{kind: f"<results>/{kind}.nc" for kind in sweep.kinds},
         campbell="<results>/campbell.nc",
         summary="<results>/summary.csv",
-        parts=[f"{ROOT}/src/r37core/explorer/{part}" for part in EXPLORER_PARTS],
     output:
         "<results>/explorer.html",
     log:
@@ -66,6 +65,7 @@ rule explorer:
         ENVIRONMENT
     params:
         title=f"r37 {settings.run_name or ''}".strip(),
+        parts=parts_hash(),
         code=code("explorer"),
     script:
         "../scripts/explorer.py"

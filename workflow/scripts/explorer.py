@@ -14,7 +14,6 @@ def main(snakemake):
     summary = files.pop("summary")
     with readable(summary):
         interactions = pd.read_csv(summary)
-    files.pop("parts")
     datasets = {kind: read_dataset(file) for kind, file in files.items()}
     write_page(explorer_contents(datasets, interactions), snakemake.params.title, snakemake.output[0])
 
