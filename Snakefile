@@ -16,6 +16,7 @@ include: "workflow/rules/studies/estimate.smk"
 include: "workflow/rules/studies/tradeoff.smk"
 include: "workflow/rules/studies/stability.smk"
 include: "workflow/rules/studies/readings.smk"
+include: "workflow/rules/studies/refinement.smk"
 
 
 rule all_blades:

@@ -41,7 +41,7 @@ for line in [*lock.lift_stale(), *settings.remarks, *replaced_level(settings)]:
 code = CodeHashes(ROOT / "src", SCRIPTS)
 made = Provenance(settings)
 structure = Structure(settings)
-sweep = Sweep(settings)
+sweep = Sweep(settings, lambda **wildcards: checkpoints.refine.get(**wildcards).output[0])
 
 
 pathvars:

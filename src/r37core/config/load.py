@@ -13,7 +13,7 @@ from pydantic import BaseModel
 
 from r37core.contact.scene import Scene
 from r37core.rom.choice import ReductionChoice
-from r37core.speeds import SpeedError, expand_speeds
+from r37core.speeds import SpeedError, SpeedPlan, plan_speeds
 from r37core.studies.levels import recommended_level
 from r37core.time_integration.choice import LARGEST_TABLE, IntegrationChoice
 
@@ -21,7 +21,7 @@ from .blades import Blades, BladeSettings, blade_settings
 from .document import Document, command_line_document, read_document
 from .fidelity import Level, Levels
 from .scenes import SceneEntry, Scenes
-from .settings import Campbell, Config, Interactions, SpeedEntry, SpeedRange, Structure
+from .settings import Campbell, Config, Interactions, Refinement, SpeedEntry, SpeedRange, Structure
 from .studies import Studies
 
 CONFIG_FILE = "config/config.yaml"
@@ -45,19 +45,20 @@ class SceneSettings:
 class Settings:
     """Everything the workflow needs to know, checked.
 
-    `blades` and `scenes` are those to run, in order; `speeds` (rad/s) of each (blade, scene); `fidelity` the chosen level;
+    `blades` and `scenes` are those to run, in order; `speed_plans` of each (blade, scene); `fidelity` the chosen level;
     `fidelity_is_chosen`: by its measured error;
     `levels` and `scene_entries` all that their files have, for the studies; the rest as in config.yaml.
     """
 
     blades: dict[str, BladeSettings]
     scenes: dict[str, SceneSettings]
-    speeds: dict[tuple[str, str], tuple[float, ...]]
+    speed_plans: dict[tuple[str, str], SpeedPlan]
     fidelity_name: str
     fidelity: Level
     structure: Structure
     campbell: Campbell
     interactions: Interactions
+    refinement: Refinement
     studies: Studies
     levels: dict[str, Level]
     scene_entries: dict[str, SceneEntry]
@@ -176,18 +177,20 @@ def load_settings(config: Document | Mapping[str, Any], root: Path) -> Settings:
     scene_names = files.known(("scenes",), list(scenes) if checked.scenes == "all" else checked.scenes, scenes, files.scenes)
     _check_studies(checked.studies, blades, levels, scenes, files)
     chosen_scenes = {name: _scene(scenes[name], level, checked.structure.boundary.tip_line) for name in scene_names}
-    speeds = _speeds(checked, names, scene_names, level.time_integration.speed_step_rad_s, blades, scenes, files)
-    _check_history_speeds(chosen_scenes, speeds, files.scenes)
-    _check_slowest(level, checked.structure.boundary.nodes, speeds, files.config)
+    plans = _speed_plans(checked, names, scene_names, level.time_integration.speed_step_rad_s, blades, scenes, files)
+    _check_windows(checked, plans, files.config)
+    _check_history_speeds(chosen_scenes, plans, files.scenes)
+    _check_slowest(level, checked.structure.boundary.nodes, plans, files.config)
     return Settings(
         blades={name: blade_settings(name, blades, root, files.blades) for name in names},
         scenes=chosen_scenes,
-        speeds=speeds,
+        speed_plans=plans,
         fidelity_name=fidelity_name,
         fidelity=level,
         structure=checked.structure,
         campbell=checked.campbell,
         interactions=checked.interactions,
+        refinement=checked.refinement,
         studies=checked.studies,
         levels=levels,
         scene_entries=scenes,
@@ -271,7 +274,7 @@ def _scene(entry: SceneEntry, level: Level, tip_line: str) -> SceneSettings:
     )
 
 
-def _speeds(
+def _speed_plans(
     checked: Config,
     blades: Sequence[str],
     scenes: Sequence[str],
@@ -279,26 +282,26 @@ def _speeds(
     all_blades: Iterable[str],
     all_scenes: Iterable[str],
     files: _Files,
-) -> dict[tuple[str, str], tuple[float, ...]]:
-    def expanded(entries: Sequence[SpeedEntry], path: tuple[str | int, ...]) -> tuple[float, ...]:
+) -> dict[tuple[str, str], SpeedPlan]:
+    def planned(entries: Sequence[SpeedEntry], path: tuple[str | int, ...]) -> SpeedPlan:
         ranges = [plain(entry) if isinstance(entry, SpeedRange) else entry for entry in entries]
         try:
-            return expand_speeds(ranges, default_step)
+            return plan_speeds(ranges, default_step)
         except SpeedError as error:
             raise files.config.error(path, str(error)) from None
 
-    general = expanded(checked.speeds, ("speeds",))
+    general = planned(checked.speeds, ("speeds",))
     special = []
     for number, rule in enumerate(checked.speeds_for):
         files.known(("speeds_for", number, "blades"), rule.blades or [], all_blades, files.blades)
         files.known(("speeds_for", number, "scenes"), rule.scenes or [], all_scenes, files.scenes)
-        special.append((rule, expanded(rule.speeds, ("speeds_for", number, "speeds"))))
+        special.append((rule, planned(rule.speeds, ("speeds_for", number, "speeds"))))
 
-    def of(blade: str, scene: str) -> tuple[float, ...]:
-        return next((speeds for rule, speeds in special if rule.fits(blade, scene)), general)
+    def of(blade: str, scene: str) -> SpeedPlan:
+        return next((plan for rule, plan in special if rule.fits(blade, scene)), general)
 
     together = {(blade, scene): of(blade, scene) for blade in blades for scene in scenes}
-    number_of_all = sum(map(len, together.values()))
+    number_of_all = sum(len(plan.certain) for plan in together.values())
     if number_of_all > LARGEST_NUMBER_OF_SIMULATIONS:
         raise files.config.refusal(
             ("speeds",),
@@ -308,11 +311,23 @@ def _speeds(
     return together
 
 
+def _check_windows(checked: Config, plans: Mapping[tuple[str, str], SpeedPlan], document: Document) -> None:
+    """ConfigError for a window above crossings that the Campbell diagram does not have."""
+    highest = checked.campbell.highest_engine_order
+    for number, window in enumerate(checked.refinement.windows):
+        if window.highest_engine_order > highest and any(plan.refined for plan in plans.values()):
+            raise document.refusal(
+                ("refinement", "windows", number, "highest_engine_order"),
+                f"{window.highest_engine_order}",
+                f"at most campbell.highest_engine_order ({highest})",
+            )
+
+
 def _check_history_speeds(
-    scenes: Mapping[str, SceneSettings], speeds: Mapping[tuple[str, str], tuple[float, ...]], document: Document
+    scenes: Mapping[str, SceneSettings], plans: Mapping[tuple[str, str], SpeedPlan], document: Document
 ) -> None:
     for name, chosen in scenes.items():
-        run = {speed for (_, scene), several in speeds.items() if scene == name for speed in several}
+        run = {speed for (_, scene), plan in plans.items() if scene == name for speed in plan.certain}
         for speed in chosen.stress_history_speeds:
             if speed not in run:
                 raise document.refusal(
@@ -322,9 +337,9 @@ def _check_history_speeds(
                 )
 
 
-def _check_slowest(level: Level, nodes: int, speeds: Mapping[tuple[str, str], tuple[float, ...]], document: Document) -> None:
+def _check_slowest(level: Level, nodes: int, plans: Mapping[tuple[str, str], SpeedPlan], document: Document) -> None:
     """ConfigError for a speed whose revolution has too many steps."""
-    slowest = min(several[0] for several in speeds.values())
+    slowest = min(plan.certain[0] for plan in plans.values())
     size = 8 * nodes * 2.0 * math.pi / slowest / level.time_integration.time_step_s
     if size > LARGEST_TABLE:
         raise document.refusal(

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import numpy as np
 
 from r37core.fem.material import Material
@@ -43,3 +45,8 @@ class StressRecovery:
         normal = (xx - yy) ** 2 + (yy - zz) ** 2 + (zz - xx) ** 2
         von_mises = np.sqrt(0.5 * normal + 3.0 * (xy**2 + yz**2 + zx**2))
         return von_mises.max(axis=1)
+
+
+def largest_of_run(run: Mapping[str, np.ndarray], recovery: StressRecovery, stress_instants: int) -> float:
+    """Largest von Mises stress (Pa) in the last revolution of a run with so many snapshots in each; NaN if it diverged."""
+    return float("nan") if run["status"] else float(recovery.max_von_mises(run["snapshots"][-stress_instants:]).max())

@@ -13,11 +13,13 @@ REDUCED_MODEL = "<results>/{blade}/rom_{tip_line}.nc"
 CONTACT_MODEL = "<results>/{blade}/contact_{tip_line}.npz"
 CAMPBELL = "<results>/{blade}/campbell.nc"
 INTEGRATION_STAMP = "<results>/{blade}/{scene}/time_integration.stamp"
+ROUND = "<results>/{blade}/{scene}/round_{round}.json"
 SPEED = "<results>/{blade}/{scene}/speed_{speed}.npz"
 RESPONSE = "<results>/{blade}/{scene}/response.nc"
 MAP_FIGURE = "<results>/figures/{kind}_{blade}__{scene}.png"
 RESPONSE_FIGURE = "<results>/figures/response_{blade}.png"
 ESTIMATE_SAMPLE = "<results>/studies/estimate/{blade}__{scene}.json"
+CAMPAIGN = "<results>/studies/refinement/{blade}__{scene}.nc"
 STUDY_MODEL = (
     "<results>/studies/models/{blade}/{nodes}_{boundary_nodes}_{fixed_interface_modes}_{region}_{tip_line}_{ends}/{file}"
 )
