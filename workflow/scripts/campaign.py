@@ -1,4 +1,4 @@
-"""Run every speed of one blade and scene. Inputs: rom, contact model. Params: speeds, scene, choice, ... Output: response.nc."""
+"""Run every speed of one blade and scene. Inputs: rom, contact model. Params: speeds, scene, choice, ... Output: dataset."""
 
 from job import run
 

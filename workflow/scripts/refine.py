@@ -1,4 +1,4 @@
-"""Ask for the next speeds. Inputs: campbell, or before, speeds, rom. Params: plan, choice, material, ... Output: round_*.json."""
+"""Ask for the next speeds. Inputs: campbell, or before, speeds, rom. Params: plan, choice, ... Output: round_*.json."""
 
 from job import run
 

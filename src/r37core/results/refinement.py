@@ -20,7 +20,7 @@ CURVES = ("rms_normal", "rms_tangential", "stress")
 
 @dataclass(frozen=True)
 class Window:
-    """Where an interaction is expected: from `first` to `last`, shares above the crossings of `mode` with engine orders up to one.
+    """Where an interaction is expected: from `first` to `last`, shares of the speed above the crossings of `mode`.
 
     Its intervals are halved until none is longer than `step` (rad/s), before anything is known.
     """
@@ -36,9 +36,10 @@ class Window:
 class RefinementChoice:
     """What makes an interval of speeds worth halving; every number is a share.
 
-    `windows` come first. Then an interval is halved when rms or stress change by more than `change` of the larger, when stress crosses yield, when the status
-    changes, and when a peak of at least `prominence` of the largest reaches within `peak` of its height in it; changes
-    below `prominence` of the largest do not count. At most `largest_share` of the grid is run, what changes most first.
+    `windows` come first. Then an interval is halved when rms or stress change by more than `change` of the larger, when
+    stress crosses yield, when the status changes, and when a peak of at least `prominence` of the largest reaches within
+    `peak` of its height in it; changes below `prominence` of the largest do not count. At most `largest_share` of the grid
+    is run, where the response is largest first.
     """
 
     windows: tuple[Window, ...]
@@ -50,7 +51,7 @@ class RefinementChoice:
 
 @dataclass(frozen=True)
 class KnownSpeeds:
-    """What runs have given: `speeds` (rad/s), ascending; `curves`, shape (CURVES, speeds), NaN where there is no number; `status`."""
+    """What runs have given: `speeds` (rad/s), ascending; `curves`, shape (CURVES, speeds), NaN for no number; `status`."""
 
     speeds: np.ndarray
     curves: np.ndarray
@@ -133,7 +134,7 @@ def _scale(known: KnownSpeeds) -> np.ndarray:
 
 
 def _worth(curves: np.ndarray, status: np.ndarray, scale: np.ndarray, choice: RefinementChoice) -> np.ndarray:
-    """How much there is to see in each interval, shape (speeds - 1,): largest change in shares of the curve's top, 0 for nothing."""
+    """How much there is to see in each interval, shape (speeds - 1,): 0 for nothing, else the height in shares of a curve's top."""
     worth = np.zeros(len(status) - 1)
     for name, curve, top in zip(CURVES, np.nan_to_num(curves, nan=0.0) / scale[:, None], scale, strict=True):
         larger, change = np.maximum(curve[:-1], curve[1:]), np.abs(np.diff(curve))

@@ -20,7 +20,7 @@ from .stress import StressRecovery, largest_of_run
 
 @dataclass(frozen=True)
 class Round:
-    """One round: its `new` speeds (rad/s), ascending, none in the last one; `measured` of every speed before: status, CURVES."""
+    """One round: its `new` speeds (rad/s), ascending, none in the last; `measured` of each speed before: status, CURVES."""
 
     new: tuple[float, ...]
     measured: Mapping[float, Sequence[float]] = field(default_factory=dict)

@@ -1,4 +1,4 @@
-"""Every speed of one blade and scene, one after another in one process: what speeds that refine themselves are judged against."""
+"""Every speed of one blade and scene in one process: what speeds that refine themselves are judged against."""
 
 from __future__ import annotations
 

@@ -83,7 +83,7 @@ class Sweep:
         return asdict(self.speed_plan(wildcards))
 
     def speeds(self, wildcards: Any, input: Any) -> list[float]:
-        """Speeds (rad/s), ascending, of the files that are an input; before the rounds are done Snakemake has one of those there."""
+        """Speeds (rad/s), ascending, of the files that are an input; a round stands there until the rounds are done."""
         names = [Path(file).stem for file in ([input.speeds] if isinstance(input.speeds, str) else input.speeds)]
         return [float(name.removeprefix("speed_")) for name in names if name.startswith("speed_")]
 

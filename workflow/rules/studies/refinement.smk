@@ -29,3 +29,25 @@ rule campaign:
         code=code("campaign"),
     script:
         "../../scripts/campaign.py"
+
+
+rule refinement:
+    input:
+        campbell="<results>/campbell.nc",
+        campaigns=refinement.campaigns,
+    output:
+        "<results>/studies/refinement.md",
+    log:
+        "<logs>/studies/refinement.log",
+    conda:
+        ENVIRONMENT
+    params:
+        runs=refinement.runs,
+        plans=refinement.plans,
+        # plain grids beside: as fine as a fifth of the finest, and the two that fidelity levels take
+        steps=[5, 8, 20],
+        choice=sweep.refinement_choice,
+        interactions=plain(settings.interactions),
+        code=code("refinement"),
+    script:
+        "../../scripts/refinement.py"
