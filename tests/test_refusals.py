@@ -7,7 +7,7 @@ import pytest
 
 from r37core.config import ConfigError, Document, command_line_document, read_settings
 from r37core.config.schemas import MODELS
-from r37core.speeds import LARGEST_NUMBER, SpeedError, exact_text, expand_speeds
+from r37core.speeds import LARGEST_NUMBER, SpeedError, exact_text, plan_speeds
 from r37core.text_file import TextFileError
 from r37core.yaml_file import load_yaml
 
@@ -275,7 +275,7 @@ def test_lists_of_numbers_on_the_command_line(config_copy):
     """Snakemake hands them on as texts."""
     given = {"speeds": ["900", "1e3", {"start": "1100", "stop": "1200", "step": "50"}], "blades": ["Ref"], "tolerance": 0.1}
     settings = read_settings(config_copy, command_line_document(given))
-    assert settings.speeds["Ref", "direct"] == (900.0, 1000.0, 1100.0, 1150.0, 1200.0)
+    assert settings.speed_plans["Ref", "direct"].certain == (900.0, 1000.0, 1100.0, 1150.0, 1200.0)
     for value, found in (("nan", "nan"), ("inf", "inf"), ("abc", "abc")):
         with pytest.raises(ConfigError, match=rf"^--config: speeds\.0: found '?{found}'?; allowed: number"):
             read_settings(config_copy, command_line_document({"speeds": [value]}))
@@ -285,12 +285,12 @@ def test_lists_of_numbers_on_the_command_line(config_copy):
 
 def test_the_number_of_speeds_is_bounded_before_any_is_made():
     with pytest.raises(SpeedError, match="found 1e\\+12 speeds from 1 to 1e\\+12"):
-        expand_speeds([{"start": 1.0, "stop": 1e12, "step": 1.0}], 1.0)
+        plan_speeds([{"start": 1.0, "stop": 1e12, "step": 1.0}], 1.0)
     with pytest.raises(SpeedError, match="allowed: at most"):
-        expand_speeds([{"start": 1.0, "stop": 1e300, "step": 1e-300}], 1.0)
+        plan_speeds([{"start": 1.0, "stop": 1e300, "step": 1e-300}], 1.0)
     half = 0.75 * LARGEST_NUMBER
     with pytest.raises(SpeedError, match="allowed: at most"):
-        expand_speeds([{"start": 1.0, "stop": half}, {"start": half + 1.0, "stop": 2 * half}], 1.0)
+        plan_speeds([{"start": 1.0, "stop": half}, {"start": half + 1.0, "stop": 2 * half}], 1.0)
 
 
 def test_speeds_stand_exactly_in_file_names():

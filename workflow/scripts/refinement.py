@@ -7,7 +7,7 @@ from r37core.io import write_text
 from r37core.results.interactions import InteractionChoice
 from r37core.results.refinement import refinement_choice_from
 from r37core.speeds import speed_plan_from
-from r37core.studies.refinement import compare, replay
+from r37core.studies.refinement import compare, plain_grid, replay
 from r37core.studies.refinement_table import refinement_table
 
 
@@ -22,8 +22,7 @@ def main(snakemake):
         every[place] = response.sizes["speed"]
         ways["refined"][place] = compare(response, campbell, replay(response, campbell, plan, choice), interactions)
         for step in params.steps:
-            grid = [speed for speed in plan.every_speed() if (speed - plan.every_speed()[0]) % step == 0]
-            ways[f"every {step:g} rad/s"][place] = compare(response, campbell, [grid], interactions)
+            ways[f"every {step:g} rad/s"][place] = compare(response, campbell, [plain_grid(plan, step)], interactions)
     write_text(refinement_table(ways, every), snakemake.output[0])
 
 

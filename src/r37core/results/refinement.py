@@ -113,8 +113,8 @@ def next_speeds(grid: RefinedRange, known: KnownSpeeds, choice: RefinementChoice
     room = int(choice.largest_share * (grid.last + 1)) - len(places)
     worth = _worth(known.curves[:, on_grid], known.status[on_grid], _scale(known), choice)
     open_intervals = np.flatnonzero((np.diff(places) > 1) & (worth > 0.0))
-    # the largest first; among equals, which are all that lies within a round of the same feature, the lower speed
-    chosen = sorted(open_intervals, key=lambda i: (-worth[i], i))[: max(room, 0)]
+    # the largest first; half of the room, so that later rounds can follow what this one finds
+    chosen = sorted(open_intervals, key=lambda i: (-worth[i], i))[: max(-(-room // 2), 0)]
     return [grid.speed(int(places[i] + places[i + 1]) // 2) for i in sorted(chosen)]
 
 
@@ -134,7 +134,7 @@ def _scale(known: KnownSpeeds) -> np.ndarray:
 
 
 def _worth(curves: np.ndarray, status: np.ndarray, scale: np.ndarray, choice: RefinementChoice) -> np.ndarray:
-    """How much there is to see in each interval, shape (speeds - 1,): 0 for nothing, else the height in shares of a curve's top."""
+    """What there is to see in each interval, shape (speeds - 1,): 0 for nothing, else the height in shares of a curve's top."""
     worth = np.zeros(len(status) - 1)
     for name, curve, top in zip(CURVES, np.nan_to_num(curves, nan=0.0) / scale[:, None], scale, strict=True):
         larger, change = np.maximum(curve[:-1], curve[1:]), np.abs(np.diff(curve))
@@ -154,8 +154,8 @@ _ENDED = (RunStatus.COMPLETED, RunStatus.DIVERGED)
 
 def _near_a_peak(curve: np.ndarray, choice: RefinementChoice) -> np.ndarray:
     """Whether an interval touches a peak or, next to it without a gap, points within the share `peak` of its height."""
-    # a floor at both ends, so that a peak on the first or last speed counts
-    peaks, _ = find_peaks(np.concatenate([[0.0], curve, [0.0]]), prominence=choice.prominence)
+    # the lowest value at both ends, so that a peak on the first or last speed counts and a level curve has none
+    peaks, _ = find_peaks(np.concatenate([[curve.min()], curve, [curve.min()]]), prominence=choice.prominence)
     near = np.zeros(len(curve), dtype=bool)
     for peak in peaks - 1:
         high = curve >= (1.0 - choice.peak) * curve[peak]

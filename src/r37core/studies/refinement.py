@@ -82,6 +82,13 @@ def _measured(response: xr.Dataset) -> dict[float, list[float]]:
     return dict(zip(map(float, response["speed"].values), rows.tolist(), strict=True))
 
 
+def plain_grid(plan: SpeedPlan, step: float) -> list[float]:
+    """Every so many rad/s of the grids of a plan, ascending."""
+    return sorted(
+        grid.speed(place) for grid in plan.refined for place in range(0, grid.last + 1, max(1, round(step / grid.refine_to)))
+    )
+
+
 def compare(
     response: xr.Dataset, campbell: xr.Dataset, speeds: Sequence[Sequence[float]], interactions: InteractionChoice
 ) -> Outcome:
