@@ -5,13 +5,22 @@ CORES ?= 2
 VENV := .venv
 BIN := $(VENV)/bin
 
-.PHONY: all_blades campbell test lint bench docs setup clean clean-results
+.PHONY: all_blades campbell test test-fast mutants lint bench docs setup clean clean-results
 
 all_blades campbell: $(VENV)/.ready
 	$(BIN)/snakemake $@ --cores $(CORES) $(if $(FIDELITY),--config fidelity=$(FIDELITY))
 
 test: $(VENV)/.ready
 	$(BIN)/python -m pytest
+
+# without those that run Snakemake or build larger models
+test-fast: $(VENV)/.ready
+	$(BIN)/python -m pytest -q -m 'not slow'
+
+# whether the tests notice small changes of the code: a sample, about half an hour; MUTANTS='results/stress.py --each 20' for one module
+mutants: $(VENV)/.ready
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[test,mutants]'
+	$(BIN)/python benchmarks/mutants.py $(MUTANTS)
 
 lint: $(VENV)/.ready
 	$(BIN)/ruff check .

@@ -3,7 +3,10 @@
 A page says where with <!-- name --> ... <!-- end -->.
 """
 
+import re
 import shutil
+import subprocess
+import sys
 from pathlib import Path
 
 ROOT = Path(__file__).parent.parent
@@ -29,7 +32,18 @@ def fill(page, name, text):
     page.write_text(f"{before}<!-- {name} -->\n{text.rstrip()}\n<!-- end -->{after}", encoding="utf-8")
 
 
+def rule_graph():
+    """The rules of the main job as a Mermaid diagram, without their way to the final target."""
+    command = [str(Path(sys.executable).with_name("snakemake")), "all_blades", "--rulegraph", "mermaid-js", "--nolock"]
+    text = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True).stdout
+    names = dict(re.findall(r"(id\d+)\[(\w+)\]", text))
+    edges = sorted((names[one], names[other]) for one, other in re.findall(r"(id\d+) --> (id\d+)", text))
+    lines = [f"    {one} --> {other}" for one, other in edges if other != "all_blades"]
+    return "\n".join(["```mermaid", "flowchart LR", *lines, "```"])
+
+
 def main():
+    fill(ROOT / "docs" / "architecture.md", "rules", rule_graph())
     for page, tables in TABLES.items():
         for name, file in tables.items():
             if (STUDIES / file).exists():

@@ -3,7 +3,9 @@
 from dataclasses import replace
 
 import numpy as np
+import pandas as pd
 import pytest
+from scipy.interpolate import CubicSpline
 
 from r37core.blade.definition import BladeDefinition
 from r37core.blade.errors import BladeShapeError
@@ -11,6 +13,7 @@ from r37core.blade.geometry_file import read_geometry, write_geometry
 from r37core.blade.polygon import area_and_centroid
 from r37core.blade.stacking import conical_stacking, plane_section_stacking
 from r37core.blade.sweep import chordwise_sweep, sweep_and_lean
+from r37core.blade.tables import read_profile_table
 
 PRINTED_AXIAL = [0, 0.0096, 0.0188, 0.0267, 0.0473, 0.0687, 0.0872, 0.0987, 0.1015, 0.1030, 0.1030]  # cm
 PRINTED_ROTATION = [
@@ -29,6 +32,18 @@ def test_stacking_corrections(profiles):
     assert np.all(worst[:8] < 0.0022)
     assert worst[8] < 0.0035
     assert np.all(worst[9:] < 0.0106)
+
+
+@pytest.mark.slow
+def test_a_dense_table_makes_the_same_blade(root, blade, tmp_path):
+    """200 profiles on the spline through the table's eleven, printed as it is to 1/100 mm, against the blade of these."""
+    source = pd.read_csv(root / "config/profiles/rotor37.csv").sort_values("span_percent")
+    spans = np.linspace(0.0, 100.0, 200)
+    dense = CubicSpline(source["span_percent"], source.values)(spans)
+    pd.DataFrame(dense, columns=source.columns).round(3).to_csv(tmp_path / "dense.csv", index=False)
+    many = BladeDefinition("Dense", tuple(read_profile_table(tmp_path / "dense.csv"))).build()
+    chord, span, side = (grid.ravel() for grid in np.meshgrid(np.linspace(0, 1, 9), np.linspace(0, 1, 23), [-1.0, 1.0]))
+    assert np.abs(many.position(chord, span, side) - blade.position(chord, span, side)).max() < 1e-4
 
 
 def test_plane_sections_of_the_finished_blade_lie_on_one_line(blade, profiles):

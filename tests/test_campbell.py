@@ -5,7 +5,7 @@ import pytest
 import scipy.linalg as la
 import xarray as xr
 
-from r37core.results.campbell import campbell_diagram, dynamic_clearance, modal_assurance
+from r37core.results.campbell import Campbell, campbell_diagram, dynamic_clearance, modal_assurance
 from r37core.results.campbell_dataset import campbell_dataset
 from r37core.results.gather import gather_blades
 
@@ -58,6 +58,14 @@ def test_modes_are_followed_through_a_crossing(model):
     np.testing.assert_allclose(2 * np.pi * followed.frequencies[0], np.sqrt(1.0 + 5.0 * speeds**2))
     np.testing.assert_allclose(2 * np.pi * followed.frequencies[1], np.sqrt(4.0 + 0.1 * speeds**2))
     np.testing.assert_allclose(followed.crossing_speeds(np.array([3]))[:2, 0], [0.5, np.sqrt(4.0 / 8.9)], rtol=1e-9)
+
+
+def test_the_first_of_several_crossings_counts():
+    """Squared frequency minus squared speed is a cubic of the squared speed with zeros 2, 6 and 12: a spline's own kind."""
+    speeds = np.linspace(0.0, 4.0, 81)
+    squares = speeds**2 - 1e-3 * (speeds**2 - 2.0) * (speeds**2 - 6.0) * (speeds**2 - 12.0)
+    diagram = Campbell(speeds, ("1B",), np.sqrt(squares)[None] / (2.0 * np.pi), np.zeros((1, 81, 1)), np.ones(1))
+    assert diagram.crossing_speeds(np.array([1]))[0, 0] == pytest.approx(np.sqrt(2.0), rel=1e-9)
 
 
 def test_modal_assurance_is_one_for_equal_shapes(model):

@@ -1,6 +1,7 @@
 """Numbers in README and configuration are those of the generated pages."""
 
 import re
+import runpy
 
 import pytest
 
@@ -66,3 +67,13 @@ def test_every_extreme_has_an_outcome(pages):
     counted = re.match(r"(\d+) accurate, (\d+) degraded, (\d+) diverged, (\d+) refused, of (\d+) cases", table.strip())
     numbers = [int(number) for number in counted.groups()]
     assert sum(numbers[:4]) == numbers[4] == len(re.findall(r"\| (?:accurate|degraded|diverged|refused) \|", table)) > 90
+
+
+def test_rule_graph_is_that_of_the_workflow(root):
+    """`make docs` renews it."""
+    graph = runpy.run_path(str(root / "benchmarks/pages.py"))["rule_graph"]()
+    assert section((root / "docs/architecture.md").read_text(), "rules").strip() == graph
+
+
+def test_readme_is_short(readme):
+    assert len(readme.split()) <= 700

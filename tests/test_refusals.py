@@ -107,6 +107,11 @@ CONFIG_REFUSALS = [
         "stop: 2000, step: 0.02 }",
         r"speeds: found 875014 simulations of 7 blades in 2 scenes; allowed: at most 200000",
     ),
+    (
+        "speeds_for: []",
+        "speeds_for: [{ scenes: [direct], speeds: [0.01] }]",
+        r"speeds: found 0\.01 rad/s, a revolution of 1\.57e\+09 steps .*; allowed: speeds from 0\.936 rad/s",
+    ),
     ("start: 750, ", "start: 0, ", r"speeds\.0\.start: found 0; allowed: number, at least 0\.001"),
     ("stop: 2000 }", "stop: 700 }", r"speeds\.0: found a range from 750 to 700; allowed: stop not below start"),
     ("blades: all", "blades: [Ref, Ref]", r"blades\.1: found 'Ref' twice; allowed: each once"),

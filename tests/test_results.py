@@ -57,6 +57,20 @@ def test_stress_of_simple_states():
     assert recovery.max_von_mises(np.array([[-2.0, 0.0, 0.0]]))[0] == pytest.approx(360e6)
 
 
+def test_a_node_has_the_mean_stress_of_its_elements():
+    """Tension on one side of a plane between elements: on it, the stress is shared by how many elements are on either side."""
+    box = box_model(lambda p: 1e-3 * np.maximum(p - [1.0 / 3.0, 0.0, 0.0], 0.0) * [1.0, 0.0, 0.0])
+    along = StressRecovery(box, Material(180e9, 8000.0, 0.0, 1.38e9)).operator[0, :, 0]
+    elements, points = box.stress_elements, box.stress_submesh.points
+    strained = points[elements].mean(axis=1)[:, 0] > 1.0 / 3.0
+    means = set()
+    for node, stress in enumerate(along):
+        share = strained[np.any(elements == node, axis=1)].mean()
+        assert stress == pytest.approx(180e6 * share, abs=1.0)
+        means.add(round(share, 3))
+    assert means - {0.0, 1.0}
+
+
 def test_empty_submesh_is_refused():
     model = box_model(lambda p: p)
     model.stress_elements = np.empty((0, 15), dtype=int)
@@ -163,6 +177,45 @@ def test_datasets_join_blades_and_scenes(sweep, kind):
             if variable.dtype.kind == "f" and "scene" in variable.dims and "speed" in variable.dims and kind == "rms":
                 missing = np.isnan(variable.sel(scene="direct", blade="Ref", speed=900.0))
                 assert missing.all(), name
+
+
+def test_every_blade_and_scene_has_its_own_slab(sweep, tmp_path):
+    """Two blades by two scenes at different speeds, each with numbers of its own."""
+    source, _ = sweep
+    run = read_speed(source / "abradable_900.npz")
+    run.pop("parameters")
+    files, factors = {}, {}
+    for number, key in enumerate((blade, scene) for blade in ("A", "B") for scene in ("near", "far")):
+        factors[key] = number + 1.0
+        speeds = (900.0, 950.0 + number)
+        for speed in speeds:
+            write_speed(run | {"rms": factors[key] * run["rms"]}, tmp_path / f"{number}_{speed:g}.npz", {})
+        files[key] = tmp_path / f"{number}.nc"
+        places = [tmp_path / f"{number}_{speed:g}.npz" for speed in speeds]
+        write_response(places, speeds, files[key], None, (), 31, 1.0, {"numerics": "20000 nodes"})
+    write_sweep_dataset("rms", files, tmp_path / "rms.nc", {})
+    with xr.open_dataset(tmp_path / "rms.nc") as dataset:
+        np.testing.assert_array_equal(dataset["speed"], [900.0, 950.0, 951.0, 952.0, 953.0])
+        for (blade, scene), factor in factors.items():
+            slab = dataset["rms_normal"].sel(blade=blade, scene=scene)
+            np.testing.assert_array_equal(slab.sel(speed=900.0), factor * run["rms"][:, 0])
+            assert np.isfinite(slab.sel(speed=949.0 + factor)).all()
+            assert np.isnan(
+                slab.sel(speed=[speed for speed in dataset["speed"].values if speed not in (900.0, 949.0 + factor)])
+            ).all()
+
+
+def test_responses_of_two_levels_do_not_mix(sweep, tmp_path):
+    source, _ = sweep
+    files = {}
+    for blade, numerics in (("A", "20000 nodes, exact_modal of 4e-07 s"), ("B", "5000 nodes, exact_modal of 8e-07 s")):
+        files[blade, "abradable"] = tmp_path / f"{blade}.nc"
+        write_response(
+            [source / "abradable_900.npz"], (900.0,), files[blade, "abradable"], None, (), 31, 1.0, {"numerics": numerics}
+        )
+    with pytest.raises(InputFileError, match=r"A\.nc was made with 20000 nodes.*B\.nc with 5000 nodes.*delete the one"):
+        write_sweep_dataset("rms", files, tmp_path / "rms.nc", {})
+    assert not (tmp_path / "rms.nc").exists()
 
 
 def test_unreadable_speed_is_named(sweep, model):

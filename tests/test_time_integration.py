@@ -271,6 +271,13 @@ def test_contact_model(model, contact, tmp_path):
     line = model.tip_lines["pressure_edge"]
     assert np.degrees(contact.tip_cone_angle) == pytest.approx(-15.24, abs=0.01)
     np.testing.assert_allclose(line.cone_angle, contact.tip_cone_angle)
+    # leading edge upstream, trailing edge downstream, at the ends of the tip: rotor 37 is 2.8 cm long there
+    assert line.points[-1, 2] - line.points[0, 2] > 0.02
+    for edge, end in enumerate((0, -1)):
+        x, y, z = line.basis[end] @ contact.to_reduced
+        angle = np.arctan2(line.points[end, 1], line.points[end, 0])
+        expected = [np.cos(angle) * x + np.sin(angle) * y, np.cos(angle) * y - np.sin(angle) * x, z]
+        np.testing.assert_allclose(contact.tip_displacement_operator[:, edge], expected, rtol=1e-9, atol=1e-12)
     # the boundary coordinates are the displacements themselves
     coordinates = np.zeros(model.size)
     coordinates[:3] = [1e-3, 2e-3, 3e-3]

@@ -292,28 +292,30 @@ def test_one_core_gives_the_same_bits(finished, project):
     assert digests(project) == digests(finished)
 
 
-def readme_blocks(root, language):
-    return re.findall(rf"```{language}\n(.*?)```", (root / "README.md").read_text(), re.DOTALL)
+def blocks(root, language):
+    """Code in what a user reads first."""
+    pages = [(root / page).read_text() for page in ("README.md", "docs/results.md", "docs/blades.md")]
+    return [block for page in pages for block in re.findall(rf"```{language}\n(.*?)```", page, re.DOTALL)]
 
 
-def test_readme_python_runs(root, finished):
-    blocks = readme_blocks(root, "python")
-    assert len(blocks) >= 2
-    for block in blocks:
+def test_python_of_the_pages_runs(root, finished):
+    found = blocks(root, "python")
+    assert len(found) >= 4
+    for block in found:
         code = "import matplotlib\nmatplotlib.use('Agg')\n" + block
         subprocess.run([sys.executable, "-c", code], cwd=finished, check=True, capture_output=True, timeout=300)
 
 
-def test_readme_blades_are_accepted(root, project):
+def test_blades_of_the_pages_are_accepted(root, project):
     with open(project / "config/blades.yaml", "a") as stream:
-        stream.write("\n" + "\n".join(readme_blocks(root, "yaml")))
+        stream.write("\n" + blocks(root, "yaml")[-1])
     config = project / "config/config.yaml"
     config.write_text(config.read_text().replace("[Ref, CS100]", "[Mine, Stiffer, Drawn]"))
     assert planned(project)["geometry"] == {"Mine", "Stiffer", "Drawn"}
 
 
 def test_readme_commands_exist(root):
-    targets = re.findall(r"^make (\w+)", "\n".join(readme_blocks(root, "sh")), re.MULTILINE)
+    targets = re.findall(r"^make (\w+)", "\n".join(blocks(root, "sh")), re.MULTILINE)
     makefile = (root / "Makefile").read_text()
     assert targets
     for target in targets:

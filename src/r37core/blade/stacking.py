@@ -19,6 +19,9 @@ from .profile import Profile
 
 _TOLERANCE = 1e-9  # m
 _POINTS_PER_SIDE = 400
+_NEAREST = 0.04
+"""Span between the profiles whose sections are cut: next to an end a section is cut through the spline's continuation, which
+goes astray when the last profiles are close to each other."""
 
 
 @dataclass(frozen=True)
@@ -46,22 +49,41 @@ def plane_section_stacking(profiles: Sequence[Profile]) -> Placement:
     """Placement that puts the centre of area of every plane section x = const on one radial line.
 
     Section i is cut at the radius of profile i's centre of area. The line is at theta = 0, its axial position the
-    one of the hub's section, so the hub profile does not shift axially.
+    one of the hub's section, so the hub profile does not shift axially. Of profiles closer than 4% of the span only some are
+    cut, and the others moved as a cubic spline through these.
 
     Raises BladeShapeError when a section cannot be cut or the iteration does not settle.
     """
+    spans = np.array([p.parameters.span for p in profiles])
+    cut = _apart(spans)
+    start = conical_stacking(profiles)
+    moves = _moves_of_sections([profiles[i] for i in cut], Placement(start.axial[cut], start.rotation[cut]))
+    weights = SpanLoft(spans[cut]).weights(spans)
+    return start + Placement(weights @ moves.axial, weights @ moves.rotation)
+
+
+def _apart(spans: np.ndarray) -> np.ndarray:
+    """Indices of spans at least _NEAREST apart, with the first and the last."""
+    chosen = [0]
+    for i in range(1, len(spans) - 1):
+        if spans[i] - spans[chosen[-1]] >= _NEAREST - 1e-9 and spans[-1] - spans[i] >= _NEAREST - 1e-9:
+            chosen.append(i)
+    return np.array([*chosen, len(spans) - 1])
+
+
+def _moves_of_sections(profiles: Sequence[Profile], start: Placement) -> Placement:
+    """What is to be added to the placement `start` so that the centre of area of every profile's section is on one line."""
     loft = SpanLoft(np.array([p.parameters.span for p in profiles]))
     outlines = _outlines(profiles)
     heights = np.array([p.cone.radius(p.centroid[0]) for p in profiles])
-    start = conical_stacking(profiles)
 
-    def placement_of(moves: np.ndarray) -> Placement:
+    def added(moves: np.ndarray) -> Placement:
         axial, tangential = np.split(moves, 2)
-        return start + Placement(axial - axial[0], tangential / heights)
+        return Placement(axial - axial[0], tangential / heights)
 
     def offsets(moves: np.ndarray) -> np.ndarray:
         """Offset of every section's centre of area from the stacking line (m), axial then tangential."""
-        placement = placement_of(moves)
+        placement = start + added(moves)
         placed = outlines + np.stack([0.0 * heights, placement.rotation, placement.axial], axis=1)[:, :, None]
         centroids = np.array(
             [
@@ -84,7 +106,7 @@ def plane_section_stacking(profiles: Sequence[Profile]) -> Placement:
             f"{worst.parameters.label}: the stacking does not settle; "
             "neighbouring profiles of the table differ too much in shape"
         )
-    return placement_of(solution.x)
+    return added(solution.x)
 
 
 def _outlines(profiles: Sequence[Profile]) -> np.ndarray:

@@ -71,7 +71,8 @@ def describe(part: Mapping[str, Any], schema: Mapping[str, Any]) -> str:
         f"{bound} {part[name]:g}" if isinstance(part[name], float) else f"{bound} {part[name]}" for name, bound in _bounds(part)
     ]
     if part.get("type") == "array" and "items" in part:
-        words[0] = f"list of {_resolved(part['items'], schema).get('type', 'values')}"
+        inner = _resolved(part["items"], schema)
+        words[0] = f"list of {describe(inner, schema) if 'properties' in inner else inner.get('type', 'values')}"
     if "properties" in part:
         words[0] = f"mapping with the keys {', '.join(part['properties'])}"
     return ", ".join(words)

@@ -26,7 +26,7 @@ class Casing(Section):
         "tip: that of each blade's tip",
     )
     lobes: int = Field(default=2, ge=0, le=100, description="0 is a circular casing")
-    width: float = Field(default=0.15, gt=0, le=100, description="width of a lobe in shares of its period")
+    width: float = Field(default=0.15, ge=1e-3, le=100, description="width of a lobe in shares of its period")
     amplitude_clearances: float = Field(default=2.0, ge=0, le=1000)
     rise_fraction: float = Field(default=0.2, ge=0, le=1, description="share of the run at which 99% is reached")
 
@@ -34,7 +34,7 @@ class Casing(Section):
 class Lining(Section):
     """The abradable lining in front of the casing."""
 
-    thickness_m: float = Field(gt=0, le=1)
+    thickness_m: float = Field(ge=1e-6, le=1)
     elastic_modulus_pa: float = Field(gt=0, le=1e15)
     plastic_modulus_pa: float = Field(ge=0, le=1e15)
     yield_stress_pa: float = Field(ge=0, le=1e15)
@@ -42,7 +42,7 @@ class Lining(Section):
     rings: Literal["per_node", "shared"] = Field(
         default="per_node", description="shared, one ring worn by all nodes, is kept for the study readings"
     )
-    bar_width_m: float = Field(default=0.001, gt=0, le=1, description="width of a bar, along the casing's meridian")
+    bar_width_m: float = Field(default=0.001, ge=1e-6, le=1, description="width of a bar, along the casing's meridian")
     bar_area_m2: Annotated[float, Field(gt=0, le=1)] | LeftOut = Field(
         default=None, description="area of a bar, in place of its width times its arc length at the tip"
     )

@@ -8,7 +8,7 @@ from pathlib import Path
 import netCDF4
 import numpy as np
 
-from r37core.io import FILE_ATTRIBUTES, atomic_write, readable
+from r37core.io import FILE_ATTRIBUTES, InputFileError, atomic_write, readable
 from r37core.time_integration.simulate import TIP_POINTS
 from r37core.time_integration.status import RunStatus
 
@@ -25,10 +25,12 @@ def write_sweep_dataset(
     """Join one kind of result (a key of DATASETS) of the responses, keyed by (blade, scene), into (blade, scene, speed, ...).
 
     Speeds are the union; where a blade and scene was not run at one, floats are NaN and `status` says not_run. One
-    response's slab is in memory at a time. Raises InputFileError for a response that cannot be read.
+    response's slab is in memory at a time. Raises InputFileError for a response that cannot be read, and for two of different
+    `numerics` (attribute of a response): mesh, integrator and step of a fidelity level.
     """
     blades = list(dict.fromkeys(blade for blade, _ in responses))
     scenes = list(dict.fromkeys(scene for _, scene in responses))
+    _check_numerics(responses)
     with atomic_write(file) as partial, netCDF4.Dataset(partial, "w") as target:
         target.setncatts(FILE_ATTRIBUTES | {name: str(value) for name, value in provenance.items()})
         axes = _axes(responses)
@@ -37,6 +39,19 @@ def write_sweep_dataset(
         for (blade, scene), source in responses.items():
             with readable(source), netCDF4.Dataset(source) as response:
                 _copy(response, target, kind, (blades.index(blade), scenes.index(scene)), axes)
+
+
+def _check_numerics(responses: Mapping[tuple[str, str], Path | str]) -> None:
+    found: dict[str, Path | str] = {}
+    for source in responses.values():
+        with readable(source), netCDF4.Dataset(source) as response:
+            found.setdefault(getattr(response, "numerics", "unknown numerics"), source)
+    if len(found) > 1:
+        (first, file), (other, another), *_ = found.items()
+        raise InputFileError(
+            f"{file} was made with {first}, {another} with {other}; a dataset holds one fidelity level: "
+            "delete the one that is out of date and run again"
+        )
 
 
 def _axes(responses: Mapping[tuple[str, str], Path | str]) -> dict[str, np.ndarray]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -14,13 +14,10 @@ from r37core.dataset_file import about
 from r37core.results.stress import StressRecovery
 from r37core.rom.contact_model import ContactModel
 from r37core.time_integration.choice import IntegrationChoice
-from r37core.time_integration.integrators import CENTRAL_DIFFERENCE, EXACT_MODAL
 from r37core.time_integration.simulate import UnstableStepError
 
 from .case import COSTS, MOTION, QUANTITIES, Case, run_case
-
-MODEL_PARAMETERS = ("mesh_nodes", "boundary_nodes", "fixed_interface_modes", "stress_region", "level")
-"""Parameters that need a model of their own, or a level's."""
+from .parameters import vary
 
 
 @dataclass(frozen=True)
@@ -34,30 +31,6 @@ class Place:
     def of(self, crossing: float) -> np.ndarray:
         """The speeds (rad/s) about a Campbell speed (rad/s)."""
         return np.linspace(self.first, self.last, self.speeds) * crossing
-
-
-def vary(parameter: str, value: str, scene: Scene, choice: IntegrationChoice) -> tuple[Scene, IntegrationChoice]:
-    """Scene and time integration with one parameter set; parameters of the model change neither.
-
-    Raises ValueError for an unknown parameter.
-    """
-    if parameter in MODEL_PARAMETERS:
-        return scene, choice
-    if parameter == "central_difference_step":
-        return scene, replace(choice, time_step=float(value), integrator=CENTRAL_DIFFERENCE)
-    if parameter == "exact_modal_step":
-        return scene, replace(choice, time_step=float(value), integrator=EXACT_MODAL)
-    if parameter == "revolutions":
-        return scene, replace(choice, revolutions=int(value))
-    if parameter == "highest_frequency":
-        return scene, replace(choice, highest_frequency=float(value))
-    if parameter == "stress_instants":
-        return scene, replace(choice, snapshots_per_revolution=int(value))
-    if parameter == "bars":
-        return replace(scene, lining=scene.lining and replace(scene.lining, bars=int(value))), choice
-    if parameter == "friction_form":
-        return replace(scene, friction=scene.friction and replace(scene.friction, vector=value == "vector")), choice
-    raise ValueError(f"unknown parameter {parameter}")
 
 
 def run_scenes(

@@ -50,11 +50,12 @@ class Provenance:
         return Attributes(blade=blade, fidelity=settings.fidelity_name, input_hash=settings.structure_hash(blade))
 
     def _sweep_of(self, blade: str, scene: str) -> Attributes:
-        chosen = self._settings.scenes[scene]
+        chosen, steps = self._settings.scenes[scene], self._settings.fidelity.time_integration
         return Attributes(
             self._structure(blade),
             scene=scene,
             scene_parameters=repr(chosen.scene),
             revolutions=chosen.revolutions,
-            largest_time_step=self._settings.fidelity.time_integration.time_step_s,
+            largest_time_step=steps.time_step_s,
+            numerics=f"{self._settings.fidelity.mesh.nodes} nodes, {steps.integrator} of {steps.time_step_s:g} s",
         )

@@ -9,12 +9,10 @@ from r37core.config import ConfigError, Settings, plain
 from r37core.config.studies import Tradeoff as TradeoffSection
 from r37core.contact.scene import Scene
 from r37core.speeds import exact_text
+from r37core.studies.parameters import LEVEL, OF_THE_MODEL
 
 from . import paths
 from .study_models import StudyModels
-
-OF_THE_MODEL = {"mesh_nodes": "nodes", "boundary_nodes": "boundary_nodes", "fixed_interface_modes": "fixed_interface_modes"}
-"""Parameter -> part of a model's name, a number."""
 
 
 class Tradeoff:
@@ -47,15 +45,8 @@ class Tradeoff:
     def model(self, wildcards: Any) -> dict[str, str]:
         """Files of the model that a parameter's value needs."""
         parameter, value, base = wildcards.parameter, wildcards.value, self.section.base
-        if parameter == "level":
-            model = self._models.of_level(value)
-        elif parameter == "stress_region":
-            model = self._models.of_level(base, region=value)
-        elif parameter in OF_THE_MODEL:
-            model = self._models.of_level(base, **{OF_THE_MODEL[parameter]: int(value)})
-        else:
-            model = self._models.of_level(base)
-        return self._models.files(wildcards.blade, model)
+        changed = {OF_THE_MODEL[parameter]: value} if parameter in OF_THE_MODEL else {}
+        return self._models.files(wildcards.blade, self._models.of_level(value if parameter == LEVEL else base, **changed))
 
     @property
     def _scene_names(self) -> list[str]:
@@ -71,7 +62,7 @@ class Tradeoff:
 
     def choices(self, wildcards: Any) -> dict[str, dict[str, Any]]:
         """The time integration of every scene, before the parameter is turned."""
-        level = wildcards.value if wildcards.parameter == "level" else self.section.base
+        level = wildcards.value if wildcards.parameter == LEVEL else self.section.base
         return {name: self._models.integration(level) for name in self._scene_names}
 
     def places(self, wildcards: Any) -> dict[str, Any]:

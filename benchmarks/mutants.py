@@ -1,0 +1,148 @@
+"""Whether the tests notice small changes of the code: a sample of mutations by cosmic-ray, and the score for docs/mutants.md.
+
+Run: make mutants [MUTANTS='--each 20 results/stress.py']. A mutation is an operator, number, comparison or the like changed at
+one place; it is killed when a test of its module fails. The sample is drawn with a fixed seed, so that it can be repeated.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import random
+import shutil
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+from cosmic_ray.work_db import WorkDB, use_db
+from cosmic_ray.work_item import TestOutcome, WorkerOutcome, WorkItem, WorkResult
+
+ROOT = Path(__file__).parent.parent
+PAGE = ROOT / "docs" / "mutants.md"
+
+TESTS = {
+    "blade/stacking.py": "test_blade.py",
+    "contact/casing.py": "test_contact.py test_cone_contact.py",
+    "contact/lining.py": "test_contact.py",
+    "fem/centrifugal.py": "test_fem.py",
+    "results/campbell.py": "test_campbell.py",
+    "results/datasets.py": "test_results.py",
+    "results/interactions.py": "test_results.py",
+    "results/response.py": "test_results.py",
+    "results/stress.py": "test_results.py",
+    "rom/contact_reduction.py": "test_time_integration.py",
+    "rom/craig_bampton.py": "test_rom.py",
+    "speeds.py": "test_results.py test_config.py",
+    "studies/measures.py": "test_readings.py",
+    "time_integration/integrators.py": "test_integrators.py test_time_integration.py",
+    "time_integration/simulate.py": "test_run_statistics.py test_time_integration.py",
+    "time_integration/speed_run.py": "test_run_statistics.py",
+    "workflow/leftovers.py": "test_reliability.py",
+    "workflow/sweep.py": "test_workflow_plans.py",
+}
+"""Module -> the test files that are to notice."""
+
+EQUIVALENT = "BitOr"
+"""In this code mostly the bar between types, which nothing evaluates."""
+
+
+def mutants_of(module: str, folder: Path, each: int, seconds: float) -> list[tuple[WorkItem, WorkResult]]:
+    """Draw `each` mutations of a module in the copy `folder` of the project, and run its tests on every one."""
+    session, settings = folder / "mutants.sqlite", folder / "mutants.toml"
+    session.unlink(missing_ok=True)
+    tests = " ".join(f"tests/{name}" for name in TESTS[module].split())
+    settings.write_text(
+        f'[cosmic-ray]\nmodule-path = "src/r37core/{module}"\ntimeout = {seconds}\nexcluded-modules = []\n'
+        f"test-command = \"{sys.executable} -m pytest -x -q -p no:cacheprovider -m 'not slow' {tests}\"\n"
+        '[cosmic-ray.distributor]\nname = "local"\n'
+    )
+    environment = os.environ | {"PYTHONPATH": str(folder / "src")}
+    cosmic_ray = [str(Path(sys.executable).with_name("cosmic-ray"))]
+    subprocess.run([*cosmic_ray, "init", settings, session], cwd=folder, env=environment, check=True)
+    with use_db(session, WorkDB.Mode.open) as work:
+        items = sorted((one for one in work.work_items if EQUIVALENT not in one.mutations[0].operator_name), key=_place)
+        drawn = {one.job_id for one in random.Random(37).sample(items, min(each, len(items)))}
+        for one in list(work.work_items):
+            if one.job_id not in drawn:
+                work.set_result(one.job_id, WorkResult(WorkerOutcome.SKIPPED))
+    subprocess.run([*cosmic_ray, "exec", settings, session], cwd=folder, env=environment, check=True)
+    with use_db(session, WorkDB.Mode.open) as work:
+        return [(one, result) for one, (job, result) in _joined(work) if job in drawn]
+
+
+def _place(item: WorkItem) -> tuple[object, ...]:
+    mutation = item.mutations[0]
+    return mutation.start_pos, mutation.operator_name, mutation.occurrence
+
+
+def _joined(work: WorkDB) -> list[tuple[WorkItem, tuple[str, WorkResult]]]:
+    items = {one.job_id: one for one in work.work_items}
+    return sorted(((items[job], (job, result)) for job, result in work.results), key=lambda pair: _place(pair[0]))
+
+
+def survived(result: WorkResult) -> bool:
+    """Whether no test failed."""
+    return result.test_outcome == TestOutcome.SURVIVED
+
+
+def page(found: dict[str, list[tuple[WorkItem, WorkResult]]]) -> str:
+    """The page: score of every module, and the mutations that no test noticed."""
+    number = sum(map(len, found.values()))
+    killed = number - sum(survived(result) for several in found.values() for _, result in several)
+    lines = [
+        "# Mutations of the code that the tests notice",
+        "",
+        "Written by `make mutants` (cosmic-ray; a sample with a fixed seed, run against the quick tests of each module).",
+        "",
+        f"**{killed} of {number} killed.**",
+        "",
+        "| module | mutations | killed |",
+        "|---|---|---|",
+    ]
+    for module, several in found.items():
+        lines.append(f"| `{module}` | {len(several)} | {sum(not survived(result) for _, result in several)} |")
+    lines += ["", "Survivors:", ""]
+    for module, several in found.items():
+        for item, result in several:
+            if survived(result):
+                removed, added = _lines_of(result.diff or "")
+                lines.append(f"- `{module}` line {item.mutations[0].start_pos[0]}: `{removed}` as `{added}`")
+    return "\n".join(lines) + "\n"
+
+
+def _lines_of(diff: str) -> tuple[str, str]:
+    changed = [line for line in diff.splitlines() if line[:1] in "+-" and line[:3] not in ("+++", "---")]
+    removed, added = (next((line[1:].strip() for line in changed if line[0] == sign), "") for sign in "-+")
+    return removed, added
+
+
+def main() -> None:
+    """Run the sample; write the page when every module was in it."""
+    parser = argparse.ArgumentParser(description="Whether the tests notice small changes of the code.")
+    parser.add_argument("modules", nargs="*", default=list(TESTS), help="modules of src/r37core; all without it")
+    parser.add_argument("--each", type=int, default=6, help="mutations of each module")
+    parser.add_argument("--seconds", type=float, default=300.0, help="longest time of one test run")
+    chosen = parser.parse_args()
+    found = {}
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        tracked = subprocess.run(["git", "ls-files", "-z"], cwd=ROOT, capture_output=True, text=True, check=True).stdout
+        for file in filter(None, tracked.split("\0")):
+            (folder / file).parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy(ROOT / file, folder / file)
+        for module in chosen.modules:
+            found[module] = mutants_of(module, folder, chosen.each, chosen.seconds)
+            print(
+                f"{module}: {sum(not survived(result) for _, result in found[module])} of {len(found[module])} killed",
+                flush=True,
+            )
+    text = page(found)
+    if list(found) == list(TESTS):
+        PAGE.write_text(text)
+    else:
+        print(text)
+
+
+if __name__ == "__main__":
+    main()

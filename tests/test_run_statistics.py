@@ -1,0 +1,144 @@
+"""What a run's file keeps, against closed forms and counts by hand."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from integration_cases import DIRECT, LINING, oscillator
+
+from r37core.contact.casing import Casing
+from r37core.contact.scene import Scene
+from r37core.time_integration.choice import IntegrationChoice
+from r37core.time_integration.simulate import Simulation, SimulationState, UnstableStepError
+from r37core.time_integration.speed_run import run_speed
+from r37core.time_integration.status import RunStatus
+
+FREE = Scene(Casing(1.0, lobes=0), damping_ratio=0.0)
+SPEED = 1000.0
+
+
+def swinging(monkeypatch, amplitude):
+    """Every run starts with this displacement (m) of its mode."""
+    start = Simulation.start
+
+    def displaced(simulation):
+        state = start(simulation)
+        state.displacement[:] = amplitude
+        return state
+
+    monkeypatch.setattr(Simulation, "start", displaced)
+
+
+def with_tip(normal, tangential):
+    """One mode whose amplitude moves leading and trailing edge differently."""
+    model = oscillator(10.0 * SPEED)
+    operator = np.zeros((3, 2, 1))
+    operator[0, :, 0], operator[1, :, 0] = normal, tangential
+    return replace(model, tip_displacement_operator=operator)
+
+
+def test_statistics_of_a_free_oscillation(monkeypatch):
+    """Ten periods a revolution of 0.1 mm: rms amplitude/sqrt(2) in metres and one line of the spectrum, at both edges."""
+    swinging(monkeypatch, 1e-4)
+    choice = IntegrationChoice(1e-7, 6, 620)
+    kept = run_speed(with_tip([1.0, 3.0], [0.5, 2.0]), SPEED, FREE, choice, ("spectrum", "signal"), 31, 2, 10)
+    expected = 1e-4 * np.array([[1.0, 1.0, 0.5], [3.0, 3.0, 2.0]])
+    np.testing.assert_allclose(kept["rms"], expected / np.sqrt(2.0), rtol=1e-4)
+    np.testing.assert_allclose(kept["peak"], expected, rtol=1e-3)
+    np.testing.assert_allclose(kept["revolution_maxima"], np.broadcast_to(expected, (6, 2, 3)), rtol=1e-3)
+    line = kept["engine_order"] == 10.0
+    np.testing.assert_allclose(kept["amplitude"][:, line], [[1e-4], [0.5e-4]], rtol=1e-3)
+    assert kept["amplitude"][:, ~line].max() < 1e-7
+    assert kept["signal"].shape == (2 * 620, 2, 2)
+
+
+def test_the_signal_is_the_end_of_the_run(monkeypatch):
+    """With damping, so that no two revolutions are alike."""
+    swinging(monkeypatch, 1e-4)
+    model, scene = with_tip([1.0, 3.0], [0.5, 2.0]), replace(FREE, damping_ratio=0.01)
+    choice = IntegrationChoice(1e-7, 5, 62)
+    simulation = Simulation(model, SPEED, scene, choice)
+    samples = simulation.advance(simulation.start(), 5).samples.reshape(-1, 2, 3)
+    kept = run_speed(model, SPEED, scene, choice, ("signal",), 10, 2, 10)
+    np.testing.assert_allclose(kept["signal"], samples[-2 * 62 :][:, :, [0, 2]], rtol=1e-6)
+
+
+def test_contact_statistics_counted_step_by_step():
+    """Every step of a node driven by a lobed casing is sampled: contacts, their onsets and forces are read off the motion."""
+    frequency, step = 6000.0, 1e-6
+    choice = IntegrationChoice(step, 2, 6284)
+    scene = Scene(Casing(1e-4, rise_fraction=0.0), damping_ratio=0.0)
+    model = oscillator(frequency)
+    simulation = Simulation(model, SPEED, scene, choice)
+    assert simulation.steps_per_sample == 1
+    kept = run_speed(model, SPEED, scene, choice, ("signal",), 10, 2, 10)
+    u = simulation.advance(simulation.start(), 2).samples[:, 0]
+    u = np.concatenate([[0.0, 0.0], u])
+    h = simulation.time_step
+    # the force that the recursion of central differences leaves over, for a unit mass
+    force = (u[2:] - 2.0 * u[1:-1] + u[:-2]) / h**2 + frequency**2 * u[1:-1]
+    pushed = np.abs(force) > 1e-6 * np.abs(force).max()
+    assert 0.0 < pushed.mean() < 1.0
+    assert kept["share_of_time_in_contact"] == pytest.approx(pushed.mean(), rel=1e-9)
+    assert kept["largest_normal_force"] == pytest.approx(np.abs(force).max(), rel=1e-6)
+    assert kept["casing_hits"] == np.count_nonzero(pushed & ~np.concatenate([[False], pushed[:-1]]))
+
+
+@pytest.mark.parametrize("edge", [0, 1])
+def test_either_edge_of_the_tip_can_diverge(monkeypatch, edge):
+    """The limit is on what any output moves, at the leading edge as at the trailing edge."""
+    swinging(monkeypatch, 1e-4)
+    moves = [0.0, 0.0]
+    moves[edge] = 5.0
+    choice = IntegrationChoice(1e-7, 4, 62)
+    for limit, status in ((6e-4, RunStatus.COMPLETED), (4e-4, RunStatus.DIVERGED)):
+        kept = run_speed(with_tip(moves, [0.0, 0.0]), SPEED, replace(FREE, divergence_limit=limit), choice, (), 10, 1, 10)
+        assert kept["status"] == status
+
+
+def test_wear_is_that_of_the_most_worn_ring(monkeypatch):
+    """A ring worn by a + b cos(3 theta): its largest depth, its profile and its harmonics; another ring is worn less."""
+    bars = 720
+    theta = 2.0 * np.pi * np.arange(bars) / bars
+    worn = 2e-4 + 1e-4 * np.cos(3.0 * theta) + 2e-5 * np.cos(7.0 * theta + 0.3)
+    advance = Simulation.advance
+
+    def worn_lining(simulation, state: SimulationState, revolutions):
+        record = advance(simulation, state, revolutions)
+        state.wear[:] = 0.25 * worn
+        state.wear[-1] = worn
+        return record
+
+    monkeypatch.setattr(Simulation, "advance", worn_lining)
+    model = oscillator(6000.0)
+    two = replace(
+        model,
+        displacement_operator=np.repeat(model.displacement_operator, 2, axis=1),
+        radius=np.repeat(model.radius, 2),
+        theta=np.repeat(model.theta, 2),
+    )
+    lining = replace(LINING, bars=bars, shared_ring=False)
+    kept = run_speed(two, SPEED, replace(DIRECT, lining=lining), IntegrationChoice(2e-7, 2, 62), ("wear",), 10, 1, 90)
+    assert kept["max_wear"] == worn.max()
+    np.testing.assert_allclose(kept["wear"], worn.reshape(90, -1).max(axis=1), rtol=1e-6)
+    harmonics = np.zeros(21)
+    harmonics[[0, 3, 7]] = 2e-4, 1e-4, 2e-5
+    np.testing.assert_allclose(kept["wear_harmonic"], harmonics, atol=1e-15)
+
+
+def test_step_limit_of_a_lining_is_four_thirds():
+    """A node pressed on an elastic bar, x_{n+1} = (1 - g)(2 x_n - x_{n-1}), is stable for g < 4/3; the refusal begins there."""
+    assert np.abs(np.roots([1.0, -2.0 * (1.0 - 1.33), 1.0 - 1.33])).max() < 1.0
+    assert np.abs(np.roots([1.0, -2.0 * (1.0 - 1.34), 1.0 - 1.34])).max() > 1.0
+    model, choice = oscillator(6000.0), IntegrationChoice(1e-6, 1, 62)
+    step = Simulation(model, SPEED, DIRECT, choice).time_step
+    soft = replace(LINING, elastic_modulus=1.0)
+    stiffness_per_pascal = soft.area(float(model.radius[0])) / soft.thickness
+    for share, refused in ((0.999, False), (1.001, True)):
+        lining = replace(soft, elastic_modulus=share * 4.0 / 3.0 / step**2 / stiffness_per_pascal)
+        scene = replace(DIRECT, lining=lining)
+        if refused:
+            with pytest.raises(UnstableStepError, match="limit for this lining"):
+                Simulation(model, SPEED, scene, choice)
+        else:
+            Simulation(model, SPEED, scene, choice)

@@ -1,0 +1,156 @@
+"""What runs, with what, from which files: the plans behind the rules, without Snakemake."""
+
+import json
+from dataclasses import replace
+from types import SimpleNamespace
+
+import pytest
+
+from r37core.config import ConfigError, command_line_document, read_settings
+from r37core.studies.parameters import OF_THE_MODEL
+from r37core.workflow.estimate import Estimate
+from r37core.workflow.provenance import Provenance
+from r37core.workflow.readings import Readings
+from r37core.workflow.stability import Stability
+from r37core.workflow.structure import Structure
+from r37core.workflow.sweep import Sweep
+from r37core.workflow.tradeoff import Tradeoff
+
+
+@pytest.fixture(scope="module")
+def chosen(root):
+    """Two blades in two scenes, at two speeds of which one is of one blade only."""
+    changes = {
+        "blades": ["Ref", "L50"],
+        "scenes": ["abradable", "direct"],
+        "speeds": [900, 1234.5],
+        "speeds_for": [{"blades": ["L50"], "scenes": ["direct"], "speeds": [1000.25]}],
+    }
+    return read_settings(root, command_line_document(changes))
+
+
+def of(**wildcards):
+    return SimpleNamespace(**wildcards)
+
+
+REF, L50 = of(blade="Ref", scene="abradable"), of(blade="L50", scene="direct")
+
+
+def test_speeds_and_their_files(chosen):
+    sweep = Sweep(chosen)
+    assert sweep.speeds(REF) == (900.0, 1234.5)
+    assert sweep.speed_files(REF) == [f"<results>/Ref/abradable/speed_{speed}.npz" for speed in ("900", "1234.5")]
+    assert sweep.speed_files(L50) == ["<results>/L50/direct/speed_1000.25.npz"]
+
+
+def test_models_of_a_scene(chosen):
+    sweep = Sweep(chosen)
+    assert sweep.contact_model(REF) == "<results>/Ref/contact_pressure_edge.npz"
+    assert sweep.recovery(L50) == {"rom": "<results>/L50/rom_pressure_edge.nc"}
+
+
+def test_a_scene_without_stress_needs_no_basis(chosen):
+    plain = replace(chosen.scenes["direct"], results=("spectrum",))
+    sweep = Sweep(replace(chosen, scenes=chosen.scenes | {"direct": plain}))
+    assert sweep.recovery(L50) == {}
+    assert sweep.runs(of(kind="stress")) == [("Ref", "abradable"), ("L50", "abradable")]
+
+
+def test_task_of_a_simulation(chosen):
+    task = json.loads(Sweep(chosen).task(of(blade="Ref", scene="direct", speed="900")))
+    assert task["scene"]["lining"] is None
+    level = chosen.fidelity.time_integration
+    assert task["choice"]["time_step"] == level.time_step_s
+    assert task["choice"]["revolutions"] == level.revolutions
+    assert task["kept"]["wear_angles"] == level.wear_angles
+
+
+def test_datasets_join_the_runs_that_have_their_kind(chosen):
+    sweep = Sweep(chosen)
+    assert sweep.kinds == ["rms", "spectrum", "stress", "wear"]
+    every = [("Ref", "abradable"), ("Ref", "direct"), ("L50", "abradable"), ("L50", "direct")]
+    assert sweep.runs(of(kind="rms")) == every
+    assert sweep.runs(of(kind="wear")) == [("Ref", "abradable"), ("L50", "abradable")]
+    assert sweep.responses(of(kind="wear")) == [f"<results>/{blade}/abradable/response.nc" for blade in ("Ref", "L50")]
+
+
+def test_blades_are_finished_one_after_another(chosen):
+    sweep = Sweep(chosen)
+    assert sweep.priority(of(blade="Ref")) == 1.0
+    assert 0.0 < sweep.priority(of(blade="L50")) < 1.0
+
+
+def test_figures(chosen):
+    figures = Sweep(chosen).figures
+    assert "<results>/figures/spectrum_L50__direct.png" in figures
+    assert "<results>/figures/wear_Ref__abradable.png" in figures
+    assert "<results>/figures/wear_Ref__direct.png" not in figures
+    assert "<results>/figures/response_L50.png" in figures
+
+
+def test_matrices_do_not_depend_on_the_yield_stress(chosen):
+    structure = Structure(chosen)
+    assert structure.material(REF)["yield_stress"] == 1.38e9
+    assert "yield_stress" not in structure.elastic(REF)
+    assert structure.shape_hash(REF) != structure.shape_hash(L50)
+    assert structure.reduction(of(tip_line="camber"))["boundary"]["tip_line"] == "camber"
+
+
+def test_provenance(chosen):
+    attributes = Provenance(chosen).sweep(of(blade="Ref", scene="direct"))
+    assert attributes["blade"] == "Ref"
+    assert attributes["fidelity"] == "standard"
+    assert attributes["numerics"] == "20000 nodes, exact_modal of 4e-07 s"
+    assert "Lining" not in attributes["scene_parameters"]
+    assert "Lining" in Provenance(chosen).sweep(REF)["scene_parameters"]
+
+
+def test_tradeoff_has_a_case_for_every_value(settings):
+    plan = Tradeoff(settings)
+    assert len(plan.cases(None)) == sum(map(len, plan.values.values()))
+    assert plan.references["level"] == "reference"
+    case = "<results>/studies/tradeoff/Ref/exact_modal_step/8e-07.nc"
+    assert case in plan.cases(None)
+
+
+def test_a_parameter_of_the_model_changes_its_own_part_of_the_name(settings):
+    plan = Tradeoff(settings)
+    base = plan.model(of(blade="Ref", parameter="bars", value="300"))["rom"]
+    for parameter, value in {"mesh_nodes": "1234", "boundary_nodes": "5", "stress_region": "whole"}.items():
+        assert parameter in OF_THE_MODEL
+        changed = plan.model(of(blade="Ref", parameter=parameter, value=value))["rom"]
+        names, parts = base.split("/")[-2].split("_"), changed.split("/")[-2].split("_")
+        assert [part for name, part in zip(names, parts, strict=True) if name != part] == [value]
+    assert plan.model(of(blade="Ref", parameter="level", value="draft"))["rom"].split("/")[-2].startswith("5000_")
+    assert plan.choices(of(parameter="level", value="draft"))["direct"]["time_step"] == 8e-7
+    assert plan.choices(of(parameter="bars", value="300"))["direct"]["time_step"] == 4e-7
+
+
+def test_a_study_names_what_it_lacks(root):
+    settings = read_settings(root, command_line_document({"blades": ["L50"]}))
+    with pytest.raises(ConfigError, match=r"studies: found the blade 'Ref'; allowed: L50"):
+        Tradeoff(settings).model(of(blade="Ref", parameter="bars", value="300"))
+
+
+def test_extremes_that_the_configuration_refuses_say_so(settings):
+    plan = Stability(settings)
+    assert len(plan.cases) == len(set(plan.cases)) > 100
+    described = [plan.described(of(extreme=case.split("/")[-1].removesuffix(".json"))) for case in plan.cases]
+    refused = [text for text in described if not text.startswith("Scene(")]
+    assert 0 < len(refused) < len(described)
+    assert all("found" in text and "allowed" in text for text in refused)
+
+
+def test_readings_use_this_runs_models_where_they_are_the_same(root, settings):
+    plan = Readings(settings)
+    shipped = next(one for one in plan.runs if one[0] == "shipped")
+    assert plan.model(of(reading=shipped[0], place=shipped[1]))["contact"].startswith("<results>/Ref/contact_")
+    draft = Readings(read_settings(root, command_line_document({"fidelity": "draft"})))
+    assert "/studies/models/" in draft.model(of(reading=shipped[0], place=shipped[1]))["contact"]
+
+
+def test_estimate_samples_and_counts(chosen):
+    plan = Estimate(chosen)
+    assert len(plan.samples) == 4
+    assert plan.number(REF) == 2
+    assert set(plan.choices(REF)) <= {900.0, 1234.5}
