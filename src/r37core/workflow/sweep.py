@@ -27,11 +27,11 @@ class Sweep:
     """Plan of the sweep that `settings` ask for. Methods with `wildcards` are inputs and parameters of rules.
 
     `round_file(blade=..., scene=..., round=...)`: file of a finished round of refinement; Snakemake's own exception for one
-    that is still to be made.
+    that is still to be made. Without it only speeds that do not refine themselves have a plan.
     """
 
     settings: Settings
-    round_file: Callable[..., str]
+    round_file: Callable[..., str] | None = None
 
     def contact_model(self, wildcards: Any) -> str:
         """What the simulations of a blade and scene start from."""
@@ -62,6 +62,7 @@ class Sweep:
 
     def _asked(self, wildcards: Any, number: int) -> list[float]:
         """Speeds (rad/s) that a round asked for."""
+        assert self.round_file is not None
         return read_json(self.round_file(blade=wildcards.blade, scene=wildcards.scene, round=number))["new"]
 
     def _files_of(self, wildcards: Any, speeds: Sequence[float]) -> list[str]:
@@ -91,7 +92,7 @@ class Sweep:
     def refinement_choice(self) -> dict[str, Any]:
         """What makes an interval of speeds worth halving, as fields of RefinementChoice."""
         given = plain(self.settings.refinement)
-        windows = [{**window, "step": window.pop("step_rad_s")} for window in given.pop("windows")]
+        windows = [{"step": window.pop("step_rad_s"), **window} for window in given.pop("windows")]
         return {**given, "windows": windows, "prominence": self.settings.interactions.prominence}
 
     def task(self, wildcards: Any) -> str:
