@@ -136,10 +136,10 @@ def test_ranges_that_cannot_be_refined(entries, message):
             {
                 "speeds": [{"start": 750, "stop": 2000, "step": 20, "refine_to": 1}],
                 "refinement": {
-                    "windows": [{"mode": "1B", "highest_engine_order": 17, "first": 0, "last": 0.1, "step_rad_s": 5}]
+                    "windows": [{"mode": "1B", "highest_engine_order": 21, "first": 0, "last": 0.1, "step_rad_s": 5}]
                 },
             },
-            r"windows\.0\.highest_engine_order: found 17; allowed: at most campbell\.highest_engine_order \(16\)",
+            r"windows\.0\.highest_engine_order: found 21; allowed: at most campbell\.highest_engine_order \(20\)",
         ),
         (
             {

@@ -107,7 +107,7 @@ class Campbell(Section):
 
     speed_step_rad_s: float = Field(default=50.0, ge=0.1, le=1e6)
     modes: int = Field(default=10, ge=3, le=30)
-    highest_engine_order: int = Field(default=16, ge=1, le=100)
+    highest_engine_order: int = Field(default=20, ge=1, le=100)
     largest_tangential_displacement_m: float = Field(default=0.01, gt=0, le=1)
 
 
@@ -143,7 +143,7 @@ class Refinement(Section):
     windows: list[Window] = Field(
         default=[
             Window(mode="1B", highest_engine_order=8, first=0.01, last=0.06, step_rad_s=5.0),
-            Window(mode="1T", highest_engine_order=16, first=0.0, last=0.02, step_rad_s=5.0),
+            Window(mode="1T", highest_engine_order=20, first=0.0, last=0.02, step_rad_s=5.0),
         ],
         description="where interactions are expected, for contact stiffens a blade",
     )
