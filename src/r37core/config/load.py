@@ -89,11 +89,20 @@ class Settings:
     @property
     def remarks(self) -> list[str]:
         """What a run should say before it starts."""
+        said = []
         measured = self.fidelity.measured
-        if not self.fidelity_is_chosen or measured is None:
-            return []
-        error, cost = 100 * measured.error, measured.cpu_s_per_run
-        return [f"fidelity auto: level {self.fidelity_name}, measured error {error:g}%, {cost:g} CPU s per run"]
+        if self.fidelity_is_chosen and measured is not None:
+            error, cost = 100 * measured.error, measured.cpu_s_per_run
+            said.append(f"fidelity auto: level {self.fidelity_name}, measured error {error:g}%, {cost:g} CPU s per run")
+        refining = [plan for plan in self.speed_plans.values() if plan.refined]
+        if refining:
+            certain = sum(len(plan.certain) for plan in refining)
+            most = sum(plan.at_most(self.refinement.largest_share) for plan in refining)
+            said.append(
+                f"speeds refine themselves: {certain} simulations and windows first, about {most} at most; "
+                "they are planned round by round, so a dry run shows none of those to come"
+            )
+        return said
 
     def shape_hash(self, blade: str) -> str:
         """Short hash of all that a blade's geometry depends on."""
