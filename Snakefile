@@ -11,6 +11,7 @@ include: "workflow/rules/structure.smk"
 include: "workflow/rules/sweep.smk"
 include: "workflow/rules/results.smk"
 include: "workflow/rules/figures.smk"
+include: "workflow/rules/designs.smk"
 include: "workflow/rules/studies/common.smk"
 include: "workflow/rules/studies/estimate.smk"
 include: "workflow/rules/studies/tradeoff.smk"
@@ -27,3 +28,4 @@ rule all_blades:
         expand("<results>/{kind}.nc", kind=sweep.kinds),
         "<results>/summary.csv",
         sweep.figures,
+        families.outputs,

@@ -151,7 +151,14 @@ def prepare_real(root, folder):
     copy_project(root, folder)
     refine(folder, "{ start: 900, stop: 1400, step: 80, refine_to: 10 }")
     config = folder / "config/config.yaml"
-    config.write_text(config.read_text().replace("[Ref, CS100]", "[CS100]") + "\nrefinement: { largest_share: 0.7 }\n")
+    config.write_text(config.read_text().replace("[Ref, CS100]", "[CS100]") + _REFINEMENT)
+
+
+_REFINEMENT = """
+refinement:
+  windows: [{ mode: 1B, highest_engine_order: 8, first: 0.02, last: 0.04, step_rad_s: 20 }]
+  largest_share: 0.9
+"""
 
 
 def speed_files(folder):

@@ -19,6 +19,7 @@ from r37core.time_integration.choice import LARGEST_TABLE, IntegrationChoice
 
 from .blades import Blades, BladeSettings, blade_settings
 from .document import Document, command_line_document, read_document
+from .families import Designs, Family, with_designs
 from .fidelity import Level, Levels
 from .scenes import SceneEntry, Scenes
 from .settings import Campbell, Config, Interactions, Refinement, SpeedEntry, SpeedRange, Structure
@@ -45,13 +46,15 @@ class SceneSettings:
 class Settings:
     """Everything the workflow needs to know, checked.
 
-    `blades` and `scenes` are those to run, in order; `speed_plans` of each (blade, scene); `fidelity` the chosen level;
+    `blades` and `scenes` are those to run, in order; `families` those of which some are run; `speed_plans` of each
+    (blade, scene); `fidelity` the chosen level;
     `fidelity_is_chosen`: by its measured error;
     `levels` and `scene_entries` all that their files have, for the studies; the rest as in config.yaml.
     """
 
     blades: dict[str, BladeSettings]
     scenes: dict[str, SceneSettings]
+    families: dict[str, Family]
     speed_plans: dict[tuple[str, str], SpeedPlan]
     fidelity_name: str
     fidelity: Level
@@ -179,10 +182,12 @@ def load_settings(config: Document | Mapping[str, Any], root: Path) -> Settings:
     files = _Files(
         document, *(read_document(root, name) for name in (checked.blades_file, checked.fidelity_file, checked.scenes_file))
     )
-    blades, levels, scenes = files.blades.check(Blades).root, files.levels.check(Levels).root, files.scenes.check(Scenes).root
+    levels, scenes = files.levels.check(Levels).root, files.scenes.check(Scenes).root
+    designs = with_designs(files.blades.check(Blades).root, root, files.blades)
+    blades, files = designs.entries, replace(files, blades=designs.document)
     fidelity_name = _level_name(checked, levels, files)
     level = levels[fidelity_name]
-    names = files.known(("blades",), list(blades) if checked.blades == "all" else checked.blades, blades, files.blades)
+    names = _chosen_blades(checked, designs, files)
     scene_names = files.known(("scenes",), list(scenes) if checked.scenes == "all" else checked.scenes, scenes, files.scenes)
     _check_studies(checked.studies, blades, levels, scenes, files)
     chosen_scenes = {name: _scene(scenes[name], level, checked.structure.boundary.tip_line) for name in scene_names}
@@ -193,6 +198,7 @@ def load_settings(config: Document | Mapping[str, Any], root: Path) -> Settings:
     return Settings(
         blades={name: blade_settings(name, blades, root, files.blades) for name in names},
         scenes=chosen_scenes,
+        families={name: family for name, family in designs.families.items() if set(family.designs) & set(names)},
         speed_plans=plans,
         fidelity_name=fidelity_name,
         fidelity=level,
@@ -208,6 +214,15 @@ def load_settings(config: Document | Mapping[str, Any], root: Path) -> Settings:
         run_name=checked.run.name,
         config=checked,
     )
+
+
+def _chosen_blades(checked: Config, designs: Designs, files: _Files) -> list[str]:
+    """Names of the blades to run; that of a family is all of its designs."""
+    if checked.blades == "all":
+        return list(designs.entries)
+    files.known(("blades",), checked.blades, [*designs.entries, *designs.families], files.blades)
+    several = [list(designs.families[name].designs) if name in designs.families else [name] for name in checked.blades]
+    return list(dict.fromkeys(name for names in several for name in names))
 
 
 @dataclass(frozen=True)

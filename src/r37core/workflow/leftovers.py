@@ -36,6 +36,10 @@ def _of_blades(results: Path, settings: Settings) -> Iterator[Path]:
     for figure in (results / "figures").glob("*_*.png"):
         _, name = figure.stem.split("_", 1)
         blade, _, scene = name.partition("__")
+        if figure.stem.startswith("designs_"):
+            if name not in settings.families:
+                yield figure
+            continue
         if blade not in settings.blades or (scene and scene not in settings.scenes):
             yield figure
 
