@@ -71,6 +71,7 @@ def test_volume(blade):
     assert blade.volume() == pytest.approx(8.08e-6, rel=0.005)
 
 
+@pytest.mark.slow
 def test_round_edges_add_the_segments_of_their_circles(settings, blade, profiles):
     blunt = settings.blades["Ref"].definition.build(round_edges=False)
 
@@ -122,6 +123,7 @@ def test_wild_sweep_is_refused(settings):
         replace(definition, stacking=rows).build()
 
 
+@pytest.mark.slow
 def test_geometry_file_holds_the_whole_blade(blade, tmp_path):
     write_geometry(blade, tmp_path / "geometry.nc")
     again = read_geometry(tmp_path / "geometry.nc")

@@ -94,7 +94,15 @@ def test_dynamic_clearance(model, diagram):
 def test_dataset_and_gathering(model, tmp_path):
     from r37core.dataset_file import write_dataset
 
-    dataset = campbell_dataset(model, 2000.0, 100.0, 10, 16, 0.01, "pressure_edge")
+    dataset = campbell_dataset(
+        model,
+        maximum_speed=2000.0,
+        speed_step=100.0,
+        modes=10,
+        highest_engine_order=16,
+        largest_tangential_displacement=0.01,
+        tip_line="pressure_edge",
+    )
     for blade in ("Ref", "Other"):
         write_dataset(dataset, tmp_path / f"{blade}.nc", {"blade": blade, "fidelity": "draft"})
     together = gather_blades(["Ref", "Other"], [tmp_path / "Ref.nc", tmp_path / "Other.nc"])

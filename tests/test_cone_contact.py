@@ -78,6 +78,7 @@ def test_the_normal_force_does_no_work_along_the_casing(aside):
     assert record.samples[:, 0].max() <= 1e-4 * (1 + 1e-9)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("scene", [ABRADABLE, DIRECT], ids=["abradable", "direct"])
 def test_cylinder_and_cone_are_the_same_round_an_untapered_tip(contact, scene):
     untapered = replace(contact, tip_cone_angle=0.0)

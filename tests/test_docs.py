@@ -69,6 +69,7 @@ def test_every_extreme_has_an_outcome(pages):
     assert sum(numbers[:4]) == numbers[4] == len(re.findall(r"\| (?:accurate|degraded|diverged|refused) \|", table)) > 90
 
 
+@pytest.mark.slow
 def test_rule_graph_is_that_of_the_workflow(root):
     """`make docs` renews it."""
     graph = runpy.run_path(str(root / "benchmarks/pages.py"))["rule_graph"]()

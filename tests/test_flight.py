@@ -29,6 +29,7 @@ def both(model, scene, choice, speed, displacement=None, increment=None):
     return results
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("scene", [ABRADABLE, DIRECT, replace(ABRADABLE, exact_gap=True)], ids=["abradable", "direct", "exact"])
 @pytest.mark.parametrize("speed", [900.0, 1600.0])
 def test_long_run_with_jumps_is_the_plain_run(contact, scene, speed):
@@ -55,6 +56,7 @@ def test_long_run_with_jumps_is_the_plain_run(contact, scene, speed):
     st.integers(0, 5),
     st.sampled_from([None, 0.0, 0.4]),
 )
+@pytest.mark.slow
 def test_no_contact_is_missed(contact, seed, excess, exact, lobes, cone_angle):
     """Random states of many modes; the casing is put where a step of the free motion just passes it, or just does not."""
     generator = np.random.default_rng(seed)

@@ -12,6 +12,7 @@ from r37core.mesh.mesh_files import read_vtu, write_vtu
 from r37core.mesh.wedge_mesh import NODE_SETS
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("nodes", "layers", "tip_elements"), [(2500, 1, 14), (10000, 1, 28), (20000, 1, 42), (9000, 2, 21)])
 def test_node_count_is_met(blade, nodes, layers, tip_elements):
     mesh = generate_mesh(blade, nodes, layers, tip_elements)

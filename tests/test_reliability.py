@@ -121,6 +121,7 @@ def test_leftovers_of_removed_blades_scenes_and_speeds(root, tmp_path):
     assert leftovers(tmp_path / "none", settings) == []
 
 
+@pytest.mark.slow
 def test_make_clean_lists_and_removes(config_copy):
     (config_copy / "results/Gone").mkdir(parents=True)
     (config_copy / "results/Gone/mesh.vtu").write_text("x")
@@ -135,7 +136,15 @@ def test_make_clean_lists_and_removes(config_copy):
 def test_a_blade_that_buckles_is_refused_with_the_speed(model):
     weak = dataclasses.replace(model, geometric_stiffness=model.geometric_stiffness - 1e-3 * model.stiffness)
     with pytest.raises(BucklingError, match=r"no stable position at 50 rad/s: its stiffness is not positive .* stiffer"):
-        campbell_dataset(weak, 2000.0, 50.0, 6, 8, 0.01, "pressure_edge")
+        campbell_dataset(
+            weak,
+            maximum_speed=2000.0,
+            speed_step=50.0,
+            modes=6,
+            highest_engine_order=8,
+            largest_tangential_displacement=0.01,
+            tip_line="pressure_edge",
+        )
 
 
 def test_a_simulation_of_a_blade_that_buckles_is_refused(contact):
@@ -180,6 +189,7 @@ def test_a_flipped_bit_of_a_response_is_found(tmp_path):
         read_dataset(file)
 
 
+@pytest.mark.slow
 def test_a_run_with_a_name_has_its_results_apart(root, tmp_path):
     copy_stubbed(root, tmp_path)
     jobs = planned_outputs(tmp_path, "all_blades", "--config", "run={name: trial}")
@@ -203,6 +213,7 @@ def test_replaced_results_are_announced(root, folder):
     assert replaced_level(named) == []
 
 
+@pytest.mark.slow
 def test_the_clear_line_comes_last(root, tmp_path):
     copy_project(root, tmp_path)
     table = tmp_path / "config/profiles/rotor37.csv"
@@ -214,6 +225,7 @@ def test_the_clear_line_comes_last(root, tmp_path):
     assert "Traceback" not in text
 
 
+@pytest.mark.slow
 def test_a_killed_run_goes_on_with_the_same_command(root, tmp_path):
     copy_stubbed(root, tmp_path)
     slow = tmp_path / "workflow/scripts/geometry.py"

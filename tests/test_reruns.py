@@ -7,6 +7,8 @@ import pytest
 from stubbed_runs import copy_stubbed, planned_outputs
 from workflow_runs import snakemake
 
+pytestmark = pytest.mark.slow
+
 BLADES, SCENES, SPEEDS = ("Ref", "CS100"), ("abradable", "direct"), ("750", "1150", "1550")
 
 # what follows any change of a simulation

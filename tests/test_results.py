@@ -99,12 +99,23 @@ def sweep(model, tmp_path_factory):
             history = 4 if speed == 1200.0 else 1
             choice = IntegrationChoice(2e-7, 4, 62, snapshots_per_revolution=31, snapshot_revolutions=history, energy=True)
             wanted = [kind for kind in RESULTS if kind != "wear" or lined.lining]
-            kept = run_speed(contact, speed, scene, choice, wanted, 10, 1, 60)
+            kept = run_speed(
+                contact, speed, scene, choice, wanted, spectrum_highest_order=10, signal_revolutions=1, wear_angles=60
+            )
             sources.append(folder / f"{name}_{speed:g}.npz")
             write_speed(kept, sources[-1], {})
         file = folder / f"{name}.nc"
         speeds = SPEEDS if lined.lining else SPEEDS[1:]
-        write_response(sources, speeds, file, recovery, (1200.0,), 31, 1.0, {"blade": "Ref", "scene": name})
+        write_response(
+            sources,
+            speeds,
+            file,
+            recovery,
+            stress_history_speeds=(1200.0,),
+            stress_instants=31,
+            yield_stress=1.0,
+            provenance={"blade": "Ref", "scene": name},
+        )
         files["Ref", name] = file
     return folder, files
 
@@ -192,7 +203,16 @@ def test_every_blade_and_scene_has_its_own_slab(sweep, tmp_path):
             write_speed(run | {"rms": factors[key] * run["rms"]}, tmp_path / f"{number}_{speed:g}.npz", {})
         files[key] = tmp_path / f"{number}.nc"
         places = [tmp_path / f"{number}_{speed:g}.npz" for speed in speeds]
-        write_response(places, speeds, files[key], None, (), 31, 1.0, {"numerics": "20000 nodes"})
+        write_response(
+            places,
+            speeds,
+            files[key],
+            None,
+            stress_history_speeds=(),
+            stress_instants=31,
+            yield_stress=1.0,
+            provenance={"numerics": "20000 nodes"},
+        )
     write_sweep_dataset("rms", files, tmp_path / "rms.nc", {})
     with xr.open_dataset(tmp_path / "rms.nc") as dataset:
         np.testing.assert_array_equal(dataset["speed"], [900.0, 950.0, 951.0, 952.0, 953.0])
@@ -211,7 +231,14 @@ def test_responses_of_two_levels_do_not_mix(sweep, tmp_path):
     for blade, numerics in (("A", "20000 nodes, exact_modal of 4e-07 s"), ("B", "5000 nodes, exact_modal of 8e-07 s")):
         files[blade, "abradable"] = tmp_path / f"{blade}.nc"
         write_response(
-            [source / "abradable_900.npz"], (900.0,), files[blade, "abradable"], None, (), 31, 1.0, {"numerics": numerics}
+            [source / "abradable_900.npz"],
+            (900.0,),
+            files[blade, "abradable"],
+            None,
+            stress_history_speeds=(),
+            stress_instants=31,
+            yield_stress=1.0,
+            provenance={"numerics": numerics},
         )
     with pytest.raises(InputFileError, match=r"A\.nc was made with 20000 nodes.*B\.nc with 5000 nodes.*delete the one"):
         write_sweep_dataset("rms", files, tmp_path / "rms.nc", {})
@@ -223,7 +250,16 @@ def test_unreadable_speed_is_named(sweep, model):
     broken = folder / "broken_900.npz"
     broken.write_bytes(b"PK half of a file")
     with pytest.raises(InputFileError, match=r"broken_900\.npz: cannot be read .* delete it and run again"):
-        write_response([broken], (900.0,), folder / "never.nc", None, (), 31, 1.0, {})
+        write_response(
+            [broken],
+            (900.0,),
+            folder / "never.nc",
+            None,
+            stress_history_speeds=(),
+            stress_instants=31,
+            yield_stress=1.0,
+            provenance={},
+        )
     assert not (folder / "never.nc").exists()
 
 

@@ -35,6 +35,7 @@ def test_published_size_against_the_full_model(matrices, model, speed):
     assert np.all(error < 5e-4)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("speed", SPEEDS)
 def test_twenty_fixed_modes_bring_ten_frequencies_within_1e_4(matrices, rich_model, speed):
     error = rich_model.modes(speed, 10)[0] / full_frequencies(matrices, speed) - 1.0
@@ -74,6 +75,7 @@ def test_static_response_to_a_tip_load_is_exact(mesh, matrices, model):
     assert np.abs(error).max() < 1e-9 * np.abs(exact).max()
 
 
+@pytest.mark.slow
 def test_order_and_scale_of_columns_do_not_matter(matrices, mesh, model, choice):
     dofs = (3 * np.searchsorted(matrices.free_nodes, model.boundary_nodes)[:, None] + np.arange(3)).ravel()
     stiffness, geometric, mass = matrices.stiffness(), matrices.geometric_stiffness(), matrices.mass()
@@ -100,6 +102,7 @@ def test_dependent_columns_are_dropped(matrices, model, choice):
     assert basis.independent_columns == 34
 
 
+@pytest.mark.slow
 def test_rotation_terms_only_when_asked(mesh, matrices, choice, model, tmp_path):
     assert model.spin_softening is None
     assert model.coriolis is None
@@ -117,6 +120,7 @@ def test_rotation_terms_only_when_asked(mesh, matrices, choice, model, tmp_path)
     np.testing.assert_allclose(without_coriolis.modes(1500.0, 10)[0], exact, rtol=1e-4)
 
 
+@pytest.mark.slow
 def test_coriolis_modes_satisfy_the_quadratic_eigenproblem(mesh, matrices, choice):
     model = reduce_blade(mesh, matrices, replace(choice, coriolis=True))
     speed = 1500.0

@@ -41,7 +41,16 @@ def test_statistics_of_a_free_oscillation(monkeypatch):
     """Ten periods a revolution of 0.1 mm: rms amplitude/sqrt(2) in metres and one line of the spectrum, at both edges."""
     swinging(monkeypatch, 1e-4)
     choice = IntegrationChoice(1e-7, 6, 620)
-    kept = run_speed(with_tip([1.0, 3.0], [0.5, 2.0]), SPEED, FREE, choice, ("spectrum", "signal"), 31, 2, 10)
+    kept = run_speed(
+        with_tip([1.0, 3.0], [0.5, 2.0]),
+        SPEED,
+        FREE,
+        choice,
+        ("spectrum", "signal"),
+        spectrum_highest_order=31,
+        signal_revolutions=2,
+        wear_angles=10,
+    )
     expected = 1e-4 * np.array([[1.0, 1.0, 0.5], [3.0, 3.0, 2.0]])
     np.testing.assert_allclose(kept["rms"], expected / np.sqrt(2.0), rtol=1e-4)
     np.testing.assert_allclose(kept["peak"], expected, rtol=1e-3)
@@ -59,7 +68,7 @@ def test_the_signal_is_the_end_of_the_run(monkeypatch):
     choice = IntegrationChoice(1e-7, 5, 62)
     simulation = Simulation(model, SPEED, scene, choice)
     samples = simulation.advance(simulation.start(), 5).samples.reshape(-1, 2, 3)
-    kept = run_speed(model, SPEED, scene, choice, ("signal",), 10, 2, 10)
+    kept = run_speed(model, SPEED, scene, choice, ("signal",), spectrum_highest_order=10, signal_revolutions=2, wear_angles=10)
     np.testing.assert_allclose(kept["signal"], samples[-2 * 62 :][:, :, [0, 2]], rtol=1e-6)
 
 
@@ -71,7 +80,7 @@ def test_contact_statistics_counted_step_by_step():
     model = oscillator(frequency)
     simulation = Simulation(model, SPEED, scene, choice)
     assert simulation.steps_per_sample == 1
-    kept = run_speed(model, SPEED, scene, choice, ("signal",), 10, 2, 10)
+    kept = run_speed(model, SPEED, scene, choice, ("signal",), spectrum_highest_order=10, signal_revolutions=2, wear_angles=10)
     u = simulation.advance(simulation.start(), 2).samples[:, 0]
     u = np.concatenate([[0.0, 0.0], u])
     h = simulation.time_step
@@ -92,7 +101,16 @@ def test_either_edge_of_the_tip_can_diverge(monkeypatch, edge):
     moves[edge] = 5.0
     choice = IntegrationChoice(1e-7, 4, 62)
     for limit, status in ((6e-4, RunStatus.COMPLETED), (4e-4, RunStatus.DIVERGED)):
-        kept = run_speed(with_tip(moves, [0.0, 0.0]), SPEED, replace(FREE, divergence_limit=limit), choice, (), 10, 1, 10)
+        kept = run_speed(
+            with_tip(moves, [0.0, 0.0]),
+            SPEED,
+            replace(FREE, divergence_limit=limit),
+            choice,
+            (),
+            spectrum_highest_order=10,
+            signal_revolutions=1,
+            wear_angles=10,
+        )
         assert kept["status"] == status
 
 
@@ -118,7 +136,16 @@ def test_wear_is_that_of_the_most_worn_ring(monkeypatch):
         theta=np.repeat(model.theta, 2),
     )
     lining = replace(LINING, bars=bars, shared_ring=False)
-    kept = run_speed(two, SPEED, replace(DIRECT, lining=lining), IntegrationChoice(2e-7, 2, 62), ("wear",), 10, 1, 90)
+    kept = run_speed(
+        two,
+        SPEED,
+        replace(DIRECT, lining=lining),
+        IntegrationChoice(2e-7, 2, 62),
+        ("wear",),
+        spectrum_highest_order=10,
+        signal_revolutions=1,
+        wear_angles=90,
+    )
     assert kept["max_wear"] == worn.max()
     np.testing.assert_allclose(kept["wear"], worn.reshape(90, -1).max(axis=1), rtol=1e-6)
     harmonics = np.zeros(21)

@@ -43,6 +43,7 @@ def test_projection_by_hand():
     assert "| time integration | 0.01 | 4.000 |" in describe(estimate, "paper")
 
 
+@pytest.mark.slow
 def test_estimate_of_a_small_sweep(project):
     snakemake(project, "estimate", "--cores", "2")
     estimate = json.loads((project / "results/studies/estimate.json").read_text())
@@ -151,6 +152,7 @@ def test_modes_that_are_left_out(contact):
     assert 5 < len(simulation.frequencies) < len(contact.squared_frequencies)
 
 
+@pytest.mark.slow
 def test_tradeoff_of_a_small_sweep(project):
     config = project / "config/config.yaml"
     text = config.read_text()
@@ -171,6 +173,7 @@ def test_tradeoff_of_a_small_sweep(project):
     assert "| revolutions | one run | 2 to 4 |" in (project / "results/studies/growth.md").read_text()
 
 
+@pytest.mark.slow
 def test_studies_do_not_stand_in_the_way_of_another_blade(project):
     config = project / "config/config.yaml"
     config.write_text(config.read_text().replace("[Ref, CS100]", "[CS100]").replace("[abradable, direct]", "[direct]"))
@@ -179,6 +182,7 @@ def test_studies_do_not_stand_in_the_way_of_another_blade(project):
     assert re.search(r"config\.yaml: studies: found the (blade|scene) '(Ref|abradable)'; allowed: (CS100|direct)", text)
 
 
+@pytest.mark.slow
 def test_an_extreme_and_a_reading_run(project):
     config = project / "config/config.yaml"
     steps = "{ fine: 100, coarse: 100, survey: 100 }"

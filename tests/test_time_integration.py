@@ -84,6 +84,7 @@ SCENES = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("integrator", INTEGRATORS)
 @pytest.mark.parametrize("name", SCENES)
 def test_compiled_time_integration_is_the_reference(contact, name, integrator):
@@ -120,6 +121,7 @@ MANY = [(nodes, name) for nodes in (1, 8) for name in ("direct", "thin_lining")]
 MANY += [(15, "direct_exact"), (40, "thin_lining"), (200, "direct")]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("nodes", "name"), MANY)
 def test_any_number_of_nodes(nodes, name):
     """Vectors half full and many of them, against the reference."""
@@ -202,7 +204,7 @@ def test_divergence_is_a_result(contact, tmp_path):
     scene = replace(DIRECT, divergence_limit=2e-5)
     choice = IntegrationChoice(2e-7, 6, 62, snapshots_per_revolution=62, snapshot_revolutions=1, energy=True)
     results = ("spectrum", "signal", "stress", "energy")
-    kept = run_speed(contact, 1000.0, scene, choice, results, 10, 2, 100)
+    kept = run_speed(contact, 1000.0, scene, choice, results, spectrum_highest_order=10, signal_revolutions=2, wear_angles=100)
     assert kept["status"] == RunStatus.DIVERGED
     assert 0.0 < kept["diverged_revolution"] < 6.0
     assert kept["diverged_time"] == pytest.approx(kept["diverged_revolution"] * 2 * np.pi / 1000.0)
@@ -216,7 +218,16 @@ def test_a_run_that_blows_up_is_flagged_without_infinities(contact):
     """Friction feeding the blade through an absurd coefficient: numbers overflow, the file does not."""
     scene = Scene(AT_ONCE, None, Friction(8.0, vector=False, coupled=False), damping_ratio=0.0, divergence_limit=1e300)
     with np.errstate(all="ignore"):
-        kept = run_speed(contact, 1500.0, scene, IntegrationChoice(2e-7, 6, 62), (), 10, 2, 100)
+        kept = run_speed(
+            contact,
+            1500.0,
+            scene,
+            IntegrationChoice(2e-7, 6, 62),
+            (),
+            spectrum_highest_order=10,
+            signal_revolutions=2,
+            wear_angles=100,
+        )
     for name, values in kept.items():
         assert kept["status"] == RunStatus.DIVERGED or np.all(np.isfinite(values) | np.isnan(values)), name
         assert not np.any(np.isinf(values[~np.isnan(values)])) or name in {"largest_normal_force"}, name
@@ -224,11 +235,20 @@ def test_a_run_that_blows_up_is_flagged_without_infinities(contact):
 
 def test_only_what_is_asked_for_is_kept(contact):
     choice = IntegrationChoice(2e-7, 2, 62)
-    kept = run_speed(contact, 1000.0, DIRECT, choice, (), 10, 1, 100)
+    kept = run_speed(contact, 1000.0, DIRECT, choice, (), spectrum_highest_order=10, signal_revolutions=1, wear_angles=100)
     asked = {"amplitude", "signal", "snapshots", "wear", "contact_work", "damping_loss"}
     assert not asked & set(kept)
     rich = replace(choice, snapshots_per_revolution=62, snapshot_revolutions=1, energy=True)
-    everything = run_speed(contact, 1000.0, ABRADABLE, rich, ("spectrum", "signal", "stress", "wear", "energy"), 10, 1, 100)
+    everything = run_speed(
+        contact,
+        1000.0,
+        ABRADABLE,
+        rich,
+        ("spectrum", "signal", "stress", "wear", "energy"),
+        spectrum_highest_order=10,
+        signal_revolutions=1,
+        wear_angles=100,
+    )
     assert asked <= set(everything)
     np.testing.assert_array_equal(everything["snapshots"].shape, (62, len(contact.squared_frequencies)))
 
@@ -249,7 +269,16 @@ def test_speed_run_numbers(contact):
     """rms, peak and spectrum of a run against direct sums over its samples."""
     choice = IntegrationChoice(2e-7, 8, 62)
     _, _, record = run(contact, ABRADABLE, choice)
-    kept = run_speed(contact, 1000.0, ABRADABLE, choice, ("spectrum", "wear"), 20, 1, 100)
+    kept = run_speed(
+        contact,
+        1000.0,
+        ABRADABLE,
+        choice,
+        ("spectrum", "wear"),
+        spectrum_highest_order=20,
+        signal_revolutions=1,
+        wear_angles=100,
+    )
     half = record.samples[4 * 62 :]
     assert kept["rms"].shape == (2, 3)
     np.testing.assert_allclose(kept["rms"].ravel(), np.sqrt(np.mean(half**2, axis=0)), rtol=1e-12)

@@ -14,6 +14,8 @@ from workflow_runs import copy_project, planned, snakemake
 
 from r37core.yaml_file import load_yaml
 
+pytestmark = pytest.mark.slow
+
 
 @pytest.fixture(scope="module")
 def finished(root, tmp_path_factory):
@@ -32,6 +34,7 @@ def finished_copy(finished, tmp_path):
 STRUCTURE = {"geometry", "mesh", "abaqus_deck", "matrices", "reduced_model", "contact_model"}
 PER_BLADE = STRUCTURE | {"campbell_of_blade", "campbell_figure", "prepare_time_integration", "simulate", "response"}
 GATHERED = {
+    "configuration",
     "campbell_of_all",
     "campbell_overview",
     "blade_shapes_figure",

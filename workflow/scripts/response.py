@@ -17,10 +17,10 @@ def main(snakemake):
         params.speeds,
         snakemake.output[0],
         recovery,
-        params.stress_history_speeds,
-        params.stress_instants,
-        material.yield_stress,
-        params.provenance,
+        stress_history_speeds=params.stress_history_speeds,
+        stress_instants=params.stress_instants,
+        yield_stress=material.yield_stress,
+        provenance=params.provenance,
     )
 
 

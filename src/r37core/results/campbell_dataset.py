@@ -16,6 +16,7 @@ _CLEARANCE_POINTS = 41
 
 def campbell_dataset(
     model: ReducedModel,
+    *,
     maximum_speed: float,
     speed_step: float,
     modes: int,

@@ -23,6 +23,7 @@ def write_response(
     speeds: Sequence[float],
     file: Path | str,
     recovery: StressRecovery | None,
+    *,
     stress_history_speeds: Sequence[float],
     stress_instants: int,
     yield_stress: float,

@@ -44,7 +44,16 @@ def time_runs(
         start = time.process_time()
         recovery = StressRecovery(model, material) if model else None
         fixed = time.process_time() - start
-        write_response(files, speeds, Path(folder) / "response.nc", recovery, (), stress_instants, material.yield_stress, {})
+        write_response(
+            files,
+            speeds,
+            Path(folder) / "response.nc",
+            recovery,
+            stress_history_speeds=(),
+            stress_instants=stress_instants,
+            yield_stress=material.yield_stress,
+            provenance={},
+        )
         reduction = time.process_time() - start - fixed
     share = number / len(speeds)
     return {"time integration": share * simulation, "reduction": fixed + share * reduction, "runs": number}

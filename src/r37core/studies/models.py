@@ -51,6 +51,6 @@ def build_model(
         stress_submesh=EVERYWHERE if choice.whole_blade_stress else base.stress_submesh,
     )
     with clock:
-        mesh = generate_mesh(blade, choice.nodes, 1, tip_elements(choice.nodes))
+        mesh = generate_mesh(blade, choice.nodes, layers=1, tip_elements=tip_elements(choice.nodes))
         model = reduce_blade(mesh, assemble(mesh, material), reduction)
     return model, {"cpu_s": clock.cpu, "wall_s": clock.wall, "peak_memory_bytes": peak_memory()}

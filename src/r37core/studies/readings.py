@@ -28,7 +28,7 @@ UNITS = {f"{kind}_{direction}": "m" for kind in ("rms", "peak") for direction in
 }
 """What is kept of every speed; motion is the leading edge's, over the last half of the run."""
 
-_HIGHEST_ORDER = 12
+_KEPT = {"spectrum_highest_order": 12, "signal_revolutions": 1, "wear_angles": 1000}
 _FIRST_LOBES = 3
 _MOST_EXTRA = 40
 """Speeds added on each side of a window that ends above yield."""
@@ -72,7 +72,7 @@ class Bench:
     def _run(self, speed: float, kept: int, spectrum: bool) -> tuple[dict[str, np.ndarray], np.ndarray]:
         choice = replace(self.choice, snapshot_revolutions=kept)
         results = ["stress", *(["wear"] if self.scene.lining else []), *(["spectrum"] if spectrum else [])]
-        run = run_speed(self.model, float(speed), self.scene, choice, results, _HIGHEST_ORDER, 1, 1000)
+        run = run_speed(self.model, float(speed), self.scene, choice, results, **_KEPT)
         return run, self.recovery.max_von_mises(run["snapshots"])
 
 

@@ -24,6 +24,7 @@ def run_speed(
     scene: Scene,
     choice: IntegrationChoice,
     results: Sequence[str],
+    *,
     spectrum_highest_order: int,
     signal_revolutions: int,
     wear_angles: int,
