@@ -96,7 +96,11 @@ CONFIG_REFUSALS = [
         r"found 'everywhere'; allowed: one of submesh, whole",
     ),
     ("stop: 2000, step: 20, refine_to: 1 }", "stop: .inf }", r"speeds\.0\.stop: found inf; allowed: number, at least 0\.001"),
-    ("stop: 2000, step: 20, refine_to: 1 }", "stop: 1e12 }", r"speeds\.0\.stop: found 1000000000000\.0; allowed: .*at most 1e\+06"),
+    (
+        "stop: 2000, step: 20, refine_to: 1 }",
+        "stop: 1e12 }",
+        r"speeds\.0\.stop: found 1000000000000\.0; allowed: .*at most 1e\+06",
+    ),
     (
         "stop: 2000, step: 20, refine_to: 1 }",
         "stop: 2000, step: 1e-3 }",
@@ -113,7 +117,11 @@ CONFIG_REFUSALS = [
         r"speeds: found 0\.01 rad/s, a revolution of 1\.57e\+09 steps .*; allowed: speeds from 0\.936 rad/s",
     ),
     ("start: 750, ", "start: 0, ", r"speeds\.0\.start: found 0; allowed: number, at least 0\.001"),
-    ("stop: 2000, step: 20, refine_to: 1 }", "stop: 700 }", r"speeds\.0: found a range from 750 to 700; allowed: stop not below start"),
+    (
+        "stop: 2000, step: 20, refine_to: 1 }",
+        "stop: 700 }",
+        r"speeds\.0: found a range from 750 to 700; allowed: stop not below start",
+    ),
     ("blades: all", "blades: [Ref, Ref]", r"blades\.1: found 'Ref' twice; allowed: each once"),
     ("blades: all", "blades: [50]", r"blades\.0: found 50; allowed: string"),
     ("blades: all", "blades:", r"blades: found nothing"),

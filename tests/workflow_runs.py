@@ -33,7 +33,7 @@ def copy_project(root, to):
 
 def snakemake(folder, *arguments, check=True):
     environment = {key: value for key, value in os.environ.items() if not key.startswith("SNAKEMAKE")}
-    environment["PYTHONPATH"] = str(folder / "src")
+    environment |= {"PYTHONPATH": str(folder / "src"), "R37_FULL_LOG": "1"}
     done = subprocess.run(
         [SNAKEMAKE, *arguments], cwd=folder, env=environment, capture_output=True, text=True, timeout=600, check=False
     )

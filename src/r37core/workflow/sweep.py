@@ -136,6 +136,12 @@ class Sweep:
         return 1 - blades.index(wildcards.blade) / len(blades)
 
     @property
+    def most_runs(self) -> int:
+        """Simulations of the whole sweep, at most where speeds refine themselves."""
+        share = self.settings.refinement.largest_share
+        return sum(plan.at_most(share) for plan in self.settings.speed_plans.values())
+
+    @property
     def kept(self) -> dict[str, int]:
         """How much of a run its file keeps."""
         keys = ("spectrum_highest_order", "signal_revolutions", "wear_angles")
