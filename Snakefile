@@ -27,5 +27,6 @@ rule all_blades:
         rules.configuration.output,
         expand("<results>/{kind}.nc", kind=sweep.kinds),
         "<results>/summary.csv",
+        "<results>/explorer.html",
         sweep.figures,
         families.outputs,

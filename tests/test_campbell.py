@@ -113,6 +113,7 @@ def test_dataset_and_gathering(model, tmp_path):
         assert again["dynamic_clearance"].dims == ("blade", "mode", "tangential_displacement")
         assert again["frequency"].attrs["units"] == "Hz"
         assert again.attrs["fidelity"] == "draft"
+        assert again["speed_rpm"].sel(speed=2000.0).item() == pytest.approx(2000.0 * 60.0 / (2.0 * np.pi))
         for variable in again.variables.values():
             assert variable.dtype.kind not in "fi" or {"units", "long_name"} <= set(variable.attrs)
         np.testing.assert_array_equal(again["frequency"].sel(blade="Other"), dataset["frequency"])

@@ -16,6 +16,7 @@ LAYERS = [
     "text_file",
     "yaml_file",
     "speeds",
+    "units",
     "blade",
     "mesh",
     "fem",
@@ -25,6 +26,7 @@ LAYERS = [
     "results",
     "studies",
     "figures",
+    "explorer",
     "config",
     "workflow",
 ]

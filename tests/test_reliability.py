@@ -128,6 +128,7 @@ def test_make_clean_lists_and_removes(config_copy):
     command = [sys.executable, "-m", "r37core.workflow.leftovers"]
     listed = subprocess.run(command, cwd=config_copy, capture_output=True, text=True, check=True).stdout
     assert "results/Gone" in listed
+    assert listed.endswith("1 left over; make clean REMOVE=yes removes them\n")
     assert (config_copy / "results/Gone").exists()
     subprocess.run([*command, "--remove"], cwd=config_copy, capture_output=True, check=True)
     assert not (config_copy / "results/Gone").exists()
@@ -183,10 +184,14 @@ def test_a_flipped_bit_of_a_response_is_found(tmp_path):
         create_axis(dataset, "speed", np.arange(300.0), about("rad s-1", "speed"))
         create_variable(dataset, "a", "f8", ("speed",), about("m", "a"))[:] = values
     content = bytearray(file.read_bytes())
-    content[bytes(content).index(values.tobytes()) + 1000] ^= 1
-    file.write_bytes(content)
-    with pytest.raises(InputFileError):
-        read_dataset(file)
+    sound = file.read_bytes()
+    # the variable, and the axis
+    for stored in (values, np.arange(300.0)):
+        content = bytearray(sound)
+        content[sound.index(stored.tobytes()) + 1000] ^= 1
+        file.write_bytes(content)
+        with pytest.raises(InputFileError):
+            read_dataset(file)
 
 
 @pytest.mark.slow

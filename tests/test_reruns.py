@@ -12,7 +12,7 @@ pytestmark = pytest.mark.slow
 BLADES, SCENES, SPEEDS = ("Ref", "CS100"), ("abradable", "direct"), ("750", "1150", "1550")
 
 # what follows any change of a simulation
-DATASETS = {"configuration", "sweep_dataset", "summary", "response_figure", "response_overview", "map_figure"}
+DATASETS = {"configuration", "sweep_dataset", "summary", "explorer", "response_figure", "response_overview", "map_figure"}
 STRUCTURE = {"geometry", "mesh", "abaqus_deck", "matrices", "reduced_model", "campbell_of_blade", "campbell_figure"}
 OF_ALL_BLADES = {"campbell_of_all", "campbell_overview", "blade_shapes_figure"}
 

@@ -174,6 +174,8 @@ def test_datasets_join_blades_and_scenes(sweep, kind):
         assert dataset.attrs["fidelity"] == "draft"
         assert list(dataset["blade"].values) == ["Ref"]
         np.testing.assert_array_equal(dataset["speed"], SPEEDS)
+        assert "speed_rpm" in dataset.coords
+        np.testing.assert_allclose(dataset["speed_rpm"], 60.0 * np.array(SPEEDS) / (2.0 * np.pi))
         for (blade, scene), file in files.items():
             with xr.open_dataset(file) as response:
                 for name in dataset.data_vars:
@@ -317,6 +319,11 @@ def test_interactions_of_a_synthetic_response():
     assert table["width_above_yield"].iloc[2] == pytest.approx(25.0 + 5.0 * 1.0 / 1.98, rel=0.02)
     assert np.isnan(table["max_wear"]).all()
     assert list(table["status"]) == ["completed"] * 3
+
+
+def test_a_peak_on_the_last_speed_counts():
+    table = summarise(synthetic([(2000.0, 1e-3, 4)]), InteractionChoice())
+    assert list(table["peak_speed"]) == [2000.0]
 
 
 def test_a_peak_of_another_order_is_not_matched():

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from integration_cases import ABRADABLE, AT_ONCE, DIRECT, LINING, oscillator, random_model
 
-from r37core.contact.casing import Casing
+from r37core.contact.casing import Casing, casing_axes
 from r37core.contact.scene import Friction, Lining, Scene
 from r37core.rom.contact_model import read_contact_model, write_contact_model
 from r37core.rom.contact_reduction import contact_model
@@ -251,6 +251,15 @@ def test_only_what_is_asked_for_is_kept(contact):
     )
     assert asked <= set(everything)
     np.testing.assert_array_equal(everything["snapshots"].shape, (62, len(contact.squared_frequencies)))
+
+
+def test_snapshots_are_evenly_spread_over_the_last_revolutions(contact):
+    """A quarter of the samples of the last two of three revolutions, each the state at its sample."""
+    choice = IntegrationChoice(2e-7, 3, 64, snapshots_per_revolution=16, snapshot_revolutions=2)
+    simulation, _, record = run(contact, ABRADABLE, choice)
+    assert len(record.snapshots) == 32
+    normal = casing_axes(contact.tip_displacement_operator, simulation.cone_angle)[0, 0] @ simulation.modes
+    np.testing.assert_allclose(record.snapshots @ normal, record.samples[64 + 3 :: 4, 0], rtol=1e-9, atol=1e-15)
 
 
 def test_what_a_scene_lacks_is_not_compiled(contact):

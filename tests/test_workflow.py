@@ -34,6 +34,7 @@ def finished_copy(finished, tmp_path):
 STRUCTURE = {"geometry", "mesh", "abaqus_deck", "matrices", "reduced_model", "contact_model"}
 PER_BLADE = STRUCTURE | {"campbell_of_blade", "campbell_figure", "prepare_time_integration", "simulate", "response"}
 GATHERED = {
+    "explorer",
     "configuration",
     "campbell_of_all",
     "campbell_overview",

@@ -10,6 +10,9 @@ import xarray as xr
 
 from .io import FILE_ATTRIBUTES, atomic_write, readable
 
+SPEED_RPM = {"units": "rpm", "long_name": "angular speed of the rotor in revolutions per minute"}
+"""Of the coordinate `speed_rpm`, which stands beside `speed`."""
+
 
 def about(units: str, long_name: str) -> dict[str, str]:
     """Attributes of a variable, after the CF conventions."""
@@ -22,9 +25,10 @@ def write_dataset(dataset: xr.Dataset, file: Path | str, provenance: Mapping[str
     Coordinates carry no fill value, as the CF conventions ask. Arrays carry checksums, so that reading finds a flipped bit.
     """
     dataset = dataset.assign_attrs(FILE_ATTRIBUTES | dict(provenance or {}))
-    encoding: dict[str, dict[str, float | bool | None]] = {str(name): {"_FillValue": None} for name in dataset.coords}
-    for name, variable in dataset.data_vars.items():
-        encoding[str(name)] = {"_FillValue": np.nan if variable.dtype.kind == "f" else None}
+    encoding: dict[str, dict[str, float | bool | None]] = {}
+    for name, variable in dataset.variables.items():
+        filled = name in dataset.data_vars and variable.dtype.kind == "f"
+        encoding[str(name)] = {"_FillValue": np.nan if filled else None}
         if variable.ndim and variable.size and variable.dtype.kind in "fiu":
             encoding[str(name)]["fletcher32"] = True
     with atomic_write(file) as partial:

@@ -3,6 +3,7 @@
 import atexit
 import os
 import sys
+import time
 from pathlib import Path
 
 from snakemake.exceptions import WorkflowError
@@ -10,7 +11,9 @@ from snakemake.settings.types import DeploymentMethod
 
 from r37core.config import ConfigError, plain, settings_of_run
 from r37core import failures
+from r37core.explorer import PARTS as EXPLORER_PARTS
 from r37core.workflow import lock, paths
+from r37core.workflow.closing import closing_lines
 from r37core.workflow.code import CodeHashes
 from r37core.workflow.progress import Progress, quieten
 from r37core.workflow.provenance import Provenance
@@ -19,6 +22,7 @@ from r37core.workflow.run import replaced_level
 from r37core.workflow.sweep import Sweep
 from r37core.workflow.tree import check_tree
 
+BEGAN = time.time()
 ROOT = Path(workflow.basedir)
 ENVIRONMENT = ROOT / "envs" / "r37.yaml"
 SCRIPTS = ROOT / "workflow" / "scripts"
@@ -62,6 +66,7 @@ onstart:
 
 onsuccess:
     lock.release()
+    atexit.register(lambda: print(*closing_lines(settings.results, BEGAN, time.time()), sep="\n", file=sys.stderr))
 
 
 onerror:

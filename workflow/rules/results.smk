@@ -50,3 +50,22 @@ rule summary:
         code=code("summary"),
     script:
         "../scripts/summary.py"
+
+
+rule explorer:
+    input:
+        **{kind: f"<results>/{kind}.nc" for kind in sweep.kinds},
+        campbell="<results>/campbell.nc",
+        summary="<results>/summary.csv",
+        parts=[f"{ROOT}/src/r37core/explorer/{part}" for part in EXPLORER_PARTS],
+    output:
+        "<results>/explorer.html",
+    log:
+        "<logs>/explorer.log",
+    conda:
+        ENVIRONMENT
+    params:
+        title=f"r37 {settings.run_name or ''}".strip(),
+        code=code("explorer"),
+    script:
+        "../scripts/explorer.py"

@@ -8,7 +8,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from . import style  # noqa: F401  (sets the style)
+from . import style
 
 _NAMED = ["1B", "1T", "2B"]
 
@@ -29,6 +29,7 @@ def draw_campbell(dataset: xr.Dataset, blade: str) -> Figure:
     left.set(xlabel="speed (rad/s)", ylabel="frequency (Hz)", ylim=(0.0, highest), xlim=(0.0, speed[-1]))
     left.set_title(f"Campbell diagram, blade {blade}")
     left.legend(title="mode", loc="upper left")
+    style.rpm_axis(left)
     for name in _NAMED[:2]:
         clearance = dataset["dynamic_clearance"].sel(mode=name)
         right.plot(1e3 * clearance["tangential_displacement"], 1e3 * clearance, label=name)
@@ -50,6 +51,7 @@ def draw_campbell_overview(dataset: xr.Dataset) -> Figure:
         margin = 0.08 * (high - low)
         axes.set(xlabel="speed (rad/s)", title=name, xlim=(0.0, speed[-1]), ylim=(low - margin, high + margin))
         _draw_engine_orders(axes, dataset["engine_order"].values, speed, high)
+        style.rpm_axis(axes)
     panels[0].set_ylabel("frequency (Hz)")
     panels[0].legend(title="blade")
     return figure

@@ -9,7 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 
-from . import style  # noqa: F401  (sets the style)
+from . import style
 
 _DECADES = 4.0
 
@@ -41,6 +41,7 @@ def _draw_spectrum(axes: Axes, amplitude: xr.DataArray, campbell: xr.Dataset, di
     axes.set(xlabel="speed (rad/s)")
     axes.set_ylim(0.0, float(amplitude["engine_order"].max()))
     axes.set_xlim(float(amplitude["speed"].min()), float(amplitude["speed"].max()))
+    style.rpm_axis(axes)
     axes.grid(False)
 
 
@@ -58,5 +59,6 @@ def draw_wear_map(maps: xr.Dataset, campbell: xr.Dataset, title: str) -> Figure:
             axes.axvline(speed, color="white", linewidth=0.7, linestyle=":")
             axes.annotate(f"1B/{order}", (speed, 350.0), color="white", fontsize=7)
     axes.set(xlabel="speed (rad/s)", ylabel="angle round the casing (degrees)", title=f"wear: {title}")
+    style.rpm_axis(axes)
     axes.grid(False)
     return figure

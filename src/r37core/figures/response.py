@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 
 from r37core.time_integration.status import RunStatus
 
-from . import style  # noqa: F401  (sets the style)
+from . import style
 
 
 def draw_response(blade: str, campbell: xr.Dataset, rms: xr.Dataset, stress: xr.Dataset | None) -> Figure:
@@ -33,6 +33,7 @@ def draw_response(blade: str, campbell: xr.Dataset, rms: xr.Dataset, stress: xr.
         panels[2].set_ylabel("largest von Mises (GPa)")
         _mark_crossings(panels[2], campbell)
     panels[-1].set_xlabel("speed (rad/s)")
+    style.rpm_axis(panels[0])
     return figure
 
 
@@ -51,6 +52,7 @@ def draw_response_overview(rms: xr.Dataset) -> Figure:
         row[0].set_ylabel(str(blade))
     for axes, title in zip(grid[0], ("normal to the casing", "tangential"), strict=True):
         axes.set_title(f"rms, {title}, leading edge (mm)")
+        style.rpm_axis(axes)
     grid[0, 0].legend()
     figure.supxlabel("speed (rad/s)", fontsize=9)
     return figure

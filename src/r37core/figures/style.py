@@ -9,9 +9,12 @@ import matplotlib
 matplotlib.use("Agg")
 
 import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from r37core.io import atomic_write
+from r37core.units import RPM
 
 plt.rcParams.update(
     {
@@ -29,6 +32,12 @@ plt.rcParams.update(
         "svg.hashsalt": "r37",
     }
 )
+
+
+def rpm_axis(axes: Axes) -> None:
+    """A second axis above one of speeds in rad/s, in revolutions per minute."""
+    functions = (lambda speed: np.multiply(speed, RPM), lambda turns: np.divide(turns, RPM))
+    axes.secondary_xaxis("top", functions=functions).set_xlabel("rpm", fontsize=8)
 
 
 def save(figure: Figure, file: Path | str) -> None:

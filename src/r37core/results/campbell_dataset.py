@@ -5,9 +5,10 @@ from __future__ import annotations
 import numpy as np
 import xarray as xr
 
-from r37core.dataset_file import about
+from r37core.dataset_file import SPEED_RPM, about
 from r37core.rom.contact_model import BucklingError
 from r37core.rom.reduced_model import ReducedModel
+from r37core.units import RPM
 
 from .campbell import campbell_diagram, dynamic_clearance
 
@@ -57,6 +58,7 @@ def campbell_dataset(
         coords={
             "mode": list(diagram.mode_names),
             "speed": ("speed", speeds, about("rad s-1", "angular speed of the rotor")),
+            "speed_rpm": ("speed", RPM * speeds, SPEED_RPM),
             "engine_order": ("engine_order", orders, about("1", "engine order")),
             "tangential_displacement": (
                 "tangential_displacement",

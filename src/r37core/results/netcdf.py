@@ -8,6 +8,9 @@ from typing import Any
 import netCDF4
 import numpy as np
 
+from r37core.dataset_file import SPEED_RPM
+from r37core.units import RPM
+
 
 def create_labels(dataset: netCDF4.Dataset, name: str, labels: Sequence[str]) -> None:
     """A dimension with text labels."""
@@ -16,11 +19,16 @@ def create_labels(dataset: netCDF4.Dataset, name: str, labels: Sequence[str]) ->
 
 
 def create_axis(dataset: netCDF4.Dataset, name: str, values: np.ndarray, attributes: Mapping[str, Any]) -> None:
-    """A dimension with numbers; coordinates carry no fill value, as the CF conventions ask."""
+    """A dimension with numbers; coordinates carry no fill value, as the CF conventions ask. Speeds are there in rpm too."""
     dataset.createDimension(name, len(values))
-    axis = dataset.createVariable(name, "f8", (name,), fill_value=False)
+    axis = dataset.createVariable(name, "f8", (name,), fill_value=False, fletcher32=True)
     axis.setncatts(attributes)
     axis[:] = values
+    if name == "speed":
+        beside = dataset.createVariable("speed_rpm", "f8", (name,), fill_value=False, fletcher32=True)
+        beside.setncatts(SPEED_RPM)
+        beside[:] = RPM * np.asarray(values)
+        dataset.setncattr("coordinates", "speed_rpm")
 
 
 def create_variable(

@@ -1,0 +1,120 @@
+"""What the explorer shows: the datasets of a sweep as one mapping that JSON can carry."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import asdict
+
+import numpy as np
+import pandas as pd
+import xarray as xr
+
+from r37core.results.variables import VARIABLES
+from r37core.studies.published import INTERACTIONS
+
+from .pack import MOST_ANGLES, MOST_SPEEDS, ORDERS_PER_STEP, joined, order_bins, packed, rounded, stretches
+
+CURVES = (
+    ("rms", "rms_normal", "mm", 1e3),
+    ("rms", "rms_tangential", "mm", 1e3),
+    ("rms", "peak_normal", "mm", 1e3),
+    ("stress", "max_von_mises", "MPa", 1e-6),
+    ("wear", "max_wear", "mm", 1e3),
+    ("rms", "share_of_time_in_contact", "1", 1.0),
+)
+"""Dataset, variable, unit shown, and factor from SI to it; of the leading edge where a variable has tip points."""
+
+
+def explorer_contents(datasets: Mapping[str, xr.Dataset], interactions: pd.DataFrame) -> dict[str, object]:
+    """All that the page needs. `datasets`: campbell, rms and, where computed, spectrum, stress and wear.
+
+    Curves have every speed; maps are thinned (pack.py), each cell the largest value of what it stands for.
+    """
+    rms, campbell = datasets["rms"], datasets["campbell"]
+    blades, scenes = [str(name) for name in rms["blade"].values], [str(name) for name in rms["scene"].values]
+    return {
+        "about": {name: str(rms.attrs[name]) for name in ("r37core_version", "fidelity") if name in rms.attrs},
+        "blades": blades,
+        "scenes": scenes,
+        "speeds": packed(rms["speed"].values, 64),
+        "status": packed(rms["status"].values),
+        "campbell": _campbell(campbell.sel(blade=blades)),
+        "curves": [
+            _curve(_like(datasets[kind], rms), name, unit, factor) for kind, name, unit, factor in CURVES if kind in datasets
+        ],
+        "yield_stress": _yield_stress(datasets.get("stress"), rms),
+        "history": _history(datasets.get("stress"), rms),
+        "spectrum": _spectrum(datasets.get("spectrum"), rms),
+        "wear": _wear(datasets.get("wear"), rms),
+        "interactions": interactions.astype(object).where(interactions.notna(), None).to_dict("records"),
+        "published": [asdict(one) for one in INTERACTIONS if one.blade in blades],
+    }
+
+
+def _like(dataset: xr.Dataset, rms: xr.Dataset) -> xr.Dataset:
+    """The dataset with all blades, scenes and speeds of the rms; NaN where it has none."""
+    if "tip_point" in dataset.dims:
+        dataset = dataset.sel(tip_point="leading_edge")
+    return dataset.reindex({name: rms[name] for name in ("blade", "scene", "speed")})
+
+
+def _campbell(campbell: xr.Dataset) -> dict[str, object]:
+    return {
+        "modes": [str(name) for name in campbell["mode"].values],
+        "orders": [int(order) for order in campbell["engine_order"].values],
+        "speeds": packed(campbell["speed"].values),
+        "frequency": packed(campbell["frequency"].transpose("blade", "mode", "speed").values),
+        "crossing": packed(campbell["crossing_speed"].transpose("blade", "mode", "engine_order").values),
+    }
+
+
+def _curve(dataset: xr.Dataset, name: str, unit: str, factor: float) -> dict[str, object]:
+    values = dataset[name].transpose("blade", "scene", "speed").values
+    return {"name": name, "label": VARIABLES[name].long_name, "unit": unit, "values": packed(factor * values)}
+
+
+def _yield_stress(stress: xr.Dataset | None, rms: xr.Dataset) -> dict[str, object] | None:
+    """In MPa, (blade, scene)."""
+    if stress is None:
+        return None
+    values = stress["yield_stress"].reindex(blade=rms["blade"], scene=rms["scene"])
+    return packed(1e-6 * values.transpose("blade", "scene").values)
+
+
+def _history(stress: xr.Dataset | None, rms: xr.Dataset) -> dict[str, object] | None:
+    """Largest stress (MPa) of every revolution, (blade, scene, history speed, revolution), for the speeds that have it."""
+    if stress is None or "max_von_mises_history" not in stress:
+        return None
+    values = stress["max_von_mises_history"].reindex(blade=rms["blade"], scene=rms["scene"])
+    return {
+        "speeds": packed(stress["history_speed"].values, 64),
+        "values": packed(1e-6 * values.transpose("blade", "scene", "history_speed", "revolution").values),
+    }
+
+
+def _map(values: np.ndarray, across: np.ndarray, speeds: np.ndarray, other: np.ndarray) -> dict[str, object]:
+    """A map of values (blade, scene, speed, other), the last axis joined at `across`, the speeds if they are many."""
+    along = stretches(len(speeds), MOST_SPEEDS)
+    return {
+        "speeds": packed(speeds[along], 64),
+        "other": packed(other),
+        "values": packed(rounded(joined(joined(values, 3, across), 2, along))),
+    }
+
+
+def _spectrum(spectrum: xr.Dataset | None, rms: xr.Dataset) -> dict[str, object] | None:
+    """Amplitude of the leading edge's normal motion (mm) over engine order."""
+    if spectrum is None:
+        return None
+    starts = order_bins(spectrum["engine_order"].values)
+    values = _like(spectrum, rms)["amplitude"].transpose("blade", "scene", "speed", "engine_order").values
+    return _map(1e3 * values, starts, rms["speed"].values, ORDERS_PER_STEP * np.arange(len(starts)))
+
+
+def _wear(wear: xr.Dataset | None, rms: xr.Dataset) -> dict[str, object] | None:
+    """Wear (mm) over the angle (degrees) round the casing."""
+    if wear is None:
+        return None
+    starts = stretches(wear.sizes["angle"], MOST_ANGLES)
+    values = _like(wear, rms)["wear"].transpose("blade", "scene", "speed", "angle").values
+    return _map(1e3 * values, starts, rms["speed"].values, np.degrees(wear["angle"].values[starts]))

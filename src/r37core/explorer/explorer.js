@@ -1,0 +1,333 @@
+"use strict";
+(async () => {
+  const data = JSON.parse(document.getElementById("data").textContent);
+  // Okabe and Ito's colours, told apart with any colour vision; further blades repeat them with another marker
+  const COLOURS = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00", "#000000"];
+  const MARKERS = ["circle", "square", "diamond", "triangle-up", "star"];
+  const DASHES = ["solid", "dash", "dot", "dashdot"];
+  const STATUS = ["completed", "diverged", "not run"];
+  const RPM = 30 / Math.PI;
+  const PLOTS = ["campbell", "response", "spectrum", "wear", "stress"];
+  const OPTIONS = { responsive: true, displaylogo: false };
+
+  async function unpack(array) {
+    const bytes = Uint8Array.from(atob(array.base64), (letter) => letter.charCodeAt(0));
+    const whole = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
+    const buffer = await new Response(whole).arrayBuffer();
+    const values = array.bits === 64 ? new Float64Array(buffer) : new Float32Array(buffer);
+    const { shape } = array;
+    // the last axis at the given places of those before it
+    const row = (...place) => {
+      let at = 0;
+      place.forEach((index, axis) => { at = at * shape[axis] + index; });
+      const length = shape.slice(place.length).reduce((product, size) => product * size, 1);
+      return Array.from(values.subarray(at * length, (at + 1) * length));
+    };
+    return { shape, values: Array.from(values), row };
+  }
+
+  const speeds = (await unpack(data.speeds)).values;
+  const status = await unpack(data.status);
+  const campbell = data.campbell;
+  const campbellSpeeds = (await unpack(campbell.speeds)).values;
+  const frequency = await unpack(campbell.frequency);
+  const crossing = await unpack(campbell.crossing);
+  const curves = await Promise.all(data.curves.map(async (curve) => ({ ...curve, values: await unpack(curve.values) })));
+  const unpackMap = async (map) => map && {
+    speeds: (await unpack(map.speeds)).values, other: (await unpack(map.other)).values, values: await unpack(map.values),
+  };
+  const maps = { spectrum: await unpackMap(data.spectrum), wear: await unpackMap(data.wear) };
+  const yieldStress = data.yield_stress && await unpack(data.yield_stress);
+  const history = data.history
+    && { speeds: (await unpack(data.history.speeds)).values, values: await unpack(data.history.values) };
+
+  const state = { blade: data.blades[0], scene: data.scenes[0], quantity: curves[0].name, speed: speeds[0], unit: "rad/s", all: false };
+
+  const bladeIndex = () => data.blades.indexOf(state.blade);
+  const sceneIndex = () => data.scenes.indexOf(state.scene);
+  const factor = () => (state.unit === "rpm" ? RPM : 1);
+  const shown = (values) => values.map((value) => value * factor());
+  const digits = (value, count = 5) => (Number.isFinite(value) ? Number(value.toPrecision(count)).toString() : "none");
+  const speedText = (speed) => `${digits(speed)} rad/s, ${digits(speed * RPM)} rpm`;
+  const ran = (blade, scene) => speeds.map((_, at) => at).filter((at) => status.row(blade, scene)[at] !== 2);
+  const axis = (title, more = {}) => ({ title: { text: title }, zeroline: false, ...more });
+  const speedAxis = () => axis(`speed (${state.unit})`, { range: shown([speeds[0], speeds[speeds.length - 1]]) });
+
+  // name of a curve -> what one of its points says
+  function pointText(curve, blade, scene, at) {
+    const value = curve.values.row(blade, scene)[at];
+    const number = status.row(blade, scene)[at];
+    return `${data.blades[blade]}, ${data.scenes[scene]}<br>${speedText(speeds[at])}<br>`
+      + `${digits(value)} ${curve.unit}<br>${STATUS[number]}`;
+  }
+
+  function layout(x, y, more = {}) {
+    const cursor = state.speed * factor();
+    return {
+      margin: { l: 60, r: 15, t: 10, b: 45 }, hovermode: "closest", xaxis: x, yaxis: y, showlegend: true,
+      legend: { orientation: "h", y: 1.02, yanchor: "bottom" }, uirevision: state.unit,
+      shapes: [{ type: "line", x0: cursor, x1: cursor, yref: "paper", y0: 0, y1: 1, line: { color: "#444", width: 1, dash: "dot" } }],
+      ...more,
+    };
+  }
+
+  function draw(name, traces, plan) {
+    const place = document.getElementById(name);
+    if (traces.length === 0) {
+      if (place.classList.contains("js-plotly-plot")) Plotly.purge(place);
+      place.innerHTML = `<p class="empty">Not computed for ${state.blade} in ${state.scene}.</p>`;
+      return;
+    }
+    if (!place.classList.contains("js-plotly-plot")) place.innerHTML = "";
+    Plotly.react(place, traces, plan, OPTIONS);
+    if (!place.dataset.listens) {
+      place.dataset.listens = "yes";
+      place.on("plotly_click", (event) => { const { x } = event.points[0]; set({ speed: x / factor() }); });
+    }
+  }
+
+  function drawCampbell() {
+    const blade = bladeIndex();
+    const lines = campbell.modes.map((mode, number) => {
+      const values = frequency.row(blade, number);
+      return {
+        x: shown(campbellSpeeds), y: values, name: mode, mode: "lines", line: { color: COLOURS[number % COLOURS.length] },
+        text: values.map((value, at) => `${mode}<br>${speedText(campbellSpeeds[at])}<br>${digits(value)} Hz`), hoverinfo: "text",
+      };
+    });
+    const last = campbellSpeeds[campbellSpeeds.length - 1];
+    const orders = {
+      x: [], y: [], text: [], mode: "lines", line: { color: "#bbb", width: 1 }, hoverinfo: "text", showlegend: false,
+    };
+    campbell.orders.forEach((order) => {
+      orders.x.push(...shown([0, last]), null);
+      orders.y.push(0, order * last / 2 / Math.PI, null);
+      orders.text.push(`engine order ${order}`, `engine order ${order}`, null);
+    });
+    const found = { x: [], y: [], text: [], mode: "markers", marker: { color: "#444", size: 6 }, hoverinfo: "text", showlegend: false };
+    campbell.modes.forEach((mode, number) => crossing.row(blade, number).forEach((speed, at) => {
+      if (!Number.isFinite(speed)) return;
+      const order = campbell.orders[at];
+      found.x.push(speed * factor());
+      found.y.push(order * speed / 2 / Math.PI);
+      found.text.push(`${mode} with engine order ${order}<br>${speedText(speed)}<br>${digits(order * speed / 2 / Math.PI)} Hz`);
+    }));
+    const top = Math.max(...frequency.row(blade, Math.min(5, campbell.modes.length - 1)).filter(Number.isFinite)) * 1.05;
+    const x = axis(`speed (${state.unit})`, { range: shown([campbellSpeeds[0], last]) });
+    const plan = layout(x, axis("frequency (Hz)", { range: [0, top] }), { legend: { x: 1.01, y: 1 } });
+    draw("campbell", [orders, ...lines, found], plan);
+  }
+
+  function drawResponse() {
+    const curve = curves.find((one) => one.name === state.quantity);
+    const scene = sceneIndex();
+    const blades = state.all ? data.blades.map((_, number) => number) : [bladeIndex()];
+    const scenes = state.all ? [scene] : data.scenes.map((_, number) => number);
+    const traces = [];
+    blades.forEach((blade) => scenes.forEach((number) => {
+      const places = ran(blade, number);
+      const values = curve.values.row(blade, number);
+      if (!places.some((at) => Number.isFinite(values[at]))) return;
+      const rank = state.all ? blade : number;
+      traces.push({
+        x: shown(places.map((at) => speeds[at])), y: places.map((at) => values[at]),
+        name: state.all ? data.blades[blade] : data.scenes[number], mode: "lines+markers", hoverinfo: "text",
+        line: { color: COLOURS[rank % COLOURS.length], dash: DASHES[Math.floor(rank / COLOURS.length) % DASHES.length], width: 1.5 },
+        marker: { size: 4, symbol: MARKERS[Math.floor(rank / COLOURS.length) % MARKERS.length] },
+        text: places.map((at) => pointText(curve, blade, number, at)),
+      });
+      const lost = places.filter((at) => status.row(blade, number)[at] === 1);
+      if (lost.length) {
+        traces.push({
+          x: shown(lost.map((at) => speeds[at])), y: lost.map(() => 0), mode: "markers", name: `${data.blades[blade]} diverged`,
+          marker: { symbol: "x", size: 9, color: COLOURS[rank % COLOURS.length] }, hoverinfo: "text",
+          text: lost.map((at) => pointText(curve, blade, number, at)),
+        });
+      }
+    }));
+    const plan = layout(speedAxis(), axis(`${state.quantity.replaceAll("_", " ")} (${curve.unit})`));
+    data.published.filter((one) => one.blade === state.blade).forEach((one) => {
+      const x = one.peak * factor();
+      plan.shapes.push({ type: "line", x0: x, x1: x, yref: "paper", y0: 0, y1: 1, line: { color: "#E69F00", width: 1.5 } });
+      (plan.annotations ||= []).push({
+        x, y: 1, yref: "paper", yanchor: "top", xanchor: "right", showarrow: false, textangle: -90, font: { size: 10 },
+        text: `published 1B/${one.engine_order}`,
+      });
+    });
+    if (state.quantity === "max_von_mises" && yieldStress) {
+      const limit = yieldStress.row(bladeIndex())[scene];
+      if (Number.isFinite(limit)) {
+        plan.shapes.push({ type: "line", xref: "paper", x0: 0, x1: 1, y0: limit, y1: limit, line: { color: "#D55E00", width: 1.5 } });
+      }
+    }
+    draw("response", traces, plan);
+  }
+
+  function drawMap(name, title, unit, say, bottom) {
+    const map = maps[name];
+    const here = [bladeIndex(), sceneIndex()];
+    const values = map && map.values.row(...here);
+    if (!map || !values.some(Number.isFinite)) return draw(name, [], null);
+    const across = map.other.length;
+    const columns = map.other.map((_, number) => map.speeds.map((__, at) => values[at * across + number]));
+    const finite = values.filter((value) => Number.isFinite(value) && value > 0);
+    const largest = finite.reduce((most, value) => Math.max(most, value), 0);
+    const trace = {
+      type: "heatmap", x: shown(map.speeds), y: map.other, colorscale: "Cividis", zsmooth: false, hoverinfo: "text",
+      z: bottom ? columns.map((row) => row.map((value) => Math.log10(Math.max(value, bottom * largest)))) : columns,
+      text: columns.map((row, number) => row.map((value, at) => say(map, number, at, value))),
+      colorbar: { title: { text: bottom ? `log10 of ${unit}` : unit, side: "right" }, thickness: 12 },
+    };
+    return draw(name, [trace], layout(speedAxis(), axis(title), { showlegend: false }));
+  }
+
+  const sayAmplitude = (map, number, at, value) => {
+    const order = map.other[number];
+    return `${speedText(map.speeds[at])}<br>engine order ${digits(order)}, ${digits(order * map.speeds[at] / 2 / Math.PI)} Hz`
+      + `<br>${digits(value, 4)} mm`;
+  };
+  const sayWear = (map, number, at, value) => `${speedText(map.speeds[at])}<br>${digits(map.other[number])} degrees<br>${digits(value, 4)} mm`;
+
+  function drawStress() {
+    const here = [bladeIndex(), sceneIndex()];
+    const traces = [];
+    const plan = layout(axis("revolution"), axis("largest von Mises stress (MPa)"), { shapes: [] });
+    if (history) {
+      history.speeds.forEach((speed, number) => {
+        const values = history.values.row(...here, number);
+        if (!values.some(Number.isFinite)) return;
+        const near = Math.abs(speed - state.speed) < 1e-6 * speed;
+        traces.push({
+          x: values.map((_, at) => at + 1), y: values, name: `${digits(speed)} rad/s`, mode: "lines", hoverinfo: "text",
+          line: { color: COLOURS[number % COLOURS.length], width: near ? 3 : 1.2, dash: DASHES[Math.floor(number / 7) % 4] },
+          text: values.map((value, at) => `${speedText(speed)}<br>revolution ${at + 1}<br>${digits(value)} MPa`),
+        });
+      });
+    }
+    if (traces.length === 0) {
+      const place = document.getElementById("stress");
+      if (place.classList.contains("js-plotly-plot")) Plotly.purge(place);
+      place.innerHTML = `<p class="empty">No history of stress for ${state.blade} in ${state.scene}: name speeds in the scene's`
+        + " stress_history_speeds_rad_s. The quantity max_von_mises has the stress over speed.</p>";
+      return;
+    }
+    const limit = yieldStress.row(here[0])[here[1]];
+    plan.shapes.push({ type: "line", xref: "paper", x0: 0, x1: 1, y0: limit, y1: limit, line: { color: "#D55E00", width: 1.5 } });
+    const place = document.getElementById("stress");
+    if (!place.classList.contains("js-plotly-plot")) place.innerHTML = "";
+    Plotly.react(place, traces, plan, OPTIONS);
+  }
+
+  const COLUMNS = [
+    ["blade", "blade"], ["scene", "scene"], ["mode", "mode"], ["engine_order", "order"], ["campbell_speed", "Campbell (rad/s)"],
+    ["peak_speed", "peak (rad/s)"], ["published", "published"], ["shift", "shift"], ["peak_rms_normal", "rms (mm)", 1e3],
+    ["jump", "drop"], ["width_above_yield", "above yield (rad/s)"], ["max_von_mises", "stress (MPa)", 1e-6],
+    ["max_wear", "wear (mm)", 1e3], ["status", "status"],
+  ];
+
+  function drawTable() {
+    const place = document.getElementById("interactions");
+    if (data.interactions.length === 0) { place.innerHTML = '<p class="empty">None found.</p>'; return; }
+    const cell = (row, [name, , scale]) => {
+      const value = row[name];
+      if (value === null || value === undefined) return "";
+      return typeof value === "number" ? digits(scale ? value * scale : value) : value;
+    };
+    const table = document.createElement("table");
+    table.innerHTML = `<thead><tr>${COLUMNS.map(([, title]) => `<th scope="col">${title}</th>`).join("")}</tr></thead>`;
+    const body = table.createTBody();
+    data.interactions.forEach((row) => {
+      const known = data.published.find((one) => one.blade === row.blade && row.mode === "1B" && one.engine_order === row.engine_order);
+      const line = body.insertRow();
+      line.tabIndex = 0;
+      line.classList.toggle("chosen", row.blade === state.blade && row.scene === state.scene && row.peak_speed === state.speed);
+      COLUMNS.forEach((column) => { line.insertCell().textContent = cell({ ...row, published: known ? known.peak : null }, column); });
+      const go = () => set({ blade: row.blade, scene: row.scene, speed: row.peak_speed });
+      line.addEventListener("click", go);
+      line.addEventListener("keydown", (event) => { if (event.key === "Enter") go(); });
+    });
+    place.replaceChildren(table);
+  }
+
+  function drawAll() {
+    drawCampbell();
+    drawResponse();
+    drawMap("spectrum", "engine order", "mm", sayAmplitude, 1e-4);
+    drawMap("wear", "angle (degrees)", "mm", sayWear, 0);
+    drawStress();
+    drawTable();
+    const curve = curves.find((one) => one.name === state.quantity);
+    const at = nearest(state.speed);
+    document.getElementById("now").textContent = pointText(curve, bladeIndex(), sceneIndex(), at).replaceAll("<br>", ", ");
+    for (const name of ["blade", "scene", "quantity", "unit"]) document.getElementById(name).value = state[name];
+    document.getElementById("speed").value = digits(state.speed * factor());
+    document.getElementById("all").checked = state.all;
+    const words = new URLSearchParams(Object.entries(state).map(([name, value]) => [name, String(value)]));
+    window.history.replaceState(null, "", `#${words}`);
+  }
+
+  // the speed that ran nearest to a wanted one
+  function nearest(speed) {
+    const places = ran(bladeIndex(), sceneIndex());
+    return places.reduce((best, at) => (Math.abs(speeds[at] - speed) < Math.abs(speeds[best] - speed) ? at : best), places[0] ?? 0);
+  }
+
+  function set(changes) {
+    Object.assign(state, changes);
+    if ("speed" in changes || "blade" in changes || "scene" in changes) state.speed = speeds[nearest(state.speed)];
+    drawAll();
+  }
+
+  const next = (list, value, step) => list[(list.indexOf(value) + step + list.length) % list.length];
+  const step = (by) => {
+    const places = ran(bladeIndex(), sceneIndex());
+    const at = places.indexOf(nearest(state.speed)) + by;
+    if (places[at] !== undefined) set({ speed: speeds[places[at]] });
+  };
+  const KEYS = {
+    ArrowLeft: () => step(-1), ArrowRight: () => step(1),
+    b: () => set({ blade: next(data.blades, state.blade, 1) }), B: () => set({ blade: next(data.blades, state.blade, -1) }),
+    s: () => set({ scene: next(data.scenes, state.scene, 1) }), u: () => set({ unit: state.unit === "rpm" ? "rad/s" : "rpm" }),
+    q: () => set({ quantity: next(curves.map((one) => one.name), state.quantity, 1) }), a: () => set({ all: !state.all }),
+  };
+
+  function listen() {
+    const options = { blade: data.blades, scene: data.scenes, quantity: curves.map((one) => one.name) };
+    for (const [name, values] of Object.entries(options)) {
+      document.getElementById(name).replaceChildren(...values.map((value) => new Option(value)));
+    }
+    for (const name of ["blade", "scene", "quantity", "unit"]) {
+      document.getElementById(name).addEventListener("change", (event) => set({ [name]: event.target.value }));
+    }
+    document.getElementById("speed").addEventListener("change", (event) => {
+      if (Number.isFinite(event.target.valueAsNumber)) set({ speed: event.target.valueAsNumber / factor() });
+    });
+    document.getElementById("all").addEventListener("change", (event) => set({ all: event.target.checked }));
+    document.getElementById("controls").addEventListener("submit", (event) => event.preventDefault());
+    document.addEventListener("keydown", (event) => {
+      const typing = ["INPUT", "SELECT"].includes(event.target.tagName);
+      if (KEYS[event.key] && !typing && !event.ctrlKey && !event.metaKey && !event.altKey) { event.preventDefault(); KEYS[event.key](); }
+    });
+    window.addEventListener("hashchange", () => set(fromAddress()));
+  }
+
+  // what the address asks for, as far as the data have it
+  function fromAddress() {
+    const words = Object.fromEntries(new URLSearchParams(window.location.hash.slice(1)));
+    const wanted = {};
+    if (data.blades.includes(words.blade)) wanted.blade = words.blade;
+    if (data.scenes.includes(words.scene)) wanted.scene = words.scene;
+    if (curves.some((one) => one.name === words.quantity)) wanted.quantity = words.quantity;
+    if (["rad/s", "rpm"].includes(words.unit)) wanted.unit = words.unit;
+    if (Number.isFinite(Number.parseFloat(words.speed))) wanted.speed = Number.parseFloat(words.speed);
+    wanted.all = words.all === "true";
+    return wanted;
+  }
+
+  const about = Object.entries(data.about).map(([name, value]) => `${name} ${value}`).join(", ");
+  document.getElementById("about").append(` ${about}. Maps show the largest amplitude within 0.1 engine orders, and the largest`
+    + " wear within two degrees; beyond 400 speeds neighbours are joined. Curves have every speed.");
+  listen();
+  set({ speed: speeds[0], ...fromAddress() });
+  document.documentElement.dataset.ready = PLOTS.join(" ");
+})();

@@ -1,0 +1,40 @@
+"""What a finished run says: what was found, where to look, how long it took."""
+
+from __future__ import annotations
+
+import csv
+from pathlib import Path
+
+
+def closing_lines(results: Path, began: float, ended: float) -> list[str]:
+    """Three lines on the interactions in the folder `results`; none if the list is older than the run's start.
+
+    `began` and `ended`: times in s, as file times are.
+    """
+    summary = results / "summary.csv"
+    if not summary.exists() or summary.stat().st_mtime < began:
+        return []
+    with open(summary, newline="", encoding="utf-8") as stream:
+        rows = list(csv.DictReader(stream))
+    return [_found(rows), f"look at {results}/explorer.html (any browser), {summary}, {results}/figures/", _took(ended - began)]
+
+
+def _found(rows: list[dict[str, str]]) -> str:
+    if not rows:
+        return "found no interaction"
+    above = [row for row in rows if float(row["width_above_yield"] or 0.0) > 0.0]
+    text = f"found {len(rows)} interactions, {len(above)} of them above yield"
+    if above:
+        worst = max(above, key=lambda row: float(row["max_von_mises"] or 0.0))
+        mode = f"{worst['mode']}/" if worst["mode"] else "engine order "
+        text += (
+            f"; the largest stress {1e-9 * float(worst['max_von_mises']):.2f} GPa, {worst['blade']} in {worst['scene']} "
+            f"at {worst['peak_speed']} rad/s ({mode}{worst['engine_order']})"
+        )
+    return text
+
+
+def _took(seconds: float) -> str:
+    minutes, rest = divmod(round(seconds), 60)
+    hours, minutes = divmod(minutes, 60)
+    return "took " + (f"{hours} h {minutes} min" if hours else f"{minutes} min {rest} s" if minutes else f"{rest} s")

@@ -1,0 +1,44 @@
+"""The last lines of a finished run."""
+
+import os
+
+import pytest
+
+from r37core.workflow.closing import closing_lines
+
+HEAD = "blade,scene,mode,engine_order,peak_speed,width_above_yield,max_von_mises\n"
+ROWS = (
+    "Ref,abradable,1B,7,838,13.5,8.56e+09\n",
+    "S50,abradable,,4,1686,2,9.5e+09\n",
+    "Ref,direct,1T,9,1344,0,1e+10\n",
+    "L50,direct,,2,800,,\n",
+)
+
+
+def written(folder, *rows, time=1000.0):
+    (folder / "summary.csv").write_text(HEAD + "".join(rows))
+    os.utime(folder / "summary.csv", (time, time))
+    return folder
+
+
+def test_found_where_and_how_long(tmp_path):
+    found, where, took = closing_lines(written(tmp_path, *ROWS), 400.0, 1210.0)
+    what, worst = found.split("; ")
+    assert what == "found 4 interactions, 2 of them above yield"
+    assert worst == "the largest stress 9.50 GPa, S50 in abradable at 1686 rad/s (engine order 4)"
+    assert where == f"look at {tmp_path}/explorer.html (any browser), {tmp_path}/summary.csv, {tmp_path}/figures/"
+    assert took == "took 13 min 30 s"
+    assert "(1B/7)" in closing_lines(written(tmp_path, ROWS[0]), 400.0, 500.0)[0]
+
+
+@pytest.mark.parametrize(
+    ("seconds", "text"), [(59.4, "59 s"), (60.0, "1 min 0 s"), (3600.0, "1 h 0 min"), (12_345.0, "3 h 25 min")]
+)
+def test_lengths_of_time(tmp_path, seconds, text):
+    assert closing_lines(written(tmp_path), 0.0, seconds)[2] == f"took {text}"
+
+
+def test_nothing_found_and_nothing_new(tmp_path):
+    assert closing_lines(tmp_path, 0.0, 1.0) == []
+    assert closing_lines(written(tmp_path), 0.0, 1.0)[0] == "found no interaction"
+    assert closing_lines(written(tmp_path), 2000.0, 2001.0) == []

@@ -1,0 +1,22 @@
+"""One page to look at all results. Inputs: datasets, summary. Params: title. Output: HTML."""
+
+import pandas as pd
+from job import run
+
+from r37core.dataset_file import read_dataset
+from r37core.explorer.contents import explorer_contents
+from r37core.explorer.page import write_page
+from r37core.io import readable
+
+
+def main(snakemake):
+    files = dict(snakemake.input.items())
+    summary = files.pop("summary")
+    with readable(summary):
+        interactions = pd.read_csv(summary)
+    files.pop("parts")
+    datasets = {kind: read_dataset(file) for kind, file in files.items()}
+    write_page(explorer_contents(datasets, interactions), snakemake.params.title, snakemake.output[0])
+
+
+run(snakemake, main)
