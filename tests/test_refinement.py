@@ -254,6 +254,14 @@ def test_any_response_ends_in_speeds_of_the_grid_each_once(values, share, coarse
     assert len(run) <= max(len(plan.certain), int(share * 101))
 
 
+@pytest.mark.parametrize("stop", [900, 901])
+def test_one_or_two_speeds_are_a_range_too(stop):
+    plan = plan_speeds([{"start": 900, "stop": stop, "step": 20, "refine_to": 1}], 8.0)
+    one = first_round(plan, campbell([890.0]), CHOICE)
+    assert one.new == plan.certain == (900.0, 901.0)[: stop - 899]
+    assert round_after(one, {speed: [0, 1e-3, 1e-3, 2.0] for speed in one.new}, plan, CHOICE).new == ()
+
+
 def test_rounds_do_not_depend_on_the_order_of_what_is_known():
     rows = {speed: [0, 1e-4 * np.sin(speed), 1e-4, 0.5] for speed in PLAN.certain}
     backwards = dict(reversed(rows.items()))
