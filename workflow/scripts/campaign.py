@@ -14,11 +14,8 @@ from r37core.time_integration.speed_run import run_speed
 
 def main(snakemake):
     params = snakemake.params
-    model, material, choice = (
-        read_contact_model(snakemake.input.model),
-        Material(**params.material),
-        IntegrationChoice(**params.choice),
-    )
+    model, material = read_contact_model(snakemake.input.model), Material(**params.material)
+    choice = IntegrationChoice(**params.choice)
     recovery = StressRecovery(read_reduced_model(snakemake.input.rom), material) if "stress" in params.results else None
     files = run_one_by_one(
         lambda speed: run_speed(model, speed, params.scene, choice, params.results, **params.kept), params.speeds
@@ -28,10 +25,10 @@ def main(snakemake):
         params.speeds,
         snakemake.output[0],
         recovery,
-        (),
-        params.stress_instants,
-        material.yield_stress,
-        params.provenance,
+        stress_history_speeds=(),
+        stress_instants=params.stress_instants,
+        yield_stress=material.yield_stress,
+        provenance=params.provenance,
     )
 
 
