@@ -13,6 +13,7 @@ from r37core.studies.parameters import OF_THE_MODEL
 from r37core.workflow.estimate import Estimate
 from r37core.workflow.provenance import Provenance
 from r37core.workflow.readings import Readings
+from r37core.workflow.refinement import Refinement
 from r37core.workflow.stability import Stability
 from r37core.workflow.structure import Structure
 from r37core.workflow.sweep import Sweep
@@ -89,6 +90,11 @@ def test_what_a_round_is_told_is_what_it_takes(refining):
     choice = refinement_choice_from(json.loads(json.dumps(refining.refinement_choice)))
     assert [window.mode for window in choice.windows] == ["1B", "1T"]
     assert choice.prominence == 0.1
+
+
+def test_plain_grids_beside_are_part_of_the_whole_one(refining):
+    assert Refinement(refining.settings).steps == [5.0, 20.0]
+    assert Refinement(refining.settings).every_speed(REF) == [900.0 + 5.0 * place for place in range(21)]
 
 
 def test_estimate_of_speeds_that_refine_themselves_is_their_share(refining):

@@ -9,6 +9,9 @@ from r37core.config import ConfigError, Settings
 
 from . import paths
 
+_STEPS = (5.0, 8.0, 20.0)
+"""Plain grids (rad/s) beside: as many runs as a fifth of every 1 rad/s, and those of two fidelity levels."""
+
 _COMPARED = ("spectrum", "stress", "wear")
 """Results of a scene by which interactions are told."""
 
@@ -34,6 +37,12 @@ class Refinement:
     def plans(self) -> list[dict[str, Any]]:
         """Speeds of each run, as plain values."""
         return [asdict(self.settings.speed_plans[place]) for place in self.runs]
+
+    @property
+    def steps(self) -> list[float]:
+        """Steps (rad/s) of the plain grids that are part of the whole ones."""
+        finest = [grid.refine_to for place in self.runs for grid in self.settings.speed_plans[place].refined]
+        return [step for step in _STEPS if all(abs(step / one - round(step / one)) < 1e-9 and step >= one for one in finest)]
 
     def every_speed(self, wildcards: Any) -> list[float]:
         """Every speed (rad/s) of the grids of one blade and scene."""

@@ -44,8 +44,7 @@ rule refinement:
     params:
         runs=refinement.runs,
         plans=refinement.plans,
-        # plain grids beside: as fine as a fifth of the finest, and the two that fidelity levels take
-        steps=[5, 8, 20],
+        steps=refinement.steps,
         choice=sweep.refinement_choice,
         interactions=plain(settings.interactions),
         code=code("refinement"),
