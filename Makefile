@@ -10,8 +10,9 @@ BIN := $(VENV)/bin
 all_blades campbell: $(VENV)/.ready
 	$(BIN)/snakemake $@ --cores $(CORES) $(if $(FIDELITY),--config fidelity=$(FIDELITY))
 
+# the files of tests spread over the cores
 test: $(VENV)/.ready
-	$(BIN)/python -m pytest
+	$(BIN)/python -m pytest --numprocesses $(CORES) --dist loadfile
 
 # without those that run Snakemake or build larger models
 test-fast: $(VENV)/.ready

@@ -12,11 +12,13 @@ include: "workflow/rules/sweep.smk"
 include: "workflow/rules/results.smk"
 include: "workflow/rules/figures.smk"
 include: "workflow/rules/exports.smk"
+include: "workflow/rules/designs.smk"
 include: "workflow/rules/studies/common.smk"
 include: "workflow/rules/studies/estimate.smk"
 include: "workflow/rules/studies/tradeoff.smk"
 include: "workflow/rules/studies/stability.smk"
 include: "workflow/rules/studies/readings.smk"
+include: "workflow/rules/studies/refinement.smk"
 
 
 rule all_blades:
@@ -28,3 +30,4 @@ rule all_blades:
         "<results>/summary.csv",
         "<results>/explorer.html",
         sweep.figures,
+        families.outputs,

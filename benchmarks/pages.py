@@ -12,7 +12,7 @@ from pathlib import Path
 ROOT = Path(__file__).parent.parent
 STUDIES = ROOT / "results" / "studies"
 TABLES = {
-    "accuracy": {"levels": "levels.md", "tradeoff": "tradeoff.md", "growth": "growth.md"},
+    "accuracy": {"levels": "levels.md", "tradeoff": "tradeoff.md", "growth": "growth.md", "refinement": "refinement.md"},
     "stability": {"stability": "stability.md"},
     "validation": {"validation": "validation.md", "readings": "readings.md"},
     "speed": {"estimate": "estimate.md"},

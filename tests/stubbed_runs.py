@@ -16,6 +16,19 @@ for file in snakemake.output if "snakemake" in globals() else sys.argv[3:4]:
     path.write_text(f"made by {Path(__file__).name}")
 """
 
+# three rounds: the certain speeds, then two more next to 1150, and that is all
+_REFINE_STUB = """
+import json
+from pathlib import Path
+
+number = int(snakemake.wildcards.round)
+if number:
+    before = json.loads(Path(snakemake.input.before).read_text())["new"]
+    assert [Path(file).name for file in snakemake.input.speeds] == [f"speed_{speed:g}.npz" for speed in before]
+new = [list(snakemake.params.plan["certain"]), [1149, 1150.5], []][number]
+Path(snakemake.output[0]).write_text(json.dumps({"new": new, "measured": []}))
+"""
+
 
 def copy_stubbed(root, to):
     """A copy with the small sweep of copy_project, its scripts replaced."""
@@ -24,7 +37,7 @@ def copy_stubbed(root, to):
         # the imports stay: they decide what code a job depends on
         imports = [line for line in script.read_text().splitlines() if re.match(r"from r37core\S* import \w+(, \w+)*$", line)]
         lazy = "\n".join(["def _imports():", *(f"    {line}" for line in imports), "    return None"])
-        script.write_text(f"{lazy}\n{_STUB}")
+        script.write_text(f"{lazy}\n{_REFINE_STUB if script.name == 'refine.py' else _STUB}")
 
 
 def planned_outputs(folder, *arguments):
@@ -32,7 +45,7 @@ def planned_outputs(folder, *arguments):
     text = snakemake(folder, *(arguments or ("all_blades",)), "--cores", "1", "--dry-run")
     found = {}
     for block in re.split(r"\n\[", text):
-        rule = re.search(r"^(?:local)?rule (\w+):", block, re.MULTILINE)
+        rule = re.search(r"^(?:local)?(?:rule|checkpoint) (\w+):", block, re.MULTILINE)
         output = re.search(r"^    output: ([^\s,]+)", block, re.MULTILINE)
         if rule and output:
             found.setdefault(rule[1], set()).add(output[1].removeprefix("results/"))

@@ -74,7 +74,7 @@ def rules(root):
     """Rule -> (script, name given to code(...)), from the rules' files."""
     text = "".join(file.read_text() for file in sorted((root / "workflow/rules").rglob("*.smk")))
     found = {}
-    for block in re.split(r"^rule ", text, flags=re.MULTILINE)[1:]:
+    for block in re.split(r"^(?:rule|checkpoint) ", text, flags=re.MULTILINE)[1:]:
         script = re.search(r'script(?::\s+"[./]*scripts/|=SCRIPTS / ")(\w+)\.py"', block)
         if script:
             found[block.split(":")[0]] = (script[1], re.findall(r'code=code\("(\w+)"\)', block))

@@ -67,9 +67,9 @@ def test_defaults_are_filled_in(project):
     }
     settings = load_settings(content, project)
     assert plain(settings.structure.boundary) == {"tip_line": "pressure_edge", "nodes": 8, "corners": True}
-    assert settings.campbell.highest_engine_order == 16
+    assert settings.campbell.highest_engine_order == 20
     assert list(settings.scenes) == ["direct"]
-    assert settings.speeds["Ref", "direct"][:2] == (750.0, 770.0)
+    assert settings.speed_plans["Ref", "direct"].certain[:2] == (750.0, 770.0)
 
 
 @pytest.mark.parametrize(

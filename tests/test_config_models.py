@@ -91,7 +91,7 @@ def test_changes_keep_what_they_do_not_name(config_copy):
 
 def test_settings_can_be_given_as_a_dictionary(config_copy):
     settings = load_settings({"blades": ["Ref"], "scenes": ["direct"], "fidelity": "draft"}, config_copy)
-    assert list(settings.speeds) == [("Ref", "direct")]
+    assert list(settings.speed_plans) == [("Ref", "direct")]
 
 
 def test_simulations_do_not_import_the_models(root):

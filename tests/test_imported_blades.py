@@ -1,5 +1,6 @@
 """Blades of other programs in the configuration, and the plans of their rules."""
 
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -8,6 +9,7 @@ import yaml
 
 from r37core.config import ConfigError, read_settings
 from r37core.exchange.where import Where
+from r37core.speeds import SpeedPlan
 from r37core.workflow.exports import Exports
 from r37core.workflow.imported import Imported
 from r37core.workflow.study_models import StudyModels
@@ -42,6 +44,18 @@ def settings_with(config_copy):
         return read_settings(config_copy)
 
     return read
+
+
+@pytest.mark.parametrize(
+    ("other", "message"),
+    [
+        ({"base": "Fan", "vary": {"material.density_kg_m3": [4430, 4500]}}, r"Other: found a family of an imported blade"),
+        ({"base": "Fan", "sweep_percent": 50}, r"Other\.sweep_percent: found sweep_percent with the mesh of Fan"),
+    ],
+)
+def test_an_imported_blade_has_no_table_to_vary(settings_with, other, message):
+    with pytest.raises(ConfigError, match=message):
+        settings_with(MESH, {"Other": other}, blades=("Fan", "Other"))
 
 
 def test_a_mesh(settings_with, config_copy):
@@ -183,7 +197,8 @@ def test_plan_of_imported_blades(three, tmp_path, monkeypatch):
 
 def test_plan_of_exports(three):
     imported, sweep = three
-    exports = Exports(imported, sweep)
+    plans = dict.fromkeys(sweep.settings.speed_plans, SpeedPlan((900.0, 950.5)))
+    exports = Exports(imported, replace(sweep, settings=replace(sweep.settings, speed_plans=plans)))
     files = {file.removeprefix("<results>/exports/") for file in exports.files}
     assert {"Ref/surface.step", "Ref/modes", "Fan/mesh.med", "Fan/stress_direct", "Given/matrices"} <= files
     assert not files & {"Fan/surface.step", "Given/mesh.med", "Given/modes", "Given/stress_direct"}
@@ -194,6 +209,7 @@ def test_plan_of_exports(three):
     assert exports.orientation(fan).length_unit == "mm"
     assert exports.orientation(SimpleNamespace(blade="Ref")) is None
     assert exports.choice["mode_speeds"] == (0.0, 2000.0)
-    assert len(exports.speed_files(fan)) == len(sweep.speeds(fan))
+    assert exports.speed_files(fan) == [f"<results>/Fan/direct/speed_{speed}.npz" for speed in ("900", "950.5")]
+    assert exports.stress_speeds(fan, SimpleNamespace(speeds=exports.speed_files(fan))) == [900.0, 950.5]
     assert exports.only_worst(fan)
     assert set(exports.matrix_files(fan)) == {"rom"}

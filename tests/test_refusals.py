@@ -7,7 +7,7 @@ import pytest
 
 from r37core.config import ConfigError, Document, command_line_document, read_settings
 from r37core.config.schemas import MODELS
-from r37core.speeds import LARGEST_NUMBER, SpeedError, exact_text, expand_speeds
+from r37core.speeds import LARGEST_NUMBER, SpeedError, exact_text, plan_speeds
 from r37core.text_file import TextFileError
 from r37core.yaml_file import load_yaml
 
@@ -95,15 +95,19 @@ CONFIG_REFUSALS = [
         "stress_region: { values: [submesh, everywhere]",
         r"found 'everywhere'; allowed: one of submesh, whole",
     ),
-    ("stop: 2000 }", "stop: .inf }", r"speeds\.0\.stop: found inf; allowed: number, at least 0\.001"),
-    ("stop: 2000 }", "stop: 1e12 }", r"speeds\.0\.stop: found 1000000000000\.0; allowed: .*at most 1e\+06"),
+    ("stop: 2000, step: 20, refine_to: 1 }", "stop: .inf }", r"speeds\.0\.stop: found inf; allowed: number, at least 0\.001"),
     (
-        "stop: 2000 }",
+        "stop: 2000, step: 20, refine_to: 1 }",
+        "stop: 1e12 }",
+        r"speeds\.0\.stop: found 1000000000000\.0; allowed: .*at most 1e\+06",
+    ),
+    (
+        "stop: 2000, step: 20, refine_to: 1 }",
         "stop: 2000, step: 1e-3 }",
         r"speeds: found 1\.25e\+06 speeds from 750 to 2000 .*; allowed: at most 100000",
     ),
     (
-        "stop: 2000 }",
+        "stop: 2000, step: 20, refine_to: 1 }",
         "stop: 2000, step: 0.02 }",
         r"speeds: found 875014 simulations of 7 blades in 2 scenes; allowed: at most 200000",
     ),
@@ -113,7 +117,11 @@ CONFIG_REFUSALS = [
         r"speeds: found 0\.01 rad/s, a revolution of 1\.57e\+09 steps .*; allowed: speeds from 0\.936 rad/s",
     ),
     ("start: 750, ", "start: 0, ", r"speeds\.0\.start: found 0; allowed: number, at least 0\.001"),
-    ("stop: 2000 }", "stop: 700 }", r"speeds\.0: found a range from 750 to 700; allowed: stop not below start"),
+    (
+        "stop: 2000, step: 20, refine_to: 1 }",
+        "stop: 700 }",
+        r"speeds\.0: found a range from 750 to 700; allowed: stop not below start",
+    ),
     ("blades: all", "blades: [Ref, Ref]", r"blades\.1: found 'Ref' twice; allowed: each once"),
     ("blades: all", "blades: [50]", r"blades\.0: found 50; allowed: string"),
     ("blades: all", "blades:", r"blades: found nothing"),
@@ -280,7 +288,7 @@ def test_lists_of_numbers_on_the_command_line(config_copy):
     """Snakemake hands them on as texts."""
     given = {"speeds": ["900", "1e3", {"start": "1100", "stop": "1200", "step": "50"}], "blades": ["Ref"], "tolerance": 0.1}
     settings = read_settings(config_copy, command_line_document(given))
-    assert settings.speeds["Ref", "direct"] == (900.0, 1000.0, 1100.0, 1150.0, 1200.0)
+    assert settings.speed_plans["Ref", "direct"].certain == (900.0, 1000.0, 1100.0, 1150.0, 1200.0)
     for value, found in (("nan", "nan"), ("inf", "inf"), ("abc", "abc")):
         with pytest.raises(ConfigError, match=rf"^--config: speeds\.0: found '?{found}'?; allowed: number"):
             read_settings(config_copy, command_line_document({"speeds": [value]}))
@@ -290,12 +298,12 @@ def test_lists_of_numbers_on_the_command_line(config_copy):
 
 def test_the_number_of_speeds_is_bounded_before_any_is_made():
     with pytest.raises(SpeedError, match="found 1e\\+12 speeds from 1 to 1e\\+12"):
-        expand_speeds([{"start": 1.0, "stop": 1e12, "step": 1.0}], 1.0)
+        plan_speeds([{"start": 1.0, "stop": 1e12, "step": 1.0}], 1.0)
     with pytest.raises(SpeedError, match="allowed: at most"):
-        expand_speeds([{"start": 1.0, "stop": 1e300, "step": 1e-300}], 1.0)
+        plan_speeds([{"start": 1.0, "stop": 1e300, "step": 1e-300}], 1.0)
     half = 0.75 * LARGEST_NUMBER
     with pytest.raises(SpeedError, match="allowed: at most"):
-        expand_speeds([{"start": 1.0, "stop": half}, {"start": half + 1.0, "stop": 2 * half}], 1.0)
+        plan_speeds([{"start": 1.0, "stop": half}, {"start": half + 1.0, "stop": 2 * half}], 1.0)
 
 
 def test_speeds_stand_exactly_in_file_names():

@@ -18,7 +18,7 @@ from r37core.results.response import write_response
 from r37core.results.stress import StressRecovery
 from r37core.rom.contact_reduction import contact_model
 from r37core.rom.reduced_model import RecoveryNodes
-from r37core.speeds import SpeedError, expand_speeds
+from r37core.speeds import SpeedError, plan_speeds
 from r37core.time_integration.choice import IntegrationChoice
 from r37core.time_integration.speed_file import read_speed, write_speed
 from r37core.time_integration.speed_run import run_speed
@@ -361,12 +361,12 @@ def test_no_response_no_interaction():
 
 
 def test_speeds():
-    assert expand_speeds([{"start": 750, "stop": 800, "step": 25}, 1000, {"start": 900, "stop": 901}], 0.5) == (
+    assert plan_speeds([{"start": 750, "stop": 800, "step": 25}, 1000, {"start": 900, "stop": 901}], 0.5).certain == (
         750.0, 775.0, 800.0, 900.0, 900.5, 901.0, 1000.0,
     )  # fmt: skip
-    assert len(expand_speeds([{"start": 750, "stop": 2000}], 1.0)) == 1251
-    assert expand_speeds([{"start": 1.0, "stop": 1.3, "step": 0.1}], 1.0) == (1.0, 1.1, 1.2, 1.3)
+    assert len(plan_speeds([{"start": 750, "stop": 2000}], 1.0).certain) == 1251
+    assert plan_speeds([{"start": 1.0, "stop": 1.3, "step": 0.1}], 1.0).certain == (1.0, 1.1, 1.2, 1.3)
     with pytest.raises(SpeedError, match="800 rad/s twice"):
-        expand_speeds([{"start": 750, "stop": 800, "step": 50}, 800], 1.0)
+        plan_speeds([{"start": 750, "stop": 800, "step": 50}, 800], 1.0)
     with pytest.raises(SpeedError, match="from 900 to 800"):
-        expand_speeds([{"start": 900, "stop": 800}], 1.0)
+        plan_speeds([{"start": 900, "stop": 800}], 1.0)

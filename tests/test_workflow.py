@@ -184,7 +184,7 @@ def test_results_not_wanted_are_not_planned(project):
 def test_physical_scenes_are_planned_in_a_folder_of_their_own(root, tmp_path):
     files = ["--configfile", str(root / "config/config.yaml"), str(root / "config/physical.yaml")]
     text = snakemake(root, "all_blades", "--cores", "2", *files, "--directory", str(tmp_path), "--dry-run")
-    assert "results/CS100/physical_direct/speed_750.npz" in text
+    assert "results/CS100/physical_direct/response.nc" in text
     assert "/abradable/speed" not in text.replace("physical_abradable", "")
 
 

@@ -7,10 +7,13 @@ from types import SimpleNamespace
 import pytest
 
 from r37core.config import ConfigError, command_line_document, read_settings
+from r37core.results.refinement import refinement_choice_from
+from r37core.speeds import speed_plan_from
 from r37core.studies.parameters import OF_THE_MODEL
 from r37core.workflow.estimate import Estimate
 from r37core.workflow.provenance import Provenance
 from r37core.workflow.readings import Readings
+from r37core.workflow.refinement import Refinement
 from r37core.workflow.stability import Stability
 from r37core.workflow.structure import Structure
 from r37core.workflow.sweep import Sweep
@@ -38,9 +41,65 @@ REF, L50 = of(blade="Ref", scene="abradable"), of(blade="L50", scene="direct")
 
 def test_speeds_and_their_files(chosen):
     sweep = Sweep(chosen)
-    assert sweep.speeds(REF) == (900.0, 1234.5)
-    assert sweep.speed_files(REF) == [f"<results>/Ref/abradable/speed_{speed}.npz" for speed in ("900", "1234.5")]
+    files = [f"<results>/Ref/abradable/speed_{speed}.npz" for speed in ("900", "1234.5")]
+    assert sweep.speed_files(REF) == files
+    assert sweep.speeds(REF, of(speeds=files)) == [900.0, 1234.5]
+    assert sweep.speeds(L50, of(speeds="<results>/L50/direct/speed_1000.25.npz")) == [1000.25]
+    # what stands there until the first round is done
+    assert sweep.speeds(REF, of(speeds="<results>/Ref/abradable/round_0.json")) == []
     assert sweep.speed_files(L50) == ["<results>/L50/direct/speed_1000.25.npz"]
+
+
+@pytest.fixture
+def refining(root, tmp_path):
+    """A plan whose speeds refine themselves, with two finished rounds of the reference blade and one of the other."""
+    changes = {
+        "blades": ["Ref", "L50"],
+        "scenes": ["abradable", "direct"],
+        "speeds": [{"start": 900, "stop": 1000, "step": 50, "refine_to": 5}],
+    }
+    rounds = {("Ref", 0): [900, 950, 1000], ("Ref", 1): [925], ("Ref", 2): [], ("L50", 0): [900, 950, 1000]}
+
+    def file_of_round(blade, scene, round):
+        file = tmp_path / f"{blade}_{round}.json"
+        file.write_text(json.dumps({"new": rounds[blade, round], "measured": []}))
+        return file
+
+    return Sweep(read_settings(root, command_line_document(changes)), file_of_round)
+
+
+def test_speeds_of_all_rounds_are_reduced(refining):
+    names = [file.rsplit("_", 1)[1] for file in refining.speed_files(REF)]
+    assert names == ["900.npz", "925.npz", "950.npz", "1000.npz"]
+    with pytest.raises(KeyError):
+        refining.speed_files(L50)
+
+
+def test_a_round_reads_what_the_one_before_asked_for(refining):
+    assert refining.round_inputs(of(blade="Ref", scene="abradable", round="0")) == {"campbell": "<results>/Ref/campbell.nc"}
+    assert refining.round_inputs(of(blade="Ref", scene="abradable", round="2")) == {
+        "before": "<results>/Ref/abradable/round_1.json",
+        "speeds": ["<results>/Ref/abradable/speed_925.npz"],
+        "rom": "<results>/Ref/rom_pressure_edge.nc",
+    }
+
+
+def test_what_a_round_is_told_is_what_it_takes(refining):
+    """Plain values, of which a job makes the plan and the choice again."""
+    assert speed_plan_from(json.loads(json.dumps(refining.refined_plan(REF)))) == refining.speed_plan(REF)
+    choice = refinement_choice_from(json.loads(json.dumps(refining.refinement_choice)))
+    assert [window.mode for window in choice.windows] == ["1B", "1T"]
+    assert choice.prominence == 0.1
+
+
+def test_plain_grids_beside_are_part_of_the_whole_one(refining):
+    assert Refinement(refining.settings).steps == [5.0, 20.0]
+    assert Refinement(refining.settings).every_speed(REF) == [900.0 + 5.0 * place for place in range(21)]
+
+
+def test_estimate_of_speeds_that_refine_themselves_is_their_share(refining):
+    estimate = Estimate(refining.settings)
+    assert estimate.number(REF) == max(3, int(0.2 * 21))
 
 
 def test_models_of_a_scene(chosen):

@@ -20,7 +20,7 @@ def copy_project(root, to):
     shutil.copy(root / "Snakefile", to / "Snakefile")
     config = (to / "config/config.yaml").read_text()
     config = config.replace("blades: all ", "blades: [Ref, CS100] ").replace("fidelity: standard ", "fidelity: tiny ")
-    config = config.replace("stop: 2000 }", "stop: 1600 }")
+    config = re.sub(r"- \{ start: 750, stop: 2000.*\}", "- { start: 750, stop: 1600 }", config)
     (to / "config/config.yaml").write_text(config)
     scenes = (to / "config/scenes.yaml").read_text()
     (to / "config/scenes.yaml").write_text(re.split(r"\n\n(?:#.*\n)*physical_", scenes, maxsplit=1)[0] + "\n")
@@ -33,7 +33,7 @@ def copy_project(root, to):
 
 def snakemake(folder, *arguments, check=True):
     environment = {key: value for key, value in os.environ.items() if not key.startswith("SNAKEMAKE")}
-    environment["PYTHONPATH"] = str(folder / "src")
+    environment |= {"PYTHONPATH": str(folder / "src"), "R37_FULL_LOG": "1"}
     done = subprocess.run(
         [SNAKEMAKE, *arguments], cwd=folder, env=environment, capture_output=True, text=True, timeout=600, check=False
     )

@@ -1,6 +1,7 @@
 # Settings of this run, and the plans that the rules take their inputs and parameters from (r37core.workflow).
 # Snakemake re-runs a job when a parameter of plain types changes; of other objects a hash or text stands beside.
 import atexit
+import os
 import sys
 import time
 from pathlib import Path
@@ -15,6 +16,7 @@ from r37core.workflow import lock, paths
 from r37core.workflow.closing import closing_lines
 from r37core.workflow.code import CodeHashes
 from r37core.workflow.imported import Imported
+from r37core.workflow.progress import Progress, quieten
 from r37core.workflow.provenance import Provenance
 from r37core.workflow.structure import Structure
 from r37core.workflow.run import replaced_level
@@ -47,7 +49,11 @@ code = CodeHashes(ROOT / "src", SCRIPTS)
 made = Provenance(settings)
 structure = Structure(settings)
 imported = Imported(settings, ROOT)
-sweep = Sweep(settings)
+sweep = Sweep(settings, lambda **wildcards: checkpoints.refine.get(**wildcards).output[0])
+
+# thousands of jobs, one line: Snakemake's own messages of each are in its log file, and here with R37_FULL_LOG=1 or --verbose
+if not (os.environ.get("R37_FULL_LOG") or workflow.output_settings.dryrun or workflow.output_settings.verbose):
+    quieten(logger.handlers, Progress(sweep.most_runs))
 
 
 pathvars:

@@ -61,6 +61,31 @@ rule simulate:
         "{params.python} {params.script} {input.model} {wildcards.speed} {output} {log} {params.task:q} {params.about:q}"
 
 
+# speeds that refine themselves: each round asks for some more, from what those before it gave, until one asks for none
+checkpoint refine:
+    input:
+        unpack(sweep.round_inputs),
+    output:
+        paths.ROUND,
+    log:
+        "<logs>/{blade}/{scene}/round_{round}.log",
+    wildcard_constraints:
+        round=r"\d+",
+    # before the next blade's simulations, which would leave this one's waiting
+    priority: 4
+    conda:
+        ENVIRONMENT
+    params:
+        plan=sweep.refined_plan,
+        choice=sweep.refinement_choice,
+        stress=sweep.with_stress,
+        stress_instants=settings.fidelity.time_integration.stress_instants,
+        material=structure.material,
+        code=code("refine"),
+    script:
+        "../scripts/refine.py"
+
+
 rule response:
     input:
         unpack(sweep.recovery),

@@ -75,6 +75,25 @@ def read_stacking_table(file: Path, blade: str) -> tuple[tuple[float, float, flo
     return stacking_rows(rows)
 
 
+def read_designs(file: Path) -> tuple[tuple[str, ...], dict[str, tuple[float, ...]]]:
+    """Keys and, by name, their values of the designs of a CSV table with a column `blade`, in the units of the keys.
+
+    Raises BladeShapeError for missing columns, unreadable numbers and a name given twice; TextFileError as for others.
+    """
+    first = next(csv.reader(io.StringIO(read_text(file), newline="")), [])
+    keys = tuple(column.strip() for column in first if column.strip() != "blade")
+    rows = _read_rows(file, keys, text_columns=("blade",))
+    if not keys or not rows:
+        raise BladeShapeError(
+            "the table has no designs; it needs the column blade, one more for each key, and a row for each blade"
+        )
+    names = [row["blade"] for row in rows]
+    twice = next((name for name in names if names.count(name) > 1), None)
+    if twice is not None:
+        raise BladeShapeError(f"the blade '{twice}' is given twice")
+    return keys, {row["blade"]: tuple(row[key] for key in keys) for row in rows}
+
+
 def stacking_rows(rows: Sequence[dict]) -> tuple[tuple[float, float, float], ...]:
     """Sweep and lean rows (keys as in STACKING_COLUMNS) in SI: (span, sweep (m), lean (rad)).
 

@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, Any, TypeVar
+from typing import Annotated, Any, Literal, TypeVar
 
 from pydantic import Discriminator, Field, RootModel, Tag, model_validator
 
@@ -24,15 +24,21 @@ from .document import Document
 from .errors import ConfigError
 from .imported import MatricesEntry, MeshEntry
 from .material import Material
-from .section import FileName, LeftOut, Name, Section, check_names, refused
+from .section import FileName, LeftOut, Name, Section, Unique, check_names, refused
 
 Table = TypeVar("Table")
 
 RESERVED = ("figures", "studies", "runs", "exports")
 """Folders beside those of the blades."""
 
+LARGEST_FAMILY = 10_000
+"""Designs of one entry."""
+
 SHIFTS = ("stacking_table", "sweep_lean", "chordwise_sweep_deg")
 """Keys of the ways to give sweep and lean, of which a blade has at most one."""
+
+SHARES = ("sweep_percent", "lean_percent")
+"""Keys that keep a share of a table of sweep and lean."""
 
 
 class SweepLean(Section):
@@ -43,18 +49,63 @@ class SweepLean(Section):
     lean_deg: float = Field(gt=-90, lt=90, description="positive in the direction of rotation")
 
 
+class Variation(Section):
+    """Values from `start` to `stop`, both included, as far as the step goes."""
+
+    start: float = Field(ge=-1e12, le=1e12)
+    stop: float = Field(ge=-1e12, le=1e12)
+    step: float = Field(gt=0, le=1e12)
+
+    @model_validator(mode="after")
+    def _forward(self) -> Variation:
+        if self.stop < self.start:
+            raise refused(("stop",), f"{self.stop:g}", f"not below start ({self.start:g})")
+        if (self.stop - self.start) / self.step >= LARGEST_FAMILY:
+            raise refused(("step",), f"{self.step:g}", f"at most {LARGEST_FAMILY} values")
+        return self
+
+    def values(self) -> list[float]:
+        """All of them."""
+        return [round(self.start + i * self.step, 9) for i in range(int((self.stop - self.start) / self.step + 1e-9) + 1)]
+
+
+Varied = Annotated[
+    Annotated[Unique[float], Tag("list")] | Annotated[Variation, Tag("range")],
+    Discriminator(lambda value: "list" if isinstance(value, list) else "range"),
+]
+
+
 class BladeEntry(Section):
-    """One blade: `profiles` with a material, or a `base` to start from, and at most one way to give sweep and lean."""
+    """One blade: `profiles` with a material, or a `base` to start from, and at most one way to give sweep and lean.
+
+    With `vary` or `designs` it is a family, many blades that differ in some numbers.
+    """
 
     profiles: FileName | LeftOut = Field(default=None, description="profile table (CSV)")
     base: Name | LeftOut = Field(default=None, description="blade to inherit profiles, sweep and lean, and material from")
     stacking_table: FileName | LeftOut = Field(default=None, description="sweep and lean table (CSV) with a column `blade`")
     sweep_lean: Annotated[list[SweepLean], Field(min_length=2)] | LeftOut = None
     chordwise_sweep_deg: Annotated[float, Field(gt=-60, lt=60)] | LeftOut = Field(default=None, description="positive forward")
+    sweep_percent: Annotated[float, Field(ge=-1000, le=1000)] | LeftOut = Field(
+        default=None, description="share of the table's sweep that is kept, its own or that of its base"
+    )
+    lean_percent: Annotated[float, Field(ge=-1000, le=1000)] | LeftOut = Field(default=None, description="share of the lean")
     material: Material = Material()
+    vary: Annotated[dict[str, Varied], Field(min_length=1)] | LeftOut = Field(
+        default=None, description="a family: values of numeric keys, such as sweep_percent or material.density_kg_m3"
+    )
+    combine: Literal["grid", "pairs"] = Field(
+        default="grid", description="every value with every other, or the first with the first"
+    )
+    designs: FileName | LeftOut = Field(
+        default=None,
+        description="a family as a table (CSV), one design a row: its name in the column `blade`, then numeric keys",
+    )
 
     @model_validator(mode="after")
     def _one_shift(self) -> BladeEntry:
+        if self.vary is not None and self.designs is not None:
+            raise refused((), "both vary and designs", "one of them")
         given = [key for key in SHIFTS if getattr(self, key) is not None]
         if len(given) > 1:
             raise refused((), " and ".join(given), f"at most one of {', '.join(SHIFTS)}")
@@ -119,7 +170,7 @@ def blade_settings(name: str, entries: Mapping[str, Any], root: Path, document: 
     material = _material(chain, entries, document)
     if isinstance(entry, MeshEntry):
         for link in chain[1:]:
-            if given := [key for key in SHIFTS if getattr(entries[link], key) is not None]:
+            if given := [key for key in (*SHIFTS, *SHARES) if getattr(entries[link], key) is not None]:
                 raise document.refusal(
                     (link, given[0]), f"{given[0]} with the mesh of {first}", "another material, no other shape"
                 )
@@ -133,6 +184,7 @@ def blade_settings(name: str, entries: Mapping[str, Any], root: Path, document: 
         for key in SHIFTS:
             if getattr(entries[link], key) is not None:
                 shift = _shift(link, key, getattr(entries[link], key), root, document)
+        shift = _scaled(link, entries[link], shift, document)
     table = entry.profiles
     profiles = _table(table, name, (first, "profiles"), document, lambda: tables.read_profile_table(root / table))
     return BladeSettings(BladeDefinition(name, tuple(profiles), **shift), material)
@@ -185,6 +237,19 @@ def _shift(blade: str, key: str, value: Any, root: Path, document: Document) -> 
         except BladeShapeError as error:
             raise document.error((blade, key), f"blade {blade}: {error}") from None
     return {"stacking": rows, "chordwise_sweep_angle": None}
+
+
+def _scaled(blade: str, entry: BladeEntry, shift: dict[str, Any], document: Document) -> dict[str, Any]:
+    """The shift with only a share of its table's sweep and lean."""
+    if entry.sweep_percent is None and entry.lean_percent is None:
+        return shift
+    if shift.get("stacking") is None:
+        key = "lean_percent" if entry.sweep_percent is None else "sweep_percent"
+        raise document.error(
+            (blade, key), f"blade {blade}: there is no table of sweep and lean to take a share of, here or in the base"
+        )
+    sweep, lean = (1.0 if share is None else share / 100.0 for share in (entry.sweep_percent, entry.lean_percent))
+    return {**shift, "stacking": tuple((span, sweep * one, lean * other) for span, one, other in shift["stacking"])}
 
 
 def _table(file: str, blade: str, path: tuple[str, str], document: Document, read: Callable[[], Table]) -> Table:

@@ -11,18 +11,20 @@ from typing import Any
 
 from pydantic import BaseModel
 
+from r37core.blade.definition import BladeDefinition
 from r37core.contact.scene import Scene
 from r37core.exchange.source import MatricesSource
 from r37core.rom.choice import ReductionChoice
-from r37core.speeds import SpeedError, expand_speeds
+from r37core.speeds import SpeedError, SpeedPlan, plan_speeds
 from r37core.studies.levels import recommended_level
 from r37core.time_integration.choice import LARGEST_TABLE, IntegrationChoice
 
 from .blades import Blades, BladeSettings, blade_settings
 from .document import Document, command_line_document, read_document
+from .families import Designs, Family, with_designs
 from .fidelity import Level, Levels
 from .scenes import SceneEntry, Scenes
-from .settings import Campbell, Config, Interactions, SpeedEntry, SpeedRange, Structure
+from .settings import Campbell, Config, Interactions, Refinement, SpeedEntry, SpeedRange, Structure
 from .studies import Studies
 
 CONFIG_FILE = "config/config.yaml"
@@ -46,7 +48,8 @@ class SceneSettings:
 class Settings:
     """Everything the workflow needs to know, checked.
 
-    `blades` and `scenes` are those to run, in order; `speeds` (rad/s) of each (blade, scene); `fidelity` the chosen level;
+    `blades` and `scenes` are those to run, in order; `families` those of which some are run; `speed_plans` of each
+    (blade, scene); `fidelity` the chosen level;
     `fidelity_is_chosen`: by its measured error;
     `places`: blade -> key -> `file:line: blade.key`, for what is found out later;
     `levels` and `scene_entries` all that their files have, for the studies; the rest as in config.yaml.
@@ -54,12 +57,14 @@ class Settings:
 
     blades: dict[str, BladeSettings]
     scenes: dict[str, SceneSettings]
-    speeds: dict[tuple[str, str], tuple[float, ...]]
+    families: dict[str, Family]
+    speed_plans: dict[tuple[str, str], SpeedPlan]
     fidelity_name: str
     fidelity: Level
     structure: Structure
     campbell: Campbell
     interactions: Interactions
+    refinement: Refinement
     studies: Studies
     levels: dict[str, Level]
     scene_entries: dict[str, SceneEntry]
@@ -91,11 +96,20 @@ class Settings:
     @property
     def remarks(self) -> list[str]:
         """What a run should say before it starts."""
+        said = []
         measured = self.fidelity.measured
-        if not self.fidelity_is_chosen or measured is None:
-            return []
-        error, cost = 100 * measured.error, measured.cpu_s_per_run
-        return [f"fidelity auto: level {self.fidelity_name}, measured error {error:g}%, {cost:g} CPU s per run"]
+        if self.fidelity_is_chosen and measured is not None:
+            error, cost = 100 * measured.error, measured.cpu_s_per_run
+            said.append(f"fidelity auto: level {self.fidelity_name}, measured error {error:g}%, {cost:g} CPU s per run")
+        refining = [plan for plan in self.speed_plans.values() if plan.refined]
+        if refining:
+            certain = sum(len(plan.certain) for plan in refining)
+            most = sum(plan.at_most(self.refinement.largest_share) for plan in refining)
+            said.append(
+                f"speeds refine themselves: {certain} simulations and those of the windows first, about {most} at most; "
+                "they are planned round by round, so a dry run shows none of those to come"
+            )
+        return said
 
     def shape_hash(self, blade: str) -> str:
         """Short hash of all that a blade's geometry depends on."""
@@ -184,28 +198,34 @@ def load_settings(config: Document | Mapping[str, Any], root: Path) -> Settings:
     files = _Files(
         document, *(read_document(root, name) for name in (checked.blades_file, checked.fidelity_file, checked.scenes_file))
     )
-    blades, levels, scenes = files.blades.check(Blades).root, files.levels.check(Levels).root, files.scenes.check(Scenes).root
+    levels, scenes = files.levels.check(Levels).root, files.scenes.check(Scenes).root
+    designs = with_designs(files.blades.check(Blades).root, root, files.blades)
+    blades, files = designs.entries, replace(files, blades=designs.document)
     fidelity_name = _level_name(checked, levels, files)
     level = levels[fidelity_name]
-    names = files.known(("blades",), list(blades) if checked.blades == "all" else checked.blades, blades, files.blades)
+    names = _chosen_blades(checked, designs, files)
     scene_names = files.known(("scenes",), list(scenes) if checked.scenes == "all" else checked.scenes, scenes, files.scenes)
     _check_studies(checked.studies, blades, levels, scenes, files)
     chosen_scenes = {name: _scene(scenes[name], level, checked.structure.boundary.tip_line) for name in scene_names}
-    speeds = _speeds(checked, names, scene_names, level.time_integration.speed_step_rad_s, blades, scenes, files)
-    _check_history_speeds(chosen_scenes, speeds, files.scenes)
-    _check_exports(checked, speeds, files.config)
-    _check_slowest(level, checked.structure.boundary.nodes, speeds, files.config)
+    plans = _speed_plans(checked, names, scene_names, level.time_integration.speed_step_rad_s, blades, scenes, files)
+    _check_windows(checked, plans, files.config)
+    _check_history_speeds(chosen_scenes, plans, files.scenes)
+    _check_exports(checked, plans, files.config)
+    _check_slowest(level, checked.structure.boundary.nodes, plans, files.config)
     chosen_blades = {name: blade_settings(name, blades, root, files.blades) for name in names}
     _check_matrices(chosen_blades, checked, files.config)
+    _check_families(chosen_blades, designs, files.blades)
     return Settings(
         blades=chosen_blades,
         scenes=chosen_scenes,
-        speeds=speeds,
+        families={name: family for name, family in designs.families.items() if set(family.designs) & set(names)},
+        speed_plans=plans,
         fidelity_name=fidelity_name,
         fidelity=level,
         structure=checked.structure,
         campbell=checked.campbell,
         interactions=checked.interactions,
+        refinement=checked.refinement,
         studies=checked.studies,
         levels=levels,
         scene_entries=scenes,
@@ -215,6 +235,15 @@ def load_settings(config: Document | Mapping[str, Any], root: Path) -> Settings:
         config=checked,
         places={name: _places(name, blades, files.blades) for name in names},
     )
+
+
+def _chosen_blades(checked: Config, designs: Designs, files: _Files) -> list[str]:
+    """Names of the blades to run; that of a family is all of its designs."""
+    if checked.blades == "all":
+        return list(designs.entries)
+    files.known(("blades",), checked.blades, [*designs.entries, *designs.families], files.blades)
+    several = [list(designs.families[name].designs) if name in designs.families else [name] for name in checked.blades]
+    return list(dict.fromkeys(name for names in several for name in names))
 
 
 @dataclass(frozen=True)
@@ -290,7 +319,7 @@ def _scene(entry: SceneEntry, level: Level, tip_line: str) -> SceneSettings:
     )
 
 
-def _speeds(
+def _speed_plans(
     checked: Config,
     blades: Sequence[str],
     scenes: Sequence[str],
@@ -298,26 +327,26 @@ def _speeds(
     all_blades: Iterable[str],
     all_scenes: Iterable[str],
     files: _Files,
-) -> dict[tuple[str, str], tuple[float, ...]]:
-    def expanded(entries: Sequence[SpeedEntry], path: tuple[str | int, ...]) -> tuple[float, ...]:
+) -> dict[tuple[str, str], SpeedPlan]:
+    def planned(entries: Sequence[SpeedEntry], path: tuple[str | int, ...]) -> SpeedPlan:
         ranges = [plain(entry) if isinstance(entry, SpeedRange) else entry for entry in entries]
         try:
-            return expand_speeds(ranges, default_step)
+            return plan_speeds(ranges, default_step)
         except SpeedError as error:
             raise files.config.error(path, str(error)) from None
 
-    general = expanded(checked.speeds, ("speeds",))
+    general = planned(checked.speeds, ("speeds",))
     special = []
     for number, rule in enumerate(checked.speeds_for):
         files.known(("speeds_for", number, "blades"), rule.blades or [], all_blades, files.blades)
         files.known(("speeds_for", number, "scenes"), rule.scenes or [], all_scenes, files.scenes)
-        special.append((rule, expanded(rule.speeds, ("speeds_for", number, "speeds"))))
+        special.append((rule, planned(rule.speeds, ("speeds_for", number, "speeds"))))
 
-    def of(blade: str, scene: str) -> tuple[float, ...]:
-        return next((speeds for rule, speeds in special if rule.fits(blade, scene)), general)
+    def of(blade: str, scene: str) -> SpeedPlan:
+        return next((plan for rule, plan in special if rule.fits(blade, scene)), general)
 
     together = {(blade, scene): of(blade, scene) for blade in blades for scene in scenes}
-    number_of_all = sum(map(len, together.values()))
+    number_of_all = sum(len(plan.certain) for plan in together.values())
     if number_of_all > LARGEST_NUMBER_OF_SIMULATIONS:
         raise files.config.refusal(
             ("speeds",),
@@ -327,11 +356,23 @@ def _speeds(
     return together
 
 
+def _check_windows(checked: Config, plans: Mapping[tuple[str, str], SpeedPlan], document: Document) -> None:
+    """ConfigError for a window above crossings that the Campbell diagram does not have."""
+    highest = checked.campbell.highest_engine_order
+    for number, window in enumerate(checked.refinement.windows):
+        if window.highest_engine_order > highest and any(plan.refined for plan in plans.values()):
+            raise document.refusal(
+                ("refinement", "windows", number, "highest_engine_order"),
+                f"{window.highest_engine_order}",
+                f"at most campbell.highest_engine_order ({highest})",
+            )
+
+
 def _check_history_speeds(
-    scenes: Mapping[str, SceneSettings], speeds: Mapping[tuple[str, str], tuple[float, ...]], document: Document
+    scenes: Mapping[str, SceneSettings], plans: Mapping[tuple[str, str], SpeedPlan], document: Document
 ) -> None:
     for name, chosen in scenes.items():
-        run = {speed for (_, scene), several in speeds.items() if scene == name for speed in several}
+        run = {speed for (_, scene), plan in plans.items() if scene == name for speed in plan.certain}
         for speed in chosen.stress_history_speeds:
             if speed not in run:
                 raise document.refusal(
@@ -341,23 +382,31 @@ def _check_history_speeds(
                 )
 
 
-def _check_exports(checked: Config, speeds: Mapping[Any, tuple[float, ...]], document: Document) -> None:
-    """ConfigError for a speed of `exports` that is not simulated, or beyond the reduced model's basis."""
+def _check_families(blades: Mapping[str, BladeSettings], designs: Designs, document: Document) -> None:
+    """ConfigError for a family of an imported blade: what is compared of designs needs their shape."""
+    for name, family in designs.families.items():
+        if any(not isinstance(blades[design].definition, BladeDefinition) for design in family.designs if design in blades):
+            raise document.refusal((name,), "a family of an imported blade", "families of blades with profiles")
+
+
+def _check_exports(checked: Config, plans: Mapping[Any, SpeedPlan], document: Document) -> None:
+    """ConfigError for a speed of `exports` that is not simulated whatever is found, or beyond the reduced model's basis."""
     given, highest = checked.exports, checked.structure.maximum_speed_rad_s
-    run = {speed for several in speeds.values() for speed in several}
+    run = {speed for plan in plans.values() for speed in plan.certain}
     wanted = given.stress_speeds_rad_s if isinstance(given.stress_speeds_rad_s, list) else []
+    allowed = "speeds that are simulated whatever a range refines to; name it under speeds, too"
     for number, speed in enumerate(wanted):
         if speed not in run:
-            raise document.refusal(("exports", "stress_speeds_rad_s", number), f"{speed:g}", "speeds that are simulated")
+            raise document.refusal(("exports", "stress_speeds_rad_s", number), f"{speed:g}", allowed)
     for number, speed in enumerate(given.mode_speeds_rad_s or []):
         if speed > highest:
             allowed = f"up to structure.maximum_speed_rad_s, {highest:g}"
             raise document.refusal(("exports", "mode_speeds_rad_s", number), f"{speed:g}", allowed)
 
 
-def _check_slowest(level: Level, nodes: int, speeds: Mapping[tuple[str, str], tuple[float, ...]], document: Document) -> None:
+def _check_slowest(level: Level, nodes: int, plans: Mapping[tuple[str, str], SpeedPlan], document: Document) -> None:
     """ConfigError for a speed whose revolution has too many steps."""
-    slowest = min(several[0] for several in speeds.values())
+    slowest = min(plan.certain[0] for plan in plans.values())
     size = 8 * nodes * 2.0 * math.pi / slowest / level.time_integration.time_step_s
     if size > LARGEST_TABLE:
         raise document.refusal(

@@ -55,7 +55,8 @@ def _unique(values: list[T]) -> list[T]:
 _NAME = r"^[A-Za-z0-9][A-Za-z0-9-]*(_[A-Za-z0-9-]+)*$"
 
 
-def _name(name: str) -> str:
+def check_name(name: str) -> str:
+    """The name itself; the error of one that cannot be part of file names."""
     if not re.match(_NAME, name) or len(name) > 60 or name == "all" or not isinstance(scalar(name), str):
         raise refused(
             (),
@@ -66,7 +67,7 @@ def _name(name: str) -> str:
     return name
 
 
-Name = Annotated[str, AfterValidator(_name), WithJsonSchema({"type": "string", "pattern": _NAME, "maxLength": 60})]
+Name = Annotated[str, AfterValidator(check_name), WithJsonSchema({"type": "string", "pattern": _NAME, "maxLength": 60})]
 """Of a blade, scene, level or run. They are parts of file names, where two underscores separate them."""
 
 Unique = Annotated[list[T], Field(min_length=1), AfterValidator(_unique)]

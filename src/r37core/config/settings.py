@@ -23,6 +23,9 @@ class SpeedRange(Section):
     start: Speed
     stop: Speed
     step: Speed | LeftOut = Field(default=None, description="without it the fidelity level's")
+    refine_to: Speed | LeftOut = Field(
+        default=None, description="with it the speeds refine themselves, down to intervals of this, a whole part of the step"
+    )
 
     @model_validator(mode="after")
     def _forward(self) -> SpeedRange:
@@ -94,7 +97,7 @@ class Campbell(Section):
 
     speed_step_rad_s: float = Field(default=50.0, ge=0.1, le=1e6)
     modes: int = Field(default=10, ge=3, le=30)
-    highest_engine_order: int = Field(default=16, ge=1, le=100)
+    highest_engine_order: int = Field(default=20, ge=1, le=100)
     largest_tangential_displacement_m: float = Field(default=0.01, gt=0, le=1)
 
 
@@ -106,6 +109,46 @@ class Interactions(Section):
     )
     below: float = Field(default=0.02, ge=0, le=1, description="how far below a Campbell speed its peak may lie, as a share")
     above: float = Field(default=0.06, ge=0, le=1, description="how far above")
+
+
+class Window(Section):
+    """Speeds above the crossings of a mode with engine orders, which are looked at more closely before anything is known."""
+
+    mode: Literal["1B", "1T", "2B"]
+    highest_engine_order: int = Field(ge=1, le=100)
+    first: float = Field(ge=-0.5, le=1, description="where it begins, as a share of the crossing's speed above it")
+    last: float = Field(ge=-0.5, le=1, description="where it ends")
+    step_rad_s: Speed = Field(description="its intervals are halved until none is longer")
+
+    @model_validator(mode="after")
+    def _has_a_length(self) -> Window:
+        if not self.first < self.last:
+            raise refused(("last",), f"{self.last:g}", f"more than first ({self.first:g})")
+        return self
+
+
+class Refinement(Section):
+    """Where ranges with `refine_to` get more speeds."""
+
+    windows: list[Window] = Field(
+        default=[
+            Window(mode="1B", highest_engine_order=8, first=0.01, last=0.06, step_rad_s=5.0),
+            Window(mode="1T", highest_engine_order=20, first=0.0, last=0.02, step_rad_s=5.0),
+        ],
+        description="where interactions are expected, for contact stiffens a blade",
+    )
+    change: float = Field(
+        default=0.25,
+        gt=0,
+        le=10,
+        description="an interval is halved when rms or stress change by more, as a share of the larger",
+    )
+    peak: float = Field(
+        default=0.1, ge=0, lt=1, description="intervals are halved that reach so close to a peak's height, as a share of it"
+    )
+    largest_share: float = Field(
+        default=0.2, gt=0, le=1, description="of the finest grid that is run at most; where the response is largest goes first"
+    )
 
 
 class Run(Section):
@@ -135,6 +178,7 @@ class Config(Section):
     )
     structure: Structure = Structure()
     interactions: Interactions = Interactions()
+    refinement: Refinement = Refinement()
     tolerance: float = Field(
         default=0.05,
         gt=0,

@@ -169,13 +169,15 @@
     const values = map && map.values.row(...here);
     if (!map || !values.some(Number.isFinite)) return draw(name, [], null);
     const across = map.other.length;
-    const columns = map.other.map((_, number) => map.speeds.map((__, at) => values[at * across + number]));
+    // where other blades were run and this one was not there is no column; a cell reaches half-way to its neighbours
+    const places = map.speeds.map((_, at) => at).filter((at) => values.slice(at * across, (at + 1) * across).some(Number.isFinite));
+    const columns = map.other.map((_, number) => places.map((at) => values[at * across + number]));
     const finite = values.filter((value) => Number.isFinite(value) && value > 0);
     const largest = finite.reduce((most, value) => Math.max(most, value), 0);
     const trace = {
-      type: "heatmap", x: shown(map.speeds), y: map.other, colorscale: "Cividis", zsmooth: false, hoverinfo: "text",
+      type: "heatmap", x: shown(places.map((at) => map.speeds[at])), y: map.other, colorscale: "Cividis", zsmooth: false, hoverinfo: "text",
       z: bottom ? columns.map((row) => row.map((value) => Math.log10(Math.max(value, bottom * largest)))) : columns,
-      text: columns.map((row, number) => row.map((value, at) => say(map, number, at, value))),
+      text: columns.map((row, number) => row.map((value, column) => say(map, number, places[column], value))),
       colorbar: { title: { text: bottom ? `log10 of ${unit}` : unit, side: "right" }, thickness: 12 },
     };
     return draw(name, [trace], layout(speedAxis(), axis(title), { showlegend: false }));

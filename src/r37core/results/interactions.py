@@ -30,6 +30,9 @@ COLUMNS = (
 )
 """Columns of summary.csv; speeds, shift and width in rad/s, `jump` the drop to the next speed as a share of the peak."""
 
+NAMED_MODES = ("1B", "1T", "2B")
+"""Modes whose crossings with engine orders peaks are matched with."""
+
 SPECTRA = {"normal": "amplitude", "tangential": "amplitude_tangential"}
 """Directions whose peaks are looked for, and the name of their spectrum in spectrum.nc."""
 
@@ -123,7 +126,7 @@ def _nearest_crossing(
 ) -> tuple[str, int | None, float]:
     """Mode, engine order and speed of the nearest Campbell crossing in the allowed window, of the strongest order if known."""
     candidates = []
-    for mode in ("1B", "1T", "2B"):
+    for mode in NAMED_MODES:
         for order, crossing in campbell["crossing_speed"].sel(mode=mode).to_series().dropna().items():
             fits = strongest is None or order == strongest
             if fits and -choice.below * crossing <= speed - crossing <= choice.above * crossing:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import asdict, dataclass, replace
+from pathlib import Path
 from typing import Any
 
 from r37core.blade.definition import BladeDefinition
@@ -82,13 +83,15 @@ class Exports:
         """Whether the speed with the largest stress is written alone."""
         return self.imported.settings.config.exports.stress_speeds_rad_s == "worst"
 
-    def stress_speeds(self, wildcards: Any) -> tuple[float, ...]:
-        """Speeds (rad/s) of a blade and scene among which worst instants are looked for."""
-        chosen = self.imported.settings.config.exports.stress_speeds_rad_s
-        run = self.sweep.speeds(wildcards)
-        return tuple(speed for speed in run if speed in chosen) if isinstance(chosen, list) else run
+    def stress_speeds(self, wildcards: Any, input: Any) -> list[float]:
+        """Speeds (rad/s) of a blade and scene among which worst instants are looked for: those of the input's files."""
+        return self.sweep.speeds(wildcards, input)
 
     def speed_files(self, wildcards: Any) -> list[str]:
-        """The simulations of these speeds."""
-        run = {"blade": wildcards.blade, "scene": wildcards.scene}
-        return [paths.fill(paths.SPEED, **run, speed=exact_text(speed)) for speed in self.stress_speeds(wildcards)]
+        """The simulations among which worst instants are looked for."""
+        files = self.sweep.speed_files(wildcards)
+        chosen = self.imported.settings.config.exports.stress_speeds_rad_s
+        if not isinstance(chosen, list):
+            return files
+        wanted = {f"speed_{exact_text(speed)}.npz" for speed in chosen}
+        return [file for file in files if Path(file).name in wanted]

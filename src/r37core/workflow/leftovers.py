@@ -5,11 +5,13 @@ from __future__ import annotations
 import argparse
 import shutil
 from collections.abc import Iterator
+from itertools import count
 from pathlib import Path
 
 from r37core.config import Settings, read_settings
 from r37core.config.blades import RESERVED
-from r37core.speeds import exact_text
+from r37core.io import read_json
+from r37core.speeds import SpeedPlan, exact_text
 
 
 def leftovers(results: Path, settings: Settings) -> list[Path]:
@@ -26,14 +28,35 @@ def _of_blades(results: Path, settings: Settings) -> Iterator[Path]:
         for folder in (results / blade).glob("*/"):
             if folder.is_dir() and folder.name not in settings.scenes:
                 yield folder
-    for (blade, scene), speeds in settings.speeds.items():
-        wanted = {f"speed_{exact_text(speed)}.npz" for speed in speeds}
-        yield from (file for file in (results / blade / scene).glob("speed_*.npz") if file.name not in wanted)
+    for (blade, scene), plan in settings.speed_plans.items():
+        folder = results / blade / scene
+        wanted = {f"speed_{exact_text(speed)}.npz" for speed in _speeds(folder, plan)}
+        yield from (file for file in folder.glob("speed_*.npz") if file.name not in wanted)
+        if not plan.refined:
+            yield from folder.glob("round_*.json")
     for figure in (results / "figures").glob("*_*.png"):
         _, name = figure.stem.split("_", 1)
         blade, _, scene = name.partition("__")
+        if figure.stem.startswith("designs_"):
+            if name not in settings.families:
+                yield figure
+            continue
         if blade not in settings.blades or (scene and scene not in settings.scenes):
             yield figure
+
+
+def _speeds(folder: Path, plan: SpeedPlan) -> list[float]:
+    """Speeds that the rounds of refinement asked for; all of the grid while no last round says that they are done."""
+    asked: list[float] = list(plan.certain)
+    for number in count():
+        file = folder / f"round_{number}.json"
+        if not plan.refined or not file.exists():
+            break
+        new = read_json(file)["new"]
+        if not new:
+            return asked
+        asked += new
+    return plan.every_speed()
 
 
 def size(path: Path) -> int:

@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass
+from itertools import count
+from pathlib import Path
 from typing import Any
 
-from r37core.config import Settings
-from r37core.speeds import exact_text
+from r37core.config import Settings, plain
+from r37core.io import read_json
+from r37core.speeds import SpeedPlan, exact_text
 
 from . import paths
 
@@ -20,18 +24,50 @@ MAPS = ("spectrum", "wear")
 
 @dataclass(frozen=True)
 class Sweep:
-    """Plan of the sweep that `settings` ask for. Methods with `wildcards` are inputs and parameters of rules."""
+    """Plan of the sweep that `settings` ask for. Methods with `wildcards` are inputs and parameters of rules.
+
+    `round_file(blade=..., scene=..., round=...)`: file of a finished round of refinement; Snakemake's own exception for one
+    that is still to be made. Without it only speeds that do not refine themselves have a plan.
+    """
 
     settings: Settings
+    round_file: Callable[..., str] | None = None
 
     def contact_model(self, wildcards: Any) -> str:
         """What the simulations of a blade and scene start from."""
         return paths.fill(paths.CONTACT_MODEL, blade=wildcards.blade, tip_line=self._scene(wildcards).tip_line)
 
     def speed_files(self, wildcards: Any) -> list[str]:
-        """The simulations of one blade and scene, by ascending speed."""
+        """The simulations of one blade and scene, by ascending speed: of all rounds, where its speeds refine themselves."""
+        if not self.speed_plan(wildcards).refined:
+            return self._files_of(wildcards, self.speed_plan(wildcards).certain)
+        speeds: list[float] = []
+        for number in count():
+            new = self._asked(wildcards, number)
+            if not new:
+                break
+            speeds += new
+        return self._files_of(wildcards, sorted(speeds))
+
+    def round_inputs(self, wildcards: Any) -> dict[str, Any]:
+        """What a round of refinement looks at: the Campbell diagram, or what the round before it asked for."""
+        number = int(wildcards.round)
+        if number == 0:
+            return {"campbell": paths.fill(paths.CAMPBELL, blade=wildcards.blade)}
+        before = {"blade": wildcards.blade, "scene": wildcards.scene, "round": number - 1}
+        new = self._asked(wildcards, number - 1)
+        return {"before": paths.fill(paths.ROUND, **before), "speeds": self._files_of(wildcards, new)} | self.recovery(
+            wildcards
+        )
+
+    def _asked(self, wildcards: Any, number: int) -> list[float]:
+        """Speeds (rad/s) that a round asked for."""
+        assert self.round_file is not None
+        return read_json(self.round_file(blade=wildcards.blade, scene=wildcards.scene, round=number))["new"]
+
+    def _files_of(self, wildcards: Any, speeds: Sequence[float]) -> list[str]:
         blade, scene = wildcards.blade, wildcards.scene
-        return [paths.fill(paths.SPEED, blade=blade, scene=scene, speed=exact_text(speed)) for speed in self.speeds(wildcards)]
+        return [paths.fill(paths.SPEED, blade=blade, scene=scene, speed=exact_text(speed)) for speed in speeds]
 
     def recovery(self, wildcards: Any) -> dict[str, str]:
         """The reduced model, for a scene whose stress is wanted."""
@@ -39,9 +75,25 @@ class Sweep:
             return {}
         return {"rom": paths.fill(paths.REDUCED_MODEL, blade=wildcards.blade, tip_line=self._scene(wildcards).tip_line)}
 
-    def speeds(self, wildcards: Any) -> tuple[float, ...]:
-        """Speeds (rad/s) of one blade and scene, ascending."""
-        return self.settings.speeds[wildcards.blade, wildcards.scene]
+    def speed_plan(self, wildcards: Any) -> SpeedPlan:
+        """Speeds of one blade and scene."""
+        return self.settings.speed_plans[wildcards.blade, wildcards.scene]
+
+    def refined_plan(self, wildcards: Any) -> dict[str, Any]:
+        """The same as plain values."""
+        return asdict(self.speed_plan(wildcards))
+
+    def speeds(self, wildcards: Any, input: Any) -> list[float]:
+        """Speeds (rad/s), ascending, of the files that are an input; a round stands there until the rounds are done."""
+        names = [Path(file).stem for file in ([input.speeds] if isinstance(input.speeds, str) else input.speeds)]
+        return [float(name.removeprefix("speed_")) for name in names if name.startswith("speed_")]
+
+    @property
+    def refinement_choice(self) -> dict[str, Any]:
+        """What makes an interval of speeds worth halving, as fields of RefinementChoice."""
+        given = plain(self.settings.refinement)
+        windows = [{"step": window.pop("step_rad_s"), **window} for window in given.pop("windows")]
+        return {**given, "windows": windows, "prominence": self.settings.interactions.prominence}
 
     def task(self, wildcards: Any) -> str:
         """What one simulation does, as JSON text."""
@@ -83,6 +135,12 @@ class Sweep:
         """Of a blade's simulations, above 0 and up to 1: results should be complete one blade after another."""
         blades = list(self.settings.blades)
         return 1 - blades.index(wildcards.blade) / len(blades)
+
+    @property
+    def most_runs(self) -> int:
+        """Simulations of the whole sweep, at most where speeds refine themselves."""
+        share = self.settings.refinement.largest_share
+        return sum(plan.at_most(share) for plan in self.settings.speed_plans.values())
 
     @property
     def kept(self) -> dict[str, int]:

@@ -1,0 +1,142 @@
+"""Families of designs: one entry of blades.yaml with `vary` or `designs` is many blades."""
+
+from __future__ import annotations
+
+import copy
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from itertools import product
+from pathlib import Path
+from typing import Any
+
+from pydantic import ValidationError
+from pydantic_core import PydanticCustomError
+
+from r37core.blade.errors import BladeShapeError
+from r37core.blade.tables import read_designs
+from r37core.speeds import exact_text
+from r37core.text_file import TextFileError
+
+from .blades import LARGEST_FAMILY, RESERVED, BladeEntry, Variation
+from .document import Document
+from .errors import ConfigError
+from .imported import MatricesEntry, MeshEntry
+from .messages import explain
+from .section import check_name, check_names
+
+AnyEntry = BladeEntry | MeshEntry | MatricesEntry
+"""One blade, or one family."""
+
+FAMILY_KEYS = ("vary", "combine", "designs")
+"""Keys of an entry that make it a family; its other keys are those of every design."""
+
+
+@dataclass(frozen=True)
+class Family:
+    """Designs that differ in some `keys`, dotted as in `vary`. `designs`: blade -> values, one for each key."""
+
+    keys: tuple[str, ...]
+    designs: dict[str, tuple[float, ...]]
+
+
+@dataclass(frozen=True)
+class Designs:
+    """All blades of blades.yaml: `entries` with a design in place of every family, and the `families` by name.
+
+    `document`: where they stand; a design where its family does.
+    """
+
+    entries: dict[str, AnyEntry]
+    families: dict[str, Family]
+    document: Document
+
+
+def with_designs(entries: Mapping[str, AnyEntry], root: Path, document: Document) -> Designs:
+    """The entries with every family replaced by its designs. Raises ConfigError, with the place in `document`."""
+    found: dict[str, AnyEntry] = {}
+    families: dict[str, Family] = {}
+    places = dict(document.places)
+    for name, entry in entries.items():
+        if not isinstance(entry, BladeEntry) or (entry.vary is None and entry.designs is None):
+            found[name] = entry
+            continue
+        families[name] = family = _family(name, entry, root, document)
+        for design, values in family.designs.items():
+            if design in entries or design in found or design in RESERVED:
+                raise document.refusal((name,), f"the design '{design}'", "designs that are not named like another blade")
+            found[design] = _design(name, entry, dict(zip(family.keys, values, strict=True)), design, document)
+            places |= {(design, *path[1:]): place for path, place in document.places.items() if path[:1] == (name,)}
+        try:
+            check_names(found)
+            for design in family.designs:
+                check_name(design)
+        except PydanticCustomError as error:
+            raise document.error((name,), str(error)) from None
+    return Designs(found, families, replace(document, places=places))
+
+
+def _family(name: str, entry: BladeEntry, root: Path, document: Document) -> Family:
+    if entry.designs is not None:
+        return _from_table(name, entry.designs, root, document)
+    assert entry.vary is not None
+    values = {
+        key: one.values() if isinstance(one, Variation) else [float(value) for value in one] for key, one in entry.vary.items()
+    }
+    if entry.combine == "pairs":
+        lengths = {key: len(several) for key, several in values.items()}
+        if len(set(lengths.values())) > 1:
+            told = ", ".join(f"{key} {length}" for key, length in lengths.items())
+            raise document.refusal((name, "vary"), f"{told} values", "as many of each key, with combine: pairs")
+        rows = list(zip(*values.values(), strict=True))
+    else:
+        rows = list(product(*values.values()))
+    if len(rows) > LARGEST_FAMILY:
+        raise document.refusal((name, "vary"), f"{len(rows)} designs", f"at most {LARGEST_FAMILY}")
+    return Family(tuple(values), {design_name(name, row): tuple(row) for row in rows})
+
+
+def _from_table(name: str, file: str, root: Path, document: Document) -> Family:
+    try:
+        keys, rows = read_designs(root / file)
+    except FileNotFoundError:
+        raise document.error((name, "designs"), f"there is no file {file}") from None
+    except OSError as error:
+        raise document.error((name, "designs"), f"{file} cannot be read: {error.strerror}") from None
+    except (TextFileError, BladeShapeError) as error:
+        raise ConfigError(f"{file}: family {name}: {error}") from None
+    return Family(keys, rows)
+
+
+def design_name(family: str, values: Sequence[float]) -> str:
+    """Name of a design by its values: Sweep_-50, Grid_2p5_10."""
+    return "_".join([family, *(exact_text(value).replace(".", "p").replace("+", "") for value in values)])
+
+
+def _design(family: str, entry: BladeEntry, values: Mapping[str, float], design: str, document: Document) -> BladeEntry:
+    """The entry of one design, checked like one that a user wrote."""
+    content = entry.model_dump(exclude_none=True, exclude_unset=True, exclude=set(FAMILY_KEYS))
+    for key, value in values.items():
+        try:
+            content = _with_value(content, key.split("."), value)
+        except (KeyError, IndexError, TypeError, ValueError):
+            raise document.error(
+                (family,), f"design {design}: found no {key} to vary; rows of sweep_lean stand in the entry, counted from 0"
+            ) from None
+    try:
+        return BladeEntry.model_validate(content)
+    except ValidationError as error:
+        path, named, text = explain(error, content, BladeEntry)
+        place = (family, "vary", ".".join(map(str, path)))
+        raise document.error(place, f"design {design}: {text}", (family, *named)) from None
+
+
+def _with_value(content: dict[str, Any], path: Sequence[str], value: float) -> dict[str, Any]:
+    """A copy of the content with one value set; sections that are not there are made, rows of a list are not."""
+    changed = copy.deepcopy(content)
+    inner: Any = changed
+    for step in path[:-1]:
+        inner = inner[int(step)] if isinstance(inner, list) else inner.setdefault(step, {})
+    if isinstance(inner, list):
+        raise TypeError
+    inner[path[-1]] = value
+    return changed

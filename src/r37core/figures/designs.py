@@ -1,0 +1,44 @@
+"""A family of designs: robustness and structure against what varies."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import matplotlib.pyplot as plt
+import numpy as np
+import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from r37core.results.designs import MEASURES
+
+from . import style  # noqa: F401  (sets the style)
+
+
+def draw_designs(family: str, table: pd.DataFrame, keys: Sequence[str]) -> Figure:
+    """Every measure of one family, a line or points per scene: over the one key that varies, or over the designs by name."""
+    figure, grid = plt.subplots(3, 3, figsize=(12.0, 9.0), sharex=True)
+    for axes, (column, label) in zip(grid.flat, MEASURES.items(), strict=True):
+        for scene, rows in table.groupby("scene", sort=False):
+            _draw(axes, rows, column, keys, str(scene))
+        axes.set_ylabel(label)
+    # what does not depend on the scene is the same line twice: the legend stands where scenes differ
+    grid.flat[5].legend()
+    for axes in grid[-1]:
+        if len(keys) == 1:
+            axes.set_xlabel(keys[0])
+        else:
+            axes.tick_params(axis="x", rotation=90)
+    varied = ", ".join(keys)
+    figure.suptitle(f"family {family}: {table['blade'].nunique()} designs over {varied}")
+    return figure
+
+
+def _draw(axes: Axes, rows: pd.DataFrame, column: str, keys: Sequence[str], label: str) -> None:
+    if len(keys) == 1:
+        ordered = rows.sort_values(keys[0])
+        axes.plot(ordered[keys[0]], ordered[column], "o-", markersize=4, label=label)
+    else:
+        places = np.arange(len(rows))
+        axes.plot(places, rows[column], "o", markersize=4, label=label)
+        axes.set_xticks(places, rows["blade"])

@@ -1,0 +1,172 @@
+"""Where speeds that refine themselves are run next: windows above crossings first, then where the response changes."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from scipy.signal import find_peaks
+
+from r37core.speeds import RefinedRange
+from r37core.time_integration.status import RunStatus
+
+CURVES = ("rms_normal", "rms_tangential", "stress")
+"""What is looked at over speed: rms (m) of the leading edge in two directions, largest stress as a share of yield."""
+
+
+@dataclass(frozen=True)
+class Window:
+    """Where an interaction is expected: from `first` to `last`, shares of the speed above the crossings of `mode`.
+
+    Its intervals are halved until none is longer than `step` (rad/s), before anything is known.
+    """
+
+    mode: str
+    highest_engine_order: int
+    first: float
+    last: float
+    step: float
+
+
+@dataclass(frozen=True)
+class RefinementChoice:
+    """What makes an interval of speeds worth halving; every number is a share.
+
+    `windows` come first. Then an interval is halved when rms or stress change by more than `change` of the larger, when
+    stress crosses yield, when the status changes, and when a peak of at least `prominence` of the largest reaches within
+    `peak` of its height in it; changes below `prominence` of the largest do not count. At most `largest_share` of the grid
+    is run, where the response is largest first.
+    """
+
+    windows: tuple[Window, ...]
+    change: float
+    peak: float
+    largest_share: float
+    prominence: float
+
+
+@dataclass(frozen=True)
+class KnownSpeeds:
+    """What runs have given: `speeds` (rad/s), ascending; `curves`, shape (CURVES, speeds), NaN for no number; `status`."""
+
+    speeds: np.ndarray
+    curves: np.ndarray
+    status: np.ndarray
+
+
+def refinement_choice_from(fields: Mapping[str, Any]) -> RefinementChoice:
+    """The choice of which `asdict` made the dictionary."""
+    return RefinementChoice(**{**fields, "windows": tuple(Window(**one) for one in fields["windows"])})
+
+
+@dataclass(frozen=True)
+class Stretch:
+    """Speeds (rad/s) from `low` to `high` that are run every `step`."""
+
+    low: float
+    high: float
+    step: float
+
+
+def stretches(campbell: xr.Dataset, windows: Sequence[Window]) -> list[Stretch]:
+    """The windows above the crossings of one blade's Campbell diagram."""
+    found = []
+    for window in windows:
+        crossings = campbell["crossing_speed"].sel(mode=window.mode)
+        for speed in crossings.sel(engine_order=crossings["engine_order"] <= window.highest_engine_order).dropna(
+            "engine_order"
+        ):
+            crossing = float(speed)
+            found.append(Stretch((1.0 + window.first) * crossing, (1.0 + window.last) * crossing, window.step))
+    return found
+
+
+def window_speeds(grid: RefinedRange, expected: Sequence[Stretch]) -> list[float]:
+    """Speeds of the grid, beyond its coarse ones, that the stretches ask for, ascending."""
+    added: list[int] = []
+    waiting = list(pairwise(grid.coarse_places()))
+    while waiting:
+        first, last = waiting.pop()
+        length = (last - first) * grid.refine_to
+        too_long = any(
+            one.low < grid.speed(last) and grid.speed(first) < one.high and length > (1.0 + 1e-9) * one.step for one in expected
+        )
+        if too_long and last - first > 1:
+            middle = (first + last) // 2
+            added.append(middle)
+            waiting += [(first, middle), (middle, last)]
+    return [grid.speed(place) for place in sorted(added)]
+
+
+def next_speeds(grid: RefinedRange, known: KnownSpeeds, choice: RefinementChoice) -> list[float]:
+    """Speeds (rad/s), ascending, in the middle of the intervals that are worth halving; none when all is said.
+
+    Every coarse speed of the grid must be known. The result depends on nothing but the arguments.
+    """
+    places = _places(grid, known.speeds)
+    on_grid = np.flatnonzero(places >= 0)
+    places = places[on_grid]
+    room = int(choice.largest_share * (grid.last + 1)) - len(places)
+    worth = _worth(known.curves[:, on_grid], known.status[on_grid], _scale(known), choice)
+    open_intervals = np.flatnonzero((np.diff(places) > 1) & (worth > 0.0))
+    # the largest first; half of the room, so that later rounds can follow what this one finds
+    chosen = sorted(open_intervals, key=lambda i: (-worth[i], i))[: max(-(-room // 2), 0)]
+    return [grid.speed(int(places[i] + places[i + 1]) // 2) for i in sorted(chosen)]
+
+
+def _places(grid: RefinedRange, speeds: np.ndarray) -> np.ndarray:
+    """Place on the grid of each speed, -1 for one that is not on it."""
+    nearest = np.rint((speeds - grid.start) / grid.refine_to).astype(int)
+    on_grid = [
+        0 <= place <= grid.last and grid.speed(int(place)) == speed for place, speed in zip(nearest, speeds, strict=True)
+    ]
+    return np.where(on_grid, nearest, -1)
+
+
+def _scale(known: KnownSpeeds) -> np.ndarray:
+    """Largest value of each curve, shape (CURVES,); 1 for one without numbers, which then marks nothing."""
+    top = np.nan_to_num(known.curves, nan=0.0).max(axis=1, initial=0.0)
+    return np.where(top > 0.0, top, 1.0)
+
+
+def _worth(curves: np.ndarray, status: np.ndarray, scale: np.ndarray, choice: RefinementChoice) -> np.ndarray:
+    """What there is to see in each interval, shape (speeds - 1,): 0 for nothing, else the height in shares of a curve's top."""
+    worth = np.zeros(len(status) - 1)
+    for name, curve, top in zip(CURVES, np.nan_to_num(curves, nan=0.0) / scale[:, None], scale, strict=True):
+        larger, change = np.maximum(curve[:-1], curve[1:]), np.abs(np.diff(curve))
+        seen = (change > choice.change * larger) & (larger > choice.prominence)
+        if name == "stress":
+            above = curve * top > 1.0
+            seen |= above[:-1] != above[1:]
+        seen |= _near_a_peak(curve, choice)
+        worth = np.maximum(worth, np.where(seen, np.maximum(change, larger), 0.0))
+    ended = np.isin(status, list(_ENDED))
+    differs = (status[:-1] != status[1:]) & ended[:-1] & ended[1:]
+    return np.where(differs, np.inf, worth)
+
+
+_ENDED = (RunStatus.COMPLETED, RunStatus.DIVERGED)
+
+
+def _near_a_peak(curve: np.ndarray, choice: RefinementChoice) -> np.ndarray:
+    """Whether an interval touches a peak or, next to it without a gap, points within the share `peak` of its height."""
+    # the lowest value at both ends, so that a peak on the first or last speed counts and a level curve has none
+    peaks, _ = find_peaks(np.concatenate([[curve.min()], curve, [curve.min()]]), prominence=choice.prominence)
+    near = np.zeros(len(curve), dtype=bool)
+    for peak in peaks - 1:
+        high = curve >= (1.0 - choice.peak) * curve[peak]
+        low = np.flatnonzero(~high[:peak])
+        after = np.flatnonzero(~high[peak:])
+        near[(low[-1] + 1 if len(low) else 0) : (peak + after[0] if len(after) else len(curve))] = True
+    return near[:-1] | near[1:]
+
+
+def known_of(measured: Mapping[float, Sequence[float]]) -> KnownSpeeds:
+    """Of each speed (rad/s) its status and then its CURVES."""
+    speeds = np.array(sorted(measured))
+    rows = np.array([measured[speed] for speed in speeds], dtype=float).reshape(len(speeds), 1 + len(CURVES))
+    return KnownSpeeds(speeds, rows[:, 1:].T, rows[:, 0].astype(int))

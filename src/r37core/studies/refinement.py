@@ -1,0 +1,120 @@
+"""What speeds that refine themselves find, of how many runs, against every speed of their grid."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from r37core.results.interactions import InteractionChoice, find_interactions
+from r37core.results.refinement import CURVES, RefinementChoice
+from r37core.results.rounds import first_round, round_after
+from r37core.speeds import SpeedPlan
+
+TOLERANCE = 2.0
+"""Difference (rad/s) of a peak's speed or width above yield up to which it counts as the same."""
+
+_MARKS = {"spectrum": "amplitude", "stress": "max_von_mises", "wear": "max_wear"}
+"""Kind of dataset -> a variable that a response has with it."""
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """One interaction above yield of the whole grid, and what the refined speeds have of it.
+
+    Speeds and widths in rad/s, `stress` in Pa; `found_peak` and `found_width` NaN where there is no interaction
+    above yield within the width, or TOLERANCE, of it.
+    """
+
+    mode: str
+    engine_order: int | None
+    peak: float
+    width: float
+    stress: float
+    found_peak: float
+    found_width: float
+
+    @property
+    def found(self) -> bool:
+        """Whether there is one at all."""
+        return not math.isnan(self.found_peak)
+
+    @property
+    def same(self) -> bool:
+        """Whether peak and width agree."""
+        return abs(self.found_peak - self.peak) <= TOLERANCE and abs(self.found_width - self.width) <= TOLERANCE
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """One way to choose speeds of one blade and scene: runs of its first round, of all, and the interactions above yield."""
+
+    first: int
+    runs: int
+    rounds: int
+    interactions: list[Comparison]
+
+
+def replay(response: xr.Dataset, campbell: xr.Dataset, plan: SpeedPlan, choice: RefinementChoice) -> list[list[float]]:
+    """New speeds (rad/s) of each round, as the sweep would ask for them, with the runs looked up in the whole grid."""
+    rows = _measured(response)
+    asked = first_round(plan, campbell, choice)
+    rounds = []
+    while asked.new:
+        rounds.append(list(asked.new))
+        asked = round_after(asked, {speed: rows[speed] for speed in asked.new}, plan, choice)
+    return rounds
+
+
+def _measured(response: xr.Dataset) -> dict[float, list[float]]:
+    """Status and CURVES of each speed (rad/s)."""
+    edge = response.sel(tip_point="leading_edge")
+    stress = (
+        response["max_von_mises"] / response["yield_stress"] if "max_von_mises" in response else edge["rms_normal"] * np.nan
+    )
+    columns = [edge["status"], edge["rms_normal"], edge["rms_tangential"], stress]
+    assert len(columns) == 1 + len(CURVES)
+    rows = np.stack([column.values.astype(float) for column in columns], axis=1)
+    return dict(zip(map(float, response["speed"].values), rows.tolist(), strict=True))
+
+
+def plain_grid(plan: SpeedPlan, step: float) -> list[float]:
+    """Every so many rad/s of the grids of a plan, ascending."""
+    return sorted(
+        grid.speed(place) for grid in plan.refined for place in range(0, grid.last + 1, max(1, round(step / grid.refine_to)))
+    )
+
+
+def compare(
+    response: xr.Dataset, campbell: xr.Dataset, speeds: Sequence[Sequence[float]], interactions: InteractionChoice
+) -> Outcome:
+    """Hold the interactions above yield that the `speeds` (rad/s) of each round show against those of the whole grid."""
+    run = sorted(speed for new in speeds for speed in new)
+    wanted, got = (_above_yield(part, campbell, interactions) for part in (response, response.sel(speed=run)))
+    return Outcome(len(speeds[0]), len(run), len(speeds), [_held_against(row, got) for row in wanted])
+
+
+def _above_yield(response: xr.Dataset, campbell: xr.Dataset, interactions: InteractionChoice) -> list[dict[str, Any]]:
+    parts = {kind: response if name in response else None for kind, name in _MARKS.items()}
+    rows = find_interactions(response, campbell, parts["spectrum"], parts["stress"], parts["wear"], interactions)
+    return [row for row in rows if row["width_above_yield"] > 0.0]  # type: ignore[operator]
+
+
+def _held_against(row: Mapping[str, Any], got: Sequence[Mapping[str, Any]]) -> Comparison:
+    """One interaction beside the nearest of those that were found."""
+    peak, width = float(row["peak_speed"]), float(row["width_above_yield"])
+    near = [other for other in got if abs(other["peak_speed"] - peak) <= max(width, TOLERANCE)]
+    nearest = min(near, key=lambda other: abs(other["peak_speed"] - peak), default=None)
+    return Comparison(
+        mode=str(row["mode"]),
+        engine_order=row["engine_order"],
+        peak=peak,
+        width=width,
+        stress=float(row["max_von_mises"]),
+        found_peak=float(nearest["peak_speed"]) if nearest else math.nan,
+        found_width=float(nearest["width_above_yield"]) if nearest else math.nan,
+    )

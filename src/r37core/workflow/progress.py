@@ -1,0 +1,132 @@
+"""One line about a run of thousands of jobs, in place of several from each of them."""
+
+from __future__ import annotations
+
+import logging
+import sys
+import time
+from collections import Counter
+from collections.abc import Callable, Collection
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, TextIO
+
+import numpy as np
+
+from r37core.time_integration.status import RunStatus
+
+QUIET_EVENTS = frozenset({"job_info", "job_started", "job_finished", "progress", "shellcmd", "resources_info"})
+"""What Snakemake says of every job; failures and warnings are none of these."""
+
+_CHATTER = (
+    "Select jobs to execute",
+    "Execute ",
+    "DAG of jobs will be updated",
+    "Updating checkpoint dependencies",
+    "Touching output",
+)
+"""Beginnings of messages without an event that come with every job."""
+
+_ON_TERMINAL_S, _ELSEWHERE_S = 0.5, 60.0
+"""Shortest time between two lines: one that renews itself, or plain ones."""
+
+
+@dataclass
+class Progress(logging.Filter):
+    """A filter for the handler of Snakemake's messages that keeps those about single jobs back and writes a line instead.
+
+    `most`: how many simulations there may be at most, those of earlier runs included. The line goes to `stream`: renewed in
+    place if that is a terminal, and now and then as a line of its own if it is not. Snakemake's log file has everything.
+    """
+
+    most: int
+    stream: TextIO = field(default_factory=lambda: sys.stderr)
+    clock: Callable[[], float] = time.monotonic
+    _jobs: dict[Any, tuple[str, str, str]] = field(default_factory=dict)
+    _simulated: Counter[str] = field(default_factory=Counter)
+    _diverged: int = 0
+    _done: int = 0
+    _known: int = 0
+    _began: float | None = None
+    _written: float = -1e9
+    _open: bool = False
+
+    def filter(self, record: logging.LogRecord) -> bool:
+        """Whether Snakemake's own handler should write the record."""
+        event = str(getattr(record, "event", None) or "")
+        self._take(event, record)
+        if event in QUIET_EVENTS or (not event and record.getMessage().strip().startswith(_CHATTER)):
+            return False
+        if not record.getMessage().strip():
+            return False
+        self._close_line()
+        return True
+
+    def _take(self, event: str, record: logging.LogRecord) -> None:
+        self._began = self.clock() if self._began is None else self._began
+        if event == "job_info":
+            output: Collection[str] = getattr(record, "output", None) or [""]
+            blade = (getattr(record, "wildcards", None) or {}).get("blade", "")
+            self._jobs[record.jobid] = (record.rule_name, blade, str(next(iter(output))))  # type: ignore[attr-defined]
+        elif event == "job_finished":
+            rule, blade, output = self._jobs.pop(record.job_id, ("", "", ""))  # type: ignore[attr-defined]
+            if rule == "simulate":
+                self._simulated[blade] += 1
+                self._diverged += _diverged(Path(output))
+        elif event == "progress":
+            self._done, self._known = record.done, record.total  # type: ignore[attr-defined]
+            self._write(last=record.done == record.total)  # type: ignore[attr-defined]
+
+    def line(self) -> str:
+        """What there is to say now."""
+        spent = self.clock() - (self.clock() if self._began is None else self._began)
+        rate = self._done / spent if spent > 0.0 else 0.0
+        parts = [f"jobs {self._done} of {self._known}"]
+        if self._simulated:
+            blades = list(self._simulated.items())
+            shown = ", ".join(f"{blade} {number}" for blade, number in blades[-3:])
+            more = f"{len(blades) - 3} blades more, " if len(blades) > 3 else ""
+            parts.append(f"simulations {self._simulated.total()} of at most {self.most} ({more}{shown})")
+            parts.append(f"{self._diverged} diverged")
+        if rate > 0.0:
+            parts += [f"{rate:.1f} a second", f"{_duration((self._known - self._done) / rate)} for those known"]
+        return "; ".join(parts)
+
+    def _write(self, last: bool) -> None:
+        terminal = self.stream.isatty()
+        now = self.clock()
+        if not last and now - self._written < (_ON_TERMINAL_S if terminal else _ELSEWHERE_S):
+            return
+        self._written = now
+        self.stream.write(f"\r\x1b[K{self.line()}" if terminal else f"{self.line()}\n")
+        self.stream.flush()
+        self._open = terminal
+        if last:
+            self._close_line()
+
+    def _close_line(self) -> None:
+        if self._open:
+            self.stream.write("\n")
+            self._open = False
+
+
+def quieten(handlers: Collection[logging.Handler], progress: Progress) -> bool:
+    """Let `progress` stand before Snakemake's messages on the terminal; whether there was such a handler."""
+    found = [handler for handler in handlers if handler.name == "DefaultStreamHandler"]
+    for handler in found:
+        handler.addFilter(progress)
+    return bool(found)
+
+
+def _diverged(file: Path) -> bool:
+    try:
+        with np.load(file) as run:
+            return int(run["status"]) == RunStatus.DIVERGED
+    except (OSError, ValueError, KeyError):
+        return False
+
+
+def _duration(seconds: float) -> str:
+    if seconds < 90.0:
+        return f"{seconds:.0f} s"
+    return f"{seconds / 60.0:.0f} min" if seconds < 5400.0 else f"{seconds / 3600.0:.1f} h"

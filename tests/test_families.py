@@ -1,0 +1,198 @@
+"""Families of designs: many blades of one entry, their names, refusals, and how they are compared."""
+
+import numpy as np
+import pandas as pd
+import pytest
+import xarray as xr
+from stubbed_runs import copy_stubbed, planned_outputs
+
+from r37core.config import ConfigError, command_line_document, read_settings
+from r37core.config.families import design_name
+from r37core.figures.designs import draw_designs
+from r37core.results.designs import MEASURES, above_yield, design_table
+from r37core.workflow.families import Families
+
+SWEEP = "Sweep:\n  base: S100\n  vary:\n    sweep_percent: { start: -50, stop: 150, step: 100 }\n"
+GRID = "Grid:\n  base: Ref\n  vary:\n    chordwise_sweep_deg: [-2.5, 5]\n    material.density_kg_m3: [8000, 4500]\n"
+
+
+@pytest.fixture
+def read(config_copy):
+    """Settings with some text added to blades.yaml and, if given, a table of designs."""
+
+    def add(text, table=None, **changes):
+        with open(config_copy / "config/blades.yaml", "a") as stream:
+            stream.write("\n" + text)
+        if table:
+            (config_copy / "config/designs.csv").write_text(table)
+        return read_settings(config_copy, command_line_document(changes))
+
+    return add
+
+
+def test_a_range_becomes_blades_with_readable_names(read):
+    settings = read(SWEEP)
+    assert list(settings.blades)[7:] == ["Sweep_-50", "Sweep_50", "Sweep_150"]
+    tips = [settings.blades[name].definition.stacking[-1] for name in list(settings.blades)[7:]]
+    np.testing.assert_allclose(tips, [(1.0, -0.003, 0.0), (1.0, 0.003, 0.0), (1.0, 0.009, 0.0)])
+    # half the sweep of S100 is the benchmark's S50
+    np.testing.assert_allclose(settings.blades["Sweep_50"].definition.stacking, settings.blades["S50"].definition.stacking)
+
+
+def test_lean_is_scaled_apart_from_sweep(read):
+    table = read("Lean: { base: L100, vary: { lean_percent: [50, 200] } }\n").blades["Lean_200"].definition.stacking
+    assert table[1] == pytest.approx((0.33, 0.001, 0.0))
+    assert table[3] == pytest.approx((1.0, 0.0, np.radians(3.0)))
+
+
+def test_a_grid_has_every_value_with_every_other(read):
+    settings = read(GRID)
+    assert list(settings.families["Grid"].designs) == ["Grid_-2p5_8000", "Grid_-2p5_4500", "Grid_5_8000", "Grid_5_4500"]
+    assert settings.blades["Grid_5_4500"].material.density == 4500.0
+    assert settings.blades["Grid_5_4500"].material.youngs_modulus == 180e9
+    assert settings.blades["Grid_-2p5_8000"].definition.chordwise_sweep_angle == pytest.approx(np.radians(-2.5))
+
+
+def test_pairs_go_side_by_side(read):
+    assert list(read(GRID + "  combine: pairs\n", blades=["Grid"]).blades) == ["Grid_-2p5_8000", "Grid_5_4500"]
+
+
+def test_rows_of_sweep_and_lean_vary(read):
+    rows = ("{ span_percent: 0, sweep_cm: 0, lean_deg: 0 }", "{ span_percent: 100, sweep_cm: 1, lean_deg: 1 }")
+    text = f"  sweep_lean: [{', '.join(rows)}]\n"
+    blades = read(f"Rows:\n  base: Ref\n{text}  vary: {{ sweep_lean.1.sweep_cm: [0.1, 0.25] }}\n").blades
+    assert blades["Rows_0p25"].definition.stacking[1] == pytest.approx((1.0, 0.0025, np.radians(1.0)))
+
+
+def test_a_table_has_one_design_a_row(read):
+    table = "blade,chordwise_sweep_deg,material.density_kg_m3\nForward,5,8000\nBack-1,-5,7.5e3\n"
+    settings = read("Mine: { base: Ref, designs: config/designs.csv }\n", table, blades=["Mine", "Ref"])
+    assert list(settings.blades) == ["Forward", "Back-1", "Ref"]
+    assert settings.families["Mine"].designs == {"Forward": (5.0, 8000.0), "Back-1": (-5.0, 7500.0)}
+    assert settings.blades["Back-1"].material.density == 7500.0
+
+
+def test_a_family_of_which_nothing_is_run_is_not_compared(read):
+    settings = read(SWEEP, blades=["Ref"])
+    assert settings.families == {}
+    assert Families(settings).outputs == []
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        (GRID.replace("[8000, 4500]", "[8000]") + "  combine: pairs\n", r"yaml:\d+: Grid\.vary: found chordwise_sweep_deg 2"),
+        (GRID.replace("5]", "70]"), r"Grid\.chordwise_sweep_deg: design Grid_70_8000: found 70\.0; allowed: .*than 60"),
+        (GRID.replace("chordwise_sweep_deg", "chordwise"), r"design Grid_-2p5_8000: found unknown key chordwise; allowed"),
+        (GRID.replace("density_kg_m3", "density"), r"yaml:\d+: Grid.*: found unknown key density; allowed keys: youngs"),
+        (GRID.replace("[-2.5, 5]", "[5, 5]"), r"Grid\.vary\.chordwise_sweep_deg\.1: found 5\.0 twice; allowed: each once"),
+        (GRID.replace("[-2.5, 5]", "[]"), r"Grid\.vary\.chordwise_sweep_deg: found \[\]; allowed: .*at least 1"),
+        (GRID.replace("[-2.5, 5]", "[forward]"), r"Grid\.vary\.chordwise_sweep_deg\.0: found 'forward'; allowed: number"),
+        (SWEEP.replace("S100", "Ref"), r"yaml:\d+: Sweep_-50\.sweep_percent: .* no table of sweep and lean"),
+        (SWEEP.replace("-50, stop: 150", "150, stop: -50"), r"percent\.stop: found -50; allowed: not below start \(150\)"),
+        (SWEEP.replace("step: 100", "step: 1e-6"), r"sweep_percent\.step: found 1e-06; allowed: at most 10000 values"),
+        (SWEEP.replace("sweep_percent", "sweep_lean.1.sweep_cm"), r"Sweep\.sweep_lean: design Sweep_-50: found \{'1'"),
+        (SWEEP + "More: { base: Sweep }\n", r"More\.base: found 'Sweep'; allowed: another blade"),
+        (SWEEP + "Sweep_50: { base: Ref }\n", r"Sweep: found the design 'Sweep_50'; allowed: designs that are not"),
+        (SWEEP + "  designs: config/designs.csv\n", r"Sweep: found both vary and designs; allowed: one of them"),
+        ("Mine: { base: Ref, designs: config/none.csv }\n", r"yaml:\d+: Mine\.designs: there is no file config/none\.csv"),
+    ],
+)  # fmt: skip
+def test_family_refusals(read, text, message):
+    with pytest.raises(ConfigError, match=message):
+        read(text)
+
+
+@pytest.mark.parametrize(
+    ("table", "message"),
+    [
+        ("blade,chordwise_sweep_deg\nA,x\n", r"csv: family Mine: line 2, column chordwise_sweep_deg: 'x' is not"),
+        ("blade,chordwise_sweep_deg\nA,1\nA,2\n", r"designs\.csv: family Mine: the blade 'A' is given twice"),
+        ("chordwise_sweep_deg\n1\n", r"family Mine: line 1: the table lacks the columns blade"),
+        ("blade,chordwise_sweep_deg\n", r"family Mine: the table has no designs"),
+        ("blade,chordwise_sweep_deg\nA__b,1\n", r"yaml:\d+: Mine: found 'A__b'; allowed: a name of letters"),
+        ("blade,chordwise_sweep_deg\nAb,1\nab,2\n", r"Mine: found 'ab' beside 'Ab'; allowed: names that differ in more"),
+        ("blade,chordwise_sweep_deg\nRef,1\n", r"Mine: found the design 'Ref'; allowed: designs that are not named like"),
+        ("blade,chordwise_sweep_deg\nfigures,1\n", r"Mine: found the design 'figures'"),
+    ],
+)  # fmt: skip
+def test_table_refusals(read, table, message):
+    with pytest.raises(ConfigError, match=message):
+        read("Mine: { base: Ref, designs: config/designs.csv }\n", table)
+
+
+def test_names_tell_numbers_apart():
+    assert design_name("F", (-0.5, 1e-7, 2.0)) == "F_-0p5_1e-07_2"
+
+
+def test_width_above_yield_is_that_of_straight_lines():
+    speeds = np.array([100.0, 110.0, 120.0, 130.0])
+    assert above_yield(speeds, np.array([0.5, 1.5, 1.5, 0.5])) == pytest.approx((20.0, 105.0))
+    assert above_yield(speeds, np.array([2.0, 2.0, 2.0, 2.0])) == pytest.approx((30.0, 100.0))
+    assert above_yield(speeds, np.array([1.0, 2.0, 1.0, 0.5])) == pytest.approx((20.0, 100.0))
+    width, first = above_yield(speeds, np.array([0.5, 1.0, 0.9, 0.1]))
+    assert width == 0.0
+    assert np.isnan(first)
+    assert np.isnan(above_yield(np.empty(0), np.empty(0))).all()
+
+
+@pytest.fixture
+def compared():
+    """Two designs in a scene with stress and one without."""
+    campbell = xr.Dataset(
+        {
+            "frequency": (("blade", "mode", "speed"), [[[800.0, 900.0], [2500.0, 2600.0]], [[700.0, 800.0], [2400.0, 2500.0]]]),
+            "dynamic_clearance": (("blade", "mode", "tangential_displacement"), [[[-3e-4, 1e-4]] * 2, [[-2e-4, 1e-4]] * 2]),
+        },
+        coords={"blade": ["F_1", "F_2"], "mode": ["1B", "1T"], "speed": [0.0, 2000.0]},
+    )
+    stress = xr.Dataset(
+        {
+            "max_von_mises": (("blade", "scene", "speed"), [[[1e9, 3e9, np.nan]], [[1e9, 1e9, 1e9]]]),
+            "yield_stress": (("blade", "scene"), [[2e9], [2e9]]),
+        },
+        coords={"blade": ["F_1", "F_2"], "scene": ["lined"], "speed": [900.0, 910.0, 920.0]},
+    )
+    interactions = pd.DataFrame(
+        [("F_1", "lined", "1B", 1e-3, 30.0), ("F_1", "lined", "1B", 5e-3, 50.0), ("F_1", "lined", np.nan, 9e-3, np.nan)],
+        columns=["blade", "scene", "mode", "peak_rms_tangential", "shift"],
+    )
+    designs = {"F_1": {"sweep_percent": 1.0}, "F_2": {"sweep_percent": 2.0}}
+    return design_table(designs, {"F_1": 0.2, "F_2": 0.3}, campbell, stress, interactions, ["lined", "bare"])
+
+
+def test_designs_are_compared(compared):
+    assert list(compared.columns) == ["blade", "scene", "sweep_percent", *MEASURES]
+    rows = compared.set_index(["blade", "scene"])
+    one = rows.loc["F_1", "lined"]
+    assert (one["mass_kg"], one["frequency_1b_hz"], one["frequency_1t_hz"]) == (0.2, 800.0, 2500.0)
+    assert one["clearance_loss_1b_m"] == 3e-4
+    assert (one["width_above_yield_rad_s"], one["first_yield_rad_s"], one["largest_stress_pa"]) == (5.0, 905.0, 3e9)
+    # of the two peaks of 1B the one with the larger motion
+    assert one["shift_1b_rad_s"] == 50.0
+    other = rows.loc["F_2", "lined"]
+    assert other["width_above_yield_rad_s"] == 0.0
+    assert np.isnan(other["first_yield_rad_s"])
+    assert np.isnan(other["shift_1b_rad_s"])
+    assert np.isnan(rows.loc["F_1", "bare"]["largest_stress_pa"])
+
+
+def test_a_family_is_drawn(compared):
+    figure = draw_designs("F", compared, ["sweep_percent"])
+    assert len(figure.axes) == 9
+    assert list(figure.axes[0].lines[0].get_xdata()) == [1.0, 2.0]
+    figure = draw_designs("F", compared.assign(other=0.0), ["sweep_percent", "other"])
+    assert [label.get_text() for label in figure.axes[6].get_xticklabels()] == ["F_1", "F_2"]
+
+
+@pytest.mark.slow
+def test_a_family_s_designs_run_alone(root, tmp_path):
+    """A family added by editing one file: its own jobs, the table and its picture; one more value, one more blade."""
+    copy_stubbed(root, tmp_path)
+    blades, config = tmp_path / "config/blades.yaml", tmp_path / "config/config.yaml"
+    config.write_text(config.read_text().replace("[Ref, CS100]", "[Ref, Sweep]"))
+    blades.write_text(blades.read_text() + "\n" + SWEEP)
+    jobs = planned_outputs(tmp_path)
+    assert {name for file in jobs["simulate"] for name in file.split("/")[:1]} == {"Ref", "Sweep_-50", "Sweep_50", "Sweep_150"}
+    assert jobs["designs"] == {"designs.csv"}
+    assert jobs["design_figure"] == {"figures/designs_Sweep.png"}

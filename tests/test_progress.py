@@ -1,0 +1,125 @@
+"""One line about thousands of jobs."""
+
+import io
+import logging
+import os
+import subprocess
+
+import numpy as np
+import pytest
+from stubbed_runs import copy_stubbed
+from workflow_runs import SNAKEMAKE
+
+from r37core.time_integration.status import RunStatus
+from r37core.workflow.progress import Progress, quieten
+
+
+class Terminal(io.StringIO):
+    def isatty(self):
+        return True
+
+
+class Clock:
+    now = 0.0
+
+    def __call__(self):
+        return self.now
+
+
+def said(progress, event=None, message="", **fields):
+    record = logging.LogRecord("snakemake", logging.INFO, "", 0, message, None, None)
+    record.__dict__ |= {"event": event, **fields}
+    return progress.filter(record)
+
+
+def simulate(progress, number, blade, output="none.npz", of=100):
+    said(progress, "job_info", "rule simulate", jobid=number, rule_name="simulate", wildcards={"blade": blade}, output=[output])
+    said(progress, "job_started", "")
+    said(progress, "job_finished", f"Finished jobid: {number}", job_id=number)
+    said(progress, "progress", "steps", done=number, total=of)
+
+
+@pytest.fixture
+def clock():
+    return Clock()
+
+
+def test_messages_of_single_jobs_are_kept_back_and_failures_are_not(clock):
+    progress = Progress(10, io.StringIO(), clock)
+    assert not said(progress, "job_started", "Execute 1 jobs...")
+    assert not said(progress, None, "Select jobs to execute...")
+    assert not said(progress, None, "")
+    assert said(progress, "job_error", "Error in rule simulate")
+    assert said(progress, None, "config/config.yaml:3: speeds: found nothing")
+    assert said(progress, "run_info", "Job stats")
+
+
+def test_plain_lines_come_once_a_minute_and_at_the_end(clock):
+    stream = io.StringIO()
+    progress = Progress(250, stream, clock)
+    for number in range(1, 101):
+        clock.now = 2.0 * number
+        simulate(progress, number, "Ref" if number <= 60 else "L50")
+    lines = stream.getvalue().splitlines()
+    assert len(lines) == 5
+    assert lines[-1] == (
+        "jobs 100 of 100; simulations 100 of at most 250 (Ref 60, L50 40); 0 diverged; 0.5 a second; 0 s for those known"
+    )
+    assert "\r" not in stream.getvalue()
+
+
+def test_on_a_terminal_the_line_renews_itself(clock):
+    stream = Terminal()
+    progress = Progress(10, stream, clock)
+    for number in range(1, 4):
+        clock.now = float(number)
+        simulate(progress, number, "Ref")
+    assert stream.getvalue().count("\r") == 3
+    assert "\n" not in stream.getvalue()
+    # a message of its own begins on a line of its own
+    assert said(progress, "job_error", "Error in rule simulate")
+    assert stream.getvalue().endswith("\n")
+
+
+def test_diverged_runs_are_counted(clock, tmp_path):
+    for name, status in (("a", RunStatus.COMPLETED), ("b", RunStatus.DIVERGED)):
+        np.savez(tmp_path / f"{name}.npz", status=int(status))
+    (tmp_path / "c.npz").write_text("no archive")
+    progress = Progress(10, io.StringIO(), clock)
+    for number, name in enumerate("abc", 1):
+        clock.now = float(number)
+        simulate(progress, number, "Ref", str(tmp_path / f"{name}.npz"))
+    assert "; 1 diverged;" in progress.line()
+
+
+def test_many_blades_are_not_all_named(clock):
+    progress = Progress(10, io.StringIO(), clock)
+    for number in range(1, 6):
+        clock.now = float(number)
+        simulate(progress, number, f"B{number}")
+    assert "(2 blades more, B3 1, B4 1, B5 1)" in progress.line()
+
+
+def test_only_the_terminal_s_handler_is_quietened():
+    terminal, file = logging.StreamHandler(), logging.StreamHandler()
+    terminal.name, file.name = "DefaultStreamHandler", "DefaultLogFileHandler"
+    assert quieten([terminal, file], progress := Progress(1))
+    assert (terminal.filters, file.filters) == ([progress], [])
+    assert not quieten([file], progress)
+
+
+@pytest.mark.slow
+def test_a_run_prints_little_and_its_log_has_everything(root, tmp_path):
+    copy_stubbed(root, tmp_path)
+    environment = {key: value for key, value in os.environ.items() if key != "R37_FULL_LOG"} | {
+        "PYTHONPATH": str(tmp_path / "src")
+    }
+    done = subprocess.run(
+        [SNAKEMAKE, "all_blades", "--cores", "2"], cwd=tmp_path, env=environment, capture_output=True, text=True, check=True
+    )
+    printed = done.stdout + done.stderr
+    assert len(printed.splitlines()) < 60
+    assert "simulations 12 of at most 12 (Ref 6, CS100 6); 0 diverged" in printed
+    assert "rule simulate:" not in printed
+    logs = list(tmp_path.glob(".snakemake/log/*.log"))
+    assert sum(log.read_text().count("rule simulate:") for log in logs) == 12

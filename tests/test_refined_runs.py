@@ -1,0 +1,218 @@
+"""Speeds that refine themselves, through Snakemake: all rounds in one command, each speed once, and what runs again."""
+
+import contextlib
+import json
+import os
+import random
+import re
+import shutil
+import signal
+import subprocess
+import time
+
+import numpy as np
+import pytest
+import xarray as xr
+from stubbed_runs import copy_stubbed, planned_outputs
+from workflow_runs import SNAKEMAKE, copy_project, snakemake
+
+from r37core.config import read_settings
+from r37core.time_integration.status import RunStatus
+from r37core.workflow.leftovers import leftovers
+
+BLADES, SCENES = ("Ref", "CS100"), ("abradable", "direct")
+COARSE, ADDED = ("750", "1150", "1550"), ("1149", "1150.5")
+DATASETS = {"configuration", "sweep_dataset", "summary", "response_figure", "response_overview", "map_figure"}
+
+
+def refine(folder, entry="{ start: 750, stop: 1550, step: 400, refine_to: 0.5 }"):
+    config = folder / "config/config.yaml"
+    text = config.read_text()
+    assert "- { start: 750, stop: 1600 }" in text
+    config.write_text(text.replace("- { start: 750, stop: 1600 }", f"- {entry}"))
+
+
+def runs(speeds, blades=BLADES, scenes=SCENES):
+    return {f"{blade}/{scene}/speed_{speed}.npz" for blade in blades for scene in scenes for speed in speeds}
+
+
+def simulated(text):
+    """Output of every simulation that was started, in order, with repetitions."""
+    blocks = re.findall(r"rule simulate:\n(.*?)\n\n", text, re.DOTALL)
+    return [re.search(r"output: results/(\S+)", block)[1] for block in blocks]
+
+
+@pytest.fixture(scope="module")
+def first_run(root, tmp_path_factory):
+    """A finished stubbed run, and what Snakemake said."""
+    folder = tmp_path_factory.mktemp("refined")
+    copy_stubbed(root, folder)
+    refine(folder)
+    return folder, snakemake(folder, "all_blades", "--cores", "2")
+
+
+@pytest.fixture
+def project(first_run, tmp_path):
+    shutil.copytree(first_run[0], tmp_path / "project", copy_function=shutil.copy2)
+    return tmp_path / "project"
+
+
+def test_one_command_runs_all_rounds_and_each_speed_once(first_run):
+    done = simulated(first_run[1])
+    assert set(done) == runs(COARSE + ADDED)
+    assert len(done) == len(set(done))
+    assert (first_run[0] / "results/summary.csv").exists()
+
+
+def test_nothing_after_a_run(project):
+    assert planned_outputs(project) == {}
+
+
+@pytest.mark.slow
+def test_an_added_blade_runs_its_own_jobs(project):
+    config = project / "config/config.yaml"
+    config.write_text(config.read_text().replace("[Ref, CS100]", "[Ref, CS100, L50]"))
+    done = simulated(snakemake(project, "all_blades", "--cores", "2"))
+    assert set(done) == runs(COARSE + ADDED, blades=["L50"])
+
+
+@pytest.mark.slow
+def test_friction_runs_all_rounds_of_its_scene(project):
+    file = project / "config/scenes.yaml"
+    before, direct = file.read_text().split("direct:")
+    file.write_text(before + "direct:" + direct.replace("coefficient: 0.15", "coefficient: 0.2"))
+    done = simulated(snakemake(project, "all_blades", "--cores", "2"))
+    assert sorted(done) == sorted(runs(COARSE + ADDED, scenes=["direct"]))
+
+
+@pytest.mark.slow
+def test_another_criterion_asks_anew_and_simulates_nothing_that_is_there(project):
+    config = project / "config/config.yaml"
+    config.write_text(config.read_text() + "\nrefinement: { change: 0.5 }\n")
+    text = snakemake(project, "all_blades", "--cores", "2")
+    assert len(re.findall(r"checkpoint refine:", text)) == 3 * len(BLADES) * len(SCENES)
+    assert simulated(text) == []
+    assert planned_outputs(project) == {}
+
+
+@pytest.mark.slow
+def test_a_lost_speed_of_a_later_round_runs_alone(project):
+    (project / "results/CS100/direct/speed_1149.npz").unlink()
+    # Snakemake makes nothing again that only finished files would need
+    for later in (
+        project / "results/CS100/direct/response.nc",
+        *project.glob("results/*.nc"),
+        *project.glob("results/figures/*"),
+    ):
+        later.unlink()
+    assert simulated(snakemake(project, "all_blades", "--cores", "2")) == ["CS100/direct/speed_1149.npz"]
+
+
+@pytest.mark.slow
+def test_speeds_of_one_scene_may_refine_themselves_alone(root, tmp_path):
+    copy_stubbed(root, tmp_path)
+    config = tmp_path / "config/config.yaml"
+    text = config.read_text().replace("speeds_for: [] ", (
+        "speeds_for: [{ scenes: [direct], speeds: [{ start: 750, stop: 1550, step: 400, refine_to: 0.5 }] }] "
+    ))  # fmt: skip
+    config.write_text(text)
+    done = simulated(snakemake(tmp_path, "all_blades", "--cores", "2"))
+    assert set(done) == runs(COARSE) | runs(ADDED, scenes=["direct"])
+    assert not list(tmp_path.glob("results/*/abradable/round_*.json"))
+
+
+def test_leftovers_are_what_no_round_asked_for(project, monkeypatch):
+    monkeypatch.chdir(project)
+    assert leftovers(project / "results", read_settings(project)) == []
+    stray = project / "results/Ref/direct/speed_1000.npz"
+    stray.write_text("")
+    assert leftovers(project / "results", read_settings(project)) == [stray]
+    # without the last round nobody knows what will be asked for
+    (project / "results/Ref/direct/round_2.json").unlink()
+    assert leftovers(project / "results", read_settings(project)) == []
+
+
+def test_a_study_without_a_range_that_refines_is_refused(root, tmp_path):
+    copy_stubbed(root, tmp_path)
+    text = snakemake(tmp_path, "refinement", "--cores", "1", "--dry-run", check=False)
+    assert "speeds: found no range with refine_to; allowed: at least one, for this study" in text
+
+
+@pytest.fixture(scope="module")
+def real(root, tmp_path_factory):
+    """A small real run: windows, halving, the study against the whole grid."""
+    folder = tmp_path_factory.mktemp("real")
+    prepare_real(root, folder)
+    snakemake(folder, "all_blades", "refinement", "--cores", "2")
+    return folder
+
+
+def prepare_real(root, folder):
+    copy_project(root, folder)
+    refine(folder, "{ start: 1000, stop: 1240, step: 80, refine_to: 20 }")
+    config = folder / "config/config.yaml"
+    config.write_text(config.read_text().replace("[Ref, CS100]", "[CS100]") + _REFINEMENT)
+
+
+_REFINEMENT = """
+refinement:
+  windows: [{ mode: 1B, highest_engine_order: 8, first: 0.02, last: 0.03, step_rad_s: 40 }]
+  largest_share: 0.9
+"""
+
+
+def speed_files(folder):
+    return {str(file.relative_to(folder)): file for file in folder.glob("results/*/*/speed_*.npz")}
+
+
+@pytest.mark.slow
+def test_real_rounds_stay_on_their_grid(real):
+    for scene in SCENES:
+        folder = real / "results/CS100" / scene
+        files = sorted(folder.glob("round_*.json"), key=lambda file: int(file.stem.split("_")[1]))
+        rounds = [json.loads(file.read_text())["new"] for file in files]
+        asked = [speed for new in rounds for speed in new]
+        assert len(rounds) > 2
+        assert rounds[-1] == []
+        assert len(set(asked)) == len(asked)
+        assert all(speed % 20 == 0 for speed in asked)
+        assert {f"speed_{speed:g}.npz" for speed in asked} == {file.name for file in folder.glob("speed_*.npz")}
+    with xr.open_dataset(real / "results/rms.nc") as rms:
+        run = rms["status"] != RunStatus.NOT_RUN
+        assert not np.array_equal(run.sel(scene="abradable"), run.sel(scene="direct"))
+        # what was not run has no numbers, what was run has them
+        assert rms["rms_normal"].notnull().all("tip_point").equals(run)
+    assert "Interactions above yield" in (real / "results/studies/refinement.md").read_text()
+    assert planned_outputs(real) == {}
+
+
+@pytest.mark.slow
+def test_kills_at_random_moments_lose_nothing(real, root, tmp_path):
+    """Killed in the middle of its rounds, again and again; in the end every array is bit for bit that of an undisturbed run."""
+    prepare_real(root, tmp_path)
+    command = [SNAKEMAKE, "all_blades", "--cores", "2"]
+    moments = random.Random(7)
+    for files in (2, 7, 10, 13):
+        run = subprocess.Popen(
+            command, cwd=tmp_path, env=os.environ | {"PYTHONPATH": str(tmp_path / "src")},
+            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True,
+        )  # fmt: skip
+        while run.poll() is None and len(speed_files(tmp_path)) < files:
+            time.sleep(0.1)
+        time.sleep(3.0 * moments.random())
+        with contextlib.suppress(ProcessLookupError):
+            os.killpg(run.pid, signal.SIGKILL)
+        run.wait()
+    snakemake(tmp_path, *command[1:])
+    undisturbed = speed_files(real)
+    assert speed_files(tmp_path).keys() == undisturbed.keys()
+    for name, file in speed_files(tmp_path).items():
+        with np.load(file) as one, np.load(undisturbed[name]) as other:
+            assert all(np.array_equal(one[key], other[key], equal_nan=one[key].dtype.kind == "f") for key in other.files), name
+    for name in ("rms", "spectrum", "stress", "wear"):
+        with xr.open_dataset(tmp_path / f"results/{name}.nc") as one, xr.open_dataset(real / f"results/{name}.nc") as other:
+            assert one.identical(other)
+    assert (tmp_path / "results/summary.csv").read_bytes() == (real / "results/summary.csv").read_bytes()
+    for file in real.glob("results/*/*/round_*.json"):
+        assert (tmp_path / file.relative_to(real)).read_bytes() == file.read_bytes()
+    assert not list(tmp_path.glob("results/**/.*partial*"))

@@ -1,0 +1,307 @@
+"""Speeds that refine themselves: what a range asks for, where a round looks next, and what comes of it."""
+
+from dataclasses import asdict, replace
+from itertools import pairwise
+
+import numpy as np
+import pytest
+import xarray as xr
+from hypothesis import given
+from hypothesis import strategies as st
+
+from r37core.config import ConfigError, load_settings
+from r37core.io import InputFileError
+from r37core.results.interactions import InteractionChoice
+from r37core.results.refinement import (
+    RefinementChoice,
+    Window,
+    known_of,
+    next_speeds,
+    refinement_choice_from,
+    stretches,
+    window_speeds,
+)
+from r37core.results.rounds import Round, first_round, measure, read_round, round_after, write_round
+from r37core.speeds import RefinedRange, SpeedError, SpeedPlan, exact_text, plan_speeds, speed_plan_from
+from r37core.studies.refinement import compare, plain_grid, replay
+from r37core.studies.refinement_table import refinement_table
+from r37core.time_integration.status import RunStatus
+from r37core.yaml_file import load_yaml
+
+WINDOWS = (Window("1B", 8, 0.0, 0.05, 5.0),)
+CHOICE = RefinementChoice(windows=WINDOWS, change=0.25, peak=0.1, largest_share=0.25, prominence=0.1)
+PLAN = plan_speeds([{"start": 750, "stop": 2000, "step": 20, "refine_to": 1}], 8.0)
+GRID = PLAN.refined[0]
+
+
+def campbell(crossings):
+    """A diagram whose mode 1B crosses order 4, 5, ... at the given speeds, and 1T nowhere."""
+    speeds = np.full((2, 8), np.nan)
+    speeds[0, 3 : 3 + len(crossings)] = crossings
+    return xr.Dataset(
+        {"crossing_speed": (("mode", "engine_order"), speeds)}, coords={"mode": ["1B", "1T"], "engine_order": np.arange(1, 9)}
+    ).reindex(mode=["1B", "1T", "2B"])
+
+
+def spiked(*spikes, yield_stress=1e9, diverged=()):
+    """A response on the whole grid: from each (first, peak, height) a branch rises to the peak, and drops after it."""
+    speeds = np.array(GRID.every_speed())
+    rms = 2e-5 + 1e-6 * np.sin(speeds)
+    for first, peak, height in spikes:
+        branch = (speeds >= first) & (speeds <= peak)
+        rms[branch] += height * (speeds[branch] - first + 1.0) / (peak - first + 1.0)
+    status = np.where(np.isin(speeds, diverged), int(RunStatus.DIVERGED), int(RunStatus.COMPLETED))
+    tips = np.stack([rms, 0.5 * rms], axis=1)
+    return xr.Dataset(
+        {
+            "status": ("speed", status),
+            "rms_normal": (("speed", "tip_point"), tips),
+            "rms_tangential": (("speed", "tip_point"), 3.0 * tips),
+            "max_von_mises": ("speed", np.where(status == 0, 2e12 * rms, np.nan)),
+            "yield_stress": ((), yield_stress),
+        },
+        coords={"speed": speeds, "tip_point": ["leading_edge", "trailing_edge"]},
+    )
+
+
+def asked(response, crossings=(), choice=CHOICE, plan=PLAN):
+    rounds = replay(response, campbell(crossings), plan, choice)
+    return rounds, sorted(speed for new in rounds for speed in new)
+
+
+def test_a_range_has_its_coarse_speeds_and_its_end():
+    plan = plan_speeds([{"start": 900, "stop": 1000.5, "step": 30, "refine_to": 1.5}], 8.0)
+    assert plan.certain == (900.0, 930.0, 960.0, 990.0, 1000.5)
+    assert plan.refined == (RefinedRange(900.0, 1.5, 20, 67),)
+    assert len(plan.every_speed()) == 68
+    assert speed_plan_from(asdict(plan)) == plan
+    assert plan_speeds([{"start": 900, "stop": 1000, "refine_to": 1}], 8.0).refined[0].coarse == 8
+    assert PLAN.at_most(0.2) == 250
+
+
+def test_names_of_speeds_are_exact():
+    """0.1 is no binary number: the speeds of a grid still are what a user would write, and their names tell them apart."""
+    grid = plan_speeds([{"start": 750, "stop": 752, "step": 0.4, "refine_to": 0.1}], 8.0).refined[0]
+    names = [exact_text(speed) for speed in grid.every_speed()]
+    assert names[:5] == ["750", "750.1", "750.2", "750.3", "750.4"]
+    assert len(set(names)) == 21
+    assert [float(name) for name in names] == grid.every_speed()
+
+
+def test_a_number_inside_a_range_is_no_repetition():
+    plan = plan_speeds([{"start": 900, "stop": 1000, "step": 20, "refine_to": 1}, 920, 933, 933.5], 8.0)
+    assert plan.certain == (900.0, 920.0, 933.0, 933.5, 940.0, 960.0, 980.0, 1000.0)
+    assert plan.at_most(0.2) == 20 + 2
+
+
+@pytest.mark.parametrize(
+    ("entries", "message"),
+    [
+        (
+            [{"start": 900, "stop": 1000, "step": 20, "refine_to": 3}],
+            "refine_to 3 with steps of 20 rad/s; allowed: the step is",
+        ),
+        ([{"start": 900, "stop": 1000, "refine_to": 3}], "refine_to 3 with steps of 8 rad/s"),
+        ([{"start": 900, "stop": 1000, "step": 1, "refine_to": 20}], "refine_to 20 with steps of 1 rad/s"),
+        ([{"start": 1000, "stop": 900, "step": 20, "refine_to": 1}], "range from 1000 to 900"),
+        (
+            [
+                {"start": 900, "stop": 1000, "step": 20, "refine_to": 1},
+                {"start": 995, "stop": 1100, "step": 20, "refine_to": 1},
+            ],
+            "ranges with refine_to that overlap, from 995 to 1000 rad/s",
+        ),
+        ([{"start": 900, "stop": 1000, "step": 20, "refine_to": 1}, 933, 933], "933 rad/s twice"),
+        ([{"start": 900, "stop": 1e6, "step": 20, "refine_to": 1}], "allowed: at most 100000 speeds together"),
+    ],
+)
+def test_ranges_that_cannot_be_refined(entries, message):
+    with pytest.raises(SpeedError, match=message):
+        plan_speeds(entries, 8.0)
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        (
+            {"speeds": [{"start": 750, "stop": 2000, "step": 20, "refine_to": 7}]},
+            r"config\.yaml: speeds: found refine_to 7 with",
+        ),
+        ({"speeds": [{"start": 750, "stop": 2000, "refine_to": 0}]}, r"speeds\.0\.refine_to: found 0; allowed: .*at least"),
+        (
+            {"refinement": {"windows": [{"mode": "3B"}]}},
+            r"refinement\.windows\.0\.mode: found '3B'; allowed: one of 1B, 1T, 2B",
+        ),
+        (
+            {
+                "speeds": [{"start": 750, "stop": 2000, "step": 20, "refine_to": 1}],
+                "refinement": {
+                    "windows": [{"mode": "1B", "highest_engine_order": 21, "first": 0, "last": 0.1, "step_rad_s": 5}]
+                },
+            },
+            r"windows\.0\.highest_engine_order: found 21; allowed: at most campbell\.highest_engine_order \(20\)",
+        ),
+        (
+            {
+                "refinement": {
+                    "windows": [{"mode": "1B", "highest_engine_order": 4, "first": 0.1, "last": 0.1, "step_rad_s": 5}]
+                }
+            },
+            r"windows\.0\.last: found 0\.1; allowed: more than first \(0\.1\)",
+        ),
+        ({"refinement": {"change": -1}}, r"refinement\.change: found -1; allowed: .*more than 0"),
+        ({"refinement": {"largest_share": 1.5}}, r"refinement\.largest_share: found 1\.5; allowed: .*at most 1"),
+    ],
+)
+def test_refinement_refusals(config_copy, changes, message):
+    with pytest.raises(ConfigError, match=message):
+        load_settings(load_yaml(config_copy / "config/config.yaml") | changes, config_copy)
+
+
+def test_windows_are_looked_at_more_closely():
+    expected = stretches(campbell([1200.0]), WINDOWS)
+    assert [(one.low, one.high, one.step) for one in expected] == [(1200.0, 1260.0, 5.0)]
+    speeds = sorted({*PLAN.certain, *window_speeds(GRID, expected)})
+    for first, last in pairwise(speeds):
+        if first < 1260.0 and last > 1200.0:
+            assert last - first <= 5.0
+        elif last < 1180.0 or first > 1280.0:
+            assert last - first >= 10.0
+    assert window_speeds(GRID, []) == []
+
+
+def test_orders_above_the_window_s_have_none():
+    assert stretches(campbell([1200.0]), (replace(WINDOWS[0], highest_engine_order=3),)) == []
+
+
+def test_a_branch_its_peak_and_its_drop_are_found_to_one_grid_step():
+    rounds, speeds = asked(spiked((1600.0, 1727.0, 1e-3)))
+    assert {1726.0, 1727.0, 1728.0} <= set(speeds)
+    assert len(speeds) < 0.15 * len(PLAN.every_speed())
+    assert len(rounds) <= 6
+
+
+def test_a_narrow_interaction_in_a_window_is_found():
+    response = spiked((1232.0, 1237.0, 1e-3))
+    assert {1237.0, 1238.0} <= set(asked(response, [1200.0])[1])
+    assert 1237.0 not in asked(response)[1]
+
+
+def test_where_stress_crosses_yield_is_found():
+    """Stress rises with the speed, by too little from speed to speed to be a change."""
+    response = spiked()
+    response["rms_normal"][:] = response["rms_tangential"][:] = 1e-3
+    response["max_von_mises"][:] = np.linspace(0.7e9, 1.1e9, 1251)
+    crossing = 750.0 + 1250.0 * 0.3 / 0.4
+    speeds = np.array(asked(response, choice=replace(CHOICE, prominence=0.5))[1])
+    assert speeds[speeds > crossing][0] - speeds[speeds < crossing][-1] <= 1.0
+
+
+def test_a_change_of_status_is_found():
+    response = spiked(diverged=range(1500, 1571))
+    speeds = asked(response)[1]
+    assert {1499.0, 1500.0, 1570.0, 1571.0} <= set(speeds)
+
+
+def test_a_flat_response_asks_for_no_more():
+    flat = spiked()
+    flat["rms_normal"][:] = flat["rms_tangential"][:] = 1e-5
+    flat["max_von_mises"][:] = 1e7
+    assert asked(flat)[0] == [list(PLAN.certain)]
+    assert asked(spiked())[0] == [list(PLAN.certain)]
+    silent = spiked()
+    for name in ("rms_normal", "rms_tangential", "max_von_mises"):
+        silent[name][:] = 0.0
+    assert asked(silent)[0] == [list(PLAN.certain)]
+
+
+def test_the_share_is_kept_and_the_largest_goes_first():
+    noise = spiked((1600.0, 1727.0, 1e-3))
+    noise["rms_normal"][:] *= 1.0 + 0.9 * np.random.default_rng(1).random((1251, 1))
+    _, speeds = asked(noise, choice=replace(CHOICE, largest_share=0.1))
+    assert len(speeds) <= 125
+    added = set(speeds) - set(PLAN.certain)
+    assert added
+    assert all(1600.0 <= speed <= 1740.0 for speed in added)
+
+
+def test_diverged_and_missing_numbers_are_no_peaks():
+    rows = {speed: [int(RunStatus.DIVERGED), np.nan, np.nan, np.nan] for speed in PLAN.certain}
+    assert next_speeds(GRID, known_of(rows), CHOICE) == []
+
+
+def test_speeds_off_the_grid_are_not_refined_about():
+    plan = plan_speeds([{"start": 750, "stop": 2000, "step": 20, "refine_to": 1}, 999.5, 2500], 8.0)
+    rows = {speed: [0, 1e-5, 1e-5, 0.1] for speed in plan.certain} | {999.5: [0, 1.0, 1.0, 9.0], 2500.0: [0, 1.0, 1.0, 9.0]}
+    assert next_speeds(plan.refined[0], known_of(rows), CHOICE) == []
+
+
+@given(st.lists(st.floats(0.0, 1.0), min_size=101, max_size=101), st.floats(0.1, 1.0), st.integers(1, 20))
+def test_any_response_ends_in_speeds_of_the_grid_each_once(values, share, coarse):
+    plan = SpeedPlan((), (RefinedRange(100.0, 0.1, coarse, 100),))
+    plan = replace(plan, certain=tuple(plan.refined[0].speed(place) for place in plan.refined[0].coarse_places()))
+    rows = {speed: [0, value, value**2, 2.0 * value] for speed, value in zip(plan.every_speed(), values, strict=True)}
+    one = first_round(plan, campbell([]), choice := replace(CHOICE, largest_share=share))
+    run = list(one.new)
+    for _ in range(100):
+        one = round_after(one, {speed: rows[speed] for speed in one.new}, plan, choice)
+        if not one.new:
+            break
+        run += one.new
+    assert not one.new
+    assert len(set(run)) == len(run)
+    assert set(run) <= set(plan.every_speed())
+    assert len(run) <= max(len(plan.certain), int(share * 101))
+
+
+@pytest.mark.parametrize("stop", [900, 901])
+def test_one_or_two_speeds_are_a_range_too(stop):
+    plan = plan_speeds([{"start": 900, "stop": stop, "step": 20, "refine_to": 1}], 8.0)
+    one = first_round(plan, campbell([890.0]), CHOICE)
+    assert one.new == plan.certain == (900.0, 901.0)[: stop - 899]
+    assert round_after(one, {speed: [0, 1e-3, 1e-3, 2.0] for speed in one.new}, plan, CHOICE).new == ()
+
+
+def test_rounds_do_not_depend_on_the_order_of_what_is_known():
+    rows = {speed: [0, 1e-4 * np.sin(speed), 1e-4, 0.5] for speed in PLAN.certain}
+    backwards = dict(reversed(rows.items()))
+    assert next_speeds(GRID, known_of(rows), CHOICE) == next_speeds(GRID, known_of(backwards), CHOICE)
+
+
+def test_a_round_s_file_says_what_it_was(tmp_path):
+    one = Round((900.1, 1000.0), {850.0: [0, 1e-5, 0.1 + 0.2, np.nan], 860.0: [1, np.nan, np.nan, np.nan]})
+    write_round(one, tmp_path / "round_3.json")
+    again = read_round(tmp_path / "round_3.json")
+    assert again.new == one.new
+    np.testing.assert_equal(dict(again.measured), dict(one.measured))
+    assert "NaN" not in (tmp_path / "round_3.json").read_text()
+    (tmp_path / "round_3.json").write_text('{"new": [1]}')
+    with pytest.raises(InputFileError, match=r"round_3\.json: cannot be read .*delete it and run again"):
+        read_round(tmp_path / "round_3.json")
+
+
+def test_what_a_run_gives():
+    run = {"status": np.array(0), "rms": np.arange(6.0).reshape(2, 3), "snapshots": np.ones((4, 2))}
+    recovery = type("Recovery", (), {"max_von_mises": lambda self, snapshots: np.arange(len(snapshots)) + 3.0})()
+    assert measure(run, recovery, 2, 8.0)[0] == 0
+    assert measure(run, recovery, 2, 8.0)[3] == 0.5
+    assert np.isnan(measure(run, None, 2, 8.0)[3])
+    assert np.isnan(measure(run | {"status": np.array(1)}, recovery, 2, 8.0)[3])
+
+
+def test_choice_survives_the_way_to_a_job():
+    assert refinement_choice_from(asdict(CHOICE)) == CHOICE
+
+
+def test_study_names_what_is_missed():
+    """Of two interactions above yield the one in the window is found, the other one, 5 rad/s wide, only by every speed."""
+    response, diagram = spiked((1232.0, 1237.0, 1e-3), (1832.0, 1836.0, 1e-3)), campbell([1200.0])
+    found = compare(response, diagram, replay(response, diagram, PLAN, CHOICE), InteractionChoice())
+    assert [(one.peak, one.found, one.same) for one in found.interactions] == [(1237.0, True, True), (1836.0, False, False)]
+    every = compare(response, diagram, [plain_grid(PLAN, 1.0)], InteractionChoice())
+    assert (every.runs, [one.same for one in every.interactions]) == (1251, [True, True])
+    table = refinement_table({"refined": {("Ref", "abradable"): found}, "every 1 rad/s": {("Ref", "abradable"): every}},
+                             {("Ref", "abradable"): 1251})  # fmt: skip
+    assert f"1 found, 1 the same, {found.runs} runs in {found.rounds} rounds | 2 found, 2 the same, 1251 runs |" in table
+    assert "| 1836, 3.1 | 2.04 | none |" in table.split("Missed")[1]
+    assert "1237" not in table.split("Missed")[1]

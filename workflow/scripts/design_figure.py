@@ -1,0 +1,16 @@
+"""Draw one family. Input: designs.csv. Params: blades, varied. Output: picture."""
+
+import pandas as pd
+from job import run
+
+from r37core.figures.designs import draw_designs
+from r37core.figures.style import save
+
+
+def main(snakemake):
+    table = pd.read_csv(snakemake.input[0])
+    chosen = table[table["blade"].isin(snakemake.params.blades)]
+    save(draw_designs(snakemake.wildcards.family, chosen, snakemake.params.varied), snakemake.output[0])
+
+
+run(snakemake, main)

@@ -1,0 +1,32 @@
+"""Ask for the next speeds. Inputs: campbell, or before, speeds, rom. Params: plan, choice, ... Output: round_*.json."""
+
+from job import run
+
+from r37core.dataset_file import read_dataset
+from r37core.fem.material import Material
+from r37core.results.refinement import refinement_choice_from
+from r37core.results.rounds import first_round, measure, read_round, round_after, write_round
+from r37core.results.stress import StressRecovery
+from r37core.rom.rom_file import read_reduced_model
+from r37core.speeds import speed_plan_from
+from r37core.time_integration.speed_file import read_speed
+
+
+def main(snakemake):
+    params, given = snakemake.params, snakemake.input
+    plan, choice = speed_plan_from(params.plan), refinement_choice_from(params.choice)
+    if snakemake.wildcards.round == "0":
+        asked = first_round(plan, read_dataset(given.campbell), choice)
+    else:
+        before, material = read_round(given.before), Material(**params.material)
+        recovery = StressRecovery(read_reduced_model(given.rom), material) if params.stress else None
+        files = [given.speeds] if isinstance(given.speeds, str) else given.speeds
+        gave = {
+            speed: measure(read_speed(file), recovery, params.stress_instants, material.yield_stress)
+            for speed, file in zip(before.new, files, strict=True)
+        }
+        asked = round_after(before, gave, plan, choice)
+    write_round(asked, snakemake.output[0])
+
+
+run(snakemake, main)
