@@ -122,6 +122,11 @@ CONFIG_REFUSALS = [
         "stop: 700 }",
         r"speeds\.0: found a range from 750 to 700; allowed: stop not below start",
     ),
+    (
+        "start: 750, ",
+        "start: 750, strt: 1, ",
+        r"speeds\.0: found unknown key strt; allowed keys: start, stop, step, refine_to \(did you mean start\?\)",
+    ),
     ("blades: all", "blades: [Ref, Ref]", r"blades\.1: found 'Ref' twice; allowed: each once"),
     ("blades: all", "blades: [50]", r"blades\.0: found 50; allowed: string"),
     ("blades: all", "blades:", r"blades: found nothing"),

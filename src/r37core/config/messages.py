@@ -39,7 +39,7 @@ def explain(error: ValidationError, content: Any, model: type[BaseModel]) -> tup
         return path, path, f"found {context['found']}; allowed: {context['allowed']}"
     if first["type"] in ("missing", "extra_forbidden"):
         *parent, key = path
-        known = list(_at(schema, tuple(parent), schema, variants).get("properties", {}))
+        known = _keys(_at(schema, tuple(parent), schema, variants), schema)
         if first["type"] == "missing":
             return tuple(parent), tuple(parent), f"missing key {key}; allowed keys: {', '.join(known)}"
         close = difflib.get_close_matches(str(key), known, 1)
@@ -107,6 +107,12 @@ def _resolved(part: Mapping[str, Any], schema: Mapping[str, Any]) -> Mapping[str
     while "$ref" in part:
         part = schema["$defs"][part["$ref"].rsplit("/", 1)[1]]
     return part
+
+
+def _keys(part: Mapping[str, Any], schema: Mapping[str, Any]) -> list[str]:
+    """Keys of a mapping, or of those among several kinds of values that are one."""
+    choices = [_resolved(choice, schema) for choice in [*part.get("anyOf", []), *part.get("oneOf", [])]]
+    return list(part.get("properties", {})) + [key for choice in choices for key in choice.get("properties", {})]
 
 
 def _at(part: Mapping[str, Any], path: KeyPath, schema: Mapping[str, Any], variants: frozenset[str]) -> Mapping[str, Any]:
