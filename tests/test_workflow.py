@@ -312,7 +312,7 @@ def test_python_of_the_pages_runs(root, finished):
 
 def test_blades_of_the_pages_are_accepted(root, project):
     with open(project / "config/blades.yaml", "a") as stream:
-        stream.write("\n" + blocks(root, "yaml")[-1])
+        stream.write("\n" + next(block for block in blocks(root, "yaml") if "Drawn:" in block))
     config = project / "config/config.yaml"
     config.write_text(config.read_text().replace("[Ref, CS100]", "[Mine, Stiffer, Drawn]"))
     assert planned(project)["geometry"] == {"Mine", "Stiffer", "Drawn"}
