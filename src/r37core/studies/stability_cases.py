@@ -49,7 +49,7 @@ def extremes(lined: str, direct: str) -> list[Extreme]:
     ]
     cases += [
         Extreme("speed", f"{speed:g}", scene, speed=float(speed), revolutions=2 if speed <= 10 else 60)
-        for speed in (1, 10, 100, 3000, 5000)
+        for speed in (2, 10, 100, 3000, 5000)
         for scene in both
     ]
     cases += [
