@@ -1,7 +1,9 @@
 """Speeds that refine themselves: what a range asks for, where a round looks next, and what comes of it."""
 
+import runpy
 from dataclasses import asdict, replace
 from itertools import pairwise
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -25,6 +27,7 @@ from r37core.results.rounds import Round, first_round, measure, read_round, roun
 from r37core.speeds import RefinedRange, SpeedError, SpeedPlan, exact_text, plan_speeds, speed_plan_from
 from r37core.studies.refinement import compare, plain_grid, replay
 from r37core.studies.refinement_table import refinement_table
+from r37core.time_integration.speed_file import write_speed
 from r37core.time_integration.status import RunStatus
 from r37core.yaml_file import load_yaml
 
@@ -305,3 +308,29 @@ def test_study_names_what_is_missed():
     assert f"1 found, 1 the same, {found.runs} runs in {found.rounds} rounds | 2 found, 2 the same, 1251 runs |" in table
     assert "| 1836, 3.1 | 2.04 | none |" in table.split("Missed")[1]
     assert "1237" not in table.split("Missed")[1]
+
+
+class _Wildcards(dict):
+    """As Snakemake has them: a mapping whose values are attributes too."""
+
+    __getattr__ = dict.__getitem__
+
+
+def test_a_round_of_a_blade_without_stress(root, tmp_path, monkeypatch):
+    """A blade given by matrices has no material: its rounds go by rms and status alone."""
+    write_round(Round((900.0,)), tmp_path / "round_0.json")
+    write_speed({"status": np.array(0), "rms": np.full((2, 3), 1e-4)}, tmp_path / "speed_900.npz", {})
+    params = {"plan": asdict(SpeedPlan((900.0,))), "choice": asdict(CHOICE), "stress": False, "stress_instants": 1}
+    job = SimpleNamespace(
+        rule="refine",
+        log=[str(tmp_path / "refine.log")],
+        wildcards=_Wildcards(round="1"),
+        input=SimpleNamespace(before=tmp_path / "round_0.json", speeds=str(tmp_path / "speed_900.npz")),
+        output=[str(tmp_path / "round_1.json")],
+        params=SimpleNamespace(**params, material={}),
+    )
+    monkeypatch.syspath_prepend(root / "workflow/scripts")
+    runpy.run_path(str(root / "workflow/scripts/refine.py"), {"snakemake": job})
+    status, normal, _, stress = read_round(tmp_path / "round_1.json").measured[900.0]
+    assert (status, normal) == (0, 1e-4)
+    assert np.isnan(stress)

@@ -1,5 +1,7 @@
 """Run every speed of one blade and scene. Inputs: rom, contact model. Params: speeds, scene, choice, ... Output: dataset."""
 
+import math
+
 from job import run
 
 from r37core.fem.material import Material
@@ -14,9 +16,9 @@ from r37core.time_integration.speed_run import run_speed
 
 def main(snakemake):
     params = snakemake.params
-    model, material = read_contact_model(snakemake.input.model), Material(**params.material)
-    choice = IntegrationChoice(**params.choice)
-    recovery = StressRecovery(read_reduced_model(snakemake.input.rom), material) if "stress" in params.results else None
+    model, choice = read_contact_model(snakemake.input.model), IntegrationChoice(**params.choice)
+    stress = "stress" in params.results
+    recovery = StressRecovery(read_reduced_model(snakemake.input.rom), Material(**params.material)) if stress else None
     files = run_one_by_one(
         lambda speed: run_speed(model, speed, params.scene, choice, params.results, **params.kept), params.speeds
     )
@@ -27,7 +29,7 @@ def main(snakemake):
         recovery,
         stress_history_speeds=(),
         stress_instants=params.stress_instants,
-        yield_stress=material.yield_stress,
+        yield_stress=params.material.get("yield_stress", math.inf),
         provenance=params.provenance,
     )
 

@@ -1,5 +1,7 @@
 """Ask for the next speeds. Inputs: campbell, or before, speeds, rom. Params: plan, choice, ... Output: round_*.json."""
 
+import math
+
 from job import run
 
 from r37core.dataset_file import read_dataset
@@ -18,11 +20,12 @@ def main(snakemake):
     if snakemake.wildcards.round == "0":
         asked = first_round(plan, read_dataset(given.campbell), choice)
     else:
-        before, material = read_round(given.before), Material(**params.material)
-        recovery = StressRecovery(read_reduced_model(given.rom), material) if params.stress else None
+        before = read_round(given.before)
+        recovery = StressRecovery(read_reduced_model(given.rom), Material(**params.material)) if params.stress else None
+        yield_stress = params.material.get("yield_stress", math.inf)
         files = [given.speeds] if isinstance(given.speeds, str) else given.speeds
         gave = {
-            speed: measure(read_speed(file), recovery, params.stress_instants, material.yield_stress)
+            speed: measure(read_speed(file), recovery, params.stress_instants, yield_stress)
             for speed, file in zip(before.new, files, strict=True)
         }
         asked = round_after(before, gave, plan, choice)

@@ -49,5 +49,5 @@ class Refinement:
         return self.settings.speed_plans[wildcards.blade, wildcards.scene].every_speed()
 
     def results(self, wildcards: Any) -> list[str]:
-        """What the comparison reads of a scene's results."""
-        return [kind for kind in self.settings.scenes[wildcards.scene].results if kind in _COMPARED]
+        """What the comparison reads of the results of a blade and scene."""
+        return [kind for kind in self.settings.results_of(wildcards.blade, wildcards.scene) if kind in _COMPARED]
