@@ -50,3 +50,11 @@ def planned_outputs(folder, *arguments):
         if rule and output:
             found.setdefault(rule[1], set()).add(output[1].removeprefix("results/"))
     return found
+
+
+def edit(project, name, old, new):
+    """Change one place of a configuration file."""
+    file = project / "config" / name
+    text = file.read_text()
+    assert old in text
+    file.write_text(text.replace(old, new, 1))

@@ -224,6 +224,9 @@ def test_choices_change_what_is_drawn(page, datasets):
     assert "Not computed for L<50> in direct" in page.text_content("#wear")
     page.select_option("#scene", "abradable")
     assert page.locator("#wear.js-plotly-plot").count() == 1
+    # drawn anew, it is still listened to
+    page.evaluate("document.getElementById('wear').emit('plotly_click', { points: [{ x: 1200 }] })")
+    assert "1200 rad/s" in page.text_content("#now")
 
 
 @pytest.mark.slow

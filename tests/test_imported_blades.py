@@ -210,6 +210,6 @@ def test_plan_of_exports(three):
     assert exports.orientation(SimpleNamespace(blade="Ref")) is None
     assert exports.choice["mode_speeds"] == (0.0, 2000.0)
     assert exports.speed_files(fan) == [f"<results>/Fan/direct/speed_{speed}.npz" for speed in ("900", "950.5")]
-    assert exports.stress_speeds(fan, SimpleNamespace(speeds=exports.speed_files(fan))) == [900.0, 950.5]
+    assert exports.sweep.speeds(fan, SimpleNamespace(speeds=exports.speed_files(fan))) == [900.0, 950.5]
     assert exports.only_worst(fan)
     assert set(exports.matrix_files(fan)) == {"rom"}

@@ -4,7 +4,7 @@ import re
 import shutil
 
 import pytest
-from stubbed_runs import copy_stubbed, planned_outputs
+from stubbed_runs import copy_stubbed, edit, planned_outputs
 from workflow_runs import snakemake
 
 pytestmark = pytest.mark.slow
@@ -29,13 +29,6 @@ def finished(root, tmp_path_factory):
 def project(finished, tmp_path):
     shutil.copytree(finished, tmp_path / "project", copy_function=shutil.copy2)
     return tmp_path / "project"
-
-
-def edit(project, name, old, new):
-    file = project / "config" / name
-    text = file.read_text()
-    assert old in text
-    file.write_text(text.replace(old, new, 1))
 
 
 def runs(speeds=SPEEDS, blades=BLADES, scenes=SCENES):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -40,6 +40,11 @@ def readable(file: Path | str) -> Iterator[None]:
     except Exception as error:
         reason = f"{type(error).__name__}: {error}" if Path(file).exists() else "there is no such file"
         raise InputFileError(f"{file}: cannot be read ({reason}); if it is a result, delete it and run again") from error
+
+
+def as_list(files: str | Sequence[str]) -> list[str]:
+    """The files of a job's input, which is a text where there is one file only."""
+    return [files] if isinstance(files, str) else list(files)
 
 
 def write_text(text: str, file: Path | str) -> None:

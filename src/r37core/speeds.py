@@ -98,8 +98,7 @@ def plan_speeds(entries: Sequence[float | Mapping[str, Any]], default_step: floa
             refined.append(_refined(start, step, finest, int(intervals)))
             speeds += [refined[-1].speed(place) for place in refined[-1].coarse_places()]
         else:
-            # rounded, so that a step like 0.1 gives the numbers a user would write
-            speeds += [round(start + i * step, 9) for i in range(int(intervals) + 1)]
+            speeds += spaced(start, stop, step)
     for one, other in pairwise(sorted(refined, key=lambda one: one.start)):
         if other.start < one.speed(one.last):
             raise SpeedError(
@@ -119,6 +118,12 @@ def _refined(start: float, step: float, refine_to: float, last: int) -> RefinedR
     if coarse < 1 or abs(coarse * refine_to - step) > 1e-9 * step:
         raise SpeedError(f"found refine_to {refine_to:g} with steps of {step:g} rad/s; allowed: the step is a multiple of it")
     return RefinedRange(start, refine_to, coarse, last)
+
+
+def spaced(start: float, stop: float, step: float) -> list[float]:
+    """Numbers from `start` to `stop`, both included, as far as the step goes."""
+    # rounded, so that a step like 0.1 gives the numbers a user would write
+    return [round(start + i * step, 9) for i in range(int((stop - start) / step + 1e-9) + 1)]
 
 
 def exact_text(number: float) -> str:

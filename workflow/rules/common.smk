@@ -68,7 +68,10 @@ onstart:
 
 onsuccess:
     lock.release()
-    atexit.register(lambda: print(*closing_lines(settings.results, BEGAN, time.time()), sep="\n", file=sys.stderr))
+    # after Snakemake's own last words, and nothing where there is nothing to say
+    atexit.register(
+        lambda: sys.stderr.writelines(f"{line}\n" for line in closing_lines(settings.results, BEGAN, time.time()))
+    )
 
 
 onerror:

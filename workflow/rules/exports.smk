@@ -89,7 +89,7 @@ rule exported_stress:
         ENVIRONMENT
     params:
         choice=exported.choice,
-        speeds=exported.stress_speeds,
+        speeds=sweep.speeds,
         only_worst=exported.only_worst,
         material=structure.elastic,
         orientation=exported.orientation,

@@ -4,14 +4,14 @@ import pandas as pd
 from job import run
 
 from r37core.dataset_file import read_dataset
-from r37core.io import atomic_write
+from r37core.io import as_list, atomic_write
 from r37core.results.designs import design_table
 
 
 def main(snakemake):
     params, given = snakemake.params, snakemake.input
     stress = read_dataset(given.stress) if given.get("stress") else None
-    files = dict(zip(params.designs, [given.geometry] if isinstance(given.geometry, str) else given.geometry, strict=True))
+    files = dict(zip(params.designs, as_list(given.geometry), strict=True))
     masses = {blade: params.densities[blade] * float(read_dataset(file)["volume"]) for blade, file in files.items()}
     table = design_table(
         params.designs, masses, read_dataset(given.campbell), stress, pd.read_csv(given.summary), params.scenes

@@ -6,6 +6,7 @@ from job import run
 
 from r37core.exchange.exports import OURS, Target, worst_instants, write_stress
 from r37core.fem.material import Material
+from r37core.io import as_list
 from r37core.mesh.mesh_files import read_vtu
 from r37core.results.stress import StressRecovery
 from r37core.rom.rom_file import read_reduced_model
@@ -14,8 +15,7 @@ from r37core.rom.rom_file import read_reduced_model
 def main(snakemake):
     given, params = snakemake.input, snakemake.params
     model, material = read_reduced_model(given.model), Material(**params.material)
-    files = [given.speeds] if isinstance(given.speeds, str) else given.speeds
-    instants = worst_instants(files, params.speeds, StressRecovery(model, material), params.only_worst)
+    instants = worst_instants(as_list(given.speeds), params.speeds, StressRecovery(model, material), params.only_worst)
     for speed, instant in instants.items():
         print(f"{speed:g} rad/s: largest von Mises stress of the submesh {instant.largest:.6g} Pa")
     target = Target(Path(snakemake.output[0]), params.choice["formats"], params.orientation or OURS)

@@ -6,6 +6,7 @@ from job import run
 
 from r37core.dataset_file import read_dataset
 from r37core.fem.material import Material
+from r37core.io import as_list
 from r37core.results.refinement import refinement_choice_from
 from r37core.results.rounds import first_round, measure, read_round, round_after, write_round
 from r37core.results.stress import StressRecovery
@@ -23,10 +24,9 @@ def main(snakemake):
         before = read_round(given.before)
         recovery = StressRecovery(read_reduced_model(given.rom), Material(**params.material)) if params.stress else None
         yield_stress = params.material.get("yield_stress", math.inf)
-        files = [given.speeds] if isinstance(given.speeds, str) else given.speeds
         gave = {
             speed: measure(read_speed(file), recovery, params.stress_instants, yield_stress)
-            for speed, file in zip(before.new, files, strict=True)
+            for speed, file in zip(before.new, as_list(given.speeds), strict=True)
         }
         asked = round_after(before, gave, plan, choice)
     write_round(asked, snakemake.output[0])

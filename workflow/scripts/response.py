@@ -5,6 +5,7 @@ import math
 from job import run
 
 from r37core.fem.material import Material
+from r37core.io import as_list
 from r37core.results.response import write_response
 from r37core.results.stress import StressRecovery
 from r37core.rom.rom_file import read_reduced_model
@@ -14,7 +15,7 @@ def main(snakemake):
     params = snakemake.params
     recovery = StressRecovery(read_reduced_model(snakemake.input.rom), Material(**params.material)) if params.stress else None
     write_response(
-        [snakemake.input.speeds] if isinstance(snakemake.input.speeds, str) else snakemake.input.speeds,
+        as_list(snakemake.input.speeds),
         params.speeds,
         snakemake.output[0],
         recovery,

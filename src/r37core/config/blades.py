@@ -18,6 +18,7 @@ from r37core.exchange.material import check_material
 from r37core.exchange.source import MatricesSource, MeshSource
 from r37core.fem import material as fem_material
 from r37core.rom.choice import StressSubmesh
+from r37core.speeds import spaced
 from r37core.text_file import TextFileError
 
 from .document import Document
@@ -66,7 +67,7 @@ class Variation(Section):
 
     def values(self) -> list[float]:
         """All of them."""
-        return [round(self.start + i * self.step, 9) for i in range(int((self.stop - self.start) / self.step + 1e-9) + 1)]
+        return spaced(self.start, self.stop, self.step)
 
 
 Varied = Annotated[

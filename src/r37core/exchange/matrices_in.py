@@ -24,6 +24,7 @@ from r37core.rom.reduced_model import RecoveryNodes, ReducedModel
 
 from .errors import ImportRefused, blamed
 from .source import MASS_UNITS, STIFFNESS_UNITS, MatricesSource, matrix_files
+from .tip import arc_length
 
 COLUMNS = ("x", "y", "z", "dof_x", "dof_y", "dof_z")
 _REDUCED_UP_TO = 500  # coordinates beside those of the contact nodes: matrices that small are taken as they are
@@ -225,5 +226,5 @@ def _projected(matrix: sp.csr_array, vectors: np.ndarray) -> np.ndarray:
 
 def _fractions(points: np.ndarray) -> np.ndarray:
     """Fractions of the length along the nodes, from leading to trailing edge; a half for a single one."""
-    length = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))])
+    length = arc_length(points)
     return length / length[-1] if length[-1] > 0.0 else np.full(len(points), 0.5)

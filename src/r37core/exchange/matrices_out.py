@@ -22,8 +22,7 @@ from .matrices_in import COLUMNS
 def write_reduced_matrices(model: ReducedModel, tip_line: str, speeds: Sequence[float], folder: Path) -> None:
     """Write the reduced M and K_<speed> at `speeds` (rad/s) with boundary.csv; contact nodes on `tip_line` come first."""
     content = {"M": model.mass} | {f"K_{exact_text(speed)}": model.stiffness_at(speed) for speed in speeds}
-    line = model.tip_lines[tip_line]
-    points = line.points[[int(np.flatnonzero(line.nodes == node)[0]) for node in model.boundary_nodes]]
+    points = model.contact_nodes(tip_line).points
     _write(content, points, np.arange(3 * len(points)).reshape(-1, 3), folder)
 
 

@@ -62,7 +62,7 @@ def find_tip_lines(points: np.ndarray, faces: list[Faces], pressure_forward: boo
     if count > 1:
         raise ImportRefused(f"tip: its faces are {count} patches that do not touch; allowed: one")
     outlines = loops(faces)
-    outline = max(outlines, key=lambda loop: _length(points[np.append(loop, loop[0])]))
+    outline = max(outlines, key=lambda loop: arc_length(points[np.append(loop, loop[0])])[-1])
     first, last = _farthest(points[outline])
     if points[outline[first], 2] > points[outline[last], 2]:
         first, last = last, first
@@ -101,7 +101,7 @@ def _between_corners(points: np.ndarray, line: np.ndarray, thickness: float) -> 
     step = np.diff(path, axis=0)
     step /= np.linalg.norm(step, axis=1)[:, None]
     sharp = np.flatnonzero(np.sum(step[1:] * step[:-1], axis=1) < _CORNER) + 1
-    length = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(path, axis=0), axis=1))])
+    length = arc_length(path)
     reach = min(_NEAR_END * thickness, 0.25 * length[-1])
     start = max(sharp[length[sharp] <= reach], default=0)
     end = min(sharp[length[-1] - length[sharp] <= reach], default=len(line) - 1)
@@ -124,12 +124,13 @@ def _area(outline: np.ndarray) -> float:
     return float(0.5 * np.linalg.norm(np.sum(np.cross(outline - centre, np.roll(outline, -1, axis=0) - centre), axis=0)))
 
 
-def _length(path: np.ndarray) -> float:
-    return float(np.linalg.norm(np.diff(path, axis=0), axis=1).sum())
+def arc_length(path: np.ndarray) -> np.ndarray:
+    """Length along a path up to each of its points, shape (points,), of points of shape (points, 3)."""
+    return np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(path, axis=0), axis=1))])
 
 
 def _fractions(path: np.ndarray) -> np.ndarray:
-    length = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(path, axis=0), axis=1))])
+    length = arc_length(path)
     return length / length[-1]
 
 

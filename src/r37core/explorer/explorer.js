@@ -71,16 +71,24 @@
     };
   }
 
-  function draw(name, traces, plan) {
+  const yieldLine = (limit) => ({
+    type: "line", xref: "paper", x0: 0, x1: 1, y0: limit, y1: limit, line: { color: "#D55E00", width: 1.5 },
+  });
+
+  // `empty`: what stands there without traces; `clicks`: whether a click goes to the speed under it
+  function draw(name, traces, plan, { empty = `Not computed for ${state.blade} in ${state.scene}.`, clicks = true } = {}) {
     const place = document.getElementById(name);
     if (traces.length === 0) {
-      if (place.classList.contains("js-plotly-plot")) Plotly.purge(place);
-      place.innerHTML = `<p class="empty">Not computed for ${state.blade} in ${state.scene}.</p>`;
+      if (place.classList.contains("js-plotly-plot")) {
+        Plotly.purge(place);
+        delete place.dataset.listens;
+      }
+      place.innerHTML = `<p class="empty">${empty}</p>`;
       return;
     }
     if (!place.classList.contains("js-plotly-plot")) place.innerHTML = "";
     Plotly.react(place, traces, plan, OPTIONS);
-    if (!place.dataset.listens) {
+    if (clicks && !place.dataset.listens) {
       place.dataset.listens = "yes";
       place.on("plotly_click", (event) => { const { x } = event.points[0]; set({ speed: x / factor() }); });
     }
@@ -157,7 +165,7 @@
     if (state.quantity === "max_von_mises" && yieldStress) {
       const limit = yieldStress.row(bladeIndex())[scene];
       if (Number.isFinite(limit)) {
-        plan.shapes.push({ type: "line", xref: "paper", x0: 0, x1: 1, y0: limit, y1: limit, line: { color: "#D55E00", width: 1.5 } });
+        plan.shapes.push(yieldLine(limit));
       }
     }
     draw("response", traces, plan);
@@ -206,18 +214,10 @@
         });
       });
     }
-    if (traces.length === 0) {
-      const place = document.getElementById("stress");
-      if (place.classList.contains("js-plotly-plot")) Plotly.purge(place);
-      place.innerHTML = `<p class="empty">No history of stress for ${state.blade} in ${state.scene}: name speeds in the scene's`
-        + " stress_history_speeds_rad_s. The quantity max_von_mises has the stress over speed.</p>";
-      return;
-    }
-    const limit = yieldStress.row(here[0])[here[1]];
-    plan.shapes.push({ type: "line", xref: "paper", x0: 0, x1: 1, y0: limit, y1: limit, line: { color: "#D55E00", width: 1.5 } });
-    const place = document.getElementById("stress");
-    if (!place.classList.contains("js-plotly-plot")) place.innerHTML = "";
-    Plotly.react(place, traces, plan, OPTIONS);
+    if (traces.length) plan.shapes.push(yieldLine(yieldStress.row(here[0])[here[1]]));
+    const empty = `No history of stress for ${state.blade} in ${state.scene}: name speeds in the scene's`
+      + " stress_history_speeds_rad_s. The quantity max_von_mises has the stress over speed.";
+    draw("stress", traces, plan, { empty, clicks: false });
   }
 
   const COLUMNS = [

@@ -17,9 +17,7 @@ def contact_model(model: ReducedModel, tip_line: str) -> ContactModel:
         raise ValueError("simulations cannot carry the Coriolis matrix yet; set structure.coriolis to false in config.yaml")
     frequencies, modes = model.modes(0.0)
     per_square = modes.T @ model.stiffness_per_square @ modes
-    line = model.tip_lines[tip_line]
-    numbers = [int(np.flatnonzero(line.nodes == node)[0]) for node in model.boundary_nodes]
-    nodes = line.select(numbers)
+    line, nodes = model.tip_lines[tip_line], model.contact_nodes(tip_line)
     return ContactModel(
         squared_frequencies=frequencies**2,
         stiffness_per_square=0.5 * (per_square + per_square.T),

@@ -90,6 +90,11 @@ class ReducedModel:
         """Change of the stiffness per squared speed: K1, with spin softening if the model has it."""
         return self.geometric_stiffness + (0.0 if self.spin_softening is None else self.spin_softening)
 
+    def contact_nodes(self, tip_line: str) -> RecoveryNodes:
+        """The boundary nodes, which lie on `tip_line`, in their own order."""
+        line = self.tip_lines[tip_line]
+        return line.select([int(np.flatnonzero(line.nodes == node)[0]) for node in self.boundary_nodes])
+
     def stiffness_at(self, speed: float) -> np.ndarray:
         """Stiffness (N/m) at `speed` (rad/s): K0 + Omega^2 K1."""
         return self.stiffness + speed**2 * self.stiffness_per_square

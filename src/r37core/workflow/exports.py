@@ -83,10 +83,6 @@ class Exports:
         """Whether the speed with the largest stress is written alone."""
         return self.imported.settings.config.exports.stress_speeds_rad_s == "worst"
 
-    def stress_speeds(self, wildcards: Any, input: Any) -> list[float]:
-        """Speeds (rad/s) of a blade and scene among which worst instants are looked for: those of the input's files."""
-        return self.sweep.speeds(wildcards, input)
-
     def speed_files(self, wildcards: Any) -> list[str]:
         """The simulations among which worst instants are looked for."""
         files = self.sweep.speed_files(wildcards)

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from r37core.config import Settings, plain
-from r37core.io import read_json
+from r37core.io import as_list, read_json
 from r37core.speeds import SpeedPlan, exact_text
 
 from . import paths
@@ -85,7 +85,7 @@ class Sweep:
 
     def speeds(self, wildcards: Any, input: Any) -> list[float]:
         """Speeds (rad/s), ascending, of the files that are an input; a round stands there until the rounds are done."""
-        names = [Path(file).stem for file in ([input.speeds] if isinstance(input.speeds, str) else input.speeds)]
+        names = [Path(file).stem for file in as_list(input.speeds)]
         return [float(name.removeprefix("speed_")) for name in names if name.startswith("speed_")]
 
     @property
