@@ -3,6 +3,7 @@
 import io
 import logging
 import os
+import re
 import subprocess
 
 import numpy as np
@@ -119,7 +120,8 @@ def test_a_run_prints_little_and_its_log_has_everything(root, tmp_path):
     )
     printed = done.stdout + done.stderr
     assert len(printed.splitlines()) < 60
-    assert "simulations 12 of at most 12 (Ref 6, CS100 6); 0 diverged" in printed
+    # of two jobs at a time either may end first
+    assert re.search(r"simulations 12 of at most 12 \((Ref 6, CS100 6|CS100 6, Ref 6)\); 0 diverged", printed)
     assert "rule simulate:" not in printed
     logs = list(tmp_path.glob(".snakemake/log/*.log"))
     assert sum(log.read_text().count("rule simulate:") for log in logs) == 12
