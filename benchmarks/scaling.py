@@ -94,7 +94,7 @@ def idle_project(folder, number):
     edit(folder, "config.yaml", "blades: [Ref, CS100]", "blades: [Ref]")
     speeds(folder, number)
     touch = folder / "touch.sh"
-    touch.write_text('#!/bin/sh\necho made > "$4"\n')
+    touch.write_text('#!/bin/sh\nsleep 0.1\necho made > "$4"\n')
     touch.chmod(0o755)
     rules = folder / "workflow/rules/common.smk"
     text = rules.read_text()
