@@ -11,7 +11,7 @@ from r37core.studies.published import BLADES, DIRECT_PEAK, INTERACTIONS
 from r37core.studies.reading_places import DIRECT
 from r37core.studies.validation import Runs
 
-from . import style  # noqa: F401  (sets the style)
+from . import style
 
 _SCENES = {"lined": ("abradable lining", "C0"), "direct": ("direct contact", "C3")}
 _DIRECTIONS = {"rms_normal": "normal to the casing", "rms_tangential": "tangential"}
@@ -37,6 +37,7 @@ def draw_reference(survey: Runs, shipped: Runs) -> Figure:
     panels[0].legend(loc="upper right", bbox_to_anchor=(0.73, 1.0))
     panels[0].set_title("blade Ref, leading edge, last half of the run; dotted: published peaks", fontsize=9)
     panels[1].set_xlabel("speed (rad/s)")
+    style.rpm_axis(panels[0])
     return figure
 
 
@@ -46,6 +47,7 @@ def draw_blades(shipped: Runs) -> Figure:
     for axes, (name, direction) in zip(panels, _DIRECTIONS.items(), strict=True):
         _draw_about_order_4(axes, shipped, name, 1e3)
         axes.set_ylabel(f"rms, {direction} (mm)")
+    style.rpm_axis(panels[0])
     _legend_above(figure, panels[0])
     panels[1].set_xlabel("speed (rad/s); dotted: published peaks")
     return figure
@@ -58,6 +60,7 @@ def draw_stress(shipped: Runs, yield_stress: float) -> Figure:
     axes.axhline(1e-9 * yield_stress, color="0.2", linestyle="--", linewidth=1.0, label="yield")
     axes.set(ylabel="largest von Mises, last revolution (GPa)", yscale="log")
     axes.set_xlabel("speed (rad/s); dotted: published peaks")
+    style.rpm_axis(axes)
     _legend_above(figure, axes)
     return figure
 
