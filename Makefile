@@ -5,10 +5,15 @@ CORES ?= 2
 VENV := .venv
 BIN := $(VENV)/bin
 
-.PHONY: all_blades campbell test test-fast mutants lint bench docs setup clean clean-results
+.PHONY: all_blades campbell report test test-fast mutants lint bench docs setup clean clean-results
 
 all_blades campbell: $(VENV)/.ready
 	$(BIN)/snakemake $@ --cores $(CORES) $(if $(FIDELITY),--config fidelity=$(FIDELITY))
+
+# figures, tables, workflow and run times of a finished run in one file, for a colleague; RESULTS=results/runs/<name> of one with a name
+RESULTS ?= results
+report: $(VENV)/.ready
+	$(BIN)/snakemake all_blades --report $(RESULTS)/report.zip $(if $(FIDELITY),--config fidelity=$(FIDELITY))
 
 # the files of tests spread over the cores
 test: $(VENV)/.ready

@@ -5,12 +5,16 @@ rule campbell_figure:
     input:
         paths.CAMPBELL,
     output:
-        "<results>/figures/campbell_{blade}.png",
+        report(
+            "<results>/figures/campbell_{blade}.png",
+            **shown(TEXTS / "figure.rst", "{blade}", EVERY_SCENE, figure="Campbell diagram"),
+        ),
     log:
         "<logs>/figures/campbell_{blade}.log",
     conda:
         ENVIRONMENT
     params:
+        caption=captioned("campbell"),
         code=code("campbell_figure"),
     script:
         "../scripts/campbell_figure.py"
@@ -20,12 +24,16 @@ rule campbell_overview:
     input:
         "<results>/campbell.nc",
     output:
-        "<results>/figures/campbell.png",
+        report(
+            "<results>/figures/campbell.png",
+            **shown(TEXTS / "figure.rst", TOGETHER, EVERY_SCENE, figure="Campbell diagrams"),
+        ),
     log:
         "<logs>/figures/campbell_overview.log",
     conda:
         ENVIRONMENT
     params:
+        caption=captioned("campbell_overview"),
         code=code("campbell_overview"),
     script:
         "../scripts/campbell_overview.py"
@@ -35,13 +43,17 @@ rule blade_shapes_figure:
     input:
         expand(paths.MESH, blade=imported.with_mesh),
     output:
-        "<results>/figures/blades.png",
+        report(
+            "<results>/figures/blades.png",
+            **shown(TEXTS / "figure.rst", TOGETHER, EVERY_SCENE, figure="shapes"),
+        ),
     log:
         "<logs>/figures/blades.log",
     conda:
         ENVIRONMENT
     params:
         blades=imported.with_mesh,
+        caption=captioned("blades"),
         code=code("blade_shapes_figure"),
     script:
         "../scripts/blade_shapes_figure.py"
@@ -51,12 +63,16 @@ rule response_figure:
     input:
         unpack(sweep.response_pictured),
     output:
-        paths.RESPONSE_FIGURE,
+        report(
+            paths.RESPONSE_FIGURE,
+            **shown(TEXTS / "figure.rst", "{blade}", EVERY_SCENE, figure="response"),
+        ),
     log:
         "<logs>/figures/response_{blade}.log",
     conda:
         ENVIRONMENT
     params:
+        caption=captioned("response"),
         code=code("response_figure"),
     script:
         "../scripts/response_figure.py"
@@ -67,7 +83,10 @@ rule map_figure:
         campbell="<results>/campbell.nc",
         maps="<results>/{kind}.nc",
     output:
-        paths.MAP_FIGURE,
+        report(
+            paths.MAP_FIGURE,
+            **shown(TEXTS / "figure.rst", "{blade}", "{scene}", figure="{kind}"),
+        ),
     log:
         "<logs>/figures/{kind}_{blade}__{scene}.log",
     wildcard_constraints:
@@ -75,6 +94,7 @@ rule map_figure:
     conda:
         ENVIRONMENT
     params:
+        caption=captioned(),
         code=code("map_figure"),
     script:
         "../scripts/map_figure.py"
@@ -84,12 +104,16 @@ rule response_overview:
     input:
         "<results>/rms.nc",
     output:
-        "<results>/figures/response.png",
+        report(
+            "<results>/figures/response.png",
+            **shown(TEXTS / "figure.rst", TOGETHER, EVERY_SCENE, figure="responses"),
+        ),
     log:
         "<logs>/figures/response_overview.log",
     conda:
         ENVIRONMENT
     params:
+        caption=captioned("response_overview"),
         code=code("response_overview"),
     script:
         "../scripts/response_overview.py"

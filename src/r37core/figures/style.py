@@ -40,8 +40,8 @@ def rpm_axis(axes: Axes) -> None:
     axes.secondary_xaxis("top", functions=functions).set_xlabel("rpm", fontsize=8)
 
 
-def save(figure: Figure, file: Path | str) -> None:
-    """Write the figure atomically and close it; the same data give the same bytes."""
+def save(figure: Figure, file: Path | str, caption: str | None = None) -> None:
+    """Write the figure with its caption as a description, atomically, and close it; the same data give the same bytes."""
     with atomic_write(file) as partial:
-        figure.savefig(partial, metadata={"Software": None})
+        figure.savefig(partial, metadata={"Software": None, "Description": caption})
     plt.close(figure)
