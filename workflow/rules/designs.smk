@@ -32,10 +32,11 @@ rule design_figure:
     input:
         paths.DESIGNS,
     output:
-        report(
+        png=report(
             paths.DESIGN_FIGURE,
             **shown(TEXTS / "figure.rst", "Families", EVERY_SCENE, figure="{family}"),
         ),
+        pdf=paths.as_pdf(paths.DESIGN_FIGURE),
     log:
         "<logs>/figures/designs_{family}.log",
     wildcard_constraints:

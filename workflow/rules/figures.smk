@@ -5,10 +5,11 @@ rule campbell_figure:
     input:
         paths.CAMPBELL,
     output:
-        report(
+        png=report(
             "<results>/figures/campbell_{blade}.png",
             **shown(TEXTS / "figure.rst", "{blade}", EVERY_SCENE, figure="Campbell diagram"),
         ),
+        pdf="<results>/figures/campbell_{blade}.pdf",
     log:
         "<logs>/figures/campbell_{blade}.log",
     conda:
@@ -24,10 +25,11 @@ rule campbell_overview:
     input:
         "<results>/campbell.nc",
     output:
-        report(
+        png=report(
             "<results>/figures/campbell.png",
             **shown(TEXTS / "figure.rst", TOGETHER, EVERY_SCENE, figure="Campbell diagrams"),
         ),
+        pdf="<results>/figures/campbell.pdf",
     log:
         "<logs>/figures/campbell_overview.log",
     conda:
@@ -63,10 +65,11 @@ rule response_figure:
     input:
         unpack(sweep.response_pictured),
     output:
-        report(
+        png=report(
             paths.RESPONSE_FIGURE,
             **shown(TEXTS / "figure.rst", "{blade}", EVERY_SCENE, figure="response"),
         ),
+        pdf=paths.as_pdf(paths.RESPONSE_FIGURE),
     log:
         "<logs>/figures/response_{blade}.log",
     conda:
@@ -83,10 +86,11 @@ rule map_figure:
         campbell="<results>/campbell.nc",
         maps="<results>/{kind}.nc",
     output:
-        report(
+        png=report(
             paths.MAP_FIGURE,
             **shown(TEXTS / "figure.rst", "{blade}", "{scene}", figure="{kind}"),
         ),
+        pdf=paths.as_pdf(paths.MAP_FIGURE),
     log:
         "<logs>/figures/{kind}_{blade}__{scene}.log",
     wildcard_constraints:
@@ -104,10 +108,11 @@ rule response_overview:
     input:
         "<results>/rms.nc",
     output:
-        report(
+        png=report(
             "<results>/figures/response.png",
             **shown(TEXTS / "figure.rst", TOGETHER, EVERY_SCENE, figure="responses"),
         ),
+        pdf="<results>/figures/response.pdf",
     log:
         "<logs>/figures/response_overview.log",
     conda:
@@ -117,3 +122,44 @@ rule response_overview:
         code=code("response_overview"),
     script:
         "../scripts/response_overview.py"
+
+
+rule waterfall_figure:
+    input:
+        campbell="<results>/campbell.nc",
+        spectrum="<results>/spectrum.nc",
+    output:
+        png=report(
+            paths.WATERFALL_FIGURE,
+            **shown(TEXTS / "figure.rst", "{blade}", "{scene}", figure="waterfall"),
+        ),
+        pdf=paths.as_pdf(paths.WATERFALL_FIGURE),
+    log:
+        "<logs>/figures/waterfall_{blade}__{scene}.log",
+    conda:
+        ENVIRONMENT
+    params:
+        caption=captioned("waterfall"),
+        code=code("waterfall_figure"),
+    script:
+        "../scripts/waterfall_figure.py"
+
+
+rule comparison_figure:
+    input:
+        unpack(sweep.compared),
+    output:
+        png=report(
+            paths.COMPARISON_FIGURE,
+            **shown(TEXTS / "figure.rst", TOGETHER, "{scene}", figure="around an interaction"),
+        ),
+        pdf=paths.as_pdf(paths.COMPARISON_FIGURE),
+    log:
+        "<logs>/figures/comparison_{scene}.log",
+    conda:
+        ENVIRONMENT
+    params:
+        caption=captioned("comparison"),
+        code=code("comparison_figure"),
+    script:
+        "../scripts/comparison_figure.py"

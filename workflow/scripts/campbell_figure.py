@@ -1,4 +1,4 @@
-"""Draw one blade's Campbell diagram. Input: campbell.nc of the blade. Params: caption. Output: picture."""
+"""Draw one blade's Campbell diagram. Input: campbell.nc of the blade. Params: caption. Output: png, pdf."""
 
 from job import run
 

@@ -1,4 +1,4 @@
-"""Draw one family. Input: designs.csv. Params: blades, varied, caption. Output: picture."""
+"""Draw one family. Input: designs.csv. Params: blades, varied, caption. Output: png, pdf."""
 
 import pandas as pd
 from job import run

@@ -1,4 +1,4 @@
-"""Draw one blade's response. Inputs: campbell, rms and, where computed, stress. Params: caption. Output: picture."""
+"""Draw one blade's response. Inputs: campbell, rms and, where computed, stress. Params: caption. Output: png, pdf."""
 
 from job import run
 

@@ -36,6 +36,18 @@ CAPTIONS = {
         "Wear of the lining at the end of the run, over speed and the angle round the casing, for blade {blade} in scene "
         "{scene}. Dotted: crossings of 1B with engine orders; an interaction wears as many lobes as its engine order."
     ),
+    "waterfall": (
+        "Waterfall of blade {blade} in scene {scene}: spectra of the leading edge's motion, normal to the casing (left) "
+        "and tangential (right), one above the other by speed; of each stretch of speeds the one with the largest "
+        "amplitude. Heights are logarithmic over three decades below the largest. Dotted: engine orders; dashed: "
+        "frequencies of 1B, 1T and 2B."
+    ),
+    "comparison": (
+        "All blades in scene {scene} around the same interaction, 1B with the engine order that most of them meet within "
+        "the speeds: rms of the leading edge normal to the casing and tangential, and largest stress with the yield "
+        "stress (dashed), over the speed above each blade's own crossing, in percent of it. Contact stiffens a blade, so "
+        "peaks lie above the crossing."
+    ),
     "designs": (
         "Family {family}: what each design is and how robust, over what varies. Frequencies, largest loss of clearance as "
         "the tip swings along free modes, speeds above yield, largest stress, and where interactions lie."
