@@ -22,6 +22,7 @@ include: "workflow/rules/studies/tradeoff.smk"
 include: "workflow/rules/studies/stability.smk"
 include: "workflow/rules/studies/readings.smk"
 include: "workflow/rules/studies/refinement.smk"
+include: "workflow/rules/studies/gallery.smk"
 
 
 rule all_blades:

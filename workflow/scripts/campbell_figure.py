@@ -10,7 +10,7 @@ from r37core.figures.style import save
 def main(snakemake):
     save(
         draw_campbell(read_dataset(snakemake.input[0]), snakemake.wildcards.blade),
-        snakemake.output[0],
+        snakemake.output,
         snakemake.params.caption,
     )
 

@@ -10,9 +10,7 @@ from r37core.figures.style import save
 def main(snakemake):
     table = pd.read_csv(snakemake.input[0])
     chosen = table[table["blade"].isin(snakemake.params.blades)]
-    save(
-        draw_designs(snakemake.wildcards.family, chosen, snakemake.params.varied), snakemake.output[0], snakemake.params.caption
-    )
+    save(draw_designs(snakemake.wildcards.family, chosen, snakemake.params.varied), snakemake.output, snakemake.params.caption)
 
 
 run(snakemake, main)

@@ -12,7 +12,7 @@ def main(snakemake):
     datasets = {kind: read_dataset(file).sel(blade=blade) for kind, file in snakemake.input.items()}
     save(
         draw_response(blade, datasets["campbell"], datasets["rms"], datasets.get("stress")),
-        snakemake.output[0],
+        snakemake.output,
         snakemake.params.caption,
     )
 

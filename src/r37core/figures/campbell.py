@@ -53,7 +53,7 @@ def draw_campbell_overview(dataset: xr.Dataset) -> Figure:
         margin = 0.08 * (high - low)
         axes.set(xlabel="speed (rad/s)", title=name, xlim=(0.0, speed[-1]), ylim=(low - margin, high + margin))
         _draw_engine_orders(axes, dataset["engine_order"].values, speed, high)
-        style.rpm_axis(axes)
+        style.rpm_axis(axes, most_ticks=5)
     panels[0].set_ylabel("frequency (Hz)")
     figure.legend(*panels[0].get_legend_handles_labels(), loc="outside lower center", ncols=7)
     return figure

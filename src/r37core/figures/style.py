@@ -14,6 +14,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
 
 from r37core.io import atomic_write
 from r37core.units import RPM
@@ -61,9 +62,11 @@ def blade_styles(blades: Iterable[Any]) -> dict[str, dict[str, str]]:
     }
 
 
-def rpm_axis(axes: Axes) -> None:
+def rpm_axis(axes: Axes, most_ticks: int = 9) -> None:
     """A second axis above one of speeds in rad/s, in revolutions per minute."""
-    axes.secondary_xaxis("top", functions=_RPM).set_xlabel("rpm", fontsize=7)
+    above = axes.secondary_xaxis("top", functions=_RPM)
+    above.set_xlabel("rpm", fontsize=7)
+    above.xaxis.set_major_locator(MaxNLocator(most_ticks))
 
 
 def rpm_axis_beside(axes: Axes) -> None:
@@ -74,7 +77,9 @@ def rpm_axis_beside(axes: Axes) -> None:
 _RPM = (lambda speed: np.multiply(speed, RPM), lambda turns: np.divide(turns, RPM))
 
 
-def save(figure: Figure, files: Path | str | Sequence[Path | str], caption: str | None = None) -> None:
+def save(
+    figure: Figure, files: Path | str | Sequence[Path | str], caption: str | None = None, dots_per_inch: float | None = None
+) -> None:
     """Write the figure, one file or several, with its caption as a description, atomically, and close it.
 
     The same data give the same bytes.
@@ -83,5 +88,6 @@ def save(figure: Figure, files: Path | str | Sequence[Path | str], caption: str 
         pdf = Path(file).suffix == ".pdf"
         about = {"Subject": caption, "Creator": None, "Producer": None, "CreationDate": None} if pdf else {"Software": None}
         with atomic_write(file) as partial:
-            figure.savefig(partial, metadata=about if pdf else {**about, "Description": caption})
+            metadata = about if pdf else {**about, "Description": caption}
+            figure.savefig(partial, dpi=dots_per_inch or plt.rcParams["savefig.dpi"], metadata=metadata)
     plt.close(figure)

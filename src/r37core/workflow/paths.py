@@ -34,6 +34,7 @@ STUDY_MODEL = (
     "<results>/studies/models/{blade}/{nodes}_{boundary_nodes}_{fixed_interface_modes}_{region}_{tip_line}_{ends}/{file}"
 )
 TRADEOFF_CASE = "<results>/studies/tradeoff/{blade}/{parameter}/{value}.nc"
+GALLERY_RUN = "<results>/studies/gallery/{blade}__{scene}.nc"
 STABILITY_CASE = "<results>/studies/stability/{extreme}.json"
 READING = "<results>/studies/readings/{reading}/{place}.nc"
 READING_CAMPBELL = "<results>/studies/readings/campbell/{blade}_{mesh}.nc"
