@@ -14,6 +14,8 @@ rule campbell_figure:
         "<logs>/figures/campbell_{blade}.log",
     conda:
         ENVIRONMENT
+    resources:
+        **needs.of("campbell_figure"),
     params:
         caption=captioned("campbell"),
         code=code("campbell_figure"),
@@ -34,6 +36,8 @@ rule campbell_overview:
         "<logs>/figures/campbell_overview.log",
     conda:
         ENVIRONMENT
+    resources:
+        **needs.of("campbell_overview"),
     params:
         caption=captioned("campbell_overview"),
         code=code("campbell_overview"),
@@ -53,6 +57,8 @@ rule blade_shapes_figure:
         "<logs>/figures/blades.log",
     conda:
         ENVIRONMENT
+    resources:
+        **needs.of("blade_shapes_figure"),
     params:
         blades=imported.with_mesh,
         caption=captioned("blades"),
@@ -74,6 +80,8 @@ rule response_figure:
         "<logs>/figures/response_{blade}.log",
     conda:
         ENVIRONMENT
+    resources:
+        **needs.of("response_figure"),
     params:
         caption=captioned("response"),
         code=code("response_figure"),
@@ -97,6 +105,8 @@ rule map_figure:
         kind="spectrum|wear",
     conda:
         ENVIRONMENT
+    resources:
+        **needs.of("map_figure"),
     params:
         caption=captioned(),
         code=code("map_figure"),
@@ -117,6 +127,8 @@ rule response_overview:
         "<logs>/figures/response_overview.log",
     conda:
         ENVIRONMENT
+    resources:
+        **needs.of("response_overview"),
     params:
         caption=captioned("response_overview"),
         code=code("response_overview"),
@@ -138,6 +150,8 @@ rule waterfall_figure:
         "<logs>/figures/waterfall_{blade}__{scene}.log",
     conda:
         ENVIRONMENT
+    resources:
+        **needs.of("map_figure"),
     params:
         caption=captioned("waterfall"),
         code=code("waterfall_figure"),
@@ -158,6 +172,8 @@ rule comparison_figure:
         "<logs>/figures/comparison_{scene}.log",
     conda:
         ENVIRONMENT
+    resources:
+        **needs.of("response_overview"),
     params:
         caption=captioned("comparison"),
         code=code("comparison_figure"),

@@ -24,7 +24,7 @@ from .document import Document, command_line_document, read_document
 from .families import Designs, Family, with_designs
 from .fidelity import Level, Levels
 from .scenes import SceneEntry, Scenes
-from .settings import Campbell, Config, Interactions, Refinement, Structure
+from .settings import Campbell, Config, Interactions, Refinement, Run, Structure
 from .speeds import UNITS, SpeedRule, key_of_speeds, planned
 from .studies import Studies
 
@@ -217,7 +217,7 @@ def load_settings(config: Document | Mapping[str, Any], root: Path) -> Settings:
     blades, files = designs.entries, replace(files, blades=designs.document)
     fidelity_name = _level_name(checked, levels, files)
     level = levels[fidelity_name]
-    names = _chosen_blades(checked, designs, files)
+    names = _part_of(_chosen_blades(checked, designs, files), checked.run, files.config)
     scene_names = files.known(("scenes",), list(scenes) if checked.scenes == "all" else checked.scenes, scenes, files.scenes)
     _check_studies(checked.studies, blades, levels, scenes, files)
     chosen_scenes = {name: _scene(scenes[name], level, checked.structure.boundary.tip_line) for name in scene_names}
@@ -258,6 +258,14 @@ def _chosen_blades(checked: Config, designs: Designs, files: _Files) -> list[str
     files.known(("blades",), checked.blades, [*designs.entries, *designs.families], files.blades)
     several = [list(designs.families[name].designs) if name in designs.families else [name] for name in checked.blades]
     return list(dict.fromkeys(name for names in several for name in names))
+
+
+def _part_of(names: list[str], run: Run, document: Document) -> list[str]:
+    """The blades of the run's part; ConfigError where that has none."""
+    chosen = run.of_part(names)
+    if not chosen:
+        raise document.refusal(("run", "part"), f"{run.part} of {len(names)} blades", f"at most {len(names)} parts")
+    return chosen
 
 
 @dataclass(frozen=True)
@@ -364,7 +372,7 @@ def _speed_plans(
         raise files.config.refusal(
             ("speeds",),
             f"{number_of_all} simulations of {len(blades)} blades in {len(scenes)} scenes",
-            f"at most {LARGEST_NUMBER_OF_SIMULATIONS} in one run",
+            f"at most {LARGEST_NUMBER_OF_SIMULATIONS} in one run; more in parts (run.part, docs/cluster.md)",
         )
     return together
 
