@@ -46,6 +46,8 @@ GATHERED = {
     "response_figure",
     "response_overview",
     "map_figure",
+    "waterfall_figure",
+    "comparison_figure",
 }
 
 
