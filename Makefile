@@ -13,7 +13,8 @@ all_blades campbell: $(VENV)/.ready
 # figures, tables, workflow and run times of a finished run in one file, for a colleague; RESULTS=results/runs/<name> of one with a name
 RESULTS ?= results
 report: $(VENV)/.ready
-	$(BIN)/snakemake all_blades --report $(RESULTS)/report.zip $(if $(FIDELITY),--config fidelity=$(FIDELITY))
+	@$(BIN)/snakemake all_blades --report $(RESULTS)/report.zip $(if $(FIDELITY),--config fidelity=$(FIDELITY)) || \
+		{ echo "the report is made of a finished run: make all_blades, then make report" >&2; exit 1; }
 
 # the files of tests spread over the cores
 test: $(VENV)/.ready
