@@ -160,13 +160,13 @@ def test_parts_on_slurm_one_of_them_killed_give_the_bits_of_one_run(root, tmp_pa
 
     parts = project(root, tmp_path / "parts")
     job = slurm.submit(parts, "--array=1-2")
-    wait_until(lambda: any(parts.glob("results/Ref/*/speed_*.npz")), 240, "simulations of the first part")
+    wait_until(lambda: any(parts.glob("results/Ref/*/speed_*.npz")), 600, "simulations of the first part")
     time.sleep(random.uniform(0.0, 4.0))  # in whatever round
     slurm.call("scancel", "--signal=KILL", "--full", f"{job}_1")
-    wait_until(lambda: len(slurm.waiting(job)) < 2, 60, "the end of the killed part")
+    wait_until(lambda: len(slurm.waiting(job)) < 2, 120, "the end of the killed part")
     again = slurm.submit(parts, "--array=1", PARTS="2")
     closing = slurm.submit(parts, f"--dependency=afterany:{job}:{again}")
-    wait_until(lambda: not slurm.waiting(closing), 400, "the closing run")
+    wait_until(lambda: not slurm.waiting(closing), 600, "the closing run")
 
     said = (parts / f"slurm-{closing}.out").read_text()
     assert "rule simulate:" not in said, said
