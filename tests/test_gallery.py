@@ -90,6 +90,12 @@ def test_a_sweep_without_the_benchmark_is_refused(root, settings):
     few = Gallery(Sweep(read_settings(root, command_line_document({"blades": ["Ref"], "scenes": ["abradable"]}))))
     with pytest.raises(ConfigError, match=r"the gallery needs L50, .*CS100, direct, which this run leaves out"):
         few.inputs(None)
+    # whose other rules are planned all the same
+    other = Gallery(Sweep(read_settings(root, command_line_document({"blades": ["L50"]}))))
+    assert other.pictures
+    for asked in (other.submesh, other.yield_stress):
+        with pytest.raises(ConfigError, match="the gallery needs Ref"):
+            asked(None)
 
 
 def test_the_page_has_every_figure(root):

@@ -54,9 +54,9 @@ class Gallery:
         """Whether a run is one with lining."""
         return wildcards.scene == self.scenes["lined"]
 
-    @property
-    def submesh(self) -> Any:
-        """Where stress is recovered."""
+    def submesh(self, wildcards: Any) -> Any:
+        """Where stress is recovered on the reference blade."""
+        self._check()
         return self._settings.reduction_choice(blade=REFERENCE).stress_submesh
 
     def yield_stress(self, wildcards: Any) -> float:
