@@ -123,6 +123,8 @@ def test_leftovers_of_removed_blades_scenes_and_speeds(root, tmp_path):
     kept += ["rms.nc", "figures/spectrum_Ref__direct.png", "figures/response.png", "figures/campbell.png"]
     kept += ["exports/Ref/mesh.med"]
     gone = ["L50/mesh.vtu", "Ref/abradable/speed_900.npz", "Ref/direct/speed_901.npz", "figures/response_L50.png"]
+    kept += ["figures/comparison_direct.png", "figures/waterfall_Ref__direct.pdf"]
+    gone += ["figures/comparison_abradable.pdf", "figures/response_L50.pdf"]
     gone += ["figures/wear_Ref__abradable.png", "exports/L50/surface.step"]
     for name in [*kept, *gone]:
         (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)

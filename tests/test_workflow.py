@@ -10,8 +10,10 @@ import numpy as np
 import pytest
 import xarray as xr
 import yaml
+from browser import opened
 from workflow_runs import copy_project, planned, snakemake
 
+from r37core.figures.captions import caption
 from r37core.yaml_file import load_yaml
 
 pytestmark = pytest.mark.slow
@@ -44,6 +46,8 @@ GATHERED = {
     "response_figure",
     "response_overview",
     "map_figure",
+    "waterfall_figure",
+    "comparison_figure",
 }
 
 
@@ -296,6 +300,30 @@ def test_one_core_gives_the_same_bits(finished, project):
     assert digests(project) == digests(finished)
 
 
+# of the libraries that Snakemake's page is made with
+KNOWN_WARNINGS = ("cdn.tailwindcss.com should not be used in production", "The input spec uses Vega-Lite v3")
+
+
+def test_report_opens_offline(finished, tmp_path):
+    """One archive: captions, categories by blade and scene, run times, the configuration."""
+    snakemake(finished, "all_blades", "--report", str(tmp_path / "r37.zip"))
+    shutil.unpack_archive(tmp_path / "r37.zip", tmp_path)
+    files = {file.name for file in (tmp_path / "r37/data").rglob("*") if file.is_file()}
+    assert files >= {"explorer.html", "summary.csv", "configuration.json", "wear_Ref__abradable.png", "campbell.png"}
+    page_file = tmp_path / "r37/report.html"
+    size = {"width": 1400, "height": 900}
+    with opened(page_file, size, lambda text: not text.startswith(KNOWN_WARNINGS)) as page:
+        page.get_by_text("CS100", exact=True).first.click()
+        page.get_by_text("abradable", exact=True).first.click()
+        page.locator("a[iconname=information-circle]").first.click()
+        page.get_by_text(caption("spectrum", blade="CS100", scene="abradable")[:60]).first.wait_for()
+        page.goto(page_file.as_uri())
+        page.get_by_text("Configuration", exact=True).first.click()
+        page.locator("a[iconname=information-circle]").first.click()
+        page.get_by_text("maximum_speed_rad_s").first.wait_for()
+        assert page.problems == []
+
+
 def blocks(root, language):
     """Code in what a user reads first."""
     pages = [(root / page).read_text() for page in ("README.md", "docs/results.md", "docs/blades.md")]
@@ -335,7 +363,7 @@ def test_names_that_begin_alike_keep_their_files_apart(project):
     text = snakemake(
         project, "all_blades", "--cores", "1", "--dry-run", "--config", "blades=[A,A_b]", "scenes=[b_c,c]", "speeds=[900,1e3]"
     )
-    found = re.findall(r"output: results/figures/spectrum_(\S+)\.png\n.*\n.*\n.*\n    wildcards: kind=spectrum, (.*)\n", text)
+    found = re.findall(r"output: results/figures/spectrum_(\S+)\.png, .*\n.*\n.*\n.*\n    wildcards: kind=spectrum, (.*)\n", text)
     assert dict(found) == {
         f"{blade}__{scene}": f"blade={blade}, scene={scene}" for blade in ("A", "A_b") for scene in ("b_c", "c")
     }
