@@ -57,7 +57,7 @@ class WorstInstant:
 class ModeShapes:
     """Modes at one speed.
 
-    `names`; `frequencies` (Hz), shape (modes,); `displacement` of all nodes, mass-normalised (kg^-1/2), shape (modes, nodes, 3).
+    `names`; `frequencies` (Hz), shape (modes,); `displacement` of all nodes (kg^-1/2: mass-normalised), shape (modes, nodes, 3).
     """
 
     names: tuple[str, ...]

@@ -24,7 +24,7 @@ from .surface import outer_faces
 INDEX = "shapes.json"
 """In each folder of shapes: what its .glb files show."""
 
-COLOUR_MAP = "cividis"
+COLOUR_MAP = "viridis"
 LARGEST_SHOWN = 0.1
 """Largest displacement as it is shown, as a share of the blade's height."""
 

@@ -71,6 +71,15 @@ def find_interactions(
     )
 
 
+def interactions_of_response(response: xr.Dataset, campbell: xr.Dataset, choice: InteractionChoice) -> list[dict[str, object]]:
+    """The same of one response.nc, with the Campbell diagram of its blade."""
+
+    def part(name: str) -> xr.Dataset | None:
+        return response if name in response else None
+
+    return find_interactions(response, campbell, part("amplitude"), part("max_von_mises"), part("max_wear"), choice)
+
+
 def _peaks(
     direction: str,
     rms: xr.Dataset,
