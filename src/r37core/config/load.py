@@ -131,10 +131,10 @@ class Settings:
         return self.structure.reduction(self.fidelity.reduction, tip_line, submesh)
 
     def results_of(self, blade: str, scene: str) -> tuple[str, ...]:
-        """What is wanted of a scene's simulations, as far as the blade can give it: matrices have no stress."""
+        """What is wanted of a scene, as far as the blade can give it: matrices have neither stress nor shapes."""
         wanted = self.scenes[scene].results
         matrices = isinstance(self.blades[blade].definition, MatricesSource)
-        return tuple(result for result in wanted if not (matrices and result == "stress"))
+        return tuple(result for result in wanted if not (matrices and result in ("stress", "shapes")))
 
     def integration_choice(self, blade: str, scene: str, speed: float) -> IntegrationChoice:
         """Numbers of the time integration at one speed of a blade and scene, with only what its results need."""

@@ -13,7 +13,7 @@ from r37core.contact import scene as contact_scene
 from .section import LeftOut, Name, Section, Speed, check_names, refused
 
 TipLine = Literal["pressure_edge", "camber", "suction_edge"]
-Result = Literal["spectrum", "signal", "stress", "wear", "energy"]
+Result = Literal["spectrum", "signal", "stress", "wear", "energy", "shapes"]
 
 
 class Casing(Section):
@@ -97,6 +97,8 @@ class SceneEntry(Section):
                     raise refused((key, number), f"{value} twice", "each once")
         if "wear" in self.results and self.lining is None:
             raise refused(("results",), "wear", "only in a scene with a lining")
+        if "shapes" in self.results and "stress" not in self.results:
+            raise refused(("results",), "shapes", "only with stress among the results")
         if self.stress_history_speeds_rad_s and "stress" not in self.results:
             raise refused(("stress_history_speeds_rad_s",), "speeds", "only with stress among the results")
         return self

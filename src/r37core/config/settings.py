@@ -13,6 +13,7 @@ from .exports import Exports
 from .fidelity import Reduction
 from .scenes import TipLine
 from .section import AllOrNames, FileName, LeftOut, Name, Names, Section, Speed, refused
+from .shapes import Shapes
 from .studies import Studies
 from .submesh import Submesh
 
@@ -190,3 +191,4 @@ class Config(Section):
     studies: Studies = Studies()
     campbell: Campbell = Campbell()
     exports: Exports = Exports()
+    shapes: Shapes = Shapes()

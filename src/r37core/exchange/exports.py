@@ -57,7 +57,8 @@ class WorstInstant:
 class ModeShapes:
     """Modes at one speed.
 
-    `names`; `frequencies` (Hz), shape (modes,); `displacement` of all nodes (kg^-1/2: mass-normalised), shape (modes, nodes, 3).
+    `names`; `frequencies` (Hz), shape (modes,); `displacement` of all nodes (kg^-1/2, mass-normalised), shape
+    (modes, nodes, 3).
     """
 
     names: tuple[str, ...]

@@ -98,7 +98,7 @@ class _Buffer:
         self.views.append(view | ({} if target is None else {"target": target}))
         self.data += array.tobytes()
         self.data += bytes(-len(self.data) % 4)
-        accessor = {"bufferView": len(self.views) - 1, "componentType": kind, "count": len(array)}
+        accessor: dict[str, object] = {"bufferView": len(self.views) - 1, "componentType": kind, "count": len(array)}
         accessor |= {"type": _TYPES[array.shape[1:]]}
         if bounds:
             accessor |= {"min": np.atleast_1d(array.min(axis=0)).tolist(), "max": np.atleast_1d(array.max(axis=0)).tolist()}

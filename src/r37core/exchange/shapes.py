@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Final
 
 import numpy as np
 from matplotlib import colormaps
@@ -24,7 +25,7 @@ from .surface import outer_faces
 INDEX = "shapes.json"
 """In each folder of shapes: what its .glb files show."""
 
-COLOUR_MAP = "viridis"
+COLOUR_MAP: Final = "viridis"
 LARGEST_SHOWN = 0.1
 """Largest displacement as it is shown, as a share of the blade's height."""
 

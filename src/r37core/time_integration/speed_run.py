@@ -13,6 +13,9 @@ from .choice import IntegrationChoice
 from .simulate import DIRECTIONS, TIP_POINTS, Simulation, SimulationState
 from .status import RunStatus
 
+OF_RUNS = ("spectrum", "signal", "stress", "wear", "energy")
+"""Results of a scene that its simulations give; others are made of them later."""
+
 _WEAR_LOBES = 20
 _KEPT = [DIRECTIONS.index("normal"), DIRECTIONS.index("tangential")]
 """Directions of the spectrum and the signal."""

@@ -24,6 +24,7 @@ def _of_blades(results: Path, settings: Settings) -> Iterator[Path]:
         if folder.is_dir() and folder.name not in (*settings.blades, *RESERVED):
             yield folder
     yield from (folder for folder in (results / "exports").glob("*/") if folder.name not in settings.blades)
+    yield from (shown for shown in (results / "shapes").glob("*") if shown.stem not in settings.blades)
     for blade in settings.blades:
         for folder in (results / blade).glob("*/"):
             if folder.is_dir() and folder.name not in settings.scenes:
