@@ -1,6 +1,8 @@
-"""Shapes to look at: the .glb files read back by another program, against what was written."""
+"""Shapes to look at: the .glb files read back by another program, against what was written; stills; the page in a browser."""
 
 import json
+import os
+import shutil
 from dataclasses import replace
 
 import numpy as np
@@ -12,9 +14,15 @@ from vtkmodules.vtkIOGeometry import vtkGLTFReader
 from r37core.exchange.exports import WorstInstant, displacement_of, mode_shapes
 from r37core.exchange.gltf import MovingSurface, write_glb
 from r37core.exchange.shapes import INDEX, LARGEST_SHOWN, write_mode_shapes, write_worst_shapes
-from r37core.io import read_json
+from r37core.explorer import SHAPE_PARTS
+from r37core.explorer.page import write_page
+from r37core.explorer.shapes import shapes_contents
+from r37core.figures.shapes import draw_shapes
+from r37core.io import read_json, write_json
 from r37core.results.stress import StressRecovery
 from r37core.rom.reduce import reduce_blade
+
+CHROMIUM = shutil.which("chromium") or shutil.which("google-chrome")
 
 
 @pytest.fixture(scope="module")
@@ -164,3 +172,70 @@ def test_the_skin_is_closed(element):
     assert {tuple(edge) for edge in edges.tolist()} == {tuple(edge) for edge in edges[:, ::-1].tolist()}
     a, b, c = np.moveaxis(box.points[skin.nodes][skin.triangles], 1, 0)
     assert np.sum(a * np.cross(b, c)) / 6.0 == pytest.approx(0.3 * 0.2 * 0.1)
+
+
+@pytest.fixture
+def folders(whole, mesh, steel, instant, tmp_path):
+    folders = {"": tmp_path / "Ref/modes", "abradable": tmp_path / "Ref/stress_abradable"}
+    write_mode_shapes(mesh, whole, 3, folders[""])
+    instants, titles = {900.0: instant, 1150.5: instant}, {900.0: "1B/7, abradable", 1150.5: "1B/5, abradable"}
+    write_worst_shapes(mesh, whole, steel, instants, titles, folders["abradable"])
+    return folders
+
+
+def test_stills(folders, tmp_path):
+    for name, folder in folders.items():
+        draw_shapes(folder, tmp_path / f"of_{name}.png")
+        picture = np.asarray(pyvista.read(tmp_path / f"of_{name}.png").point_data.active_scalars)
+        assert len(np.unique(picture, axis=0)) > 200
+    write_json([], folders[""] / INDEX)
+    draw_shapes(folders[""], tmp_path / "none.png")
+
+
+def test_what_the_page_holds(folders):
+    contents = shapes_contents(folders)
+    assert [one["name"] for one in contents][2:] == [
+        "modes/mode_2B",
+        "stress_abradable/stress_900",
+        "stress_abradable/stress_1150.5",
+    ]
+    assert contents[-1]["files"] == ["Ref/stress_abradable/stress_1150.5.glb", "Ref/stress_abradable/stress_1150.5.vtu"]
+    assert all((folders[""].parents[1] / file).exists() for one in contents for file in one["files"])
+
+
+@pytest.mark.slow
+def test_the_page_moves_the_blade(folders, tmp_path):
+    """In headless Chromium: as the files say, without a message in the console."""
+    if CHROMIUM is None:
+        pytest.skip("Chromium is not installed")
+    sync_api = pytest.importorskip("playwright.sync_api")
+    write_page(shapes_contents(folders), "Shapes of Ref", tmp_path / "Ref.html", SHAPE_PARTS)
+    software = ("--enable-unsafe-swiftshader", "--use-gl=angle", "--use-angle=swiftshader")
+    with sync_api.sync_playwright() as playwright:
+        browser = playwright.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox", "--no-first-run", *software])
+        page = browser.new_page(viewport={"width": 1200, "height": 800}, reduced_motion="reduce")
+        problems = []
+        page.on("console", lambda message: problems.append(message.text) if message.type == "error" else None)
+        page.on("pageerror", lambda error: problems.append(str(error)))
+        page.goto((tmp_path / "Ref.html").as_uri() + "#scene=abradable&speed=1150.4")
+        page.wait_for_selector("html[data-ready]", timeout=60_000)
+        assert page.text_content("#now").startswith("1B/5, abradable at 1150.5 rad/s")
+        (entry,) = [one for one in read_json(folders["abradable"] / INDEX) if one["speed_rad_s"] == 1150.5]
+        expected = points_at(folders["abradable"] / "stress_1150.5.glb", entry["worst_s"])
+        np.testing.assert_allclose(nearest(np.array(page.evaluate("shown()")).T, expected), 0.0, atol=1e-6)
+        page.keyboard.press("ArrowUp")
+        page.keyboard.press("ArrowUp")
+        assert page.text_content("#now").startswith("mode 2B")
+        assert page.text_content("#play") == "Play"
+        before = page.evaluate("shown()")
+        page.locator("h1").click()
+        page.keyboard.press(" ")
+        page.wait_for_function(
+            "before => Math.max(...shown()[1].map((y, at) => Math.abs(y - before[1][at]))) > 1e-4", arg=before
+        )
+        page.keyboard.press(" ")
+        folder = os.environ.get("R37_SCREENSHOTS")
+        if folder:
+            page.screenshot(path=f"{folder}/shapes.png")
+        browser.close()
+    assert problems == []

@@ -65,6 +65,7 @@ rule explorer:
         ENVIRONMENT
     params:
         title=f"r37 {settings.run_name or ''}".strip(),
+        shapes=shapes.runs,
         parts=parts_hash(),
         code=code("explorer"),
     script:

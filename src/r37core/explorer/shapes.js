@@ -113,6 +113,8 @@
   phase.addEventListener("input", () => { play(false); state.time = phase.valueAsNumber * duration(); place(); });
   document.getElementById("play").addEventListener("click", () => play(!state.playing));
   document.getElementById("controls").addEventListener("submit", (event) => event.preventDefault());
+    // what a test may ask for: x, y and z of all points as they are drawn
+  window.shown = () => ["x", "y", "z"].map((name) => Array.from(plot.data[0][name]));
   const KEYS = {
     ArrowDown: () => choose(Number(which.value) + 1), ArrowUp: () => choose(Number(which.value) - 1),
     ArrowLeft: () => move(-0.02), ArrowRight: () => move(0.02), " ": () => play(!state.playing),
