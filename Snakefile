@@ -13,6 +13,7 @@ include: "workflow/rules/results.smk"
 include: "workflow/rules/figures.smk"
 include: "workflow/rules/exports.smk"
 include: "workflow/rules/shapes.smk"
+include: "workflow/rules/signals.smk"
 include: "workflow/rules/designs.smk"
 include: "workflow/rules/studies/common.smk"
 include: "workflow/rules/studies/estimate.smk"
@@ -33,3 +34,4 @@ rule all_blades:
         sweep.figures,
         families.outputs,
         shapes.outputs,
+        recorded.outputs,

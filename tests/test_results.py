@@ -99,9 +99,7 @@ def sweep(model, tmp_path_factory):
             history = 4 if speed == 1200.0 else 1
             choice = IntegrationChoice(2e-7, 4, 62, snapshots_per_revolution=31, snapshot_revolutions=history, energy=True)
             wanted = [kind for kind in RESULTS if kind != "wear" or lined.lining]
-            kept = run_speed(
-                contact, speed, scene, choice, wanted, spectrum_highest_order=10, signal_revolutions=1, wear_angles=60
-            )
+            kept = run_speed(contact, speed, scene, choice, wanted, spectrum_highest_order=10, wear_angles=60)
             sources.append(folder / f"{name}_{speed:g}.npz")
             write_speed(kept, sources[-1], {})
         file = folder / f"{name}.nc"

@@ -212,6 +212,7 @@ def load_settings(config: Document | Mapping[str, Any], root: Path) -> Settings:
     _check_history_speeds(chosen_scenes, plans, files.scenes)
     _check_exports(checked, plans, files.config)
     _check_slowest(level, checked.structure.boundary.nodes, plans, files.config)
+    _check_signals(checked, names, chosen_scenes, files)
     chosen_blades = {name: blade_settings(name, blades, root, files.blades) for name in names}
     _check_matrices(chosen_blades, checked, files.config)
     _check_families(chosen_blades, designs, files.blades)
@@ -402,6 +403,27 @@ def _check_exports(checked: Config, plans: Mapping[Any, SpeedPlan], document: Do
         if speed > highest:
             allowed = f"up to structure.maximum_speed_rad_s, {highest:g}"
             raise document.refusal(("exports", "mode_speeds_rad_s", number), f"{speed:g}", allowed)
+
+
+def _check_signals(checked: Config, blades: Sequence[str], scenes: Mapping[str, SceneSettings], files: _Files) -> None:
+    """ConfigError for signals of a blade that is not run, of no scene, or longer than a scene's runs."""
+    given = checked.signals
+    if given.blades != "all":
+        files.known(("signals", "blades"), given.blades, blades, files.config)
+    if given.speeds_rad_s is None:
+        return
+    with_signal = {name: scene for name, scene in scenes.items() if "signal" in scene.results}
+    if not with_signal:
+        raise files.config.refusal(
+            ("signals", "speeds_rad_s"),
+            "speeds, though no scene that is run has signal among its results",
+            f"such a scene ({', '.join(scenes)} of {files.scenes.name} are run), or no speeds",
+        )
+    for name, scene in with_signal.items():
+        if given.revolutions is not None and given.revolutions > scene.revolutions:
+            raise files.config.refusal(
+                ("signals", "revolutions"), f"{given.revolutions}", f"at most those of a run, {scene.revolutions} in '{name}'"
+            )
 
 
 def _check_slowest(level: Level, nodes: int, plans: Mapping[tuple[str, str], SpeedPlan], document: Document) -> None:

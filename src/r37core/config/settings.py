@@ -14,6 +14,7 @@ from .fidelity import Reduction
 from .scenes import TipLine
 from .section import AllOrNames, FileName, LeftOut, Name, Names, Section, Speed, refused
 from .shapes import Shapes
+from .signals import Signals
 from .studies import Studies
 from .submesh import Submesh
 
@@ -192,3 +193,4 @@ class Config(Section):
     campbell: Campbell = Campbell()
     exports: Exports = Exports()
     shapes: Shapes = Shapes()
+    signals: Signals = Signals()

@@ -146,7 +146,7 @@ class Sweep:
     @property
     def kept(self) -> dict[str, int]:
         """How much of a run its file keeps."""
-        keys = ("spectrum_highest_order", "signal_revolutions", "wear_angles")
+        keys = ("spectrum_highest_order", "wear_angles")
         return {key: getattr(self.settings.fidelity.time_integration, key) for key in keys}
 
     @property
