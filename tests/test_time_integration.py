@@ -203,7 +203,7 @@ def test_step_too_long_for_the_lining_is_refused(contact):
 def test_divergence_is_a_result(contact, tmp_path):
     scene = replace(DIRECT, divergence_limit=2e-5)
     choice = IntegrationChoice(2e-7, 6, 62, snapshots_per_revolution=62, snapshot_revolutions=1, energy=True)
-    results = ("spectrum", "signal", "stress", "energy")
+    results = ("spectrum", "stress", "energy")
     kept = run_speed(contact, 1000.0, scene, choice, results, spectrum_highest_order=10, wear_angles=100)
     assert kept["status"] == RunStatus.DIVERGED
     assert 0.0 < kept["diverged_revolution"] < 6.0
@@ -235,7 +235,7 @@ def test_a_run_that_blows_up_is_flagged_without_infinities(contact):
 def test_only_what_is_asked_for_is_kept(contact):
     choice = IntegrationChoice(2e-7, 2, 62)
     kept = run_speed(contact, 1000.0, DIRECT, choice, (), spectrum_highest_order=10, wear_angles=100)
-    asked = {"amplitude", "signal", "snapshots", "wear", "contact_work", "damping_loss"}
+    asked = {"amplitude", "snapshots", "wear", "contact_work", "damping_loss"}
     assert not asked & set(kept)
     rich = replace(choice, snapshots_per_revolution=62, snapshot_revolutions=1, energy=True)
     everything = run_speed(
@@ -243,7 +243,7 @@ def test_only_what_is_asked_for_is_kept(contact):
         1000.0,
         ABRADABLE,
         rich,
-        ("spectrum", "signal", "stress", "wear", "energy"),
+        ("spectrum", "stress", "wear", "energy"),
         spectrum_highest_order=10,
         wear_angles=100,
     )

@@ -12,6 +12,8 @@ SPECTROGRAM_REVOLUTIONS = 8
 TRACK_REVOLUTIONS = 2
 """Length of the window of an order's track; over whole revolutions whole orders do not leak into each other."""
 
+_FAINT = 0.01
+
 
 def spectrogram(signal: np.ndarray, turn: np.ndarray, per_revolution: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Engine orders, revolutions (middle of the windows) and amplitudes, shape (orders, revolutions), of a signal.
@@ -37,11 +39,15 @@ def order_tracks(
 
 
 def strongest_orders(signal: np.ndarray, turn: np.ndarray, per_revolution: int, count: int, highest: int) -> np.ndarray:
-    """The `count` whole engine orders, from 1 to `highest`, with the largest amplitude anywhere in the signal, ascending."""
+    """The whole engine orders, from 1 to `highest`, with the largest amplitude anywhere in the signal, ascending.
+
+    `count` of them at most; those below a hundredth of the strongest are left out.
+    """
     orders = np.arange(1, min(highest, per_revolution // 2) + 1)
     _, amplitudes = order_tracks(signal, turn, per_revolution, orders)
     largest = amplitudes.max(axis=1) if amplitudes.shape[1] else np.zeros(len(orders))
-    return np.sort(orders[np.argsort(-largest, kind="stable")[:count]])
+    chosen = np.argsort(-largest, kind="stable")[:count]
+    return np.sort(orders[chosen[largest[chosen] >= _FAINT * largest.max()]])
 
 
 def _windows(
