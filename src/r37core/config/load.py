@@ -211,8 +211,9 @@ def load_settings(config: Document | Mapping[str, Any], root: Path) -> Settings:
     _check_windows(checked, plans, files.config)
     _check_history_speeds(chosen_scenes, plans, files.scenes)
     _check_exports(checked, plans, files.config)
-    _check_slowest(level, checked.structure.boundary.nodes, plans, files.config)
-    _check_signals(checked, names, chosen_scenes, files)
+    slowest = min(plan.certain[0] for plan in plans.values())
+    _check_slowest(level, checked.structure.boundary.nodes, slowest, ("speeds",), files.config)
+    _check_signals(checked, level, names, chosen_scenes, files)
     chosen_blades = {name: blade_settings(name, blades, root, files.blades) for name in names}
     _check_matrices(chosen_blades, checked, files.config)
     _check_families(chosen_blades, designs, files.blades)
@@ -405,13 +406,18 @@ def _check_exports(checked: Config, plans: Mapping[Any, SpeedPlan], document: Do
             raise document.refusal(("exports", "mode_speeds_rad_s", number), f"{speed:g}", allowed)
 
 
-def _check_signals(checked: Config, blades: Sequence[str], scenes: Mapping[str, SceneSettings], files: _Files) -> None:
+def _check_signals(
+    checked: Config, level: Level, blades: Sequence[str], scenes: Mapping[str, SceneSettings], files: _Files
+) -> None:
     """ConfigError for signals of a blade that is not run, of no scene, or longer than a scene's runs."""
     given = checked.signals
     if given.blades != "all":
         files.known(("signals", "blades"), given.blades, blades, files.config)
     if given.speeds_rad_s is None:
         return
+    if isinstance(given.speeds_rad_s, list):
+        slowest = min(given.speeds_rad_s)
+        _check_slowest(level, checked.structure.boundary.nodes, slowest, ("signals", "speeds_rad_s"), files.config)
     with_signal = {name: scene for name, scene in scenes.items() if "signal" in scene.results}
     if not with_signal:
         raise files.config.refusal(
@@ -426,13 +432,12 @@ def _check_signals(checked: Config, blades: Sequence[str], scenes: Mapping[str, 
             )
 
 
-def _check_slowest(level: Level, nodes: int, plans: Mapping[tuple[str, str], SpeedPlan], document: Document) -> None:
-    """ConfigError for a speed whose revolution has too many steps."""
-    slowest = min(plan.certain[0] for plan in plans.values())
+def _check_slowest(level: Level, nodes: int, slowest: float, path: tuple[str, ...], document: Document) -> None:
+    """ConfigError for a slowest speed, given at `path`, whose revolution has too many steps."""
     size = 8 * nodes * 2.0 * math.pi / slowest / level.time_integration.time_step_s
     if size > LARGEST_TABLE:
         raise document.refusal(
-            ("speeds",),
+            path,
             f"{slowest:g} rad/s, a revolution of {size / 8 / nodes:.3g} steps of {level.time_integration.time_step_s:g} s",
             f"speeds from {slowest * size / LARGEST_TABLE:.3g} rad/s with this step (the casing's shape at every step has to "
             "fit in memory)",
