@@ -117,7 +117,7 @@ SIGNALS = {"signals_of_run", "signals", "spectrogram_figure", "orders_figure"}
 
 
 def test_shapes_run_no_simulation(project):
-    """Asked for, they are made of what is there; nothing follows, and a new material or blade runs what it must."""
+    """Asked for, they are made of what is there and nothing follows; the model of the whole blade serves all of a blade's."""
     edit(project, "scenes.yaml", "wear, energy]", "wear, energy, shapes]")
     jobs = planned_outputs(project)
     assert set(jobs) == SHAPES | {"configuration"}
@@ -125,7 +125,7 @@ def test_shapes_run_no_simulation(project):
     snakemake(project, "all_blades", "--cores", "2")
     assert planned_outputs(project) == {}
     edit(project, "config.yaml", "interactions: # what", "shapes: { modes: 3 }\ninteractions: # what")
-    assert set(planned_outputs(project)) == SHAPES - {"worst_shapes", "worst_shapes_figure", "explorer"} | {"configuration"}
+    assert set(planned_outputs(project)) == SHAPES - {"explorer"} | {"configuration"}
 
 
 def test_signals_run_no_simulation_of_the_sweep(project):
