@@ -5,7 +5,7 @@ CORES ?= 2
 VENV := .venv
 BIN := $(VENV)/bin
 
-.PHONY: all_blades campbell test test-fast mutants lint bench docs setup clean clean-results
+.PHONY: all_blades campbell test test-fast test-slurm mutants lint bench docs setup clean clean-results
 
 all_blades campbell: $(VENV)/.ready
 	$(BIN)/snakemake $@ --cores $(CORES) $(if $(FIDELITY),--config fidelity=$(FIDELITY))
@@ -17,6 +17,11 @@ test: $(VENV)/.ready
 # without those that run Snakemake or build larger models
 test-fast: $(VENV)/.ready
 	$(BIN)/python -m pytest -q -m 'not slow'
+
+# parts of a sweep on a Slurm of one node, which the test starts; needs root, and installs Slurm where there is apt-get
+test-slurm: $(VENV)/.ready
+	sh envs/slurm.sh
+	R37_SLURM=1 $(BIN)/python -m pytest tests/test_slurm.py
 
 # whether the tests notice small changes of the code: a sample, about half an hour; MUTANTS='results/stress.py --each 20' for one module
 mutants: $(VENV)/.ready

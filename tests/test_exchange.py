@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from box_mesh import box_mesh
 
+from r37core.exchange.abaqus_reader import read_abaqus
 from r37core.exchange.errors import ImportRefused, MeshWarning, placed
 from r37core.exchange.import_mesh import import_mesh
 from r37core.exchange.material import check_material
@@ -243,7 +244,8 @@ def second_part(text):
     ("change", "message"),
     [
         (lambda text: f"*PART, NAME=A\n*END PART\n*PART, NAME=B\n{text}", r"several parts \(A, B\)"),
-        (lambda text: f"*ASSEMBLY\n*INSTANCE, NAME=A, PART=P\n1., 0., 0.\n{text}", "instance A is moved"),
+        (lambda text: f"*ASSEMBLY\n*INSTANCE, NAME=A, PART=P\n1., 0.\n{text}", "instance A: how it is placed cannot be read"),
+        (lambda text: f"*INSTANCE, NAME=A, PART=P\n*INSTANCE, NAME=B, PART=P\n{text}", r"several instances \(A, B\)"),
         (second_part, r"2 parts that share no node .* nodes lie on others: merge them"),
         (lambda text: text.replace("NSET=ROOT", "NSET=HUB"), r"root: found no set 'root'; the file has: .*HUB"),
         (lambda text: text.replace("*ELEMENT", "99999, 0.2, 0., 0.\n*ELEMENT"), r"1 of \d+ nodes belong to no .*\(99999\)"),
@@ -261,6 +263,18 @@ def second_part(text):
 def test_unsuitable_decks_are_refused(tmp_path, change, message):
     with pytest.raises(ImportRefused, match=rf"mesh\.inp: .*({message})"):
         import_mesh(source(deck(tmp_path, change)))
+
+
+def test_an_instance_stands_where_its_assembly_puts_it(tmp_path):
+    def assembled(text):
+        # a part that is shifted by 5 along y and turned by 90 degrees about an axis along x through (0, 5, 1)
+        placing = "0., 5., 0.\n0., 5., 1., 1., 5., 1., 90.\n"
+        assembly = f"*ASSEMBLY, NAME=A\n*INSTANCE, NAME=I, PART=P\n{placing}*END INSTANCE\n*END ASSEMBLY\n"
+        return f"*PART, NAME=P\n{text}\n*END PART\n{assembly}"
+
+    still, placed = read_abaqus(deck(tmp_path, lambda text: text)), read_abaqus(deck(tmp_path, assembled))
+    x, y, z = still.points.T
+    assert np.allclose(placed.points, np.stack([x, 5.0 - (z - 1.0), 1.0 + y], axis=1), atol=1e-12)
 
 
 def test_free_nodes_may_be_dropped(tmp_path):

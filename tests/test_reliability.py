@@ -36,6 +36,8 @@ from r37core.workflow.tree import check_tree
 def folder(tmp_path, monkeypatch):
     (tmp_path / ".snakemake").mkdir()
     monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("R37_FAILURES", "")  # so that it is as before afterwards
+    failures.begin("test")
     return tmp_path
 
 
@@ -50,9 +52,17 @@ def test_a_failure_is_one_line_and_its_traceback_is_in_the_log(folder, capsys):
     assert capsys.readouterr().err == "rule mesh: too thin;\nmake it thicker (blade Ref, details in a.log)\n"
     log = (folder / "a.log").read_text()
     assert log.startswith("working\nTraceback")
-    assert failures.noted() == ["rule mesh: too thin; make it thicker (blade Ref, details in a.log)"]
-    failures.forget()
-    assert failures.noted() == []
+    assert failures.taken() == ["rule mesh: too thin; make it thicker (blade Ref, details in a.log)"]
+    assert failures.taken() == []
+
+
+def test_runs_side_by_side_keep_their_failures_apart(folder):
+    failures.note("rule mesh: of this run")
+    failures.begin("another")
+    failures.note("rule mesh: of another run")
+    assert failures.taken() == ["rule mesh: of another run"]
+    os.environ["R37_FAILURES"] = ".snakemake/r37_failures_test.txt"
+    assert failures.taken() == ["rule mesh: of this run"]
 
 
 def test_an_error_without_words_is_named(folder, capsys):
@@ -63,7 +73,7 @@ def test_an_error_without_words_is_named(folder, capsys):
 def test_many_failures_are_not_all_repeated(folder):
     for number in range(9):
         failures.note(f"rule {number % 7}")
-    assert failures.noted(3) == ["rule 0", "rule 1", "rule 2", "... and 4 more, see the logs"]
+    assert failures.taken(3) == ["rule 0", "rule 1", "rule 2", "... and 4 more, see the logs"]
 
 
 def test_a_full_disk_is_said_as_such(folder, capsys, monkeypatch):

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import contextlib
 import errno
+import os
 import shutil
 import sys
 import traceback
 from collections.abc import Iterator
 from pathlib import Path
 
-_NOTES = Path(".snakemake/r37_failures.txt")
-"""In the folder that Snakemake works in."""
+_NOTES = "R37_FAILURES"
+"""Environment variable that names the file, one for each run: several may go on in one folder."""
 
 _FULL = 2**20
 """Bytes left on a disk that counts as full."""
@@ -36,25 +37,35 @@ def reported(rule: str, log: Path | str, about: str = "") -> Iterator[None]:
             sys.exit(1)
 
 
+def begin(run: str) -> None:
+    """Keep lines of the run of this name apart from those of others; the jobs that it starts inherit it."""
+    file = Path(f".snakemake/r37_failures_{run}.txt")
+    file.unlink(missing_ok=True)
+    os.environ[_NOTES] = str(file)
+
+
 def note(line: str) -> None:
     """Keep the line for the end of the run."""
-    if _NOTES.parent.is_dir():
-        with open(_NOTES, "a", encoding="utf-8") as stream:
+    file = _file()
+    if file is not None and file.parent.is_dir():
+        with open(file, "a", encoding="utf-8") as stream:
             stream.write(line.replace("\n", " ") + "\n")
 
 
-def noted(most: int = 5) -> list[str]:
-    """The lines kept since the last `forget`, each once."""
-    if not _NOTES.exists():
+def taken(most: int = 5) -> list[str]:
+    """The lines kept of this run, each once; they are not kept any longer."""
+    file = _file()
+    if file is None or not file.exists():
         return []
-    lines = list(dict.fromkeys(_NOTES.read_text(encoding="utf-8").splitlines()))
+    lines = list(dict.fromkeys(file.read_text(encoding="utf-8").splitlines()))
+    file.unlink()
     more = [f"... and {len(lines) - most} more, see the logs"] if len(lines) > most else []
     return [*lines[:most], *more]
 
 
-def forget() -> None:
-    """Begin anew."""
-    _NOTES.unlink(missing_ok=True)
+def _file() -> Path | None:
+    name = os.environ.get(_NOTES)
+    return Path(name) if name else None
 
 
 def _explained(error: Exception) -> str:

@@ -2,6 +2,7 @@
 # Snakemake re-runs a job when a parameter of plain types changes; of other objects a hash or text stands beside.
 import atexit
 import os
+import socket
 import sys
 import time
 from pathlib import Path
@@ -20,11 +21,14 @@ from r37core.workflow.progress import Progress, quieten
 from r37core.workflow.provenance import Provenance
 from r37core.workflow.shapes import Shapes
 from r37core.workflow.structure import Structure
-from r37core.workflow.run import replaced_level
+from r37core.workflow.resources import Needs
+from r37core.workflow.run import check_part, replaced_level
 from r37core.workflow.sweep import Sweep
 from r37core.workflow.tree import check_tree
 
 BEGAN = time.time()
+if workflow.is_main_process:
+    failures.begin(f"{socket.gethostname()}_{os.getpid()}")
 ROOT = Path(workflow.basedir)
 ENVIRONMENT = ROOT / "envs" / "r37.yaml"
 SCRIPTS = ROOT / "workflow" / "scripts"
@@ -52,6 +56,7 @@ structure = Structure(settings)
 imported = Imported(settings, ROOT)
 sweep = Sweep(settings, lambda **wildcards: checkpoints.refine.get(**wildcards).output[0])
 shapes = Shapes(sweep)
+needs = Needs(settings, sweep.most_runs)
 
 # thousands of jobs, one line: Snakemake's own messages of each are in its log file, and here with R37_FULL_LOG=1 or --verbose
 if not (os.environ.get("R37_FULL_LOG") or workflow.output_settings.dryrun or workflow.output_settings.verbose):
@@ -64,8 +69,17 @@ pathvars:
 
 
 onstart:
-    lock.claim()
-    failures.forget()
+    # the targets are not known before
+    try:
+        check_part(settings, workflow.dag_settings.targets)
+    except ConfigError as error:
+        raise WorkflowError(str(error)) from None
+    if workflow.execution_settings.lock:
+        lock.claim()
+    # Snakemake 9.27 keeps to a number of jobs per second by timers, one more for every job that ends while others wait; after two
+    # thousand they take a quarter of a core. The limit is for the queues of clusters
+    if workflow.local_exec:
+        workflow.scheduler.job_rate_limiter = None
 
 
 onsuccess:
@@ -79,7 +93,7 @@ onsuccess:
 onerror:
     lock.release()
     # Snakemake has a few words after this; what matters comes last
-    atexit.register(lambda: print("", *failures.noted(), sep="\n", file=sys.stderr))
+    atexit.register(lambda: print("", *failures.taken(), sep="\n", file=sys.stderr))
 
 
 wildcard_constraints:

@@ -49,6 +49,8 @@ rule whole_blade_model:
         "<logs>/exports/{blade}_model_{tip_line}.log",
     conda:
         ENVIRONMENT
+    resources:
+        **needs.of("reduced_model"),
     params:
         reduction=exported.reduction,
         provenance=made.structure,

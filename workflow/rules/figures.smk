@@ -10,6 +10,8 @@ rule campbell_figure:
         "<logs>/figures/campbell_{blade}.log",
     conda:
         ENVIRONMENT
+    resources:
+        **needs.of("campbell_figure"),
     params:
         code=code("campbell_figure"),
     script:
@@ -25,6 +27,8 @@ rule campbell_overview:
         "<logs>/figures/campbell_overview.log",
     conda:
         ENVIRONMENT
+    resources:
+        **needs.of("campbell_overview"),
     params:
         code=code("campbell_overview"),
     script:
@@ -40,6 +44,8 @@ rule blade_shapes_figure:
         "<logs>/figures/blades.log",
     conda:
         ENVIRONMENT
+    resources:
+        **needs.of("blade_shapes_figure"),
     params:
         blades=imported.with_mesh,
         code=code("blade_shapes_figure"),
@@ -56,6 +62,8 @@ rule response_figure:
         "<logs>/figures/response_{blade}.log",
     conda:
         ENVIRONMENT
+    resources:
+        **needs.of("response_figure"),
     params:
         code=code("response_figure"),
     script:
@@ -74,6 +82,8 @@ rule map_figure:
         kind="spectrum|wear",
     conda:
         ENVIRONMENT
+    resources:
+        **needs.of("map_figure"),
     params:
         code=code("map_figure"),
     script:
@@ -89,6 +99,8 @@ rule response_overview:
         "<logs>/figures/response_overview.log",
     conda:
         ENVIRONMENT
+    resources:
+        **needs.of("response_overview"),
     params:
         code=code("response_overview"),
     script:

@@ -9,11 +9,19 @@ rule configuration:
     priority: 20
     conda:
         ENVIRONMENT
+    resources:
+        **needs.of("configuration"),
     params:
         merged=settings.merged(),
         code=code("configuration"),
     script:
         "../scripts/configuration.py"
+
+
+# all that lies in the folders of the blades: what runs on several machines at once make (docs/cluster.md), and a rule for --batch
+rule responses:
+    input:
+        sweep.all_responses,
 
 
 rule sweep_dataset:
@@ -27,6 +35,8 @@ rule sweep_dataset:
         kind="|".join(sweep.kinds),
     conda:
         ENVIRONMENT
+    resources:
+        **needs.of("sweep_dataset"),
     params:
         runs=sweep.runs,
         fidelity=settings.fidelity_name,
@@ -45,6 +55,8 @@ rule summary:
         "<logs>/summary.log",
     conda:
         ENVIRONMENT
+    resources:
+        **needs.of("summary"),
     params:
         choice=plain(settings.interactions),
         code=code("summary"),
@@ -63,6 +75,8 @@ rule explorer:
         "<logs>/explorer.log",
     conda:
         ENVIRONMENT
+    resources:
+        **needs.of("explorer"),
     params:
         title=f"r37 {settings.run_name or ''}".strip(),
         shapes=shapes.runs,

@@ -13,6 +13,8 @@ rule geometry:
     priority: 10
     conda:
         ENVIRONMENT
+    resources:
+        **needs.of("geometry"),
     params:
         definition=structure.definition,
         shape_hash=structure.shape_hash,
@@ -37,6 +39,8 @@ rule mesh:
     priority: 2
     conda:
         ENVIRONMENT
+    resources:
+        **needs.of("mesh"),
     params:
         mesh=plain(settings.fidelity.mesh),
         code=code("mesh"),
@@ -58,6 +62,8 @@ rule imported_mesh:
     priority: 10
     conda:
         ENVIRONMENT
+    resources:
+        **needs.of("mesh"),
     params:
         source=imported.source,
         described=imported.described,
@@ -77,6 +83,8 @@ rule abaqus_deck:
         "<logs>/{blade}/abaqus_deck.log",
     conda:
         ENVIRONMENT
+    resources:
+        **needs.of("abaqus_deck"),
     params:
         material=structure.elastic,
         code=code("abaqus_deck"),
@@ -94,6 +102,8 @@ rule matrices:
     priority: 2
     conda:
         ENVIRONMENT
+    resources:
+        **needs.of("matrices"),
     params:
         material=structure.elastic,
         code=code("matrices"),
@@ -114,6 +124,8 @@ rule reduced_model:
     priority: 2
     conda:
         ENVIRONMENT
+    resources:
+        **needs.of("reduced_model"),
     params:
         reduction=structure.reduction,
         provenance=made.structure,
@@ -134,6 +146,8 @@ rule imported_matrices:
     priority: 10
     conda:
         ENVIRONMENT
+    resources:
+        **needs.of("reduced_model"),
     params:
         source=imported.source,
         described=imported.described,
@@ -155,6 +169,8 @@ rule campbell_of_blade:
         "<logs>/{blade}/campbell.log",
     conda:
         ENVIRONMENT
+    resources:
+        **needs.of("campbell_of_blade"),
     params:
         campbell=plain(settings.campbell),
         maximum_speed=settings.structure.maximum_speed_rad_s,
@@ -174,6 +190,8 @@ rule campbell_of_all:
         "<logs>/campbell_of_all.log",
     conda:
         ENVIRONMENT
+    resources:
+        **needs.of("campbell_of_all"),
     params:
         blades=list(settings.blades),
         fidelity=settings.fidelity_name,

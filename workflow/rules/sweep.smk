@@ -11,6 +11,8 @@ rule contact_model:
     priority: 2
     conda:
         ENVIRONMENT
+    resources:
+        **needs.of("contact_model"),
     params:
         code=code("contact_model"),
     script:
@@ -29,6 +31,8 @@ rule prepare_time_integration:
     priority: 15
     conda:
         ENVIRONMENT
+    resources:
+        **needs.of("prepare_time_integration"),
     params:
         scene=sweep.scene,
         described=sweep.described,
@@ -50,6 +54,8 @@ rule simulate:
     priority: sweep.priority
     conda:
         ENVIRONMENT
+    resources:
+        **needs.of("simulate"),
     params:
         task=sweep.task,
         about=made.sweep,
@@ -75,6 +81,8 @@ checkpoint refine:
     priority: 4
     conda:
         ENVIRONMENT
+    resources:
+        **needs.of("refine"),
     params:
         plan=sweep.refined_plan,
         choice=sweep.refinement_choice,
@@ -97,6 +105,8 @@ rule response:
     priority: 5
     conda:
         ENVIRONMENT
+    resources:
+        **needs.of("response"),
     params:
         speeds=sweep.speeds,
         stress=sweep.with_stress,

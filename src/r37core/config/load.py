@@ -24,7 +24,7 @@ from .document import Document, command_line_document, read_document
 from .families import Designs, Family, with_designs
 from .fidelity import Level, Levels
 from .scenes import SceneEntry, Scenes
-from .settings import Campbell, Config, Interactions, Refinement, SpeedEntry, SpeedRange, Structure
+from .settings import Campbell, Config, Interactions, Refinement, Run, SpeedEntry, SpeedRange, Structure
 from .studies import Studies
 
 CONFIG_FILE = "config/config.yaml"
@@ -203,7 +203,7 @@ def load_settings(config: Document | Mapping[str, Any], root: Path) -> Settings:
     blades, files = designs.entries, replace(files, blades=designs.document)
     fidelity_name = _level_name(checked, levels, files)
     level = levels[fidelity_name]
-    names = _chosen_blades(checked, designs, files)
+    names = _part_of(_chosen_blades(checked, designs, files), checked.run, files.config)
     scene_names = files.known(("scenes",), list(scenes) if checked.scenes == "all" else checked.scenes, scenes, files.scenes)
     _check_studies(checked.studies, blades, levels, scenes, files)
     chosen_scenes = {name: _scene(scenes[name], level, checked.structure.boundary.tip_line) for name in scene_names}
@@ -213,7 +213,7 @@ def load_settings(config: Document | Mapping[str, Any], root: Path) -> Settings:
     _check_exports(checked, plans, files.config)
     slowest = min(plan.certain[0] for plan in plans.values())
     _check_slowest(level, checked.structure.boundary.nodes, slowest, ("speeds",), files.config)
-    _check_signals(checked, level, names, chosen_scenes, files)
+    _check_signals(checked, level, blades, chosen_scenes, files)
     chosen_blades = {name: blade_settings(name, blades, root, files.blades) for name in names}
     _check_matrices(chosen_blades, checked, files.config)
     _check_families(chosen_blades, designs, files.blades)
@@ -246,6 +246,14 @@ def _chosen_blades(checked: Config, designs: Designs, files: _Files) -> list[str
     files.known(("blades",), checked.blades, [*designs.entries, *designs.families], files.blades)
     several = [list(designs.families[name].designs) if name in designs.families else [name] for name in checked.blades]
     return list(dict.fromkeys(name for names in several for name in names))
+
+
+def _part_of(names: list[str], run: Run, document: Document) -> list[str]:
+    """The blades of the run's part; ConfigError where that has none."""
+    chosen = run.of_part(names)
+    if not chosen:
+        raise document.refusal(("run", "part"), f"{run.part} of {len(names)} blades", f"at most {len(names)} parts")
+    return chosen
 
 
 @dataclass(frozen=True)
@@ -353,7 +361,7 @@ def _speed_plans(
         raise files.config.refusal(
             ("speeds",),
             f"{number_of_all} simulations of {len(blades)} blades in {len(scenes)} scenes",
-            f"at most {LARGEST_NUMBER_OF_SIMULATIONS} in one run",
+            f"at most {LARGEST_NUMBER_OF_SIMULATIONS} in one run; more in parts (run.part, docs/cluster.md)",
         )
     return together
 
@@ -407,12 +415,12 @@ def _check_exports(checked: Config, plans: Mapping[Any, SpeedPlan], document: Do
 
 
 def _check_signals(
-    checked: Config, level: Level, blades: Sequence[str], scenes: Mapping[str, SceneSettings], files: _Files
+    checked: Config, level: Level, blades: Iterable[str], scenes: Mapping[str, SceneSettings], files: _Files
 ) -> None:
-    """ConfigError for signals of a blade that is not run, of no scene, or longer than a scene's runs."""
+    """ConfigError for signals of a blade that is not there, of no scene, or longer than a scene's runs."""
     given = checked.signals
     if given.blades != "all":
-        files.known(("signals", "blades"), given.blades, blades, files.config)
+        files.known(("signals", "blades"), given.blades, blades, files.blades)
     if given.speeds_rad_s is None:
         return
     if isinstance(given.speeds_rad_s, list):

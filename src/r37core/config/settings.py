@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import re
 from typing import Annotated, Literal
 
-from pydantic import Discriminator, Field, Tag, model_validator
+from pydantic import AfterValidator, Discriminator, Field, Tag, model_validator
 
 from r37core.rom.boundary import BoundaryChoice
 from r37core.rom.choice import ReductionChoice, StressSubmesh
@@ -153,12 +154,40 @@ class Refinement(Section):
     )
 
 
+def _numbers_of_part(part: str) -> tuple[int, int]:
+    number, parts = map(int, part.split("/"))
+    return number, parts
+
+
+def _check_part(part: str) -> str:
+    if re.fullmatch(r"[1-9]\d{0,5}/[1-9]\d{0,5}", part):
+        number, parts = _numbers_of_part(part)
+        if number <= parts:
+            return part
+    raise refused((), repr(part), "a number of a part and how many there are, as in 2/7")
+
+
+Part = Annotated[str, AfterValidator(_check_part)]
+
+
 class Run(Section):
-    """Where the results go."""
+    """Where the results go, and which share of them is made."""
 
     name: Name | LeftOut = Field(
         default=None, description="a run with a name has its results in results/runs/<name>, beside those of others"
     )
+    part: Part | LeftOut = Field(
+        default=None,
+        description="2/7: only the second of seven parts of the blades, for `snakemake responses` on several machines at once",
+    )
+
+    def of_part(self, names: list[str]) -> list[str]:
+        """The blades of this part, all without one; no two parts share one, and their numbers differ by one at most."""
+        if self.part is None:
+            return names
+        number, parts = _numbers_of_part(self.part)
+        first, last = ((number - 1) * len(names)) // parts, (number * len(names)) // parts
+        return names[first:last]
 
 
 class Config(Section):

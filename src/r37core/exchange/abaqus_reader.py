@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 from r37core.fem.elements import ELEMENTS
 
@@ -39,13 +40,14 @@ class _Deck:
     nodes_of_elements: list[tuple[str, str]] = field(default_factory=list)
     surfaces: dict[str, list[tuple[str, str]]] = field(default_factory=dict)
     parts: list[str] = field(default_factory=list)
+    instances: dict[str, list[list[str]]] = field(default_factory=dict)
     scope: str = ""
 
 
 def read_abaqus(file: Path) -> RawMesh:
-    """The mesh of a deck with one part; sets of nodes, of elements and of element faces become sets of nodes.
+    """The mesh of a deck with one part, where its instance stands; sets of nodes, elements and faces become sets of nodes.
 
-    Raises ImportRefused for decks with several parts or a moved instance, and for what cannot be read.
+    Raises ImportRefused for decks with several parts or instances, and for what cannot be read.
     """
     deck = _Deck()
     for keyword, options, rows in _blocks(file):
@@ -53,7 +55,7 @@ def read_abaqus(file: Path) -> RawMesh:
     labels = np.array(list(deck.points), dtype=np.int64)
     number = {label: i for i, label in enumerate(deck.points)}
     try:
-        points = np.array(list(deck.points.values()), dtype=float).reshape(len(labels), 3)
+        points = _placed(deck, np.array(list(deck.points.values()), dtype=float).reshape(len(labels), 3))
         cells = [(name, np.array([[number[n] for n in row] for row in of.values()])) for name, of in deck.solids.items()]
     except KeyError as error:
         raise ImportRefused(f"an element names node {error.args[0]}, which the deck lacks") from None
@@ -116,12 +118,35 @@ def _take(deck: _Deck, keyword: str, options: dict[str, str], rows: list[list[st
 
 
 def _check_parts(deck: _Deck, keyword: str, options: dict[str, str], rows: list[list[str]]) -> None:
-    if keyword == "INSTANCE" and rows:
-        raise ImportRefused(f"instance {options.get('NAME')} is moved or turned; write the deck without parts and assemblies")
+    name = options.get("NAME", "?")
     if keyword == "PART":
-        deck.parts.append(options.get("NAME", "?"))
-    if len(deck.parts) > 1:
-        raise ImportRefused(f"found several parts ({', '.join(deck.parts)}); allowed: one blade in one part")
+        deck.parts.append(name)
+    if keyword == "INSTANCE":
+        # nodes of its own may follow how it is placed
+        deck.instances[name] = rows
+    for what, names in (("parts", deck.parts), ("instances", list(deck.instances))):
+        if len(names) > 1:
+            raise ImportRefused(f"found several {what} ({', '.join(names)}); allowed: one blade in one part")
+
+
+def _placed(deck: _Deck, points: np.ndarray) -> np.ndarray:
+    """The points where the deck's instance stands: shifted, then turned about an axis (Abaqus, *INSTANCE)."""
+    for name, rows in deck.instances.items():
+        try:
+            shift, *turn = [np.array([float(cell) for cell in row if cell]) for row in rows] or [np.zeros(3)]
+            points = points + shift
+            for numbers in turn:
+                first, along, degrees = numbers[:3], numbers[3:6] - numbers[:3], numbers[6]
+                if not along.any():
+                    raise ValueError
+                axis = along / np.linalg.norm(along)
+                points = first + Rotation.from_rotvec(degrees * axis, degrees=True).apply(points - first)
+        except (ValueError, IndexError):
+            raise ImportRefused(
+                f"instance {name}: how it is placed cannot be read; allowed: three numbers that shift it, then seven "
+                "that turn it"
+            ) from None
+    return points
 
 
 def _take_elements(deck: _Deck, options: dict[str, str], rows: list[list[str]]) -> None:

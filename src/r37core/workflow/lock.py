@@ -7,6 +7,7 @@ import os
 import shutil
 import socket
 from pathlib import Path
+from typing import Any
 
 _LOCKS = Path(".snakemake/locks")
 _HOLDER = Path(".snakemake/r37_running.json")
@@ -18,28 +19,33 @@ def claim() -> None:
 
 
 def release() -> None:
-    """Say that this process is done."""
-    _HOLDER.unlink(missing_ok=True)
+    """Say that this process is done, if it has claimed the lock."""
+    if _holder() == _identity(os.getpid()):
+        _HOLDER.unlink()
 
 
 def lift_stale() -> list[str]:
     """Remove the lock that a killed process of this machine left behind; what was done, in words."""
-    if not (_LOCKS.is_dir() and any(_LOCKS.iterdir()) and _HOLDER.exists()):
-        return []
-    try:
-        holder = json.loads(_HOLDER.read_text(encoding="utf-8"))
-    except ValueError:
+    holder = _holder()
+    if not (holder and _LOCKS.is_dir() and any(_LOCKS.iterdir())):
         return []
     if holder.get("host") != socket.gethostname() or holder == _identity(holder["pid"]):
         return []
     shutil.rmtree(_LOCKS)
-    release()
+    _HOLDER.unlink()
     return [
         f"the last run here was killed (process {holder['pid']}); its lock is lifted, and what it left half-done runs again"
     ]
 
 
-def _identity(pid: int) -> dict[str, str | int]:
+def _holder() -> dict[str, Any]:
+    try:
+        return json.loads(_HOLDER.read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        return {}
+
+
+def _identity(pid: Any) -> dict[str, str | int]:
     """A process as nobody else can be it: number, when it began, machine."""
     try:
         began = Path(f"/proc/{pid}/stat").read_text(encoding="ascii", errors="replace").rsplit(")", 1)[1].split()[19]

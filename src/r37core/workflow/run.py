@@ -1,13 +1,28 @@
-"""What a run keeps of its configuration, and what it says when it replaces another's results."""
+"""What a run keeps of its configuration, what it says when it replaces another's results, and what a part of one may make."""
 
 from __future__ import annotations
 
 import json
+from collections.abc import Collection
 
-from r37core.config import Settings
+from r37core.config import ConfigError, Settings
 
 CONFIGURATION = "configuration.json"
 """In the folder of the results."""
+
+RESPONSES = "responses"
+"""The rule that makes what lies in the folders of the blades, and nothing of all blades together."""
+
+
+def check_part(settings: Settings, targets: Collection[str]) -> None:
+    """ConfigError for a part of the blades with other targets: datasets of a part would replace those of all blades."""
+    part = settings.config.run.part
+    if part is not None and set(targets) != {RESPONSES}:
+        raise ConfigError(
+            f"run.part: found {part} with the target {', '.join(sorted(targets)) or 'all_blades'}; "
+            f"allowed: the target {RESPONSES}, as in: "
+            f"snakemake {RESPONSES} --config run='{{part: {part}}}'; then all_blades without a part"
+        )
 
 
 def replaced_level(settings: Settings) -> list[str]:

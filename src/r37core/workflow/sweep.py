@@ -168,6 +168,12 @@ class Sweep:
         return [paths.fill(paths.RESPONSE, blade=blade, scene=scene) for blade, scene in self.runs(wildcards)]
 
     @property
+    def all_responses(self) -> list[str]:
+        """The responses of all blades and scenes, and the Campbell diagrams that stand beside them."""
+        diagrams = [paths.fill(paths.CAMPBELL, blade=blade) for blade in self.settings.blades]
+        return diagrams + [paths.fill(paths.RESPONSE, blade=blade, scene=scene) for blade, scene in self.runs_with(KINDS[0])]
+
+    @property
     def figures(self) -> list[str]:
         """Pictures of the sweep."""
         of_blades = [paths.fill(paths.RESPONSE_FIGURE, blade=blade) for blade in self.settings.blades]

@@ -1,0 +1,94 @@
+"""Memory and time of the jobs of each rule, by the size of the mesh or the number of simulations.
+
+Runs one blade at several levels, and samples what its jobs take with their children. What was measured is kept in
+src/r37core/workflow/resources.json, from which the rules say what their jobs need; the table goes into docs/cluster.md.
+
+Run: python benchmarks/resources.py   (about ten minutes; results go to results/runs/resources-<level>)
+"""
+
+import re
+import subprocess
+import sys
+import time
+from collections import defaultdict
+from pathlib import Path
+
+import psutil
+from pages import fill
+
+from r37core.config import read_settings
+from r37core.config.document import command_line_document
+from r37core.io import write_json
+from r37core.workflow.resources import MEASURED, PER_SIMULATION, read_measured
+
+ROOT = Path(__file__).parent.parent
+SNAKEMAKE = str(Path(sys.executable).with_name("snakemake"))
+LEVELS = ("draft", "standard", "fine")
+MANY = 157
+"""Speeds of the standard level's sweep, in each scene; the others run a tenth."""
+
+INTERVAL_S = 0.05
+
+
+def rule_of(job):
+    """Rule of a job that Snakemake has started, by the script that it or a child of it runs, and its processes."""
+    processes = [job, *job.children(recursive=True)]
+    for process in processes:
+        found = re.search(r"scripts/(?:tmp\w+\.)?(\w+)\.py", " ".join(process.cmdline()))
+        if found:
+            return found[1], processes
+    return None, processes
+
+
+def watch(command):
+    """Largest memory (MB) and longest time (s) of the jobs of each rule while `command` runs."""
+    memory, began, seconds = defaultdict(float), {}, defaultdict(float)
+    main = subprocess.Popen(command, cwd=ROOT, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    snakemake = psutil.Process(main.pid)
+    while main.poll() is None:
+        for job in snakemake.children():
+            try:
+                rule, processes = rule_of(job)
+                if rule is None:
+                    continue
+                resident = sum(process.memory_info().rss for process in processes)
+                memory[rule] = max(memory[rule], resident / 2**20)
+                start = began.setdefault(job.pid, job.create_time())
+                seconds[rule] = max(seconds[rule], time.time() - start)
+            except psutil.NoSuchProcess:
+                continue
+        time.sleep(INTERVAL_S)
+    if main.returncode:
+        raise SystemExit(f"failed: {' '.join(command)}")
+    return {rule: (memory[rule], seconds[rule]) for rule in memory}
+
+
+def measure():
+    """Rule -> rows of [size, MB, s]; the size is the number of mesh nodes, or of simulations."""
+    rows = defaultdict(list)
+    for level in LEVELS:
+        speeds = MANY if level == "standard" else MANY // 10
+        changes = {"fidelity": level, "blades": ["Ref"], "run": {"name": f"resources-{level}"}}
+        changes["speeds"] = [{"start": 750, "stop": 2000, "step": 1250 / (speeds - 1)}]
+        options = [f"{key}={str(value).replace(chr(39), chr(34))}" for key, value in changes.items()]
+        found = watch([SNAKEMAKE, "all_blades", "--forceall", "--cores", "1", "--config", *options])
+        settings = read_settings(ROOT, command_line_document(changes))
+        for rule, (memory, seconds) in found.items():
+            size = 2 * speeds if rule in PER_SIMULATION else settings.fidelity.mesh.nodes
+            rows[rule].append([size, round(memory), round(seconds, 1)])
+    return {rule: sorted(several) for rule, several in sorted(rows.items())}
+
+
+def table(measured):
+    """The same as a table in Markdown."""
+    lines = ["| rule | size | memory (MB) | time (s) |", "|---|---|---|---|"]
+    for rule, rows in measured.items():
+        unit = "simulations" if rule in PER_SIMULATION else "nodes"
+        for size, memory, seconds in rows:
+            lines.append(f"| `{rule}` | {size:,} {unit} | {memory} | {seconds:g} |")
+    return "\n".join(lines)
+
+
+if __name__ == "__main__":
+    write_json(measure(), MEASURED)
+    fill(ROOT / "docs" / "cluster.md", "resources", table(read_measured()))

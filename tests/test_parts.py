@@ -1,0 +1,95 @@
+"""A sweep in parts, on several machines at once: which blades each has, what it may make, what its jobs ask for."""
+
+import os
+import subprocess
+
+import pytest
+import yaml
+from stubbed_runs import copy_stubbed, planned_outputs
+from workflow_runs import SNAKEMAKE, snakemake
+
+from r37core.config import ConfigError, read_settings
+from r37core.config.document import command_line_document
+from r37core.workflow.resources import PER_SIMULATION, Needs, estimated, read_measured
+from r37core.workflow.run import check_part
+
+
+def settings_of(root, part, **changes):
+    return read_settings(root, command_line_document({"run": {"part": part}, **changes}))
+
+
+@pytest.mark.parametrize("parts", [1, 2, 3, 7])
+def test_every_blade_is_in_one_part(root, parts):
+    several = [list(settings_of(root, f"{number}/{parts}").blades) for number in range(1, parts + 1)]
+    assert [blade for blades in several for blade in blades] == list(read_settings(root).blades)
+    assert max(map(len, several)) - min(map(len, several)) <= 1
+
+
+@pytest.mark.parametrize("part", ["0/3", "4/3", "1/0", "-1/3", "a/b", "1/3 ", "1.0/2", "1/3/3"])
+def test_what_is_no_part_is_refused(root, part):
+    with pytest.raises(
+        ConfigError, match=r"run\.part: found .*; allowed: a number of a part and how many there are, as in 2/7"
+    ):
+        settings_of(root, part)
+
+
+def test_more_parts_than_blades_are_refused(root):
+    with pytest.raises(ConfigError, match=r"run\.part: found 1/3 of 2 blades; allowed: at most 2 parts"):
+        settings_of(root, "1/3", blades=["Ref", "S50"])
+
+
+def test_a_part_makes_nothing_of_all_blades(root):
+    part = settings_of(root, "1/3")
+    check_part(part, {"responses"})
+    check_part(read_settings(root), set())
+    for targets in (set(), {"all_blades"}, {"responses", "results/rms.nc"}):
+        with pytest.raises(ConfigError, match=r"run\.part: found 1/3 with the target .*; allowed: the target responses, as in"):
+            check_part(part, targets)
+
+
+def test_memory_and_time_between_and_beyond_what_was_measured():
+    rows = [[10, 100, 1.0], [20, 200, 3.0]]
+    assert estimated(rows, 15) == (150.0, 2.0)
+    assert estimated(rows, 5) == (100.0, 1.0)
+    assert estimated(rows, 40) == (400.0, 7.0)
+    assert estimated([[10, 200, 3.0], [20, 100, 1.0]], 40) == (100.0, 1.0)
+    assert estimated(rows[:1], 40) == (100.0, 1.0)
+
+
+def test_every_job_of_a_sweep_says_what_it_needs(root):
+    needs = Needs(read_settings(root), 3500)
+    for rule in {"mesh", "matrices", "reduced_model", "simulate"} | PER_SIMULATION:
+        asked = needs.of(rule)
+        largest = max(memory for _, memory, _ in read_measured()[rule])
+        assert 300 <= asked["mem_mb"] < 10 * largest + 300
+        assert asked["runtime"] >= 5
+
+
+def test_the_profile_of_a_node_has_all_that_the_usual_one_has(root):
+    usual, node = (yaml.safe_load((root / f"profiles/{name}/config.yaml").read_text()) for name in ("default", "node"))
+    assert node == usual | {"cores": "all"}
+
+
+@pytest.mark.slow
+def test_parts_at_once_then_one_run_that_joins_them(root, tmp_path):
+    copy_stubbed(root, tmp_path)
+    commands = [[SNAKEMAKE, "responses", "--nolock", "--cores", "1", "--config", f"run={{part: {part}/2}}"] for part in (1, 2)]
+    environment = os.environ | {"PYTHONPATH": str(tmp_path / "src")}
+    running = [subprocess.Popen(command, cwd=tmp_path, env=environment) for command in commands]
+    assert [process.wait() for process in running] == [0, 0]
+    left = planned_outputs(tmp_path)
+    assert not {"geometry", "simulate", "response", "campbell_of_blade"} & set(left)
+    assert "sweep_dataset" in left
+    said = snakemake(tmp_path, "--cores", "1", "--config", "run={part: 1/2}", check=False)
+    assert "run.part: found 1/2 with the target all_blades; allowed: the target responses" in said
+    assert not (tmp_path / "results/rms.nc").exists()
+
+
+@pytest.mark.slow
+def test_batches_of_the_named_rule(root, tmp_path):
+    copy_stubbed(root, tmp_path)
+    first, second = (
+        planned_outputs(tmp_path, "responses", "--batch", f"responses={number}/3").get("simulate", set()) for number in (1, 2)
+    )
+    assert first
+    assert not first & second
