@@ -95,7 +95,7 @@ CONFIG_REFUSALS = [
         "signals: { speeds_rad_s: [900], blades: [Reff] }",
         r"signals\.blades: found 'Reff'; allowed: Ref, L50",
     ),
-    ("speeds_for: []", "shapes: { modes: 0 }", r"shapes\.modes: found 0; allowed: integer, at least 1, at most 30"),
+    ("shapes: { modes: 6 }", "shapes: { modes: 0 }", r"shapes\.modes: found 0; allowed: integer, at least 1, at most 30"),
     ("speeds_for: []", "signals: { speeds_rad_s: [0.1] }", r"signals\.speeds_rad_s: found 0\.1 rad/s, a revolution of"),
     (
         "speeds_for: []",

@@ -124,7 +124,7 @@ def test_shapes_run_no_simulation(project):
     assert jobs["worst_shapes"] == {f"shapes/{blade}/stress_abradable" for blade in BLADES}
     snakemake(project, "all_blades", "--cores", "2")
     assert planned_outputs(project) == {}
-    edit(project, "config.yaml", "interactions: # what", "shapes: { modes: 3 }\ninteractions: # what")
+    edit(project, "config.yaml", "shapes: { modes: 6 }", "shapes: { modes: 3 }")
     assert set(planned_outputs(project)) == SHAPES - {"explorer"} | {"configuration"}
 
 
