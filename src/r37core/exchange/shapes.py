@@ -94,7 +94,7 @@ def write_worst_shapes(
         about = {
             "shape": f"stress_{exact_text(speed)}",
             "title": f"{titles[speed]} at {speed:g} rad/s ({RPM * speed:.0f} rpm): largest von Mises stress of the submesh "
-            f"{1e-6 * instant.largest:.4g} MPa; displacement {magnified:g} times as large",
+            f"{1e-6 * instant.largest:.0f} MPa; displacement {magnified:g} times as large",
             "quantity": "von Mises stress",
             "unit": "Pa",
             "largest_shown": instant.largest,

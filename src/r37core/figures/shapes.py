@@ -54,7 +54,7 @@ def _draw(plotter: pyvista.Plotter, folder: Path, entry: Mapping[str, Any]) -> N
         factor = float(entry["magnification"])
     grid.point_data[label] = values
     still = grid.extract_surface(nonlinear_subdivision=1, algorithm="dataset_surface")
-    bar: Any = {"width": 0.8, "position_x": 0.1, "title_font_size": 15, "label_font_size": 15, "n_labels": 2, "fmt": "%.4g"}
+    bar: Any = {"width": 0.8, "position_x": 0.1, "title_font_size": 15, "label_font_size": 15, "n_labels": 2, "fmt": "%.0f"}
     plotter.add_mesh(still.extract_feature_edges(feature_angle=50.0), color="black", line_width=1)
     plotter.add_mesh(
         still.warp_by_vector(moved, factor=factor),

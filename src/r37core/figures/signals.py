@@ -69,7 +69,7 @@ def draw_orders(signals: xr.Dataset, title: str) -> Figure:
             axes.set_ylabel(unit)
             # room for the legend
             axes.set_ylim(0.0, 1.35 * max(float(amplitudes.max(initial=0.0)), 1e-30))
-            axes.legend(fontsize=7, ncols=_TRACKS, title="order", title_fontsize=7, loc="upper left")
+            _legend(axes, "order", _TRACKS)
             if row == 0:
                 axes.set_title(name, fontsize=9)
         if timed:
@@ -87,9 +87,25 @@ def _draw_timing(axes: Axes, run: xr.Dataset, first: bool) -> None:
     axes.set_ylabel("mm")
     low, high = axes.get_ylim()
     axes.set_ylim(low, high + 0.35 * (high - low))
-    axes.legend(fontsize=7, ncols=4, title="probe (degrees)", title_fontsize=7, loc="upper left")
+    _legend(axes, "probe (degrees)", 4)
     if first:
         axes.set_title("tip timing, leading edge", fontsize=9)
+
+
+def _legend(axes: Axes, title: str, columns: int) -> None:
+    legend = axes.legend(
+        fontsize=6,
+        ncols=columns,
+        title=title,
+        title_fontsize=6,
+        loc="upper left",
+        handlelength=0.8,
+        handletextpad=0.3,
+        columnspacing=0.6,
+        borderpad=0.1,
+    )
+    # panels keep their width, however many entries
+    legend.set_in_layout(False)
 
 
 def _channels(signals: xr.Dataset) -> list[tuple[str, str, xr.DataArray]]:
@@ -107,7 +123,7 @@ def _per_revolution(signals: xr.Dataset) -> int:
 
 def _grid(signals: xr.Dataset, columns: int, title: str) -> tuple[Figure, np.ndarray]:
     rows = signals.sizes["speed"]
-    size = (3.6 * columns + 0.6, 2.3 * rows + 0.6)
+    size = (2.4 * columns, 1.7 * rows + 0.5)
     figure, panels = plt.subplots(rows, columns, figsize=size, sharex=True, squeeze=False)
     figure.suptitle(title)
     return figure, panels
