@@ -12,6 +12,7 @@ from scipy.optimize import brentq
 from r37core.contact.casing import Casing
 from r37core.contact.scene import Scene
 from r37core.dataset_file import read_dataset, write_dataset
+from r37core.exchange.frame import blade_parameters
 from r37core.figures.signals import draw_orders, draw_spectrograms
 from r37core.figures.style import save
 from r37core.io import InputFileError
@@ -71,6 +72,22 @@ def test_gauges_lie_where_they_are_asked_for(blade, mesh):
     turn = np.cross([0.3, -0.5, 0.8], mesh.points)
     basis = np.stack([turn, np.tile([1.0, 2.0, 3.0], (len(turn), 1))], axis=2)
     np.testing.assert_allclose(gauge_rows(mesh, basis, gauges), 0.0, atol=1e-10)
+
+
+def test_gauges_of_an_imported_mesh(mesh):
+    """Chord, span and sides found from the shape alone: some millimetres from those of the profiles, on the right side."""
+    parameters, normals = blade_parameters(mesh.points, mesh.node_set("root"), mesh.node_set("tip"), True)
+    imported = replace(mesh, parameters=parameters, normals=normals)
+    gauges = [
+        Gauge(chord, span, side, 0.0)
+        for chord in (0.1, 0.5, 0.9)
+        for span in (0.1, 0.5, 0.9)
+        for side in ("pressure", "suction")
+    ]
+    ours, theirs = gauge_points(mesh, gauges), gauge_points(imported, gauges)
+    assert np.linalg.norm(ours - theirs, axis=1).max() < 3e-3
+    across = np.sum((ours[1::2] - ours[::2]) * (theirs[1::2] - theirs[::2]), axis=1)
+    assert np.all(across > 0.0)
 
 
 def test_a_gauge_along_the_span_of_a_curved_blade(mesh):
@@ -245,6 +262,7 @@ def test_a_divergence_ends_the_record(contact, scene):
 # datasets
 
 
+PLACE = np.array([0.2, 0.01, 0.02])
 TIP = RecoveryNodes(np.arange(2), np.array([[0.25, 0.0, 0.0], [0.24, 0.01, 0.03]]), np.zeros((2, 3, 1)))
 
 
@@ -259,11 +277,11 @@ def record_of(turns, last=None, gauges=1):
 @pytest.fixture
 def dataset():
     records = {1200.0: record_of(12), 900.5: record_of(12)}
-    return signals_dataset(records, {1200.0: "1B/5"}, ["root"], [90.0, 10.0], TIP)
+    return signals_dataset(records, {1200.0: "1B/5"}, {"root": PLACE}, [90.0, 10.0], TIP)
 
 
 def test_dataset_of_a_scene(dataset):
-    assert dict(dataset.sizes) == {"speed": 2, "tip_point": 2, "turn": 600, "gauge": 1, "probe": 2, "revolution": 12}
+    assert dict(dataset.sizes) == {"speed": 2, "tip_point": 2, "turn": 600, "gauge": 1, "axis": 3, "probe": 2, "revolution": 12}
     assert list(dataset["interaction"].values) == ["1B/5", ""]
     assert float(dataset["speed_rpm"].sel(speed=1200.0)) == pytest.approx(11459.16, abs=0.01)
     # what the arrival tells is the motion at that time
@@ -275,15 +293,15 @@ def test_dataset_of_a_scene(dataset):
 
 
 def test_what_was_not_asked_for_is_left_out():
-    bare = signals_dataset({1000.0: record_of(3, gauges=0)}, {}, [], [], TIP)
+    bare = signals_dataset({1000.0: record_of(3, gauges=0)}, {}, {}, [], TIP)
     assert set(bare.data_vars) == {"normal", "tangential", "status"}
-    assert dict(signals_dataset({}, {}, ["root"], [10.0], TIP).sizes) == {"speed": 0}
+    assert dict(signals_dataset({}, {}, {"root": PLACE}, [10.0], TIP).sizes) == {"speed": 0}
 
 
 def test_datasets_are_joined_by_run(dataset, tmp_path):
     """Three scenes: one keeps fewer revolutions and has no gauge, one has no interaction."""
-    other = signals_dataset({1200.0: record_of(12, last=5, gauges=0)}, {}, [], [10.0, 90.0], TIP)
-    empty = signals_dataset({}, {}, [], [], TIP)
+    other = signals_dataset({1200.0: record_of(12, last=5, gauges=0)}, {}, {}, [10.0, 90.0], TIP)
+    empty = signals_dataset({}, {}, {}, [], TIP)
     files = {}
     for pair, one in {("Ref", "abradable"): dataset, ("Ref", "direct"): other, ("L50", "direct"): empty}.items():
         files[pair] = tmp_path / f"{'_'.join(pair)}.nc"
@@ -298,6 +316,7 @@ def test_datasets_are_joined_by_run(dataset, tmp_path):
         picked["tangential"].reset_coords(drop=True),
         dataset["tangential"].sel(speed=900.5).reset_coords(drop=True),
     )
+    np.testing.assert_array_equal(joined["gauge_place"].isel(run=0, gauge=0), PLACE)
     short = joined.isel(run=2)
     assert np.isnan(short["normal"].sel(turn=slice(0, 7))).all()
     assert np.isfinite(short["normal"].sel(turn=slice(7.01, 12))).all()
@@ -324,7 +343,7 @@ def test_signals_are_drawn(dataset, tmp_path):
     assert "1B/5\n1200 rad/s, 11459 rpm" in orders.axes[0].get_ylabel()
     save(spectrograms, tmp_path / "one.png")
     save(orders, tmp_path / "two.png")
-    nothing = signals_dataset({}, {}, [], [], TIP)
+    nothing = signals_dataset({}, {}, {}, [], TIP)
     save(draw_orders(nothing, "Ref, direct"), tmp_path / "three.png")
     save(draw_spectrograms(nothing, "Ref, direct"), tmp_path / "four.png")
 

@@ -24,6 +24,7 @@ VARIABLES = {
     "normal": (("tip_point", "turn"), "f4", "m", "displacement along the casing's normal"),
     "tangential": (("tip_point", "turn"), "f4", "m", "tangential displacement, towards growing theta"),
     "strain": (("gauge", "turn"), "f4", "1", "strain of the vibration along the gauge's grid"),
+    "gauge_place": (("gauge", "axis"), "f8", "m", "where the gauge is, in the blade's frame"),
     "arrival_time": (("tip_point", "probe", "revolution"), "f8", "s", "time at which the tip passes the probe"),
     "arrival_displacement": (
         ("tip_point", "probe", "revolution"),
@@ -35,6 +36,7 @@ VARIABLES = {
 }
 """Variable -> dimensions beyond the run, type, units, meaning."""
 
+_BLADE_AXES = ("x", "y", "z")
 AXES = {
     "turn": ("1", "time in revolutions since the start; times 2 pi / speed in s"),
     "revolution": ("1", "number of the revolution"),
@@ -45,14 +47,15 @@ AXES = {
 def signals_dataset(
     records: Mapping[float, Record],
     names: Mapping[float, str],
-    gauges: Sequence[str],
+    gauges: Mapping[str, np.ndarray],
     probes: Sequence[float],
     tip: RecoveryNodes,
 ) -> xr.Dataset:
     """The records of one blade and scene by speed (rad/s), with arrivals at `probes` (degrees).
 
-    `names`: interaction at a speed, where it is one; `tip`: the tip line, from leading to trailing edge. All records have the
-    same revolutions. What has no gauge or probe is left out, and all but the coordinates without records.
+    `names`: interaction at a speed, where it is one; `gauges`: place (m) of each, shape (3,); `tip`: the tip line, from leading
+    to trailing edge. All records have the same revolutions. What has no gauge or probe is left out; without records all but
+    the speeds is.
     """
     speeds = list(records)
     if not speeds:
@@ -64,6 +67,7 @@ def signals_dataset(
         "normal": np.stack([record.normal.T for record in records.values()]),
         "tangential": np.stack([record.tangential.T for record in records.values()]),
         "strain": np.stack([record.strain.T for record in records.values()]),
+        "gauge_place": np.stack([np.array(list(gauges.values())).reshape(-1, 3)] * len(speeds)),
         "arrival_time": np.stack([one for one, _ in arrivals]),
         "arrival_displacement": np.stack([one for _, one in arrivals]),
         "status": np.array([int(record.status) for record in records.values()]),
@@ -79,11 +83,13 @@ def signals_dataset(
             "speed_rpm": ("speed", RPM * np.array(speeds), SPEED_RPM),
             "interaction": ("speed", [names.get(speed, "") for speed in speeds]),
             "tip_point": list(TIP_POINTS),
-            "gauge": np.array(gauges, dtype=object),
+            "gauge": np.array(list(gauges), dtype=object),
+            "axis": list(_BLADE_AXES),
             **{name: (name, values, about(*AXES[name])) for name, values in axes.items()},
         },
     )
-    return dataset.drop_dims([name for name, size in dataset.sizes.items() if size == 0])
+    dataset = dataset.drop_dims([name for name, size in dataset.sizes.items() if size == 0])
+    return dataset if gauges else dataset.drop_dims("axis")
 
 
 def _arrivals(
@@ -109,6 +115,7 @@ def gather_signals(files: Mapping[tuple[str, str], Path | str], file: Path | str
     with atomic_write(file) as partial, netCDF4.Dataset(partial, "w") as target:
         target.setncatts(FILE_ATTRIBUTES | {name: str(value) for name, value in provenance.items()})
         create_labels(target, "tip_point", TIP_POINTS)
+        create_labels(target, "axis", _BLADE_AXES)
         for name, values in axes.items():
             if name == "gauge":
                 create_labels(target, name, list(values))
@@ -120,7 +127,7 @@ def gather_signals(files: Mapping[tuple[str, str], Path | str], file: Path | str
         create_variable(target, "speed", "f8", ("run",), about("rad s-1", "angular speed of the rotor"))
         create_variable(target, "speed_rpm", "f8", ("run",), SPEED_RPM)
         for name, (dims, dtype, units, meaning) in VARIABLES.items():
-            if set(dims) <= {"tip_point", *axes}:
+            if set(dims) <= {"tip_point", "axis", *axes}:
                 create_variable(target, name, dtype, ("run", *dims), about(units, meaning) | {"coordinates": _COORDINATES})
         target["status"].setncatts(
             {"flag_values": np.array(list(RunStatus), dtype="i1"), "flag_meanings": " ".join(one.text for one in RunStatus)}
