@@ -5,10 +5,15 @@ CORES ?= 2
 VENV := .venv
 BIN := $(VENV)/bin
 
-.PHONY: all_blades campbell test test-fast test-slurm mutants lint bench docs setup clean clean-results
+.PHONY: all_blades campbell report test test-fast test-slurm mutants lint bench docs site tutorial setup clean clean-results
 
 all_blades campbell: $(VENV)/.ready
 	$(BIN)/snakemake $@ --cores $(CORES) $(if $(FIDELITY),--config fidelity=$(FIDELITY))
+
+# figures, tables, workflow and run times of a finished run in one file, for a colleague; RESULTS=results/runs/<name> of one with a name
+RESULTS ?= results
+report: $(VENV)/.ready
+	$(BIN)/snakemake all_blades --report $(RESULTS)/report.zip $(if $(FIDELITY),--config fidelity=$(FIDELITY))
 
 # the files of tests spread over the cores
 test: $(VENV)/.ready
@@ -44,6 +49,18 @@ bench: $(VENV)/.ready
 docs: $(VENV)/.ready
 	$(BIN)/snakemake tradeoff growth stability readings --cores $(CORES)
 	$(BIN)/python benchmarks/pages.py
+
+# the documentation as a site that opens from the disk: site/index.html; a warning is an error
+site: $(VENV)/.docs
+	NO_MKDOCS_2_WARNING=1 $(BIN)/mkdocs build --strict --quiet
+
+# docs/tutorial.ipynb of docs/tutorial.py, run; about a minute
+tutorial: $(VENV)/.docs
+	$(BIN)/python benchmarks/tutorial.py
+
+$(VENV)/.docs: $(VENV)/.ready
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[docs]'
+	@touch $@
 
 setup: $(VENV)/.ready
 

@@ -6,6 +6,9 @@ for library in ("OPENBLAS", "OMP", "MKL", "NUMBA"):
     os.environ[f"{library}_NUM_THREADS"] = "1"
 
 
+report: "workflow/report/workflow.rst"
+
+
 include: "workflow/rules/common.smk"
 include: "workflow/rules/structure.smk"
 include: "workflow/rules/sweep.smk"
@@ -21,6 +24,7 @@ include: "workflow/rules/studies/tradeoff.smk"
 include: "workflow/rules/studies/stability.smk"
 include: "workflow/rules/studies/readings.smk"
 include: "workflow/rules/studies/refinement.smk"
+include: "workflow/rules/studies/gallery.smk"
 
 
 rule all_blades:

@@ -3,12 +3,12 @@
 import base64
 import gzip
 import os
-import shutil
 
 import numpy as np
 import pandas as pd
 import pytest
 import xarray as xr
+from browser import opened
 
 from r37core.explorer.contents import explorer_contents
 from r37core.explorer.pack import joined, order_bins, packed, rounded, stretches
@@ -17,8 +17,6 @@ from r37core.time_integration.status import RunStatus
 
 SPEEDS = np.array([900.0, 1000.25, 1100.0, 1200.0, 1300.0])
 BLADES, SCENES = ["Ref", "L<50>"], ["abradable", "direct"]
-CHROMIUM = shutil.which("chromium") or shutil.which("google-chrome")
-QUIET = ("gpu", "quic", "background-networking", "component-update", "sync")
 
 
 @pytest.fixture(scope="module")
@@ -138,30 +136,15 @@ def test_what_was_not_computed_is_left_out(datasets, interactions, tmp_path):
 @pytest.fixture(scope="module")
 def page(datasets, interactions, tmp_path_factory):
     """The page in headless Chromium; a message in its console is an error."""
-    if CHROMIUM is None:
-        pytest.skip("Chromium is not installed")
-    sync_api = pytest.importorskip("playwright.sync_api")
     file = tmp_path_factory.mktemp("explorer") / "explorer.html"
     write_page(explorer_contents(datasets, interactions, [("Ref", "abradable")]), "r37 <trial>", file)
-    flags = ["--no-sandbox", "--no-first-run", *(f"--disable-{name}" for name in QUIET)]
-    with sync_api.sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=CHROMIUM, args=flags)
-        page = browser.new_page(viewport={"width": 1500, "height": 1400})
-        page.problems = []
-        page.on("console", lambda message: page.problems.append(message.text) if message.type in ("error", "warning") else None)
-        page.on("pageerror", lambda error: page.problems.append(str(error)))
-        page.on(
-            "request",
-            lambda request: None if request.url.startswith(("file:", "blob:", "data:")) else page.problems.append(request.url),
-        )
-        page.goto(file.as_uri())
+    with opened(file, viewport={"width": 1500, "height": 1400}) as page:
         page.wait_for_selector("html[data-ready]", timeout=60_000)
         yield page
         assert page.problems == []
         folder = os.environ.get("R37_SCREENSHOTS")
         if folder:
             page.screenshot(path=f"{folder}/explorer.png", full_page=True)
-        browser.close()
 
 
 def choose(page, **state):

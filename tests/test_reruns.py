@@ -13,6 +13,7 @@ BLADES, SCENES, SPEEDS = ("Ref", "CS100"), ("abradable", "direct"), ("750", "115
 
 # what follows any change of a simulation
 DATASETS = {"configuration", "sweep_dataset", "summary", "explorer", "response_figure", "response_overview", "map_figure"}
+DATASETS |= {"waterfall_figure", "comparison_figure"}
 STRUCTURE = {"geometry", "mesh", "abaqus_deck", "matrices", "reduced_model", "campbell_of_blade", "campbell_figure"}
 OF_ALL_BLADES = {"campbell_of_all", "campbell_overview", "blade_shapes_figure"}
 

@@ -2,13 +2,13 @@
 
 import json
 import os
-import shutil
 from dataclasses import replace
 
 import numpy as np
 import pytest
 import pyvista
 from box_mesh import box_mesh
+from browser import opened
 from vtkmodules.vtkIOGeometry import vtkGLTFReader
 
 from r37core.exchange.exports import WorstInstant, displacement_of, mode_shapes
@@ -21,8 +21,6 @@ from r37core.figures.shapes import draw_shapes
 from r37core.io import read_json, write_json
 from r37core.results.stress import StressRecovery
 from r37core.rom.reduce import reduce_blade
-
-CHROMIUM = shutil.which("chromium") or shutil.which("google-chrome")
 
 
 @pytest.fixture(scope="module")
@@ -206,18 +204,12 @@ def test_what_the_page_holds(folders):
 @pytest.mark.slow
 def test_the_page_moves_the_blade(folders, tmp_path):
     """In headless Chromium: as the files say, without a message in the console."""
-    if CHROMIUM is None:
-        pytest.skip("Chromium is not installed")
-    sync_api = pytest.importorskip("playwright.sync_api")
     write_page(shapes_contents(folders), "Shapes of Ref", tmp_path / "Ref.html", SHAPE_PARTS)
     software = ("--enable-unsafe-swiftshader", "--use-gl=angle", "--use-angle=swiftshader")
-    with sync_api.sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox", "--no-first-run", *software])
-        page = browser.new_page(viewport={"width": 1200, "height": 800}, reduced_motion="reduce")
-        problems = []
-        page.on("console", lambda message: problems.append(message.text) if message.type == "error" else None)
-        page.on("pageerror", lambda error: problems.append(str(error)))
-        page.goto((tmp_path / "Ref.html").as_uri() + "#scene=abradable&speed=1150.4")
+    more = {"flags": software, "place": "#scene=abradable&speed=1150.4", "reduced_motion": "reduce"}
+    with opened(
+        tmp_path / "Ref.html", {"width": 1200, "height": 800}, kept=lambda text: "Canvas2D" not in text, **more
+    ) as page:
         page.wait_for_selector("html[data-ready]", timeout=60_000)
         assert page.text_content("#now").startswith("1B/5, abradable at 1150.5 rad/s")
         (entry,) = [one for one in read_json(folders["abradable"] / INDEX) if one["speed_rad_s"] == 1150.5]
@@ -237,5 +229,4 @@ def test_the_page_moves_the_blade(folders, tmp_path):
         folder = os.environ.get("R37_SCREENSHOTS")
         if folder:
             page.screenshot(path=f"{folder}/shapes.png")
-        browser.close()
-    assert problems == []
+        assert page.problems == []

@@ -11,8 +11,10 @@ import pandas as pd
 import pytest
 import xarray as xr
 import yaml
+from browser import opened
 from workflow_runs import copy_project, planned, snakemake
 
+from r37core.figures.captions import caption
 from r37core.yaml_file import load_yaml
 
 pytestmark = pytest.mark.slow
@@ -45,6 +47,8 @@ GATHERED = {
     "response_figure",
     "response_overview",
     "map_figure",
+    "waterfall_figure",
+    "comparison_figure",
 }
 
 
@@ -322,6 +326,26 @@ def test_one_core_gives_the_same_bits(finished, project):
         return {str(f.relative_to(folder)): hashlib.sha256(f.read_bytes()).hexdigest() for f in files}
 
     assert digests(project) == digests(finished)
+
+
+# of the libraries that Snakemake's page is made with
+KNOWN_WARNINGS = ("cdn.tailwindcss.com should not be used in production", "The input spec uses Vega-Lite v3")
+
+
+def test_report_opens_offline(finished, tmp_path):
+    """One archive: captions, categories by blade and scene, run times, the configuration."""
+    snakemake(finished, "all_blades", "--report", str(tmp_path / "r37.zip"))
+    shutil.unpack_archive(tmp_path / "r37.zip", tmp_path)
+    files = {file.name for file in (tmp_path / "r37/data").rglob("*") if file.is_file()}
+    assert files >= {"explorer.html", "summary.csv", "configuration.json", "wear_Ref__abradable.png", "campbell.png"}
+    page_file = tmp_path / "r37/report.html"
+    size = {"width": 1400, "height": 900}
+    with opened(page_file, size, lambda text: not text.startswith(KNOWN_WARNINGS)) as page:
+        page.get_by_text("CS100", exact=True).first.click()
+        page.get_by_text("abradable", exact=True).first.click()
+        page.locator("a[iconname=information-circle]").first.click()
+        page.get_by_text(caption("spectrum", blade="CS100", scene="abradable")[:60]).first.wait_for()
+        assert page.problems == []
 
 
 def blocks(root, language):

@@ -7,6 +7,8 @@ from dataclasses import dataclass
 from itertools import pairwise
 from typing import Any
 
+from r37core.units import RAD_S
+
 LARGEST_NUMBER = 100_000
 """Speeds of one blade in one scene."""
 
@@ -17,21 +19,27 @@ class SpeedError(ValueError):
 
 @dataclass(frozen=True)
 class RefinedRange:
-    """Speeds (rad/s) that refine themselves: `coarse` intervals of the grid start, start + refine_to, ... up to `last` of them.
+    """Speeds that refine themselves: `coarse` intervals of the grid start, start + refine_to, ... up to `last` of them.
 
     All numbers but start and refine_to count intervals of the grid, so that a speed is the same number in whichever round it
-    is asked for.
+    is asked for. These two are in the unit that they were given in, of which one is `unit` rad/s.
     """
 
     start: float
     refine_to: float
     coarse: int
     last: int
+    unit: float = 1.0
+
+    @property
+    def interval(self) -> float:
+        """Length of the grid's intervals (rad/s)."""
+        return self.refine_to * self.unit
 
     def speed(self, place: int) -> float:
-        """The speed at a place of the grid, from 0 to `last`."""
+        """The speed (rad/s) at a place of the grid, from 0 to `last`."""
         # rounded, so that a step like 0.1 gives the numbers a user would write
-        return round(self.start + place * self.refine_to, 9)
+        return round(self.start + place * self.refine_to, 9) * self.unit
 
     def coarse_places(self) -> list[int]:
         """Places of the grid that are run whatever is found there."""
@@ -39,7 +47,7 @@ class RefinedRange:
         return places if places[-1] == self.last else [*places, self.last]
 
     def every_speed(self) -> list[float]:
-        """All speeds of the grid."""
+        """All speeds (rad/s) of the grid."""
         return [self.speed(place) for place in range(self.last + 1)]
 
 
@@ -68,56 +76,61 @@ def speed_plan_from(fields: Mapping[str, Any]) -> SpeedPlan:
     return SpeedPlan(tuple(fields["certain"]), tuple(RefinedRange(**one) for one in fields["refined"]))
 
 
-def plan_speeds(entries: Sequence[float | Mapping[str, Any]], default_step: float) -> SpeedPlan:
+def plan_speeds(entries: Sequence[float | Mapping[str, Any]], default_step: float, unit: str = "rad/s") -> SpeedPlan:
     """What numbers and ranges with `start`, `stop` (included) and, if given, `step` and `refine_to` ask for.
+
+    All of them are in the `unit`, rad/s or rpm, `default_step` is in rad/s.
 
     Raises SpeedError for a range that runs backwards, a step that is not a multiple of refine_to, refining ranges that
     overlap, more than LARGEST_NUMBER speeds and a speed given twice. A number inside a refining range is no repetition.
     """
+    rad_s = RAD_S[unit]
     numbers: list[float] = []
     speeds: list[float] = []
     refined: list[RefinedRange] = []
     counted = 0.0
     for entry in entries:
         if not isinstance(entry, Mapping):
-            numbers.append(float(entry))
+            numbers.append(float(entry) * rad_s)
             counted += 1
             continue
-        start, stop, step = float(entry["start"]), float(entry["stop"]), float(entry.get("step", default_step))
+        start, stop, step = float(entry["start"]), float(entry["stop"]), float(entry.get("step", default_step / rad_s))
         if stop < start:
             raise SpeedError(f"found a range from {start:g} to {stop:g}; allowed: stop not below start")
         finest = float(entry.get("refine_to", step))
         intervals = (stop - start) / finest + 1e-9
         if not counted + intervals < LARGEST_NUMBER:
             raise SpeedError(
-                f"found {intervals + 1:.4g} speeds from {start:g} to {stop:g} rad/s in steps of {finest:g}; "
+                f"found {intervals + 1:.4g} speeds from {start:g} to {stop:g} {unit} in steps of {finest:g}; "
                 f"allowed: at most {LARGEST_NUMBER} speeds together"
             )
         counted += int(intervals) + 1
         if "refine_to" in entry:
-            refined.append(_refined(start, step, finest, int(intervals)))
+            refined.append(_refined(start, step, finest, int(intervals), unit))
             speeds += [refined[-1].speed(place) for place in refined[-1].coarse_places()]
         else:
-            speeds += spaced(start, stop, step)
+            speeds += [number * rad_s for number in spaced(start, stop, step)]
     for one, other in pairwise(sorted(refined, key=lambda one: one.start)):
-        if other.start < one.speed(one.last):
+        if other.speed(0) < one.speed(one.last):
             raise SpeedError(
-                f"found ranges with refine_to that overlap, from {other.start:g} to {one.speed(one.last):g} rad/s; "
+                f"found ranges with refine_to that overlap, from {other.start:g} to {one.speed(one.last) / rad_s:g} {unit}; "
                 "allowed: each speed in one of them"
             )
     coarse = {one.speed(place) for one in refined for place in one.coarse_places()}
     together = sorted([*speeds, *(number for number in numbers if number not in coarse)])
     twice = [a for a, b in pairwise(together) if a == b]
     if twice:
-        raise SpeedError(f"found {exact_text(twice[0])} rad/s twice; allowed: each speed once (do the ranges overlap?)")
+        raise SpeedError(
+            f"found {exact_text(round(twice[0] / rad_s, 9))} {unit} twice; allowed: each speed once (do the ranges overlap?)"
+        )
     return SpeedPlan(tuple(together), tuple(refined))
 
 
-def _refined(start: float, step: float, refine_to: float, last: int) -> RefinedRange:
+def _refined(start: float, step: float, refine_to: float, last: int, unit: str) -> RefinedRange:
     coarse = round(step / refine_to)
     if coarse < 1 or abs(coarse * refine_to - step) > 1e-9 * step:
-        raise SpeedError(f"found refine_to {refine_to:g} with steps of {step:g} rad/s; allowed: the step is a multiple of it")
-    return RefinedRange(start, refine_to, coarse, last)
+        raise SpeedError(f"found refine_to {refine_to:g} with steps of {step:g} {unit}; allowed: the step is a multiple of it")
+    return RefinedRange(start, refine_to, coarse, last, RAD_S[unit])
 
 
 def spaced(start: float, stop: float, step: float) -> list[float]:

@@ -20,6 +20,7 @@ from r37core.workflow.imported import Imported
 from r37core.workflow.progress import Progress, quieten
 from r37core.workflow.provenance import Provenance
 from r37core.workflow.shapes import Shapes
+from r37core.workflow.reporting import EVERY_SCENE, TOGETHER, captioned, shown
 from r37core.workflow.structure import Structure
 from r37core.workflow.resources import Needs
 from r37core.workflow.run import check_part, replaced_level
@@ -32,6 +33,7 @@ if workflow.is_main_process:
 ROOT = Path(workflow.basedir)
 ENVIRONMENT = ROOT / "envs" / "r37.yaml"
 SCRIPTS = ROOT / "workflow" / "scripts"
+TEXTS = ROOT / "workflow" / "report"
 # of rules that start it themselves; a path and no text, for another place is no reason to run again
 PYTHON = Path("python" if DeploymentMethod.CONDA in workflow.deployment_settings.deployment_method else sys.executable)
 

@@ -11,7 +11,10 @@ rule designs:
         summary="<results>/summary.csv",
         geometry=families.geometries,
     output:
-        paths.DESIGNS,
+        report(
+            paths.DESIGNS,
+            **shown(TEXTS / "designs.rst", "Families", EVERY_SCENE, figure="table of designs"),
+        ),
     log:
         "<logs>/designs.log",
     conda:
@@ -29,7 +32,11 @@ rule design_figure:
     input:
         paths.DESIGNS,
     output:
-        paths.DESIGN_FIGURE,
+        png=report(
+            paths.DESIGN_FIGURE,
+            **shown(TEXTS / "figure.rst", "Families", EVERY_SCENE, figure="{family}"),
+        ),
+        pdf=paths.as_pdf(paths.DESIGN_FIGURE),
     log:
         "<logs>/figures/designs_{family}.log",
     wildcard_constraints:
@@ -39,6 +46,7 @@ rule design_figure:
     params:
         blades=families.blades,
         varied=families.varied,
+        caption=captioned("designs"),
         code=code("design_figure"),
     script:
         "../scripts/design_figure.py"

@@ -3,7 +3,10 @@
 
 rule configuration:
     output:
-        "<results>/configuration.json",
+        report(
+            "<results>/configuration.json",
+            **shown(TEXTS / "configuration.rst", "Configuration", EVERY_SCENE, figure="configuration"),
+        ),
     log:
         "<logs>/configuration.log",
     priority: 20
@@ -50,7 +53,10 @@ rule summary:
         **{kind: f"<results>/{kind}.nc" for kind in sweep.kinds},
         campbell="<results>/campbell.nc",
     output:
-        "<results>/summary.csv",
+        report(
+            "<results>/summary.csv",
+            **shown(TEXTS / "summary.rst", TOGETHER, EVERY_SCENE, figure="interactions"),
+        ),
     log:
         "<logs>/summary.log",
     conda:
@@ -70,7 +76,10 @@ rule explorer:
         campbell="<results>/campbell.nc",
         summary="<results>/summary.csv",
     output:
-        "<results>/explorer.html",
+        report(
+            "<results>/explorer.html",
+            **shown(TEXTS / "explorer.rst", TOGETHER, EVERY_SCENE, figure="explorer"),
+        ),
     log:
         "<logs>/explorer.log",
     conda:

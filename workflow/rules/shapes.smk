@@ -63,12 +63,16 @@ rule modes_figure:
     input:
         paths.MODE_SHAPES,
     output:
-        paths.MODES_FIGURE,
+        report(
+            paths.MODES_FIGURE,
+            **shown(TEXTS / "figure.rst", "{blade}", EVERY_SCENE, figure="first modes"),
+        ),
     log:
         "<logs>/figures/shapes_{blade}.log",
     conda:
         ENVIRONMENT
     params:
+        caption=captioned("mode_shapes"),
         code=code("shapes_figure"),
     script:
         "../scripts/shapes_figure.py"
@@ -78,12 +82,16 @@ rule worst_shapes_figure:
     input:
         paths.WORST_SHAPES,
     output:
-        paths.WORST_FIGURE,
+        report(
+            paths.WORST_FIGURE,
+            **shown(TEXTS / "figure.rst", "{blade}", "{scene}", figure="worst instants"),
+        ),
     log:
         "<logs>/figures/shapes_{blade}__{scene}.log",
     conda:
         ENVIRONMENT
     params:
+        caption=captioned("worst_shapes"),
         code=code("shapes_figure"),
     script:
         "../scripts/shapes_figure.py"

@@ -50,12 +50,17 @@ rule spectrogram_figure:
     input:
         paths.SIGNALS,
     output:
-        paths.SPECTROGRAM_FIGURE,
+        png=report(
+            paths.SPECTROGRAM_FIGURE,
+            **shown(TEXTS / "figure.rst", "{blade}", "{scene}", figure="spectrograms"),
+        ),
+        pdf=paths.as_pdf(paths.SPECTROGRAM_FIGURE),
     log:
         "<logs>/figures/spectrogram_{blade}__{scene}.log",
     conda:
         ENVIRONMENT
     params:
+        caption=captioned("spectrogram"),
         code=code("spectrogram_figure"),
     script:
         "../scripts/spectrogram_figure.py"
@@ -65,12 +70,17 @@ rule orders_figure:
     input:
         paths.SIGNALS,
     output:
-        paths.ORDERS_FIGURE,
+        png=report(
+            paths.ORDERS_FIGURE,
+            **shown(TEXTS / "figure.rst", "{blade}", "{scene}", figure="engine orders over time"),
+        ),
+        pdf=paths.as_pdf(paths.ORDERS_FIGURE),
     log:
         "<logs>/figures/orders_{blade}__{scene}.log",
     conda:
         ENVIRONMENT
     params:
+        caption=captioned("orders"),
         code=code("orders_figure"),
     script:
         "../scripts/orders_figure.py"

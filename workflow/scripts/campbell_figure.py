@@ -1,4 +1,4 @@
-"""Draw one blade's Campbell diagram. Input: campbell.nc of the blade. Output: picture."""
+"""Draw one blade's Campbell diagram. Input: campbell.nc of the blade. Params: caption. Output: png, pdf."""
 
 from job import run
 
@@ -8,7 +8,11 @@ from r37core.figures.style import save
 
 
 def main(snakemake):
-    save(draw_campbell(read_dataset(snakemake.input[0]), snakemake.wildcards.blade), snakemake.output[0])
+    save(
+        draw_campbell(read_dataset(snakemake.input[0]), snakemake.wildcards.blade),
+        snakemake.output,
+        snakemake.params.caption,
+    )
 
 
 run(snakemake, main)

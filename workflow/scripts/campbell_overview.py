@@ -1,4 +1,4 @@
-"""Draw the Campbell diagrams of all blades together. Input: campbell.nc of all. Output: picture."""
+"""Draw the Campbell diagrams of all blades together. Input: campbell.nc of all. Params: caption. Output: png, pdf."""
 
 from job import run
 
@@ -8,7 +8,7 @@ from r37core.figures.style import save
 
 
 def main(snakemake):
-    save(draw_campbell_overview(read_dataset(snakemake.input[0])), snakemake.output[0])
+    save(draw_campbell_overview(read_dataset(snakemake.input[0])), snakemake.output, snakemake.params.caption)
 
 
 run(snakemake, main)

@@ -1,4 +1,4 @@
-"""Draw a map over speed. Inputs: campbell, maps (spectrum.nc or wear.nc). Output: picture."""
+"""Draw a map over speed. Inputs: campbell, maps (spectrum.nc or wear.nc). Params: caption. Output: png, pdf."""
 
 from job import run
 
@@ -12,7 +12,7 @@ def main(snakemake):
     draw = {"spectrum": draw_spectral_map, "wear": draw_wear_map}[wanted.kind]
     maps = read_dataset(snakemake.input.maps).sel(blade=wanted.blade, scene=wanted.scene)
     campbell = read_dataset(snakemake.input.campbell).sel(blade=wanted.blade)
-    save(draw(maps, campbell, f"{wanted.blade}, {wanted.scene}"), snakemake.output[0])
+    save(draw(maps, campbell, f"{wanted.blade}, {wanted.scene}"), snakemake.output, snakemake.params.caption)
 
 
 run(snakemake, main)

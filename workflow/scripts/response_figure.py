@@ -1,4 +1,4 @@
-"""Draw one blade's response. Inputs: campbell, rms and, where computed, stress. Output: picture."""
+"""Draw one blade's response. Inputs: campbell, rms and, where computed, stress. Params: caption. Output: png, pdf."""
 
 from job import run
 
@@ -10,7 +10,11 @@ from r37core.figures.style import save
 def main(snakemake):
     blade = snakemake.wildcards.blade
     datasets = {kind: read_dataset(file).sel(blade=blade) for kind, file in snakemake.input.items()}
-    save(draw_response(blade, datasets["campbell"], datasets["rms"], datasets.get("stress")), snakemake.output[0])
+    save(
+        draw_response(blade, datasets["campbell"], datasets["rms"], datasets.get("stress")),
+        snakemake.output,
+        snakemake.params.caption,
+    )
 
 
 run(snakemake, main)

@@ -1,4 +1,4 @@
-"""Draw spectrograms. Input: signals.nc of one blade and scene. Output: picture."""
+"""Draw spectrograms. Input: signals.nc of one blade and scene. Params: caption. Output: png, pdf."""
 
 from job import run
 
@@ -9,7 +9,8 @@ from r37core.figures.style import save
 
 def main(snakemake):
     wanted = snakemake.wildcards
-    save(draw_spectrograms(read_dataset(snakemake.input[0]), f"{wanted.blade}, {wanted.scene}"), snakemake.output[0])
+    figure = draw_spectrograms(read_dataset(snakemake.input[0]), f"{wanted.blade}, {wanted.scene}")
+    save(figure, snakemake.output, snakemake.params.caption)
 
 
 run(snakemake, main)

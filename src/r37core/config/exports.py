@@ -4,9 +4,12 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from pydantic import Discriminator, Field, Tag
+from pydantic import Discriminator, Field, Tag, model_validator
 
-from .section import LeftOut, Section, Speed, Unique
+from r37core.units import RAD_S
+
+from .section import LeftOut, Rpm, Section, Speed, Unique
+from .speeds import refuse_both_units
 
 ModeSpeed = Annotated[float, Field(ge=0, le=1e6)]
 ChosenSpeeds = Annotated[
@@ -31,6 +34,26 @@ class Exports(Section):
         description="speeds whose worst instant is written: worst, the one with the largest stress of a blade and scene; all; "
         "or some of those that are run",
     )
+    stress_speeds_rpm: Unique[Rpm] | LeftOut = Field(
+        default=None, description="some of those that are run, in revolutions per minute, in place of stress_speeds_rad_s"
+    )
     full_matrices: bool = Field(
         default=False, description="matrices of all nodes (hundreds of MB) in place of the reduced ones"
     )
+
+    @model_validator(mode="after")
+    def _one_unit(self) -> Exports:
+        # beside the default, which is also what config.yaml says
+        if self.stress_speeds_rpm is not None and self.stress_speeds_rad_s != "worst":
+            refuse_both_units("stress_speeds_rad_s", "stress_speeds_rpm")
+        return self
+
+    def stress_speeds(self) -> list[float] | None:
+        """Speeds (rad/s) that are named; None for `worst` and `all`."""
+        if self.stress_speeds_rpm is not None:
+            return [speed * RAD_S["rpm"] for speed in self.stress_speeds_rpm]
+        return None if isinstance(self.stress_speeds_rad_s, str) else list(self.stress_speeds_rad_s)
+
+    def only_worst(self) -> bool:
+        """Whether the speed with the largest stress is written alone."""
+        return self.stress_speeds() is None and self.stress_speeds_rad_s == "worst"

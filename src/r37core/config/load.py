@@ -15,7 +15,7 @@ from r37core.blade.definition import BladeDefinition
 from r37core.contact.scene import Scene
 from r37core.exchange.source import MatricesSource
 from r37core.rom.choice import ReductionChoice
-from r37core.speeds import SpeedError, SpeedPlan, plan_speeds
+from r37core.speeds import SpeedError, SpeedPlan
 from r37core.studies.levels import recommended_level
 from r37core.time_integration.choice import LARGEST_TABLE, IntegrationChoice
 
@@ -24,7 +24,8 @@ from .document import Document, command_line_document, read_document
 from .families import Designs, Family, with_designs
 from .fidelity import Level, Levels
 from .scenes import SceneEntry, Scenes
-from .settings import Campbell, Config, Interactions, Refinement, Run, SpeedEntry, SpeedRange, Structure
+from .settings import Campbell, Config, Interactions, Refinement, Run, Structure
+from .speeds import UNITS, SpeedRule, key_of_speeds, planned
 from .studies import Studies
 
 CONFIG_FILE = "config/config.yaml"
@@ -87,11 +88,16 @@ class Settings:
     def merged(self) -> dict[str, Any]:
         """What this run is made with, merged from all files and the command line, as plain values."""
         return {
-            "config": plain(self.config),
+            "config": {key: value for key, value in plain(self.config).items() if key not in self._other_speeds},
             "fidelity": {self.fidelity_name: plain(self.fidelity)},
             "scenes": {name: plain(self.scene_entries[name]) for name in self.scenes},
             "blades": {name: asdict(blade) for name, blade in self.blades.items()},
         }
+
+    @property
+    def _other_speeds(self) -> set[str]:
+        """The key of the unit that speeds are not given in, which has the default."""
+        return set(UNITS) - {key_of_speeds(self.config)}
 
     @property
     def remarks(self) -> list[str]:
@@ -184,8 +190,16 @@ def _together(below: Document, changes: Iterable[Document]) -> Document:
     for change in changes:
         if not isinstance(change.content, Mapping):
             raise change.refusal((), repr(change.content)[:60], "keys and values, as in config/config.yaml")
-        below = below.overlaid(change)
+        below = _with_one_unit(below, change).overlaid(change)
     return below
+
+
+def _with_one_unit(below: Document, change: Document) -> Document:
+    """The document without speeds in the unit that a change on top does not give its own in."""
+    given = [key for key in UNITS if key in change.content]
+    if len(given) != 1:
+        return below
+    return replace(below, content={key: value for key, value in below.content.items() if key not in UNITS or key in given})
 
 
 def load_settings(config: Document | Mapping[str, Any], root: Path) -> Settings:
@@ -209,7 +223,7 @@ def load_settings(config: Document | Mapping[str, Any], root: Path) -> Settings:
     chosen_scenes = {name: _scene(scenes[name], level, checked.structure.boundary.tip_line) for name in scene_names}
     plans = _speed_plans(checked, names, scene_names, level.time_integration.speed_step_rad_s, blades, scenes, files)
     _check_windows(checked, plans, files.config)
-    _check_history_speeds(chosen_scenes, plans, files.scenes)
+    _check_history_speeds(chosen_scenes, scenes, plans, files.scenes)
     _check_exports(checked, plans, files.config)
     slowest = min(plan.certain[0] for plan in plans.values())
     _check_slowest(level, checked.structure.boundary.nodes, slowest, ("speeds",), files.config)
@@ -325,7 +339,7 @@ def _scene(entry: SceneEntry, level: Level, tip_line: str) -> SceneSettings:
         tip_line=entry.tip_line or tip_line,
         revolutions=entry.revolutions or level.time_integration.revolutions,
         results=tuple(entry.results),
-        stress_history_speeds=tuple(float(speed) for speed in entry.stress_history_speeds_rad_s),
+        stress_history_speeds=tuple(map(float, entry.stress_history_speeds())),
     )
 
 
@@ -338,19 +352,18 @@ def _speed_plans(
     all_scenes: Iterable[str],
     files: _Files,
 ) -> dict[tuple[str, str], SpeedPlan]:
-    def planned(entries: Sequence[SpeedEntry], path: tuple[str | int, ...]) -> SpeedPlan:
-        ranges = [plain(entry) if isinstance(entry, SpeedRange) else entry for entry in entries]
+    def plan(section: Config | SpeedRule, path: tuple[str | int, ...]) -> SpeedPlan:
         try:
-            return plan_speeds(ranges, default_step)
+            return planned(section, default_step)
         except SpeedError as error:
-            raise files.config.error(path, str(error)) from None
+            raise files.config.error((*path, key_of_speeds(section)), str(error)) from None
 
-    general = planned(checked.speeds, ("speeds",))
+    general = plan(checked, ())
     special = []
     for number, rule in enumerate(checked.speeds_for):
         files.known(("speeds_for", number, "blades"), rule.blades or [], all_blades, files.blades)
         files.known(("speeds_for", number, "scenes"), rule.scenes or [], all_scenes, files.scenes)
-        special.append((rule, planned(rule.speeds, ("speeds_for", number, "speeds"))))
+        special.append((rule, plan(rule, ("speeds_for", number))))
 
     def of(blade: str, scene: str) -> SpeedPlan:
         return next((plan for rule, plan in special if rule.fits(blade, scene)), general)
@@ -379,15 +392,19 @@ def _check_windows(checked: Config, plans: Mapping[tuple[str, str], SpeedPlan], 
 
 
 def _check_history_speeds(
-    scenes: Mapping[str, SceneSettings], plans: Mapping[tuple[str, str], SpeedPlan], document: Document
+    scenes: Mapping[str, SceneSettings],
+    entries: Mapping[str, SceneEntry],
+    plans: Mapping[tuple[str, str], SpeedPlan],
+    document: Document,
 ) -> None:
     for name, chosen in scenes.items():
         run = {speed for (_, scene), plan in plans.items() if scene == name for speed in plan.certain}
-        for speed in chosen.stress_history_speeds:
+        key = "stress_history_speeds_rpm" if entries[name].stress_history_speeds_rpm else "stress_history_speeds_rad_s"
+        for given, speed in zip(getattr(entries[name], key), chosen.stress_history_speeds, strict=True):
             if speed not in run:
                 raise document.refusal(
-                    (name, "stress_history_speeds_rad_s"),
-                    f"{speed:g}",
+                    (name, key),
+                    f"{given:g}",
                     "speeds that are simulated (add it to speeds or speeds_for in config.yaml)",
                 )
 
@@ -403,11 +420,11 @@ def _check_exports(checked: Config, plans: Mapping[Any, SpeedPlan], document: Do
     """ConfigError for a speed of `exports` that is not simulated whatever is found, or beyond the reduced model's basis."""
     given, highest = checked.exports, checked.structure.maximum_speed_rad_s
     run = {speed for plan in plans.values() for speed in plan.certain}
-    wanted = given.stress_speeds_rad_s if isinstance(given.stress_speeds_rad_s, list) else []
+    key = "stress_speeds_rad_s" if given.stress_speeds_rpm is None else "stress_speeds_rpm"
     allowed = "speeds that are simulated whatever a range refines to; name it under speeds, too"
-    for number, speed in enumerate(wanted):
+    for number, speed in enumerate(given.stress_speeds() or []):
         if speed not in run:
-            raise document.refusal(("exports", "stress_speeds_rad_s", number), f"{speed:g}", allowed)
+            raise document.refusal(("exports", key, number), f"{getattr(given, key)[number]:g}", allowed)
     for number, speed in enumerate(given.mode_speeds_rad_s or []):
         if speed > highest:
             allowed = f"up to structure.maximum_speed_rad_s, {highest:g}"
@@ -421,15 +438,15 @@ def _check_signals(
     given = checked.signals
     if given.blades != "all":
         files.known(("signals", "blades"), given.blades, blades, files.blades)
-    if given.speeds_rad_s is None:
+    speeds, path = given.speeds(), ("signals", given.key_of_speeds)
+    if speeds is None:
         return
-    if isinstance(given.speeds_rad_s, list):
-        slowest = min(given.speeds_rad_s)
-        _check_slowest(level, checked.structure.boundary.nodes, slowest, ("signals", "speeds_rad_s"), files.config)
+    if isinstance(speeds, list):
+        _check_slowest(level, checked.structure.boundary.nodes, speeds[0], path, files.config)
     with_signal = {name: scene for name, scene in scenes.items() if "signal" in scene.results}
     if not with_signal:
         raise files.config.refusal(
-            ("signals", "speeds_rad_s"),
+            path,
             "speeds, though no scene that is run has signal among its results",
             f"such a scene ({', '.join(scenes)} of {files.scenes.name} are run), or no speeds",
         )

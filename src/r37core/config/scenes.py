@@ -9,8 +9,10 @@ from pydantic import Field, RootModel, model_validator
 
 from r37core.contact import casing as casing_shape
 from r37core.contact import scene as contact_scene
+from r37core.units import RAD_S
 
-from .section import LeftOut, Name, Section, Speed, check_names, refused
+from .section import LeftOut, Name, Rpm, Section, Speed, check_names, refused
+from .speeds import refuse_both_units
 
 TipLine = Literal["pressure_edge", "camber", "suction_edge"]
 Result = Literal["spectrum", "signal", "stress", "wear", "energy", "shapes"]
@@ -88,20 +90,30 @@ class SceneEntry(Section):
     stress_history_speeds_rad_s: list[Speed] = Field(
         default=[], description="speeds at which the largest stress of every revolution is kept"
     )
+    stress_history_speeds_rpm: list[Rpm] = Field(default=[], description="the same in revolutions per minute")
 
     @model_validator(mode="after")
     def _results_fit(self) -> SceneEntry:
-        for key, values in (("results", self.results), ("stress_history_speeds_rad_s", self.stress_history_speeds_rad_s)):
+        histories = ("stress_history_speeds_rad_s", "stress_history_speeds_rpm")
+        if all(getattr(self, key) for key in histories):
+            refuse_both_units(*histories)
+        for key in ("results", *histories):
+            values = getattr(self, key)
             for number, value in enumerate(values):
-                if value in values[:number]:  # type: ignore[operator]
+                if value in values[:number]:
                     raise refused((key, number), f"{value} twice", "each once")
         if "wear" in self.results and self.lining is None:
             raise refused(("results",), "wear", "only in a scene with a lining")
         if "shapes" in self.results and "stress" not in self.results:
             raise refused(("results",), "shapes", "only with stress among the results")
-        if self.stress_history_speeds_rad_s and "stress" not in self.results:
-            raise refused(("stress_history_speeds_rad_s",), "speeds", "only with stress among the results")
+        for key in histories:
+            if getattr(self, key) and "stress" not in self.results:
+                raise refused((key,), "speeds", "only with stress among the results")
         return self
+
+    def stress_history_speeds(self) -> tuple[float, ...]:
+        """Speeds (rad/s) at which the largest stress of every revolution is kept."""
+        return (*self.stress_history_speeds_rad_s, *(speed * RAD_S["rpm"] for speed in self.stress_history_speeds_rpm))
 
     def scene(self) -> contact_scene.Scene:
         """The scene as the simulations take it."""

@@ -85,6 +85,9 @@ LeftOut = SkipJsonSchema[None]
 Speed = Annotated[float, Field(ge=1e-3, le=1e6)]
 """An angular speed (rad/s)."""
 
+Rpm = Annotated[float, Field(ge=0.01, le=9.5e6)]
+"""The same in revolutions per minute."""
+
 
 def check_names(names: Mapping[str, Any]) -> None:
     """Raise the error of two names that differ in capitals only: their files would be one on some systems."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from typing import Annotated, Literal
 
-from pydantic import AfterValidator, Discriminator, Field, Tag, model_validator
+from pydantic import AfterValidator, Field, model_validator
 
 from r37core.rom.boundary import BoundaryChoice
 from r37core.rom.choice import ReductionChoice, StressSubmesh
@@ -13,47 +13,12 @@ from r37core.rom.choice import ReductionChoice, StressSubmesh
 from .exports import Exports
 from .fidelity import Reduction
 from .scenes import TipLine
-from .section import AllOrNames, FileName, LeftOut, Name, Names, Section, Speed, refused
+from .section import AllOrNames, FileName, LeftOut, Name, Section, Speed, refused
 from .shapes import Shapes
 from .signals import Signals
+from .speeds import RpmList, SpeedList, SpeedRange, SpeedRule, refuse_both_units
 from .studies import Studies
 from .submesh import Submesh
-
-
-class SpeedRange(Section):
-    """Speeds from `start` to `stop`, both included."""
-
-    start: Speed
-    stop: Speed
-    step: Speed | LeftOut = Field(default=None, description="without it the fidelity level's")
-    refine_to: Speed | LeftOut = Field(
-        default=None, description="with it the speeds refine themselves, down to intervals of this, a whole part of the step"
-    )
-
-    @model_validator(mode="after")
-    def _forward(self) -> SpeedRange:
-        if self.stop < self.start:
-            raise refused((), f"a range from {self.start:g} to {self.stop:g}", "stop not below start")
-        return self
-
-
-SpeedEntry = Annotated[
-    Annotated[Speed, Tag("number")] | Annotated[SpeedRange, Tag("range")],
-    Discriminator(lambda value: "range" if isinstance(value, dict | SpeedRange) else "number"),
-]
-SpeedList = Annotated[list[SpeedEntry], Field(min_length=1)]
-
-
-class SpeedRule(Section):
-    """Speeds of some blades or scenes (both, where both are given)."""
-
-    blades: Names | LeftOut = None
-    scenes: Names | LeftOut = None
-    speeds: SpeedList
-
-    def fits(self, blade: str, scene: str) -> bool:
-        """Whether the rule is for this blade in this scene."""
-        return (self.blades is None or blade in self.blades) and (self.scenes is None or scene in self.scenes)
 
 
 class Boundary(Section):
@@ -203,6 +168,9 @@ class Config(Section):
         default=[SpeedRange(start=750.0, stop=2000.0)],
         description="speeds to simulate, as numbers and ranges; a range without a step takes the fidelity level's",
     )
+    speeds_rpm: RpmList | LeftOut = Field(
+        default=None, description="the same in revolutions per minute, in place of speeds; results stay in rad/s"
+    )
     speeds_for: list[SpeedRule] = Field(
         default=[],
         description="other speeds for some blades or scenes (both, where both are given); the first entry that fits counts",
@@ -223,3 +191,9 @@ class Config(Section):
     exports: Exports = Exports()
     shapes: Shapes = Shapes()
     signals: Signals = Signals()
+
+    @model_validator(mode="after")
+    def _one_unit(self) -> Config:
+        if self.speeds_rpm is not None and "speeds" in self.model_fields_set:
+            refuse_both_units("speeds", "speeds_rpm")
+        return self

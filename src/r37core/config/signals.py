@@ -8,8 +8,10 @@ from typing import Annotated, Literal
 from pydantic import AfterValidator, Discriminator, Field, Tag, model_validator
 
 from r37core.signals.gauges import Gauge
+from r37core.units import RAD_S
 
-from .section import AllOrNames, LeftOut, Name, Section, Speed, Unique, refused
+from .section import AllOrNames, LeftOut, Name, Rpm, Section, Speed, Unique, refused
+from .speeds import refuse_both_units
 
 SignalSpeeds = Annotated[
     Annotated[Literal["interactions"], Tag("word")] | Annotated[Unique[Speed], Tag("speeds")],
@@ -52,6 +54,9 @@ class Signals(Section):
         description="interactions: the peak speeds of each blade and scene that summary.csv has; or any speeds, each a run of "
         "its own",
     )
+    speeds_rpm: Unique[Rpm] | LeftOut = Field(
+        default=None, description="speeds in revolutions per minute, in place of speeds_rad_s"
+    )
     revolutions: Annotated[int, Field(ge=1, le=20000)] | LeftOut = Field(
         default=None, description="how many at the end are kept; all without it"
     )
@@ -62,7 +67,20 @@ class Signals(Section):
 
     @model_validator(mode="after")
     def _has_speeds(self) -> Signals:
+        if self.speeds_rad_s is not None and self.speeds_rpm is not None:
+            refuse_both_units("speeds_rad_s", "speeds_rpm")
         for key in ("gauges", "probes_deg"):
-            if getattr(self, key) and self.speeds_rad_s is None:
+            if getattr(self, key) and self.speeds() is None:
                 raise refused((key,), f"{key} without speeds", "speeds_rad_s beside them")
         return self
+
+    @property
+    def key_of_speeds(self) -> str:
+        """The key that speeds are given with."""
+        return "speeds_rad_s" if self.speeds_rpm is None else "speeds_rpm"
+
+    def speeds(self) -> list[float] | Literal["interactions"] | None:
+        """Speeds (rad/s), ascending, or the word for those of interactions; None where no signals are asked for."""
+        if self.speeds_rpm is not None:
+            return sorted(speed * RAD_S["rpm"] for speed in self.speeds_rpm)
+        return sorted(map(float, self.speeds_rad_s)) if isinstance(self.speeds_rad_s, list) else self.speeds_rad_s

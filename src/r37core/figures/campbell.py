@@ -11,13 +11,15 @@ from matplotlib.figure import Figure
 from . import style
 
 _NAMED = ["1B", "1T", "2B"]
+_ROOM = 0.07
 
 
 def draw_campbell(dataset: xr.Dataset, blade: str) -> Figure:
     """One blade: frequencies over speed with engine orders and crossings, and the dynamic clearance of 1B and 1T."""
-    figure, (left, right) = plt.subplots(1, 2, figsize=(9.5, 4.5), width_ratios=[1.7, 1.0])
+    figure, (left, right) = plt.subplots(1, 2, figsize=(style.PAGE, 3.6), width_ratios=[1.7, 1.0])
     speed = dataset["speed"].values
-    highest = 1.15 * float(dataset["frequency"].sel(mode="2B").max())
+    highest = 1.3 * float(dataset["frequency"].sel(mode="2B").max())
+    left.set(xlabel="speed (rad/s)", ylabel="frequency (Hz)", ylim=(0.0, highest), xlim=(0.0, speed[-1]))
     _draw_engine_orders(left, dataset["engine_order"].values, speed, highest)
     for name in dataset["mode"].values:
         frequency = dataset["frequency"].sel(mode=name)
@@ -26,39 +28,45 @@ def draw_campbell(dataset: xr.Dataset, blade: str) -> Figure:
         (line,) = left.plot(speed, frequency, label=str(name))
         crossing = dataset["crossing_speed"].sel(mode=name)
         left.plot(crossing, crossing * dataset["engine_order"] / (2.0 * np.pi), "o", color=line.get_color(), markersize=3.5)
-    left.set(xlabel="speed (rad/s)", ylabel="frequency (Hz)", ylim=(0.0, highest), xlim=(0.0, speed[-1]))
     left.set_title(f"Campbell diagram, blade {blade}")
-    left.legend(title="mode", loc="upper left")
+    left.legend(loc="upper left", ncols=3)
     style.rpm_axis(left)
     for name in _NAMED[:2]:
         clearance = dataset["dynamic_clearance"].sel(mode=name)
         right.plot(1e3 * clearance["tangential_displacement"], 1e3 * clearance, label=name)
-    right.set(xlabel="tangential displacement, leading edge (mm)", ylabel="change of clearance (mm)")
-    right.set_title("dynamic clearance")
+    right.set(xlabel="tangential displacement (mm)", ylabel="change of clearance (mm)")
+    right.set_title("dynamic clearance, leading edge")
     right.legend()
     return figure
 
 
 def draw_campbell_overview(dataset: xr.Dataset) -> Figure:
     """All blades: one panel for each named mode."""
-    figure, panels = plt.subplots(1, len(_NAMED), figsize=(12.0, 4.5))
+    figure, panels = plt.subplots(1, len(_NAMED), figsize=(style.PAGE, 3.2))
     speed = dataset["speed"].values
+    styles = style.blade_styles(dataset["blade"].values)
     for axes, name in zip(panels, _NAMED, strict=True):
         frequencies = dataset["frequency"].sel(mode=name)
         for blade in dataset["blade"].values:
-            axes.plot(speed, frequencies.sel(blade=blade), label=str(blade))
+            axes.plot(speed, frequencies.sel(blade=blade), label=str(blade), **styles[str(blade)])
         low, high = float(frequencies.min()), float(frequencies.max())
         margin = 0.08 * (high - low)
         axes.set(xlabel="speed (rad/s)", title=name, xlim=(0.0, speed[-1]), ylim=(low - margin, high + margin))
         _draw_engine_orders(axes, dataset["engine_order"].values, speed, high)
-        style.rpm_axis(axes)
+        style.rpm_axis(axes, most_ticks=5)
     panels[0].set_ylabel("frequency (Hz)")
-    panels[0].legend(title="blade")
+    figure.legend(*panels[0].get_legend_handles_labels(), loc="outside lower center", ncols=7)
     return figure
 
 
 def _draw_engine_orders(axes: Axes, orders: np.ndarray, speed: np.ndarray, highest: float) -> None:
+    (left, right), (low, high) = axes.get_xlim(), axes.get_ylim()
+    labelled = np.array([np.inf, np.inf])
     for order in orders:
         axes.plot(speed, order * speed / (2.0 * np.pi), color="0.7", linewidth=0.6, zorder=0)
         end = 0.97 * min(speed[-1], 2.0 * np.pi * highest / order)
-        axes.annotate(str(order), (end, order * end / (2.0 * np.pi)), fontsize=6, color="0.4", annotation_clip=True)
+        place = np.array([(end - left) / (right - left), (order * end / (2.0 * np.pi) - low) / (high - low)])
+        # high orders lie close together: a number only where there is room for it
+        if np.linalg.norm(place - labelled) > _ROOM:
+            axes.annotate(str(order), (end, order * end / (2.0 * np.pi)), fontsize=6, color="0.4", annotation_clip=True)
+            labelled = place

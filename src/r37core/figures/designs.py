@@ -12,12 +12,12 @@ from matplotlib.figure import Figure
 
 from r37core.results.designs import MEASURES
 
-from . import style  # noqa: F401  (sets the style)
+from . import style
 
 
 def draw_designs(family: str, table: pd.DataFrame, keys: Sequence[str]) -> Figure:
     """Every measure of one family, a line or points per scene: over the one key that varies, or over the designs by name."""
-    figure, grid = plt.subplots(3, 3, figsize=(12.0, 9.0), sharex=True)
+    figure, grid = plt.subplots(3, 3, figsize=(style.PAGE, 6.4), sharex=True)
     for axes, (column, label) in zip(grid.flat, MEASURES.items(), strict=True):
         for scene, rows in table.groupby("scene", sort=False):
             _draw(axes, rows, column, keys, str(scene))

@@ -16,7 +16,7 @@ _DECADES = 4.0
 
 def draw_spectral_map(maps: xr.Dataset, campbell: xr.Dataset, title: str) -> Figure:
     """Amplitudes, normal and tangential, over speed and engine order, with the named modes' frequencies as lines."""
-    figure, panels = plt.subplots(1, 2, figsize=(12.0, 5.0), sharex=True, sharey=True)
+    figure, panels = plt.subplots(1, 2, figsize=(style.PAGE, 3.8), sharex=True, sharey=True)
     figure.suptitle(f"spectrum: {title}")
     for axes, (name, direction) in zip(panels, (("amplitude", "normal"), ("amplitude_tangential", "tangential")), strict=True):
         _draw_spectrum(axes, maps[name].dropna("speed", how="all"), campbell, direction)
@@ -28,9 +28,14 @@ def _draw_spectrum(axes: Axes, amplitude: xr.DataArray, campbell: xr.Dataset, di
     values = np.maximum(1e3 * amplitude.transpose("engine_order", "speed").values, 1e-12)
     top = max(float(np.nanmax(values)), 1e-11) if values.size else 1.0
     picture = axes.pcolormesh(
-        amplitude["speed"], amplitude["engine_order"], values, norm=LogNorm(top / 10**_DECADES, top), cmap="magma"
+        amplitude["speed"],
+        amplitude["engine_order"],
+        values,
+        norm=LogNorm(top / 10**_DECADES, top),
+        cmap="magma",
+        rasterized=True,
     )
-    axes.figure.colorbar(picture, ax=axes, label=f"amplitude, {direction}, leading edge (mm)")
+    axes.figure.colorbar(picture, ax=axes, location="bottom", aspect=35, label=f"amplitude, {direction}, leading edge (mm)")
     for mode in ("1B", "1T", "2B"):
         frequency = campbell["frequency"].sel(mode=mode)
         speed = frequency["speed"].values[1:]
@@ -48,9 +53,9 @@ def _draw_spectrum(axes: Axes, amplitude: xr.DataArray, campbell: xr.Dataset, di
 def draw_wear_map(maps: xr.Dataset, campbell: xr.Dataset, title: str) -> Figure:
     """Wear over speed and angle of one blade and scene; ticks mark the crossings of 1B with engine orders."""
     wear = maps["wear"].dropna("speed", how="all")
-    figure, axes = plt.subplots(figsize=(8.0, 5.0))
+    figure, axes = plt.subplots(figsize=(style.COLUMN * 1.4, 3.4))
     picture = axes.pcolormesh(
-        wear["speed"], np.degrees(wear["angle"]), 1e3 * wear.transpose("angle", "speed").values, cmap="viridis"
+        wear["speed"], np.degrees(wear["angle"]), 1e3 * wear.transpose("angle", "speed").values, cmap="viridis", rasterized=True
     )
     figure.colorbar(picture, ax=axes, label="wear (mm)")
     low, high = axes.get_xlim()

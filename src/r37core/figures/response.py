@@ -15,11 +15,11 @@ from . import style
 
 def draw_response(blade: str, campbell: xr.Dataset, rms: xr.Dataset, stress: xr.Dataset | None) -> Figure:
     """One blade: normal and tangential rms of the leading edge in every scene, and the largest stress with the yield line."""
-    figure, panels = plt.subplots(2 if stress is None else 3, 1, figsize=(8.5, 7.5), sharex=True)
+    figure, panels = plt.subplots(2 if stress is None else 3, 1, figsize=(style.PAGE, 6.4), sharex=True)
     for axes, part in zip(panels, ("normal", "tangential"), strict=False):
         for scene in rms["scene"].values:
             response = rms[f"rms_{part}"].sel(scene=scene, tip_point="leading_edge").dropna("speed")
-            axes.plot(response["speed"], 1e3 * response, ".-", label=str(scene))
+            axes.plot(response["speed"], 1e3 * response, ".-", markersize=3, label=str(scene))
             _mark_diverged(axes, rms.sel(scene=scene))
         axes.set_ylabel(f"rms, {part} (mm)")
         _mark_crossings(axes, campbell)
@@ -28,7 +28,7 @@ def draw_response(blade: str, campbell: xr.Dataset, rms: xr.Dataset, stress: xr.
     if stress is not None:
         for scene in stress["scene"].values:
             largest = stress["max_von_mises"].sel(scene=scene).dropna("speed")
-            panels[2].plot(largest["speed"], 1e-9 * largest, ".-", label=str(scene))
+            panels[2].plot(largest["speed"], 1e-9 * largest, ".-", markersize=3, label=str(scene))
         panels[2].axhline(1e-9 * float(stress["yield_stress"].max()), color="0.3", linewidth=0.9, linestyle="--")
         panels[2].set_ylabel("largest von Mises (GPa)")
         _mark_crossings(panels[2], campbell)
@@ -41,7 +41,7 @@ def draw_response_overview(rms: xr.Dataset) -> Figure:
     """All blades: normal and tangential rms of the leading edge, one row per blade, all scenes, each column on one scale."""
     blades = rms["blade"].values
     figure, grid = plt.subplots(
-        len(blades), 2, figsize=(11.0, 1.3 * len(blades) + 0.8), sharex=True, sharey="col", squeeze=False
+        len(blades), 2, figsize=(style.PAGE, 0.95 * len(blades) + 0.8), sharex=True, sharey="col", squeeze=False
     )
     for row, blade in zip(grid, blades, strict=True):
         for axes, direction in zip(row, ("normal", "tangential"), strict=True):
@@ -54,7 +54,7 @@ def draw_response_overview(rms: xr.Dataset) -> Figure:
         axes.set_title(f"rms, {title}, leading edge (mm)")
         style.rpm_axis(axes)
     grid[0, 0].legend()
-    figure.supxlabel("speed (rad/s)", fontsize=9)
+    figure.supxlabel("speed (rad/s)", fontsize=8)
     return figure
 
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import matplotlib.pyplot as plt
 import numpy as np
 import xarray as xr
-from matplotlib import colormaps
 from matplotlib.axes import Axes
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
@@ -13,7 +12,7 @@ from matplotlib.figure import Figure
 from r37core.signals.orders import order_tracks, spectrogram, strongest_orders
 from r37core.units import RPM
 
-from . import style  # noqa: F401  # its settings, as of all figures
+from . import style
 
 _DECADES = 4.0
 _TRACKS = 5
@@ -65,7 +64,7 @@ def draw_orders(signals: xr.Dataset, title: str) -> Figure:
             orders = strongest_orders(signal, turn, per_revolution, _TRACKS, _HIGHEST_ORDER)
             revolutions, amplitudes = order_tracks(signal, turn, per_revolution, orders)
             for order, amplitude in zip(orders, amplitudes, strict=True):
-                axes.plot(revolutions, amplitude, color=colormaps["tab20"]((order - 1) % 20), label=f"{order}")
+                axes.plot(revolutions, amplitude, label=f"{order}", **_look(order))
             axes.set_ylabel(unit)
             # room for the legend
             axes.set_ylim(0.0, 1.35 * max(float(amplitudes.max(initial=0.0)), 1e-30))
@@ -92,6 +91,12 @@ def _draw_timing(axes: Axes, run: xr.Dataset, first: bool) -> None:
         axes.set_title("tip timing, leading edge", fontsize=9)
 
 
+def _look(order: int) -> dict[str, str]:
+    """Colour and dashes of an engine order, the same in every panel."""
+    repeats, place = divmod(order - 1, len(style.COLOURS))
+    return {"color": style.COLOURS[place], "linestyle": ("-", "--", ":")[repeats % 3]}
+
+
 def _legend(axes: Axes, title: str, columns: int) -> None:
     legend = axes.legend(
         fontsize=6,
@@ -99,7 +104,7 @@ def _legend(axes: Axes, title: str, columns: int) -> None:
         title=title,
         title_fontsize=6,
         loc="upper left",
-        handlelength=0.8,
+        handlelength=1.4,
         handletextpad=0.3,
         columnspacing=0.6,
         borderpad=0.1,

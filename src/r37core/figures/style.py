@@ -1,8 +1,10 @@
-"""One style for all figures."""
+"""One style for all figures: sizes that print as they are, colours told apart with any colour vision, PNG and PDF."""
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Sequence
 from pathlib import Path
+from typing import Any
 
 import matplotlib
 
@@ -12,36 +14,80 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
 
 from r37core.io import atomic_write
 from r37core.units import RPM
 
+COLUMN, PAGE = 3.5, 7.2
+"""Widths (inch) of a figure that goes into one column of a journal and across its page, at the size of its text."""
+
+COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00", "#000000")
+"""Okabe and Ito's colours, in the explorer's order."""
+_DASHES = ("-", "--", ":", "-.")
+
 plt.rcParams.update(
     {
         "figure.dpi": 110,
-        "savefig.dpi": 150,
+        "savefig.dpi": 200,
         "figure.constrained_layout.use": True,
-        "font.size": 9,
+        "font.size": 8,
+        "axes.titlesize": 8,
+        "axes.labelsize": 8,
+        "xtick.labelsize": 7,
+        "ytick.labelsize": 7,
+        "legend.fontsize": 7,
+        "figure.titlesize": 9,
+        "axes.prop_cycle": plt.cycler(color=COLOURS),
         "axes.grid": True,
         "grid.alpha": 0.25,
         "axes.spines.top": False,
         "axes.spines.right": False,
-        "lines.linewidth": 1.4,
+        "lines.linewidth": 1.1,
         "legend.frameon": False,
+        # letters stay letters
+        "pdf.fonttype": 42,
         # no creation date, so that the same data give the same bytes
         "svg.hashsalt": "r37",
     }
 )
 
 
-def rpm_axis(axes: Axes) -> None:
+def blade_styles(blades: Iterable[Any]) -> dict[str, dict[str, str]]:
+    """Colour and dashes of each blade, by its place in the whole list: the same in every figure and in the explorer."""
+    count = len(COLOURS)
+    return {
+        str(blade): {"color": COLOURS[place % count], "linestyle": _DASHES[place // count % len(_DASHES)]}
+        for place, blade in enumerate(blades)
+    }
+
+
+def rpm_axis(axes: Axes, most_ticks: int = 9) -> None:
     """A second axis above one of speeds in rad/s, in revolutions per minute."""
-    functions = (lambda speed: np.multiply(speed, RPM), lambda turns: np.divide(turns, RPM))
-    axes.secondary_xaxis("top", functions=functions).set_xlabel("rpm", fontsize=8)
+    above = axes.secondary_xaxis("top", functions=_RPM)
+    above.set_xlabel("rpm", fontsize=7)
+    above.xaxis.set_major_locator(MaxNLocator(most_ticks))
 
 
-def save(figure: Figure, file: Path | str) -> None:
-    """Write the figure atomically and close it; the same data give the same bytes."""
-    with atomic_write(file) as partial:
-        figure.savefig(partial, metadata={"Software": None})
+def rpm_axis_beside(axes: Axes) -> None:
+    """The same to the right of an axis of speeds that runs upward."""
+    axes.secondary_yaxis("right", functions=_RPM).set_ylabel("rpm", fontsize=7)
+
+
+_RPM = (lambda speed: np.multiply(speed, RPM), lambda turns: np.divide(turns, RPM))
+
+
+def save(
+    figure: Figure, files: Path | str | Sequence[Path | str], caption: str | None = None, dots_per_inch: float | None = None
+) -> None:
+    """Write the figure, one file or several, with its caption as a description, atomically, and close it.
+
+    The same data give the same bytes.
+    """
+    for file in [files] if isinstance(files, str | Path) else files:
+        pdf = Path(file).suffix == ".pdf"
+        about = {"Subject": caption, "Creator": None, "Producer": None, "CreationDate": None} if pdf else {"Software": None}
+        with atomic_write(file) as partial:
+            metadata = about if pdf else {**about, "Description": caption}
+            figure.savefig(partial, dpi=dots_per_inch or plt.rcParams["savefig.dpi"], metadata=metadata)
     plt.close(figure)

@@ -7,13 +7,13 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from r37core.studies.published import BLADES, DIRECT_PEAK, INTERACTIONS
+from r37core.studies.published import BLADES, DIRECT_PEAK, INTERACTIONS, QUIET
 from r37core.studies.reading_places import DIRECT
 from r37core.studies.validation import Runs
 
-from . import style  # noqa: F401  (sets the style)
+from . import style
 
-_SCENES = {"lined": ("abradable lining", "C0"), "direct": ("direct contact", "C3")}
+_SCENES = {"lined": ("abradable lining", "C0"), "direct": ("direct contact", "C1")}
 _DIRECTIONS = {"rms_normal": "normal to the casing", "rms_tangential": "tangential"}
 
 
@@ -21,7 +21,7 @@ def draw_reference(survey: Runs, shipped: Runs) -> Figure:
     """Rms of both scenes over the whole range, the survey and the finer windows together; dotted: published peaks."""
     windows = [shipped[one.name] for one in INTERACTIONS if one.blade == "Ref"]
     runs = {"lined": joined(*windows, survey["Ref_lined"]), "direct": joined(shipped[DIRECT], survey["Ref_direct"])}
-    figure, panels = plt.subplots(2, 1, figsize=(9.0, 6.4), sharex=True)
+    figure, panels = plt.subplots(2, 1, figsize=(style.PAGE, 5.0), sharex=True)
     for axes, (name, direction) in zip(panels, _DIRECTIONS.items(), strict=True):
         for scene, run in runs.items():
             label, color = _SCENES[scene]
@@ -32,20 +32,22 @@ def draw_reference(survey: Runs, shipped: Runs) -> Figure:
                 axes.annotate(
                     f"1B/{one.engine_order}", (one.peak + 4, 0.96), xycoords=("data", "axes fraction"), fontsize=7, va="top"
                 )
-        axes.axvline(DIRECT_PEAK, color="C3", linestyle=":", linewidth=0.9)
+        axes.axvline(DIRECT_PEAK, color="C1", linestyle=":", linewidth=0.9)
         axes.set_ylabel(f"rms, {direction} (mm)")
     panels[0].legend(loc="upper right", bbox_to_anchor=(0.73, 1.0))
-    panels[0].set_title("blade Ref, leading edge, last half of the run; dotted: published peaks", fontsize=9)
+    panels[0].set_title("blade Ref, leading edge, last half of the run; dotted: published peaks")
     panels[1].set_xlabel("speed (rad/s)")
+    style.rpm_axis(panels[0])
     return figure
 
 
 def draw_blades(shipped: Runs) -> Figure:
     """Rms of all blades about their interaction of 1B with order 4; dotted: published peaks."""
-    figure, panels = plt.subplots(2, 1, figsize=(9.0, 6.8), sharex=True)
+    figure, panels = plt.subplots(2, 1, figsize=(style.PAGE, 5.2), sharex=True)
     for axes, (name, direction) in zip(panels, _DIRECTIONS.items(), strict=True):
         _draw_about_order_4(axes, shipped, name, 1e3)
         axes.set_ylabel(f"rms, {direction} (mm)")
+    style.rpm_axis(panels[0])
     _legend_above(figure, panels[0])
     panels[1].set_xlabel("speed (rad/s); dotted: published peaks")
     return figure
@@ -53,11 +55,12 @@ def draw_blades(shipped: Runs) -> Figure:
 
 def draw_stress(shipped: Runs, yield_stress: float) -> Figure:
     """Largest stress of the last revolution of all blades about 1B/4, with the yield line; dotted: published peaks."""
-    figure, axes = plt.subplots(figsize=(9.0, 4.4))
+    figure, axes = plt.subplots(figsize=(style.PAGE, 3.6))
     _draw_about_order_4(axes, shipped, "max_von_mises", 1e-9)
     axes.axhline(1e-9 * yield_stress, color="0.2", linestyle="--", linewidth=1.0, label="yield")
     axes.set(ylabel="largest von Mises, last revolution (GPa)", yscale="log")
     axes.set_xlabel("speed (rad/s); dotted: published peaks")
+    style.rpm_axis(axes)
     _legend_above(figure, axes)
     return figure
 
@@ -76,10 +79,10 @@ def _legend_above(figure: Figure, axes: Axes) -> None:
 
 
 def draw_histories(shipped: Runs, yield_stress: float) -> Figure:
-    """Largest stress of every revolution of the reference blade in both scenes, at the speeds of the two published maxima."""
+    """Largest stress of every revolution of the reference blade in both scenes, at three published speeds."""
     runs = {"lined": shipped[INTERACTIONS[0].name], "direct": shipped[DIRECT]}
-    figure, panels = plt.subplots(1, 2, figsize=(10.0, 3.8), sharey=True)
-    for axes, speed in zip(panels, (INTERACTIONS[0].peak, DIRECT_PEAK), strict=True):
+    figure, panels = plt.subplots(1, 3, figsize=(style.PAGE, 2.9), sharey=True)
+    for axes, speed in zip(panels, (INTERACTIONS[0].peak, DIRECT_PEAK, QUIET), strict=True):
         for scene, run in runs.items():
             label, color = _SCENES[scene]
             history = 1e-9 * run["history"].sel(history_speed=speed)

@@ -91,7 +91,7 @@ def window_speeds(grid: RefinedRange, expected: Sequence[Stretch]) -> list[float
     waiting = list(pairwise(grid.coarse_places()))
     while waiting:
         first, last = waiting.pop()
-        length = (last - first) * grid.refine_to
+        length = (last - first) * grid.interval
         too_long = any(
             one.low < grid.speed(last) and grid.speed(first) < one.high and length > (1.0 + 1e-9) * one.step for one in expected
         )
@@ -120,7 +120,7 @@ def next_speeds(grid: RefinedRange, known: KnownSpeeds, choice: RefinementChoice
 
 def _places(grid: RefinedRange, speeds: np.ndarray) -> np.ndarray:
     """Place on the grid of each speed, -1 for one that is not on it."""
-    nearest = np.rint((speeds - grid.start) / grid.refine_to).astype(int)
+    nearest = np.rint((speeds / grid.unit - grid.start) / grid.refine_to).astype(int)
     on_grid = [
         0 <= place <= grid.last and grid.speed(int(place)) == speed for place, speed in zip(nearest, speeds, strict=True)
     ]

@@ -69,6 +69,10 @@ class Bench:
         history[:whole] = stress[: whole * self.choice.snapshots_per_revolution].reshape(whole, -1).max(axis=1)
         return history
 
+    def revolution(self, speed: float, instants: int) -> np.ndarray:
+        """Largest stress (Pa) at so many instants of the last revolution at one speed (rad/s), shape (instants,)."""
+        return replace(self, choice=replace(self.choice, snapshots_per_revolution=instants))._run(speed, 1, False)[1]
+
     def _run(self, speed: float, kept: int, spectrum: bool) -> tuple[dict[str, np.ndarray], np.ndarray]:
         choice = replace(self.choice, snapshot_revolutions=kept)
         results = ["stress", *(["wear"] if self.scene.lining else []), *(["spectrum"] if spectrum else [])]

@@ -85,7 +85,7 @@ def _measured(response: xr.Dataset) -> dict[float, list[float]]:
 def plain_grid(plan: SpeedPlan, step: float) -> list[float]:
     """Every so many rad/s of the grids of a plan, ascending."""
     return sorted(
-        grid.speed(place) for grid in plan.refined for place in range(0, grid.last + 1, max(1, round(step / grid.refine_to)))
+        grid.speed(place) for grid in plan.refined for place in range(0, grid.last + 1, max(1, round(step / grid.interval)))
     )
 
 

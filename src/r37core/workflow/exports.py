@@ -81,13 +81,13 @@ class Exports:
 
     def only_worst(self, wildcards: Any) -> bool:
         """Whether the speed with the largest stress is written alone."""
-        return self.imported.settings.config.exports.stress_speeds_rad_s == "worst"
+        return self.imported.settings.config.exports.only_worst()
 
     def speed_files(self, wildcards: Any) -> list[str]:
         """The simulations among which worst instants are looked for."""
         files = self.sweep.speed_files(wildcards)
-        chosen = self.imported.settings.config.exports.stress_speeds_rad_s
-        if not isinstance(chosen, list):
+        chosen = self.imported.settings.config.exports.stress_speeds()
+        if chosen is None:
             return files
         wanted = {f"speed_{exact_text(speed)}.npz" for speed in chosen}
         return [file for file in files if Path(file).name in wanted]

@@ -35,11 +35,11 @@ def _of_blades(results: Path, settings: Settings) -> Iterator[Path]:
         yield from (file for file in folder.glob("speed_*.npz") if file.name not in wanted)
         if not plan.refined:
             yield from folder.glob("round_*.json")
-    for figure in (results / "figures").glob("*_*.png"):
-        _, name = figure.stem.split("_", 1)
+    for figure in (results / "figures").glob("*_*.p[nd][gf]"):
+        kind, name = figure.stem.split("_", 1)
         blade, _, scene = name.partition("__")
-        if figure.stem.startswith("designs_"):
-            if name not in settings.families:
+        if kind in ("designs", "comparison"):
+            if name not in (settings.families if kind == "designs" else settings.scenes):
                 yield figure
             continue
         if blade not in settings.blades or (scene and scene not in settings.scenes):

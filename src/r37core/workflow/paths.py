@@ -18,6 +18,8 @@ SPEED = "<results>/{blade}/{scene}/speed_{speed}.npz"
 RESPONSE = "<results>/{blade}/{scene}/response.nc"
 MAP_FIGURE = "<results>/figures/{kind}_{blade}__{scene}.png"
 RESPONSE_FIGURE = "<results>/figures/response_{blade}.png"
+WATERFALL_FIGURE = "<results>/figures/waterfall_{blade}__{scene}.png"
+COMPARISON_FIGURE = "<results>/figures/comparison_{scene}.png"
 DESIGNS = "<results>/designs.csv"
 DESIGN_FIGURE = "<results>/figures/designs_{family}.png"
 ESTIMATE_SAMPLE = "<results>/studies/estimate/{blade}__{scene}.json"
@@ -41,9 +43,15 @@ STUDY_MODEL = (
     "<results>/studies/models/{blade}/{nodes}_{boundary_nodes}_{fixed_interface_modes}_{region}_{tip_line}_{ends}/{file}"
 )
 TRADEOFF_CASE = "<results>/studies/tradeoff/{blade}/{parameter}/{value}.nc"
+GALLERY_RUN = "<results>/studies/gallery/{blade}__{scene}.nc"
 STABILITY_CASE = "<results>/studies/stability/{extreme}.json"
 READING = "<results>/studies/readings/{reading}/{place}.nc"
 READING_CAMPBELL = "<results>/studies/readings/campbell/{blade}_{mesh}.nc"
+
+
+def as_pdf(picture: str) -> str:
+    """The vector picture beside a PNG."""
+    return picture.removesuffix(".png") + ".pdf"
 
 
 def fill(pattern: str, **wildcards: Any) -> str:

@@ -41,7 +41,7 @@ class Refinement:
     @property
     def steps(self) -> list[float]:
         """Steps (rad/s) of the plain grids that are part of the whole ones."""
-        finest = [grid.refine_to for place in self.runs for grid in self.settings.speed_plans[place].refined]
+        finest = [grid.interval for place in self.runs for grid in self.settings.speed_plans[place].refined]
         return [step for step in _STEPS if all(abs(step / one - round(step / one)) < 1e-9 and step >= one for one in finest)]
 
     def every_speed(self, wildcards: Any) -> list[float]:

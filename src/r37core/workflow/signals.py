@@ -24,7 +24,7 @@ class Signals:
     @property
     def runs(self) -> list[tuple[str, str]]:
         """Pairs of blade and scene with signals; none without speeds."""
-        if self._given.speeds_rad_s is None:
+        if self._given.speeds() is None:
             return []
         pairs = self.sweep.runs_with("signal")
         return [(blade, scene) for blade, scene in pairs if self._given.blades == "all" or blade in self._given.blades]
@@ -57,7 +57,7 @@ class Signals:
         if self.gauges(wildcards):
             found |= {"mesh": paths.fill(paths.MESH, blade=blade)}
             found |= {"whole": paths.fill(paths.WHOLE_BLADE_MODEL, blade=blade, tip_line=tip_line)}
-        if self._given.speeds_rad_s == "interactions":
+        if self._given.speeds() == "interactions":
             found |= {"campbell": paths.fill(paths.CAMPBELL, blade=blade)}
             found |= {"response": paths.fill(paths.RESPONSE, blade=blade, scene=scene)}
         return found
@@ -65,8 +65,8 @@ class Signals:
     @property
     def speeds(self) -> list[float]:
         """Speeds (rad/s) that are named, ascending; none for those of interactions."""
-        given = self._given.speeds_rad_s
-        return sorted(map(float, given)) if isinstance(given, list) else []
+        given = self._given.speeds()
+        return given if isinstance(given, list) else []
 
     @property
     def probes(self) -> list[float]:

@@ -182,11 +182,20 @@ class Sweep:
             for kind in MAPS
             for blade, scene in self.runs_with(kind)
         ]
-        return ["<results>/figures/response.png", *of_blades, *maps]
+        waterfalls = [
+            paths.fill(paths.WATERFALL_FIGURE, blade=blade, scene=scene) for blade, scene in self.runs_with("spectrum")
+        ]
+        of_scenes = [paths.fill(paths.COMPARISON_FIGURE, scene=scene) for scene in self.settings.scenes]
+        return ["<results>/figures/response.png", *of_blades, *maps, *waterfalls, *of_scenes]
 
     def response_pictured(self, wildcards: Any) -> dict[str, str]:
         """Datasets that a blade's response is drawn from."""
         with_stress = any(blade == wildcards.blade for blade, _ in self.runs_with("stress"))
+        return {kind: f"<results>/{kind}.nc" for kind in ("campbell", "rms", *(["stress"] if with_stress else []))}
+
+    def compared(self, wildcards: Any) -> dict[str, str]:
+        """Datasets that the blades of a scene are compared by."""
+        with_stress = any(scene == wildcards.scene for _, scene in self.runs_with("stress"))
         return {kind: f"<results>/{kind}.nc" for kind in ("campbell", "rms", *(["stress"] if with_stress else []))}
 
     def _scene(self, wildcards: Any) -> Any:

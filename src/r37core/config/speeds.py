@@ -1,0 +1,92 @@
+"""Speeds of config.yaml: numbers and ranges, in rad/s or in revolutions per minute, of which one plan in rad/s is made."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Annotated, Any
+
+from pydantic import Discriminator, Field, Tag, model_validator
+
+from r37core.speeds import SpeedPlan, plan_speeds
+
+from .section import LeftOut, Names, Rpm, Section, Speed, refused
+
+UNITS = {"speeds": "rad/s", "speeds_rpm": "rpm"}
+"""Keys that give speeds, of which a section has one, and their units."""
+
+
+class SpeedRange(Section):
+    """Speeds from `start` to `stop`, both included."""
+
+    start: Speed
+    stop: Speed
+    step: Speed | LeftOut = Field(default=None, description="without it the fidelity level's")
+    refine_to: Speed | LeftOut = Field(
+        default=None, description="with it the speeds refine themselves, down to intervals of this, a whole part of the step"
+    )
+
+    @model_validator(mode="after")
+    def _forward(self) -> SpeedRange:
+        if self.stop < self.start:
+            raise refused((), f"a range from {self.start:g} to {self.stop:g}", "stop not below start")
+        return self
+
+
+class RpmRange(SpeedRange):
+    """Speeds in rpm from `start` to `stop`, both included."""
+
+    start: Rpm
+    stop: Rpm
+    step: Rpm | LeftOut = Field(default=None, description="without it the fidelity level's")
+    refine_to: Rpm | LeftOut = Field(
+        default=None, description="with it the speeds refine themselves, down to intervals of this, a whole part of the step"
+    )
+
+
+def _kind(value: Any) -> str:
+    return "range" if isinstance(value, dict | SpeedRange) else "number"
+
+
+SpeedEntry = Annotated[Annotated[Speed, Tag("number")] | Annotated[SpeedRange, Tag("range")], Discriminator(_kind)]
+SpeedList = Annotated[list[SpeedEntry], Field(min_length=1)]
+RpmEntry = Annotated[Annotated[Rpm, Tag("number")] | Annotated[RpmRange, Tag("range")], Discriminator(_kind)]
+RpmList = Annotated[list[RpmEntry], Field(min_length=1)]
+
+
+class SpeedRule(Section):
+    """Speeds of some blades or scenes (both, where both are given)."""
+
+    blades: Names | LeftOut = None
+    scenes: Names | LeftOut = None
+    speeds: SpeedList | LeftOut = None
+    speeds_rpm: RpmList | LeftOut = Field(default=None, description="the same in revolutions per minute, in place of speeds")
+
+    @model_validator(mode="after")
+    def _one_unit(self) -> SpeedRule:
+        if self.speeds is not None and self.speeds_rpm is not None:
+            refuse_both_units("speeds", "speeds_rpm")
+        if self.speeds is None and self.speeds_rpm is None:
+            raise refused((), "neither speeds nor speeds_rpm", "one of them")
+        return self
+
+    def fits(self, blade: str, scene: str) -> bool:
+        """Whether the rule is for this blade in this scene."""
+        return (self.blades is None or blade in self.blades) and (self.scenes is None or scene in self.scenes)
+
+
+def refuse_both_units(one: str, other: str) -> None:
+    """Raise the error of a section that gives the same speeds in two keys, of two units."""
+    raise refused((other,), f"both {one} and {other}", "one of them")
+
+
+def key_of_speeds(section: Any) -> str:
+    """Which key a section gives its speeds with."""
+    return "speeds" if section.speeds_rpm is None else "speeds_rpm"
+
+
+def planned(section: Any, default_step: float) -> SpeedPlan:
+    """The plan (rad/s) that a section's speeds ask for; `default_step` in rad/s. Raises SpeedError."""
+    key = key_of_speeds(section)
+    entries: Sequence[float | SpeedRange] = getattr(section, key)
+    ranges = [entry.model_dump(exclude_none=True) if isinstance(entry, SpeedRange) else entry for entry in entries]
+    return plan_speeds(ranges, default_step, UNITS[key])

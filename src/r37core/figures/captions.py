@@ -1,0 +1,122 @@
+"""What is seen in each figure: the one text that stands in the file itself, in the report and in the gallery."""
+
+from __future__ import annotations
+
+CAPTIONS = {
+    "campbell": (
+        "Campbell diagram of blade {blade}. Left: natural frequencies of the reduced model over speed, engine orders as "
+        "grey lines, their crossings as dots. Right: change of the clearance at the leading edge, normal to the casing, "
+        "while the blade swings freely in its first bending (1B) and first torsion mode (1T), over the tangential "
+        "displacement; below zero the gap closes."
+    ),
+    "campbell_overview": (
+        "Frequencies of the first bending (1B), first torsion (1T) and second bending mode (2B) of all blades over speed, "
+        "with engine orders as grey lines."
+    ),
+    "blades": (
+        "Meshes of the blades, seen from the side; the colour is the scaled Jacobian of the elements, 1 for an ideal shape."
+    ),
+    "response": (
+        "Response of blade {blade} over speed in every scene: root mean square of the leading edge's displacement over "
+        "the last half of the run, normal to the casing and tangential, and the largest von Mises stress of the last "
+        "revolution with the yield stress (dashed). Dotted lines and numbers: crossings of 1B with engine orders; red "
+        "crosses: runs that diverged."
+    ),
+    "response_overview": (
+        "Response of all blades over speed in every scene: root mean square of the leading edge's displacement over the "
+        "last half of the run, normal to the casing (left) and tangential (right), each column on one scale; red crosses: "
+        "runs that diverged."
+    ),
+    "spectrum": (
+        "Spectral map of blade {blade} in scene {scene}: amplitude of the leading edge's motion, normal to the casing "
+        "(left) and tangential (right), over speed and engine order. Dashed: frequencies of 1B, 1T and 2B; where they "
+        "meet a bright row of a whole engine order, the blade interacts with the casing."
+    ),
+    "wear": (
+        "Wear of the lining at the end of the run, over speed and the angle round the casing, for blade {blade} in scene "
+        "{scene}. Dotted: crossings of 1B with engine orders; an interaction wears as many lobes as its engine order."
+    ),
+    "waterfall": (
+        "Waterfall of blade {blade} in scene {scene}: spectra of the leading edge's motion, normal to the casing (left) "
+        "and tangential (right), one above the other by speed; of each stretch of speeds the one with the largest "
+        "amplitude. Heights are logarithmic over three decades below the largest. Dotted: engine orders; dashed: "
+        "frequencies of 1B, 1T and 2B."
+    ),
+    "comparison": (
+        "All blades in scene {scene} around the same interaction, 1B with the engine order that most of them meet within "
+        "the speeds: rms of the leading edge normal to the casing and tangential, and largest stress with the yield "
+        "stress (dashed), over the speed above each blade's own crossing, in percent of it. Contact stiffens a blade, so "
+        "peaks lie above the crossing."
+    ),
+    "designs": (
+        "Family {family}: what each design is and how robust, over what varies. Frequencies, largest loss of clearance as "
+        "the tip swings along free modes, speeds above yield, largest stress, and where interactions lie."
+    ),
+    "mode_shapes": (
+        "The first modes of blade {blade} at rest, each moved by its shape from the blade as it is (black outline); the colour "
+        "is the displacement as a share of its largest. The page of the blade's shapes moves them."
+    ),
+    "worst_shapes": (
+        "Blade {blade} in scene {scene} at the worst instant of each interaction: displaced as the title says (black outline: "
+        "as it is), coloured by the von Mises stress of the vibration up to the largest one of the submesh."
+    ),
+    "spectrogram": (
+        "Blade {blade} in scene {scene}: engine orders of the leading edge's motion and of strain gauges over the revolutions "
+        "since the start, at each speed; Hann windows of eight revolutions."
+    ),
+    "orders": (
+        "Blade {blade} in scene {scene}: amplitude of the strongest whole engine orders over the revolutions since the start, "
+        "at each speed, and beside them, where there are probes, the leading edge's displacement that tip timing tells."
+    ),
+    "modes": (
+        "The first three modes of blade {blade} at rest, first bending (1B), first torsion (1T) and second bending (2B), "
+        "each moved by its shape from the blade as it is (faint); the colour is the size of the displacement."
+    ),
+    "mesh": ("Mesh of blade {blade}, and the part of it on which stress is recovered."),
+    "reference": (
+        "Response of blade {blade} over speed with lining and in direct contact: root mean square of the leading edge's "
+        "displacement over the last half of the run, normal to the casing and tangential. Dotted: published peaks."
+    ),
+    "revolution": (
+        "Largest von Mises stress on the submesh of blade {blade} within the last revolution, with lining, at the "
+        "published peak of 1B with order 4: at 248 instants, and at the 62 of which the largest is kept for every speed."
+    ),
+    "histories": (
+        "Largest von Mises stress of every revolution of blade {blade} in both scenes, at the published peak of 1B with "
+        "order 4, at that of direct contact and at a speed where all is quiet. Dashed: yield stress."
+    ),
+    "stress": (
+        "Largest von Mises stress of the last revolution of blade {blade} over speed, in both scenes. Dashed: yield "
+        "stress; dotted: published peaks of the lined scene."
+    ),
+    "wear_content": (
+        "Wear of the lining at the end of the run for blade {blade}: round the casing over speed (left), and the "
+        "amplitude of each number of lobes in it (right)."
+    ),
+    "variants": ("Shapes of the variants, each in its colour over the reference blade in grey."),
+    "variants_spectra": (
+        "Spectral maps of the variants with lining: amplitude of the leading edge's motion normal to the casing over "
+        "speed and engine order, on one scale. Dashed: frequency of 1B."
+    ),
+    "variants_response": (
+        "Response of all blades with lining about 1B with order 4: root mean square of the leading edge's displacement, "
+        "normal to the casing and tangential. Dotted: published peaks."
+    ),
+    "clearances": (
+        "Dynamic clearance of all blades: change of the clearance at the leading edge, normal to the casing, as the tip "
+        "swings along the free modes 1B and 1T."
+    ),
+    "peak_histories": (
+        "Largest von Mises stress of every revolution of each blade with lining, at its own peak of 1B with order 4. "
+        "Dashed: yield stress."
+    ),
+    "widths": (
+        "Length of the range of speeds about 1B with order 4, with lining, whose last revolution is above yield, for "
+        "every blade."
+    ),
+}
+
+
+def caption(figure: str, **names: str) -> str:
+    """The caption of a kind of figure, with the names (blade, scene, family) of the one at hand."""
+    return CAPTIONS[figure].format(**names)

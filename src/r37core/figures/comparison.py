@@ -1,0 +1,62 @@
+"""Blades side by side around an interaction that they share."""
+
+from __future__ import annotations
+
+import matplotlib.pyplot as plt
+import numpy as np
+import xarray as xr
+from matplotlib.figure import Figure
+
+from . import style
+
+BELOW, ABOVE = 0.02, 0.06
+"""How far the picture reaches on both sides of a crossing, as shares of its speed."""
+
+
+def shared_order(campbell: xr.Dataset, low: float, high: float) -> int | None:
+    """The engine order whose crossings with 1B most blades have between `low` and `high` (rad/s), of several the lowest.
+
+    None where no blade has any.
+    """
+    crossing = campbell["crossing_speed"].sel(mode="1B")
+    count = ((crossing >= low) & (crossing <= high)).sum("blade").values
+    return int(campbell["engine_order"].values[int(np.argmax(count))]) if count.max() else None
+
+
+def draw_comparison(campbell: xr.Dataset, rms: xr.Dataset, stress: xr.Dataset | None, scene: str) -> Figure:
+    """All blades in one scene about their crossing of 1B with the engine order that most of them meet.
+
+    Speeds are those above the crossing, as shares of it, for the crossings of the blades lie hundreds of rad/s apart.
+    """
+    styles = style.blade_styles(rms["blade"].values)
+    order = shared_order(campbell, float(rms["speed"].min()), float(rms["speed"].max()))
+    panels_of = {"rms, normal (mm)": 1e3 * rms["rms_normal"].sel(tip_point="leading_edge")}
+    panels_of["rms, tangential (mm)"] = 1e3 * rms["rms_tangential"].sel(tip_point="leading_edge")
+    if stress is not None:
+        panels_of["largest von Mises (GPa)"] = 1e-9 * stress["max_von_mises"]
+    figure, panels = plt.subplots(len(panels_of), 1, figsize=(style.PAGE, 1.9 * len(panels_of) + 0.5), sharex=True)
+    for axes, (label, values) in zip(panels, panels_of.items(), strict=True):
+        for blade in values["blade"].values if order else []:
+            crossing = float(campbell["crossing_speed"].sel(blade=blade, mode="1B", engine_order=order))
+            curve = values.sel(blade=blade).dropna("speed")
+            curve = curve.sel(speed=slice((1.0 - BELOW) * crossing, (1.0 + ABOVE) * crossing))
+            if curve.size:
+                axes.plot(
+                    100 * (curve["speed"] / crossing - 1.0),
+                    curve,
+                    marker=".",
+                    markersize=3,
+                    label=str(blade),
+                    **styles[str(blade)],
+                )
+        axes.axvline(0.0, color="0.5", linewidth=0.8, linestyle=":")
+        axes.set_ylabel(label)
+    if stress is not None:
+        panels[-1].axhline(1e-9 * float(stress["yield_stress"].max()), color="0.3", linewidth=0.9, linestyle="--")
+    panels[-1].set_xlabel(
+        f"speed above the crossing of 1B with engine order {order} (%)" if order else "no crossing of 1B was run"
+    )
+    panels[0].set_title(f"blades in scene {scene}")
+    if panels[0].lines[:-1]:
+        figure.legend(*panels[0].get_legend_handles_labels(), loc="outside upper center", ncols=7)
+    return figure

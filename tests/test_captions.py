@@ -1,0 +1,45 @@
+"""Every figure says what is seen, in one text: in its file and in the report."""
+
+import re
+from types import SimpleNamespace
+
+import matplotlib.pyplot as plt
+from PIL import Image
+
+from r37core.figures.captions import CAPTIONS, caption
+from r37core.figures.style import save
+from r37core.workflow.reporting import captioned
+
+NAMES = {"blade": "Ref", "scene": "direct", "family": "Sweep"}
+
+
+def test_captions_are_filled_in_whole_sentences():
+    for figure in CAPTIONS:
+        text = caption(figure, **NAMES)
+        assert "{" not in text
+        assert text.endswith(".")
+
+
+def test_every_figure_of_the_rules_has_a_caption_and_is_in_the_report(root):
+    for name in ("figures", "designs", "shapes", "signals"):
+        text = (root / f"workflow/rules/{name}.smk").read_text()
+        rules = [block for block in re.split(r"^rule ", text, flags=re.MULTILINE) if "png" in block or "_FIGURE" in block]
+        assert rules
+        for rule in rules:
+            assert "report(" in rule, rule
+            assert "caption=captioned(" in rule, rule
+
+
+def test_the_kind_of_a_map_is_a_wildcard():
+    class Wildcards(SimpleNamespace):
+        def items(self):
+            return vars(self).items()
+
+    wildcards = Wildcards(kind="wear", blade="Ref", scene="lined")
+    assert captioned()(wildcards) == caption("wear", blade="Ref", scene="lined")
+
+
+def test_a_file_carries_its_caption(tmp_path):
+    figure, _ = plt.subplots()
+    save(figure, tmp_path / "a.png", caption("wear", **NAMES))
+    assert Image.open(tmp_path / "a.png").text["Description"] == caption("wear", **NAMES)

@@ -1,0 +1,155 @@
+"""Figures: sizes that print as they are, one colour per blade everywhere, and what the new ones show."""
+
+import hashlib
+from pathlib import Path
+
+import matplotlib.pyplot as plt
+import numpy as np
+import pytest
+import xarray as xr
+from matplotlib.colors import to_hex
+from matplotlib.text import Text
+
+from r37core.figures import campbell as campbell_figures
+from r37core.figures import comparison, maps, response, style, waterfall
+from r37core.time_integration.status import RunStatus
+
+BLADES, SCENES = ["Ref", "L50", "S100"], ["abradable", "direct"]
+SPEEDS = np.arange(750.0, 2000.1, 25.0)
+
+
+@pytest.fixture(scope="module")
+def datasets():
+    """Three blades whose 1B meets engine order 4 at 1672, 1621 and 1635 rad/s, with a peak 2% above; one run diverged."""
+    crossings = np.array([1672.0, 1621.0, 1635.0])
+    speeds, orders = np.linspace(0.0, 2000.0, 21), np.arange(1, 9)
+    rising = np.sqrt(1.0 + (speeds / 3000.0) ** 2)
+    frequency = np.array([[scale * rest * rising for rest in (840.0, 2510.0, 3030.0)] for scale in crossings / 1672.0])
+    crossing = np.full((3, 3, 8), np.nan)
+    crossing[:, 0, 3], crossing[:2, 0, 4] = crossings, crossings[:2] - 400.0
+    clearance = 0.2 * np.linspace(-0.01, 0.01, 5)
+    about = {
+        "frequency": (("blade", "mode", "speed"), frequency),
+        "crossing_speed": (("blade", "mode", "engine_order"), crossing),
+        "dynamic_clearance": (("blade", "mode", "tangential_displacement"), np.broadcast_to(clearance, (3, 3, 5))),
+    }
+    axes = {"blade": BLADES, "mode": ["1B", "1T", "2B"], "speed": speeds, "engine_order": orders}
+    campbell = xr.Dataset(about, axes | {"tangential_displacement": np.linspace(-0.01, 0.01, 5)})
+    peak = 1e-3 / (1.0 + ((SPEEDS - 1.02 * crossings[:, None]) / 20.0) ** 2)
+    status = np.zeros((3, 2, len(SPEEDS)), dtype="i1")
+    status[1, 1, 3] = RunStatus.DIVERGED
+    values = np.where(status > 0, np.nan, peak[:, None, :] * np.array([1.0, 0.5])[:, None])
+    dims, coords = ("blade", "scene", "speed"), {"blade": BLADES, "scene": SCENES, "speed": SPEEDS}
+    tip = xr.Dataset(coords=coords | {"tip_point": ["leading_edge", "trailing_edge"]})
+    rms = tip.assign(status=(dims, status))
+    for name in ("rms_normal", "rms_tangential"):
+        rms[name] = ((*dims, "tip_point"), np.repeat(values[..., None], 2, axis=-1))
+    stress = xr.Dataset({"max_von_mises": (dims, 2e12 * values), "yield_stress": (dims[:2], np.full((3, 2), 1.38e9))}, coords)
+    order = np.arange(0.0, 20.001, 0.01)
+    spectrum = values[..., None] * np.exp(-(((order - 4.0) / 0.02) ** 2)) + 1e-9
+    spectra = {name: ((*dims, "engine_order"), spectrum) for name in ("amplitude", "amplitude_tangential")}
+    angle = np.linspace(0.0, 2 * np.pi, 30)
+    wear = {"wear": ((*dims, "angle"), np.repeat(values[..., None], 30, axis=-1))}
+    return {
+        "campbell": campbell,
+        "rms": rms,
+        "stress": stress,
+        "spectrum": xr.Dataset(spectra, coords | {"engine_order": order}),
+        "wear": xr.Dataset(wear, coords | {"angle": angle}),
+    }
+
+
+def drawn(datasets):
+    """Every figure of the sweep."""
+    of = {kind: data.sel(blade="Ref") for kind, data in datasets.items()}
+    lined = {kind: data.sel(scene="abradable") for kind, data in datasets.items() if kind != "campbell"}
+    yield "campbell", campbell_figures.draw_campbell(of["campbell"], "Ref")
+    yield "campbells", campbell_figures.draw_campbell_overview(datasets["campbell"])
+    yield "response", response.draw_response("Ref", of["campbell"], of["rms"], of["stress"])
+    yield "responses", response.draw_response_overview(datasets["rms"])
+    maps_of = {kind: data.sel(scene="abradable") for kind, data in of.items() if kind != "campbell"}
+    yield "spectrum", maps.draw_spectral_map(maps_of["spectrum"], of["campbell"], "Ref, abradable")
+    yield "wear", maps.draw_wear_map(maps_of["wear"], of["campbell"], "Ref, abradable")
+    yield "waterfall", waterfall.draw_waterfall(maps_of["spectrum"], of["campbell"], "Ref, abradable")
+    yield "comparison", comparison.draw_comparison(datasets["campbell"], lined["rms"], lined["stress"], "abradable")
+
+
+def test_figures_print_on_a_page_with_letters_to_read(datasets):
+    for name, figure in drawn(datasets):
+        assert figure.get_figwidth() <= style.PAGE, name
+        texts = [text for text in figure.findobj(Text) if text.get_text() and text.get_visible()]
+        assert min(text.get_fontsize() for text in texts) >= 6.0, name
+        plt.close(figure)
+
+
+def test_every_figure_over_speed_has_an_axis_in_rpm(datasets):
+    for name, figure in drawn(datasets):
+        figure.canvas.draw()
+        labels = [text.get_text() for text in figure.findobj(Text)]
+        # percent of each blade's own crossing
+        assert ("rpm" in labels) == any("rad/s" in label for label in labels), name
+        plt.close(figure)
+
+
+def test_a_blade_has_one_colour_everywhere(datasets):
+    wanted = {blade: one["color"] for blade, one in style.blade_styles(BLADES).items()}
+    assert len(set(wanted.values())) == 3
+    for _, figure in drawn(datasets):
+        for axes in figure.axes:
+            found = {line.get_label(): to_hex(line.get_color()).upper() for line in axes.lines if line.get_label() in BLADES}
+            assert found.items() <= wanted.items()
+        plt.close(figure)
+    many = style.blade_styles(range(20))
+    assert len({tuple(one.values()) for one in many.values()}) == 20
+
+
+def test_the_explorer_has_the_same_colours(root):
+    script = (root / "src/r37core/explorer/explorer.js").read_text()
+    assert f"const COLOURS = {list(style.COLOURS)};".replace("'", '"') in script
+
+
+def test_png_and_pdf_are_the_same_bytes_again(datasets, tmp_path):
+    def digests(folder):
+        figure = comparison.draw_comparison(datasets["campbell"], datasets["rms"].sel(scene="direct"), None, "direct")
+        files = [folder / f"a.{suffix}" for suffix in ("png", "pdf")]
+        style.save(figure, files, "What is seen.")
+        return [hashlib.sha256(Path(file).read_bytes()).hexdigest() for file in files]
+
+    assert digests(tmp_path / "one") == digests(tmp_path / "two")
+
+
+def test_waterfall_keeps_the_largest_of_each_stretch():
+    speeds = np.linspace(750.0, 2000.0, 1251)
+    largest = np.ones(1251)
+    largest[[3, 700]] = 5.0
+    rows = waterfall.thinned(speeds, largest)
+    assert {3, 700} <= set(rows)
+    assert rows == sorted(rows)
+    assert len(rows) <= 50
+    assert waterfall.thinned(np.array([900.0]), np.array([1.0])) == [0]
+
+
+def test_comparison_takes_the_order_that_most_blades_meet(datasets):
+    assert comparison.shared_order(datasets["campbell"], 750.0, 2000.0) == 4
+    assert comparison.shared_order(datasets["campbell"], 750.0, 1300.0) == 5
+    assert comparison.shared_order(datasets["campbell"], 750.0, 800.0) is None
+
+
+def test_comparison_is_over_each_blade_s_own_crossing(datasets):
+    of_scene = {kind: datasets[kind].sel(scene="abradable") for kind in ("rms", "stress")}
+    figure = comparison.draw_comparison(datasets["campbell"], of_scene["rms"], of_scene["stress"], "abradable")
+    curves = {line.get_label(): line for line in figure.axes[0].lines if line.get_label() in BLADES}
+    for blade, line in curves.items():
+        x, y = line.get_data()
+        assert x.min() >= -2.0 and x.max() <= 6.0
+        crossing = float(datasets["campbell"]["crossing_speed"].sel(blade=blade, mode="1B", engine_order=4))
+        speed = crossing * (1.0 + 0.01 * float(x[np.argmax(y)]))
+        assert abs(speed - 1.02 * crossing) < 25.0
+    plt.close(figure)
+
+
+def test_nothing_run_is_drawn_as_nothing(datasets):
+    empty = datasets["spectrum"].sel(blade="Ref", scene="direct").where(False)
+    plt.close(waterfall.draw_waterfall(empty, datasets["campbell"].sel(blade="Ref"), "Ref, direct"))
+    rms = datasets["rms"].sel(scene="direct", speed=[750.0, 775.0])
+    plt.close(comparison.draw_comparison(datasets["campbell"], rms, None, "direct"))
