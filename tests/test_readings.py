@@ -263,3 +263,12 @@ def test_survey_counts_responses_beside_the_interactions():
     survey["Ref_lined"]["rms_radial"].loc[{"speed": 1345.0}] = 0.9e-3
     missed = [check.name for check in survey_checks(survey, shipped, YIELD) if not check.met]
     assert missed == ["Ref lined, 750 to 2000: no other radial rms above 0.8 mm"]
+
+
+def test_a_median_does_not_depend_on_where_speeds_lie_close():
+    plain = np.arange(750.0, 2001.0, 5.0)
+    refined = np.unique(np.concatenate([plain, np.arange(1700.0, 1730.0, 0.25)]))
+    runs = [xr.Dataset({"rms_radial": ("speed", np.abs(speeds - 1715.0))}, {"speed": speeds}) for speeds in (plain, refined)]
+    ours = [measures.median_over_speed(run, "rms_radial") for run in runs]
+    assert ours[0] == float(runs[0]["rms_radial"].median())
+    assert ours[1] == pytest.approx(ours[0], abs=5.0)

@@ -204,6 +204,6 @@ rule campbell:
     input:
         "<results>/campbell.nc",
         expand("<results>/{blade}/mesh.{format}", blade=imported.with_mesh, format=["msh", "inp"]),
-        expand("<results>/figures/campbell_{blade}.png", blade=settings.blades),
-        "<results>/figures/campbell.png",
+        expand("<results>/figures/campbell_{blade}.{suffix}", blade=settings.blades, suffix=["png", "pdf"]),
+        expand("<results>/figures/campbell.{suffix}", suffix=["png", "pdf"]),
         ["<results>/figures/blades.png"] if imported.with_mesh else [],

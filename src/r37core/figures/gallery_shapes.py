@@ -9,6 +9,7 @@ import numpy as np
 import pyvista
 
 from r37core.io import atomic_write, readable
+from r37core.mesh.mesh_files import read_vtu
 from r37core.rom.choice import StressSubmesh
 
 from . import style
@@ -44,8 +45,8 @@ def draw_mesh(file: Path | str, submesh: StressSubmesh, png: Path | str) -> int:
     """A mesh with its elements, and the elements on which stress is recovered; gives the number of nodes."""
     with readable(file):
         grid = pyvista.read(file)
-    x, _, z = np.asarray(grid.points).T
-    inside = (x < submesh.maximum_x) & (z > submesh.minimum_z) & (z < submesh.maximum_z)
+    elements = submesh.elements(read_vtu(file), np.empty(0, dtype=int)).values()
+    inside = np.unique(np.concatenate([nodes.ravel() for nodes in elements]))
     plotter = new_plotter(2, (600, _HEIGHT + 60))
     plotter.subplot(0, 0)
     plotter.add_mesh(_surface(grid), color="white", show_edges=True, edge_color="grey", line_width=0.5)

@@ -102,6 +102,15 @@ def interactions_above(run: xr.Dataset, floor: float) -> int:
     return int(np.count_nonzero(np.diff(above.astype(int)) == 1))
 
 
+def median_over_speed(run: xr.Dataset, name: str) -> float:
+    """Value that half of the range of speeds lies below; each counts for its length of the range, for a grid may be refined."""
+    values = run[name].values
+    length = np.where(np.isfinite(values), np.gradient(run["speed"].values), 0.0)
+    order = np.argsort(values)
+    summed = np.cumsum(length[order])
+    return float(values[order][np.searchsorted(summed, 0.5 * summed[-1])])
+
+
 def slope_of_clearance(campbell: xr.Dataset, mode: str) -> float:
     """Change of the dynamic clearance per tangential displacement at rest."""
     clearance = campbell["dynamic_clearance"].sel(mode=mode)

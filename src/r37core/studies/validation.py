@@ -208,7 +208,7 @@ def survey_checks(runs: Runs, shipped: Runs, yield_stress: float) -> list[Check]
             low, high = ((1.0 + share) * one.campbell for share in (FINE_WINDOW[0] - 0.01, FINE_WINDOW[1]))
             outside = outside.where((outside["speed"] < low) | (outside["speed"] > high), drop=True)
     rest, normal = (1e3 * float(outside[name].max()) for name in ("rms_radial", "rms_normal"))
-    medians = [1e3 * float(run["rms_radial"].median()) for run in (lined, direct)]
+    medians = [1e3 * read.median_over_speed(run, "rms_radial") for run in (lined, direct)]
     counts = [read.interactions_above(run, LARGEST_ELSEWHERE) for run in (other, lined)]
     widths = [read.width_above_yield(run, yield_stress) for run in (shipped["CS100_4"], shipped[_MAIN])]
     torsion = torsion_speed(lined)

@@ -49,4 +49,4 @@ class Families:
     def outputs(self) -> list[str]:
         """The table and a picture of each family; nothing where there is none."""
         figures = [paths.fill(paths.DESIGN_FIGURE, family=family) for family in self.settings.families]
-        return [paths.DESIGNS, *figures] if figures else []
+        return [paths.DESIGNS, *figures, *map(paths.as_pdf, figures)] if figures else []

@@ -186,7 +186,8 @@ class Sweep:
             paths.fill(paths.WATERFALL_FIGURE, blade=blade, scene=scene) for blade, scene in self.runs_with("spectrum")
         ]
         of_scenes = [paths.fill(paths.COMPARISON_FIGURE, scene=scene) for scene in self.settings.scenes]
-        return ["<results>/figures/response.png", *of_blades, *maps, *waterfalls, *of_scenes]
+        pictures = ["<results>/figures/response.png", *of_blades, *maps, *waterfalls, *of_scenes]
+        return [*pictures, *map(paths.as_pdf, pictures)]
 
     def response_pictured(self, wildcards: Any) -> dict[str, str]:
         """Datasets that a blade's response is drawn from."""
