@@ -39,7 +39,7 @@ class Signals:
         """The dataset and the pictures; nothing where no signals are asked for."""
         figures = (paths.SPECTROGRAM_FIGURE, paths.ORDERS_FIGURE)
         drawn = [paths.fill(figure, blade=blade, scene=scene) for blade, scene in self.runs for figure in figures]
-        return [paths.ALL_SIGNALS, *drawn] if self.runs else []
+        return [paths.ALL_SIGNALS, *drawn, *map(paths.as_pdf, drawn)] if self.runs else []
 
     def gauges(self, wildcards: Any) -> dict[str, dict[str, Any]]:
         """Gauges of a blade as plain values; a blade given by matrices has none."""
