@@ -32,6 +32,7 @@ LARGEST_SHOWN = 0.1
 _MODE_SECONDS, _REVOLUTION_SECONDS, _MODE_STEPS = 2.0, 6.0, 32
 _MOST_TARGETS = 8  # what every viewer can morph at once
 _LEFT_OUT = 0.01  # of the motion
+_SHOWN = 0.99  # of the nodes: the few at contact and clamping have stresses that grow with every finer mesh
 
 
 @dataclass(frozen=True)
@@ -79,12 +80,13 @@ def write_worst_shapes(
     """Write the worst instant at each speed (rad/s): stress_<speed>.vtu with stress.pvd, and stress_<speed>.glb.
 
     The .glb moves as the blade did in its last revolution; its colours are the von Mises stress (Pa) of the worst instant, up
-    to the largest one of the submesh. `titles` of the interactions at the speeds. The model must recover the whole blade.
+    to the largest one of the submesh, or to what _SHOWN of the nodes stay below if that is more. `titles` of the interactions
+    at the speeds. The model must recover the whole blade.
     """
     write_stress(mesh, model, material, instants, Target(folder))
     skin, entries = _skin(mesh), []
     for speed, instant in instants.items():
-        _, stress = stress_of(mesh, model, material, instant)
+        stress = von_mises(stress_of(mesh, model, material, instant)[1])
         motion = displacement_of(model, instant.revolution)[:, skin.nodes]
         magnified = _round_down(LARGEST_SHOWN * _height(mesh) / np.linalg.norm(motion, axis=2).max())
         targets, weights = _few_targets(magnified * motion)
@@ -97,12 +99,12 @@ def write_worst_shapes(
             f"{1e-6 * instant.largest:.0f} MPa; displacement {magnified:g} times as large",
             "quantity": "von Mises stress",
             "unit": "Pa",
-            "largest_shown": instant.largest,
+            "largest_shown": max(instant.largest, float(np.quantile(stress, _SHOWN))),
             "speed_rad_s": speed,
             "magnification": magnified,
             "worst_s": float(times[instant.number]),
         }
-        surface = _surface(mesh, skin, von_mises(stress)[skin.nodes], targets, times, weights, weights[instant.number], about)
+        surface = _surface(mesh, skin, stress[skin.nodes], targets, times, weights, weights[instant.number], about)
         entries.append(_write(surface, folder))
     write_json(entries, folder / INDEX)
 

@@ -21,12 +21,12 @@ _COLUMNS, _PANEL = 6, (300, 420)
 def draw_shapes(folder: Path, file: Path | str) -> None:
     """Draw all shapes of a folder that exchange.shapes has written, each beside its undeformed blade, into a PNG.
 
-    Modes: coloured by the displacement as a share of its largest; worst instants: by the von Mises stress (MPa), each up to its
-    own largest one of the submesh. A folder without shapes gives a picture that says so.
+    Modes: coloured by the displacement as a share of its largest; worst instants: by the von Mises stress (MPa), each on a
+    scale of its own. A folder without shapes gives a picture that says so.
     """
     entries: Sequence[Mapping[str, Any]] = read_json(folder / INDEX)
-    columns = max(1, min(len(entries), _COLUMNS))
-    rows = max(1, ceil(len(entries) / columns))
+    rows = max(1, ceil(len(entries) / _COLUMNS))
+    columns = max(1, ceil(len(entries) / rows))
     plotter = new_plotter(columns, (columns * _PANEL[0], rows * _PANEL[1]), rows)
     for number, entry in enumerate(entries):
         plotter.subplot(*divmod(number, columns))
