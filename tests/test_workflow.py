@@ -345,6 +345,10 @@ def test_report_opens_offline(finished, tmp_path):
         page.get_by_text("abradable", exact=True).first.click()
         page.locator("a[iconname=information-circle]").first.click()
         page.get_by_text(caption("spectrum", blade="CS100", scene="abradable")[:60]).first.wait_for()
+        page.goto(page_file.as_uri())
+        page.get_by_text("Configuration", exact=True).first.click()
+        page.locator("a[iconname=information-circle]").first.click()
+        page.get_by_text("maximum_speed_rad_s").first.wait_for()
         assert page.problems == []
 
 
