@@ -1,7 +1,7 @@
 """Memory and time of the jobs of each rule, by the size of the mesh or the number of simulations.
 
 Runs one blade at several levels, and samples what its jobs take with their children. What was measured is kept in
-src/r37core/workflow/resources.json, from which the rules say what their jobs need; the table goes into docs/cluster.md.
+src/r37core/workflow/resources.csv, from which the rules say what their jobs need; the table goes into docs/cluster.md.
 
 Run: python benchmarks/resources.py   (about ten minutes; results go to results/runs/resources-<level>)
 """
@@ -18,8 +18,8 @@ from pages import fill
 
 from r37core.config import read_settings
 from r37core.config.document import command_line_document
-from r37core.io import write_json
-from r37core.workflow.resources import MEASURED, PER_SIMULATION, read_measured
+from r37core.io import write_text
+from r37core.workflow.resources import MEASURED, PER_RESPONSE, PER_SWEEP, read_measured
 
 ROOT = Path(__file__).parent.parent
 SNAKEMAKE = str(Path(sys.executable).with_name("snakemake"))
@@ -64,31 +64,34 @@ def watch(command):
 
 
 def measure():
-    """Rule -> rows of [size, MB, s]; the size is the number of mesh nodes, or of simulations."""
-    rows = defaultdict(list)
+    """Rule -> size -> MB and s; the size is the number of mesh nodes, or of simulations."""
+    found = defaultdict(dict)
     for level in LEVELS:
         speeds = MANY if level == "standard" else MANY // 10
         changes = {"fidelity": level, "blades": ["Ref"], "run": {"name": f"resources-{level}"}}
         changes["speeds"] = [{"start": 750, "stop": 2000, "step": 1250 / (speeds - 1)}]
         options = [f"{key}={str(value).replace(chr(39), chr(34))}" for key, value in changes.items()]
-        found = watch([SNAKEMAKE, "all_blades", "--forceall", "--cores", "1", "--config", *options])
-        settings = read_settings(ROOT, command_line_document(changes))
-        for rule, (memory, seconds) in found.items():
-            size = 2 * speeds if rule in PER_SIMULATION else settings.fidelity.mesh.nodes
-            rows[rule].append([size, round(memory), round(seconds, 1)])
-    return {rule: sorted(several) for rule, several in sorted(rows.items())}
+        measured = watch([SNAKEMAKE, "all_blades", "--forceall", "--cores", "1", "--config", *options])
+        nodes = read_settings(ROOT, command_line_document(changes)).fidelity.mesh.nodes
+        for rule, (memory, seconds) in measured.items():
+            size = speeds if rule in PER_RESPONSE else 2 * speeds if rule in PER_SWEEP else nodes
+            before = found[rule].get(size, (0, 0.0))
+            found[rule][size] = (max(before[0], round(memory)), max(before[1], round(seconds, 1)))
+    return found
 
 
 def table(measured):
-    """The same as a table in Markdown."""
-    lines = ["| rule | size | memory (MB) | time (s) |", "|---|---|---|---|"]
+    """The same as a table in Markdown, a row for each rule."""
+    lines = ["| rule | with | memory (MB) | time (s) |", "|---|---|---|---|"]
     for rule, rows in measured.items():
-        unit = "simulations" if rule in PER_SIMULATION else "nodes"
-        for size, memory, seconds in rows:
-            lines.append(f"| `{rule}` | {size:,} {unit} | {memory} | {seconds:g} |")
+        unit = "simulations" if rule in PER_RESPONSE | PER_SWEEP else "nodes"
+        sizes, memory, seconds = (", ".join(f"{number:g}" for number in column) for column in zip(*rows, strict=True))
+        lines.append(f"| `{rule}` | {sizes} {unit} | {memory} | {seconds} |")
     return "\n".join(lines)
 
 
 if __name__ == "__main__":
-    write_json(measure(), MEASURED)
+    found = measure()
+    lines = [f"{rule},{size},{memory},{time}" for rule in sorted(found) for size, (memory, time) in sorted(found[rule].items())]
+    write_text("\n".join(["rule,size,memory_mb,time_s", *lines, ""]), MEASURED)
     fill(ROOT / "docs" / "cluster.md", "resources", table(read_measured()))

@@ -82,7 +82,7 @@ checkpoint refine:
     conda:
         ENVIRONMENT
     resources:
-        **needs.of("refine"),
+        **needs.of("response"),
     params:
         plan=sweep.refined_plan,
         choice=sweep.refinement_choice,

@@ -2,22 +2,25 @@
 
 from __future__ import annotations
 
+import csv
 from functools import cache
+from itertools import groupby
+from operator import itemgetter
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from r37core.config import Settings
-from r37core.io import read_json
 
-MEASURED = Path(__file__).with_name("resources.json")
-"""Rule -> rows of [size, MB, s], by ascending size."""
+MEASURED = Path(__file__).with_name("resources.csv")
+"""Columns rule, size, memory_mb, time_s; the rows of a rule by ascending size."""
 
-PER_SIMULATION = frozenset(
-    {"response", "refine", "sweep_dataset", "summary", "explorer", "map_figure", "response_figure", "response_overview"}
-)
-"""Rules whose jobs grow with the number of simulations; those of others grow with the mesh."""
+PER_RESPONSE = frozenset({"response", "map_figure"})
+"""Rules whose jobs grow with the number of simulations of one blade and scene."""
+
+PER_SWEEP = frozenset({"sweep_dataset", "summary", "explorer", "response_figure", "response_overview"})
+"""Rules whose jobs grow with the number of all simulations; those of the rest grow with the mesh."""
 
 MARGIN = 1.5
 """Of memory, for what differs between blades; time has four times as much, for machines differ more."""
@@ -27,8 +30,10 @@ SMALLEST_MB, SHORTEST_MIN = 300, 5
 
 @cache
 def read_measured() -> dict[str, list[list[float]]]:
-    """What was measured."""
-    return read_json(MEASURED)
+    """What was measured: rule -> rows of [size, MB, s]."""
+    with open(MEASURED, newline="", encoding="utf-8") as stream:
+        _, *rows = csv.reader(stream)
+    return {rule: [[float(cell) for cell in row[1:]] for row in group] for rule, group in groupby(rows, itemgetter(0))}
 
 
 def estimated(rows: list[list[float]], size: float) -> tuple[float, float]:
@@ -61,7 +66,6 @@ class Needs:
         }
 
     def _size(self, rule: str) -> float:
-        if rule not in PER_SIMULATION:
-            return self._nodes
-        one_response = rule in ("response", "refine")
-        return self._runs / self._responses if one_response else self._runs
+        if rule in PER_RESPONSE:
+            return self._runs / self._responses
+        return self._runs if rule in PER_SWEEP else self._nodes
