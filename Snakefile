@@ -15,6 +15,8 @@ include: "workflow/rules/sweep.smk"
 include: "workflow/rules/results.smk"
 include: "workflow/rules/figures.smk"
 include: "workflow/rules/exports.smk"
+include: "workflow/rules/shapes.smk"
+include: "workflow/rules/signals.smk"
 include: "workflow/rules/designs.smk"
 include: "workflow/rules/studies/common.smk"
 include: "workflow/rules/studies/estimate.smk"
@@ -35,3 +37,5 @@ rule all_blades:
         "<results>/explorer.html",
         sweep.figures,
         families.outputs,
+        shapes.outputs,
+        recorded.outputs,

@@ -72,7 +72,7 @@ def peak_of(name, mesh, matrices, settings):
     rms = []
     for speed in speeds:
         choice = settings.integration_choice(name, "abradable", speed)
-        kept = {"spectrum_highest_order": 1, "signal_revolutions": 1, "wear_angles": 8}
+        kept = {"spectrum_highest_order": 1, "wear_angles": 8}
         rms.append(run_speed(contact, speed, chosen.scene, choice, (), **kept)["rms"][0, 0])
     peak = int(np.argmax(rms))
     return float(speeds[peak]), float(rms[peak])

@@ -121,7 +121,7 @@ from r37core.time_integration.speed_run import run_speed
 scene = settings.scenes["abradable"].scene
 contact = contact_model(model, "pressure_edge")
 recovery = StressRecovery(model, reference.material)
-kept = {key: plain(level.time_integration)[key] for key in ("spectrum_highest_order", "signal_revolutions", "wear_angles")}
+kept = {key: plain(level.time_integration)[key] for key in ("spectrum_highest_order", "wear_angles")}
 
 
 def simulate(speed, whole_run=False):

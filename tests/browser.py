@@ -10,15 +10,18 @@ QUIET = ("gpu", "quic", "background-networking", "component-update", "sync")
 
 
 @contextmanager
-def opened(file, viewport, kept=lambda message: True):
-    """The page of a file. Its `problems`: errors and warnings of the console that are `kept`, requests to the network."""
+def opened(file, viewport, kept=lambda message: True, flags=(), place="", **more):
+    """The page of a file, at a `place` in it (#...), with more `flags` of the browser and arguments of a page.
+
+    Its `problems`: errors and warnings of the console that are `kept`, requests to the network.
+    """
     if CHROMIUM is None:
         pytest.skip("Chromium is not installed")
     sync_api = pytest.importorskip("playwright.sync_api")
-    flags = ["--no-sandbox", "--no-first-run", *(f"--disable-{name}" for name in QUIET)]
+    flags = ["--no-sandbox", "--no-first-run", *(f"--disable-{name}" for name in QUIET), *flags]
     with sync_api.sync_playwright() as playwright:
         browser = playwright.chromium.launch(executable_path=CHROMIUM, args=flags)
-        page = browser.new_page(viewport=viewport)
+        page = browser.new_page(viewport=viewport, **more)
         page.problems = []
 
         def note(text):
@@ -28,6 +31,6 @@ def opened(file, viewport, kept=lambda message: True):
         page.on("console", lambda message: note(message.text) if message.type in ("error", "warning") else None)
         page.on("pageerror", lambda error: note(str(error)))
         page.on("request", lambda request: None if request.url.startswith(("file:", "blob:", "data:")) else note(request.url))
-        page.goto(file.as_uri())
+        page.goto(file.as_uri() + place)
         yield page
         browser.close()

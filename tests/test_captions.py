@@ -21,7 +21,7 @@ def test_captions_are_filled_in_whole_sentences():
 
 
 def test_every_figure_of_the_rules_has_a_caption_and_is_in_the_report(root):
-    for name in ("figures", "designs"):
+    for name in ("figures", "designs", "shapes", "signals"):
         text = (root / f"workflow/rules/{name}.smk").read_text()
         rules = [block for block in re.split(r"^rule ", text, flags=re.MULTILINE) if "png" in block or "_FIGURE" in block]
         assert rules

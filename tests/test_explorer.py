@@ -122,6 +122,11 @@ def test_contents_are_those_of_the_datasets(datasets, interactions):
     assert contents["interactions"][1]["mode"] is None
 
 
+def test_interactions_that_have_a_shape(datasets, interactions):
+    assert explorer_contents(datasets, interactions)["shapes"] == []
+    assert explorer_contents(datasets, interactions, [("Ref", "abradable")])["shapes"] == [["Ref", "abradable"]]
+
+
 def test_what_was_not_computed_is_left_out(datasets, interactions, tmp_path):
     contents = explorer_contents({name: datasets[name] for name in ("rms", "campbell")}, interactions.iloc[:0])
     assert contents["spectrum"] is contents["wear"] is contents["history"] is contents["yield_stress"] is None
@@ -132,7 +137,7 @@ def test_what_was_not_computed_is_left_out(datasets, interactions, tmp_path):
 def page(datasets, interactions, tmp_path_factory):
     """The page in headless Chromium; a message in its console is an error."""
     file = tmp_path_factory.mktemp("explorer") / "explorer.html"
-    write_page(explorer_contents(datasets, interactions), "r37 <trial>", file)
+    write_page(explorer_contents(datasets, interactions, [("Ref", "abradable")]), "r37 <trial>", file)
     with opened(file, viewport={"width": 1500, "height": 1400}) as page:
         page.wait_for_selector("html[data-ready]", timeout=60_000)
         yield page
@@ -169,6 +174,8 @@ def test_the_page_loads_without_an_error(page):
     assert page.title() == "r37 <trial>"
     assert page.locator(".js-plotly-plot").count() == 5
     assert page.locator("#interactions tbody tr").count() == 2
+    links = page.locator("#interactions a")
+    assert [link.get_attribute("href") for link in links.all()] == ["shapes/Ref.html#scene=abradable&speed=1200"]
 
 
 @pytest.mark.slow

@@ -54,12 +54,24 @@ def instant(whole, steel, tmp_path):
     for speed, scale in zip(speeds, (1.0, 9.0, 2.0), strict=True):
         write_speed({"status": np.array(int(speed == 1000.0)), "snapshots": scale * shapes}, tmp_path / f"{speed}.npz", {})
     files = [tmp_path / f"{speed}.npz" for speed in speeds]
-    assert list(worst_instants(files, speeds, recovery, only_worst=False)) == [900.0, 1200.0]
-    assert worst_instants(files[1:2], speeds[1:2], recovery, only_worst=True) == {}
-    found = worst_instants(files, speeds, recovery, only_worst=True)
+    assert list(worst_instants(files, speeds, recovery, only_worst=False, per_revolution=3)) == [900.0, 1200.0]
+    assert worst_instants(files[1:2], speeds[1:2], recovery, only_worst=True, per_revolution=3) == {}
+    found = worst_instants(files, speeds, recovery, only_worst=True, per_revolution=3)
     assert list(found) == [1200.0]
     assert found[1200.0].largest == pytest.approx(2 * recovery.max_von_mises(shapes).max())
     return found
+
+
+def test_the_worst_instant_is_one_of_the_last_revolution(whole, steel, tmp_path):
+    """A run whose history is kept has snapshots of all revolutions."""
+    shapes = whole.modes(0.0, 4)[1].T * [[9e-4], [2e-4], [1e-4], [3e-4]]
+    write_speed({"status": np.array(0), "snapshots": shapes}, tmp_path / "run.npz", {})
+    recovery = StressRecovery(whole, steel)
+    found = worst_instants([tmp_path / "run.npz"], [900.0], recovery, only_worst=True, per_revolution=2)[900.0]
+    last = recovery.max_von_mises(shapes[2:])
+    assert (found.number, found.largest) == (np.argmax(last), last.max())
+    np.testing.assert_array_equal(found.revolution, shapes[2:])
+    np.testing.assert_array_equal(found.coordinates, shapes[2 + found.number])
 
 
 def test_stress_of_the_worst_instant(whole, mesh, steel, instant, tmp_path):
@@ -69,8 +81,9 @@ def test_stress_of_the_worst_instant(whole, mesh, steel, instant, tmp_path):
     # averaged over all elements at a node here, over those of the submesh there
     here = grid.point_data["von Mises stress"][whole.stress_submesh.nodes].max()
     assert here == pytest.approx(instant[1200.0].largest, rel=0.25)
+    nothing = WorstInstant(np.zeros(1), 1.0, np.zeros((1, 1)), 0)
     with pytest.raises(ValueError, match="does not recover the whole blade"):
-        write_stress(mesh, replace(whole, whole_blade=None), steel, {0.0: WorstInstant(np.zeros(1), 1.0)}, Target(tmp_path))
+        write_stress(mesh, replace(whole, whole_blade=None), steel, {0.0: nothing}, Target(tmp_path))
 
 
 def test_results_in_the_axes_of_another_program(whole, mesh, steel, instant, tmp_path):

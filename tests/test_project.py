@@ -25,6 +25,7 @@ LAYERS = [
     "time_integration",
     "results",
     "exchange",
+    "signals",
     "studies",
     "figures",
     "explorer",

@@ -51,7 +51,52 @@ def test_no_number_may_be_anything_else(root, name, value):
             Document("a.yaml", with_value(content, path, value)).check(MODELS[name])
 
 
+GAUGE = "{ chord: 0.5, span: 0.5, side: suction }"
 CONFIG_REFUSALS = [
+    (
+        "speeds_for: []",
+        "signals: { probes_deg: [10] }",
+        r"signals\.probes_deg: found probes_deg without speeds; allowed: speeds_rad_s",
+    ),
+    ("speeds_for: []", f"signals: {{ gauges: {{ a: {GAUGE} }} }}", r"signals\.gauges: found gauges without speeds"),
+    (
+        "speeds_for: []",
+        "signals: { speeds_rad_s: [900], probes_deg: [10, 20, 10.0] }",
+        r"signals\.probes_deg\.2: found a probe at 10 degrees twice; allowed: each angle once",
+    ),
+    (
+        "speeds_for: []",
+        "signals: { speeds_rad_s: [900], probes_deg: [360] }",
+        r"signals\.probes_deg\.0: found 360; allowed: number, at least 0, less than 360",
+    ),
+    (
+        "speeds_for: []",
+        "signals: { speeds_rad_s: [900], gauges: { a: { chord: 1.2, span: 0.5, side: suction } } }",
+        r"signals\.gauges\.a\.chord: found 1\.2; allowed: number, at least 0, at most 1",
+    ),
+    (
+        "speeds_for: []",
+        "signals: { speeds_rad_s: [900], gauges: { a: { chord: 1.0, span: 0.5, side: top } } }",
+        r"signals\.gauges\.a\.side: found 'top'; allowed: one of pressure, suction",
+    ),
+    (
+        "speeds_for: []",
+        "signals: { speeds_rad_s: [900, 900] }",
+        r"signals\.speeds_rad_s\.1: found 900(\.0)? twice; allowed: each once",
+    ),
+    ("speeds_for: []", "signals: { speeds_rad_s: peaks }", r"signals\.speeds_rad_s: found 'peaks'; allowed: .*interactions"),
+    (
+        "speeds_for: []",
+        "signals: { speeds_rad_s: [900], revolutions: 500 }",
+        r"signals\.revolutions: found 500; allowed: at most those of a run, 200 in 'abradable'",
+    ),
+    (
+        "speeds_for: []",
+        "signals: { speeds_rad_s: [900], blades: [Reff] }",
+        r"signals\.blades: found 'Reff'; allowed: Ref, L50",
+    ),
+    ("shapes: { modes: 6 }", "shapes: { modes: 0 }", r"shapes\.modes: found 0; allowed: integer, at least 1, at most 30"),
+    ("speeds_for: []", "signals: { speeds_rad_s: [0.1] }", r"signals\.speeds_rad_s: found 0\.1 rad/s, a revolution of"),
     (
         "speeds_for: []",
         "speeds_for: [{ blades: [Reff], speeds: [900] }]",
@@ -195,6 +240,11 @@ def test_what_is_refused_in_blades_yaml(config_copy, text, message):
             "results: [stress, stress]",
             r"abradable\.results\.1: found stress twice",
         ),
+        (
+            "results: [spectrum, signal, stress, wear, energy]",
+            "results: [spectrum, shapes]",
+            r"abradable\.results: found shapes; allowed: only with stress among the results",
+        ),
         ("abradable:", "abradable__x:", r"abradable__x: found 'abradable__x'"),
         ("    bars: 10000", "    bars: 10_000", r"lining\.bars: found '10_000'; allowed: integer"),
     ],
@@ -321,3 +371,14 @@ def test_speeds_stand_exactly_in_file_names():
         assert re.fullmatch(r"[0-9.]+", text)
     assert exact_text(750.0) == "750"
     assert exact_text(near) != exact_text(1000.0)
+
+
+def test_signals_of_no_scene_are_refused(config_copy):
+    scenes = config_copy / "config/scenes.yaml"
+    scenes.write_text(scenes.read_text().replace("signal, ", ""))
+    edit(config_copy / "config/config.yaml", "speeds_for: []", "signals: { speeds_rad_s: interactions }")
+    message = (
+        r"signals\.speeds_rad_s: found speeds, though no scene that is run has signal among its results; allowed: such a scene"
+    )
+    with pytest.raises(ConfigError, match=rf"^config/config\.yaml:\d+: {message} \(abradable, direct of config/scenes\.yaml"):
+        read_settings(config_copy)

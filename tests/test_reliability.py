@@ -134,6 +134,21 @@ def test_leftovers_of_removed_blades_scenes_and_speeds(root, tmp_path):
     assert leftovers(tmp_path / "none", settings) == []
 
 
+def test_leftovers_of_shapes(root, tmp_path):
+    """Those of blades that are gone, and of scenes that no longer ask."""
+    settings = read_settings(root, command_line_document({"blades": ["Ref"]}))
+    lined = settings.scenes["abradable"]
+    scenes = settings.scenes | {"abradable": dataclasses.replace(lined, results=(*lined.results, "shapes"))}
+    asked = dataclasses.replace(settings, scenes=scenes)
+    shapes = tmp_path / "shapes"
+    for name in ("Ref/modes", "Ref/stress_abradable", "Ref/stress_direct", "L50/modes"):
+        (shapes / name).mkdir(parents=True)
+    for name in ("Ref.html", "L50.html"):
+        (shapes / name).write_text("x")
+    assert leftovers(tmp_path, asked) == [shapes / "L50", shapes / "L50.html", shapes / "Ref/stress_direct"]
+    assert leftovers(tmp_path, settings) == [shapes / "L50", shapes / "L50.html", shapes / "Ref", shapes / "Ref.html"]
+
+
 @pytest.mark.slow
 def test_make_clean_lists_and_removes(config_copy):
     (config_copy / "results/Gone").mkdir(parents=True)

@@ -107,10 +107,41 @@ def test_friction_runs_its_scene(project):
 def test_a_wanted_result_runs_its_scene(project):
     file = project / "config/scenes.yaml"
     before, direct = file.read_text().split("direct:")
-    file.write_text(before + "direct:" + direct.replace("spectrum, signal, ", "spectrum, "))
+    file.write_text(before + "direct:" + direct.replace("spectrum, signal, ", "signal, "))
     jobs = planned_outputs(project)
     assert jobs.pop("simulate") == runs(scenes=["direct"])
     assert not (STRUCTURE | {"contact_model"}) & set(jobs)
+
+
+SHAPES = {"whole_blade_model", "mode_shapes", "worst_shapes", "shapes_page", "modes_figure", "worst_shapes_figure", "explorer"}
+SIGNALS = {"signals_of_run", "signals", "spectrogram_figure", "orders_figure"}
+
+
+def test_shapes_run_no_simulation(project):
+    """Asked for, they are made of what is there and nothing follows; the model of the whole blade serves all of a blade's."""
+    edit(project, "scenes.yaml", "wear, energy]", "wear, energy, shapes]")
+    jobs = planned_outputs(project)
+    assert set(jobs) == SHAPES | {"configuration"}
+    assert jobs["worst_shapes"] == {f"shapes/{blade}/stress_abradable" for blade in BLADES}
+    snakemake(project, "all_blades", "--cores", "2")
+    assert planned_outputs(project) == {}
+    edit(project, "config.yaml", "shapes: { modes: 6 }", "shapes: { modes: 3 }")
+    assert set(planned_outputs(project)) == SHAPES - {"explorer"} | {"configuration"}
+
+
+def test_signals_run_no_simulation_of_the_sweep(project):
+    """At named speeds they are runs of their own; a gauge more runs those again and makes the model of the whole blade."""
+    edit(project, "config.yaml", "interactions: # what", "signals: { speeds_rad_s: [1151.5] }\ninteractions: # what")
+    jobs = planned_outputs(project)
+    assert set(jobs) == SIGNALS | {"configuration"}
+    assert jobs["signals_of_run"] == per_run("signals.nc")
+    snakemake(project, "all_blades", "--cores", "2")
+    assert planned_outputs(project) == {}
+    gauge = "gauges: { root: { chord: 0.5, span: 0.1, side: suction } }"
+    edit(project, "config.yaml", "speeds_rad_s: [1151.5] }", f"speeds_rad_s: [1151.5], {gauge} }}")
+    assert set(planned_outputs(project)) == SIGNALS | {"configuration", "whole_blade_model"}
+    edit(project, "config.yaml", "speeds_rad_s: [1151.5]", "blades: [Ref], speeds_rad_s: interactions")
+    assert planned_outputs(project)["signals_of_run"] == per_run("signals.nc", blades=["Ref"])
 
 
 def test_a_step_keeps_the_structure_and_back_keeps_all(project):

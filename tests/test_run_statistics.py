@@ -46,9 +46,8 @@ def test_statistics_of_a_free_oscillation(monkeypatch):
         SPEED,
         FREE,
         choice,
-        ("spectrum", "signal"),
+        ("spectrum",),
         spectrum_highest_order=31,
-        signal_revolutions=2,
         wear_angles=10,
     )
     expected = 1e-4 * np.array([[1.0, 1.0, 0.5], [3.0, 3.0, 2.0]])
@@ -58,18 +57,6 @@ def test_statistics_of_a_free_oscillation(monkeypatch):
     line = kept["engine_order"] == 10.0
     np.testing.assert_allclose(kept["amplitude"][:, line], [[1e-4], [0.5e-4]], rtol=1e-3)
     assert kept["amplitude"][:, ~line].max() < 1e-7
-    assert kept["signal"].shape == (2 * 620, 2, 2)
-
-
-def test_the_signal_is_the_end_of_the_run(monkeypatch):
-    """With damping, so that no two revolutions are alike."""
-    swinging(monkeypatch, 1e-4)
-    model, scene = with_tip([1.0, 3.0], [0.5, 2.0]), replace(FREE, damping_ratio=0.01)
-    choice = IntegrationChoice(1e-7, 5, 62)
-    simulation = Simulation(model, SPEED, scene, choice)
-    samples = simulation.advance(simulation.start(), 5).samples.reshape(-1, 2, 3)
-    kept = run_speed(model, SPEED, scene, choice, ("signal",), spectrum_highest_order=10, signal_revolutions=2, wear_angles=10)
-    np.testing.assert_allclose(kept["signal"], samples[-2 * 62 :][:, :, [0, 2]], rtol=1e-6)
 
 
 def test_contact_statistics_counted_step_by_step():
@@ -80,7 +67,7 @@ def test_contact_statistics_counted_step_by_step():
     model = oscillator(frequency)
     simulation = Simulation(model, SPEED, scene, choice)
     assert simulation.steps_per_sample == 1
-    kept = run_speed(model, SPEED, scene, choice, ("signal",), spectrum_highest_order=10, signal_revolutions=2, wear_angles=10)
+    kept = run_speed(model, SPEED, scene, choice, (), spectrum_highest_order=10, wear_angles=10)
     u = simulation.advance(simulation.start(), 2).samples[:, 0]
     u = np.concatenate([[0.0, 0.0], u])
     h = simulation.time_step
@@ -108,7 +95,6 @@ def test_either_edge_of_the_tip_can_diverge(monkeypatch, edge):
             choice,
             (),
             spectrum_highest_order=10,
-            signal_revolutions=1,
             wear_angles=10,
         )
         assert kept["status"] == status
@@ -143,7 +129,6 @@ def test_wear_is_that_of_the_most_worn_ring(monkeypatch):
         IntegrationChoice(2e-7, 2, 62),
         ("wear",),
         spectrum_highest_order=10,
-        signal_revolutions=1,
         wear_angles=90,
     )
     assert kept["max_wear"] == worn.max()

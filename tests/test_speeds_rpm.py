@@ -134,3 +134,12 @@ def test_histories_in_both_units_are_refused():
     entry = {"casing": {"clearance_m": 1e-3}, "stress_history_speeds_rad_s": [900], "stress_history_speeds_rpm": [9000]}
     with pytest.raises(ConfigError, match="found both stress_history_speeds_rad_s and stress_history_speeds_rpm"):
         Document("scenes.yaml", {**entry}).check(SceneEntry)
+
+
+def test_signals_at_speeds_in_rpm(root):
+    given = {"signals": {"speeds_rpm": [12000, 9000.5]}}
+    speeds = read_settings(root, command_line_document(given)).config.signals.speeds()
+    assert speeds == [9000.5 * RAD_S, 12000 * RAD_S]
+    both = {"signals": {"speeds_rpm": [12000], "speeds_rad_s": "interactions"}}
+    with pytest.raises(ConfigError, match=r"signals\.speeds_rpm: found both speeds_rad_s and speeds_rpm; allowed: one of them"):
+        read_settings(root, command_line_document(both))

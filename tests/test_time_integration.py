@@ -203,8 +203,8 @@ def test_step_too_long_for_the_lining_is_refused(contact):
 def test_divergence_is_a_result(contact, tmp_path):
     scene = replace(DIRECT, divergence_limit=2e-5)
     choice = IntegrationChoice(2e-7, 6, 62, snapshots_per_revolution=62, snapshot_revolutions=1, energy=True)
-    results = ("spectrum", "signal", "stress", "energy")
-    kept = run_speed(contact, 1000.0, scene, choice, results, spectrum_highest_order=10, signal_revolutions=2, wear_angles=100)
+    results = ("spectrum", "stress", "energy")
+    kept = run_speed(contact, 1000.0, scene, choice, results, spectrum_highest_order=10, wear_angles=100)
     assert kept["status"] == RunStatus.DIVERGED
     assert 0.0 < kept["diverged_revolution"] < 6.0
     assert kept["diverged_time"] == pytest.approx(kept["diverged_revolution"] * 2 * np.pi / 1000.0)
@@ -225,7 +225,6 @@ def test_a_run_that_blows_up_is_flagged_without_infinities(contact):
             IntegrationChoice(2e-7, 6, 62),
             (),
             spectrum_highest_order=10,
-            signal_revolutions=2,
             wear_angles=100,
         )
     for name, values in kept.items():
@@ -235,8 +234,8 @@ def test_a_run_that_blows_up_is_flagged_without_infinities(contact):
 
 def test_only_what_is_asked_for_is_kept(contact):
     choice = IntegrationChoice(2e-7, 2, 62)
-    kept = run_speed(contact, 1000.0, DIRECT, choice, (), spectrum_highest_order=10, signal_revolutions=1, wear_angles=100)
-    asked = {"amplitude", "signal", "snapshots", "wear", "contact_work", "damping_loss"}
+    kept = run_speed(contact, 1000.0, DIRECT, choice, (), spectrum_highest_order=10, wear_angles=100)
+    asked = {"amplitude", "snapshots", "wear", "contact_work", "damping_loss"}
     assert not asked & set(kept)
     rich = replace(choice, snapshots_per_revolution=62, snapshot_revolutions=1, energy=True)
     everything = run_speed(
@@ -244,9 +243,8 @@ def test_only_what_is_asked_for_is_kept(contact):
         1000.0,
         ABRADABLE,
         rich,
-        ("spectrum", "signal", "stress", "wear", "energy"),
+        ("spectrum", "stress", "wear", "energy"),
         spectrum_highest_order=10,
-        signal_revolutions=1,
         wear_angles=100,
     )
     assert asked <= set(everything)
@@ -285,7 +283,6 @@ def test_speed_run_numbers(contact):
         choice,
         ("spectrum", "wear"),
         spectrum_highest_order=20,
-        signal_revolutions=1,
         wear_angles=100,
     )
     half = record.samples[4 * 62 :]

@@ -7,6 +7,7 @@ import subprocess
 import sys
 
 import numpy as np
+import pandas as pd
 import pytest
 import xarray as xr
 import yaml
@@ -95,6 +96,33 @@ def test_blades_are_finished_one_after_another(project):
 
 def test_nothing_to_do_after_a_run(finished_copy):
     assert planned(finished_copy) == {}
+
+
+def test_shapes_and_signals_of_a_finished_run(finished_copy):
+    """Of one blade in the lining: made of what is there, and the signal is that of the sweep's run."""
+    scenes, config = finished_copy / "config/scenes.yaml", finished_copy / "config/config.yaml"
+    scenes.write_text(scenes.read_text().replace("signal, stress, wear, energy]", "signal, stress, wear, energy, shapes]", 1))
+    gauges = "{ root: { chord: 0.5, span: 0.1, side: suction } }"
+    config.write_text(config.read_text() + f"\nsignals: {{ speeds_rad_s: [1150], probes_deg: [30], gauges: {gauges} }}\n")
+    results = finished_copy / "results"
+    wanted = ["shapes/Ref.html", "figures/shapes_Ref.png", "figures/shapes_Ref__abradable.png", "signals.nc"]
+    wanted += [f"figures/{kind}_Ref__abradable.png" for kind in ("spectrogram", "orders")]
+    text = snakemake(finished_copy, *(f"results/{name}" for name in wanted), "--cores", "2")
+    assert "rule simulate" not in text
+    assert all((results / name).stat().st_size > 10_000 for name in wanted)
+    assert len(list((results / "shapes/Ref/modes").glob("mode_*.glb"))) == 6
+    found = pd.read_csv(results / "summary.csv").query("blade == 'Ref' and scene == 'abradable'")
+    names = {f"stress_{speed:g}.glb" for speed in found["peak_speed"]}
+    assert {file.name for file in (results / "shapes/Ref/stress_abradable").glob("*.glb")} == names
+    with xr.open_dataset(results / "signals.nc") as signals, xr.open_dataset(results / "rms.nc") as rms:
+        for row in range(signals.sizes["run"]):
+            run = signals.isel(run=row)
+            same = {name: run[name].item() for name in ("blade", "scene", "speed")}
+            last_half = run["normal"].sel(turn=slice(4.001, 8))
+            np.testing.assert_allclose(np.sqrt((last_half**2).mean("turn")), rms["rms_normal"].sel(same), rtol=1e-5)
+            assert np.isfinite(run["arrival_time"].isel(revolution=slice(1, -1))).all()
+            assert 1e-6 < np.abs(run["strain"]).max() < 0.1
+    assert planned(finished_copy, *(f"results/{name}" for name in wanted)) == {}
 
 
 def test_an_added_blade_runs_its_own_jobs_only(finished_copy):
@@ -211,7 +239,7 @@ def test_only_what_a_scene_requires(project):
     assert not {"simulate", "prepare_time_integration", "contact_model", "response"} & set(campbell)
     snakemake(project, "results/Ref/abradable/response.nc", "results/Ref/direct/response.nc", "--cores", "2")
     with np.load(project / "results/Ref/abradable/speed_900.npz") as run:
-        assert not {"wear", "snapshots", "signal", "amplitude", "contact_work"} & set(run.files)
+        assert not {"wear", "snapshots", "amplitude", "contact_work"} & set(run.files)
     with xr.open_dataset(project / "results/Ref/abradable/response.nc") as dataset:
         assert not {"max_von_mises", "wear", "amplitude", "yield_stress", "angle", "lobes", "engine_order"} & set(
             dataset.variables

@@ -19,6 +19,7 @@ from r37core.workflow.code import CodeHashes
 from r37core.workflow.imported import Imported
 from r37core.workflow.progress import Progress, quieten
 from r37core.workflow.provenance import Provenance
+from r37core.workflow.shapes import Shapes
 from r37core.workflow.reporting import EVERY_SCENE, TOGETHER, captioned, shown
 from r37core.workflow.structure import Structure
 from r37core.workflow.resources import Needs
@@ -56,6 +57,7 @@ made = Provenance(settings)
 structure = Structure(settings)
 imported = Imported(settings, ROOT)
 sweep = Sweep(settings, lambda **wildcards: checkpoints.refine.get(**wildcards).output[0])
+shapes = Shapes(sweep)
 needs = Needs(settings, sweep.most_runs)
 
 # thousands of jobs, one line: Snakemake's own messages of each are in its log file, and here with R37_FULL_LOG=1 or --verbose

@@ -49,6 +49,8 @@ rule whole_blade_model:
         "<logs>/exports/{blade}_model_{tip_line}.log",
     conda:
         ENVIRONMENT
+    resources:
+        **needs.of("reduced_model"),
     params:
         reduction=exported.reduction,
         provenance=made.structure,
@@ -91,6 +93,7 @@ rule exported_stress:
         choice=exported.choice,
         speeds=sweep.speeds,
         only_worst=exported.only_worst,
+        stress_instants=settings.fidelity.time_integration.stress_instants,
         material=structure.elastic,
         orientation=exported.orientation,
         described=exported.described,

@@ -88,6 +88,7 @@ rule explorer:
         **needs.of("explorer"),
     params:
         title=f"r37 {settings.run_name or ''}".strip(),
+        shapes=shapes.runs,
         parts=parts_hash(),
         code=code("explorer"),
     script:

@@ -1,4 +1,4 @@
-"""One page to look at all results. Inputs: datasets, summary. Params: title. Output: HTML."""
+"""One page to look at all results. Inputs: datasets, summary. Params: title, shapes. Output: HTML."""
 
 import pandas as pd
 from job import run
@@ -15,7 +15,8 @@ def main(snakemake):
     with readable(summary):
         interactions = pd.read_csv(summary)
     datasets = {kind: read_dataset(file) for kind, file in files.items()}
-    write_page(explorer_contents(datasets, interactions), snakemake.params.title, snakemake.output[0])
+    params = snakemake.params
+    write_page(explorer_contents(datasets, interactions, params.shapes), params.title, snakemake.output[0])
 
 
 run(snakemake, main)

@@ -15,7 +15,9 @@ from r37core.rom.rom_file import read_reduced_model
 def main(snakemake):
     given, params = snakemake.input, snakemake.params
     model, material = read_reduced_model(given.model), Material(**params.material)
-    instants = worst_instants(as_list(given.speeds), params.speeds, StressRecovery(model, material), params.only_worst)
+    instants = worst_instants(
+        as_list(given.speeds), params.speeds, StressRecovery(model, material), params.only_worst, params.stress_instants
+    )
     for speed, instant in instants.items():
         print(f"{speed:g} rad/s: largest von Mises stress of the submesh {instant.largest:.6g} Pa")
     target = Target(Path(snakemake.output[0]), params.choice["formats"], params.orientation or OURS)

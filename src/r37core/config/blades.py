@@ -29,7 +29,7 @@ from .section import FileName, LeftOut, Name, Section, Unique, check_names, refu
 
 Table = TypeVar("Table")
 
-RESERVED = ("figures", "studies", "runs", "exports")
+RESERVED = ("figures", "studies", "runs", "exports", "shapes")
 """Folders beside those of the blades."""
 
 LARGEST_FAMILY = 10_000

@@ -59,7 +59,6 @@ class TimeIntegration(Section):
     stress_instants: int = Field(default=62, ge=1, le=10000, description="stress evaluations per revolution")
     samples_per_stress_instant: int = Field(default=8, ge=1, le=10000, description="samples of the tip motion between them")
     spectrum_highest_order: int = Field(default=20, ge=1, le=10000)
-    signal_revolutions: int = Field(default=4, ge=1, le=20000, description="revolutions at the end whose signal is kept")
     wear_angles: int = Field(default=1000, ge=8, le=1_000_000, description="angles of the wear profile that are kept")
 
     @model_validator(mode="after")

@@ -137,10 +137,10 @@ class Settings:
         return self.structure.reduction(self.fidelity.reduction, tip_line, submesh)
 
     def results_of(self, blade: str, scene: str) -> tuple[str, ...]:
-        """What is wanted of a scene's simulations, as far as the blade can give it: matrices have no stress."""
+        """What is wanted of a scene, as far as the blade can give it: matrices have neither stress nor shapes."""
         wanted = self.scenes[scene].results
         matrices = isinstance(self.blades[blade].definition, MatricesSource)
-        return tuple(result for result in wanted if not (matrices and result == "stress"))
+        return tuple(result for result in wanted if not (matrices and result in ("stress", "shapes")))
 
     def integration_choice(self, blade: str, scene: str, speed: float) -> IntegrationChoice:
         """Numbers of the time integration at one speed of a blade and scene, with only what its results need."""
@@ -225,7 +225,9 @@ def load_settings(config: Document | Mapping[str, Any], root: Path) -> Settings:
     _check_windows(checked, plans, files.config)
     _check_history_speeds(chosen_scenes, scenes, plans, files.scenes)
     _check_exports(checked, plans, files.config)
-    _check_slowest(level, checked.structure.boundary.nodes, plans, files.config)
+    slowest = min(plan.certain[0] for plan in plans.values())
+    _check_slowest(level, checked.structure.boundary.nodes, slowest, ("speeds",), files.config)
+    _check_signals(checked, level, blades, chosen_scenes, files)
     chosen_blades = {name: blade_settings(name, blades, root, files.blades) for name in names}
     _check_matrices(chosen_blades, checked, files.config)
     _check_families(chosen_blades, designs, files.blades)
@@ -429,13 +431,38 @@ def _check_exports(checked: Config, plans: Mapping[Any, SpeedPlan], document: Do
             raise document.refusal(("exports", "mode_speeds_rad_s", number), f"{speed:g}", allowed)
 
 
-def _check_slowest(level: Level, nodes: int, plans: Mapping[tuple[str, str], SpeedPlan], document: Document) -> None:
-    """ConfigError for a speed whose revolution has too many steps."""
-    slowest = min(plan.certain[0] for plan in plans.values())
+def _check_signals(
+    checked: Config, level: Level, blades: Iterable[str], scenes: Mapping[str, SceneSettings], files: _Files
+) -> None:
+    """ConfigError for signals of a blade that is not there, of no scene, or longer than a scene's runs."""
+    given = checked.signals
+    if given.blades != "all":
+        files.known(("signals", "blades"), given.blades, blades, files.blades)
+    speeds, path = given.speeds(), ("signals", given.key_of_speeds)
+    if speeds is None:
+        return
+    if isinstance(speeds, list):
+        _check_slowest(level, checked.structure.boundary.nodes, speeds[0], path, files.config)
+    with_signal = {name: scene for name, scene in scenes.items() if "signal" in scene.results}
+    if not with_signal:
+        raise files.config.refusal(
+            path,
+            "speeds, though no scene that is run has signal among its results",
+            f"such a scene ({', '.join(scenes)} of {files.scenes.name} are run), or no speeds",
+        )
+    for name, scene in with_signal.items():
+        if given.revolutions is not None and given.revolutions > scene.revolutions:
+            raise files.config.refusal(
+                ("signals", "revolutions"), f"{given.revolutions}", f"at most those of a run, {scene.revolutions} in '{name}'"
+            )
+
+
+def _check_slowest(level: Level, nodes: int, slowest: float, path: tuple[str, ...], document: Document) -> None:
+    """ConfigError for a slowest speed, given at `path`, whose revolution has too many steps."""
     size = 8 * nodes * 2.0 * math.pi / slowest / level.time_integration.time_step_s
     if size > LARGEST_TABLE:
         raise document.refusal(
-            ("speeds",),
+            path,
             f"{slowest:g} rad/s, a revolution of {size / 8 / nodes:.3g} steps of {level.time_integration.time_step_s:g} s",
             f"speeds from {slowest * size / LARGEST_TABLE:.3g} rad/s with this step (the casing's shape at every step has to "
             "fit in memory)",

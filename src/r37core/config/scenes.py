@@ -15,7 +15,7 @@ from .section import LeftOut, Name, Rpm, Section, Speed, check_names, refused
 from .speeds import refuse_both_units
 
 TipLine = Literal["pressure_edge", "camber", "suction_edge"]
-Result = Literal["spectrum", "signal", "stress", "wear", "energy"]
+Result = Literal["spectrum", "signal", "stress", "wear", "energy", "shapes"]
 
 
 class Casing(Section):
@@ -104,6 +104,8 @@ class SceneEntry(Section):
                     raise refused((key, number), f"{value} twice", "each once")
         if "wear" in self.results and self.lining is None:
             raise refused(("results",), "wear", "only in a scene with a lining")
+        if "shapes" in self.results and "stress" not in self.results:
+            raise refused(("results",), "shapes", "only with stress among the results")
         for key in histories:
             if getattr(self, key) and "stress" not in self.results:
                 raise refused((key,), "speeds", "only with stress among the results")

@@ -14,6 +14,8 @@ from .exports import Exports
 from .fidelity import Reduction
 from .scenes import TipLine
 from .section import AllOrNames, FileName, LeftOut, Name, Section, Speed, refused
+from .shapes import Shapes
+from .signals import Signals
 from .speeds import RpmList, SpeedList, SpeedRange, SpeedRule, refuse_both_units
 from .studies import Studies
 from .submesh import Submesh
@@ -187,6 +189,8 @@ class Config(Section):
     studies: Studies = Studies()
     campbell: Campbell = Campbell()
     exports: Exports = Exports()
+    shapes: Shapes = Shapes()
+    signals: Signals = Signals()
 
     @model_validator(mode="after")
     def _one_unit(self) -> Config:

@@ -41,10 +41,38 @@ class Target:
 
 @dataclass(frozen=True)
 class WorstInstant:
-    """Reduced coordinates, shape (coordinates,), at the instant of the largest stress on the submesh (Pa)."""
+    """The instant of the last revolution with the largest stress on the submesh.
+
+    `coordinates`, reduced, shape (coordinates,); `largest` (Pa), of von Mises on the submesh; `revolution`: the coordinates at
+    all instants of that revolution, shape (instants, coordinates), and `number`, which of them is the worst.
+    """
 
     coordinates: np.ndarray
     largest: float
+    revolution: np.ndarray
+    number: int
+
+
+@dataclass(frozen=True)
+class ModeShapes:
+    """Modes at one speed.
+
+    `names`; `frequencies` (Hz), shape (modes,); `displacement` of all nodes (kg^-1/2, mass-normalised), shape
+    (modes, nodes, 3).
+    """
+
+    names: tuple[str, ...]
+    frequencies: np.ndarray
+    displacement: np.ndarray
+
+
+def mode_shapes(model: ReducedModel, speed: float, count: int) -> ModeShapes:
+    """The `count` lowest modes at `speed` (rad/s); ValueError for a model that does not recover the whole blade."""
+    basis = _whole(model)
+    frequencies, shapes = model.modes(speed, max(count, _NAMED_AMONG))
+    names, order = name_modes(model, shapes, count)
+    displacement = np.array([(basis @ shapes[:, mode]).real for mode in order])
+    return ModeShapes(names, frequencies[order] / (2.0 * np.pi), displacement)
 
 
 def write_modes(mesh: BladeMesh, model: ReducedModel, speeds: Sequence[float], count: int, target: Target) -> None:
@@ -53,24 +81,23 @@ def write_modes(mesh: BladeMesh, model: ReducedModel, speeds: Sequence[float], c
     Fields are named by the mode; .vtu files have the frequency (Hz) of each in the field data. The model must recover the
     whole blade.
     """
-    basis, shown = _whole(model), target.orientation.mesh_to_file(mesh)
+    shown = target.orientation.mesh_to_file(mesh)
     files = {}
     for speed in speeds:
-        frequencies, shapes = model.modes(speed, max(count, _NAMED_AMONG))
-        names, order = name_modes(model, shapes, count)
-        pairs = list(zip(names, order, strict=True))
-        fields = {f"mode {name}": (basis @ shapes[:, mode]).real @ target.orientation.rows for name, mode in pairs}
-        notes = {f"frequency of mode {name} (Hz)": frequencies[mode] / (2.0 * np.pi) for name, mode in pairs}
+        modes = mode_shapes(model, speed, count)
+        fields = {f"mode {name}": u @ target.orientation.rows for name, u in zip(modes.names, modes.displacement, strict=True)}
+        notes = {f"frequency of mode {name} (Hz)": f for name, f in zip(modes.names, modes.frequencies, strict=True)}
         files[speed] = f"modes_{exact_text(speed)}"
         _write_fields(shown, fields, notes, files[speed], target)
     _write_collection(files, "modes", target)
 
 
 def worst_instants(
-    files: Iterable[Path | str], speeds: Sequence[float], recovery: StressRecovery, only_worst: bool
+    files: Iterable[Path | str], speeds: Sequence[float], recovery: StressRecovery, only_worst: bool, per_revolution: int
 ) -> dict[float, WorstInstant]:
-    """The worst instant kept in the file of each of the `speeds` (rad/s), or the worst of all alone.
+    """The worst instant of the last revolution at each of the `speeds` (rad/s), or the worst of all alone.
 
+    `per_revolution`: instants of a revolution in the files, which may keep more than one.
     A run that diverged has none. Raises InputFileError for a file that cannot be read.
     """
     found: dict[float, WorstInstant] = {}
@@ -78,9 +105,10 @@ def worst_instants(
         run = read_speed(file)
         if run["status"] or not len(run["snapshots"]):
             continue
-        largest = recovery.max_von_mises(run["snapshots"])
+        revolution = run["snapshots"][-per_revolution:]
+        largest = recovery.max_von_mises(revolution)
         instant = int(np.argmax(largest))
-        found[speed] = WorstInstant(run["snapshots"][instant], float(largest[instant]))
+        found[speed] = WorstInstant(revolution[instant], float(largest[instant]), revolution, instant)
     worst = max(found, key=lambda speed: found[speed].largest, default=None)
     return {worst: found[worst]} if only_worst and worst is not None else found
 
@@ -93,11 +121,10 @@ def write_stress(
     Displacement (the target's unit), stress components xx yy zz xy yz zx and von Mises stress (Pa) of the vibration on the
     whole blade. The model must recover the whole blade.
     """
-    basis, shown = _whole(model), target.orientation.mesh_to_file(mesh)
+    shown = target.orientation.mesh_to_file(mesh)
     files = {}
     for speed, instant in instants.items():
-        displacement = basis @ instant.coordinates
-        stress = nodal_stress(mesh.blocks, mesh.points, displacement[:, :, None], material)[:, :, 0]
+        displacement, stress = stress_of(mesh, model, material, instant)
         fields = {
             "displacement": target.orientation.vectors_to_file(displacement),
             "stress": _turned(stress, target.orientation.rows).T,
@@ -106,6 +133,17 @@ def write_stress(
         files[speed] = f"stress_{exact_text(speed)}"
         _write_fields(shown, fields, {"largest von Mises stress of the submesh (Pa)": instant.largest}, files[speed], target)
     _write_collection(files, "stress", target)
+
+
+def stress_of(mesh: BladeMesh, model: ReducedModel, material: Material, instant: WorstInstant) -> tuple[np.ndarray, np.ndarray]:
+    """Displacement (m), shape (nodes, 3), and stress (Pa), shape (6, nodes), of the vibration on the whole blade."""
+    displacement = displacement_of(model, instant.coordinates[None])[0]
+    return displacement, nodal_stress(mesh.blocks, mesh.points, displacement[:, :, None], material)[:, :, 0]
+
+
+def displacement_of(model: ReducedModel, coordinates: np.ndarray) -> np.ndarray:
+    """Displacement of all nodes (m), shape (instants, nodes, 3), for reduced coordinates, shape (instants, coordinates)."""
+    return np.moveaxis(_whole(model) @ coordinates.T, 2, 0)
 
 
 def _turned(stress: np.ndarray, rows: np.ndarray) -> np.ndarray:

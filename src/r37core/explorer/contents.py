@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import asdict
 
 import numpy as np
@@ -25,9 +25,12 @@ CURVES = (
 """Dataset, variable, unit shown, and factor from SI to it; of the leading edge where a variable has tip points."""
 
 
-def explorer_contents(datasets: Mapping[str, xr.Dataset], interactions: pd.DataFrame) -> dict[str, object]:
+def explorer_contents(
+    datasets: Mapping[str, xr.Dataset], interactions: pd.DataFrame, shapes: Iterable[Sequence[str]] = ()
+) -> dict[str, object]:
     """All that the page needs. `datasets`: campbell, rms and, where computed, spectrum, stress and wear.
 
+    `shapes`: pairs of blade and scene whose interactions are shown in shapes/<blade>.html beside the page.
     Curves have every speed; maps are thinned (pack.py), each cell the largest value of what it stands for.
     """
     rms, campbell = datasets["rms"], datasets["campbell"]
@@ -47,6 +50,7 @@ def explorer_contents(datasets: Mapping[str, xr.Dataset], interactions: pd.DataF
         "spectrum": _spectrum(datasets.get("spectrum"), rms),
         "wear": _wear(datasets.get("wear"), rms),
         "interactions": interactions.astype(object).where(interactions.notna(), None).to_dict("records"),
+        "shapes": [list(pair) for pair in shapes],
         "published": [asdict(one) for one in INTERACTIONS if one.blade in blades],
     }
 

@@ -227,6 +227,16 @@
     ["max_wear", "wear (mm)", 1e3], ["status", "status"],
   ];
 
+  // to the worst instant of an interaction, in the page of its blade, where that was made
+  function shapeLink({ blade, scene, peak_speed: speed, status: ended }) {
+    if (ended !== "completed" || !data.shapes.some(([one, other]) => one === blade && other === scene)) return [];
+    const href = `shapes/${encodeURIComponent(blade)}.html#${new URLSearchParams({ scene, speed })}`;
+    const link = Object.assign(document.createElement("a"), { href, textContent: "moves" });
+    link.addEventListener("click", (event) => event.stopPropagation());
+    link.addEventListener("keydown", (event) => event.stopPropagation());
+    return [link];
+  }
+
   function drawTable() {
     const place = document.getElementById("interactions");
     if (data.interactions.length === 0) { place.innerHTML = '<p class="empty">None found.</p>'; return; }
@@ -236,7 +246,8 @@
       return typeof value === "number" ? digits(scale ? value * scale : value) : value;
     };
     const table = document.createElement("table");
-    table.innerHTML = `<thead><tr>${COLUMNS.map(([, title]) => `<th scope="col">${title}</th>`).join("")}</tr></thead>`;
+    const titles = [...COLUMNS.map(([, title]) => title), ...(data.shapes.length ? ["shape"] : [])];
+    table.innerHTML = `<thead><tr>${titles.map((title) => `<th scope="col">${title}</th>`).join("")}</tr></thead>`;
     const body = table.createTBody();
     data.interactions.forEach((row) => {
       const known = data.published.find((one) => one.blade === row.blade && row.mode === "1B" && one.engine_order === row.engine_order);
@@ -244,6 +255,7 @@
       line.tabIndex = 0;
       line.classList.toggle("chosen", row.blade === state.blade && row.scene === state.scene && row.peak_speed === state.speed);
       COLUMNS.forEach((column) => { line.insertCell().textContent = cell({ ...row, published: known ? known.peak : null }, column); });
+      if (data.shapes.length) line.insertCell().append(...shapeLink(row));
       const go = () => set({ blade: row.blade, scene: row.scene, speed: row.peak_speed });
       line.addEventListener("click", go);
       line.addEventListener("keydown", (event) => { if (event.key === "Enter") go(); });

@@ -1,10 +1,10 @@
-"""results/explorer.html: one file with data, program and plotly inside, which opens offline."""
+"""Pages of one file with data, program and plotly inside, which open offline: explorer.html, and the shapes of a blade."""
 
 from __future__ import annotations
 
 import html
 import json
-from collections.abc import Mapping
+from collections.abc import Sequence
 from pathlib import Path
 
 from plotly.offline import get_plotlyjs
@@ -14,10 +14,10 @@ from r37core.io import atomic_write
 from . import PARTS
 
 
-def write_page(contents: Mapping[str, object], title: str, file: Path | str) -> None:
-    """Write the page for the contents of explorer_contents, atomically."""
+def write_page(contents: object, title: str, file: Path | str, parts: Sequence[str] = PARTS) -> None:
+    """Write the page made of `parts` (page, style, program) and its contents, by default the explorer, atomically."""
     folder = Path(__file__).parent
-    page, style, program = ((folder / part).read_text(encoding="utf-8") for part in PARTS)
+    page, style, program = ((folder / part).read_text(encoding="utf-8") for part in parts)
     # "<" would end the script that carries the data, if a name had it
     data = json.dumps(contents, allow_nan=False).replace("<", "\\u003c")
     for mark, text in (

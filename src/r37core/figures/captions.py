@@ -52,6 +52,22 @@ CAPTIONS = {
         "Family {family}: what each design is and how robust, over what varies. Frequencies, largest loss of clearance as "
         "the tip swings along free modes, speeds above yield, largest stress, and where interactions lie."
     ),
+    "mode_shapes": (
+        "The first modes of blade {blade} at rest, each moved by its shape from the blade as it is (black outline); the colour "
+        "is the displacement as a share of its largest. The page of the blade's shapes moves them."
+    ),
+    "worst_shapes": (
+        "Blade {blade} in scene {scene} at the worst instant of each interaction: displaced as the title says (black outline: "
+        "as it is), coloured by the von Mises stress of the vibration, each on a scale of its own."
+    ),
+    "spectrogram": (
+        "Blade {blade} in scene {scene}: engine orders of the leading edge's motion and of strain gauges over the revolutions "
+        "since the start, at each speed; Hann windows of eight revolutions."
+    ),
+    "orders": (
+        "Blade {blade} in scene {scene}: amplitude of the strongest whole engine orders over the revolutions since the start, "
+        "at each speed, and beside them, where there are probes, the leading edge's displacement that tip timing tells."
+    ),
     "modes": (
         "The first three modes of blade {blade} at rest, first bending (1B), first torsion (1T) and second bending (2B), "
         "each moved by its shape from the blade as it is (faint); the colour is the size of the displacement."

@@ -12,9 +12,9 @@ if sys.platform == "linux":
 import pyvista
 
 
-def new_plotter(columns: int, size: tuple[int, int]) -> pyvista.Plotter:
-    """An off-screen plotter with `columns` panels side by side and a window of `size` pixels."""
-    return pyvista.Plotter(shape=(1, columns), off_screen=True, window_size=list(size), border=False)
+def new_plotter(columns: int, size: tuple[int, int], rows: int = 1) -> pyvista.Plotter:
+    """An off-screen plotter with `columns` panels side by side in each of `rows` and a window of `size` pixels."""
+    return pyvista.Plotter(shape=(rows, columns), off_screen=True, window_size=list(size), border=False)
 
 
 if __name__ == "__main__":

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -69,6 +70,24 @@ def find_interactions(
     return _strongest_of_each(
         [row for direction in SPECTRA for row in _peaks(direction, rms, campbell, spectrum, choice, stress, wear)]
     )
+
+
+def interactions_of_response(response: xr.Dataset, campbell: xr.Dataset, choice: InteractionChoice) -> list[dict[str, object]]:
+    """The same of one response.nc, with the Campbell diagram of its blade."""
+
+    def part(name: str) -> xr.Dataset | None:
+        return response if name in response else None
+
+    return find_interactions(response, campbell, part("amplitude"), part("max_von_mises"), part("max_wear"), choice)
+
+
+def titles(interactions: Iterable[Mapping[str, Any]]) -> dict[float, str]:
+    """Peak speed (rad/s) -> what meets there: 1B/4, or the engine order alone."""
+
+    def what(mode: str, order: int | None) -> str:
+        return f"{mode}/{order}" if mode else "a peak of its own" if order is None else f"engine order {order}"
+
+    return {float(row["peak_speed"]): what(row["mode"], row["engine_order"]) for row in interactions}
 
 
 def _peaks(

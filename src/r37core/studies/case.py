@@ -25,7 +25,7 @@ QUANTITIES = {**MOTION, "max_von_mises": "Pa", "max_wear": "m"}
 """What a case keeps of every run, name -> unit; the stress over the last revolution, the wear at the end."""
 
 CHECKS = ("status", "energy_residual", "worst_complementarity", "share_of_time_in_contact")
-_KEPT = {"spectrum_highest_order": 20, "signal_revolutions": 1, "wear_angles": 1000}
+_KEPT = {"spectrum_highest_order": 20, "wear_angles": 1000}
 COSTS = ("cpu_s", "wall_s", "peak_memory_bytes", "bytes_written")
 
 

@@ -28,7 +28,7 @@ UNITS = {f"{kind}_{direction}": "m" for kind in ("rms", "peak") for direction in
 }
 """What is kept of every speed; motion is the leading edge's, over the last half of the run."""
 
-_KEPT = {"spectrum_highest_order": 12, "signal_revolutions": 1, "wear_angles": 1000}
+_KEPT = {"spectrum_highest_order": 12, "wear_angles": 1000}
 _FIRST_LOBES = 3
 _MOST_EXTRA = 40
 """Speeds added on each side of a window that ends above yield."""

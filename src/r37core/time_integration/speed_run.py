@@ -13,9 +13,12 @@ from .choice import IntegrationChoice
 from .simulate import DIRECTIONS, TIP_POINTS, Simulation, SimulationState
 from .status import RunStatus
 
+OF_RUNS = ("spectrum", "stress", "wear", "energy")
+"""Results of a scene that its simulations give; others are made of them later."""
+
 _WEAR_LOBES = 20
 _KEPT = [DIRECTIONS.index("normal"), DIRECTIONS.index("tangential")]
-"""Directions of the spectrum and the signal."""
+"""Directions of the spectrum."""
 
 
 def run_speed(
@@ -26,16 +29,14 @@ def run_speed(
     results: Sequence[str],
     *,
     spectrum_highest_order: int,
-    signal_revolutions: int,
     wear_angles: int,
 ) -> dict[str, np.ndarray]:
-    """Simulate one speed (rad/s) and keep what is asked for in `results` (spectrum, signal, stress, wear, energy).
+    """Simulate one speed (rad/s) and keep what is asked for in `results` (OF_RUNS).
 
     Always: `status`, `diverged_revolution` and `diverged_time` (NaN unless diverged), `time_step`, the casing's `cone_angle`
     (rad), `rms` and `peak` (m) over the last half, shape (2, 3): TIP_POINTS by DIRECTIONS, `revolution_maxima` (m), shape
     (revolutions, 2, 3), and contact statistics. `amplitude`, shape (2, orders): spectrum of the leading edge's normal and
-    tangential motion; `signal`,
-    shape (samples, 2, 2), of both tip points along both. A diverged run has NaN where a number would need the rest of the run.
+    tangential motion. A diverged run has NaN where a number would need the rest of the run.
     Raises UnstableStepError for a step beyond the stability limit.
     """
     simulation = Simulation(model, speed, scene, choice)
@@ -68,8 +69,6 @@ def run_speed(
     }
     if "spectrum" in results:
         kept |= _spectrum(half[:, 0, _KEPT].T, len(half) // per_revolution, spectrum_highest_order)
-    if "signal" in results:
-        kept["signal"] = samples[-signal_revolutions * per_revolution :, :, _KEPT].astype(np.float32)
     if "stress" in results:
         kept["snapshots"] = record.snapshots @ (model.to_reduced @ simulation.modes).T
     if "wear" in results:

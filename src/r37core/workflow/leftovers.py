@@ -24,6 +24,7 @@ def _of_blades(results: Path, settings: Settings) -> Iterator[Path]:
         if folder.is_dir() and folder.name not in (*settings.blades, *RESERVED):
             yield folder
     yield from (folder for folder in (results / "exports").glob("*/") if folder.name not in settings.blades)
+    yield from _of_shapes(results / "shapes", settings)
     for blade in settings.blades:
         for folder in (results / blade).glob("*/"):
             if folder.is_dir() and folder.name not in settings.scenes:
@@ -43,6 +44,19 @@ def _of_blades(results: Path, settings: Settings) -> Iterator[Path]:
             continue
         if blade not in settings.blades or (scene and scene not in settings.scenes):
             yield figure
+
+
+def _of_shapes(folder: Path, settings: Settings) -> Iterator[Path]:
+    """Pages and folders of blades, and folders of scenes, that do not ask for shapes any more."""
+    wanted = [(blade, scene) for blade in settings.blades for scene in settings.scenes]
+    wanted = [pair for pair in wanted if "shapes" in settings.results_of(*pair)]
+    for shown in folder.glob("*"):
+        if shown.stem not in {blade for blade, _ in wanted}:
+            yield shown
+            continue
+        for scene in shown.glob("stress_*"):
+            if (shown.name, scene.name.removeprefix("stress_")) not in wanted:
+                yield scene
 
 
 def _speeds(folder: Path, plan: SpeedPlan) -> list[float]:

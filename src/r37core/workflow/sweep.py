@@ -12,6 +12,7 @@ from typing import Any
 from r37core.config import Settings, plain
 from r37core.io import as_list, read_json
 from r37core.speeds import SpeedPlan, exact_text
+from r37core.time_integration.speed_run import OF_RUNS
 
 from . import paths
 
@@ -101,7 +102,7 @@ class Sweep:
         task = {
             "scene": asdict(chosen.scene),
             "choice": asdict(self.settings.integration_choice(wildcards.blade, wildcards.scene, float(wildcards.speed))),
-            "results": self.results(wildcards),
+            "results": [result for result in self.results(wildcards) if result in OF_RUNS],
             "kept": self.kept,
         }
         return json.dumps(task)
@@ -120,7 +121,7 @@ class Sweep:
         return repr(self._scene(wildcards).scene)
 
     def results(self, wildcards: Any) -> tuple[str, ...]:
-        """What is wanted of the simulations of a blade and scene."""
+        """What is wanted of a blade and scene."""
         return self.settings.results_of(wildcards.blade, wildcards.scene)
 
     def with_stress(self, wildcards: Any) -> bool:
@@ -145,7 +146,7 @@ class Sweep:
     @property
     def kept(self) -> dict[str, int]:
         """How much of a run its file keeps."""
-        keys = ("spectrum_highest_order", "signal_revolutions", "wear_angles")
+        keys = ("spectrum_highest_order", "wear_angles")
         return {key: getattr(self.settings.fidelity.time_integration, key) for key in keys}
 
     @property

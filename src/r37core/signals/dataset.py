@@ -1,0 +1,163 @@
+"""signals.nc: of one blade and scene, and of all."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+import netCDF4
+import numpy as np
+import xarray as xr
+
+from r37core.dataset_file import SPEED_RPM, about
+from r37core.io import FILE_ATTRIBUTES, atomic_write, readable
+from r37core.results.netcdf import create_axis, create_labels, create_variable
+from r37core.rom.reduced_model import RecoveryNodes
+from r37core.time_integration.simulate import TIP_POINTS
+from r37core.time_integration.status import RunStatus
+from r37core.units import RPM
+
+from .record import Record, revolutions_of
+from .tip_timing import arrival_times
+
+VARIABLES = {
+    "normal": (("tip_point", "turn"), "f4", "m", "displacement along the casing's normal"),
+    "tangential": (("tip_point", "turn"), "f4", "m", "tangential displacement, towards growing theta"),
+    "strain": (("gauge", "turn"), "f4", "1", "strain of the vibration along the gauge's grid"),
+    "gauge_place": (("gauge", "axis"), "f8", "m", "where the gauge is, in the blade's frame"),
+    "arrival_time": (("tip_point", "probe", "revolution"), "f8", "s", "time at which the tip passes the probe"),
+    "arrival_displacement": (
+        ("tip_point", "probe", "revolution"),
+        "f8",
+        "m",
+        "tangential displacement that the arrival tells: radius times speed times its lateness",
+    ),
+    "status": ((), "i1", "1", "how the run ended"),
+}
+"""Variable -> dimensions beyond the run, type, units, meaning."""
+
+_BLADE_AXES = ("x", "y", "z")
+AXES = {
+    "turn": ("1", "time in revolutions since the start; times 2 pi / speed in s"),
+    "revolution": ("1", "number of the revolution"),
+    "probe": ("degree", "angle of the probe round the casing"),
+}
+
+
+def signals_dataset(
+    records: Mapping[float, Record],
+    names: Mapping[float, str],
+    gauges: Mapping[str, np.ndarray],
+    probes: Sequence[float],
+    tip: RecoveryNodes,
+) -> xr.Dataset:
+    """The records of one blade and scene by speed (rad/s), with arrivals at `probes` (degrees).
+
+    `names`: interaction at a speed, where it is one; `gauges`: place (m) of each, shape (3,); `tip`: the tip line, from leading
+    to trailing edge. All records have the same revolutions. What has no gauge or probe is left out; without records all but
+    the speeds is.
+    """
+    speeds = list(records)
+    if not speeds:
+        return xr.Dataset(coords={"speed": ("speed", np.empty(0))})
+    first = records[speeds[0]]
+    numbers = np.array(revolutions_of(first))
+    arrivals = [_arrivals(record, speed, np.radians(probes), numbers, tip) for speed, record in records.items()]
+    data = {
+        "normal": np.stack([record.normal.T for record in records.values()]),
+        "tangential": np.stack([record.tangential.T for record in records.values()]),
+        "strain": np.stack([record.strain.T for record in records.values()]),
+        "gauge_place": np.stack([np.array(list(gauges.values())).reshape(-1, 3)] * len(speeds)),
+        "arrival_time": np.stack([one for one, _ in arrivals]),
+        "arrival_displacement": np.stack([one for _, one in arrivals]),
+        "status": np.array([int(record.status) for record in records.values()]),
+    }
+    axes = {"turn": first.turn, "revolution": numbers, "probe": np.array(probes, dtype=float)}
+    dataset = xr.Dataset(
+        {
+            name: (("speed", *dims), data[name].astype(dtype), about(units, meaning))
+            for name, (dims, dtype, units, meaning) in VARIABLES.items()
+        },
+        {
+            "speed": ("speed", speeds, about("rad s-1", "angular speed of the rotor")),
+            "speed_rpm": ("speed", RPM * np.array(speeds), SPEED_RPM),
+            "interaction": ("speed", [names.get(speed, "") for speed in speeds]),
+            "tip_point": list(TIP_POINTS),
+            "gauge": np.array(list(gauges), dtype=object),
+            "axis": list(_BLADE_AXES),
+            **{name: (name, values, about(*AXES[name])) for name, values in axes.items()},
+        },
+    )
+    dataset = dataset.drop_dims([name for name, size in dataset.sizes.items() if size == 0])
+    return dataset if gauges else dataset.drop_dims("axis")
+
+
+def _arrivals(
+    record: Record, speed: float, probes: np.ndarray, numbers: np.ndarray, tip: RecoveryNodes
+) -> tuple[np.ndarray, np.ndarray]:
+    """Arrivals (s) and displacements (m) of both tip points, shape (2, probes, revolutions)."""
+    times = record.turn * 2.0 * np.pi / speed
+    arrivals, displacements = [], []
+    for number, (x, y, _) in enumerate(tip.select([0, -1]).points):
+        radius, theta = float(np.hypot(x, y)), float(np.arctan2(y, x))
+        arrived, rigid = arrival_times(times, record.tangential[:, number], radius, theta, speed, probes, numbers)
+        arrivals.append(arrived)
+        displacements.append(radius * speed * (arrived - rigid))
+    return np.array(arrivals), np.array(displacements)
+
+
+def gather_signals(files: Mapping[tuple[str, str], Path | str], file: Path | str, provenance: Mapping[str, object]) -> None:
+    """Join the signals of all (blade, scene) along the dimension `run`; one is in memory at a time.
+
+    Runs that kept fewer revolutions have NaN before and after them. Raises InputFileError for a file that cannot be read.
+    """
+    axes = _union(files)
+    with atomic_write(file) as partial, netCDF4.Dataset(partial, "w") as target:
+        target.setncatts(FILE_ATTRIBUTES | {name: str(value) for name, value in provenance.items()})
+        create_labels(target, "tip_point", TIP_POINTS)
+        create_labels(target, "axis", _BLADE_AXES)
+        for name, values in axes.items():
+            if name == "gauge":
+                create_labels(target, name, list(values))
+            else:
+                create_axis(target, name, values, about(*AXES[name]))
+        target.createDimension("run", None)
+        for name in ("blade", "scene", "interaction"):
+            target.createVariable(name, str, ("run",))
+        create_variable(target, "speed", "f8", ("run",), about("rad s-1", "angular speed of the rotor"))
+        create_variable(target, "speed_rpm", "f8", ("run",), SPEED_RPM)
+        for name, (dims, dtype, units, meaning) in VARIABLES.items():
+            if set(dims) <= {"tip_point", "axis", *axes}:
+                create_variable(target, name, dtype, ("run", *dims), about(units, meaning) | {"coordinates": _COORDINATES})
+        target["status"].setncatts(
+            {"flag_values": np.array(list(RunStatus), dtype="i1"), "flag_meanings": " ".join(one.text for one in RunStatus)}
+        )
+        for (blade, scene), source in files.items():
+            with readable(source), xr.open_dataset(source) as dataset:
+                if dataset.sizes["speed"]:
+                    _append(target, dataset.load(), blade, scene, axes)
+
+
+_COORDINATES = "blade scene speed speed_rpm interaction"
+
+
+def _union(files: Mapping[tuple[str, str], Path | str]) -> dict[str, np.ndarray]:
+    axes: dict[str, np.ndarray] = {}
+    for source in files.values():
+        with readable(source), xr.open_dataset(source) as dataset:
+            for name in (one for one in ("gauge", *AXES) if one in dataset.dims):
+                axes[name] = np.union1d(axes[name], dataset[name].values) if name in axes else dataset[name].values
+    return axes
+
+
+def _append(target: netCDF4.Dataset, dataset: xr.Dataset, blade: str, scene: str, axes: Mapping[str, np.ndarray]) -> None:
+    start = target.dimensions["run"].size
+    rows = slice(start, start + dataset.sizes["speed"])
+    for name, value in (("blade", blade), ("scene", scene)):
+        target[name][rows] = np.array([value] * dataset.sizes["speed"], dtype=object)
+    target["interaction"][rows] = dataset["interaction"].values.astype(object)
+    for name in ("speed", "speed_rpm"):
+        target[name][rows] = dataset[name].values
+    whole = dataset.reindex({name: values for name, values in axes.items() if name in dataset.dims})
+    for name in (one for one in VARIABLES if one in whole):
+        target[name][rows] = whole[name].values

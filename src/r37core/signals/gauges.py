@@ -1,0 +1,127 @@
+"""Virtual strain gauges: the strain at a place on the blade's surface, in one direction of the surface."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from r37core.exchange.surface import outer_faces
+from r37core.fem.elements import ELEMENTS
+from r37core.mesh.blade_mesh import BladeMesh
+
+_OUTSIDE = 0.05  # of a triangle: so far beyond its sides a place still counts as in it
+
+
+@dataclass(frozen=True)
+class Gauge:
+    """A strain gauge: `chord` from 0 (leading) to 1 (trailing edge), `span` from 0 (root) to 1 (tip), on a `side`.
+
+    `side`: pressure or suction; `angle` (rad) of its grid: 0 along the span, outwards, pi/2 towards the trailing edge.
+    """
+
+    chord: float
+    span: float
+    side: str
+    angle: float
+
+
+@dataclass(frozen=True)
+class _Place:
+    """A place on the surface: its element (type and row), local coordinates there, and two directions in the surface.
+
+    `slopes`, shape (2, 3): change of the local coordinates along them; `parameters`, shape (2, 2): of (chord, span).
+    """
+
+    name: str
+    row: int
+    local: np.ndarray
+    slopes: np.ndarray
+    parameters: np.ndarray
+
+
+def gauge_rows(mesh: BladeMesh, basis: np.ndarray, gauges: Sequence[Gauge]) -> np.ndarray:
+    """Strain of every gauge per unit of each reduced coordinate, shape (gauges, coordinates).
+
+    `basis`, shape (nodes, 3, coordinates): displacement of all nodes. The strain is that of the element under the gauge, at
+    the gauge: n . e n with e = (grad u + grad u^T) / 2 and n the unit vector along the grid. Of the vibration: the static
+    strain of the rotation is no part of it. Raises ValueError for a place that is not on the blade's surface.
+    """
+    return np.array([_row(mesh, basis, gauge) for gauge in gauges])
+
+
+def gauge_points(mesh: BladeMesh, gauges: Sequence[Gauge]) -> np.ndarray:
+    """Where the gauges are (m), shape (gauges, 3)."""
+    found = [_place(mesh, gauge) for gauge in gauges]
+    return np.array([ELEMENTS[at.name].shape_functions(at.local[None])[0] @ _coordinates(mesh, at) for at in found])
+
+
+def _row(mesh: BladeMesh, basis: np.ndarray, gauge: Gauge) -> np.ndarray:
+    place = _place(mesh, gauge)
+    element, coordinates = ELEMENTS[place.name], _coordinates(mesh, place)[None]
+    tangents = place.slopes @ element.jacobian(coordinates, place.local[None])[0, 0].T
+    direction = _direction(tangents, place.parameters, gauge.angle)
+    gradients, _ = element.physical_gradients(coordinates, place.local[None])
+    along = gradients[0, 0] @ direction
+    return np.einsum("a,aij,i->j", along, basis[mesh.blocks[place.name][place.row]], direction, optimize=True)
+
+
+def _coordinates(mesh: BladeMesh, place: _Place) -> np.ndarray:
+    return mesh.points[mesh.blocks[place.name][place.row]]
+
+
+def _direction(tangents: np.ndarray, parameters: np.ndarray, angle: float) -> np.ndarray:
+    """Unit vector of the surface at `angle` (rad) from the span towards the trailing edge.
+
+    `tangents`, shape (2, 3): directions in the surface along which chord and span change by the rows of `parameters`.
+    """
+    chordwise, spanwise = np.linalg.inv(parameters) @ tangents
+    along = spanwise / np.linalg.norm(spanwise)
+    across = chordwise - along * (along @ chordwise)
+    return np.cos(angle) * along + np.sin(angle) * across / np.linalg.norm(across)
+
+
+def _place(mesh: BladeMesh, gauge: Gauge) -> _Place:
+    """The element under a gauge: the triangle of corners of its side's outer faces that holds (chord, span)."""
+    corners = np.concatenate(_triangles(mesh, gauge.side))
+    parameters = mesh.parameters[corners, :2]
+    edges = parameters[:, 1:] - parameters[:, :1]
+    area = edges[:, 0, 0] * edges[:, 1, 1] - edges[:, 0, 1] * edges[:, 1, 0]
+    corners, parameters, edges = corners[area != 0.0], parameters[area != 0.0], edges[area != 0.0]
+    offset = np.array([gauge.chord, gauge.span]) - parameters[:, 0]
+    shares = np.linalg.solve(edges.transpose(0, 2, 1), offset[:, :, None])[:, :, 0]
+    shares = np.column_stack([1.0 - shares.sum(axis=1), shares])
+    best = int(np.argmax(shares.min(axis=1)))
+    if shares[best].min() < -_OUTSIDE:
+        raise ValueError(
+            f"a strain gauge at chord {gauge.chord:g} and span {gauge.span:g} is not on the {gauge.side} side of the mesh; "
+            "take a place farther from the edges (signals.gauges in config.yaml)"
+        )
+    name, row = _element_of(mesh, corners[best])
+    places = [int(np.flatnonzero(mesh.blocks[name][row] == node)[0]) for node in corners[best]]
+    nodes = ELEMENTS[name].nodes[places]
+    # the shape functions' local coordinates are linear in those of a triangle of corners, chord and span (nearly) too
+    return _Place(name, row, shares[best] @ nodes, nodes[1:] - nodes[:1], edges[best])
+
+
+def _triangles(mesh: BladeMesh, side: str) -> list[np.ndarray]:
+    """Corners of the side's outer faces as triangles, shape (triangles, 3) each, without those of root and tip."""
+    ends = [np.isin(np.arange(len(mesh.points)), mesh.node_set(name)) for name in ("root", "tip")]
+    sign = {"pressure": -1.0, "suction": 1.0}[side]
+    found = []
+    for part in outer_faces(mesh.blocks):
+        faces = part.nodes[:, : part.corners]
+        a, b, c = (mesh.points[faces[:, number]] for number in range(3))
+        outwards = np.sum(np.cross(b - a, c - a) * mesh.normals[faces].mean(axis=1), axis=1)
+        kept = faces[(sign * outwards > 0.0) & ~np.any([end[faces].all(axis=1) for end in ends], axis=0)]
+        found += [kept[:, split] for split in ([0, 1, 2], [0, 2, 3])[: part.corners - 2]]
+    return found
+
+
+def _element_of(mesh: BladeMesh, corners: np.ndarray) -> tuple[str, int]:
+    for name, nodes in mesh.blocks.items():
+        rows = np.flatnonzero(np.isin(nodes, corners).sum(axis=1) == len(corners))
+        if len(rows):
+            return name, int(rows[0])
+    raise AssertionError("an outer face belongs to an element")

@@ -1,0 +1,49 @@
+"""Blade tip timing: when the tip passes probes in the casing, and the displacement that this tells.
+
+The tip at angle theta + u/R in the frame of the rotor, which turns towards negative theta, is at theta + u/R - Omega t in the
+casing's. It passes a probe at angle p when that is p, up to whole turns:
+
+    Omega t - u(t)/R = theta - p + 2 pi k        without vibration: Omega t0 = theta - p + 2 pi k
+
+so that t - t0 = u(t)/(Omega R), and R Omega (t - t0) is the tangential displacement at the arrival. Source: Heath and Imregun,
+A survey of blade tip-timing measurement techniques for turbomachinery vibration, J. Eng. Gas Turbines Power 120 (1998) 784-791.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.interpolate import CubicSpline
+
+_HALVINGS = 60
+
+
+def arrival_times(
+    times: np.ndarray, tangential: np.ndarray, radius: float, theta: float, speed: float, probes: np.ndarray, turns: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Arrivals (s) at `probes` (rad, in the casing) in each of the revolutions `turns`, and those of a rigid blade.
+
+    Both of shape (probes, turns). `times` (s) and `tangential` displacement (m, towards growing theta), shape (samples,), of
+    a tip point at `radius` (m) and `theta` (rad); `turns` count from 1; `speed` in rad/s. A tip that swings back over a
+    probe counts when it first comes. NaN where the samples do not reach.
+    """
+    probes, turns = np.asarray(probes, dtype=float), np.asarray(turns)
+    rigid = (((theta - probes) % (2.0 * np.pi))[:, None] + 2.0 * np.pi * (turns - 1)) / speed
+    arrivals = np.full(rigid.shape, np.nan)
+    known = np.isfinite(tangential)
+    if np.count_nonzero(known) < 4:
+        return arrivals, rigid
+    times, tangential = times[known], tangential[known]
+    displacement = CubicSpline(times, tangential)
+    # how far the tip has turned; what it reached once, however it swings
+    turned = speed * times - tangential / radius
+    reached = np.maximum.accumulate(turned)
+    wanted = speed * rigid
+    inside = (wanted > turned[0]) & (wanted <= reached[-1])
+    after = np.searchsorted(reached, wanted[inside])
+    early, late = times[after - 1], times[after]
+    for _ in range(_HALVINGS):
+        middle = 0.5 * (early + late)
+        there = speed * middle - displacement(middle) / radius >= wanted[inside]
+        early, late = np.where(there, early, middle), np.where(there, middle, late)
+    arrivals[inside] = late
+    return arrivals, rigid

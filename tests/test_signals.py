@@ -1,0 +1,362 @@
+"""Time signals against closed forms: strain gauges, tip timing, engine orders, and records against the runs of the sweep."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import xarray as xr
+from box_mesh import box_mesh
+from integration_cases import oscillator
+from scipy.optimize import brentq
+
+from r37core.contact.casing import Casing
+from r37core.contact.scene import Scene
+from r37core.dataset_file import read_dataset, write_dataset
+from r37core.exchange.frame import blade_parameters
+from r37core.figures.signals import draw_orders, draw_spectrograms
+from r37core.figures.style import save
+from r37core.io import InputFileError
+from r37core.rom.reduce import reduce_blade
+from r37core.rom.reduced_model import RecoveryNodes
+from r37core.signals.dataset import gather_signals, signals_dataset
+from r37core.signals.gauges import Gauge, gauge_points, gauge_rows
+from r37core.signals.orders import order_tracks, spectrogram, strongest_orders
+from r37core.signals.record import Record, record_signals, revolutions_of
+from r37core.signals.tip_timing import arrival_times
+from r37core.time_integration.choice import IntegrationChoice
+from r37core.time_integration.simulate import Simulation
+from r37core.time_integration.speed_run import run_speed
+from r37core.time_integration.status import RunStatus
+
+ELEMENTS = ("wedge15", "hexahedron20", "tetra10", "wedge", "hexahedron", "tetra")
+SPEED = 1000.0
+
+
+# strain gauges
+
+
+@pytest.mark.parametrize("element", ELEMENTS)
+@pytest.mark.parametrize("side", ["pressure", "suction"])
+def test_a_gauge_in_uniaxial_tension(element, side):
+    """Strain 1e-3 along the span, Poisson's ratio 0.3: e cos^2 - 0.3 e sin^2 at every place and angle."""
+    box = box_mesh(0.3, 0.2, 0.05, (3, 2, 1), warp=0.0, element=element)
+    basis = (box.points * [1e-3, -0.3e-3, -0.3e-3])[:, :, None]
+    angles = np.radians([0.0, 30.0, 45.0, 90.0, -60.0, 180.0])
+    gauges = [Gauge(chord, span, side, angle) for angle in angles for chord, span in ((0.31, 0.4), (0.9, 0.05), (0.5, 0.99))]
+    expected = 1e-3 * (np.cos(angles) ** 2 - 0.3 * np.sin(angles) ** 2)
+    np.testing.assert_allclose(gauge_rows(box, basis, gauges)[:, 0], np.repeat(expected, 3), atol=1e-14)
+
+
+def test_the_sign_of_an_angle():
+    """Shear u_x = g y, with chord along y: g sin a cos a, positive between span and trailing edge."""
+    box = box_mesh(0.3, 0.2, 0.05, (3, 2, 1), warp=0.3)
+    basis = np.zeros((len(box.points), 3, 1))
+    basis[:, 0, 0] = 2e-3 * box.points[:, 1]
+    # the warp leaves the sides plane but moves what lies in them: directions are those of the surface's own chord and span
+    flat = box_mesh(0.3, 0.2, 0.05, (3, 2, 1))
+    basis_flat = basis.copy()
+    basis_flat[:, 0, 0] = 2e-3 * flat.points[:, 1]
+    gauges = [Gauge(0.4, 0.4, "suction", np.radians(angle)) for angle in (45.0, -45.0, 0.0)]
+    np.testing.assert_allclose(gauge_rows(flat, basis_flat, gauges)[:, 0], [1e-3, -1e-3, 0.0], atol=1e-15)
+
+
+def test_gauges_lie_where_they_are_asked_for(blade, mesh):
+    """On the blade's own surface, to what the elements' sides differ from it; a rigid motion strains none."""
+    gauges = [
+        Gauge(chord, span, side, 0.7) for chord in (0.1, 0.5, 0.93) for span in (0.1, 0.8) for side in ("pressure", "suction")
+    ]
+    thickness = np.array([{"pressure": -1.0, "suction": 1.0}[gauge.side] for gauge in gauges])
+    chord, span = np.array([[gauge.chord, gauge.span] for gauge in gauges]).T
+    there = blade.position(chord, span, thickness)
+    np.testing.assert_allclose(gauge_points(mesh, gauges), there, atol=2e-5)
+    turn = np.cross([0.3, -0.5, 0.8], mesh.points)
+    basis = np.stack([turn, np.tile([1.0, 2.0, 3.0], (len(turn), 1))], axis=2)
+    np.testing.assert_allclose(gauge_rows(mesh, basis, gauges), 0.0, atol=1e-10)
+
+
+def test_gauges_of_an_imported_mesh(mesh):
+    """Chord, span and sides found from the shape alone: some millimetres from those of the profiles, on the right side."""
+    parameters, normals = blade_parameters(mesh.points, mesh.node_set("root"), mesh.node_set("tip"), True)
+    imported = replace(mesh, parameters=parameters, normals=normals)
+    gauges = [
+        Gauge(chord, span, side, 0.0)
+        for chord in (0.1, 0.5, 0.9)
+        for span in (0.1, 0.5, 0.9)
+        for side in ("pressure", "suction")
+    ]
+    ours, theirs = gauge_points(mesh, gauges), gauge_points(imported, gauges)
+    assert np.linalg.norm(ours - theirs, axis=1).max() < 3e-3
+    across = np.sum((ours[1::2] - ours[::2]) * (theirs[1::2] - theirs[::2]), axis=1)
+    assert np.all(across > 0.0)
+
+
+def test_a_gauge_along_the_span_of_a_curved_blade(mesh):
+    """Stretched everywhere by 1e-3 along x: e (n . x)^2, and almost e where the span is almost radial."""
+    basis = np.zeros((len(mesh.points), 3, 1))
+    basis[:, 0, 0] = 1e-3 * mesh.points[:, 0]
+    along, across = gauge_rows(mesh, basis, [Gauge(0.5, 0.5, "suction", angle) for angle in (0.0, np.pi / 2)])[:, 0]
+    assert along == pytest.approx(1e-3, rel=0.05)
+    assert along + across < 1e-3
+    assert across < 0.05e-3
+
+
+def test_a_place_that_is_not_on_the_mesh_is_refused():
+    box = box_mesh(0.3, 0.2, 0.05, (3, 2, 1))
+    with pytest.raises(ValueError, match=r"chord 1\.2 and span 0\.5 is not on the suction side of the mesh; .*signals\.gauges"):
+        gauge_rows(box, np.zeros((len(box.points), 3, 1)), [Gauge(1.2, 0.5, "suction", 0.0)])
+
+
+# tip timing
+
+
+def test_arrivals_of_a_harmonic_motion():
+    """Against the root of Omega t - u(t)/R = theta - p + 2 pi k, with u in closed form; and what the arrival tells is u."""
+    radius, theta, amplitude, pulsation, lag = 0.25, -0.2, 4e-3, 3.37 * SPEED, 0.4
+    times = np.arange(1, 10 * 496 + 1) * 2.0 * np.pi / SPEED / 496
+
+    def u(t):
+        return amplitude * np.sin(pulsation * t + lag)
+
+    probes, turns = np.radians([0.0, 77.0, 200.0, 359.0]), np.arange(1, 11)
+    arrived, rigid = arrival_times(times, u(times), radius, theta, SPEED, probes, turns)
+    late = arrived - rigid
+    for i, probe in enumerate(probes):
+        for j, turn in enumerate(turns):
+            angle = (theta - probe) % (2.0 * np.pi) + 2.0 * np.pi * (turn - 1)
+            exact = brentq(lambda t, angle=angle: SPEED * t - u(t) / radius - angle, angle / SPEED - 1e-4, angle / SPEED + 1e-4)
+            if times[1] < exact < times[-1]:
+                assert arrived[i, j] == pytest.approx(exact, abs=1e-10)
+                assert radius * SPEED * late[i, j] == pytest.approx(u(exact), abs=1e-7)
+    assert np.isfinite(arrived).sum() >= 38
+
+
+def test_an_undisturbed_tip_is_on_time():
+    """The rotor turns towards negative theta: from theta = 0.5 a probe at 0.2 comes after 0.3 rad."""
+    times = np.linspace(0.0, 4 * np.pi / SPEED, 500)
+    arrived, rigid = arrival_times(times, np.zeros(500), 0.25, 0.5, SPEED, np.array([0.2]), np.array([1, 2]))
+    np.testing.assert_allclose(rigid, [[0.3 / SPEED, (0.3 + 2.0 * np.pi) / SPEED]], rtol=1e-12)
+    np.testing.assert_allclose(arrived, rigid, rtol=1e-12)
+
+
+def test_a_tip_that_comes_back_counts_when_it_first_comes():
+    """So large a swing that the tip passes the probe three times; and NaN after the end of the signal."""
+    times = np.linspace(0.0, 2.0 * np.pi / SPEED, 2000)
+    motion = 0.05 * np.sin(12.0 * SPEED * times)
+    wanted = 10.0 * np.pi / 12.0
+    arrived, _ = arrival_times(times, motion, 0.25, 3.0, SPEED, np.array([3.0 - wanted]), np.array([1, 2]))
+    turned = SPEED * times - motion / 0.25
+    assert np.sum(np.diff(np.sign(turned - wanted)) != 0) == 3
+    assert arrived[0, 0] == pytest.approx(times[np.argmax(turned >= wanted)], abs=times[1])
+    assert np.isnan(arrived[0, 1])
+
+
+# engine orders
+
+
+@pytest.fixture
+def swelling():
+    """Order 4 that grows from 0 to 2 and order 9 of 0.5, about a mean of 3, over 40 revolutions that begin at the 10th."""
+    turn = 10.0 + np.arange(1, 40 * 100 + 1) / 100
+    rise = (turn - 10.0) / 20.0
+    angle = 2.0 * np.pi * turn
+    return turn, 3.0 + rise * np.cos(4 * angle) + 0.5 * np.sin(9 * angle)
+
+
+def test_spectrogram_of_orders(swelling):
+    turn, signal = swelling
+    orders, revolutions, amplitudes = spectrogram(signal, turn, 100)
+    assert (revolutions[0], revolutions[-1]) == (pytest.approx(14.0, abs=0.6), pytest.approx(46.0, abs=0.6))
+    at = {order: int(np.argmin(np.abs(orders - order))) for order in (0, 4, 6.5, 9)}
+    np.testing.assert_allclose(amplitudes[at[4]], (revolutions - 10.0) / 20.0, atol=0.01)
+    np.testing.assert_allclose(amplitudes[at[9]], 0.5, rtol=1e-5)
+    np.testing.assert_allclose(amplitudes[at[0]], 3.0, rtol=1e-3)
+    assert amplitudes[at[6.5]].max() < 1e-3
+
+
+def test_tracks_of_orders(swelling):
+    turn, signal = swelling
+    revolutions, amplitudes = order_tracks(signal, turn, 100, np.array([4, 9, 12]))
+    np.testing.assert_allclose(amplitudes[0], (revolutions - 10.0) / 20.0, atol=0.01)
+    np.testing.assert_allclose(amplitudes[1], 0.5, atol=0.01)
+    assert amplitudes[2].max() < 0.01
+    np.testing.assert_array_equal(strongest_orders(signal, turn, 100, 2, 20), [4, 9])
+    np.testing.assert_array_equal(strongest_orders(signal - 3.0, turn, 100, 5, 8)[:1], [4])
+
+
+def test_a_diverged_signal_is_looked_at_as_far_as_it_goes(swelling):
+    turn, signal = swelling
+    cut = np.where(turn < 30.0, signal, np.nan)
+    _, whole, _ = spectrogram(signal, turn, 100)
+    _, part, amplitudes = spectrogram(cut, turn, 100)
+    assert np.isfinite(amplitudes).all()
+    np.testing.assert_array_equal(part, whole[: len(part)])
+    assert part[-1] < 27.0
+    assert spectrogram(np.full(4000, np.nan), turn, 100)[1].size == 0
+    assert order_tracks(np.full(4000, np.nan), turn, 100, np.array([4]))[1].shape == (1, 0)
+
+
+# records
+
+
+FREE = Scene(Casing(1.0, lobes=0), damping_ratio=0.0)
+
+
+def test_a_free_oscillation_is_recorded(monkeypatch):
+    """One mode, ten periods a revolution: its cosine at both edges and in a gauge, the last three of five revolutions."""
+    start = Simulation.start
+
+    def displaced(simulation):
+        state = start(simulation)
+        state.displacement[:] = 1e-4
+        return state
+
+    monkeypatch.setattr(Simulation, "start", displaced)
+    operator = np.zeros((3, 2, 1))
+    operator[0, :, 0], operator[1, :, 0] = [1.0, 3.0], [0.5, 2.0]
+    model = replace(oscillator(10.0 * SPEED), tip_displacement_operator=operator)
+    choice = IntegrationChoice(1e-7, 5, 620, integrator="exact_modal")
+    record = record_signals(model, SPEED, FREE, choice, np.full((1, model.to_reduced.shape[0]), 7.0), 3)
+    assert (len(record.turn), record.turn[0], record.turn[-1]) == (3 * 620, pytest.approx(2.0 + 1 / 620), 5.0)
+    assert list(revolutions_of(record)) == [3, 4, 5]
+    wave = 1e-4 * np.cos(10.0 * 2.0 * np.pi * record.turn)
+    np.testing.assert_allclose(record.normal, np.outer(wave, [1.0, 3.0]), atol=2e-7)
+    np.testing.assert_allclose(record.tangential, np.outer(wave, [0.5, 2.0]), atol=2e-7)
+    gauge = 7.0 * model.to_reduced.sum() * wave
+    np.testing.assert_allclose(record.strain[:, 0], gauge, atol=2e-3 * np.abs(gauge).max())
+    assert record.status is RunStatus.COMPLETED
+
+
+@pytest.fixture(scope="module")
+def scene(settings):
+    return settings.scenes["abradable"].scene
+
+
+def test_a_record_is_the_run_of_the_sweep(contact, scene, model):
+    """The same numbers to the last digit; with gauges as without."""
+    choice = IntegrationChoice(4e-7, 4, 62, 31, 1, energy=True, integrator="exact_modal")
+    run = run_speed(contact, 1200.0, scene, choice, ("stress",), spectrum_highest_order=10, wear_angles=60)
+    rows = np.eye(model.size)[:2]
+    record = record_signals(contact, 1200.0, scene, choice, rows, 4)
+    for name, direction in (("normal", 0), ("tangential", 2)):
+        motion = getattr(record, name)
+        rms = np.sqrt(np.mean(motion[2 * 62 :] ** 2, axis=0))
+        np.testing.assert_array_equal(rms, run["rms"][:, direction])
+        np.testing.assert_array_equal(np.abs(motion[-62:]).max(axis=0), run["revolution_maxima"][-1, :, direction])
+    # a row of one reduced coordinate is that coordinate of the snapshots
+    np.testing.assert_allclose(record.strain[-62:][1::2], run["snapshots"][:, :2], rtol=1e-9, atol=1e-18)
+    bare = record_signals(contact, 1200.0, scene, choice, np.empty((0, model.size)), 4)
+    np.testing.assert_array_equal(bare.normal, record.normal)
+    assert bare.strain.shape == (4 * 62, 0)
+
+
+def test_a_divergence_ends_the_record(contact, scene):
+    close = replace(scene, divergence_limit=2e-5)
+    record = record_signals(contact, 1200.0, close, IntegrationChoice(4e-7, 4, 62), np.empty((0, 0)), 4)
+    assert record.status is RunStatus.DIVERGED
+    known = np.isfinite(record.normal[:, 0])
+    assert 0 < known.sum() < len(known)
+    assert not known[known.sum() :].any()
+    assert np.abs(record.normal[known]).max() < 2e-5
+
+
+# datasets
+
+
+PLACE = np.array([0.2, 0.01, 0.02])
+TIP = RecoveryNodes(np.arange(2), np.array([[0.25, 0.0, 0.0], [0.24, 0.01, 0.03]]), np.zeros((2, 3, 1)))
+
+
+def record_of(turns, last=None, gauges=1):
+    turn = np.arange(1, turns * 50 + 1) / 50
+    wave = 1e-3 * np.sin(2.0 * np.pi * 4.0 * turn)
+    kept = slice(-(last or turns) * 50, None)
+    return Record(turn[kept], np.outer(wave, [1, 2])[kept], np.outer(wave, [0.5, 1])[kept],
+                  np.outer(wave, np.ones(gauges))[kept], RunStatus.COMPLETED)  # fmt: skip
+
+
+@pytest.fixture
+def dataset():
+    records = {1200.0: record_of(12), 900.5: record_of(12)}
+    return signals_dataset(records, {1200.0: "1B/5"}, {"root": PLACE}, [90.0, 10.0], TIP)
+
+
+def test_dataset_of_a_scene(dataset):
+    assert dict(dataset.sizes) == {"speed": 2, "tip_point": 2, "turn": 600, "gauge": 1, "axis": 3, "probe": 2, "revolution": 12}
+    assert list(dataset["interaction"].values) == ["1B/5", ""]
+    assert float(dataset["speed_rpm"].sel(speed=1200.0)) == pytest.approx(11459.16, abs=0.01)
+    # what the arrival tells is the motion at that time
+    run = dataset.sel(speed=900.5, tip_point="trailing_edge", probe=10.0)
+    when = 900.5 * run["arrival_time"] / (2.0 * np.pi)
+    told = 1e-3 * np.sin(2.0 * np.pi * 4.0 * when)
+    np.testing.assert_allclose(run["arrival_displacement"][1:-1], told[1:-1], atol=1e-6)
+    assert {variable.attrs["units"] for variable in dataset.data_vars.values()} == {"m", "1", "s"}
+
+
+def test_what_was_not_asked_for_is_left_out():
+    bare = signals_dataset({1000.0: record_of(3, gauges=0)}, {}, {}, [], TIP)
+    assert set(bare.data_vars) == {"normal", "tangential", "status"}
+    assert dict(signals_dataset({}, {}, {"root": PLACE}, [10.0], TIP).sizes) == {"speed": 0}
+
+
+def test_datasets_are_joined_by_run(dataset, tmp_path):
+    """Three scenes: one keeps fewer revolutions and has no gauge, one has no interaction."""
+    other = signals_dataset({1200.0: record_of(12, last=5, gauges=0)}, {}, {}, [10.0, 90.0], TIP)
+    empty = signals_dataset({}, {}, {}, [], TIP)
+    files = {}
+    for pair, one in {("Ref", "abradable"): dataset, ("Ref", "direct"): other, ("L50", "direct"): empty}.items():
+        files[pair] = tmp_path / f"{'_'.join(pair)}.nc"
+        write_dataset(one, files[pair], {})
+    gather_signals(files, tmp_path / "signals.nc", {"fidelity": "draft"})
+    joined = read_dataset(tmp_path / "signals.nc")
+    assert joined.sizes["run"] == 3
+    assert joined.attrs["fidelity"] == "draft"
+    assert list(joined["scene"].values) == ["abradable", "abradable", "direct"]
+    picked = joined.set_index(run=["blade", "scene", "speed"]).sel(run=("Ref", "abradable", 900.5))
+    xr.testing.assert_equal(
+        picked["tangential"].reset_coords(drop=True),
+        dataset["tangential"].sel(speed=900.5).reset_coords(drop=True),
+    )
+    np.testing.assert_array_equal(joined["gauge_place"].isel(run=0, gauge=0), PLACE)
+    short = joined.isel(run=2)
+    assert np.isnan(short["normal"].sel(turn=slice(0, 7))).all()
+    assert np.isfinite(short["normal"].sel(turn=slice(7.01, 12))).all()
+    assert np.isnan(short["strain"]).all()
+    np.testing.assert_array_equal(joined["status"], [0, 0, 0])
+    files["Ref", "direct"].write_bytes(b"damaged")
+    with pytest.raises(InputFileError, match=r"Ref_direct\.nc: cannot be read"):
+        gather_signals(files, tmp_path / "signals.nc", {})
+
+
+def test_signals_are_drawn(dataset, tmp_path):
+    """Two speeds in rows; signals, gauge and tip timing in columns."""
+    spectrograms, orders = draw_spectrograms(dataset, "Ref, abradable"), draw_orders(dataset, "Ref, abradable")
+    assert len([axes for axes in spectrograms.axes if axes.get_title()]) == 3
+    assert [axes.get_title() for axes in orders.axes[:4]] == [
+        "normal, leading edge",
+        "tangential, leading edge",
+        "gauge root",
+        "tip timing, leading edge",
+    ]
+    (line,) = orders.axes[0].get_lines()
+    assert line.get_label() == "4"
+    np.testing.assert_allclose(line.get_ydata(), 1.0, rtol=1e-3)
+    assert "1B/5\n1200 rad/s, 11459 rpm" in orders.axes[0].get_ylabel()
+    save(spectrograms, tmp_path / "one.png")
+    save(orders, tmp_path / "two.png")
+    nothing = signals_dataset({}, {}, {}, [], TIP)
+    save(draw_orders(nothing, "Ref, direct"), tmp_path / "three.png")
+    save(draw_spectrograms(nothing, "Ref, direct"), tmp_path / "four.png")
+
+
+@pytest.fixture(scope="module")
+def whole(mesh, matrices, choice):
+    return reduce_blade(mesh, matrices, replace(choice, whole_blade=True))
+
+
+def test_gauges_of_the_reduced_model(whole, mesh):
+    """Bending: strain on both sides of opposite sign, largest at the root."""
+    shape = whole.modes(0.0, 1)[1][:, 0]
+    gauges = [Gauge(0.5, span, side, 0.0) for side in ("pressure", "suction") for span in (0.06, 0.5, 0.94)]
+    strain = (gauge_rows(mesh, whole.whole_blade.basis, gauges) @ shape).reshape(2, 3)
+    assert np.all(strain[0, :2] * strain[1, :2] < 0.0)
+    assert np.all(np.abs(strain[:, 0]) > 5.0 * np.abs(strain[:, 2]))

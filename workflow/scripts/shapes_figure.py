@@ -1,0 +1,14 @@
+"""Draw a folder of shapes. Input: folder. Output: picture."""
+
+from pathlib import Path
+
+from job import run
+
+from r37core.figures.shapes import draw_shapes
+
+
+def main(snakemake):
+    draw_shapes(Path(snakemake.input[0]), snakemake.output[0])
+
+
+run(snakemake, main)

@@ -1,0 +1,30 @@
+"""Write worst instants. Inputs: mesh, model, campbell, response, speeds. Params: speeds, material, ... Output: folder."""
+
+from pathlib import Path
+
+from job import run
+
+from r37core.dataset_file import read_dataset
+from r37core.exchange.exports import worst_instants
+from r37core.exchange.shapes import write_worst_shapes
+from r37core.fem.material import Material
+from r37core.io import as_list
+from r37core.mesh.mesh_files import read_vtu
+from r37core.results.interactions import InteractionChoice, interactions_of_response, titles
+from r37core.results.stress import StressRecovery
+from r37core.rom.rom_file import read_reduced_model
+
+
+def main(snakemake):
+    given, params = snakemake.input, snakemake.params
+    model, material = read_reduced_model(given.model), Material(**params.material)
+    choice = InteractionChoice(**params.interactions)
+    found = titles(interactions_of_response(read_dataset(given.response), read_dataset(given.campbell), choice))
+    files = {speed: file for speed, file in zip(params.speeds, as_list(given.speeds), strict=True) if speed in found}
+    recovery = StressRecovery(model, material)
+    instants = worst_instants(files.values(), list(files), recovery, False, params.stress_instants)
+    named = {speed: f"{found[speed]}, {snakemake.wildcards.scene}" for speed in instants}
+    write_worst_shapes(read_vtu(given.mesh), model, material, instants, named, Path(snakemake.output[0]))
+
+
+run(snakemake, main)
