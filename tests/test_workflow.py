@@ -391,7 +391,9 @@ def test_names_that_begin_alike_keep_their_files_apart(project):
     text = snakemake(
         project, "all_blades", "--cores", "1", "--dry-run", "--config", "blades=[A,A_b]", "scenes=[b_c,c]", "speeds=[900,1e3]"
     )
-    found = re.findall(r"output: results/figures/spectrum_(\S+)\.png, .*\n.*\n.*\n.*\n    wildcards: kind=spectrum, (.*)\n", text)
+    found = re.findall(
+        r"output: results/figures/spectrum_(\S+)\.png, .*\n.*\n.*\n.*\n    wildcards: kind=spectrum, (.*)\n", text
+    )
     assert dict(found) == {
         f"{blade}__{scene}": f"blade={blade}, scene={scene}" for blade in ("A", "A_b") for scene in ("b_c", "c")
     }
