@@ -12,6 +12,7 @@ import pytest
 import xarray as xr
 import yaml
 from browser import opened
+from stubbed_runs import edit
 from workflow_runs import copy_project, planned, snakemake
 
 from r37core.figures.captions import caption
@@ -359,11 +360,34 @@ def blocks(root, language):
 
 
 def test_python_of_the_pages_runs(root, finished):
-    found = blocks(root, "python")
+    found = [block for block in blocks(root, "python") if "signals.nc" not in block]
     assert len(found) >= 4
     for block in found:
-        code = "import matplotlib\nmatplotlib.use('Agg')\n" + block
-        subprocess.run([sys.executable, "-c", code], cwd=finished, check=True, capture_output=True, timeout=300)
+        run_python(block, finished)
+
+
+def run_python(block, folder):
+    code = "import matplotlib\nmatplotlib.use('Agg')\n" + block
+    subprocess.run([sys.executable, "-c", code], cwd=folder, check=True, capture_output=True, timeout=300)
+
+
+def test_signals_and_shapes_that_the_pages_ask_for(root, finished_copy):
+    asked = next(block for block in blocks(root, "yaml") if block.startswith("signals:"))
+    with open(finished_copy / "config/config.yaml", "a") as stream:
+        stream.write("\n" + asked.replace("speeds_rad_s: interactions", "speeds_rad_s: [1150]"))
+    edit(finished_copy, "scenes.yaml", "results: [spectrum, signal, ", "results: [shapes, spectrum, signal, ")
+    text = snakemake(finished_copy, "all_blades", "--cores", "2")
+    assert "rule simulate:" not in text
+    run_python(
+        next(block for block in blocks(root, "python") if "signals.nc" in block).replace("1716.0", "1150.0"), finished_copy
+    )
+    signals = xr.open_dataset(finished_copy / "results/signals.nc")
+    assert signals.sizes["run"] == 4
+    assert np.isfinite(signals.strain).all()
+    shapes = finished_copy / "results/shapes"
+    assert (shapes / "Ref.html").exists()
+    assert len(list(shapes.glob("CS100/modes/*.glb"))) == 6
+    assert list(finished_copy.glob("results/figures/orders_Ref__abradable.p*"))
 
 
 def test_blades_of_the_pages_are_accepted(root, project):
