@@ -78,8 +78,8 @@ onstart:
         raise WorkflowError(str(error)) from None
     if workflow.execution_settings.lock:
         lock.claim()
-    # Snakemake 9.27 keeps to a number of jobs per second by timers, one more for every job that ends while others wait; after two
-    # thousand they take a quarter of a core. The limit is for the queues of clusters
+    # Snakemake 9.27 keeps to a number of jobs per second by timers, one more for every job that ends while others wait: a quarter of
+    # a core in the default sweep. The limit is for the queues of clusters
     if workflow.local_exec:
         workflow.scheduler.job_rate_limiter = None
 
