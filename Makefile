@@ -29,7 +29,7 @@ test-slurm: $(VENV)/.ready
 	sh envs/slurm.sh
 	R37_SLURM=1 $(BIN)/python -m pytest tests/test_slurm.py
 
-# whether the tests notice small changes of the code: a sample, about half an hour; MUTANTS='results/stress.py --each 20' for one module
+# whether the tests notice small changes of the code: a sample, about half an hour; MUTANTS='results/stress_recovery.py --each 20' for one module
 mutants: $(VENV)/.ready
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[test,mutants]'
 	$(BIN)/python benchmarks/mutants.py $(MUTANTS)
@@ -76,7 +76,7 @@ $(VENV)/.ready: pyproject.toml envs/system_libraries.sh
 
 # what the configuration no longer asks for: lists it; REMOVE=yes removes it
 clean: $(VENV)/.ready
-	$(BIN)/python -m r37core.workflow.leftovers $(if $(REMOVE),--remove)
+	$(BIN)/python -m r37core.console.leftovers $(if $(REMOVE),--remove)
 
 clean-results:
 	rm -rf results logs

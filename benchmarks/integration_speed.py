@@ -21,7 +21,7 @@ from plain_integration import PlainProblem
 from r37core.contact.casing import Casing
 from r37core.contact.scene import Friction, Lining, Scene
 from r37core.rom.contact_model import read_contact_model
-from r37core.time_integration.choice import IntegrationChoice
+from r37core.time_integration.integration_choice import IntegrationChoice
 from r37core.time_integration.simulate import Simulation
 
 ROOT = Path(__file__).parent.parent

@@ -1,7 +1,8 @@
 """Whether the tests notice small changes of the code: a sample of mutations by cosmic-ray, and the score for docs/mutants.md.
 
-Run: make mutants [MUTANTS='--each 20 results/stress.py']. A mutation is an operator, number, comparison or the like changed at
-one place; it is killed when a test of its module fails. The sample is drawn with a fixed seed, so that it can be repeated.
+Run: make mutants [MUTANTS='--each 20 results/stress_recovery.py']. A mutation is an operator, number, comparison or the like
+changed at one place; it is killed when a test of its module fails. The sample is drawn with a fixed seed, so that it can be
+repeated.
 """
 
 from __future__ import annotations
@@ -30,7 +31,7 @@ TESTS = {
     "results/datasets.py": "test_results.py",
     "results/interactions.py": "test_results.py",
     "results/response.py": "test_results.py",
-    "results/stress.py": "test_results.py",
+    "results/stress_recovery.py": "test_results.py",
     "rom/contact_reduction.py": "test_time_integration.py",
     "rom/craig_bampton.py": "test_rom.py",
     "speeds.py": "test_results.py test_config.py",
@@ -38,8 +39,8 @@ TESTS = {
     "time_integration/integrators.py": "test_integrators.py test_time_integration.py",
     "time_integration/simulate.py": "test_run_statistics.py test_time_integration.py",
     "time_integration/speed_run.py": "test_run_statistics.py",
-    "workflow/leftovers.py": "test_reliability.py",
-    "workflow/sweep.py": "test_workflow_plans.py",
+    "console/leftovers.py": "test_reliability.py",
+    "plans/sweep_plan.py": "test_workflow_plans.py",
 }
 """Module -> the test files that are to notice."""
 

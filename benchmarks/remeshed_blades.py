@@ -17,15 +17,15 @@ from pathlib import Path
 os.environ["OPENBLAS_NUM_THREADS"] = "1"
 
 import numpy as np
+from mesh_step import mesh_step
 from pages import fill
 
 from r37core.config import read_settings
-from r37core.exchange.import_mesh import import_mesh
-from r37core.exchange.mesh_step import mesh_step
+from r37core.exchange.exporting.step import write_step
+from r37core.exchange.importing.import_mesh import import_mesh
+from r37core.exchange.importing.source import MeshSource
+from r37core.exchange.importing.where import Where
 from r37core.exchange.orientation import Orientation
-from r37core.exchange.source import MeshSource
-from r37core.exchange.step import write_step
-from r37core.exchange.where import Where
 from r37core.fem.matrices import assemble
 from r37core.fem.solver import lowest_modes
 from r37core.io import read_json, write_json

@@ -1,7 +1,7 @@
 """Memory and time of the jobs of each rule, by the size of the mesh or the number of simulations.
 
 Runs one blade at several levels, and samples what its jobs take with their children. What was measured is kept in
-src/r37core/workflow/resources.csv, from which the rules say what their jobs need; the table goes into docs/cluster.md.
+src/r37core/plans/resources.csv, from which the rules say what their jobs need; the table goes into docs/cluster.md.
 
 Run: python benchmarks/resources.py   (about ten minutes; results go to results/runs/resources-<level>)
 """
@@ -19,7 +19,7 @@ from pages import fill
 from r37core.config import read_settings
 from r37core.config.document import command_line_document
 from r37core.io import write_text
-from r37core.workflow.resources import MEASURED, PER_RESPONSE, PER_SWEEP, read_measured
+from r37core.plans.resources import MEASURED, PER_RESPONSE, PER_SWEEP, read_measured
 
 ROOT = Path(__file__).parent.parent
 SNAKEMAKE = str(Path(sys.executable).with_name("snakemake"))

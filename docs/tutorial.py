@@ -90,7 +90,7 @@ with TemporaryDirectory() as folder:
 # edge changes while the blade swings freely. A blade whose gap closes less is the safer one.
 
 # %%
-from r37core.figures.campbell import draw_campbell
+from r37core.figures.campbell_diagram import draw_campbell
 from r37core.results.campbell_dataset import campbell_dataset
 
 chosen = settings.campbell
@@ -114,7 +114,7 @@ print(crossings.round(1).to_string())
 # the rms of the leading edge's motion, the wear of the lining, and snapshots of which the stress is recovered.
 
 # %%
-from r37core.results.stress import StressRecovery
+from r37core.results.stress_recovery import StressRecovery
 from r37core.rom.contact_reduction import contact_model
 from r37core.time_integration.speed_run import run_speed
 

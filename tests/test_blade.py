@@ -8,9 +8,9 @@ import pytest
 from scipy.interpolate import CubicSpline
 
 from r37core.blade.definition import BladeDefinition
-from r37core.blade.errors import BladeShapeError
 from r37core.blade.geometry_file import read_geometry, write_geometry
 from r37core.blade.polygon import area_and_centroid
+from r37core.blade.shape_error import BladeShapeError
 from r37core.blade.stacking import conical_stacking, plane_section_stacking
 from r37core.blade.sweep import chordwise_sweep, sweep_and_lean
 from r37core.blade.tables import read_profile_table

@@ -7,8 +7,8 @@ import matplotlib.pyplot as plt
 from PIL import Image
 
 from r37core.figures.captions import CAPTIONS, caption
+from r37core.figures.reporting import captioned
 from r37core.figures.style import save
-from r37core.workflow.reporting import captioned
 
 NAMES = {"blade": "Ref", "scene": "direct", "family": "Sweep"}
 

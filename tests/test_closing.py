@@ -4,7 +4,7 @@ import os
 
 import pytest
 
-from r37core.workflow.closing import closing_lines
+from r37core.console.closing import closing_lines
 
 HEAD = "blade,scene,mode,engine_order,peak_speed,width_above_yield,max_von_mises\n"
 ROWS = (

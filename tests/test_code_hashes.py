@@ -6,8 +6,8 @@ import sys
 
 import pytest
 
-from r37core.workflow import code as code_module
-from r37core.workflow.code import CodeHashes, fingerprint, imported_names
+from r37core.plans import code as code_module
+from r37core.plans.code import CodeHashes, fingerprint, imported_names
 
 SCRIPT = "from job import run\nfrom r37core.a import f\n"
 

@@ -12,7 +12,7 @@ from r37core.results.campbell import campbell_diagram, dynamic_clearance
 from r37core.rom.contact_model import ContactModel
 from r37core.rom.contact_reduction import contact_model
 from r37core.rom.reduce import reduce_blade
-from r37core.time_integration.choice import IntegrationChoice
+from r37core.time_integration.integration_choice import IntegrationChoice
 from r37core.time_integration.reference import ReferenceIntegration
 from r37core.time_integration.simulate import Simulation
 

@@ -5,7 +5,7 @@ import runpy
 
 import pytest
 
-from r37core.studies.published import INTERACTIONS
+from r37core.published import INTERACTIONS
 from r37core.studies.reading_list import READINGS, SHIPPED, TURNED
 from r37core.yaml_file import load_yaml
 

@@ -9,23 +9,23 @@ import numpy as np
 import pytest
 from box_mesh import box_mesh
 
-from r37core.exchange.abaqus_reader import read_abaqus
-from r37core.exchange.errors import ImportRefused, MeshWarning, placed
-from r37core.exchange.import_mesh import import_mesh
-from r37core.exchange.material import check_material
-from r37core.exchange.meshio_reader import quietly
+from r37core.exchange.exporting.write_mesh import write_mesh
+from r37core.exchange.importing.abaqus_reader import read_abaqus
+from r37core.exchange.importing.import_mesh import import_mesh
+from r37core.exchange.importing.material_check import check_material
+from r37core.exchange.importing.meshio_reader import quietly
+from r37core.exchange.importing.read_mesh import _READERS
+from r37core.exchange.importing.source import SUFFIXES, MeshSource, digest_of, mesh_files
+from r37core.exchange.importing.where import Where
 from r37core.exchange.orientation import Orientation
-from r37core.exchange.read_mesh import _READERS
-from r37core.exchange.source import SUFFIXES, MeshSource, digest_of, mesh_files
-from r37core.exchange.surface import faces_within, outer_faces
-from r37core.exchange.where import Where
-from r37core.exchange.write_mesh import write_mesh
+from r37core.exchange.refusal import ImportRefused, MeshWarning, placed
 from r37core.fem.abaqus_deck import write_abaqus
 from r37core.fem.elements import ELEMENTS
 from r37core.fem.material import Material
 from r37core.fem.matrices import assemble
 from r37core.fem.mesh_quality import mesh_quality
 from r37core.fem.solver import lowest_modes
+from r37core.fem.surface import faces_within, outer_faces
 from r37core.mesh.generate import generate_mesh
 from r37core.mesh.mesh_files import write_vtu
 from r37core.rom.naming import ideal_shapes

@@ -7,14 +7,14 @@ import numpy as np
 import pytest
 import pyvista
 
-from r37core.exchange.errors import ImportRefused
-from r37core.exchange.exports import Target, WorstInstant, worst_instants, write_modes, write_stress
-from r37core.exchange.matrices_in import import_matrices
-from r37core.exchange.matrices_out import write_full_matrices, write_reduced_matrices
+from r37core.exchange.exporting.fields import Target, WorstInstant, worst_instants, write_modes, write_stress
+from r37core.exchange.exporting.matrices_out import write_full_matrices, write_reduced_matrices
+from r37core.exchange.importing.matrices_in import import_matrices
+from r37core.exchange.importing.source import MatricesSource
 from r37core.exchange.orientation import Orientation
-from r37core.exchange.source import MatricesSource
+from r37core.exchange.refusal import ImportRefused
 from r37core.results.campbell import campbell_diagram
-from r37core.results.stress import StressRecovery
+from r37core.results.stress_recovery import StressRecovery
 from r37core.rom.contact_reduction import contact_model
 from r37core.rom.reduce import reduce_blade
 from r37core.time_integration.speed_file import write_speed

@@ -8,9 +8,9 @@ from stubbed_runs import copy_stubbed, planned_outputs
 
 from r37core.config import ConfigError, command_line_document, read_settings
 from r37core.config.families import design_name
-from r37core.figures.designs import draw_designs
+from r37core.figures.design_plot import draw_designs
+from r37core.plans.family_plan import Families
 from r37core.results.designs import MEASURES, above_yield, design_table
-from r37core.workflow.families import Families
 
 SWEEP = "Sweep:\n  base: S100\n  vary:\n    sweep_percent: { start: -50, stop: 150, step: 100 }\n"
 GRID = "Grid:\n  base: Ref\n  vary:\n    chordwise_sweep_deg: [-2.5, 5]\n    material.density_kg_m3: [8000, 4500]\n"

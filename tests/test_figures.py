@@ -10,8 +10,9 @@ import xarray as xr
 from matplotlib.colors import to_hex
 from matplotlib.text import Text
 
-from r37core.figures import campbell as campbell_figures
-from r37core.figures import comparison, maps, response, style, waterfall
+from r37core.figures import campbell_diagram as campbell_figures
+from r37core.figures import comparison, maps, style, waterfall
+from r37core.figures import response_curves as response
 from r37core.time_integration.status import RunStatus
 
 BLADES, SCENES = ["Ref", "L50", "S100"], ["abradable", "direct"]

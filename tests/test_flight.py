@@ -10,8 +10,8 @@ from integration_cases import ABRADABLE, AT_ONCE, DIRECT, oscillator
 
 from r37core.contact.casing import Casing
 from r37core.contact.scene import Scene
-from r37core.time_integration.choice import IntegrationChoice
 from r37core.time_integration.flight import nearest_casing, plan_flight
+from r37core.time_integration.integration_choice import IntegrationChoice
 from r37core.time_integration.integrators import central_difference
 from r37core.time_integration.simulate import Simulation
 

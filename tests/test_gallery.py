@@ -8,12 +8,12 @@ import xarray as xr
 
 from r37core.config import ConfigError, command_line_document, read_settings
 from r37core.figures.captions import CAPTIONS
+from r37core.plans.sweep_plan import Sweep
+from r37core.published import BLADES, DIRECT_PEAK, INTERACTIONS, QUIET
 from r37core.studies.check import Check, claim
 from r37core.studies.gallery import COARSE, FINE, ITEMS, Item, history_speeds, of_item, run_of, verdict
-from r37core.studies.published import BLADES, DIRECT_PEAK, INTERACTIONS, QUIET
+from r37core.studies.gallery_plan import Gallery
 from r37core.time_integration.status import RunStatus
-from r37core.workflow.gallery import Gallery
-from r37core.workflow.sweep import Sweep
 
 
 def test_verdicts_name_what_agrees_and_what_does_not():

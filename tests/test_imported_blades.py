@@ -8,12 +8,12 @@ import pytest
 import yaml
 
 from r37core.config import ConfigError, read_settings
-from r37core.exchange.where import Where
+from r37core.exchange.importing.where import Where
+from r37core.plans.export_plan import Exports
+from r37core.plans.import_plan import Imported
+from r37core.plans.sweep_plan import Sweep
 from r37core.speeds import SpeedPlan
-from r37core.workflow.exports import Exports
-from r37core.workflow.imported import Imported
-from r37core.workflow.study_models import StudyModels
-from r37core.workflow.sweep import Sweep
+from r37core.studies.study_models import StudyModels
 
 MATERIAL = {"youngs_modulus_pa": 115e9, "density_kg_m3": 4430.0, "poissons_ratio": 0.32, "yield_stress_pa": 9e8}
 AXES = {"length_unit": "mm", "rotor_axis": [1, 0, 0], "radial": [0, 0, 1], "rotation": "positive"}

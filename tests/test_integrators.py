@@ -9,7 +9,7 @@ from scipy.integrate import solve_ivp
 
 from r37core.contact.casing import Casing
 from r37core.contact.scene import Lining, Scene
-from r37core.time_integration.choice import IntegrationChoice
+from r37core.time_integration.integration_choice import IntegrationChoice
 from r37core.time_integration.integrators import EXACT_MODAL, INTEGRATORS, central_difference, exact_modal, recursion
 from r37core.time_integration.simulate import Simulation
 

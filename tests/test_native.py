@@ -15,7 +15,7 @@ from r37core import native
 from r37core.contact.scene import Scene
 from r37core.native import ObjectCodeError, Sources, cached_object, load_function, object_code
 from r37core.time_integration import kernel
-from r37core.time_integration.choice import IntegrationChoice
+from r37core.time_integration.integration_choice import IntegrationChoice
 from r37core.time_integration.layout import Kind, integration_record, layout_of
 from r37core.time_integration.simulate import Simulation
 
@@ -119,7 +119,7 @@ def test_a_job_does_not_import_numba(contact, tmp_path, root):
     Simulation(contact, 1000.0, DIRECT, IntegrationChoice(2e-7, 1, 62)).compile()
     code = (
         "import sys; sys.path.insert(0, 'tests')\n"
-        "from integration_cases import DIRECT\nfrom r37core.time_integration.choice import IntegrationChoice\n"
+        "from integration_cases import DIRECT\nfrom r37core.time_integration.integration_choice import IntegrationChoice\n"
         "from r37core.time_integration.speed_run import run_speed\nfrom r37core.rom.contact_model import read_contact_model\n"
         f"model = read_contact_model({str(tmp_path / 'contact.npz')!r})\n"
         "run_speed(model, 1000.0, DIRECT, IntegrationChoice(2e-7, 2, 62), ('spectrum',), "

@@ -10,8 +10,8 @@ from workflow_runs import SNAKEMAKE, snakemake
 
 from r37core.config import ConfigError, read_settings
 from r37core.config.document import command_line_document
-from r37core.workflow.resources import PER_RESPONSE, PER_SWEEP, Needs, estimated, read_measured
-from r37core.workflow.run import check_part
+from r37core.plans.resources import PER_RESPONSE, PER_SWEEP, Needs, estimated, read_measured
+from r37core.plans.run import check_part
 
 
 def settings_of(root, part, **changes):

@@ -12,8 +12,8 @@ from snakemake.scheduling.job_scheduler import JobScheduler
 from stubbed_runs import copy_stubbed
 from workflow_runs import SNAKEMAKE
 
+from r37core.console.progress import Progress, quieten
 from r37core.time_integration.status import RunStatus
-from r37core.workflow.progress import Progress, quieten
 
 
 class Terminal(io.StringIO):

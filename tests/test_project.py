@@ -7,7 +7,6 @@ import tomllib
 import yaml
 
 LAYERS = [
-    "failures",
     "io",
     "dataset_file",
     "alignment",
@@ -17,6 +16,7 @@ LAYERS = [
     "yaml_file",
     "units",
     "speeds",
+    "published",
     "blade",
     "mesh",
     "fem",
@@ -24,13 +24,16 @@ LAYERS = [
     "contact",
     "time_integration",
     "results",
-    "exchange",
     "signals",
-    "studies",
+    "adaptive",
+    "exchange",
+    "config",
+    "plans",
+    "console",
     "figures",
     "explorer",
-    "config",
-    "workflow",
+    "shapes",
+    "studies",
 ]
 
 

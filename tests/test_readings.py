@@ -8,18 +8,18 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from r37core.figures.readings import draw_readings
-from r37core.figures.validation import draw_blades, draw_reference, draw_stress
+from r37core.published import BLADES, INTERACTIONS
 from r37core.studies import measures
 from r37core.studies.check import Check, claim, score, validation_table
-from r37core.studies.published import BLADES, INTERACTIONS
 from r37core.studies.reading_list import READINGS, SHIPPED, TURNED
 from r37core.studies.reading_places import DIRECT, Place, grid, places
 from r37core.studies.reading_table import readings_table
 from r37core.studies.readings import UNITS, run_place
+from r37core.studies.readings_figure import draw_readings
+from r37core.studies.readings_plan import Readings
 from r37core.studies.validation import Runs, reading_checks, survey_checks, torsion_speed
-from r37core.time_integration.choice import IntegrationChoice
-from r37core.workflow.readings import Readings
+from r37core.studies.validation_figures import draw_blades, draw_reference, draw_stress
+from r37core.time_integration.integration_choice import IntegrationChoice
 
 YIELD = 1.38e9
 STEPS = {"fine": 2.0, "coarse": 4.0, "survey": 5.0}

@@ -17,8 +17,8 @@ from stubbed_runs import copy_stubbed, planned_outputs
 from workflow_runs import SNAKEMAKE, copy_project, snakemake
 
 from r37core.config import read_settings
+from r37core.console.leftovers import leftovers
 from r37core.time_integration.status import RunStatus
-from r37core.workflow.leftovers import leftovers
 
 BLADES, SCENES = ("Ref", "CS100"), ("abradable", "direct")
 COARSE, ADDED = ("750", "1150", "1550"), ("1149", "1150.5")

@@ -11,10 +11,7 @@ import xarray as xr
 from hypothesis import given
 from hypothesis import strategies as st
 
-from r37core.config import ConfigError, load_settings
-from r37core.io import InputFileError
-from r37core.results.interactions import InteractionChoice
-from r37core.results.refinement import (
+from r37core.adaptive.criterion import (
     RefinementChoice,
     Window,
     known_of,
@@ -23,7 +20,10 @@ from r37core.results.refinement import (
     stretches,
     window_speeds,
 )
-from r37core.results.rounds import Round, first_round, measure, read_round, round_after, write_round
+from r37core.adaptive.rounds import Round, first_round, measure, read_round, round_after, write_round
+from r37core.config import ConfigError, load_settings
+from r37core.io import InputFileError
+from r37core.results.interactions import InteractionChoice
 from r37core.speeds import RefinedRange, SpeedError, SpeedPlan, exact_text, plan_speeds, speed_plan_from
 from r37core.studies.refinement import compare, plain_grid, replay
 from r37core.studies.refinement_table import refinement_table

@@ -15,21 +15,20 @@ import xarray as xr
 from stubbed_runs import copy_stubbed, planned_outputs
 from workflow_runs import SNAKEMAKE, copy_project, snakemake
 
-from r37core import failures
 from r37core.config import ConfigError, command_line_document, read_settings
+from r37core.console import failures, lock
+from r37core.console.leftovers import leftovers
 from r37core.contact.casing import Casing
 from r37core.contact.scene import Scene
 from r37core.dataset_file import about, read_dataset, write_dataset
 from r37core.io import InputFileError, write_json
+from r37core.plans.run import replaced_level
+from r37core.plans.tree import check_tree
 from r37core.results.campbell_dataset import campbell_dataset
 from r37core.results.netcdf import create_axis, create_variable
 from r37core.rom.contact_model import BucklingError
-from r37core.time_integration.choice import IntegrationChoice
+from r37core.time_integration.integration_choice import IntegrationChoice
 from r37core.time_integration.simulate import Simulation
-from r37core.workflow import lock
-from r37core.workflow.leftovers import leftovers
-from r37core.workflow.run import replaced_level
-from r37core.workflow.tree import check_tree
 
 
 @pytest.fixture
@@ -153,7 +152,7 @@ def test_leftovers_of_shapes(root, tmp_path):
 def test_make_clean_lists_and_removes(config_copy):
     (config_copy / "results/Gone").mkdir(parents=True)
     (config_copy / "results/Gone/mesh.vtu").write_text("x")
-    command = [sys.executable, "-m", "r37core.workflow.leftovers"]
+    command = [sys.executable, "-m", "r37core.console.leftovers"]
     listed = subprocess.run(command, cwd=config_copy, capture_output=True, text=True, check=True).stdout
     assert "results/Gone" in listed
     assert listed.endswith("1 left over; make clean REMOVE=yes removes them\n")

@@ -218,7 +218,7 @@ def test_a_stress_history_runs_its_speed(project):
         ("figures/maps.py", {"map_figure"}),
         ("studies/growth.py", set()),
         ("config/load.py", set()),
-        ("workflow/sweep.py", set()),
+        ("plans/sweep_plan.py", set()),
     ],
 )
 def test_an_edited_module_runs_the_rules_that_import_it(project, module, rules):

@@ -8,7 +8,7 @@ from integration_cases import DIRECT, LINING, oscillator
 
 from r37core.contact.casing import Casing
 from r37core.contact.scene import Scene
-from r37core.time_integration.choice import IntegrationChoice
+from r37core.time_integration.integration_choice import IntegrationChoice
 from r37core.time_integration.simulate import Simulation, SimulationState, UnstableStepError
 from r37core.time_integration.speed_run import run_speed
 from r37core.time_integration.status import RunStatus

@@ -12,16 +12,16 @@ from box_mesh import box_mesh
 from browser import opened
 from vtkmodules.vtkIOGeometry import vtkGLTFReader
 
-from r37core.exchange.exports import WorstInstant, displacement_of, mode_shapes
-from r37core.exchange.gltf import MovingSurface, write_glb
-from r37core.exchange.shapes import INDEX, LARGEST_SHOWN, write_mode_shapes, write_worst_shapes
-from r37core.explorer import SHAPE_PARTS
+from r37core.exchange.exporting.fields import WorstInstant, displacement_of, mode_shapes
 from r37core.explorer.page import write_page
-from r37core.explorer.shapes import shapes_contents
-from r37core.figures.shapes import draw_shapes
 from r37core.io import read_json, write_json
-from r37core.results.stress import StressRecovery
+from r37core.results.stress_recovery import StressRecovery
 from r37core.rom.reduce import reduce_blade
+from r37core.shapes import PARTS
+from r37core.shapes.gltf import MovingSurface, write_glb
+from r37core.shapes.moving import INDEX, LARGEST_SHOWN, write_mode_shapes, write_worst_shapes
+from r37core.shapes.shapes_page import shapes_contents
+from r37core.shapes.stills import draw_shapes
 
 
 @pytest.fixture(scope="module")
@@ -163,7 +163,7 @@ def test_the_worst_instant_moves_as_the_blade_did(whole, mesh, steel, instant, t
 @pytest.mark.parametrize("element", ["wedge15", "hexahedron20", "tetra10"])
 def test_the_skin_is_closed(element):
     """Each edge of the triangles is there twice, once in each direction; the volume inside is the box's."""
-    from r37core.exchange.shapes import _skin
+    from r37core.shapes.moving import _skin
 
     box = box_mesh(0.3, 0.2, 0.1, (2, 2, 1), element=element)
     skin = _skin(box)
@@ -210,7 +210,7 @@ def not_slow(message):
 @pytest.mark.slow
 def test_the_page_moves_the_blade(folders, tmp_path):
     """In headless Chromium: as the files say, without a message in the console."""
-    write_page(shapes_contents(folders), "Shapes of Ref", tmp_path / "Ref.html", SHAPE_PARTS)
+    write_page(shapes_contents(folders), "Shapes of Ref", tmp_path / "Ref.html", PARTS)
     software = ("--enable-unsafe-swiftshader", "--use-gl=angle", "--use-angle=swiftshader")
     more = {"flags": software, "place": "#scene=abradable&speed=1150.4", "reduced_motion": "reduce"}
     with opened(tmp_path / "Ref.html", {"width": 1200, "height": 800}, kept=not_slow, **more) as page:

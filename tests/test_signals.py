@@ -12,8 +12,8 @@ from scipy.optimize import brentq
 from r37core.contact.casing import Casing
 from r37core.contact.scene import Scene
 from r37core.dataset_file import read_dataset, write_dataset
-from r37core.exchange.frame import blade_parameters
-from r37core.figures.signals import draw_orders, draw_spectrograms
+from r37core.exchange.importing.frame import blade_parameters
+from r37core.figures.spectrograms import draw_orders, draw_spectrograms
 from r37core.figures.style import save
 from r37core.io import InputFileError
 from r37core.rom.reduce import reduce_blade
@@ -23,7 +23,7 @@ from r37core.signals.gauges import Gauge, gauge_points, gauge_rows
 from r37core.signals.orders import order_tracks, spectrogram, strongest_orders
 from r37core.signals.record import Record, record_signals, revolutions_of
 from r37core.signals.tip_timing import arrival_times
-from r37core.time_integration.choice import IntegrationChoice
+from r37core.time_integration.integration_choice import IntegrationChoice
 from r37core.time_integration.simulate import Simulation
 from r37core.time_integration.speed_run import run_speed
 from r37core.time_integration.status import RunStatus

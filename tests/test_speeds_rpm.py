@@ -7,13 +7,13 @@ from types import SimpleNamespace
 
 import pytest
 
+from r37core.adaptive.criterion import RefinementChoice, known_of, next_speeds
 from r37core.config import ConfigError, Document, command_line_document, load_settings, read_settings
 from r37core.config.scenes import SceneEntry
-from r37core.results.refinement import RefinementChoice, known_of, next_speeds
+from r37core.plans.export_plan import Exports
+from r37core.plans.import_plan import Imported
+from r37core.plans.sweep_plan import Sweep
 from r37core.speeds import SpeedError, exact_text, plan_speeds, speed_plan_from
-from r37core.workflow.exports import Exports
-from r37core.workflow.imported import Imported
-from r37core.workflow.sweep import Sweep
 
 RAD_S = math.pi / 30.0
 PLACE = SimpleNamespace(blade="Ref", scene="direct")

@@ -10,19 +10,19 @@ import xarray as xr
 from integration_cases import ABRADABLE, DIRECT
 from workflow_runs import snakemake
 
+from r37core.config.fidelity import recommended_level
 from r37core.config.studies import Parameters
 from r37core.studies.case import QUANTITIES, Case
 from r37core.studies.changes import changed
 from r37core.studies.estimate import describe, project_costs
 from r37core.studies.growth import exponent_of
-from r37core.studies.levels import recommended_level
 from r37core.studies.parameters import PARAMETERS, vary
 from r37core.studies.sampling import sample
 from r37core.studies.stability import judge
 from r37core.studies.stability_cases import extremes
 from r37core.studies.tradeoff import case_dataset, gather_cases, level_error
 from r37core.studies.tradeoff_table import parameter_tables
-from r37core.time_integration.choice import IntegrationChoice
+from r37core.time_integration.integration_choice import IntegrationChoice
 from r37core.time_integration.simulate import Simulation
 
 

@@ -6,18 +6,18 @@ from types import SimpleNamespace
 
 import pytest
 
+from r37core.adaptive.criterion import refinement_choice_from
 from r37core.config import ConfigError, command_line_document, read_settings
-from r37core.results.refinement import refinement_choice_from
+from r37core.plans.provenance import Provenance
+from r37core.plans.structure_plan import Structure
+from r37core.plans.sweep_plan import Sweep
 from r37core.speeds import speed_plan_from
+from r37core.studies.estimate_plan import Estimate
 from r37core.studies.parameters import OF_THE_MODEL
-from r37core.workflow.estimate import Estimate
-from r37core.workflow.provenance import Provenance
-from r37core.workflow.readings import Readings
-from r37core.workflow.refinement import Refinement
-from r37core.workflow.stability import Stability
-from r37core.workflow.structure import Structure
-from r37core.workflow.sweep import Sweep
-from r37core.workflow.tradeoff import Tradeoff
+from r37core.studies.readings_plan import Readings
+from r37core.studies.refinement_plan import Refinement
+from r37core.studies.stability_plan import Stability
+from r37core.studies.tradeoff_plan import Tradeoff
 
 
 @pytest.fixture(scope="module")

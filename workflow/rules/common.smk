@@ -1,4 +1,4 @@
-# Settings of this run, and the plans that the rules take their inputs and parameters from (r37core.workflow).
+# Settings of this run, and the plans that the rules take their inputs and parameters from (r37core.plans).
 # Snakemake re-runs a job when a parameter of plain types changes; of other objects a hash or text stands beside.
 import atexit
 import os
@@ -11,21 +11,22 @@ from snakemake.exceptions import WorkflowError
 from snakemake.settings.types import DeploymentMethod
 
 from r37core.config import ConfigError, plain, settings_of_run
-from r37core import failures
+from r37core.console import failures
 from r37core.explorer import parts_hash
-from r37core.workflow import lock, paths
-from r37core.workflow.closing import closing_lines
-from r37core.workflow.code import CodeHashes
-from r37core.workflow.imported import Imported
-from r37core.workflow.progress import Progress, quieten
-from r37core.workflow.provenance import Provenance
-from r37core.workflow.shapes import Shapes
-from r37core.workflow.reporting import EVERY_SCENE, TOGETHER, captioned, shown
-from r37core.workflow.structure import Structure
-from r37core.workflow.resources import Needs
-from r37core.workflow.run import check_part, replaced_level
-from r37core.workflow.sweep import Sweep
-from r37core.workflow.tree import check_tree
+from r37core.console import lock
+from r37core.plans import paths
+from r37core.console.closing import closing_lines
+from r37core.plans.code import CodeHashes
+from r37core.plans.import_plan import Imported
+from r37core.console.progress import Progress, quieten
+from r37core.plans.provenance import Provenance
+from r37core.plans.shape_plan import Shapes
+from r37core.figures.reporting import EVERY_SCENE, TOGETHER, captioned, shown
+from r37core.plans.structure_plan import Structure
+from r37core.plans.resources import Needs
+from r37core.plans.run import check_part, replaced_level
+from r37core.plans.sweep_plan import Sweep
+from r37core.plans.tree import check_tree
 
 BEGAN = time.time()
 if workflow.is_main_process:

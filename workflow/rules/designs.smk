@@ -1,5 +1,5 @@
 # Families of designs: how robust each is, beside what it is.
-from r37core.workflow.families import Families
+from r37core.plans.family_plan import Families
 
 families = Families(settings)
 

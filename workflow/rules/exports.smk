@@ -1,5 +1,5 @@
 # Results for other programs: mesh, surface, modes, worst stress, matrices. Not part of all_blades: snakemake exports
-from r37core.workflow.exports import Exports
+from r37core.plans.export_plan import Exports
 
 exported = Exports(imported, sweep)
 

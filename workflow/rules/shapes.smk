@@ -1,5 +1,5 @@
 # Shapes to look at: modes, and the worst instant of each interaction, for scenes with `shapes` among their results.
-from r37core.explorer import SHAPE_PARTS
+from r37core.shapes import PARTS as SHAPE_PARTS
 
 
 rule mode_shapes:

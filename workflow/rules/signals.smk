@@ -1,5 +1,5 @@
 # Time signals of chosen speeds, each a run of its own: edges of the tip, strain gauges, tip timing.
-from r37core.workflow.signals import Signals
+from r37core.plans.signal_plan import Signals
 
 recorded = Signals(imported, sweep)
 

@@ -6,11 +6,11 @@ from job import run
 
 from r37core.fem.material import Material
 from r37core.results.response import write_response
-from r37core.results.stress import StressRecovery
+from r37core.results.stress_recovery import StressRecovery
 from r37core.rom.contact_model import read_contact_model
 from r37core.rom.rom_file import read_reduced_model
 from r37core.studies.campaign import run_one_by_one
-from r37core.time_integration.choice import IntegrationChoice
+from r37core.time_integration.integration_choice import IntegrationChoice
 from r37core.time_integration.speed_run import run_speed
 
 

@@ -3,7 +3,7 @@
 from job import run
 
 from r37core.dataset_file import read_dataset
-from r37core.figures.campbell import draw_campbell_overview
+from r37core.figures.campbell_diagram import draw_campbell_overview
 from r37core.figures.style import save
 
 

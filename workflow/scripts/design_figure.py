@@ -3,7 +3,7 @@
 import pandas as pd
 from job import run
 
-from r37core.figures.designs import draw_designs
+from r37core.figures.design_plot import draw_designs
 from r37core.figures.style import save
 
 

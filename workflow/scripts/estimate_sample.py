@@ -7,7 +7,7 @@ from r37core.io import write_json
 from r37core.rom.contact_model import read_contact_model
 from r37core.rom.rom_file import read_reduced_model
 from r37core.studies.estimate import time_runs
-from r37core.time_integration.choice import IntegrationChoice
+from r37core.time_integration.integration_choice import IntegrationChoice
 from r37core.time_integration.speed_run import run_speed
 
 

@@ -4,7 +4,7 @@ from pathlib import Path
 
 from job import run
 
-from r37core.exchange.exports import OURS, Target, write_modes
+from r37core.exchange.exporting.fields import OURS, Target, write_modes
 from r37core.mesh.mesh_files import read_vtu
 from r37core.rom.rom_file import read_reduced_model
 

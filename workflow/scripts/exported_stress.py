@@ -4,11 +4,11 @@ from pathlib import Path
 
 from job import run
 
-from r37core.exchange.exports import OURS, Target, worst_instants, write_stress
+from r37core.exchange.exporting.fields import OURS, Target, worst_instants, write_stress
 from r37core.fem.material import Material
 from r37core.io import as_list
 from r37core.mesh.mesh_files import read_vtu
-from r37core.results.stress import StressRecovery
+from r37core.results.stress_recovery import StressRecovery
 from r37core.rom.rom_file import read_reduced_model
 
 

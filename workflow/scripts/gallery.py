@@ -5,13 +5,13 @@ from pathlib import Path
 from job import run
 
 from r37core.dataset_file import read_dataset
-from r37core.figures.gallery import draw_gallery
-from r37core.figures.gallery_page import gallery_page
-from r37core.figures.gallery_shapes import draw_mesh, draw_modes, draw_variants
 from r37core.io import write_text
+from r37core.published import BLADES
 from r37core.studies.gallery import GalleryData
-from r37core.studies.published import BLADES
-from r37core.workflow.gallery import modes_file
+from r37core.studies.gallery_figures import draw_gallery
+from r37core.studies.gallery_page import gallery_page
+from r37core.studies.gallery_plan import modes_file
+from r37core.studies.gallery_shapes import draw_mesh, draw_modes, draw_variants
 
 
 def main(snakemake):

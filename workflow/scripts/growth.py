@@ -3,10 +3,10 @@
 from job import run
 
 from r37core.dataset_file import read_dataset
-from r37core.figures.growth import draw_growth
 from r37core.figures.style import save
 from r37core.io import write_text
 from r37core.studies.growth import growth_table, growths
+from r37core.studies.growth_figure import draw_growth
 
 
 def main(snakemake):

@@ -2,9 +2,9 @@
 
 from job import run
 
-from r37core.exchange.errors import placed
-from r37core.exchange.matrices_in import import_matrices
-from r37core.rom.choice import ReductionChoice
+from r37core.exchange.importing.matrices_in import import_matrices
+from r37core.exchange.refusal import placed
+from r37core.rom.reduction_choice import ReductionChoice
 from r37core.rom.rom_file import write_reduced_model
 
 

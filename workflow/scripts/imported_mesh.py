@@ -5,9 +5,9 @@ import warnings
 
 from job import run
 
-from r37core.exchange.errors import placed
-from r37core.exchange.import_mesh import import_mesh
-from r37core.exchange.write_mesh import write_mesh
+from r37core.exchange.exporting.write_mesh import write_mesh
+from r37core.exchange.importing.import_mesh import import_mesh
+from r37core.exchange.refusal import placed
 from r37core.mesh.mesh_files import write_vtu
 
 

@@ -1,6 +1,6 @@
 """How a script that Snakemake calls runs: output goes to the rule's log, a failure ends in one clear message."""
 
-from r37core.failures import reported
+from r37core.console.failures import reported
 
 
 def run(snakemake, main):

@@ -4,9 +4,9 @@ from pathlib import Path
 
 from job import run
 
-from r37core.exchange.shapes import write_mode_shapes
 from r37core.mesh.mesh_files import read_vtu
 from r37core.rom.rom_file import read_reduced_model
+from r37core.shapes.moving import write_mode_shapes
 
 
 def main(snakemake):

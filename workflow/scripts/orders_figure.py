@@ -3,7 +3,7 @@
 from job import run
 
 from r37core.dataset_file import read_dataset
-from r37core.figures.signals import draw_orders
+from r37core.figures.spectrograms import draw_orders
 from r37core.figures.style import save
 
 

@@ -3,7 +3,7 @@
 from job import run
 
 from r37core.rom.contact_model import read_contact_model
-from r37core.time_integration.choice import IntegrationChoice
+from r37core.time_integration.integration_choice import IntegrationChoice
 from r37core.time_integration.simulate import Simulation
 
 

@@ -4,8 +4,8 @@ from job import run
 
 from r37core.fem.matrices_file import read_matrices
 from r37core.mesh.mesh_files import read_vtu
-from r37core.rom.choice import ReductionChoice
 from r37core.rom.reduce import reduce_blade
+from r37core.rom.reduction_choice import ReductionChoice
 from r37core.rom.rom_file import write_reduced_model
 
 

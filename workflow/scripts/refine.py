@@ -4,12 +4,12 @@ import math
 
 from job import run
 
+from r37core.adaptive.criterion import refinement_choice_from
+from r37core.adaptive.rounds import first_round, measure, read_round, round_after, write_round
 from r37core.dataset_file import read_dataset
 from r37core.fem.material import Material
 from r37core.io import as_list
-from r37core.results.refinement import refinement_choice_from
-from r37core.results.rounds import first_round, measure, read_round, round_after, write_round
-from r37core.results.stress import StressRecovery
+from r37core.results.stress_recovery import StressRecovery
 from r37core.rom.rom_file import read_reduced_model
 from r37core.speeds import speed_plan_from
 from r37core.time_integration.speed_file import read_speed

@@ -2,10 +2,10 @@
 
 from job import run
 
+from r37core.adaptive.criterion import refinement_choice_from
 from r37core.dataset_file import read_dataset
 from r37core.io import write_text
 from r37core.results.interactions import InteractionChoice
-from r37core.results.refinement import refinement_choice_from
 from r37core.speeds import speed_plan_from
 from r37core.studies.refinement import compare, plain_grid, replay
 from r37core.studies.refinement_table import refinement_table

@@ -7,7 +7,7 @@ from job import run
 from r37core.fem.material import Material
 from r37core.io import as_list
 from r37core.results.response import write_response
-from r37core.results.stress import StressRecovery
+from r37core.results.stress_recovery import StressRecovery
 from r37core.rom.rom_file import read_reduced_model
 
 

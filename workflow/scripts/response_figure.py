@@ -3,7 +3,7 @@
 from job import run
 
 from r37core.dataset_file import read_dataset
-from r37core.figures.response import draw_response
+from r37core.figures.response_curves import draw_response
 from r37core.figures.style import save
 
 

@@ -4,7 +4,7 @@ from pathlib import Path
 
 from job import run
 
-from r37core.figures.shapes import draw_shapes
+from r37core.shapes.stills import draw_shapes
 
 
 def main(snakemake):

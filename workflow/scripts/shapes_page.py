@@ -4,15 +4,15 @@ from pathlib import Path
 
 from job import run
 
-from r37core.explorer import SHAPE_PARTS
 from r37core.explorer.page import write_page
-from r37core.explorer.shapes import shapes_contents
+from r37core.shapes import PARTS
+from r37core.shapes.shapes_page import shapes_contents
 
 
 def main(snakemake):
     folders = dict(zip(["", *snakemake.params.scenes], map(Path, snakemake.input), strict=True))
     title = f"Shapes of {snakemake.wildcards.blade}"
-    write_page(shapes_contents(folders), title, snakemake.output[0], SHAPE_PARTS)
+    write_page(shapes_contents(folders), title, snakemake.output[0], PARTS)
 
 
 run(snakemake, main)

@@ -10,7 +10,7 @@ from r37core.rom.rom_file import read_reduced_model
 from r37core.signals.dataset import signals_dataset
 from r37core.signals.gauges import Gauge, gauge_points, gauge_rows
 from r37core.signals.record import record_signals
-from r37core.time_integration.choice import IntegrationChoice
+from r37core.time_integration.integration_choice import IntegrationChoice
 
 
 def main(snakemake):

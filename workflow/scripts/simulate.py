@@ -1,15 +1,15 @@
 """Simulate one blade at one speed in one scene. Arguments: contact model, speed, output, log, task, about. Output: speed_*.npz.
 
-Started without Snakemake's own preamble; task and attributes of the file, in JSON, are made in r37core.workflow.
+Started without Snakemake's own preamble; task and attributes of the file, in JSON, are made in r37core.plans.
 """
 
 import json
 import sys
 
+from r37core.console.failures import reported
 from r37core.contact.scene import scene_from
-from r37core.failures import reported
 from r37core.rom.contact_model import read_contact_model
-from r37core.time_integration.choice import IntegrationChoice
+from r37core.time_integration.integration_choice import IntegrationChoice
 from r37core.time_integration.speed_file import write_speed
 from r37core.time_integration.speed_run import run_speed
 

@@ -8,7 +8,7 @@ from r37core.io import write_json
 from r37core.rom.contact_model import read_contact_model
 from r37core.studies.stability import REFUSED, judge
 from r37core.studies.stability_cases import Extreme
-from r37core.time_integration.choice import IntegrationChoice
+from r37core.time_integration.integration_choice import IntegrationChoice
 
 
 def main(snakemake):

@@ -5,9 +5,9 @@ from job import run
 from r37core.blade.geometry_file import read_geometry
 from r37core.fem.material import Material
 from r37core.io import write_json
-from r37core.rom.choice import ReductionChoice
 from r37core.rom.contact_model import write_contact_model
 from r37core.rom.contact_reduction import contact_model
+from r37core.rom.reduction_choice import ReductionChoice
 from r37core.rom.rom_file import write_reduced_model
 from r37core.studies.models import ModelChoice, build_model
 

@@ -4,9 +4,9 @@ from job import run
 
 from r37core.dataset_file import read_dataset, write_dataset
 from r37core.figures.style import save
-from r37core.figures.tradeoff import draw_parameter, draw_pareto
 from r37core.io import write_text
 from r37core.studies.tradeoff import gather_cases
+from r37core.studies.tradeoff_figures import draw_parameter, draw_pareto
 from r37core.studies.tradeoff_table import level_table, parameter_tables
 
 

@@ -5,11 +5,11 @@ from job import run
 from r37core.dataset_file import read_dataset, write_dataset
 from r37core.fem.material import Material
 from r37core.io import read_json
-from r37core.results.stress import StressRecovery
+from r37core.results.stress_recovery import StressRecovery
 from r37core.rom.contact_model import read_contact_model
 from r37core.rom.rom_file import read_reduced_model
 from r37core.studies.tradeoff import Place, case_dataset, run_scenes
-from r37core.time_integration.choice import IntegrationChoice
+from r37core.time_integration.integration_choice import IntegrationChoice
 
 
 def main(snakemake):

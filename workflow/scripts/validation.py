@@ -4,14 +4,14 @@ from job import run
 
 from r37core.dataset_file import read_dataset
 from r37core.figures.maps import draw_spectral_map
-from r37core.figures.readings import draw_readings
 from r37core.figures.style import save
-from r37core.figures.validation import draw_blades, draw_histories, draw_reference, draw_stress
 from r37core.io import write_text
 from r37core.studies.check import validation_table
 from r37core.studies.reading_list import SHIPPED, SURVEY, TURNED
 from r37core.studies.reading_table import readings_table
+from r37core.studies.readings_figure import draw_readings
 from r37core.studies.validation import convergence_checks, shipped_checks
+from r37core.studies.validation_figures import draw_blades, draw_histories, draw_reference, draw_stress
 
 
 def grouped(names, files):

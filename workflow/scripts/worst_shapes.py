@@ -5,14 +5,14 @@ from pathlib import Path
 from job import run
 
 from r37core.dataset_file import read_dataset
-from r37core.exchange.exports import worst_instants
-from r37core.exchange.shapes import write_worst_shapes
+from r37core.exchange.exporting.fields import worst_instants
 from r37core.fem.material import Material
 from r37core.io import as_list
 from r37core.mesh.mesh_files import read_vtu
 from r37core.results.interactions import InteractionChoice, interactions_of_response, titles
-from r37core.results.stress import StressRecovery
+from r37core.results.stress_recovery import StressRecovery
 from r37core.rom.rom_file import read_reduced_model
+from r37core.shapes.moving import write_worst_shapes
 
 
 def main(snakemake):

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .errors import BladeShapeError
+from .blade_surface import Blade
 from .profile import Profile, ProfileParameters
-from .surface import Blade
+from .shape_error import BladeShapeError
 from .sweep import chordwise_sweep, sweep_and_lean
 
 

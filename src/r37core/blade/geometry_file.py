@@ -12,9 +12,9 @@ import xarray as xr
 from r37core.dataset_file import about, read_dataset, write_dataset
 from r37core.io import readable
 
+from .blade_surface import Blade
 from .profile import PRESSURE, SUCTION, Profile, ProfileParameters
 from .stacking import Placement, conical_stacking
-from .surface import Blade
 
 _UNITS = {"span": "1", "inlet_angle": "rad", "transition_angle": "rad", "outlet_angle": "rad"}
 _SAMPLES = 41

@@ -13,8 +13,8 @@ import numpy as np
 from scipy.optimize import brentq, root
 
 from .cone import Cone, ConstantRatePath
-from .errors import BladeShapeError
 from .polygon import area_and_centroid
+from .shape_error import BladeShapeError
 
 SUCTION, PRESSURE = 1, -1
 _QUARTER_TURN = np.pi / 2.0

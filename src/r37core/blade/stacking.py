@@ -12,10 +12,10 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.optimize import root
 
-from .errors import BladeShapeError
 from .loft import SpanLoft
 from .polygon import area_and_centroid
 from .profile import Profile
+from .shape_error import BladeShapeError
 
 _TOLERANCE = 1e-9  # m
 _POINTS_PER_SIDE = 400

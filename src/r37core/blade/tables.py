@@ -13,8 +13,8 @@ import numpy as np
 
 from r37core.text_file import read_text
 
-from .errors import BladeShapeError
 from .profile import ProfileParameters
+from .shape_error import BladeShapeError
 
 _CENTIMETRE = 0.01
 _DEGREE = np.pi / 180.0

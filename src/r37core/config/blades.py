@@ -12,19 +12,19 @@ from pydantic import Discriminator, Field, RootModel, Tag, model_validator
 
 from r37core.blade import tables
 from r37core.blade.definition import BladeDefinition
-from r37core.blade.errors import BladeShapeError
-from r37core.exchange.errors import ImportRefused
-from r37core.exchange.material import check_material
-from r37core.exchange.source import MatricesSource, MeshSource
+from r37core.blade.shape_error import BladeShapeError
+from r37core.exchange.importing.material_check import check_material
+from r37core.exchange.importing.source import MatricesSource, MeshSource
+from r37core.exchange.refusal import ImportRefused
 from r37core.fem import material as fem_material
-from r37core.rom.choice import StressSubmesh
+from r37core.rom.reduction_choice import StressSubmesh
 from r37core.speeds import spaced
 from r37core.text_file import TextFileError
 
 from .document import Document
 from .errors import ConfigError
-from .imported import MatricesEntry, MeshEntry
-from .material import Material
+from .imported_entry import MatricesEntry, MeshEntry
+from .material_section import MaterialSection
 from .section import FileName, LeftOut, Name, Section, Unique, check_names, refused
 
 Table = TypeVar("Table")
@@ -91,7 +91,7 @@ class BladeEntry(Section):
         default=None, description="share of the table's sweep that is kept, its own or that of its base"
     )
     lean_percent: Annotated[float, Field(ge=-1000, le=1000)] | LeftOut = Field(default=None, description="share of the lean")
-    material: Material = Material()
+    material: MaterialSection = MaterialSection()
     vary: Annotated[dict[str, Varied], Field(min_length=1)] | LeftOut = Field(
         default=None, description="a family: values of numeric keys, such as sweep_percent or material.density_kg_m3"
     )
@@ -204,7 +204,7 @@ def _material(chain: Sequence[str], entries: Mapping[str, Any], document: Docume
     material: dict[str, float] = {}
     for link in chain:
         material |= entries[link].material.model_dump(exclude_none=True)
-    missing = [key for key in Material.model_fields if key not in material]
+    missing = [key for key in MaterialSection.model_fields if key not in material]
     if missing:
         raise document.error((chain[-1], "material"), f"missing key {', '.join(missing)} (give it here or in the base)")
     return fem_material.Material(

@@ -12,7 +12,7 @@ from typing import Any
 from pydantic import ValidationError
 from pydantic_core import PydanticCustomError
 
-from r37core.blade.errors import BladeShapeError
+from r37core.blade.shape_error import BladeShapeError
 from r37core.blade.tables import read_designs
 from r37core.speeds import exact_text
 from r37core.text_file import TextFileError
@@ -20,7 +20,7 @@ from r37core.text_file import TextFileError
 from .blades import LARGEST_FAMILY, RESERVED, BladeEntry, Variation
 from .document import Document
 from .errors import ConfigError
-from .imported import MatricesEntry, MeshEntry
+from .imported_entry import MatricesEntry, MeshEntry
 from .messages import explain
 from .section import check_name, check_names
 

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from typing import Annotated, Literal
 
 from pydantic import Field, RootModel, model_validator
 
-from r37core.time_integration.choice import IntegrationChoice
+from r37core.time_integration.integration_choice import IntegrationChoice
 
 from .section import LeftOut, Name, Section, Speed, check_names, refused
 
@@ -112,3 +113,9 @@ class Levels(RootModel[dict[Name, Level]]):
         if "auto" in self.root:
             raise refused(("auto",), "the level 'auto'", "another name; fidelity: auto picks a level")
         return self
+
+
+def recommended_level(errors: Mapping[str, float], costs: Mapping[str, float], tolerance: float) -> str | None:
+    """The cheapest level whose error is within the tolerance; None if there is none."""
+    fitting = [level for level, error in errors.items() if error <= tolerance]
+    return min(fitting, key=lambda level: costs[level]) if fitting else None

@@ -12,20 +12,20 @@ from typing import Any
 from pydantic import BaseModel
 
 from r37core.blade.definition import BladeDefinition
+from r37core.config.fidelity import recommended_level
 from r37core.contact.scene import Scene
-from r37core.exchange.source import MatricesSource
-from r37core.rom.choice import ReductionChoice
+from r37core.exchange.importing.source import MatricesSource
+from r37core.rom.reduction_choice import ReductionChoice
 from r37core.speeds import SpeedError, SpeedPlan
-from r37core.studies.levels import recommended_level
-from r37core.time_integration.choice import LARGEST_TABLE, IntegrationChoice
+from r37core.time_integration.integration_choice import LARGEST_TABLE, IntegrationChoice
 
 from .blades import Blades, BladeSettings, blade_settings
 from .document import Document, command_line_document, read_document
 from .families import Designs, Family, with_designs
 from .fidelity import Level, Levels
 from .scenes import SceneEntry, Scenes
-from .settings import Campbell, Config, Interactions, Refinement, Run, Structure
-from .speeds import UNITS, SpeedRule, key_of_speeds, planned
+from .settings import CampbellSection, Config, Interactions, RefinementSection, Run, StructureSection
+from .speed_section import UNITS, SpeedRule, key_of_speeds, planned
 from .studies import Studies
 
 CONFIG_FILE = "config/config.yaml"
@@ -62,10 +62,10 @@ class Settings:
     speed_plans: dict[tuple[str, str], SpeedPlan]
     fidelity_name: str
     fidelity: Level
-    structure: Structure
-    campbell: Campbell
+    structure: StructureSection
+    campbell: CampbellSection
     interactions: Interactions
-    refinement: Refinement
+    refinement: RefinementSection
     studies: Studies
     levels: dict[str, Level]
     scene_entries: dict[str, SceneEntry]

@@ -12,13 +12,13 @@ from r37core.contact import scene as contact_scene
 from r37core.units import RAD_S
 
 from .section import LeftOut, Name, Rpm, Section, Speed, check_names, refused
-from .speeds import refuse_both_units
+from .speed_section import refuse_both_units
 
 TipLine = Literal["pressure_edge", "camber", "suction_edge"]
 Result = Literal["spectrum", "signal", "stress", "wear", "energy", "shapes"]
 
 
-class Casing(Section):
+class CasingSection(Section):
     """Shape of the casing."""
 
     clearance_m: float = Field(ge=0, le=0.1, description="normal to the casing")
@@ -33,7 +33,7 @@ class Casing(Section):
     rise_fraction: float = Field(default=0.2, ge=0, le=1, description="share of the run at which 99% is reached")
 
 
-class Lining(Section):
+class LiningSection(Section):
     """The abradable lining in front of the casing."""
 
     thickness_m: float = Field(ge=1e-6, le=1)
@@ -50,7 +50,7 @@ class Lining(Section):
     )
 
 
-class Friction(Section):
+class FrictionSection(Section):
     """Friction at the tip."""
 
     form: Literal["constant", "vector"] = "vector"
@@ -69,9 +69,9 @@ class SceneEntry(Section):
     tip_line: TipLine | LeftOut = Field(
         default=None, description="line of the contact nodes; default: structure.boundary.tip_line"
     )
-    casing: Casing
-    lining: Lining | LeftOut = None
-    friction: Friction | LeftOut = None
+    casing: CasingSection
+    lining: LiningSection | LeftOut = None
+    friction: FrictionSection | LeftOut = None
     damping_ratio: float = Field(default=0.0005, ge=0, lt=1)
     gap: Literal["linear", "exact"] = Field(
         default="linear",

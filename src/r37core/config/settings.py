@@ -8,15 +8,15 @@ from typing import Annotated, Literal
 from pydantic import AfterValidator, Field, model_validator
 
 from r37core.rom.boundary import BoundaryChoice
-from r37core.rom.choice import ReductionChoice, StressSubmesh
+from r37core.rom.reduction_choice import ReductionChoice, StressSubmesh
 
-from .exports import Exports
+from .export_section import ExportSection
 from .fidelity import Reduction
 from .scenes import TipLine
 from .section import AllOrNames, FileName, LeftOut, Name, Section, Speed, refused
-from .shapes import Shapes
-from .signals import Signals
-from .speeds import RpmList, SpeedList, SpeedRange, SpeedRule, refuse_both_units
+from .shape_section import ShapeSection
+from .signal_section import SignalSection
+from .speed_section import RpmList, SpeedList, SpeedRange, SpeedRule, refuse_both_units
 from .studies import Studies
 from .submesh import Submesh
 
@@ -29,7 +29,7 @@ class Boundary(Section):
     corners: bool = Field(default=True, description="whether leading and trailing corner are among them")
 
 
-class Structure(Section):
+class StructureSection(Section):
     """Geometry and reduced model."""
 
     edges: Literal["round", "blunt"] = Field(default="round", description="how leading and trailing edge are closed")
@@ -60,7 +60,7 @@ class Structure(Section):
         )
 
 
-class Campbell(Section):
+class CampbellSection(Section):
     """The Campbell diagram."""
 
     speed_step_rad_s: float = Field(default=50.0, ge=0.1, le=1e6)
@@ -79,7 +79,7 @@ class Interactions(Section):
     above: float = Field(default=0.06, ge=0, le=1, description="how far above")
 
 
-class Window(Section):
+class WindowSection(Section):
     """Speeds above the crossings of a mode with engine orders, which are looked at more closely before anything is known."""
 
     mode: Literal["1B", "1T", "2B"]
@@ -89,19 +89,19 @@ class Window(Section):
     step_rad_s: Speed = Field(description="its intervals are halved until none is longer")
 
     @model_validator(mode="after")
-    def _has_a_length(self) -> Window:
+    def _has_a_length(self) -> WindowSection:
         if not self.first < self.last:
             raise refused(("last",), f"{self.last:g}", f"more than first ({self.first:g})")
         return self
 
 
-class Refinement(Section):
+class RefinementSection(Section):
     """Where ranges with `refine_to` get more speeds."""
 
-    windows: list[Window] = Field(
+    windows: list[WindowSection] = Field(
         default=[
-            Window(mode="1B", highest_engine_order=8, first=0.01, last=0.06, step_rad_s=5.0),
-            Window(mode="1T", highest_engine_order=20, first=0.0, last=0.02, step_rad_s=5.0),
+            WindowSection(mode="1B", highest_engine_order=8, first=0.01, last=0.06, step_rad_s=5.0),
+            WindowSection(mode="1T", highest_engine_order=20, first=0.0, last=0.02, step_rad_s=5.0),
         ],
         description="where interactions are expected, for contact stiffens a blade",
     )
@@ -175,9 +175,9 @@ class Config(Section):
         default=[],
         description="other speeds for some blades or scenes (both, where both are given); the first entry that fits counts",
     )
-    structure: Structure = Structure()
+    structure: StructureSection = StructureSection()
     interactions: Interactions = Interactions()
-    refinement: Refinement = Refinement()
+    refinement: RefinementSection = RefinementSection()
     tolerance: float = Field(
         default=0.05,
         gt=0,
@@ -187,10 +187,10 @@ class Config(Section):
     )
     run: Run = Run()
     studies: Studies = Studies()
-    campbell: Campbell = Campbell()
-    exports: Exports = Exports()
-    shapes: Shapes = Shapes()
-    signals: Signals = Signals()
+    campbell: CampbellSection = CampbellSection()
+    exports: ExportSection = ExportSection()
+    shapes: ShapeSection = ShapeSection()
+    signals: SignalSection = SignalSection()
 
     @model_validator(mode="after")
     def _one_unit(self) -> Config:

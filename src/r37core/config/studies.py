@@ -46,7 +46,7 @@ class Parameters(Section):
         return {name: getattr(self, name) for name in type(self).model_fields if getattr(self, name) is not None}
 
 
-class Place(Section):
+class PlaceSection(Section):
     """Neighbouring speeds, as shares of the Campbell speed."""
 
     first: float = Field(ge=0.01, le=100)
@@ -54,7 +54,7 @@ class Place(Section):
     speeds: int = Field(ge=1, le=1000)
 
     @model_validator(mode="after")
-    def _forward(self) -> Place:
+    def _forward(self) -> PlaceSection:
         if self.last < self.first or (self.last == self.first and self.speeds > 1):
             raise refused(("last",), f"{self.last:g}", f"more than first ({self.first:g})")
         return self
@@ -63,12 +63,12 @@ class Place(Section):
 class Places(Section):
     """Where the study looks."""
 
-    peak: Place = Place(first=1.0, last=1.02, speeds=5)
-    jump: Place = Place(first=1.024, last=1.044, speeds=5)
-    off_resonance: Place = Place(first=0.9, last=0.92, speeds=3)
+    peak: PlaceSection = PlaceSection(first=1.0, last=1.02, speeds=5)
+    jump: PlaceSection = PlaceSection(first=1.024, last=1.044, speeds=5)
+    off_resonance: PlaceSection = PlaceSection(first=0.9, last=0.92, speeds=3)
 
 
-class Tradeoff(Section):
+class TradeoffSection(Section):
     """What accuracy costs (snakemake tradeoff)."""
 
     blade: Name = "Ref"
@@ -87,7 +87,7 @@ class SpeedSteps(Section):
     survey: Step = Field(default=5.0, description="the whole range in the lined scene; direct contact every other one")
 
 
-class Readings(Section):
+class ReadingsSection(Section):
     """Readings of what the benchmark leaves open, and the published numbers beside ours (snakemake readings)."""
 
     base: Name = Field(default="paper", description="fidelity level of the published step and mesh")
@@ -99,7 +99,7 @@ class Readings(Section):
     speed_steps_rad_s: SpeedSteps = SpeedSteps()
 
 
-class Stability(Section):
+class StabilitySection(Section):
     """What happens at extremes (snakemake stability)."""
 
     blade: Name = "Ref"
@@ -108,7 +108,7 @@ class Stability(Section):
     direct_scene: Name = "direct"
 
 
-class Estimate(Section):
+class EstimateSection(Section):
     """What a whole sweep will cost (snakemake estimate)."""
 
     every: int = Field(
@@ -123,7 +123,7 @@ class Estimate(Section):
 class Studies(Section):
     """Studies of the model itself; none is part of all_blades."""
 
-    tradeoff: Tradeoff | LeftOut = None
-    readings: Readings = Readings()
-    stability: Stability = Stability()
-    estimate: Estimate = Estimate()
+    tradeoff: TradeoffSection | LeftOut = None
+    readings: ReadingsSection = ReadingsSection()
+    stability: StabilitySection = StabilitySection()
+    estimate: EstimateSection = EstimateSection()

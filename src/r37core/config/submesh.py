@@ -7,7 +7,7 @@ from typing import Annotated
 
 from pydantic import Field, model_validator
 
-from r37core.rom.choice import StressSubmesh
+from r37core.rom.reduction_choice import StressSubmesh
 
 from .section import LeftOut, Section, refused
 

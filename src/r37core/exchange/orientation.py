@@ -6,11 +6,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from r37core.exchange.importing.raw_mesh import RawMesh
 from r37core.fem.elements import ELEMENTS
 from r37core.mesh.blade_mesh import BladeMesh
 
-from .errors import ImportRefused
-from .raw_mesh import RawMesh
+from .refusal import ImportRefused
 
 UNITS = {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "um": 1e-6, "in": 0.0254, "ft": 0.3048}
 """Name of a length unit -> metres."""

@@ -1,17 +1,15 @@
-"""One page to look at all results of a run, and one with the shapes of a blade."""
+"""One page to look at all results of a run."""
 
 import hashlib
 from collections.abc import Sequence
 from pathlib import Path
 
-PARTS = ("explorer.html", "explorer.css", "explorer.js")
-"""What the page is put together from, in this folder, beside its data and plotly."""
+FOLDER = Path(__file__).parent
 
-SHAPE_PARTS = ("shapes.html", "explorer.css", "shapes.js")
-"""The same of the page with a blade's shapes."""
+PARTS = tuple(FOLDER / name for name in ("explorer.html", "explorer.css", "explorer.js"))
+"""What the page is put together from, beside its data and plotly: page, style, program."""
 
 
-def parts_hash(parts: Sequence[str] = PARTS) -> str:
+def parts_hash(parts: Sequence[Path] = PARTS) -> str:
     """Hash of the parts: with it as a rule's parameter an edited part makes the page anew."""
-    texts = [(Path(__file__).parent / part).read_bytes() for part in parts]
-    return hashlib.sha256(b"\0".join(texts)).hexdigest()[:16]
+    return hashlib.sha256(b"\0".join(part.read_bytes() for part in parts)).hexdigest()[:16]

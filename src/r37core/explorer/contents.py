@@ -9,8 +9,8 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 
+from r37core.published import INTERACTIONS
 from r37core.results.variables import VARIABLES
-from r37core.studies.published import INTERACTIONS
 
 from .pack import MOST_ANGLES, MOST_SPEEDS, ORDERS_PER_STEP, joined, order_bins, packed, rounded, stretches
 

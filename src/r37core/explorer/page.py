@@ -14,10 +14,9 @@ from r37core.io import atomic_write
 from . import PARTS
 
 
-def write_page(contents: object, title: str, file: Path | str, parts: Sequence[str] = PARTS) -> None:
+def write_page(contents: object, title: str, file: Path | str, parts: Sequence[Path] = PARTS) -> None:
     """Write the page made of `parts` (page, style, program) and its contents, by default the explorer, atomically."""
-    folder = Path(__file__).parent
-    page, style, program = ((folder / part).read_text(encoding="utf-8") for part in parts)
+    page, style, program = (part.read_text(encoding="utf-8") for part in parts)
     # "<" would end the script that carries the data, if a name had it
     data = json.dumps(contents, allow_nan=False).replace("<", "\\u003c")
     for mark, text in (

@@ -9,7 +9,7 @@ from pathlib import Path
 import gmsh
 import numpy as np
 
-from r37core.blade.surface import Blade
+from r37core.blade.blade_surface import Blade
 
 from .blade_mesh import BladeMesh, parametric_node_sets
 

@@ -14,7 +14,7 @@ from r37core.time_integration.speed_file import read_speed
 from r37core.time_integration.status import RunStatus
 
 from .netcdf import create_axis, create_labels, create_variable
-from .stress import StressRecovery
+from .stress_recovery import StressRecovery
 from .variables import VARIABLES
 
 

@@ -9,10 +9,10 @@ from r37core.fem.matrices import StructuralMatrices
 from r37core.mesh.blade_mesh import BladeMesh
 
 from .boundary import TIP_LINES, boundary_nodes
-from .choice import ReductionChoice
 from .craig_bampton import multi_speed_basis
 from .naming import ideal_shapes
 from .reduced_model import RecoveryNodes, ReducedModel
+from .reduction_choice import ReductionChoice
 
 
 def reduce_blade(mesh: BladeMesh, matrices: StructuralMatrices, choice: ReductionChoice) -> ReducedModel:

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from r37core.exchange.surface import outer_faces
 from r37core.fem.elements import ELEMENTS
+from r37core.fem.surface import outer_faces
 from r37core.mesh.blade_mesh import BladeMesh
 
 _OUTSIDE = 0.05  # of a triangle: so far beyond its sides a place still counts as in it

@@ -9,7 +9,7 @@ import numpy as np
 
 from r37core.contact.scene import Scene
 from r37core.rom.contact_model import ContactModel
-from r37core.time_integration.choice import IntegrationChoice
+from r37core.time_integration.integration_choice import IntegrationChoice
 from r37core.time_integration.simulate import DIRECTIONS, TIP_POINTS, Simulation
 from r37core.time_integration.status import RunStatus
 

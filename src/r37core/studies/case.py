@@ -11,9 +11,9 @@ from pathlib import Path
 import numpy as np
 
 from r37core.contact.scene import Scene
-from r37core.results.stress import StressRecovery
+from r37core.results.stress_recovery import StressRecovery
 from r37core.rom.contact_model import ContactModel
-from r37core.time_integration.choice import IntegrationChoice
+from r37core.time_integration.integration_choice import IntegrationChoice
 from r37core.time_integration.simulate import DIRECTIONS, TIP_POINTS
 from r37core.time_integration.speed_file import write_speed
 from r37core.time_integration.speed_run import run_speed

@@ -16,7 +16,7 @@ import numpy as np
 
 from r37core.fem.material import Material
 from r37core.results.response import write_response
-from r37core.results.stress import StressRecovery
+from r37core.results.stress_recovery import StressRecovery
 from r37core.rom.reduced_model import ReducedModel
 from r37core.time_integration.speed_file import write_speed
 

@@ -10,11 +10,11 @@ import numpy as np
 import xarray as xr
 
 from r37core.dataset_file import about
+from r37core.published import BLADES, DIRECT_PEAK, INTERACTIONS, MESH_NODES, QUIET, REFERENCE, Interaction
 from r37core.time_integration.status import RunStatus
 
 from . import measures as read
 from .check import Check, number
-from .published import BLADES, DIRECT_PEAK, INTERACTIONS, MESH_NODES, QUIET, REFERENCE, Interaction
 from .reading_places import DIRECT
 from .readings import Bench
 from .validation import Runs, reading_checks, structure_checks, survey_checks

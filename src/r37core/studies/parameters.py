@@ -10,7 +10,7 @@ from dataclasses import replace
 from typing import Any
 
 from r37core.contact.scene import Scene
-from r37core.time_integration.choice import IntegrationChoice
+from r37core.time_integration.integration_choice import IntegrationChoice
 from r37core.time_integration.integrators import CENTRAL_DIFFERENCE, EXACT_MODAL
 
 LEVEL = "level"

@@ -6,7 +6,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from math import ceil, floor
 
-from .published import DIRECT_PEAK, INTERACTIONS, QUIET, REFERENCE, Interaction
+from r37core.published import DIRECT_PEAK, INTERACTIONS, QUIET, REFERENCE, Interaction
+
 from .reading_list import Reading
 
 FINE_WINDOW = (0.0, 0.05)

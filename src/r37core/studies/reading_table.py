@@ -6,9 +6,10 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from r37core.published import DIRECT_PEAK, INTERACTIONS
+
 from . import measures as read
 from .check import Check, number, score
-from .published import DIRECT_PEAK, INTERACTIONS
 from .reading_list import READINGS
 from .validation import Runs, reading_checks
 

@@ -10,9 +10,9 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from r37core.adaptive.criterion import CURVES, RefinementChoice
+from r37core.adaptive.rounds import first_round, round_after
 from r37core.results.interactions import InteractionChoice, find_interactions
-from r37core.results.refinement import CURVES, RefinementChoice
-from r37core.results.rounds import first_round, round_after
 from r37core.speeds import SpeedPlan
 
 TOLERANCE = 2.0

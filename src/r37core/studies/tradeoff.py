@@ -11,9 +11,9 @@ import xarray as xr
 
 from r37core.contact.scene import Scene
 from r37core.dataset_file import about
-from r37core.results.stress import StressRecovery
+from r37core.results.stress_recovery import StressRecovery
 from r37core.rom.contact_model import ContactModel
-from r37core.time_integration.choice import IntegrationChoice
+from r37core.time_integration.integration_choice import IntegrationChoice
 from r37core.time_integration.simulate import UnstableStepError
 
 from .case import COSTS, MOTION, QUANTITIES, Case, run_case

@@ -7,8 +7,9 @@ from collections.abc import Mapping
 import numpy as np
 import xarray as xr
 
+from r37core.config.fidelity import recommended_level
+
 from .case import QUANTITIES
-from .levels import recommended_level
 from .tradeoff import level_error
 
 

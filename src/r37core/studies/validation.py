@@ -1,4 +1,4 @@
-"""The paper's numbers and statements (r37core.studies.published) checked against the runs of a reading.
+"""The paper's numbers and statements (r37core.published) checked against the runs of a reading.
 
 Every function takes what it needs by the names of r37core.studies.reading_places, and leaves out what a reading did not run, so
 that the same checks serve the shipped reading, its numerical variants and every choice turned.
@@ -11,9 +11,7 @@ from collections.abc import Mapping
 import numpy as np
 import xarray as xr
 
-from . import measures as read
-from .check import Check, claim
-from .published import (
+from r37core.published import (
     AREAS_CM2,
     BLADES,
     CLEARANCE_SLOPES,
@@ -34,6 +32,9 @@ from .published import (
     VOLUME_CM3,
     WIDTH_ABOVE_YIELD,
 )
+
+from . import measures as read
+from .check import Check, claim
 from .reading_list import CONVERGENCE, SHIPPED, SURVEY
 from .reading_places import DIRECT, FINE_WINDOW
 

@@ -12,8 +12,8 @@ from r37core.contact.scene import Lining, Scene
 from r37core.rom.contact_model import ContactModel
 
 from . import kernel
-from .choice import LARGEST_TABLE, IntegrationChoice
 from .flight import nearest_casing, plan_flight
+from .integration_choice import LARGEST_TABLE, IntegrationChoice
 from .integrators import CENTRAL_DIFFERENCE, recursion
 from .reference import Clock, ReferenceIntegration
 

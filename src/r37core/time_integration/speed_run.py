@@ -9,7 +9,7 @@ import numpy as np
 from r37core.contact.scene import Scene
 from r37core.rom.contact_model import ContactModel
 
-from .choice import IntegrationChoice
+from .integration_choice import IntegrationChoice
 from .simulate import DIRECTIONS, TIP_POINTS, Simulation, SimulationState
 from .status import RunStatus
 

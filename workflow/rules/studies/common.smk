@@ -1,5 +1,5 @@
 # Studies of the model itself; none is part of all_blades. The models of blades that they need beside those of the sweep.
-from r37core.workflow.study_models import PARTS, StudyModels
+from r37core.studies.study_models import PARTS, StudyModels
 
 study_models = StudyModels(settings)
 

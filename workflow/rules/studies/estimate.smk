@@ -1,5 +1,5 @@
 # The study `estimate`: what a sweep will cost.
-from r37core.workflow.estimate import Estimate
+from r37core.studies.estimate_plan import Estimate
 
 estimate = Estimate(settings)
 

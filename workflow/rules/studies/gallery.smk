@@ -1,5 +1,5 @@
 # The gallery: our counterpart of every result figure of the paper, and what agrees. Not part of all_blades: snakemake gallery
-from r37core.workflow.gallery import PAGE, Gallery, modes_file
+from r37core.studies.gallery_plan import PAGE, Gallery, modes_file
 
 in_gallery = Gallery(sweep)
 

@@ -1,6 +1,6 @@
 # The study `readings`: what the benchmark leaves open, and its published numbers beside ours.
 from r37core.studies.reading_list import READINGS
-from r37core.workflow.readings import Readings
+from r37core.studies.readings_plan import Readings
 
 readings = Readings(settings)
 

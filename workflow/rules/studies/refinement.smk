@@ -1,5 +1,5 @@
 # The study `refinement`: what speeds that refine themselves find, of how many runs, against every speed of their grid.
-from r37core.workflow.refinement import Refinement
+from r37core.studies.refinement_plan import Refinement
 
 refinement = Refinement(settings)
 

@@ -1,5 +1,5 @@
 # The study `stability`: what happens at extremes.
-from r37core.workflow.stability import Stability
+from r37core.studies.stability_plan import Stability
 
 stability = Stability(settings)
 

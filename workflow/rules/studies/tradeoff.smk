@@ -1,5 +1,5 @@
 # The studies `tradeoff`, what accuracy costs, and `growth`, how cost grows.
-from r37core.workflow.tradeoff import Tradeoff
+from r37core.studies.tradeoff_plan import Tradeoff
 
 tradeoff = Tradeoff(settings)
 

@@ -1,0 +1,64 @@
+"""round_*.json: which speeds of one blade and scene a round of refinement asks for, and what the rounds before it gave."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+import xarray as xr
+
+from r37core.io import read_json, readable, write_json
+from r37core.results.stress_recovery import StressRecovery, largest_of_run
+from r37core.speeds import SpeedPlan
+from r37core.time_integration.simulate import DIRECTIONS, TIP_POINTS
+
+from .criterion import RefinementChoice, known_of, next_speeds, stretches, window_speeds
+
+
+@dataclass(frozen=True)
+class Round:
+    """One round: its `new` speeds (rad/s), ascending, none in the last; `measured` of each speed before: status, CURVES."""
+
+    new: tuple[float, ...]
+    measured: Mapping[float, Sequence[float]] = field(default_factory=dict)
+
+
+def first_round(plan: SpeedPlan, campbell: xr.Dataset, choice: RefinementChoice) -> Round:
+    """The certain speeds of the plan, and those in the windows above the crossings of one blade's Campbell diagram."""
+    expected = stretches(campbell, choice.windows)
+    windows = {speed for grid in plan.refined for speed in window_speeds(grid, expected)}
+    return Round(tuple(sorted({*plan.certain, *windows})))
+
+
+def round_after(before: Round, gave: Mapping[float, Sequence[float]], plan: SpeedPlan, choice: RefinementChoice) -> Round:
+    """The round after one whose new speeds `gave` a status and CURVES each."""
+    measured = {**before.measured, **gave}
+    known = known_of(measured)
+    new = {speed for grid in plan.refined for speed in next_speeds(grid, known, choice)}
+    return Round(tuple(sorted(new)), measured)
+
+
+def measure(
+    run: Mapping[str, np.ndarray], recovery: StressRecovery | None, stress_instants: int, yield_stress: float
+) -> list[float]:
+    """Status and CURVES of one run; NaN without a recovery, and of a diverged run."""
+    rms = run["rms"][TIP_POINTS.index("leading_edge")]
+    stress = math.nan if recovery is None else largest_of_run(run, recovery, stress_instants) / yield_stress
+    return [int(run["status"]), *(float(rms[DIRECTIONS.index(name)]) for name in ("normal", "tangential")), float(stress)]
+
+
+def write_round(one: Round, file: Path | str) -> None:
+    """Write it, atomically; what is no number is null."""
+    rows = [[speed, *(None if math.isnan(value) else value for value in row)] for speed, row in one.measured.items()]
+    write_json({"new": list(one.new), "measured": rows}, file)
+
+
+def read_round(file: Path | str) -> Round:
+    """What `write_round` wrote; InputFileError when it cannot be read."""
+    content = read_json(file)
+    with readable(file):
+        rows = {row[0]: [math.nan if value is None else value for value in row[1:]] for row in content["measured"]}
+        return Round(tuple(content["new"]), rows)

@@ -1,0 +1,131 @@
+"""The blade as a map from (chord, span, thickness) to space."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from .loft import SpanLoft
+from .profile import PRESSURE, SUCTION, Profile
+from .shape_error import BladeShapeError
+from .stacking import Placement, plane_section_stacking
+
+_BULGE_REACH = 4.0  # in edge radii: how far from a round edge the lines chord = const are bent
+
+
+class Blade:
+    """A blade: profiles from hub to tip, each placed on its cone, joined by a cubic spline along the span.
+
+    Parameters run over chord 0 (leading) to 1 (trailing edge), span 0 (hub) to 1 (tip) and thickness -1 (pressure) to
+    1 (suction side). Frame: z along the axis, downstream, 0 at the centre of the hub profile's leading-edge circle;
+    x radial along the stacking line; the rotor turns towards negative theta (angle from x to y).
+
+    `round_edges` closes the edges by their circles; otherwise they are cut blunt between the tangent points.
+    Raises BladeShapeError when the profiles cross or cannot be stacked.
+    """
+
+    def __init__(self, profiles: Sequence[Profile], placement: Placement, round_edges: bool = True):
+        self.profiles = list(profiles)
+        self.placement = placement
+        self.spans = np.array([p.parameters.span for p in self.profiles])
+        self.round_edges = round_edges
+        self._loft = SpanLoft(self.spans)
+        self._check_orientation()
+
+    @classmethod
+    def stacked(cls, profiles: Sequence[Profile], shift: Placement | None = None, round_edges: bool = True) -> Blade:
+        """Stack the profiles by their plane sections, then apply the sweep and lean of `shift`."""
+        placement = plane_section_stacking(profiles)
+        return cls(profiles, placement if shift is None else placement + shift, round_edges)
+
+    def position(self, chord, span, thickness) -> np.ndarray:
+        """Cartesian coordinates (m), shape (points, 3), of parameter points given as arrays of one shape (points,)."""
+        chord, span, thickness = (np.atleast_1d(np.asarray(a, dtype=float)) for a in (chord, span, thickness))
+        weights = self._loft.weights(span)
+        cylindrical = np.zeros((3, len(chord)))
+        for i, profile in enumerate(self.profiles):
+            m, theta = self._section_point(profile, chord, thickness)
+            cylindrical[0] += weights[:, i] * profile.cone.radius(m)
+            cylindrical[1] += weights[:, i] * (theta + self.placement.rotation[i])
+            cylindrical[2] += weights[:, i] * (profile.cone.axial(m) + self.placement.axial[i])
+        radius, theta, axial = cylindrical
+        return np.stack([radius * np.cos(theta), radius * np.sin(theta), axial], axis=1)
+
+    def normal(self, chord, span) -> np.ndarray:
+        """Unit vector from the pressure to the suction side, shape (points, 3)."""
+        ones = np.ones_like(chord)
+        across = self.position(chord, span, ones) - self.position(chord, span, -ones)
+        return across / np.linalg.norm(across, axis=1, keepdims=True)
+
+    def dimensions(self) -> tuple[float, float]:
+        """Mean length along the chord and along the span (m), on the camber surface: the scale of the parameter plane."""
+        steps = np.linspace(0.0, 1.0, 41)
+        chord, span = (a.ravel() for a in np.meshgrid(steps, steps, indexing="ij"))
+        points = self.position(chord, span, np.zeros_like(chord)).reshape(41, 41, 3)
+        along_chord = np.linalg.norm(np.diff(points, axis=0), axis=2).sum(axis=0).mean()
+        along_span = np.linalg.norm(np.diff(points, axis=1), axis=2).sum(axis=1).mean()
+        return float(along_chord), float(along_span)
+
+    def volume(self) -> float:
+        """Volume (m3) by Gauss quadrature of the map's Jacobian determinant over the parameters."""
+        # fine near the edges, where the round ends fade within about 2% of the chord
+        chord_edges = np.concatenate([[0.0, 0.005, 0.01, 0.02], np.linspace(0.1, 0.9, 9), [0.98, 0.99, 0.995, 1.0]])
+        chord, chord_weight = _composite_gauss(chord_edges, 4)
+        span, span_weight = _composite_gauss(self.spans, 3)
+        thickness, thickness_weight = _composite_gauss(np.array([-1.0, 1.0]), 8)
+        determinant = self._determinant(*(a.ravel() for a in np.meshgrid(chord, span, thickness, indexing="ij")))
+        weight = np.einsum("i,j,k->ijk", chord_weight, span_weight, thickness_weight).ravel()
+        return float(determinant @ weight)
+
+    def _section_point(self, profile: Profile, chord: np.ndarray, thickness: np.ndarray):
+        """(m, theta) on the profile's cone: straight across the thickness, bent forward at round edges."""
+        share = (1.0 + thickness) / 2.0
+        pressure = np.array(profile.surfaces[PRESSURE].point(chord))
+        suction = np.array(profile.surfaces[SUCTION].point(chord))
+        point = (1.0 - share) * pressure + share * suction
+        if self.round_edges:
+            for edge, end in ((profile.leading_edge, 0.0), (profile.trailing_edge, 1.0)):
+                length = profile.surfaces[PRESSURE].length
+                fade = np.clip(1.0 - np.abs(chord - end) * length / (_BULGE_REACH * edge.radius), 0.0, None) ** 2
+                corner_pressure = np.array(edge.point(-1.0))[:, None]
+                corner_suction = np.array(edge.point(1.0))[:, None]
+                straight = (1.0 - share) * corner_pressure + share * corner_suction
+                point = point + fade * (np.array(edge.point(thickness)) - straight)
+        return point[0], point[1]
+
+    def _determinant(self, chord: np.ndarray, span: np.ndarray, thickness: np.ndarray) -> np.ndarray:
+        step = 1e-5
+        columns = []
+        for axis in range(3):
+            ahead, behind = ([chord, span, thickness] for _ in range(2))
+            ahead[axis] = ahead[axis] + step
+            behind[axis] = behind[axis] - step
+            columns.append((self.position(*ahead) - self.position(*behind)) / (2.0 * step))
+        return np.linalg.det(np.stack(columns, axis=2))
+
+    def _check_orientation(self) -> None:
+        """The map must not fold: neighbouring profiles, or the two sides, would cross.
+
+        (chord, span, thickness) point along (z, x, y), a right-handed order, so the determinant is positive.
+        """
+        chord, span, thickness = (
+            a.ravel()
+            for a in np.meshgrid(
+                np.linspace(0.001, 0.999, 21), np.linspace(0.005, 0.995, 60), [-0.99, 0.0, 0.99], indexing="ij"
+            )
+        )
+        determinant = self._determinant(chord, span, thickness)
+        if np.any(determinant <= 0.0):
+            at = int(np.argmin(determinant))
+            raise BladeShapeError(
+                f"span {100 * span[at]:.1f}%: profiles or the two sides of the blade cross here "
+                f"(chord {100 * chord[at]:.0f}%); check thickness, radii, sweep and lean near this span"
+            )
+
+
+def _composite_gauss(edges: np.ndarray, order: int) -> tuple[np.ndarray, np.ndarray]:
+    nodes, weights = np.polynomial.legendre.leggauss(order)
+    half = np.diff(edges) / 2.0
+    points = (edges[:-1] + half)[:, None] + half[:, None] * nodes
+    return points.ravel(), (half[:, None] * weights).ravel()

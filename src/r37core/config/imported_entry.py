@@ -1,0 +1,131 @@
+"""Blades of other programs in blades.yaml: a mesh, or a directory of matrices."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+from typing import Annotated, Any, Literal
+
+from pydantic import Discriminator, Field, Tag, model_validator
+
+from r37core.exchange.importing.source import MatricesSource, MeshSource, digest_of, matrix_files, mesh_files
+from r37core.exchange.importing.where import Where
+from r37core.exchange.orientation import Orientation
+
+from .material_section import MaterialSection
+from .section import FileName, LeftOut, Section, refused
+from .submesh import ImportedSubmesh
+
+Direction = Annotated[list[Annotated[float, Field(ge=-1e9, le=1e9)]], Field(min_length=3, max_length=3)]
+Length = Annotated[float, Field(ge=-100, le=100)] | LeftOut
+MeridianPoint = Annotated[list[Annotated[float, Field(ge=-100, le=100)]], Field(min_length=2, max_length=2)]
+
+
+class SurfaceRule(Section):
+    """All outer faces within limits; r is the distance from the rotor axis, x radial, z along the axis downstream."""
+
+    r_at_least_m: Length = None
+    r_at_most_m: Length = None
+    x_at_least_m: Length = None
+    x_at_most_m: Length = None
+    z_at_least_m: Length = None
+    z_at_most_m: Length = None
+    cone_zr_m: Annotated[list[MeridianPoint], Field(min_length=2, max_length=2)] | LeftOut = Field(
+        default=None, description="two points [z, r] of the straight meridian that the faces lie on"
+    )
+    tolerance_m: float = Field(default=1e-4, gt=0, le=0.1)
+
+    @model_validator(mode="after")
+    def _says_something(self) -> SurfaceRule:
+        if not self._limits() and self.cone_zr_m is None:
+            raise refused((), "a rule without limits", "a limit such as r_at_least_m, or cone_zr_m")
+        if self.cone_zr_m is not None and self.cone_zr_m[0] == self.cone_zr_m[1]:
+            raise refused(("cone_zr_m",), "one point twice", "two points [z, r]")
+        return self
+
+    def _limits(self) -> tuple[tuple[str, str, float], ...]:
+        names = [(axis, bound) for axis in "rxz" for bound in ("at_least", "at_most")]
+        given = [(axis, bound, getattr(self, f"{axis}_{bound}_m")) for axis, bound in names]
+        return tuple((axis, bound, float(value)) for axis, bound, value in given if value is not None)
+
+    def where(self) -> Where:
+        """As the import takes it."""
+        cone = None
+        if self.cone_zr_m is not None:
+            (z0, r0), (z1, r1) = self.cone_zr_m
+            cone = ((float(z0), float(r0)), (float(z1), float(r1)))
+        return Where(limits=self._limits(), cone=cone, tolerance=self.tolerance_m)
+
+
+SetOrRule = Annotated[
+    Annotated[FileName, Tag("name")] | Annotated[SurfaceRule, Tag("SurfaceRule")],
+    Discriminator(lambda value: "SurfaceRule" if isinstance(value, dict | SurfaceRule) else "name"),
+]
+
+
+class Oriented(Section):
+    """How a file of another program describes space."""
+
+    length_unit: Literal["m", "cm", "mm", "um", "in", "ft"] = Field(description="of the file's coordinates")
+    rotor_axis: Direction = Field(description="direction of the rotor's axis in the file's axes, downstream")
+    radial: Direction = Field(description="direction from the axis to the blade, in the file's axes")
+    rotation: Literal["positive", "negative"] = Field(
+        description="positive: the rotor turns by the right hand about rotor_axis, negative: the other way"
+    )
+    axis_point: Direction = Field(default=[0.0, 0.0, 0.0], description="a point of the axis, in the file's unit")
+
+    def orientation(self) -> Orientation:
+        """As the import takes it."""
+        axis, radial, point = ((float(x), float(y), float(z)) for x, y, z in (self.rotor_axis, self.radial, self.axis_point))
+        return Orientation(self.length_unit, axis, radial, self.rotation, point)
+
+
+class MeshEntry(Oriented):
+    """A blade given by a mesh of solid elements."""
+
+    mesh: FileName = Field(description="mesh file: .inp, .msh, .vtu, .med, .bdf, .nas, or .cdb with the extra package meshlane")
+    material: MaterialSection
+    root: SetOrRule = Field(description="clamped faces: name of a set of the file, or a rule")
+    tip: SetOrRule = Field(description="faces towards the casing: name of a set of the file, or a rule")
+    pressure_side: Literal["forward", "backward"] = Field(
+        default="forward", description="forward: the pressure side looks towards the rotation, as in a compressor"
+    )
+    revolution_tolerance_m: float = Field(
+        default=1e-4, gt=0, le=0.1, description="how far the tip may be from a surface of revolution"
+    )
+    drop_free_nodes: bool = Field(default=False, description="leave out nodes of no solid element instead of refusing them")
+    minimum_scaled_jacobian: float = Field(
+        default=0.02, gt=0, le=1, description="meshes with elements below are refused; 1 is ideal, 0 folded"
+    )
+    stress_submesh: ImportedSubmesh = ImportedSubmesh()
+
+    def source(self, root: Path) -> MeshSource:
+        """What to import, from the folder `root`; ImportRefused for a file that is not there or of another kind."""
+        source = MeshSource(
+            self.mesh,
+            self.orientation(),
+            _where(self.root),
+            _where(self.tip),
+            pressure_side_forward=self.pressure_side == "forward",
+            revolution_tolerance=self.revolution_tolerance_m,
+            drop_free_nodes=self.drop_free_nodes,
+            minimum_scaled_jacobian=self.minimum_scaled_jacobian,
+        )
+        return replace(source, digest=digest_of(mesh_files(self.mesh, root)))
+
+
+class MatricesEntry(Oriented):
+    """A blade given by matrices, full or reduced; there is no stress without a mesh."""
+
+    matrices: FileName = Field(description="folder with M and K_<speed> at three speeds (.mtx or .npz), and boundary.csv")
+    mass_unit: Literal["kg", "g", "t"] = Field(description="of M")
+    stiffness_unit: Literal["N/m", "N/mm"] = Field(description="of the K_<speed>")
+
+    def source(self, root: Path) -> MatricesSource:
+        """What to import, from the folder `root`; ImportRefused where files are missing."""
+        digest = digest_of(matrix_files(self.matrices, root).values())
+        return MatricesSource(self.matrices, self.orientation(), self.mass_unit, self.stiffness_unit, digest)
+
+
+def _where(given: Any) -> Where:
+    return given.where() if isinstance(given, SurfaceRule) else Where(given)

@@ -1,0 +1,98 @@
+"""Results that the configuration no longer asks for: `python -m r37core.console.leftovers` lists or removes them."""
+
+from __future__ import annotations
+
+import argparse
+import shutil
+from collections.abc import Iterator
+from itertools import count
+from pathlib import Path
+
+from r37core.config import Settings, read_settings
+from r37core.config.blades import RESERVED
+from r37core.io import read_json
+from r37core.speeds import SpeedPlan, exact_text
+
+
+def leftovers(results: Path, settings: Settings) -> list[Path]:
+    """Folders and files of blades, scenes and speeds that are not run any more, in the folder `results`."""
+    return sorted(_of_blades(results, settings)) if results.is_dir() else []
+
+
+def _of_blades(results: Path, settings: Settings) -> Iterator[Path]:
+    for folder in results.iterdir():
+        if folder.is_dir() and folder.name not in (*settings.blades, *RESERVED):
+            yield folder
+    yield from (folder for folder in (results / "exports").glob("*/") if folder.name not in settings.blades)
+    yield from _of_shapes(results / "shapes", settings)
+    for blade in settings.blades:
+        for folder in (results / blade).glob("*/"):
+            if folder.is_dir() and folder.name not in settings.scenes:
+                yield folder
+    for (blade, scene), plan in settings.speed_plans.items():
+        folder = results / blade / scene
+        wanted = {f"speed_{exact_text(speed)}.npz" for speed in _speeds(folder, plan)}
+        yield from (file for file in folder.glob("speed_*.npz") if file.name not in wanted)
+        if not plan.refined:
+            yield from folder.glob("round_*.json")
+    for figure in (results / "figures").glob("*_*.p[nd][gf]"):
+        kind, name = figure.stem.split("_", 1)
+        blade, _, scene = name.partition("__")
+        if kind in ("designs", "comparison"):
+            if name not in (settings.families if kind == "designs" else settings.scenes):
+                yield figure
+            continue
+        if blade not in settings.blades or (scene and scene not in settings.scenes):
+            yield figure
+
+
+def _of_shapes(folder: Path, settings: Settings) -> Iterator[Path]:
+    """Pages and folders of blades, and folders of scenes, that do not ask for shapes any more."""
+    wanted = [(blade, scene) for blade in settings.blades for scene in settings.scenes]
+    wanted = [pair for pair in wanted if "shapes" in settings.results_of(*pair)]
+    for shown in folder.glob("*"):
+        if shown.stem not in {blade for blade, _ in wanted}:
+            yield shown
+            continue
+        for scene in shown.glob("stress_*"):
+            if (shown.name, scene.name.removeprefix("stress_")) not in wanted:
+                yield scene
+
+
+def _speeds(folder: Path, plan: SpeedPlan) -> list[float]:
+    """Speeds that the rounds of refinement asked for; all of the grid while no last round says that they are done."""
+    asked: list[float] = list(plan.certain)
+    for number in count():
+        file = folder / f"round_{number}.json"
+        if not plan.refined or not file.exists():
+            break
+        new = read_json(file)["new"]
+        if not new:
+            return asked
+        asked += new
+    return plan.every_speed()
+
+
+def size(path: Path) -> int:
+    """Bytes of a file, or of all files in a folder."""
+    return sum(file.stat().st_size for file in path.rglob("*") if file.is_file()) if path.is_dir() else path.stat().st_size
+
+
+def main() -> None:
+    """List what is left over, or remove it."""
+    parser = argparse.ArgumentParser(description="Results that the configuration no longer asks for.")
+    parser.add_argument("--remove", action="store_true", help="remove them; without it they are listed")
+    chosen = parser.parse_args()
+    settings = read_settings(Path("."))
+    found = leftovers(settings.results, settings)
+    for path in found:
+        print(f"{size(path) / 1e6:10.2f} MB  {path}")
+        if chosen.remove:
+            shutil.rmtree(path) if path.is_dir() else path.unlink()
+    print(
+        f"{len(found)} left over" + (", removed" if chosen.remove else "; make clean REMOVE=yes removes them" if found else "")
+    )
+
+
+if __name__ == "__main__":
+    main()

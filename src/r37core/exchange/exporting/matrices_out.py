@@ -1,0 +1,56 @@
+"""A blade's matrices as Matrix Market, in the layout that matrices_in reads."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import scipy.io
+import scipy.sparse as sp
+
+from r37core.exchange.importing.matrices_in import COLUMNS
+from r37core.fem.matrices import StructuralMatrices
+from r37core.io import atomic_write
+from r37core.mesh.blade_mesh import BladeMesh
+from r37core.rom.reduced_model import ReducedModel
+from r37core.speeds import exact_text
+
+
+def write_reduced_matrices(model: ReducedModel, tip_line: str, speeds: Sequence[float], folder: Path) -> None:
+    """Write the reduced M and K_<speed> at `speeds` (rad/s) with boundary.csv; contact nodes on `tip_line` come first."""
+    content = {"M": model.mass} | {f"K_{exact_text(speed)}": model.stiffness_at(speed) for speed in speeds}
+    points = model.contact_nodes(tip_line).points
+    _write(content, points, np.arange(3 * len(points)).reshape(-1, 3), folder)
+
+
+def write_full_matrices(
+    matrices: StructuralMatrices,
+    mesh: BladeMesh,
+    boundary_nodes: np.ndarray,
+    speeds: Sequence[float],
+    folder: Path,
+    spin_softening: bool = False,
+) -> None:
+    """Write the full M and K_<speed> at `speeds` (rad/s) with boundary.csv.
+
+    Rows are x y z of the unclamped nodes, in m and the blade's frame; with geometric stiffness and, where asked for, spin
+    softening.
+    """
+    stiffness, per_square = matrices.stiffness(), matrices.geometric_stiffness()
+    if spin_softening:
+        per_square = sp.csr_array(per_square + matrices.spin_softening())
+    content = {"M": matrices.mass()} | {f"K_{exact_text(speed)}": stiffness + speed**2 * per_square for speed in speeds}
+    rows = 3 * np.searchsorted(matrices.free_nodes, boundary_nodes)[:, None] + np.arange(3)
+    _write(content, mesh.points[boundary_nodes], rows, folder)
+
+
+def _write(content: Mapping[str, np.ndarray | sp.csr_array], points: np.ndarray, rows: np.ndarray, folder: Path) -> None:
+    folder.mkdir(parents=True, exist_ok=True)
+    for name, matrix in content.items():
+        with atomic_write(folder / f"{name}.mtx") as partial:
+            scipy.io.mmwrite(partial, 0.5 * (matrix + matrix.T), precision=17, symmetry="symmetric")
+    table = pd.DataFrame(np.hstack([points, rows]), columns=list(COLUMNS)).astype(dict.fromkeys(COLUMNS[3:], int))
+    with atomic_write(folder / "boundary.csv") as partial:
+        table.to_csv(partial, index=False)

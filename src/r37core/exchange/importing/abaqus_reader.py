@@ -1,0 +1,222 @@
+"""Reader of Abaqus and CalculiX decks.
+
+meshio's reader is not used: version 5.3.5 keeps only the last of several *NODE blocks, drops what follows a comment inside a
+block, ignores sets made of sets, and stops at surface elements that gmsh writes, the first three without a word.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from r37core.exchange.refusal import ImportRefused
+from r37core.fem.elements import ELEMENTS
+
+from .raw_mesh import RawMesh, solid_blocks
+
+_TYPES = {element.abaqus: name for name, element in ELEMENTS.items()}
+# they make or move nodes and elements
+_GENERATORS = ("SYSTEM", "NGEN", "NFILL", "NCOPY", "NMAP", "ELGEN", "ELCOPY")
+# faces of Abaqus by the corners that they join: *SURFACE, TYPE=ELEMENT
+_FACE_CORNERS = {
+    4: ((0, 1, 2), (0, 1, 3), (1, 2, 3), (0, 2, 3)),
+    6: ((0, 1, 2), (3, 4, 5), (0, 1, 3, 4), (1, 2, 4, 5), (0, 2, 3, 5)),
+    8: ((0, 1, 2, 3), (4, 5, 6, 7), (0, 1, 4, 5), (1, 2, 5, 6), (2, 3, 6, 7), (0, 3, 4, 7)),
+}
+
+
+@dataclass
+class _Deck:
+    points: dict[int, list[float]] = field(default_factory=dict)
+    solids: dict[str, dict[int, list[int]]] = field(default_factory=dict)
+    others: dict[int, list[int]] = field(default_factory=dict)
+    node_sets: dict[str, list[int]] = field(default_factory=dict)
+    element_sets: dict[str, list[int]] = field(default_factory=dict)
+    nodes_of_elements: list[tuple[str, str]] = field(default_factory=list)
+    surfaces: dict[str, list[tuple[str, str]]] = field(default_factory=dict)
+    parts: list[str] = field(default_factory=list)
+    instances: dict[str, list[list[str]]] = field(default_factory=dict)
+    scope: str = ""
+
+
+def read_abaqus(file: Path) -> RawMesh:
+    """The mesh of a deck with one part, where its instance stands; sets of nodes, elements and faces become sets of nodes.
+
+    Raises ImportRefused for decks with several parts or instances, and for what cannot be read.
+    """
+    deck = _Deck()
+    for keyword, options, rows in _blocks(file):
+        _take(deck, keyword, options, rows)
+    labels = np.array(list(deck.points), dtype=np.int64)
+    number = {label: i for i, label in enumerate(deck.points)}
+    try:
+        points = _placed(deck, np.array(list(deck.points.values()), dtype=float).reshape(len(labels), 3))
+        cells = [(name, np.array([[number[n] for n in row] for row in of.values()])) for name, of in deck.solids.items()]
+    except KeyError as error:
+        raise ImportRefused(f"an element names node {error.args[0]}, which the deck lacks") from None
+    sets = {name: np.unique([number[label] for label in labels if label in number]) for name, labels in _node_lists(deck)}
+    return RawMesh(points, labels, solid_blocks(cells), sets)
+
+
+def _blocks(file: Path) -> Iterator[tuple[str, dict[str, str], list[list[str]]]]:
+    """Keyword, options and data rows of every block, comments left out and included files read in place."""
+    keyword = ""
+    options: dict[str, str] = {}
+    rows: list[list[str]] = []
+    unfinished = ""
+    for line in file.read_text(encoding="utf-8", errors="replace").splitlines():
+        line = unfinished + line.strip()
+        unfinished = ""
+        if not line or line.startswith("**"):
+            continue
+        if not line.startswith("*"):
+            rows.append([cell.strip() for cell in line.split(",")])
+            continue
+        if line.endswith(","):
+            unfinished = line
+            continue
+        yield keyword, options, rows
+        words = [word.strip() for word in line[1:].split(",")]
+        keyword, rows = words[0].upper(), []
+        pairs = (word.partition("=") for word in words[1:])
+        options = {key.strip().upper(): value.strip().strip('"') for key, _, value in pairs}
+        if keyword == "INCLUDE":
+            yield from _blocks(file.parent / options.get("INPUT", ""))
+            keyword = ""
+    yield keyword, options, rows
+
+
+def _take(deck: _Deck, keyword: str, options: dict[str, str], rows: list[list[str]]) -> None:
+    if keyword in _GENERATORS:
+        raise ImportRefused(f"found *{keyword}; write the deck with every node and element in one Cartesian system")
+    if keyword == "NODE" and options.get("SYSTEM", "R").upper() != "R":
+        raise ImportRefused("found *NODE in cylindrical or spherical coordinates; write the deck in Cartesian ones")
+    if keyword in ("PART", "ASSEMBLY", "INSTANCE"):
+        deck.scope = keyword
+        _check_parts(deck, keyword, options, rows)
+    elif keyword.startswith("END "):
+        deck.scope = "ASSEMBLY" if keyword == "END INSTANCE" else ""
+    elif keyword == "NODE" and deck.scope == "ASSEMBLY":
+        return  # reference points, numbered from 1 once more
+    elif keyword == "NODE":
+        deck.points |= {int(row[0]): ([float(cell) for cell in row[1:] if cell] + [0.0] * 3)[:3] for row in rows}
+        _add(deck.node_sets, options.get("NSET"), [int(row[0]) for row in rows])
+    elif keyword == "ELEMENT":
+        _take_elements(deck, options, rows)
+    elif keyword == "NSET" and "ELSET" in options:
+        deck.nodes_of_elements.append((options.get("NSET", ""), options["ELSET"]))
+    elif keyword in ("NSET", "ELSET"):
+        sets = deck.node_sets if keyword == "NSET" else deck.element_sets
+        _add(sets, options.get(keyword), _members(sets, "GENERATE" in options, rows))
+    elif keyword == "SURFACE" and options.get("TYPE", "ELEMENT").upper() == "ELEMENT":
+        deck.surfaces[options.get("NAME", "")] = [(row[0], row[1].upper() if len(row) > 1 else "") for row in rows]
+
+
+def _check_parts(deck: _Deck, keyword: str, options: dict[str, str], rows: list[list[str]]) -> None:
+    name = options.get("NAME", "?")
+    if keyword == "PART":
+        deck.parts.append(name)
+    if keyword == "INSTANCE":
+        # nodes of its own may follow how it is placed
+        deck.instances[name] = rows
+    for what, names in (("parts", deck.parts), ("instances", list(deck.instances))):
+        if len(names) > 1:
+            raise ImportRefused(f"found several {what} ({', '.join(names)}); allowed: one blade in one part")
+
+
+def _placed(deck: _Deck, points: np.ndarray) -> np.ndarray:
+    """The points where the deck's instance stands: shifted, then turned about an axis (Abaqus, *INSTANCE)."""
+    for name, rows in deck.instances.items():
+        try:
+            shift, *turn = [np.array([float(cell) for cell in row if cell]) for row in rows] or [np.zeros(3)]
+            points = points + shift
+            for numbers in turn:
+                first, along, degrees = numbers[:3], numbers[3:6] - numbers[:3], numbers[6]
+                if not along.any():
+                    raise ValueError
+                axis = along / np.linalg.norm(along)
+                points = first + Rotation.from_rotvec(degrees * axis, degrees=True).apply(points - first)
+        except (ValueError, IndexError):
+            raise ImportRefused(
+                f"instance {name}: how it is placed cannot be read; allowed: three numbers that shift it, then seven "
+                "that turn it"
+            ) from None
+    return points
+
+
+def _take_elements(deck: _Deck, options: dict[str, str], rows: list[list[str]]) -> None:
+    kind = options.get("TYPE", "").upper()
+    solid = re.fullmatch(r"([A-Z]?C3D\d+)[A-Z]*", kind)
+    name = _TYPES.get(solid[1]) if solid else None
+    numbers = [int(cell) for row in rows for cell in row if cell]
+    if name is None:
+        if solid:
+            raise ImportRefused(f"found elements of type {kind}; allowed: {', '.join(_TYPES)}")
+        # one row each: surface and line elements have at most nine nodes
+        deck.others |= {int(row[0]): [int(cell) for cell in row[1:] if cell.isdigit()] for row in rows}
+        _add(deck.element_sets, options.get("ELSET"), [int(row[0]) for row in rows])
+        return
+    width = 1 + len(ELEMENTS[name].nodes)
+    if len(numbers) % width:
+        raise ImportRefused(f"elements of type {kind} must have {width - 1} nodes each; a row is too long or too short")
+    elements = {row[0]: row[1:] for row in (numbers[i : i + width] for i in range(0, len(numbers), width))}
+    deck.solids.setdefault(name, {}).update(elements)
+    _add(deck.element_sets, options.get("ELSET"), list(elements))
+
+
+def _members(sets: dict[str, list[int]], generated: bool, rows: list[list[str]]) -> list[int]:
+    """Numbers listed, generated, or taken over from other sets."""
+    members: list[int] = []
+    for row in rows:
+        cells = [cell for cell in row if cell]
+        if generated:
+            first, last, step = ([int(cell) for cell in cells] + [1])[:3]
+            members += range(first, last + 1, step)
+            continue
+        for cell in cells:
+            # Part-1-1.12 is node 12 of an instance
+            plain = cell.strip('"').rpartition(".")[2]
+            members += [int(plain)] if plain.isdigit() else sets.get(_found(sets, plain), [])
+    return members
+
+
+def _node_lists(deck: _Deck) -> Iterator[tuple[str, list[int]]]:
+    """Every set as node labels: of nodes, of elements (their nodes), of element faces."""
+    elements = {label: nodes for of_type in deck.solids.values() for label, nodes in of_type.items()} | deck.others
+    of_elements = {name: [n for e in members for n in elements.get(e, [])] for name, members in deck.element_sets.items()}
+    yield from of_elements.items()
+    for name, element_set in deck.nodes_of_elements:
+        yield name, of_elements.get(_found(deck.element_sets, element_set), [])
+    for name, faces in deck.surfaces.items():
+        nodes: list[int] = []
+        for of, face in faces:
+            members = [int(of)] if of.isdigit() else deck.element_sets.get(_found(deck.element_sets, of), [])
+            for element in members:
+                nodes += _face_nodes(elements.get(element, []), face)
+        yield name, nodes
+    yield from deck.node_sets.items()
+
+
+def _face_nodes(nodes: list[int], face: str) -> list[int]:
+    """Corners and mid-nodes of face S1, S2, ... of a solid element; all nodes of a surface element."""
+    element = next((e for e in ELEMENTS.values() if len(e.nodes) == len(nodes)), None)
+    if element is None or not face[1:].isdigit():
+        return nodes
+    corners = set(_FACE_CORNERS[element.corners][int(face[1:]) - 1])
+    middle = [node for edge, node in element.edges.items() if edge <= corners]
+    return [nodes[i] for i in (*corners, *middle)]
+
+
+def _add(sets: dict[str, list[int]], name: str | None, members: list[int]) -> None:
+    if name is not None:
+        sets.setdefault(_found(sets, name) or name, []).extend(members)
+
+
+def _found(sets: dict[str, list[int]], name: str) -> str:
+    """The set's name as first written: decks do not tell capital letters."""
+    return next((known for known in sets if known.upper() == name.upper()), "")

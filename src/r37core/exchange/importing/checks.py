@@ -1,0 +1,127 @@
+"""Whether an imported mesh can be computed with: one part, no free nodes, well shaped elements in their right order."""
+
+from __future__ import annotations
+
+import warnings
+from dataclasses import replace
+
+import numpy as np
+import scipy.sparse as sp
+from scipy.sparse.csgraph import connected_components
+
+from r37core.exchange.refusal import ImportRefused, MeshWarning
+from r37core.fem.elements import ELEMENTS
+from r37core.fem.mesh_quality import scaled_jacobian
+
+from .raw_mesh import RawMesh
+
+ALONG_EDGE, OFF_EDGE = 0.24, 0.6
+"""How far a mid-node may lie from the middle of its edge, along it and across it, in lengths of the edge.
+
+Across: half a circle round a blade's nose in one element has 0.5; a wrong node order has 0.7 and more. Along: at 0.25 the
+map of the element folds at the corner.
+"""
+
+
+def checked(mesh: RawMesh, minimum_scaled_jacobian: float) -> tuple[RawMesh, np.ndarray]:
+    """The mesh, all elements right way out, and the scaled Jacobian of each, shape (elements,); warns of linear elements.
+
+    A format of the other winding (MED) is recognised by all elements of a type being inside out. Raises ImportRefused.
+    """
+    if not np.all(np.isfinite(mesh.points)):
+        raise ImportRefused("found coordinates that are not numbers")
+    _check_free_nodes(mesh)
+    _check_parts(mesh)
+    for name, nodes in mesh.blocks.items():
+        _check_midside(mesh, name, nodes)
+    blocks, quality = {}, []
+    for name, nodes in mesh.blocks.items():
+        blocks[name], of_block = _right_way_out(mesh, name, nodes)
+        _check_shape(mesh, name, of_block, minimum_scaled_jacobian)
+        quality.append(of_block)
+    linear = [name for name in blocks if not ELEMENTS[name].quadratic]
+    if linear:
+        warnings.warn(
+            f"elements of first order ({', '.join(linear)}) are too stiff in bending: frequencies come out too high, often by "
+            "10% and more; write the mesh with second-order elements",
+            MeshWarning,
+            stacklevel=2,
+        )
+    return replace(mesh, blocks=blocks), np.concatenate(quality)
+
+
+def _check_free_nodes(mesh: RawMesh) -> None:
+    used = np.unique(np.concatenate([nodes.ravel() for nodes in mesh.blocks.values()]))
+    free = np.setdiff1d(np.arange(len(mesh.points)), used)
+    if len(free):
+        raise ImportRefused(
+            f"{len(free)} of {len(mesh.points)} nodes belong to no solid element ({_some(mesh.labels[free])}); take them out, "
+            "or say drop_free_nodes: true if they are reference or construction points"
+        )
+
+
+def without_free_nodes(mesh: RawMesh) -> RawMesh:
+    """The mesh without the nodes that belong to no solid element."""
+    used = np.unique(np.concatenate([nodes.ravel() for nodes in mesh.blocks.values()]))
+    place = np.full(len(mesh.points), -1)
+    place[used] = np.arange(len(used))
+    sets = {name: place[nodes][place[nodes] >= 0] for name, nodes in mesh.sets.items()}
+    return RawMesh(mesh.points[used], mesh.labels[used], {name: place[nodes] for name, nodes in mesh.blocks.items()}, sets)
+
+
+def _check_parts(mesh: RawMesh) -> None:
+    pairs = [np.stack([nodes[:, :-1].ravel(), nodes[:, 1:].ravel()]) for nodes in mesh.blocks.values()]
+    rows, columns = np.concatenate(pairs, axis=1)
+    graph = sp.coo_array((np.ones(len(rows)), (rows, columns)), shape=(len(mesh.points),) * 2)
+    count, part = connected_components(graph, directed=False)
+    if count > 1:
+        size = np.ptp(mesh.points, axis=0).max()
+        twice = len(mesh.points) - len(np.unique(np.round(mesh.points / (1e-6 * size)), axis=0))
+        hint = f"; {twice} nodes lie on others: merge them" if twice else "; give one blade per file"
+        raise ImportRefused(f"found {count} parts that share no node ({_some(np.sort(np.bincount(part))[::-1])} nodes){hint}")
+
+
+def _check_midside(mesh: RawMesh, name: str, nodes: np.ndarray) -> None:
+    for edge, middle in ELEMENTS[name].edges.items():
+        start, end, point = (mesh.points[nodes[:, i]] for i in (*edge, middle))
+        along = end - start
+        length = np.linalg.norm(along, axis=1)
+        offset = point - 0.5 * (start + end)
+        share = np.abs(np.sum(offset * along, axis=1)) / np.maximum(length, 1e-300) ** 2
+        across = np.linalg.norm(offset, axis=1) / np.maximum(length, 1e-300)
+        wrong = ~((share <= ALONG_EDGE) & (across <= OFF_EDGE))
+        if wrong.any():
+            raise ImportRefused(
+                f"mid-nodes off their edges in {wrong.sum()} of {len(nodes)} elements of type {name}, for example node "
+                f"{mesh.labels[nodes[np.argmax(wrong), middle]]}, {across[np.argmax(wrong)]:.2f} edge lengths from the middle "
+                "of its edge; the file's node order is another one, or the mesh is distorted"
+            )
+
+
+def _right_way_out(mesh: RawMesh, name: str, nodes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    element = ELEMENTS[name]
+    quality = scaled_jacobian(element, mesh.points[nodes])
+    turned = nodes[:, element.mirrored]
+    mirrored = scaled_jacobian(element, mesh.points[turned])
+    return (turned, mirrored) if np.all(quality < 0.0) and np.all(mirrored > 0.0) else (nodes, quality)
+
+
+def _check_shape(mesh: RawMesh, name: str, quality: np.ndarray, minimum: float) -> None:
+    inverted = quality <= 0.0
+    worst = int(np.argmin(quality))
+    where = f"number {worst + 1} of its type, near {_place(mesh.points[mesh.blocks[name][worst]].mean(axis=0))}"
+    if inverted.any():
+        raise ImportRefused(f"{inverted.sum()} of {len(quality)} elements of type {name} are inside out or folded ({where})")
+    if quality[worst] < minimum:
+        raise ImportRefused(
+            f"{np.sum(quality < minimum)} of {len(quality)} elements of type {name} have a scaled Jacobian below "
+            f"minimum_scaled_jacobian ({minimum:g}), the worst {quality[worst]:.3g} ({where}); mesh finer there"
+        )
+
+
+def _some(values: np.ndarray) -> str:
+    return ", ".join(map(str, values[:5].tolist())) + (", ..." if len(values) > 5 else "")
+
+
+def _place(point: np.ndarray) -> str:
+    return "(" + ", ".join(f"{x:.5g}" for x in point) + ")"

@@ -1,0 +1,230 @@
+"""Matrices of another program as a reduced model: the second way in, from a directory of files.
+
+`M.mtx` and `K_<speed>.mtx` at rest and at two speeds in rad/s, full or already reduced, the root clamped; Matrix Market or .npz
+(of SciPy's sparse matrices, or of one array). `boundary.csv`: the contact nodes from the leading to the trailing edge, with
+columns x, y, z (file's unit and axes) and dof_x, dof_y, dof_z: rows of the matrices, from 0.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import scipy.io
+import scipy.linalg as la
+import scipy.sparse as sp
+
+from r37core.exchange.refusal import ImportRefused, blamed
+from r37core.fem.solver import factorise
+from r37core.rom.craig_bampton import multi_speed_basis
+from r37core.rom.reduced_model import RecoveryNodes, ReducedModel
+from r37core.rom.reduction_choice import ReductionChoice
+
+from .source import MASS_UNITS, STIFFNESS_UNITS, MatricesSource, matrix_files
+from .tip import arc_length
+
+COLUMNS = ("x", "y", "z", "dof_x", "dof_y", "dof_z")
+_REDUCED_UP_TO = 500  # coordinates beside those of the contact nodes: matrices that small are taken as they are
+_FEWEST = 20  # rows: the Campbell diagram follows some more modes than it shows
+_SYMMETRIC = 1e-8
+_RIGID = 1e-15
+_LINEAR = 1e-6
+
+
+@dataclass(frozen=True)
+class _Given:
+    """Mass (kg), stiffness at rest (N/m) and its change per squared speed, and the nodes, in the blade's frame."""
+
+    mass: sp.csr_array
+    stiffness: sp.csr_array
+    per_square: sp.csr_array
+    residual: float
+    points: np.ndarray
+
+
+def import_matrices(source: MatricesSource, choice: ReductionChoice, folder: Path | str = ".") -> ReducedModel:
+    """The reduced model of the matrices: as they are if small, else reduced as `choice` says (its boundary is the table's).
+
+    Raises ImportRefused for files that do not fit together, matrices that are not symmetric, and a stiffness that is not
+    linear in the squared speed. Spin softening and Coriolis terms must be in the matrices already: they are not added.
+    """
+    with blamed("matrices"):
+        files = matrix_files(source.folder, Path(folder))
+    with blamed("matrices", source.folder):
+        return _reduced(_read(files, source), choice)
+
+
+def _reduced(given: _Given, choice: ReductionChoice) -> ReducedModel:
+    boundary = np.arange(3 * len(given.points))
+    if given.mass.shape[0] <= len(boundary) + _REDUCED_UP_TO:
+        vectors = np.eye(given.mass.shape[0])
+        columns, tolerance, singular = vectors.shape[1], 0.0, np.ones(vectors.shape[1])
+    else:
+        basis = multi_speed_basis(
+            lambda speed: sp.csr_array(given.stiffness + speed**2 * given.per_square),
+            given.mass,
+            boundary,
+            choice.speeds,
+            choice.fixed_interface_modes,
+            choice.tolerance,
+        )
+        vectors, columns, tolerance, singular = basis.vectors, basis.columns, basis.tolerance, basis.singular_values
+    mass, stiffness = _projected(given.mass, vectors), _projected(given.stiffness, vectors)
+    _check_positive(mass, stiffness)
+    shapes = _ideal_shapes(given)
+    nodes = np.arange(len(given.points))
+    size = vectors.shape[1]
+    line = RecoveryNodes(nodes, given.points, vectors[boundary].reshape(-1, 3, size))
+    return ReducedModel(
+        stiffness=stiffness,
+        geometric_stiffness=_projected(given.per_square, vectors),
+        mass=mass,
+        spin_softening=None,
+        coriolis=None,
+        boundary_nodes=nodes,
+        boundary_chord=_fractions(given.points),
+        tip_lines={choice.boundary.tip_line: line},
+        stress_submesh=RecoveryNodes(np.empty(0, dtype=int), np.empty((0, 3)), np.empty((0, 3, size))),
+        stress_elements={},
+        whole_blade=None,
+        shape_names=tuple(shapes),
+        shape_products=np.array([shape @ (given.mass @ vectors) for shape in shapes.values()]),
+        shape_norms=np.array([np.sqrt(shape @ (given.mass @ shape)) for shape in shapes.values()]),
+        columns=columns,
+        tolerance=tolerance,
+        singular_values=singular,
+        quadratic_residual=given.residual,
+    )
+
+
+def _check_positive(mass: np.ndarray, stiffness: np.ndarray) -> None:
+    """ImportRefused for a mass or stiffness at rest that is not positive."""
+    lowest = np.linalg.eigvalsh(mass)[0]
+    if not lowest > 0.0:
+        raise ImportRefused(f"the mass is not positive (lowest eigenvalue {lowest:.3g} kg); leave no massless rows")
+    squares = la.eigvalsh(stiffness, mass)
+    if not squares[0] > _RIGID * squares[-1]:
+        raise ImportRefused(
+            f"the stiffness at rest is not positive (lowest squared frequency {squares[0]:.3g} rad2/s2); clamp the "
+            "root: leave out its rows and columns"
+        )
+
+
+def _read(files: Mapping[str, Path], source: MatricesSource) -> _Given:
+    orientation = source.orientation
+    points, dofs = _boundary(files["boundary"])
+    try:
+        speeds = sorted((float(name.removeprefix("K_")), name) for name in files if name.startswith("K_"))
+    except ValueError:
+        raise ImportRefused("the speed in a name K_<speed> must be a number in rad/s") from None
+    mass, *stiffness = (_matrix(files[name]) for name in ("M", *(name for _, name in speeds)))
+    size = mass.shape[0]
+    if any(matrix.shape != (size, size) for matrix in stiffness):
+        raise ImportRefused(f"the matrices differ in size: {', '.join(str(m.shape[0]) for m in (mass, *stiffness))}")
+    if size < _FEWEST:
+        raise ImportRefused(f"found matrices of {size} rows; allowed: {_FEWEST} or more")
+    if len(np.unique(dofs)) != len(dofs) or dofs.min() < 0 or dofs.max() >= size:
+        raise ImportRefused(f"boundary.csv: the columns dof_... must name {len(dofs)} different rows from 0 to {size - 1}")
+    rest, per_square, residual = _fitted(np.array([speed for speed, _ in speeds]), stiffness)
+    turn = _boundary_first(size, dofs, orientation.rows)
+    mass, rest, per_square = (sp.csr_array(turn.T @ matrix @ turn) for matrix in (mass, rest, per_square))
+    kilograms, newtons = MASS_UNITS[source.mass_unit], STIFFNESS_UNITS[source.stiffness_unit]
+    return _Given(kilograms * mass, newtons * rest, newtons * per_square, residual, orientation.points_to_blade(points))
+
+
+def _boundary(file: Path) -> tuple[np.ndarray, np.ndarray]:
+    """Positions of the contact nodes, shape (nodes, 3), and the rows of their displacements, shape (3 nodes,)."""
+    try:
+        table = pd.read_csv(file, skipinitialspace=True)
+    except Exception as error:
+        raise ImportRefused(f"{file.name}: cannot be read as a table ({error})") from None
+    if tuple(table.columns) != COLUMNS or table.empty:
+        raise ImportRefused(f"{file.name}: found columns {', '.join(map(str, table.columns))}; allowed: {', '.join(COLUMNS)}")
+    numbers = table.apply(pd.to_numeric, errors="coerce").to_numpy(dtype=float)
+    wrong = ~np.isfinite(numbers).all(axis=1) | (numbers[:, 3:] % 1.0 != 0.0).any(axis=1)
+    if wrong.any():
+        raise ImportRefused(f"{file.name}:{np.argmax(wrong) + 2}: each row must have three coordinates and three row numbers")
+    if len(np.unique(numbers[:, :3], axis=0)) < len(numbers):
+        raise ImportRefused(f"{file.name}: two contact nodes lie at the same place")
+    return numbers[:, :3], numbers[:, 3:].astype(np.int64).ravel()
+
+
+def _matrix(file: Path) -> sp.csr_array:
+    try:
+        if file.suffix == ".mtx":
+            matrix = sp.csr_array(scipy.io.mmread(file))
+        else:
+            with np.load(file) as stored:
+                arrays = dict(stored)
+            matrix = sp.csr_array(sp.load_npz(file) if "indptr" in arrays else next(iter(arrays.values())))
+    except Exception as error:
+        raise ImportRefused(f"{file.name}: cannot be read as a matrix ({type(error).__name__}: {error})") from None
+    off = abs(matrix - matrix.T).max() if matrix.shape[0] == matrix.shape[1] else np.inf
+    if not off <= _SYMMETRIC * abs(matrix).max():
+        raise ImportRefused(
+            f"{file.name}: found a matrix that is not symmetric; allowed: clamped, symmetric mass and stiffness"
+        )
+    return 0.5 * (matrix + matrix.T)
+
+
+def _fitted(speeds: np.ndarray, stiffness: list[sp.csr_array]) -> tuple[sp.csr_array, sp.csr_array, float]:
+    """K0 and K1 of K = K0 + s K1 + s^2 K2 with s the squared speed, and the size of the last term at the highest speed."""
+    squares = speeds**2
+    if squares[0] != 0.0 or len(np.unique(squares)) != 3:
+        raise ImportRefused(f"found speeds {', '.join(f'{s:g}' for s in speeds)}; allowed: 0 and two others")
+    rest = stiffness[0]
+    middle, top = ((k - rest) / square for k, square in zip(stiffness[1:], squares[1:], strict=True))
+    quadratic = (top - middle) / (squares[2] - squares[1])
+    residual = float(abs(quadratic).max() * squares[2] ** 2 / abs(rest).max())
+    if residual > _LINEAR:
+        raise ImportRefused(
+            f"the stiffness is not linear in the squared speed (the next term has {residual:.2g} of its size, "
+            f"allowed {_LINEAR:g}); give stiffnesses about one static state, of the linear theory"
+        )
+    return rest, top, residual
+
+
+def _boundary_first(size: int, dofs: np.ndarray, rows: np.ndarray) -> sp.csr_array:
+    """Old coordinates from new ones: the boundary's first and turned to the blade's frame, the others behind."""
+    others = np.setdiff1d(np.arange(size), dofs)
+    permutation = sp.csr_array((np.ones(size), (np.concatenate([dofs, others]), np.arange(size))), shape=(size, size))
+    turns = sp.block_diag([*([rows.T] * (len(dofs) // 3)), sp.eye_array(len(others))])
+    return sp.csr_array(permutation @ turns)
+
+
+def _ideal_shapes(given: _Given) -> dict[str, np.ndarray]:
+    """Shapes to name modes by, without a mesh: static answers to the tip moved along its normal, and turned.
+
+    What the first has beyond a further static step (inverse stiffness times mass), orthogonal to it, is the second bending.
+    """
+    tangent = given.points[-1] - given.points[0]
+    tangent = tangent if np.any(tangent) else np.array([0.0, 0.0, 1.0])
+    radial = given.points.mean(axis=0) * [1.0, 1.0, 0.0]
+    normal = np.cross(tangent, radial)
+    normal /= np.linalg.norm(normal)
+    chord = _fractions(given.points)
+    boundary = 3 * len(chord)
+    bending = np.outer(np.ones(len(chord)), normal).ravel()
+    torsion = np.outer(chord - 0.5 if len(chord) > 1 else 0.0 * chord, normal).ravel()
+    if len(chord) == 1:
+        torsion = np.cross(normal, radial / np.linalg.norm(radial))
+    inner, coupling = given.stiffness[boundary:, boundary:], given.stiffness[boundary:, :boundary]
+    solve = factorise(inner) if inner.shape[0] else lambda load: load
+    first, twist = (np.concatenate([part, -solve(coupling @ part)]) for part in (bending, torsion))
+    smooth = factorise(given.stiffness)(given.mass @ first)
+    second = first - smooth * (smooth @ (given.mass @ first)) / (smooth @ (given.mass @ smooth))
+    return {"1B": smooth, "1T": twist, "2B": second}
+
+
+def _projected(matrix: sp.csr_array, vectors: np.ndarray) -> np.ndarray:
+    reduced = vectors.T @ (matrix @ vectors)
+    return 0.5 * (reduced + reduced.T)
+
+
+def _fractions(points: np.ndarray) -> np.ndarray:
+    """Fractions of the length along the nodes, from leading to trailing edge; a half for a single one."""
+    length = arc_length(points)
+    return length / length[-1] if length[-1] > 0.0 else np.full(len(points), 0.5)

@@ -1,0 +1,115 @@
+"""Readers of .msh, .vtu, .bdf and .med by meshio, of .cdb by meshlane: one place for what meshio leaves open."""
+
+from __future__ import annotations
+
+import contextlib
+import io
+import tempfile
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import meshio
+import numpy as np
+from meshio._mesh import topological_dimension
+
+from r37core.exchange.refusal import ImportRefused
+
+from .raw_mesh import RawMesh, solid_blocks
+
+# meshio 5.3.5 knows the 15-node wedge in its formats but not here, and stops when a mesh has one
+topological_dimension.setdefault("wedge15", 3)
+
+
+def read_with_meshio(file: Path) -> RawMesh:
+    """The mesh of a file in a format of meshio; ImportRefused for whatever meshio does with a file it cannot read."""
+    return _raw(quietly(meshio.read, file))
+
+
+def read_nastran(file: Path) -> RawMesh:
+    """The mesh of a bulk data file, which may lack the line BEGIN BULK (gmsh writes none)."""
+    text = file.read_text(encoding="utf-8", errors="replace")
+    if "BEGIN BULK" in text.upper():
+        return read_with_meshio(file)
+    with tempfile.TemporaryDirectory() as folder:
+        whole = Path(folder) / file.with_suffix(".bdf").name
+        whole.write_text("BEGIN BULK\n" + text, encoding="utf-8")
+        return read_with_meshio(whole)
+
+
+def read_ansys(file: Path) -> RawMesh:
+    """The mesh of an Ansys archive (.cdb), by the extra package meshlane."""
+    try:
+        import meshlane
+    except ImportError:
+        raise ImportRefused(
+            "Ansys archives need the extra package meshlane: pip install '.[ansys]' in the project's folder"
+        ) from None
+    return _raw(quietly(meshlane.read, file))
+
+
+def quietly(read: Callable[[Path], Any], file: Path) -> Any:
+    """What `read` makes of the file, its prints kept back; ImportRefused for any error, and for an attempt to exit."""
+    said = io.StringIO()
+    try:
+        with contextlib.redirect_stdout(said), contextlib.redirect_stderr(said):
+            return read(file)
+    except (Exception, SystemExit) as error:
+        lacking = f"something names {error}, which the file lacks; are there elements without their mid-nodes?"
+        found = lacking if isinstance(error, KeyError) else f"{type(error).__name__}: {error}"
+        reason = " ".join(said.getvalue().split()) or found
+        raise ImportRefused(f"the reader gave up: {reason}") from None
+
+
+def _raw(mesh: Any) -> RawMesh:
+    blocks = solid_blocks((block.type, block.data) for block in mesh.cells)
+    points = np.zeros((len(mesh.points), 3))
+    points[:, : np.shape(mesh.points)[1]] = mesh.points
+    sets = {name: np.unique(nodes) for name, nodes in _sets(mesh)}
+    return RawMesh(points, np.arange(1, len(points) + 1), blocks, {name: nodes for name, nodes in sets.items() if len(nodes)})
+
+
+def _sets(mesh: Any) -> Iterator[tuple[str, np.ndarray]]:
+    """Named sets of nodes and of cells (as their nodes), groups of gmsh and MED, and whole-number fields by value."""
+    yield from _fields(mesh)
+    for number, names in (getattr(mesh, "cell_tags", None) or {}).items():
+        for name in names:
+            yield name, _nodes_where(mesh, "cell_tags", number)
+    for number, names in (getattr(mesh, "point_tags", None) or {}).items():
+        for name in names:
+            yield name, np.flatnonzero(mesh.point_data["point_tags"] == number)
+    if "gmsh:physical" in mesh.cell_data:
+        for name, (number, dimension) in mesh.field_data.items():
+            yield name, _nodes_where(mesh, "gmsh:physical", number, int(dimension))
+    elif not getattr(mesh, "cell_tags", None):
+        for name, members in mesh.cell_sets.items():
+            pairs = zip(mesh.cells, members, strict=True)
+            parts = [block.data[np.asarray(some, dtype=int)].ravel() for block, some in pairs if some is not None]
+            yield name, np.concatenate([np.empty(0, dtype=int), *parts])
+    for name, nodes in mesh.point_sets.items():
+        yield name, np.asarray(nodes, dtype=int)
+
+
+def _nodes_where(mesh: Any, field: str, number: int, dimension: int | None = None) -> np.ndarray:
+    """Nodes of the cells that have `number` in a field, of one dimension where it is given."""
+    pairs = zip(mesh.cells, mesh.cell_data[field], strict=True)
+    wanted = [block.data[values == number].ravel() for block, values in pairs if dimension in (None, block.dim)]
+    return np.concatenate([np.empty(0, dtype=int), *wanted])
+
+
+def _fields(mesh: Any) -> Iterator[tuple[str, np.ndarray]]:
+    """A field of whole numbers on nodes or cells is a set for each value: `name=value`, and `name` where it only marks."""
+    for name, values in mesh.point_data.items():
+        if values.ndim == 1 and np.issubdtype(values.dtype, np.integer):
+            found = np.unique(values)
+            for value in found[:_MOST_VALUES]:
+                yield f"{name}={value}", np.flatnonzero(values == value)
+            if set(found.tolist()) <= {0, 1}:
+                yield name, np.flatnonzero(values)
+    for name, parts in mesh.cell_data.items():
+        if all(np.ndim(part) == 1 and np.issubdtype(np.asarray(part).dtype, np.integer) for part in parts):
+            for value in np.unique(np.concatenate(parts))[:_MOST_VALUES]:
+                yield f"{name}={value}", _nodes_where(mesh, name, value)
+
+
+_MOST_VALUES = 100

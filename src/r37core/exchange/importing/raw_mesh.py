@@ -1,0 +1,44 @@
+"""A mesh as a file gives it: in the file's units and axes, with its sets as node numbers."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from r37core.exchange.refusal import ImportRefused
+from r37core.fem.elements import ELEMENTS
+
+_SURFACE = ("vertex", "line", "triangle", "quad", "polygon")
+
+
+@dataclass(frozen=True)
+class RawMesh:
+    """What a reader found.
+
+    `points`: shape (nodes, 3), in the file's unit; `labels`: the file's own numbers of the nodes, shape (nodes,); `blocks`:
+    element type -> nodes, shape (elements, nodes of the type), solids only; `sets`: name -> node numbers from 0.
+    """
+
+    points: np.ndarray
+    labels: np.ndarray
+    blocks: Mapping[str, np.ndarray]
+    sets: Mapping[str, np.ndarray]
+
+
+def solid_blocks(cells: Iterable[tuple[str, np.ndarray]]) -> dict[str, np.ndarray]:
+    """The solid elements among `cells` (type, nodes), joined by type in the order of the table of elements.
+
+    Raises ImportRefused for solids that the table lacks and where there are none.
+    """
+    found: dict[str, list[np.ndarray]] = {}
+    for name, nodes in cells:
+        if len(nodes) and not name.startswith(_SURFACE):
+            found.setdefault(name, []).append(np.asarray(nodes, dtype=np.int64))
+    unknown = [name for name in found if name not in ELEMENTS]
+    if unknown:
+        raise ImportRefused(f"found elements of type {', '.join(unknown)}; allowed: {', '.join(ELEMENTS)}")
+    if not found:
+        raise ImportRefused(f"found no solid elements; allowed: {', '.join(ELEMENTS)}")
+    return {name: np.concatenate(found[name]) for name in ELEMENTS if name in found}

@@ -1,0 +1,140 @@
+"""The tip of an imported blade: whether casing contact makes sense there, and its pressure edge, suction edge, camber line."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+from r37core.exchange.refusal import ImportRefused
+from r37core.fem.surface import Faces, loops, nodes_of, patches
+
+_CORNER = np.cos(np.radians(40.0))
+_NEAR_END = 1.2  # mean thicknesses of the tip: a corner this near to the farthest point ends the edge's line
+_NEAR_CAMBER = 0.3  # of the local thickness: tip nodes that count as on the camber line
+_SAMPLES = 201
+
+
+@dataclass(frozen=True)
+class TipLines:
+    """Nodes along the tip from leading to trailing edge, and the fraction of the line's length of each.
+
+    `lines`: name of the node set -> (nodes, fractions), both shape (n,).
+    """
+
+    lines: dict[str, tuple[np.ndarray, np.ndarray]]
+
+    @property
+    def corners(self) -> tuple[int, int]:
+        """The node at the leading and at the trailing edge, on the pressure side."""
+        nodes, _ = self.lines["tip_pressure_edge"]
+        return int(nodes[0]), int(nodes[-1])
+
+
+def check_revolution(points: np.ndarray, tolerance: float) -> None:
+    """Refuse a tip, nodes `points`, shape (n, 3), farther than `tolerance` (m) from every surface of revolution about z.
+
+    The meridian is fitted: radius as a parabola of z, a constant where the tip has no axial length.
+    """
+    radius, z = np.hypot(points[:, 0], points[:, 1]), points[:, 2]
+    size = np.ptp(points, axis=0).max()
+    degree = min(2, len(np.unique(np.round(z / (1e-3 * size)))) - 1) if np.ptp(z) > 0.02 * size else 0
+    off = radius - np.polynomial.Polynomial.fit(z, radius, degree)(z)
+    worst = int(np.argmax(np.abs(off)))
+    if abs(off[worst]) > tolerance:
+        raise ImportRefused(
+            f"tip: no surface of revolution about the rotor axis: at z = {z[worst]:.5g} m the radius {radius[worst]:.6g} m is "
+            f"{1e3 * off[worst]:+.3g} mm off the meridian through all its nodes (allowed: revolution_tolerance_m, "
+            f"{1e3 * tolerance:g} mm); turn the tip to the casing's shape, or check rotor_axis and the rule for the tip"
+        )
+
+
+def find_tip_lines(points: np.ndarray, faces: list[Faces], pressure_forward: bool) -> TipLines:
+    """Lines along the tip `faces` of a blade with nodes at `points`, shape (nodes, 3), in the blade's frame.
+
+    Leading and trailing edge are the two points of the tip's outline that are farthest apart, the leading one upstream; the
+    edges end at sharp corners near them (blunt edges). `pressure_forward`: whether the pressure side looks towards the
+    rotation (compressors), against growing theta. The camber line is made of the tip's nodes that lie half-way between the
+    two edges. Raises ImportRefused where that cannot be told.
+    """
+    count = patches(faces)
+    if count > 1:
+        raise ImportRefused(f"tip: its faces are {count} patches that do not touch; allowed: one")
+    outlines = loops(faces)
+    outline = max(outlines, key=lambda loop: arc_length(points[np.append(loop, loop[0])])[-1])
+    first, last = _farthest(points[outline])
+    if points[outline[first], 2] > points[outline[last], 2]:
+        first, last = last, first
+    ends = points[outline[[first, last]]]
+    if ends[1, 2] - ends[0, 2] < 0.02 * np.linalg.norm(ends[1] - ends[0]):
+        raise ImportRefused(
+            "tip: leading and trailing edge lie at the same z, so that they cannot be told apart; check rotor_axis"
+        )
+    forth = np.roll(outline, -first)[: (last - first) % len(outline) + 1]
+    back = np.roll(outline, -last)[: (first - last) % len(outline) + 1][::-1]
+    thickness = float(_area(points[outline]) / np.linalg.norm(ends[1] - ends[0]))
+    sides = [_between_corners(points, line, thickness) for line in (forth, back)]
+    sides.sort(key=lambda line: _middle_angle(points, line))
+    pressure, suction = sides if pressure_forward else sides[::-1]
+    lines = {"tip_pressure_edge": pressure, "tip_suction_edge": suction}
+    fractions = {name: (line, _fractions(points[line])) for name, line in lines.items()}
+    fractions["tip_camber_line"] = _camber(points, nodes_of(faces), pressure, suction)
+    return TipLines(fractions)
+
+
+def _camber(points: np.ndarray, tip: np.ndarray, pressure: np.ndarray, suction: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Tip nodes near the line half-way between the edges, and their fractions along it."""
+    steps = np.linspace(0.0, 1.0, _SAMPLES)
+    sides = [_at(points[line], steps) for line in (pressure, suction)]
+    middle, across = 0.5 * (sides[0] + sides[1]), np.linalg.norm(sides[1] - sides[0], axis=1)
+    distance, nearest = cKDTree(middle).query(points[tip])
+    spacing = np.linalg.norm(np.diff(middle, axis=0), axis=1).max()
+    near = distance <= np.maximum(_NEAR_CAMBER * across[nearest], 0.5 * spacing)
+    order = np.argsort(steps[nearest[near]], kind="stable")
+    return tip[near][order], steps[nearest[near]][order]
+
+
+def _between_corners(points: np.ndarray, line: np.ndarray, thickness: float) -> np.ndarray:
+    """The line without the ends beyond sharp corners: a blunt edge is no part of the sides."""
+    path = points[line]
+    step = np.diff(path, axis=0)
+    step /= np.linalg.norm(step, axis=1)[:, None]
+    sharp = np.flatnonzero(np.sum(step[1:] * step[:-1], axis=1) < _CORNER) + 1
+    length = arc_length(path)
+    reach = min(_NEAR_END * thickness, 0.25 * length[-1])
+    start = max(sharp[length[sharp] <= reach], default=0)
+    end = min(sharp[length[-1] - length[sharp] <= reach], default=len(line) - 1)
+    return line[start : end + 1]
+
+
+def _farthest(points: np.ndarray) -> tuple[int, int]:
+    distance = np.linalg.norm(points[:, None] - points[None], axis=2)
+    first, last = np.unravel_index(np.argmax(distance), distance.shape)
+    return int(first), int(last)
+
+
+def _middle_angle(points: np.ndarray, line: np.ndarray) -> float:
+    x, y, _ = _at(points[line], np.linspace(0.3, 0.7, 9)).T
+    return float(np.mean(np.arctan2(y, x)))
+
+
+def _area(outline: np.ndarray) -> float:
+    centre = outline.mean(axis=0)
+    return float(0.5 * np.linalg.norm(np.sum(np.cross(outline - centre, np.roll(outline, -1, axis=0) - centre), axis=0)))
+
+
+def arc_length(path: np.ndarray) -> np.ndarray:
+    """Length along a path up to each of its points, shape (points,), of points of shape (points, 3)."""
+    return np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(path, axis=0), axis=1))])
+
+
+def _fractions(path: np.ndarray) -> np.ndarray:
+    length = arc_length(path)
+    return length / length[-1]
+
+
+def _at(path: np.ndarray, fractions: np.ndarray) -> np.ndarray:
+    """Points at fractions of the path's length, shape (fractions, 3)."""
+    own = _fractions(path)
+    return np.stack([np.interp(fractions, own, column) for column in path.T], axis=1)

@@ -1,0 +1,22 @@
+"""What the report (snakemake --report) shows: categories by blade, then scene, labels and captions."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+from .captions import caption
+
+TOGETHER = "All blades"
+EVERY_SCENE = "every scene"
+
+
+def shown(text: Path, category: str, subcategory: str, **labels: str) -> dict[str, Any]:
+    """Arguments of Snakemake's `report` flag for one kind of output, with wildcards in braces; `text`: its .rst file."""
+    return {"caption": text, "category": category, "subcategory": subcategory, "labels": labels}
+
+
+def captioned(figure: str | None = None) -> Callable[[Any], str]:
+    """The parameter `caption` of a kind of figure, or where none is named of the kind that is a wildcard."""
+    return lambda wildcards: caption(figure or wildcards.kind, **dict(wildcards.items()))

@@ -1,0 +1,93 @@
+"""The plan of `snakemake exports`: which files, from what, with which numbers."""
+
+from __future__ import annotations
+
+from dataclasses import asdict, dataclass, replace
+from pathlib import Path
+from typing import Any
+
+from r37core.blade.definition import BladeDefinition
+from r37core.exchange.importing.source import MeshSource
+from r37core.speeds import exact_text
+
+from . import paths
+from .import_plan import Imported
+from .sweep_plan import Sweep
+
+
+@dataclass(frozen=True)
+class Exports:
+    """Plan of the exports. Methods with `wildcards` are inputs and parameters of rules."""
+
+    imported: Imported
+    sweep: Sweep
+
+    @property
+    def files(self) -> list[str]:
+        """All files and folders that this run's configuration asks for."""
+        settings, with_mesh = self.imported.settings, self.imported.with_mesh
+        shaped = self.imported.given_by(BladeDefinition)
+        formats = settings.config.exports.mesh_formats
+        found = [paths.fill(paths.EXPORTED_MESH, blade=blade, format=name) for blade in with_mesh for name in formats]
+        found += [paths.fill(paths.EXPORTED_MODES, blade=blade) for blade in with_mesh]
+        found += [paths.fill(paths.EXPORTED_SURFACE, blade=blade) for blade in shaped]
+        found += [paths.fill(paths.EXPORTED_MATRICES, blade=blade) for blade in settings.blades]
+        stressed = self.sweep.runs_with("stress")
+        return found + [paths.fill(paths.EXPORTED_STRESS, blade=blade, scene=scene) for blade, scene in stressed]
+
+    @property
+    def choice(self) -> dict[str, Any]:
+        """The section of config.yaml, with the speeds (rad/s) of modes and matrices."""
+        settings = self.imported.settings
+        given, highest = settings.config.exports, float(settings.structure.maximum_speed_rad_s)
+        return {
+            "formats": tuple(given.result_formats),
+            "modes": given.modes,
+            "mode_speeds": tuple(map(float, given.mode_speeds_rad_s or (0.0, highest))),
+            "matrix_speeds": (0.0, 0.5 * highest, highest),
+            "spin_softening": settings.structure.spin_softening,
+        }
+
+    def model(self, wildcards: Any) -> str:
+        """The model of the whole blade with the contact nodes of a scene, or else those of config.yaml."""
+        settings = self.imported.settings
+        scene = getattr(wildcards, "scene", None)
+        tip_line = settings.scenes[scene].tip_line if scene else settings.structure.boundary.tip_line
+        return paths.fill(paths.WHOLE_BLADE_MODEL, blade=wildcards.blade, tip_line=tip_line)
+
+    def reduction(self, wildcards: Any) -> dict[str, Any]:
+        """What the model of the whole blade is made of: the sweep's, recovered everywhere."""
+        choice = self.imported.settings.reduction_choice(wildcards.tip_line, wildcards.blade)
+        return asdict(replace(choice, whole_blade=True))
+
+    def orientation(self, wildcards: Any) -> Any:
+        """Axes and unit of an imported mesh, in which its results are written; None for the blade's own frame."""
+        definition = self.imported.source(wildcards)
+        return definition.orientation if isinstance(definition, MeshSource) else None
+
+    def described(self, wildcards: Any) -> str:
+        """Axes and unit as a text, which re-runs a job when they change."""
+        return repr(self.orientation(wildcards))
+
+    def matrix_files(self, wildcards: Any) -> dict[str, str]:
+        """What matrices are written from: the reduced model, or mesh and full matrices beside it."""
+        settings = self.imported.settings
+        tip_line = settings.structure.boundary.tip_line
+        found = {"rom": paths.fill(paths.REDUCED_MODEL, blade=wildcards.blade, tip_line=tip_line)}
+        if settings.config.exports.full_matrices and wildcards.blade in self.imported.with_mesh:
+            found |= {"mesh": paths.fill(paths.MESH, blade=wildcards.blade)}
+            found |= {"matrices": f"<results>/{wildcards.blade}/matrices.npz"}
+        return found
+
+    def only_worst(self, wildcards: Any) -> bool:
+        """Whether the speed with the largest stress is written alone."""
+        return self.imported.settings.config.exports.only_worst()
+
+    def speed_files(self, wildcards: Any) -> list[str]:
+        """The simulations among which worst instants are looked for."""
+        files = self.sweep.speed_files(wildcards)
+        chosen = self.imported.settings.config.exports.stress_speeds()
+        if chosen is None:
+            return files
+        wanted = {f"speed_{exact_text(speed)}.npz" for speed in chosen}
+        return [file for file in files if Path(file).name in wanted]

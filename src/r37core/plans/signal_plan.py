@@ -1,0 +1,82 @@
+"""The plan of the time signals: of which blades and scenes, at which speeds, from what."""
+
+from __future__ import annotations
+
+from dataclasses import asdict, dataclass
+from typing import Any
+
+from . import paths
+from .import_plan import Imported
+from .sweep_plan import Sweep
+
+
+@dataclass(frozen=True)
+class Signals:
+    """Plan of the signals that the configuration asks for. Methods with `wildcards` are inputs and parameters of rules."""
+
+    imported: Imported
+    sweep: Sweep
+
+    @property
+    def _given(self) -> Any:
+        return self.sweep.settings.config.signals
+
+    @property
+    def runs(self) -> list[tuple[str, str]]:
+        """Pairs of blade and scene with signals; none without speeds."""
+        if self._given.speeds() is None:
+            return []
+        pairs = self.sweep.runs_with("signal")
+        return [(blade, scene) for blade, scene in pairs if self._given.blades == "all" or blade in self._given.blades]
+
+    @property
+    def files(self) -> list[str]:
+        """Signals of each blade and scene."""
+        return [paths.fill(paths.SIGNALS, blade=blade, scene=scene) for blade, scene in self.runs]
+
+    @property
+    def outputs(self) -> list[str]:
+        """The dataset and the pictures; nothing where no signals are asked for."""
+        figures = (paths.SPECTROGRAM_FIGURE, paths.ORDERS_FIGURE)
+        drawn = [paths.fill(figure, blade=blade, scene=scene) for blade, scene in self.runs for figure in figures]
+        return [paths.ALL_SIGNALS, *drawn, *map(paths.as_pdf, drawn)] if self.runs else []
+
+    def gauges(self, wildcards: Any) -> dict[str, dict[str, Any]]:
+        """Gauges of a blade as plain values; a blade given by matrices has none."""
+        given = self._given.gauges if wildcards.blade in self.imported.with_mesh else {}
+        return {name: asdict(entry.gauge()) for name, entry in given.items()}
+
+    def inputs(self, wildcards: Any) -> dict[str, str]:
+        """What signals are made from, with what gauges and the speeds of interactions need beside it."""
+        blade, scene, tip_line = wildcards.blade, wildcards.scene, self.tip_line(wildcards)
+        found = {
+            "prepared": paths.fill(paths.INTEGRATION_STAMP, blade=blade, scene=scene),
+            "model": self.sweep.contact_model(wildcards),
+            "rom": paths.fill(paths.REDUCED_MODEL, blade=blade, tip_line=tip_line),
+        }
+        if self.gauges(wildcards):
+            found |= {"mesh": paths.fill(paths.MESH, blade=blade)}
+            found |= {"whole": paths.fill(paths.WHOLE_BLADE_MODEL, blade=blade, tip_line=tip_line)}
+        if self._given.speeds() == "interactions":
+            found |= {"campbell": paths.fill(paths.CAMPBELL, blade=blade)}
+            found |= {"response": paths.fill(paths.RESPONSE, blade=blade, scene=scene)}
+        return found
+
+    @property
+    def speeds(self) -> list[float]:
+        """Speeds (rad/s) that are named, ascending; none for those of interactions."""
+        given = self._given.speeds()
+        return given if isinstance(given, list) else []
+
+    @property
+    def probes(self) -> list[float]:
+        """Angles of the probes (degrees), ascending."""
+        return sorted(map(float, self._given.probes_deg))
+
+    def revolutions(self, wildcards: Any) -> int:
+        """How many revolutions at the end are kept."""
+        return self._given.revolutions or self.sweep.settings.scenes[wildcards.scene].revolutions
+
+    def tip_line(self, wildcards: Any) -> str:
+        """The line of the contact nodes of a scene."""
+        return self.sweep.settings.scenes[wildcards.scene].tip_line

@@ -1,0 +1,174 @@
+"""Shapes to look at: modes, and the worst instant of interactions, as .vtu files and as .glb files that move."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Final
+
+import numpy as np
+from matplotlib import colormaps
+
+from r37core.exchange.exporting.fields import (
+    Target,
+    WorstInstant,
+    displacement_of,
+    mode_shapes,
+    stress_of,
+    write_modes,
+    write_stress,
+)
+from r37core.fem.material import Material
+from r37core.fem.stress import von_mises
+from r37core.fem.surface import outer_faces
+from r37core.io import write_json
+from r37core.mesh.blade_mesh import BladeMesh
+from r37core.rom.reduced_model import ReducedModel
+from r37core.speeds import exact_text
+from r37core.units import RPM
+
+from .gltf import MovingSurface, write_glb
+
+INDEX = "shapes.json"
+"""In each folder of shapes: what its .glb files show."""
+
+COLOUR_MAP: Final = "viridis"
+LARGEST_SHOWN = 0.1
+"""Largest displacement as it is shown, as a share of the blade's height."""
+
+_MODE_SECONDS, _REVOLUTION_SECONDS, _MODE_STEPS = 2.0, 6.0, 32
+_MOST_TARGETS = 8  # what every viewer can morph at once
+_LEFT_OUT = 0.01  # of the motion
+_SHOWN = 0.99  # of the nodes: the few at contact and clamping have stresses that grow with every finer mesh
+
+
+@dataclass(frozen=True)
+class _Skin:
+    """The outer surface between corner nodes: `nodes` of the mesh, shape (points,), and `triangles` that number them."""
+
+    nodes: np.ndarray
+    triangles: np.ndarray
+
+
+def write_mode_shapes(mesh: BladeMesh, model: ReducedModel, count: int, folder: Path) -> None:
+    """Write the `count` lowest modes at rest: modes_0.vtu with modes.pvd, and mode_<name>.glb, which swings.
+
+    Colours are the displacement as a share of its largest. The model must recover the whole blade.
+    """
+    write_modes(mesh, model, [0.0], count, Target(folder))
+    skin, modes = _skin(mesh), mode_shapes(model, 0.0, count)
+    times = np.linspace(0.0, _MODE_SECONDS, _MODE_STEPS + 1)
+    swing = np.sin(2.0 * np.pi * times / _MODE_SECONDS)[:, None]
+    entries = []
+    for name, frequency, displacement in zip(modes.names, modes.frequencies, modes.displacement, strict=True):
+        size = np.linalg.norm(displacement, axis=1)
+        target = displacement[skin.nodes] * (LARGEST_SHOWN * _height(mesh) / size.max())
+        about = {
+            "shape": f"mode_{name}",
+            "title": f"mode {name}, {frequency:.6g} Hz at rest",
+            "quantity": "displacement as a share of its largest",
+            "unit": "1",
+            "largest_shown": 1.0,
+        }
+        values = size[skin.nodes] / size.max()
+        surface = _surface(mesh, skin, values, target[None], times, swing, np.ones(1), about)
+        entries.append(_write(surface, folder))
+    write_json(entries, folder / INDEX)
+
+
+def write_worst_shapes(
+    mesh: BladeMesh,
+    model: ReducedModel,
+    material: Material,
+    instants: Mapping[float, WorstInstant],
+    titles: Mapping[float, str],
+    folder: Path,
+) -> None:
+    """Write the worst instant at each speed (rad/s): stress_<speed>.vtu with stress.pvd, and stress_<speed>.glb.
+
+    The .glb moves as the blade did in its last revolution; its colours are the von Mises stress (Pa) of the worst instant, up
+    to the largest one of the submesh, or to what _SHOWN of the nodes stay below if that is more. `titles` of the interactions
+    at the speeds. The model must recover the whole blade.
+    """
+    write_stress(mesh, model, material, instants, Target(folder))
+    skin, entries = _skin(mesh), []
+    for speed, instant in instants.items():
+        stress = von_mises(stress_of(mesh, model, material, instant)[1])
+        motion = displacement_of(model, instant.revolution)[:, skin.nodes]
+        magnified = _round_down(LARGEST_SHOWN * _height(mesh) / np.linalg.norm(motion, axis=2).max())
+        targets, weights = _few_targets(magnified * motion)
+        # the last revolution begins anew where it ends
+        weights = np.concatenate([weights, weights[:1]])
+        times = np.linspace(0.0, _REVOLUTION_SECONDS, len(weights))
+        about = {
+            "shape": f"stress_{exact_text(speed)}",
+            "title": f"{titles[speed]} at {speed:g} rad/s ({RPM * speed:.0f} rpm): largest von Mises stress of the submesh "
+            f"{1e-6 * instant.largest:.0f} MPa; displacement {magnified:g} times as large",
+            "quantity": "von Mises stress",
+            "unit": "Pa",
+            "largest_shown": max(instant.largest, float(np.quantile(stress, _SHOWN))),
+            "speed_rad_s": speed,
+            "magnification": magnified,
+            "worst_s": float(times[instant.number]),
+        }
+        surface = _surface(mesh, skin, stress[skin.nodes], targets, times, weights, weights[instant.number], about)
+        entries.append(_write(surface, folder))
+    write_json(entries, folder / INDEX)
+
+
+def _few_targets(motion: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """The motion, shape (instants, points, 3), as few targets and their weights, shape (instants, targets).
+
+    The left singular vectors of the motion: with all but _LEFT_OUT of its size, as long as they are not too many.
+    """
+    flat = motion.reshape(len(motion), -1)
+    weights, size, shapes = np.linalg.svd(flat, full_matrices=False)
+    left = np.sqrt(np.cumsum(size[::-1] ** 2)[::-1] / max(np.sum(size**2), 1e-300))
+    count = int(np.clip(np.count_nonzero(left > _LEFT_OUT), 1, _MOST_TARGETS))
+    weights = weights[:, :count] * size[:count]
+    # weights up to 1, as viewers with sliders expect
+    scale = np.maximum(np.abs(weights).max(axis=0), 1e-300)
+    return (shapes[:count] * scale[:, None]).reshape(count, *motion.shape[1:]), weights / scale
+
+
+def _surface(
+    mesh: BladeMesh,
+    skin: _Skin,
+    values: np.ndarray,
+    targets: np.ndarray,
+    times: np.ndarray,
+    weights: np.ndarray,
+    at_rest: np.ndarray,
+    about: dict[str, object],
+) -> MovingSurface:
+    share = np.clip(values / max(float(about["largest_shown"]), 1e-300), 0.0, 1.0)  # type: ignore[arg-type]
+    colours = colormaps[COLOUR_MAP](share)[:, :3]
+    return MovingSurface(mesh.points[skin.nodes], skin.triangles, values, colours, targets, times, weights, at_rest, about)
+
+
+def _write(surface: MovingSurface, folder: Path) -> dict[str, object]:
+    """Write the file; what the index says of it."""
+    name = str(surface.about["shape"])
+    write_glb(surface, name, folder / f"{name}.glb")
+    return dict(surface.about)
+
+
+def _skin(mesh: BladeMesh) -> _Skin:
+    corners = [part.nodes[:, : part.corners] for part in outer_faces(mesh.blocks)]
+    triangles = [
+        quad[:, split] for quad in corners for split in ([[0, 1, 2], [0, 2, 3]] if quad.shape[1] == 4 else [[0, 1, 2]])
+    ]
+    nodes, numbers = np.unique(np.concatenate(triangles), return_inverse=True)
+    return _Skin(nodes, numbers.reshape(-1, 3))
+
+
+def _height(mesh: BladeMesh) -> float:
+    """Height of the blade (m): from the lowest to the highest radius."""
+    return float(np.ptp(np.hypot(mesh.points[:, 0], mesh.points[:, 1])))
+
+
+def _round_down(number: float) -> float:
+    """A number with one digit, not larger: a magnification that can be said."""
+    power = 10.0 ** np.floor(np.log10(number))
+    return float(f"{np.floor(number / power) * power:.0e}")
