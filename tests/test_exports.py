@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import meshio
 import numpy as np
+import pandas as pd
 import pytest
 import pyvista
 
@@ -222,3 +223,27 @@ def test_unsuitable_tables_are_refused(choice, tmp_path, table, message):
     with pytest.raises(ImportRefused, match=message) as refusal:
         import_matrices(MatricesSource(str(tmp_path), OURS), choice)
     assert refusal.value.key == "matrices"
+
+
+@pytest.mark.parametrize(
+    ("change", "key", "message"),
+    [
+        (lambda nodes: 1e3 * nodes, "length_unit", r"24\d to 2\d\d m from the rotor axis .*length_unit 'm'.* does not fit"),
+        (lambda nodes: 1e-3 * nodes, "length_unit", r"length_unit 'm'"),
+        (lambda nodes: nodes + np.array([1e9, 0, 0]), "length_unit", r"1e\+09 to 1e\+09 m from the rotor axis"),
+        (lambda nodes: nodes * [0, 0, 1], "length_unit", "0 to 0 m from the rotor axis .* rotor_axis or axis_point"),
+        (lambda nodes: nodes[:, [1, 0, 2]], "radial", "the contact nodes' middle lies at .* degrees round the axis"),
+        (lambda nodes: nodes[::-1], "matrices", "the contact nodes run upstream; list them from the leading"),
+        (lambda nodes: nodes[[0, 2, 1, *range(3, len(nodes))]], "matrices", "contact node 3 does not lie beyond"),
+        (lambda nodes: nodes[np.argsort(np.arange(len(nodes)) % 2, kind="stable")], "matrices", "does not lie beyond"),
+        (lambda nodes: nodes * [1, 1, 0], "matrices", "leading and trailing edge lie at the same z"),
+    ],
+)
+def test_contact_nodes_of_another_size_or_order_are_refused(model, choice, tmp_path, change, key, message):
+    write_reduced_matrices(model, "pressure_edge", (0.0, 1000.0, 2000.0), tmp_path)
+    table = pd.read_csv(tmp_path / "boundary.csv")
+    table[["x", "y", "z"]] = change(table[["x", "y", "z"]].to_numpy())
+    table.to_csv(tmp_path / "boundary.csv", index=False)
+    with pytest.raises(ImportRefused, match=rf"^{tmp_path}: boundary\.csv: .*{message}") as refusal:
+        import_matrices(MatricesSource(str(tmp_path), OURS), choice)
+    assert refusal.value.key == key

@@ -24,7 +24,7 @@ from r37core.rom.reduced_model import RecoveryNodes, ReducedModel
 from r37core.rom.reduction_choice import ReductionChoice
 
 from .source import MASS_UNITS, STIFFNESS_UNITS, MatricesSource, matrix_files
-from .tip import arc_length
+from .tip import arc_length, check_order
 
 COLUMNS = ("x", "y", "z", "dof_x", "dof_y", "dof_z")
 _REDUCED_UP_TO = 500  # coordinates beside those of the contact nodes: matrices that small are taken as they are
@@ -119,7 +119,10 @@ def _check_positive(mass: np.ndarray, stiffness: np.ndarray) -> None:
 def _read(files: Mapping[str, Path], source: MatricesSource, fastest: float) -> _Given:
     """What the files hold; `fastest`: the highest speed (rad/s) that the stiffness is needed at."""
     orientation = source.orientation
-    points, dofs = _boundary(files["boundary"])
+    nodes, dofs = _boundary(files["boundary"])
+    with blamed("matrices", files["boundary"].name):
+        points = orientation.contact_nodes_to_blade(nodes)
+        check_order(points)
     speeds = sorted((_speed(name, file), name) for name, file in files.items() if name.startswith("K_"))
     _check_speeds([speed for speed, _ in speeds], fastest)
     mass, *stiffness = (_matrix(files[name]) for name in ("M", *(name for _, name in speeds)))
@@ -134,7 +137,7 @@ def _read(files: Mapping[str, Path], source: MatricesSource, fastest: float) -> 
     turn = _boundary_first(size, dofs, orientation.rows)
     mass, rest, per_square = (sp.csr_array(turn.T @ matrix @ turn) for matrix in (mass, rest, per_square))
     kilograms, newtons = MASS_UNITS[source.mass_unit], STIFFNESS_UNITS[source.stiffness_unit]
-    return _Given(kilograms * mass, newtons * rest, newtons * per_square, residual, orientation.points_to_blade(points))
+    return _Given(kilograms * mass, newtons * rest, newtons * per_square, residual, points)
 
 
 def _speed(name: str, file: Path) -> float:
