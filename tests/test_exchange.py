@@ -293,9 +293,17 @@ def some_turned(mesh):
     return replace(mesh, blocks={"hexahedron20": nodes})
 
 
+def some_twice(mesh):
+    """The first element once more, its nodes numbered from another corner, and the fourth as it is."""
+    nodes = mesh.blocks["hexahedron20"]
+    turned = [1, 2, 3, 0, 5, 6, 7, 4, 9, 10, 11, 8, 13, 14, 15, 12, 17, 18, 19, 16]
+    return replace(mesh, blocks={"hexahedron20": np.concatenate([nodes, nodes[[0]][:, turned], nodes[[3]]])})
+
+
 @pytest.mark.parametrize(
     ("change", "message"),
     [
+        (some_twice, r"2 of 20 elements of type hexahedron20 are given twice.* \(numbers 1 and 19, 4 and 20 of their type"),
         (some_turned, r"2 of 18 elements of type hexahedron20 are inside out"),
         (lambda m: reordered(m, [*range(8), *range(16, 20), *range(8, 16)]), r"mid-nodes off their edges .* node order"),
         (lambda m: replace(m, points=m.points + 20 * m.points[:, [1]] * [1, 0, 0]), "scaled Jacobian below minimum_scaled_jac"),
