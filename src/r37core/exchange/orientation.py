@@ -107,3 +107,7 @@ class Orientation:
             )
         if radius.min() < 1e-3 * span:
             raise ImportRefused("the rotor axis passes through the blade; check rotor_axis and axis_point")
+
+
+OURS = Orientation("m", (0.0, 0.0, 1.0), (1.0, 0.0, 0.0), "negative")
+"""The blade's own frame."""
