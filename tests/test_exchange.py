@@ -104,7 +104,7 @@ def test_every_element_in_every_format(element, tmp_path):
 @pytest.mark.filterwarnings("ignore:elements of first order")
 def test_archives_of_ansys(element, tmp_path):
     """Written by the extra package that reads them, with components of nodes; wedges as hexahedra with repeated nodes."""
-    meshlane = pytest.importorskip("meshlane")
+    meshlane = pytest.importorskip("meshlane", reason="meshlane (make setup)")
     mesh = plate(element)
     sets = {name.upper(): mesh.node_set(name) for name in ("root", "tip")}
     content = meshlane.Mesh(mesh.points, list(mesh.blocks.items()), point_sets=sets)

@@ -125,3 +125,7 @@ class Orientation:
                 "`radial`; rotor_axis, axis_point or radial does not fit the file",
                 "radial",
             )
+
+
+OURS = Orientation("m", (0.0, 0.0, 1.0), (1.0, 0.0, 0.0), "negative")
+"""The blade's own frame."""
