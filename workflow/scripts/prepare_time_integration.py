@@ -9,11 +9,9 @@ from r37core.time_integration.simulate import Simulation
 
 def main(snakemake):
     params = snakemake.params
-    simulation = Simulation(
-        read_contact_model(snakemake.input[0]), params.speed, params.scene, IntegrationChoice(**params.choice)
-    )
-    print(f"{params.speed:g} rad/s: highest mode {simulation.frequencies[-1]:.6g} rad/s, steps of {simulation.time_step:.6g} s")
-    simulation.compile()
+    model, choice = read_contact_model(snakemake.input[0]), IntegrationChoice(**params.choice)
+    problem = Simulation(model, params.speed, params.scene, choice).problem
+    print(f"{params.speed:g} rad/s: highest mode {problem.frequencies[-1]:.6g} rad/s, steps of {problem.time_step:.6g} s")
 
 
 run(snakemake, main)
