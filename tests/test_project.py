@@ -8,6 +8,7 @@ import yaml
 
 LAYERS = [
     "io",
+    "plain",
     "dataset_file",
     "alignment",
     "lanes",

@@ -34,8 +34,7 @@ rule prepare_time_integration:
     resources:
         **needs.of("prepare_time_integration"),
     params:
-        scene=sweep.scene,
-        described=sweep.described,
+        scene=sweep.plain_scene,
         speed=settings.structure.maximum_speed_rad_s,
         choice=sweep.choice_of_scene,
         code=code("prepare_time_integration"),

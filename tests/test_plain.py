@@ -1,0 +1,122 @@
+"""Dataclasses as plain dictionaries and back: exact, strict, and through JSON."""
+
+import json
+import subprocess
+import sys
+from dataclasses import dataclass, fields, replace
+from typing import Literal
+
+import numpy as np
+import pytest
+
+from r37core.adaptive.criterion import RefinementChoice, Window
+from r37core.blade.definition import BladeDefinition
+from r37core.contact.casing import Casing
+from r37core.contact.scene import Friction, Lining, Scene
+from r37core.exchange.importing.source import MatricesSource, MeshSource
+from r37core.exchange.importing.where import Where
+from r37core.exchange.orientation import Orientation
+from r37core.fem.material import Material
+from r37core.plain import PlainError, from_plain, to_plain
+from r37core.rom.boundary import BoundaryChoice
+from r37core.rom.reduction_choice import ReductionChoice, StressSubmesh
+from r37core.speeds import RefinedRange, SpeedPlan
+from r37core.time_integration.integration_choice import IntegrationChoice
+
+LINING = Lining(5e-3, 8e9, 2e9, 15e6, 0.035)
+ORIENTATION = Orientation("mm", (0.0, 0.0, 1.0), (1.0, 0.0, 0.0), "negative")
+CONE = Where(limits=(("r", "at_least", 0.2),), cone=((0.0, 0.1), (0.2, 0.3)))
+
+JOBS_GET = [
+    Scene(Casing(5e-4), LINING, Friction(0.15)),
+    Scene(Casing(5e-4, cone_angle=0.1)),
+    IntegrationChoice(1e-7, 200, 64),
+    Material(180e9, 7800.0, 0.3),
+    ReductionChoice(BoundaryChoice(), (0.0, 900.0), 12, 1e-9, True, False, StressSubmesh(maximum_z=0.1), False),
+    RefinementChoice((Window("1B", 12, 0.0, 0.1, 5.0),), 0.1, 0.2, 0.3, 0.4),
+    SpeedPlan((900.0, 1000.0), (RefinedRange(900.0, 1.0, 50, 100),)),
+    MeshSource("blade.inp", ORIENTATION, Where("ROOT"), CONE),
+    MatricesSource("folder", ORIENTATION),
+]
+
+
+@pytest.mark.parametrize("value", JOBS_GET, ids=lambda value: type(value).__name__)
+def test_what_jobs_get_comes_back_equal(value):
+    written = json.loads(json.dumps(to_plain(value)))
+    assert written == to_plain(value)
+    assert from_plain(type(value), written) == value
+    assert hash(from_plain(type(value), written)) == hash(value)
+
+
+def test_every_blade_of_the_configuration_comes_back_equal(settings):
+    for blade in settings.blades.values():
+        assert from_plain(BladeDefinition, to_plain(blade.definition)) == blade.definition
+
+
+@pytest.mark.parametrize("value", JOBS_GET, ids=lambda value: type(value).__name__)
+def test_every_field_counts(value):
+    """A dictionary without one field, or with another beside it, is refused: no default stands in for it."""
+    written = to_plain(value)
+    for field in fields(value):
+        with pytest.raises(PlainError, match=type(value).__name__):
+            from_plain(type(value), {name: one for name, one in written.items() if name != field.name})
+    with pytest.raises(PlainError, match=rf"{type(value).__name__}: found .*typo"):
+        from_plain(type(value), written | {"typo": 1})
+
+
+def test_numbers_of_numpy_become_plain():
+    """Snakemake compares reprs, and that of np.float64 is not that of a float."""
+    written = to_plain(Material(np.float64(1.0), 2.0, 0.3))
+    assert repr(written["youngs_modulus"]) == "1.0"
+
+
+@dataclass(frozen=True)
+class Every:
+    kind: Literal["one", "two"]
+    either: Casing | Lining | None
+    named: dict[str, tuple[int, float]]
+    flags: list[bool]
+    number: float
+
+
+EVERY = Every("one", LINING, {"a": (1, 2.5)}, [True], 1)
+
+
+def test_every_kind_of_field():
+    assert from_plain(Every, to_plain(EVERY)) == EVERY
+    assert from_plain(Every, to_plain(replace(EVERY, either=Casing(1.0)))).either == Casing(1.0)
+    assert from_plain(Every, to_plain(replace(EVERY, either=None))).either is None
+    assert from_plain(dict[str, Casing], {"a": to_plain(Casing(1.0))}) == {"a": Casing(1.0)}
+
+
+@pytest.mark.parametrize(
+    ("field", "value", "message"),
+    [
+        ("kind", "three", r"Every\.kind: found 'three'; needed: 'one' or 'two'"),
+        ("either", {"thickness": 1.0}, r"Every\.either: .*; or "),
+        ("either", 3, r"the fields of Casing"),
+        ("named", {"a": [1]}, r"Every\.named\.a: found '1 values'; needed: 2"),
+        ("named", {"a": [1.5, 2.5]}, r"Every\.named\.a\[0\]: found 1\.5; needed: int"),
+        ("named", [1], "a mapping"),
+        ("flags", [1], r"Every\.flags\[0\]: found 1; needed: bool"),
+        ("flags", "text", "a list"),
+        ("number", True, r"Every\.number: found True; needed: float"),
+        ("number", "1", r"Every\.number: found '1'; needed: float"),
+        ("number", None, r"needed: float"),
+    ],
+)
+def test_values_of_another_type_are_refused_with_their_place(field, value, message):
+    with pytest.raises(PlainError, match=message):
+        from_plain(Every, to_plain(EVERY) | {field: value})
+
+
+def test_what_has_no_plain_form_is_refused():
+    with pytest.raises(PlainError, match=r"Every\.flags\[0\]: found object"):
+        to_plain(replace(EVERY, flags=[object()]))
+
+
+def test_it_is_light():
+    """Each of thousands of jobs imports it."""
+    listed = "import sys; before = set(sys.modules); import r37core.plain; print(*sorted(set(sys.modules) - before))"
+    done = subprocess.run([sys.executable, "-c", listed], capture_output=True, text=True, check=True)
+    assert not {"numpy", "pydantic", "yaml"} & {name.partition(".")[0] for name in done.stdout.split()}
