@@ -29,7 +29,7 @@ from r37core.fem.solver import lowest_modes
 from r37core.fem.surface import faces_within, outer_faces
 from r37core.mesh.generate import generate_mesh
 from r37core.mesh.mesh_files import write_vtu
-from r37core.rom.naming import ideal_shapes
+from r37core.rom.reduce import ideal_shapes
 
 OURS = Orientation("m", rotor_axis=(0, 0, 1), radial=(1, 0, 0), rotation="negative")
 TITANIUM = Material(115e9, 4400.0, 0.32, 9e8)
