@@ -11,7 +11,7 @@ def main(snakemake):
     datasets = {kind: read_dataset(file) for kind, file in snakemake.input.items()}
     table = summarise(datasets, InteractionChoice(**snakemake.params.choice))
     with atomic_write(snakemake.output[0]) as partial:
-        table.to_csv(partial, index=False, float_format="%.6g")
+        table.to_csv(partial, index=False)
 
 
 run(snakemake, main)
