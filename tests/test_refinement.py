@@ -1,7 +1,7 @@
 """Speeds that refine themselves: what a range asks for, where a round looks next, and what comes of it."""
 
 import runpy
-from dataclasses import asdict, replace
+from dataclasses import replace
 from itertools import pairwise
 from types import SimpleNamespace
 
@@ -16,15 +16,15 @@ from r37core.adaptive.criterion import (
     Window,
     known_of,
     next_speeds,
-    refinement_choice_from,
     stretches,
     window_speeds,
 )
 from r37core.adaptive.rounds import Round, first_round, measure, read_round, round_after, write_round
 from r37core.config import ConfigError, load_settings
 from r37core.io import InputFileError
+from r37core.plain import from_plain, to_plain
 from r37core.results.interactions import InteractionChoice
-from r37core.speeds import RefinedRange, SpeedError, SpeedPlan, exact_text, plan_speeds, speed_plan_from
+from r37core.speeds import RefinedRange, SpeedError, SpeedPlan, exact_text, plan_speeds
 from r37core.studies.refinement import compare, plain_grid, replay
 from r37core.studies.refinement_table import refinement_table
 from r37core.time_integration.speed_file import write_speed
@@ -77,7 +77,7 @@ def test_a_range_has_its_coarse_speeds_and_its_end():
     assert plan.certain == (900.0, 930.0, 960.0, 990.0, 1000.5)
     assert plan.refined == (RefinedRange(900.0, 1.5, 20, 67),)
     assert len(plan.every_speed()) == 68
-    assert speed_plan_from(asdict(plan)) == plan
+    assert from_plain(SpeedPlan, to_plain(plan)) == plan
     assert plan_speeds([{"start": 900, "stop": 1000, "refine_to": 1}], 8.0).refined[0].coarse == 8
     assert PLAN.at_most(0.2) == 250
 
@@ -293,7 +293,7 @@ def test_what_a_run_gives():
 
 
 def test_choice_survives_the_way_to_a_job():
-    assert refinement_choice_from(asdict(CHOICE)) == CHOICE
+    assert from_plain(RefinementChoice, to_plain(CHOICE)) == CHOICE
 
 
 def test_study_names_what_is_missed():
@@ -320,14 +320,14 @@ def test_a_round_of_a_blade_without_stress(root, tmp_path, monkeypatch):
     """A blade given by matrices has no material: its rounds go by rms and status alone."""
     write_round(Round((900.0,)), tmp_path / "round_0.json")
     write_speed({"status": np.array(0), "rms": np.full((2, 3), 1e-4)}, tmp_path / "speed_900.npz", {})
-    params = {"plan": asdict(SpeedPlan((900.0,))), "choice": asdict(CHOICE), "stress": False, "stress_instants": 1}
+    params = {"plan": to_plain(SpeedPlan((900.0,))), "choice": to_plain(CHOICE), "stress": False, "stress_instants": 1}
     job = SimpleNamespace(
         rule="refine",
         log=[str(tmp_path / "refine.log")],
         wildcards=_Wildcards(round="1"),
         input=SimpleNamespace(before=tmp_path / "round_0.json", speeds=str(tmp_path / "speed_900.npz")),
         output=[str(tmp_path / "round_1.json")],
-        params=SimpleNamespace(**params, material={}),
+        params=SimpleNamespace(**params, material=None),
     )
     monkeypatch.syspath_prepend(root / "workflow/scripts")
     runpy.run_path(str(root / "workflow/scripts/refine.py"), {"snakemake": job})

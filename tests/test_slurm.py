@@ -7,19 +7,22 @@ import shutil
 import signal
 import socket
 import subprocess
+import sys
 import time
 
 import netCDF4
 import numpy as np
 import pytest
-from workflow_runs import SNAKEMAKE, copy_project, snakemake
+from workflow_runs import copy_project, snakemake
 
 PROGRAMS = ("munged", "slurmctld", "slurmd", "sbatch", "squeue")
 MISSING = [program for program in PROGRAMS if not shutil.which(program, path=f"{os.environ['PATH']}:/usr/sbin")]
+WANTED = os.environ.get("R37_SLURM")
+"""Set by make test-slurm: then what is missing is an error."""
+
 pytestmark = [
     pytest.mark.slow,
-    # make test-slurm wants them, and says so by this
-    pytest.mark.skipif(bool(MISSING or os.getuid()) and not os.environ.get("R37_SLURM"), reason="no Slurm, or not root"),
+    pytest.mark.skipif(not WANTED and bool(MISSING or os.getuid()), reason="Slurm and root (make test-slurm)"),
 ]
 
 CONFIGURATION = """
@@ -107,7 +110,9 @@ class Slurm:
 
     def submit(self, project, *options, **environment):
         command = ("sbatch", "--parsable", "--cpus-per-task=1", *options, "cluster/sweep.sbatch")
-        said = self.call(*command, cwd=project, SNAKEMAKE=SNAKEMAKE, PYTHONPATH=str(project / "src"), **environment).strip()
+        said = self.call(
+            *command, cwd=project, R37_PYTHON=sys.executable, PYTHONPATH=str(project / "src"), **environment
+        ).strip()
         assert said.isdigit(), said
         return said
 

@@ -2,7 +2,6 @@
 
 import json
 import math
-from dataclasses import asdict
 from types import SimpleNamespace
 
 import pytest
@@ -10,10 +9,11 @@ import pytest
 from r37core.adaptive.criterion import RefinementChoice, known_of, next_speeds
 from r37core.config import ConfigError, Document, command_line_document, load_settings, read_settings
 from r37core.config.scenes import SceneEntry
+from r37core.plain import from_plain, to_plain
 from r37core.plans.export_plan import Exports
 from r37core.plans.import_plan import Imported
 from r37core.plans.sweep_plan import Sweep
-from r37core.speeds import SpeedError, exact_text, plan_speeds, speed_plan_from
+from r37core.speeds import SpeedError, SpeedPlan, exact_text, plan_speeds
 
 RAD_S = math.pi / 30.0
 PLACE = SimpleNamespace(blade="Ref", scene="direct")
@@ -36,7 +36,7 @@ def test_ranges_in_rpm_refine_themselves_on_their_own_grid():
     assert (grid.coarse, grid.last, grid.interval) == (20, 100, 10 * RAD_S)
     # 8200 is on the grid and 8203 is not
     assert plan.certain == tuple(rpm * RAD_S for rpm in (8000, 8200, 8203, 8400, 8600, 8800, 9000))
-    assert speed_plan_from(json.loads(json.dumps(asdict(plan)))) == plan
+    assert from_plain(SpeedPlan, json.loads(json.dumps(to_plain(plan)))) == plan
     # a peak at one end is followed there, on speeds of the grid
     choice = RefinementChoice(windows=(), change=0.25, peak=0.1, largest_share=1.0, prominence=0.1)
     known = known_of(

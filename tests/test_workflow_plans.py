@@ -1,17 +1,19 @@
 """What runs, with what, from which files: the plans behind the rules, without Snakemake."""
 
 import json
+import math
 from dataclasses import replace
 from types import SimpleNamespace
 
 import pytest
 
-from r37core.adaptive.criterion import refinement_choice_from
+from r37core.adaptive.criterion import RefinementChoice
 from r37core.config import ConfigError, command_line_document, read_settings
+from r37core.plain import from_plain
 from r37core.plans.provenance import Provenance
 from r37core.plans.structure_plan import Structure
 from r37core.plans.sweep_plan import Sweep
-from r37core.speeds import speed_plan_from
+from r37core.speeds import SpeedPlan
 from r37core.studies.estimate_plan import Estimate
 from r37core.studies.parameters import OF_THE_MODEL
 from r37core.studies.readings_plan import Readings
@@ -86,8 +88,8 @@ def test_a_round_reads_what_the_one_before_asked_for(refining):
 
 def test_what_a_round_is_told_is_what_it_takes(refining):
     """Plain values, of which a job makes the plan and the choice again."""
-    assert speed_plan_from(json.loads(json.dumps(refining.refined_plan(REF)))) == refining.speed_plan(REF)
-    choice = refinement_choice_from(json.loads(json.dumps(refining.refinement_choice)))
+    assert from_plain(SpeedPlan, json.loads(json.dumps(refining.refined_plan(REF)))) == refining.speed_plan(REF)
+    choice = from_plain(RefinementChoice, json.loads(json.dumps(refining.refinement_choice)))
     assert [window.mode for window in choice.windows] == ["1B", "1T"]
     assert choice.prominence == 0.1
 
@@ -109,8 +111,8 @@ def test_models_of_a_scene(chosen):
 
 
 def test_a_scene_without_stress_needs_no_basis(chosen):
-    plain = replace(chosen.scenes["direct"], results=("spectrum",))
-    sweep = Sweep(replace(chosen, scenes=chosen.scenes | {"direct": plain}))
+    plain = chosen.scene_entries["direct"].model_copy(update={"results": ["spectrum"]})
+    sweep = Sweep(replace(chosen, scene_entries=chosen.scene_entries | {"direct": plain}))
     assert sweep.recovery(L50) == {}
     assert sweep.runs(of(kind="stress")) == [("Ref", "abradable"), ("L50", "abradable")]
 
@@ -150,8 +152,8 @@ def test_figures(chosen):
 def test_matrices_do_not_depend_on_the_yield_stress(chosen):
     structure = Structure(chosen)
     assert structure.material(REF)["yield_stress"] == 1.38e9
-    assert "yield_stress" not in structure.elastic(REF)
-    assert structure.shape_hash(REF) != structure.shape_hash(L50)
+    assert structure.elastic(REF) == structure.material(REF) | {"yield_stress": math.inf}
+    assert structure.definition(REF) != structure.definition(L50)
     assert structure.reduction(of(blade="Ref", tip_line="camber"))["boundary"]["tip_line"] == "camber"
 
 
@@ -162,6 +164,40 @@ def test_provenance(chosen):
     assert attributes["numerics"] == "20000 nodes, exact_modal of 4e-07 s"
     assert "Lining" not in attributes["scene_parameters"]
     assert "Lining" in Provenance(chosen).sweep(REF)["scene_parameters"]
+
+
+@pytest.mark.parametrize(
+    ("name", "old", "new", "changes"),
+    [
+        ("config", "edges: round", "edges: blunt", {"shape", "structure"}),
+        ("blades", "sweep_deg: 5", "sweep_deg: 6", {"shape", "structure"}),
+        ("blades", "youngs_modulus_pa: 180", "youngs_modulus_pa: 181", {"structure"}),
+        ("blades", "density_kg_m3: 8000", "density_kg_m3: 8001", {"structure"}),
+        ("blades", "poissons_ratio: 0.3", "poissons_ratio: 0.31", {"structure"}),
+        ("blades", "yield_stress_pa: 1.38", "yield_stress_pa: 1.39", set()),
+        ("fidelity", "nodes: 20000, layers: 1", "nodes: 20000, layers: 2", {"structure"}),
+        ("fidelity", "fixed_interface_modes: 10", "fixed_interface_modes: 11", {"structure"}),
+        ("config", "spin_softening: false", "spin_softening: true", {"structure"}),
+        ("config", "tip_line: pressure_edge", "tip_line: camber", {"structure"}),
+        ("config", "maximum_x_m: 0.197", "maximum_x_m: 0.196", {"structure"}),
+        ("scenes", "coefficient: 0.15", "coefficient: 0.16", set()),
+    ],
+)
+def test_the_input_hash_is_of_all_that_a_file_is_made_of(config_copy, name, old, new, changes):
+    """Of the geometry, or of the structure; a simulation's scene stands beside it."""
+    with open(config_copy / "config/blades.yaml", "a") as stream:
+        stream.write("Mine: { base: Ref, chordwise_sweep_deg: 5 }\n")
+
+    def hashes():
+        made, blade = Provenance(read_settings(config_copy)), of(blade="Mine", scene="direct")
+        assert made.sweep(blade)["input_hash"] == made.structure(blade)["input_hash"]
+        return {"shape": made.shape(blade)["input_hash"], "structure": made.structure(blade)["input_hash"]}
+
+    before, file = hashes(), config_copy / f"config/{name}.yaml"
+    assert old in file.read_text()
+    file.write_text(file.read_text().replace(old, new))
+    after = hashes()
+    assert {kind for kind in before if before[kind] != after[kind]} == changes
 
 
 def test_tradeoff_has_a_case_for_every_value(settings):

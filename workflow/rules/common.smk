@@ -13,7 +13,7 @@ from snakemake.settings.types import DeploymentMethod
 from r37core.config import ConfigError, plain, settings_of_run
 from r37core.console import failures
 from r37core.explorer import parts_hash
-from r37core.console import lock
+from r37core.console import interpreter, lock
 from r37core.plans import paths
 from r37core.console.closing import closing_lines
 from r37core.plans.code import CodeHashes
@@ -36,7 +36,10 @@ ENVIRONMENT = ROOT / "envs" / "r37.yaml"
 SCRIPTS = ROOT / "workflow" / "scripts"
 TEXTS = ROOT / "workflow" / "report"
 # of rules that start it themselves; a path and no text, for another place is no reason to run again
-PYTHON = Path("python" if DeploymentMethod.CONDA in workflow.deployment_settings.deployment_method else sys.executable)
+PYTHON = Path(
+    "python" if DeploymentMethod.CONDA in workflow.deployment_settings.deployment_method else interpreter.PYTHON
+)
+interpreter.quote()
 
 # read here instead of by a `configfile:`, so that messages have lines and numbers are numbers in every file
 try:

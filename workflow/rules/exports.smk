@@ -18,7 +18,6 @@ rule exported_mesh:
     params:
         material=structure.elastic,
         orientation=exported.orientation,
-        described=exported.described,
         code=code("exported_mesh"),
     script:
         "../scripts/exported_mesh.py"
@@ -72,7 +71,6 @@ rule exported_modes:
     params:
         choice=exported.choice,
         orientation=exported.orientation,
-        described=exported.described,
         code=code("exported_modes"),
     script:
         "../scripts/exported_modes.py"
@@ -96,7 +94,6 @@ rule exported_stress:
         stress_instants=settings.fidelity.time_integration.stress_instants,
         material=structure.elastic,
         orientation=exported.orientation,
-        described=exported.described,
         code=code("exported_stress"),
     script:
         "../scripts/exported_stress.py"

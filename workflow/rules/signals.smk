@@ -14,8 +14,7 @@ rule signals_of_run:
     conda:
         ENVIRONMENT
     params:
-        scene=sweep.scene,
-        described=sweep.described,
+        scene=sweep.plain_scene,
         choice=sweep.choice_of_scene,
         speeds=recorded.speeds,
         interactions=plain(settings.interactions),

@@ -17,7 +17,6 @@ rule geometry:
         **needs.of("geometry"),
     params:
         definition=structure.definition,
-        shape_hash=structure.shape_hash,
         edges=settings.structure.edges,
         provenance=made.shape,
         code=code("geometry"),
@@ -66,7 +65,6 @@ rule imported_mesh:
         **needs.of("mesh"),
     params:
         source=imported.source,
-        described=imported.described,
         folder=imported.folder,
         places=imported.places,
         code=code("imported_mesh"),
@@ -150,7 +148,6 @@ rule imported_matrices:
         **needs.of("reduced_model"),
     params:
         source=imported.source,
-        described=imported.described,
         folder=imported.folder,
         places=imported.places,
         reduction=structure.reduction,

@@ -34,8 +34,7 @@ rule prepare_time_integration:
     resources:
         **needs.of("prepare_time_integration"),
     params:
-        scene=sweep.scene,
-        described=sweep.described,
+        scene=sweep.plain_scene,
         speed=settings.structure.maximum_speed_rad_s,
         choice=sweep.choice_of_scene,
         code=code("prepare_time_integration"),
@@ -64,7 +63,7 @@ rule simulate:
         code=code("simulate"),
     # not `script:`, whose preamble imports Snakemake into each of thousands of jobs
     shell:
-        "{params.python} {params.script} {input.model} {wildcards.speed} {output} {log} {params.task:q} {params.about:q}"
+        "{params.python:q} {params.script:q} {input.model:q} {wildcards.speed:q} {output:q} {log:q} {params.task:q} {params.about:q}"
 
 
 # speeds that refine themselves: each round asks for some more, from what those before it gave, until one asks for none

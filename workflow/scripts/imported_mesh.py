@@ -7,15 +7,17 @@ from job import run
 
 from r37core.exchange.exporting.write_mesh import write_mesh
 from r37core.exchange.importing.import_mesh import import_mesh
+from r37core.exchange.importing.source import MeshSource
 from r37core.exchange.refusal import placed
 from r37core.mesh.mesh_files import write_vtu
+from r37core.plain import from_plain
 
 
 def main(snakemake):
     params = snakemake.params
     with placed(params.places), warnings.catch_warnings(record=True) as said:
         warnings.simplefilter("always")
-        mesh, quality = import_mesh(params.source, params.folder["folder"])
+        mesh, quality = import_mesh(from_plain(MeshSource, params.source), params.folder["folder"])
     print(f"{len(mesh.points)} nodes, " + ", ".join(f"{len(nodes)} {name}" for name, nodes in mesh.blocks.items()))
     print(f"scaled Jacobian: minimum {quality.min():.3f}")
     for warning in said:

@@ -6,10 +6,11 @@ from r37core.fem.material import Material
 from r37core.fem.matrices import assemble
 from r37core.fem.matrices_file import write_matrices
 from r37core.mesh.mesh_files import read_vtu
+from r37core.plain import from_plain
 
 
 def main(snakemake):
-    matrices = assemble(read_vtu(snakemake.input[0]), Material(**snakemake.params.material))
+    matrices = assemble(read_vtu(snakemake.input[0]), from_plain(Material, snakemake.params.material))
     print(f"mass {matrices.total_mass:.6g} kg, {3 * len(matrices.free_nodes)} free degrees of freedom")
     write_matrices(matrices, snakemake.output[0])
 

@@ -2,6 +2,8 @@
 
 from job import run
 
+from r37core.contact.scene import Scene
+from r37core.plain import from_plain
 from r37core.rom.contact_model import read_contact_model
 from r37core.time_integration.integration_choice import IntegrationChoice
 from r37core.time_integration.simulate import Simulation
@@ -9,11 +11,9 @@ from r37core.time_integration.simulate import Simulation
 
 def main(snakemake):
     params = snakemake.params
-    simulation = Simulation(
-        read_contact_model(snakemake.input[0]), params.speed, params.scene, IntegrationChoice(**params.choice)
-    )
-    print(f"{params.speed:g} rad/s: highest mode {simulation.frequencies[-1]:.6g} rad/s, steps of {simulation.time_step:.6g} s")
-    simulation.compile()
+    scene, choice = from_plain(Scene, params.scene), from_plain(IntegrationChoice, params.choice)
+    problem = Simulation(read_contact_model(snakemake.input[0]), params.speed, scene, choice).problem
+    print(f"{params.speed:g} rad/s: highest mode {problem.frequencies[-1]:.6g} rad/s, steps of {problem.time_step:.6g} s")
 
 
 run(snakemake, main)

@@ -6,6 +6,7 @@ from job import run
 
 from r37core.fem.material import Material
 from r37core.io import as_list
+from r37core.plain import from_plain
 from r37core.results.response import write_response
 from r37core.results.stress_recovery import StressRecovery
 from r37core.rom.rom_file import read_reduced_model
@@ -13,7 +14,8 @@ from r37core.rom.rom_file import read_reduced_model
 
 def main(snakemake):
     params = snakemake.params
-    recovery = StressRecovery(read_reduced_model(snakemake.input.rom), Material(**params.material)) if params.stress else None
+    material = from_plain(Material | None, params.material)
+    recovery = StressRecovery(read_reduced_model(snakemake.input.rom), material) if params.stress else None
     write_response(
         as_list(snakemake.input.speeds),
         params.speeds,
@@ -21,7 +23,7 @@ def main(snakemake):
         recovery,
         stress_history_speeds=params.stress_history_speeds,
         stress_instants=params.stress_instants,
-        yield_stress=params.material.get("yield_stress", math.inf),
+        yield_stress=material.yield_stress if material else math.inf,
         provenance=params.provenance,
     )
 

@@ -2,8 +2,10 @@
 
 from job import run
 
+from r37core.contact.scene import Scene
 from r37core.dataset_file import read_dataset, write_dataset
 from r37core.mesh.mesh_files import read_vtu
+from r37core.plain import from_plain
 from r37core.results.interactions import InteractionChoice, find_interactions, titles
 from r37core.rom.contact_model import read_contact_model
 from r37core.rom.rom_file import read_reduced_model
@@ -17,16 +19,16 @@ def main(snakemake):
     given, params = snakemake.input, snakemake.params
     named, rows, places = {}, [], {}
     if hasattr(given, "response"):
-        choice = InteractionChoice(**params.interactions)
+        choice = from_plain(InteractionChoice, params.interactions)
         named = titles(find_interactions(read_dataset(given.response), read_dataset(given.campbell), choice))
     if params.gauges:
-        mesh, gauges = read_vtu(given.mesh), [Gauge(**one) for one in params.gauges.values()]
+        mesh, gauges = read_vtu(given.mesh), from_plain(list[Gauge], list(params.gauges.values()))
         rows = gauge_rows(mesh, read_reduced_model(given.whole).whole_blade.basis, gauges)
         places = dict(zip(params.gauges, gauge_points(mesh, gauges), strict=True))
-    model, choice = read_contact_model(given.model), IntegrationChoice(**params.choice)
+    model, scene = read_contact_model(given.model), from_plain(Scene, params.scene)
+    choice = from_plain(IntegrationChoice, params.choice)
     records = {
-        speed: record_signals(model, speed, params.scene, choice, rows, params.revolutions)
-        for speed in params.speeds or sorted(named)
+        speed: record_signals(model, speed, scene, choice, rows, params.revolutions) for speed in params.speeds or sorted(named)
     }
     tip = read_reduced_model(given.rom).tip_lines[params.tip_line]
     dataset = signals_dataset(records, named, places, params.probes, tip)

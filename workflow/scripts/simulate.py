@@ -7,7 +7,8 @@ import json
 import sys
 
 from r37core.console.failures import reported
-from r37core.contact.scene import scene_from
+from r37core.contact.scene import Scene
+from r37core.plain import from_plain
 from r37core.rom.contact_model import read_contact_model
 from r37core.time_integration.integration_choice import IntegrationChoice
 from r37core.time_integration.speed_file import write_speed
@@ -16,8 +17,7 @@ from r37core.time_integration.speed_run import run_speed
 
 def main(model, speed, output, task, about):
     task = json.loads(task)
-    choice = IntegrationChoice(**task["choice"])
-    scene = scene_from(task["scene"])
+    scene, choice = from_plain(Scene, task["scene"]), from_plain(IntegrationChoice, task["choice"])
     result = run_speed(read_contact_model(model), float(speed), scene, choice, task["results"], **task["kept"])
     write_speed(result, output, json.loads(about))
 

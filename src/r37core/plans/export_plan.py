@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass, replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
 from r37core.blade.definition import BladeDefinition
 from r37core.exchange.importing.source import MeshSource
+from r37core.exchange.orientation import OURS
+from r37core.plain import to_plain
 from r37core.speeds import exact_text
 
 from . import paths
@@ -58,16 +60,12 @@ class Exports:
     def reduction(self, wildcards: Any) -> dict[str, Any]:
         """What the model of the whole blade is made of: the sweep's, recovered everywhere."""
         choice = self.imported.settings.reduction_choice(wildcards.tip_line, wildcards.blade)
-        return asdict(replace(choice, whole_blade=True))
+        return to_plain(replace(choice, whole_blade=True))
 
     def orientation(self, wildcards: Any) -> Any:
-        """Axes and unit of an imported mesh, in which its results are written; None for the blade's own frame."""
-        definition = self.imported.source(wildcards)
-        return definition.orientation if isinstance(definition, MeshSource) else None
-
-    def described(self, wildcards: Any) -> str:
-        """Axes and unit as a text, which re-runs a job when they change."""
-        return repr(self.orientation(wildcards))
+        """Axes and unit in which results are written: those of an imported mesh, or the blade's own frame."""
+        definition = self.imported.settings.blades[wildcards.blade].definition
+        return to_plain(definition.orientation if isinstance(definition, MeshSource) else OURS)
 
     def matrix_files(self, wildcards: Any) -> dict[str, str]:
         """What matrices are written from: the reduced model, or mesh and full matrices beside it."""

@@ -12,6 +12,7 @@ from typing import Any
 from r37core.blade.definition import BladeDefinition
 from r37core.config import Settings
 from r37core.exchange.importing.source import MatricesSource, MeshSource, matrix_files, mesh_files
+from r37core.plain import to_plain
 
 from .provenance import Attributes
 
@@ -52,20 +53,17 @@ class Imported:
 
     def files(self, wildcards: Any) -> list[str]:
         """What a blade is imported from, as seen from the current folder where that is possible."""
-        source = self.source(wildcards)
+        source = self.settings.blades[wildcards.blade].definition
         if isinstance(source, MeshSource):
             found = mesh_files(source.file, self.root)
         else:
+            assert isinstance(source, MatricesSource)
             found = list(matrix_files(source.folder, self.root).values())
         return [_seen_from_here(file) for file in found]
 
     def source(self, wildcards: Any) -> Any:
-        """What to import, which Snakemake does not compare."""
-        return self.settings.blades[wildcards.blade].definition
-
-    def described(self, wildcards: Any) -> str:
-        """What to import as a text, which re-runs a job when it changes."""
-        return repr(self.source(wildcards))
+        """What to import."""
+        return to_plain(self.settings.blades[wildcards.blade].definition)
 
     def places(self, wildcards: Any) -> Attributes:
         """Where the keys of a blade stand, as `file:line: blade.key`; a new line re-runs nothing."""

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass
+import math
+from dataclasses import dataclass, replace
 from typing import Any
 
 from r37core.config import Settings
+from r37core.plain import to_plain
 
 
 @dataclass(frozen=True)
@@ -15,27 +17,24 @@ class Structure:
     settings: Settings
 
     def definition(self, wildcards: Any) -> Any:
-        """Shape of a blade, which Snakemake does not compare."""
-        return self.settings.blades[wildcards.blade].definition
+        """Shape of a blade."""
+        return to_plain(self.settings.blades[wildcards.blade].definition)
 
-    def shape_hash(self, wildcards: Any) -> str:
-        """Hash of the shape, which re-runs a job when it changes."""
-        return self.settings.shape_hash(wildcards.blade)
-
-    def material(self, wildcards: Any) -> dict[str, float]:
-        """Material of a blade; empty for one of matrices."""
-        material = self.settings.blades[wildcards.blade].material
-        return asdict(material) if material else {}
+    def material(self, wildcards: Any) -> dict[str, float] | None:
+        """Material of a blade; None for one of matrices."""
+        return to_plain(self.settings.blades[wildcards.blade].material)
 
     def elastic(self, wildcards: Any) -> dict[str, float]:
-        """Material of a blade with what stiffness and mass depend on: a new yield stress asks for no new matrices."""
-        return {name: value for name, value in self.material(wildcards).items() if name != "yield_stress"}
+        """Material of a blade with a mesh, as if it never yielded: a new yield stress asks for no new matrices."""
+        material = self.settings.blades[wildcards.blade].material
+        assert material is not None
+        return to_plain(replace(material, yield_stress=math.inf))
 
     @property
     def base_reduction(self) -> dict[str, Any]:
         """What reduced models are made of, with contact nodes as config.yaml has them."""
-        return asdict(self.settings.reduction_choice())
+        return to_plain(self.settings.reduction_choice())
 
     def reduction(self, wildcards: Any) -> dict[str, Any]:
         """What the reduced model is made of, with contact nodes on the line that the wildcard names."""
-        return asdict(self.settings.reduction_choice(wildcards.tip_line, wildcards.blade))
+        return to_plain(self.settings.reduction_choice(wildcards.tip_line, wildcards.blade))

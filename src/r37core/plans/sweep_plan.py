@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from itertools import count
 from pathlib import Path
 from typing import Any
 
 from r37core.config import Settings, plain
 from r37core.io import as_list, read_json
+from r37core.plain import to_plain
 from r37core.speeds import SpeedPlan, exact_text
 from r37core.time_integration.speed_run import OF_RUNS
 
@@ -82,7 +83,7 @@ class Sweep:
 
     def refined_plan(self, wildcards: Any) -> dict[str, Any]:
         """The same as plain values."""
-        return asdict(self.speed_plan(wildcards))
+        return to_plain(self.speed_plan(wildcards))
 
     def speeds(self, wildcards: Any, input: Any) -> list[float]:
         """Speeds (rad/s), ascending, of the files that are an input; a round stands there until the rounds are done."""
@@ -100,8 +101,8 @@ class Sweep:
         """What one simulation does, as JSON text."""
         chosen = self._scene(wildcards)
         task = {
-            "scene": asdict(chosen.scene),
-            "choice": asdict(self.settings.integration_choice(wildcards.blade, wildcards.scene, float(wildcards.speed))),
+            "scene": to_plain(chosen.scene),
+            "choice": to_plain(self.settings.integration_choice(wildcards.blade, wildcards.scene, float(wildcards.speed))),
             "results": [result for result in self.results(wildcards) if result in OF_RUNS],
             "kept": self.kept,
         }
@@ -110,7 +111,11 @@ class Sweep:
     def choice_of_scene(self, wildcards: Any) -> dict[str, Any]:
         """Numbers of the time integration at the highest speed of the basis."""
         highest = self.settings.structure.maximum_speed_rad_s
-        return asdict(self.settings.integration_choice(wildcards.blade, wildcards.scene, highest))
+        return to_plain(self.settings.integration_choice(wildcards.blade, wildcards.scene, highest))
+
+    def plain_scene(self, wildcards: Any) -> dict[str, Any]:
+        """The scene: what the blade meets."""
+        return to_plain(self._scene(wildcards).scene)
 
     def scene(self, wildcards: Any) -> Any:
         """The scene itself, which Snakemake does not compare."""

@@ -102,7 +102,7 @@ def first_contact(response: xr.Dataset) -> np.ndarray:
 class YieldRange:
     """Speeds (rad/s) above yield: the `first` and `last`, NaN for none, and the `length` of all between that are above.
 
-    The length is NaN without any speed. `cut`: whether the speeds begin or end above yield, so that the range may go on beyond them.
+    The length is NaN without any speed. `cut`: whether the speeds begin or end above yield: the range may go on beyond them.
     """
 
     first: float

@@ -10,7 +10,7 @@ import meshio
 import numpy as np
 
 from r37core.exchange.importing.meshio_reader import quietly
-from r37core.exchange.orientation import Orientation
+from r37core.exchange.orientation import OURS, Orientation
 from r37core.fem.material import Material
 from r37core.fem.stress import nodal_stress, von_mises
 from r37core.io import atomic_write, write_text
@@ -22,9 +22,6 @@ from r37core.results.stress_recovery import StressRecovery
 from r37core.rom.reduced_model import ReducedModel
 from r37core.speeds import exact_text
 from r37core.time_integration.speed_file import read_speed
-
-OURS = Orientation("m", (0.0, 0.0, 1.0), (1.0, 0.0, 0.0), "negative")
-"""The blade's frame."""
 
 _NAMED_AMONG = 8
 _UPPER = ([0, 1, 2, 0, 1, 2], [0, 1, 2, 1, 2, 0])
