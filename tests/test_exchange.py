@@ -29,7 +29,7 @@ from r37core.fem.solver import lowest_modes
 from r37core.fem.surface import faces_within, outer_faces
 from r37core.mesh.generate import generate_mesh
 from r37core.mesh.mesh_files import write_vtu
-from r37core.rom.reduce import ideal_shapes
+from r37core.rom.naming import ideal_shapes
 
 OURS = Orientation("m", rotor_axis=(0, 0, 1), radial=(1, 0, 0), rotation="negative")
 TITANIUM = Material(115e9, 4400.0, 0.32, 9e8)
@@ -167,7 +167,7 @@ def test_the_edges_of_the_tip_keep_their_arc_length(files):
 def test_the_other_rotation_mirrors_the_blade(files, steel):
     mesh, matrices, folder = files
     turned = replace(OURS, rotation="positive")
-    again, quality = import_mesh(source("deck.inp", orientation=turned), folder)
+    again, quality = import_mesh(source("deck.inp", orientation=turned, sense_check=False), folder)
     assert quality.min() > 0.0
     np.testing.assert_allclose(again.points, mesh.points * [1, -1, 1], atol=1e-15)
     # what looked against the rotation now looks along it
@@ -179,7 +179,7 @@ def test_the_other_rotation_mirrors_the_blade(files, steel):
 
 def test_pressure_side_of_a_turbine(files):
     mesh, _, folder = files
-    again, _ = import_mesh(source("deck.inp", pressure_side_forward=False), folder)
+    again, _ = import_mesh(source("deck.inp", pressure_side_forward=False, sense_check=False), folder)
     np.testing.assert_array_equal(again.node_set("tip_pressure_edge"), mesh.node_set("tip_suction_edge"))
 
 

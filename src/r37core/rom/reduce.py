@@ -9,11 +9,9 @@ from r37core.fem.matrices import StructuralMatrices
 from r37core.mesh.blade_mesh import BladeMesh
 
 from .craig_bampton import multi_speed_basis
+from .naming import ideal_shapes
 from .reduced_model import RecoveryNodes, ReducedModel
 from .reduction_choice import TIP_LINES, ReductionChoice, boundary_nodes
-
-# roots of cos(x) cosh(x) = -1: clamped-free beam (Blevins, Formulas for Natural Frequency and Mode Shape)
-_BEAM_ROOTS = (1.875104068711961, 4.694091132974175)
 
 
 def reduce_blade(mesh: BladeMesh, matrices: StructuralMatrices, choice: ReductionChoice) -> ReducedModel:
@@ -82,21 +80,3 @@ def _quadratic_residual(stiffness: sp.csr_array, per_square: sp.csr_array, vecto
     # with s = (Omega / highest)^2: K(1/4), K(1) give K2 = (16 K(1/4) - 4 K(1) - 12 K(0)) / -3
     quadratic = (16.0 * middle - 4.0 * top - 12.0 * at_rest) / -3.0
     return float(np.max(np.abs(quadratic)) / np.max(np.abs(at_rest)))
-
-
-def ideal_shapes(mesh: BladeMesh) -> dict[str, np.ndarray]:
-    """Displacement fields, shape (nodes, 3), named 1B, 1T and 2B.
-
-    Bending moves along the blade's local normal as a clamped-free beam; torsion turns each section about mid-chord by
-    a quarter sine along the span.
-    """
-    chord, span, _ = mesh.parameters.T
-    twist = (chord - 0.5) * np.sin(0.5 * np.pi * span)
-    amplitudes = {"1B": _beam_shape(span, _BEAM_ROOTS[0]), "1T": twist, "2B": _beam_shape(span, _BEAM_ROOTS[1])}
-    return {name: amplitude[:, None] * mesh.normals for name, amplitude in amplitudes.items()}
-
-
-def _beam_shape(span: np.ndarray, root: float) -> np.ndarray:
-    ratio = (np.cosh(root) + np.cos(root)) / (np.sinh(root) + np.sin(root))
-    x = root * span
-    return np.cosh(x) - np.cos(x) - ratio * (np.sinh(x) - np.sin(x))

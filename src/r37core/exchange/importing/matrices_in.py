@@ -25,7 +25,7 @@ from r37core.rom.reduced_model import RecoveryNodes, ReducedModel
 from r37core.rom.reduction_choice import ReductionChoice
 
 from .source import MASS_UNITS, STIFFNESS_UNITS, MatricesSource, matrix_files
-from .tip import arc_length, check_order
+from .tip import arc_length, check_order, check_sense_of_nodes
 
 COLUMNS = ("x", "y", "z", "dof_x", "dof_y", "dof_z")
 _REDUCED_UP_TO = 500  # coordinates beside those of the contact nodes: matrices that small are taken as they are
@@ -119,6 +119,8 @@ def _read(files: Mapping[str, Path], source: MatricesSource, fastest: float) -> 
     with blamed("matrices", files["boundary"].name):
         points = orientation.contact_nodes_to_blade(nodes)
         check_order(points)
+        if source.sense_check:
+            check_sense_of_nodes(points)
     speeds = sorted((_speed(name, file), name) for name, file in files.items() if name.startswith("K_"))
     _check_speeds([speed for speed, _ in speeds], fastest)
     mass, *stiffness = (_matrix(files[name]) for name in ("M", *(name for _, name in speeds)))
