@@ -34,7 +34,7 @@ TESTS = {
     "rom/contact_reduction.py": "test_time_integration.py",
     "rom/craig_bampton.py": "test_rom.py",
     "speeds.py": "test_results.py test_config.py",
-    "studies/measures.py": "test_readings.py",
+    "studies/runner.py": "test_studies.py test_modelling_choices.py",
     "time_integration/integrators.py": "test_integrators.py test_time_integration.py",
     "time_integration/simulate.py": "test_run_statistics.py test_time_integration.py",
     "time_integration/speed_run.py": "test_run_statistics.py",
