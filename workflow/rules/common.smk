@@ -91,7 +91,9 @@ onsuccess:
     lock.release()
     # after Snakemake's own last words, and nothing where there is nothing to say
     atexit.register(
-        lambda: sys.stderr.writelines(f"{line}\n" for line in closing_lines(settings.results, BEGAN, time.time()))
+        lambda: sys.stderr.writelines(
+            f"{line}\n" for line in [*failures.taken(), *closing_lines(settings.results, BEGAN, time.time())]
+        )
     )
 
 

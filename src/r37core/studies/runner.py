@@ -14,10 +14,10 @@ import xarray as xr
 
 from r37core.dataset_file import about, read_dataset, write_dataset
 from r37core.io import atomic_write, read_json
-from r37core.results.measures import peak_of
+from r37core.results.measures import largest_of_run, last_revolution, peak_of
 from r37core.results.netcdf import create_variable
 from r37core.results.response import write_response
-from r37core.results.stress_recovery import StressRecovery, largest_of_run
+from r37core.results.stress_recovery import StressRecovery
 from r37core.rom.contact_model import ContactModel, read_contact_model
 from r37core.rom.rom_file import read_reduced_model
 from r37core.time_integration.integration_choice import IntegrationChoice
@@ -147,7 +147,8 @@ class _Runs:
         for end, towards in ((speeds[0], -step), (speeds[-1], step)):
             for number in range(_MOST_EXTRA):
                 last = read_speed(self.files[end + number * towards])
-                if not largest_of_run(last, self.recovery, instants) > self.case.material.yield_stress:
+                stress = self.recovery.max_von_mises(last_revolution(last["snapshots"], instants))
+                if not largest_of_run(last, stress, instants) > self.case.material.yield_stress:
                     break
                 self._run(end + (number + 1) * towards)
         peak = max(self.files, key=lambda speed: _motion_of(read_speed(self.files[speed])))
