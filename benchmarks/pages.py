@@ -7,6 +7,7 @@ import re
 import shutil
 import subprocess
 import sys
+import tempfile
 from pathlib import Path
 
 ROOT = Path(__file__).parent.parent
@@ -33,9 +34,14 @@ def fill(page, name, text):
 
 
 def rule_graph():
-    """The rules of the main job as a Mermaid diagram, without their way to the final target."""
-    command = [str(Path(sys.executable).with_name("snakemake")), "all_blades", "--rulegraph", "mermaid-js", "--nolock"]
-    text = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True).stdout
+    """The rules of the main job as a Mermaid diagram, without their way to the final target.
+
+    Drawn where there are no results: edges of rounds that are done are not drawn.
+    """
+    command = [str(Path(sys.executable).with_name("snakemake")), "all_blades", "--rulegraph", "mermaid-js"]
+    with tempfile.TemporaryDirectory() as empty:
+        command += ["--directory", empty]
+        text = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True).stdout
     names = dict(re.findall(r"(id\d+)\[(\w+)\]", text))
     edges = sorted((names[one], names[other]) for one, other in re.findall(r"(id\d+) --> (id\d+)", text))
     lines = [f"    {one} --> {other}" for one, other in edges if other != "all_blades"]

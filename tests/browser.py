@@ -16,8 +16,8 @@ def opened(file, viewport, kept=lambda message: True, flags=(), place="", **more
     Its `problems`: errors and warnings of the console that are `kept`, requests to the network.
     """
     if CHROMIUM is None:
-        pytest.skip("Chromium is not installed")
-    sync_api = pytest.importorskip("playwright.sync_api")
+        pytest.skip("Chromium (apt-get install chromium)")
+    sync_api = pytest.importorskip("playwright.sync_api", reason="playwright (make setup)")
     flags = ["--no-sandbox", "--no-first-run", *(f"--disable-{name}" for name in QUIET), *flags]
     with sync_api.sync_playwright() as playwright:
         browser = playwright.chromium.launch(executable_path=CHROMIUM, args=flags)

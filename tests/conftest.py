@@ -1,7 +1,9 @@
-"""What many tests share: the reference blade, a coarse mesh of it, its matrices and its reduced model."""
+"""What many tests share: a clean project, the reference blade, a coarse mesh, its matrices and its reduced model."""
 
+import filecmp
 import os
 import shutil
+from collections import Counter
 from pathlib import Path
 
 import pytest
@@ -9,19 +11,53 @@ import pytest
 for library in ("OPENBLAS", "OMP", "MKL"):
     os.environ[f"{library}_NUM_THREADS"] = "1"
 
-ROOT = Path(__file__).parent.parent
+CHECKOUT = Path(__file__).parent.parent
+CONFIGURATION = Path(__file__).parent / "config"
+DELIVERED = ("benchmarks", "cluster", "docs", "envs", "profiles", "workflow", "mkdocs.yml", "pyproject.toml", "CITATION.cff")
+DELIVERED += ("Makefile", "Snakefile", "CHANGELOG.md", "CONTRIBUTING.md", "README.md")
+
+
+def pytest_terminal_summary(terminalreporter):
+    """What the skipped tests need, one line each, and whether the configuration in use is not the tests'."""
+    reasons = Counter(report.longrepr[2].removeprefix("Skipped: ") for report in terminalreporter.stats.get("skipped", []))
+    for reason, tests in sorted(reasons.items()):
+        terminalreporter.write_line(f"not run: {tests} {'test needs' if tests == 1 else 'tests need'} {reason}")
+    files = [str(file.relative_to(CONFIGURATION)) for file in CONFIGURATION.rglob("*.*")]
+    _, changed, missing = filecmp.cmpfiles(CONFIGURATION, CHECKOUT / "config", files, shallow=False)
+    if changed or missing:
+        names = ", ".join(sorted([*changed, *missing]))
+        terminalreporter.write_line(f"config/ is edited ({names}): the tests use tests/config/ instead")
 
 
 @pytest.fixture(scope="session")
-def root():
-    return ROOT
+def root(tmp_path_factory):
+    """The project as it was delivered: no results, and the tests' own configuration, whatever lies in the checkout.
+
+    `src` is a link: the package there is the imported one.
+    """
+    folder = tmp_path_factory.mktemp("project")
+    for name in DELIVERED:
+        (shutil.copytree if (CHECKOUT / name).is_dir() else shutil.copy)(CHECKOUT / name, folder / name)
+    shutil.copytree(CONFIGURATION, folder / "config")
+    shutil.copytree(CHECKOUT / "config/schemas", folder / "config/schemas")
+    (folder / "src").symlink_to(CHECKOUT / "src")
+    return folder
+
+
+@pytest.fixture(scope="session", autouse=True)
+def elsewhere(tmp_path_factory):
+    """A working directory without results: no test sees those of the checkout."""
+    before = Path.cwd()
+    os.chdir(tmp_path_factory.mktemp("elsewhere"))
+    yield
+    os.chdir(before)
 
 
 @pytest.fixture(scope="session")
-def settings():
+def settings(root):
     from r37core.config import read_settings
 
-    return read_settings(ROOT)
+    return read_settings(root)
 
 
 @pytest.fixture(scope="session")

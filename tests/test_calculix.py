@@ -16,7 +16,7 @@ from r37core.fem.quadrature import wedge_rule
 from r37core.fem.solver import lowest_modes
 from r37core.fem.stress import stress_at
 
-pytestmark = pytest.mark.skipif(shutil.which("ccx") is None, reason="CalculiX (Debian: calculix-ccx) is not installed")
+pytestmark = pytest.mark.skipif(shutil.which("ccx") is None, reason="CalculiX (apt-get install calculix-ccx)")
 
 SPEED = 1500.0
 

@@ -8,6 +8,7 @@ import gmsh
 import numpy as np
 import pytest
 from box_mesh import box_mesh
+from scipy import constants
 
 from r37core.exchange.exporting.write_mesh import write_mesh
 from r37core.exchange.importing.abaqus_reader import read_abaqus
@@ -15,9 +16,9 @@ from r37core.exchange.importing.import_mesh import import_mesh
 from r37core.exchange.importing.material_check import check_material
 from r37core.exchange.importing.meshio_reader import quietly
 from r37core.exchange.importing.read_mesh import _READERS
-from r37core.exchange.importing.source import SUFFIXES, MeshSource, digest_of, mesh_files
+from r37core.exchange.importing.source import MASS_UNITS, STIFFNESS_UNITS, SUFFIXES, MeshSource, digest_of, mesh_files
 from r37core.exchange.importing.where import Where
-from r37core.exchange.orientation import Orientation
+from r37core.exchange.orientation import UNITS, Orientation
 from r37core.exchange.refusal import ImportRefused, MeshWarning, placed
 from r37core.fem.abaqus_deck import write_abaqus
 from r37core.fem.elements import ELEMENTS
@@ -103,7 +104,7 @@ def test_every_element_in_every_format(element, tmp_path):
 @pytest.mark.filterwarnings("ignore:elements of first order")
 def test_archives_of_ansys(element, tmp_path):
     """Written by the extra package that reads them, with components of nodes; wedges as hexahedra with repeated nodes."""
-    meshlane = pytest.importorskip("meshlane")
+    meshlane = pytest.importorskip("meshlane", reason="meshlane (make setup)")
     mesh = plate(element)
     sets = {name.upper(): mesh.node_set(name) for name in ("root", "tip")}
     content = meshlane.Mesh(mesh.points, list(mesh.blocks.items()), point_sets=sets)
@@ -293,9 +294,17 @@ def some_turned(mesh):
     return replace(mesh, blocks={"hexahedron20": nodes})
 
 
+def some_twice(mesh):
+    """The first element once more, its nodes numbered from another corner, and the fourth as it is."""
+    nodes = mesh.blocks["hexahedron20"]
+    turned = [1, 2, 3, 0, 5, 6, 7, 4, 9, 10, 11, 8, 13, 14, 15, 12, 17, 18, 19, 16]
+    return replace(mesh, blocks={"hexahedron20": np.concatenate([nodes, nodes[[0]][:, turned], nodes[[3]]])})
+
+
 @pytest.mark.parametrize(
     ("change", "message"),
     [
+        (some_twice, r"2 of 20 elements of type hexahedron20 are given twice.* \(numbers 1 and 19, 4 and 20 of their type"),
         (some_turned, r"2 of 18 elements of type hexahedron20 are inside out"),
         (lambda m: reordered(m, [*range(8), *range(16, 20), *range(8, 16)]), r"mid-nodes off their edges .* node order"),
         (lambda m: replace(m, points=m.points + 20 * m.points[:, [1]] * [1, 0, 0]), "scaled Jacobian below minimum_scaled_jac"),
@@ -334,6 +343,19 @@ def test_wrong_orientation_and_rules_are_refused(tmp_path, changes, message):
     write_mesh(plate(), tmp_path / "mesh.vtu")
     with pytest.raises(ImportRefused, match=message):
         import_mesh(source("mesh.vtu", **changes), tmp_path)
+
+
+def test_units_are_those_of_si():
+    assert pytest.approx(UNITS, rel=1e-15) == {
+        "m": 1.0,
+        "cm": constants.centi,
+        "mm": constants.milli,
+        "um": constants.micro,
+        "in": constants.inch,
+        "ft": constants.foot,
+    }
+    assert pytest.approx(MASS_UNITS, rel=1e-15) == {"kg": 1.0, "g": constants.gram, "t": constants.metric_ton}
+    assert pytest.approx(STIFFNESS_UNITS, rel=1e-15) == {"N/m": 1.0, "N/mm": 1.0 / constants.milli}
 
 
 def test_every_suffix_has_a_reader():

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import meshio
 import numpy as np
+import pandas as pd
 import pytest
 import pyvista
 
@@ -163,7 +164,7 @@ def test_units_of_matrices(model, choice, tmp_path):
 
 def test_unsuitable_matrices_are_refused(directory, choice, tmp_path):
     def refused(message, **files):
-        folder = tmp_path / message[:12].replace(" ", "_")
+        folder = tmp_path / str(len(list(tmp_path.iterdir())))
         folder.mkdir()
         small = np.diag(np.arange(4.0, 28.0))
         content = {"M": small, "K_0": small, "K_100": 2 * small, "K_200": 5 * small} | files
@@ -176,7 +177,15 @@ def test_unsuitable_matrices_are_refused(directory, choice, tmp_path):
 
     small = np.diag(np.arange(4.0, 28.0))
     refused("needed: M and K_<speed> at three speeds", K_0=None)
-    refused("found speeds 100, 200, 300; allowed: 0", K_0=None, K_300=10 * small)
+    refused("found K_<speed> at 100, 200, 300 rad/s; allowed: at 0 and two", K_0=None, K_300=10 * small)
+    for name in ("inf", "1e200", "nan", "-200", "fast"):
+        named = {"K_200": None, f"K_{name}": small}
+        refused(rf"K_{name}\.npz: found a name without a speed; allowed: .* from 0 to 1e\+06", **named)
+    for low, high in (("1e-3", "200"), ("200", "200.0001"), ("200", "2e2"), ("1e-160", "1e-150")):
+        files = {"K_100": None, "K_200": None, f"K_{low}": small, f"K_{high}": small}
+        refused(rf"found K_<speed> at 0, {float(low):.9g}, {float(high):.9g} .* 0\.1 to 0\.99 times", **files)
+    files = {"K_100": None, "K_200": None, "K_1": small, "K_2": small}
+    refused("found K_<speed> up to 2 rad/s, for a blade that is needed up to 2000 .* 100 or more", **files)
     refused("is not linear in the squared speed", K_200=7 * small)
     refused("matrices differ in size: 24, 3, 24, 24", K_0=small[:3, :3])
     refused("a matrix that is not symmetric", K_0=small + np.eye(24, k=1))
@@ -189,7 +198,9 @@ def test_unsuitable_matrices_are_refused(directory, choice, tmp_path):
     refused("found matrices of 19 rows; allowed: 20", **{name: small[:19, :19] for name in ("M", "K_0", "K_100", "K_200")})
     broken = small.copy()
     broken[3, 3] = np.nan
-    refused("M.npz: found a matrix that is not symmetric", M=broken)
+    refused(r"M\.npz: .* some are no numbers", M=broken)
+    refused(r"K_0\.npz: found a matrix of which all entries are 0", K_0=0 * small)
+    refused(r"K_100\.npz: .* some are no numbers", K_100=np.where(small > 0.0, np.inf, 0.0))
 
 
 @pytest.mark.parametrize(
@@ -212,3 +223,27 @@ def test_unsuitable_tables_are_refused(choice, tmp_path, table, message):
     with pytest.raises(ImportRefused, match=message) as refusal:
         import_matrices(MatricesSource(str(tmp_path), OURS), choice)
     assert refusal.value.key == "matrices"
+
+
+@pytest.mark.parametrize(
+    ("change", "key", "message"),
+    [
+        (lambda nodes: 1e3 * nodes, "length_unit", r"24\d to 2\d\d m from the rotor axis .*length_unit 'm'.* does not fit"),
+        (lambda nodes: 1e-3 * nodes, "length_unit", r"length_unit 'm'"),
+        (lambda nodes: nodes + np.array([1e9, 0, 0]), "length_unit", r"1e\+09 to 1e\+09 m from the rotor axis"),
+        (lambda nodes: nodes * [0, 0, 1], "length_unit", "0 to 0 m from the rotor axis .* rotor_axis or axis_point"),
+        (lambda nodes: nodes[:, [1, 0, 2]], "radial", "the contact nodes' middle lies at .* degrees round the axis"),
+        (lambda nodes: nodes[::-1], "matrices", "the contact nodes run upstream; list them from the leading"),
+        (lambda nodes: nodes[[0, 2, 1, *range(3, len(nodes))]], "matrices", "contact node 3 does not lie beyond"),
+        (lambda nodes: nodes[np.argsort(np.arange(len(nodes)) % 2, kind="stable")], "matrices", "does not lie beyond"),
+        (lambda nodes: nodes * [1, 1, 0], "matrices", "leading and trailing edge lie at the same z"),
+    ],
+)
+def test_contact_nodes_of_another_size_or_order_are_refused(model, choice, tmp_path, change, key, message):
+    write_reduced_matrices(model, "pressure_edge", (0.0, 1000.0, 2000.0), tmp_path)
+    table = pd.read_csv(tmp_path / "boundary.csv")
+    table[["x", "y", "z"]] = change(table[["x", "y", "z"]].to_numpy())
+    table.to_csv(tmp_path / "boundary.csv", index=False)
+    with pytest.raises(ImportRefused, match=rf"^{tmp_path}: boundary\.csv: .*{message}") as refusal:
+        import_matrices(MatricesSource(str(tmp_path), OURS), choice)
+    assert refusal.value.key == key

@@ -128,6 +128,18 @@ def test_jump_is_the_power_of_the_step(ratio):
         np.testing.assert_allclose(mapped_loss, lost, rtol=1e-11)
 
 
+def test_bound_beyond_the_tangent_is_reached_but_not_passed():
+    """A slow mode of unit amplitude, whatever its phase; a smaller bound would jump over contacts."""
+    plan = plan_flight(central_difference(np.array([100.0]), 0.0, 1e-6).coefficients, None, 77, 1)
+    assert plan.slow_modes.all()
+    eigenvalue = np.exp(1j * np.arccos(1.0 - 0.5 * 1e-8))
+    phases = np.exp(1j * np.linspace(0.0, 2.0 * np.pi, 721))
+    u, d = phases.real, (phases * (1.0 - 1.0 / eigenvalue)).real
+    for length, jump in zip(plan.lengths, plan.jumps, strict=True):
+        beyond = np.abs((phases * eigenvalue**length).real - u - length * d).max()
+        assert 0.99 * jump[7, 0] < beyond <= jump[7, 0] * (1.0 + 1e-6)
+
+
 def test_modes_that_do_not_oscillate_are_stepped():
     assert plan_flight(central_difference(np.array([1e4, 1e6]), 1.0, 1e-7).coefficients, None, 64, 8) is None
 

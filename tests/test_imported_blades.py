@@ -14,7 +14,6 @@ from r37core.plain import to_plain
 from r37core.plans.export_plan import Exports
 from r37core.plans.import_plan import Imported
 from r37core.plans.sweep_plan import Sweep
-from r37core.speeds import SpeedPlan
 from r37core.studies.study_models import StudyModels
 
 MATERIAL = {"youngs_modulus_pa": 115e9, "density_kg_m3": 4430.0, "poissons_ratio": 0.32, "yield_stress_pa": 9e8}
@@ -199,8 +198,8 @@ def test_plan_of_imported_blades(three, tmp_path, monkeypatch):
 
 def test_plan_of_exports(three):
     imported, sweep = three
-    plans = dict.fromkeys(sweep.settings.speed_plans, SpeedPlan((900.0, 950.5)))
-    exports = Exports(imported, replace(sweep, settings=replace(sweep.settings, speed_plans=plans)))
+    config = sweep.settings.config.model_copy(update={"speeds": [900.0, 950.5]})
+    exports = Exports(imported, replace(sweep, settings=replace(sweep.settings, config=config)))
     files = {file.removeprefix("<results>/exports/") for file in exports.files}
     assert {"Ref/surface.step", "Ref/modes", "Fan/mesh.med", "Fan/stress_direct", "Given/matrices"} <= files
     assert not files & {"Fan/surface.step", "Given/mesh.med", "Given/modes", "Given/stress_direct"}

@@ -6,6 +6,7 @@ import os
 import subprocess
 import sys
 from itertools import pairwise
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -111,14 +112,14 @@ def test_side_by_side(tmp_path):
     assert len(list((tmp_path / "r37").iterdir())) == 1
 
 
-def test_a_job_does_not_import_numba(contact, tmp_path, root):
+def test_a_job_does_not_import_numba(contact, tmp_path):
     """With the time integration compiled, a simulation's process never sees its compiler, nor SciPy."""
     from r37core.rom.contact_model import write_contact_model
 
     write_contact_model(contact, tmp_path / "contact.npz")
     Simulation(contact, 1000.0, DIRECT, IntegrationChoice(2e-7, 1, 62)).compile()
     code = (
-        "import sys; sys.path.insert(0, 'tests')\n"
+        f"import sys; sys.path.insert(0, {str(Path(__file__).parent)!r})\n"
         "from integration_cases import DIRECT\nfrom r37core.time_integration.integration_choice import IntegrationChoice\n"
         "from r37core.time_integration.speed_run import run_speed\nfrom r37core.rom.contact_model import read_contact_model\n"
         f"model = read_contact_model({str(tmp_path / 'contact.npz')!r})\n"
@@ -126,7 +127,7 @@ def test_a_job_does_not_import_numba(contact, tmp_path, root):
         "spectrum_highest_order=10, wear_angles=100)\n"
         "assert not {'numba', 'scipy'} & set(sys.modules)"
     )
-    subprocess.run([sys.executable, "-c", code], check=True, cwd=root)
+    subprocess.run([sys.executable, "-c", code], check=True)
 
 
 def test_sources_of_the_compiled_code_are_all_that_it_is_compiled_from(root):

@@ -207,6 +207,8 @@ BLADE_REFUSALS = [
     ("A__b: {base: Ref}", r"A__b: found 'A__b'; allowed: a name of letters, digits, hyphens and single underscores"),
     ("A_: {base: Ref}", r"A_: found 'A_'"),
     ("A b: {base: Ref}", r"A b: found 'A b'"),
+    ('"A\\n": {base: Ref}', r"A\\n: found 'A\\n'; allowed: a name of letters"),
+    (f"? {'x' * 5000}\n: {{base: Ref}}", r"x{76} \.\.\.: found 'x{75} \.\.\.; allowed: a name of letters"),
     ("../A: {base: Ref}", r"\.\./A: found '\.\./A'"),
     ("figures: {base: Ref}", r"figures: found the blade 'figures'; allowed: another name"),
     ("ref: {base: Ref}", r"ref: found 'ref' beside 'Ref'; allowed: names that differ in more than capitals"),
@@ -246,6 +248,7 @@ def test_what_is_refused_in_blades_yaml(config_copy, text, message):
             r"abradable\.results: found shapes; allowed: only with stress among the results",
         ),
         ("abradable:", "abradable__x:", r"abradable__x: found 'abradable__x'"),
+        ("abradable:", '"abradable\\n":', r"abradable\\n: found 'abradable\\n'; allowed: a name of letters"),
         ("    bars: 10000", "    bars: 10_000", r"lining\.bars: found '10_000'; allowed: integer"),
     ],
 )

@@ -132,19 +132,19 @@ def test_leftovers_of_removed_blades_scenes_and_speeds(root, tmp_path):
     assert leftovers(tmp_path / "none", settings) == []
 
 
-def test_leftovers_of_shapes(root, tmp_path):
+def test_leftovers_of_shapes(config_copy):
     """Those of blades that are gone, and of scenes that no longer ask."""
-    settings = read_settings(root, command_line_document({"blades": ["Ref"]}))
-    lined = settings.scenes["abradable"]
-    scenes = settings.scenes | {"abradable": dataclasses.replace(lined, results=(*lined.results, "shapes"))}
-    asked = dataclasses.replace(settings, scenes=scenes)
-    shapes = tmp_path / "shapes"
+    settings = read_settings(config_copy, command_line_document({"blades": ["Ref"]}))
+    scenes, results = config_copy / "config/scenes.yaml", config_copy / "results"
+    shapes = results / "shapes"
+    scenes.write_text(scenes.read_text().replace("stress, wear, energy]", "stress, wear, energy, shapes]", 1))
+    asked = read_settings(config_copy, command_line_document({"blades": ["Ref"]}))
     for name in ("Ref/modes", "Ref/stress_abradable", "Ref/stress_direct", "L50/modes"):
         (shapes / name).mkdir(parents=True)
     for name in ("Ref.html", "L50.html"):
         (shapes / name).write_text("x")
-    assert leftovers(tmp_path, asked) == [shapes / "L50", shapes / "L50.html", shapes / "Ref/stress_direct"]
-    assert leftovers(tmp_path, settings) == [shapes / "L50", shapes / "L50.html", shapes / "Ref", shapes / "Ref.html"]
+    assert leftovers(results, asked) == [shapes / "L50", shapes / "L50.html", shapes / "Ref/stress_direct"]
+    assert leftovers(results, settings) == [shapes / "L50", shapes / "L50.html", shapes / "Ref", shapes / "Ref.html"]
 
 
 @pytest.mark.slow

@@ -228,7 +228,7 @@ def test_a_stress_history_runs_its_speed(project):
         ("results/interactions.py", {"summary"}),
         ("figures/maps.py", {"map_figure"}),
         ("studies/growth.py", set()),
-        ("config/load.py", set()),
+        ("config/settings.py", set()),
         ("plans/sweep_plan.py", set()),
     ],
 )

@@ -9,6 +9,7 @@ from box_mesh import box_mesh
 from integration_cases import oscillator
 from scipy.optimize import brentq
 
+from r37core.config.signal_section import GaugeEntry
 from r37core.contact.casing import Casing
 from r37core.contact.scene import Scene
 from r37core.dataset_file import read_dataset, write_dataset
@@ -45,6 +46,12 @@ def test_a_gauge_in_uniaxial_tension(element, side):
     gauges = [Gauge(chord, span, side, angle) for angle in angles for chord, span in ((0.31, 0.4), (0.9, 0.05), (0.5, 0.99))]
     expected = 1e-3 * (np.cos(angles) ** 2 - 0.3 * np.sin(angles) ** 2)
     np.testing.assert_allclose(gauge_rows(box, basis, gauges)[:, 0], np.repeat(expected, 3), atol=1e-14)
+
+
+def test_angles_of_gauges_are_given_in_degrees():
+    for degrees, radians in ((45.0, np.pi / 4), (-180.0, -np.pi), (90.0, np.pi / 2), (0.0, 0.0)):
+        entry = GaugeEntry(chord=0.5, span=0.25, side="suction", angle_deg=degrees)
+        assert entry.gauge() == Gauge(0.5, 0.25, "suction", pytest.approx(radians, rel=1e-15))
 
 
 def test_the_sign_of_an_angle():

@@ -10,15 +10,25 @@ import pytest
 from browser import opened
 
 
+def need(*packages):
+    """Skip the test unless these packages of the extra `docs` are installed."""
+    for name in packages:
+        pytest.importorskip(name, reason="the packages of the site (make site)")
+
+
 @pytest.fixture
 def notebook(root):
-    nbformat = pytest.importorskip("nbformat")
+    need("nbformat")
+    import nbformat
+
     return nbformat.read(root / "docs/tutorial.ipynb", as_version=4)
 
 
 def test_the_notebook_is_that_of_the_script(root, notebook):
     """`make tutorial` renews it."""
-    jupytext = pytest.importorskip("jupytext")
+    need("jupytext")
+    import jupytext
+
     script = jupytext.read(root / "docs/tutorial.py")
     assert [cell.source for cell in notebook.cells] == [cell.source for cell in script.cells]
     assert all(cell.execution_count for cell in notebook.cells if cell.cell_type == "code")
@@ -26,8 +36,7 @@ def test_the_notebook_is_that_of_the_script(root, notebook):
 
 @pytest.mark.slow
 def test_the_tutorial_runs_and_finds_what_it_shows(root, notebook):
-    for name in ("jupytext", "nbclient", "ipykernel"):
-        pytest.importorskip(name)
+    need("jupytext", "nbclient", "ipykernel")
     again = runpy.run_path(str(root / "benchmarks/tutorial.py"))["executed"]()
 
     def printed(one):
@@ -43,8 +52,7 @@ def test_the_tutorial_runs_and_finds_what_it_shows(root, notebook):
 
 @pytest.mark.slow
 def test_the_site_is_built_without_a_warning_and_opens_offline(root, tmp_path):
-    for name in ("mkdocs", "material", "mkdocstrings"):
-        pytest.importorskip(name)
+    need("mkdocs", "material", "mkdocstrings")
     command = [sys.executable, "-m", "mkdocs", "build", "--strict", "--quiet", "--site-dir", str(tmp_path / "site")]
     environment = {**os.environ, "NO_MKDOCS_2_WARNING": "1"}
     done = subprocess.run(command, cwd=root, env=environment, capture_output=True, text=True, timeout=600, check=False)

@@ -16,10 +16,12 @@ from workflow_runs import SNAKEMAKE, copy_project, snakemake
 
 PROGRAMS = ("munged", "slurmctld", "slurmd", "sbatch", "squeue")
 MISSING = [program for program in PROGRAMS if not shutil.which(program, path=f"{os.environ['PATH']}:/usr/sbin")]
+WANTED = os.environ.get("R37_SLURM")
+"""Set by make test-slurm: then what is missing is an error."""
+
 pytestmark = [
     pytest.mark.slow,
-    # make test-slurm wants them, and says so by this
-    pytest.mark.skipif(bool(MISSING or os.getuid()) and not os.environ.get("R37_SLURM"), reason="no Slurm, or not root"),
+    pytest.mark.skipif(not WANTED and bool(MISSING or os.getuid()), reason="Slurm and root (make test-slurm)"),
 ]
 
 CONFIGURATION = """

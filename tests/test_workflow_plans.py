@@ -111,8 +111,8 @@ def test_models_of_a_scene(chosen):
 
 
 def test_a_scene_without_stress_needs_no_basis(chosen):
-    plain = replace(chosen.scenes["direct"], results=("spectrum",))
-    sweep = Sweep(replace(chosen, scenes=chosen.scenes | {"direct": plain}))
+    plain = chosen.scene_entries["direct"].model_copy(update={"results": ["spectrum"]})
+    sweep = Sweep(replace(chosen, scene_entries=chosen.scene_entries | {"direct": plain}))
     assert sweep.recovery(L50) == {}
     assert sweep.runs(of(kind="stress")) == [("Ref", "abradable"), ("L50", "abradable")]
 

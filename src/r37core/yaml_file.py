@@ -18,8 +18,8 @@ _LARGEST = 100_000
 """Values in one file; more than that is an alias that multiplies itself."""
 
 _DIGITS = list("-+0123456789.")
-_INTEGER = re.compile(r"^[-+]?[0-9]{1,400}$")
-_FLOAT = re.compile(r"^[-+]?(\.[0-9]+|[0-9]+(\.[0-9]*)?)([eE][-+]?[0-9]+)?$|^[-+]?\.(inf|Inf|INF)$|^\.(nan|NaN|NAN)$")
+_INTEGER = re.compile(r"[-+]?[0-9]{1,400}\Z")
+_FLOAT = re.compile(r"([-+]?(\.[0-9]+|[0-9]+(\.[0-9]*)?)([eE][-+]?[0-9]+)?|[-+]?\.(inf|Inf|INF)|\.(nan|NaN|NAN))\Z")
 
 
 class _Loader(yaml.SafeLoader):

@@ -91,7 +91,7 @@ rule explorer:
     resources:
         **needs.of("explorer"),
     params:
-        title=f"r37 {settings.run_name or ''}".strip(),
+        title=f"r37 {settings.config.run.name or ''}".strip(),
         shapes=sweep.runs_with("shapes"),
         parts=parts_hash(),
         code=code("explorer"),

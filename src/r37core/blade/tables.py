@@ -37,7 +37,7 @@ PROFILE_COLUMNS = {
 }
 """Column of a profile table -> (attribute of ProfileParameters, factor to SI)."""
 
-_NUMBER = re.compile(r"[-+]?(nan|inf|infinity|(\.[0-9]+|[0-9]+(\.[0-9]*)?)(e[-+]?[0-9]+)?)$", re.IGNORECASE)
+_NUMBER = re.compile(r"[-+]?(nan|inf|infinity|(\.[0-9]+|[0-9]+(\.[0-9]*)?)(e[-+]?[0-9]+)?)", re.IGNORECASE)
 
 STACKING_COLUMNS = {"span_percent": 0.01, "sweep_cm": _CENTIMETRE, "lean_deg": _DEGREE}
 """Column of a sweep and lean table -> factor to SI."""
@@ -165,7 +165,7 @@ def _row(raw: dict, line: int, number_columns: Iterable[str], text_columns: Iter
     row: dict = {column: raw[column].strip() for column in text_columns}
     for column in number_columns:
         text = raw[column].strip()
-        if not _NUMBER.match(text):
+        if not _NUMBER.fullmatch(text):
             raise BladeShapeError(f"line {line}, column {column}: '{text}' is not a number")
         row[column] = float(text)
         if not np.isfinite(row[column]):

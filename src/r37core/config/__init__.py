@@ -3,8 +3,9 @@
 from .blades import BladeSettings
 from .document import Document, command_line_document, read_document
 from .errors import ConfigError
-from .load import SceneSettings, Settings, checked_scene, load_settings, plain, read_settings, settings_of_run
+from .reading import load_settings, read_settings, settings_of_run
 from .scenes import SceneEntry
+from .settings import SceneSettings, Settings, checked_scene, plain
 
 __all__ = [
     "BladeSettings",

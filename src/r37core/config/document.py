@@ -13,7 +13,7 @@ from r37core.text_file import TextFileError
 from r37core.yaml_file import KeyPath, load_yaml_with_lines, scalar
 
 from .errors import ConfigError
-from .messages import explain
+from .messages import explain, on_one_line
 
 Model = TypeVar("Model", bound=BaseModel)
 
@@ -36,7 +36,8 @@ class Document:
     def error(self, path: KeyPath, text: str, key: KeyPath | None = None) -> ConfigError:
         """The error of the value at `path`: place, key (where that is not the whole path) and `text`."""
         named = path if key is None else key
-        return ConfigError(f"{self.place(path)}: {'.'.join(map(str, named)) or 'top level'}: {text}")
+        shown = ".".join(on_one_line(str(step)) for step in named) or "top level"
+        return ConfigError(f"{self.place(path)}: {shown}: {text}")
 
     def refusal(self, path: KeyPath, found: str, allowed: str) -> ConfigError:
         """The error of the value at `path`, with what was found and what is allowed."""

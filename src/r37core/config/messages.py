@@ -36,7 +36,7 @@ def explain(error: ValidationError, content: Any, model: type[BaseModel]) -> tup
     path = _within(content, first["loc"], missing=first["type"] == "missing") + tuple(context.get("at", ()))
     schema, variants = _schema(model), frozenset(map(str, first["loc"]))
     if first["type"] == "refused":
-        return path, path, f"found {context['found']}; allowed: {context['allowed']}"
+        return path, path, f"found {on_one_line(context['found'])}; allowed: {context['allowed']}"
     if first["type"] in ("missing", "extra_forbidden"):
         *parent, key = path
         known = _keys(_at(schema, tuple(parent), schema, variants), schema)
@@ -44,12 +44,16 @@ def explain(error: ValidationError, content: Any, model: type[BaseModel]) -> tup
             return tuple(parent), tuple(parent), f"missing key {key}; allowed keys: {', '.join(known)}"
         close = difflib.get_close_matches(str(key), known, 1)
         meant = f" (did you mean {close[0]}?)" if close else ""
-        return path, tuple(parent), f"found unknown key {key}; allowed keys: {', '.join(known)}{meant}"
+        return path, tuple(parent), f"found unknown key {on_one_line(str(key))}; allowed keys: {', '.join(known)}{meant}"
     value = _value(content, path)
-    found = "nothing" if value is None else repr(value)
-    if len(found) > 80:
-        found = found[:76] + " ..."
+    found = "nothing" if value is None else on_one_line(repr(value))
     return path, path, f"found {found}; allowed: {describe(_at(schema, path, schema, variants), schema) or first['msg']}"
+
+
+def on_one_line(text: str) -> str:
+    """The text as a message shows it: control characters as in Python, and no more than 80 characters."""
+    plain = text if text.isprintable() else repr(text)[1:-1]
+    return plain if len(plain) <= 80 else plain[:76] + " ..."
 
 
 @cache

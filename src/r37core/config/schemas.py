@@ -11,9 +11,9 @@ from pydantic import BaseModel
 from r37core.io import write_text
 
 from .blades import Blades
+from .config_file import Config
 from .fidelity import Levels
 from .scenes import Scenes
-from .settings import Config
 
 MODELS: dict[str, type[BaseModel]] = {"config": Config, "blades": Blades, "scenes": Scenes, "fidelity": Levels}
 

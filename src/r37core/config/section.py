@@ -57,7 +57,7 @@ _NAME = r"^[A-Za-z0-9][A-Za-z0-9-]*(_[A-Za-z0-9-]+)*$"
 
 def check_name(name: str) -> str:
     """The name itself; the error of one that cannot be part of file names."""
-    if not re.match(_NAME, name) or len(name) > 60 or name == "all" or not isinstance(scalar(name), str):
+    if not re.fullmatch(_NAME, name) or len(name) > 60 or name == "all" or not isinstance(scalar(name), str):
         raise refused(
             (),
             repr(name),

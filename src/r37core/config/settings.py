@@ -1,199 +1,277 @@
-"""config.yaml: what to run."""
+"""What a run of the workflow is made with: config.yaml, the files it names, and what it chooses of them."""
 
 from __future__ import annotations
 
-import re
-from typing import Annotated, Literal
+import hashlib
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, replace
+from functools import cached_property
+from pathlib import Path
+from typing import Any
 
-from pydantic import AfterValidator, Field, model_validator
+from pydantic import BaseModel
 
-from r37core.rom.boundary import BoundaryChoice
-from r37core.rom.reduction_choice import ReductionChoice, StressSubmesh
+from r37core.contact.scene import Scene
+from r37core.exchange.importing.source import MatricesSource
+from r37core.rom.reduction_choice import ReductionChoice
+from r37core.speeds import SpeedError, SpeedPlan
+from r37core.time_integration.integration_choice import IntegrationChoice
 
-from .export_section import ExportSection
-from .fidelity import Reduction
-from .scenes import TipLine
-from .section import AllOrNames, FileName, LeftOut, Name, Section, Speed, refused
-from .shape_section import ShapeSection
-from .signal_section import SignalSection
-from .speed_section import RpmList, SpeedList, SpeedRange, SpeedRule, refuse_both_units
+from .blades import BladeSettings, blade_settings
+from .config_file import CampbellSection, Config, Interactions, RefinementSection, StructureSection
+from .document import Document
+from .families import Designs, Family
+from .fidelity import Level, recommended_level
+from .scenes import SceneEntry
+from .speed_section import UNITS, SpeedRule, key_of_speeds, planned
 from .studies import Studies
-from .submesh import Submesh
 
 
-class Boundary(Section):
-    """The contact nodes, kept as physical coordinates of the reduced model."""
+@dataclass(frozen=True)
+class SceneSettings:
+    """One scene: what the blade meets, on which tip line, how long, and which results are wanted."""
 
-    tip_line: TipLine = "pressure_edge"
-    nodes: int = Field(default=8, ge=1, le=200)
-    corners: bool = Field(default=True, description="whether leading and trailing corner are among them")
+    scene: Scene
+    tip_line: str
+    revolutions: int
+    results: tuple[str, ...]
+    stress_history_speeds: tuple[float, ...]
 
 
-class StructureSection(Section):
-    """Geometry and reduced model."""
+@dataclass(frozen=True)
+class Documents:
+    """The files that a message may have to point into; that of the blades has designs in place of families."""
 
-    edges: Literal["round", "blunt"] = Field(default="round", description="how leading and trailing edge are closed")
-    boundary: Boundary = Boundary()
-    maximum_speed_rad_s: Speed = Field(default=2000.0, description="highest speed of the basis and of the Campbell diagram")
-    spin_softening: bool = False
-    coriolis: bool = False
-    stress_submesh: Submesh = Submesh()
-    recover_whole_blade: bool = Field(default=False, description="keep the basis on every node (a large file)")
+    config: Document
+    blades: Document
+    levels: Document
+    scenes: Document
 
-    def reduction(
-        self, size: Reduction, tip_line: str | None = None, stress_submesh: StressSubmesh | None = None
-    ) -> ReductionChoice:
-        """The reduced model of a level's size, with contact nodes on `tip_line` or on that of the section `boundary`.
 
-        Stress is recovered on `stress_submesh`, or where the section of this name says. Its basis is computed at rest, at half
-        the maximum speed and at the maximum speed.
+@dataclass(frozen=True)
+class Settings:
+    """Everything the workflow needs to know; what concerns several files is checked by r37core.config.cross_checks.
+
+    `root`: folder that file names start from; `config`: config.yaml; `designs`, `levels` and `scene_entries`: all that their
+    files have, of which `blades`, `fidelity` and `scenes` are those to run, in order.
+    """
+
+    root: Path
+    documents: Documents
+    config: Config
+    designs: Designs
+    levels: dict[str, Level]
+    scene_entries: dict[str, SceneEntry]
+
+    @property
+    def structure(self) -> StructureSection:
+        """Geometry and reduced model."""
+        return self.config.structure
+
+    @property
+    def campbell(self) -> CampbellSection:
+        """The Campbell diagram."""
+        return self.config.campbell
+
+    @property
+    def interactions(self) -> Interactions:
+        """What counts as an interaction."""
+        return self.config.interactions
+
+    @property
+    def refinement(self) -> RefinementSection:
+        """Where ranges with `refine_to` get more speeds."""
+        return self.config.refinement
+
+    @property
+    def studies(self) -> Studies:
+        """Studies of the model itself."""
+        return self.config.studies
+
+    @cached_property
+    def chosen_blades(self) -> list[str]:
+        """Names of the blades that config.yaml chooses; that of a family is all of its designs."""
+        if self.config.blades == "all":
+            return list(self.designs.entries)
+        families = self.designs.families
+        several = [list(families[name].designs) if name in families else [name] for name in self.config.blades]
+        return list(dict.fromkeys(name for names in several for name in names))
+
+    @cached_property
+    def blade_names(self) -> list[str]:
+        """Those of them that are in this run's part."""
+        return self.config.run.of_part(self.chosen_blades)
+
+    @cached_property
+    def blades(self) -> dict[str, BladeSettings]:
+        """Blades to run. Raises ConfigError for tables or files that cannot be read, and shapes that are impossible."""
+        document = self.documents.blades
+        return {name: blade_settings(name, self.designs.entries, self.root, document) for name in self.blade_names}
+
+    @cached_property
+    def families(self) -> dict[str, Family]:
+        """Families of which some designs are run."""
+        return {name: one for name, one in self.designs.families.items() if set(one.designs) & set(self.blade_names)}
+
+    @cached_property
+    def places(self) -> dict[str, dict[str, str]]:
+        """Blade -> key -> `file:line: blade.key`, for what is found out later."""
+        return {name: self._places(name) for name in self.blade_names}
+
+    def _places(self, blade: str) -> dict[str, str]:
+        """Where each key of a blade's entry, or of the entry that its base has it from, stands."""
+        entry = self.designs.entries[blade]
+        if base := getattr(entry, "base", None):
+            return self._places(base)
+        return {key: f"{self.documents.blades.place((blade, key))}: {blade}.{key}" for key in type(entry).model_fields}
+
+    @cached_property
+    def scene_names(self) -> list[str]:
+        """Names of the scenes to run."""
+        return list(self.scene_entries) if self.config.scenes == "all" else list(self.config.scenes)
+
+    @cached_property
+    def scenes(self) -> dict[str, SceneSettings]:
+        """Scenes to run."""
+        return {name: self._scene(self.scene_entries[name]) for name in self.scene_names}
+
+    def _scene(self, entry: SceneEntry) -> SceneSettings:
+        return SceneSettings(
+            scene=entry.scene(),
+            tip_line=entry.tip_line or self.structure.boundary.tip_line,
+            revolutions=entry.revolutions or self.fidelity.time_integration.revolutions,
+            results=tuple(entry.results),
+            stress_history_speeds=entry.stress_history_speeds(),
+        )
+
+    @cached_property
+    def fidelity_name(self) -> str:
+        """The level that is named, or for `auto` the cheapest one whose measured error is within the tolerance."""
+        if self.config.fidelity != "auto":
+            return self.config.fidelity
+        measured = {name: level.measured for name, level in self.levels.items() if level.measured}
+        errors = {name: one.error for name, one in measured.items()}
+        chosen = recommended_level(errors, {name: one.cpu_s_per_run for name, one in measured.items()}, self.config.tolerance)
+        if chosen is None:
+            known = ", ".join(f"{name} {error:g}" for name, error in errors.items()) or "none"
+            raise self.documents.config.error(
+                ("tolerance",),
+                f"found {self.config.tolerance:g}; measured errors of the levels in {self.documents.levels.name}: {known}; "
+                "accept more, or name a level under fidelity",
+            )
+        return chosen
+
+    @property
+    def fidelity(self) -> Level:
+        """The level to run."""
+        return self.levels[self.fidelity_name]
+
+    @cached_property
+    def speed_plans(self) -> dict[tuple[str, str], SpeedPlan]:
+        """Speeds of each blade and scene: of the first rule that fits. Raises ConfigError for speeds that clash."""
+        general = self._speed_plan(self.config, ())
+        special = [(rule, self._speed_plan(rule, ("speeds_for", n))) for n, rule in enumerate(self.config.speeds_for)]
+        return {
+            (blade, scene): next((plan for rule, plan in special if rule.fits(blade, scene)), general)
+            for blade in self.blade_names
+            for scene in self.scene_names
+        }
+
+    def _speed_plan(self, section: Config | SpeedRule, path: tuple[str | int, ...]) -> SpeedPlan:
+        try:
+            return planned(section, self.fidelity.time_integration.speed_step_rad_s)
+        except SpeedError as error:
+            raise self.documents.config.error((*path, key_of_speeds(section)), str(error)) from None
+
+    @property
+    def results(self) -> Path:
+        """Folder of the results."""
+        return Path("results", "runs", self.config.run.name) if self.config.run.name else Path("results")
+
+    @property
+    def logs(self) -> Path:
+        """Folder of the logs."""
+        return Path("logs", "runs", self.config.run.name) if self.config.run.name else Path("logs")
+
+    def merged(self) -> dict[str, Any]:
+        """What this run is made with, merged from all files and the command line, as plain values."""
+        # the key of the unit that speeds are not given in has the default
+        other_speeds = set(UNITS) - {key_of_speeds(self.config)}
+        return {
+            "config": {key: value for key, value in plain(self.config).items() if key not in other_speeds},
+            "fidelity": {self.fidelity_name: plain(self.fidelity)},
+            "scenes": {name: plain(self.scene_entries[name]) for name in self.scenes},
+            "blades": {name: asdict(blade) for name, blade in self.blades.items()},
+        }
+
+    @property
+    def remarks(self) -> list[str]:
+        """What a run should say before it starts."""
+        said = []
+        measured = self.fidelity.measured
+        if self.config.fidelity == "auto" and measured is not None:
+            error, cost = 100 * measured.error, measured.cpu_s_per_run
+            said.append(f"fidelity auto: level {self.fidelity_name}, measured error {error:g}%, {cost:g} CPU s per run")
+        refining = [plan for plan in self.speed_plans.values() if plan.refined]
+        if refining:
+            certain = sum(len(plan.certain) for plan in refining)
+            most = sum(plan.at_most(self.refinement.largest_share) for plan in refining)
+            said.append(
+                f"speeds refine themselves: {certain} simulations and those of the windows first, about {most} at most; "
+                "they are planned round by round, so a dry run shows none of those to come"
+            )
+        return said
+
+    def shape_hash(self, blade: str) -> str:
+        """Short hash of all that a blade's geometry depends on."""
+        return _short_hash(self.blades[blade].definition, self.structure.edges)
+
+    def structure_hash(self, blade: str) -> str:
+        """Short hash of all that a blade's structural results depend on."""
+        material = self.blades[blade].material
+        elastic = material and replace(material, yield_stress=0.0)
+        choice = self.reduction_choice(blade=blade)
+        return _short_hash(self.shape_hash(blade), elastic, plain(self.fidelity.mesh), choice)
+
+    def reduction_choice(self, tip_line: str | None = None, blade: str | None = None) -> ReductionChoice:
+        """What the reduced model is made of, with contact nodes on `tip_line` or on that of config.yaml.
+
+        `blade`: whose region of stress counts, where it has one of its own.
         """
-        return ReductionChoice(
-            boundary=BoundaryChoice(tip_line or self.boundary.tip_line, self.boundary.nodes, self.boundary.corners),
-            speeds=(0.0, 0.5 * self.maximum_speed_rad_s, float(self.maximum_speed_rad_s)),
-            fixed_interface_modes=size.fixed_interface_modes,
-            tolerance=size.basis_tolerance,
-            spin_softening=self.spin_softening,
-            coriolis=self.coriolis,
-            stress_submesh=stress_submesh or self.stress_submesh.region(),
-            whole_blade=self.recover_whole_blade,
+        submesh = self.blades[blade].stress_submesh if blade else None
+        return self.structure.reduction(self.fidelity.reduction, tip_line, submesh)
+
+    def results_of(self, blade: str, scene: str) -> tuple[str, ...]:
+        """What is wanted of a scene, as far as the blade can give it: matrices have neither stress nor shapes."""
+        wanted = self.scenes[scene].results
+        matrices = isinstance(self.blades[blade].definition, MatricesSource)
+        return tuple(result for result in wanted if not (matrices and result in ("stress", "shapes")))
+
+    def integration_choice(self, blade: str, scene: str, speed: float) -> IntegrationChoice:
+        """Numbers of the time integration at one speed of a blade and scene, with only what its results need."""
+        chosen = self.scenes[scene]
+        everything = self.fidelity.time_integration.choice()
+        stress = "stress" in self.results_of(blade, scene)
+        history = speed in chosen.stress_history_speeds
+        return replace(
+            everything,
+            revolutions=chosen.revolutions,
+            snapshots_per_revolution=everything.snapshots_per_revolution if stress else 0,
+            snapshot_revolutions=(chosen.revolutions if history else 1) if stress else 0,
+            energy="energy" in chosen.results,
         )
 
 
-class CampbellSection(Section):
-    """The Campbell diagram."""
-
-    speed_step_rad_s: float = Field(default=50.0, ge=0.1, le=1e6)
-    modes: int = Field(default=10, ge=3, le=30)
-    highest_engine_order: int = Field(default=20, ge=1, le=100)
-    largest_tangential_displacement_m: float = Field(default=0.01, gt=0, le=1)
+def plain(section: BaseModel) -> dict[str, Any]:
+    """A section as a dictionary of plain values, which Snakemake can compare and a job can read without the models."""
+    return section.model_dump(exclude_none=True)
 
 
-class Interactions(Section):
-    """What counts as an interaction, in summary.csv."""
-
-    prominence: float = Field(
-        default=0.1, gt=0, le=1, description="rise of a peak above its surroundings, as a share of the largest"
-    )
-    below: float = Field(default=0.02, ge=0, le=1, description="how far below a Campbell speed its peak may lie, as a share")
-    above: float = Field(default=0.06, ge=0, le=1, description="how far above")
+def checked_scene(entry: Mapping[str, Any]) -> Scene:
+    """The scene of one entry of scenes.yaml; ConfigError where the model of scenes forbids it."""
+    return Document("scenes.yaml", dict(entry)).check(SceneEntry).scene()
 
 
-class WindowSection(Section):
-    """Speeds above the crossings of a mode with engine orders, which are looked at more closely before anything is known."""
-
-    mode: Literal["1B", "1T", "2B"]
-    highest_engine_order: int = Field(ge=1, le=100)
-    first: float = Field(ge=-0.5, le=1, description="where it begins, as a share of the crossing's speed above it")
-    last: float = Field(ge=-0.5, le=1, description="where it ends")
-    step_rad_s: Speed = Field(description="its intervals are halved until none is longer")
-
-    @model_validator(mode="after")
-    def _has_a_length(self) -> WindowSection:
-        if not self.first < self.last:
-            raise refused(("last",), f"{self.last:g}", f"more than first ({self.first:g})")
-        return self
-
-
-class RefinementSection(Section):
-    """Where ranges with `refine_to` get more speeds."""
-
-    windows: list[WindowSection] = Field(
-        default=[
-            WindowSection(mode="1B", highest_engine_order=8, first=0.01, last=0.06, step_rad_s=5.0),
-            WindowSection(mode="1T", highest_engine_order=20, first=0.0, last=0.02, step_rad_s=5.0),
-        ],
-        description="where interactions are expected, for contact stiffens a blade",
-    )
-    change: float = Field(
-        default=0.25,
-        gt=0,
-        le=10,
-        description="an interval is halved when rms or stress change by more, as a share of the larger",
-    )
-    peak: float = Field(
-        default=0.1, ge=0, lt=1, description="intervals are halved that reach so close to a peak's height, as a share of it"
-    )
-    largest_share: float = Field(
-        default=0.2, gt=0, le=1, description="of the finest grid that is run at most; where the response is largest goes first"
-    )
-
-
-def _numbers_of_part(part: str) -> tuple[int, int]:
-    number, parts = map(int, part.split("/"))
-    return number, parts
-
-
-def _check_part(part: str) -> str:
-    if re.fullmatch(r"[1-9]\d{0,5}/[1-9]\d{0,5}", part):
-        number, parts = _numbers_of_part(part)
-        if number <= parts:
-            return part
-    raise refused((), repr(part), "a number of a part and how many there are, as in 2/7")
-
-
-Part = Annotated[str, AfterValidator(_check_part)]
-
-
-class Run(Section):
-    """Where the results go, and which share of them is made."""
-
-    name: Name | LeftOut = Field(
-        default=None, description="a run with a name has its results in results/runs/<name>, beside those of others"
-    )
-    part: Part | LeftOut = Field(
-        default=None,
-        description="2/7: only the second of seven parts of the blades, for `snakemake responses` on several machines at once",
-    )
-
-    def of_part(self, names: list[str]) -> list[str]:
-        """The blades of this part, all without one; no two parts share one, and their numbers differ by one at most."""
-        if self.part is None:
-            return names
-        number, parts = _numbers_of_part(self.part)
-        first, last = ((number - 1) * len(names)) // parts, (number * len(names)) // parts
-        return names[first:last]
-
-
-class Config(Section):
-    """config.yaml, what to run."""
-
-    blades_file: FileName = Field(default="config/blades.yaml", description="file with the blade shapes")
-    fidelity_file: FileName = Field(default="config/fidelity.yaml", description="file with the accuracy levels")
-    scenes_file: FileName = Field(default="config/scenes.yaml", description="file with the contact scenes")
-    blades: AllOrNames = Field(description="`all`, or the names of the blades to run")
-    scenes: AllOrNames = Field(description="`all`, or the names of the scenes to run")
-    fidelity: Name = Field(description="an accuracy level of the fidelity file, or auto: the cheapest one within the tolerance")
-    speeds: SpeedList = Field(
-        default=[SpeedRange(start=750.0, stop=2000.0)],
-        description="speeds to simulate, as numbers and ranges; a range without a step takes the fidelity level's",
-    )
-    speeds_rpm: RpmList | LeftOut = Field(
-        default=None, description="the same in revolutions per minute, in place of speeds; results stay in rad/s"
-    )
-    speeds_for: list[SpeedRule] = Field(
-        default=[],
-        description="other speeds for some blades or scenes (both, where both are given); the first entry that fits counts",
-    )
-    structure: StructureSection = StructureSection()
-    interactions: Interactions = Interactions()
-    refinement: RefinementSection = RefinementSection()
-    tolerance: float = Field(
-        default=0.05,
-        gt=0,
-        le=1,
-        description="accepted relative error of rms, largest displacement and stress at an interaction; "
-        "with fidelity auto it picks the level",
-    )
-    run: Run = Run()
-    studies: Studies = Studies()
-    campbell: CampbellSection = CampbellSection()
-    exports: ExportSection = ExportSection()
-    shapes: ShapeSection = ShapeSection()
-    signals: SignalSection = SignalSection()
-
-    @model_validator(mode="after")
-    def _one_unit(self) -> Config:
-        if self.speeds_rpm is not None and "speeds" in self.model_fields_set:
-            refuse_both_units("speeds", "speeds_rpm")
-        return self
+def _short_hash(*parts: object) -> str:
+    """Hash of plain numbers, texts and frozen dataclasses, whose repr is exact."""
+    return hashlib.sha256(repr(parts).encode()).hexdigest()[:16]

@@ -16,6 +16,7 @@ UNITS = {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "um": 1e-6, "in": 0.0254, "ft": 0.304
 """Name of a length unit -> metres."""
 
 _SPAN_BETWEEN = (1e-3, 5.0)
+_TIP_RADIUS_BETWEEN = (5e-3, 10.0)
 _RADIAL_WITHIN = np.cos(np.radians(45.0))
 
 
@@ -68,6 +69,20 @@ class Orientation:
             return replace(mesh, points=points)
         return replace(mesh, points=points, blocks={n: nodes[:, ELEMENTS[n].mirrored] for n, nodes in mesh.blocks.items()})
 
+    def contact_nodes_to_blade(self, points: np.ndarray) -> np.ndarray:
+        """Contact nodes at the tip, shape (n, 3), in metres and the blade's frame. Raises ImportRefused as `to_blade`."""
+        placed = self.points_to_blade(points)
+        radius = np.hypot(placed[:, 0], placed[:, 1])
+        low, high = _TIP_RADIUS_BETWEEN
+        if not low <= radius.min() <= radius.max() <= high:
+            raise ImportRefused(
+                f"the contact nodes would lie {radius.min():.3g} to {radius.max():.3g} m from the rotor axis (allowed: {low:g} "
+                f"to {high:g} m); length_unit '{self.length_unit}', rotor_axis or axis_point does not fit the file",
+                "length_unit",
+            )
+        self._check_side(placed, "the contact nodes' middle")
+        return placed
+
     def points_to_blade(self, points: np.ndarray) -> np.ndarray:
         """Points of the file, shape (n, 3), in metres and the blade's frame."""
         return UNITS[self.length_unit] * (points - np.array(self.axis_point, dtype=float)) @ self.rows.T
@@ -98,15 +113,18 @@ class Orientation:
                 f"length_unit '{self.length_unit}' or rotor_axis does not fit the file",
                 "length_unit",
             )
+        self._check_side(points, "the blade's middle")
+        if radius.min() < 1e-3 * span:
+            raise ImportRefused("the rotor axis passes through the blade; check rotor_axis and axis_point")
+
+    def _check_side(self, points: np.ndarray, what: str) -> None:
         mean = points.mean(axis=0)
         if not mean[0] > _RADIAL_WITHIN * np.hypot(mean[0], mean[1]):
             raise ImportRefused(
-                f"the blade's middle lies at {np.degrees(np.arctan2(mean[1], mean[0])):.0f} degrees round the axis from "
+                f"{what} lies at {np.degrees(np.arctan2(mean[1], mean[0])):.0f} degrees round the axis from "
                 "`radial`; rotor_axis, axis_point or radial does not fit the file",
                 "radial",
             )
-        if radius.min() < 1e-3 * span:
-            raise ImportRefused("the rotor axis passes through the blade; check rotor_axis and axis_point")
 
 
 OURS = Orientation("m", (0.0, 0.0, 1.0), (1.0, 0.0, 0.0), "negative")

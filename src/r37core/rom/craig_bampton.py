@@ -6,7 +6,7 @@ of quasi-cyclic disks with variable rotation speeds" (2006), for the combination
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -15,6 +15,8 @@ import scipy.sparse as sp
 
 from r37core.fem.solver import factorise, lowest_modes
 
+from .reduction_choice import ReductionChoice
+
 
 @dataclass(frozen=True)
 class MultiSpeedBasis:
@@ -22,37 +24,26 @@ class MultiSpeedBasis:
 
     `vectors`, shape (dofs, boundary dofs + internal): constraint modes at rest, then internal vectors that vanish on the
     boundary and are mass-orthonormal. `columns`: how many were computed over all speeds; `singular_values`: of those
-    columns, normalised; `tolerance`: those below it times the largest were dropped as numerically dependent.
+    columns, normalised.
     """
 
     vectors: np.ndarray
     columns: int
     singular_values: np.ndarray
-    tolerance: float
-
-    @property
-    def independent_columns(self) -> int:
-        """Number of columns kept."""
-        return self.vectors.shape[1]
 
 
 def multi_speed_basis(
-    stiffness_at: Callable[[float], sp.csr_array],
-    mass: sp.csr_array,
-    boundary_dofs: np.ndarray,
-    speeds: Sequence[float],
-    fixed_interface_modes: int,
-    tolerance: float,
+    stiffness_at: Callable[[float], sp.csr_array], mass: sp.csr_array, boundary_dofs: np.ndarray, choice: ReductionChoice
 ) -> MultiSpeedBasis:
-    """Constraint modes and fixed-interface modes at each of `speeds` (rad/s), combined into one basis.
+    """Constraint modes and fixed-interface modes at each of the choice's speeds, combined into one basis.
 
-    `stiffness_at` gives the stiffness at a speed. The first speed's constraint modes stay as they are, so that static
-    responses to boundary loads at that speed are exact.
+    `stiffness_at` gives the stiffness at a speed (rad/s). The first speed's constraint modes stay as they are, so that
+    static responses to boundary loads at that speed are exact.
     """
     columns: list[np.ndarray] = []
-    for speed in speeds:
-        columns += constraint_and_fixed_modes(stiffness_at(speed), mass, boundary_dofs, fixed_interface_modes)
-    return combine_columns(columns[0], np.hstack(columns), mass, boundary_dofs, tolerance)
+    for speed in choice.speeds:
+        columns += constraint_and_fixed_modes(stiffness_at(speed), mass, boundary_dofs, choice.fixed_interface_modes)
+    return combine_columns(columns[0], np.hstack(columns), mass, boundary_dofs, choice.tolerance)
 
 
 def combine_columns(
@@ -60,10 +51,11 @@ def combine_columns(
 ) -> MultiSpeedBasis:
     """Basis spanning `columns`, shape (dofs, columns): `constraint_modes` as they are, then internal vectors.
 
-    Neither the order nor the scale of the columns matters.
+    Columns with singular values below `tolerance` times the largest are dropped as numerically dependent. Neither the order
+    nor the scale of the columns matters.
     """
     internal, singular_values = _internal_vectors(columns, mass, boundary_dofs, tolerance)
-    return MultiSpeedBasis(np.hstack([constraint_modes, internal]), columns.shape[1], singular_values, tolerance)
+    return MultiSpeedBasis(np.hstack([constraint_modes, internal]), columns.shape[1], singular_values)
 
 
 def constraint_and_fixed_modes(

@@ -25,14 +25,7 @@ def reduce_blade(mesh: BladeMesh, matrices: StructuralMatrices, choice: Reductio
     per_square = geometric if softening is None else geometric + softening
     nodes = boundary_nodes(mesh, choice.boundary)
     boundary_dofs = (3 * np.searchsorted(matrices.free_nodes, nodes)[:, None] + np.arange(3)).ravel()
-    basis = multi_speed_basis(
-        lambda speed: sp.csr_array(stiffness + speed**2 * per_square),
-        mass,
-        boundary_dofs,
-        choice.speeds,
-        choice.fixed_interface_modes,
-        choice.tolerance,
-    )
+    basis = multi_speed_basis(lambda speed: sp.csr_array(stiffness + speed**2 * per_square), mass, boundary_dofs, choice)
     vectors = basis.vectors
     whole = np.zeros((len(mesh.points), 3, vectors.shape[1]))
     whole[matrices.free_nodes] = vectors.reshape(-1, 3, vectors.shape[1])
@@ -60,7 +53,7 @@ def reduce_blade(mesh: BladeMesh, matrices: StructuralMatrices, choice: Reductio
         shape_products=np.array([shape @ mass_times_vectors for shape in shapes.values()]),
         shape_norms=np.array([np.sqrt(shape @ (mass @ shape)) for shape in shapes.values()]),
         columns=basis.columns,
-        tolerance=basis.tolerance,
+        tolerance=choice.tolerance,
         singular_values=basis.singular_values,
         quadratic_residual=_quadratic_residual(stiffness, per_square, vectors, max(choice.speeds)),
     )

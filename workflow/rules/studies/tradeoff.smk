@@ -45,7 +45,7 @@ rule tradeoff:
     params:
         parameters=list(tradeoff.values),
         references=tradeoff.references,
-        tolerance=settings.tolerance,
+        tolerance=settings.config.tolerance,
         provenance=tradeoff.provenance,
         code=code("tradeoff"),
     script:

@@ -1,4 +1,4 @@
-"""Whether an imported mesh can be computed with: one part, no free nodes, well shaped elements in their right order."""
+"""Whether an imported mesh can be computed with: one part, no free nodes, well shaped elements in order, each once."""
 
 from __future__ import annotations
 
@@ -33,6 +33,7 @@ def checked(mesh: RawMesh, minimum_scaled_jacobian: float) -> tuple[RawMesh, np.
     _check_free_nodes(mesh)
     _check_parts(mesh)
     for name, nodes in mesh.blocks.items():
+        _check_once(mesh, name, nodes)
         _check_midside(mesh, name, nodes)
     blocks, quality = {}, []
     for name, nodes in mesh.blocks.items():
@@ -79,6 +80,20 @@ def _check_parts(mesh: RawMesh) -> None:
         twice = len(mesh.points) - len(np.unique(np.round(mesh.points / (1e-6 * size)), axis=0))
         hint = f"; {twice} nodes lie on others: merge them" if twice else "; give one blade per file"
         raise ImportRefused(f"found {count} parts that share no node ({_some(np.sort(np.bincount(part))[::-1])} nodes){hint}")
+
+
+def _check_once(mesh: RawMesh, name: str, nodes: np.ndarray) -> None:
+    corners = np.sort(nodes[:, : ELEMENTS[name].corners], axis=1)
+    _, first, of = np.unique(corners, axis=0, return_index=True, return_inverse=True)
+    original = first[of.ravel()]
+    again = np.flatnonzero(original != np.arange(len(nodes)))
+    if len(again):
+        pairs = ", ".join(f"{original[i] + 1} and {i + 1}" for i in again[:5]) + (", ..." if len(again) > 5 else "")
+        raise ImportRefused(
+            f"{len(again)} of {len(nodes)} elements of type {name} are given twice, with the same corners (numbers {pairs} of "
+            f"their type, near {_place(mesh.points[nodes[again[0]]].mean(axis=0))}); their mass and stiffness would count "
+            "twice: delete the second ones"
+        )
 
 
 def _check_midside(mesh: RawMesh, name: str, nodes: np.ndarray) -> None:

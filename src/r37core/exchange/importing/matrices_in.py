@@ -24,7 +24,7 @@ from r37core.rom.reduced_model import RecoveryNodes, ReducedModel
 from r37core.rom.reduction_choice import ReductionChoice
 
 from .source import MASS_UNITS, STIFFNESS_UNITS, MatricesSource, matrix_files
-from .tip import arc_length
+from .tip import arc_length, check_order
 
 COLUMNS = ("x", "y", "z", "dof_x", "dof_y", "dof_z")
 _REDUCED_UP_TO = 500  # coordinates beside those of the contact nodes: matrices that small are taken as they are
@@ -32,6 +32,9 @@ _FEWEST = 20  # rows: the Campbell diagram follows some more modes than it shows
 _SYMMETRIC = 1e-8
 _RIGID = 1e-15
 _LINEAR = 1e-6
+_FASTEST = 1e6  # rad/s, as in the configuration
+_APART = (0.1, 0.99)  # the middle speed over the highest: between them rounding stays small in the fit
+_REACH = 20.0  # how far beyond the highest speed of the files the fit may be used
 
 
 @dataclass(frozen=True)
@@ -54,7 +57,7 @@ def import_matrices(source: MatricesSource, choice: ReductionChoice, folder: Pat
     with blamed("matrices"):
         files = matrix_files(source.folder, Path(folder))
     with blamed("matrices", source.folder):
-        return _reduced(_read(files, source), choice)
+        return _reduced(_read(files, source, max(choice.speeds)), choice)
 
 
 def _reduced(given: _Given, choice: ReductionChoice) -> ReducedModel:
@@ -64,14 +67,9 @@ def _reduced(given: _Given, choice: ReductionChoice) -> ReducedModel:
         columns, tolerance, singular = vectors.shape[1], 0.0, np.ones(vectors.shape[1])
     else:
         basis = multi_speed_basis(
-            lambda speed: sp.csr_array(given.stiffness + speed**2 * given.per_square),
-            given.mass,
-            boundary,
-            choice.speeds,
-            choice.fixed_interface_modes,
-            choice.tolerance,
+            lambda speed: sp.csr_array(given.stiffness + speed**2 * given.per_square), given.mass, boundary, choice
         )
-        vectors, columns, tolerance, singular = basis.vectors, basis.columns, basis.tolerance, basis.singular_values
+        vectors, columns, tolerance, singular = basis.vectors, basis.columns, choice.tolerance, basis.singular_values
     mass, stiffness = _projected(given.mass, vectors), _projected(given.stiffness, vectors)
     _check_positive(mass, stiffness)
     shapes = _ideal_shapes(given)
@@ -113,13 +111,15 @@ def _check_positive(mass: np.ndarray, stiffness: np.ndarray) -> None:
         )
 
 
-def _read(files: Mapping[str, Path], source: MatricesSource) -> _Given:
+def _read(files: Mapping[str, Path], source: MatricesSource, fastest: float) -> _Given:
+    """What the files hold; `fastest`: the highest speed (rad/s) that the stiffness is needed at."""
     orientation = source.orientation
-    points, dofs = _boundary(files["boundary"])
-    try:
-        speeds = sorted((float(name.removeprefix("K_")), name) for name in files if name.startswith("K_"))
-    except ValueError:
-        raise ImportRefused("the speed in a name K_<speed> must be a number in rad/s") from None
+    nodes, dofs = _boundary(files["boundary"])
+    with blamed("matrices", files["boundary"].name):
+        points = orientation.contact_nodes_to_blade(nodes)
+        check_order(points)
+    speeds = sorted((_speed(name, file), name) for name, file in files.items() if name.startswith("K_"))
+    _check_speeds([speed for speed, _ in speeds], fastest)
     mass, *stiffness = (_matrix(files[name]) for name in ("M", *(name for _, name in speeds)))
     size = mass.shape[0]
     if any(matrix.shape != (size, size) for matrix in stiffness):
@@ -132,7 +132,33 @@ def _read(files: Mapping[str, Path], source: MatricesSource) -> _Given:
     turn = _boundary_first(size, dofs, orientation.rows)
     mass, rest, per_square = (sp.csr_array(turn.T @ matrix @ turn) for matrix in (mass, rest, per_square))
     kilograms, newtons = MASS_UNITS[source.mass_unit], STIFFNESS_UNITS[source.stiffness_unit]
-    return _Given(kilograms * mass, newtons * rest, newtons * per_square, residual, orientation.points_to_blade(points))
+    return _Given(kilograms * mass, newtons * rest, newtons * per_square, residual, points)
+
+
+def _speed(name: str, file: Path) -> float:
+    """The speed (rad/s) of a stiffness by its name."""
+    try:
+        speed = float(name.removeprefix("K_"))
+    except ValueError:
+        speed = np.nan
+    if not 0.0 <= speed <= _FASTEST:
+        raise ImportRefused(f"{file.name}: found a name without a speed; allowed: K_<speed> in rad/s, from 0 to {_FASTEST:g}")
+    return speed
+
+
+def _check_speeds(speeds: list[float], fastest: float) -> None:
+    """ImportRefused for speeds (rad/s), ascending, between which the change of the stiffness cannot be told."""
+    rest, middle, top = speeds
+    if rest != 0.0 or not _APART[0] * top <= middle <= _APART[1] * top:
+        raise ImportRefused(
+            f"found K_<speed> at {', '.join(f'{speed:.9g}' for speed in speeds)} rad/s; allowed: at 0 and two others, the "
+            f"lower one {_APART[0]:g} to {_APART[1]:g} times the higher one"
+        )
+    if _REACH * top < fastest:
+        raise ImportRefused(
+            f"found K_<speed> up to {top:g} rad/s, for a blade that is needed up to {fastest:g} rad/s; allowed: a highest "
+            f"speed of {fastest / _REACH:g} or more"
+        )
 
 
 def _boundary(file: Path) -> tuple[np.ndarray, np.ndarray]:
@@ -162,8 +188,11 @@ def _matrix(file: Path) -> sp.csr_array:
             matrix = sp.csr_array(sp.load_npz(file) if "indptr" in arrays else next(iter(arrays.values())))
     except Exception as error:
         raise ImportRefused(f"{file.name}: cannot be read as a matrix ({type(error).__name__}: {error})") from None
+    largest = abs(matrix).max() if matrix.nnz else 0.0
+    if not 0.0 < largest < np.inf:
+        raise ImportRefused(f"{file.name}: found a matrix of which all entries are 0, or some are no numbers; write it again")
     off = abs(matrix - matrix.T).max() if matrix.shape[0] == matrix.shape[1] else np.inf
-    if not off <= _SYMMETRIC * abs(matrix).max():
+    if not off <= _SYMMETRIC * largest:
         raise ImportRefused(
             f"{file.name}: found a matrix that is not symmetric; allowed: clamped, symmetric mass and stiffness"
         )
@@ -173,13 +202,11 @@ def _matrix(file: Path) -> sp.csr_array:
 def _fitted(speeds: np.ndarray, stiffness: list[sp.csr_array]) -> tuple[sp.csr_array, sp.csr_array, float]:
     """K0 and K1 of K = K0 + s K1 + s^2 K2 with s the squared speed, and the size of the last term at the highest speed."""
     squares = speeds**2
-    if squares[0] != 0.0 or len(np.unique(squares)) != 3:
-        raise ImportRefused(f"found speeds {', '.join(f'{s:g}' for s in speeds)}; allowed: 0 and two others")
     rest = stiffness[0]
     middle, top = ((k - rest) / square for k, square in zip(stiffness[1:], squares[1:], strict=True))
     quadratic = (top - middle) / (squares[2] - squares[1])
     residual = float(abs(quadratic).max() * squares[2] ** 2 / abs(rest).max())
-    if residual > _LINEAR:
+    if not residual <= _LINEAR:
         raise ImportRefused(
             f"the stiffness is not linear in the squared speed (the next term has {residual:.2g} of its size, "
             f"allowed {_LINEAR:g}); give stiffnesses about one static state, of the linear theory"

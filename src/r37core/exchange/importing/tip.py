@@ -14,6 +14,7 @@ _CORNER = np.cos(np.radians(40.0))
 _NEAR_END = 1.2  # mean thicknesses of the tip: a corner this near to the farthest point ends the edge's line
 _NEAR_CAMBER = 0.3  # of the local thickness: tip nodes that count as on the camber line
 _SAMPLES = 201
+_DOWNSTREAM = 0.02  # of the chord: how far the trailing edge lies downstream at least
 
 
 @dataclass(frozen=True)
@@ -50,6 +51,37 @@ def check_revolution(points: np.ndarray, tolerance: float) -> None:
         )
 
 
+def check_order(points: np.ndarray) -> None:
+    """Refuse contact nodes `points`, shape (n, 3), that do not run from the leading to the trailing edge, downstream.
+
+    Each node must lie farther along the straight line from the first to the last than the one before it.
+    """
+    if len(points) < 2:
+        return
+    chord = points[-1] - points[0]
+    back = np.diff(points, axis=0) @ chord <= 0.0
+    if back.any():
+        raise ImportRefused(
+            f"contact node {np.argmax(back) + 2} does not lie beyond the one before it on the way from the first to the last; "
+            "list them in their order along the tip, from the leading to the trailing edge"
+        )
+    _check_downstream(chord)
+
+
+def _check_downstream(chord: np.ndarray) -> None:
+    """Refuse a `chord`, from leading to trailing edge, that does not point downstream."""
+    share = chord[2] / np.linalg.norm(chord)
+    if share < -_DOWNSTREAM:
+        raise ImportRefused(
+            "the contact nodes run upstream; list them from the leading to the trailing edge, or check whether rotor_axis "
+            "points downstream"
+        )
+    if share < _DOWNSTREAM:
+        raise ImportRefused(
+            "tip: leading and trailing edge lie at the same z, so that they cannot be told apart; check rotor_axis"
+        )
+
+
 def find_tip_lines(points: np.ndarray, faces: list[Faces], pressure_forward: bool) -> TipLines:
     """Lines along the tip `faces` of a blade with nodes at `points`, shape (nodes, 3), in the blade's frame.
 
@@ -67,10 +99,7 @@ def find_tip_lines(points: np.ndarray, faces: list[Faces], pressure_forward: boo
     if points[outline[first], 2] > points[outline[last], 2]:
         first, last = last, first
     ends = points[outline[[first, last]]]
-    if ends[1, 2] - ends[0, 2] < 0.02 * np.linalg.norm(ends[1] - ends[0]):
-        raise ImportRefused(
-            "tip: leading and trailing edge lie at the same z, so that they cannot be told apart; check rotor_axis"
-        )
+    _check_downstream(ends[1] - ends[0])
     forth = np.roll(outline, -first)[: (last - first) % len(outline) + 1]
     back = np.roll(outline, -last)[: (first - last) % len(outline) + 1][::-1]
     thickness = float(_area(points[outline]) / np.linalg.norm(ends[1] - ends[0]))

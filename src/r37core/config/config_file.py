@@ -1,0 +1,199 @@
+"""config.yaml: what to run."""
+
+from __future__ import annotations
+
+import re
+from typing import Annotated, Literal
+
+from pydantic import AfterValidator, Field, model_validator
+
+from r37core.rom.boundary import BoundaryChoice
+from r37core.rom.reduction_choice import ReductionChoice, StressSubmesh
+
+from .export_section import ExportSection
+from .fidelity import Reduction
+from .scenes import TipLine
+from .section import AllOrNames, FileName, LeftOut, Name, Section, Speed, refused
+from .shape_section import ShapeSection
+from .signal_section import SignalSection
+from .speed_section import RpmList, SpeedList, SpeedRange, SpeedRule, refuse_both_units
+from .studies import Studies
+from .submesh import Submesh
+
+
+class Boundary(Section):
+    """The contact nodes, kept as physical coordinates of the reduced model."""
+
+    tip_line: TipLine = "pressure_edge"
+    nodes: int = Field(default=8, ge=1, le=200)
+    corners: bool = Field(default=True, description="whether leading and trailing corner are among them")
+
+
+class StructureSection(Section):
+    """Geometry and reduced model."""
+
+    edges: Literal["round", "blunt"] = Field(default="round", description="how leading and trailing edge are closed")
+    boundary: Boundary = Boundary()
+    maximum_speed_rad_s: Speed = Field(default=2000.0, description="highest speed of the basis and of the Campbell diagram")
+    spin_softening: bool = False
+    coriolis: bool = False
+    stress_submesh: Submesh = Submesh()
+    recover_whole_blade: bool = Field(default=False, description="keep the basis on every node (a large file)")
+
+    def reduction(
+        self, size: Reduction, tip_line: str | None = None, stress_submesh: StressSubmesh | None = None
+    ) -> ReductionChoice:
+        """The reduced model of a level's size, with contact nodes on `tip_line` or on that of the section `boundary`.
+
+        Stress is recovered on `stress_submesh`, or where the section of this name says. Its basis is computed at rest, at half
+        the maximum speed and at the maximum speed.
+        """
+        return ReductionChoice(
+            boundary=BoundaryChoice(tip_line or self.boundary.tip_line, self.boundary.nodes, self.boundary.corners),
+            speeds=(0.0, 0.5 * self.maximum_speed_rad_s, float(self.maximum_speed_rad_s)),
+            fixed_interface_modes=size.fixed_interface_modes,
+            tolerance=size.basis_tolerance,
+            spin_softening=self.spin_softening,
+            coriolis=self.coriolis,
+            stress_submesh=stress_submesh or self.stress_submesh.region(),
+            whole_blade=self.recover_whole_blade,
+        )
+
+
+class CampbellSection(Section):
+    """The Campbell diagram."""
+
+    speed_step_rad_s: float = Field(default=50.0, ge=0.1, le=1e6)
+    modes: int = Field(default=10, ge=3, le=30)
+    highest_engine_order: int = Field(default=20, ge=1, le=100)
+    largest_tangential_displacement_m: float = Field(default=0.01, gt=0, le=1)
+
+
+class Interactions(Section):
+    """What counts as an interaction, in summary.csv."""
+
+    prominence: float = Field(
+        default=0.1, gt=0, le=1, description="rise of a peak above its surroundings, as a share of the largest"
+    )
+    below: float = Field(default=0.02, ge=0, le=1, description="how far below a Campbell speed its peak may lie, as a share")
+    above: float = Field(default=0.06, ge=0, le=1, description="how far above")
+
+
+class WindowSection(Section):
+    """Speeds above the crossings of a mode with engine orders, which are looked at more closely before anything is known."""
+
+    mode: Literal["1B", "1T", "2B"]
+    highest_engine_order: int = Field(ge=1, le=100)
+    first: float = Field(ge=-0.5, le=1, description="where it begins, as a share of the crossing's speed above it")
+    last: float = Field(ge=-0.5, le=1, description="where it ends")
+    step_rad_s: Speed = Field(description="its intervals are halved until none is longer")
+
+    @model_validator(mode="after")
+    def _has_a_length(self) -> WindowSection:
+        if not self.first < self.last:
+            raise refused(("last",), f"{self.last:g}", f"more than first ({self.first:g})")
+        return self
+
+
+class RefinementSection(Section):
+    """Where ranges with `refine_to` get more speeds."""
+
+    windows: list[WindowSection] = Field(
+        default=[
+            WindowSection(mode="1B", highest_engine_order=8, first=0.01, last=0.06, step_rad_s=5.0),
+            WindowSection(mode="1T", highest_engine_order=20, first=0.0, last=0.02, step_rad_s=5.0),
+        ],
+        description="where interactions are expected, for contact stiffens a blade",
+    )
+    change: float = Field(
+        default=0.25,
+        gt=0,
+        le=10,
+        description="an interval is halved when rms or stress change by more, as a share of the larger",
+    )
+    peak: float = Field(
+        default=0.1, ge=0, lt=1, description="intervals are halved that reach so close to a peak's height, as a share of it"
+    )
+    largest_share: float = Field(
+        default=0.2, gt=0, le=1, description="of the finest grid that is run at most; where the response is largest goes first"
+    )
+
+
+def _numbers_of_part(part: str) -> tuple[int, int]:
+    number, parts = map(int, part.split("/"))
+    return number, parts
+
+
+def _check_part(part: str) -> str:
+    if re.fullmatch(r"[1-9]\d{0,5}/[1-9]\d{0,5}", part):
+        number, parts = _numbers_of_part(part)
+        if number <= parts:
+            return part
+    raise refused((), repr(part), "a number of a part and how many there are, as in 2/7")
+
+
+Part = Annotated[str, AfterValidator(_check_part)]
+
+
+class Run(Section):
+    """Where the results go, and which share of them is made."""
+
+    name: Name | LeftOut = Field(
+        default=None, description="a run with a name has its results in results/runs/<name>, beside those of others"
+    )
+    part: Part | LeftOut = Field(
+        default=None,
+        description="2/7: only the second of seven parts of the blades, for `snakemake responses` on several machines at once",
+    )
+
+    def of_part(self, names: list[str]) -> list[str]:
+        """The blades of this part, all without one; no two parts share one, and their numbers differ by one at most."""
+        if self.part is None:
+            return names
+        number, parts = _numbers_of_part(self.part)
+        first, last = ((number - 1) * len(names)) // parts, (number * len(names)) // parts
+        return names[first:last]
+
+
+class Config(Section):
+    """config.yaml, what to run."""
+
+    blades_file: FileName = Field(default="config/blades.yaml", description="file with the blade shapes")
+    fidelity_file: FileName = Field(default="config/fidelity.yaml", description="file with the accuracy levels")
+    scenes_file: FileName = Field(default="config/scenes.yaml", description="file with the contact scenes")
+    blades: AllOrNames = Field(description="`all`, or the names of the blades to run")
+    scenes: AllOrNames = Field(description="`all`, or the names of the scenes to run")
+    fidelity: Name = Field(description="an accuracy level of the fidelity file, or auto: the cheapest one within the tolerance")
+    speeds: SpeedList = Field(
+        default=[SpeedRange(start=750.0, stop=2000.0)],
+        description="speeds to simulate, as numbers and ranges; a range without a step takes the fidelity level's",
+    )
+    speeds_rpm: RpmList | LeftOut = Field(
+        default=None, description="the same in revolutions per minute, in place of speeds; results stay in rad/s"
+    )
+    speeds_for: list[SpeedRule] = Field(
+        default=[],
+        description="other speeds for some blades or scenes (both, where both are given); the first entry that fits counts",
+    )
+    structure: StructureSection = StructureSection()
+    interactions: Interactions = Interactions()
+    refinement: RefinementSection = RefinementSection()
+    tolerance: float = Field(
+        default=0.05,
+        gt=0,
+        le=1,
+        description="accepted relative error of rms, largest displacement and stress at an interaction; "
+        "with fidelity auto it picks the level",
+    )
+    run: Run = Run()
+    studies: Studies = Studies()
+    campbell: CampbellSection = CampbellSection()
+    exports: ExportSection = ExportSection()
+    shapes: ShapeSection = ShapeSection()
+    signals: SignalSection = SignalSection()
+
+    @model_validator(mode="after")
+    def _one_unit(self) -> Config:
+        if self.speeds_rpm is not None and "speeds" in self.model_fields_set:
+            refuse_both_units("speeds", "speeds_rpm")
+        return self

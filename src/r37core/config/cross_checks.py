@@ -1,0 +1,207 @@
+"""What no model of one file can check: each function compares values of several keys or files.
+
+`CHECKS` are run one after the other; each raises ConfigError with the place of the value to blame.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable
+
+from r37core.blade.definition import BladeDefinition
+from r37core.exchange.importing.source import MatricesSource
+from r37core.time_integration.integration_choice import LARGEST_TABLE
+from r37core.yaml_file import KeyPath
+
+from .document import Document
+from .settings import Settings
+
+LARGEST_NUMBER_OF_SIMULATIONS = 200_000
+"""Jobs that Snakemake can still plan: about 25 kB of memory and 1 ms for each."""
+
+
+def _known(settings: Settings, path: KeyPath, names: Iterable[str], entries: Iterable[str], file: Document) -> None:
+    """ConfigError for a name, at `path` of config.yaml, that is none of the `entries` of `file`."""
+    known = list(entries)
+    for name in names:
+        if name not in known:
+            raise settings.documents.config.refusal(path, f"'{name}'", f"{', '.join(known)} ({file.name})")
+
+
+def level_is_known(settings: Settings) -> None:
+    """The level that is named is in its file; `auto` finds one within the tolerance."""
+    _known(settings, ("fidelity",), [settings.fidelity_name], settings.levels, settings.documents.levels)
+
+
+def blades_are_known(settings: Settings) -> None:
+    """Blades and families that are named are in their file, and the run's part has some."""
+    chosen, designs = settings.config.blades, settings.designs
+    if chosen != "all":
+        _known(settings, ("blades",), chosen, [*designs.entries, *designs.families], settings.documents.blades)
+    if not settings.blade_names:
+        number = len(settings.chosen_blades)
+        found = f"{settings.config.run.part} of {number} blades"
+        raise settings.documents.config.refusal(("run", "part"), found, f"at most {number} parts")
+
+
+def scenes_are_known(settings: Settings) -> None:
+    """Scenes that are named are in their file."""
+    _known(settings, ("scenes",), settings.scene_names, settings.scene_entries, settings.documents.scenes)
+
+
+def studies_name_what_is_there(settings: Settings) -> None:
+    """Names in the section `studies`, where it is given, are in their files."""
+    studies, documents = settings.studies, settings.documents
+    files: dict[str, tuple[Iterable[str], Document]] = {
+        "base": (settings.levels, documents.levels),
+        "quick": (settings.levels, documents.levels),
+        "blade": (settings.designs.entries, documents.blades),
+        "lined_scene": (settings.scene_entries, documents.scenes),
+        "direct_scene": (settings.scene_entries, documents.scenes),
+    }
+    for name in studies.model_fields_set:
+        study = getattr(studies, name)
+        for key, (entries, file) in files.items():
+            if key in type(study).model_fields:
+                _known(settings, ("studies", name, key), [getattr(study, key)], entries, file)
+    if given := studies.tradeoff:
+        levels = given.parameters.level.values
+        _known(settings, ("studies", "tradeoff", "parameters", "level"), levels, settings.levels, documents.levels)
+        if given.scenes != "all":
+            _known(settings, ("studies", "tradeoff", "scenes"), given.scenes, settings.scene_entries, documents.scenes)
+
+
+def speed_rules_name_what_is_there(settings: Settings) -> None:
+    """Blades and scenes with speeds of their own are in their files."""
+    for number, rule in enumerate(settings.config.speeds_for):
+        path, documents = ("speeds_for", number), settings.documents
+        _known(settings, (*path, "blades"), rule.blades or [], settings.designs.entries, documents.blades)
+        _known(settings, (*path, "scenes"), rule.scenes or [], settings.scene_entries, documents.scenes)
+
+
+def simulations_can_be_planned(settings: Settings) -> None:
+    """Speeds go together, and there are not more simulations than Snakemake can plan."""
+    number = sum(len(plan.certain) for plan in settings.speed_plans.values())
+    if number > LARGEST_NUMBER_OF_SIMULATIONS:
+        raise settings.documents.config.refusal(
+            ("speeds",),
+            f"{number} simulations of {len(settings.blade_names)} blades in {len(settings.scene_names)} scenes",
+            f"at most {LARGEST_NUMBER_OF_SIMULATIONS} in one run; more in parts (run.part, docs/cluster.md)",
+        )
+
+
+def windows_have_crossings(settings: Settings) -> None:
+    """No window lies above crossings that the Campbell diagram does not have."""
+    highest = settings.campbell.highest_engine_order
+    for number, window in enumerate(settings.refinement.windows):
+        if window.highest_engine_order > highest and any(plan.refined for plan in settings.speed_plans.values()):
+            raise settings.documents.config.refusal(
+                ("refinement", "windows", number, "highest_engine_order"),
+                f"{window.highest_engine_order}",
+                f"at most campbell.highest_engine_order ({highest})",
+            )
+
+
+def history_speeds_are_run(settings: Settings) -> None:
+    """Stress histories are wanted at speeds that are simulated in their scene."""
+    for name, chosen in settings.scenes.items():
+        run = {speed for (_, scene), plan in settings.speed_plans.items() if scene == name for speed in plan.certain}
+        entry = settings.scene_entries[name]
+        key = "stress_history_speeds_rpm" if entry.stress_history_speeds_rpm else "stress_history_speeds_rad_s"
+        for given, speed in zip(getattr(entry, key), chosen.stress_history_speeds, strict=True):
+            if speed not in run:
+                allowed = "speeds that are simulated (add it to speeds or speeds_for in config.yaml)"
+                raise settings.documents.scenes.refusal((name, key), f"{given:g}", allowed)
+
+
+def exported_speeds_are_run(settings: Settings) -> None:
+    """Speeds of `exports` are simulated whatever is found, and within the reduced model's basis."""
+    given, highest, document = settings.config.exports, settings.structure.maximum_speed_rad_s, settings.documents.config
+    run = {speed for plan in settings.speed_plans.values() for speed in plan.certain}
+    key = "stress_speeds_rad_s" if given.stress_speeds_rpm is None else "stress_speeds_rpm"
+    allowed = "speeds that are simulated whatever a range refines to; name it under speeds, too"
+    for number, speed in enumerate(given.stress_speeds() or []):
+        if speed not in run:
+            raise document.refusal(("exports", key, number), f"{getattr(given, key)[number]:g}", allowed)
+    for number, speed in enumerate(given.mode_speeds_rad_s or []):
+        if speed > highest:
+            allowed = f"up to structure.maximum_speed_rad_s, {highest:g}"
+            raise document.refusal(("exports", "mode_speeds_rad_s", number), f"{speed:g}", allowed)
+
+
+def slowest_speed_fits_in_memory(settings: Settings) -> None:
+    """The revolution of the slowest speed, of the sweep or of signals, has not too many steps."""
+    slowest: list[tuple[float, KeyPath]] = [(min(plan.certain[0] for plan in settings.speed_plans.values()), ("speeds",))]
+    signals = settings.config.signals
+    if isinstance(speeds := signals.speeds(), list):
+        slowest.append((speeds[0], ("signals", signals.key_of_speeds)))
+    nodes, step = settings.structure.boundary.nodes, settings.fidelity.time_integration.time_step_s
+    for speed, path in slowest:
+        size = 8 * nodes * 2.0 * math.pi / speed / step
+        if size > LARGEST_TABLE:
+            raise settings.documents.config.refusal(
+                path,
+                f"{speed:g} rad/s, a revolution of {size / 8 / nodes:.3g} steps of {step:g} s",
+                f"speeds from {speed * size / LARGEST_TABLE:.3g} rad/s with this step (the casing's shape at every step has to "
+                "fit in memory)",
+            )
+
+
+def signals_have_runs(settings: Settings) -> None:
+    """Signals are wanted of blades that are there and of some scene, and are no longer than its runs."""
+    wanted, documents = settings.config.signals, settings.documents
+    if wanted.blades != "all":
+        _known(settings, ("signals", "blades"), wanted.blades, settings.designs.entries, documents.blades)
+    if wanted.speeds() is None:
+        return
+    with_signal = {name: scene for name, scene in settings.scenes.items() if "signal" in scene.results}
+    if not with_signal:
+        raise documents.config.refusal(
+            ("signals", wanted.key_of_speeds),
+            "speeds, though no scene that is run has signal among its results",
+            f"such a scene ({', '.join(settings.scenes)} of {documents.scenes.name} are run), or no speeds",
+        )
+    for name, scene in with_signal.items():
+        if wanted.revolutions is not None and wanted.revolutions > scene.revolutions:
+            allowed = f"at most those of a run, {scene.revolutions} in '{name}'"
+            raise documents.config.refusal(("signals", "revolutions"), f"{wanted.revolutions}", allowed)
+
+
+def matrices_hold_their_terms(settings: Settings) -> None:
+    """No term of rotation is wanted that cannot be added to matrices of another program."""
+    given = [name for name, blade in settings.blades.items() if isinstance(blade.definition, MatricesSource)]
+    for key in ("spin_softening", "coriolis"):
+        if given and getattr(settings.structure, key):
+            raise settings.documents.config.refusal(
+                ("structure", key),
+                f"true with the blade '{given[0]}', given by matrices",
+                "false; put the term into its K_<speed>",
+            )
+
+
+def families_have_shapes(settings: Settings) -> None:
+    """No family is of an imported blade: what is compared of designs needs their shape."""
+    for name, family in settings.families.items():
+        members = [settings.blades[design] for design in family.designs if design in settings.blades]
+        if any(not isinstance(blade.definition, BladeDefinition) for blade in members):
+            raise settings.documents.blades.refusal(
+                (name,), "a family of an imported blade", "families of blades with profiles"
+            )
+
+
+CHECKS: tuple[Callable[[Settings], None], ...] = (
+    level_is_known,
+    blades_are_known,
+    scenes_are_known,
+    studies_name_what_is_there,
+    speed_rules_name_what_is_there,
+    simulations_can_be_planned,
+    windows_have_crossings,
+    history_speeds_are_run,
+    exported_speeds_are_run,
+    slowest_speed_fits_in_memory,
+    signals_have_runs,
+    matrices_hold_their_terms,
+    families_have_shapes,
+)
+"""In this order: those that name something come first, for the others look it up."""

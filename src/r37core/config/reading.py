@@ -1,0 +1,73 @@
+"""From config.yaml and the files it names to settings that are checked, or to one clear refusal."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+from .blades import Blades
+from .config_file import Config
+from .cross_checks import CHECKS
+from .document import Document, command_line_document, read_document
+from .families import with_designs
+from .fidelity import Levels
+from .scenes import Scenes
+from .settings import Documents, Settings
+from .speed_section import UNITS
+
+CONFIG_FILE = "config/config.yaml"
+
+
+def read_settings(root: Path, *changes: Document) -> Settings:
+    """Settings of config/config.yaml in the folder `root`, with `changes` on top. Raises ConfigError."""
+    return load_settings(_together(read_document(root, CONFIG_FILE), changes), root)
+
+
+def settings_of_run(root: Path, files: Sequence[Path], values: Mapping[str, Any], only_given: bool = False) -> Settings:
+    """Settings of a run of the workflow in the current folder: the configuration, `files` on top, then `values`.
+
+    The configuration is config/config.yaml of the current folder or, where that has none, of `root`; it is left out if
+    `only_given`. Raises ConfigError.
+    """
+    here = Path.cwd()
+    folder = here if (here / CONFIG_FILE).exists() else root
+    first = [] if only_given and files else [read_document(folder, CONFIG_FILE)]
+    named = [Path(file).relative_to(here) if Path(file).is_relative_to(here) else Path(file) for file in files]
+    changes = [*first, *(read_document(here, str(file)) for file in named), command_line_document(values)]
+    return load_settings(_together(changes[0], changes[1:]), root)
+
+
+def load_settings(config: Document | Mapping[str, Any], root: Path) -> Settings:
+    """Check a configuration (the content of config.yaml) and the files it names, relative to the folder `root`.
+
+    Raises ConfigError for anything wrong, before any work is done.
+    """
+    document = config if isinstance(config, Document) else Document(CONFIG_FILE, dict(config))
+    checked = document.check(Config)
+    files = (checked.blades_file, checked.fidelity_file, checked.scenes_file)
+    blades, levels, scenes = (read_document(root, name) for name in files)
+    level_models, scene_models = levels.check(Levels).root, scenes.check(Scenes).root
+    designs = with_designs(blades.check(Blades).root, root, blades)
+    documents = Documents(document, designs.document, levels, scenes)
+    settings = Settings(root, documents, checked, designs, level_models, scene_models)
+    for check in CHECKS:
+        check(settings)
+    return settings
+
+
+def _together(below: Document, changes: Iterable[Document]) -> Document:
+    for change in changes:
+        if not isinstance(change.content, Mapping):
+            raise change.refusal((), repr(change.content)[:60], "keys and values, as in config/config.yaml")
+        below = _with_one_unit(below, change).overlaid(change)
+    return below
+
+
+def _with_one_unit(below: Document, change: Document) -> Document:
+    """The document without speeds in the unit that a change on top does not give its own in."""
+    given = [key for key in UNITS if key in change.content]
+    if len(given) != 1:
+        return below
+    return replace(below, content={key: value for key, value in below.content.items() if key not in UNITS or key in given})

@@ -1,0 +1,218 @@
+"""What is read off a response, each number once: for the summary, designs, refinement, studies, figures and the explorer.
+
+A `response` is one blade in one scene, with the variables of response.nc over ascending `speed` (rad/s); those of the tip may
+have the leading edge alone instead of the dimension `tip_point`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+import xarray as xr
+
+from r37core.time_integration.status import RunStatus
+
+DROP_WITHIN = 24.0
+"""Speeds (rad/s) above a peak over which its motion counts as dropped."""
+
+_RESPONDS = 2e-3
+"""Motion (m) below which a range of speeds holds no interaction."""
+
+_WEAR_LOBES = slice(3, 12)
+_IN_A_ROW = 5
+
+
+def leading_edge(response: xr.Dataset) -> xr.Dataset:
+    """The response with the leading edge's motion alone."""
+    return response.sel(tip_point="leading_edge", drop=True) if "tip_point" in response.dims else response
+
+
+def motion(response: xr.Dataset) -> np.ndarray:
+    """Rms (m) of the leading edge's normal and tangential motion together, shape (speeds,); 0 where a run diverged."""
+    edge = leading_edge(response)
+    return np.nan_to_num(np.hypot(edge["rms_normal"].values, edge["rms_tangential"].values))
+
+
+def peak_of(response: xr.Dataset) -> xr.Dataset:
+    """The response at the speed of the largest motion: one definition for all blades, S100 moves hardly along the normal."""
+    return response.isel(speed=int(np.argmax(motion(response))))
+
+
+def peak_speed(response: xr.Dataset) -> float:
+    """Speed (rad/s) of the peak; NaN where nothing answers, or what answers falls from the first speed on."""
+    place = int(np.argmax(motion(response)))
+    return float(response["speed"][place]) if place and motion(response)[place] >= _RESPONDS else np.nan
+
+
+def drop_after(response: xr.Dataset) -> float:
+    """Share of the peak's motion that is lost within DROP_WITHIN above it; NaN without a speed there."""
+    level, speed = motion(response), response["speed"].values
+    peak = int(np.argmax(level))
+    after = level[(speed > speed[peak]) & (speed <= speed[peak] + DROP_WITHIN + 1e-6)]
+    return float(1.0 - after.min() / level[peak]) if after.size and level[peak] > 0.0 else np.nan
+
+
+def steepest_fall(response: xr.Dataset) -> tuple[float, float]:
+    """Speed (rad/s) before which the motion loses its largest share to the next speed, and that share."""
+    level = motion(response)
+    shares = 1.0 - level[1:] / np.maximum(level[:-1], np.finfo(float).tiny)
+    place = int(np.argmax(shares))
+    return float(response["speed"][place]), float(shares[place])
+
+
+def interactions_above(response: xr.Dataset, floor: float) -> int:
+    """Separate ranges of speeds whose normal rms is above `floor` (m); a run that diverged is above."""
+    above = np.concatenate([[0], leading_edge(response)["rms_normal"].fillna(np.inf).values > floor])
+    return int(np.count_nonzero(np.diff(above.astype(int)) == 1))
+
+
+def median_over_speed(response: xr.Dataset, name: str) -> float:
+    """Value of a tip variable that half of the range of speeds lies below; each counts for its length of the range."""
+    values = leading_edge(response)[name].values
+    length = np.where(np.isfinite(values), np.gradient(response["speed"].values), 0.0)
+    order = np.argsort(values)
+    summed = np.cumsum(length[order])
+    return float(values[order][np.searchsorted(summed, 0.5 * summed[-1])])
+
+
+def strongest_order(amplitude: xr.DataArray, above: float = 0.5) -> float:
+    """Engine order of the largest amplitude, of all not below `above`; `amplitude` over `engine_order` alone.
+
+    The offset of the mean position, order 0, is no vibration.
+    """
+    vibration = amplitude.where(amplitude["engine_order"] >= above, 0.0).fillna(0.0)
+    return float(vibration["engine_order"][int(np.argmax(vibration.values))])
+
+
+def strongest_lobes(response: xr.Dataset) -> np.ndarray:
+    """Number of lobes (3 to 12) of the largest harmonic of the wear, shape (speeds,)."""
+    harmonics = response["wear_harmonic"].sel(lobes=_WEAR_LOBES).fillna(0.0)
+    return harmonics["lobes"].values[harmonics.argmax("lobes").values].astype(float)
+
+
+def first_contact(response: xr.Dataset) -> np.ndarray:
+    """Number of the first revolution in which a tip point moves beyond its position at rest, shape (speeds,); NaN for none."""
+    touched = response["revolution_maximum"].max("tip_point").transpose("speed", "revolution").values > 0.0
+    return np.where(touched.any(axis=1), touched.argmax(axis=1) + 1.0, np.nan)
+
+
+@dataclass(frozen=True)
+class YieldRange:
+    """Speeds (rad/s) above yield: the `first` and `last`, NaN for none, and the `length` of all between that are above.
+
+    `cut`: whether the speeds begin or end above yield, so that the range may go on beyond them.
+    """
+
+    first: float
+    last: float
+    length: float
+    cut: bool
+
+    @property
+    def width(self) -> float:
+        """From the first to the last (rad/s); 0 where none is above."""
+        return 0.0 if np.isnan(self.first) else self.last - self.first
+
+    @property
+    def share(self) -> float:
+        """Share of the width that is above yield; NaN without a width."""
+        return self.length / self.width if self.width > 0.0 else np.nan
+
+
+def range_above_yield(speeds: np.ndarray, ratio: np.ndarray) -> YieldRange:
+    """Where the stress, a `ratio` of yield at ascending `speeds` (rad/s), is above it; between speeds it is a straight line.
+
+    An infinite ratio, of a run that diverged, is above yield, and so is nothing of the way to a speed below.
+    """
+    above = np.flatnonzero(ratio > 1.0)
+    if not len(above):
+        return YieldRange(np.nan, np.nan, 0.0, False)
+    first, last = int(above[0]), int(above[-1])
+    share = _share_above(ratio)
+    step = np.diff(speeds)
+    begin = speeds[first] - (step[first - 1] * share[first - 1] if first else 0.0)
+    end = speeds[last] + (step[last] * share[last] if last < len(step) else 0.0)
+    return YieldRange(float(begin), float(end), float(np.sum(share * step)), first == 0 or last == len(speeds) - 1)
+
+
+def _share_above(ratio: np.ndarray) -> np.ndarray:
+    """Share of each interval between speeds in which the ratio is above 1, shape (speeds - 1,)."""
+    top = np.maximum(ratio[:-1], ratio[1:]) - 1.0
+    bottom = np.minimum(ratio[:-1], ratio[1:]) - 1.0
+    crosses = (top > 0.0) & (bottom < 0.0) & np.isfinite(top)
+    rise = np.where(crosses, top - bottom, 1.0)
+    return np.where(crosses, top / rise, np.where(bottom >= 0.0, (top > 0.0).astype(float), 0.0))
+
+
+def ratio_to_yield(response: xr.Dataset) -> xr.DataArray:
+    """Largest stress of the last revolution as a share of yield, over the speeds that were run; infinite where it diverged."""
+    ratio = response["max_von_mises"] / response["yield_stress"]
+    return ratio.where(response["status"] != RunStatus.DIVERGED, np.inf).dropna("speed")
+
+
+def speeds_above_yield(response: xr.Dataset) -> YieldRange:
+    """Where a response is above yield, over all its speeds."""
+    ratio = ratio_to_yield(response)
+    return range_above_yield(ratio["speed"].values, ratio.values)
+
+
+def width_above_yield(response: xr.Dataset) -> float:
+    """Width (rad/s) from the first to the last speed above yield; NaN where the speeds begin or end above it."""
+    found = speeds_above_yield(response)
+    return np.nan if found.cut else found.width
+
+
+def largest_stress(response: xr.Dataset) -> tuple[float, float]:
+    """Largest stress (Pa) over all speeds and its speed (rad/s); NaN where no run has one."""
+    series = response["max_von_mises"].dropna("speed")
+    if not series.size:
+        return np.nan, np.nan
+    place = int(np.argmax(series.values))
+    return float(series[place]), float(series["speed"][place])
+
+
+def last_revolution(instants: np.ndarray, per_revolution: int) -> np.ndarray:
+    """Those of the last revolution, of snapshots or stresses along the first axis with so many in each revolution."""
+    return instants[-per_revolution:]
+
+
+def largest_of_run(run: Mapping[str, np.ndarray], stress: np.ndarray, per_revolution: int) -> float:
+    """Largest stress (Pa) in the last revolution of a run, from its `stress` at each instant; NaN if it diverged."""
+    return np.nan if run["status"] else float(last_revolution(stress, per_revolution).max())
+
+
+def stress_history(stress: np.ndarray, per_revolution: int, revolutions: int) -> np.ndarray:
+    """Largest `stress` (Pa) of each revolution, shape (revolutions,), with so many instants in each.
+
+    NaN from where a run diverged: its unfinished revolution is left out.
+    """
+    history = np.full(revolutions, np.nan)
+    whole = len(stress) // per_revolution
+    history[:whole] = stress[: whole * per_revolution].reshape(whole, per_revolution).max(axis=1)
+    return history
+
+
+def history_of(response: xr.Dataset, speed: float) -> np.ndarray:
+    """Largest stress (Pa) of every revolution at a speed (rad/s) whose history was kept, shape (revolutions,)."""
+    return response["max_von_mises_history"].sel(history_speed=speed).values
+
+
+def first_yield(history: np.ndarray, yield_stress: float) -> float:
+    """Number of the first revolution of a stress history (Pa) beyond yield; NaN if none is."""
+    above = np.flatnonzero(history > yield_stress)
+    return float(above[0] + 1) if len(above) else np.nan
+
+
+def overtakes(ours: np.ndarray, theirs: np.ndarray) -> float:
+    """First revolution from which `ours` stays above `theirs` for five revolutions; NaN if it never does."""
+    above = np.lib.stride_tricks.sliding_window_view(ours > theirs, _IN_A_ROW).all(axis=1)
+    return float(np.argmax(above) + 1) if above.any() else np.nan
+
+
+def slope_of_clearance(campbell: xr.Dataset, mode: str) -> float:
+    """Change of the dynamic clearance per tangential displacement at rest, of one blade's Campbell diagram."""
+    clearance = campbell["dynamic_clearance"].sel(mode=mode)
+    slope = np.gradient(clearance.values, clearance["tangential_displacement"].values)
+    return float(abs(slope[len(slope) // 2]))
