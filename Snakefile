@@ -32,10 +32,7 @@ rule all_blades:
     input:
         rules.campbell.input,
         rules.configuration.output,
-        datasets.values(),
         rules.summary.output,
         rules.explorer.output,
-        sweep_figures,
-        design_outputs if settings.families else [],
-        shape_outputs,
-        signal_outputs,
+        rules.response_overview.output,
+        paths.filled(targets(sweep, recorded)),

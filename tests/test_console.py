@@ -7,7 +7,7 @@ from importlib.metadata import version
 from pathlib import Path
 
 import pytest
-from snakemake import api, jobs, logging
+from snakemake import api, jobs, logging, script
 from snakemake.persistence import file as persistence
 from snakemake.scheduling import job_scheduler
 from snakemake.settings import types
@@ -74,6 +74,13 @@ def test_the_limit_that_a_run_takes_away_is_still_there():
     """Of jobs per second: the console sets it to None, which must not become a name that nobody reads."""
     assert "job_rate_limiter" in job_scheduler.JobScheduler.__init__.__code__.co_names
     assert "job_rate_limiter" in job_scheduler.JobScheduler.schedule.__code__.co_names
+
+
+def test_scripts_are_started_with_the_interpreter_s_name_as_it_stands():
+    """The console quotes it, once: a Snakemake that quotes it too would start nothing."""
+    about = inspect.getsource(script.PythonScript)
+    assert "py_exec = sys.executable" in about
+    assert '"{py_exec} {fname:q}"' in about
 
 
 def test_the_lock_is_where_it_is_lifted():

@@ -15,6 +15,7 @@ from r37core.plans.provenance import Provenance
 from r37core.plans.resources import Needs
 from r37core.plans.structure_plan import Structure
 from r37core.plans.sweep_plan import MAPS, Sweep
+from r37core.plans.targets import targets
 
 ROOT = Path(workflow.basedir)
 ENVIRONMENT = ROOT / "envs" / "r37.yaml"
@@ -29,11 +30,6 @@ structure = Structure(settings)
 imported = Imported(settings, ROOT)
 sweep = Sweep(settings, lambda **wildcards: checkpoints.refine.get(**wildcards).output[0])
 needs = Needs(settings, sweep.most_runs)
-
-
-def of_runs(patterns, runs, **wildcards):
-    """The files of pairs of blade and scene."""
-    return [file for blade, scene in runs for file in expand(patterns, blade=blade, scene=scene, **wildcards)]
 
 
 def pictures(name, category, subcategory, figure):

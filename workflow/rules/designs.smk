@@ -39,6 +39,3 @@ use rule figure as design_figure with:
         family="|".join(settings.families) or "none",
     params:
         **drawing(code, "design_plot.draw_designs", "designs", blades=families.blades, varied=families.varied),
-
-
-design_outputs = [*rules.designs.output, *expand(rules.design_figure.output, family=settings.families)]

@@ -108,4 +108,4 @@ rule exported_matrices:
 
 rule exports:
     input:
-        exported.files,
+        paths.filled(exported.targets),

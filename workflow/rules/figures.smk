@@ -133,12 +133,3 @@ rule campbell:
         expand(rules.campbell_figure.output, blade=settings.blades),
         rules.campbell_overview.output,
         rules.blade_shapes_figure.output if imported.with_mesh else [],
-
-
-sweep_figures = [
-    rules.response_overview.output,
-    expand(rules.response_figure.output, blade=settings.blades),
-    [of_runs(rules.map_figure.output, sweep.runs_with(kind), kind=kind) for kind in MAPS],
-    of_runs(rules.waterfall_figure.output, sweep.runs_with("spectrum")),
-    expand(rules.comparison_figure.output, scene=settings.scenes),
-]

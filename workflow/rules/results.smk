@@ -25,7 +25,7 @@ rule configuration:
 rule responses:
     input:
         expand(rules.campbell_of_blade.output, blade=settings.blades),
-        of_runs(rules.response.output, sweep.runs_with("rms")),
+        paths.filled({rules.response.output[0]: paths.of_runs(sweep.runs_with("rms"))}),
 
 
 rule sweep_dataset:

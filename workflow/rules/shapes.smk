@@ -85,12 +85,3 @@ use rule modes_figure as worst_shapes_figure with:
         "<logs>/figures/shapes_{blade}__{scene}.log",
     params:
         caption=captioned("worst_shapes"),
-
-
-shape_outputs = [
-    expand(
-        [*rules.shapes_page.output, *rules.modes_figure.output],
-        blade=[blade for blade in settings.blades if sweep.scenes_with("shapes", blade)],
-    ),
-    of_runs(rules.worst_shapes_figure.output, sweep.runs_with("shapes")),
-]

@@ -30,7 +30,7 @@ rule signals_of_run:
 
 rule signals:
     input:
-        of_runs(rules.signals_of_run.output, recorded.runs),
+        paths.filled({rules.signals_of_run.output[0]: paths.of_runs(recorded.runs)}),
     output:
         "<results>/signals.nc",
     log:
@@ -65,10 +65,3 @@ use rule figure as orders_figure with:
         "<logs>/figures/orders_{blade}__{scene}.log",
     params:
         **drawing(code, "spectrograms.draw_orders", "orders"),
-
-
-signal_outputs = [
-    rules.signals.output if recorded.runs else [],
-    of_runs(rules.spectrogram_figure.output, recorded.runs),
-    of_runs(rules.orders_figure.output, recorded.runs),
-]

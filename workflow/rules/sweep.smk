@@ -63,7 +63,7 @@ rule simulate:
         code=code("simulate"),
     # not `script:`, whose preamble imports Snakemake into each of thousands of jobs
     shell:
-        "{params.python} {params.script} {input.model} {wildcards.speed} {output} {log} {params.task:q} {params.about:q}"
+        "{params.python:q} {params.script:q} {input.model:q} {wildcards.speed:q} {output:q} {log:q} {params.task:q} {params.about:q}"
 
 
 # speeds that refine themselves: each round asks for some more, from what those before it gave, until one asks for none

@@ -22,7 +22,7 @@ from r37core.config import ConfigError, Settings, settings_of_run
 from r37core.plans.run import check_part, check_tree, replaced_level
 from r37core.plans.sweep_plan import Sweep
 
-from . import failures, lock
+from . import failures, interpreter, lock
 from .closing import closing_lines
 from .progress import Progress, quieten
 
@@ -46,7 +46,7 @@ class Console:
     def python(self) -> Path:
         """Of rules that start it themselves; a path and no text, for another place is no reason to run again."""
         methods = self.workflow.deployment_settings.deployment_method
-        return Path("python" if "CONDA" in {method.name for method in methods} else sys.executable)
+        return Path("python" if "CONDA" in {method.name for method in methods} else interpreter.PYTHON)
 
     def start(self) -> None:
         """Before the first job, when the targets are known."""
@@ -81,6 +81,7 @@ def begin(workflow: Any, logger: logging.Logger, refusal: Refusal) -> Console:
     began, given, output = time.time(), workflow.config_settings, workflow.output_settings
     if workflow.is_main_process:
         failures.begin(f"{socket.gethostname()}_{os.getpid()}")
+    interpreter.quote()
     root = Path(workflow.basedir)
     # read here instead of by a `configfile:`, so that messages have lines and numbers are numbers in every file
     with _refused(refusal):

@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import Any
 
 GEOMETRY = "<results>/{blade}/geometry.nc"
@@ -38,3 +39,22 @@ READING_CAMPBELL = "<results>/studies/readings/campbell/{blade}_{mesh}.nc"
 def fill(pattern: str, **wildcards: Any) -> str:
     """The pattern with its wildcards replaced."""
     return pattern.format(**wildcards)
+
+
+Wildcards = list[dict[str, str]]
+"""Of several files with one pattern."""
+
+
+def of(name: str, values: Iterable[str]) -> Wildcards:
+    """Files of one wildcard."""
+    return [{name: value} for value in values]
+
+
+def of_runs(runs: Iterable[tuple[str, str]]) -> Wildcards:
+    """Files of pairs of blade and scene."""
+    return [{"blade": blade, "scene": scene} for blade, scene in runs]
+
+
+def filled(patterns: dict[str, Wildcards]) -> list[str]:
+    """The files that patterns and their wildcards stand for."""
+    return [fill(pattern, **wildcards) for pattern, several in patterns.items() for wildcards in several]
