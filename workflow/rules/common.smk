@@ -5,6 +5,7 @@ from pathlib import Path
 from snakemake.exceptions import WorkflowError
 
 from r37core.config import plain
+from r37core.console.interpreter import PYTHON
 from r37core.console.snakemake_run import begin
 from r37core.explorer import parts_hash
 from r37core.figures.reporting import EVERY_SCENE, TOGETHER, captioned, drawing, shown

@@ -73,6 +73,9 @@ class Oriented(Section):
         description="positive: the rotor turns by the right hand about rotor_axis, negative: the other way"
     )
     axis_point: Direction = Field(default=[0.0, 0.0, 0.0], description="a point of the axis, in the file's unit")
+    sense_check: bool = Field(
+        default=True, description="refuse a blade whose trailing edge would lead, or whose pressure side is convex"
+    )
 
     def orientation(self) -> Orientation:
         """As the import takes it."""
@@ -110,6 +113,7 @@ class MeshEntry(Oriented):
             revolution_tolerance=self.revolution_tolerance_m,
             drop_free_nodes=self.drop_free_nodes,
             minimum_scaled_jacobian=self.minimum_scaled_jacobian,
+            sense_check=self.sense_check,
         )
         return replace(source, digest=digest_of(mesh_files(self.mesh, root)))
 
@@ -124,7 +128,8 @@ class MatricesEntry(Oriented):
     def source(self, root: Path) -> MatricesSource:
         """What to import, from the folder `root`; ImportRefused where files are missing."""
         digest = digest_of(matrix_files(self.matrices, root).values())
-        return MatricesSource(self.matrices, self.orientation(), self.mass_unit, self.stiffness_unit, digest)
+        units = self.mass_unit, self.stiffness_unit
+        return MatricesSource(self.matrices, self.orientation(), *units, self.sense_check, digest)
 
 
 def _where(given: Any) -> Where:

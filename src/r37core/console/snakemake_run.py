@@ -42,12 +42,6 @@ class Console:
     settings: Settings
     began: float
 
-    @property
-    def python(self) -> Path:
-        """Of rules that start it themselves; a path and no text, for another place is no reason to run again."""
-        methods = self.workflow.deployment_settings.deployment_method
-        return Path("python" if "CONDA" in {method.name for method in methods} else interpreter.PYTHON)
-
     def start(self) -> None:
         """Before the first job, when the targets are known."""
         with _refused(self.refusal):
@@ -63,7 +57,9 @@ class Console:
         """After the last job: lines after Snakemake's own last words, none where there is nothing to say."""
         lock.release()
         atexit.register(
-            lambda: sys.stderr.writelines(f"{line}\n" for line in closing_lines(self.settings.results, self.began, time.time()))
+            lambda: sys.stderr.writelines(
+                f"{line}\n" for line in [*failures.taken(), *closing_lines(self.settings.results, self.began, time.time())]
+            )
         )
 
     def fail(self) -> None:
@@ -82,6 +78,8 @@ def begin(workflow: Any, logger: logging.Logger, refusal: Refusal) -> Console:
     if workflow.is_main_process:
         failures.begin(f"{socket.gethostname()}_{os.getpid()}")
     interpreter.quote()
+    if "CONDA" in {method.name for method in workflow.deployment_settings.deployment_method}:
+        raise refusal("--sdm conda: jobs need the Python that runs Snakemake, with r37 in it; leave the option out")
     root = Path(workflow.basedir)
     # read here instead of by a `configfile:`, so that messages have lines and numbers are numbers in every file
     with _refused(refusal):

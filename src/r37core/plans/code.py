@@ -24,7 +24,7 @@ class CodeHashes:
     def __call__(self, script: str, *modules: str) -> str:
         """Short hash of the script of this name (without .py) and its imports: a parameter of the rule that runs it.
 
-        `modules`: dotted names of those that the script imports by a name that is one of its parameters.
+        `modules`: dotted names that the script imports by a name it is told.
         """
         digest = hashlib.sha256()
         for file in self.closure(script, *modules):
@@ -32,9 +32,10 @@ class CodeHashes:
         return digest.hexdigest()[:16]
 
     def closure(self, script: str, *modules: str) -> list[Path]:
-        """The script's file, the modules and those of all that they import, directly or not, sorted."""
+        """The files of the script and `modules` and of all that they import, directly or not, sorted."""
         found: set[Path] = set()
-        waiting = [self._roots[0] / f"{script}.py", *(file for name in modules for file in module_files(name, self._roots))]
+        waiting = [self._roots[0] / f"{script}.py"]
+        waiting += [file for name in modules for file in module_files(name, self._roots)]
         while waiting:
             file = waiting.pop()
             if file not in found:

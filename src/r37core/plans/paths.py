@@ -17,7 +17,6 @@ INTEGRATION_STAMP = "<results>/{blade}/{scene}/time_integration.stamp"
 ROUND = "<results>/{blade}/{scene}/round_{round}.json"
 SPEED = "<results>/{blade}/{scene}/speed_{speed}.npz"
 RESPONSE = "<results>/{blade}/{scene}/response.nc"
-ESTIMATE_SAMPLE = "<results>/studies/estimate/{blade}__{scene}.json"
 EXPORTED_MESH = "<results>/exports/{blade}/mesh.{format}"
 EXPORTED_SURFACE = "<results>/exports/{blade}/surface.step"
 EXPORTED_MODES = "<results>/exports/{blade}/modes"
@@ -25,15 +24,8 @@ EXPORTED_STRESS = "<results>/exports/{blade}/stress_{scene}"
 EXPORTED_MATRICES = "<results>/exports/{blade}/matrices"
 WORST_SHAPES = "<results>/shapes/{blade}/stress_{scene}"
 WHOLE_BLADE_MODEL = "<results>/exports/{blade}/rom_{tip_line}.nc"
-CAMPAIGN = "<results>/studies/refinement/{blade}__{scene}.nc"
-STUDY_MODEL = (
-    "<results>/studies/models/{blade}/{nodes}_{boundary_nodes}_{fixed_interface_modes}_{region}_{tip_line}_{ends}/{file}"
-)
-TRADEOFF_CASE = "<results>/studies/tradeoff/{blade}/{parameter}/{value}.nc"
-GALLERY_RUN = "<results>/studies/gallery/{blade}__{scene}.nc"
-STABILITY_CASE = "<results>/studies/stability/{extreme}.json"
-READING = "<results>/studies/readings/{reading}/{place}.nc"
-READING_CAMPBELL = "<results>/studies/readings/campbell/{blade}_{mesh}.nc"
+STUDY_CASE = "<results>/studies/{study}/{case}.nc"
+STUDY_MODEL = "<results>/studies/models/{blade}/{model}/{file}"
 
 
 def fill(pattern: str, **wildcards: Any) -> str:
