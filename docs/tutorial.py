@@ -115,7 +115,7 @@ print(crossings.round(1).to_string())
 
 # %%
 from r37core.results.stress_recovery import StressRecovery
-from r37core.rom.contact_reduction import contact_model
+from r37core.rom.reduced_model import contact_model
 from r37core.time_integration.speed_run import run_speed
 
 scene = settings.scenes["abradable"].scene
