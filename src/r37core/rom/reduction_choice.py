@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
@@ -106,15 +104,3 @@ class ReductionChoice:
     coriolis: bool
     stress_submesh: StressSubmesh
     whole_blade: bool
-
-    @classmethod
-    def from_plain(cls, values: Mapping[str, Any]) -> ReductionChoice:
-        """From the dictionary that `asdict` makes of a choice."""
-        return cls(
-            **dict(values)
-            | {
-                "boundary": BoundaryChoice(**values["boundary"]),
-                "speeds": tuple(values["speeds"]),
-                "stress_submesh": StressSubmesh(**values["stress_submesh"]),
-            }
-        )
