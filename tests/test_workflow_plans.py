@@ -54,7 +54,7 @@ def test_speeds_and_their_files(chosen):
 
 @pytest.fixture
 def refining(root, tmp_path):
-    """A plan whose speeds refine themselves, with two finished rounds of the reference blade and one of the other."""
+    """A plan with adaptive speeds, with two finished rounds of the reference blade and one of the other."""
     changes = {
         "blades": ["Ref", "L50"],
         "scenes": ["abradable", "direct"],
