@@ -231,6 +231,12 @@ def moved(text, node, x):
     return text[:start] + f"{node}, {x}, " + text[start:].split(", ", 2)[2]
 
 
+def renumbered(text, element, other):
+    """The deck with one element under another number."""
+    nodes, elements = text.split("ELSET=BLADE\n")
+    return nodes + "ELSET=BLADE\n" + elements.replace(f"\n{element}, ", f"\n{other}, ", 1)
+
+
 def second_part(text):
     rows = text.split("*NODE, NSET=ALL_NODES\n")[1].split("*ELEMENT")[0].splitlines()
     elements = text.split("ELSET=BLADE\n")[1].split("*NSET")[0].replace("\n", " ").split(",")
@@ -255,6 +261,8 @@ def second_part(text):
         (lambda text: text.replace("*ELEMENT", "*ELEMENTS"), "no solid elements"),
         (lambda text: moved(text, 100, "0.5"), r"mid-nodes off their edges in .* edge lengths|inside out or folded"),
         (lambda text: text.replace("\n2, ", "\n2002, ", 1), "names node 2, which the deck lacks"),
+        (lambda text: text.replace("\n2, ", "\n1, ", 1), "node 1 is given twice, and not alike"),
+        (lambda text: renumbered(text, 2, 1), "element 1 is given twice, and not alike"),
         (lambda text: text[:400], "no solid elements"),
         (lambda text: text.replace("*NODE,", "*NODE, SYSTEM=C,"), "cylindrical or spherical coordinates"),
         (lambda text: text.replace("*ELEMENT", "*NGEN\n1, 9, 1\n*ELEMENT"), r"found \*NGEN; write the deck with every node"),
