@@ -30,7 +30,7 @@ test-slurm: $(VENV)/.ready
 	sh envs/slurm.sh
 	R37_SLURM=1 $(BIN)/python -m pytest tests/test_slurm.py
 
-# whether the tests notice small changes of the code: a sample, about half an hour; MUTANTS='results/stress_recovery.py --each 20' for one module
+# whether the tests notice small changes of the code: a sample, about half an hour, and what they missed; MUTANTS='results/stress_recovery.py --each 20' for one module
 mutants: $(VENV)/.ready
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[test,mutants]'
 	$(BIN)/python benchmarks/mutants.py $(MUTANTS)
@@ -49,7 +49,7 @@ bench: $(VENV)/.ready
 
 # all studies, at their default size about half an hour on two cores, and their tables into the pages of docs/
 docs: $(VENV)/.ready
-	$(BIN)/python -m snakemake tradeoff growth stability readings --cores $(CORES)
+	$(BIN)/python -m snakemake tradeoff stability modelling_choices --cores $(CORES)
 	$(BIN)/python benchmarks/pages.py
 
 # the documentation as a site that opens from the disk: site/index.html; a warning is an error

@@ -1,12 +1,15 @@
 """Numbers in README and configuration are those of the generated pages."""
 
+import ast
+import json
 import re
 import runpy
+from pathlib import Path
 
 import pytest
 
 from r37core.published import INTERACTIONS
-from r37core.studies.reading_list import READINGS, SHIPPED, TURNED
+from r37core.studies.modelling_choices.cases import CHOICES, SHIPPED, VARIED
 from r37core.yaml_file import load_yaml
 
 
@@ -53,13 +56,36 @@ def test_readme_has_the_estimate(readme, pages):
     assert f"{float(hours):.1f} hours (`snakemake estimate`)" in readme
 
 
-def test_validation_page_has_every_interaction_and_every_reading(pages):
+def test_numbers_of_the_default_sweep_are_those_of_the_gallery(root):
+    page = (root / "docs/simulation.md").read_text().split("## What the default sweep shows\n", 1)[1].split("\n## ", 1)[0]
+    numbers = re.findall(r"[\d.]+(?:%| mm| rad/s)|(?<=published )[\d.]+", page)
+    gallery = (root / "docs/gallery.md").read_text()
+    assert len(numbers) >= 6
+    assert [number for number in numbers if number not in gallery] == []
+
+
+def test_speed_page_has_the_measured_time_integration(root, pages, monkeypatch):
+    monkeypatch.syspath_prepend(root / "benchmarks")
+    tables = runpy.run_path(str(root / "benchmarks/integration_speed.py"))["tables"]
+    measured = json.loads((root / "benchmarks/integration_speed.json").read_text())
+    assert section(pages["speed"], "integration_speed").strip() == tables(measured)
+
+
+def test_mutants_are_of_modules_and_tests_that_are_there(root):
+    text = (root / "benchmarks/mutants.py").read_text()
+    modules = ast.literal_eval(re.search(r"^TESTS = (\{.*?^\})", text, re.MULTILINE | re.DOTALL)[1])
+    assert [name for name in modules if not (root / "src/r37core" / name).exists()] == []
+    here = Path(__file__).parent
+    assert [name for names in modules.values() for name in names.split() if not (here / name).exists()] == []
+
+
+def test_validation_page_has_every_interaction_and_every_modelling_choice(pages):
     rows = section(pages["validation"], "validation").splitlines()
     for one in INTERACTIONS:
         start = f"| {one.blade} 1B/{one.engine_order}: peak | {one.peak:g} rad/s |"
         assert any(row.startswith(start) for row in rows), start
-    readings = section(pages["validation"], "readings")
-    assert all(f"| {READINGS[name].what} |" in readings for name in (SHIPPED, *TURNED))
+    choices = section(pages["validation"], "modelling_choices")
+    assert all(f"| {CHOICES[name].what} |" in choices for name in (SHIPPED, *VARIED))
 
 
 def test_every_extreme_has_an_outcome(pages):

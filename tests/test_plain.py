@@ -18,8 +18,7 @@ from r37core.exchange.importing.where import Where
 from r37core.exchange.orientation import Orientation
 from r37core.fem.material import Material
 from r37core.plain import PlainError, from_plain, to_plain
-from r37core.rom.boundary import BoundaryChoice
-from r37core.rom.reduction_choice import ReductionChoice, StressSubmesh
+from r37core.rom.reduction_choice import BoundaryChoice, ReductionChoice, StressSubmesh
 from r37core.speeds import RefinedRange, SpeedPlan
 from r37core.time_integration.integration_choice import IntegrationChoice
 

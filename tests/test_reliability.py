@@ -284,6 +284,12 @@ def test_the_clear_line_comes_last(root, tmp_path):
 
 
 @pytest.mark.slow
+def test_environments_of_conda_are_refused_before_one_is_made(root, tmp_path):
+    copy_project(root, tmp_path)
+    assert "jobs need the Python that runs Snakemake" in snakemake(tmp_path, "campbell", "--sdm", "conda", "-c1", check=False)
+
+
+@pytest.mark.slow
 def test_a_killed_run_goes_on_with_the_same_command(root, tmp_path):
     copy_stubbed(root, tmp_path)
     slow = tmp_path / "workflow/scripts/geometry.py"

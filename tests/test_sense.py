@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 from box_mesh import box_mesh
 
+from r37core.blade.profile import BladeShapeError
 from r37core.blade.sense import check_profile_sense, sense_of_profile
-from r37core.blade.shape_error import BladeShapeError
 from r37core.config import ConfigError, read_settings
 from r37core.exchange.exporting.matrices_out import write_reduced_matrices
 from r37core.exchange.exporting.write_mesh import write_mesh

@@ -35,11 +35,10 @@ ROOT = Path(workflow.basedir)
 ENVIRONMENT = ROOT / "envs" / "r37.yaml"
 SCRIPTS = ROOT / "workflow" / "scripts"
 TEXTS = ROOT / "workflow" / "report"
-# of rules that start it themselves; a path and no text, for another place is no reason to run again
-PYTHON = Path(
-    "python" if DeploymentMethod.CONDA in workflow.deployment_settings.deployment_method else interpreter.PYTHON
-)
 interpreter.quote()
+
+if DeploymentMethod.CONDA in workflow.deployment_settings.deployment_method:
+    raise WorkflowError("--sdm conda: jobs need the Python that runs Snakemake, with r37 in it; leave the option out")
 
 # read here instead of by a `configfile:`, so that messages have lines and numbers are numbers in every file
 try:

@@ -58,7 +58,7 @@ rule simulate:
     params:
         task=sweep.task,
         about=made.sweep,
-        python=PYTHON,
+        python=interpreter.PYTHON,  # a path and no text: another place is no reason to run again
         script=SCRIPTS / "simulate.py",
         code=code("simulate"),
     # not `script:`, whose preamble imports Snakemake into each of thousands of jobs

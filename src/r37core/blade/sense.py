@@ -12,8 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .profile import ProfileParameters
-from .shape_error import BladeShapeError
+from .profile import BladeShapeError, ProfileParameters
 
 LEAST = np.radians(5.0)
 """Stagger and camber (rad) below which the tip tells nothing: tips of fans have little camber, some of the other sign."""

@@ -13,8 +13,7 @@ import numpy as np
 
 from r37core.text_file import read_text
 
-from .profile import ProfileParameters
-from .shape_error import BladeShapeError
+from .profile import BladeShapeError, ProfileParameters
 
 _CENTIMETRE = 0.01
 _DEGREE = np.pi / 180.0

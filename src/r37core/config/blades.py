@@ -12,9 +12,8 @@ from pydantic import Discriminator, Field, RootModel, Tag, model_validator
 
 from r37core.blade import tables
 from r37core.blade.definition import BladeDefinition
-from r37core.blade.profile import ProfileParameters
+from r37core.blade.profile import BladeShapeError, ProfileParameters
 from r37core.blade.sense import check_profile_sense
-from r37core.blade.shape_error import BladeShapeError
 from r37core.exchange.importing.material_check import check_material
 from r37core.exchange.importing.source import MatricesSource, MeshSource
 from r37core.exchange.refusal import ImportRefused

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
@@ -11,27 +11,15 @@ from r37core.blade.blade_surface import Blade
 from r37core.fem.material import Material
 from r37core.fem.matrices import assemble
 from r37core.mesh.generate import generate_mesh
-from r37core.rom.boundary import BoundaryChoice
 from r37core.rom.reduce import reduce_blade
 from r37core.rom.reduced_model import ReducedModel
-from r37core.rom.reduction_choice import ReductionChoice, StressSubmesh
+from r37core.rom.reduction_choice import BoundaryChoice, ReductionChoice, StressSubmesh
 
-from .case import Stopwatch, peak_memory
+from .case import ModelChoice
+from .costs import Stopwatch, peak_memory
 
 EVERYWHERE = StressSubmesh(np.inf, -np.inf, np.inf)
 """Stress on the whole blade but for the clamped elements."""
-
-
-@dataclass(frozen=True)
-class ModelChoice:
-    """Nodes of the mesh, boundary nodes and their line, fixed-interface modes, where stress is recovered: submesh or all."""
-
-    nodes: int
-    boundary_nodes: int
-    fixed_interface_modes: int
-    whole_blade_stress: bool = False
-    tip_line: str = "pressure_edge"
-    corners: bool = True
 
 
 def tip_elements(nodes: int) -> int:
