@@ -12,12 +12,9 @@ from scipy import constants
 
 from r37core.exchange.exporting.write_mesh import write_mesh
 from r37core.exchange.importing.abaqus_reader import read_abaqus
-from r37core.exchange.importing.import_mesh import import_mesh
-from r37core.exchange.importing.material_check import check_material
+from r37core.exchange.importing.import_mesh import _READERS, import_mesh
 from r37core.exchange.importing.meshio_reader import quietly
-from r37core.exchange.importing.read_mesh import _READERS
-from r37core.exchange.importing.source import MASS_UNITS, STIFFNESS_UNITS, SUFFIXES, MeshSource, digest_of, mesh_files
-from r37core.exchange.importing.where import Where
+from r37core.exchange.importing.source import MASS_UNITS, STIFFNESS_UNITS, SUFFIXES, MeshSource, Where, digest_of, mesh_files
 from r37core.exchange.orientation import UNITS, Orientation
 from r37core.exchange.refusal import ImportRefused, MeshWarning, placed
 from r37core.fem.abaqus_deck import write_abaqus
@@ -440,6 +437,6 @@ def test_linear_elements_are_warned_of(tmp_path):
 
 
 def test_mixed_units_of_the_material():
-    check_material(TITANIUM)
-    with pytest.raises(ImportRefused, match="Units seem to be mixed"):
-        check_material(replace(TITANIUM, youngs_modulus=115e3, density=4.4e-9))
+    TITANIUM.check_units()
+    with pytest.raises(ValueError, match="Units seem to be mixed"):
+        replace(TITANIUM, youngs_modulus=115e3, density=4.4e-9).check_units()

@@ -8,7 +8,7 @@ import pytest
 import yaml
 
 from r37core.config import ConfigError, read_settings
-from r37core.exchange.importing.where import Where
+from r37core.exchange.importing.source import Where
 from r37core.exchange.orientation import OURS
 from r37core.plain import to_plain
 from r37core.plans.export_plan import Exports

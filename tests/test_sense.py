@@ -14,9 +14,8 @@ from r37core.exchange.exporting.matrices_out import write_reduced_matrices
 from r37core.exchange.exporting.write_mesh import write_mesh
 from r37core.exchange.importing.import_mesh import import_mesh
 from r37core.exchange.importing.matrices_in import import_matrices
-from r37core.exchange.importing.source import MatricesSource, MeshSource
+from r37core.exchange.importing.source import MatricesSource, MeshSource, Where
 from r37core.exchange.importing.tip import check_sense_of_nodes
-from r37core.exchange.importing.where import Where
 from r37core.exchange.orientation import OURS, Orientation
 from r37core.exchange.refusal import ImportRefused, MeshWarning
 from r37core.mesh.generate import generate_mesh
