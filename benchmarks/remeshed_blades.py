@@ -23,8 +23,7 @@ from pages import fill
 from r37core.config import read_settings
 from r37core.exchange.exporting.step import write_step
 from r37core.exchange.importing.import_mesh import import_mesh
-from r37core.exchange.importing.source import MeshSource
-from r37core.exchange.importing.where import Where
+from r37core.exchange.importing.source import MeshSource, Where
 from r37core.exchange.orientation import Orientation
 from r37core.fem.matrices import assemble
 from r37core.fem.solver import lowest_modes

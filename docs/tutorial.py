@@ -211,7 +211,7 @@ plt.show()
 #
 # ## And on
 #
-# - The whole of it at full accuracy, in both scenes, with speeds that refine themselves: put the blade into
+# - The whole of it at full accuracy, in both scenes, with adaptive speed sampling: put the blade into
 #   `config/blades.yaml` and run `make all_blades`. Nothing of the other blades is run again.
 # - `results/explorer.html` shows all blades linked, `make report` makes one file of it.
 # - A family instead of one blade: `chordwise_sweep_deg` under `vary`, in [blades.md](blades.md).
