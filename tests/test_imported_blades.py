@@ -8,11 +8,12 @@ import pytest
 import yaml
 
 from r37core.config import ConfigError, read_settings
-from r37core.exchange.importing.where import Where
+from r37core.exchange.importing.source import Where
 from r37core.exchange.orientation import OURS
 from r37core.plain import to_plain
 from r37core.plans.export_plan import Exports
 from r37core.plans.import_plan import Imported
+from r37core.plans.paths import filled
 from r37core.plans.sweep_plan import Sweep
 from r37core.studies.plan import blade_of
 
@@ -86,6 +87,8 @@ def test_a_mesh_with_another_material(settings_with):
     [
         ({"mesh": "meshes/none.inp"}, r"Fan\.mesh: there is no file meshes/none\.inp$"),
         ({"mesh": "meshes/fan.stl"}, r"Fan\.mesh: found a file of kind '\.stl'; allowed: \.inp, \.msh"),
+        ({"mesh": "meshes/fan.inp\n"}, r"Fan\.mesh: found 'meshes/fan\.inp\\n'; allowed: a name without line breaks"),
+        ({"root": "hub\n"}, r"Fan\.root: found 'hub\\n'; allowed: a name without line breaks"),
         ({"mesh": 3}, r"Fan\.mesh: found 3; allowed: string"),
         ({"root": 3}, r"Fan\.root: found 3; allowed: string, .* or mapping with the keys r_at_least_m, "),
         ({"root": None}, r"Fan: missing key root; allowed keys: .*mesh, material, root, tip"),
@@ -200,7 +203,7 @@ def test_plan_of_exports(three):
     imported, sweep = three
     config = sweep.settings.config.model_copy(update={"speeds": [900.0, 950.5]})
     exports = Exports(imported, replace(sweep, settings=replace(sweep.settings, config=config)))
-    files = {file.removeprefix("<results>/exports/") for file in exports.files}
+    files = {file.removeprefix("<results>/exports/") for file in filled(exports.targets)}
     assert {"Ref/surface.step", "Ref/modes", "Fan/mesh.med", "Fan/stress_direct", "Given/matrices"} <= files
     assert not files & {"Fan/surface.step", "Given/mesh.med", "Given/modes", "Given/stress_direct"}
     fan = SimpleNamespace(blade="Fan", scene="direct", tip_line="camber")

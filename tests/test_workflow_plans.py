@@ -54,7 +54,7 @@ def test_speeds_and_their_files(chosen):
 
 @pytest.fixture
 def refining(root, tmp_path):
-    """A plan whose speeds refine themselves, with two finished rounds of the reference blade and one of the other."""
+    """A plan with adaptive speeds, with two finished rounds of the reference blade and one of the other."""
     changes = {
         "blades": ["Ref", "L50"],
         "scenes": ["abradable", "direct"],
@@ -139,14 +139,6 @@ def test_blades_are_finished_one_after_another(chosen):
     sweep = Sweep(chosen)
     assert sweep.priority(of(blade="Ref")) == 1.0
     assert 0.0 < sweep.priority(of(blade="L50")) < 1.0
-
-
-def test_figures(chosen):
-    figures = Sweep(chosen).figures
-    assert "<results>/figures/spectrum_L50__direct.png" in figures
-    assert "<results>/figures/wear_Ref__abradable.png" in figures
-    assert "<results>/figures/wear_Ref__direct.png" not in figures
-    assert "<results>/figures/response_L50.png" in figures
 
 
 def test_matrices_do_not_depend_on_the_yield_stress(chosen):

@@ -23,7 +23,7 @@ def shared_order(campbell: xr.Dataset, low: float, high: float) -> int | None:
     return int(campbell["engine_order"].values[int(np.argmax(count))]) if count.max() else None
 
 
-def draw_comparison(campbell: xr.Dataset, rms: xr.Dataset, stress: xr.Dataset | None, scene: str) -> Figure:
+def draw_comparison(campbell: xr.Dataset, rms: xr.Dataset, stress: xr.Dataset | None = None, title: str = "") -> Figure:
     """All blades in one scene about their crossing of 1B with the engine order that most of them meet.
 
     Speeds are those above the crossing, as shares of it, for the crossings of the blades lie hundreds of rad/s apart.
@@ -52,11 +52,12 @@ def draw_comparison(campbell: xr.Dataset, rms: xr.Dataset, stress: xr.Dataset | 
         axes.axvline(0.0, color="0.5", linewidth=0.8, linestyle=":")
         axes.set_ylabel(label)
     if stress is not None:
-        panels[-1].axhline(1e-9 * float(stress["yield_stress"].max()), color="0.3", linewidth=0.9, linestyle="--")
+        for limit in np.unique(stress["yield_stress"].dropna("blade")):  # one line for blades of one material
+            panels[-1].axhline(1e-9 * limit, color="0.3", linewidth=0.9, linestyle="--")
     panels[-1].set_xlabel(
         f"speed above the crossing of 1B with engine order {order} (%)" if order else "no crossing of 1B was run"
     )
-    panels[0].set_title(f"blades in scene {scene}")
+    panels[0].set_title(f"blades in scene {title}")
     if panels[0].lines[:-1]:
         figure.legend(*panels[0].get_legend_handles_labels(), loc="outside upper center", ncols=7)
     return figure

@@ -13,7 +13,8 @@ import pyvista
 from r37core.figures.offscreen import look, new_plotter, save_picture
 from r37core.io import read_json, readable
 
-from .moving import COLOUR_MAP, INDEX, LARGEST_SHOWN
+from . import INDEX
+from .moving import COLOUR_MAP, LARGEST_SHOWN
 
 _COLUMNS, _PANEL = 6, (300, 420)
 
