@@ -7,6 +7,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 import xarray as xr
+from defaults import IntegrationChoice
 
 from r37core.published import BLADES, INTERACTIONS
 from r37core.studies import measures
@@ -19,7 +20,6 @@ from r37core.studies.readings_figure import draw_readings
 from r37core.studies.readings_plan import Readings
 from r37core.studies.validation import Runs, reading_checks, survey_checks, torsion_speed
 from r37core.studies.validation_figures import draw_blades, draw_reference, draw_stress
-from r37core.time_integration.integration_choice import IntegrationChoice
 
 YIELD = 1.38e9
 STEPS = {"fine": 2.0, "coarse": 4.0, "survey": 5.0}

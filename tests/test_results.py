@@ -7,19 +7,17 @@ import pandas as pd
 import pytest
 import xarray as xr
 from box_mesh import box_mesh
+from defaults import Casing, Friction, IntegrationChoice, InteractionChoice, Lining, Scene
 
-from r37core.contact.casing import Casing
-from r37core.contact.scene import Friction, Lining, Scene
 from r37core.fem.material import Material
 from r37core.io import InputFileError
 from r37core.results.datasets import write_sweep_dataset
-from r37core.results.interactions import COLUMNS, InteractionChoice, find_interactions, summarise
+from r37core.results.interactions import COLUMNS, find_interactions, summarise
 from r37core.results.response import write_response
 from r37core.results.stress_recovery import StressRecovery
 from r37core.rom.contact_reduction import contact_model
 from r37core.rom.reduced_model import RecoveryNodes
 from r37core.speeds import SpeedError, plan_speeds
-from r37core.time_integration.integration_choice import IntegrationChoice
 from r37core.time_integration.speed_file import read_speed, write_speed
 from r37core.time_integration.speed_run import run_speed
 

@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import xarray as xr
+from defaults import IntegrationChoice
 from integration_cases import ABRADABLE, DIRECT
 from workflow_runs import snakemake
 
@@ -22,7 +23,6 @@ from r37core.studies.stability import judge
 from r37core.studies.stability_cases import extremes
 from r37core.studies.tradeoff import case_dataset, gather_cases, level_error
 from r37core.studies.tradeoff_table import parameter_tables
-from r37core.time_integration.integration_choice import IntegrationChoice
 from r37core.time_integration.simulate import Simulation
 
 

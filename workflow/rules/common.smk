@@ -10,7 +10,7 @@ from pathlib import Path
 from snakemake.exceptions import WorkflowError
 from snakemake.settings.types import DeploymentMethod
 
-from r37core.config import ConfigError, plain, settings_of_run
+from r37core.config import ConfigError, plain, settings_of_run, si_fields
 from r37core.console import failures
 from r37core.explorer import parts_hash
 from r37core.console import lock

@@ -25,7 +25,7 @@ class Blade:
     Raises BladeShapeError when the profiles cross or cannot be stacked.
     """
 
-    def __init__(self, profiles: Sequence[Profile], placement: Placement, round_edges: bool = True):
+    def __init__(self, profiles: Sequence[Profile], placement: Placement, round_edges: bool):
         self.profiles = list(profiles)
         self.placement = placement
         self.spans = np.array([p.parameters.span for p in self.profiles])
@@ -34,7 +34,7 @@ class Blade:
         self._check_orientation()
 
     @classmethod
-    def stacked(cls, profiles: Sequence[Profile], shift: Placement | None = None, round_edges: bool = True) -> Blade:
+    def stacked(cls, profiles: Sequence[Profile], shift: Placement | None, round_edges: bool) -> Blade:
         """Stack the profiles by their plane sections, then apply the sweep and lean of `shift`."""
         placement = plane_section_stacking(profiles)
         return cls(profiles, placement if shift is None else placement + shift, round_edges)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
@@ -14,6 +13,7 @@ from r37core.exchange.orientation import Orientation
 
 from .material_section import MaterialSection
 from .section import FileName, LeftOut, Section, refused
+from .si_fields import in_si
 from .submesh import ImportedSubmesh
 
 Direction = Annotated[list[Annotated[float, Field(ge=-1e9, le=1e9)]], Field(min_length=3, max_length=3)]
@@ -50,11 +50,7 @@ class SurfaceRule(Section):
 
     def where(self) -> Where:
         """As the import takes it."""
-        cone = None
-        if self.cone_zr_m is not None:
-            (z0, r0), (z1, r1) = self.cone_zr_m
-            cone = ((float(z0), float(r0)), (float(z1), float(r1)))
-        return Where(limits=self._limits(), cone=cone, tolerance=self.tolerance_m)
+        return in_si(Where, self, limits=self._limits())
 
 
 SetOrRule = Annotated[
@@ -76,8 +72,7 @@ class Oriented(Section):
 
     def orientation(self) -> Orientation:
         """As the import takes it."""
-        axis, radial, point = ((float(x), float(y), float(z)) for x, y, z in (self.rotor_axis, self.radial, self.axis_point))
-        return Orientation(self.length_unit, axis, radial, self.rotation, point)
+        return in_si(Orientation, self)
 
 
 class MeshEntry(Oriented):
@@ -101,17 +96,15 @@ class MeshEntry(Oriented):
 
     def source(self, root: Path) -> MeshSource:
         """What to import, from the folder `root`; ImportRefused for a file that is not there or of another kind."""
-        source = MeshSource(
-            self.mesh,
-            self.orientation(),
-            _where(self.root),
-            _where(self.tip),
-            pressure_side_forward=self.pressure_side == "forward",
-            revolution_tolerance=self.revolution_tolerance_m,
-            drop_free_nodes=self.drop_free_nodes,
-            minimum_scaled_jacobian=self.minimum_scaled_jacobian,
+        return in_si(
+            MeshSource,
+            self,
+            file=self.mesh,
+            orientation=self.orientation(),
+            root=_where(self.root),
+            tip=_where(self.tip),
+            digest=digest_of(mesh_files(self.mesh, root)),
         )
-        return replace(source, digest=digest_of(mesh_files(self.mesh, root)))
 
 
 class MatricesEntry(Oriented):
@@ -124,8 +117,8 @@ class MatricesEntry(Oriented):
     def source(self, root: Path) -> MatricesSource:
         """What to import, from the folder `root`; ImportRefused where files are missing."""
         digest = digest_of(matrix_files(self.matrices, root).values())
-        return MatricesSource(self.matrices, self.orientation(), self.mass_unit, self.stiffness_unit, digest)
+        return in_si(MatricesSource, self, folder=self.matrices, orientation=self.orientation(), digest=digest)
 
 
 def _where(given: Any) -> Where:
-    return given.where() if isinstance(given, SurfaceRule) else Where(given)
+    return given.where() if isinstance(given, SurfaceRule) else Where(given, tolerance=0.0)

@@ -48,9 +48,9 @@ class InteractionChoice:
     of any order.
     """
 
-    prominence: float = 0.1
-    below: float = 0.02
-    above: float = 0.06
+    prominence: float
+    below: float
+    above: float
 
 
 def find_interactions(

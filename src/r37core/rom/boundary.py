@@ -27,9 +27,9 @@ class BoundaryChoice:
     With corners, node i of n lies at i/(n-1) of the chord; without, at (i + 1/2)/n.
     """
 
-    tip_line: str = "pressure_edge"
-    nodes: int = 8
-    corners: bool = True
+    tip_line: str
+    nodes: int
+    corners: bool
 
     @property
     def chord_positions(self) -> np.ndarray:

@@ -21,10 +21,10 @@ class StressSubmesh:
     as this number exceeds one: there a force on a single node and the clamping give stresses that grow with a finer mesh.
     """
 
-    maximum_x: float = np.inf
-    minimum_z: float = -np.inf
-    maximum_z: float = np.inf
-    excluded_layers: int = 0
+    maximum_x: float
+    minimum_z: float
+    maximum_z: float
+    excluded_layers: int
 
     def elements(self, mesh: BladeMesh, contact_nodes: np.ndarray) -> dict[str, np.ndarray]:
         """Nodes of the elements all of whose nodes qualify, by element type."""
@@ -44,6 +44,10 @@ class StressSubmesh:
         return chosen
 
 
+EVERYWHERE = StressSubmesh(np.inf, -np.inf, np.inf, 0)
+"""Stress on the whole blade but for the clamped elements."""
+
+
 @dataclass(frozen=True)
 class ReductionChoice:
     """What the reduced model is made of.
@@ -55,11 +59,11 @@ class ReductionChoice:
     boundary: BoundaryChoice
     speeds: tuple[float, ...]
     fixed_interface_modes: int
-    tolerance: float
+    basis_tolerance: float
     spin_softening: bool
     coriolis: bool
     stress_submesh: StressSubmesh
-    whole_blade: bool
+    recover_whole_blade: bool
 
     @classmethod
     def from_plain(cls, values: Mapping[str, Any]) -> ReductionChoice:

@@ -14,12 +14,9 @@ from r37core.mesh.generate import generate_mesh
 from r37core.rom.boundary import BoundaryChoice
 from r37core.rom.reduce import reduce_blade
 from r37core.rom.reduced_model import ReducedModel
-from r37core.rom.reduction_choice import ReductionChoice, StressSubmesh
+from r37core.rom.reduction_choice import EVERYWHERE, ReductionChoice
 
 from .case import Stopwatch, peak_memory
-
-EVERYWHERE = StressSubmesh(np.inf, -np.inf, np.inf)
-"""Stress on the whole blade but for the clamped elements."""
 
 
 @dataclass(frozen=True)
@@ -29,9 +26,9 @@ class ModelChoice:
     nodes: int
     boundary_nodes: int
     fixed_interface_modes: int
-    whole_blade_stress: bool = False
-    tip_line: str = "pressure_edge"
-    corners: bool = True
+    whole_blade_stress: bool
+    tip_line: str
+    corners: bool
 
 
 def tip_elements(nodes: int) -> int:

@@ -41,7 +41,7 @@ rule reading_campbell:
     conda:
         ENVIRONMENT
     params:
-        campbell=plain(settings.campbell),
+        campbell=si_fields(settings.campbell),
         maximum_speed=settings.structure.maximum_speed_rad_s,
         tip_line=settings.structure.boundary.tip_line,
         provenance=made.structure,

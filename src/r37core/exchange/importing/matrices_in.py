@@ -69,7 +69,7 @@ def _reduced(given: _Given, choice: ReductionChoice) -> ReducedModel:
         basis = multi_speed_basis(
             lambda speed: sp.csr_array(given.stiffness + speed**2 * given.per_square), given.mass, boundary, choice
         )
-        vectors, columns, tolerance, singular = basis.vectors, basis.columns, choice.tolerance, basis.singular_values
+        vectors, columns, tolerance, singular = basis.vectors, basis.columns, choice.basis_tolerance, basis.singular_values
     mass, stiffness = _projected(given.mass, vectors), _projected(given.stiffness, vectors)
     _check_positive(mass, stiffness)
     shapes = _ideal_shapes(given)

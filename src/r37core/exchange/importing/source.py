@@ -37,10 +37,10 @@ class MeshSource:
     orientation: Orientation
     root: Where
     tip: Where
-    pressure_side_forward: bool = True
-    revolution_tolerance: float = 1e-4
-    drop_free_nodes: bool = False
-    minimum_scaled_jacobian: float = 0.02
+    pressure_side_forward: bool
+    revolution_tolerance: float
+    drop_free_nodes: bool
+    minimum_scaled_jacobian: float
     digest: str = ""
 
 
@@ -50,8 +50,8 @@ class MatricesSource:
 
     folder: str
     orientation: Orientation
-    mass_unit: str = "kg"
-    stiffness_unit: str = "N/m"
+    mass_unit: str
+    stiffness_unit: str
     digest: str = ""
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -17,14 +17,14 @@ class Where:
     """A part of the surface: all faces whose nodes are in the set `set_name` or keep all the limits given.
 
     `limits`: (coordinate, bound, value in m) with coordinate r, x or z of the blade's frame and bound `at_least` or
-    `at_most`; `cone`: two points (z, r) in m of a straight meridian that the faces lie on; `tolerance` (m): of limits and
+    `at_most`; `cone_zr`: two points (z, r) in m of a straight meridian that the faces lie on; `tolerance` (m): of limits and
     cone.
     """
 
     set_name: str | None = None
     limits: tuple[tuple[str, str, float], ...] = ()
-    cone: tuple[tuple[float, float], tuple[float, float]] | None = None
-    tolerance: float = 1e-4
+    cone_zr: tuple[tuple[float, float], tuple[float, float]] | None = None
+    tolerance: float = field(kw_only=True)
 
     def faces(self, what: str, mesh: RawMesh, surface: list[Faces]) -> list[Faces]:
         """Faces of `surface`, the outer faces of `mesh`; ImportRefused, naming `what` is looked for, where there are none."""
@@ -43,8 +43,8 @@ class Where:
         if self.set_name is not None:
             return f"the set '{self.set_name}'"
         parts = [f"{name} {bound.replace('_', ' ')} {value:g} m" for name, bound, value in self.limits]
-        if self.cone is not None:
-            parts.append("the cone through (z, r) = ({:g}, {:g}) and ({:g}, {:g}) m".format(*self.cone[0], *self.cone[1]))
+        if self.cone_zr is not None:
+            parts.append("the cone through (z, r) = ({:g}, {:g}) and ({:g}, {:g}) m".format(*self.cone_zr[0], *self.cone_zr[1]))
         return f"{' and '.join(parts)}, to {self.tolerance:g} m"
 
     def _members(self, what: str, mesh: RawMesh) -> np.ndarray:
@@ -63,8 +63,8 @@ class Where:
         for name, bound, value in self.limits:
             sign = 1.0 if bound == "at_least" else -1.0
             members &= sign * (coordinates[name] - value) >= -self.tolerance
-        if self.cone is not None:
-            (z0, r0), (z1, r1) = self.cone
+        if self.cone_zr is not None:
+            (z0, r0), (z1, r1) = self.cone_zr
             length = np.hypot(z1 - z0, r1 - r0)
             off = ((coordinates["r"] - r0) * (z1 - z0) - (z - z0) * (r1 - r0)) / length
             members &= np.abs(off) <= self.tolerance
