@@ -4,16 +4,17 @@ PYTHON ?= python3
 CORES ?= 2
 VENV := .venv
 BIN := $(VENV)/bin
+# programs are run as modules: in a folder with a blank in its name, pip writes scripts that a shell reads, and runs `$()` in the name
 
 .PHONY: all_blades campbell report test test-fast test-slurm mutants lint bench docs site tutorial setup clean clean-results
 
 all_blades campbell: $(VENV)/.ready
-	$(BIN)/snakemake $@ --cores $(CORES) $(if $(FIDELITY),--config fidelity=$(FIDELITY))
+	$(BIN)/python -m snakemake $@ --cores $(CORES) $(if $(FIDELITY),--config fidelity=$(FIDELITY))
 
 # figures, tables, workflow and run times of a finished run in one file, for a colleague; RESULTS=results/runs/<name> of one with a name
 RESULTS ?= results
 report: $(VENV)/.ready
-	@$(BIN)/snakemake all_blades --report $(RESULTS)/report.zip $(if $(FIDELITY),--config fidelity=$(FIDELITY)) || \
+	@$(BIN)/python -m snakemake all_blades --report '$(RESULTS)/report.zip' $(if $(FIDELITY),--config fidelity=$(FIDELITY)) || \
 		{ echo "the report is made of a finished run: make all_blades, then make report" >&2; exit 1; }
 
 # the files of tests spread over the cores
@@ -29,31 +30,31 @@ test-slurm: $(VENV)/.ready
 	sh envs/slurm.sh
 	R37_SLURM=1 $(BIN)/python -m pytest tests/test_slurm.py
 
-# whether the tests notice small changes of the code: a sample, about half an hour; MUTANTS='results/stress_recovery.py --each 20' for one module
+# whether the tests notice small changes of the code: a sample, about half an hour, and what they missed; MUTANTS='results/stress_recovery.py --each 20' for one module
 mutants: $(VENV)/.ready
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[test,mutants]'
 	$(BIN)/python benchmarks/mutants.py $(MUTANTS)
 
 lint: $(VENV)/.ready
-	$(BIN)/ruff check .
-	$(BIN)/ruff format --check .
-	$(BIN)/snakefmt --check Snakefile workflow
-	$(BIN)/mypy
-	$(BIN)/snakemake --lint
+	$(BIN)/python -m ruff check .
+	$(BIN)/python -m ruff format --check .
+	$(BIN)/python -m snakefmt --check Snakefile workflow
+	$(BIN)/python -m mypy
+	$(BIN)/python -m snakemake --lint
 
 # the time integration against plainer ways to write it
 bench: $(VENV)/.ready
-	$(BIN)/snakemake results/Ref/contact_pressure_edge.npz --cores $(CORES) $(if $(FIDELITY),--config fidelity=$(FIDELITY))
+	$(BIN)/python -m snakemake results/Ref/contact_pressure_edge.npz --cores $(CORES) $(if $(FIDELITY),--config fidelity=$(FIDELITY))
 	$(BIN)/python benchmarks/integration_speed.py $(BENCH)
 
 # all studies, at their default size about half an hour on two cores, and their tables into the pages of docs/
 docs: $(VENV)/.ready
-	$(BIN)/snakemake tradeoff growth stability readings --cores $(CORES)
+	$(BIN)/python -m snakemake tradeoff growth stability readings --cores $(CORES)
 	$(BIN)/python benchmarks/pages.py
 
 # the documentation as a site that opens from the disk: site/index.html; a warning is an error
 site: $(VENV)/.docs
-	NO_MKDOCS_2_WARNING=1 $(BIN)/mkdocs build --strict --quiet
+	NO_MKDOCS_2_WARNING=1 $(BIN)/python -m mkdocs build --strict --quiet
 
 # docs/tutorial.ipynb of docs/tutorial.py, run; about a minute
 tutorial: $(VENV)/.docs
@@ -66,9 +67,9 @@ $(VENV)/.docs: $(VENV)/.ready
 setup: $(VENV)/.ready
 
 $(VENV)/.ready: pyproject.toml envs/system_libraries.sh
-	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || \
+	@'$(PYTHON)' -c 'import sys; sys.exit(sys.version_info < (3, 11))' || \
 		{ echo "r37 needs Python 3.11 or newer; say which with: make PYTHON=/path/to/python3.11 ..." >&2; exit 1; }
-	@$(PYTHON) -m venv $(VENV) || \
+	@'$(PYTHON)' -m venv $(VENV) || \
 		{ echo "the venv module is missing; on Debian: apt-get install python3-venv" >&2; exit 1; }
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[test]'
 	sh envs/system_libraries.sh $(BIN)/python

@@ -86,9 +86,9 @@ def compare(model, scene, name, speed):
     """Nanoseconds per step of each way, from the same state, the best of some rounds that take turns."""
     stepping, state = settled(model, scene, speed, jumps=False)
     jumping = Simulation(model, speed, scene, CHOICE)
-    jumping.compile()
-    plain = PlainProblem(stepping)
-    first, steps = SETTLED * stepping.steps_per_revolution, stepping.steps_per_revolution
+    problem = stepping.problem
+    plain = PlainProblem(problem)
+    first, steps = SETTLED * problem.steps_per_revolution, problem.steps_per_revolution
     best = dict.fromkeys(WAYS, np.inf)
     answers = {}
     for _ in range(ROUNDS):
@@ -100,7 +100,7 @@ def compare(model, scene, name, speed):
             start = time.process_time()
             if way == DENSE:
                 count = steps // 20
-                plain.dense_recursion_numpy(stepping.modes @ u, stepping.modes @ d, count)
+                plain.dense_recursion_numpy(problem.modes @ u, problem.modes @ d, count)
             elif way == SCALAR:
                 plain.modal(u, d, wear, first, steps)
             else:

@@ -1,4 +1,4 @@
-"""Whether the tests notice small changes of the code: a sample of mutations by cosmic-ray, and the score for docs/mutants.md.
+"""Whether the tests notice small changes of the code: a sample of mutations by cosmic-ray, and the score.
 
 Run: make mutants [MUTANTS='--each 20 results/stress_recovery.py']. A mutation is an operator, number, comparison or the like
 changed at one place; it is killed when a test of its module fails. The sample is drawn with a fixed seed, so that it can be
@@ -20,7 +20,6 @@ from cosmic_ray.work_db import WorkDB, use_db
 from cosmic_ray.work_item import TestOutcome, WorkerOutcome, WorkItem, WorkResult
 
 ROOT = Path(__file__).parent.parent
-PAGE = ROOT / "docs" / "mutants.md"
 
 TESTS = {
     "blade/stacking.py": "test_blade.py",
@@ -87,20 +86,11 @@ def survived(result: WorkResult) -> bool:
     return result.test_outcome == TestOutcome.SURVIVED
 
 
-def page(found: dict[str, list[tuple[WorkItem, WorkResult]]]) -> str:
-    """The page: score of every module, and the mutations that no test noticed."""
+def score(found: dict[str, list[tuple[WorkItem, WorkResult]]]) -> str:
+    """The score of every module, and the mutations that no test noticed."""
     number = sum(map(len, found.values()))
     killed = number - sum(survived(result) for several in found.values() for _, result in several)
-    lines = [
-        "# Mutations of the code that the tests notice",
-        "",
-        "Written by `make mutants` (cosmic-ray; a sample with a fixed seed, run against the quick tests of each module).",
-        "",
-        f"**{killed} of {number} killed.**",
-        "",
-        "| module | mutations | killed |",
-        "|---|---|---|",
-    ]
+    lines = [f"{killed} of {number} killed.", "", "| module | mutations | killed |", "|---|---|---|"]
     for module, several in found.items():
         lines.append(f"| `{module}` | {len(several)} | {sum(not survived(result) for _, result in several)} |")
     lines += ["", "Survivors:", ""]
@@ -109,7 +99,7 @@ def page(found: dict[str, list[tuple[WorkItem, WorkResult]]]) -> str:
             if survived(result):
                 removed, added = _lines_of(result.diff or "")
                 lines.append(f"- `{module}` line {item.mutations[0].start_pos[0]}: `{removed}` as `{added}`")
-    return "\n".join(lines) + "\n"
+    return "\n".join(lines)
 
 
 def _lines_of(diff: str) -> tuple[str, str]:
@@ -119,7 +109,7 @@ def _lines_of(diff: str) -> tuple[str, str]:
 
 
 def main() -> None:
-    """Run the sample; write the page when every module was in it."""
+    """Run the sample and print the score."""
     parser = argparse.ArgumentParser(description="Whether the tests notice small changes of the code.")
     parser.add_argument("modules", nargs="*", default=list(TESTS), help="modules of src/r37core; all without it")
     parser.add_argument("--each", type=int, default=6, help="mutations of each module")
@@ -138,11 +128,7 @@ def main() -> None:
                 f"{module}: {sum(not survived(result) for _, result in found[module])} of {len(found[module])} killed",
                 flush=True,
             )
-    text = page(found)
-    if list(found) == list(TESTS):
-        PAGE.write_text(text)
-    else:
-        print(text)
+    print(score(found))
 
 
 if __name__ == "__main__":

@@ -9,21 +9,21 @@ from numba import njit
 
 
 class PlainProblem:
-    """Constants of a run, taken from a TimeIntegration, in its modes and as dense matrices in the model's modes at rest."""
+    """Constants of a run, taken from a Problem, in its modes and as dense matrices in the model's modes at rest."""
 
-    def __init__(self, simulation):
-        model, scene = simulation.model, simulation.scene
-        step, modes = simulation.time_step, simulation.modes
-        damping = 2.0 * scene.damping_ratio * simulation.frequencies
+    def __init__(self, problem):
+        model, scene = problem.model, problem.scene
+        step, modes = problem.time_step, problem.modes
+        damping = 2.0 * scene.damping_ratio * problem.frequencies
         self.inverse = 1.0 / (1.0 / step**2 + damping / (2.0 * step))
         self.keep = self.inverse * (1.0 / step**2 - damping / (2.0 * step))
-        self.pull = self.inverse * simulation.frequencies**2
+        self.pull = self.inverse * problem.frequencies**2
         self.dense = [np.ascontiguousarray(modes @ np.diag(d) @ modes.T) for d in (self.keep, self.pull, self.inverse)]
-        self.displacement_operator = simulation.displacement_operator
+        self.displacement_operator = problem.displacement_operator
         self.coupling = np.array(
-            [simulation.displacement_operator[0] * self.inverse @ rows.T for rows in simulation.displacement_operator]
+            [problem.displacement_operator[0] * self.inverse @ rows.T for rows in problem.displacement_operator]
         )
-        steps = simulation.steps_per_revolution
+        steps = problem.steps_per_revolution
         theta = model.theta - 2.0 * np.pi * np.arange(steps)[:, None] / steps
         self.shape = scene.casing.shape(theta)
         lining, friction = scene.lining, scene.friction
@@ -35,7 +35,7 @@ class PlainProblem:
             [
                 scene.casing.clearance,
                 scene.casing.amplitude * scene.casing.clearance,
-                scene.casing.rise_rate(simulation.duration) * step,
+                scene.casing.rise_rate(problem.duration) * step,
                 *law,
                 area,
                 bars,
@@ -44,10 +44,10 @@ class PlainProblem:
                 1.0 / step if friction.vector else 0.0,
             ]
         )
-        self.rotation = -model.radius * simulation.speed
+        self.rotation = -model.radius * problem.speed
 
     def modal(self, u, d, wear, first_step, steps):
-        """TimeIntegration in modes; changes its arguments."""
+        """The time integration in modes; changes its arguments."""
         modal(u, d, wear, first_step, steps, self.keep, self.pull, self.inverse, self.displacement_operator, *self._contact())
 
     def dense_recursion_numpy(self, u, d, steps):

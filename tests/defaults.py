@@ -13,7 +13,7 @@ from r37core.contact import casing, scene
 from r37core.exchange import orientation
 from r37core.exchange.importing import source, where
 from r37core.results import interactions
-from r37core.rom import boundary
+from r37core.rom import reduction_choice
 from r37core.time_integration import integration_choice
 
 
@@ -38,7 +38,7 @@ Friction = _with_defaults(scene.Friction, FrictionSection)
 Scene = _with_defaults(scene.Scene, SceneEntry, lining=None, friction=None)
 IntegrationChoice = _with_defaults(integration_choice.IntegrationChoice, TimeIntegration)
 InteractionChoice = _with_defaults(interactions.InteractionChoice, Interactions)
-BoundaryChoice = _with_defaults(boundary.BoundaryChoice, Boundary)
+BoundaryChoice = _with_defaults(reduction_choice.BoundaryChoice, Boundary)
 Orientation = _with_defaults(orientation.Orientation, MeshEntry)
 MeshSource = _with_defaults(source.MeshSource, MeshEntry)
 MatricesSource = _with_defaults(source.MatricesSource, MeshEntry, mass_unit="kg", stiffness_unit="N/m")

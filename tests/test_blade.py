@@ -9,10 +9,8 @@ from scipy.interpolate import CubicSpline
 
 from r37core.blade.definition import BladeDefinition
 from r37core.blade.geometry_file import read_geometry, write_geometry
-from r37core.blade.polygon import area_and_centroid
-from r37core.blade.shape_error import BladeShapeError
-from r37core.blade.stacking import conical_stacking, plane_section_stacking
-from r37core.blade.sweep import chordwise_sweep, sweep_and_lean
+from r37core.blade.profile import BladeShapeError, area_and_centroid
+from r37core.blade.stacking import chordwise_sweep, conical_stacking, plane_section_stacking, sweep_and_lean
 from r37core.blade.tables import read_profile_table
 
 PRINTED_AXIAL = [0, 0.0096, 0.0188, 0.0267, 0.0473, 0.0687, 0.0872, 0.0987, 0.1015, 0.1030, 0.1030]  # cm

@@ -6,7 +6,7 @@ import pytest
 
 from r37core.console.closing import closing_lines
 
-HEAD = "blade,scene,mode,engine_order,peak_speed,width_above_yield,max_von_mises\n"
+HEAD = "blade,scene,mode,engine_order,max_von_mises_speed_rad_s,width_above_yield_rad_s,max_von_mises_pa\n"
 ROWS = (
     "Ref,abradable,1B,7,838,13.5,8.56e+09\n",
     "S50,abradable,,4,1686,2,9.5e+09\n",

@@ -12,7 +12,7 @@ from r37core.results.campbell import campbell_diagram, dynamic_clearance
 from r37core.rom.contact_model import ContactModel
 from r37core.rom.contact_reduction import contact_model
 from r37core.rom.reduce import reduce_blade
-from r37core.time_integration.reference import ReferenceIntegration
+from r37core.time_integration.reference import ReferenceEngine
 from r37core.time_integration.simulate import Simulation
 
 ANGLE = np.radians(-15.24)
@@ -68,7 +68,7 @@ def test_the_normal_force_does_no_work_along_the_casing(aside):
     state.displacement[:] = -3e-4
     record = simulation.advance(state, 2)
     assert state.totals["steps_in_contact"] > 0
-    free = Simulation(model, 1000.0, Scene(Casing(1.0, lobes=0), damping_ratio=0.0), simulation.choice)
+    free = Simulation(model, 1000.0, Scene(Casing(1.0, lobes=0), damping_ratio=0.0), simulation.problem.choice)
     alone = free.start()
     alone.displacement[:] = -3e-4
     free.advance(alone, 2)
@@ -102,9 +102,9 @@ def test_exact_and_linear_gap_differ_by_the_square_of_the_motion(contact):
         for exact in (False, True):
             scene = Scene(replace(AT_ONCE, clearance=size * 0.356e-3), exact_gap=exact)
             simulation = Simulation(contact, speed, scene, IntegrationChoice(1e-7, 1, 62, engine="reference"))
-            twin = simulation._engine()
-            assert isinstance(twin, ReferenceIntegration)
-            shape = simulation.modes[:, 0] + 0.3 * simulation.modes[:, 1]
+            twin = simulation.engine
+            assert isinstance(twin, ReferenceEngine)
+            shape = simulation.problem.modes[:, 0] + 0.3 * simulation.problem.modes[:, 1]
             gaps.append(twin.gap(size * 1e-3 / np.abs(contact.displacement_operator @ shape).max() * shape, step)[0])
         differences.append(np.abs(gaps[1] - gaps[0]).max())
     np.testing.assert_allclose(np.array(differences[:-1]) / differences[1:], 100.0, rtol=0.1)
@@ -116,7 +116,7 @@ def test_exact_gap_is_the_distance_from_the_cone():
     model = moving_along([(1, 0, 0), (0, 1, 0), (0, 0, 1)], [1e3, 2e3, 3e3])
     casing = Casing(1e-3, lobes=3, width=0.2, rise_fraction=0.0)
     simulation = Simulation(model, 1000.0, Scene(casing, exact_gap=True), IntegrationChoice(1e-6, 1, 62, engine="reference"))
-    gap, theta = simulation._engine().gap(np.array([radial, tangential, axial]), simulation.steps_per_revolution)
+    gap, theta = simulation.engine.gap(np.array([radial, tangential, axial]), simulation.problem.steps_per_revolution)
     point = np.array([0.25 + radial, tangential, axial])
     radius, angle = np.hypot(point[0], point[1]), np.arctan2(point[1], point[0])
     # a line along the cone's ruling through the undeformed node, in the plane of radius and axis

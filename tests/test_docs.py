@@ -1,7 +1,10 @@
 """Numbers in README and configuration are those of the generated pages."""
 
+import ast
+import json
 import re
 import runpy
+from pathlib import Path
 
 import pytest
 
@@ -51,6 +54,29 @@ def test_readme_has_the_levels_errors_and_costs(readme, measured):
 def test_readme_has_the_estimate(readme, pages):
     hours = re.search(r"17514 simulations, ([\d.]+) h on 2 cores", section(pages["speed"], "estimate"))[1]
     assert f"{float(hours):.1f} hours (`snakemake estimate`)" in readme
+
+
+def test_numbers_of_the_default_sweep_are_those_of_the_gallery(root):
+    page = (root / "docs/simulation.md").read_text().split("## What the default sweep shows\n", 1)[1].split("\n## ", 1)[0]
+    numbers = re.findall(r"[\d.]+(?:%| mm| rad/s)|(?<=published )[\d.]+", page)
+    gallery = (root / "docs/gallery.md").read_text()
+    assert len(numbers) >= 6
+    assert [number for number in numbers if number not in gallery] == []
+
+
+def test_speed_page_has_the_measured_time_integration(root, pages, monkeypatch):
+    monkeypatch.syspath_prepend(root / "benchmarks")
+    tables = runpy.run_path(str(root / "benchmarks/integration_speed.py"))["tables"]
+    measured = json.loads((root / "benchmarks/integration_speed.json").read_text())
+    assert section(pages["speed"], "integration_speed").strip() == tables(measured)
+
+
+def test_mutants_are_of_modules_and_tests_that_are_there(root):
+    text = (root / "benchmarks/mutants.py").read_text()
+    modules = ast.literal_eval(re.search(r"^TESTS = (\{.*?^\})", text, re.MULTILINE | re.DOTALL)[1])
+    assert [name for name in modules if not (root / "src/r37core" / name).exists()] == []
+    here = Path(__file__).parent
+    assert [name for names in modules.values() for name in names.split() if not (here / name).exists()] == []
 
 
 def test_validation_page_has_every_interaction_and_every_reading(pages):

@@ -167,7 +167,7 @@ def test_the_edges_of_the_tip_keep_their_arc_length(files):
 def test_the_other_rotation_mirrors_the_blade(files, steel):
     mesh, matrices, folder = files
     turned = replace(OURS, rotation="positive")
-    again, quality = import_mesh(source("deck.inp", orientation=turned), folder)
+    again, quality = import_mesh(source("deck.inp", orientation=turned, sense_check=False), folder)
     assert quality.min() > 0.0
     np.testing.assert_allclose(again.points, mesh.points * [1, -1, 1], atol=1e-15)
     # what looked against the rotation now looks along it
@@ -179,7 +179,7 @@ def test_the_other_rotation_mirrors_the_blade(files, steel):
 
 def test_pressure_side_of_a_turbine(files):
     mesh, _, folder = files
-    again, _ = import_mesh(source("deck.inp", pressure_side_forward=False), folder)
+    again, _ = import_mesh(source("deck.inp", pressure_side_forward=False, sense_check=False), folder)
     np.testing.assert_array_equal(again.node_set("tip_pressure_edge"), mesh.node_set("tip_suction_edge"))
 
 

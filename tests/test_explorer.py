@@ -69,8 +69,15 @@ def datasets():
 
 @pytest.fixture(scope="module")
 def interactions():
-    row = {"blade": "Ref", "scene": "abradable", "mode": "1B", "engine_order": 4, "peak_speed": 1200.0, "status": "completed"}
-    other = row | {"scene": "direct", "mode": None, "engine_order": 2, "peak_speed": 1000.25, "max_von_mises": np.nan}
+    row = {
+        "blade": "Ref",
+        "scene": "abradable",
+        "mode": "1B",
+        "engine_order": 4,
+        "peak_speed_rad_s": 1200.0,
+        "status": "completed",
+    }
+    other = row | {"scene": "direct", "mode": None, "engine_order": 2, "peak_speed_rad_s": 1000.25, "max_von_mises_pa": np.nan}
     return pd.DataFrame([row, other])
 
 

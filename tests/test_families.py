@@ -10,7 +10,8 @@ from r37core.config import ConfigError, command_line_document, read_settings
 from r37core.config.families import design_name
 from r37core.figures.design_plot import draw_designs
 from r37core.plans.family_plan import Families
-from r37core.results.designs import MEASURES, above_yield, design_table
+from r37core.results.designs import MEASURES, design_table
+from r37core.time_integration.status import RunStatus
 
 SWEEP = "Sweep:\n  base: S100\n  vary:\n    sweep_percent: { start: -50, stop: 150, step: 100 }\n"
 GRID = "Grid:\n  base: Ref\n  vary:\n    chordwise_sweep_deg: [-2.5, 5]\n    material.density_kg_m3: [8000, 4500]\n"
@@ -125,17 +126,6 @@ def test_names_tell_numbers_apart():
     assert design_name("F", (-0.5, 1e-7, 2.0)) == "F_-0p5_1e-07_2"
 
 
-def test_width_above_yield_is_that_of_straight_lines():
-    speeds = np.array([100.0, 110.0, 120.0, 130.0])
-    assert above_yield(speeds, np.array([0.5, 1.5, 1.5, 0.5])) == pytest.approx((20.0, 105.0))
-    assert above_yield(speeds, np.array([2.0, 2.0, 2.0, 2.0])) == pytest.approx((30.0, 100.0))
-    assert above_yield(speeds, np.array([1.0, 2.0, 1.0, 0.5])) == pytest.approx((20.0, 100.0))
-    width, first = above_yield(speeds, np.array([0.5, 1.0, 0.9, 0.1]))
-    assert width == 0.0
-    assert np.isnan(first)
-    assert np.isnan(above_yield(np.empty(0), np.empty(0))).all()
-
-
 @pytest.fixture
 def compared():
     """Two designs in a scene with stress and one without."""
@@ -150,12 +140,13 @@ def compared():
         {
             "max_von_mises": (("blade", "scene", "speed"), [[[1e9, 3e9, np.nan]], [[1e9, 1e9, 1e9]]]),
             "yield_stress": (("blade", "scene"), [[2e9], [2e9]]),
+            "status": (("blade", "scene", "speed"), [[[0, 0, RunStatus.NOT_RUN]], [[0, 0, 0]]]),
         },
         coords={"blade": ["F_1", "F_2"], "scene": ["lined"], "speed": [900.0, 910.0, 920.0]},
     )
     interactions = pd.DataFrame(
         [("F_1", "lined", "1B", 1e-3, 30.0), ("F_1", "lined", "1B", 5e-3, 50.0), ("F_1", "lined", np.nan, 9e-3, np.nan)],
-        columns=["blade", "scene", "mode", "peak_rms_tangential", "shift"],
+        columns=["blade", "scene", "mode", "peak_rms_tangential_m", "shift_rad_s"],
     )
     designs = {"F_1": {"sweep_percent": 1.0}, "F_2": {"sweep_percent": 2.0}}
     return design_table(designs, {"F_1": 0.2, "F_2": 0.3}, campbell, stress, interactions, ["lined", "bare"])
@@ -167,11 +158,11 @@ def test_designs_are_compared(compared):
     one = rows.loc["F_1", "lined"]
     assert (one["mass_kg"], one["frequency_1b_hz"], one["frequency_1t_hz"]) == (0.2, 800.0, 2500.0)
     assert one["clearance_loss_1b_m"] == 3e-4
-    assert (one["width_above_yield_rad_s"], one["first_yield_rad_s"], one["largest_stress_pa"]) == (5.0, 905.0, 3e9)
+    assert (one["length_above_yield_rad_s"], one["first_yield_rad_s"], one["largest_stress_pa"]) == (5.0, 905.0, 3e9)
     # of the two peaks of 1B the one with the larger motion
     assert one["shift_1b_rad_s"] == 50.0
     other = rows.loc["F_2", "lined"]
-    assert other["width_above_yield_rad_s"] == 0.0
+    assert other["length_above_yield_rad_s"] == 0.0
     assert np.isnan(other["first_yield_rad_s"])
     assert np.isnan(other["shift_1b_rad_s"])
     assert np.isnan(rows.loc["F_1", "bare"]["largest_stress_pa"])

@@ -9,8 +9,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from integration_cases import ABRADABLE, AT_ONCE, DIRECT, oscillator
 
-from r37core.time_integration.flight import nearest_casing, plan_flight
 from r37core.time_integration.integrators import central_difference
+from r37core.time_integration.jump_plan import nearest_casing, plan_jumps
+from r37core.time_integration.problem import Problem
 from r37core.time_integration.simulate import Simulation
 
 
@@ -77,16 +78,16 @@ def test_no_contact_is_missed(contact, seed, excess, exact, lobes, cone_angle):
 
 def largest_reach(model, scene, choice, displacement, increment):
     """The smallest clearance that a free run never uses up, by the recursion in NumPy."""
-    simulation = Simulation(model, 1500.0, scene, choice)
-    keep, pull, _ = simulation.recursion
-    cosine, sine = np.cos(simulation.cone_angle), np.sin(simulation.cone_angle)
-    u, d = np.empty((simulation.steps_per_revolution + 1, len(keep))), increment
+    problem = Problem(model, 1500.0, scene, choice)
+    keep, pull = problem.recursion.keep, problem.recursion.pull
+    cosine, sine = np.cos(problem.cone_angle), np.sin(problem.cone_angle)
+    u, d = np.empty((problem.steps_per_revolution + 1, len(keep))), increment
     u[0] = displacement
-    for n in range(simulation.steps_per_revolution):
+    for n in range(problem.steps_per_revolution):
         d = keep * d - pull * u[n]
         u[n + 1] = u[n] + d
-    position, tangential, meridional = (u[1:] @ rows.T for rows in simulation.displacement_operator)
-    turned = 2.0 * np.pi * np.arange(1, len(u)) / simulation.steps_per_revolution
+    position, tangential, meridional = (u[1:] @ rows.T for rows in problem.displacement_operator)
+    turned = 2.0 * np.pi * np.arange(1, len(u)) / problem.steps_per_revolution
     theta = model.theta - turned[:, None]
     if scene.exact_gap:
         from_axis = model.radius + cosine * position + sine * meridional
@@ -108,9 +109,10 @@ def test_lobes_that_pass_during_a_jump_are_met():
 @pytest.mark.parametrize("ratio", [0.0, 5e-4, 0.3])
 def test_jump_is_the_power_of_the_step(ratio):
     frequencies = np.array([3e3, 4e4, 9e5])
-    recursion = central_difference(frequencies, ratio, 1e-6).coefficients
+    recursion = central_difference(frequencies, ratio, 1e-6)
     loss = np.array([1.0, 2.0, 3.0])
-    plan = plan_flight(recursion, loss, 77, 1)
+    recursion = replace(recursion, lost=4.0 * recursion.inverse * loss)
+    plan = plan_jumps(recursion, 77, 1)
     np.testing.assert_array_equal(plan.lengths, [5, 8, 16, 32, 64])
     for length, jump in zip(plan.lengths, plan.jumps, strict=True):
         u, d, lost = np.array([1.0, -2.0, 0.5]), np.array([0.1, 0.2, -0.3]), np.zeros(3)
@@ -118,7 +120,7 @@ def test_jump_is_the_power_of_the_step(ratio):
         mapped_d = d + jump[2] * u + jump[3] * d
         mapped_loss = jump[4] * u * u + jump[5] * u * d + jump[6] * d * d
         for _ in range(length):
-            following = recursion[0] * d - recursion[1] * u
+            following = recursion.keep * d - recursion.pull * u
             lost += loss * (following + d) ** 2
             u, d = u + following, following
         np.testing.assert_allclose(mapped_u, u, rtol=1e-11, atol=1e-12)
@@ -128,7 +130,7 @@ def test_jump_is_the_power_of_the_step(ratio):
 
 def test_bound_beyond_the_tangent_is_reached_but_not_passed():
     """A slow mode of unit amplitude, whatever its phase; a smaller bound would jump over contacts."""
-    plan = plan_flight(central_difference(np.array([100.0]), 0.0, 1e-6).coefficients, None, 77, 1)
+    plan = plan_jumps(central_difference(np.array([100.0]), 0.0, 1e-6), 77, 1)
     assert plan.slow_modes.all()
     eigenvalue = np.exp(1j * np.arccos(1.0 - 0.5 * 1e-8))
     phases = np.exp(1j * np.linspace(0.0, 2.0 * np.pi, 721))
@@ -139,7 +141,7 @@ def test_bound_beyond_the_tangent_is_reached_but_not_passed():
 
 
 def test_modes_that_do_not_oscillate_are_stepped():
-    assert plan_flight(central_difference(np.array([1e4, 1e6]), 1.0, 1e-7).coefficients, None, 64, 8) is None
+    assert plan_jumps(central_difference(np.array([1e4, 1e6]), 1.0, 1e-7), 64, 8) is None
 
 
 def test_nearest_casing_of_every_stretch():

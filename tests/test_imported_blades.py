@@ -9,6 +9,8 @@ import yaml
 from defaults import Where
 
 from r37core.config import ConfigError, read_settings
+from r37core.exchange.orientation import OURS
+from r37core.plain import to_plain
 from r37core.plans.export_plan import Exports
 from r37core.plans.import_plan import Imported
 from r37core.plans.sweep_plan import Sweep
@@ -205,8 +207,8 @@ def test_plan_of_exports(three):
     assert exports.model(fan) == "<results>/exports/Fan/rom_pressure_edge.nc"
     assert exports.reduction(fan)["recover_whole_blade"]
     assert exports.reduction(fan)["boundary"]["tip_line"] == "camber"
-    assert exports.orientation(fan).length_unit == "mm"
-    assert exports.orientation(SimpleNamespace(blade="Ref")) is None
+    assert exports.orientation(fan)["length_unit"] == "mm"
+    assert exports.orientation(SimpleNamespace(blade="Ref")) == to_plain(OURS)
     assert exports.choice["mode_speeds"] == (0.0, 2000.0)
     assert exports.speed_files(fan) == [f"<results>/Fan/direct/speed_{speed}.npz" for speed in ("900", "950.5")]
     assert exports.sweep.speeds(fan, SimpleNamespace(speeds=exports.speed_files(fan))) == [900.0, 950.5]

@@ -16,7 +16,7 @@ from integration_cases import DIRECT, LINING, oscillator
 from r37core import native
 from r37core.native import ObjectCodeError, Sources, cached_object, load_function, object_code
 from r37core.plain import to_plain
-from r37core.time_integration import kernel
+from r37core.time_integration import compiled
 from r37core.time_integration.layout import Kind, integration_record, layout_of
 from r37core.time_integration.simulate import Simulation
 
@@ -117,7 +117,7 @@ def test_a_job_does_not_import_numba(contact, tmp_path):
     from r37core.rom.contact_model import write_contact_model
 
     write_contact_model(contact, tmp_path / "contact.npz")
-    Simulation(contact, 1000.0, DIRECT, IntegrationChoice(2e-7, 1, 62)).compile()
+    Simulation(contact, 1000.0, DIRECT, IntegrationChoice(2e-7, 1, 62))
     task = json.dumps(to_plain([DIRECT, IntegrationChoice(2e-7, 2, 62)]))
     code = (
         "import sys, json\nfrom r37core.plain import from_plain\nfrom r37core.contact.scene import Scene\n"
@@ -135,7 +135,7 @@ def test_a_job_does_not_import_numba(contact, tmp_path):
 def test_sources_of_the_compiled_code_are_all_that_it_is_compiled_from(root):
     """What the compiled modules import of the package is itself among the sources."""
     core = root / "src/r37core"
-    for source in kernel.SOURCES.files:
+    for source in compiled.SOURCES.files:
         folder = (core / source).parent.relative_to(core)
         for node in ast.walk(ast.parse((core / source).read_text())):
             if not isinstance(node, ast.ImportFrom) or not (node.level or (node.module or "").startswith("r37core")):
@@ -144,7 +144,7 @@ def test_sources_of_the_compiled_code_are_all_that_it_is_compiled_from(root):
             names = [f"{folder / module if node.level else module}.py"]
             if not (core / names[0]).exists():
                 names = [f"{module}/{alias.name}.py" for alias in node.names]
-            assert set(names) <= set(kernel.SOURCES.files), source
+            assert set(names) <= set(compiled.SOURCES.files), source
 
 
 def test_arrays_of_the_record_are_aligned_and_apart():
@@ -158,10 +158,9 @@ def test_arrays_of_the_record_are_aligned_and_apart():
 def test_a_parameter_of_the_lining_reaches_the_law():
     """Every field of Lining is a number of the record, under its name."""
     simulation = Simulation(oscillator(6000.0), 1000.0, Scene(DIRECT.casing, LINING), IntegrationChoice(1e-6, 1, 8))
-    compiled = simulation._engine()
     for name in ("thickness", "elastic_modulus", "plastic_modulus", "yield_stress", "bar_width", "bars", "shared_ring"):
-        assert compiled._record[0]["lining"][name] == getattr(LINING, name)
-    assert np.isnan(compiled._record[0]["lining"]["bar_area"])
+        assert simulation.engine._record[0]["lining"][name] == getattr(LINING, name)
+    assert np.isnan(simulation.engine._record[0]["lining"]["bar_area"])
 
 
 def test_kinds_are_told_apart():

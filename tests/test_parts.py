@@ -10,6 +10,7 @@ from workflow_runs import SNAKEMAKE, snakemake
 
 from r37core.config import ConfigError, read_settings
 from r37core.config.document import command_line_document
+from r37core.plans import resources
 from r37core.plans.resources import PER_RESPONSE, PER_SWEEP, Needs, estimated, read_measured
 from r37core.plans.run import check_part
 
@@ -63,6 +64,21 @@ def test_every_job_of_a_sweep_says_what_it_needs(root):
         largest = max(memory for _, memory, _ in read_measured()[rule])
         assert 300 <= asked["mem_mb"] < 10 * largest + 300
         assert asked["runtime"] >= 5
+
+
+def test_what_a_job_asks_for_has_its_margins(root, monkeypatch):
+    """Half more memory, six times the time, in minutes; of 14 responses each has its share of the 3,500 runs."""
+    measured = {
+        "simulate": [[20000, 1000, 600]],
+        "response": [[0, 0, 0], [1000, 4000, 400]],
+        "explorer": [[0, 0, 0], [7000, 4000, 400]],
+    }
+    monkeypatch.setattr(resources, "read_measured", lambda: measured)
+    needs = Needs(read_settings(root), 3500)
+    assert needs.of("simulate") == {"mem_mb": 1500, "runtime": 60}
+    assert needs.of("response") == {"mem_mb": 1500, "runtime": 10}
+    assert needs.of("explorer") == {"mem_mb": 3000, "runtime": 20}
+    assert needs.of("configuration") == {}
 
 
 def test_the_profile_of_a_node_has_all_that_the_usual_one_has(root):

@@ -5,8 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from r37core.blade.profile import PRESSURE, SUCTION, Profile
-from r37core.blade.shape_error import BladeShapeError
+from r37core.blade.profile import PRESSURE, SUCTION, BladeShapeError, Profile
 
 PRINTED_RATES = {  # 1/cm: suction inlet, suction outlet, pressure inlet, pressure outlet
     0: (-0.0844, -0.1996, -0.0021, -0.1012),

@@ -8,6 +8,9 @@ from graphlib import TopologicalSorter
 
 import yaml
 
+from r37core import __version__
+from r37core.io import FILE_ATTRIBUTES
+
 LAYERS = [
     "io",
     "plain",
@@ -46,6 +49,16 @@ def test_conda_environment_has_the_pins_of_pyproject(root):
     pip_section = next(entry["pip"] for entry in environment if isinstance(entry, dict))
     assert sorted(pip_section) == sorted(pins)
     assert all("==" in pin for pin in pins)
+
+
+def test_one_version(root):
+    """The package's, which is in every file, is what pip installs, what is cited and the newest one of the changes."""
+    text = (root / "pyproject.toml").read_text()
+    assert tomllib.loads(text)["tool"]["setuptools"]["dynamic"]["version"] == {"attr": "r37core.__version__"}
+    assert "version" not in tomllib.loads(text)["project"]
+    assert yaml.safe_load((root / "CITATION.cff").read_text())["version"] == __version__
+    assert re.search(r"^## (.*)$", (root / "CHANGELOG.md").read_text(), re.MULTILINE)[1] == __version__
+    assert FILE_ATTRIBUTES["r37core_version"] == __version__
 
 
 def test_packages_import_only_those_above_them(root):

@@ -38,8 +38,7 @@ def runs(speeds, blades=BLADES, scenes=SCENES):
 
 def simulated(text):
     """Output of every simulation that was started, in order, with repetitions."""
-    blocks = re.findall(r"rule simulate:\n(.*?)\n\n", text, re.DOTALL)
-    return [re.search(r"output: results/(\S+)", block)[1] for block in blocks]
+    return re.findall(r"^ +output: results/(\S+/speed_\S+\.npz)", text, re.MULTILINE)
 
 
 @pytest.fixture(scope="module")

@@ -131,6 +131,32 @@ def test_leftovers_of_removed_blades_scenes_and_speeds(root, tmp_path):
     assert leftovers(tmp_path / "none", settings) == []
 
 
+def test_leftovers_of_results_that_are_no_longer_asked_for(config_copy):
+    """Datasets, figures and models; not the user's own files, nor anything of a configuration that asks for all of them."""
+    results, config = config_copy / "results", config_copy / "config"
+    few = {"blades": ["Ref"], "scenes": ["direct"], "exports": {"mesh_formats": ["vtu"]}}
+    direct = read_settings(config_copy, command_line_document(few))
+    kept = ["rms.nc", "stress.nc", "spectrum.nc", "campbell.nc", "summary.csv", "configuration.json", "explorer.html"]
+    kept += ["report.zip", "notes.csv", "mine.nc", "figures/my_plot.png", "figures/campbell_Ref.pdf", "figures/blades.png"]
+    kept += ["Ref/contact_pressure_edge.npz", "Ref/rom_pressure_edge.nc", "Ref/matrices.npz", "Ref/direct/response.nc"]
+    kept += ["exports/Ref/mesh.vtu", "exports/Ref/stress_direct/worst.vtu", "studies/estimate.md", "runs/x/wear.nc"]
+    gone = ["wear.nc", "designs.csv", "signals.nc", "Ref/direct/signals.nc", "figures/designs_Sweep.png"]
+    gone += ["figures/spectrogram_Ref__direct.png", "figures/orders_Ref__direct.pdf", "figures/shapes_Ref.png"]
+    gone += ["Ref/contact_camber.npz", "Ref/rom_camber.nc", "exports/Ref/mesh.bdf"]
+    for name in [*kept, *gone]:
+        (results / name).parent.mkdir(parents=True, exist_ok=True)
+        (results / name).write_text("x")
+    assert {str(path.relative_to(results)) for path in leftovers(results, direct)} == set(gone)
+
+    every = {"blades": ["Ref", "Sweep"], "scenes": ["abradable", "direct"], "signals": {"speeds_rad_s": [900]}}
+    every |= {"exports": {"mesh_formats": ["vtu", "bdf"]}}
+    scenes = config / "scenes.yaml"
+    scenes.write_text(scenes.read_text().replace("stress, energy]", "stress, energy, shapes]\n  tip_line: camber", 1))
+    with open(config / "blades.yaml", "a") as stream:
+        stream.write("Sweep: { base: Ref, vary: { chordwise_sweep_deg: [5] } }\n")
+    assert leftovers(results, read_settings(config_copy, command_line_document(every))) == []
+
+
 def test_leftovers_of_shapes(config_copy):
     """Those of blades that are gone, and of scenes that no longer ask."""
     settings = read_settings(config_copy, command_line_document({"blades": ["Ref"]}))
@@ -253,6 +279,12 @@ def test_the_clear_line_comes_last(root, tmp_path):
     assert last.startswith("rule geometry: blade Ref: span 50%: no ")
     assert last.endswith("(blade Ref, details in logs/Ref/geometry.log)")
     assert "Traceback" not in text
+
+
+@pytest.mark.slow
+def test_environments_of_conda_are_refused_before_one_is_made(root, tmp_path):
+    copy_project(root, tmp_path)
+    assert "jobs need the Python that runs Snakemake" in snakemake(tmp_path, "campbell", "--sdm", "conda", "-c1", check=False)
 
 
 @pytest.mark.slow

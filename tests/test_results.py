@@ -1,18 +1,16 @@
-"""Stress recovery, reduction of the sweep, interactions."""
+"""Stress recovery, reduction of the sweep."""
 
 from types import SimpleNamespace
 
 import numpy as np
-import pandas as pd
 import pytest
 import xarray as xr
 from box_mesh import box_mesh
-from defaults import Casing, Friction, IntegrationChoice, InteractionChoice, Lining, Scene
+from defaults import Casing, Friction, IntegrationChoice, Lining, Scene
 
 from r37core.fem.material import Material
 from r37core.io import InputFileError
 from r37core.results.datasets import write_sweep_dataset
-from r37core.results.interactions import COLUMNS, find_interactions, summarise
 from r37core.results.response import write_response
 from r37core.results.stress_recovery import StressRecovery
 from r37core.rom.contact_reduction import contact_model
@@ -257,101 +255,6 @@ def test_unreadable_speed_is_named(sweep, model):
             provenance={},
         )
     assert not (folder / "never.nc").exists()
-
-
-def synthetic(peaks):
-    """Datasets with triangular rms peaks at given speeds, each with the given engine order."""
-    speeds = np.arange(750.0, 2001.0, 5.0)
-    level = np.full(len(speeds), 1e-5)
-    order = np.full(len(speeds), 2)
-    for speed, height, number in peaks:
-        rising = (speeds <= speed) & (speeds > speed - 50.0)
-        level[rising] = np.maximum(level[rising], height * (1.0 - (speed - speeds[rising]) / 50.0))
-        order[rising] = number
-    orders = np.arange(0.0, 10.01, 0.5)
-    amplitude = np.where(orders[None, :] == order[:, None], level[:, None], 1e-9)
-    rms = xr.Dataset(
-        {
-            "rms_normal": (("blade", "scene", "speed", "tip_point"), 0.01 * level[None, None, :, None]),
-            "rms_tangential": (("blade", "scene", "speed", "tip_point"), level[None, None, :, None]),
-            "status": (("blade", "scene", "speed"), np.zeros((1, 1, len(speeds)), dtype="i1")),
-        },
-        {"blade": ["Ref"], "scene": ["abradable"], "speed": speeds, "tip_point": ["leading_edge"]},
-    )
-    spectrum = xr.Dataset(
-        {
-            name: (("blade", "scene", "speed", "engine_order"), amplitude[None, None])
-            for name in ("amplitude", "amplitude_tangential")
-        },
-        {"blade": ["Ref"], "scene": ["abradable"], "speed": speeds, "engine_order": orders},
-    )
-    stress = xr.Dataset(
-        {
-            "max_von_mises": (("blade", "scene", "speed"), 2e12 * level[None, None]),
-            "yield_stress": (("blade", "scene"), np.array([[1e9]])),
-        },
-        {"blade": ["Ref"], "scene": ["abradable"], "speed": speeds},
-    )
-    crossing = np.full((1, 3, 10), np.nan)
-    crossing[0, 0, 3:7] = [1672.0, 1213.0, 965.0, 806.0]
-    crossing[0, 1, 8] = 1680.0
-    campbell = xr.Dataset(
-        {"crossing_speed": (("blade", "mode", "engine_order"), crossing)},
-        {"blade": ["Ref"], "mode": ["1B", "1T", "2B"], "engine_order": np.arange(1, 11)},
-    )
-    return {"rms": rms, "spectrum": spectrum, "stress": stress, "campbell": campbell}
-
-
-def test_interactions_of_a_synthetic_response():
-    table = summarise(synthetic([(840.0, 6e-4, 7), (1265.0, 8e-4, 5), (1715.0, 1e-3, 4)]), InteractionChoice())
-    assert list(table.columns) == list(COLUMNS)
-    assert list(table["mode"]) == ["1B"] * 3
-    assert list(table["engine_order"]) == [7, 5, 4]
-    np.testing.assert_allclose(table["shift"], [34.0, 52.0, 43.0])
-    np.testing.assert_allclose(table["jump"], 1.0, atol=0.02)
-    # stress is 2e9 at the last peak, 1e9 at half its height: 25 rad/s before it; after it the drop is within one step
-    assert table["width_above_yield"].iloc[2] == pytest.approx(25.0 + 5.0 * 1.0 / 1.98, rel=0.02)
-    assert np.isnan(table["max_wear"]).all()
-    assert list(table["status"]) == ["completed"] * 3
-
-
-def test_a_peak_on_the_last_speed_counts():
-    table = summarise(synthetic([(2000.0, 1e-3, 4)]), InteractionChoice())
-    assert list(table["peak_speed"]) == [2000.0]
-
-
-def test_a_peak_of_another_order_is_not_matched():
-    table = summarise(synthetic([(1715.0, 1e-3, 2)]), InteractionChoice())
-    assert list(table["mode"]) == [""]
-    assert list(table["engine_order"]) == [2]
-    assert np.isnan(table["campbell_speed"]).all()
-
-
-def test_an_interaction_that_moves_the_tip_tangentially_only_is_found():
-    """As of S100: the normal motion peaks elsewhere, with another order; direction and its spectrum go together."""
-    aside, towards = synthetic([(1640.0, 9e-3, 4)]), synthetic([(1660.0, 5e-5, 2)])
-    aside["rms"]["rms_normal"] = towards["rms"]["rms_tangential"]
-    aside["spectrum"]["amplitude"] = towards["spectrum"]["amplitude"]
-    aside["campbell"]["crossing_speed"][0, 0, 3] = 1635.0
-    table = summarise(aside, InteractionChoice()).set_index("peak_speed")
-    assert list(table.index) == [1640.0, 1660.0]
-    assert list(table["engine_order"]) == [4, 2]
-    assert list(table["mode"]) == ["1B", ""]
-    assert table["peak_rms_tangential"][1640.0] == pytest.approx(9e-3)
-    assert table["peak_rms_normal"][1660.0] == pytest.approx(5e-5)
-
-
-def test_without_a_spectrum_the_nearest_crossing_counts():
-    datasets = {kind: dataset.isel(blade=0) for kind, dataset in synthetic([(1685.0, 1e-3, 4)]).items()}
-    rows = find_interactions(datasets["rms"].isel(scene=0), datasets["campbell"], None, None, None, InteractionChoice())
-    assert [(row["mode"], row["engine_order"]) for row in rows] == [("1T", 9)]
-
-
-def test_no_response_no_interaction():
-    datasets = synthetic([])
-    datasets["rms"]["rms_normal"][:] = datasets["rms"]["rms_tangential"][:] = np.nan
-    assert isinstance(summarise(datasets, InteractionChoice()), pd.DataFrame)
-    assert summarise(datasets, InteractionChoice()).empty
 
 
 def test_speeds():

@@ -9,9 +9,9 @@ from defaults import BoundaryChoice
 
 from r37core.fem.solver import lowest_modes
 from r37core.io import InputFileError
-from r37core.rom.boundary import BoundaryError, boundary_nodes
 from r37core.rom.craig_bampton import combine_columns, constraint_and_fixed_modes
 from r37core.rom.reduce import reduce_blade
+from r37core.rom.reduction_choice import BoundaryError, boundary_nodes
 from r37core.rom.rom_file import read_reduced_model, write_reduced_model
 
 SPEEDS = [0.0, 450.0, 1000.0, 1630.0, 2000.0]

@@ -7,8 +7,10 @@ import pytest
 from defaults import Casing, IntegrationChoice, Scene
 from integration_cases import DIRECT, LINING, oscillator
 
-from r37core.time_integration.simulate import Simulation, SimulationState, UnstableStepError
+from r37core.time_integration.problem import Problem, UnstableStepError
+from r37core.time_integration.simulate import Simulation
 from r37core.time_integration.speed_run import run_speed
+from r37core.time_integration.state import SimulationState
 from r37core.time_integration.status import RunStatus
 
 FREE = Scene(Casing(1.0, lobes=0), damping_ratio=0.0)
@@ -64,11 +66,11 @@ def test_contact_statistics_counted_step_by_step():
     scene = Scene(Casing(1e-4, rise_fraction=0.0), damping_ratio=0.0)
     model = oscillator(frequency)
     simulation = Simulation(model, SPEED, scene, choice)
-    assert simulation.steps_per_sample == 1
+    assert simulation.problem.steps_per_sample == 1
     kept = run_speed(model, SPEED, scene, choice, (), spectrum_highest_order=10, wear_angles=10)
     u = simulation.advance(simulation.start(), 2).samples[:, 0]
     u = np.concatenate([[0.0, 0.0], u])
-    h = simulation.time_step
+    h = simulation.problem.time_step
     # the force that the recursion of central differences leaves over, for a unit mass
     force = (u[2:] - 2.0 * u[1:-1] + u[:-2]) / h**2 + frequency**2 * u[1:-1]
     pushed = np.abs(force) > 1e-6 * np.abs(force).max()
@@ -141,7 +143,7 @@ def test_step_limit_of_a_lining_is_four_thirds():
     assert np.abs(np.roots([1.0, -2.0 * (1.0 - 1.33), 1.0 - 1.33])).max() < 1.0
     assert np.abs(np.roots([1.0, -2.0 * (1.0 - 1.34), 1.0 - 1.34])).max() > 1.0
     model, choice = oscillator(6000.0), IntegrationChoice(1e-6, 1, 62)
-    step = Simulation(model, SPEED, DIRECT, choice).time_step
+    step = Problem(model, SPEED, DIRECT, choice).time_step
     soft = replace(LINING, elastic_modulus=1.0)
     stiffness_per_pascal = soft.area(float(model.radius[0])) / soft.thickness
     for share, refused in ((0.999, False), (1.001, True)):
@@ -149,6 +151,6 @@ def test_step_limit_of_a_lining_is_four_thirds():
         scene = replace(DIRECT, lining=lining)
         if refused:
             with pytest.raises(UnstableStepError, match="limit for this lining"):
-                Simulation(model, SPEED, scene, choice)
+                Problem(model, SPEED, scene, choice)
         else:
-            Simulation(model, SPEED, scene, choice)
+            Problem(model, SPEED, scene, choice)

@@ -189,6 +189,12 @@ def test_tracks_of_orders(swelling):
     np.testing.assert_array_equal(strongest_orders(signal - 3.0, turn, 100, 5, 8)[:1], [4])
 
 
+def test_orders_below_a_hundredth_of_the_strongest_are_left_out():
+    turn = np.arange(3000) / 100
+    signal = sum(size * np.cos(2.0 * np.pi * order * turn) for order, size in {3: 0.012, 5: 0.009, 7: 1.0, 9: 0.05}.items())
+    np.testing.assert_array_equal(strongest_orders(signal, turn, 100, 10, 20), [3, 7, 9])
+
+
 def test_a_diverged_signal_is_looked_at_as_far_as_it_goes(swelling):
     turn, signal = swelling
     cut = np.where(turn < 30.0, signal, np.nan)

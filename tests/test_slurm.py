@@ -7,12 +7,13 @@ import shutil
 import signal
 import socket
 import subprocess
+import sys
 import time
 
 import netCDF4
 import numpy as np
 import pytest
-from workflow_runs import SNAKEMAKE, copy_project, snakemake
+from workflow_runs import copy_project, snakemake
 
 PROGRAMS = ("munged", "slurmctld", "slurmd", "sbatch", "squeue")
 MISSING = [program for program in PROGRAMS if not shutil.which(program, path=f"{os.environ['PATH']}:/usr/sbin")]
@@ -109,7 +110,9 @@ class Slurm:
 
     def submit(self, project, *options, **environment):
         command = ("sbatch", "--parsable", "--cpus-per-task=1", *options, "cluster/sweep.sbatch")
-        said = self.call(*command, cwd=project, SNAKEMAKE=SNAKEMAKE, PYTHONPATH=str(project / "src"), **environment).strip()
+        said = self.call(
+            *command, cwd=project, R37_PYTHON=sys.executable, PYTHONPATH=str(project / "src"), **environment
+        ).strip()
         assert said.isdigit(), said
         return said
 

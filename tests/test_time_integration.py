@@ -11,7 +11,8 @@ from r37core.contact.casing import casing_axes
 from r37core.rom.contact_model import read_contact_model, write_contact_model
 from r37core.rom.contact_reduction import contact_model
 from r37core.time_integration.integrators import INTEGRATORS
-from r37core.time_integration.simulate import Simulation, UnstableStepError
+from r37core.time_integration.problem import Problem, UnstableStepError
+from r37core.time_integration.simulate import Simulation
 from r37core.time_integration.speed_file import read_speed, write_speed
 from r37core.time_integration.speed_run import run_speed
 from r37core.time_integration.status import RunStatus
@@ -22,7 +23,7 @@ def run(model, scene, choice, speed=1000.0, displacement=None, velocity=0.0):
     state = simulation.start()
     if displacement is not None:
         state.displacement[:] = displacement
-        state.increment[:] = simulation.time_step * velocity
+        state.increment[:] = simulation.problem.time_step * velocity
     return simulation, state, simulation.advance(state, choice.revolutions)
 
 
@@ -31,7 +32,7 @@ def test_free_decay():
     frequency, ratio = 6000.0, 0.02
     scene = Scene(Casing(1.0, lobes=0), damping_ratio=ratio)
     simulation, _, record = run(oscillator(frequency), scene, IntegrationChoice(1e-7, 3, 500), displacement=1e-3)
-    time = (1 + np.arange(len(record.samples))) * simulation.steps_per_sample * simulation.time_step
+    time = (1 + np.arange(len(record.samples))) * simulation.problem.steps_per_sample * simulation.problem.time_step
     damped = frequency * np.sqrt(1 - ratio**2)
     phase = np.cos(damped * time) + ratio * frequency / damped * np.sin(damped * time)
     exact = 1e-3 * np.exp(-ratio * frequency * time) * phase
@@ -47,7 +48,7 @@ def test_mass_against_a_rigid_stop():
     errors = []
     for step in (4e-7, 1e-7):
         simulation, state, record = run(oscillator(frequency), scene, IntegrationChoice(step, 2, 1000), displacement=start)
-        time = (1 + np.arange(len(record.samples))) * simulation.steps_per_sample * simulation.time_step
+        time = (1 + np.arange(len(record.samples))) * simulation.problem.steps_per_sample * simulation.problem.time_step
         hit = np.arccos(stop / start) / frequency
         exact = np.where(time < hit, start * np.cos(frequency * time), stop * np.cos(frequency * (time - hit)))
         errors.append(np.abs(record.samples[:, 0] - exact).max())
@@ -93,10 +94,10 @@ def test_compiled_time_integration_is_the_reference(contact, name, integrator):
     states = []
     for engine in ENGINES:
         simulation = Simulation(contact, speed, scene, replace(choice, engine=engine))
-        assert simulation.steps_per_revolution > 10_000
+        assert simulation.problem.steps_per_revolution > 10_000
         state = simulation.start()
         if name == "free":
-            state.displacement[:] = 1e-5 / (1 + np.arange(len(simulation.frequencies)))
+            state.displacement[:] = 1e-5 / (1 + np.arange(len(simulation.problem.frequencies)))
         states.append((state, simulation.advance(state, 1)))
     (ours, record), (theirs, plain) = states
     largest = np.abs(plain.samples).max()
@@ -178,7 +179,7 @@ def test_discrete_energy_tends_to_the_exact_one_with_the_step():
         choice = IntegrationChoice(step, 2, 100, energy=True)
         simulation, state, _ = run(oscillator(frequency), scene, choice, displacement=1e-3)
         exact = 0.5 * (frequency * 1e-3) ** 2
-        lost = exact * (1.0 - np.exp(-2.0 * ratio * frequency * simulation.duration))
+        lost = exact * (1.0 - np.exp(-2.0 * ratio * frequency * simulation.problem.duration))
         errors.append(abs(state.totals["loss"] / lost - 1.0))
         assert simulation.energy(state) + state.totals["loss"] == pytest.approx(exact, rel=1e-10)
     assert errors[0] < 0.01
@@ -189,14 +190,14 @@ def test_unstable_step_is_refused_with_the_limit(contact):
     highest = np.sqrt(contact.modes_at(1000.0)[0][-1] ** 2)
     limit = 2.0 / highest
     with pytest.raises(UnstableStepError, match=rf"time_step_s: .* stability limit .* {limit:.6g} s"):
-        Simulation(contact, 1000.0, DIRECT, IntegrationChoice(1.02 * limit, 1, 62))
-    Simulation(contact, 1000.0, DIRECT, IntegrationChoice(0.98 * limit, 1, 62))
+        Problem(contact, 1000.0, DIRECT, IntegrationChoice(1.02 * limit, 1, 62))
+    Problem(contact, 1000.0, DIRECT, IntegrationChoice(0.98 * limit, 1, 62))
 
 
 def test_step_too_long_for_the_lining_is_refused(contact):
     stiff = replace(ABRADABLE, lining=replace(LINING, elastic_modulus=20e12))
     with pytest.raises(UnstableStepError, match=r"limit for this lining, about .* N/m"):
-        Simulation(contact, 1000.0, stiff, IntegrationChoice(2e-7, 1, 62))
+        Problem(contact, 1000.0, stiff, IntegrationChoice(2e-7, 1, 62))
 
 
 def test_divergence_is_a_result(contact, tmp_path):
@@ -255,16 +256,16 @@ def test_snapshots_are_evenly_spread_over_the_last_revolutions(contact):
     choice = IntegrationChoice(2e-7, 3, 64, snapshots_per_revolution=16, snapshot_revolutions=2)
     simulation, _, record = run(contact, ABRADABLE, choice)
     assert len(record.snapshots) == 32
-    normal = casing_axes(contact.tip_displacement_operator, simulation.cone_angle)[0, 0] @ simulation.modes
+    normal = casing_axes(contact.tip_displacement_operator, simulation.problem.cone_angle)[0, 0] @ simulation.problem.modes
     np.testing.assert_allclose(record.snapshots @ normal, record.samples[64 + 3 :: 4, 0], rtol=1e-9, atol=1e-15)
 
 
 def test_what_a_scene_lacks_is_not_compiled(contact):
-    """The kernel of a scene without lining and friction is not given their arrays: it would crash if it read them."""
+    """The program of a scene without lining and friction is not given their arrays: it would crash if it read them."""
     simulation = Simulation(contact, 1000.0, Scene(AT_ONCE), IntegrationChoice(2e-7, 1, 62))
-    given = simulation._kernel_input()
-    for absent in ("lining", "friction", "rotation_velocity", "loss"):
-        assert getattr(given, absent) is None
+    record = simulation.engine._record[0]
+    for absent in ("wear", "friction", "rotation", "bar_position", "loss"):
+        assert not np.any(record[absent]), absent
     state = simulation.start()
     assert state.wear is None
     simulation.advance(state, 1)

@@ -76,7 +76,11 @@ def test_results_of_a_real_run(finished):
         assert (dataset["max_von_mises"] > 0.0).all()
     with xr.open_dataset(finished / "results/spectrum.nc") as dataset:
         assert float(dataset["engine_order"][1]) == 0.25
-    assert (finished / "results/summary.csv").read_text().startswith("blade,scene,mode,engine_order,campbell_speed")
+    assert (
+        (finished / "results/summary.csv")
+        .read_text()
+        .startswith("blade,scene,mode,engine_order,direction,campbell_speed_rad_s")
+    )
     names = ["campbell", "campbell_Ref", "campbell_CS100", "blades", "response", "response_Ref", "spectrum_Ref__direct"]
     for name in (f"{name}.png" for name in [*names, "wear_CS100__abradable"]):
         assert (finished / "results/figures" / name).stat().st_size > 10_000
@@ -113,7 +117,7 @@ def test_shapes_and_signals_of_a_finished_run(finished_copy):
     assert all((results / name).stat().st_size > 10_000 for name in wanted)
     assert len(list((results / "shapes/Ref/modes").glob("mode_*.glb"))) == 6
     found = pd.read_csv(results / "summary.csv").query("blade == 'Ref' and scene == 'abradable'")
-    names = {f"stress_{speed:g}.glb" for speed in found["peak_speed"]}
+    names = {f"stress_{speed:g}.glb" for speed in found["peak_speed_rad_s"]}
     assert {file.name for file in (results / "shapes/Ref/stress_abradable").glob("*.glb")} == names
     with xr.open_dataset(results / "signals.nc") as signals, xr.open_dataset(results / "rms.nc") as rms:
         for row in range(signals.sizes["run"]):

@@ -166,6 +166,40 @@ def test_provenance(chosen):
     assert "Lining" in Provenance(chosen).sweep(REF)["scene_parameters"]
 
 
+@pytest.mark.parametrize(
+    ("name", "old", "new", "changes"),
+    [
+        ("config", "edges: round", "edges: blunt", {"shape", "structure"}),
+        ("blades", "sweep_deg: 5", "sweep_deg: 6", {"shape", "structure"}),
+        ("blades", "youngs_modulus_pa: 180", "youngs_modulus_pa: 181", {"structure"}),
+        ("blades", "density_kg_m3: 8000", "density_kg_m3: 8001", {"structure"}),
+        ("blades", "poissons_ratio: 0.3", "poissons_ratio: 0.31", {"structure"}),
+        ("blades", "yield_stress_pa: 1.38", "yield_stress_pa: 1.39", set()),
+        ("fidelity", "nodes: 20000, layers: 1", "nodes: 20000, layers: 2", {"structure"}),
+        ("fidelity", "fixed_interface_modes: 10", "fixed_interface_modes: 11", {"structure"}),
+        ("config", "spin_softening: false", "spin_softening: true", {"structure"}),
+        ("config", "tip_line: pressure_edge", "tip_line: camber", {"structure"}),
+        ("config", "maximum_x_m: 0.197", "maximum_x_m: 0.196", {"structure"}),
+        ("scenes", "coefficient: 0.15", "coefficient: 0.16", set()),
+    ],
+)
+def test_the_input_hash_is_of_all_that_a_file_is_made_of(config_copy, name, old, new, changes):
+    """Of the geometry, or of the structure; a simulation's scene stands beside it."""
+    with open(config_copy / "config/blades.yaml", "a") as stream:
+        stream.write("Mine: { base: Ref, chordwise_sweep_deg: 5 }\n")
+
+    def hashes():
+        made, blade = Provenance(read_settings(config_copy)), of(blade="Mine", scene="direct")
+        assert made.sweep(blade)["input_hash"] == made.structure(blade)["input_hash"]
+        return {"shape": made.shape(blade)["input_hash"], "structure": made.structure(blade)["input_hash"]}
+
+    before, file = hashes(), config_copy / f"config/{name}.yaml"
+    assert old in file.read_text()
+    file.write_text(file.read_text().replace(old, new))
+    after = hashes()
+    assert {kind for kind in before if before[kind] != after[kind]} == changes
+
+
 def test_tradeoff_has_a_case_for_every_value(settings):
     plan = Tradeoff(settings)
     assert len(plan.cases(None)) == sum(map(len, plan.values.values()))

@@ -139,11 +139,21 @@ def test_matrices_run_to_the_same_response(root, drawn, tmp_path):
 
 
 @pytest.mark.slow
-def test_a_refusal_names_its_line_before_anything_long(root, drawn, tmp_path):
+@pytest.mark.parametrize(
+    ("key", "value", "message"),
+    [
+        ("root", "clamp", "root: found no set 'clamp'; the file has: blade, "),
+        ("rotation", "negative", "found the tip's leading edge at "),
+    ],
+)
+def test_a_refusal_names_its_line_before_anything_long(root, drawn, tmp_path, key, value, message):
     project = with_example(root, drawn, tmp_path, copy_project)
-    edit(project, "blades.yaml", "root: hub", "root: clamp")
-    line = 1 + (project / "config/blades.yaml").read_text().splitlines().index("  root: clamp # a set of the file")
+    file = project / "config/blades.yaml"
+    lines = file.read_text().splitlines()
+    line = max(i for i, text in enumerate(lines) if text.startswith(f"  {key}: "))
+    lines[line] = f"  {key}: {value}"
+    file.write_text("\n".join(lines) + "\n")
     said = snakemake(project, "all_blades", "--cores", "1", check=False)
-    place = f"config/blades.yaml:{line}: Fan.root: meshes/fan.msh"
-    assert f"rule imported_mesh: {place}: root: found no set 'clamp'; the file has: blade, " in said
+    place = f"config/blades.yaml:{line + 1}: Fan.{key}: meshes/fan.msh"
+    assert f"rule imported_mesh: {place}: {message}" in said
     assert not list((project / "results/Fan").glob("*"))

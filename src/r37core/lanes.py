@@ -245,6 +245,16 @@ def sum_of_lanes(typingctx, value):
 
 
 @intrinsic
+def numbers_at(typingctx, address):
+    """The doubles that begin at an address, which is an integer of a record."""
+
+    def build(context, builder, sig, args):
+        return builder.inttoptr(args[0], context.get_value_type(sig.return_type))
+
+    return types.CPointer(types.float64)(address), build
+
+
+@intrinsic
 def pointed_at(typingctx, pointer):
     """The record that a pointer points at, not a copy of it."""
 

@@ -13,7 +13,7 @@ from snakemake.settings.types import DeploymentMethod
 from r37core.config import ConfigError, plain, settings_of_run, si_fields
 from r37core.console import failures
 from r37core.explorer import parts_hash
-from r37core.console import lock
+from r37core.console import interpreter, lock
 from r37core.plans import paths
 from r37core.console.closing import closing_lines
 from r37core.plans.code import CodeHashes
@@ -35,8 +35,10 @@ ROOT = Path(workflow.basedir)
 ENVIRONMENT = ROOT / "envs" / "r37.yaml"
 SCRIPTS = ROOT / "workflow" / "scripts"
 TEXTS = ROOT / "workflow" / "report"
-# of rules that start it themselves; a path and no text, for another place is no reason to run again
-PYTHON = Path("python" if DeploymentMethod.CONDA in workflow.deployment_settings.deployment_method else sys.executable)
+interpreter.quote()
+
+if DeploymentMethod.CONDA in workflow.deployment_settings.deployment_method:
+    raise WorkflowError("--sdm conda: jobs need the Python that runs Snakemake, with r37 in it; leave the option out")
 
 # read here instead of by a `configfile:`, so that messages have lines and numbers are numbers in every file
 try:
@@ -89,7 +91,9 @@ onsuccess:
     lock.release()
     # after Snakemake's own last words, and nothing where there is nothing to say
     atexit.register(
-        lambda: sys.stderr.writelines(f"{line}\n" for line in closing_lines(settings.results, BEGAN, time.time()))
+        lambda: sys.stderr.writelines(
+            f"{line}\n" for line in [*failures.taken(), *closing_lines(settings.results, BEGAN, time.time())]
+        )
     )
 
 

@@ -58,12 +58,12 @@ rule simulate:
     params:
         task=sweep.task,
         about=made.sweep,
-        python=PYTHON,
+        python=interpreter.PYTHON,  # a path and no text: another place is no reason to run again
         script=SCRIPTS / "simulate.py",
         code=code("simulate"),
     # not `script:`, whose preamble imports Snakemake into each of thousands of jobs
     shell:
-        "{params.python} {params.script} {input.model} {wildcards.speed} {output} {log} {params.task:q} {params.about:q}"
+        "{params.python:q} {params.script:q} {input.model:q} {wildcards.speed:q} {output:q} {log:q} {params.task:q} {params.about:q}"
 
 
 # speeds that refine themselves: each round asks for some more, from what those before it gave, until one asks for none

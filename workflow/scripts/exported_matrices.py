@@ -5,7 +5,7 @@ from pathlib import Path
 from job import run
 
 from r37core.exchange.exporting.matrices_out import write_full_matrices, write_reduced_matrices
-from r37core.fem.matrices_file import read_matrices
+from r37core.fem.matrices import read_matrices
 from r37core.mesh.mesh_files import read_vtu
 from r37core.rom.rom_file import read_reduced_model
 

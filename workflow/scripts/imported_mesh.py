@@ -1,9 +1,6 @@
 """Import the mesh of another program. Input: mesh file. Params: source, places. Outputs: mesh.msh, mesh.vtu."""
 
-import sys
-import warnings
-
-from job import run
+from job import run, warnings_told
 
 from r37core.exchange.exporting.write_mesh import write_mesh
 from r37core.exchange.importing.import_mesh import import_mesh
@@ -15,14 +12,10 @@ from r37core.plain import from_plain
 
 def main(snakemake):
     params = snakemake.params
-    with placed(params.places), warnings.catch_warnings(record=True) as said:
-        warnings.simplefilter("always")
+    with placed(params.places), warnings_told(params.places["mesh"]):
         mesh, quality = import_mesh(from_plain(MeshSource, params.source), params.folder["folder"])
     print(f"{len(mesh.points)} nodes, " + ", ".join(f"{len(nodes)} {name}" for name, nodes in mesh.blocks.items()))
     print(f"scaled Jacobian: minimum {quality.min():.3f}")
-    for warning in said:
-        # on the screen, not only in the log
-        print(f"{params.places['mesh']}: {warning.message}", file=sys.__stderr__)
     write_mesh(mesh, snakemake.output.msh)
     write_vtu(mesh, snakemake.output.vtu, quality)
 

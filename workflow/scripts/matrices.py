@@ -3,8 +3,7 @@
 from job import run
 
 from r37core.fem.material import Material
-from r37core.fem.matrices import assemble
-from r37core.fem.matrices_file import write_matrices
+from r37core.fem.matrices import assemble, write_matrices
 from r37core.mesh.mesh_files import read_vtu
 from r37core.plain import from_plain
 

@@ -12,9 +12,8 @@ from r37core.time_integration.simulate import Simulation
 def main(snakemake):
     params = snakemake.params
     scene, choice = from_plain(Scene, params.scene), from_plain(IntegrationChoice, params.choice)
-    simulation = Simulation(read_contact_model(snakemake.input[0]), params.speed, scene, choice)
-    print(f"{params.speed:g} rad/s: highest mode {simulation.frequencies[-1]:.6g} rad/s, steps of {simulation.time_step:.6g} s")
-    simulation.compile()
+    problem = Simulation(read_contact_model(snakemake.input[0]), params.speed, scene, choice).problem
+    print(f"{params.speed:g} rad/s: highest mode {problem.frequencies[-1]:.6g} rad/s, steps of {problem.time_step:.6g} s")
 
 
 run(snakemake, main)

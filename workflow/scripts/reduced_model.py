@@ -2,7 +2,7 @@
 
 from job import run
 
-from r37core.fem.matrices_file import read_matrices
+from r37core.fem.matrices import read_matrices
 from r37core.mesh.mesh_files import read_vtu
 from r37core.plain import from_plain
 from r37core.rom.reduce import reduce_blade

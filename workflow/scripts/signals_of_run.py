@@ -6,7 +6,7 @@ from r37core.contact.scene import Scene
 from r37core.dataset_file import read_dataset, write_dataset
 from r37core.mesh.mesh_files import read_vtu
 from r37core.plain import from_plain
-from r37core.results.interactions import InteractionChoice, interactions_of_response, titles
+from r37core.results.interactions import InteractionChoice, find_interactions, titles
 from r37core.rom.contact_model import read_contact_model
 from r37core.rom.rom_file import read_reduced_model
 from r37core.signals.dataset import signals_dataset
@@ -20,7 +20,7 @@ def main(snakemake):
     named, rows, places = {}, [], {}
     if hasattr(given, "response"):
         choice = from_plain(InteractionChoice, params.interactions)
-        named = titles(interactions_of_response(read_dataset(given.response), read_dataset(given.campbell), choice))
+        named = titles(find_interactions(read_dataset(given.response), read_dataset(given.campbell), choice))
     if params.gauges:
         mesh, gauges = read_vtu(given.mesh), from_plain(list[Gauge], list(params.gauges.values()))
         rows = gauge_rows(mesh, read_reduced_model(given.whole).whole_blade.basis, gauges)

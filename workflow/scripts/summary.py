@@ -12,7 +12,7 @@ def main(snakemake):
     datasets = {kind: read_dataset(file) for kind, file in snakemake.input.items()}
     table = summarise(datasets, from_plain(InteractionChoice, snakemake.params.choice))
     with atomic_write(snakemake.output[0]) as partial:
-        table.to_csv(partial, index=False, float_format="%.6g")
+        table.to_csv(partial, index=False)
 
 
 run(snakemake, main)

@@ -10,7 +10,7 @@ from r37core.fem.material import Material
 from r37core.io import as_list
 from r37core.mesh.mesh_files import read_vtu
 from r37core.plain import from_plain
-from r37core.results.interactions import InteractionChoice, interactions_of_response, titles
+from r37core.results.interactions import InteractionChoice, find_interactions, titles
 from r37core.results.stress_recovery import StressRecovery
 from r37core.rom.rom_file import read_reduced_model
 from r37core.shapes.moving import write_worst_shapes
@@ -20,7 +20,7 @@ def main(snakemake):
     given, params = snakemake.input, snakemake.params
     model, material = read_reduced_model(given.model), from_plain(Material, params.material)
     choice = from_plain(InteractionChoice, params.interactions)
-    found = titles(interactions_of_response(read_dataset(given.response), read_dataset(given.campbell), choice))
+    found = titles(find_interactions(read_dataset(given.response), read_dataset(given.campbell), choice))
     files = {speed: file for speed, file in zip(params.speeds, as_list(given.speeds), strict=True) if speed in found}
     recovery = StressRecovery(model, material)
     instants = worst_instants(files.values(), list(files), recovery, False, params.stress_instants)

@@ -6,10 +6,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from .loft import SpanLoft
-from .profile import PRESSURE, SUCTION, Profile
-from .shape_error import BladeShapeError
-from .stacking import Placement, plane_section_stacking
+from .profile import PRESSURE, SUCTION, BladeShapeError, Profile
+from .stacking import Placement, SpanLoft
 
 _BULGE_REACH = 4.0  # in edge radii: how far from a round edge the lines chord = const are bent
 
@@ -22,7 +20,7 @@ class Blade:
     x radial along the stacking line; the rotor turns towards negative theta (angle from x to y).
 
     `round_edges` closes the edges by their circles; otherwise they are cut blunt between the tangent points.
-    Raises BladeShapeError when the profiles cross or cannot be stacked.
+    Raises BladeShapeError when the profiles cross.
     """
 
     def __init__(self, profiles: Sequence[Profile], placement: Placement, round_edges: bool):
@@ -32,12 +30,6 @@ class Blade:
         self.round_edges = round_edges
         self._loft = SpanLoft(self.spans)
         self._check_orientation()
-
-    @classmethod
-    def stacked(cls, profiles: Sequence[Profile], shift: Placement | None, round_edges: bool) -> Blade:
-        """Stack the profiles by their plane sections, then apply the sweep and lean of `shift`."""
-        placement = plane_section_stacking(profiles)
-        return cls(profiles, placement if shift is None else placement + shift, round_edges)
 
     def position(self, chord, span, thickness) -> np.ndarray:
         """Cartesian coordinates (m), shape (points, 3), of parameter points given as arrays of one shape (points,)."""

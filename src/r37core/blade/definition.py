@@ -7,9 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from .blade_surface import Blade
-from .profile import Profile, ProfileParameters
-from .shape_error import BladeShapeError
-from .sweep import chordwise_sweep, sweep_and_lean
+from .profile import BladeShapeError, Profile, ProfileParameters
+from .stacking import chordwise_sweep, plane_section_stacking, sweep_and_lean
 
 
 @dataclass(frozen=True)
@@ -29,11 +28,11 @@ class BladeDefinition:
         """Build the blade; BladeShapeError, with the blade's name, where the shape is impossible."""
         try:
             profiles = [Profile(parameters) for parameters in self.profiles]
-            shift = None
+            placement = plane_section_stacking(profiles)
             if self.stacking is not None:
-                shift = sweep_and_lean(np.array([p.span for p in self.profiles]), np.array(self.stacking))
+                placement += sweep_and_lean(np.array([p.span for p in self.profiles]), np.array(self.stacking))
             elif self.chordwise_sweep_angle is not None:
-                shift = chordwise_sweep(profiles, self.chordwise_sweep_angle)
-            return Blade.stacked(profiles, shift, round_edges)
+                placement += chordwise_sweep(profiles, self.chordwise_sweep_angle)
+            return Blade(profiles, placement, round_edges)
         except BladeShapeError as error:
             raise BladeShapeError(f"blade {self.name}: {error}") from None

@@ -13,11 +13,13 @@ import numpy as np
 from scipy.optimize import brentq, root
 
 from .cone import Cone, ConstantRatePath
-from .polygon import area_and_centroid
-from .shape_error import BladeShapeError
 
 SUCTION, PRESSURE = 1, -1
 _QUARTER_TURN = np.pi / 2.0
+
+
+class BladeShapeError(ValueError):
+    """An impossible blade shape; the message names the span at fault and, where known, the blade."""
 
 
 @dataclass(frozen=True)
@@ -283,3 +285,18 @@ class Profile:
         theta_inlet, theta_outlet = -self.centroid[1], self._theta_outlet - self.centroid[1]
         rise = p.outlet_radius * np.sin(theta_outlet) - p.inlet_radius * np.sin(theta_inlet)
         return float(np.arctan2(rise, p.outlet_axial))
+
+
+def area_and_centroid(x: np.ndarray, y: np.ndarray) -> tuple[float, float, float]:
+    """Signed area (positive counter-clockwise) and centre of area of the closed polygon with corners (x, y).
+
+    Shoelace formula, about the mean corner to keep the digits of a small polygon far from the origin.
+    """
+    x_mean, y_mean = float(np.mean(x)), float(np.mean(y))
+    x, y = x - x_mean, y - y_mean
+    x_next, y_next = np.roll(x, -1), np.roll(y, -1)
+    cross = x * y_next - x_next * y
+    area = 0.5 * float(np.sum(cross))
+    x_centroid = float(np.sum((x + x_next) * cross)) / (6.0 * area)
+    y_centroid = float(np.sum((y + y_next) * cross)) / (6.0 * area)
+    return area, x_mean + x_centroid, y_mean + y_centroid

@@ -1,4 +1,4 @@
-"""Stacking of the profiles: the centres of area of the blade's plane sections come to lie on one radial line.
+"""Where each profile is placed: stacked on one radial line by the blade's plane sections, then shifted by sweep and lean.
 
 Source: section 2 of the benchmark. Profiles are first stacked by their conical centres of area, then the blade is cut
 by planes normal to the stacking line and every profile is moved until each section's centre of area is on the line.
@@ -10,12 +10,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.interpolate import CubicSpline, make_interp_spline
 from scipy.optimize import root
 
-from .loft import SpanLoft
-from .polygon import area_and_centroid
-from .profile import Profile
-from .shape_error import BladeShapeError
+from .profile import BladeShapeError, Profile, area_and_centroid
 
 _TOLERANCE = 1e-9  # m
 _POINTS_PER_SIDE = 400
@@ -33,6 +31,25 @@ class Placement:
 
     def __add__(self, other: Placement) -> Placement:
         return Placement(self.axial + other.axial, self.rotation + other.rotation)
+
+
+class SpanLoft:
+    """Cubic spline through the profiles, as weights: value(span) = sum over profiles of weight * profile value.
+
+    `spans` are the profiles' span fractions, ascending; beyond them the end polynomials go on.
+    """
+
+    def __init__(self, spans: np.ndarray):
+        self._spline = CubicSpline(spans, np.eye(len(spans)), bc_type="not-a-knot", extrapolate=True)
+        self._slope = self._spline.derivative()
+
+    def weights(self, span: np.ndarray) -> np.ndarray:
+        """Weight of each profile, shape (points, profiles)."""
+        return self._spline(span)
+
+    def slopes(self, span: np.ndarray) -> np.ndarray:
+        """Derivative of the weights with respect to the span fraction, shape (points, profiles)."""
+        return self._slope(span)
 
 
 def conical_stacking(profiles: Sequence[Profile]) -> Placement:
@@ -138,3 +155,28 @@ def _plane_section_centroid(
         f"{label}: the plane section through this profile's centre of area cannot be cut; "
         "neighbouring profiles cross or differ too much in radius"
     )
+
+
+def sweep_and_lean(spans: np.ndarray, table: np.ndarray) -> Placement:
+    """Placement of profiles at `spans` (fractions) from a table with columns span, sweep (m), lean (rad).
+
+    Interpolated by the cubic B-spline through the table's rows (lower order with fewer than four). Sweep is positive
+    downstream; lean is positive in the direction of rotation, which is towards negative theta.
+    """
+    order = min(3, len(table) - 1)
+    spline = make_interp_spline(table[:, 0], table[:, 1:], k=order)
+    sweep, lean = spline(spans).T
+    return Placement(sweep, -lean)
+
+
+def chordwise_sweep(profiles: Sequence[Profile], angle: float) -> Placement:
+    """Placement of the profiles (hub to tip) for a chordwise sweep by `angle` (rad), positive forward.
+
+    Source: section 2 of the benchmark: axial sweep -tan(angle) (r - r_hub) cos(stagger) and lean
+    arcsin(tan(angle) (r - r_hub)/r sin(stagger)), r the radius of the profile's centre of area.
+    """
+    radius = np.array([p.cone.radius(p.centroid[0]) for p in profiles])
+    stagger = np.array([p.stagger for p in profiles])
+    shift = np.tan(angle) * (radius - radius[0])
+    lean = np.arcsin(shift / radius * np.sin(stagger))
+    return Placement(-shift * np.cos(stagger), -lean)

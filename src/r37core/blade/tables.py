@@ -14,8 +14,7 @@ import numpy as np
 from r37core.text_file import read_text
 from r37core.units import si_name
 
-from .profile import ProfileParameters
-from .shape_error import BladeShapeError
+from .profile import BladeShapeError, ProfileParameters
 
 _LARGEST_SWEEP, _LARGEST_LEAN = 1.0, 0.5 * np.pi
 

@@ -11,7 +11,8 @@ from pydantic import Discriminator, Field, RootModel, Tag, model_validator
 
 from r37core.blade import tables
 from r37core.blade.definition import BladeDefinition
-from r37core.blade.shape_error import BladeShapeError
+from r37core.blade.profile import BladeShapeError, ProfileParameters
+from r37core.blade.sense import check_profile_sense
 from r37core.exchange.importing.material_check import check_material
 from r37core.exchange.importing.source import MatricesSource, MeshSource
 from r37core.exchange.refusal import ImportRefused
@@ -92,6 +93,7 @@ class BladeEntry(Section):
         default=None, description="share of the table's sweep that is kept, its own or that of its base"
     )
     lean_percent: Annotated[float, Field(ge=-1000, le=1000)] | LeftOut = Field(default=None, description="share of the lean")
+    sense_check: bool = Field(default=True, description="refuse a table of which the trailing edge would lead in the rotation")
     material: MaterialSection = MaterialSection()
     vary: Annotated[dict[str, Varied], Field(min_length=1)] | LeftOut = Field(
         default=None, description="a family: values of numeric keys, such as sweep_percent or material.density_kg_m3"
@@ -172,7 +174,8 @@ def blade_settings(name: str, entries: Mapping[str, Any], root: Path, document: 
     material = _material(chain, entries, document)
     if isinstance(entry, MeshEntry):
         for link in chain[1:]:
-            if given := [key for key in (*SHIFTS, *SHARES) if getattr(entries[link], key) is not None]:
+            given = [key for key in (*SHIFTS, *SHARES) if getattr(entries[link], key) is not None]
+            if given := given if entries[link].sense_check else [*given, "sense_check"]:
                 raise document.refusal(
                     (link, given[0]), f"{given[0]} with the mesh of {first}", "another material, no other shape"
                 )
@@ -188,8 +191,16 @@ def blade_settings(name: str, entries: Mapping[str, Any], root: Path, document: 
                 shift = _shift(link, key, getattr(entries[link], key), root, document)
         shift = _scaled(link, entries[link], shift, document)
     table = entry.profiles
-    profiles = _table(table, name, (first, "profiles"), document, lambda: tables.read_profile_table(root / table))
+    sense_check = all(entries[link].sense_check for link in chain)
+    profiles = _table(table, name, (first, "profiles"), document, lambda: _profiles(root / table, sense_check))
     return BladeSettings(BladeDefinition(name, tuple(profiles), **shift), material)
+
+
+def _profiles(file: Path, sense_check: bool) -> list[ProfileParameters]:
+    profiles = tables.read_profile_table(file)
+    if sense_check:
+        check_profile_sense(profiles[-1])
+    return profiles
 
 
 def _source(entry: MeshEntry | MatricesEntry, name: str, root: Path, document: Document) -> MeshSource | MatricesSource:

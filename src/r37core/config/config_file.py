@@ -7,8 +7,7 @@ from typing import Annotated, Literal
 
 from pydantic import AfterValidator, Field, model_validator
 
-from r37core.rom.boundary import BoundaryChoice
-from r37core.rom.reduction_choice import ReductionChoice, StressSubmesh
+from r37core.rom.reduction_choice import BoundaryChoice, ReductionChoice, StressSubmesh
 
 from .export_section import ExportSection
 from .fidelity import Reduction

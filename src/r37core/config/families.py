@@ -12,7 +12,7 @@ from typing import Any
 from pydantic import ValidationError
 from pydantic_core import PydanticCustomError
 
-from r37core.blade.shape_error import BladeShapeError
+from r37core.blade.profile import BladeShapeError
 from r37core.blade.tables import read_designs
 from r37core.speeds import exact_text
 from r37core.text_file import TextFileError

@@ -69,6 +69,9 @@ class Oriented(Section):
         description="positive: the rotor turns by the right hand about rotor_axis, negative: the other way"
     )
     axis_point: Direction = Field(default=[0.0, 0.0, 0.0], description="a point of the axis, in the file's unit")
+    sense_check: bool = Field(
+        default=True, description="refuse a blade whose trailing edge would lead, or whose pressure side is convex"
+    )
 
     def orientation(self) -> Orientation:
         """As the import takes it."""

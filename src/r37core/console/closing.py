@@ -22,14 +22,14 @@ def closing_lines(results: Path, began: float, ended: float) -> list[str]:
 def _found(rows: list[dict[str, str]]) -> str:
     if not rows:
         return "found no interaction"
-    above = [row for row in rows if float(row["width_above_yield"] or 0.0) > 0.0]
+    above = [row for row in rows if float(row["width_above_yield_rad_s"] or 0.0) > 0.0]
     text = f"found {len(rows)} interactions, {len(above)} of them above yield"
     if above:
-        worst = max(above, key=lambda row: float(row["max_von_mises"] or 0.0))
+        worst = max(above, key=lambda row: float(row["max_von_mises_pa"] or 0.0))
         mode = f"{worst['mode']}/" if worst["mode"] else "engine order "
         text += (
-            f"; the largest stress {1e-9 * float(worst['max_von_mises']):.2f} GPa, {worst['blade']} in {worst['scene']} "
-            f"at {worst['peak_speed']} rad/s ({mode}{worst['engine_order']})"
+            f"; the largest stress {1e-9 * float(worst['max_von_mises_pa']):.2f} GPa, {worst['blade']} in {worst['scene']} "
+            f"at {float(worst['max_von_mises_speed_rad_s']):.6g} rad/s ({mode}{worst['engine_order']})"
         )
     return text
 

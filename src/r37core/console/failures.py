@@ -1,4 +1,4 @@
-"""What went wrong in the jobs of a run, kept so that the run can end with it. Light: every job imports it."""
+"""What went wrong in the jobs of a run, or was warned of, kept so that the run can end with it. Light: every job imports it."""
 
 from __future__ import annotations
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import re
 import shutil
 from collections.abc import Iterator
 from itertools import count
@@ -11,15 +12,40 @@ from pathlib import Path
 from r37core.config import Settings, read_settings
 from r37core.config.blades import RESERVED
 from r37core.io import read_json
+from r37core.plans import paths
+from r37core.plans.export_plan import Exports
+from r37core.plans.family_plan import Families
+from r37core.plans.import_plan import Imported
+from r37core.plans.shape_plan import Shapes
+from r37core.plans.signal_plan import Signals
+from r37core.plans.sweep_plan import KINDS, MAPS, Sweep
 from r37core.speeds import SpeedPlan, exact_text
+
+_FIGURES = (
+    *(paths.MAP_FIGURE.replace("{kind}", kind) for kind in MAPS),
+    *(paths.CAMPBELL_FIGURE, paths.RESPONSE_FIGURE, paths.WATERFALL_FIGURE, paths.COMPARISON_FIGURE, paths.DESIGN_FIGURE),
+    *(paths.SPECTROGRAM_FIGURE, paths.ORDERS_FIGURE, paths.MODES_FIGURE, paths.WORST_FIGURE),
+)
+_NOT_ALWAYS = (
+    *(f"<results>/{kind}.nc" for kind in KINDS),
+    *(paths.ALL_SIGNALS, paths.SIGNALS, paths.DESIGNS, paths.CONTACT_MODEL, paths.REDUCED_MODEL),
+    *(paths.EXPORTED_MESH, paths.EXPORTED_SURFACE, paths.EXPORTED_STRESS),
+    *(*_FIGURES, *map(paths.as_pdf, _FIGURES)),
+)
+"""Patterns of files that one configuration makes and another does not."""
 
 
 def leftovers(results: Path, settings: Settings) -> list[Path]:
-    """Folders and files of blades, scenes and speeds that are not run any more, in the folder `results`."""
-    return sorted(_of_blades(results, settings)) if results.is_dir() else []
+    """Folders and files in the folder `results` that the configuration no longer asks for.
+
+    Those of blades, scenes and speeds that are not run any more, and datasets, figures and models that are not made any more.
+    What no rule makes is left alone.
+    """
+    found = {*_of_runs(results, settings), *_dropped(results, settings)} if results.is_dir() else set()
+    return sorted(path for path in found if found.isdisjoint(path.parents))
 
 
-def _of_blades(results: Path, settings: Settings) -> Iterator[Path]:
+def _of_runs(results: Path, settings: Settings) -> Iterator[Path]:
     for folder in results.iterdir():
         if folder.is_dir() and folder.name not in (*settings.blades, *RESERVED):
             yield folder
@@ -35,15 +61,30 @@ def _of_blades(results: Path, settings: Settings) -> Iterator[Path]:
         yield from (file for file in folder.glob("speed_*.npz") if file.name not in wanted)
         if not plan.refined:
             yield from folder.glob("round_*.json")
-    for figure in (results / "figures").glob("*_*.p[nd][gf]"):
-        kind, name = figure.stem.split("_", 1)
-        blade, _, scene = name.partition("__")
-        if kind in ("designs", "comparison"):
-            if name not in (settings.families if kind == "designs" else settings.scenes):
-                yield figure
-            continue
-        if blade not in settings.blades or (scene and scene not in settings.scenes):
-            yield figure
+
+
+def _dropped(results: Path, settings: Settings) -> Iterator[Path]:
+    """What fits a pattern of what the rules make, and is not planned."""
+    planned = {results / file.removeprefix("<results>/") for file in _planned(settings)}
+    for pattern in _NOT_ALWAYS:
+        files = results.glob(re.sub(r"\{\w+\}", "*", pattern.removeprefix("<results>/")))
+        yield from (file for file in files if file not in planned)
+
+
+def _planned(settings: Settings) -> Iterator[str]:
+    sweep, imported = Sweep(settings), Imported(settings, Path())
+    yield from (f"<results>/{kind}.nc" for kind in sweep.kinds)
+    yield from sweep.figures
+    for plan in (Families(settings), Shapes(sweep), Signals(imported, sweep)):
+        yield from plan.outputs
+    yield from Signals(imported, sweep).files
+    yield from Exports(imported, sweep).files
+    tip_lines = {settings.structure.boundary.tip_line, *(scene.tip_line for scene in settings.scenes.values())}
+    for blade in settings.blades:
+        figure = paths.fill(paths.CAMPBELL_FIGURE, blade=blade)
+        yield from (figure, paths.as_pdf(figure))
+        for line in tip_lines:
+            yield from (paths.fill(model, blade=blade, tip_line=line) for model in (paths.CONTACT_MODEL, paths.REDUCED_MODEL))
 
 
 def _of_shapes(folder: Path, settings: Settings) -> Iterator[Path]:

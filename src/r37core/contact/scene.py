@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
@@ -64,10 +62,3 @@ class Scene:
     damping_ratio: float
     exact_gap: bool
     divergence_limit: float
-
-
-def scene_from(content: Mapping[str, Any]) -> Scene:
-    """The scene whose `dataclasses.asdict` is `content`."""
-    parts = {"casing": Casing, "lining": Lining, "friction": Friction}
-    made = {name: parts[name](**value) if name in parts and value else value for name, value in content.items()}
-    return Scene(**made)

@@ -221,14 +221,16 @@
   }
 
   const COLUMNS = [
-    ["blade", "blade"], ["scene", "scene"], ["mode", "mode"], ["engine_order", "order"], ["campbell_speed", "Campbell (rad/s)"],
-    ["peak_speed", "peak (rad/s)"], ["published", "published"], ["shift", "shift"], ["peak_rms_normal", "rms (mm)", 1e3],
-    ["jump", "drop"], ["width_above_yield", "above yield (rad/s)"], ["max_von_mises", "stress (MPa)", 1e-6],
-    ["max_wear", "wear (mm)", 1e3], ["status", "status"],
+    ["blade", "blade"], ["scene", "scene"], ["mode", "mode"], ["engine_order", "order"], ["campbell_speed_rad_s", "Campbell (rad/s)"],
+    ["direction", "direction"],
+    ["peak_speed_rad_s", "peak (rad/s)"], ["published", "published"], ["shift_rad_s", "shift"], ["peak_rms_normal_m", "rms (mm)", 1e3],
+    ["drop", "drop"], ["width_above_yield_rad_s", "above yield (rad/s)"], ["share_above_yield", "share of it"],
+    ["max_von_mises_pa", "stress (MPa)", 1e-6],
+    ["max_wear_m", "wear (mm)", 1e3], ["status", "status"],
   ];
 
   // to the worst instant of an interaction, in the page of its blade, where that was made
-  function shapeLink({ blade, scene, peak_speed: speed, status: ended }) {
+  function shapeLink({ blade, scene, peak_speed_rad_s: speed, status: ended }) {
     if (ended !== "completed" || !data.shapes.some(([one, other]) => one === blade && other === scene)) return [];
     const href = `shapes/${encodeURIComponent(blade)}.html#${new URLSearchParams({ scene, speed })}`;
     const link = Object.assign(document.createElement("a"), { href, textContent: "moves" });
@@ -253,10 +255,10 @@
       const known = data.published.find((one) => one.blade === row.blade && row.mode === "1B" && one.engine_order === row.engine_order);
       const line = body.insertRow();
       line.tabIndex = 0;
-      line.classList.toggle("chosen", row.blade === state.blade && row.scene === state.scene && row.peak_speed === state.speed);
+      line.classList.toggle("chosen", row.blade === state.blade && row.scene === state.scene && row.peak_speed_rad_s === state.speed);
       COLUMNS.forEach((column) => { line.insertCell().textContent = cell({ ...row, published: known ? known.peak : null }, column); });
       if (data.shapes.length) line.insertCell().append(...shapeLink(row));
-      const go = () => set({ blade: row.blade, scene: row.scene, speed: row.peak_speed });
+      const go = () => set({ blade: row.blade, scene: row.scene, speed: row.peak_speed_rad_s });
       line.addEventListener("click", go);
       line.addEventListener("keydown", (event) => { if (event.key === "Enter") go(); });
     });

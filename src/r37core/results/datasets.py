@@ -7,6 +7,7 @@ from pathlib import Path
 
 import netCDF4
 import numpy as np
+import xarray as xr
 
 from r37core.io import FILE_ATTRIBUTES, InputFileError, atomic_write, readable
 from r37core.time_integration.simulate import TIP_POINTS
@@ -39,6 +40,19 @@ def write_sweep_dataset(
         for (blade, scene), source in responses.items():
             with readable(source), netCDF4.Dataset(source) as response:
                 _copy(response, target, kind, (blades.index(blade), scenes.index(scene)), axes)
+
+
+def response_of(datasets: Mapping[str, xr.Dataset], blade: str, scene: str) -> xr.Dataset:
+    """One blade in one scene of the joined datasets as its response: their variables, over the speeds that it was run at.
+
+    `datasets` by the keys of DATASETS, rms among them; others are left aside, and those without this blade and scene.
+    """
+    parts = []
+    for kind in DATASETS:
+        if kind in datasets and blade in datasets[kind]["blade"].values and scene in datasets[kind]["scene"].values:
+            part = datasets[kind].sel(blade=blade, scene=scene, drop=True)
+            parts.append(part.isel(speed=np.flatnonzero(part["status"].values != RunStatus.NOT_RUN)))
+    return xr.merge([part for part in parts if part.sizes["speed"]] or parts[:1], compat="override", join="exact")
 
 
 def _check_numerics(responses: Mapping[tuple[str, str], Path | str]) -> None:

@@ -8,13 +8,17 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 
+from r37core.rom.naming import FIRST_BENDING, FIRST_TORSION
+
+from .measures import largest_stress, speeds_above_yield
+
 MEASURES = {
     "mass_kg": "mass (kg)",
     "frequency_1b_hz": "1B at rest (Hz)",
     "frequency_1t_hz": "1T at rest (Hz)",
     "clearance_loss_1b_m": "largest loss of clearance, 1B (m)",
     "clearance_loss_1t_m": "largest loss of clearance, 1T (m)",
-    "width_above_yield_rad_s": "speeds above yield (rad/s)",
+    "length_above_yield_rad_s": "speeds above yield (rad/s)",
     "largest_stress_pa": "largest stress (Pa)",
     "first_yield_rad_s": "first speed above yield (rad/s)",
     "shift_1b_rad_s": "shift of the strongest 1B (rad/s)",
@@ -47,41 +51,22 @@ def design_table(
 
 def _structure(campbell: xr.Dataset) -> dict[str, float]:
     found = {}
-    for mode in ("1B", "1T"):
+    for mode in (FIRST_BENDING, FIRST_TORSION):
         found[f"frequency_{mode.lower()}_hz"] = float(campbell["frequency"].sel(mode=mode).isel(speed=0))
         found[f"clearance_loss_{mode.lower()}_m"] = -float(campbell["dynamic_clearance"].sel(mode=mode).min())
     return found
 
 
 def _robustness(blade: str, scene: str, stress: xr.Dataset | None, interactions: pd.DataFrame) -> dict[str, float]:
-    found = dict.fromkeys(("width_above_yield_rad_s", "largest_stress_pa", "first_yield_rad_s", "shift_1b_rad_s"), np.nan)
+    found = dict.fromkeys(("length_above_yield_rad_s", "largest_stress_pa", "first_yield_rad_s", "shift_1b_rad_s"), np.nan)
     if stress is not None and scene in stress["scene"].values:
         chosen = stress.sel(blade=blade, scene=scene)
-        series = chosen["max_von_mises"].dropna("speed")
-        width, first = above_yield(series["speed"].values, series.values / float(chosen["yield_stress"]))
-        largest = float(series.max()) if series.size else np.nan
-        found |= {"width_above_yield_rad_s": width, "first_yield_rad_s": first, "largest_stress_pa": largest}
-    bending = interactions[(interactions["blade"] == blade) & (interactions["scene"] == scene) & (interactions["mode"] == "1B")]
+        above = speeds_above_yield(chosen)
+        found |= {"length_above_yield_rad_s": above.length, "first_yield_rad_s": above.first}
+        found["largest_stress_pa"], _ = largest_stress(chosen)
+    bending = interactions[
+        (interactions["blade"] == blade) & (interactions["scene"] == scene) & (interactions["mode"] == FIRST_BENDING)
+    ]
     if len(bending):
-        found["shift_1b_rad_s"] = float(bending.loc[bending["peak_rms_tangential"].idxmax(), "shift"])
+        found["shift_1b_rad_s"] = float(bending.loc[bending["peak_rms_tangential_m"].idxmax(), "shift_rad_s"])
     return found
-
-
-def above_yield(speeds: np.ndarray, ratio: np.ndarray) -> tuple[float, float]:
-    """Length (rad/s) of all speeds at which stress, a `ratio` of yield, is above it, and the first of them (NaN for none).
-
-    `speeds` ascend; between them the ratio is a straight line.
-    """
-    if not len(speeds):
-        return np.nan, np.nan
-    top = np.maximum(ratio[:-1], ratio[1:]) - 1.0
-    bottom = np.minimum(ratio[:-1], ratio[1:]) - 1.0
-    share = np.where(top <= 0.0, 0.0, np.where(bottom < 0.0, top / np.maximum(top - bottom, 1e-300), 1.0))
-    width = float(np.sum(share * np.diff(speeds)))
-    above = np.flatnonzero(ratio > 1.0)
-    if not len(above):
-        return width, np.nan
-    first = int(above[0])
-    if first == 0:
-        return width, float(speeds[0])
-    return width, float(speeds[first] - (speeds[first] - speeds[first - 1]) * share[first - 1])

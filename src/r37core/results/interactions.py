@@ -2,37 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
-from typing import Any
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import asdict, dataclass, fields
+from itertools import pairwise
 
 import numpy as np
 import pandas as pd
 import xarray as xr
 from scipy.signal import find_peaks
 
+from r37core.rom.naming import NAMED_MODES
 from r37core.time_integration.status import RunStatus
 
-COLUMNS = (
-    "blade",
-    "scene",
-    "mode",
-    "engine_order",
-    "campbell_speed",
-    "peak_speed",
-    "shift",
-    "peak_rms_normal",
-    "peak_rms_tangential",
-    "jump",
-    "width_above_yield",
-    "max_von_mises",
-    "max_wear",
-    "status",
-)
-"""Columns of summary.csv; speeds, shift and width in rad/s, `jump` the drop to the next speed as a share of the peak."""
+from .datasets import response_of
+from .measures import DROP_WITHIN, drop_after, largest_stress, leading_edge, motion, speeds_above_yield, strongest_order
 
-NAMED_MODES = ("1B", "1T", "2B")
-"""Modes whose crossings with engine orders peaks are matched with."""
+QUIET = 0.1
+"""Share of an interaction's peak below which the motion counts as outside, if it stays there."""
 
 SPECTRA = {"normal": "amplitude", "tangential": "amplitude_tangential"}
 """Directions whose peaks are looked for, and the name of their spectrum in spectrum.nc."""
@@ -42,102 +28,132 @@ SPECTRA = {"normal": "amplitude", "tangential": "amplitude_tangential"}
 class InteractionChoice:
     """What counts as an interaction.
 
-    A peak of the leading edge's normal or tangential rms must rise above its surroundings by `prominence` of the largest one
-    in that direction. It is matched with a crossing of the engine order that is strongest in that direction's spectrum if it
-    lies between `below` and `above` (shares of the Campbell speed) about it; without a spectrum, with the nearest crossing
-    of any order.
+    A peak of the leading edge's normal or tangential rms must rise above its surroundings, on both sides, by `prominence` of
+    the largest one in that direction. It is matched with a crossing of the engine order that is strongest in that
+    direction's spectrum if it lies between `below` and `above` (shares of the Campbell speed) about it; without a spectrum,
+    with the nearest crossing of any order.
     """
 
     prominence: float
     below: float
     above: float
 
+    @property
+    def span(self) -> float:
+        """Largest ratio of two speeds that the crossing of one mode and order could explain."""
+        return (1.0 + self.above) / (1.0 - self.below)
 
-def find_interactions(
-    rms: xr.Dataset,
-    campbell: xr.Dataset,
-    spectrum: xr.Dataset | None,
-    stress: xr.Dataset | None,
-    wear: xr.Dataset | None,
-    choice: InteractionChoice,
-) -> list[dict[str, object]]:
-    """Peaks of one blade and scene, by ascending speed; keys as in COLUMNS but for blade and scene.
 
-    The datasets are those of the project with `blade` and `scene` already selected; `spectrum`, `stress` and `wear` None
-    where a scene has none. Only the named modes 1B, 1T and 2B are matched; a peak that belongs to none of their crossings
-    has an empty mode and no Campbell speed.
+@dataclass(frozen=True)
+class Interaction:
+    """One row of summary.csv; units are part of the names.
+
+    `direction` in which the rms has its peak: normal, tangential or both. What is named peak is at the peak speed, what is
+    named max the largest within the interaction. `drop`: share of the motion lost within measures.DROP_WITHIN above the
+    peak. `width_above_yield_rad_s`: from the first to the last speed of the interaction above yield; `share_above_yield`:
+    how much of it is. An interaction reaches, on both sides, to the lowest motion before the neighbouring peak, or to where
+    the motion stays below QUIET of its own peak for more than DROP_WITHIN: single speeds in between do not end it, for near
+    the end of a branch the motion is chaotic. `mode` is empty and the Campbell speed NaN for a peak that no crossing of a
+    named mode explains; NaN is also what a scene does not compute, and the drop of a motion that only rises.
     """
-    return _strongest_of_each(
-        [row for direction in SPECTRA for row in _peaks(direction, rms, campbell, spectrum, choice, stress, wear)]
-    )
+
+    mode: str
+    engine_order: int | None
+    direction: str
+    campbell_speed_rad_s: float
+    peak_speed_rad_s: float
+    shift_rad_s: float
+    peak_rms_normal_m: float
+    peak_rms_tangential_m: float
+    drop: float
+    width_above_yield_rad_s: float
+    share_above_yield: float
+    max_von_mises_pa: float
+    max_von_mises_speed_rad_s: float
+    max_wear_m: float
+    status: str
+
+    @property
+    def title(self) -> str:
+        """What meets there: 1B/4, or the engine order alone."""
+        if self.mode:
+            return f"{self.mode}/{self.engine_order}"
+        return "a peak of its own" if self.engine_order is None else f"engine order {self.engine_order}"
 
 
-def interactions_of_response(response: xr.Dataset, campbell: xr.Dataset, choice: InteractionChoice) -> list[dict[str, object]]:
-    """The same of one response.nc, with the Campbell diagram of its blade."""
-
-    def part(name: str) -> xr.Dataset | None:
-        return response if name in response else None
-
-    return find_interactions(response, campbell, part("amplitude"), part("max_von_mises"), part("max_wear"), choice)
+COLUMNS = ("blade", "scene", *(field.name for field in fields(Interaction)))
+"""Columns of summary.csv."""
 
 
-def titles(interactions: Iterable[Mapping[str, Any]]) -> dict[float, str]:
-    """Peak speed (rad/s) -> what meets there: 1B/4, or the engine order alone."""
+@dataclass(frozen=True)
+class _Peak:
+    """A peak of the rms in one direction, at a `place` among the speeds, and the crossing that explains it.
 
-    def what(mode: str, order: int | None) -> str:
-        return f"{mode}/{order}" if mode else "a peak of its own" if order is None else f"engine order {order}"
+    `height`: share of the direction's largest; `top`: places about it that are less than the prominence lower;
+    `inner`: whether it falls by the prominence on both sides, as one at an end of the speeds does not.
+    """
 
-    return {float(row["peak_speed"]): what(row["mode"], row["engine_order"]) for row in interactions}
+    direction: str
+    place: int
+    height: float
+    top: range
+    inner: bool
+    mode: str
+    engine_order: int | None
+    crossing: float
 
 
-def _peaks(
-    direction: str,
-    rms: xr.Dataset,
-    campbell: xr.Dataset,
-    spectrum: xr.Dataset | None,
-    choice: InteractionChoice,
-    stress: xr.Dataset | None,
-    wear: xr.Dataset | None,
-) -> list[dict[str, object]]:
-    """Peaks of the leading edge's rms in one direction."""
-    rms = rms.isel(speed=np.flatnonzero(rms["status"].values != RunStatus.NOT_RUN)).sel(tip_point="leading_edge")
-    speed = rms["speed"].values
-    rms_of_speed = rms[f"rms_{direction}"].fillna(0.0).values
-    if rms_of_speed.size == 0 or not rms_of_speed.max() > 0.0:
+def find_interactions(response: xr.Dataset, campbell: xr.Dataset, choice: InteractionChoice) -> list[Interaction]:
+    """Interactions of one blade in one scene, by ascending speed, from its response and its Campbell diagram.
+
+    Only the named modes 1B, 1T and 2B are matched. Peaks of both directions are one interaction where they have the same
+    crossing, are neighbours, or lie on each other's tops; peaks that no crossing explains, where they have the same engine
+    order and one crossing could hold them.
+    """
+    response = leading_edge(response.isel(speed=np.flatnonzero(response["status"].values != RunStatus.NOT_RUN)))
+    if not response.sizes["speed"]:
         return []
-    # a floor at both ends, so that a peak on the first or last speed counts
-    peaks, _ = find_peaks(np.concatenate([[0.0], rms_of_speed, [0.0]]), prominence=choice.prominence * rms_of_speed.max())
-    rows: list[dict[str, object]] = []
-    for peak in peaks - 1:
-        strongest = _strongest_order(spectrum, SPECTRA[direction], speed[peak])
-        mode, order, crossing = _nearest_crossing(campbell, speed[peak], strongest, choice)
-        after = rms_of_speed[peak + 1] if peak + 1 < len(rms_of_speed) else np.nan
-        rows.append(
-            {
-                "mode": mode,
-                "engine_order": order,
-                "campbell_speed": crossing,
-                "peak_speed": speed[peak],
-                "shift": speed[peak] - crossing,
-                "peak_rms_normal": float(rms["rms_normal"][peak]),
-                "peak_rms_tangential": float(rms["rms_tangential"][peak]),
-                "jump": 1.0 - after / rms_of_speed[peak],
-                "width_above_yield": _width_above_yield(stress, speed[peak]),
-                "max_von_mises": _at(stress, "max_von_mises", speed[peak]),
-                "max_wear": _at(wear, "max_wear", speed[peak]),
-                "status": RunStatus(int(rms["status"][peak])).text,
-            }
-        )
-    return rows
+    speed, level = response["speed"].values, motion(response)
+    groups = _groups(
+        [peak for direction in SPECTRA for peak in _peaks(response, campbell, direction, choice)], speed, level, choice
+    )
+    if not groups:
+        return []
+    groups.sort(key=lambda group: _strongest(group, level))
+    places = [_strongest(group, level) for group in groups]
+    lowest = [first + int(np.argmin(level[first : last + 1])) for first, last in pairwise(places)]
+    found = []
+    for group, place, low, high in zip(groups, places, [0, *lowest], [*lowest, len(level) - 1], strict=True):
+        if any(peak.inner for peak in group):
+            begin, end = _loud(speed[low : high + 1], level[low : high + 1], place - low)
+            reach = response.isel(speed=slice(low + begin, low + end + 1))
+            drop = drop_after(response.isel(speed=slice(place, high + 1)))
+            found.append(_interaction(reach, response.isel(speed=place), group, place, drop))
+    return found
 
 
-def _strongest_order(spectrum: xr.Dataset | None, name: str, speed: float) -> int | None:
-    """The whole engine order with the largest amplitude at `speed` in the spectrum's variable; None without a spectrum."""
-    if spectrum is None:
-        return None
-    amplitude = spectrum[name].sel(speed=speed)
-    vibration = amplitude.where(amplitude["engine_order"] >= 0.5, 0.0).fillna(0.0)
-    return round(float(vibration["engine_order"][int(np.argmax(vibration.values))]))
+def titles(interactions: Iterable[Interaction]) -> dict[float, str]:
+    """Peak speed (rad/s) -> title."""
+    return {one.peak_speed_rad_s: one.title for one in interactions}
+
+
+def _peaks(response: xr.Dataset, campbell: xr.Dataset, direction: str, choice: InteractionChoice) -> list[_Peak]:
+    curve = response[f"rms_{direction}"].fillna(0.0).values
+    largest = curve.max()
+    if not largest > 0.0:
+        return []
+    # a floor at both ends gives peaks there too: no interactions themselves, they end the reach of their neighbours
+    places = find_peaks(np.concatenate([[0.0], curve, [0.0]]), prominence=choice.prominence * largest)[0] - 1
+    inner = find_peaks(curve, prominence=choice.prominence * largest)[0]
+    found = []
+    for place in places.tolist():
+        low = np.flatnonzero(curve <= curve[place] - choice.prominence * largest)
+        top = range(int(low[low < place].max(initial=-1)) + 1, int(low[low > place].min(initial=len(curve))))
+        at = response.isel(speed=place)
+        order = round(strongest_order(at[SPECTRA[direction]])) if SPECTRA[direction] in at else None
+        crossing = _nearest_crossing(campbell, float(at["speed"]), order, choice)
+        found.append(_Peak(direction, place, float(curve[place] / largest), top, place in inner, *crossing))
+    return found
 
 
 def _nearest_crossing(
@@ -153,62 +169,85 @@ def _nearest_crossing(
     return min(candidates)[1:] if candidates else ("", strongest, float("nan"))
 
 
-def _at(dataset: xr.Dataset | None, name: str, speed: float) -> float:
-    return float("nan") if dataset is None else float(dataset[name].sel(speed=speed))
+def _groups(peaks: list[_Peak], speed: np.ndarray, level: np.ndarray, choice: InteractionChoice) -> list[list[_Peak]]:
+    """Peaks that are one interaction together; the first of each has its crossing or, without one, its engine order."""
+    ranked = sorted(peaks, key=lambda one: (not one.mode, -level[one.place], -one.height))
+
+    def one_peak(peak: _Peak, other: _Peak) -> bool:
+        explained_otherwise = peak.mode and other.mode and peak.crossing != other.crossing
+        near = abs(peak.place - other.place) <= 1 or (peak.place in other.top and other.place in peak.top)
+        return peak.place == other.place or (peak.direction != other.direction and near and not explained_otherwise)
+
+    def one_interaction(both: list[_Peak], group: list[_Peak]) -> bool:
+        if both[0].mode:
+            return both[0].crossing == group[0].crossing
+        places = [peak.place for peak in group]
+        low, high = sorted((speed[both[0].place], speed[group[0].place]))
+        orders = {peak.engine_order for peak in both} & {peak.engine_order for peak in group} - {None}
+        one_crossing = not group[0].mode and bool(orders) and high <= choice.span * low
+        return one_crossing or min(places) < both[0].place < max(places)
+
+    of_both_directions = _joined([[peak] for peak in ranked], lambda new, group: any(one_peak(new[0], old) for old in group))
+    return _joined(of_both_directions, one_interaction)
 
 
-def _width_above_yield(stress: xr.Dataset | None, speed: float) -> float:
-    """Length (rad/s) of the range of speeds about `speed` over which the largest stress exceeds yield."""
-    if stress is None:
-        return float("nan")
-    series = stress["max_von_mises"].dropna("speed")
-    speeds, excess = series["speed"].values, series.values / float(stress["yield_stress"]) - 1.0
-    at = np.flatnonzero(speeds == speed)
-    if not len(at) or excess[at[0]] <= 0.0:
-        return 0.0
-    low = high = int(at[0])
-    while low > 0 and excess[low - 1] > 0.0:
-        low -= 1
-    while high + 1 < len(excess) and excess[high + 1] > 0.0:
-        high += 1
-    # linear interpolation to the yield line on both sides
-    start, end = speeds[low], speeds[high]
-    if low > 0:
-        start -= (speeds[low] - speeds[low - 1]) * excess[low] / (excess[low] - excess[low - 1])
-    if high + 1 < len(excess):
-        end += (speeds[high + 1] - speeds[high]) * excess[high] / (excess[high] - excess[high + 1])
-    return float(end - start)
+def _joined(parts: list[list[_Peak]], belongs: Callable[[list[_Peak], list[_Peak]], bool]) -> list[list[_Peak]]:
+    """The parts, each put to the first group before it that it belongs to."""
+    groups: list[list[_Peak]] = []
+    for part in parts:
+        home = next((group for group in groups if belongs(part, group)), None)
+        if home is None:
+            groups.append(list(part))
+        else:
+            home += part
+    return groups
 
 
-def _strongest_of_each(rows: list[dict[str, object]]) -> list[dict[str, object]]:
-    """One row for each mode and engine order: the peak with the largest motion, in both directions together."""
+def _loud(speed: np.ndarray, level: np.ndarray, peak: int) -> tuple[int, int]:
+    """First and last place about the peak before the motion stays below QUIET of it for more than DROP_WITHIN."""
+    loud = np.flatnonzero(level >= QUIET * level[peak])
+    ends = np.flatnonzero(np.diff(speed[loud]) > DROP_WITHIN)
+    at = int(np.searchsorted(loud, peak))
+    first, last = loud[ends[ends < at].max(initial=-1) + 1], loud[ends[ends >= at].min(initial=len(loud) - 1)]
+    return max(int(first) - 1, 0), min(int(last) + 1, len(level) - 1)
 
-    def motion(row: dict[str, object]) -> float:
-        return float(np.hypot(row["peak_rms_normal"], row["peak_rms_tangential"]))  # type: ignore[call-overload]
 
-    strongest: dict[tuple[object, object], dict[str, object]] = {}
-    for row in rows:
-        key = (row["mode"], row["engine_order"])
-        if key not in strongest or motion(row) > motion(strongest[key]):
-            strongest[key] = row
-    return sorted(strongest.values(), key=lambda row: row["peak_speed"])  # type: ignore[arg-type, return-value]
+def _strongest(group: list[_Peak], level: np.ndarray) -> int:
+    """Place of the peak with the largest motion, of those within the speeds if there is one."""
+    return max(group, key=lambda peak: (peak.inner, level[peak.place])).place
+
+
+def _interaction(reach: xr.Dataset, peak: xr.Dataset, group: list[_Peak], place: int, drop: float) -> Interaction:
+    """The row of a group, from the response within its reach and at its `peak`, the `place` of that, and its drop."""
+    first, speed = group[0], float(peak["speed"])
+    directions = {one.direction for one in group if one.place == place}
+    stress, stress_speed = largest_stress(reach) if "max_von_mises" in reach else (np.nan, np.nan)
+    above = speeds_above_yield(reach) if "max_von_mises" in reach else None
+    return Interaction(
+        mode=first.mode,
+        engine_order=first.engine_order,
+        direction="both" if len(directions) == len(SPECTRA) else min(directions),
+        campbell_speed_rad_s=first.crossing,
+        peak_speed_rad_s=speed,
+        shift_rad_s=speed - first.crossing,
+        peak_rms_normal_m=float(peak["rms_normal"]),
+        peak_rms_tangential_m=float(peak["rms_tangential"]),
+        drop=drop,
+        width_above_yield_rad_s=above.width if above else np.nan,
+        share_above_yield=above.share if above else np.nan,
+        max_von_mises_pa=stress,
+        max_von_mises_speed_rad_s=stress_speed,
+        max_wear_m=float(reach["max_wear"].max()) if "max_wear" in reach else np.nan,
+        status=RunStatus(int(peak["status"])).text,
+    )
 
 
 def summarise(datasets: Mapping[str, xr.Dataset], choice: InteractionChoice) -> pd.DataFrame:
     """Table of all interactions, columns as in COLUMNS, from the datasets `campbell`, `rms` and, if there, others."""
-
-    def part(kind: str, blade: str, scene: str) -> xr.Dataset | None:
-        dataset = datasets.get(kind)
-        if dataset is None or scene not in dataset["scene"].values or blade not in dataset["blade"].values:
-            return None
-        return dataset.sel(blade=blade, scene=scene)
-
-    rows = []
-    for blade in datasets["rms"]["blade"].values:
-        campbell = datasets["campbell"].sel(blade=blade)
-        for scene in datasets["rms"]["scene"].values:
-            rms = datasets["rms"].sel(blade=blade, scene=scene)
-            spectrum, stress, wear = (part(kind, blade, scene) for kind in ("spectrum", "stress", "wear"))
-            found = find_interactions(rms, campbell, spectrum, stress, wear, choice)
-            rows += [{"blade": blade, "scene": scene} | row for row in found]
-    return pd.DataFrame(rows, columns=list(COLUMNS))
+    rows = [
+        {"blade": blade, "scene": scene} | asdict(one)
+        for blade in datasets["rms"]["blade"].values
+        for scene in datasets["rms"]["scene"].values
+        for one in find_interactions(response_of(datasets, blade, scene), datasets["campbell"].sel(blade=blade), choice)
+    ]
+    return pd.DataFrame(rows, columns=list(COLUMNS)).astype({"engine_order": "Int64"})

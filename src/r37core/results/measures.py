@@ -57,7 +57,7 @@ def drop_after(response: xr.Dataset) -> float:
 def steepest_fall(response: xr.Dataset) -> tuple[float, float]:
     """Speed (rad/s) before which the motion loses its largest share to the next speed, and that share."""
     level = motion(response)
-    shares = 1.0 - level[1:] / np.maximum(level[:-1], np.finfo(float).tiny)
+    shares = 1.0 - np.divide(level[1:], level[:-1], out=np.ones(len(level) - 1), where=level[:-1] > 0.0)
     place = int(np.argmax(shares))
     return float(response["speed"][place]), float(shares[place])
 
@@ -102,7 +102,7 @@ def first_contact(response: xr.Dataset) -> np.ndarray:
 class YieldRange:
     """Speeds (rad/s) above yield: the `first` and `last`, NaN for none, and the `length` of all between that are above.
 
-    `cut`: whether the speeds begin or end above yield, so that the range may go on beyond them.
+    The length is NaN without any speed. `cut`: whether the speeds begin or end above yield: the range may go on beyond them.
     """
 
     first: float
@@ -128,7 +128,7 @@ def range_above_yield(speeds: np.ndarray, ratio: np.ndarray) -> YieldRange:
     """
     above = np.flatnonzero(ratio > 1.0)
     if not len(above):
-        return YieldRange(np.nan, np.nan, 0.0, False)
+        return YieldRange(np.nan, np.nan, 0.0 if len(speeds) else np.nan, False)
     first, last = int(above[0]), int(above[-1])
     share = _share_above(ratio)
     step = np.diff(speeds)
@@ -142,7 +142,7 @@ def _share_above(ratio: np.ndarray) -> np.ndarray:
     top = np.maximum(ratio[:-1], ratio[1:]) - 1.0
     bottom = np.minimum(ratio[:-1], ratio[1:]) - 1.0
     crosses = (top > 0.0) & (bottom < 0.0) & np.isfinite(top)
-    rise = np.where(crosses, top - bottom, 1.0)
+    rise = np.where(crosses, top, 1.0) - np.where(crosses, bottom, 0.0)
     return np.where(crosses, top / rise, np.where(bottom >= 0.0, (top > 0.0).astype(float), 0.0))
 
 

@@ -13,6 +13,7 @@ from r37core.time_integration.simulate import DIRECTIONS, TIP_POINTS
 from r37core.time_integration.speed_file import read_speed
 from r37core.time_integration.status import RunStatus
 
+from .measures import first_yield, largest_of_run, stress_history
 from .netcdf import create_axis, create_labels, create_variable
 from .stress_recovery import StressRecovery
 from .variables import VARIABLES
@@ -64,7 +65,7 @@ def _row(run: Mapping[str, np.ndarray], recovery: StressRecovery | None, stress_
     if recovery is not None:
         per_instant = recovery.max_von_mises(run["snapshots"])
         values["von_mises_history"] = per_instant
-        values["max_von_mises"] = np.array(np.nan if run["status"] else per_instant[-stress_instants:].max())
+        values["max_von_mises"] = np.array(largest_of_run(run, per_instant, stress_instants))
     return values
 
 
@@ -102,10 +103,6 @@ def _create(
 def _write_history(
     dataset: netCDF4.Dataset, row: int, per_instant: np.ndarray, stress_instants: int, yield_stress: float
 ) -> None:
-    history = np.full(dataset.dimensions["revolution"].size, np.nan)
-    # a diverged run has fewer instants; its unfinished revolution is left out
-    whole = len(per_instant) // stress_instants
-    history[:whole] = per_instant[: whole * stress_instants].reshape(whole, stress_instants).max(axis=1)
+    history = stress_history(per_instant, stress_instants, dataset.dimensions["revolution"].size)
     dataset["max_von_mises_history"][row] = history
-    above = np.flatnonzero(history > yield_stress)
-    dataset["first_yield_revolution"][row] = above[0] + 1 if len(above) else np.nan
+    dataset["first_yield_revolution"][row] = first_yield(history, yield_stress)

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-
 import numpy as np
 
 from r37core.fem.material import Material
@@ -33,8 +31,3 @@ class StressRecovery:
         """Largest von Mises stress (Pa) over the submesh, shape (instants,), for coordinates, shape (instants, coordinates)."""
         stress = np.einsum("cnj,tj->ctn", self.operator, coordinates, optimize=True)
         return von_mises(stress).max(axis=1)
-
-
-def largest_of_run(run: Mapping[str, np.ndarray], recovery: StressRecovery, stress_instants: int) -> float:
-    """Largest von Mises stress (Pa) in the last revolution of a run with so many snapshots in each; NaN if it diverged."""
-    return float("nan") if run["status"] else float(recovery.max_von_mises(run["snapshots"][-stress_instants:]).max())

@@ -10,6 +10,12 @@ from r37core.mesh.blade_mesh import BladeMesh
 _BEAM_ROOTS = (1.875104068711961, 4.694091132974175)
 
 
+NAMED_MODES = ("1B", "1T", "2B")
+"""Modes with names of their own: first bending, first torsion, second bending."""
+
+FIRST_BENDING, FIRST_TORSION, _ = NAMED_MODES
+
+
 def ideal_shapes(mesh: BladeMesh) -> dict[str, np.ndarray]:
     """Displacement fields, shape (nodes, 3), named 1B, 1T and 2B.
 
@@ -18,8 +24,8 @@ def ideal_shapes(mesh: BladeMesh) -> dict[str, np.ndarray]:
     """
     chord, span, _ = mesh.parameters.T
     twist = (chord - 0.5) * np.sin(0.5 * np.pi * span)
-    amplitudes = {"1B": _beam_shape(span, _BEAM_ROOTS[0]), "1T": twist, "2B": _beam_shape(span, _BEAM_ROOTS[1])}
-    return {name: amplitude[:, None] * mesh.normals for name, amplitude in amplitudes.items()}
+    amplitudes = (_beam_shape(span, _BEAM_ROOTS[0]), twist, _beam_shape(span, _BEAM_ROOTS[1]))
+    return {name: amplitude[:, None] * mesh.normals for name, amplitude in zip(NAMED_MODES, amplitudes, strict=True)}
 
 
 def _beam_shape(span: np.ndarray, root: float) -> np.ndarray:

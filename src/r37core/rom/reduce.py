@@ -8,11 +8,10 @@ import scipy.sparse as sp
 from r37core.fem.matrices import StructuralMatrices
 from r37core.mesh.blade_mesh import BladeMesh
 
-from .boundary import TIP_LINES, boundary_nodes
 from .craig_bampton import multi_speed_basis
 from .naming import ideal_shapes
 from .reduced_model import RecoveryNodes, ReducedModel
-from .reduction_choice import ReductionChoice
+from .reduction_choice import TIP_LINES, ReductionChoice, boundary_nodes
 
 
 def reduce_blade(mesh: BladeMesh, matrices: StructuralMatrices, choice: ReductionChoice) -> ReducedModel:
@@ -38,10 +37,10 @@ def reduce_blade(mesh: BladeMesh, matrices: StructuralMatrices, choice: Reductio
     shapes = {name: shape[matrices.free_nodes].ravel() for name, shape in ideal_shapes(mesh).items()}
     mass_times_vectors = mass @ vectors
     return ReducedModel(
-        stiffness=_projected(stiffness, vectors),
-        geometric_stiffness=_projected(geometric, vectors),
+        stiffness=projected(stiffness, vectors),
+        geometric_stiffness=projected(geometric, vectors),
         mass=_symmetric(vectors.T @ mass_times_vectors),
-        spin_softening=None if softening is None else _projected(softening, vectors),
+        spin_softening=None if softening is None else projected(softening, vectors),
         coriolis=vectors.T @ (matrices.coriolis() @ vectors) if choice.coriolis else None,
         boundary_nodes=nodes,
         boundary_chord=mesh.parameters[nodes, 0],
@@ -59,7 +58,8 @@ def reduce_blade(mesh: BladeMesh, matrices: StructuralMatrices, choice: Reductio
     )
 
 
-def _projected(matrix: sp.csr_array, vectors: np.ndarray) -> np.ndarray:
+def projected(matrix: sp.csr_array, vectors: np.ndarray) -> np.ndarray:
+    """A symmetric matrix in the coordinates of the basis `vectors`, symmetric to the bit."""
     return _symmetric(vectors.T @ (matrix @ vectors))
 
 

@@ -11,6 +11,7 @@ import xarray as xr
 
 from r37core.dataset_file import about
 from r37core.published import BLADES, DIRECT_PEAK, INTERACTIONS, MESH_NODES, QUIET, REFERENCE, Interaction
+from r37core.results.measures import first_contact, strongest_lobes, strongest_order
 from r37core.time_integration.status import RunStatus
 
 from . import measures as read
@@ -23,7 +24,7 @@ FINE, COARSE = 248, 62
 """Instants of a revolution at which the paper recovers stress: for a picture of it, and for its largest value."""
 
 _WINDOW = (0.99, 1.06)
-_FIRST_LOBES, _LAST_LOBES = 3, 12
+_ABOVE_THE_CASING = 2.5
 _LISTED = 4
 
 
@@ -86,16 +87,14 @@ def run_of(datasets: Mapping[str, xr.Dataset], blade: str, scene: str) -> xr.Dat
     run = xr.Dataset(coords={"speed": rms["speed"]})
     for direction in ("normal", "radial", "tangential"):
         run[f"rms_{direction}"] = rms[f"rms_{direction}"].sel(tip_point="leading_edge", drop=True)
-    run["casing_hits"] = rms["casing_hits"]
-    touched = rms["revolution_maximum"].max("tip_point").transpose("speed", "revolution").values > 0.0
-    run["first_contact"] = "speed", np.where(touched.any(axis=1), touched.argmax(axis=1) + 1.0, np.nan)
+    run["casing_hits"], run["status"] = rms["casing_hits"], rms["status"]
+    run["first_contact"] = "speed", first_contact(rms)
     if "stress" in datasets:
         run["max_von_mises"] = datasets["stress"]["max_von_mises"].sel(blade=blade, scene=scene, speed=rms["speed"])
     if "wear" in datasets and scene in datasets["wear"]["scene"].values:
         wear = datasets["wear"].sel(blade=blade, scene=scene, speed=rms["speed"])
         run["max_wear"] = wear["max_wear"]
-        harmonics = wear["wear_harmonic"].sel(lobes=slice(_FIRST_LOBES, _LAST_LOBES)).fillna(0.0)
-        run["lobes"] = harmonics["lobes"][harmonics.argmax("lobes")].astype(float)
+        run["lobes"] = "speed", strongest_lobes(wear)
     return run.drop_vars([name for name in run.coords if name != "speed"])
 
 
@@ -183,12 +182,10 @@ def gallery_checks(data: GalleryData, geometry: xr.Dataset, nodes: int) -> list[
     text = f"{100 * loss:.2g}% below that of {FINE}"
     checks.append(Check(f"largest stress of the last revolution from {COARSE} instants", None, text))
     for one in INTERACTIONS:
-        order = _strongest_order(
-            datasets["spectrum"], one.blade, scenes["lined"], float(read.peak_of(shipped[one.name])["speed"])
-        )
+        order = _strongest_order(datasets["spectrum"], one.blade, scenes["lined"], shipped[one.name])
         name = f"{one.blade} 1B/{one.engine_order}: engine order of the largest amplitude at the peak"
         checks.append(Check(name, float(one.engine_order), order, "", 0.01))
-    order = _strongest_order(datasets["spectrum"], REFERENCE, scenes["direct"], float(read.peak_of(shipped[DIRECT])["speed"]))
+    order = _strongest_order(datasets["spectrum"], REFERENCE, scenes["direct"], shipped[DIRECT])
     checks.append(Check("direct, engine order of the largest amplitude at the largest rms", None, order))
     return checks
 
@@ -202,11 +199,10 @@ def _at_rest() -> float:
     return float(np.sqrt(square))
 
 
-def _strongest_order(spectrum: xr.Dataset, blade: str, scene: str, speed: float) -> float:
-    """Engine order of the largest normal amplitude, of all above the casing's own: it has two lobes."""
-    amplitude = spectrum["amplitude"].sel(blade=blade, scene=scene, speed=speed)
-    moving = amplitude.where(amplitude["engine_order"] > _FIRST_LOBES - 0.5, 0.0)
-    return float(moving["engine_order"][int(np.argmax(moving.values))])
+def _strongest_order(spectrum: xr.Dataset, blade: str, scene: str, run: xr.Dataset) -> float:
+    """Engine order of the largest normal amplitude at the peak, of all above the casing's own: it has two lobes."""
+    speed = float(read.peak_of(run)["speed"])
+    return strongest_order(spectrum["amplitude"].sel(blade=blade, scene=scene, speed=speed), above=_ABOVE_THE_CASING)
 
 
 def of_item(item: Item, checks: Iterable[Check]) -> list[Check]:

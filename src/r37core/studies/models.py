@@ -11,10 +11,9 @@ from r37core.blade.blade_surface import Blade
 from r37core.fem.material import Material
 from r37core.fem.matrices import assemble
 from r37core.mesh.generate import generate_mesh
-from r37core.rom.boundary import BoundaryChoice
 from r37core.rom.reduce import reduce_blade
 from r37core.rom.reduced_model import ReducedModel
-from r37core.rom.reduction_choice import EVERYWHERE, ReductionChoice
+from r37core.rom.reduction_choice import EVERYWHERE, BoundaryChoice, ReductionChoice
 
 from .case import Stopwatch, peak_memory
 

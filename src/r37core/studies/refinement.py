@@ -3,23 +3,19 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 import xarray as xr
 
 from r37core.adaptive.criterion import CURVES, RefinementChoice
 from r37core.adaptive.rounds import first_round, round_after
-from r37core.results.interactions import InteractionChoice, find_interactions
+from r37core.results.interactions import Interaction, InteractionChoice, find_interactions
 from r37core.speeds import SpeedPlan
 
 TOLERANCE = 2.0
 """Difference (rad/s) of a peak's speed or width above yield up to which it counts as the same."""
-
-_MARKS = {"spectrum": "amplitude", "stress": "max_von_mises", "wear": "max_wear"}
-"""Kind of dataset -> a variable that a response has with it."""
 
 
 @dataclass(frozen=True)
@@ -98,23 +94,22 @@ def compare(
     return Outcome(len(speeds[0]), len(run), len(speeds), [_held_against(row, got) for row in wanted])
 
 
-def _above_yield(response: xr.Dataset, campbell: xr.Dataset, interactions: InteractionChoice) -> list[dict[str, Any]]:
-    parts = {kind: response if name in response else None for kind, name in _MARKS.items()}
-    rows = find_interactions(response, campbell, parts["spectrum"], parts["stress"], parts["wear"], interactions)
-    return [row for row in rows if row["width_above_yield"] > 0.0]  # type: ignore[operator]
+def _above_yield(response: xr.Dataset, campbell: xr.Dataset, interactions: InteractionChoice) -> list[Interaction]:
+    rows = find_interactions(response, campbell, interactions)
+    return [row for row in rows if row.width_above_yield_rad_s > 0.0]
 
 
-def _held_against(row: Mapping[str, Any], got: Sequence[Mapping[str, Any]]) -> Comparison:
+def _held_against(row: Interaction, got: Sequence[Interaction]) -> Comparison:
     """One interaction beside the nearest of those that were found."""
-    peak, width = float(row["peak_speed"]), float(row["width_above_yield"])
-    near = [other for other in got if abs(other["peak_speed"] - peak) <= max(width, TOLERANCE)]
-    nearest = min(near, key=lambda other: abs(other["peak_speed"] - peak), default=None)
+    peak, width = row.peak_speed_rad_s, row.width_above_yield_rad_s
+    near = [other for other in got if abs(other.peak_speed_rad_s - peak) <= max(width, TOLERANCE)]
+    nearest = min(near, key=lambda other: abs(other.peak_speed_rad_s - peak), default=None)
     return Comparison(
-        mode=str(row["mode"]),
-        engine_order=row["engine_order"],
+        mode=row.mode,
+        engine_order=row.engine_order,
         peak=peak,
         width=width,
-        stress=float(row["max_von_mises"]),
-        found_peak=float(nearest["peak_speed"]) if nearest else math.nan,
-        found_width=float(nearest["width_above_yield"]) if nearest else math.nan,
+        stress=row.max_von_mises_pa,
+        found_peak=nearest.peak_speed_rad_s if nearest else math.nan,
+        found_width=nearest.width_above_yield_rad_s if nearest else math.nan,
     )

@@ -14,7 +14,7 @@ from r37core.dataset_file import about
 from r37core.results.stress_recovery import StressRecovery
 from r37core.rom.contact_model import ContactModel
 from r37core.time_integration.integration_choice import IntegrationChoice
-from r37core.time_integration.simulate import UnstableStepError
+from r37core.time_integration.problem import UnstableStepError
 
 from .case import COSTS, MOTION, QUANTITIES, Case, run_case
 from .parameters import vary

@@ -1,86 +1,191 @@
-"""The time integration compiled to an object file for this processor: imports numba, so only where it is not there yet."""
+"""The compiled engine: it loads the program and lays a problem out for it. Light: simulation jobs never import numba."""
 
 from __future__ import annotations
 
-import numba
+import ctypes
+from collections.abc import Callable
+from functools import cache
+from typing import Any
+
 import numpy as np
-from numba import types
 
-from r37core.lanes import OPTIONS, inlined, pointed_at, spread, sum_of_lanes
-from r37core.native import object_code
+from r37core.alignment import LANES, aligned_copy, aligned_zeros
+from r37core.contact.scene import Friction, Lining
+from r37core.native import Sources, cached_object, load_function
 
-from .jumps import bound_amplitudes, choose_jump, jump_ahead
-from .layout import COARSE, STRIDES, Kind, Layout, integration_record
-from .steps import leave_casing, measure_exact_gaps, measure_gaps, meet, predict, record
+from .jump_plan import JumpPlan, nearest_casing, plan_jumps
+from .layout import LINING, NEVER, NORMAL, TANGENTIAL, Kind, Layout, integration_record, layout_of
+from .problem import Problem
+from .state import SimulationRecord, SimulationState
 
-
-@inlined
-def _integrate(m, casing, casing_most, wear, samples, rows, snapshots, first_step, blocks, kind):
-    """Do up to `blocks` blocks of steps; returns how many were done, fewer when an output passed the limit or is NaN."""
-    at_once = np.isinf(m.casing.rise)
-    decay = 0.0 if at_once else np.exp(-m.casing.rise)
-    coarse_per_block = (m.steps_per_block + COARSE - 1) // COARSE
-    beyond, bounded, first_stride = False, False, 1
-    done = 0
-    while done < blocks:
-        start = first_step + done * m.steps_per_block
-        place = start % m.steps_per_revolution
-        remaining = 0.0 if at_once else np.exp(-m.casing.rise * start)
-        if place == 0:
-            # so that a run stopped after a revolution goes on with the same bits
-            beyond, bounded, first_stride = False, False, 1
-        work = lost = spread(0.0)
-        position = 0
-        while position < m.steps_per_block:
-            if kind.jumps and not beyond and position % COARSE == 0:
-                if not bounded:
-                    bound_amplitudes(m, kind.exact_gap)
-                    bounded = True
-                nearest = (place // m.steps_per_block * coarse_per_block + position // COARSE) * len(m.force)
-                left = m.steps_per_block - position
-                stride = choose_jump(m, casing_most, nearest, first_stride, left, remaining, kind.exact_gap)
-                first_stride = max(min(stride + 1, STRIDES - 1), 1)
-                if stride >= 0:
-                    lost = jump_ahead(m, stride, kind.energy, lost)
-                    remaining *= m.decay[stride]
-                    position += m.lengths[stride]
-                    m.totals.steps_jumped += m.lengths[stride]
-                    leave_casing(m)
-                    continue
-            position += 1
-            remaining *= decay
-            lost = predict(m, kind.energy, lost)
-            here = place + position if place + position < m.steps_per_revolution else 0
-            lobes = m.casing.amplitude * (1.0 - remaining)
-            beyond = measure_exact_gaps(m, here, lobes) if kind.exact_gap else measure_gaps(m, casing, here, lobes)
-            if beyond:
-                work, lost = meet(m, wear, here, kind, work, lost)
-                bounded = False
-            else:
-                leave_casing(m)
-        m.totals.work += 0.5 * sum_of_lanes(work)
-        m.totals.loss += sum_of_lanes(lost)
-        m.totals.steps += m.steps_per_block
-        within = record(m, done, rows[done], samples, snapshots)
-        done += 1
-        if not within:
-            break
-    return done
+SOURCES = Sources(
+    "alignment.py",
+    "lanes.py",
+    "native.py",
+    "contact/exact_gap.py",
+    "contact/casing.py",
+    "contact/complementarity.py",
+    "contact/friction.py",
+    "contact/lining.py",
+    "contact/scene.py",
+    "time_integration/jump_steps.py",
+    "time_integration/layout.py",
+    "time_integration/program.py",
+    "time_integration/steps.py",
+)
+"""What the compiled time integration is made from: a change in one of these compiles it anew."""
 
 
-def compile_integration(layout: Layout, kind: Kind) -> bytes:
-    """Object code of `advance(record, casing, casing_most, wear, samples, rows, snapshots, first_step, blocks)`.
+class CompiledEngine:
+    """The time integration of one problem, compiled for what its scene has: all that its program needs lies in one record."""
 
-    `record`: address of the state and constants; `casing` and `casing_most`: f(theta), as in KernelInput, nodes padded;
-    `wear`; `samples` and `snapshots` to be filled, `rows`: the row of `snapshots` for each block, -1 for none. Returns the
-    blocks done.
-    """
-    record = types.CPointer(numba.from_dtype(integration_record(layout)))
-    numbers, integers = types.CPointer(types.float64), types.CPointer(types.int64)
-    signature = types.int64(record, numbers, numbers, numbers, numbers, integers, numbers, types.int64, types.int64)
+    def __init__(self, problem: Problem):
+        outputs, self._modes = problem.output_operator.shape
+        self._nodes = len(problem.model.radius)
+        self._layout = layout_of(self._modes, self._nodes, outputs)
+        self._record = aligned_zeros((1,), integration_record(self._layout))
+        scene, choice = problem.scene, problem.choice
+        plan = plan_jumps(problem.recursion, problem.steps_per_sample, LANES) if choice.jumps else None
+        kind = Kind(
+            lined=scene.lining is not None,
+            vector_friction=scene.friction is not None and scene.friction.vector,
+            coupled=scene.friction is None or scene.friction.coupled,
+            exact_gap=scene.exact_gap,
+            energy=choice.energy,
+            jumps=plan is not None,
+        )
+        self._advance = _program(self._layout, kind)
+        self._lay_out(problem)
+        self._lay_out_casing(problem, plan)
+        if choice.energy:
+            _put(self._record[0], loss=problem.recursion.loss)
+        if scene.friction is not None:
+            self._lay_out_friction(problem, scene.friction)
+        if scene.lining is not None:
+            self._lay_out_lining(problem, scene.lining)
+        if plan is not None:
+            self._lay_out_jumps(plan)
 
-    @numba.cfunc(signature, **OPTIONS)
-    def advance(record, casing, casing_most, wear, samples, rows, snapshots, first_step, blocks):
-        return _integrate(pointed_at(record), casing, casing_most, wear, samples, rows, snapshots, first_step, blocks, kind)
+    def advance(self, state: SimulationState, out: SimulationRecord) -> int:
+        """Do one block of steps per row of `out.samples`, from `state`, which is changed, and fill samples and snapshots.
 
-    return object_code(advance.inspect_llvm(), advance.native_name, "advance")
+        Returns the blocks done: fewer when an output passed the limit or is NaN.
+        """
+        m, snapshots = self._record[0], np.zeros((len(out.snapshots), self._layout.modes))
+        flags = aligned_copy(state.on_casing, self._layout.nodes) > 0
+        _put(
+            m,
+            u=state.displacement,
+            increment=state.increment,
+            on_casing=np.packbits(flags, bitorder="little"),
+            totals=state.totals,
+            first_step=state.revolutions * m["steps_per_revolution"],
+            blocks=len(out.samples),
+            wear=0 if state.wear is None else state.wear.ctypes.data,
+            samples=out.samples.ctypes.data,
+            snapshots=snapshots.ctypes.data,
+        )
+        done = int(self._advance(self._record.ctypes.data))
+        state.displacement[:], state.increment[:] = m["u"][: self._modes], m["increment"][: self._modes]
+        state.on_casing[:] = np.unpackbits(m["on_casing"].astype(np.uint8), bitorder="little")[: self._nodes]
+        state.totals[()] = m["totals"]
+        out.snapshots[:] = snapshots[:, : self._modes]
+        return done
+
+    def _lay_out(self, problem: Problem) -> None:
+        m, coupling, recursion = self._record[0], problem.coupling, problem.recursion
+        # a node that only pads the vector must neither sit on the axis nor cancel a pivot
+        m["radius"] = m["towards"] = m["problem"]["diagonal"] = 1.0
+        _put(m["problem"], diagonal=np.diag(coupling[NORMAL]))
+        _put(
+            m,
+            keep=recursion.keep,
+            pull=recursion.pull,
+            inverse=recursion.inverse,
+            displacement_operator=problem.displacement_operator,
+            push_operator=problem.displacement_operator[NORMAL],
+            coupling=coupling,
+            response=coupling[NORMAL],
+            columns=coupling[NORMAL],
+            radius=problem.model.radius,
+            theta=problem.model.theta,
+            outputs=problem.output_operator,
+            limit=problem.scene.divergence_limit,
+            nodes=self._nodes,
+            rings=problem.rings,
+            steps_per_revolution=problem.steps_per_revolution,
+            steps_per_block=problem.steps_per_sample,
+            samples_before_snapshots=problem.samples_before_snapshots,
+            samples_per_snapshot=problem.samples_per_snapshot,
+        )
+
+    def _lay_out_casing(self, problem: Problem, plan: JumpPlan | None) -> None:
+        m, casing = self._record[0], problem.scene.casing
+        _put(
+            m["casing"],
+            clearance=casing.clearance,
+            # without lobes f is 0 everywhere, and so is what it is multiplied by
+            amplitude=casing.amplitude * casing.clearance if casing.lobes else 0.0,
+            rise=casing.rise_rate(problem.duration) * problem.time_step,
+            period=2.0 * np.pi / max(casing.lobes, 1),
+            width=casing.width,
+            cosine=np.cos(problem.cone_angle),
+            sine=np.sin(problem.cone_angle),
+        )
+        shape = casing.shape(problem.theta(np.arange(problem.steps_per_revolution)[:, None]))
+        self._shape = aligned_copy(shape, self._layout.nodes)
+        m["casing_shape"] = self._shape.ctypes.data
+        if plan is not None:
+            self._nearest = aligned_copy(nearest_casing(shape, problem.steps_per_sample), self._layout.nodes)
+            m["nearest_casing"] = self._nearest.ctypes.data
+
+    def _lay_out_friction(self, problem: Problem, friction: Friction) -> None:
+        """Friction; one of constant direction becomes part of what a normal force does."""
+        m, velocity = self._record[0], problem.rotation_velocity
+        _put(m, friction=friction.coefficient, rotation=velocity * problem.time_step)
+        if not friction.vector:
+            share = friction.coefficient * np.sign(velocity)[:, None]
+            operator, coupling = problem.displacement_operator, problem.coupling
+            _put(
+                m,
+                push_operator=operator[NORMAL] + share * operator[TANGENTIAL],
+                response=coupling[NORMAL] + share * coupling[TANGENTIAL],
+            )
+
+    def _lay_out_lining(self, problem: Problem, lining: Lining) -> None:
+        m = self._record[0]
+        for name in LINING.names or ():
+            value = problem.bar_area if name == "area" else getattr(lining, name)
+            m["lining"][name] = np.nan if value is None else value
+        _put(m, bar_position=problem.model.theta / (2.0 * np.pi) * lining.bars)
+
+    def _lay_out_jumps(self, plan: JumpPlan) -> None:
+        m = self._record[0]
+        m["lengths"] = NEVER
+        _put(m, lengths=plan.lengths, slow_modes=plan.slow_modes, jumps=plan.jumps)
+        _put(m, amplitude_by_u=plan.amplitude_rows[0], amplitude_by_d=plan.amplitude_rows[1])
+        rise = m["casing"]["rise"]
+        if np.isfinite(rise):
+            _put(m, decay=np.exp(-rise * plan.lengths))
+
+
+def _put(record: Any, **values: Any) -> None:
+    """Put numbers and arrays into the fields of a record; an array fills a corner, what pads it stays as it is."""
+    for name, value in values.items():
+        if np.ndim(value):
+            record[name][tuple(map(slice, value.shape))] = value
+        else:
+            record[name] = value
+
+
+@cache
+def _program(layout: Layout, kind: Kind) -> Callable:
+    """The program of time_integration.program, compiled if it is not there yet."""
+
+    def build() -> bytes:
+        from .program import compile_integration
+
+        return compile_integration(layout, kind)
+
+    code = cached_object("time_integration", SOURCES, (layout, kind), build)
+    return load_function(code, "advance", ctypes.c_int64, ctypes.c_void_p)

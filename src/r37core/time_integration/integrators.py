@@ -27,11 +27,6 @@ class Recursion:
     lost: np.ndarray
 
     @property
-    def coefficients(self) -> np.ndarray:
-        """`keep`, `pull` and `inverse`, shape (3, modes)."""
-        return np.array([self.keep, self.pull, self.inverse])
-
-    @property
     def loss(self) -> np.ndarray:
         """Energy lost to damping per step and squared u_{n+1} - u_{n-1}, shape (modes,)."""
         return self.lost / (4.0 * self.inverse)

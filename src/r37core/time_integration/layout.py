@@ -1,4 +1,4 @@
-"""What the compiled time integration works on, described once: a NumPy record, whose shapes are known when it is compiled.
+"""What the compiled engine works on, described once: a NumPy record, whose shapes are known when its program is compiled.
 
 Only padded sizes and numbers that no speed changes are in it, so all speeds of a sweep share one compiled time integration.
 """
@@ -107,12 +107,12 @@ def integration_record(layout: Layout) -> np.dtype:
     groups = nodes // padded(1)
     return aligned_record(
         [
-            # displacement u_n; increments u_n - u_{n-1} of this step and of the one before; forces on the modes
-            *_arrays("u now before push", modes),
+            # displacement u_n; its increments u_n - u_{n-1} and u_{n-1} - u_{n-2}; forces on the modes
+            *_arrays("u increment last_increment push", modes),
             # of the recursion: see time_integration.steps; energy lost per step and squared central difference
             *_arrays("keep pull inverse loss", modes),
             # displacement of the nodes per mode, and what a unit normal force does to the modes, with constant friction
-            *_arrays("displacement_operator", 3 * nodes, modes),
+            *_arrays("displacement_operator", 3, nodes, modes),
             *_arrays("push_operator", nodes, modes),
             *_arrays("outputs", outputs, modes),
             # normal displacement of the last node per force in the three directions on the one before
@@ -126,7 +126,7 @@ def integration_record(layout: Layout) -> np.dtype:
             *_arrays("radius theta shift", nodes),  # m; angle at step 0 and what vibration adds to it (rad)
             ("problem", problem(nodes), ()),
             *_arrays("beyond on_casing", groups, kind=np.int64),
-            # flight: see time_integration.flight
+            # jumps over free flight: see time_integration.jump_plan
             *_arrays("jumps", STRIDES, 8, modes),
             *_arrays("amplitude_by_u amplitude_by_d amplitude", modes),
             *_arrays("reach", STRIDES, nodes),
@@ -138,5 +138,10 @@ def integration_record(layout: Layout) -> np.dtype:
             ("totals", TOTALS, ()),
             *_numbers("limit friction"),
             *_numbers("nodes rings steps_per_revolution steps_per_block", kind=np.int64),
+            *_numbers("samples_before_snapshots samples_per_snapshot", kind=np.int64),
+            # of one call: where it begins, and how many blocks of steps it asks for
+            *_numbers("first_step blocks", kind=np.int64),
+            # addresses of arrays whose sizes are known only then: f(theta) at every step, and the largest of each stretch
+            *_numbers("casing_shape nearest_casing wear samples snapshots", kind=np.int64),
         ]
     )

@@ -10,7 +10,8 @@ from r37core.contact.scene import Scene
 from r37core.rom.contact_model import ContactModel
 
 from .integration_choice import IntegrationChoice
-from .simulate import DIRECTIONS, TIP_POINTS, Simulation, SimulationState
+from .simulate import DIRECTIONS, TIP_POINTS, Simulation
+from .state import SimulationState
 from .status import RunStatus
 
 OF_RUNS = ("spectrum", "stress", "wear", "energy")
@@ -57,8 +58,8 @@ def run_speed(
         "speed": np.array(speed),
         "diverged_revolution": np.array(diverged_at),
         "diverged_time": np.array(diverged_at * 2.0 * np.pi / speed),
-        "time_step": np.array(simulation.time_step),
-        "cone_angle": np.array(simulation.cone_angle),
+        "time_step": np.array(simulation.problem.time_step),
+        "cone_angle": np.array(simulation.problem.cone_angle),
         "rms": np.sqrt(np.mean(half**2, axis=0)),
         "peak": np.abs(half).max(axis=0),
         "revolution_maxima": maxima,
@@ -70,7 +71,7 @@ def run_speed(
     if "spectrum" in results:
         kept |= _spectrum(half[:, 0, _KEPT].T, len(half) // per_revolution, spectrum_highest_order)
     if "stress" in results:
-        kept["snapshots"] = record.snapshots @ (model.to_reduced @ simulation.modes).T
+        kept["snapshots"] = record.snapshots @ (model.to_reduced @ simulation.problem.modes).T
     if "wear" in results:
         kept |= _wear(state, wear_angles)
     if "energy" in results:

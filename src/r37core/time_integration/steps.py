@@ -1,4 +1,4 @@
-"""The steps of the time integration, compiled for what a scene has.
+"""The steps of the compiled engine, one function for each thing that happens in a step. Compiled for what a scene has.
 
 Recursion (section 5 of the benchmark, diagonal in the modes of one speed): u* = a u_n + b u_{n-1}; where a tip node passes the
 lining or the casing, u_{n+1} = u* + c F. It is carried in displacement u and increment d = u_n - u_{n-1}, which is the same
@@ -17,7 +17,7 @@ from r37core.contact.complementarity import list_nodes, solve_complementarity
 from r37core.contact.exact_gap import displaced_position, lobe_shape
 from r37core.contact.friction import friction_direction
 from r37core.contact.lining import return_mapping
-from r37core.lanes import bits_of, flag_at, inlined, load, spread, store, sum_of_lanes, sums_of_lanes
+from r37core.lanes import bits_of, flag_at, inlined, load, numbers_at, spread, store, sum_of_lanes, sums_of_lanes
 
 from .layout import MERIDIONAL, NORMAL, TANGENTIAL
 
@@ -28,50 +28,45 @@ _lobe_shape = inlined(lobe_shape)
 
 
 @inlined
-def eight_rows(m, a, b, c, d, e, f, p, q, modal, used):
-    """Displacement by eight of the rows, of the first `used` modes."""
-    s = t = u = v = w = x = y = z = spread(0.0)
-    for i in range(0, used, LANES):
-        now = load(modal, i)
-        s += load(m.displacement_operator, (a, i)) * now
-        t += load(m.displacement_operator, (b, i)) * now
-        u += load(m.displacement_operator, (c, i)) * now
-        v += load(m.displacement_operator, (d, i)) * now
-        w += load(m.displacement_operator, (e, i)) * now
-        x += load(m.displacement_operator, (f, i)) * now
-        y += load(m.displacement_operator, (p, i)) * now
-        z += load(m.displacement_operator, (q, i)) * now
-    return sums_of_lanes(s, t, u, v, w, x, y, z)
-
-
-@inlined
 def along(m, direction, modal, g, used):
     """Displacement in a direction of the eight nodes from g on, by the first `used` modes."""
-    r = direction * len(m.force) + g
-    return eight_rows(m, r, r + 1, r + 2, r + 3, r + 4, r + 5, r + 6, r + 7, modal, used)
+    rows = m.displacement_operator
+    s = t = u = v = w = x = y = z = spread(0.0)
+    for i in range(0, used, LANES):
+        amplitude = load(modal, i)
+        s += load(rows, (direction, g, i)) * amplitude
+        t += load(rows, (direction, g + 1, i)) * amplitude
+        u += load(rows, (direction, g + 2, i)) * amplitude
+        v += load(rows, (direction, g + 3, i)) * amplitude
+        w += load(rows, (direction, g + 4, i)) * amplitude
+        x += load(rows, (direction, g + 5, i)) * amplitude
+        y += load(rows, (direction, g + 6, i)) * amplitude
+        z += load(rows, (direction, g + 7, i)) * amplitude
+    return sums_of_lanes(s, t, u, v, w, x, y, z)
 
 
 @inlined
 def predict(m, energy, lost):
     """The free step of every mode; returns `lost` and the energy it loses, in lanes."""
     for i in range(0, len(m.u), LANES):
-        u, before = load(m.u, i), load(m.now, i)
-        d = load(m.keep, i) * before - load(m.pull, i) * u
-        store(m.before, i, before)
-        store(m.now, i, d)
+        u, last = load(m.u, i), load(m.increment, i)
+        d = load(m.keep, i) * last - load(m.pull, i) * u
+        store(m.last_increment, i, last)
+        store(m.increment, i, d)
         store(m.u, i, u + d)
         if energy:
-            lost += load(m.loss, i) * (d + before) * (d + before)
+            lost += load(m.loss, i) * (d + last) * (d + last)
     return lost
 
 
 @inlined
-def measure_gaps(m, casing, place, lobes):
+def measure_gaps(m, place, lobes):
     """Linear gaps: clearance, less the lobes at the undeformed angle, less the normal displacement. Whether any is passed."""
+    shape = numbers_at(m.casing_shape)
     any_beyond = 0
     for g in range(0, len(m.force), LANES):
         normal = along(m, NORMAL, m.u, g, len(m.u))
-        gap = m.casing.clearance - lobes * load(casing, place * len(m.force) + g) - normal
+        gap = m.casing.clearance - lobes * load(shape, place * len(m.force) + g) - normal
         store(m.problem.gap, g, gap)
         beyond = bits_of(gap < 0.0)
         m.beyond[g // LANES] = beyond
@@ -113,18 +108,17 @@ def set_friction(m, g, tangential, meridional):
 
 @inlined
 def set_friction_of_listed(m, count):
-    """Vector friction on the listed nodes: dearer for each than `set_friction_of_all`, but they are few."""
-    nodes = len(m.force)
-    for g in range(0, nodes, LANES):
+    """Vector friction on the listed nodes: more costly for each than `set_friction_of_all`, but they are few."""
+    for g in range(0, len(m.force), LANES):
         tangential = meridional = spread(0.0)
         for j in range(count):
             k = m.problem.listed[j]
             if g <= k < g + LANES:
                 t = r = spread(0.0)
                 for i in range(0, len(m.u), LANES):
-                    before = load(m.before, i)
-                    t += load(m.displacement_operator, (TANGENTIAL * nodes + k, i)) * before
-                    r += load(m.displacement_operator, (MERIDIONAL * nodes + k, i)) * before
+                    last = load(m.last_increment, i)
+                    t += load(m.displacement_operator, (TANGENTIAL, k, i)) * last
+                    r += load(m.displacement_operator, (MERIDIONAL, k, i)) * last
                 # put into lanes here: loading together what was stored one by one stalls the processor
                 tangential = np.where(flag_at(k - g), sum_of_lanes(t), tangential)
                 meridional = np.where(flag_at(k - g), sum_of_lanes(r), meridional)
@@ -135,8 +129,8 @@ def set_friction_of_listed(m, count):
 def set_friction_of_all(m):
     """Vector friction on all nodes, and the gaps' response with it."""
     for g in range(0, len(m.force), LANES):
-        tangential = along(m, TANGENTIAL, m.before, g, len(m.u))
-        set_friction(m, g, tangential, along(m, MERIDIONAL, m.before, g, len(m.u)))
+        tangential = along(m, TANGENTIAL, m.last_increment, g, len(m.u))
+        set_friction(m, g, tangential, along(m, MERIDIONAL, m.last_increment, g, len(m.u)))
     for k in range(m.nodes):
         for g in range(0, len(m.force), LANES):
             store(m.response, (k, g), response_with_friction(m, k, g))
@@ -150,12 +144,12 @@ def response_with_friction(m, k, g):
 
 
 @inlined
-def press_lining(m, wear, place, kind):
+def press_lining(m, place, kind):
     """Normal forces of the bars that the nodes press; wears them.
 
     Returns how many nodes are listed as pressing, and whether one reaches the casing behind the lining.
     """
-    p, lining = m.problem, m.lining
+    p, lining, wear = m.problem, m.lining, numbers_at(m.wear)
     bars = int(lining.bars)
     turned = place * lining.bars / m.steps_per_revolution
     count = list_nodes(m.beyond, p.listed)
@@ -221,7 +215,7 @@ def press_casing(m, kind):
 @inlined
 def push_blade(m, count, vector, energy, work, lost):
     """Correct displacement and increment for the listed nodes' forces; adds the work, doubled, and the energy lost."""
-    nodes, pressed = len(m.force), False
+    pressed = False
     for i in range(0, len(m.u), LANES):
         store(m.push, i, 0.0)
     for j in range(count):
@@ -234,10 +228,9 @@ def push_blade(m, count, vector, energy, work, lost):
         tangential, meridional = normal * m.friction_share[0, k], normal * m.friction_share[1, k]
         for i in range(0, len(m.u), LANES):
             if vector:
-                push = (
-                    load(m.displacement_operator, (k, i)) * normal + load(m.displacement_operator, (nodes + k, i)) * tangential
-                )
-                push += load(m.displacement_operator, (2 * nodes + k, i)) * meridional
+                push = load(m.displacement_operator, (NORMAL, k, i)) * normal
+                push += load(m.displacement_operator, (TANGENTIAL, k, i)) * tangential
+                push += load(m.displacement_operator, (MERIDIONAL, k, i)) * meridional
             else:
                 push = load(m.push_operator, (k, i)) * normal
             store(m.push, i, load(m.push, i) + push)
@@ -245,9 +238,9 @@ def push_blade(m, count, vector, energy, work, lost):
         return work, lost
     m.totals.steps_in_contact += 1.0
     for i in range(0, len(m.u), LANES):
-        free, push = load(m.now, i) + load(m.before, i), load(m.push, i)
+        free, push = load(m.increment, i) + load(m.last_increment, i), load(m.push, i)
         pushed = load(m.inverse, i) * push
-        store(m.now, i, load(m.now, i) + pushed)
+        store(m.increment, i, load(m.increment, i) + pushed)
         store(m.u, i, load(m.u, i) + pushed)
         work += push * (free + pushed)
         if energy:
@@ -256,13 +249,13 @@ def push_blade(m, count, vector, energy, work, lost):
 
 
 @inlined
-def meet(m, wear, place, kind, work, lost):
+def meet(m, place, kind, work, lost):
     """Everything that happens in a step in which nodes are beyond the lining or casing; adds work, doubled, and loss."""
     for g in range(0, len(m.force), LANES):
         store(m.force, g, 0.0)
     count, closed = 0, True
     if kind.lined:
-        count, closed = press_lining(m, wear, place, kind)
+        count, closed = press_lining(m, place, kind)
     if closed:
         count = press_casing(m, kind)
     else:
@@ -278,8 +271,9 @@ def leave_casing(m):
 
 
 @inlined
-def record(m, block, row, samples, snapshots):
-    """Samples and, in this row, a snapshot at the end of a block; returns whether the outputs are within the limit."""
+def record(m, block, row):
+    """Samples and, unless `row` is -1, a snapshot at the end of a block; returns whether the outputs are within the limit."""
+    samples, snapshots = numbers_at(m.samples), numbers_at(m.snapshots)
     outputs = m.outputs.shape[0]
     bounded = True
     for o in range(outputs):

@@ -17,6 +17,7 @@ from r37core.io import atomic_write, write_text
 from r37core.mesh.blade_mesh import BladeMesh
 from r37core.mesh.mesh_files import vtk_grid
 from r37core.results.campbell import name_modes
+from r37core.results.measures import last_revolution
 from r37core.results.stress_recovery import StressRecovery
 from r37core.rom.reduced_model import ReducedModel
 from r37core.speeds import exact_text
@@ -101,7 +102,7 @@ def worst_instants(
         run = read_speed(file)
         if run["status"] or not len(run["snapshots"]):
             continue
-        revolution = run["snapshots"][-per_revolution:]
+        revolution = last_revolution(run["snapshots"], per_revolution)
         largest = recovery.max_von_mises(revolution)
         instant = int(np.argmax(largest))
         found[speed] = WorstInstant(revolution[instant], float(largest[instant]), revolution, instant)

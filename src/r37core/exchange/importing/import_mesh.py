@@ -14,7 +14,7 @@ from .checks import checked, without_free_nodes
 from .frame import blade_parameters
 from .read_mesh import read_mesh
 from .source import MeshSource
-from .tip import check_revolution, find_tip_lines
+from .tip import check_revolution, check_sense, find_tip_lines
 
 
 def import_mesh(source: MeshSource, folder: Path | str = ".") -> tuple[BladeMesh, np.ndarray]:
@@ -38,6 +38,8 @@ def import_mesh(source: MeshSource, folder: Path | str = ".") -> tuple[BladeMesh
             raise ImportRefused(f"root ({source.root.describe()}) and tip ({source.tip.describe()}) share nodes")
         check_revolution(raw.points[tip], source.revolution_tolerance)
         lines = find_tip_lines(raw.points, tip_faces, source.pressure_side_forward)
+        if source.sense_check:
+            check_sense(raw.points, lines, source.pressure_side_forward)
     parameters, normals = blade_parameters(raw.points, root, tip, source.pressure_side_forward)
     sets = dict.fromkeys(NODE_SETS, np.empty(0, dtype=np.int64)) | {"root": root, "tip": tip}
     # the edges come last: nodes that they share with the camber line count by their place on the edge

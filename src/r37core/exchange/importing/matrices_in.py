@@ -20,11 +20,12 @@ import scipy.sparse as sp
 from r37core.exchange.refusal import ImportRefused, blamed
 from r37core.fem.solver import factorise
 from r37core.rom.craig_bampton import multi_speed_basis
+from r37core.rom.reduce import projected
 from r37core.rom.reduced_model import RecoveryNodes, ReducedModel
 from r37core.rom.reduction_choice import ReductionChoice
 
 from .source import MASS_UNITS, STIFFNESS_UNITS, MatricesSource, matrix_files
-from .tip import arc_length, check_order
+from .tip import arc_length, check_order, check_sense_of_nodes
 
 COLUMNS = ("x", "y", "z", "dof_x", "dof_y", "dof_z")
 _REDUCED_UP_TO = 500  # coordinates beside those of the contact nodes: matrices that small are taken as they are
@@ -70,7 +71,7 @@ def _reduced(given: _Given, choice: ReductionChoice) -> ReducedModel:
             lambda speed: sp.csr_array(given.stiffness + speed**2 * given.per_square), given.mass, boundary, choice
         )
         vectors, columns, tolerance, singular = basis.vectors, basis.columns, choice.basis_tolerance, basis.singular_values
-    mass, stiffness = _projected(given.mass, vectors), _projected(given.stiffness, vectors)
+    mass, stiffness = projected(given.mass, vectors), projected(given.stiffness, vectors)
     _check_positive(mass, stiffness)
     shapes = _ideal_shapes(given)
     nodes = np.arange(len(given.points))
@@ -78,7 +79,7 @@ def _reduced(given: _Given, choice: ReductionChoice) -> ReducedModel:
     line = RecoveryNodes(nodes, given.points, vectors[boundary].reshape(-1, 3, size))
     return ReducedModel(
         stiffness=stiffness,
-        geometric_stiffness=_projected(given.per_square, vectors),
+        geometric_stiffness=projected(given.per_square, vectors),
         mass=mass,
         spin_softening=None,
         coriolis=None,
@@ -118,6 +119,8 @@ def _read(files: Mapping[str, Path], source: MatricesSource, fastest: float) -> 
     with blamed("matrices", files["boundary"].name):
         points = orientation.contact_nodes_to_blade(nodes)
         check_order(points)
+        if source.sense_check:
+            check_sense_of_nodes(points)
     speeds = sorted((_speed(name, file), name) for name, file in files.items() if name.startswith("K_"))
     _check_speeds([speed for speed, _ in speeds], fastest)
     mass, *stiffness = (_matrix(files[name]) for name in ("M", *(name for _, name in speeds)))
@@ -244,11 +247,6 @@ def _ideal_shapes(given: _Given) -> dict[str, np.ndarray]:
     smooth = factorise(given.stiffness)(given.mass @ first)
     second = first - smooth * (smooth @ (given.mass @ first)) / (smooth @ (given.mass @ smooth))
     return {"1B": smooth, "1T": twist, "2B": second}
-
-
-def _projected(matrix: sp.csr_array, vectors: np.ndarray) -> np.ndarray:
-    reduced = vectors.T @ (matrix @ vectors)
-    return 0.5 * (reduced + reduced.T)
 
 
 def _fractions(points: np.ndarray) -> np.ndarray:

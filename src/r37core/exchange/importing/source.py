@@ -30,7 +30,8 @@ class MeshSource:
     `file`; its `orientation`; where `root` and `tip` are; `pressure_side_forward`: whether the pressure side looks towards
     the rotation, as in a compressor; `revolution_tolerance` (m): how far the tip may be from a surface of revolution;
     `drop_free_nodes`: whether nodes of no solid element are left out instead of refused; `minimum_scaled_jacobian`: elements
-    below are refused; `digest`: hash of the files.
+    below are refused; `sense_check`: whether a tip that contradicts rotation or pressure side is refused; `digest`: hash of
+    the files.
     """
 
     file: str
@@ -41,17 +42,22 @@ class MeshSource:
     revolution_tolerance: float
     drop_free_nodes: bool
     minimum_scaled_jacobian: float
+    sense_check: bool
     digest: str = ""
 
 
 @dataclass(frozen=True)
 class MatricesSource:
-    """A directory of matrices, the axes of its boundary nodes, units of mass and stiffness, and a hash of the files."""
+    """A directory of matrices, the axes of its boundary nodes, units of mass and stiffness, and a hash of the files.
+
+    `sense_check`: whether a rotation that the nodes contradict is refused.
+    """
 
     folder: str
     orientation: Orientation
     mass_unit: str
     stiffness_unit: str
+    sense_check: bool
     digest: str = ""
 
 

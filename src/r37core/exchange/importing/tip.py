@@ -1,13 +1,15 @@
-"""The tip of an imported blade: whether casing contact makes sense there, and its pressure edge, suction edge, camber line."""
+"""The tip of an imported blade: whether casing contact and rotation make sense there, its edges and its camber line."""
 
 from __future__ import annotations
 
+import warnings
 from dataclasses import dataclass
 
 import numpy as np
 from scipy.spatial import cKDTree
 
-from r37core.exchange.refusal import ImportRefused
+from r37core.blade.sense import LEAST, TipSense, sense_of_line
+from r37core.exchange.refusal import ImportRefused, MeshWarning
 from r37core.fem.surface import Faces, loops, nodes_of, patches
 
 _CORNER = np.cos(np.radians(40.0))
@@ -15,6 +17,7 @@ _NEAR_END = 1.2  # mean thicknesses of the tip: a corner this near to the farthe
 _NEAR_CAMBER = 0.3  # of the local thickness: tip nodes that count as on the camber line
 _SAMPLES = 201
 _DOWNSTREAM = 0.02  # of the chord: how far the trailing edge lies downstream at least
+_OVERRIDE = "sense_check: false takes the blade as it is"
 
 
 @dataclass(frozen=True)
@@ -80,6 +83,73 @@ def _check_downstream(chord: np.ndarray) -> None:
         raise ImportRefused(
             "tip: leading and trailing edge lie at the same z, so that they cannot be told apart; check rotor_axis"
         )
+
+
+def check_sense(points: np.ndarray, lines: TipLines, pressure_forward: bool) -> None:
+    """Refuse a rotation, rotor axis or pressure side that the tip's `lines` of nodes at `points` contradict.
+
+    `points`: shape (nodes, 3), in the blade's frame; `pressure_forward`: whether the pressure side looks along the rotation.
+    What the tip does not tell is warned of.
+    """
+    steps = np.linspace(0.0, 1.0, _SAMPLES)
+    sides = [_at(points[lines.lines[name][0]], steps) for name in ("tip_pressure_edge", "tip_suction_edge")]
+    sense = sense_of_line(0.5 * (sides[0] + sides[1]))
+    fits = sense.fits(pressure_forward)
+    _check_lead(points[list(lines.corners)], sense, fits)
+    if fits is False:
+        side, other = ("along", "backward") if pressure_forward else ("against", "forward")
+        raise ImportRefused(
+            f"found a pressure side that looks {side} the rotation and is convex (camber {_degrees(sense.camber)}, stagger "
+            f"{_degrees(sense.stagger)}); give pressure_side: {other}, or change both rotor_axis and rotation if rotor_axis "
+            f"points upstream; {_OVERRIDE}",
+            "pressure_side",
+        )
+    if fits is None:
+        _warn_unproved("pressure_side", f"the tip's camber of {_degrees(sense.camber)}")
+
+
+def check_sense_of_nodes(points: np.ndarray) -> None:
+    """Refuse a rotation that the contact nodes contradict; `points`, shape (n, 3), are in order and in the blade's frame.
+
+    Only their stagger tells: on one side of the blade their line has not the blade's camber. A single node is warned of.
+    """
+    if len(points) == 1:
+        _warn_unproved("rotation", "the stagger of a single contact node")
+    else:
+        _check_lead(points[[0, -1]], sense_of_line(points[[0, -1]]), None)
+
+
+def _check_lead(ends: np.ndarray, sense: TipSense, fits: bool | None) -> None:
+    """Refuse `ends`, the leading and the trailing edge, of which the second is ahead; `fits`: whether the camber fits."""
+    if sense.leads() is None:
+        _warn_unproved("rotation", f"the tip's stagger of {_degrees(sense.stagger)}")
+    if sense.leads() is not False:
+        return
+    key, remedy = {
+        None: ("rotation", "change rotation, or rotor_axis if it points upstream"),
+        True: ("rotor_axis", "change rotor_axis if it points upstream, else both rotation and pressure_side"),
+        False: ("rotation", "change rotation"),
+    }[fits]
+    leading, trailing = -np.arctan2(ends[:, 1], ends[:, 0])
+    raise ImportRefused(
+        f"found the tip's leading edge at {_degrees(leading)} and its trailing edge at {_degrees(trailing)} round the axis, "
+        f"counted in the direction of rotation (stagger {_degrees(sense.stagger)}); allowed: a leading edge that is ahead, as "
+        f"in compressors and turbines; {remedy}; {_OVERRIDE}",
+        key,
+    )
+
+
+def _warn_unproved(key: str, shown: str) -> None:
+    warnings.warn(
+        f"{key} is taken as given: {shown} does not prove it ({np.degrees(LEAST):g} degrees would). Make sure of it: with a "
+        "wrong one a blade looks safe that is not",
+        MeshWarning,
+        stacklevel=2,
+    )
+
+
+def _degrees(angle: float) -> str:
+    return f"{np.degrees(angle):+.1f} degrees"
 
 
 def find_tip_lines(points: np.ndarray, faces: list[Faces], pressure_forward: bool) -> TipLines:

@@ -1,6 +1,6 @@
-"""Numbers for jumping over free flight: many steps of every mode as one map, and what bounds the motion meanwhile.
+"""Jumps over free flight as they are planned before a run, in NumPy: many steps of every mode as one map, and its bounds.
 
-time_integration.jumps says how they are used.
+time_integration.jump_steps says how a run uses them.
 """
 
 from __future__ import annotations
@@ -9,11 +9,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .integrators import Recursion
 from .layout import COARSE, STRIDES
 
 
 @dataclass(frozen=True)
-class FlightPlan:
+class JumpPlan:
     """Jumps of `lengths` steps, shape (strides,): what is left of a block after whole stretches, then doubling stretches.
 
     `slow_modes`, shape (strides,): modes followed along their tangent; `jumps`, shape (strides, 8, modes): the entries of the
@@ -28,13 +29,13 @@ class FlightPlan:
     amplitude_rows: np.ndarray
 
 
-def plan_flight(recursion: np.ndarray, loss: np.ndarray | None, steps_per_block: int, multiple: int) -> FlightPlan | None:
-    """Plan for the recursion's coefficients -b, c omega^2 (first two rows), ascending modes; None if a mode does not oscillate.
+def plan_jumps(recursion: Recursion, steps_per_block: int, multiple: int) -> JumpPlan | None:
+    """Plan for ascending modes; None if a mode does not oscillate. `multiple`: slow modes are counted in these.
 
-    One step maps (u, d) to d' = k d - p u, u' = u + d', with k = -b and p = c omega^2. Its eigenvalues lambda are complex with
-    |lambda|^2 = k while (1 + k - p)^2 < 4 k, so u_n = Re(C lambda^n). `multiple`: slow modes are counted in these.
+    One step maps (u, d) to d' = k d - p u, u' = u + d', with k = `keep` and p = `pull` of the recursion. Its eigenvalues
+    lambda are complex with |lambda|^2 = k while (1 + k - p)^2 < 4 k, so u_n = Re(C lambda^n).
     """
-    keep, pull = recursion[0], recursion[1]
+    keep, pull = recursion.keep, recursion.pull
     half_trace = 0.5 * (1.0 + keep - pull)
     if not np.all((keep > 0.0) & (keep <= 1.0) & (half_trace**2 < keep)):
         return None
@@ -51,41 +52,21 @@ def plan_flight(recursion: np.ndarray, loss: np.ndarray | None, steps_per_block:
     slow = np.zeros(len(lengths), dtype=np.int64)
     for stride, length in enumerate(lengths):
         if stride >= 2:
-            jumps[stride, :7] = _twice(jumps[stride - 1, :7])
+            jumps[stride, :7] = _after(jumps[stride - 1, :7], jumps[stride - 1, :7])
         else:
-            jumps[stride, :7] = _repeated(keep, pull, loss, length)
+            for _ in range(length):
+                jumps[stride, :7] = _after(jumps[stride, :7], _single(recursion))
         beyond = 0.5 * curvature * length * (length + 1)
         slow[stride] = int(np.count_nonzero(beyond < 1.0)) // multiple * multiple
         jumps[stride, 7] = np.where(np.arange(len(keep)) < slow[stride], beyond, 1.0)
-    return FlightPlan(np.array(lengths, dtype=np.int64), slow, jumps, amplitude_rows)
+    return JumpPlan(np.array(lengths, dtype=np.int64), slow, jumps, amplitude_rows)
 
 
-def _repeated(keep: np.ndarray, pull: np.ndarray, loss: np.ndarray | None, length: int) -> np.ndarray:
-    """Map less the identity, and loss, of `length` single steps, shape (7, modes)."""
-    result = np.zeros((7, len(keep)))
-    for _ in range(length):
-        result = _after(result, _single(keep, pull, loss))
-    return result
-
-
-def _single(keep: np.ndarray, pull: np.ndarray, loss: np.ndarray | None) -> np.ndarray:
-    """One step; its loss is that of the central difference (u' - u_before) = (1 + k) d - p u."""
-    per_square = np.zeros(len(keep)) if loss is None else loss
-    return np.array(
-        [
-            -pull,
-            keep,
-            -pull,
-            keep - 1.0,
-            per_square * pull**2,
-            -2.0 * per_square * pull * (1.0 + keep),
-            per_square * (1.0 + keep) ** 2,
-        ]
-    )
-
-
-def _twice(once: np.ndarray) -> np.ndarray:
-    return _after(once, once)
+def _single(recursion: Recursion) -> np.ndarray:
+    """One step less the identity; its loss is that of the central difference (u' - u_before) = (1 + k) d - p u."""
+    keep, pull, loss = recursion.keep, recursion.pull, recursion.loss
+    of_loss = [loss * pull**2, -2.0 * loss * pull * (1.0 + keep), loss * (1.0 + keep) ** 2]
+    return np.array([-pull, keep, -pull, keep - 1.0, *of_loss])
 
 
 def _after(first: np.ndarray, second: np.ndarray) -> np.ndarray:

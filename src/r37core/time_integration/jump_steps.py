@@ -1,7 +1,7 @@
-"""Free flight without stepping, compiled: while no node can reach the lining or casing, many steps are done at once.
+"""Jumps over free flight as a run does them, compiled: while no node can reach lining or casing, many steps at once.
 
 Each mode is u_n = Re(C lambda^n) with |lambda| <= 1, so m steps are a 2 x 2 map of (u, d), made once
-(time_integration.flight), and |C| bounds the mode until the next contact. A jump is taken only if a bound on every node's
+(time_integration.jump_plan), and |C| bounds the mode until the next contact. A jump is taken only if a bound on every node's
 position over all the steps it skips stays clear of the casing's nearest position over them: modes slow in the jump follow
 their tangent within |C| |1 - 1/lambda|^2 m (m + 1)/2, the others stay within |C|.
 
@@ -14,7 +14,7 @@ from __future__ import annotations
 import numpy as np
 
 from r37core.alignment import LANES
-from r37core.lanes import bits_of, inlined, load, store
+from r37core.lanes import bits_of, inlined, load, numbers_at, store
 
 from .layout import (
     BEYOND,
@@ -24,8 +24,10 @@ from .layout import (
     LOSS_DD,
     LOSS_UD,
     LOSS_UU,
+    MERIDIONAL,
     NORMAL,
     STRIDES,
+    TANGENTIAL,
     U_FROM_D,
     U_FROM_U,
 )
@@ -39,16 +41,15 @@ ROUNDING_MARGIN = 1e-9
 def bound_amplitudes(m, exact):
     """|C| of each mode from displacement and increment and, for the exact gap, how far nodes can get sideways and inwards."""
     for i in range(len(m.u)):
-        imaginary = m.amplitude_by_u[i] * m.u[i] + m.amplitude_by_d[i] * m.now[i]
+        imaginary = m.amplitude_by_u[i] * m.u[i] + m.amplitude_by_d[i] * m.increment[i]
         m.amplitude[i] = np.sqrt(m.u[i] * m.u[i] + imaginary * imaginary)
     if exact:
-        nodes = len(m.force)
         for k in range(m.nodes):
             normal = sideways = meridional = 0.0
             for i in range(len(m.u)):
-                normal += abs(m.displacement_operator[k, i]) * m.amplitude[i]
-                sideways += abs(m.displacement_operator[nodes + k, i]) * m.amplitude[i]
-                meridional += abs(m.displacement_operator[2 * nodes + k, i]) * m.amplitude[i]
+                normal += abs(m.displacement_operator[NORMAL, k, i]) * m.amplitude[i]
+                sideways += abs(m.displacement_operator[TANGENTIAL, k, i]) * m.amplitude[i]
+                meridional += abs(m.displacement_operator[MERIDIONAL, k, i]) * m.amplitude[i]
             m.across[k] = sideways
             m.towards[k] = m.radius[k] - m.casing.cosine * normal - abs(m.casing.sine) * meridional
     for stride in range(STRIDES):
@@ -56,24 +57,24 @@ def bound_amplitudes(m, exact):
 
 
 @inlined
-def _is_clear(m, casing_most, place, stride, remaining, exact):
+def _is_clear(m, place, stride, remaining, exact):
     """Whether no node can touch anything in a jump; `remaining`: what the casing's lobes lack before it."""
     if m.reach_known[stride] == 0:
         for k in range(m.nodes):
             bound = 0.0
             for i in range(len(m.u)):
-                bound += abs(m.displacement_operator[k, i]) * (m.amplitude[i] * m.jumps[stride, BEYOND, i])
+                bound += abs(m.displacement_operator[NORMAL, k, i]) * (m.amplitude[i] * m.jumps[stride, BEYOND, i])
             m.reach[stride, k] = bound
         m.reach_known[stride] = 1
-    nodes, length = len(m.force), m.lengths[stride]
+    casing, nodes, length = numbers_at(m.nearest_casing), len(m.force), m.lengths[stride]
     lobes = m.casing.amplitude * (1.0 - remaining * m.decay[stride])
     for g in range(0, nodes, LANES):
-        velocity = along(m, NORMAL, m.now, g, m.slow_modes[stride])
+        velocity = along(m, NORMAL, m.increment, g, m.slow_modes[stride])
         position = along(m, NORMAL, m.u, g, m.slow_modes[stride])
         position += np.maximum(velocity, velocity * length) + load(m.reach, (stride, g))
-        nearest = load(casing_most, place + g)
+        nearest = load(casing, place + g)
         for j in range(1, (length + COARSE - 1) // COARSE):
-            nearest = np.maximum(nearest, load(casing_most, place + j * nodes + g))
+            nearest = np.maximum(nearest, load(casing, place + j * nodes + g))
         if exact:
             across, towards = load(m.across, g), load(m.towards, g)
             position += across * across * (0.5 * m.casing.cosine) / towards
@@ -92,7 +93,7 @@ def _is_clear(m, casing_most, place, stride, remaining, exact):
 
 
 @inlined
-def choose_jump(m, casing_most, place, first_stride, left, remaining, exact):
+def choose_jump(m, place, first_stride, left, remaining, exact):
     """Stride of the longest jump that the rest of the block and the bounds allow, -1 if there is none."""
     stride = first_stride
     if left < COARSE:
@@ -100,7 +101,7 @@ def choose_jump(m, casing_most, place, first_stride, left, remaining, exact):
     else:
         while m.lengths[stride] > left:
             stride -= 1
-    while not _is_clear(m, casing_most, place, stride, remaining, exact):
+    while not _is_clear(m, place, stride, remaining, exact):
         if stride <= 1:
             return -1
         stride -= 1
@@ -111,9 +112,9 @@ def choose_jump(m, casing_most, place, first_stride, left, remaining, exact):
 def jump_ahead(m, stride, energy, lost):
     """Do the steps of a jump; adds the energy they lose to damping, in lanes."""
     for i in range(0, len(m.u), LANES):
-        u, d = load(m.u, i), load(m.now, i)
+        u, d = load(m.u, i), load(m.increment, i)
         store(m.u, i, u + (load(m.jumps, (stride, U_FROM_U, i)) * u + load(m.jumps, (stride, U_FROM_D, i)) * d))
-        store(m.now, i, d + (load(m.jumps, (stride, D_FROM_U, i)) * u + load(m.jumps, (stride, D_FROM_D, i)) * d))
+        store(m.increment, i, d + (load(m.jumps, (stride, D_FROM_U, i)) * u + load(m.jumps, (stride, D_FROM_D, i)) * d))
         if energy:
             lost += (load(m.jumps, (stride, LOSS_UU, i)) * u + load(m.jumps, (stride, LOSS_UD, i)) * d) * u
             lost += load(m.jumps, (stride, LOSS_DD, i)) * d * d

@@ -1,0 +1,83 @@
+"""The program of the compiled engine: its loop over steps, compiled for this processor. Imports numba, so only when needed."""
+
+from __future__ import annotations
+
+import numba
+import numpy as np
+from numba import types
+
+from r37core.lanes import OPTIONS, inlined, pointed_at, spread, sum_of_lanes
+from r37core.native import object_code
+
+from .jump_steps import bound_amplitudes, choose_jump, jump_ahead
+from .layout import COARSE, STRIDES, Kind, Layout, integration_record
+from .steps import leave_casing, measure_exact_gaps, measure_gaps, meet, predict, record
+
+
+@inlined
+def _integrate(m, kind):
+    """Do the blocks of steps asked for; returns how many were done, fewer when an output passed the limit or is NaN."""
+    at_once = np.isinf(m.casing.rise)
+    decay = 0.0 if at_once else np.exp(-m.casing.rise)
+    coarse_per_block = (m.steps_per_block + COARSE - 1) // COARSE
+    beyond, bounded, first_stride = False, False, 1
+    done = kept = 0
+    while done < m.blocks:
+        start = m.first_step + done * m.steps_per_block
+        place = start % m.steps_per_revolution
+        remaining = 0.0 if at_once else np.exp(-m.casing.rise * start)
+        if place == 0:
+            # so that a run stopped after a revolution goes on with the same bits
+            beyond, bounded, first_stride = False, False, 1
+        work = lost = spread(0.0)
+        position = 0
+        while position < m.steps_per_block:
+            if kind.jumps and not beyond and position % COARSE == 0:
+                if not bounded:
+                    bound_amplitudes(m, kind.exact_gap)
+                    bounded = True
+                nearest = (place // m.steps_per_block * coarse_per_block + position // COARSE) * len(m.force)
+                left = m.steps_per_block - position
+                stride = choose_jump(m, nearest, first_stride, left, remaining, kind.exact_gap)
+                first_stride = max(min(stride + 1, STRIDES - 1), 1)
+                if stride >= 0:
+                    lost = jump_ahead(m, stride, kind.energy, lost)
+                    remaining *= m.decay[stride]
+                    position += m.lengths[stride]
+                    m.totals.steps_jumped += m.lengths[stride]
+                    leave_casing(m)
+                    continue
+            position += 1
+            remaining *= decay
+            lost = predict(m, kind.energy, lost)
+            here = place + position if place + position < m.steps_per_revolution else 0
+            lobes = m.casing.amplitude * (1.0 - remaining)
+            beyond = measure_exact_gaps(m, here, lobes) if kind.exact_gap else measure_gaps(m, here, lobes)
+            if beyond:
+                work, lost = meet(m, here, kind, work, lost)
+                bounded = False
+            else:
+                leave_casing(m)
+        m.totals.work += 0.5 * sum_of_lanes(work)
+        m.totals.loss += sum_of_lanes(lost)
+        m.totals.steps += m.steps_per_block
+        # of the samples from the first snapshot's revolution on, every so many-th
+        due = (start + m.steps_per_block) // m.steps_per_block - m.samples_before_snapshots
+        taken = m.samples_per_snapshot > 0 and due > 0 and due % m.samples_per_snapshot == 0
+        within = record(m, done, kept if taken else -1)
+        kept += taken
+        done += 1
+        if not within:
+            break
+    return done
+
+
+def compile_integration(layout: Layout, kind: Kind) -> bytes:
+    """Object code of `advance(record)`: a function of the record's address that returns the blocks of steps done."""
+    signature = types.int64(types.CPointer(numba.from_dtype(integration_record(layout))))
+
+    @numba.cfunc(signature, **OPTIONS)
+    def advance(record):
+        return _integrate(pointed_at(record), kind)
+
+    return object_code(advance.inspect_llvm(), advance.native_name, "advance")

@@ -1,0 +1,38 @@
+"""What an engine changes: where a run stands, and what a stretch of it leaves behind."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from .layout import TOTALS
+
+
+@dataclass
+class SimulationState:
+    """Where a run stands; a run may be stopped after any revolution and go on from its state.
+
+    `displacement` u_n and `increment` u_n - u_{n-1}, shape (modes,), in the speed's modes; `wear` (m), shape (rings, bars);
+    `on_casing`, shape (nodes,): whether a node touched the casing in the last step; `totals`: see layout.TOTALS.
+    """
+
+    displacement: np.ndarray
+    increment: np.ndarray
+    wear: np.ndarray | None
+    on_casing: np.ndarray
+    revolutions: int = 0
+    totals: np.ndarray = field(default_factory=lambda: np.zeros((), TOTALS))
+
+
+@dataclass(frozen=True)
+class SimulationRecord:
+    """What a stretch of revolutions leaves behind.
+
+    `samples` (m), shape (samples, 6): normal, radial and tangential displacement of the leading edge, then of the trailing
+    edge; `snapshots`, shape (snapshots, modes), in the speed's modes; `diverged`.
+    """
+
+    samples: np.ndarray
+    snapshots: np.ndarray
+    diverged: bool = False
