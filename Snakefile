@@ -18,13 +18,7 @@ include: "workflow/rules/exports.smk"
 include: "workflow/rules/shapes.smk"
 include: "workflow/rules/signals.smk"
 include: "workflow/rules/designs.smk"
-include: "workflow/rules/studies/common.smk"
-include: "workflow/rules/studies/estimate.smk"
-include: "workflow/rules/studies/tradeoff.smk"
-include: "workflow/rules/studies/stability.smk"
-include: "workflow/rules/studies/readings.smk"
-include: "workflow/rules/studies/refinement.smk"
-include: "workflow/rules/studies/gallery.smk"
+include: "workflow/rules/studies.smk"
 
 
 rule all_blades:

@@ -15,13 +15,13 @@ STUDIES = ROOT / "results" / "studies"
 TABLES = {
     "accuracy": {"levels": "levels.md", "tradeoff": "tradeoff.md", "growth": "growth.md", "refinement": "refinement.md"},
     "stability": {"stability": "stability.md"},
-    "validation": {"validation": "validation.md", "readings": "readings.md"},
+    "validation": {"validation": "validation.md", "modelling_choices": "modelling_choices.md"},
     "speed": {"estimate": "estimate.md"},
 }
 PICTURES = (
     "tradeoff_pareto",
     "growth",
-    "readings",
+    "modelling_choices",
     *(f"validation_{name}" for name in ("reference", "blades", "stress", "histories", "spectrum_lined", "spectrum_direct")),
 )
 

@@ -17,16 +17,21 @@ DELIVERED = ("benchmarks", "cluster", "docs", "envs", "profiles", "workflow", "m
 DELIVERED += ("Makefile", "Snakefile", "CHANGELOG.md", "CONTRIBUTING.md", "README.md")
 
 
+def edited_configuration():
+    """Files of `config/` that differ from those of the tests, are missing or are new; the schemas are generated."""
+    folders = (CONFIGURATION, CHECKOUT / "config")
+    files = {str(file.relative_to(folder)) for folder in folders for file in folder.rglob("*.*")}
+    files = {file for file in files if not file.startswith("schemas")}
+    return sorted(files.difference(filecmp.cmpfiles(*folders, files, shallow=False)[0]))
+
+
 def pytest_terminal_summary(terminalreporter):
     """What the skipped tests need, one line each, and whether the configuration in use is not the tests'."""
     reasons = Counter(report.longrepr[2].removeprefix("Skipped: ") for report in terminalreporter.stats.get("skipped", []))
     for reason, tests in sorted(reasons.items()):
         terminalreporter.write_line(f"not run: {tests} {'test needs' if tests == 1 else 'tests need'} {reason}")
-    files = [str(file.relative_to(CONFIGURATION)) for file in CONFIGURATION.rglob("*.*")]
-    _, changed, missing = filecmp.cmpfiles(CONFIGURATION, CHECKOUT / "config", files, shallow=False)
-    if changed or missing:
-        names = ", ".join(sorted([*changed, *missing]))
-        terminalreporter.write_line(f"config/ is edited ({names}): the tests use tests/config/ instead")
+    if edited := edited_configuration():
+        terminalreporter.write_line(f"config/ is edited ({', '.join(edited)}): the tests use tests/config/ instead")
 
 
 @pytest.fixture(scope="session")

@@ -113,7 +113,7 @@ def test_every_rule_runs_again_for_the_modules_of_its_closure_and_no_other(root,
         }
 
 
-@pytest.mark.parametrize("script", ["simulate", "prepare_time_integration", "response", "mesh", "summary", "validation"])
+@pytest.mark.parametrize("script", ["simulate", "prepare_time_integration", "response", "mesh", "summary", "study"])
 def test_the_closure_has_all_that_python_loads(root, script):
     # as Python names the files: `src` is a link
     core = (root / "src/r37core").resolve()
@@ -132,9 +132,9 @@ def test_stages_do_not_share_more_than_they_need(root):
     """A new figure re-runs no simulation, a new time integration no mesh, and the models of the configuration neither."""
     code = CodeHashes(root / "src", root / "workflow/scripts")
     used = {
-        script: {file.parent.name for file in code.closure(script)} for script in ("mesh", "simulate", "response", "reading")
+        script: {file.parent.name for file in code.closure(script)} for script in ("mesh", "simulate", "response", "study_case")
     }
     assert not {"time_integration", "contact", "results", "figures", "studies", "config", "workflow"} & used["mesh"]
     assert not {"mesh", "fem", "blade", "results", "figures", "studies", "config", "workflow"} & used["simulate"]
     assert not {"figures", "studies", "config", "workflow"} & used["response"]
-    assert not {"config", "workflow"} & used["reading"]
+    assert not {"config", "workflow"} & used["study_case"]

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from r37core.published import INTERACTIONS
-from r37core.studies.reading_list import READINGS, SHIPPED, TURNED
+from r37core.studies.modelling_choices.cases import CHOICES, SHIPPED, VARIED
 from r37core.yaml_file import load_yaml
 
 
@@ -79,13 +79,13 @@ def test_mutants_are_of_modules_and_tests_that_are_there(root):
     assert [name for names in modules.values() for name in names.split() if not (here / name).exists()] == []
 
 
-def test_validation_page_has_every_interaction_and_every_reading(pages):
+def test_validation_page_has_every_interaction_and_every_modelling_choice(pages):
     rows = section(pages["validation"], "validation").splitlines()
     for one in INTERACTIONS:
         start = f"| {one.blade} 1B/{one.engine_order}: peak | {one.peak:g} rad/s |"
         assert any(row.startswith(start) for row in rows), start
-    readings = section(pages["validation"], "readings")
-    assert all(f"| {READINGS[name].what} |" in readings for name in (SHIPPED, *TURNED))
+    choices = section(pages["validation"], "modelling_choices")
+    assert all(f"| {CHOICES[name].what} |" in choices for name in (SHIPPED, *VARIED))
 
 
 def test_every_extreme_has_an_outcome(pages):

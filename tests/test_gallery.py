@@ -8,12 +8,11 @@ import xarray as xr
 
 from r37core.config import ConfigError, command_line_document, read_settings
 from r37core.figures.captions import CAPTIONS
-from r37core.plans.sweep_plan import Sweep
 from r37core.published import BLADES, DIRECT_PEAK, INTERACTIONS, QUIET
-from r37core.studies.check import Check, claim
-from r37core.studies.gallery import COARSE, FINE, ITEMS, Item, history_speeds, of_item, run_of, verdict
-from r37core.studies.gallery_plan import Gallery
-from r37core.time_integration.status import RunStatus
+from r37core.studies.checks import Check, claim
+from r37core.studies.gallery.cases import COARSE, FINE, ITEMS, Item, cases, inputs, outputs, told
+from r37core.studies.gallery.report import of_item, verdict
+from r37core.studies.runner import with_swept_peak
 
 
 def test_verdicts_name_what_agrees_and_what_does_not():
@@ -44,58 +43,39 @@ def test_every_figure_has_a_caption():
 
 
 @pytest.fixture
-def datasets():
-    """One blade in one scene at speeds of which one was not run; the largest motion at 1690 rad/s, with four lobes."""
-    speeds = np.array([1600.0, 1680.0, 1690.0, 1700.0, 1800.0])
-    axes = {"blade": ["Ref"], "scene": ["lined"], "speed": speeds}
-    dims = ("blade", "scene", "speed")
-    status = np.array([[[0, 0, 0, RunStatus.NOT_RUN, 0]]])
-    rms = xr.Dataset({"status": (dims, status), "casing_hits": (dims, status)}, axes | {"tip_point": ["leading_edge", "t"]})
-    for direction in ("normal", "radial", "tangential"):
-        values = np.array([1e-4, 2e-3, 5e-3, np.nan, 1e-4])[None, None, :, None] * [1.0, 9.0]
-        rms[f"rms_{direction}"] = ((*dims, "tip_point"), values)
-    contact = np.zeros((1, 1, 5, 4, 2))
-    contact[..., 2:, 0] = 1e-4
-    rms["revolution_maximum"] = ((*dims, "revolution", "tip_point"), contact)
-    harmonics = np.zeros((1, 1, 5, 21))
-    harmonics[..., 2], harmonics[..., 4] = 9.0, 1.0
-    wear = xr.Dataset(
-        {"max_wear": (dims, 1e-3 * np.ones((1, 1, 5))), "wear_harmonic": ((*dims, "lobes"), harmonics)},
-        axes | {"lobes": np.arange(21)},
-    )
-    return {"rms": rms, "wear": wear}
+def response():
+    """One blade in one scene; the largest motion at 1690 rad/s."""
+    speeds = np.array([1600.0, 1680.0, 1690.0, 1800.0])
+    values = np.array([1e-4, 2e-3, 5e-3, 1e-4])[:, None] * [1.0, 9.0]
+    data = {f"rms_{direction}": (("speed", "tip_point"), values) for direction in ("normal", "radial", "tangential")}
+    return xr.Dataset(data, {"speed": speeds, "tip_point": ["leading_edge", "trailing_edge"]})
 
 
-def test_a_sweep_is_read_as_a_run_of_the_studies(datasets):
-    run = run_of(datasets, "Ref", "lined")
-    np.testing.assert_array_equal(run["speed"], [1600.0, 1680.0, 1690.0, 1800.0])
-    assert float(run["rms_normal"].sel(speed=1690.0)) == 5e-3
-    # two lobes are the casing's own
-    assert set(run["lobes"].values) == {4.0}
-    assert set(run["first_contact"].values) == {3.0}
-    assert "max_von_mises" not in run
+def test_histories_are_at_the_published_speeds_and_at_our_peak(response, settings):
+    planned = cases(settings)
+    published = sorted([DIRECT_PEAK, INTERACTIONS[0].peak, QUIET])
 
+    def speeds(name):
+        return list(with_swept_peak(planned[name], planned[name].swept_peak, response).speeds)
 
-def test_histories_are_at_the_published_speeds_and_at_our_peak(datasets):
-    run = run_of(datasets, "Ref", "lined")
-    assert history_speeds(run, "Ref", lined=True) == sorted([DIRECT_PEAK, 1690.0, INTERACTIONS[0].peak, QUIET])
-    assert history_speeds(run, "Ref", lined=False) == sorted([DIRECT_PEAK, INTERACTIONS[0].peak, QUIET])
-    assert history_speeds(run, "S50", lined=True) == [1690.0]
+    assert speeds("Ref__lined") == sorted([*published, 1690.0])
+    assert list(planned["Ref__direct"].speeds) == published
+    assert planned["Ref__direct"].swept_peak is None
+    assert speeds("S50__lined") == [1690.0]
+    assert planned["revolution"].choice.snapshots_per_revolution == FINE
 
 
 def test_a_sweep_without_the_benchmark_is_refused(root, settings):
-    plan = Gallery(Sweep(settings))
-    assert len(plan.inputs(None)["histories"]) == len(BLADES) + 1
-    assert plan.yield_stress(None) == 1.38e9
-    few = Gallery(Sweep(read_settings(root, command_line_document({"blades": ["Ref"], "scenes": ["abradable"]}))))
+    assert len(inputs(settings)["responses"]) == len(BLADES) + 1
+    few = read_settings(root, command_line_document({"blades": ["Ref"], "scenes": ["abradable"]}))
     with pytest.raises(ConfigError, match=r"the gallery needs L50, .*CS100, direct, which this run leaves out"):
-        few.inputs(None)
+        inputs(few)
     # whose other rules are planned all the same
-    other = Gallery(Sweep(read_settings(root, command_line_document({"blades": ["L50"]}))))
-    assert other.pictures
-    for asked in (other.submesh, other.yield_stress):
+    other = read_settings(root, command_line_document({"blades": ["L50"]}))
+    assert outputs(other)
+    for asked in (cases, told):
         with pytest.raises(ConfigError, match="the gallery needs Ref"):
-            asked(None)
+            asked(other)
 
 
 def test_the_page_has_every_figure(root):

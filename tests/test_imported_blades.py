@@ -14,7 +14,7 @@ from r37core.plain import to_plain
 from r37core.plans.export_plan import Exports
 from r37core.plans.import_plan import Imported
 from r37core.plans.sweep_plan import Sweep
-from r37core.studies.study_models import StudyModels
+from r37core.studies.plan import blade_of
 
 MATERIAL = {"youngs_modulus_pa": 115e9, "density_kg_m3": 4430.0, "poissons_ratio": 0.32, "yield_stress_pa": 9e8}
 AXES = {"length_unit": "mm", "rotor_axis": [1, 0, 0], "radial": [0, 0, 1], "rotation": "positive"}
@@ -191,7 +191,7 @@ def test_plan_of_imported_blades(three, tmp_path, monkeypatch):
     assert '"snapshots_per_revolution": 0' in sweep.task(given)
     assert set(sweep.response_pictured(given)) == {"campbell", "rms"}
     with pytest.raises(ConfigError, match="studies: found the blade 'Fan'; allowed: Ref"):
-        StudyModels(imported.settings).blade("Fan")
+        blade_of(imported.settings, "Fan")
     monkeypatch.chdir(tmp_path / "config")
     assert all(file.startswith("/") for file in imported.files(fan))
 

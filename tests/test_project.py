@@ -1,12 +1,15 @@
 """The project's own promises: pins, layers, README."""
 
 import ast
+import os
 import re
 import tomllib
 from collections import Counter
 from graphlib import TopologicalSorter
 
+import pytest
 import yaml
+from conftest import edited_configuration
 
 from r37core import __version__
 from r37core.io import FILE_ATTRIBUTES
@@ -59,6 +62,11 @@ def test_one_version(root):
     assert yaml.safe_load((root / "CITATION.cff").read_text())["version"] == __version__
     assert re.search(r"^## (.*)$", (root / "CHANGELOG.md").read_text(), re.MULTILINE)[1] == __version__
     assert FILE_ATTRIBUTES["r37core_version"] == __version__
+
+
+@pytest.mark.skipif(not os.environ.get("CI"), reason="CI=true, for what is submitted: users may edit config/")
+def test_the_shipped_configuration_is_that_of_the_tests():
+    assert edited_configuration() == []
 
 
 def test_packages_import_only_those_above_them(root):

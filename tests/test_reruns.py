@@ -216,7 +216,7 @@ def test_a_stress_history_runs_its_speed(project):
         ("mesh/generate.py", {"mesh"}),
         ("results/interactions.py", {"summary"}),
         ("figures/maps.py", {"map_figure"}),
-        ("studies/growth.py", set()),
+        ("studies/tradeoff/report.py", set()),
         ("config/settings.py", set()),
         ("plans/sweep_plan.py", set()),
     ],

@@ -11,18 +11,20 @@ from defaults import IntegrationChoice
 from integration_cases import ABRADABLE, DIRECT
 from workflow_runs import snakemake
 
+from r37core.config import ConfigError, command_line_document, read_settings
 from r37core.config.fidelity import recommended_level
 from r37core.config.studies import Parameters
-from r37core.studies.case import QUANTITIES, Case
-from r37core.studies.changes import changed
-from r37core.studies.estimate import describe, project_costs
-from r37core.studies.growth import exponent_of
-from r37core.studies.parameters import PARAMETERS, vary
-from r37core.studies.sampling import sample
-from r37core.studies.stability import judge
-from r37core.studies.stability_cases import extremes
-from r37core.studies.tradeoff import case_dataset, gather_cases, level_error
-from r37core.studies.tradeoff_table import parameter_tables
+from r37core.dataset_file import read_dataset
+from r37core.plain import from_plain, to_plain
+from r37core.results.measures import first_contact
+from r37core.studies.case import MODEL_NAME, Case, ModelChoice, changed, model_of_name
+from r37core.studies.estimate.cases import sample
+from r37core.studies.estimate.report import describe, project_costs
+from r37core.studies.runner import run_case
+from r37core.studies.stability.cases import extremes
+from r37core.studies.stability.report import judge
+from r37core.studies.tradeoff.cases import PARAMETERS, vary
+from r37core.studies.tradeoff.report import QUANTITIES, exponent_of, gather_cases, level_error, parameter_tables
 from r37core.time_integration.simulate import Simulation
 
 
@@ -53,19 +55,23 @@ def test_estimate_of_a_small_sweep(project):
     assert (project / "results/studies/estimate.md").read_text().startswith("Level `tiny`: 12 simulations")
 
 
-def small_case(parameter, value, rms, scenes=("lined",)):
-    """A case with one speed at each place but three at the peak, and errors that are easy to see."""
-    places = {"peak": np.array([100.0, 101.0, 102.0]), "jump": np.array([105.0]), "off_resonance": np.array([90.0])}
-    values = {name: np.array(rms, dtype=float) for name in QUANTITIES}
-    values |= {name: np.zeros(5) for name in ("status", "energy_residual")}
-    costs = {"cpu_s": 1.0, "wall_s": 1.0, "peak_memory_bytes": 1e8, "bytes_written": 1e4}
-    runs = {scene: Case(np.concatenate(list(places.values())), values, costs) for scene in scenes}
-    return case_dataset(parameter, value, places, runs, {"cpu_s": 7.0})
+PLACES = {"peak": 3, "jump": 1, "off_resonance": 1}
+
+
+def small_case(rms):
+    """A response with one speed at each place but three at the peak, and errors that are easy to see."""
+    values = np.array(rms, dtype=float)
+    tips = {name: (("speed", "tip_point"), np.stack([values, 9.0 * values], axis=1)) for name in QUANTITIES if "_" in name}
+    tips |= {name: ("speed", values) for name in ("max_von_mises", "max_wear", "contact_work", "damping_loss")}
+    tips |= {name: ("speed", 0.0 * values) for name in ("status", "energy_residual")}
+    tips |= {name: ("speed", np.full(5, cost)) for name, cost in (("cpu_s", 1.0), ("wall_s", 1.0), ("bytes_written", 1e4))}
+    coords = {"speed": [100.0, 101.0, 102.0, 105.0, 90.0], "tip_point": ["leading_edge", "trailing_edge"]}
+    return xr.Dataset(tips, coords, {"peak_memory_bytes": 1e8, "model_cpu_s": 7.0})
 
 
 def test_errors_compare_means_over_neighbouring_speeds():
-    cases = [small_case("bars", "1", [1.0, 2.0, 3.0, 1.0, 0.5]), small_case("bars", "2", [3.0, 2.0, 1.0, 1.0, 1.0])]
-    together = gather_cases(cases, {"bars": "2"})
+    responses = {"bars/1__lined": small_case([1.0, 2.0, 3.0, 1.0, 0.5]), "bars/2__lined": small_case([3.0, 2.0, 1.0, 1.0, 1.0])}
+    together = gather_cases(responses, PLACES, {"bars": "2"})
     error = together["error"].isel(case=0, scene=0).sel(quantity="rms_normal")
     assert error.sel(at="peak").item() == pytest.approx(0.0)  # means agree though no speed but one does
     assert error.sel(at="off_resonance").item() == pytest.approx(0.5)
@@ -79,8 +85,8 @@ def test_errors_compare_means_over_neighbouring_speeds():
 
 
 def test_level_error_and_recommendation():
-    cases = [small_case("level", "coarse", [1.2, 1.2, 1.2, 1.0, 1.0]), small_case("level", "fine", [1.0, 1.0, 1.0, 1.0, 1.0])]
-    together = gather_cases(cases, {"level": "fine"})
+    responses = {"level/coarse__lined": small_case([1.2, 1.2, 1.2, 1.0, 1.0]), "level/fine__lined": small_case([1.0] * 5)}
+    together = gather_cases(responses, PLACES, {"level": "fine"})
     assert level_error(together, "coarse") == pytest.approx(0.2)
     errors, costs = {"draft": 0.2, "standard": 0.04, "paper": 0.01}, {"draft": 1.0, "standard": 3.0, "paper": 9.0}
     assert recommended_level(errors, costs, 0.3) == "draft"
@@ -89,13 +95,12 @@ def test_level_error_and_recommendation():
 
 
 def test_refused_values_are_rows_of_the_table():
-    refused = small_case("bars", "1", [np.nan] * 5)
-    refused["refused"][0] = "too stiff"
-    together = gather_cases([refused, small_case("bars", "2", [1.0] * 5)], {"bars": "2"})
+    refused = xr.Dataset(coords={"speed": np.empty(0)}, attrs={"refused": "too stiff"})
+    together = gather_cases({"bars/1__lined": refused, "bars/2__lined": small_case([1.0] * 5)}, PLACES, {"bars": "2"})
     assert "| 1 | lined | refused: too stiff |" in parameter_tables(together, {"bars": "2"})
 
 
-def test_parameters_turn_what_they_say():
+def test_parameters_vary_what_they_say():
     assert set(PARAMETERS) == set(Parameters.model_fields)
     scene, choice = vary("bars", "300", ABRADABLE, IntegrationChoice(1e-7, 10, 62))
     assert scene.lining.bars == 300
@@ -116,28 +121,73 @@ def test_exponent_of_a_power_law():
     assert exponent_of(values, 100.0 + values**3) > 1.0
 
 
-def test_judging_a_case(contact):
+def case_of(choice, scene=DIRECT, speeds=(1500.0,), results=("energy",), **fields):
+    kept = {"spectrum_highest_order": 12, "wear_angles": 100}
+    return Case("Ref", "pressure_edge", scene, choice, speeds, results, None, kept, **fields)
+
+
+@pytest.fixture
+def judged(contact, tmp_path):
+    """Outcome of a case, run with its own step and with half of it."""
+
+    def judge_case(case):
+        for name, one in (("case", case), ("half", replace(case, half_step=True))):
+            run_case(one, contact, None, tmp_path / f"{name}.nc")
+        return judge(*(read_dataset(tmp_path / f"{name}.nc") for name in ("case", "half")))
+
+    return judge_case
+
+
+def test_judging_a_case(judged):
     choice = IntegrationChoice(2e-7, 4, 62)
-    assert judge(contact, DIRECT, choice, 1500.0)["outcome"] == "accurate"
-    assert judge(contact, replace(DIRECT, divergence_limit=1e-6), choice, 1500.0)["outcome"] == "diverged"
-    refused = judge(contact, DIRECT, replace(choice, time_step=2e-6), 1500.0)
+    assert judged(case_of(choice))["outcome"] == "accurate"
+    assert judged(case_of(choice, replace(DIRECT, divergence_limit=1e-6)))["outcome"] == "diverged"
+    refused = judged(case_of(replace(choice, time_step=2e-6)))
     assert refused["outcome"] == "refused"
     assert "stability limit" in refused["detail"]
     far = replace(DIRECT, casing=replace(DIRECT.casing, amplitude=0.0))
-    assert judge(contact, far, choice, 1500.0)["detail"] == "nothing touches"
+    assert judged(case_of(choice, far))["detail"] == "nothing touches"
+    assert judged(case_of(choice, None, refused="lobes: found -1"))["detail"] == "lobes: found -1"
 
 
-def test_a_silent_wrong_number_is_not_accepted(contact, monkeypatch):
-    from r37core.studies import stability
+def test_half_a_step_is_half_of_the_one_taken(judged, tmp_path):
+    """A step far beyond the sampling instants is shortened to them: half of it would be shortened to the same."""
+    outcome = judged(case_of(IntegrationChoice(1e-3, 4, 62, integrator="exact_modal"), speeds=(1495.0, 1500.0)))
+    steps = [read_dataset(tmp_path / f"{name}.nc")["time_step"].values for name in ("case", "half")]
+    np.testing.assert_allclose(steps[0], 2.0 * np.pi / np.array([1495.0, 1500.0]) / 62)
+    np.testing.assert_allclose(steps[1], 0.5 * steps[0], rtol=1e-12)
+    assert outcome["step"] == pytest.approx(steps[0].mean())
+    assert outcome["detail"] != "mean rms changes by 0% with half the step"
 
-    monkeypatch.setattr(stability, "ENERGY_WITHIN", 1e-30)
+
+def test_a_silent_wrong_number_is_not_accepted(judged, monkeypatch):
+    from r37core.studies.stability import report
+
+    monkeypatch.setattr(report, "ENERGY_WITHIN", 1e-30)
     with pytest.raises(AssertionError, match="energy balance open"):
-        judge(contact, DIRECT, IntegrationChoice(2e-7, 4, 62), 1500.0)
+        judged(case_of(IntegrationChoice(2e-7, 4, 62)))
+
+
+def test_a_case_is_plain_data():
+    lined = replace(ABRADABLE, friction=None)
+    case = case_of(IntegrationChoice(2e-7, 4, 62), lined, crossing=("1B", 4), history_speeds=None)
+    for one in (case, replace(case, model=ModelChoice(5000, 8, 10, False, "camber", corners=True), scene=None, refused="why")):
+        assert from_plain(Case, json.loads(json.dumps(to_plain(one)))) == one
+
+
+def test_a_model_has_the_name_of_its_choice():
+    for choice in (
+        ModelChoice(5000, 8, 0, False, "pressure_edge", corners=True),
+        ModelChoice(1500, 2, 10, True, "camber", corners=False),
+    ):
+        assert re.fullmatch(MODEL_NAME, choice.name)
+        assert model_of_name(choice.name) == choice
 
 
 def test_changes_leave_the_entry_alone():
     entry = {"casing": {"lobes": 2}, "damping_ratio": 0.1}
     assert changed(entry, {"casing.lobes": 5, "damping_ratio": 0.0}) == {"casing": {"lobes": 5}, "damping_ratio": 0.0}
+    assert changed(entry, {"damping_ratio": lambda value: 2 * value}) == {"casing": {"lobes": 2}, "damping_ratio": 0.2}
     assert entry == {"casing": {"lobes": 2}, "damping_ratio": 0.1}
 
 
@@ -150,6 +200,22 @@ def test_modes_that_are_left_out(contact):
     simulation = Simulation(contact, 1500.0, DIRECT, IntegrationChoice(2e-7, 1, 62, highest_frequency=2e4))
     assert simulation.problem.frequencies[-1] <= 2 * np.pi * 2e4
     assert 5 < len(simulation.problem.frequencies) < len(contact.squared_frequencies)
+
+
+@pytest.mark.parametrize("instants", [60, 1000])
+def test_stress_instants_are_among_the_samples(root, instants):
+    level = {"values": ["standard"], "reference": "standard"}
+    several = {"values": [62, instants], "reference": 62}
+    changes = command_line_document({"studies": {"tradeoff": {"parameters": {"level": level, "stress_instants": several}}}})
+    message = rf"studies\.tradeoff\.parameters\.stress_instants\.values\.1: found {instants}; allowed: divisors of 496, the"
+    with pytest.raises(ConfigError, match=message):
+        read_settings(root, changes)
+
+
+def test_the_former_name_of_a_study_is_refused_with_the_new_one(root):
+    message = r"studies\.readings: found the former name of modelling_choices; allowed: modelling_choices, with the same keys"
+    with pytest.raises(ConfigError, match=message):
+        read_settings(root, command_line_document({"studies": {"readings": {"quick": "draft"}}}))
 
 
 @pytest.mark.slow
@@ -178,31 +244,35 @@ def test_studies_do_not_stand_in_the_way_of_another_blade(project):
     config = project / "config/config.yaml"
     config.write_text(config.read_text().replace("[Ref, CS100]", "[CS100]").replace("[abradable, direct]", "[direct]"))
     assert "simulate" in snakemake(project, "all_blades", "--cores", "2", "--dry-run")
-    text = snakemake(project, "readings", "--cores", "2", "--dry-run", check=False)
+    text = snakemake(project, "modelling_choices", "--cores", "2", "--dry-run", check=False)
     assert re.search(r"config\.yaml: studies: found the (blade|scene) '(Ref|abradable)'; allowed: (CS100|direct)", text)
 
 
 @pytest.mark.slow
-def test_an_extreme_and_a_reading_run(project):
+def test_an_extreme_and_modelling_choices_run(project):
     config = project / "config/config.yaml"
     steps = "{ fine: 100, coarse: 100, survey: 100 }"
-    studies = f"  stability: {{ base: tiny }}\n  readings: {{ base: tiny, quick: tiny, speed_steps_rad_s: {steps} }}\n"
-    config.write_text(config.read_text() + studies)
-    extreme = "results/studies/stability/lobes_5_direct.json"
-    turned, shipped, survey = (
-        f"results/studies/readings/{name}.nc" for name in ("inside/CS100_4", "shipped/Ref_4", "survey/CS100_lined")
+    studies = f"  stability: {{ base: tiny }}\n  modelling_choices: {{ base: tiny, quick: tiny, speed_steps_rad_s: {steps} }}\n"
+    # the study is of all blades, though only some of its cases are run
+    config.write_text(config.read_text().replace("[Ref, CS100]", "all") + studies)
+    extreme = [f"results/studies/stability/lobes_5_direct{half}.nc" for half in ("", "__half_step")]
+    varied, shipped, histories, survey = (
+        f"results/studies/modelling_choices/{name}.nc"
+        for name in ("inside/CS100_4", "shipped/Ref_4", "shipped/Ref_histories", "survey/CS100_lined")
     )
-    snakemake(project, extreme, turned, shipped, survey, "--cores", "2")
-    assert json.loads((project / extreme).read_text())["outcome"] in ("accurate", "degraded")
-    with xr.open_dataset(project / turned) as dataset:
+    snakemake(project, *extreme, varied, shipped, histories, survey, "--cores", "2")
+    assert judge(*(read_dataset(project / file) for file in extreme))["outcome"] in ("accurate", "degraded")
+    with xr.open_dataset(project / varied) as dataset:
         assert (dataset["rms_normal"] > 0.0).all()
-        assert dataset.attrs["reading"] == "corners not among the nodes"
+        assert dataset.attrs["case"] == "corners not among the nodes"
     with xr.open_dataset(project / shipped) as dataset:
-        assert {1344.0, 1717.0, 1800.0} < set(dataset["history_speed"].values) | {0.0}
-        assert dataset["history"].sizes["revolution"] == 8
-        assert (dataset["first_contact"] >= 1.0).all()
+        assert (first_contact(dataset) >= 1.0).all()
+        assert dataset.sizes["history_speed"] == 1
+    with xr.open_dataset(project / histories) as dataset:
+        assert list(dataset["history_speed"].values) == [1344.0, 1717.0, 1800.0]
+        assert dataset["max_von_mises_history"].sizes["revolution"] == 8
     with xr.open_dataset(project / survey) as dataset:
         assert (dataset["amplitude_tangential"] >= 0.0).all()
-    # the run's own level is the readings' one, so that its models serve for both; the other mesh has its own
+    # the run's own level is the study's, so that its models serve for both; the other mesh has its own
     models = [file.parent.name for file in (project / "results/studies/models/CS100").glob("*/rom.nc")]
     assert models == ["10000_8_10_submesh_pressure_edge_inside"]

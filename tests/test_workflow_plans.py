@@ -14,12 +14,12 @@ from r37core.plans.provenance import Provenance
 from r37core.plans.structure_plan import Structure
 from r37core.plans.sweep_plan import Sweep
 from r37core.speeds import SpeedPlan
-from r37core.studies.estimate_plan import Estimate
-from r37core.studies.parameters import OF_THE_MODEL
-from r37core.studies.readings_plan import Readings
-from r37core.studies.refinement_plan import Refinement
-from r37core.studies.stability_plan import Stability
-from r37core.studies.tradeoff_plan import Tradeoff
+from r37core.studies.estimate import cases as estimate
+from r37core.studies.modelling_choices import cases as modelling_choices
+from r37core.studies.plan import STUDIES, Studies
+from r37core.studies.refinement import cases as refinement
+from r37core.studies.stability import cases as stability
+from r37core.studies.tradeoff import cases as tradeoff
 
 
 @pytest.fixture(scope="module")
@@ -95,13 +95,13 @@ def test_what_a_round_is_told_is_what_it_takes(refining):
 
 
 def test_plain_grids_beside_are_part_of_the_whole_one(refining):
-    assert Refinement(refining.settings).steps == [5.0, 20.0]
-    assert Refinement(refining.settings).every_speed(REF) == [900.0 + 5.0 * place for place in range(21)]
+    assert refinement.plain_steps(refining.settings) == [5.0, 20.0]
+    whole = refinement.cases(refining.settings)["Ref__abradable"]
+    assert list(whole.speeds) == [900.0 + 5.0 * place for place in range(21)]
 
 
 def test_estimate_of_speeds_that_refine_themselves_is_their_share(refining):
-    estimate = Estimate(refining.settings)
-    assert estimate.number(REF) == max(3, int(0.2 * 21))
+    assert estimate.told(refining.settings)["runs"]["Ref__abradable"] == max(3, int(0.2 * 21))
 
 
 def test_models_of_a_scene(chosen):
@@ -201,51 +201,65 @@ def test_the_input_hash_is_of_all_that_a_file_is_made_of(config_copy, name, old,
 
 
 def test_tradeoff_has_a_case_for_every_value(settings):
-    plan = Tradeoff(settings)
-    assert len(plan.cases(None)) == sum(map(len, plan.values.values()))
-    assert plan.references["level"] == "reference"
-    case = "<results>/studies/tradeoff/Ref/exact_modal_step/8e-07.nc"
-    assert case in plan.cases(None)
+    values = tradeoff.values_of(settings)
+    files = Studies(settings).inputs("tradeoff")(None)["cases"]
+    assert len(files) == len(settings.scenes) * sum(map(len, values.values()))
+    assert tradeoff.told(settings)["references"]["level"] == "reference"
+    assert "<results>/studies/tradeoff/exact_modal_step/8e-07__direct.nc" in files
 
 
-def test_a_parameter_of_the_model_changes_its_own_part_of_the_name(settings):
-    plan = Tradeoff(settings)
-    base = plan.model(of(blade="Ref", parameter="bars", value="300"))["rom"]
-    for parameter, value in {"mesh_nodes": "1234", "boundary_nodes": "5", "stress_region": "whole"}.items():
-        assert parameter in OF_THE_MODEL
-        changed = plan.model(of(blade="Ref", parameter=parameter, value=value))["rom"]
-        names, parts = base.split("/")[-2].split("_"), changed.split("/")[-2].split("_")
-        assert [part for name, part in zip(names, parts, strict=True) if name != part] == [value]
-    assert plan.model(of(blade="Ref", parameter="level", value="draft"))["rom"].split("/")[-2].startswith("5000_")
-    assert plan.choices(of(parameter="level", value="draft"))["direct"]["time_step"] == 8e-7
-    assert plan.choices(of(parameter="bars", value="300"))["direct"]["time_step"] == 4e-7
+def test_a_parameter_of_the_model_changes_its_own_part_of_the_name(root):
+    level = {"values": ["draft"], "reference": "draft"}
+    changes = {"mesh_nodes": 1234, "boundary_nodes": 5, "stress_region": "whole", "bars": 300}
+    parameters = {name: {"values": [value], "reference": value} for name, value in changes.items()} | {"level": level}
+    cases = tradeoff.cases(read_settings(root, command_line_document({"studies": {"tradeoff": {"parameters": parameters}}})))
+    base = cases["bars/300__direct"]
+    for parameter, value in changes.items():
+        if parameter in tradeoff.OF_THE_MODEL:
+            changed = cases[f"{parameter}/{value}__direct"]
+            names, parts = base.model.name.split("_"), changed.model.name.split("_")
+            assert [part for name, part in zip(names, parts, strict=True) if name != part] == [str(value)]
+    assert cases["level/draft__direct"].model.nodes == 5000
+    assert cases["level/draft__direct"].choice.time_step == 8e-7
+    assert base.choice.time_step == 4e-7
 
 
 def test_a_study_names_what_it_lacks(root):
     settings = read_settings(root, command_line_document({"blades": ["L50"]}))
     with pytest.raises(ConfigError, match=r"studies: found the blade 'Ref'; allowed: L50"):
-        Tradeoff(settings).model(of(blade="Ref", parameter="bars", value="300"))
+        tradeoff.cases(settings)
+    # the outputs of every study are known all the same
+    assert all(Studies(settings).outputs(study) for study in STUDIES)
+
+
+def test_a_case_is_run_from_what_it_needs(settings):
+    plan = Studies(settings)
+    stable = plan.case_inputs(of(study="stability", case="lobes_5_direct"))
+    assert set(stable) == {"contact", "cost"}
+    assert set(plan.case_inputs(of(study="tradeoff", case="bars/300__direct"))) == {"contact", "rom", "cost", "campbell"}
+    assert plan.case_inputs(of(study="gallery", case="S50__lined"))["response"] == "<results>/S50/abradable/response.nc"
+    with pytest.raises(ConfigError, match="study stability: found the case 'lobes_6_direct'"):
+        plan.case_inputs(of(study="stability", case="lobes_6_direct"))
 
 
 def test_extremes_that_the_configuration_refuses_say_so(settings):
-    plan = Stability(settings)
-    assert len(plan.cases) == len(set(plan.cases)) > 100
-    described = [plan.described(of(extreme=case.split("/")[-1].removesuffix(".json"))) for case in plan.cases]
-    refused = [text for text in described if not text.startswith("Scene(")]
-    assert 0 < len(refused) < len(described)
+    planned = stability.cases(settings)
+    assert len(planned) > 200
+    refused = [case.refused for case in planned.values() if case.scene is None]
+    assert 0 < len(refused) < len(planned)
     assert all("found" in text and "allowed" in text for text in refused)
 
 
-def test_readings_use_this_runs_models_where_they_are_the_same(root, settings):
-    plan = Readings(settings)
-    shipped = next(one for one in plan.runs if one[0] == "shipped")
-    assert plan.model(of(reading=shipped[0], place=shipped[1]))["contact"].startswith("<results>/Ref/contact_")
-    draft = Readings(read_settings(root, command_line_document({"fidelity": "draft"})))
-    assert "/studies/models/" in draft.model(of(reading=shipped[0], place=shipped[1]))["contact"]
+def test_modelling_choices_use_this_runs_models_where_they_are_the_same(root, settings):
+    shipped = of(study="modelling_choices", case="shipped/Ref_4")
+    assert Studies(settings).case_inputs(shipped)["contact"].startswith("<results>/Ref/contact_")
+    draft = read_settings(root, command_line_document({"fidelity": "draft"}))
+    assert "/studies/models/" in Studies(draft).case_inputs(shipped)["contact"]
+    assert modelling_choices.inputs(settings)["campbells"][0] == "<results>/Ref/campbell.nc"
 
 
 def test_estimate_samples_and_counts(chosen):
-    plan = Estimate(chosen)
-    assert len(plan.samples) == 4
-    assert plan.number(REF) == 2
-    assert set(plan.choices(REF)) <= {900.0, 1234.5}
+    samples = estimate.cases(chosen)
+    assert len(samples) == 4
+    assert estimate.told(chosen)["runs"]["Ref__abradable"] == 2
+    assert set(samples["Ref__abradable"].speeds) <= {900.0, 1234.5}

@@ -71,11 +71,6 @@ class SpeedPlan:
         return sorted({*self.certain, *(speed for one in self.refined for speed in one.every_speed())})
 
 
-def speed_plan_from(fields: Mapping[str, Any]) -> SpeedPlan:
-    """The plan of which `asdict` made the dictionary."""
-    return SpeedPlan(tuple(fields["certain"]), tuple(RefinedRange(**one) for one in fields["refined"]))
-
-
 def plan_speeds(entries: Sequence[float | Mapping[str, Any]], default_step: float, unit: str = "rad/s") -> SpeedPlan:
     """What numbers and ranges with `start`, `stop` (included) and, if given, `step` and `refine_to` ask for.
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -56,11 +55,6 @@ class KnownSpeeds:
     speeds: np.ndarray
     curves: np.ndarray
     status: np.ndarray
-
-
-def refinement_choice_from(fields: Mapping[str, Any]) -> RefinementChoice:
-    """The choice of which `asdict` made the dictionary."""
-    return RefinementChoice(**{**fields, "windows": tuple(Window(**one) for one in fields["windows"])})
 
 
 @dataclass(frozen=True)

@@ -71,6 +71,19 @@ def studies_name_what_is_there(settings: Settings) -> None:
             _known(settings, ("studies", "tradeoff", "scenes"), given.scenes, settings.scene_entries, documents.scenes)
 
 
+def stress_instants_are_samples(settings: Settings) -> None:
+    """Stress instants of the trade-off are among the samples of a revolution."""
+    tradeoff = settings.studies.tradeoff
+    if tradeoff is None or tradeoff.parameters.stress_instants is None:
+        return
+    samples = settings.levels[tradeoff.base].time_integration.choice().samples_per_revolution
+    path = ("studies", "tradeoff", "parameters", "stress_instants", "values")
+    for number, instants in enumerate(tradeoff.parameters.stress_instants.values):
+        if samples % instants:
+            allowed = f"divisors of {samples}, the samples in a revolution of level {tradeoff.base}"
+            raise settings.documents.config.refusal((*path, number), f"{instants}", allowed)
+
+
 def speed_rules_name_what_is_there(settings: Settings) -> None:
     """Blades and scenes with speeds of their own are in their files."""
     for number, rule in enumerate(settings.config.speeds_for):
@@ -194,6 +207,7 @@ CHECKS: tuple[Callable[[Settings], None], ...] = (
     blades_are_known,
     scenes_are_known,
     studies_name_what_is_there,
+    stress_instants_are_samples,
     speed_rules_name_what_is_there,
     simulations_can_be_planned,
     windows_have_crossings,

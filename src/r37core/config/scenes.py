@@ -41,7 +41,7 @@ class LiningSection(Section):
     yield_stress_pa: float = Field(ge=0, le=1e15)
     bars: int = Field(default=10000, ge=10, le=10_000_000)
     rings: Literal["per_node", "shared"] = Field(
-        default="per_node", description="shared, one ring worn by all nodes, is kept for the study readings"
+        default="per_node", description="shared, one ring worn by all nodes, is kept for the study modelling_choices"
     )
     bar_width_m: float = Field(default=0.001, ge=1e-6, le=1, description="width of a bar, along the casing's meridian")
     bar_area_m2: Annotated[float, Field(gt=0, le=1)] | LeftOut = Field(
@@ -55,7 +55,7 @@ class FrictionSection(Section):
     form: Literal["constant", "vector"] = "vector"
     coefficient: float = Field(ge=0, le=10)
     direction: Literal["against_rotation", "along_rotation"] = Field(
-        default="against_rotation", description="along_rotation, against physics, is kept for the study readings"
+        default="against_rotation", description="along_rotation, against physics, is kept for the study modelling_choices"
     )
     coupling: Literal["coupled", "after"] = Field(
         default="coupled", description="friction inside the normal solve of direct contact or added after it"

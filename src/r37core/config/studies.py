@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Generic, Literal, TypeVar
+from collections.abc import Mapping
+from typing import Annotated, Any, Generic, Literal, TypeVar
 
 from pydantic import Field, model_validator
 
@@ -82,17 +83,17 @@ class TradeoffSection(Section):
 class SpeedSteps(Section):
     """Grids of speeds (rad/s)."""
 
-    fine: Step = Field(default=2.0, description="the shipped reading about interactions")
-    coarse: Step = Field(default=4.0, description="each choice turned once, and convergence")
+    fine: Step = Field(default=2.0, description="about interactions, as shipped")
+    coarse: Step = Field(default=4.0, description="each choice varied once, and convergence")
     survey: Step = Field(default=5.0, description="the whole range in the lined scene; direct contact every other one")
 
 
-class ReadingsSection(Section):
-    """Readings of what the benchmark leaves open, and the published numbers beside ours (snakemake readings)."""
+class ModellingChoicesSection(Section):
+    """What the benchmark leaves open, and the published numbers beside ours (snakemake modelling_choices)."""
 
     base: Name = Field(default="paper", description="fidelity level of the published step and mesh")
     quick: Name = Field(
-        default="standard", description="level whose time integration the turned choices and the whole range take"
+        default="standard", description="level whose time integration the varied choices and the whole range take"
     )
     lined_scene: Name = "abradable"
     direct_scene: Name = "direct"
@@ -123,7 +124,14 @@ class EstimateSection(Section):
 class Studies(Section):
     """Studies of the model itself; none is part of all_blades."""
 
+    @model_validator(mode="before")
+    @classmethod
+    def _without_former_names(cls, data: Any) -> Any:
+        if isinstance(data, Mapping) and "readings" in data:
+            raise refused(("readings",), "the former name of modelling_choices", "modelling_choices, with the same keys")
+        return data
+
     tradeoff: TradeoffSection | LeftOut = None
-    readings: ReadingsSection = ReadingsSection()
+    modelling_choices: ModellingChoicesSection = ModellingChoicesSection()
     stability: StabilitySection = StabilitySection()
     estimate: EstimateSection = EstimateSection()

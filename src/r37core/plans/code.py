@@ -21,17 +21,21 @@ class CodeHashes:
         self._roots = (scripts, source)
         self._version_file = source / PACKAGE / "__init__.py"
 
-    def __call__(self, script: str) -> str:
-        """Short hash of the script of this name (without .py) and its imports: a parameter of the rule that runs it."""
+    def __call__(self, script: str, *modules: str) -> str:
+        """Short hash of the script of this name (without .py) and its imports: a parameter of the rule that runs it.
+
+        `modules`: dotted names that the script imports by a name it is told.
+        """
         digest = hashlib.sha256()
-        for file in self.closure(script):
+        for file in self.closure(script, *modules):
             digest.update(file.name.encode() + fingerprint(file))
         return digest.hexdigest()[:16]
 
-    def closure(self, script: str) -> list[Path]:
-        """The script's file and those of all modules it imports, directly or not, sorted."""
+    def closure(self, script: str, *modules: str) -> list[Path]:
+        """The files of the script and `modules` and of all that they import, directly or not, sorted."""
         found: set[Path] = set()
         waiting = [self._roots[0] / f"{script}.py"]
+        waiting += [file for name in modules for file in module_files(name, self._roots)]
         while waiting:
             file = waiting.pop()
             if file not in found:

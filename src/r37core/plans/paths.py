@@ -23,7 +23,6 @@ WATERFALL_FIGURE = "<results>/figures/waterfall_{blade}__{scene}.png"
 COMPARISON_FIGURE = "<results>/figures/comparison_{scene}.png"
 DESIGNS = "<results>/designs.csv"
 DESIGN_FIGURE = "<results>/figures/designs_{family}.png"
-ESTIMATE_SAMPLE = "<results>/studies/estimate/{blade}__{scene}.json"
 EXPORTED_MESH = "<results>/exports/{blade}/mesh.{format}"
 EXPORTED_SURFACE = "<results>/exports/{blade}/surface.step"
 EXPORTED_MODES = "<results>/exports/{blade}/modes"
@@ -39,15 +38,8 @@ SHAPES_PAGE = "<results>/shapes/{blade}.html"
 MODES_FIGURE = "<results>/figures/shapes_{blade}.png"
 WORST_FIGURE = "<results>/figures/shapes_{blade}__{scene}.png"
 WHOLE_BLADE_MODEL = "<results>/exports/{blade}/rom_{tip_line}.nc"
-CAMPAIGN = "<results>/studies/refinement/{blade}__{scene}.nc"
-STUDY_MODEL = (
-    "<results>/studies/models/{blade}/{nodes}_{boundary_nodes}_{fixed_interface_modes}_{region}_{tip_line}_{ends}/{file}"
-)
-TRADEOFF_CASE = "<results>/studies/tradeoff/{blade}/{parameter}/{value}.nc"
-GALLERY_RUN = "<results>/studies/gallery/{blade}__{scene}.nc"
-STABILITY_CASE = "<results>/studies/stability/{extreme}.json"
-READING = "<results>/studies/readings/{reading}/{place}.nc"
-READING_CAMPBELL = "<results>/studies/readings/campbell/{blade}_{mesh}.nc"
+STUDY_CASE = "<results>/studies/{study}/{case}.nc"
+STUDY_MODEL = "<results>/studies/models/{blade}/{model}/{file}"
 
 
 def as_pdf(picture: str) -> str:

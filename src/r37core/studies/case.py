@@ -1,111 +1,99 @@
-"""One case of a study: a blade's model in one scene at some speeds, what came out and what it cost."""
+"""A case of a study: what one job runs, as plain data. Light: the workflow imports it."""
 
 from __future__ import annotations
 
-import resource
-import tempfile
-import time
-from dataclasses import dataclass, replace
-from pathlib import Path
-
-import numpy as np
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
 
 from r37core.contact.scene import Scene
-from r37core.results.stress_recovery import StressRecovery
-from r37core.rom.contact_model import ContactModel
+from r37core.fem.material import Material
 from r37core.time_integration.integration_choice import IntegrationChoice
-from r37core.time_integration.simulate import DIRECTIONS, TIP_POINTS
-from r37core.time_integration.speed_file import write_speed
-from r37core.time_integration.speed_run import run_speed
-
-MOTION = {"rms_normal": "m", "rms_tangential": "m", "peak_normal": "m"}
-"""Of the leading edge, as name -> unit: named after a kind and a direction of the time integration."""
-
-QUANTITIES = {**MOTION, "max_von_mises": "Pa", "max_wear": "m"}
-"""What a case keeps of every run, name -> unit; the stress over the last revolution, the wear at the end."""
-
-CHECKS = ("status", "energy_residual", "worst_complementarity", "share_of_time_in_contact")
-_KEPT = {"spectrum_highest_order": 20, "wear_angles": 1000}
-COSTS = ("cpu_s", "wall_s", "peak_memory_bytes", "bytes_written")
 
 
-class Stopwatch:
-    """Adds up CPU and wall seconds of this process over the blocks it is used for."""
+@dataclass(frozen=True)
+class ModelChoice:
+    """A model of a blade made for a study: nodes of the mesh and of the tip line, fixed-interface modes.
 
-    def __init__(self) -> None:
-        self.cpu = self.wall = 0.0
+    `whole_blade_stress`: stress is recovered on the whole blade, else on the submesh of this run.
+    """
 
-    def __enter__(self) -> None:
-        self._start = time.process_time(), time.perf_counter()
+    nodes: int
+    boundary_nodes: int
+    fixed_interface_modes: int
+    whole_blade_stress: bool
+    tip_line: str
+    corners: bool
 
-    def __exit__(self, *_: object) -> None:
-        self.cpu += time.process_time() - self._start[0]
-        self.wall += time.perf_counter() - self._start[1]
+    @property
+    def name(self) -> str:
+        """Folder of the model; each part is a wildcard of the rule that makes it."""
+        region, ends = "whole" if self.whole_blade_stress else "submesh", "corners" if self.corners else "inside"
+        numbers = f"{self.nodes}_{self.boundary_nodes}_{self.fixed_interface_modes}"
+        return f"{numbers}_{region}_{self.tip_line}_{ends}"
 
 
-def peak_memory() -> float:
-    """Largest memory (bytes) of this process so far."""
-    return float(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024)
+MODEL_NAME = r"\d+_\d+_\d+_(submesh|whole)_(pressure_edge|camber|suction_edge)_(corners|inside)"
+"""Pattern of ModelChoice.name."""
+
+
+def model_of_name(name: str) -> ModelChoice:
+    """The choice of this name."""
+    nodes, boundary_nodes, modes, region, *line, ends = name.split("_")
+    return ModelChoice(int(nodes), int(boundary_nodes), int(modes), region == "whole", "_".join(line), ends == "corners")
+
+
+@dataclass(frozen=True)
+class SweptPeak:
+    """The speed of the largest motion in this run's sweep of a scene, from `first` to `last` rad/s."""
+
+    scene: str
+    first: float
+    last: float
 
 
 @dataclass(frozen=True)
 class Case:
-    """Arrays of shape (speeds,) by the names of QUANTITIES and CHECKS, NaN where a scene has none, and costs per run."""
+    """A blade's model in one scene at some speeds, and what is kept of them.
 
-    speeds: np.ndarray
-    values: dict[str, np.ndarray]
-    costs: dict[str, float]
-
-
-def run_case(
-    model: ContactModel,
-    scene: Scene,
-    choice: IntegrationChoice,
-    speeds: np.ndarray,
-    recovery: StressRecovery | None = None,
-) -> Case:
-    """Run all `speeds` (rad/s), with the energy balance. Costs are means over the runs; memory: see peak_memory.
-
-    Raises UnstableStepError for a step beyond the stability limit.
+    - `model`: of a study, or this run's own on the tip line of this name.
+    - `scene`: None where the configuration refuses it; `refused` says why.
+    - `speeds`: rad/s, ascending. Where `crossing` names mode and engine order, they are shares of that Campbell speed. With
+      `swept_peak`, that speed is among them too.
+    - `results`: as of a scene, and `instants`, the stress at each instant of the last revolution.
+    - `kept`: how much of spectrum and wear, as run_speed takes it.
+    - `history_speeds`: speeds whose stress is kept for every revolution; None: all.
+    - `follow`: more speeds at the same step while the ends of the range are above yield. The peak's stress history is kept.
+    - `share_of_limit`: the time step is this share of the blade's stability limit under central differences.
+    - `half_step`: half the step that would be taken otherwise.
+    - `what`: words for the result's attributes.
     """
-    choice = replace(choice, energy=True)
-    results = ["energy", "spectrum", *(["stress"] if recovery else []), *(["wear"] if scene.lining else [])]
-    values = {name: np.full(len(speeds), np.nan) for name in (*QUANTITIES, *CHECKS)}
-    written = 0
-    clock = Stopwatch()
-    with tempfile.TemporaryDirectory() as folder:
-        file = Path(folder) / "speed.npz"
-        for row, speed in enumerate(speeds):
-            with clock:
-                run = run_speed(model, speed, scene, choice, results, **_KEPT)
-            write_speed(run, file, {})
-            written += file.stat().st_size
-            _keep(values, row, run, recovery, choice)
-    costs = {
-        "cpu_s": clock.cpu / len(speeds),
-        "wall_s": clock.wall / len(speeds),
-        "peak_memory_bytes": peak_memory(),
-        "bytes_written": written / len(speeds),
-    }
-    return Case(np.array(speeds, dtype=float), values, costs)
+
+    blade: str
+    model: ModelChoice | str
+    scene: Scene | None
+    choice: IntegrationChoice
+    speeds: tuple[float, ...]
+    results: tuple[str, ...]
+    material: Material | None
+    kept: Mapping[str, int]
+    crossing: tuple[str, int] | None = None
+    swept_peak: SweptPeak | None = None
+    history_speeds: tuple[float, ...] | None = ()
+    follow: bool = False
+    share_of_limit: float | None = None
+    half_step: bool = False
+    refused: str = ""
+    what: str = ""
 
 
-def _keep(
-    values: dict[str, np.ndarray],
-    row: int,
-    run: dict[str, np.ndarray],
-    recovery: StressRecovery | None,
-    choice: IntegrationChoice,
-) -> None:
-    for name in MOTION:
-        kind, direction = name.split("_")
-        values[name][row] = run[kind][TIP_POINTS.index("leading_edge"), DIRECTIONS.index(direction)]
-    for name in ("status", "worst_complementarity", "share_of_time_in_contact"):
-        values[name][row] = run[name]
-    # what the energy balance does not close, as a share of all that went in and out
-    turned_over = abs(run["contact_work"]) + run["damping_loss"]
-    values["energy_residual"][row] = run["energy_residual"] / turned_over if turned_over > 0.0 else 0.0
-    if "max_wear" in run:
-        values["max_wear"][row] = run["max_wear"]
-    if recovery and len(run["snapshots"]):
-        values["max_von_mises"][row] = recovery.max_von_mises(run["snapshots"]).max()
+def changed(entry: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
+    """A copy of a scene's entry with the values at dotted paths replaced; a function gives the new value from the old one."""
+    result: dict[str, Any] = {key: dict(value) if isinstance(value, Mapping) else value for key, value in entry.items()}
+    for path, value in changes.items():
+        *parents, last = path.split(".")
+        target = result
+        for parent in parents:
+            target = target[parent]
+        target[last] = value(target[last]) if callable(value) else value
+    return result

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
@@ -15,19 +15,8 @@ from r37core.rom.reduce import reduce_blade
 from r37core.rom.reduced_model import ReducedModel
 from r37core.rom.reduction_choice import EVERYWHERE, BoundaryChoice, ReductionChoice
 
-from .case import Stopwatch, peak_memory
-
-
-@dataclass(frozen=True)
-class ModelChoice:
-    """Nodes of the mesh, boundary nodes and their line, fixed-interface modes, where stress is recovered: submesh or all."""
-
-    nodes: int
-    boundary_nodes: int
-    fixed_interface_modes: int
-    whole_blade_stress: bool
-    tip_line: str
-    corners: bool
+from .case import ModelChoice
+from .costs import Stopwatch, peak_memory
 
 
 def tip_elements(nodes: int) -> int:

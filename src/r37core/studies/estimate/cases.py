@@ -1,0 +1,54 @@
+"""The study `estimate`: a sample of a sweep's runs, timed. `snakemake estimate`"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from r37core.config import Settings
+from r37core.time_integration.speed_run import OF_RUNS
+
+from ..case import Case
+from ..plan import case_of_sweep
+
+
+def sample(speeds: Sequence[float], every: int) -> list[float]:
+    """Every so many of the speeds, each from the middle of the stretch it stands for."""
+    return list(speeds[min(every // 2, len(speeds) - 1) :: every])
+
+
+def cases(settings: Settings) -> dict[str, Case]:
+    """Some of the speeds of each blade and scene, evenly spread."""
+    found = {}
+    for (blade, scene), plan in settings.speed_plans.items():
+        speeds = tuple(sample(plan.certain, settings.studies.estimate.every))
+        found[f"{blade}__{scene}"] = case_of_sweep(
+            settings,
+            blade,
+            scene,
+            speeds=speeds,
+            results=tuple(kind for kind in settings.results_of(blade, scene) if kind in OF_RUNS),
+            history_speeds=tuple(speed for speed in speeds if speed in settings.scenes[scene].stress_history_speeds),
+        )
+    return found
+
+
+def inputs(settings: Settings) -> dict[str, Any]:
+    """Nothing else."""
+    return {}
+
+
+def outputs(settings: Settings) -> dict[str, str]:
+    """The projection."""
+    return {"json": "<results>/studies/estimate.json", "table": "<results>/studies/estimate.md"}
+
+
+def told(settings: Settings) -> dict[str, Any]:
+    """How many runs each blade and scene has, as a rule at most with adaptive speeds, and where they are run."""
+    section, share = settings.studies.estimate, settings.refinement.largest_share
+    return {
+        "runs": {f"{blade}__{scene}": plan.at_most(share) for (blade, scene), plan in settings.speed_plans.items()},
+        "workflow_s_per_job": section.workflow_s_per_job,
+        "cores": section.cores,
+        "fidelity": settings.fidelity_name,
+    }

@@ -1,0 +1,173 @@
+"""Our counterpart of every result figure of the paper, from the results of a sweep, and what agrees under each."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Mapping, Sequence
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from r37core.dataset_file import read_dataset
+from r37core.figures.captions import caption
+from r37core.mesh.mesh_files import read_vtu
+from r37core.plain import from_plain
+from r37core.published import BLADES, INTERACTIONS, MESH_NODES, REFERENCE, Interaction
+from r37core.results.measures import peak_of, strongest_order
+from r37core.rom.reduction_choice import StressSubmesh
+
+from ..checks import Check, number, ran, score, with_histories
+from ..modelling_choices.cases import DIRECT
+from ..modelling_choices.validation import choice_checks, structure_checks, survey_checks
+from .cases import COARSE, FINE, ITEMS, REVOLUTION, WINDOW, Item, runs_of_sweep
+from .figures import GalleryData, gallery_figures
+from .shapes import draw_mesh, draw_modes, draw_variants
+
+_FIRST_LOBES = 2.5
+"""Engine orders of the motion above the casing's own: it has two lobes."""
+
+_LISTED = 4
+
+
+def report(responses: Mapping[str, xr.Dataset], given: Any, told: Mapping[str, Any]) -> dict[str, Any]:
+    """The page and its pictures; the rendered ones are drawn into their files."""
+    data = gallery_data(responses, given, told)
+    meshes = dict(zip(BLADES, given.meshes, strict=True))
+    reference = meshes.pop(REFERENCE)
+    nodes = len(read_vtu(reference).points)
+    rendered = {
+        "modes": partial(draw_modes, Path(given.modes) / "modes_0.vtu"),
+        "mesh": partial(draw_mesh, reference, from_plain(StressSubmesh, told["submesh"])),
+        "variants": partial(draw_variants, meshes, reference),
+    }
+    page = gallery_page(data, read_dataset(given.geometry), nodes, told["fidelity"])
+    return {"page": page, **gallery_figures(data), **rendered}
+
+
+def gallery_data(responses: Mapping[str, xr.Dataset], given: Any, told: Mapping[str, Any]) -> GalleryData:
+    """From the responses of the sweep, and those of the cases beside it."""
+    swept = {run: read_dataset(file) for run, file in zip(runs_of_sweep(), given.responses, strict=True)}
+    histories = {run: ran(responses["__".join(run)], "__".join(run)) for run in runs_of_sweep()}
+    shipped = {one.name: interaction_run(swept[one.blade, "lined"], one) for one in INTERACTIONS}
+    for blade in BLADES:
+        name = f"{blade}_4"
+        shipped[name] = with_histories(shipped[name], histories[blade, "lined"])
+    direct = swept[REFERENCE, "direct"]
+    shipped[DIRECT] = with_histories(direct, histories[REFERENCE, "direct"])
+    return GalleryData(
+        {blade: read_dataset(file) for blade, file in zip(BLADES, given.campbells, strict=True)},
+        swept,
+        shipped,
+        {"Ref_lined": swept[REFERENCE, "lined"], "Ref_direct": direct, "CS100_lined": swept["CS100", "lined"]},
+        ran(responses[REVOLUTION], REVOLUTION)["max_von_mises_of_instant"].values[0],
+        told["scenes"],
+    )
+
+
+def interaction_run(run: xr.Dataset, one: Interaction) -> xr.Dataset:
+    """The speeds of a run about an interaction."""
+    return run.sel(speed=slice(WINDOW[0] * one.campbell, WINDOW[1] * one.campbell))
+
+
+def gallery_checks(data: GalleryData, geometry: xr.Dataset, nodes: int) -> list[Check]:
+    """All checks: those of the modelling choices, and a few that only pictures need. `nodes`: of the reference blade's mesh."""
+    campbells, shipped = data.campbells, data.shipped
+    checks = structure_checks(geometry, campbells) + choice_checks(shipped)
+    checks += survey_checks(data.survey, shipped)
+    rest = float(campbells[REFERENCE]["frequency"].sel(mode="1B", speed=0.0))
+    checks.append(Check("Ref: 1B at rest, through the published crossings", _at_rest(), rest, "Hz"))
+    checks.append(Check("mesh: nodes", float(MESH_NODES), float(nodes), "", 0.05))
+    loss = 1.0 - data.revolution[:: FINE // COARSE].max() / data.revolution.max()
+    text = f"{100 * loss:.2g}% below that of {FINE}"
+    checks.append(Check(f"largest stress of the last revolution from {COARSE} instants", None, text))
+    for one in INTERACTIONS:
+        order = strongest_order(peak_of(shipped[one.name])["amplitude"], above=_FIRST_LOBES)
+        name = f"{one.blade} 1B/{one.engine_order}: engine order of the largest amplitude at the peak"
+        checks.append(Check(name, float(one.engine_order), order, "", 0.01))
+    order = strongest_order(peak_of(shipped[DIRECT])["amplitude"], above=_FIRST_LOBES)
+    checks.append(Check("direct, engine order of the largest amplitude at the largest rms", None, order))
+    return checks
+
+
+def _at_rest() -> float:
+    """Frequency (Hz) of the reference blade's 1B at rest: f^2 = f0^2 + s speed^2 through its published Campbell speeds."""
+    crossings = [one for one in INTERACTIONS if one.blade == REFERENCE]
+    speed = np.array([one.campbell for one in crossings])
+    frequency = np.array([one.engine_order for one in crossings]) * speed / (2.0 * np.pi)
+    _, square = np.polyfit(speed**2, frequency**2, 1)
+    return float(np.sqrt(square))
+
+
+def of_item(item: Item, checks: Iterable[Check]) -> list[Check]:
+    """The checks that belong to a figure."""
+    return [check for check in checks if any(re.search(pattern, check.name) for pattern in item.checks)]
+
+
+def verdict(checks: Sequence[Check]) -> str:
+    """One line: what agrees with the published values, what does not, and what is ours alone."""
+    scored = [check for check in checks if check.published is not None]
+    met, missed = [check for check in scored if check.met], [check for check in scored if not check.met]
+    parts = []
+    if met:
+        parts.append(f"**Agrees** ({len(met)} of {len(scored)}): " + (_listed(met) if len(met) <= _LISTED else _summed(met)))
+    if missed:
+        parts.append("**Does not agree**: " + _listed(missed))
+    alone = [f"{check.name} {check.shown}{_unit(check)}" for check in checks if check.published is None]
+    if alone:
+        parts.append("Ours alone: " + "; ".join(alone))
+    return ". ".join(parts) + "."
+
+
+def _listed(checks: Sequence[Check]) -> str:
+    return "; ".join(_one(check) for check in checks)
+
+
+def _one(check: Check) -> str:
+    if isinstance(check.published, str):
+        return check.name + (f" ({check.detail})" if check.detail else "")
+    return f"{check.name} {check.shown}{_unit(check)} (published {number(check.published)})"
+
+
+def _summed(checks: Sequence[Check]) -> str:
+    """Many that agree: the one with the largest error, and how many statements."""
+    numbers = [check for check in checks if not isinstance(check.published, str)]
+    told = len(checks) - len(numbers)
+    parts = []
+    if numbers:
+        worst = max(numbers, key=lambda check: check.error)
+        parts.append(f"{len(numbers)} numbers, the largest difference {100 * worst.error:.2g}%, {_one(worst)}")
+    if told:
+        parts.append(f"{told} statement{'s' if told > 1 else ''}")
+    return " and ".join(parts)
+
+
+def _unit(check: Check) -> str:
+    return f" {check.unit}" if check.unit else ""
+
+
+def gallery_page(data: GalleryData, geometry: xr.Dataset, nodes: int, fidelity: str) -> str:
+    """The page docs/gallery.md, with the pictures in a folder of its name."""
+    checks = gallery_checks(data, geometry, nodes)
+    lines = [
+        "# Gallery",
+        "",
+        "Our counterpart of every result figure of the paper, made by `snakemake gallery` from the default sweep at level "
+        f"`{fidelity}` and a few runs beside it. Numbers under a figure are generated; a published one counts as met within "
+        "the bound of [validation.md](validation.md), which has the same checks at the published step.",
+        "",
+        f"{score(checks)} published numbers and statements are met.",
+    ]
+    for item in ITEMS:
+        lines += ["", f"## {item.title}", "", f"![{item.title}](gallery/{item.name}.png)", "", _caption(item, data)]
+        lines += ["", verdict(of_item(item, checks))]
+    return "\n".join(lines) + "\n"
+
+
+def _caption(item: Item, data: GalleryData) -> str:
+    kind, _, scene = item.name.partition("_")
+    if kind == "spectrum":
+        return caption(kind, blade=REFERENCE, scene=data.scenes[scene])
+    return caption(item.name, blade=REFERENCE)

@@ -1,0 +1,92 @@
+"""Rendered figures of the gallery: mode shapes, the submesh of stress, the variants' shapes."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+
+import numpy as np
+import pyvista
+
+from r37core.figures import style
+from r37core.figures.offscreen import new_plotter
+from r37core.io import atomic_write, readable
+from r37core.mesh.mesh_files import read_vtu
+from r37core.rom.reduction_choice import StressSubmesh
+
+_VIEW = [(0.25, -1.0, 0.9), (0.0, 0.0, 0.0), (1.0, 0.0, 0.0)]
+_HEIGHT = 380
+_SWING = 0.02
+"""Largest displacement that a mode is drawn with (m)."""
+
+
+def draw_modes(file: Path | str, png: Path | str) -> None:
+    """The first three modes of a modes_<speed>.vtu, each moved by its shape and coloured by the size of its displacement."""
+    with readable(file):
+        grid = pyvista.read(file)
+    names = ("1B", "1T", "2B")
+    plotter = new_plotter(len(names), (300 * len(names), _HEIGHT))
+    for column, name in enumerate(names):
+        plotter.subplot(0, column)
+        shape = np.asarray(grid.point_data[f"mode {name}"])
+        size = np.linalg.norm(shape, axis=1)
+        moved = grid.copy()
+        moved.points = grid.points + _SWING / size.max() * shape
+        moved.point_data["size"] = size / size.max()
+        plotter.add_mesh(_surface(grid), color="white", opacity=0.25)
+        plotter.add_mesh(_surface(moved), scalars="size", cmap="viridis", smooth_shading=True, show_scalar_bar=False)
+        frequency = float(grid.field_data[f"frequency of mode {name} (Hz)"][0])
+        _finish(plotter, f"{name}, {frequency:.0f} Hz")
+    _save(plotter, png)
+
+
+def draw_mesh(file: Path | str, submesh: StressSubmesh, png: Path | str) -> None:
+    """A mesh with its elements, and the elements on which stress is recovered."""
+    with readable(file):
+        grid = pyvista.read(file)
+    elements = submesh.elements(read_vtu(file), np.empty(0, dtype=int)).values()
+    inside = np.unique(np.concatenate([nodes.ravel() for nodes in elements]))
+    plotter = new_plotter(2, (600, _HEIGHT + 60))
+    plotter.subplot(0, 0)
+    plotter.add_mesh(_surface(grid), color="white", show_edges=True, edge_color="grey", line_width=0.5)
+    _finish(plotter, f"{grid.n_points} nodes")
+    plotter.subplot(0, 1)
+    plotter.add_mesh(_surface(grid), color="white", opacity=0.35)
+    part = grid.extract_points(inside, adjacent_cells=False)
+    plotter.add_mesh(_surface(part), color=style.COLOURS[1], show_edges=True, line_width=0.5)
+    _finish(plotter, "submesh of stress")
+    _save(plotter, png)
+
+
+def draw_variants(meshes: Mapping[str, Path | str], reference: Path | str, png: Path | str) -> None:
+    """The blades (name -> mesh), each in its colour, over the reference blade in grey."""
+    with readable(reference):
+        behind = _surface(pyvista.read(reference))
+    styles = style.blade_styles(["", *meshes])
+    plotter = new_plotter(len(meshes), (170 * len(meshes), _HEIGHT - 60))
+    for column, (name, file) in enumerate(meshes.items()):
+        plotter.subplot(0, column)
+        with readable(file):
+            plotter.add_mesh(
+                _surface(pyvista.read(file)), color=styles[name]["color"], smooth_shading=True, split_sharp_edges=True
+            )
+        plotter.add_mesh(behind, color="grey", opacity=0.35)
+        _finish(plotter, name)
+    _save(plotter, png)
+
+
+def _surface(grid: pyvista.DataSet) -> pyvista.PolyData:
+    return grid.extract_surface(nonlinear_subdivision=0, algorithm="dataset_surface")
+
+
+def _finish(plotter: pyvista.Plotter, title: str) -> None:
+    plotter.add_text(title, font_size=9)
+    plotter.camera_position = _VIEW
+    plotter.reset_camera()  # type: ignore[call-arg]  # the wrapper hides the method from mypy
+    plotter.camera.zoom(1.3)
+
+
+def _save(plotter: pyvista.Plotter, png: Path | str) -> None:
+    with atomic_write(png) as partial:
+        plotter.screenshot(partial)
+    plotter.close()

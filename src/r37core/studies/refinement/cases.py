@@ -1,0 +1,64 @@
+"""The study `refinement`: every speed of the grids of adaptive speed sampling. `snakemake refinement`"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from r37core.config import ConfigError, Settings, plain
+from r37core.plans.sweep_plan import Sweep
+
+from ..case import Case
+from ..plan import case_of_sweep
+
+_STEPS = (5.0, 8.0, 20.0)
+"""Plain grids (rad/s) beside: as many runs as a fifth of every 1 rad/s, and those of two fidelity levels."""
+
+_COMPARED = ("spectrum", "stress", "wear")
+"""Results of a scene by which interactions are told."""
+
+
+def adaptive(settings: Settings) -> dict[str, tuple[str, str]]:
+    """Blade and scene of each adaptive sweep, by the name of its case."""
+    return {"__".join(place): place for place, plan in settings.speed_plans.items() if plan.refined}
+
+
+def cases(settings: Settings) -> dict[str, Case]:
+    """Every speed of each of them; ConfigError if there are none."""
+    if not adaptive(settings):
+        raise ConfigError("config.yaml: speeds: found no range with refine_to; allowed: at least one, for this study")
+    return {
+        name: case_of_sweep(
+            settings,
+            *place,
+            speeds=tuple(settings.speed_plans[place].every_speed()),
+            results=tuple(kind for kind in settings.results_of(*place) if kind in _COMPARED),
+        )
+        for name, place in adaptive(settings).items()
+    }
+
+
+def inputs(settings: Settings) -> dict[str, Any]:
+    """The Campbell diagrams of all blades."""
+    return {"campbell": "<results>/campbell.nc"}
+
+
+def outputs(settings: Settings) -> dict[str, str]:
+    """The tables."""
+    return {"table": "<results>/studies/refinement.md"}
+
+
+def told(settings: Settings) -> dict[str, Any]:
+    """Plans of the speeds, steps of the plain grids, and what a sweep refines by."""
+    return {
+        "places": adaptive(settings),
+        "plans": {name: settings.speed_plans[place] for name, place in adaptive(settings).items()},
+        "steps": plain_steps(settings),
+        "choice": Sweep(settings).refinement_choice,
+        "interactions": plain(settings.interactions),
+    }
+
+
+def plain_steps(settings: Settings) -> list[float]:
+    """Steps (rad/s) of the plain grids that are part of the whole ones."""
+    finest = [grid.interval for place in adaptive(settings).values() for grid in settings.speed_plans[place].refined]
+    return [step for step in _STEPS if all(abs(step / one - round(step / one)) < 1e-9 and step >= one for one in finest)]

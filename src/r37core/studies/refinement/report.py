@@ -1,0 +1,190 @@
+"""What adaptive speed sampling finds, of how many runs, against every speed of its grid."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from r37core.adaptive.criterion import CURVES, RefinementChoice
+from r37core.adaptive.rounds import first_round, round_after
+from r37core.dataset_file import read_dataset
+from r37core.plain import from_plain
+from r37core.results.interactions import Interaction, InteractionChoice, find_interactions
+from r37core.speeds import SpeedPlan
+
+from ..checks import ran
+
+TOLERANCE = 2.0
+"""Difference (rad/s) of a peak's speed or width above yield up to which it counts as the same."""
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """One interaction above yield of the whole grid, and what the adaptive speeds have of it.
+
+    Speeds and widths in rad/s, `stress` in Pa; `found_peak` and `found_width` NaN where there is no interaction
+    above yield within the width, or TOLERANCE, of it.
+    """
+
+    mode: str
+    engine_order: int | None
+    peak: float
+    width: float
+    stress: float
+    found_peak: float
+    found_width: float
+
+    @property
+    def found(self) -> bool:
+        """Whether there is one at all."""
+        return not math.isnan(self.found_peak)
+
+    @property
+    def same(self) -> bool:
+        """Whether peak and width agree."""
+        return abs(self.found_peak - self.peak) <= TOLERANCE and abs(self.found_width - self.width) <= TOLERANCE
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """One way to choose speeds of one blade and scene: runs of its first round, of all, and the interactions above yield."""
+
+    first: int
+    runs: int
+    rounds: int
+    interactions: list[Comparison]
+
+
+def report(responses: Mapping[str, xr.Dataset], given: Any, told: Mapping[str, Any]) -> dict[str, str]:
+    """Each way to choose speeds against every speed of the grids."""
+    choice, interactions = from_plain(RefinementChoice, told["choice"]), from_plain(InteractionChoice, told["interactions"])
+    diagrams = read_dataset(given.campbell)
+    ways: dict[str, dict[tuple[str, str], Outcome]] = {"refined": {}}
+    every = {}
+    for name, response in responses.items():
+        blade, scene = told["places"][name]
+        campbell, plan = diagrams.sel(blade=blade), from_plain(SpeedPlan, told["plans"][name])
+        every[blade, scene] = ran(response, name).sizes["speed"]
+        speeds = {"refined": replay(response, campbell, plan, choice)}
+        speeds |= {f"every {step:g} rad/s": [plain_grid(plan, step)] for step in told["steps"]}
+        for way, several in speeds.items():
+            ways.setdefault(way, {})[blade, scene] = compare(response, campbell, several, interactions)
+    return {"table": refinement_table(ways, every)}
+
+
+def replay(response: xr.Dataset, campbell: xr.Dataset, plan: SpeedPlan, choice: RefinementChoice) -> list[list[float]]:
+    """New speeds (rad/s) of each round, as the sweep would ask for them, with the runs looked up in the whole grid."""
+    rows = _measured(response)
+    asked = first_round(plan, campbell, choice)
+    rounds = []
+    while asked.new:
+        rounds.append(list(asked.new))
+        asked = round_after(asked, {speed: rows[speed] for speed in asked.new}, plan, choice)
+    return rounds
+
+
+def _measured(response: xr.Dataset) -> dict[float, list[float]]:
+    """Status and CURVES of each speed (rad/s)."""
+    edge = response.sel(tip_point="leading_edge")
+    stress = (
+        response["max_von_mises"] / response["yield_stress"] if "max_von_mises" in response else edge["rms_normal"] * np.nan
+    )
+    columns = [edge["status"], edge["rms_normal"], edge["rms_tangential"], stress]
+    assert len(columns) == 1 + len(CURVES)
+    rows = np.stack([column.values.astype(float) for column in columns], axis=1)
+    return dict(zip(map(float, response["speed"].values), rows.tolist(), strict=True))
+
+
+def plain_grid(plan: SpeedPlan, step: float) -> list[float]:
+    """Every so many rad/s of the grids of a plan, ascending."""
+    return sorted(
+        grid.speed(place) for grid in plan.refined for place in range(0, grid.last + 1, max(1, round(step / grid.interval)))
+    )
+
+
+def compare(
+    response: xr.Dataset, campbell: xr.Dataset, speeds: Sequence[Sequence[float]], interactions: InteractionChoice
+) -> Outcome:
+    """Hold the interactions above yield that the `speeds` (rad/s) of each round show against those of the whole grid."""
+    run = sorted(speed for new in speeds for speed in new)
+    wanted, got = (_above_yield(part, campbell, interactions) for part in (response, response.sel(speed=run)))
+    return Outcome(len(speeds[0]), len(run), len(speeds), [_held_against(row, got) for row in wanted])
+
+
+def _above_yield(response: xr.Dataset, campbell: xr.Dataset, interactions: InteractionChoice) -> list[Interaction]:
+    rows = find_interactions(response, campbell, interactions)
+    return [row for row in rows if row.width_above_yield_rad_s > 0.0]
+
+
+def _held_against(row: Interaction, got: Sequence[Interaction]) -> Comparison:
+    """One interaction beside the nearest of those that were found."""
+    peak, width = row.peak_speed_rad_s, row.width_above_yield_rad_s
+    near = [other for other in got if abs(other.peak_speed_rad_s - peak) <= max(width, TOLERANCE)]
+    nearest = min(near, key=lambda other: abs(other.peak_speed_rad_s - peak), default=None)
+    return Comparison(
+        mode=row.mode,
+        engine_order=row.engine_order,
+        peak=peak,
+        width=width,
+        stress=row.max_von_mises_pa,
+        found_peak=nearest.peak_speed_rad_s if nearest else math.nan,
+        found_width=nearest.width_above_yield_rad_s if nearest else math.nan,
+    )
+
+
+def refinement_table(outcomes: Mapping[str, Mapping[tuple[str, str], Outcome]], every: Mapping[tuple[str, str], int]) -> str:
+    """What each way to choose speeds finds. `outcomes`: way -> (blade, scene) -> outcome, the first way refines itself.
+
+    `every`: number of speeds of the whole grid of each blade and scene.
+    """
+    lines = [
+        f"Interactions above yield that are found at all, and with peak and width within {TOLERANCE:g} rad/s; runs of each way "
+        "to choose speeds.",
+        "",
+        "| blade | scene | whole grid | " + " | ".join(outcomes) + " |",
+        "|---|---|---|" + "---|" * len(outcomes),
+    ]
+    first = next(iter(outcomes.values()))
+    for blade, scene in first:
+        number = len(first[blade, scene].interactions)
+        cells = [_cell(ways[blade, scene]) for ways in outcomes.values()]
+        lines.append(f"| {blade} | {scene} | {number} in {every[blade, scene]} runs | " + " | ".join(cells) + " |")
+    totals = [_total(list(ways.values())) for ways in outcomes.values()]
+    number = sum(len(one.interactions) for one in first.values())
+    lines += [f"| all | | {number} in {sum(every.values())} runs | " + " | ".join(totals) + " |", ""]
+    missed = {place: [one for one in outcome.interactions if not one.same] for place, outcome in first.items()}
+    lines += ["Missed, or off by more:" if any(missed.values()) else "Nothing is missed.", ""]
+    return "\n".join([*lines, *_missed_lines(missed)]).rstrip() + "\n"
+
+
+def _cell(outcome: Outcome) -> str:
+    found, same = (sum(getattr(one, name) for one in outcome.interactions) for name in ("found", "same"))
+    rounds = f" in {outcome.rounds} rounds" if outcome.rounds > 1 else ""
+    return f"{found} found, {same} the same, {outcome.runs} runs{rounds}"
+
+
+def _total(outcomes: Sequence[Outcome]) -> str:
+    together = [one for outcome in outcomes for one in outcome.interactions]
+    runs = sum(outcome.runs for outcome in outcomes)
+    return f"{sum(one.found for one in together)} found, {sum(one.same for one in together)} the same, {runs} runs"
+
+
+def _missed_lines(missed: Mapping[tuple[str, str], Sequence[Comparison]]) -> list[str]:
+    if not any(missed.values()):
+        return []
+    lines = [
+        "| blade | scene | interaction | peak, width (rad/s) | largest stress (GPa) | found peak, width |",
+        "|---|---|---|---|---|---|",
+    ]
+    for (blade, scene), several in missed.items():
+        for one in several:
+            order = "" if one.engine_order is None or math.isnan(one.engine_order) else f"/{one.engine_order}"
+            name = f"{one.mode}{order}" if one.mode else f"no crossing, order {one.engine_order}"
+            found = f"{one.found_peak:g}, {one.found_width:.1f}" if one.found else "none"
+            lines.append(f"| {blade} | {scene} | {name} | {one.peak:g}, {one.width:.1f} | {1e-9 * one.stress:.2f} | {found} |")
+    return lines

@@ -1,0 +1,194 @@
+"""The one runner of studies: a case in, an ordinary response.nc out, with what it cost."""
+
+from __future__ import annotations
+
+import math
+import tempfile
+from collections.abc import Mapping
+from dataclasses import replace
+from pathlib import Path
+
+import netCDF4
+import numpy as np
+import xarray as xr
+
+from r37core.dataset_file import about, read_dataset, write_dataset
+from r37core.io import atomic_write, read_json
+from r37core.results.measures import largest_of_run, last_revolution, peak_of
+from r37core.results.netcdf import create_variable
+from r37core.results.response import write_response
+from r37core.results.stress_recovery import StressRecovery
+from r37core.rom.contact_model import ContactModel, read_contact_model
+from r37core.rom.rom_file import read_reduced_model
+from r37core.time_integration.integration_choice import IntegrationChoice
+from r37core.time_integration.problem import Problem
+from r37core.time_integration.simulate import DIRECTIONS, Simulation
+from r37core.time_integration.speed_file import read_speed, write_speed
+from r37core.time_integration.speed_run import run_speed
+
+from .case import Case, SweptPeak
+from .costs import Stopwatch, peak_memory
+
+BESIDE = {
+    "time_step": about("s", "step of the time integration"),
+    "cpu_s": about("s", "CPU time of the time integration"),
+    "wall_s": about("s", "wall time of the time integration"),
+    "file_cpu_s": about("s", "CPU time of writing the run's file"),
+    "bytes_written": about("1", "bytes of the run's file"),
+}
+"""What a case's response holds of every speed beside the results."""
+
+_MOST_EXTRA = 40
+"""Speeds added on each side of a range that ends above yield."""
+
+
+def run_case_of_files(case: Case, files: Mapping[str, str], output: Path | str) -> None:
+    """Run a case from its files: `contact`; `rom` for the stress, `cost` of the model, `campbell` or `response` for speeds."""
+    if case.crossing:
+        mode, order = case.crossing
+        crossing = read_dataset(files["campbell"])["crossing_speed"].sel(mode=mode, engine_order=order).item()
+        case = replace(case, speeds=tuple(float(share * crossing) for share in case.speeds))
+    if case.swept_peak:
+        case = with_swept_peak(case, case.swept_peak, read_dataset(files["response"]))
+    reading, recovering = Stopwatch(), Stopwatch()
+    with reading:
+        model = read_contact_model(files["contact"])
+    with recovering:
+        recovery = None
+        if "stress" in case.results and case.material:
+            recovery = StressRecovery(read_reduced_model(files["rom"]), case.material)
+    costs = {f"model_{name}": value for name, value in (read_json(files["cost"]) if "cost" in files else {}).items()}
+    run_case(case, model, recovery, output, costs | {"reading_cpu_s": reading.cpu, "recovery_cpu_s": recovering.cpu})
+
+
+def with_swept_peak(case: Case, peak: SweptPeak, response: xr.Dataset) -> Case:
+    """The case with the speed of the sweep's peak among its speeds."""
+    near = response.sel(speed=slice(peak.first, peak.last))
+    return replace(case, speeds=tuple(sorted({*case.speeds, float(peak_of(near)["speed"])})))
+
+
+def run_case(
+    case: Case,
+    model: ContactModel,
+    recovery: StressRecovery | None,
+    output: Path | str,
+    costs: Mapping[str, float] | None = None,
+) -> None:
+    """Run a case with speeds in rad/s; `costs` (s, bytes) become attributes of its response.
+
+    A case that the configuration, a time step or a model refuses has no speeds, and the reason as attribute `refused`.
+    """
+    attributes = {"blade": case.blade, "case": case.what, **(costs or {})}
+    try:
+        if case.scene is None:
+            raise ValueError(case.refused)
+        with tempfile.TemporaryDirectory() as folder:
+            _Runs(case, model, recovery, Path(folder)).write(output, attributes)
+    except ValueError as error:
+        nothing = xr.Dataset(coords={"speed": ("speed", np.empty(0), about("rad s-1", "angular speed of the rotor"))})
+        write_dataset(nothing, output, attributes | {"refused": str(error).split(";")[0]})
+
+
+class _Runs:
+    """The runs of one case: files in a folder, and what is kept beside them, by speed (rad/s)."""
+
+    def __init__(self, case: Case, model: ContactModel, recovery: StressRecovery | None, folder: Path):
+        assert case.scene is not None
+        self.case, self.scene, self.model, self.recovery, self.folder = case, case.scene, model, recovery, folder
+        self.files: dict[float, Path] = {}
+        self.beside: dict[float, dict[str, float]] = {}
+        self.histories = set(case.speeds if case.history_speeds is None else case.history_speeds)
+        # compiled before anything is timed
+        Simulation(model, case.speeds[0], self.scene, self._choice(case.speeds[0]))
+        for number, speed in enumerate(case.speeds, 1):
+            self._run(speed)
+            if number % 100 == 0:
+                print(f"{number} of {len(case.speeds)} speeds", flush=True)
+        if case.follow:
+            self._follow()
+
+    def _choice(self, speed: float) -> IntegrationChoice:
+        case = self.case
+        choice = replace(case.choice, energy="energy" in case.results)
+        if "stress" in case.results:
+            choice = replace(choice, snapshot_revolutions=choice.revolutions if speed in self.histories else 1)
+        else:
+            choice = replace(choice, snapshots_per_revolution=0, snapshot_revolutions=0)
+        if case.share_of_limit is not None:
+            middle = case.speeds[len(case.speeds) // 2]
+            choice = replace(choice, time_step=case.share_of_limit * 2.0 / self.model.modes_at(1.01 * middle)[0][-1])
+        if case.half_step:
+            # of the step taken, which divides the sampling instants: half of the one asked for may give the same
+            choice = replace(choice, time_step=0.5 * Problem(self.model, speed, self.scene, choice).time_step)
+        return choice
+
+    def _run(self, speed: float) -> None:
+        case, integration, writing = self.case, Stopwatch(), Stopwatch()
+        choice, file = self._choice(speed), self.folder / f"{speed!r}.npz"
+        with integration:
+            run = run_speed(self.model, speed, self.scene, choice, case.results, **case.kept)
+        with writing:
+            write_speed(run, file, {})
+        self.files[speed] = file
+        self.beside[speed] = {
+            "time_step": float(run["time_step"]),
+            "cpu_s": integration.cpu,
+            "wall_s": integration.wall,
+            "file_cpu_s": writing.cpu,
+            "bytes_written": file.stat().st_size,
+        }
+
+    def _follow(self) -> None:
+        """Add speeds beyond both ends until the stress is below yield there; then keep the history of the peak."""
+        assert self.recovery is not None and self.case.material is not None
+        instants = self.case.choice.snapshots_per_revolution
+        speeds = sorted(self.files)
+        step = speeds[1] - speeds[0] if len(speeds) > 1 else 1.0
+        for end, towards in ((speeds[0], -step), (speeds[-1], step)):
+            for number in range(_MOST_EXTRA):
+                last = read_speed(self.files[end + number * towards])
+                stress = self.recovery.max_von_mises(last_revolution(last["snapshots"], instants))
+                if not largest_of_run(last, stress, instants) > self.case.material.yield_stress:
+                    break
+                self._run(end + (number + 1) * towards)
+        peak = max(self.files, key=lambda speed: _motion_of(read_speed(self.files[speed])))
+        if peak not in self.histories:
+            self.histories.add(peak)
+            self._run(peak)
+
+    def write(self, output: Path | str, attributes: Mapping[str, object]) -> None:
+        """The response of all runs, ascending, with BESIDE."""
+        speeds, reducing, partial = sorted(self.files), Stopwatch(), self.folder / "response.nc"
+        instants = self.case.choice.snapshots_per_revolution
+        with reducing:
+            write_response(
+                [self.files[speed] for speed in speeds],
+                speeds,
+                partial,
+                self.recovery,
+                stress_history_speeds=sorted(self.histories) if self.recovery else (),
+                stress_instants=instants,
+                yield_stress=self.case.material.yield_stress if self.case.material else math.inf,
+                provenance=attributes,
+            )
+        with netCDF4.Dataset(partial, "a") as dataset:
+            for name, words in BESIDE.items():
+                values = [self.beside[speed][name] for speed in speeds]
+                create_variable(dataset, name, "f8", ("speed",), words)[:] = values
+            if "instants" in self.case.results and self.recovery:
+                dataset.createDimension("instant", instants)
+                words = about("Pa", "largest von Mises stress at each instant of the last revolution")
+                stress = create_variable(dataset, "max_von_mises_of_instant", "f8", ("speed", "instant"), words)
+                for row, speed in enumerate(speeds):
+                    stress[row] = self.recovery.max_von_mises(read_speed(self.files[speed])["snapshots"][-instants:])
+            dataset.setncatts({"reduction_cpu_s": reducing.cpu, "peak_memory_bytes": peak_memory()})
+            # text where write_response puts text alone
+            dataset.setncatts({name: value for name, value in attributes.items() if isinstance(value, float)})
+        with atomic_write(output) as final:
+            final.write_bytes(partial.read_bytes())
+
+
+def _motion_of(run: Mapping[str, np.ndarray]) -> float:
+    """Rms (m) of the leading edge's normal and tangential motion together; 0 where it diverged."""
+    normal, tangential = (run["rms"][0, DIRECTIONS.index(name)] for name in ("normal", "tangential"))
+    return float(np.nan_to_num(np.hypot(normal, tangential)))

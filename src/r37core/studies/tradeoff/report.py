@@ -1,0 +1,300 @@
+"""What accuracy costs: one parameter at a time against a fine value of it; and how cost grows with each."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import matplotlib.pyplot as plt
+import numpy as np
+import xarray as xr
+from matplotlib.figure import Figure
+
+from r37core.config.fidelity import recommended_level
+from r37core.dataset_file import about
+from r37core.figures import style  # noqa: F401  (sets the style)
+
+from ..checks import energy_share
+from .cases import LEVEL
+
+MOTION = {"rms_normal": "m", "rms_tangential": "m", "peak_normal": "m"}
+"""Of the leading edge, name -> unit."""
+
+QUANTITIES = {**MOTION, "max_von_mises": "Pa", "max_wear": "m"}
+"""What is compared of every run, name -> unit; the stress over the last revolution, the wear at the end."""
+
+COSTS = {"cpu_s": "s", "wall_s": "s", "bytes_written": "1", "peak_memory_bytes": "1"}
+_OF_THE_MODEL = ("model_cpu_s", "model_peak_memory_bytes")
+_FLOOR = 1e-7
+
+PAIRS = (
+    ("mesh_nodes", "model_cpu_s", "making the model"),
+    ("mesh_nodes", "model_peak_memory_bytes", "memory of making the model"),
+    ("fixed_interface_modes", "cpu_s", "one run"),
+    ("boundary_nodes", "cpu_s", "one run"),
+    ("boundary_nodes", "model_cpu_s", "making the model"),
+    ("revolutions", "cpu_s", "one run"),
+    ("revolutions", "bytes_written", "file of one run"),
+    ("central_difference_step", "cpu_s", "one run"),
+    ("exact_modal_step", "cpu_s", "one run"),
+)
+"""Parameter, cost, and what the cost is of."""
+
+
+def report(responses: Mapping[str, xr.Dataset], given: Any, told: Mapping[str, Any]) -> dict[str, Any]:
+    """All numbers, the tables of parameters, levels and growth, and figures."""
+    references, found = told["references"], gather_cases(responses, told["places"], told["references"])
+    growing = growths(found)
+    made = {
+        "dataset": found.assign_attrs({name: told[name] for name in ("blade", "base_level")}),
+        "levels": level_table(found, told["tolerance"]),
+        "table": parameter_tables(found, references),
+        "growth": growth_table(growing),
+        "growth_figure": draw_growth(growing),
+        "pareto": draw_pareto(found),
+    }
+    return made | {f"of_{parameter}": draw_parameter(found, parameter) for parameter in references}
+
+
+def gather_cases(responses: Mapping[str, xr.Dataset], places: Mapping[str, int], references: Mapping[str, str]) -> xr.Dataset:
+    """All cases, with errors against the reference value of each parameter; NaN where a case was refused, with the reason.
+
+    `responses` by `parameter/value__scene`; `places`: how many of the speeds lie at each, in their order.
+    `error(case, scene, at, quantity)`: relative difference of the means over the speeds of a place. `scatter`, same shape: root
+    mean square of the relative differences at its single speeds. `peak_speed_error(case, scene)`: of the rms-weighted mean
+    speed over `peak` and `jump`.
+    """
+    together = _values(responses, places)
+    parameters, values = together["parameter"].values, together["value"].values
+    shape = (together.sizes["case"], together.sizes["scene"], len(places), len(QUANTITIES))
+    error, scatter, speed_error = np.full(shape, np.nan), np.full(shape, np.nan), np.full(shape[:2], np.nan)
+    for row, parameter in enumerate(parameters):
+        reference = int(np.flatnonzero((parameters == parameter) & (values == references[parameter]))[0])
+        for column in range(shape[1]):
+            ours, theirs = (together.isel(case=number, scene=column) for number in (row, reference))
+            speed_error[row, column] = abs(centre_of_peak(ours) / centre_of_peak(theirs) - 1.0)
+            for number, place in enumerate(places):
+                error[row, column, number], scatter[row, column, number] = compare(ours, theirs, place)
+    together = together.assign_coords(quantity=list(QUANTITIES), at=list(places))
+    dims = ("case", "scene", "at", "quantity")
+    together["error"] = (dims, error, about("1", "relative difference of means over neighbouring speeds"))
+    together["scatter"] = (dims, scatter, about("1", "root mean square of the relative differences at the single speeds"))
+    together["peak_speed_error"] = (dims[:2], speed_error, about("1", "relative difference of the rms-weighted mean speed"))
+    return together
+
+
+def _values(responses: Mapping[str, xr.Dataset], places: Mapping[str, int]) -> xr.Dataset:
+    """QUANTITIES over (case, scene, speed_number), costs over (case, scene), costs of the model over case."""
+    names = {name: name.rsplit("__", 1) for name in responses}
+    cases, scenes = (list(dict.fromkeys(parts)) for parts in zip(*names.values(), strict=True))
+    speeds = next(one["speed"].values for one in responses.values() if one.sizes["speed"])
+    dims = ("case", "scene", "speed_number")
+    shape = (len(cases), len(scenes), len(speeds))
+    data = {name: np.full(shape, np.nan) for name in (*QUANTITIES, "status", "energy_residual")}
+    costs = {name: np.full(shape[:2], np.nan) for name in COSTS}
+    of_model = {name: np.full(shape[:1], np.nan) for name in _OF_THE_MODEL}
+    refused = np.full(shape[:2], "", dtype=object)
+    for name, (case, scene) in names.items():
+        response, at = responses[name], (cases.index(case), scenes.index(scene))
+        refused[at] = response.attrs.get("refused", "")
+        for cost in _OF_THE_MODEL:
+            of_model[cost][at[0]] = response.attrs.get(cost, np.nan)
+        if not refused[at]:
+            edge = response.sel(tip_point="leading_edge")
+            for quantity in {*QUANTITIES, "status"} & set(map(str, edge.data_vars)):
+                data[quantity][at] = edge[quantity].values
+            data["energy_residual"][at] = energy_share(response)
+            for cost in COSTS:
+                costs[cost][at] = response[cost].mean() if cost in response else response.attrs[cost]
+    units = {**QUANTITIES, **COSTS}
+    together = xr.Dataset(
+        {name: (dims, array, about(units.get(name, "1"), name.replace("_", " "))) for name, array in data.items()}
+        | {name: (dims[:2], array, about(units[name], name.replace("_", " "))) for name, array in costs.items()}
+        | {name: ("case", array) for name, array in of_model.items()}
+        | {"refused": (dims[:2], refused)},
+        {"scene": scenes, "place": ("speed_number", np.repeat(list(places), list(places.values())))},
+    )
+    parameters, values = zip(*(case.split("/") for case in cases), strict=True)
+    speed = ("speed_number", speeds, about("rad s-1", "angular speed of the rotor"))
+    return together.assign_coords(speed=speed, parameter=("case", list(parameters)), value=("case", list(values)))
+
+
+def compare(ours: xr.Dataset, theirs: xr.Dataset, place: str) -> tuple[np.ndarray, np.ndarray]:
+    """Errors and scatter of one scene at one place, by QUANTITIES; NaN where the reference has nothing."""
+    at = ours["place"].values == place
+    errors, scatters = [], []
+    for name in QUANTITIES:
+        x, y = ours[name].values[at], theirs[name].values[at]
+        errors.append(abs(x.mean() / y.mean() - 1.0) if y.mean() > 0.0 else np.nan)
+        scatters.append(np.sqrt(np.mean((x / y - 1.0) ** 2)) if np.all(y > 0.0) else np.nan)
+    return np.array(errors), np.array(scatters)
+
+
+def centre_of_peak(case: xr.Dataset) -> float:
+    """Mean speed (rad/s) over peak and jump, weighted with the squared rms: moves smoothly where the largest one jumps."""
+    at = np.isin(case["place"].values, ["peak", "jump"])
+    weight = case["rms_normal"].values[at] ** 2 + case["rms_tangential"].values[at] ** 2
+    return float((case["speed"].values[at] * weight).sum() / weight.sum())
+
+
+def level_error(together: xr.Dataset, value: str) -> float:
+    """Error of a fidelity level: the largest at the peak, over scenes, of motion and stress."""
+    case = together.isel(case=(together["parameter"].values == LEVEL) & (together["value"].values == value))
+    return float(case["error"].sel(at="peak", quantity=[*MOTION, "max_von_mises"]).max())
+
+
+def parameter_tables(together: xr.Dataset, references: Mapping[str, str]) -> str:
+    """One table per parameter: errors at the peak and off resonance, and cost, for every value and scene."""
+    lines = []
+    for parameter in dict.fromkeys(together["parameter"].values):
+        lines += ["", f"### {parameter.replace('_', ' ')} (reference: {references[parameter]})", ""]
+        lines.append(
+            "| value | scene | rms, normal | rms, tangential | largest, normal | stress | wear | peak speed "
+            "| rms, normal, off resonance | CPU s | MB | kB written |"
+        )
+        lines.append("|---" * 12 + "|")
+        for row in np.flatnonzero(together["parameter"].values == parameter):
+            case = together.isel(case=row)
+            for scene in case["scene"].values:
+                lines.append(_line(case.sel(scene=scene), str(scene)))
+    return "\n".join(lines).lstrip("\n") + "\n"
+
+
+def _line(one: xr.Dataset, scene: str) -> str:
+    value = str(one["value"].item())
+    if str(one["refused"].item()):
+        return f"| {value} | {scene} | refused: {one['refused'].item()} |" + " |" * 9
+    errors = [_percent(one["error"].sel(at="peak", quantity=name)) for name in QUANTITIES]
+    memory, written = float(one["peak_memory_bytes"]) / 1e6, float(one["bytes_written"]) / 1e3
+    cost = [f"{float(one['cpu_s']):.2f}", f"{memory:.0f}", f"{written:.0f}"]
+    off = _percent(one["error"].sel(at="off_resonance", quantity="rms_normal"))
+    return "| " + " | ".join([value, scene, *errors, _percent(one["peak_speed_error"]), off, *cost]) + " |"
+
+
+def _percent(value: xr.DataArray) -> str:
+    number = 100.0 * float(value)
+    return "" if np.isnan(number) else f"{number:.2g}%"
+
+
+def level_table(together: xr.Dataset, tolerance: float) -> str:
+    """The levels' errors and costs, and the one recommended for the tolerance."""
+    rows = np.flatnonzero(together["parameter"].values == LEVEL)
+    names = [str(together["value"].values[row]) for row in rows]
+    errors = {name: level_error(together, name) for name in names}
+    costs = {name: float(together["cpu_s"].isel(case=row).mean()) for name, row in zip(names, rows, strict=True)}
+    lines = ["| level | error at the peak | CPU s per run | building the model, CPU s |", "|---|---|---|---|"]
+    for name, row in zip(names, rows, strict=True):
+        model = float(together["model_cpu_s"].isel(case=row))
+        lines.append(f"| `{name}` | {100 * errors[name]:.1f}% | {costs[name]:.2f} | {model:.0f} |")
+    chosen = recommended_level(errors, costs, tolerance)
+    if chosen is None:
+        advice = f"No level is within the tolerance of {100 * tolerance:g}%: the best has {100 * min(errors.values()):.1f}%."
+    else:
+        advice = f"Recommended for a tolerance of {100 * tolerance:g}%: `{chosen}`."
+    return "\n".join([*lines, "", advice]) + "\n"
+
+
+@dataclass(frozen=True)
+class Growth:
+    """Costs at a parameter's values, and the exponent of the power law fitted to the larger half of them."""
+
+    parameter: str
+    cost: str
+    of: str
+    values: np.ndarray
+    costs: np.ndarray
+    exponent: float
+
+
+def growths(together: xr.Dataset) -> list[Growth]:
+    """All pairs whose parameter the study varied; costs are means over the scenes."""
+    found = []
+    for parameter, cost, of in PAIRS:
+        rows = np.flatnonzero(together["parameter"].values == parameter)
+        values = np.array([float(value) for value in together["value"].values[rows]])
+        costs = together[cost].isel(case=rows)
+        cost_of_value = costs.mean("scene").values if "scene" in costs.dims else costs.values
+        usable = np.isfinite(cost_of_value) & (cost_of_value > 0.0) & (values > 0.0)
+        if usable.sum() >= 3:
+            order = np.argsort(values[usable])
+            values, cost_of_value = values[usable][order], cost_of_value[usable][order]
+            found.append(Growth(parameter, cost, of, values, cost_of_value, exponent_of(values, cost_of_value)))
+    return found
+
+
+def exponent_of(values: np.ndarray, costs: np.ndarray) -> float:
+    """Slope of log cost over log value, by least squares over the more expensive half: what is fixed dominates small cases."""
+    largest = np.argsort(costs)[-max(3, (len(costs) + 1) // 2) :]
+    return float(np.polyfit(np.log(values[largest]), np.log(costs[largest]), 1)[0])
+
+
+def growth_table(found: list[Growth]) -> str:
+    """The exponents as Markdown."""
+    lines = ["| parameter | cost | range | from | to | exponent |", "|---|---|---|---|---|---|"]
+    for one in found:
+        unit, scale = ("MB", 1e-6) if "memory" in one.cost or "bytes" in one.cost else ("s", 1.0)
+        first, last = (f"{scale * value:.3g} {unit}" for value in (one.costs[0], one.costs[-1]))
+        span = f"{one.values[0]:g} to {one.values[-1]:g}"
+        lines.append(f"| {one.parameter.replace('_', ' ')} | {one.of} | {span} | {first} | {last} | {one.exponent:.2f} |")
+    return "\n".join(lines) + "\n"
+
+
+def draw_parameter(together: xr.Dataset, parameter: str) -> Figure:
+    """Errors at the peak and the CPU time per run over one parameter's values, one column per scene."""
+    rows = np.flatnonzero(together["parameter"].values == parameter)
+    labels = [str(value) for value in together["value"].values[rows]]
+    scenes = together["scene"].values
+    figure, panels = plt.subplots(2, len(scenes), figsize=(4.6 * len(scenes), 5.2), sharex=True, sharey="row", squeeze=False)
+    for column, scene in enumerate(scenes):
+        cases = together.isel(case=rows).sel(scene=scene)
+        for name in QUANTITIES:
+            error = cases["error"].sel(at="peak", quantity=name).values
+            if np.any(np.isfinite(error)):
+                panels[0, column].plot(labels, np.maximum(error, _FLOOR), "o-", label=name.replace("_", " "))
+        panels[0, column].set_yscale("log")
+        panels[0, column].set_title(str(scene), fontsize=9)
+        panels[1, column].plot(labels, cases["cpu_s"].values, "s-", color="0.3")
+        panels[1, column].set_yscale("log")
+        panels[1, column].set_xlabel(parameter.replace("_", " "))
+        panels[1, column].tick_params(axis="x", rotation=30)
+    panels[0, 0].set_ylabel("relative error of the mean at the peak")
+    panels[1, 0].set_ylabel("CPU s per run")
+    panels[0, 0].legend(fontsize=7)
+    return figure
+
+
+def draw_pareto(together: xr.Dataset) -> Figure:
+    """Error of the normal rms at the peak over CPU time per run, all parameters; levels stand out."""
+    scenes = together["scene"].values
+    figure, panels = plt.subplots(1, len(scenes), figsize=(5.4 * len(scenes), 4.6), sharey=True, squeeze=False)
+    parameters = list(dict.fromkeys(together["parameter"].values))
+    for axes, scene in zip(panels[0], scenes, strict=True):
+        for number, parameter in enumerate(parameters):
+            cases = together.isel(case=np.flatnonzero(together["parameter"].values == parameter)).sel(scene=scene)
+            error = np.maximum(cases["error"].sel(at="peak", quantity="rms_normal").values, _FLOOR)
+            level = parameter == LEVEL
+            marker = "*" if level else "osv^Dx+"[number % 7]
+            axes.loglog(cases["cpu_s"].values, error, marker, label=parameter.replace("_", " "), markersize=11 if level else 5)
+            if level:
+                for x, y, name in zip(cases["cpu_s"].values, error, cases["value"].values, strict=True):
+                    axes.annotate(str(name), (x, y), fontsize=7, xytext=(4, 4), textcoords="offset points")
+        axes.set(xlabel="CPU s per run", title=str(scene))
+    panels[0, 0].set_ylabel("relative error of the mean normal rms at the peak")
+    panels[0, -1].legend(fontsize=7)
+    return figure
+
+
+def draw_growth(found: Sequence[Growth]) -> Figure:
+    """One panel per pair of parameter and cost, with the fitted power law."""
+    columns = 4
+    rows = -(-len(found) // columns)
+    figure, panels = plt.subplots(rows, columns, figsize=(3.0 * columns, 2.6 * rows), squeeze=False)
+    for axes, one in zip(panels.ravel(), found, strict=False):
+        axes.loglog(one.values, one.costs, "o")
+        axes.loglog(one.values, one.costs[-1] * (one.values / one.values[-1]) ** one.exponent, "--", color="0.5")
+        axes.set_title(f"{one.of}: exponent {one.exponent:.2f}", fontsize=8)
+        axes.set(xlabel=one.parameter.replace("_", " "), ylabel=one.cost.replace("_", " "))
+    for axes in np.ravel(panels)[len(found) :]:
+        axes.set_visible(False)
+    return figure
