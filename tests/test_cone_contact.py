@@ -10,8 +10,8 @@ from integration_cases import ABRADABLE, AT_ONCE, DIRECT
 from r37core.contact.casing import casing_axes
 from r37core.results.campbell import campbell_diagram, dynamic_clearance
 from r37core.rom.contact_model import ContactModel
-from r37core.rom.contact_reduction import contact_model
 from r37core.rom.reduce import reduce_blade
+from r37core.rom.reduced_model import contact_model
 from r37core.time_integration.reference import ReferenceEngine
 from r37core.time_integration.simulate import Simulation
 

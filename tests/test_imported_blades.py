@@ -86,6 +86,8 @@ def test_a_mesh_with_another_material(settings_with):
     [
         ({"mesh": "meshes/none.inp"}, r"Fan\.mesh: there is no file meshes/none\.inp$"),
         ({"mesh": "meshes/fan.stl"}, r"Fan\.mesh: found a file of kind '\.stl'; allowed: \.inp, \.msh"),
+        ({"mesh": "meshes/fan.inp\n"}, r"Fan\.mesh: found 'meshes/fan\.inp\\n'; allowed: a name without line breaks"),
+        ({"root": "hub\n"}, r"Fan\.root: found 'hub\\n'; allowed: a name without line breaks"),
         ({"mesh": 3}, r"Fan\.mesh: found 3; allowed: string"),
         ({"root": 3}, r"Fan\.root: found 3; allowed: string, .* or mapping with the keys r_at_least_m, "),
         ({"root": None}, r"Fan: missing key root; allowed keys: .*mesh, material, root, tip"),
