@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from box_mesh import box_mesh
+from defaults import MatricesSource, MeshSource, Orientation, Where
 
 from r37core.blade.profile import BladeShapeError
 from r37core.blade.sense import check_profile_sense, sense_of_profile
@@ -14,9 +15,8 @@ from r37core.exchange.exporting.matrices_out import write_reduced_matrices
 from r37core.exchange.exporting.write_mesh import write_mesh
 from r37core.exchange.importing.import_mesh import import_mesh
 from r37core.exchange.importing.matrices_in import import_matrices
-from r37core.exchange.importing.source import MatricesSource, MeshSource, Where
 from r37core.exchange.importing.tip import check_sense_of_nodes
-from r37core.exchange.orientation import OURS, Orientation
+from r37core.exchange.orientation import OURS
 from r37core.exchange.refusal import ImportRefused, MeshWarning
 from r37core.mesh.generate import generate_mesh
 
@@ -35,7 +35,7 @@ BLADES = ["Ref", "CS100", *(pytest.param(name, marks=pytest.mark.slow) for name 
 def exported(request, settings, tmp_path_factory):
     """One blade of the benchmark as another program has it."""
     folder = tmp_path_factory.mktemp(request.param)
-    mesh = generate_mesh(settings.blades[request.param].definition.build(), 600, 1, 8, folder / "ours.msh")
+    mesh = generate_mesh(settings.blades[request.param].definition.build(round_edges=True), 600, 1, 8, folder / "ours.msh")
     write_mesh(mesh, folder / "blade.msh")
     return folder / "blade.msh"
 
@@ -136,7 +136,7 @@ def test_nodes_that_tell_nothing(points, what):
 
 def test_a_table_tells_the_stagger_of_its_blade(settings):
     definition = settings.blades["Ref"].definition
-    for row, profile in zip(definition.profiles, definition.build().profiles, strict=True):
+    for row, profile in zip(definition.profiles, definition.build(round_edges=True).profiles, strict=True):
         assert sense_of_profile(row).stagger == pytest.approx(profile.stagger, abs=np.radians(1.0))
 
 

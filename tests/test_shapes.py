@@ -25,7 +25,7 @@ from r37core.shapes.stills import draw_shapes
 
 @pytest.fixture(scope="module")
 def whole(mesh, matrices, choice):
-    return reduce_blade(mesh, matrices, replace(choice, whole_blade=True))
+    return reduce_blade(mesh, matrices, replace(choice, recover_whole_blade=True))
 
 
 def chunks(file):
