@@ -12,12 +12,9 @@ from scipy import constants
 
 from r37core.exchange.exporting.write_mesh import write_mesh
 from r37core.exchange.importing.abaqus_reader import read_abaqus
-from r37core.exchange.importing.import_mesh import import_mesh
-from r37core.exchange.importing.material_check import check_material
+from r37core.exchange.importing.import_mesh import _READERS, import_mesh
 from r37core.exchange.importing.meshio_reader import quietly
-from r37core.exchange.importing.read_mesh import _READERS
-from r37core.exchange.importing.source import MASS_UNITS, STIFFNESS_UNITS, SUFFIXES, MeshSource, digest_of, mesh_files
-from r37core.exchange.importing.where import Where
+from r37core.exchange.importing.source import MASS_UNITS, STIFFNESS_UNITS, SUFFIXES, MeshSource, Where, digest_of, mesh_files
 from r37core.exchange.orientation import UNITS, Orientation
 from r37core.exchange.refusal import ImportRefused, MeshWarning, placed
 from r37core.fem.abaqus_deck import write_abaqus
@@ -231,6 +228,12 @@ def moved(text, node, x):
     return text[:start] + f"{node}, {x}, " + text[start:].split(", ", 2)[2]
 
 
+def renumbered(text, element, other):
+    """The deck with one element under another number."""
+    nodes, elements = text.split("ELSET=BLADE\n")
+    return nodes + "ELSET=BLADE\n" + elements.replace(f"\n{element}, ", f"\n{other}, ", 1)
+
+
 def second_part(text):
     rows = text.split("*NODE, NSET=ALL_NODES\n")[1].split("*ELEMENT")[0].splitlines()
     elements = text.split("ELSET=BLADE\n")[1].split("*NSET")[0].replace("\n", " ").split(",")
@@ -255,6 +258,8 @@ def second_part(text):
         (lambda text: text.replace("*ELEMENT", "*ELEMENTS"), "no solid elements"),
         (lambda text: moved(text, 100, "0.5"), r"mid-nodes off their edges in .* edge lengths|inside out or folded"),
         (lambda text: text.replace("\n2, ", "\n2002, ", 1), "names node 2, which the deck lacks"),
+        (lambda text: text.replace("\n2, ", "\n1, ", 1), "node 1 is given twice, and not alike"),
+        (lambda text: renumbered(text, 2, 1), "element 1 is given twice, and not alike"),
         (lambda text: text[:400], "no solid elements"),
         (lambda text: text.replace("*NODE,", "*NODE, SYSTEM=C,"), "cylindrical or spherical coordinates"),
         (lambda text: text.replace("*ELEMENT", "*NGEN\n1, 9, 1\n*ELEMENT"), r"found \*NGEN; write the deck with every node"),
@@ -432,6 +437,6 @@ def test_linear_elements_are_warned_of(tmp_path):
 
 
 def test_mixed_units_of_the_material():
-    check_material(TITANIUM)
-    with pytest.raises(ImportRefused, match="Units seem to be mixed"):
-        check_material(replace(TITANIUM, youngs_modulus=115e3, density=4.4e-9))
+    TITANIUM.check_units()
+    with pytest.raises(ValueError, match="Units seem to be mixed"):
+        replace(TITANIUM, youngs_modulus=115e3, density=4.4e-9).check_units()

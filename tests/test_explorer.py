@@ -10,9 +10,8 @@ import pytest
 import xarray as xr
 from browser import opened
 
-from r37core.explorer.contents import explorer_contents
-from r37core.explorer.pack import joined, order_bins, packed, rounded, stretches
-from r37core.explorer.page import write_page
+from r37core.explorer import write_page
+from r37core.explorer.contents import explorer_contents, joined, order_bins, packed, rounded, stretches
 from r37core.time_integration.status import RunStatus
 
 SPEEDS = np.array([900.0, 1000.25, 1100.0, 1200.0, 1300.0])

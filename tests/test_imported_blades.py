@@ -8,7 +8,7 @@ import pytest
 import yaml
 
 from r37core.config import ConfigError, read_settings
-from r37core.exchange.importing.where import Where
+from r37core.exchange.importing.source import Where
 from r37core.exchange.orientation import OURS
 from r37core.plain import to_plain
 from r37core.plans.export_plan import Exports
@@ -86,6 +86,8 @@ def test_a_mesh_with_another_material(settings_with):
     [
         ({"mesh": "meshes/none.inp"}, r"Fan\.mesh: there is no file meshes/none\.inp$"),
         ({"mesh": "meshes/fan.stl"}, r"Fan\.mesh: found a file of kind '\.stl'; allowed: \.inp, \.msh"),
+        ({"mesh": "meshes/fan.inp\n"}, r"Fan\.mesh: found 'meshes/fan\.inp\\n'; allowed: a name without line breaks"),
+        ({"root": "hub\n"}, r"Fan\.root: found 'hub\\n'; allowed: a name without line breaks"),
         ({"mesh": 3}, r"Fan\.mesh: found 3; allowed: string"),
         ({"root": 3}, r"Fan\.root: found 3; allowed: string, .* or mapping with the keys r_at_least_m, "),
         ({"root": None}, r"Fan: missing key root; allowed keys: .*mesh, material, root, tip"),

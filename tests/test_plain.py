@@ -13,8 +13,7 @@ from r37core.adaptive.criterion import RefinementChoice, Window
 from r37core.blade.definition import BladeDefinition
 from r37core.contact.casing import Casing
 from r37core.contact.scene import Friction, Lining, Scene
-from r37core.exchange.importing.source import MatricesSource, MeshSource
-from r37core.exchange.importing.where import Where
+from r37core.exchange.importing.source import MatricesSource, MeshSource, Where
 from r37core.exchange.orientation import Orientation
 from r37core.fem.material import Material
 from r37core.plain import PlainError, from_plain, to_plain

@@ -17,8 +17,7 @@ from r37core.results.datasets import write_sweep_dataset
 from r37core.results.netcdf import create_axis, create_variable
 from r37core.results.response import write_response
 from r37core.results.stress_recovery import StressRecovery
-from r37core.rom.contact_reduction import contact_model
-from r37core.rom.reduced_model import RecoveryNodes
+from r37core.rom.reduced_model import RecoveryNodes, contact_model
 from r37core.speeds import SpeedError, plan_speeds
 from r37core.time_integration.integration_choice import IntegrationChoice
 from r37core.time_integration.speed_file import read_speed, write_speed

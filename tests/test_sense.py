@@ -14,9 +14,8 @@ from r37core.exchange.exporting.matrices_out import write_reduced_matrices
 from r37core.exchange.exporting.write_mesh import write_mesh
 from r37core.exchange.importing.import_mesh import import_mesh
 from r37core.exchange.importing.matrices_in import import_matrices
-from r37core.exchange.importing.source import MatricesSource, MeshSource
+from r37core.exchange.importing.source import MatricesSource, MeshSource, Where
 from r37core.exchange.importing.tip import check_sense_of_nodes
-from r37core.exchange.importing.where import Where
 from r37core.exchange.orientation import OURS, Orientation
 from r37core.exchange.refusal import ImportRefused, MeshWarning
 from r37core.mesh.generate import generate_mesh
@@ -123,9 +122,15 @@ def test_matrices(model, settings, tmp_path):
     import_matrices(replace(wrong, sense_check=False), choice)
 
 
-@pytest.mark.parametrize("points", [[[0.25, 0.0, 0.0]], [[0.25, 0.0, 0.0], [0.25, 0.001, 0.03]]])
-def test_nodes_that_tell_nothing(points):
-    with pytest.warns(MeshWarning, match="rotation is taken as given: the .*stagger of .* does not prove it"):
+@pytest.mark.parametrize(
+    ("points", "what"),
+    [
+        ([[0.25, 0.0, 0.0]], "the stagger of a single contact node"),
+        ([[0.25, 0.0, 0.0], [0.25, 0.001, 0.03]], r"the tip's stagger of \+1\.9 degrees"),
+    ],
+)
+def test_nodes_that_tell_nothing(points, what):
+    with pytest.warns(MeshWarning, match=f"rotation is taken as given: {what} does not prove it"):
         check_sense_of_nodes(np.array(points))
 
 

@@ -13,14 +13,13 @@ from browser import opened
 from vtkmodules.vtkIOGeometry import vtkGLTFReader
 
 from r37core.exchange.exporting.fields import WorstInstant, displacement_of, mode_shapes
-from r37core.explorer.page import write_page
+from r37core.explorer import write_page
 from r37core.io import read_json, write_json
 from r37core.results.stress_recovery import StressRecovery
 from r37core.rom.reduce import reduce_blade
-from r37core.shapes import PARTS
+from r37core.shapes import INDEX, PARTS, shapes_contents
 from r37core.shapes.gltf import MovingSurface, write_glb
-from r37core.shapes.moving import INDEX, LARGEST_SHOWN, write_mode_shapes, write_worst_shapes
-from r37core.shapes.shapes_page import shapes_contents
+from r37core.shapes.moving import LARGEST_SHOWN, write_mode_shapes, write_worst_shapes
 from r37core.shapes.stills import draw_shapes
 
 

@@ -4,8 +4,8 @@ import pandas as pd
 from job import run
 
 from r37core.dataset_file import read_dataset
+from r37core.explorer import write_page
 from r37core.explorer.contents import explorer_contents
-from r37core.explorer.page import write_page
 from r37core.io import readable
 
 

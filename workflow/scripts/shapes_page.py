@@ -4,9 +4,8 @@ from pathlib import Path
 
 from job import run
 
-from r37core.explorer.page import write_page
-from r37core.shapes import PARTS
-from r37core.shapes.shapes_page import shapes_contents
+from r37core.explorer import write_page
+from r37core.shapes import PARTS, shapes_contents
 
 
 def main(snakemake):

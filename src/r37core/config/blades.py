@@ -14,7 +14,6 @@ from r37core.blade import tables
 from r37core.blade.definition import BladeDefinition
 from r37core.blade.profile import BladeShapeError, ProfileParameters
 from r37core.blade.sense import check_profile_sense
-from r37core.exchange.importing.material_check import check_material
 from r37core.exchange.importing.source import MatricesSource, MeshSource
 from r37core.exchange.refusal import ImportRefused
 from r37core.fem import material as fem_material
@@ -179,8 +178,8 @@ def blade_settings(name: str, entries: Mapping[str, Any], root: Path, document: 
                     (link, given[0]), f"{given[0]} with the mesh of {first}", "another material, no other shape"
                 )
         try:
-            check_material(material)
-        except ImportRefused as error:
+            material.check_units()
+        except ValueError as error:
             raise document.error((name, "material"), str(error)) from None
         return BladeSettings(_source(entry, first, root, document), material, entry.stress_submesh.region())
     shift: dict[str, Any] = {}

@@ -8,8 +8,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Discriminator, Field, Tag, model_validator
 
-from r37core.exchange.importing.source import MatricesSource, MeshSource, digest_of, matrix_files, mesh_files
-from r37core.exchange.importing.where import Where
+from r37core.exchange.importing.source import MatricesSource, MeshSource, Where, digest_of, matrix_files, mesh_files
 from r37core.exchange.orientation import Orientation
 
 from .material_section import MaterialSection
@@ -33,7 +32,7 @@ class SurfaceRule(Section):
     cone_zr_m: Annotated[list[MeridianPoint], Field(min_length=2, max_length=2)] | LeftOut = Field(
         default=None, description="two points [z, r] of the straight meridian that the faces lie on"
     )
-    tolerance_m: float = Field(default=1e-4, gt=0, le=0.1)
+    tolerance_m: float = Field(default=Where.tolerance, gt=0, le=0.1)
 
     @model_validator(mode="after")
     def _says_something(self) -> SurfaceRule:
@@ -72,9 +71,10 @@ class Oriented(Section):
     rotation: Literal["positive", "negative"] = Field(
         description="positive: the rotor turns by the right hand about rotor_axis, negative: the other way"
     )
-    axis_point: Direction = Field(default=[0.0, 0.0, 0.0], description="a point of the axis, in the file's unit")
+    axis_point: Direction = Field(default=list(Orientation.axis_point), description="a point of the axis, in the file's unit")
     sense_check: bool = Field(
-        default=True, description="refuse a blade whose trailing edge would lead, or whose pressure side is convex"
+        default=MeshSource.sense_check,
+        description="refuse a blade whose trailing edge would lead, or whose pressure side is convex",
     )
 
     def orientation(self) -> Orientation:
@@ -94,11 +94,16 @@ class MeshEntry(Oriented):
         default="forward", description="forward: the pressure side looks towards the rotation, as in a compressor"
     )
     revolution_tolerance_m: float = Field(
-        default=1e-4, gt=0, le=0.1, description="how far the tip may be from a surface of revolution"
+        default=MeshSource.revolution_tolerance, gt=0, le=0.1, description="how far the tip may be from a surface of revolution"
     )
-    drop_free_nodes: bool = Field(default=False, description="leave out nodes of no solid element instead of refusing them")
+    drop_free_nodes: bool = Field(
+        default=MeshSource.drop_free_nodes, description="leave out nodes of no solid element instead of refusing them"
+    )
     minimum_scaled_jacobian: float = Field(
-        default=0.02, gt=0, le=1, description="meshes with elements below are refused; 1 is ideal, 0 folded"
+        default=MeshSource.minimum_scaled_jacobian,
+        gt=0,
+        le=1,
+        description="meshes with elements below are refused; 1 is ideal, 0 folded",
     )
     stress_submesh: ImportedSubmesh = ImportedSubmesh()
 

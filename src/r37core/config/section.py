@@ -78,7 +78,15 @@ AllOrNames = Annotated[
     Annotated[Literal["all"], Tag("all")] | Annotated[Names, Tag("names")],
     Discriminator(lambda value: "names" if isinstance(value, list) else "all"),
 ]
-FileName = Annotated[str, StringConstraints(min_length=1, pattern=r"\S")]
+
+
+def _printable(name: str) -> str:
+    if not name.isprintable():
+        raise refused((), repr(name), "a name without line breaks and other invisible characters")
+    return name
+
+
+FileName = Annotated[str, StringConstraints(min_length=1, pattern=r"\S"), AfterValidator(_printable)]
 LeftOut = SkipJsonSchema[None]
 """What an optional key is when it is not given; null is refused."""
 

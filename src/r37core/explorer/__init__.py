@@ -1,8 +1,12 @@
-"""One page to look at all results of a run."""
+"""Pages of one file with data, program and plotly inside, which open offline: explorer.html, and the shapes of a blade."""
 
 import hashlib
+import html
+import json
 from collections.abc import Sequence
 from pathlib import Path
+
+from r37core.io import atomic_write
 
 FOLDER = Path(__file__).parent
 
@@ -13,3 +17,23 @@ PARTS = tuple(FOLDER / name for name in ("explorer.html", "explorer.css", "explo
 def parts_hash(parts: Sequence[Path] = PARTS) -> str:
     """Hash of the parts: with it as a rule's parameter an edited part makes the page anew."""
     return hashlib.sha256(b"\0".join(part.read_bytes() for part in parts)).hexdigest()[:16]
+
+
+def write_page(contents: object, title: str, file: Path | str, parts: Sequence[Path] = PARTS) -> None:
+    """Write the page made of `parts` (page, style, program) and its contents, by default the explorer, atomically."""
+    # heavy, and rules import this module for its parts
+    from plotly.offline import get_plotlyjs
+
+    page, style, program = (part.read_text(encoding="utf-8") for part in parts)
+    # "<" would end the script that carries the data, if a name had it
+    data = json.dumps(contents, allow_nan=False).replace("<", "\\u003c")
+    for mark, text in (
+        ("title", html.escape(title)),
+        ("style", style),
+        ("plotly", get_plotlyjs()),
+        ("data", data),
+        ("program", program),
+    ):
+        page = page.replace(f"<!-- {mark} -->", text)
+    with atomic_write(file) as partial:
+        partial.write_text(page, encoding="utf-8")

@@ -4,6 +4,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+import numpy as np
+
+_SOUND_BETWEEN = (300.0, 20000.0)
+_STIFFNESS_BETWEEN = (1e8, 2e12)
+
 
 @dataclass(frozen=True)
 class Material:
@@ -22,3 +27,14 @@ class Material:
         """Lame's first constant and the shear modulus (Pa)."""
         shear = self.youngs_modulus / (2.0 * (1.0 + self.poissons_ratio))
         return 2.0 * shear * self.poissons_ratio / (1.0 - 2.0 * self.poissons_ratio), shear
+
+    def check_units(self) -> None:
+        """Raise ValueError for a stiffness and density that no solid has in SI units: N, mm and t mixed with m and kg."""
+        sound = np.sqrt(self.youngs_modulus / self.density)
+        (low, high), (soft, hard) = _SOUND_BETWEEN, _STIFFNESS_BETWEEN
+        if not (low < sound < high and soft < self.youngs_modulus < hard):
+            raise ValueError(
+                f"Young's modulus {self.youngs_modulus:g} Pa and density {self.density:g} kg/m3 give a speed of sound of "
+                f"{sound:.3g} m/s; allowed: {low:g} to {high:g}. Units seem to be mixed: give Pa and kg/m3, also for a mesh in "
+                "mm"
+            )

@@ -1,10 +1,34 @@
 """Shapes that move: modes and the worst instants of interactions, their files, and one page of each blade."""
 
+import base64
+from collections.abc import Mapping
 from pathlib import Path
 
 from r37core.explorer import FOLDER as EXPLORER
+from r37core.io import read_json, readable
 
 FOLDER = Path(__file__).parent
 
 PARTS = (FOLDER / "shapes.html", EXPLORER / "explorer.css", FOLDER / "shapes.js")
 """What the page of a blade is put together from, beside its data and plotly: page, style, program."""
+
+INDEX = "shapes.json"
+"""In each folder of shapes: what its .glb files show."""
+
+
+def shapes_contents(folders: Mapping[str, Path]) -> list[dict[str, object]]:
+    """All shapes of the folders, by the scene whose interactions they are of ("" for modes); files lie beside the page.
+
+    Raises InputFileError for a file that cannot be read.
+    """
+    found = []
+    for scene, folder in folders.items():
+        for entry in read_json(folder / INDEX):
+            file = folder / f"{entry['shape']}.glb"
+            with readable(file):
+                glb = base64.b64encode(file.read_bytes()).decode()
+            here = f"{folder.parent.name}/{folder.name}"
+            data = "modes_0" if not scene else entry["shape"]
+            files = [f"{here}/{file.name}", f"{here}/{data}.vtu"]
+            found.append({**entry, "name": f"{folder.name}/{entry['shape']}", "scene": scene, "files": files, "glb": glb})
+    return found

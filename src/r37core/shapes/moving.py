@@ -28,10 +28,8 @@ from r37core.rom.reduced_model import ReducedModel
 from r37core.speeds import exact_text
 from r37core.units import RPM
 
+from . import INDEX
 from .gltf import MovingSurface, write_glb
-
-INDEX = "shapes.json"
-"""In each folder of shapes: what its .glb files show."""
 
 COLOUR_MAP: Final = "viridis"
 LARGEST_SHOWN = 0.1

@@ -10,6 +10,7 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import TypeVar
 
 import numpy as np
 from scipy.spatial.transform import Rotation
@@ -18,6 +19,8 @@ from r37core.exchange.refusal import ImportRefused
 from r37core.fem.elements import ELEMENTS
 
 from .raw_mesh import RawMesh, solid_blocks
+
+T = TypeVar("T")
 
 _TYPES = {element.abaqus: name for name, element in ELEMENTS.items()}
 # they make or move nodes and elements
@@ -104,7 +107,9 @@ def _take(deck: _Deck, keyword: str, options: dict[str, str], rows: list[list[st
     elif keyword == "NODE" and deck.scope == "ASSEMBLY":
         return  # reference points, numbered from 1 once more
     elif keyword == "NODE":
-        deck.points |= {int(row[0]): ([float(cell) for cell in row[1:] if cell] + [0.0] * 3)[:3] for row in rows}
+        _define(
+            deck.points, "node", [(int(row[0]), ([float(cell) for cell in row[1:] if cell] + [0.0] * 3)[:3]) for row in rows]
+        )
         _add(deck.node_sets, options.get("NSET"), [int(row[0]) for row in rows])
     elif keyword == "ELEMENT":
         _take_elements(deck, options, rows)
@@ -164,9 +169,16 @@ def _take_elements(deck: _Deck, options: dict[str, str], rows: list[list[str]]) 
     width = 1 + len(ELEMENTS[name].nodes)
     if len(numbers) % width:
         raise ImportRefused(f"elements of type {kind} must have {width - 1} nodes each; a row is too long or too short")
-    elements = {row[0]: row[1:] for row in (numbers[i : i + width] for i in range(0, len(numbers), width))}
-    deck.solids.setdefault(name, {}).update(elements)
-    _add(deck.element_sets, options.get("ELSET"), list(elements))
+    elements = [(numbers[i], numbers[i + 1 : i + width]) for i in range(0, len(numbers), width)]
+    _define(deck.solids.setdefault(name, {}), "element", elements)
+    _add(deck.element_sets, options.get("ELSET"), [number for number, _ in elements])
+
+
+def _define(known: dict[int, list[T]], what: str, given: list[tuple[int, list[T]]]) -> None:
+    """Add what is `given` by number; one that comes twice must be the same both times."""
+    for number, values in given:
+        if known.setdefault(number, values) != values:
+            raise ImportRefused(f"{what} {number} is given twice, and not alike; number nodes and elements once")
 
 
 def _members(sets: dict[str, list[int]], generated: bool, rows: list[list[str]]) -> list[int]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -10,11 +11,23 @@ from r37core.exchange.refusal import ImportRefused, blamed
 from r37core.fem.surface import nodes_of, outer_faces
 from r37core.mesh.blade_mesh import NODE_SETS, BladeMesh
 
+from .abaqus_reader import read_abaqus
 from .checks import checked, without_free_nodes
 from .frame import blade_parameters
-from .read_mesh import read_mesh
-from .source import MeshSource
+from .meshio_reader import read_ansys, read_nastran, read_with_meshio
+from .raw_mesh import RawMesh
+from .source import MeshSource, mesh_files
 from .tip import check_revolution, check_sense, find_tip_lines
+
+_READERS: dict[str, Callable[[Path], RawMesh]] = {
+    ".inp": read_abaqus,
+    ".msh": read_with_meshio,
+    ".vtu": read_with_meshio,
+    ".med": read_with_meshio,
+    ".bdf": read_nastran,
+    ".nas": read_nastran,
+    ".cdb": read_ansys,
+}
 
 
 def import_mesh(source: MeshSource, folder: Path | str = ".") -> tuple[BladeMesh, np.ndarray]:
@@ -23,7 +36,7 @@ def import_mesh(source: MeshSource, folder: Path | str = ".") -> tuple[BladeMesh
     Raises ImportRefused, with the file's name and the reason, for a mesh that cannot be computed with.
     """
     with blamed("mesh"):
-        raw = read_mesh(source.file, folder)
+        raw = _read(source.file, Path(folder))
     with blamed("mesh", source.file):
         raw, quality = checked(without_free_nodes(raw) if source.drop_free_nodes else raw, source.minimum_scaled_jacobian)
     with blamed("rotor_axis", source.file):
@@ -49,3 +62,14 @@ def import_mesh(source: MeshSource, folder: Path | str = ".") -> tuple[BladeMesh
     sets["leading_edge"], sets["trailing_edge"] = (np.array([node]) for node in lines.corners)
     parameters[root, 1], parameters[tip, 1] = 0.0, 1.0
     return BladeMesh(raw.points, raw.blocks, parameters, normals, sets), quality
+
+
+def _read(name: str, root: Path) -> RawMesh:
+    """The mesh of the file `name` in the folder `root`; ImportRefused for a file that is missing, unknown or unsuitable."""
+    file = mesh_files(name, root)[0]
+    try:
+        return _READERS[file.suffix.lower()](file)
+    except ImportRefused as error:
+        raise ImportRefused(f"{name}: {error}") from None
+    except Exception as error:
+        raise ImportRefused(f"{name}: cannot be read ({type(error).__name__}: {error})") from error
