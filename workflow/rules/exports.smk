@@ -40,8 +40,7 @@ rule exported_surface:
 
 rule whole_blade_model:
     input:
-        mesh=paths.MESH,
-        matrices="<results>/{blade}/matrices.npz",
+        paths.MESH,
     output:
         temp(paths.WHOLE_BLADE_MODEL),
     log:
@@ -51,6 +50,7 @@ rule whole_blade_model:
     resources:
         **needs.of("reduced_model"),
     params:
+        material=structure.elastic,
         reduction=exported.reduction,
         provenance=made.structure,
         code=code("reduced_model"),
@@ -111,6 +111,7 @@ rule exported_matrices:
     params:
         choice=exported.choice,
         tip_line=settings.structure.boundary.tip_line,
+        material=structure.material,
         code=code("exported_matrices"),
     script:
         "../scripts/exported_matrices.py"
