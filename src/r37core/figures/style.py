@@ -63,7 +63,7 @@ def blade_styles(blades: Iterable[Any]) -> dict[str, dict[str, str]]:
 
 
 def yield_lines(axes: Axes, limits: Mapping[Any, float], label: str = "_") -> None:
-    """A dashed line (GPa) at each of the blades' yield stresses (Pa), blade -> stress; several lines say whose they are."""
+    """A dashed line (GPa) at each of the yield stresses (Pa), each by its name; several lines say whose they are."""
     blades_of: dict[float, list[str]] = {}
     for blade, limit in limits.items():
         if np.isfinite(limit):
