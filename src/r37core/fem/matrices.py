@@ -1,14 +1,12 @@
-"""The finite-element matrices of one blade, as later stages use them, and their file, matrices.npz."""
+"""The finite-element matrices of one blade, as later stages use them."""
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass, fields, replace
-from pathlib import Path
+from dataclasses import dataclass, replace
 
 import numpy as np
 import scipy.sparse as sp
 
-from r37core.io import atomic_write, readable
 from r37core.mesh.blade_mesh import BladeMesh
 
 from .assembly import NodePattern, assemble_mass, assemble_stiffness, block_matrix
@@ -97,15 +95,3 @@ def static_displacement(matrices: StructuralMatrices, load: np.ndarray) -> np.nd
     solution = factorise(matrices.stiffness())(load[free].ravel())
     displacement[free] = solution.reshape(-1, 3)
     return displacement
-
-
-def write_matrices(matrices: StructuralMatrices, file: Path | str) -> None:
-    """Write the matrices, one array per field of StructuralMatrices, uncompressed."""
-    with atomic_write(file) as partial:
-        np.savez(partial, **asdict(matrices))
-
-
-def read_matrices(file: Path | str) -> StructuralMatrices:
-    """The matrices of a file; InputFileError when it cannot be read."""
-    with readable(file), np.load(file) as stored:
-        return StructuralMatrices(**{field.name: stored[field.name] for field in fields(StructuralMatrices)})
