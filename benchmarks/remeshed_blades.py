@@ -30,8 +30,8 @@ from r37core.fem.solver import lowest_modes
 from r37core.io import read_json, write_json
 from r37core.mesh.generate import generate_mesh
 from r37core.results.campbell import campbell_diagram
-from r37core.rom.contact_reduction import contact_model
 from r37core.rom.reduce import reduce_blade
+from r37core.rom.reduced_model import contact_model
 from r37core.time_integration.speed_run import run_speed
 
 ROOT = Path(__file__).parent.parent

@@ -115,7 +115,7 @@ print(crossings.round(1).to_string())
 
 # %%
 from r37core.results.stress_recovery import StressRecovery
-from r37core.rom.contact_reduction import contact_model
+from r37core.rom.reduced_model import contact_model
 from r37core.time_integration.speed_run import run_speed
 
 scene = settings.scenes["abradable"].scene
@@ -211,7 +211,7 @@ plt.show()
 #
 # ## And on
 #
-# - The whole of it at full accuracy, in both scenes, with speeds that refine themselves: put the blade into
+# - The whole of it at full accuracy, in both scenes, with adaptive speed sampling: put the blade into
 #   `config/blades.yaml` and run `make all_blades`. Nothing of the other blades is run again.
 # - `results/explorer.html` shows all blades linked, `make report` makes one file of it.
 # - A family instead of one blade: `chordwise_sweep_deg` under `vary`, in [blades.md](blades.md).

@@ -111,7 +111,7 @@ def model(mesh, matrices, choice):
 
 @pytest.fixture(scope="session")
 def contact(model):
-    from r37core.rom.contact_reduction import contact_model
+    from r37core.rom.reduced_model import contact_model
 
     return contact_model(model, "pressure_edge")
 

@@ -6,11 +6,11 @@ import numpy as np
 from numba import njit
 
 from r37core.alignment import aligned_record, aligned_zeros, padded
-from r37core.contact import complementarity, friction, lining
+from r37core.contact import complementarity, laws
 from r37core.lanes import OPTIONS, inlined, load, store
 from r37core.time_integration.layout import LINING, problem
 
-_return_mapping, _friction_direction = inlined(lining.return_mapping), inlined(friction.friction_direction)
+_return_mapping, _friction_direction = inlined(laws.return_mapping), inlined(laws.friction_direction)
 
 
 @njit(**OPTIONS)

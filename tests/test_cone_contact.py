@@ -10,8 +10,8 @@ from r37core.contact.casing import Casing, casing_axes
 from r37core.contact.scene import Scene
 from r37core.results.campbell import campbell_diagram, dynamic_clearance
 from r37core.rom.contact_model import ContactModel
-from r37core.rom.contact_reduction import contact_model
 from r37core.rom.reduce import reduce_blade
+from r37core.rom.reduced_model import contact_model
 from r37core.time_integration.integration_choice import IntegrationChoice
 from r37core.time_integration.reference import ReferenceEngine
 from r37core.time_integration.simulate import Simulation

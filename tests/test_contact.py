@@ -8,9 +8,9 @@ from contact_laws import friction_direction, return_mapping, solve_complementari
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from r37core.contact import lining
+from r37core.contact import laws
 from r37core.contact.casing import Casing, casing_axes
-from r37core.contact.exact_gap import displaced_position, lobe_shape
+from r37core.contact.laws import displaced_position, lobe_shape
 from r37core.contact.scene import Lining
 
 BAR = Lining(5e-3, 20e9, 5e9, 1e6, bar_width=1e-3)
@@ -72,7 +72,7 @@ def test_wear_never_shrinks_and_a_bar_never_pulls(pushes, elastic, plastic, yiel
     wear, bar = 0.0, Lining(5e-3, elastic, plastic, yield_stress, bar_width=1e-3)
     for push in pushes:
         stress, new = return_mapping(push, wear, bar)
-        assert (stress, new) == pytest.approx(lining.return_mapping(push, wear, bar), rel=1e-12)
+        assert (stress, new) == pytest.approx(laws.return_mapping(push, wear, bar), rel=1e-12)
         assert stress >= 0.0
         assert wear <= new <= 5e-3
         wear = new

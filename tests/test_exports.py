@@ -16,8 +16,8 @@ from r37core.exchange.orientation import Orientation
 from r37core.exchange.refusal import ImportRefused
 from r37core.results.campbell import campbell_diagram
 from r37core.results.stress_recovery import StressRecovery
-from r37core.rom.contact_reduction import contact_model
 from r37core.rom.reduce import reduce_blade
+from r37core.rom.reduced_model import contact_model
 from r37core.time_integration.speed_file import write_speed
 
 OURS = Orientation("m", (0, 0, 1), (1, 0, 0), "negative")

@@ -149,6 +149,17 @@ def test_comparison_is_over_each_blade_s_own_crossing(datasets):
     plt.close(figure)
 
 
+def test_blades_of_two_materials_have_two_lines_of_yield(datasets):
+    rms, stress = (datasets[kind].sel(scene="abradable") for kind in ("rms", "stress"))
+    for limits in ([1.38e9, 1.38e9, 1.38e9], [1.38e9, 0.9e9, 1.38e9], [1.38e9, np.nan, 1.38e9]):
+        given = stress.assign(yield_stress=("blade", limits))
+        figure = comparison.draw_comparison(datasets["campbell"], rms, given, "abradable")
+        lines = [line.get_ydata() for line in figure.axes[-1].lines if line.get_linestyle() == "--"]
+        flat = sorted(values[0] for values in lines if len(values) == 2 and values[0] == values[1])
+        np.testing.assert_allclose(flat, sorted({1e-9 * limit for limit in limits if limit == limit}))
+        plt.close(figure)
+
+
 def test_nothing_run_is_drawn_as_nothing(datasets):
     empty = datasets["spectrum"].sel(blade="Ref", scene="direct").where(False)
     plt.close(waterfall.draw_waterfall(empty, datasets["campbell"].sel(blade="Ref"), "Ref, direct"))

@@ -10,7 +10,7 @@ from r37core.config import ConfigError, command_line_document, read_settings
 from r37core.figures.captions import CAPTIONS
 from r37core.published import BLADES, DIRECT_PEAK, INTERACTIONS, QUIET
 from r37core.studies.checks import Check, claim
-from r37core.studies.gallery.cases import COARSE, FINE, ITEMS, Item, cases, inputs, outputs, told
+from r37core.studies.gallery.cases import COARSE, FINE, ITEMS, Item, cases, inputs, outputs, values
 from r37core.studies.gallery.report import of_item, verdict
 from r37core.studies.runner import with_swept_peak
 
@@ -73,7 +73,7 @@ def test_a_sweep_without_the_benchmark_is_refused(root, settings):
     # whose other rules are planned all the same
     other = read_settings(root, command_line_document({"blades": ["L50"]}))
     assert outputs(other)
-    for asked in (cases, told):
+    for asked in (cases, values):
         with pytest.raises(ConfigError, match="the gallery needs Ref"):
             asked(other)
 

@@ -79,9 +79,9 @@ def published_runs() -> Runs:
     return runs | {DIRECT: direct}
 
 
-def test_runs_as_published_meet_every_check():
+def test_runs_as_published_agree_in_every_check():
     checks = choice_checks(published_runs())
-    assert [check.name for check in checks if not check.met] == []
+    assert [check.name for check in checks if not check.agrees] == []
     assert sum(check.published is not None for check in checks) > 50
     named = {check.name: check.ours for check in checks}
     assert named["Ref 1B/4: width above yield"] == pytest.approx(17.0, abs=2.0)
@@ -91,7 +91,7 @@ def test_runs_as_published_meet_every_check():
 
 
 @pytest.mark.parametrize(
-    ("change", "missed"),
+    ("change", "differs"),
     [
         (lambda runs: {"Ref_4": runs["Ref_4"].assign_coords(speed=runs["Ref_4"]["speed"] + 12)}, "Ref 1B/4: peak"),
         (lambda runs: {"L50_4": runs["L50_4"].isel(speed=slice(0, 21))}, "L50 1B/4: drop after the peak"),
@@ -115,10 +115,10 @@ def test_runs_as_published_meet_every_check():
         (lambda runs: {DIRECT: branch_that_stays(runs[DIRECT])}, "direct: low above, its median less than half"),
     ],
 )
-def test_what_differs_is_missed(change, missed):
+def test_what_is_not_as_published_differs(change, differs):
     runs = published_runs()
     checks = choice_checks(runs | change(runs))
-    assert any(check.name.startswith(missed) for check in checks if not check.met)
+    assert any(check.name.startswith(differs) for check in checks if not check.agrees)
 
 
 def branch_that_stays(run):
@@ -167,13 +167,13 @@ def test_torsion_is_a_maximum_of_its_own():
     assert torsion_speed(run) == 1630.0
 
 
-def test_missed_checks_come_first_and_ours_alone_last():
+def test_checks_that_differ_come_first_and_ours_alone_last():
     checks = [Check("alone", None, 19.0), Check("good", 10.0, 10.01), Check("bad", 10.0, 12.0), claim("worst", False, "0.3")]
     lines = validation_table(checks, {"half_step": [Check("good", 10.0, 10.02)]}).splitlines()
     assert lines[0].startswith("1 of 3 ")
     assert [line.split("|")[1].strip() for line in lines[4:]] == ["worst", "bad", "good", "alone"]
     cells = [[cell.strip() for cell in line.split("|")[1:-1]] for line in lines[4:]]
-    assert cells[0][2:4] == ["no (0.3)", "**missed**"]
+    assert cells[0][2:4] == ["no (0.3)", "**differs**"]
     assert cells[1][3] == "**20%**"
     assert cells[2][4] == "10.02"
     assert cells[3][1:4] == ["", "19", ""]
@@ -301,11 +301,11 @@ def test_survey_counts_responses_beside_the_interactions():
     shipped = {"Ref_4": branch(1717.0), "CS100_4": branch(1407.0)}
     shipped["CS100_4"]["max_von_mises"][5:] += 1.5 * YIELD * (shipped["CS100_4"]["speed"][5:] < 1400.0)
     checks = {check.name: check for check in survey_checks(survey, shipped)}
-    assert [name for name, check in checks.items() if not check.met] == []
+    assert [name for name, check in checks.items() if not check.agrees] == []
     assert any(check.detail == "3 and 2" for check in checks.values())
     survey["Ref_lined"]["rms_radial"].loc[{"speed": 1345.0}] = 0.9e-3
-    missed = [check.name for check in survey_checks(survey, shipped) if not check.met]
-    assert missed == ["Ref lined, 750 to 2000: no other radial rms above 0.8 mm"]
+    differing = [check.name for check in survey_checks(survey, shipped) if not check.agrees]
+    assert differing == ["Ref lined, 750 to 2000: no other radial rms above 0.8 mm"]
 
 
 def test_a_median_does_not_depend_on_where_speeds_lie_close():

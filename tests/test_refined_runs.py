@@ -1,4 +1,4 @@
-"""Speeds that refine themselves, through Snakemake: all rounds in one command, each speed once, and what runs again."""
+"""Adaptive speed sampling through Snakemake: all rounds in one command, each speed once, and what runs again."""
 
 import contextlib
 import json

@@ -1,4 +1,4 @@
-"""Speeds that refine themselves: what a range asks for, where a round looks next, and what comes of it."""
+"""Adaptive speed sampling: what a range asks for, where a round looks next, and what comes of it."""
 
 import runpy
 from dataclasses import replace

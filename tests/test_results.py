@@ -2,6 +2,7 @@
 
 from types import SimpleNamespace
 
+import netCDF4
 import numpy as np
 import pytest
 import xarray as xr
@@ -9,13 +10,14 @@ from box_mesh import box_mesh
 
 from r37core.contact.casing import Casing
 from r37core.contact.scene import Friction, Lining, Scene
+from r37core.dataset_file import hash_of_parts, write_dataset
 from r37core.fem.material import Material
 from r37core.io import InputFileError
 from r37core.results.datasets import write_sweep_dataset
+from r37core.results.netcdf import create_axis, create_variable
 from r37core.results.response import write_response
 from r37core.results.stress_recovery import StressRecovery
-from r37core.rom.contact_reduction import contact_model
-from r37core.rom.reduced_model import RecoveryNodes
+from r37core.rom.reduced_model import RecoveryNodes, contact_model
 from r37core.speeds import SpeedError, plan_speeds
 from r37core.time_integration.integration_choice import IntegrationChoice
 from r37core.time_integration.speed_file import read_speed, write_speed
@@ -184,6 +186,26 @@ def test_datasets_join_blades_and_scenes(sweep, kind):
             if variable.dtype.kind == "f" and "scene" in variable.dims and "speed" in variable.dims and kind == "rms":
                 missing = np.isnan(variable.sel(scene="direct", blade="Ref", speed=900.0))
                 assert missing.all(), name
+
+
+def test_a_joined_file_hashes_what_its_parts_say(tmp_path):
+    for name, number in (("one", 1), ("other", 2), ("third", 3)):
+        attributes = {"input_hash": f"{number}", "scene": name}
+        write_dataset(xr.Dataset({"x": ("speed", [number])}), tmp_path / f"{name}.nc", attributes)
+    first, second = tmp_path / "one.nc", tmp_path / "other.nc"
+    made = hash_of_parts([first, second])
+    assert made == hash_of_parts([second, first])
+    assert len({made, hash_of_parts([first]), hash_of_parts([first, tmp_path / "third.nc"])}) == 3
+    with pytest.raises(InputFileError, match=r"none\.nc"):
+        hash_of_parts([first, tmp_path / "none.nc"])
+
+
+def test_empty_parts_of_cubes_take_no_place(tmp_path):
+    with netCDF4.Dataset(tmp_path / "cube.nc", "w") as dataset:
+        for name, length in (("scene", 4), ("speed", 50_000)):
+            create_axis(dataset, name, np.arange(length), {})
+        create_variable(dataset, "level", "f8", ("scene", "speed"), {})[0] = np.arange(50_000)
+    assert (tmp_path / "cube.nc").stat().st_size < 0.8 * 4 * 8 * 50_000
 
 
 def test_every_blade_and_scene_has_its_own_slab(sweep, tmp_path):

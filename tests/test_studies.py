@@ -224,7 +224,7 @@ def test_tradeoff_of_a_small_sweep(project):
     parameters += "      bars: { values: [3000, 10000], reference: 10000 }\n"
     parameters += "      revolutions: { values: [2, 3, 4], reference: 4 }\n"
     config.write_text(text[:start].replace("base: standard", "base: tiny") + parameters + text[end:])
-    snakemake(project, "growth", "--cores", "2")
+    snakemake(project, "tradeoff", "--cores", "2")
     table = (project / "results/studies/tradeoff.md").read_text()
     levels = (project / "results/studies/levels.md").read_text()
     assert "| `tiny` |" in levels

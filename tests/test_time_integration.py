@@ -9,7 +9,7 @@ from integration_cases import ABRADABLE, AT_ONCE, DIRECT, LINING, oscillator, ra
 from r37core.contact.casing import Casing, casing_axes
 from r37core.contact.scene import Friction, Lining, Scene
 from r37core.rom.contact_model import read_contact_model, write_contact_model
-from r37core.rom.contact_reduction import contact_model
+from r37core.rom.reduced_model import contact_model
 from r37core.time_integration.integration_choice import IntegrationChoice
 from r37core.time_integration.integrators import INTEGRATORS
 from r37core.time_integration.problem import Problem, UnstableStepError

@@ -63,6 +63,7 @@ def test_results_of_a_real_run(finished):
         assert dataset.attrs["fidelity"] == "tiny"
         assert dataset.attrs["basis_columns"] == 102
     with xr.open_dataset(finished / "results/rms.nc") as dataset:
+        assert len(dataset.attrs["input_hash"]) == 16
         assert dataset["rms_normal"].dims == ("blade", "scene", "speed", "tip_point")
         assert dataset["rms_normal"].shape == (2, 2, 3, 2)
         assert (dataset["status"] == 0).all()

@@ -54,7 +54,7 @@ def test_speeds_and_their_files(chosen):
 
 @pytest.fixture
 def refining(root, tmp_path):
-    """A plan whose speeds refine themselves, with two finished rounds of the reference blade and one of the other."""
+    """A plan with adaptive speeds, with two finished rounds of the reference blade and one of the other."""
     changes = {
         "blades": ["Ref", "L50"],
         "scenes": ["abradable", "direct"],
@@ -101,7 +101,7 @@ def test_plain_grids_beside_are_part_of_the_whole_one(refining):
 
 
 def test_estimate_of_speeds_that_refine_themselves_is_their_share(refining):
-    assert estimate.told(refining.settings)["runs"]["Ref__abradable"] == max(3, int(0.2 * 21))
+    assert estimate.values(refining.settings)["runs"]["Ref__abradable"] == max(3, int(0.2 * 21))
 
 
 def test_models_of_a_scene(chosen):
@@ -204,7 +204,7 @@ def test_tradeoff_has_a_case_for_every_value(settings):
     values = tradeoff.values_of(settings)
     files = Studies(settings).inputs("tradeoff")(None)["cases"]
     assert len(files) == len(settings.scenes) * sum(map(len, values.values()))
-    assert tradeoff.told(settings)["references"]["level"] == "reference"
+    assert tradeoff.values(settings)["references"]["level"] == "reference"
     assert "<results>/studies/tradeoff/exact_modal_step/8e-07__direct.nc" in files
 
 
@@ -261,5 +261,5 @@ def test_modelling_choices_use_this_runs_models_where_they_are_the_same(root, se
 def test_estimate_samples_and_counts(chosen):
     samples = estimate.cases(chosen)
     assert len(samples) == 4
-    assert estimate.told(chosen)["runs"]["Ref__abradable"] == 2
+    assert estimate.values(chosen)["runs"]["Ref__abradable"] == 2
     assert set(samples["Ref__abradable"].speeds) <= {900.0, 1234.5}

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import hashlib
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 
+import netCDF4
 import numpy as np
 import xarray as xr
 
@@ -39,3 +41,16 @@ def read_dataset(file: Path | str) -> xr.Dataset:
     """Read a netCDF file into memory; InputFileError when it cannot be read."""
     with readable(file), xr.open_dataset(file, engine="netcdf4") as dataset:
         return dataset.load()
+
+
+def hash_of_parts(files: Iterable[Path | str]) -> str:
+    """Input hash of a file that joins others: of what each of them, in any order, says of its making.
+
+    Raises InputFileError for a file that cannot be read.
+    """
+    said = []
+    for file in files:
+        with readable(file), netCDF4.Dataset(file) as dataset:
+            names = sorted(set(dataset.ncattrs()) - set(FILE_ATTRIBUTES))
+            said.append([(name, str(dataset.getncattr(name))) for name in names])
+    return hashlib.sha256(repr(sorted(said)).encode()).hexdigest()[:16]

@@ -1,4 +1,4 @@
-"""Speeds to simulate: numbers and ranges, joined, some of which refine themselves; and how a speed stands in file names."""
+"""Speeds to simulate: numbers and ranges, joined, some sampled adaptively; and how a speed stands in file names."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ class SpeedError(ValueError):
 
 @dataclass(frozen=True)
 class RefinedRange:
-    """Speeds that refine themselves: `coarse` intervals of the grid start, start + refine_to, ... up to `last` of them.
+    """Adaptive speeds: `coarse` intervals of the grid start, start + refine_to, ... up to `last` of them.
 
     All numbers but start and refine_to count intervals of the grid, so that a speed is the same number in whichever round it
     is asked for. These two are in the unit that they were given in, of which one is `unit` rad/s.
@@ -53,7 +53,7 @@ class RefinedRange:
 
 @dataclass(frozen=True)
 class SpeedPlan:
-    """What a list of speeds asks for: `certain` speeds (rad/s), ascending, and ranges that refine themselves.
+    """What a list of speeds asks for: `certain` speeds (rad/s), ascending, and ranges that are sampled adaptively.
 
     The coarse speeds of the ranges are among the certain ones.
     """

@@ -75,12 +75,7 @@ for study in STUDIES:
         params:
             study=study,
             cases=studies.names(study),
-            told=studies.told(study),
+            values=studies.values(study),
             code=code("study", f"r37core.studies.{study}.report"),
         script:
             "../scripts/study.py"
-
-
-rule growth:
-    input:
-        "<results>/studies/growth.md",

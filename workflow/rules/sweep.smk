@@ -66,7 +66,7 @@ rule simulate:
         "{params.python:q} {params.script:q} {input.model:q} {wildcards.speed:q} {output:q} {log:q} {params.task:q} {params.about:q}"
 
 
-# speeds that refine themselves: each round asks for some more, from what those before it gave, until one asks for none
+# adaptive speed sampling: each round asks for some more, from what those before it gave, until one asks for none
 checkpoint refine:
     input:
         unpack(sweep.round_inputs),

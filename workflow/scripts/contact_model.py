@@ -3,7 +3,7 @@
 from job import run
 
 from r37core.rom.contact_model import write_contact_model
-from r37core.rom.contact_reduction import contact_model
+from r37core.rom.reduced_model import contact_model
 from r37core.rom.rom_file import read_reduced_model
 
 

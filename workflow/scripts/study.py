@@ -1,4 +1,4 @@
-"""Report of a study. Inputs: responses of its cases, and what else it reads. Params: study, cases, told. Outputs: by name."""
+"""Report of a study. Inputs: responses of its cases, and what else it reads. Params: study, cases, values. Outputs: by name."""
 
 from importlib import import_module
 
@@ -25,7 +25,7 @@ def main(snakemake):
     given, params = snakemake.input, snakemake.params
     responses = {name: read_dataset(file) for name, file in zip(params.cases, as_list(given.cases), strict=True)}
     report = import_module(f"r37core.studies.{params.study}.report").report
-    for name, content in report(responses, given, params.told).items():
+    for name, content in report(responses, given, params.values).items():
         write(content, getattr(snakemake.output, name))
 
 

@@ -7,7 +7,7 @@ from r37core.fem.material import Material
 from r37core.io import write_json
 from r37core.plain import from_plain
 from r37core.rom.contact_model import write_contact_model
-from r37core.rom.contact_reduction import contact_model
+from r37core.rom.reduced_model import contact_model
 from r37core.rom.reduction_choice import ReductionChoice
 from r37core.rom.rom_file import write_reduced_model
 from r37core.studies.case import ModelChoice

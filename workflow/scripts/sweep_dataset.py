@@ -2,12 +2,16 @@
 
 from job import run
 
+from r37core.dataset_file import hash_of_parts
+from r37core.io import as_list
 from r37core.results.datasets import write_sweep_dataset
 
 
 def main(snakemake):
-    responses = dict(zip(map(tuple, snakemake.params.runs), snakemake.input, strict=True))
-    write_sweep_dataset(snakemake.wildcards.kind, responses, snakemake.output[0], {"fidelity": snakemake.params.fidelity})
+    files, params = as_list(snakemake.input), snakemake.params
+    made = {"fidelity": params.fidelity, "input_hash": hash_of_parts(files)}
+    responses = dict(zip(map(tuple, params.runs), files, strict=True))
+    write_sweep_dataset(snakemake.wildcards.kind, responses, snakemake.output[0], made)
 
 
 run(snakemake, main)

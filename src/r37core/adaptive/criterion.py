@@ -1,4 +1,4 @@
-"""Where speeds that refine themselves are run next: windows above crossings first, then where the response changes."""
+"""Which speeds adaptive sampling runs next: windows above crossings first, then where the response changes."""
 
 from __future__ import annotations
 

@@ -217,7 +217,7 @@ class Settings:
             certain = sum(len(plan.certain) for plan in refining)
             most = sum(plan.at_most(self.refinement.largest_share) for plan in refining)
             said.append(
-                f"speeds refine themselves: {certain} simulations and those of the windows first, about {most} at most; "
+                f"adaptive speed sampling: {certain} simulations and those of the windows first, about {most} at most; "
                 "they are planned round by round, so a dry run shows none of those to come"
             )
         return said

@@ -22,7 +22,8 @@ class SpeedRange(Section):
     stop: Speed
     step: Speed | LeftOut = Field(default=None, description="without it the fidelity level's")
     refine_to: Speed | LeftOut = Field(
-        default=None, description="with it the speeds refine themselves, down to intervals of this, a whole part of the step"
+        default=None,
+        description="with it the speeds are sampled adaptively, down to intervals of this, a whole part of the step",
     )
 
     @model_validator(mode="after")
@@ -39,7 +40,8 @@ class RpmRange(SpeedRange):
     stop: Rpm
     step: Rpm | LeftOut = Field(default=None, description="without it the fidelity level's")
     refine_to: Rpm | LeftOut = Field(
-        default=None, description="with it the speeds refine themselves, down to intervals of this, a whole part of the step"
+        default=None,
+        description="with it the speeds are sampled adaptively, down to intervals of this, a whole part of the step",
     )
 
 

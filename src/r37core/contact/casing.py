@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .exact_gap import lobe_shape
+from .laws import lobe_shape
 
 
 @dataclass(frozen=True)

@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 import pyvista
 
-from r37core.io import atomic_write, readable
+from r37core.io import readable
 
-from .offscreen import new_plotter
+from .offscreen import look, new_plotter, save_picture
 
 
 def draw_blade_shapes(meshes: Mapping[str, Path | str], file: Path | str) -> None:
@@ -38,12 +38,8 @@ def draw_blade_shapes(meshes: Mapping[str, Path | str], file: Path | str) -> Non
         )
         _mark_sense(plotter, grid)
         plotter.add_text(name, font_size=10)
-        plotter.camera_position = [(0.25, -1.0, 0.9), (0.0, 0.0, 0.0), (1.0, 0.0, 0.0)]
-        plotter.reset_camera()  # type: ignore[call-arg]  # the wrapper hides the method from mypy
-        plotter.camera.zoom(1.3)
-    with atomic_write(file) as partial:
-        plotter.screenshot(partial)
-    plotter.close()
+        look(plotter)
+    save_picture(plotter, file)
 
 
 def _mark_sense(plotter: pyvista.Plotter, grid: Any) -> None:

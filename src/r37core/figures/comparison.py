@@ -52,7 +52,8 @@ def draw_comparison(campbell: xr.Dataset, rms: xr.Dataset, stress: xr.Dataset | 
         axes.axvline(0.0, color="0.5", linewidth=0.8, linestyle=":")
         axes.set_ylabel(label)
     if stress is not None:
-        panels[-1].axhline(1e-9 * float(stress["yield_stress"].max()), color="0.3", linewidth=0.9, linestyle="--")
+        for limit in np.unique(stress["yield_stress"].dropna("blade")):  # one line for blades of one material
+            panels[-1].axhline(1e-9 * limit, color="0.3", linewidth=0.9, linestyle="--")
     panels[-1].set_xlabel(
         f"speed above the crossing of 1B with engine order {order} (%)" if order else "no crossing of 1B was run"
     )

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import sys
+from pathlib import Path
 
 # VTK picks its window when first imported; this one needs neither a display nor a graphics card
 if sys.platform == "linux":
@@ -11,10 +12,30 @@ if sys.platform == "linux":
 
 import pyvista
 
+from r37core.io import atomic_write
+
+Point = tuple[float, float, float]
+SEEN_FROM: Point = (0.25, -1.0, 0.9)
+"""Where pictures of blades are mostly seen from."""
+
 
 def new_plotter(columns: int, size: tuple[int, int], rows: int = 1) -> pyvista.Plotter:
     """An off-screen plotter with `columns` panels side by side in each of `rows` and a window of `size` pixels."""
     return pyvista.Plotter(shape=(rows, columns), off_screen=True, window_size=list(size), border=False)
+
+
+def look(plotter: pyvista.Plotter, seen_from: Point = SEEN_FROM, zoom: float = 1.3) -> None:
+    """Show all of the current panel from a direction, the machine's axis upright."""
+    plotter.camera_position = [seen_from, (0.0, 0.0, 0.0), (1.0, 0.0, 0.0)]
+    plotter.reset_camera()  # type: ignore[call-arg]  # the wrapper hides the method from mypy
+    plotter.camera.zoom(zoom)
+
+
+def save_picture(plotter: pyvista.Plotter, file: Path | str) -> None:
+    """Write what was drawn into a PNG and end with the plotter."""
+    with atomic_write(file) as partial:
+        plotter.screenshot(partial)
+    plotter.close()
 
 
 if __name__ == "__main__":

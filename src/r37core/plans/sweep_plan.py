@@ -29,7 +29,7 @@ class Sweep:
     """Plan of the sweep that `settings` ask for. Methods with `wildcards` are inputs and parameters of rules.
 
     `round_file(blade=..., scene=..., round=...)`: file of a finished round of refinement; Snakemake's own exception for one
-    that is still to be made. Without it only speeds that do not refine themselves have a plan.
+    that is still to be made. Without it adaptive speeds have no plan.
     """
 
     settings: Settings
@@ -40,7 +40,7 @@ class Sweep:
         return paths.fill(paths.CONTACT_MODEL, blade=wildcards.blade, tip_line=self._scene(wildcards).tip_line)
 
     def speed_files(self, wildcards: Any) -> list[str]:
-        """The simulations of one blade and scene, by ascending speed: of all rounds, where its speeds refine themselves."""
+        """The simulations of one blade and scene, by ascending speed: of all rounds, where its speeds are adaptive."""
         if not self.speed_plan(wildcards).refined:
             return self._files_of(wildcards, self.speed_plan(wildcards).certain)
         speeds: list[float] = []
@@ -144,7 +144,7 @@ class Sweep:
 
     @property
     def most_runs(self) -> int:
-        """Simulations of the whole sweep, at most where speeds refine themselves."""
+        """Simulations of the whole sweep, at most where speeds are adaptive."""
         share = self.settings.refinement.largest_share
         return sum(plan.at_most(share) for plan in self.settings.speed_plans.values())
 

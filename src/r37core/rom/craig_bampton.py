@@ -23,12 +23,10 @@ class MultiSpeedBasis:
     """A reduction basis whose first coordinates are the boundary displacements themselves.
 
     `vectors`, shape (dofs, boundary dofs + internal): constraint modes at rest, then internal vectors that vanish on the
-    boundary and are mass-orthonormal. `columns`: how many were computed over all speeds; `singular_values`: of those
-    columns, normalised.
+    boundary and are mass-orthonormal. `singular_values`: of the columns computed over all speeds, one for each, normalised.
     """
 
     vectors: np.ndarray
-    columns: int
     singular_values: np.ndarray
 
 
@@ -55,7 +53,7 @@ def combine_columns(
     nor the scale of the columns matters.
     """
     internal, singular_values = _internal_vectors(columns, mass, boundary_dofs, tolerance)
-    return MultiSpeedBasis(np.hstack([constraint_modes, internal]), columns.shape[1], singular_values)
+    return MultiSpeedBasis(np.hstack([constraint_modes, internal]), singular_values)
 
 
 def constraint_and_fixed_modes(

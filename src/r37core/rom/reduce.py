@@ -51,7 +51,6 @@ def reduce_blade(mesh: BladeMesh, matrices: StructuralMatrices, choice: Reductio
         shape_names=tuple(shapes),
         shape_products=np.array([shape @ mass_times_vectors for shape in shapes.values()]),
         shape_norms=np.array([np.sqrt(shape @ (mass @ shape)) for shape in shapes.values()]),
-        columns=basis.columns,
         tolerance=choice.tolerance,
         singular_values=basis.singular_values,
         quadratic_residual=_quadratic_residual(stiffness, per_square, vectors, max(choice.speeds)),

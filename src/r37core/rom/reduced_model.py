@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.linalg as la
 
-from .contact_model import BucklingError
+from .contact_model import BucklingError, ContactModel
 
 
 @dataclass(frozen=True)
@@ -57,7 +57,7 @@ class ReducedModel:
     `boundary_chord`: their chord fractions. `tip_lines`: recovery along each tip line; `stress_submesh` with
     `stress_elements`, element type -> shape (elements, nodes of the type), indexing its nodes; `whole_blade` only on request.
     `shape_names`, `shape_products`, shape (shapes, coordinates), and `shape_norms`: mass products of the basis with the
-    ideal bending and torsion shapes, by which modes are named. `columns`, `tolerance`, `singular_values`: of the basis.
+    ideal bending and torsion shapes, by which modes are named. `tolerance`, `singular_values`: of the basis.
     `quadratic_residual`: size of the Omega^4 term of the reduced stiffness at the highest speed against the stiffness.
     """
 
@@ -75,7 +75,6 @@ class ReducedModel:
     shape_names: tuple[str, ...]
     shape_products: np.ndarray
     shape_norms: np.ndarray
-    columns: int
     tolerance: float
     singular_values: np.ndarray
     quadratic_residual: float
@@ -84,6 +83,11 @@ class ReducedModel:
     def size(self) -> int:
         """Number of reduced coordinates."""
         return self.mass.shape[0]
+
+    @property
+    def columns(self) -> int:
+        """Number of columns, over all speeds, that the basis is made of."""
+        return len(self.singular_values)
 
     @property
     def stiffness_per_square(self) -> np.ndarray:
@@ -135,3 +139,31 @@ def _gyroscopic_modes(
     complex_shapes = shapes @ modal
     norms = np.sqrt(np.sum(np.abs(modal) ** 2, axis=0))
     return values[positive], complex_shapes / norms
+
+
+def contact_model(model: ReducedModel, tip_line: str) -> ContactModel:
+    """The contact model of a reduced model whose boundary nodes lie on `tip_line`.
+
+    Raises ValueError for a model with a Coriolis matrix, which the modal time integration cannot carry.
+    """
+    if model.coriolis is not None:
+        raise ValueError("simulations cannot carry the Coriolis matrix yet; set structure.coriolis to false in config.yaml")
+    frequencies, modes = model.modes(0.0)
+    per_square = modes.T @ model.stiffness_per_square @ modes
+    line, nodes = model.tip_lines[tip_line], model.contact_nodes(tip_line)
+    return ContactModel(
+        squared_frequencies=frequencies**2,
+        stiffness_per_square=0.5 * (per_square + per_square.T),
+        displacement_operator=_cylindrical_operator(nodes, modes),
+        radius=np.hypot(nodes.points[:, 0], nodes.points[:, 1]),
+        theta=np.arctan2(nodes.points[:, 1], nodes.points[:, 0]),
+        tip_cone_angle=line.cone_angle,
+        tip_displacement_operator=_cylindrical_operator(line.select([0, -1]), modes),
+        to_reduced=modes,
+    )
+
+
+def _cylindrical_operator(nodes: RecoveryNodes, modes: np.ndarray) -> np.ndarray:
+    """Radial, tangential and axial displacement per mode, shape (3, nodes, modes)."""
+    per_mode = np.moveaxis(nodes.basis @ modes, 2, 0)
+    return nodes.cylindrical(per_mode).transpose(2, 1, 0)

@@ -76,7 +76,6 @@ def read_reduced_model(file: Path | str) -> ReducedModel:
             shape_names=tuple(str(name) for name in dataset["shape"].values),
             shape_products=dataset["shape_products"].values,
             shape_norms=dataset["shape_norms"].values,
-            columns=int(dataset.attrs["basis_columns"]),
             tolerance=float(dataset.attrs["basis_tolerance"]),
             singular_values=dataset["singular_values"].values,
             quadratic_residual=float(dataset.attrs["quadratic_residual"]),

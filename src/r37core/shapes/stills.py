@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 import pyvista
 
-from r37core.figures.offscreen import new_plotter
-from r37core.io import atomic_write, read_json, readable
+from r37core.figures.offscreen import look, new_plotter, save_picture
+from r37core.io import read_json, readable
 
 from . import INDEX
 from .moving import COLOUR_MAP, LARGEST_SHOWN
@@ -34,9 +34,7 @@ def draw_shapes(folder: Path, file: Path | str) -> None:
         _draw(plotter, folder, entry)
     if not entries:
         plotter.add_text("no interaction that ran to its end", font_size=8)
-    with atomic_write(file) as partial:
-        plotter.screenshot(partial)
-    plotter.close()
+    save_picture(plotter, file)
 
 
 def _draw(plotter: pyvista.Plotter, folder: Path, entry: Mapping[str, Any]) -> None:
@@ -70,9 +68,7 @@ def _draw(plotter: pyvista.Plotter, folder: Path, entry: Mapping[str, Any]) -> N
         scalar_bar_args=bar | {"title": label + " " * plotter.renderers.active_index},
     )
     plotter.add_text(_words(str(entry["title"])), font_size=8)
-    plotter.camera_position = [(0.35, -1.0, -0.25), (0.0, 0.0, 0.0), (1.0, 0.0, 0.0)]
-    plotter.reset_camera()  # type: ignore[call-arg]  # the wrapper hides the method from mypy
-    plotter.camera.zoom(1.1)
+    look(plotter, seen_from=(0.35, -1.0, -0.25), zoom=1.1)
 
 
 def _words(title: str) -> str:

@@ -8,10 +8,12 @@ from dataclasses import dataclass
 import numpy as np
 import xarray as xr
 
+from .tables import markdown_table
+
 
 @dataclass(frozen=True)
 class Check:
-    """One published number beside ours, or a yes or no; `within`: relative error up to which it counts as met.
+    """One published number beside ours, or a yes or no; `within`: relative error up to which it counts as agreeing.
 
     `published` None: the number is ours alone, nothing is scored; `detail`: the number behind a yes or no.
     """
@@ -25,7 +27,7 @@ class Check:
 
     @property
     def error(self) -> float:
-        """Relative error; infinite where a yes or no is missed or there is no number of ours; 0 without a published one."""
+        """Relative error; infinite where a yes or no differs or there is no number of ours; 0 without a published one."""
         if self.published is None:
             return 0.0
         if isinstance(self.published, str) or isinstance(self.ours, str):
@@ -33,7 +35,7 @@ class Check:
         return abs(self.ours / self.published - 1.0) if np.isfinite(self.ours) else np.inf
 
     @property
-    def met(self) -> bool:
+    def agrees(self) -> bool:
         """Whether the error is within what is asked."""
         return self.error <= self.within
 
@@ -44,7 +46,7 @@ class Check:
 
 
 def claim(name: str, truth: bool, detail: str = "") -> Check:
-    """A published statement, met if it is true of ours."""
+    """A published statement, which agrees if it is true of ours."""
     return Check(name, "yes", "yes" if truth else "no", detail=detail)
 
 
@@ -56,35 +58,35 @@ def number(value: float | str | None) -> str:
 
 
 def score(checks: Sequence[Check]) -> str:
-    """How many of the published numbers are met."""
+    """How many of the published numbers agree."""
     published = [check for check in checks if check.published is not None]
-    return f"{sum(check.met for check in published)} of {len(published)}"
+    return f"{sum(check.agrees for check in published)} of {len(published)}"
 
 
 def validation_table(checks: Sequence[Check], others: Mapping[str, Sequence[Check]]) -> str:
-    """All checks, the missed ones first, by falling error, those without a published number last.
+    """All checks, those that differ first, by falling error, those without a published number last.
 
     `others`: by name, the same checks with one numerical choice changed, as far as they have them.
     """
     head = ["what", "published", "ours", "error", *(name.replace("_", " ") for name in others)]
-    lines = [f"{score(checks)} published numbers and statements are met.", ""]
-    lines += ["| " + " | ".join(head) + " |", "|---" * len(head) + "|"]
+    rows = []
     found = [{check.name: check.shown for check in several} for several in others.values()]
-    for check in sorted(checks, key=lambda check: (check.published is None, check.met, -check.error)):
+    for check in sorted(checks, key=lambda check: (check.published is None, check.agrees, -check.error)):
         published = number(check.published)
         unit = f" {check.unit}" if check.unit and published else ""
-        cells = [check.name, published + unit, check.shown, _error(check), *(values.get(check.name, "") for values in found)]
-        lines.append("| " + " | ".join(cells) + " |")
-    return "\n".join(lines) + "\n"
+        rows.append(
+            [check.name, published + unit, check.shown, _error(check), *(values.get(check.name, "") for values in found)]
+        )
+    return f"{score(checks)} published numbers and statements agree.\n\n{markdown_table(head, rows)}"
 
 
 def _error(check: Check) -> str:
     if check.published is None:
         return ""
     if isinstance(check.published, str):
-        return "" if check.met else "**missed**"
+        return "" if check.agrees else "**differs**"
     text = "none" if np.isinf(check.error) else f"{100 * check.error:.2g}%"
-    return text if check.met else f"**{text}**"
+    return text if check.agrees else f"**{text}**"
 
 
 def ran(response: xr.Dataset, name: str) -> xr.Dataset:

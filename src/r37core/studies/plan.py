@@ -1,8 +1,8 @@
 """What the rules of the studies ask for, and what a study may take from the settings of a run.
 
 A study is a folder. Its `cases.py` has `cases(settings)`, what runs, by name; `inputs(settings)`, what the report reads beside
-their responses; `outputs(settings)`, its files by name; `told(settings)`, values for the report. Its `report.py` has
-`report(responses, given, told)`, the content of each output.
+their responses; `outputs(settings)`, its files by name; `values(settings)`, plain values for the report. Its `report.py` has
+`report(responses, files, values)`, the content of each output.
 """
 
 from __future__ import annotations
@@ -49,9 +49,9 @@ class Studies:
         """Names of the cases, in the order of their files."""
         return lambda wildcards: list(self._cases(study))
 
-    def told(self, study: str) -> Callable[[Any], dict[str, Any]]:
+    def values(self, study: str) -> Callable[[Any], dict[str, Any]]:
         """Plain values that the report needs."""
-        return lambda wildcards: to_plain(_plan(study).told(self._settings))
+        return lambda wildcards: to_plain(_plan(study).values(self._settings))
 
     def case(self, wildcards: Any) -> dict[str, Any]:
         """A case as plain values."""

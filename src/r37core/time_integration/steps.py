@@ -14,9 +14,7 @@ import numpy as np
 
 from r37core.alignment import LANES
 from r37core.contact.complementarity import list_nodes, solve_complementarity
-from r37core.contact.exact_gap import displaced_position, lobe_shape
-from r37core.contact.friction import friction_direction
-from r37core.contact.lining import return_mapping
+from r37core.contact.laws import displaced_position, friction_direction, lobe_shape, return_mapping
 from r37core.lanes import bits_of, flag_at, inlined, load, numbers_at, spread, store, sum_of_lanes, sums_of_lanes
 
 from .layout import MERIDIONAL, NORMAL, TANGENTIAL

@@ -65,12 +65,12 @@ def _reduced(given: _Given, choice: ReductionChoice) -> ReducedModel:
     boundary = np.arange(3 * len(given.points))
     if given.mass.shape[0] <= len(boundary) + _REDUCED_UP_TO:
         vectors = np.eye(given.mass.shape[0])
-        columns, tolerance, singular = vectors.shape[1], 0.0, np.ones(vectors.shape[1])
+        tolerance, singular = 0.0, np.ones(vectors.shape[1])
     else:
         basis = multi_speed_basis(
             lambda speed: sp.csr_array(given.stiffness + speed**2 * given.per_square), given.mass, boundary, choice
         )
-        vectors, columns, tolerance, singular = basis.vectors, basis.columns, choice.tolerance, basis.singular_values
+        vectors, tolerance, singular = basis.vectors, choice.tolerance, basis.singular_values
     mass, stiffness = projected(given.mass, vectors), projected(given.stiffness, vectors)
     _check_positive(mass, stiffness)
     shapes = _ideal_shapes(given)
@@ -92,7 +92,6 @@ def _reduced(given: _Given, choice: ReductionChoice) -> ReducedModel:
         shape_names=tuple(shapes),
         shape_products=np.array([shape @ (given.mass @ vectors) for shape in shapes.values()]),
         shape_norms=np.array([np.sqrt(shape @ (given.mass @ shape)) for shape in shapes.values()]),
-        columns=columns,
         tolerance=tolerance,
         singular_values=singular,
         quadratic_residual=given.residual,

@@ -43,7 +43,7 @@ def outputs(settings: Settings) -> dict[str, str]:
     return {"json": "<results>/studies/estimate.json", "table": "<results>/studies/estimate.md"}
 
 
-def told(settings: Settings) -> dict[str, Any]:
+def values(settings: Settings) -> dict[str, Any]:
     """How many runs each blade and scene has, as a rule at most with adaptive speeds, and where they are run."""
     section, share = settings.studies.estimate, settings.refinement.largest_share
     return {

@@ -13,6 +13,7 @@ from typing import Any
 import xarray as xr
 
 from ..checks import ran
+from ..tables import markdown_table
 
 PARTS = ("time integration", "start-up", "workflow", "reduction")
 
@@ -21,11 +22,11 @@ IMPORTS = "import r37core.time_integration.speed_run, r37core.time_integration.s
 """What the script of a simulation imports."""
 
 
-def report(responses: Mapping[str, xr.Dataset], given: Any, told: Mapping[str, Any]) -> dict[str, str]:
+def report(responses: Mapping[str, xr.Dataset], files: Any, values: Mapping[str, Any]) -> dict[str, str]:
     """The projection from the cases' costs, as JSON and as a table."""
-    samples = [sample_of(ran(response, name), told["runs"][name]) for name, response in responses.items()]
-    estimate = project_costs(samples, time_start_up(IMPORTS), told["workflow_s_per_job"], told["cores"])
-    return {"json": json.dumps(estimate, indent=1) + "\n", "table": describe(estimate, told["fidelity"])}
+    samples = [sample_of(ran(response, name), values["runs"][name]) for name, response in responses.items()]
+    estimate = project_costs(samples, time_start_up(IMPORTS), values["workflow_s_per_job"], values["cores"])
+    return {"json": json.dumps(estimate, indent=1) + "\n", "table": describe(estimate, values["fidelity"])}
 
 
 def sample_of(response: xr.Dataset, number: int) -> dict[str, float]:
@@ -70,12 +71,6 @@ def project_costs(
 def describe(estimate: Mapping[str, float], fidelity: str) -> str:
     """The projection as a table in Markdown."""
     runs = estimate["runs"]
-    lines = [
-        f"Level `{fidelity}`: {runs:.0f} simulations, {estimate['wall'] / 3600:.2f} h on {estimate['cores']:.0f} cores.",
-        "",
-        "| part | core hours | core seconds per simulation |",
-        "|---|---|---|",
-    ]
-    for part in (*PARTS, "total"):
-        lines.append(f"| {part} | {estimate[part] / 3600:.2f} | {estimate[part] / runs:.3f} |")
-    return "\n".join(lines) + "\n"
+    said = f"Level `{fidelity}`: {runs:.0f} simulations, {estimate['wall'] / 3600:.2f} h on {estimate['cores']:.0f} cores."
+    rows = [[part, f"{estimate[part] / 3600:.2f}", f"{estimate[part] / runs:.3f}"] for part in (*PARTS, "total")]
+    return f"{said}\n\n{markdown_table(['part', 'core hours', 'core seconds per simulation'], rows)}"

@@ -127,7 +127,7 @@ def outputs(settings: Settings) -> dict[str, str]:
     return {"page": "docs/gallery.md"} | {item.name: f"docs/gallery/{item.name}.png" for item in ITEMS}
 
 
-def told(settings: Settings) -> dict[str, Any]:
+def values(settings: Settings) -> dict[str, Any]:
     """Names of the scenes, where stress is recovered on the reference blade, and the level."""
     _check(settings)
     return {

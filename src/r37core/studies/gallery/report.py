@@ -32,24 +32,24 @@ _FIRST_LOBES = 2.5
 _LISTED = 4
 
 
-def report(responses: Mapping[str, xr.Dataset], given: Any, told: Mapping[str, Any]) -> dict[str, Any]:
+def report(responses: Mapping[str, xr.Dataset], files: Any, values: Mapping[str, Any]) -> dict[str, Any]:
     """The page and its pictures; the rendered ones are drawn into their files."""
-    data = gallery_data(responses, given, told)
-    meshes = dict(zip(BLADES, given.meshes, strict=True))
+    data = gallery_data(responses, files, values)
+    meshes = dict(zip(BLADES, files.meshes, strict=True))
     reference = meshes.pop(REFERENCE)
     nodes = len(read_vtu(reference).points)
     rendered = {
-        "modes": partial(draw_modes, Path(given.modes) / "modes_0.vtu"),
-        "mesh": partial(draw_mesh, reference, from_plain(StressSubmesh, told["submesh"])),
+        "modes": partial(draw_modes, Path(files.modes) / "modes_0.vtu"),
+        "mesh": partial(draw_mesh, reference, from_plain(StressSubmesh, values["submesh"])),
         "variants": partial(draw_variants, meshes, reference),
     }
-    page = gallery_page(data, read_dataset(given.geometry), nodes, told["fidelity"])
+    page = gallery_page(data, read_dataset(files.geometry), nodes, values["fidelity"])
     return {"page": page, **gallery_figures(data), **rendered}
 
 
-def gallery_data(responses: Mapping[str, xr.Dataset], given: Any, told: Mapping[str, Any]) -> GalleryData:
+def gallery_data(responses: Mapping[str, xr.Dataset], files: Any, values: Mapping[str, Any]) -> GalleryData:
     """From the responses of the sweep, and those of the cases beside it."""
-    swept = {run: read_dataset(file) for run, file in zip(runs_of_sweep(), given.responses, strict=True)}
+    swept = {run: read_dataset(file) for run, file in zip(runs_of_sweep(), files.responses, strict=True)}
     histories = {run: ran(responses["__".join(run)], "__".join(run)) for run in runs_of_sweep()}
     shipped = {one.name: interaction_run(swept[one.blade, "lined"], one) for one in INTERACTIONS}
     for blade in BLADES:
@@ -58,12 +58,12 @@ def gallery_data(responses: Mapping[str, xr.Dataset], given: Any, told: Mapping[
     direct = swept[REFERENCE, "direct"]
     shipped[DIRECT] = with_histories(direct, histories[REFERENCE, "direct"])
     return GalleryData(
-        {blade: read_dataset(file) for blade, file in zip(BLADES, given.campbells, strict=True)},
+        {blade: read_dataset(file) for blade, file in zip(BLADES, files.campbells, strict=True)},
         swept,
         shipped,
         {"Ref_lined": swept[REFERENCE, "lined"], "Ref_direct": direct, "CS100_lined": swept["CS100", "lined"]},
         ran(responses[REVOLUTION], REVOLUTION)["max_von_mises_of_instant"].values[0],
-        told["scenes"],
+        values["scenes"],
     )
 
 
@@ -109,12 +109,13 @@ def of_item(item: Item, checks: Iterable[Check]) -> list[Check]:
 def verdict(checks: Sequence[Check]) -> str:
     """One line: what agrees with the published values, what does not, and what is ours alone."""
     scored = [check for check in checks if check.published is not None]
-    met, missed = [check for check in scored if check.met], [check for check in scored if not check.met]
+    agreeing, differing = ([check for check in scored if check.agrees == agrees] for agrees in (True, False))
     parts = []
-    if met:
-        parts.append(f"**Agrees** ({len(met)} of {len(scored)}): " + (_listed(met) if len(met) <= _LISTED else _summed(met)))
-    if missed:
-        parts.append("**Does not agree**: " + _listed(missed))
+    if agreeing:
+        said = _listed(agreeing) if len(agreeing) <= _LISTED else _summed(agreeing)
+        parts.append(f"**Agrees** ({len(agreeing)} of {len(scored)}): {said}")
+    if differing:
+        parts.append("**Does not agree**: " + _listed(differing))
     alone = [f"{check.name} {check.shown}{_unit(check)}" for check in checks if check.published is None]
     if alone:
         parts.append("Ours alone: " + "; ".join(alone))
@@ -134,13 +135,13 @@ def _one(check: Check) -> str:
 def _summed(checks: Sequence[Check]) -> str:
     """Many that agree: the one with the largest error, and how many statements."""
     numbers = [check for check in checks if not isinstance(check.published, str)]
-    told = len(checks) - len(numbers)
+    statements = len(checks) - len(numbers)
     parts = []
     if numbers:
         worst = max(numbers, key=lambda check: check.error)
         parts.append(f"{len(numbers)} numbers, the largest difference {100 * worst.error:.2g}%, {_one(worst)}")
-    if told:
-        parts.append(f"{told} statement{'s' if told > 1 else ''}")
+    if statements:
+        parts.append(f"{statements} statement{'s' if statements > 1 else ''}")
     return " and ".join(parts)
 
 
@@ -155,10 +156,10 @@ def gallery_page(data: GalleryData, geometry: xr.Dataset, nodes: int, fidelity: 
         "# Gallery",
         "",
         "Our counterpart of every result figure of the paper, made by `snakemake gallery` from the default sweep at level "
-        f"`{fidelity}` and a few runs beside it. Numbers under a figure are generated; a published one counts as met within "
+        f"`{fidelity}` and a few runs beside it. Numbers under a figure are generated; a published one agrees within "
         "the bound of [validation.md](validation.md), which has the same checks at the published step.",
         "",
-        f"{score(checks)} published numbers and statements are met.",
+        f"{score(checks)} published numbers and statements agree.",
     ]
     for item in ITEMS:
         lines += ["", f"## {item.title}", "", f"![{item.title}](gallery/{item.name}.png)", "", _caption(item, data)]

@@ -9,12 +9,11 @@ import numpy as np
 import pyvista
 
 from r37core.figures import style
-from r37core.figures.offscreen import new_plotter
-from r37core.io import atomic_write, readable
+from r37core.figures.offscreen import look, new_plotter, save_picture
+from r37core.io import readable
 from r37core.mesh.mesh_files import read_vtu
 from r37core.rom.reduction_choice import StressSubmesh
 
-_VIEW = [(0.25, -1.0, 0.9), (0.0, 0.0, 0.0), (1.0, 0.0, 0.0)]
 _HEIGHT = 380
 _SWING = 0.02
 """Largest displacement that a mode is drawn with (m)."""
@@ -37,7 +36,7 @@ def draw_modes(file: Path | str, png: Path | str) -> None:
         plotter.add_mesh(_surface(moved), scalars="size", cmap="viridis", smooth_shading=True, show_scalar_bar=False)
         frequency = float(grid.field_data[f"frequency of mode {name} (Hz)"][0])
         _finish(plotter, f"{name}, {frequency:.0f} Hz")
-    _save(plotter, png)
+    save_picture(plotter, png)
 
 
 def draw_mesh(file: Path | str, submesh: StressSubmesh, png: Path | str) -> None:
@@ -55,7 +54,7 @@ def draw_mesh(file: Path | str, submesh: StressSubmesh, png: Path | str) -> None
     part = grid.extract_points(inside, adjacent_cells=False)
     plotter.add_mesh(_surface(part), color=style.COLOURS[1], show_edges=True, line_width=0.5)
     _finish(plotter, "submesh of stress")
-    _save(plotter, png)
+    save_picture(plotter, png)
 
 
 def draw_variants(meshes: Mapping[str, Path | str], reference: Path | str, png: Path | str) -> None:
@@ -72,7 +71,7 @@ def draw_variants(meshes: Mapping[str, Path | str], reference: Path | str, png: 
             )
         plotter.add_mesh(behind, color="grey", opacity=0.35)
         _finish(plotter, name)
-    _save(plotter, png)
+    save_picture(plotter, png)
 
 
 def _surface(grid: pyvista.DataSet) -> pyvista.PolyData:
@@ -81,12 +80,4 @@ def _surface(grid: pyvista.DataSet) -> pyvista.PolyData:
 
 def _finish(plotter: pyvista.Plotter, title: str) -> None:
     plotter.add_text(title, font_size=9)
-    plotter.camera_position = _VIEW
-    plotter.reset_camera()  # type: ignore[call-arg]  # the wrapper hides the method from mypy
-    plotter.camera.zoom(1.3)
-
-
-def _save(plotter: pyvista.Plotter, png: Path | str) -> None:
-    with atomic_write(png) as partial:
-        plotter.screenshot(partial)
-    plotter.close()
+    look(plotter)

@@ -230,6 +230,6 @@ def outputs(settings: Settings) -> dict[str, str]:
     return {name: f"<results>/studies/{file}" for name, file in files.items()}
 
 
-def told(settings: Settings) -> dict[str, Any]:
+def values(settings: Settings) -> dict[str, Any]:
     """Which Campbell diagrams there are."""
     return {"campbells": list(_campbells(settings))}

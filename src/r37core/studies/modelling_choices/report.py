@@ -14,19 +14,20 @@ from r37core.published import DIRECT_PEAK, INTERACTIONS, REFERENCE
 from r37core.results.measures import peak_speed
 
 from ..checks import Check, number, ran, score, validation_table, with_histories
+from ..tables import markdown_table
 from .cases import CHOICES, HISTORIES, SHIPPED, SURVEY, VARIED
 from .figures import draw_blades, draw_choices, draw_histories, draw_reference, draw_stress
 from .validation import Runs, choice_checks, convergence_checks, shipped_checks
 
 
-def report(responses: Mapping[str, xr.Dataset], given: Any, told: Mapping[str, Any]) -> dict[str, Any]:
+def report(responses: Mapping[str, xr.Dataset], files: Any, values: Mapping[str, Any]) -> dict[str, Any]:
     """Tables and pictures."""
     runs = runs_of(responses)
     campbells: dict[str, dict[str, xr.Dataset]] = {}
-    for (blade, mesh), file in zip(told["campbells"], given.campbells, strict=True):
+    for (blade, mesh), file in zip(values["campbells"], files.campbells, strict=True):
         campbells.setdefault(blade, {})[mesh] = read_dataset(file)
     shipped, survey, varied = runs[SHIPPED], runs[SURVEY], {name: runs[name] for name in (SHIPPED, *VARIED)}
-    checks = shipped_checks(read_dataset(given.geometry), campbells, runs)
+    checks = shipped_checks(read_dataset(files.geometry), campbells, runs)
     made: dict[str, Any] = {
         "validation": validation_table(checks, convergence_checks(campbells, runs)),
         "table": choices_table(varied),
@@ -59,9 +60,7 @@ def choices_table(choices: Mapping[str, Runs]) -> str:
     peaks = [f"{one.blade} 1B/{one.engine_order}: {one.peak:g}" for one in INTERACTIONS]
     head = ["choice", *peaks, "largest error", "drops", "first yield at 1717: 40"]
     head += [f"direct, largest rms: {DIRECT_PEAK:g}", "drop after: 1344", "first yield there: 90", "agree"]
-    lines = ["| " + " | ".join(head) + " |", "|---" * len(head) + "|"]
-    lines += ["| " + " | ".join(_cells(name, runs)) + " |" for name, runs in choices.items()]
-    return "\n".join(lines) + "\n"
+    return markdown_table(head, (_cells(name, runs) for name, runs in choices.items()))
 
 
 def _cells(name: str, runs: Runs) -> list[str]:

@@ -47,7 +47,7 @@ def outputs(settings: Settings) -> dict[str, str]:
     return {"table": "<results>/studies/refinement.md"}
 
 
-def told(settings: Settings) -> dict[str, Any]:
+def values(settings: Settings) -> dict[str, Any]:
     """Plans of the speeds, steps of the plain grids, and what a sweep refines by."""
     return {
         "places": adaptive(settings),

@@ -18,6 +18,7 @@ from r37core.results.interactions import Interaction, InteractionChoice, find_in
 from r37core.speeds import SpeedPlan
 
 from ..checks import ran
+from ..tables import markdown_table
 
 TOLERANCE = 2.0
 """Difference (rad/s) of a peak's speed or width above yield up to which it counts as the same."""
@@ -60,18 +61,18 @@ class Outcome:
     interactions: list[Comparison]
 
 
-def report(responses: Mapping[str, xr.Dataset], given: Any, told: Mapping[str, Any]) -> dict[str, str]:
+def report(responses: Mapping[str, xr.Dataset], files: Any, values: Mapping[str, Any]) -> dict[str, str]:
     """Each way to choose speeds against every speed of the grids."""
-    choice, interactions = from_plain(RefinementChoice, told["choice"]), from_plain(InteractionChoice, told["interactions"])
-    diagrams = read_dataset(given.campbell)
+    choice, interactions = from_plain(RefinementChoice, values["choice"]), from_plain(InteractionChoice, values["interactions"])
+    diagrams = read_dataset(files.campbell)
     ways: dict[str, dict[tuple[str, str], Outcome]] = {"refined": {}}
     every = {}
     for name, response in responses.items():
-        blade, scene = told["places"][name]
-        campbell, plan = diagrams.sel(blade=blade), from_plain(SpeedPlan, told["plans"][name])
+        blade, scene = values["places"][name]
+        campbell, plan = diagrams.sel(blade=blade), from_plain(SpeedPlan, values["plans"][name])
         every[blade, scene] = ran(response, name).sizes["speed"]
         speeds = {"refined": replay(response, campbell, plan, choice)}
-        speeds |= {f"every {step:g} rad/s": [plain_grid(plan, step)] for step in told["steps"]}
+        speeds |= {f"every {step:g} rad/s": [plain_grid(plan, step)] for step in values["steps"]}
         for way, several in speeds.items():
             ways.setdefault(way, {})[blade, scene] = compare(response, campbell, several, interactions)
     return {"table": refinement_table(ways, every)}
@@ -142,24 +143,20 @@ def refinement_table(outcomes: Mapping[str, Mapping[tuple[str, str], Outcome]], 
 
     `every`: number of speeds of the whole grid of each blade and scene.
     """
-    lines = [
-        f"Interactions above yield that are found at all, and with peak and width within {TOLERANCE:g} rad/s; runs of each way "
-        "to choose speeds.",
-        "",
-        "| blade | scene | whole grid | " + " | ".join(outcomes) + " |",
-        "|---|---|---|" + "---|" * len(outcomes),
-    ]
     first = next(iter(outcomes.values()))
+    rows = []
     for blade, scene in first:
         number = len(first[blade, scene].interactions)
         cells = [_cell(ways[blade, scene]) for ways in outcomes.values()]
-        lines.append(f"| {blade} | {scene} | {number} in {every[blade, scene]} runs | " + " | ".join(cells) + " |")
+        rows.append([blade, scene, f"{number} in {every[blade, scene]} runs", *cells])
     totals = [_total(list(ways.values())) for ways in outcomes.values()]
     number = sum(len(one.interactions) for one in first.values())
-    lines += [f"| all | | {number} in {sum(every.values())} runs | " + " | ".join(totals) + " |", ""]
-    missed = {place: [one for one in outcome.interactions if not one.same] for place, outcome in first.items()}
-    lines += ["Missed, or off by more:" if any(missed.values()) else "Nothing is missed.", ""]
-    return "\n".join([*lines, *_missed_lines(missed)]).rstrip() + "\n"
+    rows.append(["all", "", f"{number} in {sum(every.values())} runs", *totals])
+    missed = [(*place, one) for place, outcome in first.items() for one in outcome.interactions if not one.same]
+    return (
+        f"Interactions above yield that are found at all, and with peak and width within {TOLERANCE:g} rad/s; runs of each way "
+        f"to choose speeds.\n\n{markdown_table(['blade', 'scene', 'whole grid', *outcomes], rows)}\n{_of_missed(missed)}"
+    )
 
 
 def _cell(outcome: Outcome) -> str:
@@ -174,17 +171,14 @@ def _total(outcomes: Sequence[Outcome]) -> str:
     return f"{sum(one.found for one in together)} found, {sum(one.same for one in together)} the same, {runs} runs"
 
 
-def _missed_lines(missed: Mapping[tuple[str, str], Sequence[Comparison]]) -> list[str]:
-    if not any(missed.values()):
-        return []
-    lines = [
-        "| blade | scene | interaction | peak, width (rad/s) | largest stress (GPa) | found peak, width |",
-        "|---|---|---|---|---|---|",
-    ]
-    for (blade, scene), several in missed.items():
-        for one in several:
-            order = "" if one.engine_order is None or math.isnan(one.engine_order) else f"/{one.engine_order}"
-            name = f"{one.mode}{order}" if one.mode else f"no crossing, order {one.engine_order}"
-            found = f"{one.found_peak:g}, {one.found_width:.1f}" if one.found else "none"
-            lines.append(f"| {blade} | {scene} | {name} | {one.peak:g}, {one.width:.1f} | {1e-9 * one.stress:.2f} | {found} |")
-    return lines
+def _of_missed(missed: Sequence[tuple[str, str, Comparison]]) -> str:
+    if not missed:
+        return "Nothing is missed.\n"
+    rows = []
+    for blade, scene, one in missed:
+        order = "" if one.engine_order is None or math.isnan(one.engine_order) else f"/{one.engine_order}"
+        name = f"{one.mode}{order}" if one.mode else f"no crossing, order {one.engine_order}"
+        found = f"{one.found_peak:g}, {one.found_width:.1f}" if one.found else "none"
+        rows.append([blade, scene, name, f"{one.peak:g}, {one.width:.1f}", f"{1e-9 * one.stress:.2f}", found])
+    head = ["blade", "scene", "interaction", "peak, width (rad/s)", "largest stress (GPa)", "found peak, width"]
+    return f"Missed, or off by more:\n\n{markdown_table(head, rows)}"

@@ -150,6 +150,6 @@ def outputs(settings: Settings) -> dict[str, str]:
     return {"table": "<results>/studies/stability.md"}
 
 
-def told(settings: Settings) -> dict[str, Any]:
+def values(settings: Settings) -> dict[str, Any]:
     """What each extreme is."""
     return {one.name: {"what": one.what, "value": one.value, "scene": one.scene} for one in _extremes(settings)}

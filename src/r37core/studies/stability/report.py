@@ -12,6 +12,7 @@ from r37core.results.measures import motion
 from r37core.time_integration.status import RunStatus
 
 from ..checks import energy_share
+from ..tables import markdown_table
 from .cases import HALF
 
 ACCURATE, DEGRADED, DIVERGED, REFUSED = "accurate", "degraded", "diverged", "refused"
@@ -24,9 +25,9 @@ COMPLEMENTARITY_WITHIN = 1e-8
 _FINITE = ("rms_normal", "rms_tangential", "peak_normal")
 
 
-def report(responses: Mapping[str, xr.Dataset], given: Any, told: Mapping[str, Any]) -> dict[str, str]:
+def report(responses: Mapping[str, xr.Dataset], files: Any, values: Mapping[str, Any]) -> dict[str, str]:
     """The outcome of every extreme."""
-    rows = [words | judge(responses[name], responses[f"{name}{HALF}"]) for name, words in told.items()]
+    rows = [words | judge(responses[name], responses[f"{name}{HALF}"]) for name, words in values.items()]
     return {"table": stability_table(rows)}
 
 
@@ -79,15 +80,11 @@ def _check_sound(response: xr.Dataset) -> None:
 def stability_table(rows: Sequence[Mapping[str, Any]]) -> str:
     """The outcomes as Markdown: how many of each, then every case."""
     counts = {outcome: sum(row["outcome"] == outcome for row in rows) for outcome in (ACCURATE, DEGRADED, DIVERGED, REFUSED)}
-    lines = [", ".join(f"{number} {outcome}" for outcome, number in counts.items()) + f", of {len(rows)} cases.", ""]
-    lines += [
-        "| what | value | scene | step (s) | outcome | how it shows | rms (mm) | in contact |",
-        "|---|---|---|---|---|---|---|---|",
-    ]
+    said = ", ".join(f"{number} {outcome}" for outcome, number in counts.items()) + f", of {len(rows)} cases."
+    head, lines = ["what", "value", "scene", "step (s)", "outcome", "how it shows", "rms (mm)", "in contact"], []
     for row in rows:
         step = f"{row['step']:.3g}" if "step" in row else ""
         rms = f"{1e3 * row['rms']:.3g}" if np.isfinite(row.get("rms", np.nan)) else ""
         contact = f"{100 * row['contact']:.0f}%" if "contact" in row else ""
-        cells = [row["what"], row["value"], row["scene"], step, row["outcome"], row["detail"], rms, contact]
-        lines.append("| " + " | ".join(cells) + " |")
-    return "\n".join(lines) + "\n"
+        lines.append([row["what"], row["value"], row["scene"], step, row["outcome"], row["detail"], rms, contact])
+    return f"{said}\n\n{markdown_table(head, lines)}"

@@ -124,7 +124,7 @@ def outputs(settings: Settings) -> dict[str, str]:
     return {name: f"<results>/studies/{file}" for name, file in files.items()}
 
 
-def told(settings: Settings) -> dict[str, Any]:
+def values(settings: Settings) -> dict[str, Any]:
     """Numbers of speeds at each place, reference values, and what the levels are held against."""
     section = settings.studies.tradeoff
     assert section is not None

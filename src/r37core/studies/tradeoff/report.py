@@ -16,6 +16,7 @@ from r37core.dataset_file import about
 from r37core.figures import style  # noqa: F401  (sets the style)
 
 from ..checks import energy_share
+from ..tables import markdown_table
 from .cases import LEVEL
 
 MOTION = {"rms_normal": "m", "rms_tangential": "m", "peak_normal": "m"}
@@ -42,13 +43,13 @@ PAIRS = (
 """Parameter, cost, and what the cost is of."""
 
 
-def report(responses: Mapping[str, xr.Dataset], given: Any, told: Mapping[str, Any]) -> dict[str, Any]:
+def report(responses: Mapping[str, xr.Dataset], files: Any, values: Mapping[str, Any]) -> dict[str, Any]:
     """All numbers, the tables of parameters, levels and growth, and figures."""
-    references, found = told["references"], gather_cases(responses, told["places"], told["references"])
+    references, found = values["references"], gather_cases(responses, values["places"], values["references"])
     growing = growths(found)
     made = {
-        "dataset": found.assign_attrs({name: told[name] for name in ("blade", "base_level")}),
-        "levels": level_table(found, told["tolerance"]),
+        "dataset": found.assign_attrs({name: values[name] for name in ("blade", "base_level")}),
+        "levels": level_table(found, values["tolerance"]),
         "table": parameter_tables(found, references),
         "growth": growth_table(growing),
         "growth_figure": draw_growth(growing),
@@ -146,30 +147,26 @@ def level_error(together: xr.Dataset, value: str) -> float:
 
 def parameter_tables(together: xr.Dataset, references: Mapping[str, str]) -> str:
     """One table per parameter: errors at the peak and off resonance, and cost, for every value and scene."""
-    lines = []
+    head = ["value", "scene", "rms, normal", "rms, tangential", "largest, normal", "stress", "wear", "peak speed"]
+    head += ["rms, normal, off resonance", "CPU s", "MB", "kB written"]
+    tables = []
     for parameter in dict.fromkeys(together["parameter"].values):
-        lines += ["", f"### {parameter.replace('_', ' ')} (reference: {references[parameter]})", ""]
-        lines.append(
-            "| value | scene | rms, normal | rms, tangential | largest, normal | stress | wear | peak speed "
-            "| rms, normal, off resonance | CPU s | MB | kB written |"
-        )
-        lines.append("|---" * 12 + "|")
-        for row in np.flatnonzero(together["parameter"].values == parameter):
-            case = together.isel(case=row)
-            for scene in case["scene"].values:
-                lines.append(_line(case.sel(scene=scene), str(scene)))
-    return "\n".join(lines).lstrip("\n") + "\n"
+        cases = together.isel(case=np.flatnonzero(together["parameter"].values == parameter))
+        rows = [_cells(cases.isel(case=row).sel(scene=scene)) for row in range(cases.sizes["case"]) for scene in cases["scene"]]
+        said = f"### {parameter.replace('_', ' ')} (reference: {references[parameter]})"
+        tables.append(f"{said}\n\n{markdown_table(head, rows)}")
+    return "\n".join(tables)
 
 
-def _line(one: xr.Dataset, scene: str) -> str:
-    value = str(one["value"].item())
-    if str(one["refused"].item()):
-        return f"| {value} | {scene} | refused: {one['refused'].item()} |" + " |" * 9
+def _cells(one: xr.Dataset) -> list[str]:
+    value, scene, refused = (str(one[name].item()) for name in ("value", "scene", "refused"))
+    if refused:
+        return [value, scene, f"refused: {refused}", *[""] * 9]
     errors = [_percent(one["error"].sel(at="peak", quantity=name)) for name in QUANTITIES]
     memory, written = float(one["peak_memory_bytes"]) / 1e6, float(one["bytes_written"]) / 1e3
     cost = [f"{float(one['cpu_s']):.2f}", f"{memory:.0f}", f"{written:.0f}"]
     off = _percent(one["error"].sel(at="off_resonance", quantity="rms_normal"))
-    return "| " + " | ".join([value, scene, *errors, _percent(one["peak_speed_error"]), off, *cost]) + " |"
+    return [value, scene, *errors, _percent(one["peak_speed_error"]), off, *cost]
 
 
 def _percent(value: xr.DataArray) -> str:
@@ -183,16 +180,18 @@ def level_table(together: xr.Dataset, tolerance: float) -> str:
     names = [str(together["value"].values[row]) for row in rows]
     errors = {name: level_error(together, name) for name in names}
     costs = {name: float(together["cpu_s"].isel(case=row).mean()) for name, row in zip(names, rows, strict=True)}
-    lines = ["| level | error at the peak | CPU s per run | building the model, CPU s |", "|---|---|---|---|"]
-    for name, row in zip(names, rows, strict=True):
-        model = float(together["model_cpu_s"].isel(case=row))
-        lines.append(f"| `{name}` | {100 * errors[name]:.1f}% | {costs[name]:.2f} | {model:.0f} |")
+    models = [f"{float(together['model_cpu_s'].isel(case=row)):.0f}" for row in rows]
+    cells = [
+        [f"`{name}`", f"{100 * errors[name]:.1f}%", f"{costs[name]:.2f}", model]
+        for name, model in zip(names, models, strict=True)
+    ]
+    table = markdown_table(["level", "error at the peak", "CPU s per run", "building the model, CPU s"], cells)
     chosen = recommended_level(errors, costs, tolerance)
     if chosen is None:
         advice = f"No level is within the tolerance of {100 * tolerance:g}%: the best has {100 * min(errors.values()):.1f}%."
     else:
         advice = f"Recommended for a tolerance of {100 * tolerance:g}%: `{chosen}`."
-    return "\n".join([*lines, "", advice]) + "\n"
+    return f"{table}\n{advice}\n"
 
 
 @dataclass(frozen=True)
@@ -231,13 +230,13 @@ def exponent_of(values: np.ndarray, costs: np.ndarray) -> float:
 
 def growth_table(found: list[Growth]) -> str:
     """The exponents as Markdown."""
-    lines = ["| parameter | cost | range | from | to | exponent |", "|---|---|---|---|---|---|"]
+    rows = []
     for one in found:
         unit, scale = ("MB", 1e-6) if "memory" in one.cost or "bytes" in one.cost else ("s", 1.0)
         first, last = (f"{scale * value:.3g} {unit}" for value in (one.costs[0], one.costs[-1]))
         span = f"{one.values[0]:g} to {one.values[-1]:g}"
-        lines.append(f"| {one.parameter.replace('_', ' ')} | {one.of} | {span} | {first} | {last} | {one.exponent:.2f} |")
-    return "\n".join(lines) + "\n"
+        rows.append([one.parameter.replace("_", " "), one.of, span, first, last, f"{one.exponent:.2f}"])
+    return markdown_table(["parameter", "cost", "range", "from", "to", "exponent"], rows)
 
 
 def draw_parameter(together: xr.Dataset, parameter: str) -> Figure:

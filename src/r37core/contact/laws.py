@@ -1,0 +1,63 @@
+"""The laws of contact, each a formula with its source: gap, lining, friction. The time integration compiles them as they stand.
+
+Written for numbers or arrays alike; only the law of the lining, which branches, takes plain numbers.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+
+def displaced_position(
+    normal: Any, tangential: Any, meridional: Any, radius: Any, cosine: float, sine: float
+) -> tuple[Any, Any]:
+    """Position along the casing's normal (m) and gain in angle about the axis (rad) of a node displaced by three parts (m).
+
+    The casing is a cone of half angle alpha (`cosine`, `sine`), the node at `radius` (m). Its distance from the axis becomes
+    sqrt(R^2 + y^2), R = radius + u_r, u_r = cos(alpha) n + sin(alpha) m: what it exceeds R by counts with cos(alpha). Its angle
+    grows by atan(y/R).
+    """
+    along_radius = radius + cosine * normal + sine * meridional
+    from_axis = np.sqrt(along_radius * along_radius + tangential * tangential)
+    excess = tangential * tangential / (from_axis + along_radius)
+    return normal + cosine * excess, np.arctan2(tangential, along_radius)
+
+
+def lobe_shape(theta: Any, period: float, width: float) -> Any:
+    """f(theta) of the lobed casing for angles (rad): one lobe in each `period` (rad), `width` relative to it.
+
+    f = exp(-[((theta mod p)/p - 1/2)/width]^2). Source: section 5 of the benchmark.
+    """
+    return np.exp(-((((theta % period) / period - 0.5) / width) ** 2))
+
+
+def return_mapping(penetration: float, wear: float, lining: Any) -> tuple[float, float]:
+    """Stress (Pa) and new wear (m) of a bar whose surface is pressed to `penetration` (m) beyond its first position.
+
+    `lining`: whatever has the fields of r37core.contact.scene.Lining. Trial stress E (penetration - wear)/thickness against
+    the yield stress plus plastic modulus times plastic strain; beyond it, plastic strain grows by the excess over E plus the
+    plastic modulus (Simo and Hughes, Computational Inelasticity, box 1.4). A bar cannot pull, and wear never shrinks nor
+    passes the thickness.
+    """
+    thickness = lining.thickness
+    stiffness = lining.elastic_modulus / thickness
+    trial = stiffness * (penetration - wear)
+    if not trial > 0.0:
+        return 0.0, wear
+    excess = trial - (lining.yield_stress + lining.plastic_modulus * wear / thickness)
+    if not excess > 0.0:
+        return trial, wear
+    worn = min(wear + thickness * excess / (lining.elastic_modulus + lining.plastic_modulus), thickness)
+    return max(stiffness * (penetration - worn), 0.0), worn
+
+
+def friction_direction(tangential: Any, meridional: Any) -> tuple[Any, Any]:
+    """Unit vectors of the friction forces on nodes, opposite to their sliding over the casing; zero where nothing slides.
+
+    `tangential`, `meridional`: parts of the sliding velocity, or of the sliding in one step, in any one unit.
+    """
+    size = np.sqrt(tangential * tangential + meridional * meridional)
+    opposite = np.where(size > 0.0, -1.0 / size, 0.0)
+    return tangential * opposite, meridional * opposite
