@@ -141,14 +141,6 @@ def test_blades_are_finished_one_after_another(chosen):
     assert 0.0 < sweep.priority(of(blade="L50")) < 1.0
 
 
-def test_figures(chosen):
-    figures = Sweep(chosen).figures
-    assert "<results>/figures/spectrum_L50__direct.png" in figures
-    assert "<results>/figures/wear_Ref__abradable.png" in figures
-    assert "<results>/figures/wear_Ref__direct.png" not in figures
-    assert "<results>/figures/response_L50.png" in figures
-
-
 def test_matrices_do_not_depend_on_the_yield_stress(chosen):
     structure = Structure(chosen)
     assert structure.material(REF)["yield_stress"] == 1.38e9

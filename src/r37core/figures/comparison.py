@@ -23,7 +23,7 @@ def shared_order(campbell: xr.Dataset, low: float, high: float) -> int | None:
     return int(campbell["engine_order"].values[int(np.argmax(count))]) if count.max() else None
 
 
-def draw_comparison(campbell: xr.Dataset, rms: xr.Dataset, stress: xr.Dataset | None, scene: str) -> Figure:
+def draw_comparison(campbell: xr.Dataset, rms: xr.Dataset, stress: xr.Dataset | None = None, title: str = "") -> Figure:
     """All blades in one scene about their crossing of 1B with the engine order that most of them meet.
 
     Speeds are those above the crossing, as shares of it, for the crossings of the blades lie hundreds of rad/s apart.
@@ -57,7 +57,7 @@ def draw_comparison(campbell: xr.Dataset, rms: xr.Dataset, stress: xr.Dataset | 
     panels[-1].set_xlabel(
         f"speed above the crossing of 1B with engine order {order} (%)" if order else "no crossing of 1B was run"
     )
-    panels[0].set_title(f"blades in scene {scene}")
+    panels[0].set_title(f"blades in scene {title}")
     if panels[0].lines[:-1]:
         figure.legend(*panels[0].get_legend_handles_labels(), loc="outside upper center", ncols=7)
     return figure
