@@ -23,11 +23,14 @@ def test_captions_are_filled_in_whole_sentences():
 def test_every_figure_of_the_rules_has_a_caption_and_is_in_the_report(root):
     for name in ("figures", "designs", "shapes", "signals"):
         text = (root / f"workflow/rules/{name}.smk").read_text()
-        rules = [block for block in re.split(r"^rule ", text, flags=re.MULTILINE) if "png" in block or "_FIGURE" in block]
+        rules = [block for block in re.split(r"^(?:use )?rule ", text, flags=re.MULTILINE) if "figures/" in block]
         assert rules
-        for rule in rules:
-            assert "report(" in rule, rule
-            assert "caption=captioned(" in rule, rule
+        for rule in rules[1:] if name == "figures" else rules:
+            # `pictures` puts them into the report
+            assert re.search(r"output:\s+(\*\*)?pictures\(", rule), rule
+            kind = re.search(r'caption=captioned\("(\w+)"\)|drawing\(code, "\w+\.\w+", "(\w+)"', rule)
+            assert "draw_map" in rule or (kind[1] or kind[2]) in CAPTIONS, rule
+    assert "report(" in (root / "workflow/rules/common.smk").read_text().split("def pictures(")[1].split("\n\n\n")[0]
 
 
 def test_the_kind_of_a_map_is_a_wildcard():

@@ -6,6 +6,7 @@ import sys
 
 import pytest
 
+from r37core.figures.reporting import drawing
 from r37core.plans import code as code_module
 from r37core.plans.code import CodeHashes, fingerprint, imported_names
 
@@ -82,13 +83,17 @@ def test_what_counts(tree, file, old, new, counts):
 
 @pytest.fixture(scope="module")
 def rules(root):
-    """Rule -> (script, name given to code(...)), from the rules' files."""
+    """Rule -> (script, names given to code(...)), from the rules' files; of a figure, the script and its module."""
     text = "".join(file.read_text() for file in sorted((root / "workflow/rules").rglob("*.smk")))
     found = {}
-    for block in re.split(r"^(?:rule|checkpoint) ", text, flags=re.MULTILINE)[1:]:
+    for block in re.split(r"^(?:rule|checkpoint|use rule \w+ as) ", text, flags=re.MULTILINE)[1:]:
         script = re.search(r'script(?::\s+"[./]*scripts/|=SCRIPTS / ")(\w+)\.py"', block)
-        if script:
-            found[block.split(":")[0]] = (script[1], re.findall(r'code=code\("(\w+)"\)', block))
+        drawn = re.search(r'drawing\(code, "(\w+)\.\w+"', block)
+        rule = re.match(r"\w+", block)[0]
+        if drawn:
+            found[rule] = ("figure", f"r37core.figures.{drawn[1]}"), [("figure", f"r37core.figures.{drawn[1]}")]
+        elif script and rule != "figure":
+            found[rule] = (script[1],), [(name,) for name in re.findall(r'code=code\("(\w+)"\)', block)]
     return found
 
 
@@ -97,18 +102,26 @@ def test_every_rule_has_the_code_of_its_script(rules):
     assert {rule: given for rule, (script, given) in rules.items() if given != [script]} == {}
 
 
+def test_a_figure_s_parameters_have_the_code_of_its_module(root):
+    code = CodeHashes(root / "src", root / "workflow/scripts")
+    assert drawing(code, "maps.draw_map")["code"] == code("figure", "r37core.figures.maps") != code("figure")
+    names = {file.name for file in code.closure("figure", "r37core.figures.maps")}
+    assert "maps.py" in names
+    assert not {"waterfall.py", "comparison.py", "response_curves.py"} & names
+
+
 def test_every_rule_runs_again_for_the_modules_of_its_closure_and_no_other(root, rules, monkeypatch):
     code = CodeHashes(root / "src", root / "workflow/scripts")
     modules = [*(root / "src/r37core").rglob("*.py"), *(root / "workflow/scripts").glob("*.py")]
     modules.remove(root / "src/r37core/__init__.py")
     scripts = {script for script, _ in rules.values()}
-    before = {script: code(script) for script in scripts}
-    closures = {script: set(code.closure(script)) for script in scripts}
+    before = {script: code(*script) for script in scripts}
+    closures = {script: set(code.closure(*script)) for script in scripts}
     for edited in modules:
         monkeypatch.setattr(
             code_module, "fingerprint", lambda file, edited=edited: b"edited" if file == edited else fingerprint(file)
         )
-        assert {script for script in scripts if code(script) != before[script]} == {
+        assert {script for script in scripts if code(*script) != before[script]} == {
             script for script in scripts if edited in closures[script]
         }
 

@@ -76,7 +76,7 @@ def test_a_table_has_one_design_a_row(read):
 def test_a_family_of_which_nothing_is_run_is_not_compared(read):
     settings = read(SWEEP, blades=["Ref"])
     assert settings.families == {}
-    assert Families(settings).outputs == []
+    assert Families(settings).designs == {}
 
 
 @pytest.mark.parametrize(

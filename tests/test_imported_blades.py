@@ -13,6 +13,7 @@ from r37core.exchange.orientation import OURS
 from r37core.plain import to_plain
 from r37core.plans.export_plan import Exports
 from r37core.plans.import_plan import Imported
+from r37core.plans.paths import filled
 from r37core.plans.sweep_plan import Sweep
 from r37core.studies.plan import blade_of
 
@@ -202,7 +203,7 @@ def test_plan_of_exports(three):
     imported, sweep = three
     config = sweep.settings.config.model_copy(update={"speeds": [900.0, 950.5]})
     exports = Exports(imported, replace(sweep, settings=replace(sweep.settings, config=config)))
-    files = {file.removeprefix("<results>/exports/") for file in exports.files}
+    files = {file.removeprefix("<results>/exports/") for file in filled(exports.targets)}
     assert {"Ref/surface.step", "Ref/modes", "Fan/mesh.med", "Fan/stress_direct", "Given/matrices"} <= files
     assert not files & {"Fan/surface.step", "Given/mesh.med", "Given/modes", "Given/stress_direct"}
     fan = SimpleNamespace(blade="Fan", scene="direct", tip_line="camber")

@@ -8,7 +8,6 @@ import subprocess
 
 import numpy as np
 import pytest
-from snakemake.scheduling.job_scheduler import JobScheduler
 from stubbed_runs import copy_stubbed
 from workflow_runs import SNAKEMAKE
 
@@ -108,12 +107,6 @@ def test_only_the_terminal_s_handler_is_quietened():
     assert quieten([terminal, file], progress := Progress(1))
     assert (terminal.filters, file.filters) == ([progress], [])
     assert not quieten([file], progress)
-
-
-def test_the_limit_that_a_run_takes_away_is_still_there():
-    """Of jobs per second: workflow/rules/common.smk sets it to None, which must not become a name that nobody reads."""
-    assert "job_rate_limiter" in JobScheduler.__init__.__code__.co_names
-    assert "job_rate_limiter" in JobScheduler.schedule.__code__.co_names
 
 
 @pytest.mark.slow

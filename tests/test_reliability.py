@@ -21,8 +21,7 @@ from r37core.console import failures, lock
 from r37core.console.leftovers import leftovers
 from r37core.dataset_file import about, read_dataset, write_dataset
 from r37core.io import InputFileError, write_json
-from r37core.plans.run import replaced_level
-from r37core.plans.tree import check_tree
+from r37core.plans.run import check_tree, replaced_level
 from r37core.results.campbell_dataset import campbell_dataset
 from r37core.results.netcdf import create_axis, create_variable
 from r37core.rom.contact_model import BucklingError

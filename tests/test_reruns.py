@@ -40,6 +40,17 @@ def per_run(file, blades=BLADES, scenes=SCENES):
     return {f"{blade}/{scene}/{file}" for blade in blades for scene in scenes}
 
 
+def test_maps_are_of_the_runs_that_have_their_kind(finished):
+    maps = {f"spectrum_{blade}__{scene}" for blade in BLADES for scene in SCENES} | {
+        f"wear_{blade}__abradable" for blade in BLADES
+    }
+    others = {f"waterfall_{blade}__{scene}" for blade in BLADES for scene in SCENES}
+    others |= {f"{kind}_{blade}" for kind in ("campbell", "response") for blade in BLADES}
+    others |= {"campbell", "response", *(f"comparison_{scene}" for scene in SCENES)}
+    drawn = {file.name for file in (finished / "results/figures").iterdir()}
+    assert drawn == {f"{name}.{suffix}" for name in maps | others for suffix in ("png", "pdf")} | {"blades.png"}
+
+
 def test_nothing_after_a_run(project):
     assert planned_outputs(project) == {}
 

@@ -23,6 +23,7 @@ from r37core.studies.estimate.report import describe, project_costs
 from r37core.studies.runner import run_case
 from r37core.studies.stability.cases import extremes
 from r37core.studies.stability.report import judge
+from r37core.studies.tradeoff import cases as tradeoff
 from r37core.studies.tradeoff.cases import PARAMETERS, vary
 from r37core.studies.tradeoff.report import QUANTITIES, exponent_of, gather_cases, level_error, parameter_tables
 from r37core.time_integration.simulate import Simulation
@@ -55,17 +56,20 @@ def test_estimate_of_a_small_sweep(project):
     assert (project / "results/studies/estimate.md").read_text().startswith("Level `tiny`: 12 simulations")
 
 
-PLACES = {"peak": 3, "jump": 1, "off_resonance": 1}
+PLACES = {"peak": [1, 2, 3], "jump": [4], "off_resonance": [0]}
 
 
 def small_case(rms):
-    """A response with one speed at each place but three at the peak, and errors that are easy to see."""
-    values = np.array(rms, dtype=float)
+    """A response with one speed at each place but three at the peak, and errors that are easy to see.
+
+    `rms` by place: peak, jump, off resonance, of which the last is the lowest speed.
+    """
+    values = np.roll(np.array(rms, dtype=float), 1)
     tips = {name: (("speed", "tip_point"), np.stack([values, 9.0 * values], axis=1)) for name in QUANTITIES if "_" in name}
     tips |= {name: ("speed", values) for name in ("max_von_mises", "max_wear", "contact_work", "damping_loss")}
     tips |= {name: ("speed", 0.0 * values) for name in ("status", "energy_residual")}
     tips |= {name: ("speed", np.full(5, cost)) for name, cost in (("cpu_s", 1.0), ("wall_s", 1.0), ("bytes_written", 1e4))}
-    coords = {"speed": [100.0, 101.0, 102.0, 105.0, 90.0], "tip_point": ["leading_edge", "trailing_edge"]}
+    coords = {"speed": [90.0, 100.0, 101.0, 102.0, 105.0], "tip_point": ["leading_edge", "trailing_edge"]}
     return xr.Dataset(tips, coords, {"peak_memory_bytes": 1e8, "model_cpu_s": 7.0})
 
 
@@ -112,6 +116,19 @@ def test_parameters_vary_what_they_say():
     assert vary("bars", "300", DIRECT, choice) == (DIRECT, choice)
     with pytest.raises(ValueError, match="unknown parameter colour"):
         vary("colour", "red", DIRECT, choice)
+
+
+def test_speeds_of_a_case_ascend_and_the_report_knows_their_places(settings):
+    """Off resonance lies below the crossing: what the study says last of its places comes first in a response."""
+    planned, places = tradeoff.cases(settings), tradeoff.values(settings)["places"]
+    shares = planned["bars/300__direct"].speeds
+    assert list(shares) == sorted(set(shares))
+    assert {name: [shares[row] for row in rows] for name, rows in places.items()} == tradeoff.shares_of(
+        settings.studies.tradeoff
+    )
+    assert max(shares[row] for row in places["off_resonance"]) < 1.0 <= min(shares[row] for row in places["peak"])
+    with pytest.raises(ValueError, match="allowed: ascending, none twice"):
+        replace(planned["bars/300__direct"], speeds=(1.0, 0.9))
 
 
 def test_exponent_of_a_power_law():

@@ -6,13 +6,13 @@ families = Families(settings)
 
 rule designs:
     input:
-        **({"stress": "<results>/stress.nc"} if "stress" in sweep.kinds else {}),
-        campbell="<results>/campbell.nc",
-        summary="<results>/summary.csv",
-        geometry=families.geometries,
+        **{kind: datasets[kind] for kind in sweep.kinds if kind == "stress"},
+        campbell=rules.campbell_of_all.output[0],
+        summary=rules.summary.output[0],
+        geometry=expand(rules.geometry.output, blade=families.designs),
     output:
         report(
-            paths.DESIGNS,
+            "<results>/designs.csv",
             **shown(TEXTS / "designs.rst", "Families", EVERY_SCENE, figure="table of designs"),
         ),
     log:
@@ -28,25 +28,14 @@ rule designs:
         "../scripts/designs.py"
 
 
-rule design_figure:
+use rule figure as design_figure with:
     input:
-        paths.DESIGNS,
+        table=rules.designs.output[0],
     output:
-        png=report(
-            paths.DESIGN_FIGURE,
-            **shown(TEXTS / "figure.rst", "Families", EVERY_SCENE, figure="{family}"),
-        ),
-        pdf=paths.as_pdf(paths.DESIGN_FIGURE),
+        **pictures("designs_{family}", "Families", EVERY_SCENE, "{family}"),
     log:
         "<logs>/figures/designs_{family}.log",
     wildcard_constraints:
         family="|".join(settings.families) or "none",
-    conda:
-        ENVIRONMENT
     params:
-        blades=families.blades,
-        varied=families.varied,
-        caption=captioned("designs"),
-        code=code("design_figure"),
-    script:
-        "../scripts/design_figure.py"
+        **drawing(code, "design_plot.draw_designs", "designs", blades=families.blades, varied=families.varied),

@@ -6,7 +6,7 @@ exported = Exports(imported, sweep)
 
 rule exported_mesh:
     input:
-        paths.MESH,
+        rules.mesh.output.vtu,
     output:
         paths.EXPORTED_MESH,
     log:
@@ -25,7 +25,7 @@ rule exported_mesh:
 
 rule exported_surface:
     input:
-        paths.GEOMETRY,
+        rules.geometry.output,
     output:
         paths.EXPORTED_SURFACE,
     log:
@@ -38,29 +38,19 @@ rule exported_surface:
         "../scripts/exported_surface.py"
 
 
-rule whole_blade_model:
-    input:
-        mesh=paths.MESH,
-        matrices="<results>/{blade}/matrices.npz",
+use rule reduced_model as whole_blade_model with:
     output:
         temp(paths.WHOLE_BLADE_MODEL),
     log:
         "<logs>/exports/{blade}_model_{tip_line}.log",
-    conda:
-        ENVIRONMENT
-    resources:
-        **needs.of("reduced_model"),
+    priority: 0
     params:
         reduction=exported.reduction,
-        provenance=made.structure,
-        code=code("reduced_model"),
-    script:
-        "../scripts/reduced_model.py"
 
 
 rule exported_modes:
     input:
-        mesh=paths.MESH,
+        mesh=rules.mesh.output.vtu,
         model=exported.model,
     output:
         directory(paths.EXPORTED_MODES),
@@ -78,7 +68,7 @@ rule exported_modes:
 
 rule exported_stress:
     input:
-        mesh=paths.MESH,
+        mesh=rules.mesh.output.vtu,
         model=exported.model,
         speeds=exported.speed_files,
     output:
@@ -118,4 +108,4 @@ rule exported_matrices:
 
 rule exports:
     input:
-        exported.files,
+        paths.filled(exported.targets),

@@ -1,58 +1,123 @@
-# Pictures of the results.
+# Pictures of the results. All are variants of one rule: a picture has its datasets, the function of r37core.figures that
+# draws it, and a caption. Those rendered off screen have a script of their own.
 
 
-rule campbell_figure:
-    input:
-        paths.CAMPBELL,
-    output:
-        png=report(
-            "<results>/figures/campbell_{blade}.png",
-            **shown(TEXTS / "figure.rst", "{blade}", EVERY_SCENE, figure="Campbell diagram"),
-        ),
-        pdf="<results>/figures/campbell_{blade}.pdf",
+# the pattern of the others, never run by itself
+rule figure:
     log:
-        "<logs>/figures/campbell_{blade}.log",
+        "<logs>/figures/figure.log",
     conda:
         ENVIRONMENT
+    script:
+        "../scripts/figure.py"
+
+
+use rule figure as campbell_figure with:
+    input:
+        campbell=rules.campbell_of_blade.output[0],
+    output:
+        **pictures("campbell_{blade}", "{blade}", EVERY_SCENE, "Campbell diagram"),
+    log:
+        "<logs>/figures/campbell_{blade}.log",
     resources:
         **needs.of("campbell_figure"),
     params:
-        caption=captioned("campbell"),
-        code=code("campbell_figure"),
-    script:
-        "../scripts/campbell_figure.py"
+        **drawing(code, "campbell_diagram.draw_campbell", "campbell"),
 
 
-rule campbell_overview:
+use rule figure as campbell_overview with:
     input:
-        "<results>/campbell.nc",
+        campbell=rules.campbell_of_all.output[0],
     output:
-        png=report(
-            "<results>/figures/campbell.png",
-            **shown(TEXTS / "figure.rst", TOGETHER, EVERY_SCENE, figure="Campbell diagrams"),
-        ),
-        pdf="<results>/figures/campbell.pdf",
+        **pictures("campbell", TOGETHER, EVERY_SCENE, "Campbell diagrams"),
     log:
         "<logs>/figures/campbell_overview.log",
-    conda:
-        ENVIRONMENT
     resources:
         **needs.of("campbell_overview"),
     params:
-        caption=captioned("campbell_overview"),
-        code=code("campbell_overview"),
-    script:
-        "../scripts/campbell_overview.py"
+        **drawing(code, "campbell_diagram.draw_campbell_overview", "campbell_overview"),
+
+
+use rule figure as response_figure with:
+    input:
+        unpack(sweep.response_pictured),
+    output:
+        **pictures("response_{blade}", "{blade}", EVERY_SCENE, "response"),
+    log:
+        "<logs>/figures/response_{blade}.log",
+    resources:
+        **needs.of("response_figure"),
+    params:
+        **drawing(code, "response_curves.draw_response", "response"),
+
+
+use rule figure as response_overview with:
+    input:
+        rms=expand(rules.sweep_dataset.output, kind="rms")[0],
+    output:
+        **pictures("response", TOGETHER, EVERY_SCENE, "responses"),
+    log:
+        "<logs>/figures/response_overview.log",
+    resources:
+        **needs.of("response_overview"),
+    params:
+        **drawing(code, "response_curves.draw_response_overview", "response_overview"),
+
+
+use rule figure as map_figure with:
+    input:
+        campbell=rules.campbell_of_all.output[0],
+        maps=rules.sweep_dataset.output[0],
+    output:
+        **pictures("{kind}_{blade}__{scene}", "{blade}", "{scene}", "{kind}"),
+    log:
+        "<logs>/figures/{kind}_{blade}__{scene}.log",
+    wildcard_constraints:
+        kind="|".join(MAPS),
+    resources:
+        **needs.of("map_figure"),
+    params:
+        **drawing(code, "maps.draw_map"),
+
+
+use rule figure as waterfall_figure with:
+    input:
+        campbell=rules.campbell_of_all.output[0],
+        maps=expand(rules.sweep_dataset.output, kind="spectrum")[0],
+    output:
+        **pictures("waterfall_{blade}__{scene}", "{blade}", "{scene}", "waterfall"),
+    log:
+        "<logs>/figures/waterfall_{blade}__{scene}.log",
+    resources:
+        **needs.of("map_figure"),
+    params:
+        **drawing(code, "waterfall.draw_waterfall", "waterfall"),
+
+
+use rule figure as comparison_figure with:
+    input:
+        unpack(sweep.compared),
+    output:
+        **pictures("comparison_{scene}", TOGETHER, "{scene}", "around an interaction"),
+    log:
+        "<logs>/figures/comparison_{scene}.log",
+    resources:
+        **needs.of("response_overview"),
+    params:
+        **drawing(
+            code,
+            "comparison.draw_comparison",
+            "comparison",
+            below=settings.interactions.below,
+            above=settings.interactions.above,
+        ),
 
 
 rule blade_shapes_figure:
     input:
-        expand(paths.MESH, blade=imported.with_mesh),
+        expand(rules.mesh.output.vtu, blade=imported.with_mesh),
     output:
-        report(
-            "<results>/figures/blades.png",
-            **shown(TEXTS / "figure.rst", TOGETHER, EVERY_SCENE, figure="shapes"),
-        ),
+        pictures("blades", TOGETHER, EVERY_SCENE, "shapes")["png"],
     log:
         "<logs>/figures/blades.log",
     conda:
@@ -67,115 +132,10 @@ rule blade_shapes_figure:
         "../scripts/blade_shapes_figure.py"
 
 
-rule response_figure:
+rule campbell:
     input:
-        unpack(sweep.response_pictured),
-    output:
-        png=report(
-            paths.RESPONSE_FIGURE,
-            **shown(TEXTS / "figure.rst", "{blade}", EVERY_SCENE, figure="response"),
-        ),
-        pdf=paths.as_pdf(paths.RESPONSE_FIGURE),
-    log:
-        "<logs>/figures/response_{blade}.log",
-    conda:
-        ENVIRONMENT
-    resources:
-        **needs.of("response_figure"),
-    params:
-        caption=captioned("response"),
-        code=code("response_figure"),
-    script:
-        "../scripts/response_figure.py"
-
-
-rule map_figure:
-    input:
-        campbell="<results>/campbell.nc",
-        maps="<results>/{kind}.nc",
-    output:
-        png=report(
-            paths.MAP_FIGURE,
-            **shown(TEXTS / "figure.rst", "{blade}", "{scene}", figure="{kind}"),
-        ),
-        pdf=paths.as_pdf(paths.MAP_FIGURE),
-    log:
-        "<logs>/figures/{kind}_{blade}__{scene}.log",
-    wildcard_constraints:
-        kind="spectrum|wear",
-    conda:
-        ENVIRONMENT
-    resources:
-        **needs.of("map_figure"),
-    params:
-        caption=captioned(),
-        code=code("map_figure"),
-    script:
-        "../scripts/map_figure.py"
-
-
-rule response_overview:
-    input:
-        "<results>/rms.nc",
-    output:
-        png=report(
-            "<results>/figures/response.png",
-            **shown(TEXTS / "figure.rst", TOGETHER, EVERY_SCENE, figure="responses"),
-        ),
-        pdf="<results>/figures/response.pdf",
-    log:
-        "<logs>/figures/response_overview.log",
-    conda:
-        ENVIRONMENT
-    resources:
-        **needs.of("response_overview"),
-    params:
-        caption=captioned("response_overview"),
-        code=code("response_overview"),
-    script:
-        "../scripts/response_overview.py"
-
-
-rule waterfall_figure:
-    input:
-        campbell="<results>/campbell.nc",
-        spectrum="<results>/spectrum.nc",
-    output:
-        png=report(
-            paths.WATERFALL_FIGURE,
-            **shown(TEXTS / "figure.rst", "{blade}", "{scene}", figure="waterfall"),
-        ),
-        pdf=paths.as_pdf(paths.WATERFALL_FIGURE),
-    log:
-        "<logs>/figures/waterfall_{blade}__{scene}.log",
-    conda:
-        ENVIRONMENT
-    resources:
-        **needs.of("map_figure"),
-    params:
-        caption=captioned("waterfall"),
-        code=code("waterfall_figure"),
-    script:
-        "../scripts/waterfall_figure.py"
-
-
-rule comparison_figure:
-    input:
-        unpack(sweep.compared),
-    output:
-        png=report(
-            paths.COMPARISON_FIGURE,
-            **shown(TEXTS / "figure.rst", TOGETHER, "{scene}", figure="around an interaction"),
-        ),
-        pdf=paths.as_pdf(paths.COMPARISON_FIGURE),
-    log:
-        "<logs>/figures/comparison_{scene}.log",
-    conda:
-        ENVIRONMENT
-    resources:
-        **needs.of("response_overview"),
-    params:
-        caption=captioned("comparison"),
-        code=code("comparison_figure"),
-    script:
-        "../scripts/comparison_figure.py"
+        rules.campbell_of_all.output,
+        expand([*rules.mesh.output[:1], *rules.abaqus_deck.output], blade=imported.with_mesh),
+        expand(rules.campbell_figure.output, blade=settings.blades),
+        rules.campbell_overview.output,
+        rules.blade_shapes_figure.output if imported.with_mesh else [],

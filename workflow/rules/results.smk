@@ -24,7 +24,8 @@ rule configuration:
 # all that lies in the folders of the blades: what runs on several machines at once make (docs/cluster.md), and a rule for --batch
 rule responses:
     input:
-        sweep.all_responses,
+        expand(rules.campbell_of_blade.output, blade=settings.blades),
+        paths.filled({rules.response.output[0]: paths.of_runs(sweep.runs_with("rms"))}),
 
 
 rule sweep_dataset:
@@ -48,10 +49,13 @@ rule sweep_dataset:
         "../scripts/sweep_dataset.py"
 
 
+datasets = {kind: expand(rules.sweep_dataset.output, kind=kind)[0] for kind in sweep.kinds}
+
+
 rule summary:
     input:
-        **{kind: f"<results>/{kind}.nc" for kind in sweep.kinds},
-        campbell="<results>/campbell.nc",
+        **datasets,
+        campbell=rules.campbell_of_all.output[0],
     output:
         report(
             "<results>/summary.csv",
@@ -72,9 +76,9 @@ rule summary:
 
 rule explorer:
     input:
-        **{kind: f"<results>/{kind}.nc" for kind in sweep.kinds},
-        campbell="<results>/campbell.nc",
-        summary="<results>/summary.csv",
+        **datasets,
+        campbell=rules.campbell_of_all.output[0],
+        summary=rules.summary.output[0],
     output:
         report(
             "<results>/explorer.html",
@@ -88,7 +92,7 @@ rule explorer:
         **needs.of("explorer"),
     params:
         title=f"r37 {settings.config.run.name or ''}".strip(),
-        shapes=shapes.runs,
+        shapes=sweep.runs_with("shapes"),
         parts=parts_hash(),
         code=code("explorer"),
     script:

@@ -4,10 +4,10 @@ from r37core.shapes import PARTS as SHAPE_PARTS
 
 rule mode_shapes:
     input:
-        mesh=paths.MESH,
+        mesh=rules.mesh.output.vtu,
         model=exported.model,
     output:
-        directory(paths.MODE_SHAPES),
+        directory("<results>/shapes/{blade}/modes"),
     log:
         "<logs>/shapes/{blade}_modes.log",
     conda:
@@ -21,10 +21,10 @@ rule mode_shapes:
 
 rule worst_shapes:
     input:
-        mesh=paths.MESH,
+        mesh=rules.mesh.output.vtu,
         model=exported.model,
-        campbell=paths.CAMPBELL,
-        response=paths.RESPONSE,
+        campbell=rules.campbell_of_blade.output[0],
+        response=rules.response.output[0],
         speeds=sweep.speed_files,
     output:
         directory(paths.WORST_SHAPES),
@@ -44,15 +44,16 @@ rule worst_shapes:
 
 rule shapes_page:
     input:
-        shapes.folders,
+        rules.mode_shapes.output,
+        sweep.worst_shapes,
     output:
-        paths.SHAPES_PAGE,
+        "<results>/shapes/{blade}.html",
     log:
         "<logs>/shapes/{blade}_page.log",
     conda:
         ENVIRONMENT
     params:
-        scenes=shapes.scenes,
+        scenes=lambda wildcards: sweep.scenes_with("shapes", wildcards.blade),
         parts=parts_hash(SHAPE_PARTS),
         code=code("shapes_page"),
     script:
@@ -61,12 +62,9 @@ rule shapes_page:
 
 rule modes_figure:
     input:
-        paths.MODE_SHAPES,
+        rules.mode_shapes.output,
     output:
-        report(
-            paths.MODES_FIGURE,
-            **shown(TEXTS / "figure.rst", "{blade}", EVERY_SCENE, figure="first modes"),
-        ),
+        pictures("shapes_{blade}", "{blade}", EVERY_SCENE, "first modes")["png"],
     log:
         "<logs>/figures/shapes_{blade}.log",
     conda:
@@ -78,20 +76,12 @@ rule modes_figure:
         "../scripts/shapes_figure.py"
 
 
-rule worst_shapes_figure:
+use rule modes_figure as worst_shapes_figure with:
     input:
-        paths.WORST_SHAPES,
+        rules.worst_shapes.output,
     output:
-        report(
-            paths.WORST_FIGURE,
-            **shown(TEXTS / "figure.rst", "{blade}", "{scene}", figure="worst instants"),
-        ),
+        pictures("shapes_{blade}__{scene}", "{blade}", "{scene}", "worst instants")["png"],
     log:
         "<logs>/figures/shapes_{blade}__{scene}.log",
-    conda:
-        ENVIRONMENT
     params:
         caption=captioned("worst_shapes"),
-        code=code("shapes_figure"),
-    script:
-        "../scripts/shapes_figure.py"

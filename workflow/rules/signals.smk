@@ -8,7 +8,7 @@ rule signals_of_run:
     input:
         unpack(recorded.inputs),
     output:
-        paths.SIGNALS,
+        "<results>/{blade}/{scene}/signals.nc",
     log:
         "<logs>/{blade}/{scene}/signals.log",
     conda:
@@ -30,9 +30,9 @@ rule signals_of_run:
 
 rule signals:
     input:
-        recorded.files,
+        paths.filled({rules.signals_of_run.output[0]: paths.of_runs(recorded.runs)}),
     output:
-        paths.ALL_SIGNALS,
+        "<results>/signals.nc",
     log:
         "<logs>/signals.log",
     conda:
@@ -45,41 +45,23 @@ rule signals:
         "../scripts/signals.py"
 
 
-rule spectrogram_figure:
+use rule figure as spectrogram_figure with:
     input:
-        paths.SIGNALS,
+        signals=rules.signals_of_run.output[0],
     output:
-        png=report(
-            paths.SPECTROGRAM_FIGURE,
-            **shown(TEXTS / "figure.rst", "{blade}", "{scene}", figure="spectrograms"),
-        ),
-        pdf=paths.as_pdf(paths.SPECTROGRAM_FIGURE),
+        **pictures("spectrogram_{blade}__{scene}", "{blade}", "{scene}", "spectrograms"),
     log:
         "<logs>/figures/spectrogram_{blade}__{scene}.log",
-    conda:
-        ENVIRONMENT
     params:
-        caption=captioned("spectrogram"),
-        code=code("spectrogram_figure"),
-    script:
-        "../scripts/spectrogram_figure.py"
+        **drawing(code, "spectrograms.draw_spectrograms", "spectrogram"),
 
 
-rule orders_figure:
+use rule figure as orders_figure with:
     input:
-        paths.SIGNALS,
+        signals=rules.signals_of_run.output[0],
     output:
-        png=report(
-            paths.ORDERS_FIGURE,
-            **shown(TEXTS / "figure.rst", "{blade}", "{scene}", figure="engine orders over time"),
-        ),
-        pdf=paths.as_pdf(paths.ORDERS_FIGURE),
+        **pictures("orders_{blade}__{scene}", "{blade}", "{scene}", "engine orders over time"),
     log:
         "<logs>/figures/orders_{blade}__{scene}.log",
-    conda:
-        ENVIRONMENT
     params:
-        caption=captioned("orders"),
-        code=code("orders_figure"),
-    script:
-        "../scripts/orders_figure.py"
+        **drawing(code, "spectrograms.draw_orders", "orders"),

@@ -26,7 +26,7 @@ rule geometry:
 
 rule mesh:
     input:
-        paths.GEOMETRY,
+        rules.geometry.output,
     output:
         msh="<results>/{blade}/mesh.msh",
         vtu=paths.MESH,
@@ -51,8 +51,7 @@ rule imported_mesh:
     input:
         imported.files,
     output:
-        msh="<results>/{blade}/mesh.msh",
-        vtu=paths.MESH,
+        **rules.mesh.output,
     log:
         "<logs>/{blade}/mesh.log",
     wildcard_constraints:
@@ -74,7 +73,7 @@ rule imported_mesh:
 
 rule abaqus_deck:
     input:
-        paths.MESH,
+        rules.mesh.output.vtu,
     output:
         "<results>/{blade}/mesh.inp",
     log:
@@ -92,7 +91,7 @@ rule abaqus_deck:
 
 rule matrices:
     input:
-        paths.MESH,
+        rules.mesh.output.vtu,
     output:
         "<results>/{blade}/matrices.npz",
     log:
@@ -111,8 +110,8 @@ rule matrices:
 
 rule reduced_model:
     input:
-        mesh=paths.MESH,
-        matrices="<results>/{blade}/matrices.npz",
+        mesh=rules.mesh.output.vtu,
+        matrices=rules.matrices.output[0],
     output:
         paths.REDUCED_MODEL,
     log:
@@ -136,7 +135,7 @@ rule imported_matrices:
     input:
         imported.files,
     output:
-        paths.REDUCED_MODEL,
+        rules.reduced_model.output,
     log:
         "<logs>/{blade}/reduced_model_{tip_line}.log",
     wildcard_constraints:
@@ -159,7 +158,7 @@ rule imported_matrices:
 
 rule campbell_of_blade:
     input:
-        paths.REDUCED_MODEL.replace("{tip_line}", settings.structure.boundary.tip_line),
+        expand(rules.reduced_model.output, tip_line=settings.structure.boundary.tip_line, allow_missing=True),
     output:
         paths.CAMPBELL,
     log:
@@ -180,7 +179,7 @@ rule campbell_of_blade:
 
 rule campbell_of_all:
     input:
-        expand(paths.CAMPBELL, blade=settings.blades),
+        expand(rules.campbell_of_blade.output, blade=settings.blades),
     output:
         "<results>/campbell.nc",
     log:
@@ -195,12 +194,3 @@ rule campbell_of_all:
         code=code("campbell_of_all"),
     script:
         "../scripts/campbell_of_all.py"
-
-
-rule campbell:
-    input:
-        "<results>/campbell.nc",
-        expand("<results>/{blade}/mesh.{format}", blade=imported.with_mesh, format=["msh", "inp"]),
-        expand("<results>/figures/campbell_{blade}.{suffix}", blade=settings.blades, suffix=["png", "pdf"]),
-        expand("<results>/figures/campbell.{suffix}", suffix=["png", "pdf"]),
-        ["<results>/figures/blades.png"] if imported.with_mesh else [],

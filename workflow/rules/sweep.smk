@@ -3,7 +3,7 @@
 
 rule contact_model:
     input:
-        paths.REDUCED_MODEL,
+        rules.reduced_model.output,
     output:
         paths.CONTACT_MODEL,
     log:
@@ -44,7 +44,7 @@ rule prepare_time_integration:
 
 rule simulate:
     input:
-        prepared=paths.INTEGRATION_STAMP,
+        prepared=rules.prepare_time_integration.output,
         model=sweep.contact_model,
     output:
         paths.SPEED,
@@ -58,7 +58,7 @@ rule simulate:
     params:
         task=sweep.task,
         about=made.sweep,
-        python=interpreter.PYTHON,  # a path and no text: another place is no reason to run again
+        python=PYTHON,  # a path and no text: another place is no reason to run again
         script=SCRIPTS / "simulate.py",
         code=code("simulate"),
     # not `script:`, whose preamble imports Snakemake into each of thousands of jobs

@@ -20,8 +20,7 @@ from r37core.rom.reduction_choice import StressSubmesh
 from r37core.speeds import spaced
 from r37core.text_file import TextFileError
 
-from .document import Document
-from .errors import ConfigError
+from .document import ConfigError, Document
 from .imported_entry import MatricesEntry, MeshEntry
 from .material_section import MaterialSection
 from .section import FileName, LeftOut, Name, Section, Unique, check_names, refused

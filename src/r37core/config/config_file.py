@@ -9,13 +9,11 @@ from pydantic import AfterValidator, Field, model_validator
 
 from r37core.rom.reduction_choice import BoundaryChoice, ReductionChoice, StressSubmesh
 
-from .export_section import ExportSection
 from .fidelity import Reduction
+from .output_sections import ExportSection, ShapeSection, SignalSection
 from .scenes import TipLine
 from .section import AllOrNames, FileName, LeftOut, Name, Section, Speed, refused
-from .shape_section import ShapeSection
 from .si_fields import in_si, si_fields
-from .signal_section import SignalSection
 from .speed_section import RpmList, SpeedList, SpeedRange, SpeedRule, refuse_both_units
 from .studies import Studies
 from .submesh import Submesh, stress_region

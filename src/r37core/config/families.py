@@ -18,8 +18,7 @@ from r37core.speeds import exact_text
 from r37core.text_file import TextFileError
 
 from .blades import LARGEST_FAMILY, RESERVED, BladeEntry, Variation
-from .document import Document
-from .errors import ConfigError
+from .document import ConfigError, Document
 from .imported_entry import MatricesEntry, MeshEntry
 from .messages import explain
 from .section import check_name, check_names

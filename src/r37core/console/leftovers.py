@@ -14,25 +14,11 @@ from r37core.config.blades import RESERVED
 from r37core.io import read_json
 from r37core.plans import paths
 from r37core.plans.export_plan import Exports
-from r37core.plans.family_plan import Families
 from r37core.plans.import_plan import Imported
-from r37core.plans.shape_plan import Shapes
 from r37core.plans.signal_plan import Signals
-from r37core.plans.sweep_plan import KINDS, MAPS, Sweep
+from r37core.plans.sweep_plan import Sweep
+from r37core.plans.targets import targets
 from r37core.speeds import SpeedPlan, exact_text
-
-_FIGURES = (
-    *(paths.MAP_FIGURE.replace("{kind}", kind) for kind in MAPS),
-    *(paths.CAMPBELL_FIGURE, paths.RESPONSE_FIGURE, paths.WATERFALL_FIGURE, paths.COMPARISON_FIGURE, paths.DESIGN_FIGURE),
-    *(paths.SPECTROGRAM_FIGURE, paths.ORDERS_FIGURE, paths.MODES_FIGURE, paths.WORST_FIGURE),
-)
-_NOT_ALWAYS = (
-    *(f"<results>/{kind}.nc" for kind in KINDS),
-    *(paths.ALL_SIGNALS, paths.SIGNALS, paths.DESIGNS, paths.CONTACT_MODEL, paths.REDUCED_MODEL),
-    *(paths.EXPORTED_MESH, paths.EXPORTED_SURFACE, paths.EXPORTED_STRESS),
-    *(*_FIGURES, *map(paths.as_pdf, _FIGURES)),
-)
-"""Patterns of files that one configuration makes and another does not."""
 
 
 def leftovers(results: Path, settings: Settings) -> list[Path]:
@@ -65,26 +51,25 @@ def _of_runs(results: Path, settings: Settings) -> Iterator[Path]:
 
 def _dropped(results: Path, settings: Settings) -> Iterator[Path]:
     """What fits a pattern of what the rules make, and is not planned."""
-    planned = {results / file.removeprefix("<results>/") for file in _planned(settings)}
-    for pattern in _NOT_ALWAYS:
+    patterns = _planned(settings)
+    planned = {results / file.removeprefix("<results>/") for file in paths.filled(patterns)}
+    for pattern in patterns:
         files = results.glob(re.sub(r"\{\w+\}", "*", pattern.removeprefix("<results>/")))
         yield from (file for file in files if file not in planned)
 
 
-def _planned(settings: Settings) -> Iterator[str]:
-    sweep, imported = Sweep(settings), Imported(settings, Path())
-    yield from (f"<results>/{kind}.nc" for kind in sweep.kinds)
-    yield from sweep.figures
-    for plan in (Families(settings), Shapes(sweep), Signals(imported, sweep)):
-        yield from plan.outputs
-    yield from Signals(imported, sweep).files
-    yield from Exports(imported, sweep).files
+def _planned(settings: Settings) -> dict[str, paths.Wildcards]:
+    """Patterns of files that one configuration makes and another does not, with those of this one."""
+    sweep = Sweep(settings)
+    imported = Imported(settings, Path())
     tip_lines = {settings.structure.boundary.tip_line, *(scene.tip_line for scene in settings.scenes.values())}
-    for blade in settings.blades:
-        figure = paths.fill(paths.CAMPBELL_FIGURE, blade=blade)
-        yield from (figure, paths.as_pdf(figure))
-        for line in tip_lines:
-            yield from (paths.fill(model, blade=blade, tip_line=line) for model in (paths.CONTACT_MODEL, paths.REDUCED_MODEL))
+    models = [{"blade": blade, "tip_line": line} for blade in settings.blades for line in tip_lines]
+    return {
+        **targets(sweep, Signals(imported, sweep)),
+        **Exports(imported, sweep).targets,
+        paths.CONTACT_MODEL: models,
+        paths.REDUCED_MODEL: models,
+    }
 
 
 def _of_shapes(folder: Path, settings: Settings) -> Iterator[Path]:

@@ -1,4 +1,9 @@
-"""One line about a run of thousands of jobs, in place of several from each of them."""
+"""One line about a run of thousands of jobs, in place of several from each of them.
+
+A filter on Snakemake's own handler. Its official ways were tried with 9.27 and do not serve. `quiet` takes the messages of jobs
+from the log file and from a dry run too. A plugin of `--logger` must be a top-level package of its own, replaces the handler
+with its colours, must stand in every profile, and where its package is not found a run ends with Snakemake's list of options.
+"""
 
 from __future__ import annotations
 
@@ -17,6 +22,9 @@ from r37core.time_integration.status import RunStatus
 
 QUIET_EVENTS = frozenset({"job_info", "job_started", "job_finished", "progress", "shellcmd", "resources_info"})
 """What Snakemake says of every job; failures and warnings are none of these."""
+
+HANDLER = "DefaultStreamHandler"
+"""Name of Snakemake's handler of messages on the terminal."""
 
 _CHATTER = (
     "Select jobs to execute",
@@ -112,7 +120,7 @@ class Progress(logging.Filter):
 
 def quieten(handlers: Collection[logging.Handler], progress: Progress) -> bool:
     """Let `progress` stand before Snakemake's messages on the terminal; whether there was such a handler."""
-    found = [handler for handler in handlers if handler.name == "DefaultStreamHandler"]
+    found = [handler for handler in handlers if handler.name == HANDLER]
     for handler in found:
         handler.addFilter(progress)
     return bool(found)

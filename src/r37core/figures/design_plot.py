@@ -15,22 +15,26 @@ from r37core.results.designs import MEASURES
 from . import style
 
 
-def draw_designs(family: str, table: pd.DataFrame, keys: Sequence[str]) -> Figure:
-    """Every measure of one family, a line or points per scene: over the one key that varies, or over the designs by name."""
+def draw_designs(title: str, table: pd.DataFrame, varied: Sequence[str], blades: Sequence[str] | None = None) -> Figure:
+    """Every measure of one family, a line or points per scene: over the one key that varies, or over the designs by name.
+
+    `blades`: those of the table that are drawn, or all.
+    """
+    if blades is not None:
+        table = table[table["blade"].isin(blades)]
     figure, grid = plt.subplots(3, 3, figsize=(style.PAGE, 6.4), sharex=True)
     for axes, (column, label) in zip(grid.flat, MEASURES.items(), strict=True):
         for scene, rows in table.groupby("scene", sort=False):
-            _draw(axes, rows, column, keys, str(scene))
+            _draw(axes, rows, column, varied, str(scene))
         axes.set_ylabel(label)
     # what does not depend on the scene is the same line twice: the legend stands where scenes differ
     grid.flat[5].legend()
     for axes in grid[-1]:
-        if len(keys) == 1:
-            axes.set_xlabel(keys[0])
+        if len(varied) == 1:
+            axes.set_xlabel(varied[0])
         else:
             axes.tick_params(axis="x", rotation=90)
-    varied = ", ".join(keys)
-    figure.suptitle(f"family {family}: {table['blade'].nunique()} designs over {varied}")
+    figure.suptitle(f"family {title}: {table['blade'].nunique()} designs over {', '.join(varied)}")
     return figure
 
 

@@ -14,6 +14,11 @@ from . import style
 _DECADES = 4.0
 
 
+def draw_map(maps: xr.Dataset, campbell: xr.Dataset, title: str) -> Figure:
+    """The map of wear or of spectra, whichever the dataset has."""
+    return (draw_wear_map if "wear" in maps else draw_spectral_map)(maps, campbell, title)
+
+
 def draw_spectral_map(maps: xr.Dataset, campbell: xr.Dataset, title: str) -> Figure:
     """Amplitudes, normal and tangential, over speed and engine order, with the named modes' frequencies as lines."""
     figure, panels = plt.subplots(1, 2, figsize=(style.PAGE, 3.8), sharex=True, sharey=True)

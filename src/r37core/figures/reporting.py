@@ -6,6 +6,8 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+from r37core.plans.code import CodeHashes
+
 from .captions import caption
 
 TOGETHER = "All blades"
@@ -20,3 +22,12 @@ def shown(text: Path, category: str, subcategory: str, **labels: str) -> dict[st
 def captioned(figure: str | None = None) -> Callable[[Any], str]:
     """The parameter `caption` of a kind of figure, or where none is named of the kind that is a wildcard."""
     return lambda wildcards: caption(figure or wildcards.kind, **dict(wildcards.items()))
+
+
+def drawing(code: CodeHashes, function: str, figure: str | None = None, **arguments: Any) -> dict[str, Any]:
+    """Parameters of a rule of figures: the `function` of r37core.figures, as `module.function`, and its code alone.
+
+    `arguments`: what the function takes beside the datasets; `figure`: the kind that the caption is of, as in `captioned`.
+    """
+    module = function.partition(".")[0]
+    return {"draw": function, "code": code("figure", f"{__package__}.{module}"), "caption": captioned(figure), **arguments}

@@ -13,7 +13,7 @@ from r37core.time_integration.status import RunStatus
 from . import style
 
 
-def draw_response(blade: str, campbell: xr.Dataset, rms: xr.Dataset, stress: xr.Dataset | None) -> Figure:
+def draw_response(title: str, campbell: xr.Dataset, rms: xr.Dataset, stress: xr.Dataset | None = None) -> Figure:
     """One blade: normal and tangential rms of the leading edge in every scene, and the largest stress with the yield line."""
     figure, panels = plt.subplots(2 if stress is None else 3, 1, figsize=(style.PAGE, 6.4), sharex=True)
     for axes, part in zip(panels, ("normal", "tangential"), strict=False):
@@ -23,7 +23,7 @@ def draw_response(blade: str, campbell: xr.Dataset, rms: xr.Dataset, stress: xr.
             _mark_diverged(axes, rms.sel(scene=scene))
         axes.set_ylabel(f"rms, {part} (mm)")
         _mark_crossings(axes, campbell)
-    panels[0].set_title(f"blade {blade}: leading edge over the last half of the run; dotted: 1B with engine orders")
+    panels[0].set_title(f"blade {title}: leading edge over the last half of the run; dotted: 1B with engine orders")
     panels[0].legend()
     if stress is not None:
         for scene in stress["scene"].values:

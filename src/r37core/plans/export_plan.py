@@ -26,17 +26,17 @@ class Exports:
     sweep: Sweep
 
     @property
-    def files(self) -> list[str]:
-        """All files and folders that this run's configuration asks for."""
+    def targets(self) -> dict[str, paths.Wildcards]:
+        """Patterns of the files and folders that this run's configuration asks for, with their wildcards."""
         settings, with_mesh = self.imported.settings, self.imported.with_mesh
-        shaped = self.imported.given_by(BladeDefinition)
         formats = settings.config.exports.mesh_formats
-        found = [paths.fill(paths.EXPORTED_MESH, blade=blade, format=name) for blade in with_mesh for name in formats]
-        found += [paths.fill(paths.EXPORTED_MODES, blade=blade) for blade in with_mesh]
-        found += [paths.fill(paths.EXPORTED_SURFACE, blade=blade) for blade in shaped]
-        found += [paths.fill(paths.EXPORTED_MATRICES, blade=blade) for blade in settings.blades]
-        stressed = self.sweep.runs_with("stress")
-        return found + [paths.fill(paths.EXPORTED_STRESS, blade=blade, scene=scene) for blade, scene in stressed]
+        return {
+            paths.EXPORTED_MESH: [{"blade": blade, "format": name} for blade in with_mesh for name in formats],
+            paths.EXPORTED_MODES: paths.of("blade", with_mesh),
+            paths.EXPORTED_SURFACE: paths.of("blade", self.imported.given_by(BladeDefinition)),
+            paths.EXPORTED_MATRICES: paths.of("blade", settings.blades),
+            paths.EXPORTED_STRESS: paths.of_runs(self.sweep.runs_with("stress")),
+        }
 
     @property
     def choice(self) -> dict[str, Any]:

@@ -7,8 +7,6 @@ from typing import Any
 
 from r37core.config import Settings
 
-from . import paths
-
 
 @dataclass(frozen=True)
 class Families:
@@ -32,11 +30,6 @@ class Families:
         materials = {blade: self.settings.blades[blade].material for blade in self.designs}
         return {blade: material.density for blade, material in materials.items() if material is not None}
 
-    @property
-    def geometries(self) -> list[str]:
-        """Their shapes."""
-        return [paths.fill(paths.GEOMETRY, blade=blade) for blade in self.designs]
-
     def blades(self, wildcards: Any) -> list[str]:
         """Designs of one family that are run."""
         return [blade for blade in self.settings.families[wildcards.family].designs if blade in self.settings.blades]
@@ -44,9 +37,3 @@ class Families:
     def varied(self, wildcards: Any) -> list[str]:
         """What varies in one family."""
         return list(self.settings.families[wildcards.family].keys)
-
-    @property
-    def outputs(self) -> list[str]:
-        """The table and a picture of each family; nothing where there is none."""
-        figures = [paths.fill(paths.DESIGN_FIGURE, family=family) for family in self.settings.families]
-        return [paths.DESIGNS, *figures, *map(paths.as_pdf, figures)] if figures else []

@@ -1,10 +1,12 @@
-"""What a run keeps of its configuration, what it says when it replaces another's results, and what a part of one may make."""
+"""What a run checks before it starts: its package, what a part of it may make, and whose results it replaces."""
 
 from __future__ import annotations
 
 import json
 from collections.abc import Collection
+from pathlib import Path
 
+import r37core
 from r37core.config import ConfigError, Settings
 
 CONFIGURATION = "configuration.json"
@@ -41,3 +43,13 @@ def replaced_level(settings: Settings) -> list[str]:
         f"fidelity: results in {settings.results} that depend on the level are replaced, {names}; "
         "give this run a name (run.name in config.yaml, or --config run='{name: ...}') to keep both"
     ]
+
+
+def check_tree(root: Path) -> None:
+    """Raise ConfigError unless r37core is imported from the folder `root` of the Snakefile, whose code is hashed."""
+    imported, beside = Path(r37core.__file__).resolve().parent, (root / "src" / "r37core").resolve()
+    if imported != beside:
+        raise ConfigError(
+            f"r37core: found the package in {imported}; allowed: the one beside the Snakefile, {beside} "
+            "(make setup there, and use its .venv/bin/snakemake)"
+        )

@@ -31,18 +31,6 @@ class Signals:
         pairs = self.sweep.runs_with("signal")
         return [(blade, scene) for blade, scene in pairs if self._given.blades == "all" or blade in self._given.blades]
 
-    @property
-    def files(self) -> list[str]:
-        """Signals of each blade and scene."""
-        return [paths.fill(paths.SIGNALS, blade=blade, scene=scene) for blade, scene in self.runs]
-
-    @property
-    def outputs(self) -> list[str]:
-        """The dataset and the pictures; nothing where no signals are asked for."""
-        figures = (paths.SPECTROGRAM_FIGURE, paths.ORDERS_FIGURE)
-        drawn = [paths.fill(figure, blade=blade, scene=scene) for blade, scene in self.runs for figure in figures]
-        return [paths.ALL_SIGNALS, *drawn, *map(paths.as_pdf, drawn)] if self.runs else []
-
     def gauges(self, wildcards: Any) -> dict[str, dict[str, Any]]:
         """Gauges of a blade as plain values; a blade given by matrices has none."""
         given = self._given.gauges if wildcards.blade in self.imported.with_mesh else {}

@@ -117,14 +117,6 @@ class Sweep:
         """The scene: what the blade meets."""
         return to_plain(self._scene(wildcards).scene)
 
-    def scene(self, wildcards: Any) -> Any:
-        """The scene itself, which Snakemake does not compare."""
-        return self._scene(wildcards).scene
-
-    def described(self, wildcards: Any) -> str:
-        """The scene as a text, which re-runs a job when it changes."""
-        return repr(self._scene(wildcards).scene)
-
     def results(self, wildcards: Any) -> tuple[str, ...]:
         """What is wanted of a blade and scene."""
         return self.settings.results_of(wildcards.blade, wildcards.scene)
@@ -172,31 +164,18 @@ class Sweep:
         """What one dataset is joined of."""
         return [paths.fill(paths.RESPONSE, blade=blade, scene=scene) for blade, scene in self.runs(wildcards)]
 
-    @property
-    def all_responses(self) -> list[str]:
-        """The responses of all blades and scenes, and the Campbell diagrams that stand beside them."""
-        diagrams = [paths.fill(paths.CAMPBELL, blade=blade) for blade in self.settings.blades]
-        return diagrams + [paths.fill(paths.RESPONSE, blade=blade, scene=scene) for blade, scene in self.runs_with(KINDS[0])]
+    def scenes_with(self, kind: str, blade: str) -> list[str]:
+        """Scenes of a blade that have this kind of result."""
+        return [scene for of, scene in self.runs_with(kind) if of == blade]
 
-    @property
-    def figures(self) -> list[str]:
-        """Pictures of the sweep."""
-        of_blades = [paths.fill(paths.RESPONSE_FIGURE, blade=blade) for blade in self.settings.blades]
-        maps = [
-            paths.fill(paths.MAP_FIGURE, kind=kind, blade=blade, scene=scene)
-            for kind in MAPS
-            for blade, scene in self.runs_with(kind)
-        ]
-        waterfalls = [
-            paths.fill(paths.WATERFALL_FIGURE, blade=blade, scene=scene) for blade, scene in self.runs_with("spectrum")
-        ]
-        of_scenes = [paths.fill(paths.COMPARISON_FIGURE, scene=scene) for scene in self.settings.scenes]
-        pictures = ["<results>/figures/response.png", *of_blades, *maps, *waterfalls, *of_scenes]
-        return [*pictures, *map(paths.as_pdf, pictures)]
+    def worst_shapes(self, wildcards: Any) -> list[str]:
+        """The shapes of interactions of a blade, in each of its scenes that asks for them."""
+        scenes = self.scenes_with("shapes", wildcards.blade)
+        return [paths.fill(paths.WORST_SHAPES, blade=wildcards.blade, scene=scene) for scene in scenes]
 
     def response_pictured(self, wildcards: Any) -> dict[str, str]:
         """Datasets that a blade's response is drawn from."""
-        with_stress = any(blade == wildcards.blade for blade, _ in self.runs_with("stress"))
+        with_stress = self.scenes_with("stress", wildcards.blade)
         return {kind: f"<results>/{kind}.nc" for kind in ("campbell", "rms", *(["stress"] if with_stress else []))}
 
     def compared(self, wildcards: Any) -> dict[str, str]:

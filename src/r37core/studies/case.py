@@ -86,6 +86,10 @@ class Case:
     refused: str = ""
     what: str = ""
 
+    def __post_init__(self) -> None:
+        if list(self.speeds) != sorted(set(self.speeds)):
+            raise ValueError(f"speeds of a case: found {self.speeds}; allowed: ascending, none twice")
+
 
 def changed(entry: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
     """A copy of a scene's entry with the values at dotted paths replaced; a function gives the new value from the old one."""

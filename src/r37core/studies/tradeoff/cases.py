@@ -91,18 +91,29 @@ def _case(settings: Settings, section: TradeoffSection, parameter: str, value: s
         model = replace(model, **OF_THE_MODEL[parameter](value))
     entry = scene_entry_of(settings, scene).scene()
     varied, choice = vary(parameter, value, entry, integration_of_level(settings, level))
-    places = [np.linspace(place.first, place.last, place.speeds) for _, place in section.places]
     return Case(
         section.blade,
         model,
         varied,
         choice,
-        speeds=tuple(np.concatenate(places).tolist()),
+        speeds=tuple(sorted({share for shares in shares_of(section).values() for share in shares})),
         results=("energy", "spectrum", "stress", *(["wear"] if varied.lining else [])),
         material=material_of(settings, section.blade),
         kept=kept_of(level_of(settings, level)),
         crossing=("1B", section.engine_order),
     )
+
+
+def shares_of(section: TradeoffSection) -> dict[str, list[float]]:
+    """Speeds of each place, as shares of the Campbell speed."""
+    return {name: np.linspace(place.first, place.last, place.speeds).tolist() for name, place in section.places}
+
+
+def _rows_of(section: TradeoffSection) -> dict[str, list[int]]:
+    """Where the speeds of each place stand among all of a case, which are ascending; places may share speeds."""
+    shares = shares_of(section)
+    every = sorted({share for of_place in shares.values() for share in of_place})
+    return {name: [every.index(share) for share in of_place] for name, of_place in shares.items()}
 
 
 def values_of(settings: Settings) -> dict[str, list[str]]:
@@ -125,13 +136,13 @@ def outputs(settings: Settings) -> dict[str, str]:
 
 
 def values(settings: Settings) -> dict[str, Any]:
-    """Numbers of speeds at each place, reference values, and what the levels are held against."""
+    """Which speeds lie at each place, reference values, and what the levels are held against."""
     section = settings.studies.tradeoff
     assert section is not None
     return {
         "blade": section.blade,
         "base_level": section.base,
-        "places": {name: place.speeds for name, place in section.places},
+        "places": _rows_of(section),
         "references": {name: _text(one.reference) for name, one in section.parameters.given().items()},
         "tolerance": settings.config.tolerance,
     }

@@ -58,10 +58,12 @@ def report(responses: Mapping[str, xr.Dataset], files: Any, values: Mapping[str,
     return made | {f"of_{parameter}": draw_parameter(found, parameter) for parameter in references}
 
 
-def gather_cases(responses: Mapping[str, xr.Dataset], places: Mapping[str, int], references: Mapping[str, str]) -> xr.Dataset:
+def gather_cases(
+    responses: Mapping[str, xr.Dataset], places: Mapping[str, Sequence[int]], references: Mapping[str, str]
+) -> xr.Dataset:
     """All cases, with errors against the reference value of each parameter; NaN where a case was refused, with the reason.
 
-    `responses` by `parameter/value__scene`; `places`: how many of the speeds lie at each, in their order.
+    `responses` by `parameter/value__scene`; `places`: rows of their speeds that lie at each.
     `error(case, scene, at, quantity)`: relative difference of the means over the speeds of a place. `scatter`, same shape: root
     mean square of the relative differences at its single speeds. `peak_speed_error(case, scene)`: of the rms-weighted mean
     speed over `peak` and `jump`.
@@ -85,11 +87,12 @@ def gather_cases(responses: Mapping[str, xr.Dataset], places: Mapping[str, int],
     return together
 
 
-def _values(responses: Mapping[str, xr.Dataset], places: Mapping[str, int]) -> xr.Dataset:
+def _values(responses: Mapping[str, xr.Dataset], places: Mapping[str, Sequence[int]]) -> xr.Dataset:
     """QUANTITIES over (case, scene, speed_number), costs over (case, scene), costs of the model over case."""
     names = {name: name.rsplit("__", 1) for name in responses}
     cases, scenes = (list(dict.fromkeys(parts)) for parts in zip(*names.values(), strict=True))
-    speeds = next(one["speed"].values for one in responses.values() if one.sizes["speed"])
+    rows = np.concatenate([np.asarray(several, dtype=int) for several in places.values()])
+    speeds = next(one["speed"].values[rows] for one in responses.values() if one.sizes["speed"])
     dims = ("case", "scene", "speed_number")
     shape = (len(cases), len(scenes), len(speeds))
     data = {name: np.full(shape, np.nan) for name in (*QUANTITIES, "status", "energy_residual")}
@@ -102,6 +105,7 @@ def _values(responses: Mapping[str, xr.Dataset], places: Mapping[str, int]) -> x
         for cost in _OF_THE_MODEL:
             of_model[cost][at[0]] = response.attrs.get(cost, np.nan)
         if not refused[at]:
+            response = response.isel(speed=rows)
             edge = response.sel(tip_point="leading_edge")
             for quantity in {*QUANTITIES, "status"} & set(map(str, edge.data_vars)):
                 data[quantity][at] = edge[quantity].values
@@ -114,7 +118,7 @@ def _values(responses: Mapping[str, xr.Dataset], places: Mapping[str, int]) -> x
         | {name: (dims[:2], array, about(units[name], name.replace("_", " "))) for name, array in costs.items()}
         | {name: ("case", array) for name, array in of_model.items()}
         | {"refused": (dims[:2], refused)},
-        {"scene": scenes, "place": ("speed_number", np.repeat(list(places), list(places.values())))},
+        {"scene": scenes, "place": ("speed_number", [place for place, several in places.items() for _ in several])},
     )
     parameters, values = zip(*(case.split("/") for case in cases), strict=True)
     speed = ("speed_number", speeds, about("rad s-1", "angular speed of the rotor"))

@@ -1,0 +1,100 @@
+"""A run of Snakemake as r37 finds and changes it: configuration, messages, lock, last words.
+
+Only this package knows Snakemake's inside, by the names that `SNAKEMAKE` has; `tests/test_console.py` looks for each of them
+there. Nothing is imported from it: the Snakefile hands over its objects.
+"""
+
+from __future__ import annotations
+
+import atexit
+import contextlib
+import logging
+import os
+import socket
+import sys
+import time
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from r37core.config import ConfigError, Settings, settings_of_run
+from r37core.plans.run import check_part, check_tree, replaced_level
+from r37core.plans.sweep_plan import Sweep
+
+from . import failures, interpreter, lock
+from .closing import closing_lines
+from .progress import Progress, quieten
+
+SNAKEMAKE = "9.27.1"
+"""The version that this package was written for."""
+
+Refusal = Callable[[str], Exception]
+"""Snakemake's own exception, which it shows without a traceback."""
+
+
+@dataclass(frozen=True)
+class Console:
+    """One run of the `workflow`, with its `settings`; `began`: time in s."""
+
+    workflow: Any
+    refusal: Refusal
+    settings: Settings
+    began: float
+
+    def start(self) -> None:
+        """Before the first job, when the targets are known."""
+        with _refused(self.refusal):
+            check_part(self.settings, self.workflow.dag_settings.targets)
+        if self.workflow.execution_settings.lock:
+            lock.claim()
+        # Snakemake keeps to a number of jobs per second by timers, one more for every job that ends while others wait: a
+        # quarter of a core in the default sweep. The limit is for the queues of clusters
+        if self.workflow.local_exec:
+            self.workflow.scheduler.job_rate_limiter = None
+
+    def succeed(self) -> None:
+        """After the last job: lines after Snakemake's own last words, none where there is nothing to say."""
+        lock.release()
+        atexit.register(
+            lambda: sys.stderr.writelines(
+                f"{line}\n" for line in [*failures.taken(), *closing_lines(self.settings.results, self.began, time.time())]
+            )
+        )
+
+    def fail(self) -> None:
+        """After a failure: Snakemake has a few words after this; what matters comes last."""
+        lock.release()
+        atexit.register(lambda: print("", *failures.taken(), sep="\n", file=sys.stderr))
+
+
+def begin(workflow: Any, logger: logging.Logger, refusal: Refusal) -> Console:
+    """Read the configuration of a run, say what there is to say, and put one line in place of thousands of messages.
+
+    Snakemake's own messages of each job are in its log file, and on the terminal with R37_FULL_LOG=1 or --verbose. Raises
+    `refusal` for a configuration that is not allowed.
+    """
+    began, given, output = time.time(), workflow.config_settings, workflow.output_settings
+    if workflow.is_main_process:
+        failures.begin(f"{socket.gethostname()}_{os.getpid()}")
+    interpreter.quote()
+    if "CONDA" in {method.name for method in workflow.deployment_settings.deployment_method}:
+        raise refusal("--sdm conda: jobs need the Python that runs Snakemake, with r37 in it; leave the option out")
+    root = Path(workflow.basedir)
+    # read here instead of by a `configfile:`, so that messages have lines and numbers are numbers in every file
+    with _refused(refusal):
+        check_tree(root)
+        settings = settings_of_run(root, given.configfiles, given.config, only_given=given.replace_workflow_config)
+    for line in [*lock.lift_stale(), *settings.remarks, *replaced_level(settings)]:
+        logger.info(line)
+    if not (os.environ.get("R37_FULL_LOG") or output.dryrun or output.verbose):
+        quieten(logger.handlers, Progress(Sweep(settings).most_runs))
+    return Console(workflow, refusal, settings, began)
+
+
+@contextlib.contextmanager
+def _refused(refusal: Refusal) -> Iterator[None]:
+    try:
+        yield
+    except ConfigError as error:
+        raise refusal(str(error)) from None

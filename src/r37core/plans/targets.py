@@ -1,0 +1,37 @@
+"""What the rule all_blades makes where the configuration asks for it: one list, for the rule and for what is left over."""
+
+from __future__ import annotations
+
+from .paths import Wildcards, of, of_runs
+from .signal_plan import Signals
+from .sweep_plan import KINDS, MAPS, Sweep
+
+
+def targets(sweep: Sweep, recorded: Signals) -> dict[str, Wildcards]:
+    """Pattern of files -> wildcards of each that is asked for; none where a configuration does without."""
+    settings = sweep.settings
+    blades, scenes, families = of("blade", settings.blades), of("scene", settings.scenes), of("family", settings.families)
+    shown, signals, spectra = (
+        of_runs(runs) for runs in (sweep.runs_with("shapes"), recorded.runs, sweep.runs_with("spectrum"))
+    )
+    of_shapes = of("blade", dict.fromkeys(run["blade"] for run in shown))
+    pictures = {
+        "campbell_{blade}": blades,
+        "response_{blade}": blades,
+        **{f"{kind}_{{blade}}__{{scene}}": of_runs(sweep.runs_with(kind)) for kind in MAPS},
+        "waterfall_{blade}__{scene}": spectra,
+        "comparison_{scene}": scenes,
+        "designs_{family}": families,
+        "spectrogram_{blade}__{scene}": signals,
+        "orders_{blade}__{scene}": signals,
+    }
+    return {
+        **{f"<results>/{kind}.nc": [{}] if kind in sweep.kinds else [] for kind in KINDS},
+        "<results>/designs.csv": families and [{}],
+        "<results>/signals.nc": signals and [{}],
+        "<results>/{blade}/{scene}/signals.nc": signals,
+        "<results>/shapes/{blade}.html": of_shapes,
+        "<results>/figures/shapes_{blade}.png": of_shapes,
+        "<results>/figures/shapes_{blade}__{scene}.png": shown,
+        **{f"<results>/figures/{name}.{suffix}": found for name, found in pictures.items() for suffix in ("png", "pdf")},
+    }

@@ -1,0 +1,96 @@
+"""What r37 knows of Snakemake's inside: the version it was written for, and each name that it uses, looked for in it."""
+
+import inspect
+import tomllib
+from dataclasses import fields
+from importlib.metadata import version
+from pathlib import Path
+
+import pytest
+from snakemake import api, jobs, logging, script
+from snakemake.persistence import file as persistence
+from snakemake.scheduling import job_scheduler
+from snakemake.settings import types
+from snakemake_interface_logger_plugins.common import LogEvent
+
+from r37core.config import ConfigError
+from r37core.console import progress, snakemake_run
+from r37core.console.lock import _LOCKS
+
+
+def test_the_version_is_the_one_that_the_console_was_written_for(root):
+    pins = tomllib.loads((root / "pyproject.toml").read_text())["project"]["dependencies"]
+    pinned = next(pin.removeprefix("snakemake==") for pin in pins if pin.startswith("snakemake=="))
+    assert {pinned, version("snakemake")} == {snakemake_run.SNAKEMAKE}, (
+        f"r37core.console was written for the inside of Snakemake {snakemake_run.SNAKEMAKE}, pyproject.toml pins {pinned}, "
+        f"installed is {version('snakemake')}: look through src/r37core/console and the tests here, then set SNAKEMAKE to it"
+    )
+
+
+@pytest.mark.parametrize(
+    ("where", "name"),
+    [
+        (types.ConfigSettings, "configfiles"),
+        (types.ConfigSettings, "config"),
+        (types.ConfigSettings, "replace_workflow_config"),
+        (types.OutputSettings, "dryrun"),
+        (types.OutputSettings, "verbose"),
+        (types.DAGSettings, "targets"),
+        (types.ExecutionSettings, "lock"),
+        (types.DeploymentSettings, "deployment_method"),
+    ],
+)
+def test_settings_have_their_names(where, name):
+    assert name in {field.name for field in fields(where)}
+    section = where.__name__.removesuffix("Settings").lower() + "_settings"
+    assert section in api.Workflow.__annotations__
+    assert section in inspect.getsource(snakemake_run)
+
+
+def test_the_workflow_has_what_is_asked_of_it():
+    assert all(hasattr(api.Workflow, name) for name in ("is_main_process", "basedir", "local_exec", "scheduler"))
+    assert types.DeploymentMethod.CONDA.name == "CONDA"
+
+
+def test_the_handler_and_the_events_have_their_names():
+    assert f'"{progress.HANDLER}"' in inspect.getsource(logging.LoggerManager._default_streamhandler)
+    assert {str(event) for event in LogEvent} >= progress.QUIET_EVENTS
+
+
+@pytest.mark.parametrize(
+    ("source", "event", "names"),
+    [
+        (jobs, "JOB_INFO", ("jobid=", "rule_name=", "wildcards=", "output=")),
+        (job_scheduler, "JOB_FINISHED", ("job_id=",)),
+        (job_scheduler, "PROGRESS", ("done=", "total=")),
+    ],
+)
+def test_messages_have_the_fields_that_the_line_is_made_of(source, event, names):
+    about = inspect.getsource(source).split(f"event=LogEvent.{event}", 1)[1][:700]
+    assert [name for name in names if name not in about] == []
+
+
+def test_the_limit_that_a_run_takes_away_is_still_there():
+    """Of jobs per second: the console sets it to None, which must not become a name that nobody reads."""
+    assert "job_rate_limiter" in job_scheduler.JobScheduler.__init__.__code__.co_names
+    assert "job_rate_limiter" in job_scheduler.JobScheduler.schedule.__code__.co_names
+
+
+def test_scripts_are_started_with_the_interpreter_s_name_as_it_stands():
+    """The console quotes it, once: a Snakemake that quotes it too would start nothing."""
+    about = inspect.getsource(script.PythonScript)
+    assert "py_exec = sys.executable" in about
+    assert '"{py_exec} {fname:q}"' in about
+
+
+def test_the_lock_is_where_it_is_lifted():
+    assert f'os.path.join(self.path, "{_LOCKS.name}")' in inspect.getsource(persistence)
+    assert _LOCKS.parent == Path(".snakemake")
+
+
+def test_a_refusal_is_snakemake_s_own():
+    class Shown(Exception):
+        pass
+
+    with pytest.raises(Shown, match="found nothing"), snakemake_run._refused(Shown):
+        raise ConfigError("found nothing")

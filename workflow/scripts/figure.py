@@ -1,0 +1,32 @@
+"""Draw a figure. Inputs: named as its function takes them. Params: draw, caption, other arguments. Output: png, pdf."""
+
+from importlib import import_module
+
+import pandas as pd
+from job import run
+
+from r37core.dataset_file import read_dataset
+from r37core.figures.style import save
+
+
+def read(file, wildcards):
+    """A table, or the part of a dataset that is of the figure's blade and scene."""
+    if file.endswith(".csv"):
+        return pd.read_csv(file)
+    dataset = read_dataset(file)
+    return dataset.sel({name: wildcards[name] for name in ("blade", "scene") if name in wildcards and name in dataset.dims})
+
+
+def main(snakemake):
+    wildcards, arguments = dict(snakemake.wildcards.items()), dict(snakemake.params.items())
+    draw, caption, _ = (arguments.pop(name) for name in ("draw", "caption", "code"))
+    arguments |= {name: read(file, wildcards) for name, file in snakemake.input.items()}
+    named = [wildcards[name] for name in ("family", "blade", "scene") if name in wildcards]
+    if named:
+        arguments["title"] = ", ".join(named)
+    module, function = draw.split(".")
+    figure = getattr(import_module(f"r37core.figures.{module}"), function)(**arguments)
+    save(figure, snakemake.output, caption)
+
+
+run(snakemake, main)
