@@ -13,7 +13,7 @@ from pydantic import ValidationError
 from pydantic_core import PydanticCustomError
 
 from r37core.blade.profile import BladeShapeError
-from r37core.blade.tables import read_designs
+from r37core.blade.profile_tables import read_designs
 from r37core.speeds import exact_text
 from r37core.text_file import TextFileError
 

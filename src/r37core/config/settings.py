@@ -26,7 +26,7 @@ from .families import Designs, Family
 from .fidelity import Level, recommended_level
 from .scenes import SceneEntry
 from .speed_section import UNITS, SpeedRule, key_of_speeds, planned
-from .studies import Studies
+from .study_sections import StudiesSection
 
 
 @dataclass(frozen=True)
@@ -86,7 +86,7 @@ class Settings:
         return self.config.refinement
 
     @property
-    def studies(self) -> Studies:
+    def studies(self) -> StudiesSection:
         """Studies of the model itself."""
         return self.config.studies
 
