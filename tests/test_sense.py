@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+import pyvista
 from box_mesh import box_mesh
 from defaults import MatricesSource, MeshSource, Orientation, Where
 
@@ -18,7 +19,9 @@ from r37core.exchange.importing.matrices_in import import_matrices
 from r37core.exchange.importing.tip import check_sense_of_nodes
 from r37core.exchange.orientation import OURS
 from r37core.exchange.refusal import ImportRefused, MeshWarning
+from r37core.figures.blade_shapes import draw_blade_shapes
 from r37core.mesh.generate import generate_mesh
+from r37core.mesh.mesh_files import write_vtu
 
 UPSTREAM = (0.0, 0.0, -1.0)
 ANGLES = r"leading edge at [-+]\d+\.\d degrees and its trailing edge at [-+]\d+\.\d degrees .* \(stagger -6\d\.\d degrees\)"
@@ -164,3 +167,16 @@ def test_a_mirrored_table(config_copy):
     blades.write_text(blades.read_text().replace("\nRef:\n", "\nRef:\n  sense_check: false\n"))
     # blades with this base have the same table
     assert set(read_settings(config_copy).blades) >= {"Ref", "CS100"}
+
+
+def test_the_picture_of_a_blade_names_the_side_in_view(mesh, tmp_path, monkeypatch):
+    named = []
+    monkeypatch.setattr(pyvista.Plotter, "add_point_labels", lambda self, points, labels, **how: named.append(labels))
+    swapped = mesh.node_sets | {
+        "tip_pressure_edge": mesh.node_set("tip_suction_edge"),
+        "tip_suction_edge": mesh.node_set("tip_pressure_edge"),
+    }
+    for name, shown in {"ours": mesh, "swapped": replace(mesh, node_sets=swapped)}.items():
+        write_vtu(shown, tmp_path / f"{name}.vtu", np.ones(sum(map(len, mesh.blocks.values()))))
+    draw_blade_shapes({name: tmp_path / f"{name}.vtu" for name in ("ours", "swapped")}, tmp_path / "blades.png")
+    assert named == [["LE", "pressure side"], ["LE", "suction side"]]

@@ -58,8 +58,7 @@ def draw_comparison(
         axes.axvline(0.0, color="0.5", linewidth=0.8, linestyle=":")
         axes.set_ylabel(label)
     if stress is not None:
-        for limit in np.unique(stress["yield_stress"].dropna("blade")):  # one line for blades of one material
-            panels[-1].axhline(1e-9 * limit, color="0.3", linewidth=0.9, linestyle="--")
+        style.yield_lines(panels[-1], stress["yield_stress"].to_series())
     panels[-1].set_xlabel(
         f"speed above the crossing of 1B with engine order {order} (%)" if order else "no crossing of 1B was run"
     )

@@ -69,13 +69,12 @@ class Exports:
         return to_plain(definition.orientation if isinstance(definition, MeshSource) else OURS)
 
     def matrix_files(self, wildcards: Any) -> dict[str, str]:
-        """What matrices are written from: the reduced model, or mesh and full matrices beside it."""
+        """What matrices are written from: the reduced model, and the mesh where full ones are wanted."""
         settings = self.imported.settings
         tip_line = settings.structure.boundary.tip_line
         found = {"rom": paths.fill(paths.REDUCED_MODEL, blade=wildcards.blade, tip_line=tip_line)}
         if settings.config.exports.full_matrices and wildcards.blade in self.imported.with_mesh:
             found |= {"mesh": paths.fill(paths.MESH, blade=wildcards.blade)}
-            found |= {"matrices": f"<results>/{wildcards.blade}/matrices.npz"}
         return found
 
     def only_worst(self, wildcards: Any) -> bool:

@@ -6,12 +6,12 @@ import numpy as np
 import scipy.sparse as sp
 
 from r37core.fem.matrices import StructuralMatrices
-from r37core.mesh.blade_mesh import BladeMesh
+from r37core.mesh.blade_mesh import TIP_LINES, BladeMesh
 
 from .craig_bampton import multi_speed_basis
 from .naming import ideal_shapes
 from .reduced_model import RecoveryNodes, ReducedModel
-from .reduction_choice import TIP_LINES, ReductionChoice, boundary_nodes
+from .reduction_choice import ReductionChoice, boundary_nodes
 
 
 def reduce_blade(mesh: BladeMesh, matrices: StructuralMatrices, choice: ReductionChoice) -> ReducedModel:

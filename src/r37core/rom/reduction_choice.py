@@ -6,14 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from r37core.mesh.blade_mesh import BladeMesh
-
-TIP_LINES = {
-    "pressure_edge": "tip_pressure_edge",
-    "camber": "tip_camber_line",
-    "suction_edge": "tip_suction_edge",
-}
-"""Name of a tip line in the configuration -> node set of the mesh."""
+from r37core.mesh.blade_mesh import TIP_LINES, BladeMesh
 
 
 class BoundaryError(ValueError):
