@@ -17,7 +17,7 @@ from workflow_runs import snakemake
 
 from r37core.config import ConfigError, command_line_document, read_settings
 from r37core.config.fidelity import recommended_level
-from r37core.config.studies import Parameters
+from r37core.config.study_sections import Parameters
 from r37core.dataset_file import read_dataset
 from r37core.plain import from_plain, to_plain
 from r37core.results.measures import first_contact
