@@ -10,8 +10,8 @@ from scipy.interpolate import CubicSpline
 from r37core.blade.definition import BladeDefinition
 from r37core.blade.geometry_file import read_geometry, write_geometry
 from r37core.blade.profile import BladeShapeError, area_and_centroid
+from r37core.blade.profile_tables import read_profile_table
 from r37core.blade.stacking import chordwise_sweep, conical_stacking, plane_section_stacking, sweep_and_lean
-from r37core.blade.tables import read_profile_table
 
 PRINTED_AXIAL = [0, 0.0096, 0.0188, 0.0267, 0.0473, 0.0687, 0.0872, 0.0987, 0.1015, 0.1030, 0.1030]  # cm
 PRINTED_ROTATION = [
@@ -39,7 +39,7 @@ def test_a_dense_table_makes_the_same_blade(root, blade, tmp_path):
     spans = np.linspace(0.0, 100.0, 200)
     dense = CubicSpline(source["span_percent"], source.values)(spans)
     pd.DataFrame(dense, columns=source.columns).round(3).to_csv(tmp_path / "dense.csv", index=False)
-    many = BladeDefinition("Dense", tuple(read_profile_table(tmp_path / "dense.csv"))).build()
+    many = BladeDefinition("Dense", tuple(read_profile_table(tmp_path / "dense.csv"))).build(round_edges=True)
     chord, span, side = (grid.ravel() for grid in np.meshgrid(np.linspace(0, 1, 9), np.linspace(0, 1, 23), [-1.0, 1.0]))
     assert np.abs(many.position(chord, span, side) - blade.position(chord, span, side)).max() < 1e-4
 
@@ -111,14 +111,14 @@ def test_crossing_profiles_are_refused_with_blade_and_span(settings):
     rows = list(definition.profiles)
     rows[5] = replace(rows[5], maximum_thickness=0.06, inlet_thickness=0.05)
     with pytest.raises(BladeShapeError, match=r"blade Odd: span \d+"):
-        BladeDefinition("Odd", tuple(rows)).build()
+        BladeDefinition("Odd", tuple(rows)).build(round_edges=True)
 
 
 def test_wild_sweep_is_refused(settings):
     definition = settings.blades["Ref"].definition
     rows = ((0.0, 0.0, 0.0), (0.5, 0.0, 2.5), (0.52, 0.0, -2.5), (1.0, 0.0, 0.0))
     with pytest.raises(BladeShapeError, match="blade Ref: span"):
-        replace(definition, stacking=rows).build()
+        replace(definition, stacking=rows).build(round_edges=True)
 
 
 @pytest.mark.slow

@@ -7,13 +7,11 @@ import pytest
 from box_mesh import box_mesh
 
 from r37core.fem.assembly import NodePattern, assemble_stiffness, block_matrix
-from r37core.fem.centrifugal import centrifugal_load
 from r37core.fem.elements import ELEMENTS
 from r37core.fem.material import Material
-from r37core.fem.matrices import assemble, read_matrices, static_displacement, write_matrices
+from r37core.fem.matrices import assemble, centrifugal_load, static_displacement
 from r37core.fem.solver import lowest_modes
 from r37core.fem.stress import stress_at
-from r37core.io import InputFileError
 
 
 def mixed(i, j, k):
@@ -222,16 +220,6 @@ def test_pattern_sums_shared_nodes():
     assert matrix[0, 3] == 2.0
     assert matrix[9, 9] == 1.0
     assert matrix[30, 60] == 0.0
-
-
-def test_matrices_file(matrices, tmp_path):
-    file = tmp_path / "matrices.npz"
-    write_matrices(matrices, file)
-    again = read_matrices(file)
-    assert (again.stiffness() != matrices.stiffness()).nnz == 0
-    file.write_bytes(file.read_bytes()[:1000])
-    with pytest.raises(InputFileError, match=r"matrices\.npz: cannot be read .* delete it and run again"):
-        read_matrices(file)
 
 
 def test_results_do_not_change_from_run_to_run(mesh, matrices):

@@ -59,7 +59,7 @@ def test_memory_and_time_between_and_beyond_what_was_measured():
 
 def test_every_job_of_a_sweep_says_what_it_needs(root):
     needs = Needs(read_settings(root), 3500)
-    for rule in {"mesh", "matrices", "reduced_model", "simulate"} | PER_RESPONSE | PER_SWEEP:
+    for rule in {"mesh", "reduced_model", "simulate"} | PER_RESPONSE | PER_SWEEP:
         asked = needs.of(rule)
         largest = max(memory for _, memory, _ in read_measured()[rule])
         assert 300 <= asked["mem_mb"] < 10 * largest + 300

@@ -14,7 +14,7 @@ BLADES, SCENES, SPEEDS = ("Ref", "CS100"), ("abradable", "direct"), ("750", "115
 # what follows any change of a simulation
 DATASETS = {"configuration", "sweep_dataset", "summary", "explorer", "response_figure", "response_overview", "map_figure"}
 DATASETS |= {"waterfall_figure", "comparison_figure"}
-STRUCTURE = {"geometry", "mesh", "abaqus_deck", "matrices", "reduced_model", "campbell_of_blade", "campbell_figure"}
+STRUCTURE = {"geometry", "mesh", "abaqus_deck", "reduced_model", "campbell_of_blade", "campbell_figure"}
 OF_ALL_BLADES = {"campbell_of_all", "campbell_overview", "blade_shapes_figure"}
 
 
@@ -207,11 +207,11 @@ def test_a_material_runs_what_depends_on_it(project, old, new, kept):
     assert not kept & set(jobs)
 
 
-def test_a_rotation_option_keeps_meshes_and_matrices(project):
+def test_a_rotation_option_keeps_meshes(project):
     edit(project, "config.yaml", "spin_softening: false", "spin_softening: true")
     jobs = planned_outputs(project)
     assert jobs["reduced_model"] == {f"{blade}/rom_pressure_edge.nc" for blade in BLADES}
-    assert not {"geometry", "mesh", "matrices", "abaqus_deck"} & set(jobs)
+    assert not {"geometry", "mesh", "abaqus_deck"} & set(jobs)
 
 
 def test_a_stress_history_runs_its_speed(project):

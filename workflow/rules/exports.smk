@@ -101,6 +101,7 @@ rule exported_matrices:
     params:
         choice=exported.choice,
         tip_line=settings.structure.boundary.tip_line,
+        material=structure.material,
         code=code("exported_matrices"),
     script:
         "../scripts/exported_matrices.py"

@@ -1,4 +1,4 @@
-# Blade shape -> mesh -> matrices -> reduced model -> Campbell diagram, for each blade. A blade of another program comes in as
+# Blade shape -> mesh -> reduced model -> Campbell diagram, for each blade. A blade of another program comes in as
 # a mesh (imported_mesh) or as matrices (imported_matrices) and takes the same way from there.
 
 
@@ -89,29 +89,9 @@ rule abaqus_deck:
         "../scripts/abaqus_deck.py"
 
 
-rule matrices:
-    input:
-        rules.mesh.output.vtu,
-    output:
-        "<results>/{blade}/matrices.npz",
-    log:
-        "<logs>/{blade}/matrices.log",
-    priority: 2
-    conda:
-        ENVIRONMENT
-    resources:
-        **needs.of("matrices"),
-    params:
-        material=structure.elastic,
-        code=code("matrices"),
-    script:
-        "../scripts/matrices.py"
-
-
 rule reduced_model:
     input:
-        mesh=rules.mesh.output.vtu,
-        matrices=rules.matrices.output[0],
+        rules.mesh.output.vtu,
     output:
         paths.REDUCED_MODEL,
     log:
@@ -124,6 +104,7 @@ rule reduced_model:
     resources:
         **needs.of("reduced_model"),
     params:
+        material=structure.elastic,
         reduction=structure.reduction,
         provenance=made.structure,
         code=code("reduced_model"),
@@ -168,7 +149,7 @@ rule campbell_of_blade:
     resources:
         **needs.of("campbell_of_blade"),
     params:
-        campbell=plain(settings.campbell),
+        campbell=si_fields(settings.campbell),
         maximum_speed=settings.structure.maximum_speed_rad_s,
         tip_line=settings.structure.boundary.tip_line,
         provenance=made.structure,

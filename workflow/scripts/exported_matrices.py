@@ -1,20 +1,23 @@
-"""Write matrices as Matrix Market. Inputs: rom; for full ones mesh, matrices. Params: choice, tip_line. Output: folder."""
+"""Write matrices as Matrix Market. Inputs: rom; for full ones mesh. Params: choice, tip_line, material. Output: folder."""
 
 from pathlib import Path
 
 from job import run
 
 from r37core.exchange.exporting.matrices_out import write_full_matrices, write_reduced_matrices
-from r37core.fem.matrices import read_matrices
+from r37core.fem.material import Material
+from r37core.fem.matrices import assemble
 from r37core.mesh.mesh_files import read_vtu
+from r37core.plain import from_plain
 from r37core.rom.rom_file import read_reduced_model
 
 
 def main(snakemake):
     given, folder, params = snakemake.input, Path(snakemake.output[0]), snakemake.params
     model, speeds = read_reduced_model(given.rom), params.choice["matrix_speeds"]
-    if hasattr(given, "matrices"):
-        mesh, matrices = read_vtu(given.mesh), read_matrices(given.matrices)
+    if hasattr(given, "mesh"):
+        mesh = read_vtu(given.mesh)
+        matrices = assemble(mesh, from_plain(Material, params.material))
         write_full_matrices(matrices, mesh, model.boundary_nodes, speeds, folder, params.choice["spin_softening"])
     else:
         write_reduced_matrices(model, params.tip_line, speeds, folder)

@@ -1,8 +1,9 @@
-"""Reduce one blade. Inputs: mesh (vtu), matrices. Params: reduction, provenance. Output: rom.nc."""
+"""Assemble and reduce one blade. Input: mesh.vtu. Params: material, reduction, provenance. Output: rom.nc."""
 
 from job import run
 
-from r37core.fem.matrices import read_matrices
+from r37core.fem.material import Material
+from r37core.fem.matrices import assemble
 from r37core.mesh.mesh_files import read_vtu
 from r37core.plain import from_plain
 from r37core.rom.reduce import reduce_blade
@@ -11,10 +12,12 @@ from r37core.rom.rom_file import write_reduced_model
 
 
 def main(snakemake):
-    choice = from_plain(ReductionChoice, snakemake.params.reduction)
-    model = reduce_blade(read_vtu(snakemake.input.mesh), read_matrices(snakemake.input.matrices), choice)
+    mesh, params = read_vtu(snakemake.input[0]), snakemake.params
+    matrices = assemble(mesh, from_plain(Material, params.material))
+    print(f"mass {matrices.total_mass:.6g} kg, {3 * len(matrices.free_nodes)} free degrees of freedom")
+    model = reduce_blade(mesh, matrices, from_plain(ReductionChoice, params.reduction))
     print(f"{model.columns} columns, {model.size} independent at {model.tolerance:g}")
-    write_reduced_model(model, snakemake.output[0], snakemake.params.provenance)
+    write_reduced_model(model, snakemake.output[0], params.provenance)
 
 
 run(snakemake, main)

@@ -1,11 +1,11 @@
 """Configuration: YAML files checked by models, and the settings made of them."""
 
 from .blades import BladeSettings
-from .document import Document, command_line_document, read_document
-from .errors import ConfigError
+from .document import ConfigError, Document, command_line_document, read_document
 from .reading import load_settings, read_settings, settings_of_run
 from .scenes import SceneEntry
 from .settings import SceneSettings, Settings, checked_scene, plain
+from .si_fields import si_fields
 
 __all__ = [
     "BladeSettings",
@@ -21,4 +21,5 @@ __all__ = [
     "read_document",
     "read_settings",
     "settings_of_run",
+    "si_fields",
 ]

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -10,7 +9,7 @@ from typing import Annotated, Any, Literal, TypeVar
 
 from pydantic import Discriminator, Field, RootModel, Tag, model_validator
 
-from r37core.blade import tables
+from r37core.blade import profile_tables
 from r37core.blade.definition import BladeDefinition
 from r37core.blade.profile import BladeShapeError, ProfileParameters
 from r37core.blade.sense import check_profile_sense
@@ -21,11 +20,11 @@ from r37core.rom.reduction_choice import StressSubmesh
 from r37core.speeds import spaced
 from r37core.text_file import TextFileError
 
-from .document import Document
-from .errors import ConfigError
+from .blade_sections import MaterialSection, stress_region
+from .document import ConfigError, Document
 from .imported_entry import MatricesEntry, MeshEntry
-from .material_section import MaterialSection
 from .section import FileName, LeftOut, Name, Section, Unique, check_names, refused
+from .si_fields import in_si, si_fields
 
 Table = TypeVar("Table")
 
@@ -181,7 +180,7 @@ def blade_settings(name: str, entries: Mapping[str, Any], root: Path, document: 
             material.check_units()
         except ValueError as error:
             raise document.error((name, "material"), str(error)) from None
-        return BladeSettings(_source(entry, first, root, document), material, entry.stress_submesh.region())
+        return BladeSettings(_source(entry, first, root, document), material, stress_region(entry.stress_submesh))
     shift: dict[str, Any] = {}
     for link in chain:
         for key in SHIFTS:
@@ -195,7 +194,7 @@ def blade_settings(name: str, entries: Mapping[str, Any], root: Path, document: 
 
 
 def _profiles(file: Path, sense_check: bool) -> list[ProfileParameters]:
-    profiles = tables.read_profile_table(file)
+    profiles = profile_tables.read_profile_table(file)
     if sense_check:
         check_profile_sense(profiles[-1])
     return profiles
@@ -217,12 +216,7 @@ def _material(chain: Sequence[str], entries: Mapping[str, Any], document: Docume
     missing = [key for key in MaterialSection.model_fields if key not in material]
     if missing:
         raise document.error((chain[-1], "material"), f"missing key {', '.join(missing)} (give it here or in the base)")
-    return fem_material.Material(
-        youngs_modulus=float(material["youngs_modulus_pa"]),
-        density=float(material["density_kg_m3"]),
-        poissons_ratio=float(material["poissons_ratio"]),
-        yield_stress=float(material["yield_stress_pa"]),
-    )
+    return in_si(fem_material.Material, MaterialSection(**material))
 
 
 def _inheritance(name: str, entries: Mapping[str, Any], document: Document) -> list[str]:
@@ -239,12 +233,12 @@ def _inheritance(name: str, entries: Mapping[str, Any], document: Document) -> l
 def _shift(blade: str, key: str, value: Any, root: Path, document: Document) -> dict[str, Any]:
     """Arguments of BladeDefinition for a sweep given in one of the three ways."""
     if key == "chordwise_sweep_deg":
-        return {"chordwise_sweep_angle": math.radians(value), "stacking": None}
+        return {"chordwise_sweep_angle": si_fields([(key, value)])["chordwise_sweep"], "stacking": None}
     if key == "stacking_table":
-        rows = _table(value, blade, (blade, key), document, lambda: tables.read_stacking_table(root / value, blade))
+        rows = _table(value, blade, (blade, key), document, lambda: profile_tables.read_stacking_table(root / value, blade))
     else:
         try:
-            rows = tables.stacking_rows([row.model_dump() for row in value])
+            rows = profile_tables.stacking_rows([row.model_dump() for row in value])
         except BladeShapeError as error:
             raise document.error((blade, key), f"blade {blade}: {error}") from None
     return {"stacking": rows, "chordwise_sweep_angle": None}

@@ -9,15 +9,14 @@ from pydantic import AfterValidator, Field, model_validator
 
 from r37core.rom.reduction_choice import BoundaryChoice, ReductionChoice, StressSubmesh
 
-from .export_section import ExportSection
+from .blade_sections import Submesh, stress_region
 from .fidelity import Reduction
+from .output_sections import ExportSection, ShapeSection, SignalSection
 from .scenes import TipLine
 from .section import AllOrNames, FileName, LeftOut, Name, Section, Speed, refused
-from .shape_section import ShapeSection
-from .signal_section import SignalSection
+from .si_fields import in_si, si_fields
 from .speed_section import RpmList, SpeedList, SpeedRange, SpeedRule, refuse_both_units
-from .studies import Studies
-from .submesh import Submesh
+from .study_sections import StudiesSection
 
 
 class Boundary(Section):
@@ -47,15 +46,13 @@ class StructureSection(Section):
         Stress is recovered on `stress_submesh`, or where the section of this name says. Its basis is computed at rest, at half
         the maximum speed and at the maximum speed.
         """
-        return ReductionChoice(
-            boundary=BoundaryChoice(tip_line or self.boundary.tip_line, self.boundary.nodes, self.boundary.corners),
-            speeds=(0.0, 0.5 * self.maximum_speed_rad_s, float(self.maximum_speed_rad_s)),
-            fixed_interface_modes=size.fixed_interface_modes,
-            tolerance=size.basis_tolerance,
-            spin_softening=self.spin_softening,
-            coriolis=self.coriolis,
-            stress_submesh=stress_submesh or self.stress_submesh.region(),
-            whole_blade=self.recover_whole_blade,
+        return in_si(
+            ReductionChoice,
+            self,
+            boundary=in_si(BoundaryChoice, self.boundary, tip_line=tip_line or self.boundary.tip_line),
+            speeds=(0.0, 0.5 * self.maximum_speed_rad_s, self.maximum_speed_rad_s),
+            stress_submesh=stress_submesh or stress_region(self.stress_submesh),
+            **si_fields(size),
         )
 
 
@@ -185,7 +182,7 @@ class Config(Section):
         "with fidelity auto it picks the level",
     )
     run: Run = Run()
-    studies: Studies = Studies()
+    studies: StudiesSection = StudiesSection()
     campbell: CampbellSection = CampbellSection()
     exports: ExportSection = ExportSection()
     shapes: ShapeSection = ShapeSection()

@@ -71,9 +71,22 @@
     };
   }
 
-  const yieldLine = (limit) => ({
-    type: "line", xref: "paper", x0: 0, x1: 1, y0: limit, y1: limit, line: { color: "#D55E00", width: 1.5 },
-  });
+  // a line at the yield stress of each of the blades; where they differ, each says whose it is
+  function markYield(plan, blades, scene) {
+    const bladesOf = new Map();
+    blades.forEach((blade) => {
+      const limit = yieldStress.row(blade)[scene];
+      if (Number.isFinite(limit)) bladesOf.set(limit, [...(bladesOf.get(limit) ?? []), data.blades[blade]]);
+    });
+    bladesOf.forEach((names, limit) => {
+      plan.shapes.push({ type: "line", xref: "paper", x0: 0, x1: 1, y0: limit, y1: limit, line: { color: "#D55E00", width: 1.5 } });
+      if (bladesOf.size > 1) {
+        (plan.annotations ||= []).push({
+          xref: "paper", x: 1, xanchor: "right", y: limit, yanchor: "bottom", showarrow: false, font: { size: 10 }, text: names.join(", "),
+        });
+      }
+    });
+  }
 
   // `empty`: what stands there without traces; `clicks`: whether a click goes to the speed under it
   function draw(name, traces, plan, { empty = `Not computed for ${state.blade} in ${state.scene}.`, clicks = true } = {}) {
@@ -162,12 +175,7 @@
         text: `published 1B/${one.engine_order}`,
       });
     });
-    if (state.quantity === "max_von_mises" && yieldStress) {
-      const limit = yieldStress.row(bladeIndex())[scene];
-      if (Number.isFinite(limit)) {
-        plan.shapes.push(yieldLine(limit));
-      }
-    }
+    if (state.quantity === "max_von_mises" && yieldStress) markYield(plan, blades, scene);
     draw("response", traces, plan);
   }
 
@@ -214,7 +222,7 @@
         });
       });
     }
-    if (traces.length) plan.shapes.push(yieldLine(yieldStress.row(here[0])[here[1]]));
+    if (traces.length) markYield(plan, [here[0]], here[1]);
     const empty = `No history of stress for ${state.blade} in ${state.scene}: name speeds in the scene's`
       + " stress_history_speeds_rad_s. The quantity max_von_mises has the stress over speed.";
     draw("stress", traces, plan, { empty, clicks: false });

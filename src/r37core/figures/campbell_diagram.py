@@ -8,9 +8,10 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from r37core.rom.naming import NAMED_MODES
+
 from . import style
 
-_NAMED = ["1B", "1T", "2B"]
 _ROOM = 0.07
 
 
@@ -31,7 +32,7 @@ def draw_campbell(campbell: xr.Dataset, title: str) -> Figure:
     left.set_title(f"Campbell diagram, blade {title}")
     left.legend(loc="upper left", ncols=3)
     style.rpm_axis(left)
-    for name in _NAMED[:2]:
+    for name in NAMED_MODES[:2]:
         clearance = campbell["dynamic_clearance"].sel(mode=name)
         right.plot(1e3 * clearance["tangential_displacement"], 1e3 * clearance, label=name)
     right.set(xlabel="tangential displacement (mm)", ylabel="change of clearance (mm)")
@@ -42,10 +43,10 @@ def draw_campbell(campbell: xr.Dataset, title: str) -> Figure:
 
 def draw_campbell_overview(campbell: xr.Dataset) -> Figure:
     """All blades: one panel for each named mode."""
-    figure, panels = plt.subplots(1, len(_NAMED), figsize=(style.PAGE, 3.2))
+    figure, panels = plt.subplots(1, len(NAMED_MODES), figsize=(style.PAGE, 3.2))
     speed = campbell["speed"].values
     styles = style.blade_styles(campbell["blade"].values)
-    for axes, name in zip(panels, _NAMED, strict=True):
+    for axes, name in zip(panels, NAMED_MODES, strict=True):
         frequencies = campbell["frequency"].sel(mode=name)
         for blade in campbell["blade"].values:
             axes.plot(speed, frequencies.sel(blade=blade), label=str(blade), **styles[str(blade)])

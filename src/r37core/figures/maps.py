@@ -9,6 +9,8 @@ from matplotlib.axes import Axes
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 
+from r37core.rom.naming import NAMED_MODES
+
 from . import style
 
 _DECADES = 4.0
@@ -41,7 +43,7 @@ def _draw_spectrum(axes: Axes, amplitude: xr.DataArray, campbell: xr.Dataset, di
         rasterized=True,
     )
     axes.figure.colorbar(picture, ax=axes, location="bottom", aspect=35, label=f"amplitude, {direction}, leading edge (mm)")
-    for mode in ("1B", "1T", "2B"):
+    for mode in NAMED_MODES:
         frequency = campbell["frequency"].sel(mode=mode)
         speed = frequency["speed"].values[1:]
         order = 2.0 * np.pi * frequency.values[1:] / speed

@@ -29,7 +29,7 @@ def draw_response(title: str, campbell: xr.Dataset, rms: xr.Dataset, stress: xr.
         for scene in stress["scene"].values:
             largest = stress["max_von_mises"].sel(scene=scene).dropna("speed")
             panels[2].plot(largest["speed"], 1e-9 * largest, ".-", markersize=3, label=str(scene))
-        panels[2].axhline(1e-9 * float(stress["yield_stress"].max()), color="0.3", linewidth=0.9, linestyle="--")
+        style.yield_lines(panels[2], stress["yield_stress"].to_series())
         panels[2].set_ylabel("largest von Mises (GPa)")
         _mark_crossings(panels[2], campbell)
     panels[-1].set_xlabel("speed (rad/s)")

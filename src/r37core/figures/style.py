@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -60,6 +60,19 @@ def blade_styles(blades: Iterable[Any]) -> dict[str, dict[str, str]]:
         str(blade): {"color": COLOURS[place % count], "linestyle": _DASHES[place // count % len(_DASHES)]}
         for place, blade in enumerate(blades)
     }
+
+
+def yield_lines(axes: Axes, limits: Mapping[Any, float], label: str = "_") -> None:
+    """A dashed line (GPa) at each of the yield stresses (Pa), each by its name; several lines say whose they are."""
+    blades_of: dict[float, list[str]] = {}
+    for blade, limit in limits.items():
+        if np.isfinite(limit):
+            blades_of.setdefault(limit, []).append(str(blade))
+    for limit, blades in sorted(blades_of.items()):
+        axes.axhline(1e-9 * limit, color="0.3", linewidth=0.9, linestyle="--", label=label)
+        if len(blades_of) > 1:
+            along: dict[str, Any] = {"transform": axes.get_yaxis_transform(), "ha": "right", "va": "bottom"}
+            axes.text(1.0, 1e-9 * limit, ", ".join(blades), fontsize=6, color="0.3", **along)
 
 
 def rpm_axis(axes: Axes, most_ticks: int = 9) -> None:

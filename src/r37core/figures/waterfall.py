@@ -8,6 +8,8 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from r37core.rom.naming import NAMED_MODES
+
 from . import style
 
 _LINES = 40
@@ -15,7 +17,6 @@ _PER_LINE = 250
 _DECADES = 3.0
 _HEIGHT = 6.0
 """Of the largest amplitude, in distances between lines."""
-_MODES = ("1B", "1T", "2B")
 
 
 def draw_waterfall(maps: xr.Dataset, campbell: xr.Dataset, title: str) -> Figure:
@@ -52,7 +53,7 @@ def _draw(axes: Axes, amplitude: xr.DataArray, campbell: xr.Dataset, highest: fl
         axes.fill_between(frequency[kept], speed, line, facecolor="white", linewidth=0.0, zorder=2.0 - 1e-3 * place)
         axes.plot(frequency[kept], line, color=style.COLOURS[0], linewidth=0.5, zorder=2.0 - 1e-3 * place + 5e-4)
     _draw_orders(axes, float(order[-1]), low, high, highest)
-    for mode in _MODES:
+    for mode in NAMED_MODES:
         frequency = campbell["frequency"].sel(mode=mode)
         axes.plot(frequency, frequency["speed"], color=style.COLOURS[1], linestyle="--", linewidth=0.8, zorder=4)
         x = float(np.interp(high, frequency["speed"].values, frequency.values))

@@ -25,7 +25,7 @@ class Structure:
         return to_plain(self.settings.blades[wildcards.blade].material)
 
     def elastic(self, wildcards: Any) -> dict[str, float]:
-        """Material of a blade with a mesh, as if it never yielded: a new yield stress asks for no new matrices."""
+        """Material of a blade with a mesh, as if it never yielded: a new yield stress asks for no new model."""
         material = self.settings.blades[wildcards.blade].material
         assert material is not None
         return to_plain(replace(material, yield_stress=math.inf))

@@ -20,6 +20,7 @@ import scipy.sparse as sp
 from r37core.exchange.refusal import ImportRefused, blamed
 from r37core.fem.solver import factorise
 from r37core.rom.craig_bampton import multi_speed_basis
+from r37core.rom.naming import NAMED_MODES
 from r37core.rom.reduce import projected
 from r37core.rom.reduced_model import RecoveryNodes, ReducedModel
 from r37core.rom.reduction_choice import ReductionChoice
@@ -70,7 +71,7 @@ def _reduced(given: _Given, choice: ReductionChoice) -> ReducedModel:
         basis = multi_speed_basis(
             lambda speed: sp.csr_array(given.stiffness + speed**2 * given.per_square), given.mass, boundary, choice
         )
-        vectors, tolerance, singular = basis.vectors, choice.tolerance, basis.singular_values
+        vectors, tolerance, singular = basis.vectors, choice.basis_tolerance, basis.singular_values
     mass, stiffness = projected(given.mass, vectors), projected(given.stiffness, vectors)
     _check_positive(mass, stiffness)
     shapes = _ideal_shapes(given)
@@ -245,7 +246,7 @@ def _ideal_shapes(given: _Given) -> dict[str, np.ndarray]:
     first, twist = (np.concatenate([part, -solve(coupling @ part)]) for part in (bending, torsion))
     smooth = factorise(given.stiffness)(given.mass @ first)
     second = first - smooth * (smooth @ (given.mass @ first)) / (smooth @ (given.mass @ smooth))
-    return {"1B": smooth, "1T": twist, "2B": second}
+    return dict(zip(NAMED_MODES, (smooth, twist, second), strict=True))
 
 
 def _fractions(points: np.ndarray) -> np.ndarray:

@@ -18,7 +18,7 @@ from r37core.figures.maps import draw_spectral_map
 from r37core.published import BLADES, INTERACTIONS, REFERENCE, VARIANTS, WIDTH_ABOVE_YIELD
 from r37core.results.measures import history_of, peak_of, width_above_yield
 
-from ..modelling_choices.figures import draw_blades, draw_histories, draw_reference, draw_yield
+from ..modelling_choices.figures import draw_blades, draw_histories, draw_reference
 from ..modelling_choices.validation import Runs
 from .cases import COARSE, FINE
 
@@ -89,7 +89,7 @@ def draw_stress_over_speed(survey: Runs) -> Figure:
     for kind, label in _LABELS.items():
         run = survey[f"Ref_{kind}"]
         axes.semilogy(run["speed"], 1e-9 * run["max_von_mises"], marker=".", markersize=2, linewidth=0.9, label=label)
-    draw_yield(axes, [survey["Ref_lined"]])
+    style.yield_lines(axes, {REFERENCE: float(survey["Ref_lined"]["yield_stress"])}, label="yield")
     for one in INTERACTIONS:
         if one.blade == REFERENCE:
             axes.axvline(one.peak, color="0.5", linestyle=":", linewidth=0.8)
@@ -170,7 +170,7 @@ def draw_peak_histories(shipped: Runs) -> Figure:
         history = 1e-9 * history_of(run, speed)
         label = f"{blade}, {speed:g} rad/s"
         axes.semilogy(run["revolution"], np.where(history > 0.0, history, np.nan), label=label, **styles[blade])
-    draw_yield(axes, [shipped[f"{blade}_4"] for blade in BLADES], label="_")
+    style.yield_lines(axes, {blade: float(shipped[f"{blade}_4"]["yield_stress"]) for blade in BLADES})
     axes.set(xlabel="revolution", ylabel="largest von Mises (GPa)", ylim=(1e-3, None))
     figure.legend(*axes.get_legend_handles_labels(), loc="outside right upper")
     return figure

@@ -12,6 +12,7 @@ from r37core.figures import style
 from r37core.figures.offscreen import look, new_plotter, save_picture
 from r37core.io import readable
 from r37core.mesh.mesh_files import read_vtu
+from r37core.rom.naming import NAMED_MODES
 from r37core.rom.reduction_choice import StressSubmesh
 
 _HEIGHT = 380
@@ -23,9 +24,8 @@ def draw_modes(file: Path | str, png: Path | str) -> None:
     """The first three modes of a modes_<speed>.vtu, each moved by its shape and coloured by the size of its displacement."""
     with readable(file):
         grid = pyvista.read(file)
-    names = ("1B", "1T", "2B")
-    plotter = new_plotter(len(names), (300 * len(names), _HEIGHT))
-    for column, name in enumerate(names):
+    plotter = new_plotter(len(NAMED_MODES), (300 * len(NAMED_MODES), _HEIGHT))
+    for column, name in enumerate(NAMED_MODES):
         plotter.subplot(0, column)
         shape = np.asarray(grid.point_data[f"mode {name}"])
         size = np.linalg.norm(shape, axis=1)

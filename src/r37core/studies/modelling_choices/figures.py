@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -61,7 +61,8 @@ def draw_stress(shipped: Runs) -> Figure:
     """Largest stress of the last revolution of all blades about 1B/4, with the yield line; dotted: published peaks."""
     figure, axes = plt.subplots(figsize=(style.PAGE, 3.6))
     _draw_about_order_4(axes, shipped, "max_von_mises", 1e-9)
-    draw_yield(axes, [shipped[one.name] for one in INTERACTIONS[: len(BLADES)]])
+    yields = {one.blade: float(shipped[one.name]["yield_stress"]) for one in INTERACTIONS[: len(BLADES)]}
+    style.yield_lines(axes, yields, label="yield")
     axes.set(ylabel="largest von Mises, last revolution (GPa)", yscale="log")
     axes.set_xlabel("speed (rad/s); dotted: published peaks")
     style.rpm_axis(axes)
@@ -92,17 +93,11 @@ def draw_histories(shipped: Runs) -> Figure:
             history = 1e-9 * history_of(run, speed)
             shown = np.where(history > 0.0, history, np.nan)
             axes.semilogy(run["revolution"], shown, color=color, linewidth=1.2, label=label)
-        draw_yield(axes, runs.values(), label="_")
+        style.yield_lines(axes, {name: float(run["yield_stress"]) for name, run in runs.items()})
         axes.set(xlabel="revolution", title=f"{speed:g} rad/s")
     panels[0].set_ylabel("largest von Mises of the revolution (GPa)")
     panels[0].legend()
     return figure
-
-
-def draw_yield(axes: Axes, runs: Iterable[xr.Dataset], label: str = "yield") -> None:
-    """A line at each of the runs' yield stresses: blades may be of several materials."""
-    for limit in sorted({float(run["yield_stress"]) for run in runs}):
-        axes.axhline(1e-9 * limit, color="0.2", linestyle="--", linewidth=1.0, label=label)
 
 
 def joined(*runs: xr.Dataset) -> xr.Dataset:

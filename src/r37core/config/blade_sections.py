@@ -1,19 +1,29 @@
-"""Where stress is recovered: of blades given by profiles, and of those of other programs."""
+"""What all kinds of blades have: a material, and a region where stress is recovered."""
 
 from __future__ import annotations
 
-import math
+from dataclasses import replace
 from typing import Annotated
 
 from pydantic import Field, model_validator
 
-from r37core.rom.reduction_choice import StressSubmesh
+from r37core.rom.reduction_choice import EVERYWHERE, StressSubmesh
 
 from .section import LeftOut, Section, refused
+from .si_fields import si_fields
 
 Coordinate = Annotated[float, Field(ge=-100, le=100)]
 Layers = Annotated[int, Field(ge=0, le=20)]
 _LAYERS = "layers of elements left out round contact nodes and root, where stress grows with every finer mesh"
+
+
+class MaterialSection(Section):
+    """Isotropic material; what is left out comes from the base."""
+
+    youngs_modulus_pa: Annotated[float, Field(ge=1e6, le=1e13)] | LeftOut = None
+    density_kg_m3: Annotated[float, Field(ge=1, le=1e5)] | LeftOut = None
+    poissons_ratio: Annotated[float, Field(gt=-1, lt=0.5)] | LeftOut = None
+    yield_stress_pa: Annotated[float, Field(ge=1, le=1e12)] | LeftOut = None
 
 
 class Submesh(Section):
@@ -28,10 +38,6 @@ class Submesh(Section):
     def _has_a_height(self) -> Submesh:
         check_height(self.minimum_z_m, self.maximum_z_m)
         return self
-
-    def region(self) -> StressSubmesh:
-        """As the reduced model takes it."""
-        return StressSubmesh(self.maximum_x_m, self.minimum_z_m, self.maximum_z_m, self.excluded_layers)
 
 
 class ImportedSubmesh(Section):
@@ -48,14 +54,10 @@ class ImportedSubmesh(Section):
             check_height(self.minimum_z_m, self.maximum_z_m)
         return self
 
-    def region(self) -> StressSubmesh:
-        """As the reduced model takes it."""
-        return StressSubmesh(
-            math.inf if self.maximum_x_m is None else self.maximum_x_m,
-            -math.inf if self.minimum_z_m is None else self.minimum_z_m,
-            math.inf if self.maximum_z_m is None else self.maximum_z_m,
-            self.excluded_layers,
-        )
+
+def stress_region(section: Submesh | ImportedSubmesh) -> StressSubmesh:
+    """As the reduced model takes it: a bound that is not given is none."""
+    return replace(EVERYWHERE, **si_fields(section))
 
 
 def check_height(minimum: float, maximum: float) -> None:
