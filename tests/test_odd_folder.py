@@ -7,7 +7,7 @@ import sys
 import venv
 
 import pytest
-from workflow_runs import copy_project
+from workflow_runs import LONGEST, copy_project
 
 NAME = 'it\'s "my" $(touch EXECUTED) `touch EXECUTED`; touch EXECUTED & rotor'
 
@@ -33,7 +33,7 @@ def folder(root, tmp_path_factory):
 def run(folder, *command, **environment):
     kept = {key: value for key, value in os.environ.items() if not key.startswith("SNAKEMAKE")}
     environment = kept | {"PYTHONPATH": str(folder / "src")} | environment
-    done = subprocess.run(command, cwd=folder, env=environment, capture_output=True, text=True, timeout=600, check=False)
+    done = subprocess.run(command, cwd=folder, env=environment, capture_output=True, text=True, timeout=LONGEST, check=False)
     assert done.returncode == 0, done.stdout + done.stderr
     assert not list(folder.parent.rglob("EXECUTED"))
     return done.stdout + done.stderr

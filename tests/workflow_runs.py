@@ -8,6 +8,8 @@ import sys
 from pathlib import Path
 
 SNAKEMAKE = str(Path(sys.executable).with_name("snakemake"))
+LONGEST = 1800.0
+"""Of one command (s): ten times what a sweep takes, for the machine may be busy."""
 
 
 def copy_project(root, to):
@@ -35,7 +37,7 @@ def snakemake(folder, *arguments, check=True):
     environment = {key: value for key, value in os.environ.items() if not key.startswith("SNAKEMAKE")}
     environment |= {"PYTHONPATH": str(folder / "src"), "R37_FULL_LOG": "1"}
     done = subprocess.run(
-        [SNAKEMAKE, *arguments], cwd=folder, env=environment, capture_output=True, text=True, timeout=600, check=False
+        [SNAKEMAKE, *arguments], cwd=folder, env=environment, capture_output=True, text=True, timeout=LONGEST, check=False
     )
     assert not check or done.returncode == 0, done.stdout + done.stderr
     return done.stdout + done.stderr
