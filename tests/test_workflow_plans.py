@@ -9,6 +9,7 @@ import pytest
 
 from r37core.adaptive.criterion import RefinementChoice
 from r37core.config import ConfigError, command_line_document, read_settings
+from r37core.contact.scene import Scene
 from r37core.plain import from_plain
 from r37core.plans.import_plan import Imported
 from r37core.plans.paths import filled
@@ -158,8 +159,8 @@ def test_provenance(chosen):
     assert attributes["blade"] == "Ref"
     assert attributes["fidelity"] == "standard"
     assert attributes["numerics"] == "20000 nodes, exact_modal of 4e-07 s"
-    assert "Lining" not in attributes["scene_parameters"]
-    assert "Lining" in Provenance(chosen).sweep(REF)["scene_parameters"]
+    assert from_plain(Scene, json.loads(attributes["scene_parameters"])) == chosen.scenes["direct"].scene
+    assert json.loads(Provenance(chosen).sweep(REF)["scene_parameters"])["lining"]
 
 
 @pytest.mark.parametrize(
