@@ -185,7 +185,9 @@ def judged(contact, tmp_path):
 def test_judging_a_case(judged):
     choice = IntegrationChoice(2e-7, 4, 62)
     assert judged(case_of(choice))["outcome"] == "accurate"
-    assert judged(case_of(choice, replace(DIRECT, divergence_limit=1e-6)))["outcome"] == "diverged"
+    diverged = judged(case_of(choice, replace(DIRECT, divergence_limit=1e-6)))
+    assert diverged["outcome"] == "diverged"
+    assert np.isnan(diverged["rms"])
     refused = judged(case_of(replace(choice, time_step=2e-6)))
     assert refused["outcome"] == "refused"
     assert "stability limit" in refused["detail"]

@@ -61,8 +61,8 @@ def judge(case: xr.Dataset, half: xr.Dataset) -> dict[str, Any]:
 
 
 def _mean_motion(response: xr.Dataset) -> float:
-    """Mean over the speeds of the rms (m) of the leading edge's normal and tangential motion together."""
-    return float(motion(response).mean())
+    """Mean over the speeds of the rms (m) of the leading edge's normal and tangential motion together; NaN if one diverged."""
+    return np.nan if response["status"].any() else float(motion(response).mean())
 
 
 def _check_sound(response: xr.Dataset) -> None:
