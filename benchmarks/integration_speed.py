@@ -10,6 +10,7 @@ import os
 import platform
 import sys
 import time
+from dataclasses import replace
 from pathlib import Path
 
 os.environ["OPENBLAS_NUM_THREADS"] = "1"
@@ -18,10 +19,10 @@ import numpy as np
 from pages import fill
 from plain_integration import PlainProblem
 
-from r37core.contact.casing import Casing
-from r37core.contact.scene import Friction, Lining, Scene
+from r37core.config import checked_scene
 from r37core.rom.contact_model import read_contact_model
 from r37core.time_integration.integration_choice import IntegrationChoice
+from r37core.time_integration.integrators import CENTRAL_DIFFERENCE
 from r37core.time_integration.simulate import Simulation
 
 ROOT = Path(__file__).parent.parent
@@ -30,15 +31,23 @@ GRID = np.arange(750.0, 2000.0, 62.5)
 STEP = 1e-7
 """The published step (s)."""
 
-CASING = Casing(3.56e-4)
-LINING = Lining(5e-3, 20e9, 5e9, 1.5, bar_width=0.028, shared_ring=True)
-SCENES = {
-    "abradable": Scene(CASING, LINING, Friction(0.15)),
-    "direct": Scene(CASING, None, Friction(0.15)),
-    "abradable, constant friction": Scene(CASING, LINING, Friction(0.15, vector=False)),
-    "direct, constant friction": Scene(CASING, None, Friction(0.15, vector=False)),
+LINING = {
+    "thickness_m": 5e-3,
+    "elastic_modulus_pa": 20e9,
+    "plastic_modulus_pa": 5e9,
+    "yield_stress_pa": 1.5,
+    "bar_width_m": 0.028,
+    "rings": "shared",
 }
-"""One shared ring of wide bars: more contact, and more costly, than in the shipped scenes."""
+"""One shared ring of wide bars: more contact, and more expensive, than in the shipped scenes."""
+SCENES = {
+    f"{name}{', constant friction' if form == 'constant' else ''}": checked_scene(
+        {"casing": {"clearance_m": 3.56e-4}, "friction": {"coefficient": 0.15, "form": form}} | lining
+    )
+    for form in ("vector", "constant")
+    for name, lining in (("abradable", {"lining": LINING}), ("direct", {}))
+}
+CHOICE = IntegrationChoice(STEP, 200, 496, CENTRAL_DIFFERENCE, "compiled", energy=True)
 
 SETTLED = 40
 ROUNDS = 3
@@ -67,7 +76,7 @@ def main():
 
 def settled(model, scene, speed, jumps):
     """A time integration and its state after some revolutions: the timed ones are like most of a run."""
-    simulation = Simulation(model, speed, scene, IntegrationChoice(STEP, 200, 496, energy=True, jumps=jumps))
+    simulation = Simulation(model, speed, scene, replace(CHOICE, jumps=jumps))
     state = simulation.start()
     simulation.advance(state, SETTLED)
     return simulation, state
@@ -76,7 +85,7 @@ def settled(model, scene, speed, jumps):
 def compare(model, scene, name, speed):
     """Nanoseconds per step of each way, from the same state, the best of some rounds that take turns."""
     stepping, state = settled(model, scene, speed, jumps=False)
-    jumping = Simulation(model, speed, scene, IntegrationChoice(STEP, 200, 496, energy=True))
+    jumping = Simulation(model, speed, scene, CHOICE)
     problem = stepping.problem
     plain = PlainProblem(problem)
     first, steps = SETTLED * problem.steps_per_revolution, problem.steps_per_revolution

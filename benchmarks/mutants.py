@@ -25,7 +25,7 @@ TESTS = {
     "blade/stacking.py": "test_blade.py",
     "contact/casing.py": "test_contact.py test_cone_contact.py",
     "contact/laws.py": "test_contact.py",
-    "fem/centrifugal.py": "test_fem.py",
+    "fem/matrices.py": "test_fem.py",
     "results/campbell.py": "test_campbell.py",
     "results/datasets.py": "test_results.py",
     "results/interactions.py": "test_results.py",

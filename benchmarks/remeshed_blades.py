@@ -21,10 +21,9 @@ from mesh_step import mesh_step
 from pages import fill
 
 from r37core.config import read_settings
+from r37core.config.imported_entry import MeshEntry
 from r37core.exchange.exporting.step import write_step
 from r37core.exchange.importing.import_mesh import import_mesh
-from r37core.exchange.importing.source import MeshSource, Where
-from r37core.exchange.orientation import Orientation
 from r37core.fem.matrices import assemble
 from r37core.fem.solver import lowest_modes
 from r37core.io import read_json, write_json
@@ -51,8 +50,9 @@ def imported(blade, element, folder):
     if not step.exists():
         write_step(blade, step)
     mesh_step(step, msh, element, *ELEMENTS[element])
-    orientation = Orientation("mm", (0.0, 0.0, 1.0), (1.0, 0.0, 0.0), "negative")
-    return import_mesh(MeshSource(str(msh), orientation, Where("root"), Where("tip")))[0]
+    frame = {"length_unit": "mm", "rotor_axis": [0.0, 0.0, 1.0], "radial": [1.0, 0.0, 0.0], "rotation": "negative"}
+    entry = MeshEntry(mesh=str(msh), material={}, root="root", tip="tip", **frame)
+    return import_mesh(entry.source(folder))[0]
 
 
 def frequencies_of(matrices):
@@ -80,7 +80,7 @@ def peak_of(name, mesh, matrices, settings):
 def measure(name, settings, with_peak, found):
     """Measure what `found` lacks of a blade."""
     given, level = settings.blades[name], settings.fidelity.mesh
-    blade = given.definition.build()
+    blade = given.definition.build(round_edges=True)
     with tempfile.TemporaryDirectory() as folder:
         for element in (OURS, *ELEMENTS):
             one = found.setdefault(f"{name} {element}", {})

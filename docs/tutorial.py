@@ -29,7 +29,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 from IPython.display import Image, display
 
-from r37core.config import command_line_document, plain, read_settings
+from r37core.config import command_line_document, plain, read_settings, si_fields
 from r37core.figures import style
 from r37core.units import RPM
 
@@ -55,7 +55,7 @@ print(f"level {settings.fidelity_name}: {settings.fidelity.mesh.nodes} nodes")
 # %%
 reference = settings.blades["Ref"]
 definition = replace(reference.definition, name="Mine", chordwise_sweep_angle=np.radians(10.0))
-blade = definition.build()
+blade = definition.build(round_edges=settings.structure.edges == "round")
 
 # %% [markdown]
 # ## Mesh, matrices, reduced model
@@ -93,15 +93,11 @@ with TemporaryDirectory() as folder:
 from r37core.figures.campbell_diagram import draw_campbell
 from r37core.results.campbell_dataset import campbell_dataset
 
-chosen = settings.campbell
 campbell = campbell_dataset(
     model,
     maximum_speed=settings.structure.maximum_speed_rad_s,
-    speed_step=chosen.speed_step_rad_s,
-    modes=chosen.modes,
-    highest_engine_order=chosen.highest_engine_order,
-    largest_tangential_displacement=chosen.largest_tangential_displacement_m,
     tip_line="pressure_edge",
+    **si_fields(settings.campbell),
 )
 draw_campbell(campbell, "Mine")
 crossings = campbell["crossing_speed"].sel(mode="1B").to_series().dropna()

@@ -80,7 +80,7 @@ def profiles(settings):
 
 @pytest.fixture(scope="session")
 def blade(settings):
-    return settings.blades["Ref"].definition.build()
+    return settings.blades["Ref"].definition.build(round_edges=True)
 
 
 @pytest.fixture(scope="session")

@@ -8,7 +8,7 @@ from numba import njit
 from r37core.alignment import aligned_record, aligned_zeros, padded
 from r37core.contact import complementarity, laws
 from r37core.lanes import OPTIONS, inlined, load, store
-from r37core.time_integration.layout import LINING, problem
+from r37core.time_integration.layout import LINING, complementarity_record
 
 _return_mapping, _friction_direction = inlined(laws.return_mapping), inlined(laws.friction_direction)
 
@@ -50,7 +50,9 @@ def friction_direction(tangential, meridional):
 def solve_complementarity(matrix, gap, guess=None):
     """Multipliers and the largest violation."""
     count, nodes = len(gap), padded(len(gap))
-    room = aligned_zeros((1,), aligned_record([("problem", problem(nodes), ()), ("columns", np.float64, (nodes, nodes))]))
+    room = aligned_zeros(
+        (1,), aligned_record([("problem", complementarity_record(nodes), ()), ("columns", np.float64, (nodes, nodes))])
+    )
     p = room[0]["problem"]
     room[0]["columns"][:count, :count] = np.transpose(matrix)
     p["diagonal"] = 1.0

@@ -1,9 +1,8 @@
 """Scenes and a model that the tests of the time integration share."""
 
 import numpy as np
+from defaults import Casing, Friction, Lining, Scene
 
-from r37core.contact.casing import Casing
-from r37core.contact.scene import Friction, Lining, Scene
 from r37core.rom.contact_model import ContactModel
 
 LINING = Lining(5e-3, 20e9, 5e9, 1.5, bar_width=0.03)

@@ -39,7 +39,7 @@ def test_a_dense_table_makes_the_same_blade(root, blade, tmp_path):
     spans = np.linspace(0.0, 100.0, 200)
     dense = CubicSpline(source["span_percent"], source.values)(spans)
     pd.DataFrame(dense, columns=source.columns).round(3).to_csv(tmp_path / "dense.csv", index=False)
-    many = BladeDefinition("Dense", tuple(read_profile_table(tmp_path / "dense.csv"))).build()
+    many = BladeDefinition("Dense", tuple(read_profile_table(tmp_path / "dense.csv"))).build(round_edges=True)
     chord, span, side = (grid.ravel() for grid in np.meshgrid(np.linspace(0, 1, 9), np.linspace(0, 1, 23), [-1.0, 1.0]))
     assert np.abs(many.position(chord, span, side) - blade.position(chord, span, side)).max() < 1e-4
 
@@ -111,14 +111,14 @@ def test_crossing_profiles_are_refused_with_blade_and_span(settings):
     rows = list(definition.profiles)
     rows[5] = replace(rows[5], maximum_thickness=0.06, inlet_thickness=0.05)
     with pytest.raises(BladeShapeError, match=r"blade Odd: span \d+"):
-        BladeDefinition("Odd", tuple(rows)).build()
+        BladeDefinition("Odd", tuple(rows)).build(round_edges=True)
 
 
 def test_wild_sweep_is_refused(settings):
     definition = settings.blades["Ref"].definition
     rows = ((0.0, 0.0, 0.0), (0.5, 0.0, 2.5), (0.52, 0.0, -2.5), (1.0, 0.0, 0.0))
     with pytest.raises(BladeShapeError, match="blade Ref: span"):
-        replace(definition, stacking=rows).build()
+        replace(definition, stacking=rows).build(round_edges=True)
 
 
 @pytest.mark.slow

@@ -9,9 +9,8 @@ import pytest
 from box_mesh import box_mesh
 
 from r37core.fem.abaqus_deck import write_abaqus
-from r37core.fem.centrifugal import centrifugal_load
 from r37core.fem.elements import ELEMENTS
-from r37core.fem.matrices import assemble, static_displacement
+from r37core.fem.matrices import assemble, centrifugal_load, static_displacement
 from r37core.fem.quadrature import wedge_rule
 from r37core.fem.solver import lowest_modes
 from r37core.fem.stress import stress_at

@@ -4,15 +4,14 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from defaults import Casing, IntegrationChoice, Scene
 from integration_cases import ABRADABLE, AT_ONCE, DIRECT
 
-from r37core.contact.casing import Casing, casing_axes
-from r37core.contact.scene import Scene
+from r37core.contact.casing import casing_axes
 from r37core.results.campbell import campbell_diagram, dynamic_clearance
 from r37core.rom.contact_model import ContactModel
 from r37core.rom.reduce import reduce_blade
 from r37core.rom.reduced_model import contact_model
-from r37core.time_integration.integration_choice import IntegrationChoice
 from r37core.time_integration.reference import ReferenceEngine
 from r37core.time_integration.simulate import Simulation
 
@@ -134,7 +133,7 @@ def forward_swept(settings, choice):
     from r37core.mesh.generate import generate_mesh
 
     blade = settings.blades["S100"]
-    mesh = generate_mesh(blade.definition.build(), nodes=2500, layers=1, tip_elements=14)
+    mesh = generate_mesh(blade.definition.build(round_edges=True), nodes=2500, layers=1, tip_elements=14)
     return reduce_blade(mesh, assemble(mesh, blade.material), choice)
 
 

@@ -5,13 +5,13 @@ import itertools
 import numpy as np
 import pytest
 from contact_laws import friction_direction, return_mapping, solve_complementarity
+from defaults import Casing, Lining
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from r37core.contact import laws
-from r37core.contact.casing import Casing, casing_axes
+from r37core.contact.casing import casing_axes
 from r37core.contact.laws import displaced_position, lobe_shape
-from r37core.contact.scene import Lining
 
 BAR = Lining(5e-3, 20e9, 5e9, 1e6, bar_width=1e-3)
 
@@ -72,7 +72,9 @@ def test_wear_never_shrinks_and_a_bar_never_pulls(pushes, elastic, plastic, yiel
     wear, bar = 0.0, Lining(5e-3, elastic, plastic, yield_stress, bar_width=1e-3)
     for push in pushes:
         stress, new = return_mapping(push, wear, bar)
-        assert (stress, new) == pytest.approx(laws.return_mapping(push, wear, bar), rel=1e-12)
+        plain_stress, plain_wear = laws.return_mapping(push, wear, bar)
+        assert stress == pytest.approx(plain_stress, rel=1e-12, abs=1e-14 * elastic)  # a difference of stresses near E
+        assert new == pytest.approx(plain_wear, rel=1e-12)
         assert stress >= 0.0
         assert wear <= new <= 5e-3
         wear = new

@@ -8,14 +8,15 @@ import gmsh
 import numpy as np
 import pytest
 from box_mesh import box_mesh
+from defaults import MeshSource, Orientation, Where
 from scipy import constants
 
 from r37core.exchange.exporting.write_mesh import write_mesh
 from r37core.exchange.importing.abaqus_reader import read_abaqus
 from r37core.exchange.importing.import_mesh import _READERS, import_mesh
 from r37core.exchange.importing.meshio_reader import quietly
-from r37core.exchange.importing.source import MASS_UNITS, STIFFNESS_UNITS, SUFFIXES, MeshSource, Where, digest_of, mesh_files
-from r37core.exchange.orientation import UNITS, Orientation
+from r37core.exchange.importing.source import MASS_UNITS, STIFFNESS_UNITS, SUFFIXES, digest_of, mesh_files
+from r37core.exchange.orientation import UNITS
 from r37core.exchange.refusal import ImportRefused, MeshWarning, placed
 from r37core.fem.abaqus_deck import write_abaqus
 from r37core.fem.elements import ELEMENTS
@@ -340,7 +341,7 @@ def test_all_elements_of_the_other_winding_are_turned(tmp_path):
         ({"tip": Where("root")}, "share nodes"),
         ({"tip": Where("blade")}, "found no set 'blade'"),
         ({"tip": Where(limits=(("r", "at_least", 0.3),))}, r"no outer face .* within r at least 0.3 m, to 0.0001 m"),
-        ({"tip": Where(cone=((0.0, 0.27), (0.03, 0.25)))}, r"the cone through \(z, r\) = \(0, 0.27\) and \(0.03, 0.25\) m"),
+        ({"tip": Where(cone_zr=((0.0, 0.27), (0.03, 0.25)))}, r"the cone through \(z, r\) = \(0, 0.27\) and \(0.03, 0.25\) m"),
         ({"tip": Where(limits=(("r", "at_least", 0.2495),))}, "no surface of revolution about the rotor axis"),
     ],
 )

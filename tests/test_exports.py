@@ -7,12 +7,11 @@ import numpy as np
 import pandas as pd
 import pytest
 import pyvista
+from defaults import MatricesSource, Orientation
 
 from r37core.exchange.exporting.fields import Target, WorstInstant, worst_instants, write_modes, write_stress
 from r37core.exchange.exporting.matrices_out import write_full_matrices, write_reduced_matrices
 from r37core.exchange.importing.matrices_in import import_matrices
-from r37core.exchange.importing.source import MatricesSource
-from r37core.exchange.orientation import Orientation
 from r37core.exchange.refusal import ImportRefused
 from r37core.results.campbell import campbell_diagram
 from r37core.results.stress_recovery import StressRecovery
@@ -26,13 +25,13 @@ FOREIGN = Orientation("mm", (0.6, 0.8, 0), (0, 0, 1), "positive", (5.0, 6.0, 7.0
 
 @pytest.fixture(scope="module")
 def whole(mesh, matrices, choice):
-    return reduce_blade(mesh, matrices, replace(choice, whole_blade=True))
+    return reduce_blade(mesh, matrices, replace(choice, recover_whole_blade=True))
 
 
 @pytest.fixture(scope="module")
 def directory(mesh, matrices, model, tmp_path_factory):
     folder = tmp_path_factory.mktemp("matrices")
-    write_full_matrices(matrices, mesh, model.boundary_nodes, (0.0, 1000.0, 2000.0), folder)
+    write_full_matrices(matrices, mesh, model.boundary_nodes, (0.0, 1000.0, 2000.0), folder, spin_softening=False)
     return folder
 
 

@@ -7,10 +7,9 @@ import pytest
 from box_mesh import box_mesh
 
 from r37core.fem.assembly import NodePattern, assemble_stiffness, block_matrix
-from r37core.fem.centrifugal import centrifugal_load
 from r37core.fem.elements import ELEMENTS
 from r37core.fem.material import Material
-from r37core.fem.matrices import assemble, static_displacement
+from r37core.fem.matrices import assemble, centrifugal_load, static_displacement
 from r37core.fem.solver import lowest_modes
 from r37core.fem.stress import stress_at
 

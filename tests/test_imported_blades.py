@@ -6,9 +6,9 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 import yaml
+from defaults import Where
 
 from r37core.config import ConfigError, read_settings
-from r37core.exchange.importing.source import Where
 from r37core.exchange.orientation import OURS
 from r37core.plain import to_plain
 from r37core.plans.export_plan import Exports
@@ -63,7 +63,7 @@ def test_an_imported_blade_has_no_table_to_vary(settings_with, other, message):
 def test_a_mesh(settings_with, config_copy):
     settings = settings_with(MESH | {"pressure_side": "backward", "axis_point": [1, 2, 3]})
     source = settings.blades["Fan"].definition
-    assert (source.file, source.root) == ("meshes/fan.inp", Where("hub"))
+    assert (source.file, source.root) == ("meshes/fan.inp", Where("hub", tolerance=0.0))
     assert source.tip == Where(limits=(("r", "at_least", 0.25),))
     assert not source.pressure_side_forward
     np.testing.assert_allclose(source.orientation.points_to_blade(np.array([[1.0, 2.0, 1003.0]])), [[1.0, 0.0, 0.0]])
@@ -208,7 +208,7 @@ def test_plan_of_exports(three):
     assert not files & {"Fan/surface.step", "Given/mesh.med", "Given/modes", "Given/stress_direct"}
     fan = SimpleNamespace(blade="Fan", scene="direct", tip_line="camber")
     assert exports.model(fan) == "<results>/exports/Fan/rom_pressure_edge.nc"
-    assert exports.reduction(fan)["whole_blade"]
+    assert exports.reduction(fan)["recover_whole_blade"]
     assert exports.reduction(fan)["boundary"]["tip_line"] == "camber"
     assert exports.orientation(fan)["length_unit"] == "mm"
     assert exports.orientation(SimpleNamespace(blade="Ref")) == to_plain(OURS)

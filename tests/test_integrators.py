@@ -4,12 +4,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from defaults import Casing, IntegrationChoice, Lining, Scene
 from integration_cases import ABRADABLE, DIRECT, LINING, oscillator
 from scipy.integrate import solve_ivp
 
-from r37core.contact.casing import Casing
-from r37core.contact.scene import Lining, Scene
-from r37core.time_integration.integration_choice import IntegrationChoice
 from r37core.time_integration.integrators import EXACT_MODAL, INTEGRATORS, central_difference, exact_modal, recursion
 from r37core.time_integration.simulate import Simulation
 

@@ -6,8 +6,9 @@ import numpy as np
 import pandas as pd
 import pytest
 import xarray as xr
+from defaults import InteractionChoice
 
-from r37core.results.interactions import COLUMNS, InteractionChoice, find_interactions, summarise, titles
+from r37core.results.interactions import COLUMNS, find_interactions, summarise, titles
 from r37core.time_integration.status import RunStatus
 from r37core.units import RAD_S
 

@@ -4,13 +4,11 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from defaults import Casing, IntegrationChoice, Scene
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from integration_cases import ABRADABLE, AT_ONCE, DIRECT, oscillator
 
-from r37core.contact.casing import Casing
-from r37core.contact.scene import Scene
-from r37core.time_integration.integration_choice import IntegrationChoice
 from r37core.time_integration.integrators import central_difference
 from r37core.time_integration.jump_plan import nearest_casing, plan_jumps
 from r37core.time_integration.problem import Problem

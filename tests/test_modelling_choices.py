@@ -6,10 +6,9 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 import xarray as xr
+from defaults import Casing, IntegrationChoice, Scene
 
 from r37core.config.studies import SpeedSteps
-from r37core.contact.casing import Casing
-from r37core.contact.scene import Scene
 from r37core.dataset_file import read_dataset
 from r37core.fem.material import Material
 from r37core.published import BLADES, INTERACTIONS
@@ -22,7 +21,6 @@ from r37core.studies.modelling_choices.figures import draw_blades, draw_choices,
 from r37core.studies.modelling_choices.report import choices_table, runs_of
 from r37core.studies.modelling_choices.validation import Runs, choice_checks, survey_checks, torsion_speed
 from r37core.studies.runner import run_case
-from r37core.time_integration.integration_choice import IntegrationChoice
 
 YIELD = 1.38e9
 STEPS = SpeedSteps(fine=2.0, coarse=4.0, survey=5.0)
@@ -232,7 +230,8 @@ def test_a_window_is_followed_to_where_the_stress_is_below_yield(tmp_path, monke
     monkeypatch.setattr(runner, "run_speed", fake_run)
     monkeypatch.setattr(runner, "Simulation", lambda *_: None)
     steel = Material(2e11, 8000.0, 0.3, YIELD)
-    still = Case("Ref", "pressure_edge", Scene(Casing(1e-4)), IntegrationChoice(1e-7, 3, 62, 31), (1000.0, 1003.0, 1006.0),
+    choice = IntegrationChoice(1e-7, 3, 62, snapshots_per_revolution=31)
+    still = Case("Ref", "pressure_edge", Scene(Casing(1e-4)), choice, (1000.0, 1003.0, 1006.0),
                  ("stress",), steel, {}, history_speeds=(1003.0,))  # fmt: skip
     run_case(still, None, Recovery(), tmp_path / "still.nc")
     run_case(replace(still, follow=True), None, Recovery(), tmp_path / "found.nc")

@@ -2,21 +2,21 @@
 
 import ast
 import ctypes
+import json
 import os
 import subprocess
 import sys
 from itertools import pairwise
-from pathlib import Path
 
 import numpy as np
 import pytest
+from defaults import IntegrationChoice, Scene
 from integration_cases import DIRECT, LINING, oscillator
 
 from r37core import native
-from r37core.contact.scene import Scene
 from r37core.native import ObjectCodeError, Sources, cached_object, load_function, object_code
+from r37core.plain import to_plain
 from r37core.time_integration import compiled
-from r37core.time_integration.integration_choice import IntegrationChoice
 from r37core.time_integration.layout import Kind, integration_record, layout_of
 from r37core.time_integration.simulate import Simulation
 
@@ -118,12 +118,14 @@ def test_a_job_does_not_import_numba(contact, tmp_path):
 
     write_contact_model(contact, tmp_path / "contact.npz")
     Simulation(contact, 1000.0, DIRECT, IntegrationChoice(2e-7, 1, 62))
+    task = json.dumps(to_plain([DIRECT, IntegrationChoice(2e-7, 2, 62)]))
     code = (
-        f"import sys; sys.path.insert(0, {str(Path(__file__).parent)!r})\n"
-        "from integration_cases import DIRECT\nfrom r37core.time_integration.integration_choice import IntegrationChoice\n"
+        "import sys, json\nfrom r37core.plain import from_plain\nfrom r37core.contact.scene import Scene\n"
+        "from r37core.time_integration.integration_choice import IntegrationChoice\n"
         "from r37core.time_integration.speed_run import run_speed\nfrom r37core.rom.contact_model import read_contact_model\n"
         f"model = read_contact_model({str(tmp_path / 'contact.npz')!r})\n"
-        "run_speed(model, 1000.0, DIRECT, IntegrationChoice(2e-7, 2, 62), ('spectrum',), "
+        f"scene, choice = from_plain(tuple[Scene, IntegrationChoice], json.loads({task!r}))\n"
+        "run_speed(model, 1000.0, scene, choice, ('spectrum',), "
         "spectrum_highest_order=10, wear_angles=100)\n"
         "assert not {'numba', 'scipy'} & set(sys.modules)"
     )

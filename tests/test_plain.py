@@ -6,35 +6,35 @@ import sys
 from dataclasses import dataclass, fields, replace
 from typing import Literal
 
+import defaults
 import numpy as np
 import pytest
 
 from r37core.adaptive.criterion import RefinementChoice, Window
 from r37core.blade.definition import BladeDefinition
 from r37core.contact.casing import Casing
-from r37core.contact.scene import Friction, Lining, Scene
-from r37core.exchange.importing.source import MatricesSource, MeshSource, Where
-from r37core.exchange.orientation import Orientation
+from r37core.contact.scene import Lining
 from r37core.fem.material import Material
 from r37core.plain import PlainError, from_plain, to_plain
-from r37core.rom.reduction_choice import BoundaryChoice, ReductionChoice, StressSubmesh
+from r37core.rom.reduction_choice import EVERYWHERE, ReductionChoice
 from r37core.speeds import RefinedRange, SpeedPlan
-from r37core.time_integration.integration_choice import IntegrationChoice
 
-LINING = Lining(5e-3, 8e9, 2e9, 15e6, 0.035)
-ORIENTATION = Orientation("mm", (0.0, 0.0, 1.0), (1.0, 0.0, 0.0), "negative")
-CONE = Where(limits=(("r", "at_least", 0.2),), cone=((0.0, 0.1), (0.2, 0.3)))
+LINING = defaults.Lining(5e-3, 8e9, 2e9, 15e6, 0.035)
+ORIENTATION = defaults.Orientation("mm", (0.0, 0.0, 1.0), (1.0, 0.0, 0.0), "negative")
+CONE = defaults.Where(limits=(("r", "at_least", 0.2),), cone_zr=((0.0, 0.1), (0.2, 0.3)))
+
+CASING = defaults.Casing(1e-3)
 
 JOBS_GET = [
-    Scene(Casing(5e-4), LINING, Friction(0.15)),
-    Scene(Casing(5e-4, cone_angle=0.1)),
-    IntegrationChoice(1e-7, 200, 64),
+    defaults.Scene(defaults.Casing(5e-4), LINING, defaults.Friction(0.15)),
+    defaults.Scene(defaults.Casing(5e-4, cone_angle=0.1)),
+    defaults.IntegrationChoice(1e-7, 200, 64),
     Material(180e9, 7800.0, 0.3),
-    ReductionChoice(BoundaryChoice(), (0.0, 900.0), 12, 1e-9, True, False, StressSubmesh(maximum_z=0.1), False),
+    ReductionChoice(defaults.BoundaryChoice(), (0.0, 900.0), 12, 1e-9, True, False, replace(EVERYWHERE, maximum_z=0.1), False),
     RefinementChoice((Window("1B", 12, 0.0, 0.1, 5.0),), 0.1, 0.2, 0.3, 0.4),
     SpeedPlan((900.0, 1000.0), (RefinedRange(900.0, 1.0, 50, 100),)),
-    MeshSource("blade.inp", ORIENTATION, Where("ROOT"), CONE),
-    MatricesSource("folder", ORIENTATION),
+    defaults.MeshSource("blade.inp", ORIENTATION, defaults.Where("ROOT"), CONE),
+    defaults.MatricesSource("folder", ORIENTATION),
 ]
 
 
@@ -82,9 +82,9 @@ EVERY = Every("one", LINING, {"a": (1, 2.5)}, [True], 1)
 
 def test_every_kind_of_field():
     assert from_plain(Every, to_plain(EVERY)) == EVERY
-    assert from_plain(Every, to_plain(replace(EVERY, either=Casing(1.0)))).either == Casing(1.0)
+    assert from_plain(Every, to_plain(replace(EVERY, either=CASING))).either == CASING
     assert from_plain(Every, to_plain(replace(EVERY, either=None))).either is None
-    assert from_plain(dict[str, Casing], {"a": to_plain(Casing(1.0))}) == {"a": Casing(1.0)}
+    assert from_plain(dict[str, Casing], {"a": to_plain(CASING)}) == {"a": CASING}
 
 
 @pytest.mark.parametrize(

@@ -4,6 +4,8 @@ import ast
 import os
 import re
 import tomllib
+from collections import Counter
+from graphlib import TopologicalSorter
 
 import pytest
 import yaml
@@ -95,3 +97,48 @@ def test_no_machine_paths(root):
         for file in root.glob(pattern):
             if file.is_file() and file.suffix in {"", ".md", ".yaml", ".smk", ".py"}:
                 assert not re.search(r"/(home|root|work|Users)/", file.read_text()), file
+
+
+def _modules(root):
+    """Dotted name -> file, of all modules of the package."""
+    source = root / "src"
+    return {
+        ".".join(file.relative_to(source).with_suffix("").parts).removesuffix(".__init__"): file
+        for file in source.rglob("*.py")
+    }
+
+
+def test_one_name_one_thing(root):
+    """Public classes and modules have names of their own; in a folder that is the name, as of a study, files may repeat."""
+    modules = _modules(root)
+    classes = Counter(
+        node.name
+        for file in modules.values()
+        for node in ast.parse(file.read_text()).body
+        if isinstance(node, ast.ClassDef) and not node.name.startswith("_")
+    )
+    twice = {name for name, number in classes.items() if number > 1}
+    assert len(twice) < 5, twice
+    stems = Counter(file.stem for name, file in modules.items() if file.stem != "__init__" and ".studies." not in name)
+    assert len([stem for stem, number in stems.items() if number > 1]) < 10
+
+
+def test_no_modules_import_each_other_in_a_circle(root):
+    """When a module is loaded, none of those that it imports waits for it; imports for type checkers alone do not count."""
+    modules = _modules(root)
+
+    def imported(name):
+        package = name if modules[name].name == "__init__.py" else name.rpartition(".")[0]
+        for node in ast.parse(modules[name].read_text()).body:
+            if isinstance(node, ast.Import):
+                yield from (alias.name for alias in node.names)
+            elif isinstance(node, ast.ImportFrom):
+                above = package.rsplit(".", node.level - 1)[0] if node.level else ""
+                module = ".".join(filter(None, (above, node.module)))
+                yield from (
+                    [f"{module}.{alias.name}" for alias in node.names if f"{module}.{alias.name}" in modules] or [module]
+                )
+
+    graph = {name: {one for one in imported(name) if one in modules and one != name} for name in modules}
+    assert "r37core.contact.casing" in graph["r37core.contact.scene"]
+    tuple(TopologicalSorter(graph).static_order())

@@ -8,6 +8,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 import xarray as xr
+from defaults import InteractionChoice
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -23,7 +24,6 @@ from r37core.adaptive.rounds import Round, first_round, measure, read_round, rou
 from r37core.config import ConfigError, load_settings
 from r37core.io import InputFileError
 from r37core.plain import from_plain, to_plain
-from r37core.results.interactions import InteractionChoice
 from r37core.speeds import RefinedRange, SpeedError, SpeedPlan, exact_text, plan_speeds
 from r37core.studies.refinement.report import compare, plain_grid, refinement_table, replay
 from r37core.time_integration.speed_file import write_speed

@@ -7,9 +7,8 @@ import numpy as np
 import pytest
 import xarray as xr
 from box_mesh import box_mesh
+from defaults import Casing, Friction, IntegrationChoice, Lining, Scene
 
-from r37core.contact.casing import Casing
-from r37core.contact.scene import Friction, Lining, Scene
 from r37core.dataset_file import hash_of_parts, write_dataset
 from r37core.fem.material import Material
 from r37core.io import InputFileError
@@ -19,7 +18,6 @@ from r37core.results.response import write_response
 from r37core.results.stress_recovery import StressRecovery
 from r37core.rom.reduced_model import RecoveryNodes, contact_model
 from r37core.speeds import SpeedError, plan_speeds
-from r37core.time_integration.integration_choice import IntegrationChoice
 from r37core.time_integration.speed_file import read_speed, write_speed
 from r37core.time_integration.speed_run import run_speed
 

@@ -5,12 +5,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import scipy.linalg as la
+from defaults import BoundaryChoice
 
 from r37core.fem.solver import lowest_modes
 from r37core.io import InputFileError
 from r37core.rom.craig_bampton import combine_columns, constraint_and_fixed_modes
 from r37core.rom.reduce import reduce_blade
-from r37core.rom.reduction_choice import BoundaryChoice, BoundaryError, boundary_nodes
+from r37core.rom.reduction_choice import BoundaryError, boundary_nodes
 from r37core.rom.rom_file import read_reduced_model, write_reduced_model
 
 SPEEDS = [0.0, 450.0, 1000.0, 1630.0, 2000.0]
@@ -44,7 +45,7 @@ def test_twenty_fixed_modes_bring_ten_frequencies_within_1e_4(matrices, rich_mod
 
 def test_columns_are_counted(model, choice):
     assert model.columns == 3 * (8 * 3 + 10) == 102
-    assert model.size == np.sum(model.singular_values > choice.tolerance * model.singular_values[0])
+    assert model.size == np.sum(model.singular_values > choice.basis_tolerance * model.singular_values[0])
     assert 60 < model.size <= 102
 
 
@@ -85,7 +86,7 @@ def test_order_and_scale_of_columns_do_not_matter(matrices, mesh, model, choice)
     shuffled = columns[:, generator.permutation(102)] * 10.0 ** generator.uniform(-6.0, 6.0, 102)
 
     def frequencies(some_columns):
-        vectors = combine_columns(sets[0][0], some_columns, mass, dofs, choice.tolerance).vectors
+        vectors = combine_columns(sets[0][0], some_columns, mass, dofs, choice.basis_tolerance).vectors
         reduced = vectors.T @ (stiffness @ vectors) + 1500.0**2 * (vectors.T @ (geometric @ vectors))
         return np.sqrt(la.eigh(reduced, vectors.T @ (mass @ vectors), eigvals_only=True)[:10])
 
@@ -111,7 +112,7 @@ def test_rotation_terms_only_when_asked(mesh, matrices, choice, model, tmp_path)
     again = read_reduced_model(tmp_path / "rom.nc")
     assert again.spin_softening is None and again.coriolis is None and again.whole_blade is None
     full = reduce_blade(
-        mesh, matrices, replace(choice, spin_softening=True, coriolis=True, whole_blade=True, fixed_interface_modes=20)
+        mesh, matrices, replace(choice, spin_softening=True, coriolis=True, recover_whole_blade=True, fixed_interface_modes=20)
     )
     assert full.whole_blade.basis.shape == (len(mesh.points), 3, full.size)
     stiffness = matrices.stiffness() + 1500.0**2 * (matrices.geometric_stiffness() + matrices.spin_softening())

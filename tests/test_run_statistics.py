@@ -4,11 +4,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from defaults import Casing, IntegrationChoice, Scene
 from integration_cases import DIRECT, LINING, oscillator
 
-from r37core.contact.casing import Casing
-from r37core.contact.scene import Scene
-from r37core.time_integration.integration_choice import IntegrationChoice
 from r37core.time_integration.problem import Problem, UnstableStepError
 from r37core.time_integration.simulate import Simulation
 from r37core.time_integration.speed_run import run_speed

@@ -5,7 +5,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+import pyvista
 from box_mesh import box_mesh
+from defaults import MatricesSource, MeshSource, Orientation, Where
 
 from r37core.blade.profile import BladeShapeError
 from r37core.blade.sense import check_profile_sense, sense_of_profile
@@ -14,11 +16,12 @@ from r37core.exchange.exporting.matrices_out import write_reduced_matrices
 from r37core.exchange.exporting.write_mesh import write_mesh
 from r37core.exchange.importing.import_mesh import import_mesh
 from r37core.exchange.importing.matrices_in import import_matrices
-from r37core.exchange.importing.source import MatricesSource, MeshSource, Where
 from r37core.exchange.importing.tip import check_sense_of_nodes
-from r37core.exchange.orientation import OURS, Orientation
+from r37core.exchange.orientation import OURS
 from r37core.exchange.refusal import ImportRefused, MeshWarning
+from r37core.figures.blade_shapes import draw_blade_shapes
 from r37core.mesh.generate import generate_mesh
+from r37core.mesh.mesh_files import write_vtu
 
 UPSTREAM = (0.0, 0.0, -1.0)
 ANGLES = r"leading edge at [-+]\d+\.\d degrees and its trailing edge at [-+]\d+\.\d degrees .* \(stagger -6\d\.\d degrees\)"
@@ -35,7 +38,7 @@ BLADES = ["Ref", "CS100", *(pytest.param(name, marks=pytest.mark.slow) for name 
 def exported(request, settings, tmp_path_factory):
     """One blade of the benchmark as another program has it."""
     folder = tmp_path_factory.mktemp(request.param)
-    mesh = generate_mesh(settings.blades[request.param].definition.build(), 600, 1, 8, folder / "ours.msh")
+    mesh = generate_mesh(settings.blades[request.param].definition.build(round_edges=True), 600, 1, 8, folder / "ours.msh")
     write_mesh(mesh, folder / "blade.msh")
     return folder / "blade.msh"
 
@@ -136,7 +139,7 @@ def test_nodes_that_tell_nothing(points, what):
 
 def test_a_table_tells_the_stagger_of_its_blade(settings):
     definition = settings.blades["Ref"].definition
-    for row, profile in zip(definition.profiles, definition.build().profiles, strict=True):
+    for row, profile in zip(definition.profiles, definition.build(round_edges=True).profiles, strict=True):
         assert sense_of_profile(row).stagger == pytest.approx(profile.stagger, abs=np.radians(1.0))
 
 
@@ -164,3 +167,16 @@ def test_a_mirrored_table(config_copy):
     blades.write_text(blades.read_text().replace("\nRef:\n", "\nRef:\n  sense_check: false\n"))
     # blades with this base have the same table
     assert set(read_settings(config_copy).blades) >= {"Ref", "CS100"}
+
+
+def test_the_picture_of_a_blade_names_the_side_in_view(mesh, tmp_path, monkeypatch):
+    named = []
+    monkeypatch.setattr(pyvista.Plotter, "add_point_labels", lambda self, points, labels, **how: named.append(labels))
+    swapped = mesh.node_sets | {
+        "tip_pressure_edge": mesh.node_set("tip_suction_edge"),
+        "tip_suction_edge": mesh.node_set("tip_pressure_edge"),
+    }
+    for name, shown in {"ours": mesh, "swapped": replace(mesh, node_sets=swapped)}.items():
+        write_vtu(shown, tmp_path / f"{name}.vtu", np.ones(sum(map(len, mesh.blocks.values()))))
+    draw_blade_shapes({name: tmp_path / f"{name}.vtu" for name in ("ours", "swapped")}, tmp_path / "blades.png")
+    assert named == [["LE", "pressure side"], ["LE", "suction side"]]

@@ -25,7 +25,7 @@ from r37core.shapes.stills import draw_shapes
 
 @pytest.fixture(scope="module")
 def whole(mesh, matrices, choice):
-    return reduce_blade(mesh, matrices, replace(choice, whole_blade=True))
+    return reduce_blade(mesh, matrices, replace(choice, recover_whole_blade=True))
 
 
 def chunks(file):
@@ -165,10 +165,10 @@ def test_the_skin_is_closed(element):
     from r37core.shapes.moving import _skin
 
     box = box_mesh(0.3, 0.2, 0.1, (2, 2, 1), element=element)
-    skin = _skin(box)
-    edges = np.concatenate([skin.triangles[:, pair] for pair in ([0, 1], [1, 2], [2, 0])])
+    nodes, triangles = _skin(box)
+    edges = np.concatenate([triangles[:, pair] for pair in ([0, 1], [1, 2], [2, 0])])
     assert {tuple(edge) for edge in edges.tolist()} == {tuple(edge) for edge in edges[:, ::-1].tolist()}
-    a, b, c = np.moveaxis(box.points[skin.nodes][skin.triangles], 1, 0)
+    a, b, c = np.moveaxis(box.points[nodes][triangles], 1, 0)
     assert np.sum(a * np.cross(b, c)) / 6.0 == pytest.approx(0.3 * 0.2 * 0.1)
 
 

@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 import xarray as xr
 from box_mesh import box_mesh
+from defaults import Casing, IntegrationChoice, Scene
 from integration_cases import oscillator
 from scipy.optimize import brentq
 
+from r37core.config.si_fields import in_si
 from r37core.config.signal_section import GaugeEntry
-from r37core.contact.casing import Casing
-from r37core.contact.scene import Scene
 from r37core.dataset_file import read_dataset, write_dataset
 from r37core.exchange.importing.frame import blade_parameters
 from r37core.figures.spectrograms import draw_orders, draw_spectrograms
@@ -24,7 +24,6 @@ from r37core.signals.gauges import Gauge, gauge_points, gauge_rows
 from r37core.signals.orders import order_tracks, spectrogram, strongest_orders
 from r37core.signals.record import Record, record_signals, revolutions_of
 from r37core.signals.tip_timing import arrival_times
-from r37core.time_integration.integration_choice import IntegrationChoice
 from r37core.time_integration.simulate import Simulation
 from r37core.time_integration.speed_run import run_speed
 from r37core.time_integration.status import RunStatus
@@ -51,7 +50,7 @@ def test_a_gauge_in_uniaxial_tension(element, side):
 def test_angles_of_gauges_are_given_in_degrees():
     for degrees, radians in ((45.0, np.pi / 4), (-180.0, -np.pi), (90.0, np.pi / 2), (0.0, 0.0)):
         entry = GaugeEntry(chord=0.5, span=0.25, side="suction", angle_deg=degrees)
-        assert entry.gauge() == Gauge(0.5, 0.25, "suction", pytest.approx(radians, rel=1e-15))
+        assert in_si(Gauge, entry) == Gauge(0.5, 0.25, "suction", pytest.approx(radians, rel=1e-15))
 
 
 def test_the_sign_of_an_angle():
@@ -246,7 +245,7 @@ def scene(settings):
 
 def test_a_record_is_the_run_of_the_sweep(contact, scene, model):
     """The same numbers to the last digit; with gauges as without."""
-    choice = IntegrationChoice(4e-7, 4, 62, 31, 1, energy=True, integrator="exact_modal")
+    choice = IntegrationChoice(4e-7, 4, 62, "exact_modal", snapshots_per_revolution=31, snapshot_revolutions=1, energy=True)
     run = run_speed(contact, 1200.0, scene, choice, ("stress",), spectrum_highest_order=10, wear_angles=60)
     rows = np.eye(model.size)[:2]
     record = record_signals(contact, 1200.0, scene, choice, rows, 4)
@@ -363,7 +362,7 @@ def test_signals_are_drawn(dataset, tmp_path):
 
 @pytest.fixture(scope="module")
 def whole(mesh, matrices, choice):
-    return reduce_blade(mesh, matrices, replace(choice, whole_blade=True))
+    return reduce_blade(mesh, matrices, replace(choice, recover_whole_blade=True))
 
 
 def test_gauges_of_the_reduced_model(whole, mesh):

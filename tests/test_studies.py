@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import xarray as xr
+from defaults import IntegrationChoice
 from integration_cases import ABRADABLE, DIRECT
 from workflow_runs import snakemake
 
@@ -25,7 +26,6 @@ from r37core.studies.stability.report import judge
 from r37core.studies.tradeoff import cases as tradeoff
 from r37core.studies.tradeoff.cases import PARAMETERS, vary
 from r37core.studies.tradeoff.report import QUANTITIES, exponent_of, gather_cases, level_error, parameter_tables
-from r37core.time_integration.integration_choice import IntegrationChoice
 from r37core.time_integration.simulate import Simulation
 
 
@@ -188,12 +188,15 @@ def test_a_silent_wrong_number_is_not_accepted(judged, monkeypatch):
 def test_a_case_is_plain_data():
     lined = replace(ABRADABLE, friction=None)
     case = case_of(IntegrationChoice(2e-7, 4, 62), lined, crossing=("1B", 4), history_speeds=None)
-    for one in (case, replace(case, model=ModelChoice(5000, 8, 10), scene=None, refused="why")):
+    for one in (case, replace(case, model=ModelChoice(5000, 8, 10, False, "camber", corners=True), scene=None, refused="why")):
         assert from_plain(Case, json.loads(json.dumps(to_plain(one)))) == one
 
 
 def test_a_model_has_the_name_of_its_choice():
-    for choice in (ModelChoice(5000, 8, 0), ModelChoice(1500, 2, 10, True, "camber", corners=False)):
+    for choice in (
+        ModelChoice(5000, 8, 0, False, "pressure_edge", corners=True),
+        ModelChoice(1500, 2, 10, True, "camber", corners=False),
+    ):
         assert re.fullmatch(MODEL_NAME, choice.name)
         assert model_of_name(choice.name) == choice
 

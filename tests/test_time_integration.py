@@ -4,13 +4,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from defaults import Casing, Friction, IntegrationChoice, Lining, Scene
 from integration_cases import ABRADABLE, AT_ONCE, DIRECT, LINING, oscillator, random_model
 
-from r37core.contact.casing import Casing, casing_axes
-from r37core.contact.scene import Friction, Lining, Scene
+from r37core.contact.casing import casing_axes
 from r37core.rom.contact_model import read_contact_model, write_contact_model
 from r37core.rom.reduced_model import contact_model
-from r37core.time_integration.integration_choice import IntegrationChoice
 from r37core.time_integration.integrators import INTEGRATORS
 from r37core.time_integration.problem import Problem, UnstableStepError
 from r37core.time_integration.simulate import Simulation

@@ -149,7 +149,7 @@ rule campbell_of_blade:
     resources:
         **needs.of("campbell_of_blade"),
     params:
-        campbell=plain(settings.campbell),
+        campbell=si_fields(settings.campbell),
         maximum_speed=settings.structure.maximum_speed_rad_s,
         tip_line=settings.structure.boundary.tip_line,
         provenance=made.structure,

@@ -12,11 +12,8 @@ def main(snakemake):
     dataset = campbell_dataset(
         read_reduced_model(snakemake.input[0]),
         maximum_speed=params.maximum_speed,
-        speed_step=params.campbell["speed_step_rad_s"],
-        modes=params.campbell["modes"],
-        highest_engine_order=params.campbell["highest_engine_order"],
-        largest_tangential_displacement=params.campbell["largest_tangential_displacement_m"],
         tip_line=params.tip_line,
+        **params.campbell,
     )
     write_dataset(dataset, snakemake.output[0], params.provenance)
 

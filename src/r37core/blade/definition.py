@@ -24,7 +24,7 @@ class BladeDefinition:
     stacking: tuple[tuple[float, float, float], ...] | None = None
     chordwise_sweep_angle: float | None = None
 
-    def build(self, round_edges: bool = True) -> Blade:
+    def build(self, round_edges: bool) -> Blade:
         """Build the blade; BladeShapeError, with the blade's name, where the shape is impossible."""
         try:
             profiles = [Profile(parameters) for parameters in self.profiles]

@@ -12,34 +12,32 @@ from pathlib import Path
 import numpy as np
 
 from r37core.text_file import read_text
+from r37core.units import si_name
 
 from .profile import BladeShapeError, ProfileParameters
-
-_CENTIMETRE = 0.01
-_DEGREE = np.pi / 180.0
 
 _LARGEST_SWEEP, _LARGEST_LEAN = 1.0, 0.5 * np.pi
 
 PROFILE_COLUMNS = {
-    "span_percent": ("span", 0.01),
-    "r_ic_cm": ("inlet_radius", _CENTIMETRE),
-    "r_oc_cm": ("outlet_radius", _CENTIMETRE),
-    "kappa_ic_deg": ("inlet_angle", _DEGREE),
-    "kappa_tc_deg": ("transition_angle", _DEGREE),
-    "kappa_oc_deg": ("outlet_angle", _DEGREE),
-    "t_i_cm": ("inlet_thickness", _CENTIMETRE),
-    "t_m_cm": ("maximum_thickness", _CENTIMETRE),
-    "t_o_cm": ("outlet_thickness", _CENTIMETRE),
-    "z_mc_cm": ("maximum_thickness_axial", _CENTIMETRE),
-    "z_tc_cm": ("transition_axial", _CENTIMETRE),
-    "z_oc_cm": ("outlet_axial", _CENTIMETRE),
+    "span_percent": "span",
+    "r_ic_cm": "inlet_radius",
+    "r_oc_cm": "outlet_radius",
+    "kappa_ic_deg": "inlet_angle",
+    "kappa_tc_deg": "transition_angle",
+    "kappa_oc_deg": "outlet_angle",
+    "t_i_cm": "inlet_thickness",
+    "t_m_cm": "maximum_thickness",
+    "t_o_cm": "outlet_thickness",
+    "z_mc_cm": "maximum_thickness_axial",
+    "z_tc_cm": "transition_axial",
+    "z_oc_cm": "outlet_axial",
 }
-"""Column of a profile table -> (attribute of ProfileParameters, factor to SI)."""
+"""Column of a profile table -> attribute of ProfileParameters."""
 
 _NUMBER = re.compile(r"[-+]?(nan|inf|infinity|(\.[0-9]+|[0-9]+(\.[0-9]*)?)(e[-+]?[0-9]+)?)", re.IGNORECASE)
 
-STACKING_COLUMNS = {"span_percent": 0.01, "sweep_cm": _CENTIMETRE, "lean_deg": _DEGREE}
-"""Column of a sweep and lean table -> factor to SI."""
+STACKING_COLUMNS = ("span_percent", "sweep_cm", "lean_deg")
+"""Columns of a sweep and lean table."""
 
 
 def read_profile_table(file: Path) -> list[ProfileParameters]:
@@ -49,9 +47,7 @@ def read_profile_table(file: Path) -> list[ProfileParameters]:
     impossible rows and profiles that cross; TextFileError for a file that is no UTF-8 text.
     """
     rows = _read_rows(file, PROFILE_COLUMNS)
-    profiles = [
-        ProfileParameters(**{name: row[column] * factor for column, (name, factor) in PROFILE_COLUMNS.items()}) for row in rows
-    ]
+    profiles = [ProfileParameters(**{name: _in_si(row, column) for column, name in PROFILE_COLUMNS.items()}) for row in rows]
     if len(profiles) > 1 and profiles[0].span > profiles[-1].span:
         profiles.reverse()
     if len(profiles) < 4:
@@ -98,24 +94,21 @@ def stacking_rows(rows: Sequence[dict]) -> tuple[tuple[float, float, float], ...
 
     Raises BladeShapeError for spans out of order or not reaching 0 and 100%.
     """
-    table = tuple(
-        (
-            float(row["span_percent"]) * STACKING_COLUMNS["span_percent"],
-            float(row["sweep_cm"]) * STACKING_COLUMNS["sweep_cm"],
-            float(row["lean_deg"]) * STACKING_COLUMNS["lean_deg"],
-        )
-        for row in rows
-    )
+    table = tuple((_in_si(row, "span_percent"), _in_si(row, "sweep_cm"), _in_si(row, "lean_deg")) for row in rows)
     if len(table) < 2:
         raise BladeShapeError("a sweep and lean table needs at least two rows, for 0 and 100% span")
     check_spans([row[0] for row in table])
     for span, sweep, lean in table:
         if abs(sweep) > _LARGEST_SWEEP or abs(lean) >= _LARGEST_LEAN:
             raise BladeShapeError(
-                f"span {100 * span:g}%: found a sweep of {sweep / _CENTIMETRE:g} cm and a lean of {lean / _DEGREE:g} degrees; "
+                f"span {100 * span:g}%: found a sweep of {100 * sweep:g} cm and a lean of {np.degrees(lean):g} degrees; "
                 "allowed: up to 100 cm, less than 90 degrees"
             )
     return table
+
+
+def _in_si(row: dict, column: str) -> float:
+    return float(row[column]) * (si_name(column)[1] or 1.0)
 
 
 def check_spans(spans: Sequence[float]) -> None:

@@ -6,6 +6,7 @@ from .errors import ConfigError
 from .reading import load_settings, read_settings, settings_of_run
 from .scenes import SceneEntry
 from .settings import SceneSettings, Settings, checked_scene, plain
+from .si_fields import si_fields
 
 __all__ = [
     "BladeSettings",
@@ -21,4 +22,5 @@ __all__ = [
     "read_document",
     "read_settings",
     "settings_of_run",
+    "si_fields",
 ]

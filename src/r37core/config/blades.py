@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -26,6 +25,8 @@ from .errors import ConfigError
 from .imported_entry import MatricesEntry, MeshEntry
 from .material_section import MaterialSection
 from .section import FileName, LeftOut, Name, Section, Unique, check_names, refused
+from .si_fields import in_si, si_fields
+from .submesh import stress_region
 
 Table = TypeVar("Table")
 
@@ -181,7 +182,7 @@ def blade_settings(name: str, entries: Mapping[str, Any], root: Path, document: 
             material.check_units()
         except ValueError as error:
             raise document.error((name, "material"), str(error)) from None
-        return BladeSettings(_source(entry, first, root, document), material, entry.stress_submesh.region())
+        return BladeSettings(_source(entry, first, root, document), material, stress_region(entry.stress_submesh))
     shift: dict[str, Any] = {}
     for link in chain:
         for key in SHIFTS:
@@ -217,12 +218,7 @@ def _material(chain: Sequence[str], entries: Mapping[str, Any], document: Docume
     missing = [key for key in MaterialSection.model_fields if key not in material]
     if missing:
         raise document.error((chain[-1], "material"), f"missing key {', '.join(missing)} (give it here or in the base)")
-    return fem_material.Material(
-        youngs_modulus=float(material["youngs_modulus_pa"]),
-        density=float(material["density_kg_m3"]),
-        poissons_ratio=float(material["poissons_ratio"]),
-        yield_stress=float(material["yield_stress_pa"]),
-    )
+    return in_si(fem_material.Material, MaterialSection(**material))
 
 
 def _inheritance(name: str, entries: Mapping[str, Any], document: Document) -> list[str]:
@@ -239,7 +235,7 @@ def _inheritance(name: str, entries: Mapping[str, Any], document: Document) -> l
 def _shift(blade: str, key: str, value: Any, root: Path, document: Document) -> dict[str, Any]:
     """Arguments of BladeDefinition for a sweep given in one of the three ways."""
     if key == "chordwise_sweep_deg":
-        return {"chordwise_sweep_angle": math.radians(value), "stacking": None}
+        return {"chordwise_sweep_angle": si_fields([(key, value)])["chordwise_sweep"], "stacking": None}
     if key == "stacking_table":
         rows = _table(value, blade, (blade, key), document, lambda: tables.read_stacking_table(root / value, blade))
     else:

@@ -14,10 +14,11 @@ from .fidelity import Reduction
 from .scenes import TipLine
 from .section import AllOrNames, FileName, LeftOut, Name, Section, Speed, refused
 from .shape_section import ShapeSection
+from .si_fields import in_si, si_fields
 from .signal_section import SignalSection
 from .speed_section import RpmList, SpeedList, SpeedRange, SpeedRule, refuse_both_units
 from .studies import Studies
-from .submesh import Submesh
+from .submesh import Submesh, stress_region
 
 
 class Boundary(Section):
@@ -47,15 +48,13 @@ class StructureSection(Section):
         Stress is recovered on `stress_submesh`, or where the section of this name says. Its basis is computed at rest, at half
         the maximum speed and at the maximum speed.
         """
-        return ReductionChoice(
-            boundary=BoundaryChoice(tip_line or self.boundary.tip_line, self.boundary.nodes, self.boundary.corners),
-            speeds=(0.0, 0.5 * self.maximum_speed_rad_s, float(self.maximum_speed_rad_s)),
-            fixed_interface_modes=size.fixed_interface_modes,
-            tolerance=size.basis_tolerance,
-            spin_softening=self.spin_softening,
-            coriolis=self.coriolis,
-            stress_submesh=stress_submesh or self.stress_submesh.region(),
-            whole_blade=self.recover_whole_blade,
+        return in_si(
+            ReductionChoice,
+            self,
+            boundary=in_si(BoundaryChoice, self.boundary, tip_line=tip_line or self.boundary.tip_line),
+            speeds=(0.0, 0.5 * self.maximum_speed_rad_s, self.maximum_speed_rad_s),
+            stress_submesh=stress_submesh or stress_region(self.stress_submesh),
+            **si_fields(size),
         )
 
 

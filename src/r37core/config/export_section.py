@@ -6,9 +6,8 @@ from typing import Annotated, Literal
 
 from pydantic import Discriminator, Field, Tag, model_validator
 
-from r37core.units import RAD_S
-
 from .section import LeftOut, Rpm, Section, Speed, Unique
+from .si_fields import si_fields
 from .speed_section import refuse_both_units
 
 ModeSpeed = Annotated[float, Field(ge=0, le=1e6)]
@@ -48,11 +47,9 @@ class ExportSection(Section):
             refuse_both_units("stress_speeds_rad_s", "stress_speeds_rpm")
         return self
 
-    def stress_speeds(self) -> list[float] | None:
+    def stress_speeds(self) -> tuple[float, ...] | None:
         """Speeds (rad/s) that are named; None for `worst` and `all`."""
-        if self.stress_speeds_rpm is not None:
-            return [speed * RAD_S["rpm"] for speed in self.stress_speeds_rpm]
-        return None if isinstance(self.stress_speeds_rad_s, str) else list(self.stress_speeds_rad_s)
+        return si_fields(self).get("stress_speeds")
 
     def only_worst(self) -> bool:
         """Whether the speed with the largest stress is written alone."""

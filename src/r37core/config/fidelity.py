@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from typing import Annotated, Literal
 
@@ -11,6 +10,7 @@ from pydantic import Field, RootModel, model_validator
 from r37core.time_integration.integration_choice import IntegrationChoice
 
 from .section import LeftOut, Name, Section, Speed, check_names, refused
+from .si_fields import in_si
 
 _LARGEST_SIGNAL = 2**31
 """Bytes of tip motion that one run may keep in memory."""
@@ -80,16 +80,13 @@ class TimeIntegration(Section):
 
     def choice(self) -> IntegrationChoice:
         """The time integration of this level, with the stress of the last revolution and the energy balance."""
-        return IntegrationChoice(
-            time_step=self.time_step_s,
-            revolutions=self.revolutions,
+        return in_si(
+            IntegrationChoice,
+            self,
             samples_per_revolution=self.samples_per_revolution,
             snapshots_per_revolution=self.stress_instants,
             snapshot_revolutions=1,
             energy=True,
-            highest_frequency=math.inf if self.highest_frequency_hz is None else self.highest_frequency_hz,
-            integrator=self.integrator,
-            engine=self.engine,
         )
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
@@ -13,6 +12,7 @@ from r37core.exchange.orientation import Orientation
 
 from .material_section import MaterialSection
 from .section import FileName, LeftOut, Section, refused
+from .si_fields import in_si
 from .submesh import ImportedSubmesh
 
 Direction = Annotated[list[Annotated[float, Field(ge=-1e9, le=1e9)]], Field(min_length=3, max_length=3)]
@@ -32,7 +32,7 @@ class SurfaceRule(Section):
     cone_zr_m: Annotated[list[MeridianPoint], Field(min_length=2, max_length=2)] | LeftOut = Field(
         default=None, description="two points [z, r] of the straight meridian that the faces lie on"
     )
-    tolerance_m: float = Field(default=Where.tolerance, gt=0, le=0.1)
+    tolerance_m: float = Field(default=1e-4, gt=0, le=0.1)
 
     @model_validator(mode="after")
     def _says_something(self) -> SurfaceRule:
@@ -49,11 +49,7 @@ class SurfaceRule(Section):
 
     def where(self) -> Where:
         """As the import takes it."""
-        cone = None
-        if self.cone_zr_m is not None:
-            (z0, r0), (z1, r1) = self.cone_zr_m
-            cone = ((float(z0), float(r0)), (float(z1), float(r1)))
-        return Where(limits=self._limits(), cone=cone, tolerance=self.tolerance_m)
+        return in_si(Where, self, limits=self._limits())
 
 
 SetOrRule = Annotated[
@@ -71,16 +67,14 @@ class Oriented(Section):
     rotation: Literal["positive", "negative"] = Field(
         description="positive: the rotor turns by the right hand about rotor_axis, negative: the other way"
     )
-    axis_point: Direction = Field(default=list(Orientation.axis_point), description="a point of the axis, in the file's unit")
+    axis_point: Direction = Field(default=[0.0, 0.0, 0.0], description="a point of the axis, in the file's unit")
     sense_check: bool = Field(
-        default=MeshSource.sense_check,
-        description="refuse a blade whose trailing edge would lead, or whose pressure side is convex",
+        default=True, description="refuse a blade whose trailing edge would lead, or whose pressure side is convex"
     )
 
     def orientation(self) -> Orientation:
         """As the import takes it."""
-        axis, radial, point = ((float(x), float(y), float(z)) for x, y, z in (self.rotor_axis, self.radial, self.axis_point))
-        return Orientation(self.length_unit, axis, radial, self.rotation, point)
+        return in_si(Orientation, self)
 
 
 class MeshEntry(Oriented):
@@ -94,33 +88,25 @@ class MeshEntry(Oriented):
         default="forward", description="forward: the pressure side looks towards the rotation, as in a compressor"
     )
     revolution_tolerance_m: float = Field(
-        default=MeshSource.revolution_tolerance, gt=0, le=0.1, description="how far the tip may be from a surface of revolution"
+        default=1e-4, gt=0, le=0.1, description="how far the tip may be from a surface of revolution"
     )
-    drop_free_nodes: bool = Field(
-        default=MeshSource.drop_free_nodes, description="leave out nodes of no solid element instead of refusing them"
-    )
+    drop_free_nodes: bool = Field(default=False, description="leave out nodes of no solid element instead of refusing them")
     minimum_scaled_jacobian: float = Field(
-        default=MeshSource.minimum_scaled_jacobian,
-        gt=0,
-        le=1,
-        description="meshes with elements below are refused; 1 is ideal, 0 folded",
+        default=0.02, gt=0, le=1, description="meshes with elements below are refused; 1 is ideal, 0 folded"
     )
     stress_submesh: ImportedSubmesh = ImportedSubmesh()
 
     def source(self, root: Path) -> MeshSource:
         """What to import, from the folder `root`; ImportRefused for a file that is not there or of another kind."""
-        source = MeshSource(
-            self.mesh,
-            self.orientation(),
-            _where(self.root),
-            _where(self.tip),
-            pressure_side_forward=self.pressure_side == "forward",
-            revolution_tolerance=self.revolution_tolerance_m,
-            drop_free_nodes=self.drop_free_nodes,
-            minimum_scaled_jacobian=self.minimum_scaled_jacobian,
-            sense_check=self.sense_check,
+        return in_si(
+            MeshSource,
+            self,
+            file=self.mesh,
+            orientation=self.orientation(),
+            root=_where(self.root),
+            tip=_where(self.tip),
+            digest=digest_of(mesh_files(self.mesh, root)),
         )
-        return replace(source, digest=digest_of(mesh_files(self.mesh, root)))
 
 
 class MatricesEntry(Oriented):
@@ -133,9 +119,8 @@ class MatricesEntry(Oriented):
     def source(self, root: Path) -> MatricesSource:
         """What to import, from the folder `root`; ImportRefused where files are missing."""
         digest = digest_of(matrix_files(self.matrices, root).values())
-        units = self.mass_unit, self.stiffness_unit
-        return MatricesSource(self.matrices, self.orientation(), *units, self.sense_check, digest)
+        return in_si(MatricesSource, self, folder=self.matrices, orientation=self.orientation(), digest=digest)
 
 
 def _where(given: Any) -> Where:
-    return given.where() if isinstance(given, SurfaceRule) else Where(given)
+    return given.where() if isinstance(given, SurfaceRule) else Where(given, tolerance=0.0)

@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-import math
 from typing import Annotated, Literal
 
 from pydantic import Field, RootModel, model_validator
 
-from r37core.contact import casing as casing_shape
-from r37core.contact import scene as contact_scene
-from r37core.units import RAD_S
+from r37core.contact.casing import Casing
+from r37core.contact.scene import Friction, Lining, Scene
 
 from .section import LeftOut, Name, Rpm, Section, Speed, check_names, refused
+from .si_fields import in_si, si_fields
 from .speed_section import refuse_both_units
 
 TipLine = Literal["pressure_edge", "camber", "suction_edge"]
@@ -113,54 +112,16 @@ class SceneEntry(Section):
 
     def stress_history_speeds(self) -> tuple[float, ...]:
         """Speeds (rad/s) at which the largest stress of every revolution is kept."""
-        return (*self.stress_history_speeds_rad_s, *(speed * RAD_S["rpm"] for speed in self.stress_history_speeds_rpm))
+        return si_fields(self)["stress_history_speeds"]
 
-    def scene(self) -> contact_scene.Scene:
+    def scene(self) -> Scene:
         """The scene as the simulations take it."""
-        return contact_scene.Scene(
-            casing=self._casing(),
-            lining=self._lining(),
-            friction=self._friction(),
-            damping_ratio=self.damping_ratio,
-            exact_gap=self.gap == "exact",
-            divergence_limit=self.divergence_limit_m,
-        )
-
-    def _casing(self) -> casing_shape.Casing:
-        given = self.casing
-        return casing_shape.Casing(
-            clearance=given.clearance_m,
-            lobes=given.lobes,
-            width=given.width,
-            amplitude=given.amplitude_clearances,
-            rise_fraction=given.rise_fraction,
-            cone_angle=None if isinstance(given.cone_angle_deg, str) else math.radians(given.cone_angle_deg),
-        )
-
-    def _lining(self) -> contact_scene.Lining | None:
-        given = self.lining
-        if given is None:
-            return None
-        return contact_scene.Lining(
-            thickness=given.thickness_m,
-            elastic_modulus=given.elastic_modulus_pa,
-            plastic_modulus=given.plastic_modulus_pa,
-            yield_stress=given.yield_stress_pa,
-            bar_width=given.bar_width_m,
-            bars=given.bars,
-            shared_ring=given.rings == "shared",
-            bar_area=given.bar_area_m2,
-        )
-
-    def _friction(self) -> contact_scene.Friction | None:
-        given = self.friction
-        if given is None:
-            return None
-        return contact_scene.Friction(
-            coefficient=given.coefficient,
-            vector=given.form == "vector",
-            against_rotation=given.direction == "against_rotation",
-            coupled=given.coupling == "coupled",
+        return in_si(
+            Scene,
+            self,
+            casing=in_si(Casing, self.casing),
+            lining=self.lining and in_si(Lining, self.lining),
+            friction=self.friction and in_si(Friction, self.friction),
         )
 
 

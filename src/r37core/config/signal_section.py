@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-import math
 from typing import Annotated, Literal
 
 from pydantic import AfterValidator, Discriminator, Field, Tag, model_validator
 
-from r37core.signals.gauges import Gauge
-from r37core.units import RAD_S
-
 from .section import AllOrNames, LeftOut, Name, Rpm, Section, Speed, Unique, refused
+from .si_fields import si_fields
 from .speed_section import refuse_both_units
 
 SignalSpeeds = Annotated[
@@ -39,10 +36,6 @@ class GaugeEntry(Section):
         le=180,
         description="direction in the surface: 0 along the span, 90 towards the trailing edge",
     )
-
-    def gauge(self) -> Gauge:
-        """The gauge as the signals take it."""
-        return Gauge(self.chord, self.span, self.side, math.radians(self.angle_deg))
 
 
 class SignalSection(Section):
@@ -81,6 +74,5 @@ class SignalSection(Section):
 
     def speeds(self) -> list[float] | Literal["interactions"] | None:
         """Speeds (rad/s), ascending, or the word for those of interactions; None where no signals are asked for."""
-        if self.speeds_rpm is not None:
-            return sorted(speed * RAD_S["rpm"] for speed in self.speeds_rpm)
-        return sorted(map(float, self.speeds_rad_s)) if isinstance(self.speeds_rad_s, list) else self.speeds_rad_s
+        found = si_fields(self).get("speeds")
+        return sorted(found) if found else "interactions" if self.speeds_rad_s else None

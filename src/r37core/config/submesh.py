@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-import math
+from dataclasses import replace
 from typing import Annotated
 
 from pydantic import Field, model_validator
 
-from r37core.rom.reduction_choice import StressSubmesh
+from r37core.rom.reduction_choice import EVERYWHERE, StressSubmesh
 
 from .section import LeftOut, Section, refused
+from .si_fields import si_fields
 
 Coordinate = Annotated[float, Field(ge=-100, le=100)]
 Layers = Annotated[int, Field(ge=0, le=20)]
@@ -29,10 +30,6 @@ class Submesh(Section):
         check_height(self.minimum_z_m, self.maximum_z_m)
         return self
 
-    def region(self) -> StressSubmesh:
-        """As the reduced model takes it."""
-        return StressSubmesh(self.maximum_x_m, self.minimum_z_m, self.maximum_z_m, self.excluded_layers)
-
 
 class ImportedSubmesh(Section):
     """Where stress is recovered on a blade of another program: everywhere but near contact nodes and root, or in a box too."""
@@ -48,14 +45,10 @@ class ImportedSubmesh(Section):
             check_height(self.minimum_z_m, self.maximum_z_m)
         return self
 
-    def region(self) -> StressSubmesh:
-        """As the reduced model takes it."""
-        return StressSubmesh(
-            math.inf if self.maximum_x_m is None else self.maximum_x_m,
-            -math.inf if self.minimum_z_m is None else self.minimum_z_m,
-            math.inf if self.maximum_z_m is None else self.maximum_z_m,
-            self.excluded_layers,
-        )
+
+def stress_region(section: Submesh | ImportedSubmesh) -> StressSubmesh:
+    """As the reduced model takes it: a bound that is not given is none."""
+    return replace(EVERYWHERE, **si_fields(section))
 
 
 def check_height(minimum: float, maximum: float) -> None:

@@ -21,10 +21,10 @@ class Casing:
     """
 
     clearance: float
-    lobes: int = 2
-    width: float = 0.15
-    amplitude: float = 2.0
-    rise_fraction: float = 0.2
+    lobes: int
+    width: float
+    amplitude: float
+    rise_fraction: float
     cone_angle: float | None = None
 
     def shape(self, theta: np.ndarray) -> np.ndarray:

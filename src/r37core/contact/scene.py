@@ -23,8 +23,8 @@ class Lining:
     plastic_modulus: float
     yield_stress: float
     bar_width: float
-    bars: int = 10000
-    shared_ring: bool = False
+    bars: int
+    shared_ring: bool
     bar_area: float | None = None
 
     def area(self, radius: float) -> float:
@@ -42,9 +42,9 @@ class Friction:
     """
 
     coefficient: float
-    vector: bool = True
-    against_rotation: bool = True
-    coupled: bool = True
+    vector: bool
+    against_rotation: bool
+    coupled: bool
 
 
 @dataclass(frozen=True)
@@ -57,8 +57,8 @@ class Scene:
     """
 
     casing: Casing
-    lining: Lining | None = None
-    friction: Friction | None = None
-    damping_ratio: float = 0.0005
-    exact_gap: bool = False
-    divergence_limit: float = 0.1
+    lining: Lining | None
+    friction: Friction | None
+    damping_ratio: float
+    exact_gap: bool
+    divergence_limit: float

@@ -36,7 +36,7 @@ class Orientation:
     rotor_axis: tuple[float, float, float]
     radial: tuple[float, float, float]
     rotation: str
-    axis_point: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    axis_point: tuple[float, float, float]
 
     def check(self) -> None:
         """Raise ImportRefused where the two directions are none or parallel."""
@@ -127,5 +127,5 @@ class Orientation:
             )
 
 
-OURS = Orientation("m", (0.0, 0.0, 1.0), (1.0, 0.0, 0.0), "negative")
+OURS = Orientation("m", (0.0, 0.0, 1.0), (1.0, 0.0, 0.0), "negative", (0.0, 0.0, 0.0))
 """The blade's own frame."""

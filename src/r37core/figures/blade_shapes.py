@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
+import numpy as np
 import pyvista
 
 from r37core.io import readable
@@ -13,12 +15,16 @@ from .offscreen import look, new_plotter, save_picture
 
 
 def draw_blade_shapes(meshes: Mapping[str, Path | str], file: Path | str) -> None:
-    """Draw the meshes (blade name -> .vtu) side by side, coloured by the scaled Jacobian, into a PNG."""
+    """Draw the meshes (blade name -> .vtu) side by side, coloured by the scaled Jacobian, into a PNG.
+
+    An arrow shows the rotation; the leading edge and the side that is seen have their names.
+    """
     plotter = new_plotter(len(meshes), (260 * len(meshes), 420))
     for i, (name, mesh_file) in enumerate(meshes.items()):
         plotter.subplot(0, i)
         with readable(mesh_file):
-            surface = pyvista.read(mesh_file).extract_surface(nonlinear_subdivision=1, algorithm="dataset_surface")
+            grid = pyvista.read(mesh_file)
+            surface = grid.extract_surface(nonlinear_subdivision=1, algorithm="dataset_surface")
         last = i == len(meshes) - 1
         plotter.add_mesh(
             surface,
@@ -28,8 +34,33 @@ def draw_blade_shapes(meshes: Mapping[str, Path | str], file: Path | str) -> Non
             smooth_shading=True,
             split_sharp_edges=True,
             show_scalar_bar=last,
-            scalar_bar_args={"title": "scaled Jacobian", "width": 0.8, "position_x": 0.1} if last else None,
+            scalar_bar_args={"title": "scaled Jacobian", "width": 0.8, "position_x": 0.1, "n_labels": 2} if last else None,
         )
+        _mark_sense(plotter, grid)
         plotter.add_text(name, font_size=10)
         look(plotter)
     save_picture(plotter, file)
+
+
+def _mark_sense(plotter: pyvista.Plotter, grid: Any) -> None:
+    """An arrow along the rotation, towards negative theta, above the tip; names of the leading edge and of the side in view."""
+    height = float(np.ptp(grid.points[:, 0]))
+    leading, tip, pressure, suction = (
+        grid.points[np.flatnonzero(grid.point_data[name])].mean(axis=0)
+        for name in ("leading_edge", "tip", "tip_pressure_edge", "tip_suction_edge")
+    )
+    start = tip + height * np.array([0.12, 0.2, 0.0])
+    plotter.add_mesh(pyvista.Arrow(start=start, direction=(0.0, -1.0, 0.0), scale=0.5 * height), color="black")
+    # the camera looks from negative y
+    side = "pressure side" if pressure[1] < suction[1] else "suction side"
+    middle = grid.points.mean(axis=0)
+    plotter.add_point_labels(
+        np.array([leading, middle]),
+        ["LE", side],
+        font_size=10,
+        show_points=False,
+        always_visible=True,
+        shape=None,
+        justification_horizontal="center",
+        text_color="black",
+    )

@@ -7,8 +7,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-TIP_LINES = ("tip_pressure_edge", "tip_suction_edge", "tip_camber_line")
-NODE_SETS = ("root", "tip", *TIP_LINES, "leading_edge", "trailing_edge")
+TIP_LINES = {
+    "pressure_edge": "tip_pressure_edge",
+    "camber": "tip_camber_line",
+    "suction_edge": "tip_suction_edge",
+}
+"""Name of a line of the tip -> its node set."""
+
+NODE_SETS = ("root", "tip", "tip_pressure_edge", "tip_suction_edge", "tip_camber_line", "leading_edge", "trailing_edge")
 
 
 @dataclass(frozen=True)
@@ -64,4 +70,4 @@ def parametric_node_sets(parameters: np.ndarray) -> dict[str, np.ndarray]:
 
 def along_chord(nodes: np.ndarray, name: str, chord: np.ndarray) -> np.ndarray:
     """The nodes of the set `name`, from leading to trailing edge (by `chord` of all nodes) if it is a line of the tip."""
-    return nodes[np.argsort(chord[nodes], kind="stable")] if name in TIP_LINES else nodes
+    return nodes[np.argsort(chord[nodes], kind="stable")] if name in TIP_LINES.values() else nodes

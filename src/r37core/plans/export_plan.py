@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from r37core.blade.definition import BladeDefinition
+from r37core.config import si_fields
 from r37core.exchange.importing.source import MeshSource
 from r37core.exchange.orientation import OURS
 from r37core.plain import to_plain
@@ -41,11 +42,11 @@ class Exports:
     def choice(self) -> dict[str, Any]:
         """The section of config.yaml, with the speeds (rad/s) of modes and matrices."""
         settings = self.imported.settings
-        given, highest = settings.config.exports, float(settings.structure.maximum_speed_rad_s)
+        given, highest = settings.config.exports, settings.structure.maximum_speed_rad_s
         return {
             "formats": tuple(given.result_formats),
             "modes": given.modes,
-            "mode_speeds": tuple(map(float, given.mode_speeds_rad_s or (0.0, highest))),
+            "mode_speeds": si_fields(given).get("mode_speeds", (0.0, highest)),
             "matrix_speeds": (0.0, 0.5 * highest, highest),
             "spin_softening": settings.structure.spin_softening,
         }
@@ -60,7 +61,7 @@ class Exports:
     def reduction(self, wildcards: Any) -> dict[str, Any]:
         """What the model of the whole blade is made of: the sweep's, recovered everywhere."""
         choice = self.imported.settings.reduction_choice(wildcards.tip_line, wildcards.blade)
-        return to_plain(replace(choice, whole_blade=True))
+        return to_plain(replace(choice, recover_whole_blade=True))
 
     def orientation(self, wildcards: Any) -> Any:
         """Axes and unit in which results are written: those of an imported mesh, or the blade's own frame."""

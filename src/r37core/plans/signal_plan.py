@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-from r37core.plain import to_plain
+from r37core.config import si_fields
 
 from . import paths
 from .import_plan import Imported
@@ -34,7 +34,7 @@ class Signals:
     def gauges(self, wildcards: Any) -> dict[str, dict[str, Any]]:
         """Gauges of a blade as plain values; a blade given by matrices has none."""
         given = self._given.gauges if wildcards.blade in self.imported.with_mesh else {}
-        return to_plain({name: entry.gauge() for name, entry in given.items()})
+        return {name: si_fields(entry) for name, entry in given.items()}
 
     def inputs(self, wildcards: Any) -> dict[str, str]:
         """What signals are made from, with what gauges and the speeds of interactions need beside it."""

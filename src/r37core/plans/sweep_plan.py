@@ -9,7 +9,7 @@ from itertools import count
 from pathlib import Path
 from typing import Any
 
-from r37core.config import Settings, plain
+from r37core.config import Settings, si_fields
 from r37core.io import as_list, read_json
 from r37core.plain import to_plain
 from r37core.speeds import SpeedPlan, exact_text
@@ -93,9 +93,9 @@ class Sweep:
     @property
     def refinement_choice(self) -> dict[str, Any]:
         """What makes an interval of speeds worth halving, as fields of RefinementChoice."""
-        given = plain(self.settings.refinement)
-        windows = [{"step": window.pop("step_rad_s"), **window} for window in given.pop("windows")]
-        return {**given, "windows": windows, "prominence": self.settings.interactions.prominence}
+        given = self.settings.refinement
+        windows = [si_fields(window) for window in given.windows]
+        return {**si_fields(given), "windows": windows, "prominence": self.settings.interactions.prominence}
 
     def task(self, wildcards: Any) -> str:
         """What one simulation does, as JSON text."""

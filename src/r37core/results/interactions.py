@@ -34,9 +34,9 @@ class InteractionChoice:
     with the nearest crossing of any order.
     """
 
-    prominence: float = 0.1
-    below: float = 0.02
-    above: float = 0.06
+    prominence: float
+    below: float
+    above: float
 
     @property
     def span(self) -> float:

@@ -41,7 +41,7 @@ def multi_speed_basis(
     columns: list[np.ndarray] = []
     for speed in choice.speeds:
         columns += constraint_and_fixed_modes(stiffness_at(speed), mass, boundary_dofs, choice.fixed_interface_modes)
-    return combine_columns(columns[0], np.hstack(columns), mass, boundary_dofs, choice.tolerance)
+    return combine_columns(columns[0], np.hstack(columns), mass, boundary_dofs, choice.basis_tolerance)
 
 
 def combine_columns(

@@ -6,12 +6,12 @@ import numpy as np
 import scipy.sparse as sp
 
 from r37core.fem.matrices import StructuralMatrices
-from r37core.mesh.blade_mesh import BladeMesh
+from r37core.mesh.blade_mesh import TIP_LINES, BladeMesh
 
 from .craig_bampton import multi_speed_basis
 from .naming import ideal_shapes
 from .reduced_model import RecoveryNodes, ReducedModel
-from .reduction_choice import TIP_LINES, ReductionChoice, boundary_nodes
+from .reduction_choice import ReductionChoice, boundary_nodes
 
 
 def reduce_blade(mesh: BladeMesh, matrices: StructuralMatrices, choice: ReductionChoice) -> ReducedModel:
@@ -47,11 +47,11 @@ def reduce_blade(mesh: BladeMesh, matrices: StructuralMatrices, choice: Reductio
         tip_lines={line: recovery(mesh.node_set(name)) for line, name in TIP_LINES.items()},
         stress_submesh=recovery(stress_nodes),
         stress_elements={name: np.searchsorted(stress_nodes, nodes) for name, nodes in stress_blocks.items()},
-        whole_blade=recovery(np.arange(len(mesh.points))) if choice.whole_blade else None,
+        whole_blade=recovery(np.arange(len(mesh.points))) if choice.recover_whole_blade else None,
         shape_names=tuple(shapes),
         shape_products=np.array([shape @ mass_times_vectors for shape in shapes.values()]),
         shape_norms=np.array([np.sqrt(shape @ (mass @ shape)) for shape in shapes.values()]),
-        tolerance=choice.tolerance,
+        tolerance=choice.basis_tolerance,
         singular_values=basis.singular_values,
         quadratic_residual=_quadratic_residual(stiffness, per_square, vectors, max(choice.speeds)),
     )

@@ -6,14 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from r37core.mesh.blade_mesh import BladeMesh
-
-TIP_LINES = {
-    "pressure_edge": "tip_pressure_edge",
-    "camber": "tip_camber_line",
-    "suction_edge": "tip_suction_edge",
-}
-"""Name of a tip line in the configuration -> node set of the mesh."""
+from r37core.mesh.blade_mesh import TIP_LINES, BladeMesh
 
 
 class BoundaryError(ValueError):
@@ -27,9 +20,9 @@ class BoundaryChoice:
     With corners, node i of n lies at i/(n-1) of the chord; without, at (i + 1/2)/n.
     """
 
-    tip_line: str = "pressure_edge"
-    nodes: int = 8
-    corners: bool = True
+    tip_line: str
+    nodes: int
+    corners: bool
 
     @property
     def chord_positions(self) -> np.ndarray:
@@ -65,10 +58,10 @@ class StressSubmesh:
     as this number exceeds one: there a force on a single node and the clamping give stresses that grow with a finer mesh.
     """
 
-    maximum_x: float = np.inf
-    minimum_z: float = -np.inf
-    maximum_z: float = np.inf
-    excluded_layers: int = 0
+    maximum_x: float
+    minimum_z: float
+    maximum_z: float
+    excluded_layers: int
 
     def elements(self, mesh: BladeMesh, contact_nodes: np.ndarray) -> dict[str, np.ndarray]:
         """Nodes of the elements all of whose nodes qualify, by element type."""
@@ -88,6 +81,10 @@ class StressSubmesh:
         return chosen
 
 
+EVERYWHERE = StressSubmesh(np.inf, -np.inf, np.inf, 0)
+"""Stress on the whole blade but for the clamped elements."""
+
+
 @dataclass(frozen=True)
 class ReductionChoice:
     """What the reduced model is made of.
@@ -99,8 +96,8 @@ class ReductionChoice:
     boundary: BoundaryChoice
     speeds: tuple[float, ...]
     fixed_interface_modes: int
-    tolerance: float
+    basis_tolerance: float
     spin_softening: bool
     coriolis: bool
     stress_submesh: StressSubmesh
-    whole_blade: bool
+    recover_whole_blade: bool

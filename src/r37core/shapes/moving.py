@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
 
@@ -41,27 +40,19 @@ _LEFT_OUT = 0.01  # of the motion
 _SHOWN = 0.99  # of the nodes: the few at contact and clamping have stresses that grow with every finer mesh
 
 
-@dataclass(frozen=True)
-class _Skin:
-    """The outer surface between corner nodes: `nodes` of the mesh, shape (points,), and `triangles` that number them."""
-
-    nodes: np.ndarray
-    triangles: np.ndarray
-
-
 def write_mode_shapes(mesh: BladeMesh, model: ReducedModel, count: int, folder: Path) -> None:
     """Write the `count` lowest modes at rest: modes_0.vtu with modes.pvd, and mode_<name>.glb, which swings.
 
     Colours are the displacement as a share of its largest. The model must recover the whole blade.
     """
     write_modes(mesh, model, [0.0], count, Target(folder))
-    skin, modes = _skin(mesh), mode_shapes(model, 0.0, count)
+    (nodes, triangles), modes = _skin(mesh), mode_shapes(model, 0.0, count)
     times = np.linspace(0.0, _MODE_SECONDS, _MODE_STEPS + 1)
     swing = np.sin(2.0 * np.pi * times / _MODE_SECONDS)[:, None]
     entries = []
     for name, frequency, displacement in zip(modes.names, modes.frequencies, modes.displacement, strict=True):
         size = np.linalg.norm(displacement, axis=1)
-        target = displacement[skin.nodes] * (LARGEST_SHOWN * _height(mesh) / size.max())
+        target = displacement[nodes] * (LARGEST_SHOWN * _height(mesh) / size.max())
         about = {
             "shape": f"mode_{name}",
             "title": f"mode {name}, {frequency:.6g} Hz at rest",
@@ -69,9 +60,11 @@ def write_mode_shapes(mesh: BladeMesh, model: ReducedModel, count: int, folder: 
             "unit": "1",
             "largest_shown": 1.0,
         }
-        values = size[skin.nodes] / size.max()
-        surface = _surface(mesh, skin, values, target[None], times, swing, np.ones(1), about)
-        entries.append(_write(surface, folder))
+        values = size[nodes] / size.max()
+        colours = _colours(values, 1.0)
+        surface = MovingSurface(mesh.points[nodes], triangles, values, colours, target[None], times, swing, np.ones(1), about)
+        write_glb(surface, f"mode_{name}", folder / f"mode_{name}.glb")
+        entries.append(about)
     write_json(entries, folder / INDEX)
 
 
@@ -90,28 +83,33 @@ def write_worst_shapes(
     at the speeds. The model must recover the whole blade.
     """
     write_stress(mesh, model, material, instants, Target(folder))
-    skin, entries = _skin(mesh), []
+    (nodes, triangles), entries = _skin(mesh), []
     for speed, instant in instants.items():
         stress = von_mises(stress_of(mesh, model, material, instant)[1])
-        motion = displacement_of(model, instant.revolution)[:, skin.nodes]
+        motion = displacement_of(model, instant.revolution)[:, nodes]
         magnified = _round_down(LARGEST_SHOWN * _height(mesh) / np.linalg.norm(motion, axis=2).max())
         targets, weights = _few_targets(magnified * motion)
         # the last revolution begins anew where it ends
         weights = np.concatenate([weights, weights[:1]])
         times = np.linspace(0.0, _REVOLUTION_SECONDS, len(weights))
+        name = f"stress_{exact_text(speed)}"
+        largest = max(instant.largest, float(np.quantile(stress, _SHOWN)))
         about = {
-            "shape": f"stress_{exact_text(speed)}",
+            "shape": name,
             "title": f"{titles[speed]} at {speed:g} rad/s ({RPM * speed:.0f} rpm): largest von Mises stress of the submesh "
             f"{1e-6 * instant.largest:.0f} MPa; displacement {magnified:g} times as large",
             "quantity": "von Mises stress",
             "unit": "Pa",
-            "largest_shown": max(instant.largest, float(np.quantile(stress, _SHOWN))),
+            "largest_shown": largest,
             "speed_rad_s": speed,
             "magnification": magnified,
             "worst_s": float(times[instant.number]),
         }
-        surface = _surface(mesh, skin, stress[skin.nodes], targets, times, weights, weights[instant.number], about)
-        entries.append(_write(surface, folder))
+        at_rest = weights[instant.number]
+        colours = _colours(stress[nodes], largest)
+        surface = MovingSurface(mesh.points[nodes], triangles, stress[nodes], colours, targets, times, weights, at_rest, about)
+        write_glb(surface, name, folder / f"{name}.glb")
+        entries.append(about)
     write_json(entries, folder / INDEX)
 
 
@@ -130,35 +128,18 @@ def _few_targets(motion: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     return (shapes[:count] * scale[:, None]).reshape(count, *motion.shape[1:]), weights / scale
 
 
-def _surface(
-    mesh: BladeMesh,
-    skin: _Skin,
-    values: np.ndarray,
-    targets: np.ndarray,
-    times: np.ndarray,
-    weights: np.ndarray,
-    at_rest: np.ndarray,
-    about: dict[str, object],
-) -> MovingSurface:
-    share = np.clip(values / max(float(about["largest_shown"]), 1e-300), 0.0, 1.0)  # type: ignore[arg-type]
-    colours = colormaps[COLOUR_MAP](share)[:, :3]
-    return MovingSurface(mesh.points[skin.nodes], skin.triangles, values, colours, targets, times, weights, at_rest, about)
+def _colours(values: np.ndarray, largest: float) -> np.ndarray:
+    return colormaps[COLOUR_MAP](np.clip(values / max(largest, 1e-300), 0.0, 1.0))[:, :3]
 
 
-def _write(surface: MovingSurface, folder: Path) -> dict[str, object]:
-    """Write the file; what the index says of it."""
-    name = str(surface.about["shape"])
-    write_glb(surface, name, folder / f"{name}.glb")
-    return dict(surface.about)
-
-
-def _skin(mesh: BladeMesh) -> _Skin:
+def _skin(mesh: BladeMesh) -> tuple[np.ndarray, np.ndarray]:
+    """The outer surface between corner nodes: nodes of the mesh, shape (points,), and the triangles that number them."""
     corners = [part.nodes[:, : part.corners] for part in outer_faces(mesh.blocks)]
     triangles = [
         quad[:, split] for quad in corners for split in ([[0, 1, 2], [0, 2, 3]] if quad.shape[1] == 4 else [[0, 1, 2]])
     ]
     nodes, numbers = np.unique(np.concatenate(triangles), return_inverse=True)
-    return _Skin(nodes, numbers.reshape(-1, 3))
+    return nodes, numbers.reshape(-1, 3)
 
 
 def _height(mesh: BladeMesh) -> float:

@@ -21,9 +21,9 @@ class ModelChoice:
     nodes: int
     boundary_nodes: int
     fixed_interface_modes: int
-    whole_blade_stress: bool = False
-    tip_line: str = "pressure_edge"
-    corners: bool = True
+    whole_blade_stress: bool
+    tip_line: str
+    corners: bool
 
     @property
     def name(self) -> str:

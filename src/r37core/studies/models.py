@@ -13,13 +13,10 @@ from r37core.fem.matrices import assemble
 from r37core.mesh.generate import generate_mesh
 from r37core.rom.reduce import reduce_blade
 from r37core.rom.reduced_model import ReducedModel
-from r37core.rom.reduction_choice import BoundaryChoice, ReductionChoice, StressSubmesh
+from r37core.rom.reduction_choice import EVERYWHERE, BoundaryChoice, ReductionChoice
 
 from .case import ModelChoice
 from .costs import Stopwatch, peak_memory
-
-EVERYWHERE = StressSubmesh(np.inf, -np.inf, np.inf)
-"""Stress on the whole blade but for the clamped elements."""
 
 
 def tip_elements(nodes: int) -> int:

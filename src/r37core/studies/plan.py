@@ -134,6 +134,7 @@ def model_of_level(settings: Settings, level: str) -> ModelChoice:
         nodes=entry.mesh.nodes,
         boundary_nodes=boundary.nodes,
         fixed_interface_modes=entry.reduction.fixed_interface_modes,
+        whole_blade_stress=False,
         tip_line=boundary.tip_line,
         corners=boundary.corners,
     )

@@ -21,10 +21,10 @@ class IntegrationChoice:
     time_step: float
     revolutions: int
     samples_per_revolution: int
+    integrator: str
+    engine: str
     snapshots_per_revolution: int = 0
     snapshot_revolutions: int = 0
     energy: bool = False
     jumps: bool = True
     highest_frequency: float = float("inf")
-    integrator: str = "central_difference"
-    engine: str = "compiled"

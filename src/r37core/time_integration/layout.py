@@ -87,7 +87,7 @@ CASING = aligned_record(_numbers("clearance amplitude rise period width cosine s
 """Clearance and amplitude (m); rise rate times step; angle (rad) between lobes and their relative width; cone angle."""
 
 
-def problem(nodes: int) -> np.dtype:
+def complementarity_record(nodes: int) -> np.dtype:
     """The record of a complementarity problem of `nodes` nodes, whole vectors of them; see contact.complementarity."""
     groups = padded(nodes) // padded(1)
     return aligned_record(
@@ -124,7 +124,7 @@ def integration_record(layout: Layout) -> np.dtype:
             *_arrays("rotation", nodes),  # signed sliding in a step by the rotation (m)
             *_arrays("bar_position", nodes),  # angle at step 0, in bars
             *_arrays("radius theta shift", nodes),  # m; angle at step 0 and what vibration adds to it (rad)
-            ("problem", problem(nodes), ()),
+            ("problem", complementarity_record(nodes), ()),
             *_arrays("beyond on_casing", groups, kind=np.int64),
             # jumps over free flight: see time_integration.jump_plan
             *_arrays("jumps", STRIDES, 8, modes),

@@ -31,7 +31,7 @@ def write_full_matrices(
     boundary_nodes: np.ndarray,
     speeds: Sequence[float],
     folder: Path,
-    spin_softening: bool = False,
+    spin_softening: bool,
 ) -> None:
     """Write the full M and K_<speed> at `speeds` (rad/s) with boundary.csv.
 

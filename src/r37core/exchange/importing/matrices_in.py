@@ -71,7 +71,7 @@ def _reduced(given: _Given, choice: ReductionChoice) -> ReducedModel:
         basis = multi_speed_basis(
             lambda speed: sp.csr_array(given.stiffness + speed**2 * given.per_square), given.mass, boundary, choice
         )
-        vectors, tolerance, singular = basis.vectors, choice.tolerance, basis.singular_values
+        vectors, tolerance, singular = basis.vectors, choice.basis_tolerance, basis.singular_values
     mass, stiffness = projected(given.mass, vectors), projected(given.stiffness, vectors)
     _check_positive(mass, stiffness)
     shapes = _ideal_shapes(given)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
@@ -31,14 +31,14 @@ class Where:
     """A part of the surface: all faces whose nodes are in the set `set_name` or keep all the limits given.
 
     `limits`: (coordinate, bound, value in m) with coordinate r, x or z of the blade's frame and bound `at_least` or
-    `at_most`; `cone`: two points (z, r) in m of a straight meridian that the faces lie on; `tolerance` (m): of limits and
+    `at_most`; `cone_zr`: two points (z, r) in m of a straight meridian that the faces lie on; `tolerance` (m): of limits and
     cone.
     """
 
     set_name: str | None = None
     limits: tuple[tuple[str, str, float], ...] = ()
-    cone: tuple[tuple[float, float], tuple[float, float]] | None = None
-    tolerance: float = 1e-4
+    cone_zr: tuple[tuple[float, float], tuple[float, float]] | None = None
+    tolerance: float = field(kw_only=True)
 
     def faces(self, what: str, mesh: RawMesh, surface: list[Faces]) -> list[Faces]:
         """Faces of `surface`, the outer faces of `mesh`; ImportRefused, naming `what` is looked for, where there are none."""
@@ -57,8 +57,8 @@ class Where:
         if self.set_name is not None:
             return f"the set '{self.set_name}'"
         parts = [f"{name} {bound.replace('_', ' ')} {value:g} m" for name, bound, value in self.limits]
-        if self.cone is not None:
-            parts.append("the cone through (z, r) = ({:g}, {:g}) and ({:g}, {:g}) m".format(*self.cone[0], *self.cone[1]))
+        if self.cone_zr is not None:
+            parts.append("the cone through (z, r) = ({:g}, {:g}) and ({:g}, {:g}) m".format(*self.cone_zr[0], *self.cone_zr[1]))
         return f"{' and '.join(parts)}, to {self.tolerance:g} m"
 
     def _members(self, what: str, mesh: RawMesh) -> np.ndarray:
@@ -77,8 +77,8 @@ class Where:
         for name, bound, value in self.limits:
             sign = 1.0 if bound == "at_least" else -1.0
             members &= sign * (coordinates[name] - value) >= -self.tolerance
-        if self.cone is not None:
-            (z0, r0), (z1, r1) = self.cone
+        if self.cone_zr is not None:
+            (z0, r0), (z1, r1) = self.cone_zr
             length = np.hypot(z1 - z0, r1 - r0)
             off = ((coordinates["r"] - r0) * (z1 - z0) - (z - z0) * (r1 - r0)) / length
             members &= np.abs(off) <= self.tolerance
@@ -100,11 +100,11 @@ class MeshSource:
     orientation: Orientation
     root: Where
     tip: Where
-    pressure_side_forward: bool = True
-    revolution_tolerance: float = 1e-4
-    drop_free_nodes: bool = False
-    minimum_scaled_jacobian: float = 0.02
-    sense_check: bool = True
+    pressure_side_forward: bool
+    revolution_tolerance: float
+    drop_free_nodes: bool
+    minimum_scaled_jacobian: float
+    sense_check: bool
     digest: str = ""
 
 
@@ -117,9 +117,9 @@ class MatricesSource:
 
     folder: str
     orientation: Orientation
-    mass_unit: str = "kg"
-    stiffness_unit: str = "N/m"
-    sense_check: bool = True
+    mass_unit: str
+    stiffness_unit: str
+    sense_check: bool
     digest: str = ""
 
 

@@ -1,0 +1,136 @@
+"""Keys with units become fields in SI units, in one place, and no default of a key stands in the code a second time."""
+
+import ast
+import math
+import re
+
+import pytest
+from defaults import defaults_of
+
+from r37core.config import scenes, schemas, si_fields
+from r37core.config.section import Section
+from r37core.config.si_fields import WORDS, in_si
+from r37core.contact.casing import Casing
+from r37core.units import SUFFIXES
+
+IN_SI = {
+    "_m": (0.3, 0.3),
+    "_cm": (30.0, 0.3),
+    "_m2": (0.3, 0.3),
+    "_s": (0.3, 0.3),
+    "_hz": (0.3, 0.3),
+    "_pa": (0.3, 0.3),
+    "_kg_m3": (0.3, 0.3),
+    "_rad_s": (0.3, 0.3),
+    "_rpm": (60.0, 2.0 * math.pi),
+    "_deg": (90.0, 0.5 * math.pi),
+    "_percent": (30.0, 0.3),
+    "_clearances": (0.3, 0.3),
+}
+"""Suffix -> a number in its unit, and the same in that of the SI."""
+
+UNIT = re.compile(
+    r"_([kcmu]?m|in|ft|m?m[23]|k?g|t|m?s|min|k?hz|[kmg]?pa|k?n|j|w|rad|deg|rpm|rad_s|percent|kg_m3)$", re.IGNORECASE
+)
+"""Ends of names that a reader takes for a unit."""
+
+
+def sections(of=Section):
+    """All models of mappings of the configuration files."""
+    for kind in of.__subclasses__():
+        yield kind
+        yield from sections(kind)
+
+
+SECTIONS = {kind.__name__: kind for kind in sections() if kind.__module__.startswith("r37core") and kind.model_fields}
+
+
+def test_a_whole_number_is_converted_too():
+    """A model's default is not checked by it: 90 stays an integer."""
+    assert si_fields([("angle_deg", 90)]) == {"angle": 0.5 * math.pi}
+
+
+@pytest.mark.parametrize("suffix", SUFFIXES)
+def test_a_number_with_a_unit_becomes_one_of_the_si(suffix):
+    number, expected = IN_SI[suffix]
+    assert si_fields([(f"some{suffix}", number)]) == {"some": pytest.approx(expected, rel=1e-15)}
+    assert si_fields([(f"some{suffix}", [number, 0.0])])["some"] == (pytest.approx(expected, rel=1e-15), 0.0)
+
+
+def test_every_unit_of_a_key_is_known():
+    """A key that ends in a unit without a suffix of its own would reach its field under a wrong name."""
+    keys = {key for section in SECTIONS.values() for key in section.model_fields}
+    with_units = {key for key in keys if UNIT.search(key)}
+    assert {"clearance_m", "time_step_s", "density_kg_m3", "speeds_rpm", "cone_angle_deg"} <= with_units
+    assert not {key for key in with_units if not key.endswith(tuple(SUFFIXES))}
+    assert {suffix for suffix in SUFFIXES if any(key.endswith(suffix) for key in keys)} == set(SUFFIXES)
+
+
+def test_what_is_left_out_has_no_field():
+    assert si_fields([("bar_area_m2", None), ("cone_angle_deg", "tip"), ("bars", 7)]) == {"bars": 7}
+
+
+@pytest.mark.parametrize(("rad_s", "rpm", "speeds"), [([5.0], [], (5.0,)), ([], [30.0], (math.pi,)), ([], [], ())])
+def test_of_two_units_the_one_that_is_given_counts(rad_s, rpm, speeds):
+    assert si_fields([("speeds_rad_s", rad_s), ("speeds_rpm", rpm)]) == {"speeds": pytest.approx(speeds)}
+
+
+def test_a_dataclass_takes_its_fields_and_parts_made_otherwise():
+    section = scenes.CasingSection(clearance_m=1e-3, cone_angle_deg=-90.0 / 2)
+    assert in_si(Casing, section) == Casing(1e-3, 2, 0.15, 2.0, 0.2, -0.25 * math.pi)
+    assert in_si(Casing, section, cone_angle=None).cone_angle is None
+    with pytest.raises(TypeError, match="depth"):
+        in_si(Casing, section, depth=1.0)
+
+
+def test_words_for_yes_are_among_those_of_their_keys():
+    allowed = [schemas.MODELS[name].model_json_schema() for name in schemas.MODELS]
+    properties = [part["properties"] for one in allowed for part in one["$defs"].values() if "properties" in part]
+    for key, (_, word) in WORDS.items():
+        enums = [part[key]["enum"] for part in properties if key in part]
+        assert enums
+        assert all(word in enum and len(enum) == 2 for enum in enums)
+
+
+def literal(node):
+    try:
+        return ast.literal_eval(node)
+    except ValueError:
+        return None
+
+
+def defaults_in(tree):
+    """Name, value and line of the defaults of all dataclasses' fields and functions' parameters."""
+    for node in ast.walk(tree):
+        if isinstance(node, ast.ClassDef):
+            for line in node.body:
+                if isinstance(line, ast.AnnAssign) and line.value is not None:
+                    yield line.target.id, literal(line.value), line.lineno
+        elif isinstance(node, ast.FunctionDef):
+            named = [*node.args.posonlyargs, *node.args.args]
+            given = zip(reversed(named), reversed(node.args.defaults), strict=False)
+            for argument, value in [*given, *zip(node.args.kwonlyargs, node.args.kw_defaults, strict=True)]:
+                if value is not None:
+                    yield argument.arg, literal(value), value.lineno
+
+
+def test_no_default_of_a_key_stands_in_the_code_again(root):
+    """CONTRIBUTING.md: a number that a user may want to change has its default in a model, and nowhere else."""
+    keys = {(name, repr(value)) for section in SECTIONS.values() for name, value in defaults_of(section).items()}
+    keys |= {(name, repr(value)) for section in SECTIONS.values() for name, value in section_defaults(section)}
+    assert ("bars", "10000") in keys
+    assert ("round_edges", "True") in keys
+    core = root / "src/r37core"
+    found = [
+        f"{file.relative_to(core)}:{line}: {name} = {value!r}"
+        for file in core.rglob("*.py")
+        if "config" not in file.relative_to(core).parts and file.name != "kernel.py"
+        for name, value, line in defaults_in(ast.parse(file.read_text()))
+        if (name, repr(value)) in keys
+    ]
+    assert found == []
+
+
+def section_defaults(section):
+    """Keys with the defaults as they stand."""
+    return [(key, field.default) for key, field in section.model_fields.items() if field.default not in (None, ())]
