@@ -10,8 +10,8 @@ from scipy.interpolate import CubicSpline
 from r37core.blade.definition import BladeDefinition
 from r37core.blade.geometry_file import read_geometry, write_geometry
 from r37core.blade.profile import BladeShapeError, area_and_centroid
+from r37core.blade.profile_tables import read_profile_table
 from r37core.blade.stacking import chordwise_sweep, conical_stacking, plane_section_stacking, sweep_and_lean
-from r37core.blade.tables import read_profile_table
 
 PRINTED_AXIAL = [0, 0.0096, 0.0188, 0.0267, 0.0473, 0.0687, 0.0872, 0.0987, 0.1015, 0.1030, 0.1030]  # cm
 PRINTED_ROTATION = [

@@ -1,6 +1,7 @@
 """Figures: sizes that print as they are, one colour per blade everywhere, and what the new ones show."""
 
 import hashlib
+from functools import partial
 from pathlib import Path
 
 import matplotlib.pyplot as plt
@@ -17,6 +18,9 @@ from r37core.time_integration.status import RunStatus
 
 BLADES, SCENES = ["Ref", "L50", "S100"], ["abradable", "direct"]
 SPEEDS = np.arange(750.0, 2000.1, 25.0)
+
+
+draw_comparison = partial(comparison.draw_comparison, below=0.02, above=0.06)
 
 
 @pytest.fixture(scope="module")
@@ -72,7 +76,7 @@ def drawn(datasets):
     yield "spectrum", maps.draw_spectral_map(maps_of["spectrum"], of["campbell"], "Ref, abradable")
     yield "wear", maps.draw_wear_map(maps_of["wear"], of["campbell"], "Ref, abradable")
     yield "waterfall", waterfall.draw_waterfall(maps_of["spectrum"], of["campbell"], "Ref, abradable")
-    yield "comparison", comparison.draw_comparison(datasets["campbell"], lined["rms"], lined["stress"], "abradable")
+    yield "comparison", draw_comparison(datasets["campbell"], lined["rms"], lined["stress"], "abradable")
 
 
 def test_figures_print_on_a_page_with_letters_to_read(datasets):
@@ -111,7 +115,7 @@ def test_the_explorer_has_the_same_colours(root):
 
 def test_png_and_pdf_are_the_same_bytes_again(datasets, tmp_path):
     def digests(folder):
-        figure = comparison.draw_comparison(datasets["campbell"], datasets["rms"].sel(scene="direct"), None, "direct")
+        figure = draw_comparison(datasets["campbell"], datasets["rms"].sel(scene="direct"), None, "direct")
         files = [folder / f"a.{suffix}" for suffix in ("png", "pdf")]
         style.save(figure, files, "What is seen.")
         return [hashlib.sha256(Path(file).read_bytes()).hexdigest() for file in files]
@@ -121,10 +125,10 @@ def test_png_and_pdf_are_the_same_bytes_again(datasets, tmp_path):
 
 def test_blades_of_several_materials_have_a_yield_line_each(datasets):
     stress = datasets["stress"].sel(scene="abradable")
-    of_one = comparison.draw_comparison(datasets["campbell"], datasets["rms"].sel(scene="abradable"), stress, "abradable")
+    of_one = draw_comparison(datasets["campbell"], datasets["rms"].sel(scene="abradable"), stress, "abradable")
     assert yield_lines(of_one) == ([1.38], [])
     stress["yield_stress"] = ("blade", [1.38e9, 0.9e9, 1.38e9])
-    of_two = comparison.draw_comparison(datasets["campbell"], datasets["rms"].sel(scene="abradable"), stress, "abradable")
+    of_two = draw_comparison(datasets["campbell"], datasets["rms"].sel(scene="abradable"), stress, "abradable")
     assert yield_lines(of_two) == ([0.9, 1.38], ["L50", "Ref, S100"])
 
 
@@ -155,7 +159,7 @@ def test_comparison_takes_the_order_that_most_blades_meet(datasets):
 
 def test_comparison_is_over_each_blade_s_own_crossing(datasets):
     of_scene = {kind: datasets[kind].sel(scene="abradable") for kind in ("rms", "stress")}
-    figure = comparison.draw_comparison(datasets["campbell"], of_scene["rms"], of_scene["stress"], "abradable")
+    figure = draw_comparison(datasets["campbell"], of_scene["rms"], of_scene["stress"], "abradable")
     curves = {line.get_label(): line for line in figure.axes[0].lines if line.get_label() in BLADES}
     for blade, line in curves.items():
         x, y = line.get_data()
@@ -170,4 +174,4 @@ def test_nothing_run_is_drawn_as_nothing(datasets):
     empty = datasets["spectrum"].sel(blade="Ref", scene="direct").where(False)
     plt.close(waterfall.draw_waterfall(empty, datasets["campbell"].sel(blade="Ref"), "Ref, direct"))
     rms = datasets["rms"].sel(scene="direct", speed=[750.0, 775.0])
-    plt.close(comparison.draw_comparison(datasets["campbell"], rms, None, "direct"))
+    plt.close(draw_comparison(datasets["campbell"], rms, None, "direct"))

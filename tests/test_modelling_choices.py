@@ -8,7 +8,7 @@ import pytest
 import xarray as xr
 from defaults import Casing, IntegrationChoice, Scene
 
-from r37core.config.studies import SpeedSteps
+from r37core.config.study_sections import SpeedSteps
 from r37core.dataset_file import read_dataset
 from r37core.fem.material import Material
 from r37core.published import BLADES, INTERACTIONS

@@ -109,7 +109,7 @@ def _modules(root):
 
 
 def test_one_name_one_thing(root):
-    """Public classes and modules have names of their own; in a folder that is the name, as of a study, files may repeat."""
+    """Public classes, modules and scripts have names of their own; where the folder is the name, files may repeat."""
     modules = _modules(root)
     classes = Counter(
         node.name
@@ -119,8 +119,10 @@ def test_one_name_one_thing(root):
     )
     twice = {name for name, number in classes.items() if number > 1}
     assert len(twice) < 5, twice
-    stems = Counter(file.stem for name, file in modules.items() if file.stem != "__init__" and ".studies." not in name)
-    assert len([stem for stem, number in stems.items() if number > 1]) < 10
+    files = [*modules.values(), *(root / "workflow/scripts").glob("*.py")]
+    stems = Counter(file.stem for file in files if file.name != "__init__.py" and file.parent.parent.name != "studies")
+    twice = {stem for stem, number in stems.items() if number > 1}
+    assert len(twice) < 10, twice
 
 
 def test_no_modules_import_each_other_in_a_circle(root):

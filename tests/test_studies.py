@@ -2,7 +2,11 @@
 
 import json
 import re
+import subprocess
+import sys
 from dataclasses import replace
+from importlib import import_module
+from inspect import signature
 
 import numpy as np
 import pytest
@@ -13,13 +17,14 @@ from workflow_runs import snakemake
 
 from r37core.config import ConfigError, command_line_document, read_settings
 from r37core.config.fidelity import recommended_level
-from r37core.config.studies import Parameters
+from r37core.config.study_sections import Parameters
 from r37core.dataset_file import read_dataset
 from r37core.plain import from_plain, to_plain
 from r37core.results.measures import first_contact
 from r37core.studies.case import MODEL_NAME, Case, ModelChoice, changed, model_of_name
 from r37core.studies.estimate.cases import sample
 from r37core.studies.estimate.report import describe, project_costs
+from r37core.studies.plan import STUDIES
 from r37core.studies.runner import run_case
 from r37core.studies.stability.cases import extremes
 from r37core.studies.stability.report import judge
@@ -27,6 +32,28 @@ from r37core.studies.tradeoff import cases as tradeoff
 from r37core.studies.tradeoff.cases import PARAMETERS, vary
 from r37core.studies.tradeoff.report import QUANTITIES, exponent_of, gather_cases, level_error, parameter_tables
 from r37core.time_integration.simulate import Simulation
+
+
+def test_a_study_is_a_folder_and_one_runner_serves_all(root):
+    """Cases are light, reports are called alike, simulations are run in one module, and the product knows none of it."""
+    core = root / "src/r37core/studies"
+    assert {file.parent.name for file in core.glob("*/cases.py")} == set(STUDIES)
+    for study in STUDIES:
+        plan, told = (import_module(f"r37core.studies.{study}.{part}") for part in ("cases", "report"))
+        assert all(callable(getattr(plan, name)) for name in ("cases", "inputs", "outputs", "values"))
+        assert list(signature(told.report).parameters) == ["responses", "files", "values"]
+    runs = [file.name for file in core.rglob("*.py") if re.search(r"\b(run_speed|write_response)\(", file.read_text())]
+    assert runs == ["runner.py"]
+    workflow = [file for file in (root / "workflow").rglob("*.*") if "r37core.studies" in file.read_text()]
+    assert sorted(file.name for file in workflow) == ["studies.smk", "study.py", "study_case.py", "study_model.py"]
+
+
+def test_cases_are_planned_without_what_runs_them():
+    """The rules import the cases of all studies each time that Snakemake starts."""
+    modules = [f"r37core.studies.{study}.cases" for study in STUDIES]
+    code = f"import sys, {', '.join(modules)}; print(*{{'netCDF4', 'matplotlib', 'xarray', 'pyvista'}} & set(sys.modules))"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == ""
 
 
 def test_sample_stands_for_the_whole_range():

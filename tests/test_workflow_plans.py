@@ -9,10 +9,15 @@ import pytest
 
 from r37core.adaptive.criterion import RefinementChoice
 from r37core.config import ConfigError, command_line_document, read_settings
+from r37core.contact.scene import Scene
 from r37core.plain import from_plain
+from r37core.plans.import_plan import Imported
+from r37core.plans.paths import filled
 from r37core.plans.provenance import Provenance
+from r37core.plans.signal_plan import Signals
 from r37core.plans.structure_plan import Structure
 from r37core.plans.sweep_plan import Sweep
+from r37core.plans.targets import targets
 from r37core.speeds import SpeedPlan
 from r37core.studies.estimate import cases as estimate
 from r37core.studies.modelling_choices import cases as modelling_choices
@@ -154,8 +159,8 @@ def test_provenance(chosen):
     assert attributes["blade"] == "Ref"
     assert attributes["fidelity"] == "standard"
     assert attributes["numerics"] == "20000 nodes, exact_modal of 4e-07 s"
-    assert "Lining" not in attributes["scene_parameters"]
-    assert "Lining" in Provenance(chosen).sweep(REF)["scene_parameters"]
+    assert from_plain(Scene, json.loads(attributes["scene_parameters"])) == chosen.scenes["direct"].scene
+    assert json.loads(Provenance(chosen).sweep(REF)["scene_parameters"])["lining"]
 
 
 @pytest.mark.parametrize(
@@ -255,3 +260,23 @@ def test_estimate_samples_and_counts(chosen):
     assert len(samples) == 4
     assert estimate.values(chosen)["runs"]["Ref__abradable"] == 2
     assert set(samples["Ref__abradable"].speeds) <= {900.0, 1234.5}
+
+
+def test_targets_are_what_the_configuration_asks_for(config_copy):
+    few = {"blades": ["Ref"], "scenes": ["direct"], "speeds": [900]}
+    scenes = config_copy / "config/scenes.yaml"
+    scenes.write_text(scenes.read_text().replace("results: [spectrum, signal,", "results: [spectrum, signal, shapes,"))
+
+    def asked(**sections):
+        settings = read_settings(config_copy, command_line_document(few | sections))
+        sweep = Sweep(settings)
+        return {
+            file.removeprefix("<results>/") for file in filled(targets(sweep, Signals(Imported(settings, config_copy), sweep)))
+        }
+
+    without = asked()
+    assert {"rms.nc", "stress.nc", "spectrum.nc", "shapes/Ref.html", "figures/shapes_Ref__direct.png"} <= without
+    assert {"figures/response_Ref.png", "figures/waterfall_Ref__direct.pdf", "figures/comparison_direct.pdf"} <= without
+    assert not [file for file in without if "wear" in file or "design" in file or "signals" in file or "L50" in file]
+    figures = {f"figures/{kind}_Ref__direct.{suffix}" for kind in ("orders", "spectrogram") for suffix in ("png", "pdf")}
+    assert asked(signals={"speeds_rad_s": [900]}) - without == {"signals.nc", "Ref/direct/signals.nc", *figures}

@@ -8,7 +8,7 @@ REFERENCE = "Ref"
 
 
 @dataclass(frozen=True)
-class Interaction:
+class PublishedInteraction:
     """An interaction of 1B: Campbell speed, and the speed of the largest rms in the lined scene."""
 
     blade: str
@@ -23,16 +23,16 @@ class Interaction:
 
 
 INTERACTIONS = (
-    Interaction("Ref", 4, 1672.0, 1717.0),
-    Interaction("L50", 4, 1621.0, 1672.0),
-    Interaction("L100", 4, 1564.0, 1597.0),
-    Interaction("S50", 4, 1660.0, 1691.0),
-    Interaction("S100", 4, 1635.0, 1642.0),
-    Interaction("CS50", 4, 1532.0, 1589.0),
-    Interaction("CS100", 4, 1362.0, 1407.0),
-    Interaction("Ref", 5, 1213.0, 1264.0),
-    Interaction("Ref", 6, 965.0, 996.0),
-    Interaction("Ref", 7, 806.0, 838.0),
+    PublishedInteraction("Ref", 4, 1672.0, 1717.0),
+    PublishedInteraction("L50", 4, 1621.0, 1672.0),
+    PublishedInteraction("L100", 4, 1564.0, 1597.0),
+    PublishedInteraction("S50", 4, 1660.0, 1691.0),
+    PublishedInteraction("S100", 4, 1635.0, 1642.0),
+    PublishedInteraction("CS50", 4, 1532.0, 1589.0),
+    PublishedInteraction("CS100", 4, 1362.0, 1407.0),
+    PublishedInteraction("Ref", 5, 1213.0, 1264.0),
+    PublishedInteraction("Ref", 6, 965.0, 996.0),
+    PublishedInteraction("Ref", 7, 806.0, 838.0),
 )
 
 BLADES = tuple(one.blade for one in INTERACTIONS if one.engine_order == 4)

@@ -34,7 +34,7 @@ needs = Needs(settings, sweep.most_runs)
 
 
 def pictures(name, category, subcategory, figure):
-    """Outputs of a rule of figures: the PNG, which stands in the report, and the PDF."""
+    """Outputs of a figure: the PNG, which stands in the report, and the PDF."""
     shown_as = shown(TEXTS / "figure.rst", category, subcategory, figure=figure)
     return {"png": report(f"<results>/figures/{name}.png", **shown_as), "pdf": f"<results>/figures/{name}.pdf"}
 

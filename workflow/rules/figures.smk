@@ -104,7 +104,13 @@ use rule figure as comparison_figure with:
     resources:
         **needs.of("response_overview"),
     params:
-        **drawing(code, "comparison.draw_comparison", "comparison"),
+        **drawing(
+            code,
+            "comparison.draw_comparison",
+            "comparison",
+            below=settings.interactions.below,
+            above=settings.interactions.above,
+        ),
 
 
 rule blade_shapes_figure:

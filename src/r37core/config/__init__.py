@@ -1,8 +1,7 @@
 """Configuration: YAML files checked by models, and the settings made of them."""
 
 from .blades import BladeSettings
-from .document import Document, command_line_document, read_document
-from .errors import ConfigError
+from .document import ConfigError, Document, command_line_document, read_document
 from .reading import load_settings, read_settings, settings_of_run
 from .scenes import SceneEntry
 from .settings import SceneSettings, Settings, checked_scene, plain

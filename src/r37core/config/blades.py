@@ -9,7 +9,7 @@ from typing import Annotated, Any, Literal, TypeVar
 
 from pydantic import Discriminator, Field, RootModel, Tag, model_validator
 
-from r37core.blade import tables
+from r37core.blade import profile_tables
 from r37core.blade.definition import BladeDefinition
 from r37core.blade.profile import BladeShapeError, ProfileParameters
 from r37core.blade.sense import check_profile_sense
@@ -20,13 +20,11 @@ from r37core.rom.reduction_choice import StressSubmesh
 from r37core.speeds import spaced
 from r37core.text_file import TextFileError
 
-from .document import Document
-from .errors import ConfigError
+from .blade_sections import MaterialSection, stress_region
+from .document import ConfigError, Document
 from .imported_entry import MatricesEntry, MeshEntry
-from .material_section import MaterialSection
 from .section import FileName, LeftOut, Name, Section, Unique, check_names, refused
 from .si_fields import in_si, si_fields
-from .submesh import stress_region
 
 Table = TypeVar("Table")
 
@@ -196,7 +194,7 @@ def blade_settings(name: str, entries: Mapping[str, Any], root: Path, document: 
 
 
 def _profiles(file: Path, sense_check: bool) -> list[ProfileParameters]:
-    profiles = tables.read_profile_table(file)
+    profiles = profile_tables.read_profile_table(file)
     if sense_check:
         check_profile_sense(profiles[-1])
     return profiles
@@ -237,10 +235,10 @@ def _shift(blade: str, key: str, value: Any, root: Path, document: Document) -> 
     if key == "chordwise_sweep_deg":
         return {"chordwise_sweep_angle": si_fields([(key, value)])["chordwise_sweep"], "stacking": None}
     if key == "stacking_table":
-        rows = _table(value, blade, (blade, key), document, lambda: tables.read_stacking_table(root / value, blade))
+        rows = _table(value, blade, (blade, key), document, lambda: profile_tables.read_stacking_table(root / value, blade))
     else:
         try:
-            rows = tables.stacking_rows([row.model_dump() for row in value])
+            rows = profile_tables.stacking_rows([row.model_dump() for row in value])
         except BladeShapeError as error:
             raise document.error((blade, key), f"blade {blade}: {error}") from None
     return {"stacking": rows, "chordwise_sweep_angle": None}

@@ -9,16 +9,14 @@ from pydantic import AfterValidator, Field, model_validator
 
 from r37core.rom.reduction_choice import BoundaryChoice, ReductionChoice, StressSubmesh
 
-from .export_section import ExportSection
+from .blade_sections import Submesh, stress_region
 from .fidelity import Reduction
+from .output_sections import ExportSection, ShapeSection, SignalSection
 from .scenes import TipLine
 from .section import AllOrNames, FileName, LeftOut, Name, Section, Speed, refused
-from .shape_section import ShapeSection
 from .si_fields import in_si, si_fields
-from .signal_section import SignalSection
 from .speed_section import RpmList, SpeedList, SpeedRange, SpeedRule, refuse_both_units
-from .studies import Studies
-from .submesh import Submesh, stress_region
+from .study_sections import StudiesSection
 
 
 class Boundary(Section):
@@ -184,7 +182,7 @@ class Config(Section):
         "with fidelity auto it picks the level",
     )
     run: Run = Run()
-    studies: Studies = Studies()
+    studies: StudiesSection = StudiesSection()
     campbell: CampbellSection = CampbellSection()
     exports: ExportSection = ExportSection()
     shapes: ShapeSection = ShapeSection()

@@ -12,10 +12,13 @@ from pydantic import BaseModel, ValidationError
 from r37core.text_file import TextFileError
 from r37core.yaml_file import KeyPath, load_yaml_with_lines, scalar
 
-from .errors import ConfigError
 from .messages import explain, on_one_line
 
 Model = TypeVar("Model", bound=BaseModel)
+
+
+class ConfigError(ValueError):
+    """The message names the file, the line where there is one, the key, what was found and what is allowed."""
 
 
 @dataclass(frozen=True)

@@ -13,13 +13,12 @@ from pydantic import ValidationError
 from pydantic_core import PydanticCustomError
 
 from r37core.blade.profile import BladeShapeError
-from r37core.blade.tables import read_designs
+from r37core.blade.profile_tables import read_designs
 from r37core.speeds import exact_text
 from r37core.text_file import TextFileError
 
 from .blades import LARGEST_FAMILY, RESERVED, BladeEntry, Variation
-from .document import Document
-from .errors import ConfigError
+from .document import ConfigError, Document
 from .imported_entry import MatricesEntry, MeshEntry
 from .messages import explain
 from .section import check_name, check_names

@@ -10,10 +10,9 @@ from pydantic import Discriminator, Field, Tag, model_validator
 from r37core.exchange.importing.source import MatricesSource, MeshSource, Where, digest_of, matrix_files, mesh_files
 from r37core.exchange.orientation import Orientation
 
-from .material_section import MaterialSection
+from .blade_sections import ImportedSubmesh, MaterialSection
 from .section import FileName, LeftOut, Section, refused
 from .si_fields import in_si
-from .submesh import ImportedSubmesh
 
 Direction = Annotated[list[Annotated[float, Field(ge=-1e9, le=1e9)]], Field(min_length=3, max_length=3)]
 Length = Annotated[float, Field(ge=-100, le=100)] | LeftOut

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import hashlib
+import json
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass, replace
+from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 from typing import Any
@@ -13,6 +14,7 @@ from pydantic import BaseModel
 
 from r37core.contact.scene import Scene
 from r37core.exchange.importing.source import MatricesSource
+from r37core.plain import to_plain
 from r37core.rom.reduction_choice import ReductionChoice
 from r37core.speeds import SpeedError, SpeedPlan
 from r37core.time_integration.integration_choice import IntegrationChoice
@@ -24,7 +26,7 @@ from .families import Designs, Family
 from .fidelity import Level, recommended_level
 from .scenes import SceneEntry
 from .speed_section import UNITS, SpeedRule, key_of_speeds, planned
-from .studies import Studies
+from .study_sections import StudiesSection
 
 
 @dataclass(frozen=True)
@@ -84,7 +86,7 @@ class Settings:
         return self.config.refinement
 
     @property
-    def studies(self) -> Studies:
+    def studies(self) -> StudiesSection:
         """Studies of the model itself."""
         return self.config.studies
 
@@ -201,7 +203,7 @@ class Settings:
             "config": {key: value for key, value in plain(self.config).items() if key not in other_speeds},
             "fidelity": {self.fidelity_name: plain(self.fidelity)},
             "scenes": {name: plain(self.scene_entries[name]) for name in self.scenes},
-            "blades": {name: asdict(blade) for name, blade in self.blades.items()},
+            "blades": to_plain(self.blades),
         }
 
     @property
@@ -273,5 +275,5 @@ def checked_scene(entry: Mapping[str, Any]) -> Scene:
 
 
 def _short_hash(*parts: object) -> str:
-    """Hash of plain numbers, texts and frozen dataclasses, whose repr is exact."""
-    return hashlib.sha256(repr(parts).encode()).hexdigest()[:16]
+    """Hash of plain numbers, texts and frozen dataclasses."""
+    return hashlib.sha256(json.dumps(to_plain(parts)).encode()).hexdigest()[:16]

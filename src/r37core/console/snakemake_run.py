@@ -54,18 +54,14 @@ class Console:
             self.workflow.scheduler.job_rate_limiter = None
 
     def succeed(self) -> None:
-        """After the last job: lines after Snakemake's own last words, none where there is nothing to say."""
+        """After the last job: nothing is said where there is nothing to say."""
         lock.release()
-        atexit.register(
-            lambda: sys.stderr.writelines(
-                f"{line}\n" for line in [*failures.taken(), *closing_lines(self.settings.results, self.began, time.time())]
-            )
-        )
+        _say_last([*failures.taken(), *closing_lines(self.settings.results, self.began, time.time())])
 
     def fail(self) -> None:
-        """After a failure: Snakemake has a few words after this; what matters comes last."""
+        """After a failure: what matters comes last."""
         lock.release()
-        atexit.register(lambda: print("", *failures.taken(), sep="\n", file=sys.stderr))
+        _say_last(["", *failures.taken()])
 
 
 def begin(workflow: Any, logger: logging.Logger, refusal: Refusal) -> Console:
@@ -98,3 +94,8 @@ def _refused(refusal: Refusal) -> Iterator[None]:
         yield
     except ConfigError as error:
         raise refusal(str(error)) from None
+
+
+def _say_last(lines: list[str]) -> None:
+    """After Snakemake's own last words. The lines are made before: `--directory` is left by then."""
+    atexit.register(sys.stderr.writelines, [f"{line}\n" for line in lines])

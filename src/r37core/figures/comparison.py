@@ -9,9 +9,6 @@ from matplotlib.figure import Figure
 
 from . import style
 
-BELOW, ABOVE = 0.02, 0.06
-"""How far the picture reaches on both sides of a crossing, as shares of its speed."""
-
 
 def shared_order(campbell: xr.Dataset, low: float, high: float) -> int | None:
     """The engine order whose crossings with 1B most blades have between `low` and `high` (rad/s), of several the lowest.
@@ -23,10 +20,19 @@ def shared_order(campbell: xr.Dataset, low: float, high: float) -> int | None:
     return int(campbell["engine_order"].values[int(np.argmax(count))]) if count.max() else None
 
 
-def draw_comparison(campbell: xr.Dataset, rms: xr.Dataset, stress: xr.Dataset | None = None, title: str = "") -> Figure:
+def draw_comparison(
+    campbell: xr.Dataset,
+    rms: xr.Dataset,
+    stress: xr.Dataset | None = None,
+    title: str = "",
+    *,
+    below: float,
+    above: float,
+) -> Figure:
     """All blades in one scene about their crossing of 1B with the engine order that most of them meet.
 
-    Speeds are those above the crossing, as shares of it, for the crossings of the blades lie hundreds of rad/s apart.
+    Speeds are those above the crossing, as shares of it: the crossings of the blades lie hundreds of rad/s apart. The
+    picture reaches from `below` to `above` the crossing, as shares too: where peaks are looked for.
     """
     styles = style.blade_styles(rms["blade"].values)
     order = shared_order(campbell, float(rms["speed"].min()), float(rms["speed"].max()))
@@ -39,7 +45,7 @@ def draw_comparison(campbell: xr.Dataset, rms: xr.Dataset, stress: xr.Dataset | 
         for blade in values["blade"].values if order else []:
             crossing = float(campbell["crossing_speed"].sel(blade=blade, mode="1B", engine_order=order))
             curve = values.sel(blade=blade).dropna("speed")
-            curve = curve.sel(speed=slice((1.0 - BELOW) * crossing, (1.0 + ABOVE) * crossing))
+            curve = curve.sel(speed=slice((1.0 - below) * crossing, (1.0 + above) * crossing))
             if curve.size:
                 axes.plot(
                     100 * (curve["speed"] / crossing - 1.0),

@@ -7,6 +7,8 @@ from collections import UserDict
 from functools import cache
 from typing import TYPE_CHECKING, Any
 
+from r37core.plain import to_plain
+
 if TYPE_CHECKING:
     from r37core.config import Settings
 
@@ -54,7 +56,7 @@ class Provenance:
         return Attributes(
             self._structure(blade),
             scene=scene,
-            scene_parameters=repr(chosen.scene),
+            scene_parameters=json.dumps(to_plain(chosen.scene)),
             revolutions=chosen.revolutions,
             largest_time_step=steps.time_step_s,
             numerics=f"{self._settings.fidelity.mesh.nodes} nodes, {steps.integrator} of {steps.time_step_s:g} s",

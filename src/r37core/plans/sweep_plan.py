@@ -117,14 +117,6 @@ class Sweep:
         """The scene: what the blade meets."""
         return to_plain(self._scene(wildcards).scene)
 
-    def scene(self, wildcards: Any) -> Any:
-        """The scene itself, which Snakemake does not compare."""
-        return self._scene(wildcards).scene
-
-    def described(self, wildcards: Any) -> str:
-        """The scene as a text, which re-runs a job when it changes."""
-        return repr(self._scene(wildcards).scene)
-
     def results(self, wildcards: Any) -> tuple[str, ...]:
         """What is wanted of a blade and scene."""
         return self.settings.results_of(wildcards.blade, wildcards.scene)

@@ -12,8 +12,8 @@ from r37core.fem.surface import nodes_of, outer_faces
 from r37core.mesh.blade_mesh import NODE_SETS, BladeMesh
 
 from .abaqus_reader import read_abaqus
-from .checks import checked, without_free_nodes
 from .frame import blade_parameters
+from .mesh_checks import checked, without_free_nodes
 from .meshio_reader import read_ansys, read_nastran, read_with_meshio
 from .raw_mesh import RawMesh
 from .source import MeshSource, mesh_files

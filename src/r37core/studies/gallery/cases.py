@@ -7,7 +7,7 @@ from typing import Any
 
 from r37core.config import ConfigError, Settings
 from r37core.plans import paths
-from r37core.published import BLADES, DIRECT_PEAK, INTERACTIONS, QUIET, REFERENCE, Interaction
+from r37core.published import BLADES, DIRECT_PEAK, INTERACTIONS, QUIET, REFERENCE, PublishedInteraction
 
 from ..case import Case, SweptPeak
 from ..plan import case_of_sweep
@@ -82,7 +82,7 @@ def runs_of_sweep() -> list[tuple[str, str]]:
     return [*((blade, "lined") for blade in BLADES), (REFERENCE, "direct")]
 
 
-def order_4(blade: str) -> Interaction:
+def order_4(blade: str) -> PublishedInteraction:
     """The blade's interaction of 1B with engine order 4."""
     return next(one for one in INTERACTIONS if one.blade == blade and one.engine_order == 4)
 

@@ -15,7 +15,7 @@ from r37core.dataset_file import read_dataset
 from r37core.figures.captions import caption
 from r37core.mesh.mesh_files import read_vtu
 from r37core.plain import from_plain
-from r37core.published import BLADES, INTERACTIONS, MESH_NODES, REFERENCE, Interaction
+from r37core.published import BLADES, INTERACTIONS, MESH_NODES, REFERENCE, PublishedInteraction
 from r37core.results.measures import peak_of, strongest_order
 from r37core.rom.reduction_choice import StressSubmesh
 
@@ -67,7 +67,7 @@ def gallery_data(responses: Mapping[str, xr.Dataset], files: Any, values: Mappin
     )
 
 
-def interaction_run(run: xr.Dataset, one: Interaction) -> xr.Dataset:
+def interaction_run(run: xr.Dataset, one: PublishedInteraction) -> xr.Dataset:
     """The speeds of a run about an interaction."""
     return run.sel(speed=slice(WINDOW[0] * one.campbell, WINDOW[1] * one.campbell))
 

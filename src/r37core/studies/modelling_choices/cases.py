@@ -11,9 +11,9 @@ from math import ceil, floor
 from typing import Any
 
 from r37core.config import Settings, checked_scene
-from r37core.config.studies import SpeedSteps
+from r37core.config.study_sections import SpeedSteps
 from r37core.plans import paths
-from r37core.published import BLADES, DIRECT_PEAK, INTERACTIONS, QUIET, REFERENCE, Interaction
+from r37core.published import BLADES, DIRECT_PEAK, INTERACTIONS, QUIET, REFERENCE, PublishedInteraction
 
 from ..case import Case, ModelChoice, changed
 from ..plan import campbell_file, integration_of_level, kept_of, level_of, material_of, model_of_level, plain_scene
@@ -143,7 +143,7 @@ def windows(choice: ModellingChoice, steps: SpeedSteps) -> dict[str, Window]:
     return found
 
 
-def _interaction(one: Interaction, fine: bool, steps: SpeedSteps) -> Window:
+def _interaction(one: PublishedInteraction, fine: bool, steps: SpeedSteps) -> Window:
     centre, (below, above) = (one.campbell, FINE_WINDOW) if fine else (one.peak, COARSE_WINDOW)
     speeds = grid(centre, below * centre, above * centre, steps.fine if fine else steps.coarse)
     return Window(one.blade, "lined", speeds, follow=fine)

@@ -1,6 +1,6 @@
 """The study `tradeoff`: one parameter at a time, what accuracy costs and how cost grows. `snakemake tradeoff`
 
-The parameters' types and bounds are those of r37core.config.studies; a test holds the names together.
+The parameters' types and bounds are those of r37core.config.study_sections; a test holds the names together.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from r37core.config import ConfigError, Settings
-from r37core.config.studies import TradeoffSection
+from r37core.config.study_sections import TradeoffSection
 from r37core.contact.scene import Scene
 from r37core.speeds import exact_text
 from r37core.time_integration.integration_choice import IntegrationChoice

@@ -1,4 +1,4 @@
-"""Where stress is recovered: of blades given by profiles, and of those of other programs."""
+"""What all kinds of blades have: a material, and a region where stress is recovered."""
 
 from __future__ import annotations
 
@@ -15,6 +15,15 @@ from .si_fields import si_fields
 Coordinate = Annotated[float, Field(ge=-100, le=100)]
 Layers = Annotated[int, Field(ge=0, le=20)]
 _LAYERS = "layers of elements left out round contact nodes and root, where stress grows with every finer mesh"
+
+
+class MaterialSection(Section):
+    """Isotropic material; what is left out comes from the base."""
+
+    youngs_modulus_pa: Annotated[float, Field(ge=1e6, le=1e13)] | LeftOut = None
+    density_kg_m3: Annotated[float, Field(ge=1, le=1e5)] | LeftOut = None
+    poissons_ratio: Annotated[float, Field(gt=-1, lt=0.5)] | LeftOut = None
+    yield_stress_pa: Annotated[float, Field(ge=1, le=1e12)] | LeftOut = None
 
 
 class Submesh(Section):

@@ -121,7 +121,7 @@ class EstimateSection(Section):
     )
 
 
-class Studies(Section):
+class StudiesSection(Section):
     """Studies of the model itself; none is part of all_blades."""
 
     @model_validator(mode="before")
