@@ -1,5 +1,7 @@
 """Campbell diagrams: naming, following, crossings, dynamic clearance."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 import scipy.linalg as la
@@ -40,20 +42,29 @@ def test_modes_are_named_by_shape(diagram):
     assert np.all(diagram.continuity > 0.9)
 
 
-def test_modes_are_followed_through_a_crossing(model):
-    """Two uncoupled oscillators whose frequencies cross: the names stay with the shapes."""
-    from dataclasses import replace
-
-    names = 6
-    toy = replace(
+def oscillators(model, geometric_stiffness):
+    """Six oscillators, of which the rotation stiffens or couples the first two."""
+    stiffening = np.zeros((6, 6))
+    stiffening[:2, :2] = geometric_stiffness
+    return replace(
         model,
         stiffness=np.diag([1.0, 4.0, 100.0, 121.0, 144.0, 169.0]),
-        geometric_stiffness=np.diag([5.0, 0.1, 0.0, 0.0, 0.0, 0.0]),
-        mass=np.eye(names),
-        shape_products=np.eye(3, names),
+        geometric_stiffness=stiffening,
+        mass=np.eye(6),
+        shape_products=np.eye(3, 6),
         shape_norms=np.ones(3),
     )
-    followed = campbell_diagram(toy, np.linspace(0.0, 2.0, 21), 4)
+
+
+def test_continuity_is_the_smallest_of_all_steps(model):
+    """Two coupled oscillators turn by atan(2 g W^2 / 3) / 2: far in the first step, little in the second."""
+    followed = campbell_diagram(oscillators(model, [[0.0, 1.0], [1.0, 0.0]]), np.array([0.0, 1.0, 1.1]), 4)
+    np.testing.assert_allclose(followed.continuity[:2], np.cos(0.5 * np.arctan(2.0 / 3.0)) ** 2, rtol=1e-9)
+
+
+def test_modes_are_followed_through_a_crossing(model):
+    """Two uncoupled oscillators whose frequencies cross: the names stay with the shapes."""
+    followed = campbell_diagram(oscillators(model, np.diag([5.0, 0.1])), np.linspace(0.0, 2.0, 21), 4)
     speeds = followed.speeds
     np.testing.assert_allclose(2 * np.pi * followed.frequencies[0], np.sqrt(1.0 + 5.0 * speeds**2))
     np.testing.assert_allclose(2 * np.pi * followed.frequencies[1], np.sqrt(4.0 + 0.1 * speeds**2))

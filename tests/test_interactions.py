@@ -168,7 +168,7 @@ def test_the_end_of_the_speeds_is_no_peak():
 
 def test_what_answers_beyond_a_quiet_range_is_not_part_of_it():
     """A peak too small to be listed, far above one that is, neither widens nor worsens it."""
-    data = response(tangential=[(900.0, 30e-3, 3), (1265.0, 5e-3, 5), (1400.0, 2e-3, 2)])
+    data = response([(1265.0, 5e-5, 5)], [(900.0, 30e-3, 3), (1265.0, 5e-3, 5), (1400.0, 2e-3, 2)])
     row = found(data)[1]
     assert row.title == "1B/5"
     assert row.width_above_yield_rad_s < 50.0

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 import xarray as xr
 from defaults import InteractionChoice
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from r37core.adaptive.criterion import (
@@ -176,6 +176,33 @@ def test_orders_above_the_window_s_have_none():
     assert stretches(campbell([1200.0]), (replace(WINDOWS[0], highest_engine_order=3),)) == []
 
 
+def test_the_highest_order_of_a_window_has_one():
+    expected = stretches(campbell([1200.0, 960.0]), (replace(WINDOWS[0], highest_engine_order=4),))
+    assert [one.low for one in expected] == [1200.0]
+
+
+def asked_of(values):
+    """Middles of intervals that are asked for next, of a curve over the coarse speeds from 750 to 2000 in steps of 20."""
+    rows = {speed: [0, value, 1e-6, 0.0] for speed, value in zip(PLAN.certain, values, strict=True)}
+    return next_speeds(GRID, known_of(rows), replace(CHOICE, largest_share=1.0))
+
+
+def test_a_change_counts_where_the_larger_value_does():
+    """From 0.06 to 0.13 of the top: more than a quarter of the larger, which is above a tenth of the top."""
+    values = np.minimum(0.13 * 1.1 ** np.maximum(np.arange(len(PLAN.certain)) - 3.0, 0.0), 1.0)
+    values[:3] = 0.06
+    assert min(asked_of(values)) == 800.0
+    values[:3] = 0.1
+    assert min(asked_of(values)) > 1000.0
+
+
+def test_both_flanks_of_a_peak_of_one_speed_are_looked_at():
+    values = np.full(len(PLAN.certain), 0.85)
+    values[10] = 1.0
+    peak = PLAN.certain[10]
+    assert asked_of(values) == [peak - 10.0, peak + 10.0]
+
+
 def test_a_branch_its_peak_and_its_drop_are_found_to_one_grid_step():
     rounds, speeds = asked(spiked((1600.0, 1727.0, 1e-3)))
     assert {1726.0, 1727.0, 1728.0} <= set(speeds)
@@ -238,6 +265,7 @@ def test_speeds_off_the_grid_are_not_refined_about():
     assert next_speeds(plan.refined[0], known_of(rows), CHOICE) == []
 
 
+@settings(deadline=None)  # a busy machine is no error
 @given(st.lists(st.floats(0.0, 1.0), min_size=101, max_size=101), st.floats(0.1, 1.0), st.integers(1, 20))
 def test_any_response_ends_in_speeds_of_the_grid_each_once(values, share, coarse):
     plan = SpeedPlan((), (RefinedRange(100.0, 0.1, coarse, 100),))

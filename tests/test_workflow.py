@@ -13,7 +13,7 @@ import xarray as xr
 import yaml
 from browser import opened
 from stubbed_runs import edit
-from workflow_runs import copy_project, planned, snakemake
+from workflow_runs import copy_odd_project, copy_project, planned, run_in_odd_project, snakemake
 
 from r37core.figures.captions import caption
 from r37core.yaml_file import load_yaml
@@ -322,8 +322,10 @@ def test_half_written_input_is_named(finished_copy):
     assert "delete it and run again" in text
 
 
-def test_one_core_gives_the_same_bits(finished, project):
-    snakemake(project, "all_blades", "--cores", "1")
+def test_one_core_gives_the_same_bits_in_any_folder(root, finished, tmp_path):
+    """One whose name a shell would take apart, and by `make`."""
+    project = copy_odd_project(root, tmp_path)
+    run_in_odd_project(project, "make", "all_blades", "CORES=1")
 
     def digests(folder):
         files = [f for f in sorted(folder.glob("results/**/*")) if f.is_file()]

@@ -5,9 +5,12 @@ import re
 import shutil
 import subprocess
 import sys
+import venv
 from pathlib import Path
 
 SNAKEMAKE = str(Path(sys.executable).with_name("snakemake"))
+LONGEST = 1800.0
+"""Of one command (s): ten times what a sweep takes, for the machine may be busy."""
 
 
 def copy_project(root, to):
@@ -31,11 +34,42 @@ def copy_project(root, to):
         )
 
 
+NAME = 'it\'s "my" $(touch EXECUTED) `touch EXECUTED`; touch EXECUTED & rotor'
+
+
+def copy_odd_project(root, to):
+    """A copy in a folder whose name a shell would take apart, with a virtual environment as `make setup` has it.
+
+    The environment borrows the packages of this one.
+    """
+    project = to / NAME
+    project.mkdir()
+    copy_project(root, project)
+    for name in ("Makefile", "pyproject.toml", "cluster/sweep.sbatch"):
+        (project / name).parent.mkdir(exist_ok=True)
+        (project / name).write_text((root / name).read_text())
+    venv.create(project / ".venv", symlinks=True)
+    packages = next((project / ".venv").glob("lib/python*/site-packages"))
+    (packages / "borrowed.pth").write_text("\n".join(path for path in sys.path if path.endswith("site-packages")))
+    (project / ".venv/.ready").touch()
+    return project
+
+
+def run_in_odd_project(folder, *command, **environment):
+    """What the command prints. It may run nothing that stands in the folder's name."""
+    kept = {key: value for key, value in os.environ.items() if not key.startswith("SNAKEMAKE")}
+    environment = kept | {"PYTHONPATH": str(folder / "src")} | environment
+    done = subprocess.run(command, cwd=folder, env=environment, capture_output=True, text=True, timeout=LONGEST, check=False)
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert not list(folder.parent.rglob("EXECUTED"))
+    return done.stdout + done.stderr
+
+
 def snakemake(folder, *arguments, check=True):
     environment = {key: value for key, value in os.environ.items() if not key.startswith("SNAKEMAKE")}
     environment |= {"PYTHONPATH": str(folder / "src"), "R37_FULL_LOG": "1"}
     done = subprocess.run(
-        [SNAKEMAKE, *arguments], cwd=folder, env=environment, capture_output=True, text=True, timeout=600, check=False
+        [SNAKEMAKE, *arguments], cwd=folder, env=environment, capture_output=True, text=True, timeout=LONGEST, check=False
     )
     assert not check or done.returncode == 0, done.stdout + done.stderr
     return done.stdout + done.stderr

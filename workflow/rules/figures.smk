@@ -1,5 +1,5 @@
-# Pictures of the results. All are variants of one rule: a picture has its datasets, the function of r37core.figures that
-# draws it, and a caption. Those rendered off screen have a script of their own.
+# Pictures of the results, as variants of one rule: each has its datasets, the function of r37core.figures that draws it, and a
+# caption. Pictures that are rendered off screen have a script of their own.
 
 
 # the pattern of the others, never run by itself

@@ -175,13 +175,15 @@ class Sweep:
 
     def response_pictured(self, wildcards: Any) -> dict[str, str]:
         """Datasets that a blade's response is drawn from."""
-        with_stress = self.scenes_with("stress", wildcards.blade)
-        return {kind: f"<results>/{kind}.nc" for kind in ("campbell", "rms", *(["stress"] if with_stress else []))}
+        return _drawn(with_stress=any(blade == wildcards.blade for blade, _ in self.runs_with("stress")))
 
     def compared(self, wildcards: Any) -> dict[str, str]:
         """Datasets that the blades of a scene are compared by."""
-        with_stress = any(scene == wildcards.scene for _, scene in self.runs_with("stress"))
-        return {kind: f"<results>/{kind}.nc" for kind in ("campbell", "rms", *(["stress"] if with_stress else []))}
+        return _drawn(with_stress=any(scene == wildcards.scene for _, scene in self.runs_with("stress")))
 
     def _scene(self, wildcards: Any) -> Any:
         return self.settings.scenes[wildcards.scene]
+
+
+def _drawn(with_stress: bool) -> dict[str, str]:
+    return {kind: f"<results>/{kind}.nc" for kind in ("campbell", "rms", *(["stress"] if with_stress else []))}
