@@ -61,7 +61,6 @@ def test_bar_pushed_released_and_pushed_again():
     assert (stress, wear) == (pytest.approx(at_once[0]), pytest.approx(at_once[1]))
 
 
-@settings(deadline=None)
 @given(
     st.lists(st.floats(-1e-3, 8e-3), min_size=1, max_size=30),
     st.floats(1e6, 1e12),
@@ -119,7 +118,7 @@ def brute_force(matrix, gap):
     raise AssertionError
 
 
-@settings(deadline=None, max_examples=200)
+@settings(max_examples=200)
 @given(st.integers(0, 2**31 - 1), st.integers(1, 6), st.floats(0.0, 0.3))
 def test_complementarity_against_brute_force(seed, n, skew):
     generator = np.random.default_rng(seed)
@@ -163,7 +162,7 @@ def test_a_pivot_that_all_but_cancels():
     np.testing.assert_allclose(multipliers, 1.0, rtol=1e-6)
 
 
-@settings(deadline=None, max_examples=100)
+@settings(max_examples=100)
 @given(st.integers(0, 2**31 - 1), st.integers(1, 6))
 def test_a_guess_does_not_change_the_answer(seed, n):
     generator = np.random.default_rng(seed)

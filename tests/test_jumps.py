@@ -47,7 +47,7 @@ def test_long_run_with_jumps_is_the_plain_run(contact, scene, speed):
         np.testing.assert_allclose(jumped.wear, plain.wear, rtol=0, atol=1e-10 * plain.wear.max())
 
 
-@settings(deadline=None, max_examples=40)
+@settings(max_examples=40)
 @given(
     st.integers(0, 2**31 - 1),
     st.sampled_from([1e-3, 1e-6, 1e-9, -1e-9, -1e-6]),

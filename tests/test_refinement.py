@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 import xarray as xr
 from defaults import InteractionChoice
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from r37core.adaptive.criterion import (
@@ -265,7 +265,6 @@ def test_speeds_off_the_grid_are_not_refined_about():
     assert next_speeds(plan.refined[0], known_of(rows), CHOICE) == []
 
 
-@settings(deadline=None)  # a busy machine is no error
 @given(st.lists(st.floats(0.0, 1.0), min_size=101, max_size=101), st.floats(0.1, 1.0), st.integers(1, 20))
 def test_any_response_ends_in_speeds_of_the_grid_each_once(values, share, coarse):
     plan = SpeedPlan((), (RefinedRange(100.0, 0.1, coarse, 100),))
