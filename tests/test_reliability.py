@@ -139,6 +139,7 @@ def test_leftovers_of_results_that_are_no_longer_asked_for(config_copy):
     kept += ["report.zip", "notes.csv", "mine.nc", "figures/my_plot.png", "figures/campbell_Ref.pdf", "figures/blades.png"]
     kept += ["Ref/contact_pressure_edge.npz", "Ref/rom_pressure_edge.nc", "Ref/direct/response.nc"]
     kept += ["exports/Ref/mesh.vtu", "exports/Ref/stress_direct/worst.vtu", "studies/estimate.md", "runs/x/wear.nc"]
+    kept += ["runs/x/signals.nc", "runs/x/rom_camber.nc"]
     gone = ["wear.nc", "designs.csv", "signals.nc", "Ref/direct/signals.nc", "figures/designs_Sweep.png"]
     gone += ["figures/spectrogram_Ref__direct.png", "figures/orders_Ref__direct.pdf", "figures/shapes_Ref.png"]
     gone += ["Ref/contact_camber.npz", "Ref/rom_camber.nc", "exports/Ref/mesh.bdf"]

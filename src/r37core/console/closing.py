@@ -23,7 +23,7 @@ def _found(rows: list[dict[str, str]]) -> str:
     if not rows:
         return "found no interaction"
     above = [row for row in rows if float(row["width_above_yield_rad_s"] or 0.0) > 0.0]
-    text = f"found {len(rows)} interactions, {len(above)} of them above yield"
+    text = f"found {len(rows)} interaction{'s' * (len(rows) > 1)}, {len(above)} of them above yield"
     if above:
         worst = max(above, key=lambda row: float(row["max_von_mises_pa"] or 0.0))
         mode = f"{worst['mode']}/" if worst["mode"] else "engine order "

@@ -50,12 +50,14 @@ def _of_runs(results: Path, settings: Settings) -> Iterator[Path]:
 
 
 def _dropped(results: Path, settings: Settings) -> Iterator[Path]:
-    """What fits a pattern of what the rules make, and is not planned."""
+    """What fits a pattern of what the rules make, and is not planned; the folder of a named run is no blade's."""
     patterns = _planned(settings)
     planned = {results / file.removeprefix("<results>/") for file in paths.filled(patterns)}
     for pattern in patterns:
-        files = results.glob(re.sub(r"\{\w+\}", "*", pattern.removeprefix("<results>/")))
-        yield from (file for file in files if file not in planned)
+        plain = pattern.removeprefix("<results>/")
+        files = results.glob(re.sub(r"\{\w+\}", "*", plain))
+        others = RESERVED if plain.startswith("{blade}") else ()
+        yield from (file for file in files if file not in planned and file.relative_to(results).parts[0] not in others)
 
 
 def _planned(settings: Settings) -> dict[str, paths.Wildcards]:

@@ -118,7 +118,7 @@ class YieldRange:
     @property
     def share(self) -> float:
         """Share of the width that is above yield; NaN without a width."""
-        return self.length / self.width if self.width > 0.0 else np.nan
+        return min(self.length / self.width, 1.0) if self.width > 0.0 else np.nan
 
 
 def range_above_yield(speeds: np.ndarray, ratio: np.ndarray) -> YieldRange:

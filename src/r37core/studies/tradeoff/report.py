@@ -291,7 +291,7 @@ def draw_pareto(together: xr.Dataset) -> Figure:
 def draw_growth(found: Sequence[Growth]) -> Figure:
     """One panel per pair of parameter and cost, with the fitted power law."""
     columns = 4
-    rows = -(-len(found) // columns)
+    rows = max(1, -(-len(found) // columns))
     figure, panels = plt.subplots(rows, columns, figsize=(3.0 * columns, 2.6 * rows), squeeze=False)
     for axes, one in zip(panels.ravel(), found, strict=False):
         axes.loglog(one.values, one.costs, "o")
@@ -300,4 +300,6 @@ def draw_growth(found: Sequence[Growth]) -> Figure:
         axes.set(xlabel=one.parameter.replace("_", " "), ylabel=one.cost.replace("_", " "))
     for axes in np.ravel(panels)[len(found) :]:
         axes.set_visible(False)
+    if not found:
+        figure.text(0.5, 0.5, "no parameter was varied over three values", ha="center")
     return figure
