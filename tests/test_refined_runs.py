@@ -95,6 +95,19 @@ def test_another_criterion_asks_anew_and_simulates_nothing_that_is_there(project
 
 
 @pytest.mark.slow
+def test_a_list_that_becomes_adaptive_runs_what_its_rounds_ask_for(root, tmp_path):
+    copy_stubbed(root, tmp_path)
+    snakemake(tmp_path, "all_blades", "--cores", "2")
+    # as in a real sweep, older than the responses; else Snakemake has a reason of its own to make these again
+    for file in tmp_path.glob("results/*/campbell.nc"):
+        os.utime(file, (next(file.parent.glob("rom_*.nc")).stat().st_mtime,) * 2)
+    refine(tmp_path)
+    done = simulated(snakemake(tmp_path, "all_blades", "--cores", "2"))
+    assert sorted(done) == sorted(runs(ADDED))
+    assert planned_outputs(tmp_path) == {}
+
+
+@pytest.mark.slow
 def test_a_lost_speed_of_a_later_round_runs_alone(project):
     (project / "results/CS100/direct/speed_1149.npz").unlink()
     # Snakemake makes nothing again that only finished files would need

@@ -26,11 +26,13 @@ rule responses:
     input:
         expand(rules.campbell_of_blade.output, blade=settings.blades),
         paths.filled({rules.response.output[0]: paths.of_runs(sweep.runs_with("rms"))}),
+        sweep.first_rounds,
 
 
 rule sweep_dataset:
     input:
-        sweep.responses,
+        responses=sweep.responses,
+        rounds=sweep.first_rounds,
     output:
         "<results>/{kind}.nc",
     log:

@@ -1,4 +1,4 @@
-"""Join one kind of result. Inputs: response.nc of each run. Params: runs, fidelity. Output: rms.nc, spectrum.nc, ..."""
+"""Join one kind of result. Inputs: response.nc of each run, first rounds. Params: runs, fidelity. Output: rms.nc, spectrum.nc, ..."""
 
 from job import run
 
@@ -8,7 +8,7 @@ from r37core.results.datasets import write_sweep_dataset
 
 
 def main(snakemake):
-    files, params = as_list(snakemake.input), snakemake.params
+    files, params = as_list(snakemake.input.responses), snakemake.params
     made = {"fidelity": params.fidelity, "input_hash": hash_of_parts(files)}
     responses = dict(zip(map(tuple, params.runs), files, strict=True))
     write_sweep_dataset(snakemake.wildcards.kind, responses, snakemake.output[0], made)

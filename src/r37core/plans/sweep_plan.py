@@ -164,6 +164,15 @@ class Sweep:
         """What one dataset is joined of."""
         return [paths.fill(paths.RESPONSE, blade=blade, scene=scene) for blade, scene in self.runs(wildcards)]
 
+    def first_rounds(self, wildcards: Any) -> list[str]:
+        """First rounds of the runs in one dataset, of all without a kind.
+
+        They are asked for beside the responses: a response that is there is not planned anew for a round that is not.
+        """
+        pairs = self.runs_with(getattr(wildcards, "kind", KINDS[0]))
+        adaptive = [(blade, scene) for blade, scene in pairs if self.settings.speed_plans[blade, scene].refined]
+        return [paths.fill(paths.ROUND, blade=blade, scene=scene, round=0) for blade, scene in adaptive]
+
     def scenes_with(self, kind: str, blade: str) -> list[str]:
         """Scenes of a blade that have this kind of result."""
         return [scene for of, scene in self.runs_with(kind) if of == blade]
