@@ -87,6 +87,14 @@ def test_figures_print_on_a_page_with_letters_to_read(datasets):
         plt.close(figure)
 
 
+def test_a_map_of_runs_that_all_diverged_says_so(datasets):
+    of = {kind: datasets[kind].sel(blade="Ref") for kind in ("campbell", "spectrum")}
+    figure = maps.draw_spectral_map(np.nan * of["spectrum"].sel(scene="abradable"), of["campbell"], "Ref, abradable")
+    figure.canvas.draw()
+    assert [axes.texts[0].get_text() for axes in figure.axes] == ["every run diverged"] * 2
+    plt.close(figure)
+
+
 def test_every_figure_over_speed_has_an_axis_in_rpm(datasets):
     for name, figure in drawn(datasets):
         figure.canvas.draw()

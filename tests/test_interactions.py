@@ -122,6 +122,15 @@ def test_a_drop_need_not_follow_at_once():
     assert found(data)[0].drop == pytest.approx(0.03, rel=1e-3)
 
 
+def test_a_drop_is_that_of_the_row_s_own_peak():
+    """As S50 in direct contact: the tip moves more a little above a normal peak, tangentially and too little for a peak."""
+    data = response(normal=[(1000.0, 1e-4, 2)], tangential=[(1715.0, 1e-2, 4)])
+    data["rms_tangential"].loc[{"speed": 1005.0}] = 5e-4
+    row = found(data)[0]
+    assert row.peak_speed_rad_s == 1000.0
+    assert row.drop == pytest.approx(1.0 - np.sqrt(2.0) * 1e-5 / np.hypot(1e-4, 1e-5))
+
+
 def test_peaks_without_a_crossing_are_kept_apart():
     rows = found(response(tangential=[(900.0, 1e-3, 2), (1500.0, 1.2e-3, 2)]))
     assert [(row.mode, row.engine_order, row.peak_speed_rad_s) for row in rows] == [("", 2, 900.0), ("", 2, 1500.0)]
@@ -198,6 +207,7 @@ def test_a_run_that_diverged_is_above_yield():
     data["status"].loc[{"speed": 1720.0}] = RunStatus.DIVERGED
     (row,) = found(data)
     assert row.width_above_yield_rad_s == pytest.approx(1720.0 - 1677.5, rel=1e-3)
+    assert row.status == "diverged"
 
 
 def test_the_table_of_all():

@@ -39,6 +39,8 @@ def test_a_drop_is_to_the_lowest_motion_within_reach():
     speeds = 1000.0 + 12.0 * np.arange(5)
     assert measures.drop_after(response([1.0, 4.0, 1.0, 3.0, 0.1], speeds=speeds)) == pytest.approx(0.75)
     assert np.isnan(measures.drop_after(response([1.0, 4.0])))
+    # from a lower peak before the largest motion
+    assert measures.drop_after(response([1.0, 4.0, 2.0, 5.0, 3.0], speeds=speeds), 1) == pytest.approx(0.5)
 
 
 def test_the_steepest_fall_is_a_share_of_the_speed_before_it():

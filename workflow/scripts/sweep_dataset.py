@@ -1,4 +1,4 @@
-"""Join one kind of result. Inputs: response.nc of each run, first rounds. Params: runs, fidelity. Output: rms.nc, spectrum.nc, ..."""
+"""Join one kind of result. Inputs: responses of all runs, first rounds. Params: runs, fidelity. Output: rms.nc, ..."""
 
 from job import run
 

@@ -71,7 +71,7 @@ class Interactions(Section):
     prominence: float = Field(
         default=0.1, gt=0, le=1, description="rise of a peak above its surroundings, as a share of the largest"
     )
-    below: float = Field(default=0.02, ge=0, le=1, description="how far below a Campbell speed its peak may lie, as a share")
+    below: float = Field(default=0.02, ge=0, le=0.5, description="how far below a Campbell speed its peak may lie, as a share")
     above: float = Field(default=0.06, ge=0, le=1, description="how far above")
 
 

@@ -26,10 +26,11 @@ def _found(rows: list[dict[str, str]]) -> str:
     text = f"found {len(rows)} interaction{'s' * (len(rows) > 1)}, {len(above)} of them above yield"
     if above:
         worst = max(above, key=lambda row: float(row["max_von_mises_pa"] or 0.0))
-        mode = f"{worst['mode']}/" if worst["mode"] else "engine order "
+        order = worst["engine_order"]
+        title = f"{worst['mode']}/{order}" if worst["mode"] else f"engine order {order}" if order else "a peak of its own"
         text += (
             f"; the largest stress {1e-9 * float(worst['max_von_mises_pa']):.2f} GPa, {worst['blade']} in {worst['scene']} "
-            f"at {float(worst['max_von_mises_speed_rad_s']):.6g} rad/s ({mode}{worst['engine_order']})"
+            f"at {float(worst['max_von_mises_speed_rad_s']):.6g} rad/s ({title})"
         )
     return text
 

@@ -32,8 +32,11 @@ def draw_spectral_map(maps: xr.Dataset, campbell: xr.Dataset, title: str) -> Fig
 
 
 def _draw_spectrum(axes: Axes, amplitude: xr.DataArray, campbell: xr.Dataset, direction: str) -> None:
+    if not amplitude.sizes["speed"]:
+        axes.text(0.5, 0.5, "every run diverged", ha="center", transform=axes.transAxes)
+        return
     values = np.maximum(1e3 * amplitude.transpose("engine_order", "speed").values, 1e-12)
-    top = max(float(np.nanmax(values)), 1e-11) if values.size else 1.0
+    top = max(float(np.nanmax(values)), 1e-11)
     picture = axes.pcolormesh(
         amplitude["speed"],
         amplitude["engine_order"],

@@ -54,7 +54,8 @@ class Interaction:
     how much of it is. An interaction reaches, on both sides, to the lowest motion before the neighbouring peak, or to where
     the motion stays below QUIET of its own peak for more than DROP_WITHIN: single speeds in between do not end it, for near
     the end of a branch the motion is chaotic. `mode` is empty and the Campbell speed NaN for a peak that no crossing of a
-    named mode explains; NaN is also what a scene does not compute, and the drop of a motion that only rises.
+    named mode explains; NaN is also what a scene does not compute, and the drop of a motion that only rises. `status` is
+    diverged where any run of the interaction did.
     """
 
     mode: str
@@ -127,7 +128,7 @@ def find_interactions(response: xr.Dataset, campbell: xr.Dataset, choice: Intera
         if any(peak.inner for peak in group):
             begin, end = _loud(speed[low : high + 1], level[low : high + 1], place - low)
             reach = response.isel(speed=slice(low + begin, low + end + 1))
-            drop = drop_after(response.isel(speed=slice(place, high + 1)))
+            drop = drop_after(response.isel(speed=slice(high + 1)), place)
             found.append(_interaction(reach, response.isel(speed=place), group, place, drop))
     return found
 
@@ -238,7 +239,7 @@ def _interaction(reach: xr.Dataset, peak: xr.Dataset, group: list[_Peak], place:
         max_von_mises_pa=stress,
         max_von_mises_speed_rad_s=stress_speed,
         max_wear_m=float(reach["max_wear"].max()) if "max_wear" in reach else np.nan,
-        status=RunStatus(int(peak["status"])).text,
+        status=RunStatus(int(reach["status"].max())).text,
     )
 
 

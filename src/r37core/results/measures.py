@@ -46,10 +46,13 @@ def peak_speed(response: xr.Dataset) -> float:
     return float(response["speed"][place]) if place and motion(response)[place] >= _RESPONDS else np.nan
 
 
-def drop_after(response: xr.Dataset) -> float:
-    """Share of the peak's motion that is lost within DROP_WITHIN above it; NaN without a speed there."""
+def drop_after(response: xr.Dataset, place: int | None = None) -> float:
+    """Share of the motion at a `place` among the speeds, by default the peak, that is lost within DROP_WITHIN above it.
+
+    NaN without a speed there.
+    """
     level, speed = motion(response), response["speed"].values
-    peak = int(np.argmax(level))
+    peak = int(np.argmax(level)) if place is None else place
     after = level[(speed > speed[peak]) & (speed <= speed[peak] + DROP_WITHIN + 1e-6)]
     return float(1.0 - after.min() / level[peak]) if after.size and level[peak] > 0.0 else np.nan
 

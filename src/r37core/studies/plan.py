@@ -173,5 +173,5 @@ def plain_scene(settings: Settings, name: str) -> Mapping[str, Any]:
 def _known(kind: str, name: str, entries: Mapping[str, Entry]) -> Entry:
     """The entry of this name; a study may name what this run leaves out, which matters only when the study is asked for."""
     if name not in entries:
-        raise ConfigError(f"config.yaml: studies: found the {kind} '{name}', which this run leaves out; allowed: {', '.join(entries)}")
+        raise ConfigError(f"config.yaml: studies: found the {kind} '{name}'; allowed in this run: {', '.join(entries)}")
     return entries[name]
