@@ -109,6 +109,16 @@ CONFIG_REFUSALS = [
     ),
     ("speeds_for: []", "speeds_for: [{ blades: [Ref, Ref], speeds: [900] }]", r"speeds_for\.0\.blades\.1: found 'Ref' twice"),
     ("    blade: Ref", "    blade: Reff", r"studies\.tradeoff\.blade: found 'Reff'; allowed: Ref, L50"),
+    (
+        "    blade: Ref",
+        "    blade: Ref\n    engine_order: 21",
+        r"engine_order: found 21; allowed: at most campbell\.highest_eng",
+    ),
+    (
+        "studies: #",
+        "studies:\n  stability: { lined_scene: direct } #",
+        r"lined_scene: found 'direct'; allowed: a scene with a lining",
+    ),
     ("    base: standard", "    base: standart", r"studies\.tradeoff\.base: found 'standart'; allowed: draft"),
     (
         "[draft, standard, paper, fine, reference], ",

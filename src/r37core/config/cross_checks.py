@@ -64,7 +64,14 @@ def studies_name_what_is_there(settings: Settings) -> None:
         for key, (entries, file) in files.items():
             if key in type(study).model_fields:
                 _known(settings, ("studies", name, key), [getattr(study, key)], entries, file)
+        lined = getattr(study, "lined_scene", None)
+        if lined and settings.scene_entries[lined].lining is None:
+            raise documents.config.refusal(("studies", name, "lined_scene"), f"'{lined}'", "a scene with a lining")
     if given := studies.tradeoff:
+        highest = settings.campbell.highest_engine_order
+        if given.engine_order > highest:
+            allowed = f"at most campbell.highest_engine_order ({highest})"
+            raise documents.config.refusal(("studies", "tradeoff", "engine_order"), f"{given.engine_order}", allowed)
         levels = given.parameters.level.values
         _known(settings, ("studies", "tradeoff", "parameters", "level"), levels, settings.levels, documents.levels)
         if given.scenes != "all":
