@@ -112,12 +112,12 @@ CONFIG_REFUSALS = [
     (
         "    blade: Ref",
         "    blade: Ref\n    engine_order: 21",
-        r"engine_order: found 21; allowed: at most campbell\.highest_eng",
+        r"engine_order: found 21; allowed: at most campbell",
     ),
     (
         "studies: #",
         "studies:\n  stability: { lined_scene: direct } #",
-        r"lined_scene: found 'direct'; allowed: a scene with a lining",
+        r"lined_scene: found .direct.; allowed: a scene with",
     ),
     ("    base: standard", "    base: standart", r"studies\.tradeoff\.base: found 'standart'; allowed: draft"),
     (
