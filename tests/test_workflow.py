@@ -110,6 +110,9 @@ def test_shapes_and_signals_of_a_finished_run(finished_copy):
     scenes.write_text(scenes.read_text().replace("signal, stress, wear, energy]", "signal, stress, wear, energy, shapes]", 1))
     gauges = "{ root: { chord: 0.5, span: 0.1, side: suction } }"
     config.write_text(config.read_text() + f"\nsignals: {{ speeds_rad_s: [1150], probes_deg: [30], gauges: {gauges} }}\n")
+    # one speed more, so that there is an interaction: 1B with order 6
+    config.write_text(config.read_text().replace("- { start: 750, stop: 1600 }", "- { start: 750, stop: 1600 }\n  - 1000"))
+    snakemake(finished_copy, "results/summary.csv", "--cores", "2")
     results = finished_copy / "results"
     wanted = ["shapes/Ref.html", "figures/shapes_Ref.png", "figures/shapes_Ref__abradable.png", "signals.nc"]
     wanted += [f"figures/{kind}_Ref__abradable.png" for kind in ("spectrogram", "orders")]
@@ -118,6 +121,7 @@ def test_shapes_and_signals_of_a_finished_run(finished_copy):
     assert all((results / name).stat().st_size > 10_000 for name in wanted)
     assert len(list((results / "shapes/Ref/modes").glob("mode_*.glb"))) == 6
     found = pd.read_csv(results / "summary.csv").query("blade == 'Ref' and scene == 'abradable'")
+    assert len(found)
     names = {f"stress_{speed:g}.glb" for speed in found["peak_speed_rad_s"]}
     assert {file.name for file in (results / "shapes/Ref/stress_abradable").glob("*.glb")} == names
     with xr.open_dataset(results / "signals.nc") as signals, xr.open_dataset(results / "rms.nc") as rms:
