@@ -11,7 +11,7 @@ import numpy as np
 import xarray as xr
 
 from r37core.io import read_json, readable, write_json
-from r37core.results.measures import largest_of_run, last_revolution
+from r37core.results.measures import largest_of_run
 from r37core.results.stress_recovery import StressRecovery
 from r37core.speeds import SpeedPlan
 from r37core.time_integration.simulate import DIRECTIONS, TIP_POINTS
@@ -49,7 +49,7 @@ def measure(
     rms = run["rms"][TIP_POINTS.index("leading_edge")]
     stress = math.nan
     if recovery is not None:
-        instants = recovery.max_von_mises(last_revolution(run["snapshots"], stress_instants))
+        instants = recovery.of_last_revolution(run, stress_instants)
         stress = largest_of_run(run, instants, stress_instants) / yield_stress
     return [int(run["status"]), *(float(rms[DIRECTIONS.index(name)]) for name in ("normal", "tangential")), float(stress)]
 

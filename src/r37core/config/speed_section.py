@@ -15,16 +15,20 @@ UNITS = {"speeds": "rad/s", "speeds_rpm": "rpm"}
 """Keys that give speeds, of which a section has one, and their units."""
 
 
+_STEP = Field(default=None, description="without it the fidelity level's")
+_REFINE_TO = Field(
+    default=None,
+    description="with it the speeds are sampled adaptively, down to intervals of this, a whole part of the step",
+)
+
+
 class SpeedRange(Section):
     """Speeds from `start` to `stop`, both included."""
 
     start: Speed
     stop: Speed
-    step: Speed | LeftOut = Field(default=None, description="without it the fidelity level's")
-    refine_to: Speed | LeftOut = Field(
-        default=None,
-        description="with it the speeds are sampled adaptively, down to intervals of this, a whole part of the step",
-    )
+    step: Speed | LeftOut = _STEP
+    refine_to: Speed | LeftOut = _REFINE_TO
 
     @model_validator(mode="after")
     def _forward(self) -> SpeedRange:
@@ -38,11 +42,8 @@ class RpmRange(SpeedRange):
 
     start: Rpm
     stop: Rpm
-    step: Rpm | LeftOut = Field(default=None, description="without it the fidelity level's")
-    refine_to: Rpm | LeftOut = Field(
-        default=None,
-        description="with it the speeds are sampled adaptively, down to intervals of this, a whole part of the step",
-    )
+    step: Rpm | LeftOut = _STEP
+    refine_to: Rpm | LeftOut = _REFINE_TO
 
 
 def _kind(value: Any) -> str:

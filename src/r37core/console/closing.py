@@ -5,6 +5,8 @@ from __future__ import annotations
 import csv
 from pathlib import Path
 
+from r37core.results.interaction_title import interaction_title
+
 
 def closing_lines(results: Path, began: float, ended: float) -> list[str]:
     """Three lines on the interactions in the folder `results`; none if the list is older than the run's start.
@@ -26,8 +28,7 @@ def _found(rows: list[dict[str, str]]) -> str:
     text = f"found {len(rows)} interaction{'s' * (len(rows) > 1)}, {len(above)} of them above yield"
     if above:
         worst = max(above, key=lambda row: float(row["max_von_mises_pa"] or 0.0))
-        order = worst["engine_order"]
-        title = f"{worst['mode']}/{order}" if worst["mode"] else f"engine order {order}" if order else "a peak of its own"
+        title = interaction_title(worst["mode"], worst["engine_order"])
         text += (
             f"; the largest stress {1e-9 * float(worst['max_von_mises_pa']):.2f} GPa, {worst['blade']} in {worst['scene']} "
             f"at {float(worst['max_von_mises_speed_rad_s']):.6g} rad/s ({title})"

@@ -15,6 +15,7 @@ from r37core.rom.naming import NAMED_MODES
 from r37core.time_integration.status import RunStatus
 
 from .datasets import response_of
+from .interaction_title import interaction_title
 from .measures import DROP_WITHIN, drop_after, largest_stress, leading_edge, motion, speeds_above_yield, strongest_order
 
 QUIET = 0.1
@@ -77,9 +78,7 @@ class Interaction:
     @property
     def title(self) -> str:
         """What meets there: 1B/4, or the engine order alone."""
-        if self.mode:
-            return f"{self.mode}/{self.engine_order}"
-        return "a peak of its own" if self.engine_order is None else f"engine order {self.engine_order}"
+        return interaction_title(self.mode, self.engine_order)
 
 
 COLUMNS = ("blade", "scene", *(field.name for field in fields(Interaction)))

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 import xarray as xr
 
+from r37core.time_integration.simulate import DIRECTIONS, TIP_POINTS
 from r37core.time_integration.status import RunStatus
 
 DROP_WITHIN = 24.0
@@ -184,6 +185,12 @@ def last_revolution(instants: np.ndarray, per_revolution: int) -> np.ndarray:
 def largest_of_run(run: Mapping[str, np.ndarray], stress: np.ndarray, per_revolution: int) -> float:
     """Largest stress (Pa) in the last revolution of a run, from its `stress` at each instant; NaN if it diverged."""
     return np.nan if run["status"] else float(last_revolution(stress, per_revolution).max())
+
+
+def motion_of_run(run: Mapping[str, np.ndarray]) -> float:
+    """`motion` of one run (m), from the variables of its file."""
+    edge = run["rms"][TIP_POINTS.index("leading_edge")]
+    return float(np.nan_to_num(np.hypot(*(edge[DIRECTIONS.index(name)] for name in ("normal", "tangential")))))
 
 
 def stress_history(stress: np.ndarray, per_revolution: int, revolutions: int) -> np.ndarray:

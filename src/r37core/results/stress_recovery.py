@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import numpy as np
 
 from r37core.fem.material import Material
 from r37core.fem.stress import nodal_stress, von_mises
 from r37core.rom.reduced_model import ReducedModel
+
+from .measures import last_revolution
 
 
 class StressRecovery:
@@ -31,3 +35,7 @@ class StressRecovery:
         """Largest von Mises stress (Pa) over the submesh, shape (instants,), for coordinates, shape (instants, coordinates)."""
         stress = np.einsum("cnj,tj->ctn", self.operator, coordinates, optimize=True)
         return von_mises(stress).max(axis=1)
+
+    def of_last_revolution(self, run: Mapping[str, np.ndarray], per_revolution: int) -> np.ndarray:
+        """Largest von Mises stress (Pa) at each of a run's snapshots in its last revolution, shape (snapshots,)."""
+        return self.max_von_mises(last_revolution(run["snapshots"], per_revolution))

@@ -14,7 +14,7 @@ import xarray as xr
 
 from r37core.dataset_file import about, read_dataset, write_dataset
 from r37core.io import atomic_write, read_json
-from r37core.results.measures import largest_of_run, last_revolution, peak_of
+from r37core.results.measures import largest_of_run, motion_of_run, peak_of
 from r37core.results.netcdf import create_variable
 from r37core.results.response import write_response
 from r37core.results.stress_recovery import StressRecovery
@@ -22,7 +22,7 @@ from r37core.rom.contact_model import ContactModel, read_contact_model
 from r37core.rom.rom_file import read_reduced_model
 from r37core.time_integration.integration_choice import IntegrationChoice
 from r37core.time_integration.problem import Problem
-from r37core.time_integration.simulate import DIRECTIONS, Simulation
+from r37core.time_integration.simulate import Simulation
 from r37core.time_integration.speed_file import read_speed, write_speed
 from r37core.time_integration.speed_run import run_speed
 
@@ -147,11 +147,11 @@ class _Runs:
         for end, towards in ((speeds[0], -step), (speeds[-1], step)):
             for number in range(_MOST_EXTRA):
                 last = read_speed(self.files[end + number * towards])
-                stress = self.recovery.max_von_mises(last_revolution(last["snapshots"], instants))
+                stress = self.recovery.of_last_revolution(last, instants)
                 if not largest_of_run(last, stress, instants) > self.case.material.yield_stress:
                     break
                 self._run(end + (number + 1) * towards)
-        peak = max(self.files, key=lambda speed: _motion_of(read_speed(self.files[speed])))
+        peak = max(self.files, key=lambda speed: motion_of_run(read_speed(self.files[speed])))
         if peak not in self.histories:
             self.histories.add(peak)
             self._run(peak)
@@ -180,15 +180,9 @@ class _Runs:
                 words = about("Pa", "largest von Mises stress at each instant of the last revolution")
                 stress = create_variable(dataset, "max_von_mises_of_instant", "f8", ("speed", "instant"), words)
                 for row, speed in enumerate(speeds):
-                    stress[row] = self.recovery.max_von_mises(read_speed(self.files[speed])["snapshots"][-instants:])
+                    stress[row] = self.recovery.of_last_revolution(read_speed(self.files[speed]), instants)
             dataset.setncatts({"reduction_cpu_s": reducing.cpu, "peak_memory_bytes": peak_memory()})
             # text where write_response puts text alone
             dataset.setncatts({name: value for name, value in attributes.items() if isinstance(value, float)})
         with atomic_write(output) as final:
             final.write_bytes(partial.read_bytes())
-
-
-def _motion_of(run: Mapping[str, np.ndarray]) -> float:
-    """Rms (m) of the leading edge's normal and tangential motion together; 0 where it diverged."""
-    normal, tangential = (run["rms"][0, DIRECTIONS.index(name)] for name in ("normal", "tangential"))
-    return float(np.nan_to_num(np.hypot(normal, tangential)))

@@ -15,6 +15,7 @@ from r37core.adaptive.rounds import first_round, round_after
 from r37core.dataset_file import read_dataset
 from r37core.plain import from_plain
 from r37core.results.interactions import Interaction, InteractionChoice, find_interactions
+from r37core.results.measures import leading_edge
 from r37core.speeds import SpeedPlan
 
 from ..checks import ran
@@ -91,7 +92,7 @@ def replay(response: xr.Dataset, campbell: xr.Dataset, plan: SpeedPlan, choice: 
 
 def _measured(response: xr.Dataset) -> dict[float, list[float]]:
     """Status and CURVES of each speed (rad/s)."""
-    edge = response.sel(tip_point="leading_edge")
+    edge = leading_edge(response)
     stress = (
         response["max_von_mises"] / response["yield_stress"] if "max_von_mises" in response else edge["rms_normal"] * np.nan
     )

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from r37core.results.measures import motion
+from r37core.results.measures import leading_edge, motion
 from r37core.time_integration.status import RunStatus
 
 from ..checks import energy_share
@@ -68,7 +68,7 @@ def _mean_motion(response: xr.Dataset) -> float:
 def _check_sound(response: xr.Dataset) -> None:
     """AssertionError unless every run either diverged and says so, or has finite, balanced numbers."""
     completed = response["status"].values == RunStatus.COMPLETED
-    edge = response.sel(tip_point="leading_edge")
+    edge = leading_edge(response)
     for name in _FINITE:
         assert np.all(np.isfinite(edge[name].values[completed])), f"{name} is not finite in a run that counts as completed"
     energy = np.abs(energy_share(response)[completed])

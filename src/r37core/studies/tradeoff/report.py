@@ -14,6 +14,7 @@ from matplotlib.figure import Figure
 from r37core.config.fidelity import recommended_level
 from r37core.dataset_file import about
 from r37core.figures import style  # noqa: F401  (sets the style)
+from r37core.results.measures import leading_edge
 
 from ..checks import energy_share
 from ..tables import markdown_table
@@ -106,7 +107,7 @@ def _values(responses: Mapping[str, xr.Dataset], places: Mapping[str, Sequence[i
             of_model[cost][at[0]] = response.attrs.get(cost, np.nan)
         if not refused[at]:
             response = response.isel(speed=rows)
-            edge = response.sel(tip_point="leading_edge")
+            edge = leading_edge(response)
             for quantity in {*QUANTITIES, "status"} & set(map(str, edge.data_vars)):
                 data[quantity][at] = edge[quantity].values
             data["energy_residual"][at] = energy_share(response)
