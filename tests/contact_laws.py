@@ -15,7 +15,7 @@ _return_mapping, _friction_direction = inlined(laws.return_mapping), inlined(law
 
 @njit(**OPTIONS)
 def _press(penetration, wear, law):
-    return _return_mapping(penetration, wear, law[0])
+    return _return_mapping(penetration, wear, law[0].elastic_modulus, law[0])
 
 
 @njit(**OPTIONS)

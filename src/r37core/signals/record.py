@@ -41,9 +41,9 @@ def record_signals(
     snapshots = per_revolution if len(gauge_rows) else 0
     choice = replace(choice, snapshots_per_revolution=snapshots, snapshot_revolutions=choice.revolutions, energy=False)
     simulation = Simulation(model, speed, scene, choice)
-    # rows of the modes of this speed, in which the states are kept
-    modes = simulation.problem.modes
-    rows = gauge_rows @ model.to_reduced @ modes if len(gauge_rows) else np.empty((0, modes.shape[1]))
+    # rows of what the states are kept in
+    shapes = simulation.problem.state_shapes
+    rows = gauge_rows @ model.to_reduced @ shapes if len(gauge_rows) else np.empty((0, shapes.shape[1]))
     state, status = simulation.start(), RunStatus.COMPLETED
     tip = np.full((choice.revolutions * per_revolution, len(TIP_POINTS), len(DIRECTIONS)), np.nan)
     strain = np.full((len(tip), len(rows)), np.nan)

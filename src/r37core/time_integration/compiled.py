@@ -13,6 +13,7 @@ from r37core.alignment import LANES, aligned_copy, aligned_zeros
 from r37core.contact.scene import Friction, Lining
 from r37core.native import Sources, cached_object, load_function
 
+from .integrators import CENTRAL_DIFFERENCE
 from .jump_plan import JumpPlan, nearest_casing, plan_jumps
 from .layout import LINING, NEVER, NORMAL, TANGENTIAL, Kind, Layout, integration_record, layout_of
 from .problem import Problem
@@ -28,6 +29,7 @@ SOURCES = Sources(
     "contact/scene.py",
     "time_integration/jump_steps.py",
     "time_integration/layout.py",
+    "time_integration/lined_steps.py",
     "time_integration/program.py",
     "time_integration/steps.py",
 )
@@ -38,14 +40,16 @@ class CompiledEngine:
     """The time integration of one problem, compiled for what its scene has: all that its program needs lies in one record."""
 
     def __init__(self, problem: Problem):
-        outputs, self._modes = problem.output_operator.shape
-        self._nodes = len(problem.model.radius)
+        outputs = len(problem.output_operator)
+        _, self._nodes, self._modes = problem.displacement_operator.shape
         self._layout = layout_of(self._modes, self._nodes, outputs)
         self._record = aligned_zeros((1,), integration_record(self._layout))
         scene, choice = problem.scene, problem.choice
         plan = plan_jumps(problem.recursion, problem.steps_per_sample, LANES) if choice.jumps else None
         kind = Kind(
+            published=choice.integrator == CENTRAL_DIFFERENCE,
             lined=scene.lining is not None,
+            second_order=problem.second_order,
             vector_friction=scene.friction is not None and scene.friction.vector,
             coupled=scene.friction is None or scene.friction.coupled,
             exact_gap=scene.exact_gap,
@@ -61,6 +65,9 @@ class CompiledEngine:
             self._lay_out_friction(problem, scene.friction)
         if scene.lining is not None:
             self._lay_out_lining(problem, scene.lining)
+        self._second_order = problem.second_order
+        if problem.second_order:
+            self._lay_out_static_modes(problem)
         if plan is not None:
             self._lay_out_jumps(plan)
 
@@ -69,7 +76,8 @@ class CompiledEngine:
 
         Returns the blocks done: fewer when an output passed the limit or is NaN.
         """
-        m, snapshots = self._record[0], np.zeros((len(out.snapshots), self._layout.modes))
+        m, (modes, nodes, _) = self._record[0], self._layout
+        snapshots = np.zeros((len(out.snapshots), modes + (3 * nodes if self._second_order else 0)))
         flags = aligned_copy(state.on_casing, self._layout.nodes) > 0
         _put(
             m,
@@ -83,11 +91,18 @@ class CompiledEngine:
             samples=out.samples.ctypes.data,
             snapshots=snapshots.ctypes.data,
         )
+        if self._second_order:
+            _put(m, force=state.lining_force[NORMAL], friction_force=state.lining_force[TANGENTIAL:])
         done = int(self._advance(self._record.ctypes.data))
         state.displacement[:], state.increment[:] = m["u"][: self._modes], m["increment"][: self._modes]
         state.on_casing[:] = np.unpackbits(m["on_casing"].astype(np.uint8), bitorder="little")[: self._nodes]
         state.totals[()] = m["totals"]
-        out.snapshots[:] = snapshots[:, : self._modes]
+        out.snapshots[:, : self._modes] = snapshots[:, : self._modes]
+        if self._second_order:
+            state.lining_force[NORMAL] = m["force"][: self._nodes]
+            state.lining_force[TANGENTIAL:] = m["friction_force"][:, : self._nodes]
+            forces = snapshots[:, modes:].reshape(-1, 3, nodes)[:, :, : self._nodes]
+            out.snapshots[:, self._modes :] = forces.reshape(len(snapshots), 3 * self._nodes)
         return done
 
     def _lay_out(self, problem: Problem) -> None:
@@ -107,7 +122,8 @@ class CompiledEngine:
             columns=coupling[NORMAL],
             radius=problem.model.radius,
             theta=problem.model.theta,
-            outputs=problem.output_operator,
+            outputs=problem.output_operator[None, :, : self._modes],
+            number_of_outputs=len(problem.output_operator),
             limit=problem.scene.divergence_limit,
             nodes=self._nodes,
             rings=problem.rings,
@@ -146,6 +162,7 @@ class CompiledEngine:
             operator, coupling = problem.displacement_operator, problem.coupling
             _put(
                 m,
+                friction_share=np.stack([share[:, 0], np.zeros(self._nodes)]),
                 push_operator=operator[NORMAL] + share * operator[TANGENTIAL],
                 response=coupling[NORMAL] + share * coupling[TANGENTIAL],
             )
@@ -155,7 +172,21 @@ class CompiledEngine:
         for name in LINING.names or ():
             value = problem.bar_area if name == "area" else getattr(lining, name)
             m["lining"][name] = np.nan if value is None else value
-        _put(m, bar_position=problem.model.theta / (2.0 * np.pi) * lining.bars)
+        m["lining"]["bars"] = problem.bars
+        _put(m, bar_position=problem.model.theta / (2.0 * np.pi) * problem.bars)
+
+    def _lay_out_static_modes(self, problem: Problem) -> None:
+        flexibility = problem.residual_flexibility
+        own = np.diagonal(flexibility, axis1=1, axis2=2)
+        force_outputs = problem.output_operator[:, self._modes :].reshape(-1, 3, self._nodes)
+        padded_forces = np.zeros((*force_outputs.shape[:2], self._layout.nodes))
+        padded_forces[:, :, : self._nodes] = force_outputs
+        _put(
+            self._record[0],
+            own_flexibility=own,
+            others_flexibility=flexibility - own[:, :, None] * np.eye(self._nodes),
+            force_outputs=padded_forces.reshape(1, len(force_outputs), -1),
+        )
 
     def _lay_out_jumps(self, plan: JumpPlan) -> None:
         m = self._record[0]

@@ -12,10 +12,12 @@ LARGEST_TABLE = 2**30
 class IntegrationChoice:
     """Numbers of the time integration: largest time step (s), revolutions, samples per revolution, and what is recorded.
 
-    `snapshots_per_revolution` modal states are kept in each of the last `snapshot_revolutions`; `energy`: whether the loss to
+    `snapshots_per_revolution` states are kept in each of the last `snapshot_revolutions`; `energy`: whether the loss to
     damping is added up; `jumps`: whether free flight is jumped over or stepped through; `highest_frequency` (Hz): faster
-    modes are left out; `integrator`: one of r37core.time_integration.integrators; `engine`: the compiled time integration, or
-    the plain one of r37core.time_integration.reference.
+    modes are left out; `static_above`: in a lined scene of exact_modal, modes with a larger product of angular frequency and
+    step follow the contact forces statically; `shorten`: whether an unstable step is shortened, or refused; `integrator`: one
+    of r37core.time_integration.integrators; `engine`: the compiled time integration, or the plain one of
+    r37core.time_integration.reference.
     """
 
     time_step: float
@@ -28,3 +30,5 @@ class IntegrationChoice:
     energy: bool = False
     jumps: bool = True
     highest_frequency: float = float("inf")
+    static_above: float = 1.0
+    shorten: bool = False

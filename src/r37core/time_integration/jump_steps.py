@@ -69,8 +69,8 @@ def _is_clear(m, place, stride, remaining, exact):
     casing, nodes, length = numbers_at(m.nearest_casing), len(m.force), m.lengths[stride]
     lobes = m.casing.amplitude * (1.0 - remaining * m.decay[stride])
     for g in range(0, nodes, LANES):
-        velocity = along(m, NORMAL, m.increment, g, m.slow_modes[stride])
-        position = along(m, NORMAL, m.u, g, m.slow_modes[stride])
+        velocity = along(m.displacement_operator, NORMAL, m.increment, g, m.slow_modes[stride])
+        position = along(m.displacement_operator, NORMAL, m.u, g, m.slow_modes[stride])
         position += np.maximum(velocity, velocity * length) + load(m.reach, (stride, g))
         nearest = load(casing, place + g)
         for j in range(1, (length + COARSE - 1) // COARSE):

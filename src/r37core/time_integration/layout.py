@@ -41,11 +41,15 @@ class Layout(NamedTuple):
 class Kind(NamedTuple):
     """What a time integration has; what it lacks is not in the program.
 
-    `vector_friction`: along the real sliding velocity; friction of constant direction is in the push rows and responses.
-    `coupled`: friction is part of the complementarity problem. `exact_gap`, `energy`, `jumps`: see Scene and IntegrationChoice.
+    `published`: the integrator is central_difference. `second_order`: the lining presses with its force at t_n; see
+    r37core.time_integration.lined_steps. `vector_friction`: along the real sliding velocity; friction of constant direction
+    is in the push rows and responses. `coupled`: friction is part of the complementarity problem. `exact_gap`, `energy`,
+    `jumps`: see Scene and IntegrationChoice.
     """
 
+    published: bool
     lined: bool
+    second_order: bool
     vector_friction: bool
     coupled: bool
     exact_gap: bool
@@ -107,20 +111,29 @@ def integration_record(layout: Layout) -> np.dtype:
     groups = nodes // padded(1)
     return aligned_record(
         [
-            # displacement u_n; its increments u_n - u_{n-1} and u_{n-1} - u_{n-2}; forces on the modes
-            *_arrays("u increment last_increment push", modes),
+            # displacement u_n; its increments u_n - u_{n-1} and u_{n-1} - u_{n-2}; forces on the modes, and those pushed before
+            *_arrays("u increment last_increment push pushed", modes),
             # of the recursion: see time_integration.steps; energy lost per step and squared central difference
             *_arrays("keep pull inverse loss", modes),
             # displacement of the nodes per mode, and what a unit normal force does to the modes, with constant friction
             *_arrays("displacement_operator", 3, nodes, modes),
             *_arrays("push_operator", nodes, modes),
-            *_arrays("outputs", outputs, modes),
+            *_arrays("outputs", 1, padded(outputs), modes),
+            *_arrays("sample", padded(outputs)),
             # normal displacement of the last node per force in the three directions on the one before
             *_arrays("coupling", 3, nodes, nodes),
             # opening of the last node's gap per unit multiplier of the one before: with friction, and as the problem has it
             *_arrays("response columns", nodes, nodes),
             *_arrays("friction_share", 2, nodes),  # tangential and meridional force per normal force
             *_arrays("force", nodes),
+            *_arrays("friction_force", 2, nodes),
+            # of a lining of second order: normal displacement of the last node by the static modes per force on the one before,
+            # without and with its own; opening of gaps by them; all forces that they follow; their part of the samples
+            *_arrays("others_flexibility", 3, nodes, nodes),
+            *_arrays("own_flexibility", 3, nodes),
+            *_arrays("settled", nodes),
+            *_arrays("static_force", 3 * nodes),
+            *_arrays("force_outputs", 1, padded(outputs), 3 * nodes),
             *_arrays("rotation", nodes),  # signed sliding in a step by the rotation (m)
             *_arrays("bar_position", nodes),  # angle at step 0, in bars
             *_arrays("radius theta shift", nodes),  # m; angle at step 0 and what vibration adds to it (rad)
@@ -137,7 +150,7 @@ def integration_record(layout: Layout) -> np.dtype:
             ("casing", CASING, ()),
             ("totals", TOTALS, ()),
             *_numbers("limit friction"),
-            *_numbers("nodes rings steps_per_revolution steps_per_block", kind=np.int64),
+            *_numbers("number_of_outputs nodes rings steps_per_revolution steps_per_block", kind=np.int64),
             *_numbers("samples_before_snapshots samples_per_snapshot", kind=np.int64),
             # of one call: where it begins, and how many blocks of steps it asks for
             *_numbers("first_step blocks", kind=np.int64),

@@ -2,21 +2,19 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 
+from r37core.alignment import padded
 from r37core.contact.casing import casing_axes
 from r37core.contact.scene import Scene
 from r37core.rom.contact_model import ContactModel
 
 from .integration_choice import LARGEST_TABLE, IntegrationChoice
-from .integrators import CENTRAL_DIFFERENCE, Recursion, recursion
-
-
-class UnstableStepError(ValueError):
-    """A time step beyond a stability limit."""
+from .integrators import EXACT_MODAL, Recursion, recursion
+from .step_limit import UnstableStepError, check_step
 
 
 class LongRevolutionError(ValueError):
@@ -27,8 +25,13 @@ class LongRevolutionError(ValueError):
 class Problem:
     """A blade's `model` at one `speed` (rad/s) in one `scene`, stepped as `choice` says, and what follows from these four.
 
-    Raises UnstableStepError for a step at or above the stability limit 2/omega_max of central differences, or that of a node
-    pressed on the lining's bars; LongRevolutionError for a revolution of too many steps.
+    With the integrator exact_modal a lining presses with its force at t_n (`second_order`), and modes faster than
+    `choice.static_above` per step follow it statically: they are none of `frequencies` and `modes`. Everywhere else all modes
+    are stepped.
+
+    Raises UnstableStepError for a step at or above the stability limit 2/omega_max of central differences, or that of nodes
+    pressed on the lining's bars, unless the choice lets it be shortened; LongRevolutionError for a revolution of too many
+    steps.
     """
 
     model: ContactModel
@@ -38,17 +41,33 @@ class Problem:
 
     def __post_init__(self) -> None:
         self._check_length()
-        self._check_stability()
+        check_step(self)
+
+    @property
+    def second_order(self) -> bool:
+        """Whether the lining presses with its force at t_n, and not, as published, that of the prediction a step early."""
+        return self.scene.lining is not None and self.choice.integrator == EXACT_MODAL
 
     @property
     def frequencies(self) -> np.ndarray:
-        """Of the modes (rad/s), ascending."""
-        return self._kept_modes[0]
+        """Of the modes that are stepped (rad/s), ascending."""
+        return self._kept_modes[0][: self._stepped]
 
     @property
     def modes(self) -> np.ndarray:
-        """Of the speed, shape (modes at rest, modes)."""
-        return self._kept_modes[1]
+        """Those that are stepped, of the speed, shape (modes at rest, modes)."""
+        return np.ascontiguousarray(self._kept_modes[1][:, : self._stepped])
+
+    @cached_property
+    def _stepped(self) -> int:
+        """How many modes are stepped, of all that are kept: the same at every speed, and whole vectors, which cost no more."""
+        kept = len(self._kept_modes[0])
+        if not self.second_order:
+            return kept
+        at_rest = np.sqrt(self.model.squared_frequencies)
+        slow = int(np.count_nonzero(at_rest * self.choice.time_step <= self.choice.static_above))
+        # at least one: a blade of static modes alone would not vibrate
+        return min(padded(max(slow, 1)), kept)
 
     @cached_property
     def _kept_modes(self) -> tuple[np.ndarray, np.ndarray]:
@@ -99,12 +118,44 @@ class Problem:
         return casing_axes(self.model.displacement_operator, self.cone_angle) @ self.modes
 
     @cached_property
+    def static_shapes(self) -> np.ndarray:
+        """Displacement of the modes that are not stepped per force on the contact nodes, shape (modes at rest, 3 nodes).
+
+        Their residual flexibility, of forces in the directions of `displacement_operator`: sum of phi phi^T/omega^2 over those
+        modes (Craig and Kurdila, Fundamentals of Structural Dynamics, section 17.4). No column where all modes are stepped.
+        """
+        if not self.second_order:
+            return np.empty((len(self.modes), 0))
+        frequencies, modes = (part[..., self._stepped :] for part in self._kept_modes)
+        rows = (casing_axes(self.model.displacement_operator, self.cone_angle) @ modes).reshape(
+            3 * len(self.model.radius), len(frequencies)
+        )
+        return (modes / frequencies**2) @ rows.T
+
+    @property
+    def state_shapes(self) -> np.ndarray:
+        """Displacement in the modes at rest per number of a snapshot: the stepped modes', then the contact forces' (N)."""
+        return np.hstack([self.modes, self.static_shapes])
+
+    @cached_property
     def output_operator(self) -> np.ndarray:
-        """Rows of the samples, shape (6, modes): see time_integration.simulate, TIP_POINTS and DIRECTIONS."""
+        """Rows of the samples, shape (6, numbers of a snapshot): see time_integration.simulate, TIP_POINTS and DIRECTIONS."""
         radial, tangential, _ = self.model.tip_displacement_operator
         normal = casing_axes(self.model.tip_displacement_operator, self.cone_angle)[0]
         rows = np.stack([normal, radial, tangential], axis=1)
-        return rows.reshape(-1, rows.shape[-1]) @ self.modes
+        return rows.reshape(-1, rows.shape[-1]) @ self.state_shapes
+
+    @cached_property
+    def residual_flexibility(self) -> np.ndarray:
+        """Static normal displacement (m/N) of the last node per normal, tangential or meridional force on the first.
+
+        Of the modes that are not stepped; shape (3, nodes, nodes).
+        """
+        normal = casing_axes(self.model.displacement_operator, self.cone_angle)[0]
+        nodes = len(normal)
+        if not self.static_shapes.size:
+            return np.zeros((3, nodes, nodes))
+        return (normal @ self.static_shapes).T.reshape(3, nodes, nodes)
 
     @cached_property
     def coupling(self) -> np.ndarray:
@@ -113,7 +164,8 @@ class Problem:
         Shape (3, nodes, nodes).
         """
         normal = self.displacement_operator[0]
-        return np.array([(rows * self.recursion.inverse) @ normal.T for rows in self.displacement_operator])
+        stepped = np.array([(rows * self.recursion.inverse) @ normal.T for rows in self.displacement_operator])
+        return stepped + self.residual_flexibility
 
     @property
     def rotation_velocity(self) -> np.ndarray:
@@ -125,6 +177,17 @@ class Problem:
     def bar_area(self) -> float:
         """Area of a bar of the lining (m2), at the largest radius of the contact nodes; 0 without lining."""
         return self.scene.lining.area(float(np.max(self.model.radius))) if self.scene.lining else 0.0
+
+    @property
+    def bars(self) -> int:
+        """How many bars of each ring are told apart: with steps longer than a bar, one for each step of a revolution.
+
+        All bars that a step passes over are then worn as the one it ends on; a force is still that of a single bar.
+        """
+        lining = self.scene.lining
+        if lining is None:
+            return 0
+        return min(lining.bars, self.steps_per_revolution) if self.second_order else lining.bars
 
     @property
     def rings(self) -> int:
@@ -162,24 +225,16 @@ class Problem:
                 f"and the casing's shape at each would take {table / 2**30:.1f} GiB; use a higher speed or a larger time_step_s"
             )
 
-    def _check_stability(self) -> None:
-        limit = 2.0 / self.frequencies[-1]
-        if self.choice.integrator == CENTRAL_DIFFERENCE and not self.time_step < limit:
-            raise UnstableStepError(
-                f"time_step_s: {self.choice.time_step:g} s gives steps of {self.time_step:.6g} s, not below the stability "
-                f"limit of this reduced model, {limit:.6g} s (highest mode {self.frequencies[-1] / 2e3 / np.pi:.1f} kHz); "
-                "use a smaller one, raise basis_tolerance to drop the highest modes, or take the integrator exact_modal"
-            )
-        lining = self.scene.lining
-        if lining is None:
-            return
-        # a node pressed by x on an elastic bar follows x_{n+1} = (1 - g)(2 x_n - x_{n-1}), g = bar stiffness times c at the
-        # node; both roots of the recursion lie inside the unit circle for 0 < g < 4/3
-        bar_stiffness = lining.elastic_modulus * self.bar_area / lining.thickness
-        ratio = bar_stiffness * float(np.linalg.eigvalsh(self.coupling[0])[-1]) * 0.75
-        if not ratio < 1.0:
-            raise UnstableStepError(
-                f"time_step_s: {self.choice.time_step:g} s gives steps of {self.time_step:.6g} s, not below the limit for this "
-                f"lining, about {self.time_step / np.sqrt(ratio):.6g} s (bars of {bar_stiffness:.4g} N/m); use a smaller one, "
-                "or a softer, thicker or narrower lining"
-            )
+
+def stable_problem(model: ContactModel, speed: float, scene: Scene, choice: IntegrationChoice) -> Problem:
+    """The problem, with a shorter step than the chosen one where that is unstable and the choice allows it.
+
+    Raises what Problem raises.
+    """
+    while True:
+        try:
+            return Problem(model, speed, scene, choice)
+        except UnstableStepError as error:
+            if not choice.shorten:
+                raise
+            choice = replace(choice, time_step=0.95 * error.limit)

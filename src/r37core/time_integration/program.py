@@ -11,6 +11,7 @@ from r37core.native import object_code
 
 from .jump_steps import bound_amplitudes, choose_jump, jump_ahead
 from .layout import COARSE, STRIDES, Kind, Layout, integration_record
+from .lined_steps import keep_static_force, list_pressed, meet_lining, push_lining, release_lining, settle
 from .steps import leave_casing, measure_exact_gaps, measure_gaps, meet, predict, record
 
 
@@ -21,6 +22,11 @@ def _integrate(m, kind):
     decay = 0.0 if at_once else np.exp(-m.casing.rise)
     coarse_per_block = (m.steps_per_block + COARSE - 1) // COARSE
     beyond, bounded, first_stride = False, False, 1
+    pushes = pushed = False
+    if kind.second_order:
+        pushes = list_pressed(m) > 0
+        settle(m, False)
+        keep_static_force(m, False)
     done = kept = 0
     while done < m.blocks:
         start = m.first_step + done * m.steps_per_block
@@ -32,7 +38,7 @@ def _integrate(m, kind):
         work = lost = spread(0.0)
         position = 0
         while position < m.steps_per_block:
-            if kind.jumps and not beyond and position % COARSE == 0:
+            if kind.jumps and not beyond and not pushes and position % COARSE == 0:
                 if not bounded:
                     bound_amplitudes(m, kind.exact_gap)
                     bounded = True
@@ -52,8 +58,22 @@ def _integrate(m, kind):
             lost = predict(m, kind.energy, lost)
             here = place + position if place + position < m.steps_per_revolution else 0
             lobes = m.casing.amplitude * (1.0 - remaining)
-            beyond = measure_exact_gaps(m, here, lobes) if kind.exact_gap else measure_gaps(m, here, lobes)
-            if beyond:
+            if kind.second_order:
+                pushed, work, lost = push_lining(m, kind, work, lost) if pushes else (False, work, lost)
+            if kind.exact_gap:
+                beyond = measure_exact_gaps(m, here, lobes, kind.second_order)
+            else:
+                beyond = measure_gaps(m, here, lobes, kind.second_order)
+            if kind.second_order:
+                if beyond:
+                    pushes, work, lost = meet_lining(m, here, lobes, kind, pushed, work, lost)
+                    bounded = False
+                elif pushes:
+                    release_lining(m, pushed)
+                    pushes = bounded = False
+                else:
+                    leave_casing(m)
+            elif beyond:
                 work, lost = meet(m, here, kind, work, lost)
                 bounded = False
             else:
@@ -64,7 +84,7 @@ def _integrate(m, kind):
         # of the samples from the first snapshot's revolution on, every so many-th
         due = (start + m.steps_per_block) // m.steps_per_block - m.samples_before_snapshots
         taken = m.samples_per_snapshot > 0 and due > 0 and due % m.samples_per_snapshot == 0
-        within = record(m, done, kept if taken else -1)
+        within = record(m, done, kept if taken else -1, kind)
         kept += taken
         done += 1
         if not within:

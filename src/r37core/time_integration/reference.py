@@ -2,6 +2,7 @@
 
 Equations after section 5 of the benchmark, in the coordinates of the modes at rest, where the mass is the identity:
 u* = A u_n + B u_{n-1} without contact, u_{n+1} = u* + C F with it. Work per step is of the order of modes squared.
+A lining of second order, and the static modes with it: see r37core.time_integration.lined_steps.
 """
 
 from __future__ import annotations
@@ -12,6 +13,7 @@ from r37core.contact.scene import Lining
 
 from .problem import Problem
 from .state import SimulationRecord, SimulationState
+from .step_limit import series_modulus
 
 
 class ReferenceEngine:
@@ -21,7 +23,12 @@ class ReferenceEngine:
         self.problem = problem
         modes, recursion = problem.modes, problem.recursion
         self.normal, self.tangential, self.meridional = problem.displacement_operator @ modes.T
-        self.outputs = problem.output_operator @ modes.T
+        self.rows = np.array([self.normal, self.tangential, self.meridional])
+        self.outputs = problem.output_operator[:, : modes.shape[1]] @ modes.T
+        self.force_outputs = problem.output_operator[:, modes.shape[1] :]
+        self.flexibility = problem.residual_flexibility
+        # what all forces (N) on the nodes do to the static modes
+        self.static_force = np.zeros((3, len(problem.model.radius)))
         # -B, I - A - B, C and the loss per squared central difference, as matrices
         self.keep, self.pull, self.inverse, self.loss = (
             modes @ np.diag(diagonal) @ modes.T
@@ -35,36 +42,73 @@ class ReferenceEngine:
         u, d = modes @ state.displacement, modes @ state.increment
         first = state.revolutions * problem.choice.samples_per_revolution
         done, kept, bounded = 0, 0, True
+        step = self._second_order_step if problem.second_order else self._step
+        self.static_force = state.lining_force.copy()
         while done < len(out.samples) and bounded:
             for n in range(1, problem.steps_per_sample + 1):
-                u, d = self._step(u, d, (first + done) * problem.steps_per_sample + n, state)
-            out.samples[done] = self.outputs @ u
+                u, d = step(u, d, (first + done) * problem.steps_per_sample + n, state)
+            static = self.static_force.ravel() if problem.second_order else np.empty(0)
+            out.samples[done] = self.outputs @ u + self.force_outputs @ static
             bounded = bool(np.all(np.abs(out.samples[done]) < problem.scene.divergence_limit))
             done += 1
             if problem.snapshots_after(first + done) > problem.snapshots_after(first) + kept:
-                out.snapshots[kept] = modes.T @ u
+                out.snapshots[kept] = np.concatenate([modes.T @ u, static])
                 kept += 1
         state.displacement[:], state.increment[:] = modes.T @ u, modes.T @ d
         return done
 
     def _step(self, u: np.ndarray, d: np.ndarray, n: int, state: SimulationState) -> tuple[np.ndarray, np.ndarray]:
         """From u_{n-1}, d_{n-1} to u_n, d_n; changes wear, totals and the nodes on the casing."""
-        lining, totals = self.problem.scene.lining, state.totals
+        lining = self.problem.scene.lining
         predicted = self.keep @ d - self.pull @ u
         gap, theta = self.gap(u + predicted, n)
-        pushes = self._pushes(d)
+        directions = self._directions(d)
         force = np.zeros(len(u))
         pressure = np.zeros(len(gap))
         if lining is not None and state.wear is not None:
-            pressure = self._press_lining(gap, theta, lining, state.wear)
-            force = pressure @ pushes
+            modulus = np.full(len(gap), lining.elastic_modulus)
+            pressure = self._press_lining(gap, theta, lining, state.wear, modulus)
+            force = self._modal(pressure * directions)
             # the casing lies behind the lining; what is left to it after the lining's forces
             gap = gap + lining.thickness - self.normal @ self.inverse @ force
-        multipliers = self._press_casing(gap, pushes)
-        force = force + multipliers @ pushes
+        multipliers = self._press_casing(gap, directions)
+        force = force + self._modal(multipliers * directions)
         following = predicted + self.inverse @ force
-        moved = d + following  # u_{n+1} - u_{n-1}
-        normal_force = pressure + multipliers
+        self._add_up(state, force, d + following, pressure + multipliers, multipliers)
+        return u + following, following
+
+    def _second_order_step(self, u: np.ndarray, d: np.ndarray, n: int, state: SimulationState) -> tuple[np.ndarray, np.ndarray]:
+        """The same with the lining's force at t_{n-1}, which the state has, and that at t_n, for the next step."""
+        lining = self.problem.scene.lining
+        assert lining is not None and state.wear is not None
+        force = self._modal(state.lining_force)
+        following = self.keep @ d - self.pull @ u + self.inverse @ force
+        own = np.diagonal(self.flexibility, axis1=1, axis2=2)
+        settled = self._settled(state.lining_force) - np.sum(own * state.lining_force, axis=0)
+        gap, theta = self.gap(u + following, n)
+        directions = self._directions(d)
+        multipliers = self._press_casing(gap - settled + lining.thickness, directions)
+        casing_force = multipliers * directions
+        if multipliers.any():
+            force = force + self._modal(casing_force)
+            following = following + self.inverse @ self._modal(casing_force)
+            gap, theta = self.gap(u + following, n)
+            settled = settled + self._settled(casing_force)
+        # the lining's is of t_{n-1}, the casing's of t_n
+        self._add_up(state, force, d + following, np.maximum(-state.lining_force[0], multipliers), multipliers)
+        directions = self._directions(1.5 * following - 0.5 * d)
+        flexibility = np.maximum(-np.sum(directions * own, axis=0), 0.0)
+        modulus = series_modulus(self.problem, lining, flexibility)
+        pressure = self._press_lining(gap - settled, theta, lining, state.wear, modulus)
+        state.lining_force[:] = pressure * directions
+        self.static_force = state.lining_force + casing_force
+        return u + following, following
+
+    def _add_up(
+        self, state: SimulationState, force: np.ndarray, moved: np.ndarray, normal_force: np.ndarray, multipliers: np.ndarray
+    ) -> None:
+        """Totals of a step in which the blade `moved` by u_{n+1} - u_{n-1} under the force."""
+        totals = state.totals
         totals["steps"] += 1
         totals["steps_in_contact"] += np.any(normal_force > 0.0)
         totals["casing_hits"] += np.sum((multipliers > 0.0) & (state.on_casing == 0.0))
@@ -72,7 +116,6 @@ class ReferenceEngine:
         totals["work"] += 0.5 * force @ moved
         totals["loss"] += moved @ self.loss @ moved
         state.on_casing[:] = multipliers > 0.0
-        return u + following, following
 
     def gap(self, u: np.ndarray, n: int) -> tuple[np.ndarray, np.ndarray]:
         """Distance (m) of every node from casing or lining, and the angle (rad) at which it meets it."""
@@ -89,47 +132,64 @@ class ReferenceEngine:
         distance = problem.scene.casing.distance(theta, np.array(n * problem.time_step), problem.duration)
         return distance - position, theta
 
-    def _pushes(self, d: np.ndarray) -> np.ndarray:
-        """Modal force per unit normal force on each node, shape (nodes, coordinates): towards the axis, with its friction."""
-        friction, pushes = self.problem.scene.friction, -self.normal
+    def _directions(self, d: np.ndarray) -> np.ndarray:
+        """Forces per unit normal force on each node, shape (3, nodes): towards the axis, with friction against the sliding.
+
+        `d`: displacement of the blade in a step, by which its vibration slides.
+        """
+        friction, towards_axis = self.problem.scene.friction, -np.ones(len(self.normal))
         if friction is None:
-            return pushes
-        # sliding velocity over the casing: that of the rotation plus, in vector form, that of the last step's vibration
+            return np.array([towards_axis, 0.0 * towards_axis, 0.0 * towards_axis])
+        # sliding velocity over the casing: that of the rotation plus, in vector form, that of the vibration
         along, across = self.problem.rotation_velocity, np.zeros(len(self.normal))
         if friction.vector:
             step = self.problem.time_step
             along, across = along + self.tangential @ d / step, self.meridional @ d / step
-        size = np.hypot(along, across)[:, None]
         # Coulomb: mu times the normal force, opposite to the sliding
-        return pushes - friction.coefficient * (along[:, None] * self.tangential + across[:, None] * self.meridional) / size
+        share = -friction.coefficient / np.hypot(along, across)
+        return np.array([towards_axis, share * along, share * across])
 
-    def _press_lining(self, gap: np.ndarray, theta: np.ndarray, lining: Lining, wear: np.ndarray) -> np.ndarray:
-        """Normal forces (N) of the bars that the nodes press, shape (nodes,); wears the bars.
+    def _modal(self, forces: np.ndarray) -> np.ndarray:
+        """Modal forces of forces (N) on the nodes, shape (3, nodes, ...)."""
+        return np.einsum("dk...,dki->...i", forces, self.rows)
+
+    def _settled(self, forces: np.ndarray) -> np.ndarray:
+        """Normal displacement (m) of the nodes by the static modes under forces (N) on them, shape (3, nodes)."""
+        return np.einsum("dk,dkg->g", forces, self.flexibility)
+
+    def _press_lining(
+        self, gap: np.ndarray, theta: np.ndarray, lining: Lining, wear: np.ndarray, modulus: np.ndarray
+    ) -> np.ndarray:
+        """Normal forces (N) of the bars of elastic `modulus` (Pa) that the nodes press, shape (nodes,); wears the bars.
 
         Return mapping with linear hardening: trial stress E (strain - plastic strain), yield stress plus K times the plastic
         strain; beyond it the plastic strain grows by the excess over E + K (Simo and Hughes, box 1.4).
         """
         force = np.zeros(len(gap))
         for k in np.flatnonzero(gap < 0.0):
-            bar = int(np.floor(theta[k] / (2.0 * np.pi) * lining.bars)) % lining.bars
+            bar = int(np.floor(theta[k] / (2.0 * np.pi) * wear.shape[1])) % wear.shape[1]
             ring = 0 if lining.shared_ring else k
             strain, plastic = -gap[k] / lining.thickness, wear[ring, bar] / lining.thickness
             if strain > plastic:
-                excess = lining.elastic_modulus * (strain - plastic) - lining.yield_stress - lining.plastic_modulus * plastic
+                excess = modulus[k] * (strain - plastic) - lining.yield_stress - lining.plastic_modulus * plastic
                 if excess > 0.0:
                     # a bar worn through is gone
-                    plastic = min(plastic + excess / (lining.elastic_modulus + lining.plastic_modulus), 1.0)
+                    plastic = min(plastic + excess / (modulus[k] + lining.plastic_modulus), 1.0)
                 wear[ring, bar] = plastic * lining.thickness
-                force[k] = max(lining.elastic_modulus * (strain - plastic), 0.0) * self.problem.bar_area
+                force[k] = max(modulus[k] * (strain - plastic), 0.0) * self.problem.bar_area
         return force
 
-    def _press_casing(self, gap: np.ndarray, pushes: np.ndarray) -> np.ndarray:
+    def _press_casing(self, gap: np.ndarray, directions: np.ndarray) -> np.ndarray:
         """Multipliers (N), shape (nodes,), that leave no node beyond the casing."""
         if not np.any(gap < 0.0):
             return np.zeros(len(gap))
         friction = self.problem.scene.friction
-        counted = -self.normal if friction is not None and not friction.coupled else pushes
-        return complementary(-self.normal @ self.inverse @ counted.T, gap)
+        if friction is not None and not friction.coupled:
+            directions = directions * [[1.0], [0.0], [0.0]]
+        # of each node's unit multiplier, along the last axis
+        forces = directions[:, :, None] * np.eye(len(gap))
+        static = np.einsum("dkj,dkg->gj", forces, self.flexibility)
+        return complementary(-self.normal @ self.inverse @ self._modal(forces).T - static, gap)
 
 
 def complementary(matrix: np.ndarray, gap: np.ndarray) -> np.ndarray:

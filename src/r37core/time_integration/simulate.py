@@ -9,7 +9,7 @@ from r37core.rom.contact_model import ContactModel
 
 from .compiled import CompiledEngine
 from .integration_choice import IntegrationChoice
-from .problem import Problem
+from .problem import stable_problem
 from .reference import ReferenceEngine
 from .state import SimulationRecord, SimulationState
 
@@ -22,19 +22,20 @@ _ENGINES: dict[str, type[CompiledEngine] | type[ReferenceEngine]] = {"compiled":
 class Simulation:
     """The time integration of one blade at one speed in one scene: its `problem`, and the `engine` that advances a state.
 
-    Raises what Problem raises.
+    Raises what Problem raises, of the step that `choice` leaves.
     """
 
     def __init__(self, model: ContactModel, speed: float, scene: Scene, choice: IntegrationChoice):
-        self.problem = Problem(model, speed, scene, choice)
+        self.problem = stable_problem(model, speed, scene, choice)
         self.engine = _ENGINES[choice.engine](self.problem)
 
     def start(self) -> SimulationState:
         """The blade at rest in an unworn lining."""
-        _, nodes, modes = self.problem.displacement_operator.shape
+        directions, nodes, modes = self.problem.displacement_operator.shape
         lining = self.problem.scene.lining
-        wear = None if lining is None else np.zeros((self.problem.rings, lining.bars))
-        return SimulationState(np.zeros(modes), np.zeros(modes), wear, np.zeros(nodes, dtype=bool))
+        wear = None if lining is None else np.zeros((self.problem.rings, self.problem.bars))
+        forces = np.zeros((directions, nodes))
+        return SimulationState(np.zeros(modes), np.zeros(modes), wear, np.zeros(nodes, dtype=bool), forces)
 
     def advance(self, state: SimulationState, revolutions: int) -> SimulationRecord:
         """Go on by `revolutions` from `state`, which is changed."""
@@ -45,8 +46,8 @@ class Simulation:
         def snapshots(samples: int) -> int:
             return problem.snapshots_after(first + samples) - problem.snapshots_after(first)
 
-        outputs, modes = problem.output_operator.shape
-        out = SimulationRecord(np.zeros((asked, outputs)), np.zeros((snapshots(asked), modes)))
+        outputs, numbers = problem.output_operator.shape
+        out = SimulationRecord(np.zeros((asked, outputs)), np.zeros((snapshots(asked), numbers)))
         done = self.engine.advance(state, out)
         state.revolutions += revolutions
         diverged = done < asked or not np.all(np.abs(out.samples[done - 1]) < problem.scene.divergence_limit)

@@ -71,9 +71,10 @@ def run_speed(
     if "spectrum" in results:
         kept |= _spectrum(half[:, 0, _KEPT].T, len(half) // per_revolution, spectrum_highest_order)
     if "stress" in results:
-        kept["snapshots"] = record.snapshots @ (model.to_reduced @ simulation.problem.modes).T
+        kept["snapshots"] = record.snapshots @ (model.to_reduced @ simulation.problem.state_shapes).T
     if "wear" in results:
-        kept |= _wear(state, wear_angles)
+        assert scene.lining is not None
+        kept |= _wear(state, min(wear_angles, scene.lining.bars))
     if "energy" in results:
         kept |= _energy_balance(simulation, state)
     return kept
@@ -91,11 +92,12 @@ def _wear(state: SimulationState, angles: int) -> dict[str, np.ndarray]:
     """Largest wear (m) over the rings: its profile as the maximum in each of `angles` sectors, and its lobes."""
     assert state.wear is not None
     profile = state.wear.max(axis=0)
-    sectors = np.linspace(0, len(profile), min(angles, len(profile)), endpoint=False).astype(int)
+    sectors = np.linspace(0, len(profile), angles, endpoint=False).astype(int)
+    kept = np.maximum.reduceat(profile, sectors) if len(profile) >= angles else profile[sectors]
     lobes = np.abs(np.fft.rfft(profile))[: _WEAR_LOBES + 1] * 2.0 / len(profile)
     lobes[0] /= 2.0
     return {
-        "wear": np.maximum.reduceat(profile, sectors).astype(np.float32),
+        "wear": kept.astype(np.float32),
         "max_wear": np.array(profile.max()),
         "wear_harmonic": lobes,
     }

@@ -14,13 +14,15 @@ class SimulationState:
     """Where a run stands; a run may be stopped after any revolution and go on from its state.
 
     `displacement` u_n and `increment` u_n - u_{n-1}, shape (modes,), in the speed's modes; `wear` (m), shape (rings, bars);
-    `on_casing`, shape (nodes,): whether a node touched the casing in the last step; `totals`: see layout.TOTALS.
+    `on_casing`, shape (nodes,): whether a node touched the casing in the last step; `lining_force` (N), shape (3, nodes): what
+    a lining of second order presses the nodes with at t_n, along normal, tangent and meridian; `totals`: see layout.TOTALS.
     """
 
     displacement: np.ndarray
     increment: np.ndarray
     wear: np.ndarray | None
     on_casing: np.ndarray
+    lining_force: np.ndarray
     revolutions: int = 0
     totals: np.ndarray = field(default_factory=lambda: np.zeros((), TOTALS))
 
@@ -30,7 +32,7 @@ class SimulationRecord:
     """What a stretch of revolutions leaves behind.
 
     `samples` (m), shape (samples, 6): normal, radial and tangential displacement of the leading edge, then of the trailing
-    edge; `snapshots`, shape (snapshots, modes), in the speed's modes; `diverged`.
+    edge; `snapshots`, shape (snapshots, numbers): see Problem.state_shapes; `diverged`.
     """
 
     samples: np.ndarray

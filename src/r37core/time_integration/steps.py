@@ -26,9 +26,8 @@ _lobe_shape = inlined(lobe_shape)
 
 
 @inlined
-def along(m, direction, modal, g, used):
-    """Displacement in a direction of the eight nodes from g on, by the first `used` modes."""
-    rows = m.displacement_operator
+def along(rows, direction, modal, g, used):
+    """Displacement in a direction of the eight nodes from g on, by the first `used` modes; `rows`: displacement_operator."""
     s = t = u = v = w = x = y = z = spread(0.0)
     for i in range(0, used, LANES):
         amplitude = load(modal, i)
@@ -58,13 +57,15 @@ def predict(m, energy, lost):
 
 
 @inlined
-def measure_gaps(m, place, lobes):
+def measure_gaps(m, place, lobes, settles):
     """Linear gaps: clearance, less the lobes at the undeformed angle, less the normal displacement. Whether any is passed."""
     shape = numbers_at(m.casing_shape)
     any_beyond = 0
     for g in range(0, len(m.force), LANES):
-        normal = along(m, NORMAL, m.u, g, len(m.u))
+        normal = along(m.displacement_operator, NORMAL, m.u, g, len(m.u))
         gap = m.casing.clearance - lobes * load(shape, place * len(m.force) + g) - normal
+        if settles:
+            gap += load(m.settled, g)
         store(m.problem.gap, g, gap)
         beyond = bits_of(gap < 0.0)
         m.beyond[g // LANES] = beyond
@@ -73,15 +74,15 @@ def measure_gaps(m, place, lobes):
 
 
 @inlined
-def measure_exact_gaps(m, place, lobes):
+def measure_exact_gaps(m, place, lobes, settles):
     """Gaps between the displaced nodes and the lobed cone: see r37core.contact.casing. Whether any is passed."""
     turned = place * (2.0 * np.pi / m.steps_per_revolution)
     any_beyond = False
     for g in range(0, len(m.force), LANES):
         # room that is free before contact
-        store(m.problem.multiplier, g, along(m, NORMAL, m.u, g, len(m.u)))
-        store(m.problem.answer, g, along(m, TANGENTIAL, m.u, g, len(m.u)))
-        store(m.problem.short, g, along(m, MERIDIONAL, m.u, g, len(m.u)))
+        store(m.problem.multiplier, g, along(m.displacement_operator, NORMAL, m.u, g, len(m.u)))
+        store(m.problem.answer, g, along(m.displacement_operator, TANGENTIAL, m.u, g, len(m.u)))
+        store(m.problem.short, g, along(m.displacement_operator, MERIDIONAL, m.u, g, len(m.u)))
         m.beyond[g // LANES] = 0
     for k in range(m.nodes):
         p, casing = m.problem, m.casing
@@ -90,6 +91,8 @@ def measure_exact_gaps(m, place, lobes):
         )
         shape = _lobe_shape(m.theta[k] - turned + m.shift[k], casing.period, casing.width)
         p.gap[k] = casing.clearance - lobes * shape - position
+        if settles:
+            p.gap[k] += m.settled[k]
         if p.gap[k] < 0.0:
             m.beyond[k // LANES] |= 1 << (k % LANES)
             any_beyond = True
@@ -105,8 +108,11 @@ def set_friction(m, g, tangential, meridional):
 
 
 @inlined
-def set_friction_of_listed(m, count):
-    """Vector friction on the listed nodes: more costly for each than `set_friction_of_all`, but they are few."""
+def set_friction_of_listed(m, count, centred):
+    """Vector friction on the listed nodes: more costly for each than `set_friction_of_all`, but they are few.
+
+    `centred`: against the sliding at t_n, extrapolated from the last two increments, else in the last step.
+    """
     for g in range(0, len(m.force), LANES):
         tangential = meridional = spread(0.0)
         for j in range(count):
@@ -115,6 +121,8 @@ def set_friction_of_listed(m, count):
                 t = r = spread(0.0)
                 for i in range(0, len(m.u), LANES):
                     last = load(m.last_increment, i)
+                    if centred:
+                        last = 1.5 * load(m.increment, i) - 0.5 * last
                     t += load(m.displacement_operator, (TANGENTIAL, k, i)) * last
                     r += load(m.displacement_operator, (MERIDIONAL, k, i)) * last
                 # put into lanes here: loading together what was stored one by one stalls the processor
@@ -127,8 +135,8 @@ def set_friction_of_listed(m, count):
 def set_friction_of_all(m):
     """Vector friction on all nodes, and the gaps' response with it."""
     for g in range(0, len(m.force), LANES):
-        tangential = along(m, TANGENTIAL, m.last_increment, g, len(m.u))
-        set_friction(m, g, tangential, along(m, MERIDIONAL, m.last_increment, g, len(m.u)))
+        tangential = along(m.displacement_operator, TANGENTIAL, m.last_increment, g, len(m.u))
+        set_friction(m, g, tangential, along(m.displacement_operator, MERIDIONAL, m.last_increment, g, len(m.u)))
     for k in range(m.nodes):
         for g in range(0, len(m.force), LANES):
             store(m.response, (k, g), response_with_friction(m, k, g))
@@ -142,17 +150,14 @@ def response_with_friction(m, k, g):
 
 
 @inlined
-def press_lining(m, place, kind):
-    """Normal forces of the bars that the nodes press; wears them.
-
-    Returns how many nodes are listed as pressing, and whether one reaches the casing behind the lining.
-    """
+def press_bars(m, place, kind):
+    """Normal forces of the bars that the nodes press; wears them. Returns how many nodes are listed as pressing."""
     p, lining, wear = m.problem, m.lining, numbers_at(m.wear)
     bars = int(lining.bars)
     turned = place * lining.bars / m.steps_per_revolution
     count = list_nodes(m.beyond, p.listed)
     if kind.vector_friction:
-        set_friction_of_listed(m, count)
+        set_friction_of_listed(m, count, kind.second_order)
     for j in range(count):
         k = p.listed[j]
         position = m.bar_position[k] - turned
@@ -166,8 +171,22 @@ def press_lining(m, place, kind):
                 bar -= bars
         if m.rings > 1:
             bar += k * bars
-        stress, wear[bar] = _return_mapping(-p.gap[k], wear[bar], lining)
+        modulus = lining.elastic_modulus
+        if kind.second_order:
+            # the bar in series with the node's static modes
+            own = m.own_flexibility[NORMAL, k] + m.own_flexibility[TANGENTIAL, k] * m.friction_share[0, k]
+            own += m.own_flexibility[MERIDIONAL, k] * m.friction_share[1, k]
+            modulus = modulus / (1.0 + modulus * lining.area / lining.thickness * max(own, 0.0))
+        stress, wear[bar] = _return_mapping(-p.gap[k], wear[bar], modulus, lining)
         m.force[k] = -stress * lining.area
+    return count
+
+
+@inlined
+def press_lining(m, place, kind):
+    """Normal forces of the lining; how many nodes are listed as pressing, and whether one reaches the casing behind it."""
+    p, lining = m.problem, m.lining
+    count = press_bars(m, place, kind)
     any_closed = 0
     for g in range(0, len(m.force), LANES):
         gap = load(p.gap, g) + lining.thickness
@@ -211,8 +230,20 @@ def press_casing(m, kind):
 
 
 @inlined
+def set_friction_force(m):
+    """Friction of the forces on all nodes."""
+    for g in range(0, len(m.force), LANES):
+        normal = load(m.force, g)
+        store(m.friction_force, (0, g), normal * load(m.friction_share, (0, g)))
+        store(m.friction_force, (1, g), normal * load(m.friction_share, (1, g)))
+
+
+@inlined
 def push_blade(m, count, vector, energy, work, lost):
-    """Correct displacement and increment for the listed nodes' forces; adds the work, doubled, and the energy lost."""
+    """Correct displacement and increment for the listed nodes' forces; adds the work, doubled, and the energy lost.
+
+    Returns also whether any presses.
+    """
     pressed = False
     for i in range(0, len(m.u), LANES):
         store(m.push, i, 0.0)
@@ -223,7 +254,7 @@ def push_blade(m, count, vector, energy, work, lost):
             continue
         pressed = True
         m.totals.largest_force = max(m.totals.largest_force, -normal)
-        tangential, meridional = normal * m.friction_share[0, k], normal * m.friction_share[1, k]
+        tangential, meridional = m.friction_force[0, k], m.friction_force[1, k]
         for i in range(0, len(m.u), LANES):
             if vector:
                 push = load(m.displacement_operator, (NORMAL, k, i)) * normal
@@ -233,8 +264,7 @@ def push_blade(m, count, vector, energy, work, lost):
                 push = load(m.push_operator, (k, i)) * normal
             store(m.push, i, load(m.push, i) + push)
     if not pressed:
-        return work, lost
-    m.totals.steps_in_contact += 1.0
+        return False, work, lost
     for i in range(0, len(m.u), LANES):
         free, push = load(m.increment, i) + load(m.last_increment, i), load(m.push, i)
         pushed = load(m.inverse, i) * push
@@ -243,7 +273,7 @@ def push_blade(m, count, vector, energy, work, lost):
         work += push * (free + pushed)
         if energy:
             lost += load(m.loss, i) * pushed * (free + free + pushed)
-    return work, lost
+    return True, work, lost
 
 
 @inlined
@@ -258,7 +288,11 @@ def meet(m, place, kind, work, lost):
         count = press_casing(m, kind)
     else:
         leave_casing(m)
-    return push_blade(m, count, kind.vector_friction, kind.energy, work, lost)
+    if kind.vector_friction:
+        set_friction_force(m)
+    pressed, work, lost = push_blade(m, count, kind.vector_friction, kind.energy, work, lost)
+    m.totals.steps_in_contact += pressed
+    return work, lost
 
 
 @inlined
@@ -269,19 +303,45 @@ def leave_casing(m):
 
 
 @inlined
-def record(m, block, row):
+def record(m, block, row, kind):
     """Samples and, unless `row` is -1, a snapshot at the end of a block; returns whether the outputs are within the limit."""
-    samples, snapshots = numbers_at(m.samples), numbers_at(m.snapshots)
-    outputs = m.outputs.shape[0]
+    snapshots, modes = numbers_at(m.snapshots), len(m.u)
+    bounded = sample_as_published(m, block) if kind.published else sample(m, block, kind.second_order)
+    if row >= 0:
+        width = modes + (len(m.static_force) if kind.second_order else 0)
+        for i in range(modes):
+            snapshots[row * width + i] = m.u[i]
+        for k in range(width - modes):
+            snapshots[row * width + modes + k] = m.static_force[k]
+    return bounded
+
+
+@inlined
+def sample(m, block, settles):
+    """The outputs, with those of the static modes where it `settles`; returns whether they are within the limit."""
+    samples, outputs = numbers_at(m.samples), m.number_of_outputs
+    beyond = 0
+    for g in range(0, len(m.sample), LANES):
+        total = along(m.outputs, 0, m.u, g, len(m.u))
+        if settles:
+            total += along(m.force_outputs, 0, m.static_force, g, len(m.static_force))
+        store(m.sample, g, total)
+        # written so that NaN fails as well
+        beyond |= ~bits_of(np.abs(total) < m.limit) & ((1 << LANES) - 1)
+    for o in range(outputs):
+        samples[block * outputs + o] = m.sample[o]
+    return beyond == 0
+
+
+@inlined
+def sample_as_published(m, block):
+    """The same one after another: what was computed with the published integrator is to stay, to the last bit."""
+    samples, outputs = numbers_at(m.samples), m.number_of_outputs
     bounded = True
     for o in range(outputs):
         total = 0.0
         for i in range(len(m.u)):
-            total += m.outputs[o, i] * m.u[i]
+            total += m.outputs[0, o, i] * m.u[i]
         samples[block * outputs + o] = total
-        # written so that NaN fails as well
         bounded &= abs(total) < m.limit
-    if row >= 0:
-        for i in range(len(m.u)):
-            snapshots[row * len(m.u) + i] = m.u[i]
     return bounded

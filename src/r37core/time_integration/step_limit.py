@@ -1,0 +1,80 @@
+"""Time steps that a simulation bears: the limits of stability, each with the recursion it is derived from."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from r37core.contact.scene import Lining
+
+from .integrators import CENTRAL_DIFFERENCE
+
+if TYPE_CHECKING:
+    from .problem import Problem
+
+
+class UnstableStepError(ValueError):
+    """A time step beyond a stability limit; `limit` (s), about what the problem bears."""
+
+    def __init__(self, message: str, limit: float):
+        super().__init__(message)
+        self.limit = limit
+
+
+def check_step(problem: Problem) -> None:
+    """Raises UnstableStepError unless the problem's step is below its limits, of the free blade and of the lining."""
+    choice, step, highest = problem.choice, problem.time_step, problem.frequencies[-1]
+    given = f"time_step_s: {choice.time_step:g} s gives steps of {step:.6g} s, not below the"
+    limit = 2.0 / highest
+    if choice.integrator == CENTRAL_DIFFERENCE and not step < limit:
+        raise UnstableStepError(
+            f"{given} stability limit of this reduced model, {limit:.6g} s (highest mode {highest / 2e3 / np.pi:.1f} kHz); "
+            "use a smaller one, raise basis_tolerance to drop the highest modes, or take the integrator exact_modal",
+            limit,
+        )
+    lining = problem.scene.lining
+    if lining is None:
+        return
+    stiffness = lining.elastic_modulus * problem.bar_area / lining.thickness
+    ratio = second_order_ratio(problem, lining) if problem.second_order else predicted_ratio(problem, stiffness)
+    if not ratio < 1.0:
+        limit = step / np.sqrt(ratio)
+        raise UnstableStepError(
+            f"{given} limit for this lining, about {limit:.6g} s (bars of {stiffness:.4g} N/m); use a smaller one, "
+            "or a softer, thicker or narrower lining",
+            limit,
+        )
+
+
+def predicted_ratio(problem: Problem, stiffness: float) -> float:
+    """How near the limit a lining is, whose force (bars of `stiffness`, N/m) is that of the prediction; unstable from 1 on.
+
+    A node pressed by x on an elastic bar follows x_{n+1} = (1 - g)(2 x_n - x_{n-1}), g = bar stiffness times c at the node;
+    both roots of the recursion lie inside the unit circle for 0 < g < 4/3.
+    """
+    return stiffness * float(np.linalg.eigvalsh(problem.coupling[0])[-1]) * 0.75
+
+
+def second_order_ratio(problem: Problem, lining: Lining) -> float:
+    """How near the limit a lining is, whose force is that of t_n; unstable from 1 on.
+
+    With all nodes on elastic bars the stepped modes follow u_{n+1} = (1 + k - M) u_n - k u_{n-1}, with k = keep and
+    M = pull + C^(1/2) N^T K N C^(1/2), C = inverse, N the nodes' normal displacement and K the bars in series with each node's
+    own residual flexibility. M is symmetric and positive, so for an eigenvector x both roots of
+    lambda^2 - (1 + k_x - m_x) lambda + k_x lie inside the unit circle if m_x < 2 (1 + k_x), k_x and m_x being means over x.
+    The static displacement that the other nodes' forces add lags by a step: that sum must shrink from step to step.
+    """
+    recursion, normal, flexibility = problem.recursion, problem.displacement_operator[0], problem.residual_flexibility[0]
+    series = series_modulus(problem, lining, np.diag(flexibility)) * (problem.bar_area / lining.thickness)
+    root = np.sqrt(recursion.inverse)
+    matrix = np.diag(recursion.pull) + (root[:, None] * normal.T * series) @ (normal * root)
+    stepped = float(np.linalg.eigvalsh(matrix)[-1]) / (2.0 * (1.0 + float(recursion.keep.min())))
+    half = np.sqrt(series)
+    lagging = half[:, None] * (flexibility - np.diag(np.diag(flexibility))) * half
+    return max(stepped, float(np.abs(np.linalg.eigvalsh(lagging)).max()))
+
+
+def series_modulus(problem: Problem, lining: Lining, flexibility: np.ndarray) -> np.ndarray:
+    """Elastic modulus (Pa) of a bar and a `flexibility` (m/N) behind its area, as springs in series."""
+    return lining.elastic_modulus / (1.0 + lining.elastic_modulus * problem.bar_area / lining.thickness * flexibility)
