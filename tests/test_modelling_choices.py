@@ -274,7 +274,7 @@ def test_steepest_fall_is_where_a_noisy_branch_ends():
 
 def test_varied_choices_take_the_quick_level_and_the_shipped_one_the_published(settings):
     planned = cases(settings)
-    published, quick = (settings.levels[name].time_integration.choice() for name in ("paper", "standard"))
+    published, quick = (settings.levels[name].time_integration.choice(lined=True) for name in ("paper", "standard"))
     assert planned["shipped/Ref_4"].choice == published
     assert planned["half_step/Ref_4"].choice == replace(published, time_step=0.5 * published.time_step)
     assert {planned[name].choice for name in ("exact/Ref_4", "quick/Ref_4", "survey/Ref_lined")} == {quick}

@@ -311,7 +311,7 @@ def test_a_round_s_file_says_what_it_was(tmp_path):
 
 def test_what_a_run_gives():
     run = {"status": np.array(0), "rms": np.arange(6.0).reshape(2, 3), "snapshots": np.ones((4, 2))}
-    recovery = type("Recovery", (), {"max_von_mises": lambda self, snapshots: np.arange(len(snapshots)) + 3.0})()
+    recovery = type("Recovery", (), {"of_last_revolution": lambda self, run, instants: np.arange(instants) + 3.0})()
     assert measure(run, recovery, 2, 8.0)[0] == 0
     assert measure(run, recovery, 2, 8.0)[3] == 0.5
     assert np.isnan(measure(run, None, 2, 8.0)[3])

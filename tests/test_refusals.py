@@ -169,7 +169,7 @@ CONFIG_REFUSALS = [
     (
         "speeds_for: []",
         "speeds_for: [{ scenes: [direct], speeds: [0.01] }]",
-        r"speeds: found 0\.01 rad/s, a revolution of 1\.57e\+09 steps .*; allowed: speeds from 0\.936 rad/s",
+        r"speeds: found 0\.01 rad/s, a revolution of 7\.85e\+08 steps .*; allowed: speeds from 0\.468 rad/s",
     ),
     ("start: 750, ", "start: 0, ", r"speeds\.0\.start: found 0; allowed: number, at least 0\.001"),
     (

@@ -126,7 +126,9 @@ def test_task_of_a_simulation(chosen):
     task = json.loads(Sweep(chosen).task(of(blade="Ref", scene="direct", speed="900")))
     assert task["scene"]["lining"] is None
     level = chosen.fidelity.time_integration
-    assert task["choice"]["time_step"] == level.time_step_s
+    assert task["choice"]["time_step"] == level.largest_time_step_s.direct
+    lined = json.loads(Sweep(chosen).task(of(blade="Ref", scene="abradable", speed="900")))
+    assert lined["choice"]["time_step"] == level.largest_time_step_s.lined
     assert task["choice"]["revolutions"] == level.revolutions
     assert task["kept"]["wear_angles"] == level.wear_angles
 
@@ -158,7 +160,8 @@ def test_provenance(chosen):
     attributes = Provenance(chosen).sweep(of(blade="Ref", scene="direct"))
     assert attributes["blade"] == "Ref"
     assert attributes["fidelity"] == "standard"
-    assert attributes["numerics"] == "20000 nodes, exact_modal of 4e-07 s"
+    step = chosen.fidelity.time_integration.largest_time_step_s.direct
+    assert attributes["numerics"] == f"20000 nodes, exact_modal of {step:g} s"
     assert from_plain(Scene, json.loads(attributes["scene_parameters"])) == chosen.scenes["direct"].scene
     assert json.loads(Provenance(chosen).sweep(REF)["scene_parameters"])["lining"]
 
@@ -217,8 +220,8 @@ def test_a_parameter_of_the_model_changes_its_own_part_of_the_name(root):
             names, parts = base.model.name.split("_"), changed.model.name.split("_")
             assert [part for name, part in zip(names, parts, strict=True) if name != part] == [str(value)]
     assert cases["level/draft__direct"].model.nodes == 5000
-    assert cases["level/draft__direct"].choice.time_step == 8e-7
-    assert base.choice.time_step == 4e-7
+    steps = [read_settings(root).levels[name].time_integration.largest_time_step_s.direct for name in ("draft", "standard")]
+    assert [cases["level/draft__direct"].choice.time_step, base.choice.time_step] == steps
 
 
 def test_a_study_names_what_it_lacks(root):

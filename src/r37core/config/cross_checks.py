@@ -83,7 +83,7 @@ def stress_instants_are_samples(settings: Settings) -> None:
     tradeoff = settings.studies.tradeoff
     if tradeoff is None or tradeoff.parameters.stress_instants is None:
         return
-    samples = settings.levels[tradeoff.base].time_integration.choice().samples_per_revolution
+    samples = settings.levels[tradeoff.base].time_integration.samples_per_revolution
     path = ("studies", "tradeoff", "parameters", "stress_instants", "values")
     for number, instants in enumerate(tradeoff.parameters.stress_instants.values):
         if samples % instants:
@@ -155,7 +155,8 @@ def slowest_speed_fits_in_memory(settings: Settings) -> None:
     signals = settings.config.signals
     if isinstance(speeds := signals.speeds(), list):
         slowest.append((speeds[0], ("signals", signals.key_of_speeds)))
-    nodes, step = settings.structure.boundary.nodes, settings.fidelity.time_integration.time_step_s
+    steps, lined = settings.fidelity.time_integration, {one.scene.lining is not None for one in settings.scenes.values()}
+    nodes, step = settings.structure.boundary.nodes, min(map(steps.largest_step, lined))
     for speed, path in slowest:
         size = 8 * nodes * 2.0 * math.pi / speed / step
         if size > LARGEST_TABLE:

@@ -43,10 +43,26 @@ class Measured(Section):
     cpu_s_per_run: float = Field(gt=0, le=1e9)
 
 
+Step = Annotated[float, Field(ge=1e-12, le=1e-2)]
+
+
+class Steps(Section):
+    """Largest steps of the scenes with a lining and of those without."""
+
+    lined: Step
+    direct: Step
+
+
 class TimeIntegration(Section):
     """The time integration and what it keeps."""
 
-    time_step_s: float = Field(ge=1e-12, le=1e-2, description="largest step; shortened so that it divides a revolution")
+    time_step_s: Step | LeftOut = Field(
+        default=None,
+        description="largest step of every scene, shortened so that it divides a revolution; refused where it is unstable",
+    )
+    largest_time_step_s: Steps | LeftOut = Field(
+        default=None, description="in place of time_step_s: of each kind of scene; shortened also where it is unstable"
+    )
     revolutions: int = Field(ge=2, le=20000)
     speed_step_rad_s: Speed = Field(description="step of the speed ranges that give none")
     integrator: Literal["central_difference", "exact_modal"] = Field(
@@ -61,6 +77,13 @@ class TimeIntegration(Section):
     samples_per_stress_instant: int = Field(default=8, ge=1, le=10000, description="samples of the tip motion between them")
     spectrum_highest_order: int = Field(default=20, ge=1, le=10000)
     wear_angles: int = Field(default=1000, ge=8, le=1_000_000, description="angles of the wear profile that are kept")
+
+    @model_validator(mode="after")
+    def _one_step(self) -> TimeIntegration:
+        if (self.time_step_s is None) == (self.largest_time_step_s is None):
+            found = "neither of them" if self.time_step_s is None else "both"
+            raise refused(("time_step_s",), found, "time_step_s or largest_time_step_s, one of them")
+        return self
 
     @model_validator(mode="after")
     def _signal_fits(self) -> TimeIntegration:
@@ -78,11 +101,24 @@ class TimeIntegration(Section):
         """Samples of the tip motion per revolution."""
         return self.stress_instants * self.samples_per_stress_instant
 
-    def choice(self) -> IntegrationChoice:
-        """The time integration of this level, with the stress of the last revolution and the energy balance."""
+    def largest_step(self, lined: bool) -> float:
+        """Largest step (s) in a scene with a lining, or without."""
+        steps = self.largest_time_step_s
+        if steps is not None:
+            return steps.lined if lined else steps.direct
+        assert self.time_step_s is not None
+        return self.time_step_s
+
+    def choice(self, lined: bool) -> IntegrationChoice:
+        """The time integration of this level in a scene with or without a lining.
+
+        With the stress of the last revolution and the energy balance.
+        """
         return in_si(
             IntegrationChoice,
             self,
+            time_step=self.largest_step(lined),
+            shorten=self.time_step_s is None,
             samples_per_revolution=self.samples_per_revolution,
             snapshots_per_revolution=self.stress_instants,
             snapshot_revolutions=1,

@@ -252,7 +252,7 @@ class Settings:
     def integration_choice(self, blade: str, scene: str, speed: float) -> IntegrationChoice:
         """Numbers of the time integration at one speed of a blade and scene, with only what its results need."""
         chosen = self.scenes[scene]
-        everything = self.fidelity.time_integration.choice()
+        everything = self.fidelity.time_integration.choice(chosen.scene.lining is not None)
         stress = "stress" in self.results_of(blade, scene)
         history = speed in chosen.stress_history_speeds
         return replace(

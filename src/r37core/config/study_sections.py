@@ -32,6 +32,7 @@ class Parameters(Section):
     level: Parameter[Name]
     central_difference_step: Parameter[Annotated[float, Field(ge=1e-12, le=1e-2)]] | LeftOut = None
     exact_modal_step: Parameter[Annotated[float, Field(ge=1e-12, le=1e-2)]] | LeftOut = None
+    static_above: Parameter[Annotated[float, Field(gt=0, le=1e9)]] | LeftOut = None
     revolutions: Parameter[Annotated[int, Field(ge=2, le=20000)]] | LeftOut = None
     mesh_nodes: Parameter[Annotated[int, Field(ge=500, le=500_000)]] | LeftOut = None
     boundary_nodes: Parameter[Annotated[int, Field(ge=1, le=200)]] | LeftOut = None

@@ -53,11 +53,12 @@ class Provenance:
 
     def _sweep_of(self, blade: str, scene: str) -> Attributes:
         chosen, steps = self._settings.scenes[scene], self._settings.fidelity.time_integration
+        step = steps.largest_step(chosen.scene.lining is not None)
         return Attributes(
             self._structure(blade),
             scene=scene,
             scene_parameters=json.dumps(to_plain(chosen.scene)),
             revolutions=chosen.revolutions,
-            largest_time_step=steps.time_step_s,
-            numerics=f"{self._settings.fidelity.mesh.nodes} nodes, {steps.integrator} of {steps.time_step_s:g} s",
+            largest_time_step=step,
+            numerics=f"{self._settings.fidelity.mesh.nodes} nodes, {steps.integrator} of {step:g} s",
         )

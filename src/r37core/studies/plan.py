@@ -15,6 +15,7 @@ from typing import Any, TypeVar
 
 from r37core.blade.definition import BladeDefinition
 from r37core.config import BladeSettings, ConfigError, SceneEntry, Settings, plain
+from r37core.contact.scene import Scene
 from r37core.fem.material import Material
 from r37core.plain import to_plain
 from r37core.plans import paths
@@ -140,9 +141,9 @@ def model_of_level(settings: Settings, level: str) -> ModelChoice:
     )
 
 
-def integration_of_level(settings: Settings, level: str) -> IntegrationChoice:
-    """The time integration of a fidelity level."""
-    return level_of(settings, level).time_integration.choice()
+def integration_of_level(settings: Settings, level: str, scene: Scene | None) -> IntegrationChoice:
+    """The time integration of a fidelity level in a scene."""
+    return level_of(settings, level).time_integration.choice(scene is not None and scene.lining is not None)
 
 
 def kept_of(level: Any) -> dict[str, int]:

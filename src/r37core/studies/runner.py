@@ -21,7 +21,7 @@ from r37core.results.stress_recovery import StressRecovery
 from r37core.rom.contact_model import ContactModel, read_contact_model
 from r37core.rom.rom_file import read_reduced_model
 from r37core.time_integration.integration_choice import IntegrationChoice
-from r37core.time_integration.problem import Problem
+from r37core.time_integration.problem import stable_problem
 from r37core.time_integration.simulate import Simulation
 from r37core.time_integration.speed_file import read_speed, write_speed
 from r37core.time_integration.speed_run import run_speed
@@ -116,10 +116,11 @@ class _Runs:
             choice = replace(choice, snapshots_per_revolution=0, snapshot_revolutions=0)
         if case.share_of_limit is not None:
             middle = case.speeds[len(case.speeds) // 2]
-            choice = replace(choice, time_step=case.share_of_limit * 2.0 / self.model.modes_at(1.01 * middle)[0][-1])
+            step = case.share_of_limit * 2.0 / self.model.modes_at(1.01 * middle)[0][-1]
+            choice = replace(choice, time_step=step, shorten=False)
         if case.half_step:
             # of the step taken, which divides the sampling instants: half of the one asked for may give the same
-            choice = replace(choice, time_step=0.5 * Problem(self.model, speed, self.scene, choice).time_step)
+            choice = replace(choice, time_step=0.5 * stable_problem(self.model, speed, self.scene, choice).time_step)
         return choice
 
     def _run(self, speed: float) -> None:

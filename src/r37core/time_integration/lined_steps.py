@@ -69,6 +69,7 @@ def release_lining(m, pushed):
     for g in range(0, len(m.force), LANES):
         store(m.settled, g, 0.0)
         store(m.force, g, 0.0)
+    set_friction_force(m)
     for k in range(0, len(m.static_force), LANES):
         store(m.static_force, k, 0.0)
 

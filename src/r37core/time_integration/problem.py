@@ -64,10 +64,10 @@ class Problem:
         kept = len(self._kept_modes[0])
         if not self.second_order:
             return kept
-        at_rest = np.sqrt(self.model.squared_frequencies)
-        slow = int(np.count_nonzero(at_rest * self.choice.time_step <= self.choice.static_above))
+        angles = np.sqrt(self.model.squared_frequencies) * self.choice.time_step / self.choice.static_above
+        slow, at_most = (int(np.count_nonzero(angles <= largest)) for largest in (1.0, 2.0))
         # at least one: a blade of static modes alone would not vibrate
-        return min(padded(max(slow, 1)), kept)
+        return max(min(padded(slow), at_most, kept), 1)
 
     @cached_property
     def _kept_modes(self) -> tuple[np.ndarray, np.ndarray]:

@@ -183,9 +183,9 @@ def cases(settings: Settings) -> dict[str, Case]:
 
 def _case(settings: Settings, choice: ModellingChoice, window: Window) -> Case:
     section = settings.studies.modelling_choices
-    integration = integration_of_level(settings, section.quick if choice.quick else section.base)
     entry = plain_scene(settings, getattr(section, f"{window.kind}_scene"))
     scene = checked_scene(changed(entry, choice.changes))
+    integration = integration_of_level(settings, section.quick if choice.quick else section.base, scene)
     return Case(
         window.blade,
         _model(settings, window.blade, choice.model),

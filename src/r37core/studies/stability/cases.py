@@ -120,12 +120,12 @@ def _extremes(settings: Settings) -> list[Extreme]:
 
 def _case(settings: Settings, extreme: Extreme) -> Case:
     section, entry = settings.studies.stability, plain_scene(settings, extreme.scene)
-    choice = replace(integration_of_level(settings, section.base), revolutions=extreme.revolutions)
     scene, refused = None, ""
     try:
         scene = checked_scene(changed(entry, extreme.changes))
     except ConfigError as error:
         refused = str(error)
+    choice = replace(integration_of_level(settings, section.base, scene), revolutions=extreme.revolutions)
     return Case(
         section.blade,
         replace(model_of_level(settings, section.base), **extreme.model),

@@ -32,9 +32,16 @@ OF_THE_MODEL: Mapping[str, Callable[[str], dict[str, Any]]] = {
 }
 """Parameter -> fields of ModelChoice, from a value's text."""
 
+
+def _step(integrator: str, value: str) -> dict[str, Any]:
+    """Numbers of a given step, which is refused where it is unstable."""
+    return {"time_step": float(value), "shorten": False, "integrator": integrator}
+
+
 OF_THE_INTEGRATION: Mapping[str, Callable[[str], dict[str, Any]]] = {
-    "central_difference_step": lambda value: {"time_step": float(value), "integrator": CENTRAL_DIFFERENCE},
-    "exact_modal_step": lambda value: {"time_step": float(value), "integrator": EXACT_MODAL},
+    "central_difference_step": lambda value: _step(CENTRAL_DIFFERENCE, value),
+    "exact_modal_step": lambda value: _step(EXACT_MODAL, value),
+    "static_above": lambda value: {"static_above": float(value)},
     "revolutions": lambda value: {"revolutions": int(value)},
     "highest_frequency": lambda value: {"highest_frequency": float(value)},
     "stress_instants": lambda value: {"snapshots_per_revolution": int(value)},
@@ -90,7 +97,7 @@ def _case(settings: Settings, section: TradeoffSection, parameter: str, value: s
     if parameter in OF_THE_MODEL:
         model = replace(model, **OF_THE_MODEL[parameter](value))
     entry = scene_entry_of(settings, scene).scene()
-    varied, choice = vary(parameter, value, entry, integration_of_level(settings, level))
+    varied, choice = vary(parameter, value, entry, integration_of_level(settings, level, entry))
     return Case(
         section.blade,
         model,
