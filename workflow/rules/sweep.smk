@@ -59,11 +59,12 @@ rule simulate:
         task=sweep.task,
         about=made.sweep,
         python=PYTHON,  # a path and no text: another place is no reason to run again
+        start=SCRIPTS / "start.py",
         script=SCRIPTS / "simulate.py",
         code=code("simulate"),
     # not `script:`, whose preamble imports Snakemake into each of thousands of jobs
     shell:
-        "{params.python:q} {params.script:q} {input.model:q} {wildcards.speed:q} {output:q} {log:q} {params.task:q} {params.about:q}"
+        "{params.python:q} -S -E {params.start:q} {params.script:q} {input.model:q} {wildcards.speed:q} {output:q} {log:q} {params.task:q} {params.about:q}"
 
 
 # adaptive speed sampling: each round asks for some more, from what those before it gave, until one asks for none

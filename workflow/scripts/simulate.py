@@ -1,6 +1,6 @@
 """Simulate one blade at one speed in one scene. Arguments: contact model, speed, output, log, task, about. Output: speed_*.npz.
 
-Started without Snakemake's own preamble; task and attributes of the file, in JSON, are made in r37core.plans.
+Started by start.py, without Snakemake's own preamble; task and attributes of the file, in JSON, are made in r37core.plans.
 """
 
 import json
@@ -22,6 +22,7 @@ def main(model, speed, output, task, about):
     write_speed(result, output, json.loads(about))
 
 
-model, speed, output, log, task, about = sys.argv[1:]
-with reported("simulate", log, f"speed {speed}, "):
-    main(model, speed, output, task, about)
+if __name__ == "__main__":
+    model, speed, output, log, task, about = sys.argv[1:]
+    with reported("simulate", log, f"speed {speed}, "):
+        main(model, speed, output, task, about)

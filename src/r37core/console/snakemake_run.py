@@ -22,7 +22,7 @@ from r37core.config import ConfigError, Settings, settings_of_run
 from r37core.plans.run import check_part, check_tree, replaced_level
 from r37core.plans.sweep_plan import Sweep
 
-from . import failures, interpreter, lock
+from . import failures, interpreter, job_server, lock
 from .closing import closing_lines
 from .progress import Progress, quieten
 
@@ -52,6 +52,7 @@ class Console:
         # quarter of a core in the default sweep. The limit is for the queues of clusters
         if self.workflow.local_exec:
             self.workflow.scheduler.job_rate_limiter = None
+            job_server.start(Path(self.workflow.basedir) / "workflow/scripts/simulate.py", interpreter.PYTHON)
 
     def succeed(self) -> None:
         """After the last job: nothing is said where there is nothing to say."""

@@ -1,0 +1,120 @@
+"""Jobs in a server that has imported what they need: same output and status, and by themselves without one."""
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from r37core.console import job_server
+
+SCRIPT = """
+import os, sys, time
+from pathlib import Path
+if __name__ == "__main__":
+    out, what = sys.argv[1:]
+    Path(out).write_text(str(os.getppid()))
+    print("said", flush=True)
+    print("warned", file=sys.stderr, flush=True)
+    if what == "sleep" and not Path(out + ".slept").exists():
+        Path(out + ".slept").write_text(str(os.getpid()))
+        time.sleep(60)
+    if what == "raise":
+        raise ValueError("no")
+    sys.exit(int(what) if what.isdigit() else 0)
+"""
+
+
+@pytest.fixture
+def start(root, tmp_path, monkeypatch):
+    """Starts a job of the script, as the rule does; `start.server` is the process of the server."""
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("PYTHONPATH", str(root / "src"))
+    monkeypatch.setenv(job_server.ADDRESS, "")
+    Path(".snakemake").mkdir()
+    Path("job.py").write_text(SCRIPT)
+    job_server.start(tmp_path / "job.py", Path(sys.executable))
+    server = job_server._KEPT.pop()
+    wait_for(Path(os.environ[job_server.ADDRESS]))
+
+    def one(*arguments, out="out", **options):
+        command = [sys.executable, "-S", "-E", str(root / "workflow/scripts/start.py"), "job.py", out, *arguments]
+        return subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, **options)
+
+    one.server = server
+    yield one
+    server.stdin.close()
+    server.wait(20)
+
+
+def wait_for(path, there=True):
+    until = time.monotonic() + 20.0
+    while path.exists() != there:
+        assert time.monotonic() < until, path
+        time.sleep(0.01)
+
+
+def parent():
+    return int(Path("out").read_text())
+
+
+@pytest.mark.parametrize(("what", "status"), [("0", 0), ("3", 3), ("raise", 1)])
+def test_output_and_status_are_those_of_the_job(start, what, status):
+    job = start(what)
+    said, warned = job.communicate(timeout=20)
+    assert (job.returncode, said) == (status, "said\n")
+    assert warned.startswith("warned\n")
+    assert parent() == start.server.pid
+
+
+def test_only_the_owner_reaches_the_server(start):
+    folder = Path(os.environ[job_server.ADDRESS]).parent
+    assert folder.stat().st_mode & 0o777 == 0o700
+    start.server.stdin.close()
+    start.server.wait(20)
+    assert not folder.exists()
+
+
+def test_a_killed_server_is_done_without(start):
+    start.server.kill()
+    start.server.wait(20)
+    job = start("2")
+    assert job.communicate(timeout=20)[0] == "said\n"
+    assert job.returncode == 2
+    assert parent() == os.getpid()
+
+
+def test_a_job_that_is_killed_in_the_server_is_done_again_by_itself(start):
+    job = start("sleep")
+    wait_for(Path("out.slept"))
+    time.sleep(0.1)
+    os.kill(int(Path("out.slept").read_text()), signal.SIGKILL)
+    job.communicate(timeout=20)
+    assert job.returncode == 0
+    assert parent() == os.getpid()
+
+
+def test_a_job_whose_client_is_killed_ends(start):
+    job = start("sleep")
+    wait_for(Path("out.slept"))
+    time.sleep(0.1)
+    job.kill()
+    wait_for(Path(f"/proc/{Path('out.slept').read_text()}"), there=False)
+    # and the server goes on
+    assert start("0").wait(20) == 0
+
+
+def test_jobs_side_by_side(start):
+    jobs = [start("4", out=f"out_{number}") for number in range(30)]
+    assert {job.wait(20) for job in jobs} == {4}
+    assert {Path(f"out_{number}").read_text() for number in range(30)} == {str(start.server.pid)}
+
+
+def test_a_folder_without_sockets_has_no_server(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv(job_server.ADDRESS, "of another run")
+    job_server.start(tmp_path / "job.py", Path(sys.executable))
+    assert job_server.ADDRESS not in os.environ
