@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 import xarray as xr
 from defaults import IntegrationChoice
-from integration_cases import ABRADABLE, DIRECT
+from integration_cases import ABRADABLE, DIRECT, random_model
 from workflow_runs import snakemake
 
 from r37core.config import ConfigError, command_line_document, read_settings
@@ -21,6 +21,7 @@ from r37core.config.study_sections import Parameters
 from r37core.dataset_file import read_dataset
 from r37core.plain import from_plain, to_plain
 from r37core.results.measures import first_contact
+from r37core.studies import runner
 from r37core.studies.case import MODEL_NAME, Case, ModelChoice, changed, model_of_name
 from r37core.studies.estimate.cases import sample
 from r37core.studies.estimate.report import describe, project_costs
@@ -31,7 +32,10 @@ from r37core.studies.stability.report import judge
 from r37core.studies.tradeoff import cases as tradeoff
 from r37core.studies.tradeoff.cases import PARAMETERS, vary
 from r37core.studies.tradeoff.report import QUANTITIES, exponent_of, gather_cases, level_error, parameter_tables
+from r37core.time_integration.compiled import _program
+from r37core.time_integration.problem import Problem
 from r37core.time_integration.simulate import Simulation
+from r37core.time_integration.speed_run import run_speed
 
 
 def test_a_study_is_a_folder_and_one_runner_serves_all(root):
@@ -324,3 +328,25 @@ def test_an_extreme_and_modelling_choices_run(project):
     # the run's own level is the study's, so that its models serve for both; the other mesh has its own
     models = [file.parent.name for file in (project / "results/studies/models/CS100").glob("*/rom.nc")]
     assert models == ["10000_8_10_submesh_pressure_edge_inside"]
+
+
+@pytest.mark.slow
+def test_no_priced_run_compiles(tmp_path, monkeypatch):
+    """Two speeds whose modes, cut at a frequency, need programs of two layouts."""
+    model = replace(random_model(8), stiffness_per_square=1e8 * np.eye(24))
+    choice = IntegrationChoice(1e-6, 2, 62, integrator="exact_modal", highest_frequency=3e5)
+    counts, compiled = [], []
+
+    def timed(model, speed, scene, choice, *given, **kept):
+        before = _program.cache_info().misses
+        run = run_speed(model, speed, scene, choice, *given, **kept)
+        counts.append(len(Problem(model, speed, scene, choice).frequencies))
+        compiled.append(_program.cache_info().misses - before)
+        return run
+
+    monkeypatch.setattr(runner, "run_speed", timed)
+    kept = {"spectrum_highest_order": 10, "wear_angles": 8}
+    case = Case("Ref", "pressure_edge", DIRECT, choice, (10.0, 180.0), ("energy",), material=None, kept=kept)
+    runner.run_case(case, model, None, tmp_path / "case.nc")
+    assert compiled == [0, 0]
+    assert counts[1] <= counts[0] - 8

@@ -98,8 +98,6 @@ class _Runs:
         self.files: dict[float, Path] = {}
         self.beside: dict[float, dict[str, float]] = {}
         self.histories = set(case.speeds if case.history_speeds is None else case.history_speeds)
-        # compiled before anything is timed
-        Simulation(model, case.speeds[0], self.scene, self._choice(case.speeds[0]))
         for number, speed in enumerate(case.speeds, 1):
             self._run(speed)
             if number % 100 == 0:
@@ -126,6 +124,8 @@ class _Runs:
     def _run(self, speed: float) -> None:
         case, integration, writing = self.case, Stopwatch(), Stopwatch()
         choice, file = self._choice(speed), self.folder / f"{speed!r}.npz"
+        # compiled before it is timed
+        Simulation(self.model, speed, self.scene, choice)
         with integration:
             run = run_speed(self.model, speed, self.scene, choice, case.results, **case.kept)
         with writing:

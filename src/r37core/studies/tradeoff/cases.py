@@ -104,7 +104,7 @@ def _case(settings: Settings, section: TradeoffSection, parameter: str, value: s
         varied,
         choice,
         speeds=tuple(sorted({share for shares in shares_of(section).values() for share in shares})),
-        results=("energy", "spectrum", "stress", *(["wear"] if varied.lining else [])),
+        results=("energy", "spectrum", "stress", "instants", *(["wear"] if varied.lining else [])),
         material=material_of(settings, section.blade),
         kept=kept_of(level_of(settings, level)),
         crossing=("1B", section.engine_order),
