@@ -11,6 +11,7 @@ import hashlib
 import os
 import tempfile
 from collections.abc import Callable
+from functools import cache
 from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
@@ -29,11 +30,15 @@ class ObjectCodeError(RuntimeError):
 def processor() -> tuple[str, str]:
     """Name and features that code is made for: this machine's, or numba's NUMBA_CPU_NAME and NUMBA_CPU_FEATURES."""
     named = os.environ.get("NUMBA_CPU_NAME")
-    name = llvm.get_host_cpu_name() if named in (None, "host") else named
+    own_name, own_features = this_processor() if named in (None, "host") else (str(named), "")
     features = os.environ.get("NUMBA_CPU_FEATURES")
-    if features is None:
-        features = llvm.get_host_cpu_features().flatten() if named in (None, "host") else ""
-    return str(name), features
+    return own_name, own_features if features is None else features
+
+
+@cache
+def this_processor() -> tuple[str, str]:
+    """Name and features of this machine's processor; LLVM takes a while to find them out."""
+    return llvm.get_host_cpu_name(), llvm.get_host_cpu_features().flatten()
 
 
 class Sources:

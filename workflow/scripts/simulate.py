@@ -8,11 +8,15 @@ import sys
 
 from r37core.console.failures import reported
 from r37core.contact.scene import Scene
+from r37core.native import this_processor
 from r37core.plain import from_plain
 from r37core.rom.contact_model import read_contact_model
 from r37core.time_integration.integration_choice import IntegrationChoice
 from r37core.time_integration.speed_file import write_speed
 from r37core.time_integration.speed_run import run_speed
+
+# for the jobs that a server forks from here
+this_processor()
 
 
 def main(model, speed, output, task, about):
