@@ -160,8 +160,11 @@ def test_provenance(chosen):
     attributes = Provenance(chosen).sweep(of(blade="Ref", scene="direct"))
     assert attributes["blade"] == "Ref"
     assert attributes["fidelity"] == "standard"
-    step = chosen.fidelity.time_integration.largest_time_step_s.direct
-    assert attributes["numerics"] == f"20000 nodes, exact_modal of {step:g} s"
+    steps = chosen.fidelity.time_integration.largest_time_step_s
+    assert attributes["largest_time_step"] == steps.direct
+    assert attributes["numerics"] == f"20000 nodes, exact_modal of {steps.lined:g} s with lining, {steps.direct:g} s without"
+    # what joins datasets of one level
+    assert Provenance(chosen).sweep(REF)["numerics"] == attributes["numerics"]
     assert from_plain(Scene, json.loads(attributes["scene_parameters"])) == chosen.scenes["direct"].scene
     assert json.loads(Provenance(chosen).sweep(REF)["scene_parameters"])["lining"]
 

@@ -109,6 +109,12 @@ class TimeIntegration(Section):
         assert self.time_step_s is not None
         return self.time_step_s
 
+    @property
+    def in_words(self) -> str:
+        """The largest steps."""
+        steps = self.largest_time_step_s
+        return f"{self.time_step_s:g} s" if steps is None else f"{steps.lined:g} s with lining, {steps.direct:g} s without"
+
     def choice(self, lined: bool) -> IntegrationChoice:
         """The time integration of this level in a scene with or without a lining.
 

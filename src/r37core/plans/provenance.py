@@ -60,5 +60,6 @@ class Provenance:
             scene_parameters=json.dumps(to_plain(chosen.scene)),
             revolutions=chosen.revolutions,
             largest_time_step=step,
-            numerics=f"{self._settings.fidelity.mesh.nodes} nodes, {steps.integrator} of {step:g} s",
+            # of all scenes: datasets of one level may be joined
+            numerics=f"{self._settings.fidelity.mesh.nodes} nodes, {steps.integrator} of {steps.in_words}",
         )
