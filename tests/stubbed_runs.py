@@ -33,7 +33,8 @@ Path(snakemake.output[0]).write_text(json.dumps({"new": new, "measured": []}))
 def copy_stubbed(root, to):
     """A copy with the small sweep of copy_project, its scripts replaced."""
     copy_project(root, to)
-    for script in (to / "workflow/scripts").glob("*.py"):
+    # start.py starts simulate.py
+    for script in {*(to / "workflow/scripts").glob("*.py")} - {to / "workflow/scripts/start.py"}:
         # the imports stay: they decide what code a job depends on
         imports = [line for line in script.read_text().splitlines() if re.match(r"from r37core\S* import \w+(, \w+)*$", line)]
         lazy = "\n".join(["def _imports():", *(f"    {line}" for line in imports), "    return None"])
