@@ -22,9 +22,10 @@ def _integrate(m, kind):
     decay = 0.0 if at_once else np.exp(-m.casing.rise)
     coarse_per_block = (m.steps_per_block + COARSE - 1) // COARSE
     beyond, bounded, first_stride = False, False, 1
-    pushes = pushed = False
+    # whether the lining presses at t_n, has pressed in this step, and whether static modes follow any force
+    pushes = pushed = follows = False
     if kind.second_order:
-        pushes = list_pressed(m) > 0
+        pushes = follows = list_pressed(m) > 0
         settle(m, False)
         keep_static_force(m, False)
     done = kept = 0
@@ -67,10 +68,10 @@ def _integrate(m, kind):
             if kind.second_order:
                 if beyond:
                     pushes, work, lost = meet_lining(m, here, lobes, kind, pushed, work, lost)
-                    bounded = False
-                elif pushes:
+                    follows, bounded = True, False
+                elif follows:
                     release_lining(m, pushed)
-                    pushes = bounded = False
+                    pushes = follows = bounded = False
                 else:
                     leave_casing(m)
             elif beyond:
