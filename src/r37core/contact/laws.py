@@ -54,6 +54,11 @@ def return_mapping(penetration: float, wear: float, elastic_modulus: float, lini
     return max(stiffness * (penetration - worn), 0.0), worn
 
 
+def series_modulus(elastic_modulus: float, stiffness: float, flexibility: Any) -> Any:
+    """Elastic modulus (Pa) of a bar of `stiffness` (N/m) with a `flexibility` (m/N) behind it: two springs in series."""
+    return elastic_modulus / (1.0 + stiffness * flexibility)
+
+
 def friction_direction(tangential: Any, meridional: Any) -> tuple[Any, Any]:
     """Unit vectors of the friction forces on nodes, opposite to their sliding over the casing; zero where nothing slides.
 

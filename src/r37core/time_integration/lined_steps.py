@@ -9,19 +9,18 @@ spring in series with its bar, what the others' forces add lags by a step.
 from __future__ import annotations
 
 from r37core.alignment import LANES
-from r37core.contact.complementarity import list_nodes
 from r37core.lanes import bits_of, inlined, load, spread, store
 
 from .layout import MERIDIONAL, NORMAL, TANGENTIAL
-from .steps import leave_casing, measure_exact_gaps, measure_gaps, press_bars, press_casing, push_blade, set_friction_force
+from .steps import clear_force, leave_casing, list_pressed, measure, press_bars, press_casing, push_blade, set_friction_force
 
 
 @inlined
-def list_pressed(m):
-    """List the nodes that the lining presses; returns how many."""
-    for g in range(0, len(m.force), LANES):
-        m.problem.wrong[g // LANES] = bits_of(load(m.force, g) < 0.0)
-    return list_nodes(m.problem.wrong, m.problem.listed)
+def resume_lining(m):
+    """What follows from the lining's force at t_n, from which a revolution begins; returns whether there is one."""
+    settle(m, False)
+    keep_static_force(m, False)
+    return list_pressed(m) > 0
 
 
 @inlined
@@ -37,28 +36,24 @@ def push_lining(m, kind, work, lost):
 def meet_lining(m, here, lobes, kind, pushed, work, lost):
     """From the gaps at u_{n+1}: the push of the casing, should a node reach it, and the lining's force there.
 
-    `pushed`: whether the lining pressed in this step. Returns whether it presses in the next, work, doubled, and loss.
+    `pushed`: whether the lining pressed in this step. Returns work, doubled, and loss.
     """
     casing_presses = False
     if reaches_casing(m):
         casing_presses, work, lost = push_casing(m, kind, pushed, work, lost)
         # what the casing presses stays where it is
         settle(m, True)
-        if kind.exact_gap:
-            measure_exact_gaps(m, here, lobes, True)
-        else:
-            measure_gaps(m, here, lobes, True)
+        measure(m, here, lobes, kind)
         keep_static_force(m, False)
     else:
         leave_casing(m)
     m.totals.steps_in_contact += pushed or casing_presses
-    for g in range(0, len(m.force), LANES):
-        store(m.force, g, 0.0)
+    clear_force(m)
     press_bars(m, here, kind)
     set_friction_force(m)
     settle(m, False)
     keep_static_force(m, casing_presses)
-    return list_pressed(m) > 0, work, lost
+    return work, lost
 
 
 @inlined
@@ -66,12 +61,10 @@ def release_lining(m, pushed):
     """No node passes the lining any more."""
     leave_casing(m)
     m.totals.steps_in_contact += pushed
-    for g in range(0, len(m.force), LANES):
-        store(m.settled, g, 0.0)
-        store(m.force, g, 0.0)
+    clear_force(m)
     set_friction_force(m)
-    for k in range(0, len(m.static_force), LANES):
-        store(m.static_force, k, 0.0)
+    settle(m, False)
+    keep_static_force(m, False)
 
 
 @inlined
@@ -84,7 +77,7 @@ def reaches_casing(m):
         return False
     for g in range(0, len(m.force), LANES):
         store(m.problem.gap, g, load(m.problem.gap, g) + m.lining.thickness)
-        store(m.force, g, 0.0)
+    clear_force(m)
     return True
 
 

@@ -30,8 +30,7 @@ class Problem:
     are stepped.
 
     Raises UnstableStepError for a step at or above the stability limit 2/omega_max of central differences, or that of nodes
-    pressed on the lining's bars, unless the choice lets it be shortened; LongRevolutionError for a revolution of too many
-    steps.
+    pressed on the lining's bars; LongRevolutionError for a revolution of too many steps.
     """
 
     model: ContactModel
@@ -53,7 +52,7 @@ class Problem:
         """Of the modes that are stepped (rad/s), ascending."""
         return self._kept_modes[0][: self._stepped]
 
-    @property
+    @cached_property
     def modes(self) -> np.ndarray:
         """Those that are stepped, of the speed, shape (modes at rest, modes)."""
         return np.ascontiguousarray(self._kept_modes[1][:, : self._stepped])
@@ -113,9 +112,14 @@ class Problem:
         return self.scene.casing.angle(self.model.tip_cone_angle)
 
     @cached_property
+    def _operator_at_rest(self) -> np.ndarray:
+        """`displacement_operator` of the modes at rest."""
+        return casing_axes(self.model.displacement_operator, self.cone_angle)
+
+    @cached_property
     def displacement_operator(self) -> np.ndarray:
         """Displacement of the contact nodes along the casing's normal, tangent and meridian, shape (3, nodes, modes)."""
-        return casing_axes(self.model.displacement_operator, self.cone_angle) @ self.modes
+        return self._operator_at_rest @ self.modes
 
     @cached_property
     def static_shapes(self) -> np.ndarray:
@@ -127,9 +131,7 @@ class Problem:
         if not self.second_order:
             return np.empty((len(self.modes), 0))
         frequencies, modes = (part[..., self._stepped :] for part in self._kept_modes)
-        rows = (casing_axes(self.model.displacement_operator, self.cone_angle) @ modes).reshape(
-            3 * len(self.model.radius), len(frequencies)
-        )
+        rows = (self._operator_at_rest @ modes).reshape(3 * len(self.model.radius), len(frequencies))
         return (modes / frequencies**2) @ rows.T
 
     @property
@@ -151,11 +153,10 @@ class Problem:
 
         Of the modes that are not stepped; shape (3, nodes, nodes).
         """
-        normal = casing_axes(self.model.displacement_operator, self.cone_angle)[0]
-        nodes = len(normal)
+        nodes = len(self.model.radius)
         if not self.static_shapes.size:
             return np.zeros((3, nodes, nodes))
-        return (normal @ self.static_shapes).T.reshape(3, nodes, nodes)
+        return (self._operator_at_rest[0] @ self.static_shapes).T.reshape(3, nodes, nodes)
 
     @cached_property
     def coupling(self) -> np.ndarray:
@@ -177,6 +178,12 @@ class Problem:
     def bar_area(self) -> float:
         """Area of a bar of the lining (m2), at the largest radius of the contact nodes; 0 without lining."""
         return self.scene.lining.area(float(np.max(self.model.radius))) if self.scene.lining else 0.0
+
+    @property
+    def bar_stiffness(self) -> float:
+        """Of an elastic bar (N/m); 0 without lining."""
+        lining = self.scene.lining
+        return 0.0 if lining is None else lining.elastic_modulus * self.bar_area / lining.thickness
 
     @property
     def bars(self) -> int:

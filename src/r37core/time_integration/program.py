@@ -11,8 +11,8 @@ from r37core.native import object_code
 
 from .jump_steps import bound_amplitudes, choose_jump, jump_ahead
 from .layout import COARSE, STRIDES, Kind, Layout, integration_record
-from .lined_steps import keep_static_force, list_pressed, meet_lining, push_lining, release_lining, settle
-from .steps import leave_casing, measure_exact_gaps, measure_gaps, meet, predict, record
+from .lined_steps import meet_lining, push_lining, release_lining, resume_lining
+from .steps import leave_casing, measure, meet, predict, record
 
 
 @inlined
@@ -22,12 +22,8 @@ def _integrate(m, kind):
     decay = 0.0 if at_once else np.exp(-m.casing.rise)
     coarse_per_block = (m.steps_per_block + COARSE - 1) // COARSE
     beyond, bounded, first_stride = False, False, 1
-    # whether the lining presses at t_n, has pressed in this step, and whether static modes follow any force
-    pushes = pushed = follows = False
-    if kind.second_order:
-        pushes = follows = list_pressed(m) > 0
-        settle(m, False)
-        keep_static_force(m, False)
+    # with a lining of second order: whether there may be forces, and whether it has pressed in this step
+    follows = pushed = False
     done = kept = 0
     while done < m.blocks:
         start = m.first_step + done * m.steps_per_block
@@ -36,10 +32,12 @@ def _integrate(m, kind):
         if place == 0:
             # so that a run stopped after a revolution goes on with the same bits
             beyond, bounded, first_stride = False, False, 1
+            if kind.second_order:
+                follows = resume_lining(m)
         work = lost = spread(0.0)
         position = 0
         while position < m.steps_per_block:
-            if kind.jumps and not beyond and not pushes and position % COARSE == 0:
+            if kind.jumps and not beyond and not follows and position % COARSE == 0:
                 if not bounded:
                     bound_amplitudes(m, kind.exact_gap)
                     bounded = True
@@ -60,18 +58,15 @@ def _integrate(m, kind):
             here = place + position if place + position < m.steps_per_revolution else 0
             lobes = m.casing.amplitude * (1.0 - remaining)
             if kind.second_order:
-                pushed, work, lost = push_lining(m, kind, work, lost) if pushes else (False, work, lost)
-            if kind.exact_gap:
-                beyond = measure_exact_gaps(m, here, lobes, kind.second_order)
-            else:
-                beyond = measure_gaps(m, here, lobes, kind.second_order)
+                pushed, work, lost = push_lining(m, kind, work, lost) if follows else (False, work, lost)
+            beyond = measure(m, here, lobes, kind)
             if kind.second_order:
                 if beyond:
-                    pushes, work, lost = meet_lining(m, here, lobes, kind, pushed, work, lost)
+                    work, lost = meet_lining(m, here, lobes, kind, pushed, work, lost)
                     follows, bounded = True, False
                 elif follows:
                     release_lining(m, pushed)
-                    pushes = follows = bounded = False
+                    follows = bounded = False
                 else:
                     leave_casing(m)
             elif beyond:

@@ -9,11 +9,11 @@ from __future__ import annotations
 
 import numpy as np
 
+from r37core.contact.laws import series_modulus
 from r37core.contact.scene import Lining
 
 from .problem import Problem
 from .state import SimulationRecord, SimulationState
-from .step_limit import series_modulus
 
 
 class ReferenceEngine:
@@ -98,7 +98,7 @@ class ReferenceEngine:
         self._add_up(state, force, d + following, np.maximum(-state.lining_force[0], multipliers), multipliers)
         directions = self._directions(1.5 * following - 0.5 * d)
         flexibility = np.maximum(-np.sum(directions * own, axis=0), 0.0)
-        modulus = series_modulus(self.problem, lining, flexibility)
+        modulus = series_modulus(lining.elastic_modulus, self.problem.bar_stiffness, flexibility)
         pressure = self._press_lining(gap - settled, theta, lining, state.wear, modulus)
         state.lining_force[:] = pressure * directions
         self.static_force = state.lining_force + casing_force

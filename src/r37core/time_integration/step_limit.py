@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from r37core.contact.laws import series_modulus
 from r37core.contact.scene import Lining
 
 from .integrators import CENTRAL_DIFFERENCE
@@ -36,24 +37,23 @@ def check_step(problem: Problem) -> None:
     lining = problem.scene.lining
     if lining is None:
         return
-    stiffness = lining.elastic_modulus * problem.bar_area / lining.thickness
-    ratio = second_order_ratio(problem, lining) if problem.second_order else predicted_ratio(problem, stiffness)
+    ratio = second_order_ratio(problem, lining) if problem.second_order else predicted_ratio(problem)
     if not ratio < 1.0:
         limit = step / np.sqrt(ratio)
         raise UnstableStepError(
-            f"{given} limit for this lining, about {limit:.6g} s (bars of {stiffness:.4g} N/m); use a smaller one, "
+            f"{given} limit for this lining, about {limit:.6g} s (bars of {problem.bar_stiffness:.4g} N/m); use a smaller one, "
             "or a softer, thicker or narrower lining",
             limit,
         )
 
 
-def predicted_ratio(problem: Problem, stiffness: float) -> float:
-    """How near the limit a lining is, whose force (bars of `stiffness`, N/m) is that of the prediction; unstable from 1 on.
+def predicted_ratio(problem: Problem) -> float:
+    """How near the limit a lining is, whose force is that of the prediction; unstable from 1 on.
 
     A node pressed by x on an elastic bar follows x_{n+1} = (1 - g)(2 x_n - x_{n-1}), g = bar stiffness times c at the node;
     both roots of the recursion lie inside the unit circle for 0 < g < 4/3.
     """
-    return stiffness * float(np.linalg.eigvalsh(problem.coupling[0])[-1]) * 0.75
+    return problem.bar_stiffness * float(np.linalg.eigvalsh(problem.coupling[0])[-1]) * 0.75
 
 
 def second_order_ratio(problem: Problem, lining: Lining) -> float:
@@ -66,15 +66,11 @@ def second_order_ratio(problem: Problem, lining: Lining) -> float:
     The static displacement that the other nodes' forces add lags by a step: that sum must shrink from step to step.
     """
     recursion, normal, flexibility = problem.recursion, problem.displacement_operator[0], problem.residual_flexibility[0]
-    series = series_modulus(problem, lining, np.diag(flexibility)) * (problem.bar_area / lining.thickness)
+    own = np.diag(flexibility)
+    series = series_modulus(lining.elastic_modulus, problem.bar_stiffness, own) * (problem.bar_area / lining.thickness)
     root = np.sqrt(recursion.inverse)
     matrix = np.diag(recursion.pull) + (root[:, None] * normal.T * series) @ (normal * root)
     stepped = float(np.linalg.eigvalsh(matrix)[-1]) / (2.0 * (1.0 + float(recursion.keep.min())))
     half = np.sqrt(series)
-    lagging = half[:, None] * (flexibility - np.diag(np.diag(flexibility))) * half
+    lagging = half[:, None] * (flexibility - np.diag(own)) * half
     return max(stepped, float(np.abs(np.linalg.eigvalsh(lagging)).max()))
-
-
-def series_modulus(problem: Problem, lining: Lining, flexibility: np.ndarray) -> np.ndarray:
-    """Elastic modulus (Pa) of a bar and a `flexibility` (m/N) behind its area, as springs in series."""
-    return lining.elastic_modulus / (1.0 + lining.elastic_modulus * problem.bar_area / lining.thickness * flexibility)

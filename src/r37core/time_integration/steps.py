@@ -14,7 +14,7 @@ import numpy as np
 
 from r37core.alignment import LANES
 from r37core.contact.complementarity import list_nodes, solve_complementarity
-from r37core.contact.laws import displaced_position, friction_direction, lobe_shape, return_mapping
+from r37core.contact.laws import displaced_position, friction_direction, lobe_shape, return_mapping, series_modulus
 from r37core.lanes import bits_of, flag_at, inlined, load, numbers_at, spread, store, sum_of_lanes, sums_of_lanes
 
 from .layout import MERIDIONAL, NORMAL, TANGENTIAL
@@ -23,6 +23,7 @@ _friction_direction = inlined(friction_direction)
 _return_mapping = inlined(return_mapping)
 _displaced_position = inlined(displaced_position)
 _lobe_shape = inlined(lobe_shape)
+_series_modulus = inlined(series_modulus)
 
 
 @inlined
@@ -97,6 +98,14 @@ def measure_exact_gaps(m, place, lobes, settles):
             m.beyond[k // LANES] |= 1 << (k % LANES)
             any_beyond = True
     return any_beyond
+
+
+@inlined
+def measure(m, place, lobes, kind):
+    """Gaps of the nodes, as the scene has them; whether any is passed."""
+    if kind.exact_gap:
+        return measure_exact_gaps(m, place, lobes, kind.second_order)
+    return measure_gaps(m, place, lobes, kind.second_order)
 
 
 @inlined
@@ -176,7 +185,7 @@ def press_bars(m, place, kind):
             # the bar in series with the node's static modes
             own = m.own_flexibility[NORMAL, k] + m.own_flexibility[TANGENTIAL, k] * m.friction_share[0, k]
             own += m.own_flexibility[MERIDIONAL, k] * m.friction_share[1, k]
-            modulus = modulus / (1.0 + modulus * lining.area / lining.thickness * max(own, 0.0))
+            modulus = _series_modulus(modulus, modulus * lining.area / lining.thickness, max(own, 0.0))
         stress, wear[bar] = _return_mapping(-p.gap[k], wear[bar], modulus, lining)
         m.force[k] = -stress * lining.area
     return count
@@ -224,9 +233,22 @@ def press_casing(m, kind):
         p.wrong[g // LANES] = touching & ~m.on_casing[g // LANES]
         m.on_casing[g // LANES] = touching
     m.totals.casing_hits += list_nodes(p.wrong, p.listed)
+    return list_pressed(m)
+
+
+@inlined
+def list_pressed(m):
+    """List the nodes that a force presses; returns how many."""
     for g in range(0, len(m.force), LANES):
-        p.wrong[g // LANES] = bits_of(load(m.force, g) < 0.0)
-    return list_nodes(p.wrong, p.listed)
+        m.problem.wrong[g // LANES] = bits_of(load(m.force, g) < 0.0)
+    return list_nodes(m.problem.wrong, m.problem.listed)
+
+
+@inlined
+def clear_force(m):
+    """No node is pressed."""
+    for g in range(0, len(m.force), LANES):
+        store(m.force, g, 0.0)
 
 
 @inlined
@@ -279,8 +301,7 @@ def push_blade(m, count, vector, energy, work, lost):
 @inlined
 def meet(m, place, kind, work, lost):
     """Everything that happens in a step in which nodes are beyond the lining or casing; adds work, doubled, and loss."""
-    for g in range(0, len(m.force), LANES):
-        store(m.force, g, 0.0)
+    clear_force(m)
     count, closed = 0, True
     if kind.lined:
         count, closed = press_lining(m, place, kind)
