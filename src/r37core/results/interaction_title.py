@@ -7,4 +7,4 @@ def interaction_title(mode: str, engine_order: str | int | None) -> str:
     """What meets there: 1B/4, the engine order alone without a mode, or neither."""
     if mode:
         return f"{mode}/{engine_order}"
-    return f"engine order {engine_order}" if engine_order else "a peak of its own"
+    return "a peak of its own" if engine_order in (None, "") else f"engine order {engine_order}"

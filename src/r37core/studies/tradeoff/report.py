@@ -114,7 +114,7 @@ def _values(responses: Mapping[str, xr.Dataset], places: Mapping[str, Sequence[i
             response = response.isel(speed=rows)
             edge = leading_edge(response)
             if "max_von_mises_of_instant" in edge:
-                edge["high_von_mises"] = edge["max_von_mises_of_instant"].quantile(_HIGH, "instant")
+                edge = edge.assign(high_von_mises=edge["max_von_mises_of_instant"].quantile(_HIGH, "instant"))
             for quantity in {*QUANTITIES, "status"} & set(map(str, edge.data_vars)):
                 data[quantity][at] = edge[quantity].values
             data["energy_residual"][at] = energy_share(response)
@@ -160,8 +160,7 @@ def level_error(together: xr.Dataset, value: str, quantities: Iterable[str] = CO
 def parameter_tables(together: xr.Dataset, references: Mapping[str, str]) -> str:
     """One table per parameter: errors at the peak and off resonance, and cost, for every value and scene."""
     head = ["value", "scene", "rms, normal", "rms, tangential", "high stress", "largest, normal", "largest stress", "wear"]
-    head += ["peak speed"]
-    head += ["rms, normal, off resonance", "CPU s", "MB", "kB written"]
+    head += ["peak speed", "rms, normal, off resonance", "CPU s", "MB", "kB written"]
     tables = []
     for parameter in dict.fromkeys(together["parameter"].values):
         cases = together.isel(case=np.flatnonzero(together["parameter"].values == parameter))
