@@ -12,7 +12,17 @@ from r37core.alignment import LANES
 from r37core.lanes import bits_of, inlined, load, spread, store
 
 from .layout import MERIDIONAL, NORMAL, TANGENTIAL
-from .steps import clear_force, leave_casing, list_pressed, measure, press_bars, press_casing, push_blade, set_friction_force
+from .steps import (
+    clear_force,
+    leave_casing,
+    list_pressed,
+    measure_exact_gaps,
+    measure_gaps,
+    press_bars,
+    press_casing,
+    push_blade,
+    set_friction_force,
+)
 
 
 @inlined
@@ -43,7 +53,10 @@ def meet_lining(m, here, lobes, kind, pushed, work, lost):
         casing_presses, work, lost = push_casing(m, kind, pushed, work, lost)
         # what the casing presses stays where it is
         settle(m, True)
-        measure(m, here, lobes, kind)
+        if kind.exact_gap:
+            measure_exact_gaps(m, here, lobes, True)
+        else:
+            measure_gaps(m, here, lobes, True)
         keep_static_force(m, False)
     else:
         leave_casing(m)

@@ -12,7 +12,7 @@ from r37core.native import object_code
 from .jump_steps import bound_amplitudes, choose_jump, jump_ahead
 from .layout import COARSE, STRIDES, Kind, Layout, integration_record
 from .lined_steps import meet_lining, push_lining, release_lining, resume_lining
-from .steps import leave_casing, measure, meet, predict, record
+from .steps import leave_casing, measure_exact_gaps, measure_gaps, meet, predict, record
 
 
 @inlined
@@ -59,7 +59,11 @@ def _integrate(m, kind):
             lobes = m.casing.amplitude * (1.0 - remaining)
             if kind.second_order:
                 pushed, work, lost = push_lining(m, kind, work, lost) if follows else (False, work, lost)
-            beyond = measure(m, here, lobes, kind)
+            # not a function of its own: sums are reordered by how they are inlined, and the published scheme keeps its bits
+            if kind.exact_gap:
+                beyond = measure_exact_gaps(m, here, lobes, kind.second_order)
+            else:
+                beyond = measure_gaps(m, here, lobes, kind.second_order)
             if kind.second_order:
                 if beyond:
                     work, lost = meet_lining(m, here, lobes, kind, pushed, work, lost)

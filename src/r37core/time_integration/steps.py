@@ -101,14 +101,6 @@ def measure_exact_gaps(m, place, lobes, settles):
 
 
 @inlined
-def measure(m, place, lobes, kind):
-    """Gaps of the nodes, as the scene has them; whether any is passed."""
-    if kind.exact_gap:
-        return measure_exact_gaps(m, place, lobes, kind.second_order)
-    return measure_gaps(m, place, lobes, kind.second_order)
-
-
-@inlined
 def set_friction(m, g, tangential, meridional):
     """Vector friction per normal force on the nodes from g on, against their sliding in the last step (m)."""
     along_tangent, along_meridian = _friction_direction(load(m.rotation, g) + tangential, meridional)
