@@ -35,9 +35,12 @@ class Blade:
         """Cartesian coordinates (m), shape (points, 3), of parameter points given as arrays of one shape (points,)."""
         chord, span, thickness = (np.atleast_1d(np.asarray(a, dtype=float)) for a in (chord, span, thickness))
         weights = self._loft.weights(span)
+        # points share few chords: along the span of a grid, through the thickness of a mesh
+        chords, places = np.unique(chord, return_inverse=True)
         cylindrical = np.zeros((3, len(chord)))
         for i, profile in enumerate(self.profiles):
-            m, theta = self._section_point(profile, chord, thickness)
+            pressure, suction = (np.array(profile.surfaces[side].point(chords))[:, places] for side in (PRESSURE, SUCTION))
+            m, theta = self._section_point(profile, chord, thickness, pressure, suction)
             cylindrical[0] += weights[:, i] * profile.cone.radius(m)
             cylindrical[1] += weights[:, i] * (theta + self.placement.rotation[i])
             cylindrical[2] += weights[:, i] * (profile.cone.axial(m) + self.placement.axial[i])
@@ -70,11 +73,11 @@ class Blade:
         weight = np.einsum("i,j,k->ijk", chord_weight, span_weight, thickness_weight).ravel()
         return float(determinant @ weight)
 
-    def _section_point(self, profile: Profile, chord: np.ndarray, thickness: np.ndarray):
-        """(m, theta) on the profile's cone: straight across the thickness, bent forward at round edges."""
+    def _section_point(
+        self, profile: Profile, chord: np.ndarray, thickness: np.ndarray, pressure: np.ndarray, suction: np.ndarray
+    ) -> np.ndarray:
+        """(m, theta) on the profile's cone: straight from side to side across the thickness, bent forward at round edges."""
         share = (1.0 + thickness) / 2.0
-        pressure = np.array(profile.surfaces[PRESSURE].point(chord))
-        suction = np.array(profile.surfaces[SUCTION].point(chord))
         point = (1.0 - share) * pressure + share * suction
         if self.round_edges:
             for edge, end in ((profile.leading_edge, 0.0), (profile.trailing_edge, 1.0)):
@@ -84,7 +87,7 @@ class Blade:
                 corner_suction = np.array(edge.point(1.0))[:, None]
                 straight = (1.0 - share) * corner_pressure + share * corner_suction
                 point = point + fade * (np.array(edge.point(thickness)) - straight)
-        return point[0], point[1]
+        return point
 
     def _determinant(self, chord: np.ndarray, span: np.ndarray, thickness: np.ndarray) -> np.ndarray:
         step = 1e-5

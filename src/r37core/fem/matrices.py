@@ -6,7 +6,8 @@ stiffness, is proportional to the square of the speed.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 import scipy.sparse as sp
@@ -15,7 +16,7 @@ from r37core.mesh.blade_mesh import BladeMesh
 
 from .assembly import Blocks, NodePattern, assemble_mass, assemble_stiffness, block_matrix, typed_blocks
 from .material import Material
-from .solver import factorise
+from .solver import Solve, factorise
 from .stress import stress_at
 
 _SPIN_PLANE = np.diag([1.0, 1.0, 0.0])
@@ -49,27 +50,40 @@ class StructuralMatrices:
 
     def stiffness(self) -> sp.csr_array:
         """Elastic stiffness (N/m)."""
-        return self._free(self.stiffness_blocks)
+        pairs = self._free_pairs
+        return block_matrix(pairs.indptr, pairs.indices, self.stiffness_blocks[pairs.data])
+
+    @cached_property
+    def solve_at_rest(self) -> Solve:
+        """Displacements (m) of the unclamped degrees of freedom under forces (N) on them; factorised at the first call."""
+        return factorise(self.stiffness())
 
     def mass(self) -> sp.csr_array:
         """Consistent mass (kg)."""
-        return self._free(self.mass_pairs[:, None, None] * np.eye(3))
+        return self._free(self.mass_pairs, np.eye(3))
 
     def geometric_stiffness(self) -> sp.csr_array:
         """Geometric stiffness per Omega^2 (N/m per rad2/s2)."""
-        return self._free(self.geometric_pairs[:, None, None] * np.eye(3))
+        return self._free(self.geometric_pairs, np.eye(3))
 
     def spin_softening(self) -> sp.csr_array:
         """Spin softening per Omega^2 (kg): minus the mass of the motion normal to the axis; added to the stiffness."""
-        return self._free(-self.mass_pairs[:, None, None] * _SPIN_PLANE)
+        return self._free(-self.mass_pairs, _SPIN_PLANE)
 
     def coriolis(self) -> sp.csr_array:
         """Coriolis matrix per Omega (kg), skew-symmetric: 2 Omega z x velocity, for rotation towards negative theta."""
-        return self._free(-2.0 * self.mass_pairs[:, None, None] * _SPIN_CROSS)
+        return self._free(-2.0 * self.mass_pairs, _SPIN_CROSS)
 
-    def _free(self, blocks: np.ndarray) -> sp.csr_array:
-        dofs = self.free_dofs
-        return block_matrix(self.indptr, self.indices, blocks)[dofs][:, dofs]
+    @cached_property
+    def _free_pairs(self) -> sp.csr_array:
+        """Which of the pairs join unclamped nodes, in the rows and columns of these."""
+        pairs = sp.csr_array((np.arange(len(self.indices)), self.indices, self.indptr))
+        return pairs[self.free_nodes][:, self.free_nodes]
+
+    def _free(self, values: np.ndarray, axes: np.ndarray) -> sp.csr_array:
+        """The matrix whose blocks are `values` of the pairs, shape (pairs,), times `axes`, shape (3, 3)."""
+        pairs = self._free_pairs
+        return sp.csr_array(sp.kron(sp.csr_array((values[pairs.data], pairs.indices, pairs.indptr)), sp.coo_array(axes)))
 
 
 def assemble(mesh: BladeMesh, material: Material) -> StructuralMatrices:
@@ -79,7 +93,7 @@ def assemble(mesh: BladeMesh, material: Material) -> StructuralMatrices:
     """
     blocks, points = mesh.blocks, mesh.points
     pattern = NodePattern.of(blocks, len(points))
-    partial = StructuralMatrices(
+    matrices = StructuralMatrices(
         indptr=pattern.indptr,
         indices=pattern.indices,
         stiffness_blocks=assemble_stiffness(pattern, blocks, points, material),
@@ -87,17 +101,17 @@ def assemble(mesh: BladeMesh, material: Material) -> StructuralMatrices:
         geometric_pairs=np.zeros(len(pattern.indices)),
         free_nodes=mesh.free_nodes,
     )
-    displacement = static_displacement(partial, centrifugal_load(blocks, points, material.density))
-    geometric = assemble_geometric_stiffness(pattern, blocks, points, material, displacement)
-    return replace(partial, geometric_pairs=geometric)
+    displacement = static_displacement(matrices, centrifugal_load(blocks, points, material.density))
+    # in place: the factors of the stiffness, a third of the work of a reduction, are kept for it
+    matrices.geometric_pairs[:] = assemble_geometric_stiffness(pattern, blocks, points, material, displacement)
+    return matrices
 
 
 def static_displacement(matrices: StructuralMatrices, load: np.ndarray) -> np.ndarray:
     """Displacement (m), shape (nodes, 3), of the clamped blade at rest under nodal forces (N), shape (nodes, 3)."""
     displacement = np.zeros_like(load)
     free = matrices.free_nodes
-    solution = factorise(matrices.stiffness())(load[free].ravel())
-    displacement[free] = solution.reshape(-1, 3)
+    displacement[free] = matrices.solve_at_rest(load[free].ravel()).reshape(-1, 3)
     return displacement
 
 

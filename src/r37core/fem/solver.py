@@ -8,8 +8,15 @@ import numpy as np
 import scipy.sparse as sp
 import scipy.sparse.linalg as sla
 
+Solve = Callable[[np.ndarray], np.ndarray]
+"""Displacements, shape (dofs,) or (dofs, loads), under forces of that shape."""
 
-def factorise(matrix: sp.sparray) -> Callable[[np.ndarray], np.ndarray]:
+
+_TOLERANCE = 1e-12
+"""Of eigenvalues; what the factors' rounding does to them is larger."""
+
+
+def factorise(matrix: sp.sparray) -> Solve:
     """Factorise a symmetric positive definite matrix once; the returned function solves for one or more right sides.
 
     SuperLU in symmetric mode with minimum-degree ordering of A^T + A. On this project's meshes (thin, almost
@@ -20,7 +27,7 @@ def factorise(matrix: sp.sparray) -> Callable[[np.ndarray], np.ndarray]:
 
 
 def lowest_modes(
-    stiffness: sp.sparray, mass: sp.sparray, count: int, solve: Callable[[np.ndarray], np.ndarray] | None = None
+    stiffness: sp.sparray, mass: sp.sparray, count: int, solve: Solve | None = None
 ) -> tuple[np.ndarray, np.ndarray]:
     """The `count` lowest eigenvalues (rad2/s2), ascending, and mass-normalised modes, shape (dofs, count).
 
@@ -32,7 +39,7 @@ def lowest_modes(
         return np.empty(0), np.empty((size, 0))
     inverse = sla.LinearOperator((size, size), matvec=solve or factorise(stiffness), dtype=float)
     start = np.random.default_rng(37).standard_normal(size)
-    eigenvalues, modes = sla.eigsh(stiffness, count, M=mass, sigma=0.0, OPinv=inverse, v0=start)
+    eigenvalues, modes = sla.eigsh(stiffness, count, M=mass, sigma=0.0, OPinv=inverse, v0=start, tol=_TOLERANCE)
     order = np.argsort(eigenvalues)
     eigenvalues, modes = eigenvalues[order], modes[:, order]
     largest = np.abs(modes).argmax(axis=0)

@@ -13,7 +13,7 @@ import numpy as np
 import scipy.linalg as la
 import scipy.sparse as sp
 
-from r37core.fem.solver import factorise, lowest_modes
+from r37core.fem.solver import Solve, factorise, lowest_modes
 
 from .reduction_choice import ReductionChoice
 
@@ -31,16 +31,22 @@ class MultiSpeedBasis:
 
 
 def multi_speed_basis(
-    stiffness_at: Callable[[float], sp.csr_array], mass: sp.csr_array, boundary_dofs: np.ndarray, choice: ReductionChoice
+    stiffness_at: Callable[[float], sp.csr_array],
+    mass: sp.csr_array,
+    boundary_dofs: np.ndarray,
+    choice: ReductionChoice,
+    solve_at_rest: Solve | None = None,
 ) -> MultiSpeedBasis:
     """Constraint modes and fixed-interface modes at each of the choice's speeds, combined into one basis.
 
-    `stiffness_at` gives the stiffness at a speed (rad/s). The first speed's constraint modes stay as they are, so that
-    static responses to boundary loads at that speed are exact.
+    `stiffness_at` gives the stiffness at a speed (rad/s); `solve_at_rest` solves with that at rest, where the caller has its
+    factors. The first speed's constraint modes stay as they are, so that static responses to boundary loads at that speed
+    are exact.
     """
     columns: list[np.ndarray] = []
     for speed in choice.speeds:
-        columns += constraint_and_fixed_modes(stiffness_at(speed), mass, boundary_dofs, choice.fixed_interface_modes)
+        solve = None if speed else solve_at_rest
+        columns += constraint_and_fixed_modes(stiffness_at(speed), mass, boundary_dofs, choice.fixed_interface_modes, solve)
     return combine_columns(columns[0], np.hstack(columns), mass, boundary_dofs, choice.basis_tolerance)
 
 
@@ -57,19 +63,25 @@ def combine_columns(
 
 
 def constraint_and_fixed_modes(
-    stiffness: sp.csr_array, mass: sp.csr_array, boundary_dofs: np.ndarray, count: int
+    stiffness: sp.csr_array, mass: sp.csr_array, boundary_dofs: np.ndarray, count: int, solve: Solve | None = None
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Constraint modes, shape (dofs, boundary dofs), and `count` fixed-interface modes, shape (dofs, count)."""
-    size = stiffness.shape[0]
-    internal = np.setdiff1d(np.arange(size), boundary_dofs)
-    inner = stiffness[internal][:, internal]
-    solve = factorise(inner)
-    constraint = np.zeros((size, len(boundary_dofs)))
+    """Constraint modes, shape (dofs, boundary dofs), and `count` fixed-interface modes, shape (dofs, count).
+
+    Both come from factors of the whole stiffness, `solve` if the caller has them: the boundary is held by the forces on it
+    that bring it back to zero.
+    """
+    solve = solve or factorise(stiffness)
+    forces = np.zeros((mass.shape[0], len(boundary_dofs)))
+    forces[boundary_dofs] = np.eye(len(boundary_dofs))
+    flexibility = solve(forces)
+    constraint = la.solve(flexibility[boundary_dofs].T, flexibility.T).T
     constraint[boundary_dofs] = np.eye(len(boundary_dofs))
-    constraint[internal] = -solve(stiffness[internal][:, boundary_dofs].toarray())
-    fixed = np.zeros((size, count))
-    _, fixed[internal] = lowest_modes(inner, mass[internal][:, internal], count, solve)
-    return constraint, fixed
+
+    def solve_held(load: np.ndarray) -> np.ndarray:
+        displacement = solve(load)
+        return displacement - constraint @ displacement[boundary_dofs]
+
+    return constraint, lowest_modes(stiffness, mass, count, solve_held)[1]
 
 
 def _internal_vectors(

@@ -24,7 +24,9 @@ def reduce_blade(mesh: BladeMesh, matrices: StructuralMatrices, choice: Reductio
     per_square = geometric if softening is None else geometric + softening
     nodes = boundary_nodes(mesh, choice.boundary)
     boundary_dofs = (3 * np.searchsorted(matrices.free_nodes, nodes)[:, None] + np.arange(3)).ravel()
-    basis = multi_speed_basis(lambda speed: sp.csr_array(stiffness + speed**2 * per_square), mass, boundary_dofs, choice)
+    basis = multi_speed_basis(
+        lambda speed: sp.csr_array(stiffness + speed**2 * per_square), mass, boundary_dofs, choice, matrices.solve_at_rest
+    )
     vectors = basis.vectors
     whole = np.zeros((len(mesh.points), 3, vectors.shape[1]))
     whole[matrices.free_nodes] = vectors.reshape(-1, 3, vectors.shape[1])
@@ -35,9 +37,9 @@ def reduce_blade(mesh: BladeMesh, matrices: StructuralMatrices, choice: Reductio
     stress_blocks = choice.stress_submesh.elements(mesh, nodes)
     stress_nodes = np.unique(np.concatenate([np.empty(0, int), *(nodes.ravel() for nodes in stress_blocks.values())]))
     shapes = {name: shape[matrices.free_nodes].ravel() for name, shape in ideal_shapes(mesh).items()}
-    mass_times_vectors = mass @ vectors
+    mass_times_vectors, at_rest = mass @ vectors, projected(stiffness, vectors)
     return ReducedModel(
-        stiffness=projected(stiffness, vectors),
+        stiffness=at_rest,
         geometric_stiffness=projected(geometric, vectors),
         mass=_symmetric(vectors.T @ mass_times_vectors),
         spin_softening=None if softening is None else projected(softening, vectors),
@@ -53,7 +55,7 @@ def reduce_blade(mesh: BladeMesh, matrices: StructuralMatrices, choice: Reductio
         shape_norms=np.array([np.sqrt(shape @ (mass @ shape)) for shape in shapes.values()]),
         tolerance=choice.basis_tolerance,
         singular_values=basis.singular_values,
-        quadratic_residual=_quadratic_residual(stiffness, per_square, vectors, max(choice.speeds)),
+        quadratic_residual=_quadratic_residual(stiffness, per_square, vectors, at_rest, max(choice.speeds)),
     )
 
 
@@ -66,16 +68,16 @@ def _symmetric(matrix: np.ndarray) -> np.ndarray:
     return 0.5 * (matrix + matrix.T)
 
 
-def _quadratic_residual(stiffness: sp.csr_array, per_square: sp.csr_array, vectors: np.ndarray, highest: float) -> float:
+def _quadratic_residual(
+    stiffness: sp.csr_array, per_square: sp.csr_array, vectors: np.ndarray, at_rest: np.ndarray, highest: float
+) -> float:
     """Largest entry of the Omega^4 term (at the highest speed) of the reduced stiffness, over that of the stiffness.
 
-    The term is fitted through the stiffness reduced at three speeds; the linear theory makes it zero.
+    The term is fitted through the stiffness reduced at three speeds, `at_rest` among them; the linear theory makes it zero.
     """
     if highest == 0.0:
         return 0.0
-    at_rest, middle, top = (
-        vectors.T @ (sp.csr_array(stiffness + (share * highest) ** 2 * per_square) @ vectors) for share in (0.0, 0.5, 1.0)
-    )
+    middle, top = (projected(sp.csr_array(stiffness + (share * highest) ** 2 * per_square), vectors) for share in (0.5, 1.0))
     # with s = (Omega / highest)^2: K(1/4), K(1) give K2 = (16 K(1/4) - 4 K(1) - 12 K(0)) / -3
     quadratic = (16.0 * middle - 4.0 * top - 12.0 * at_rest) / -3.0
     return float(np.max(np.abs(quadratic)) / np.max(np.abs(at_rest)))
