@@ -108,10 +108,10 @@ CONFIG_REFUSALS = [
         r"speeds_for\.0\.scenes: found 'dirct'; allowed: abrad",
     ),
     ("speeds_for: []", "speeds_for: [{ blades: [Ref, Ref], speeds: [900] }]", r"speeds_for\.0\.blades\.1: found 'Ref' twice"),
-    ("    blade: Ref", "    blade: Reff", r"studies\.tradeoff\.blade: found 'Reff'; allowed: Ref, L50"),
+    ("    base: standard", "    base: standard\n    blade: Reff", r"studies\.tradeoff\.blade: found 'Reff'; allowed: Ref, L50"),
     (
-        "    blade: Ref",
-        "    blade: Ref\n    engine_order: 21",
+        "    base: standard",
+        "    base: standard\n    engine_order: 21",
         r"engine_order: found 21; allowed: at most campbell",
     ),
     (

@@ -268,6 +268,16 @@ def test_the_former_name_of_a_study_is_refused_with_the_new_one(root):
         read_settings(root, command_line_document({"studies": {"readings": {"quick": "draft"}}}))
 
 
+def test_blades_of_ones_own_alone(config_copy):
+    """A study that no blade is named for takes the first; the reference blade need not be in the file."""
+    file = config_copy / "config/blades.yaml"
+    head, rest = file.read_text().split("\nRef:", 1)
+    file.write_text(head + "\nMine:" + rest.split("\nL50:", 1)[0] + "\n")
+    settings = read_settings(config_copy)
+    assert list(settings.blades) == ["Mine"]
+    assert {case.blade for case in tradeoff.cases(settings).values()} == {"Mine"}
+
+
 @pytest.mark.slow
 def test_tradeoff_of_a_small_sweep(project):
     config = project / "config/config.yaml"

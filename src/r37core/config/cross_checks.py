@@ -62,8 +62,8 @@ def studies_name_what_is_there(settings: Settings) -> None:
     for name in studies.model_fields_set:
         study = getattr(studies, name)
         for key, (entries, file) in files.items():
-            if key in type(study).model_fields:
-                _known(settings, ("studies", name, key), [getattr(study, key)], entries, file)
+            if given_name := getattr(study, key, None):
+                _known(settings, ("studies", name, key), [given_name], entries, file)
         lined = getattr(study, "lined_scene", None)
         if lined and settings.scene_entries[lined].lining is None:
             raise documents.config.refusal(("studies", name, "lined_scene"), f"'{lined}'", "a scene with a lining")

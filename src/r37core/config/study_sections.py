@@ -73,7 +73,7 @@ class Places(Section):
 class TradeoffSection(Section):
     """What accuracy costs (snakemake tradeoff)."""
 
-    blade: Name = "Ref"
+    blade: Name | LeftOut = Field(default=None, description="if left out, the first one of the run with profiles")
     scenes: AllOrNames = "all"
     base: Name = Field(default="standard", description="fidelity level that all parameters but one keep")
     engine_order: int = Field(default=4, ge=1, le=100, description="the speeds lie about this crossing of 1B")
@@ -104,7 +104,7 @@ class ModellingChoicesSection(Section):
 class StabilitySection(Section):
     """What happens at extremes (snakemake stability)."""
 
-    blade: Name = "Ref"
+    blade: Name | LeftOut = Field(default=None, description="if left out, the first one of the run with profiles")
     base: Name = "standard"
     lined_scene: Name = "abradable"
     direct_scene: Name = "direct"

@@ -7,6 +7,7 @@ it: the socket is in a folder of mode 0700. It ends when its standard input does
 
 from __future__ import annotations
 
+import gc
 import os
 import runpy
 import select
@@ -51,6 +52,8 @@ def serve(address: Path, script: str) -> None:
                 if not imported:
                     # not before the first job: a run may have none
                     runpy.run_path(script)
+                    # what is imported is no garbage: no job needs to look through it, and its memory stays shared
+                    gc.freeze()
                     signal.signal(signal.SIGCHLD, signal.SIG_IGN)
                     imported = True
                 if os.fork() == 0:

@@ -15,6 +15,7 @@ from typing import Any, TypeVar
 
 from r37core.blade.definition import BladeDefinition
 from r37core.config import BladeSettings, ConfigError, SceneEntry, Settings, plain
+from r37core.config.study_sections import StabilitySection, TradeoffSection
 from r37core.contact.scene import Scene
 from r37core.fem.material import Material
 from r37core.plain import to_plain
@@ -112,8 +113,18 @@ def level_of(settings: Settings, name: str) -> Any:
 
 def blade_of(settings: Settings, name: str) -> BladeSettings:
     """A blade of this run that is given by profiles: the studies mesh it in several ways."""
-    blades = {blade: one for blade, one in settings.blades.items() if isinstance(one.definition, BladeDefinition)}
-    return _known("blade", name, blades)
+    return _known("blade", name, _with_profiles(settings))
+
+
+def blade_name_of(settings: Settings, section: TradeoffSection | StabilitySection) -> str:
+    """The blade that a study is of: if none is named, the first that it can mesh; ConfigError without any."""
+    if section.blade is None and not _with_profiles(settings):
+        raise ConfigError(f"{settings.documents.blades.name}: no blade with profiles is run; the study needs one")
+    return section.blade or next(iter(_with_profiles(settings)))
+
+
+def _with_profiles(settings: Settings) -> dict[str, BladeSettings]:
+    return {blade: one for blade, one in settings.blades.items() if isinstance(one.definition, BladeDefinition)}
 
 
 def material_of(settings: Settings, blade: str) -> Material:

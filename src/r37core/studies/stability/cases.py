@@ -10,7 +10,7 @@ from r37core.config import ConfigError, Settings, checked_scene
 from r37core.time_integration.integrators import CENTRAL_DIFFERENCE, EXACT_MODAL
 
 from ..case import Case, changed
-from ..plan import integration_of_level, kept_of, level_of, material_of, model_of_level, plain_scene
+from ..plan import blade_name_of, integration_of_level, kept_of, level_of, material_of, model_of_level, plain_scene
 
 HALF = "__half_step"
 """End of the name of an extreme's second case."""
@@ -120,6 +120,7 @@ def _extremes(settings: Settings) -> list[Extreme]:
 
 def _case(settings: Settings, extreme: Extreme) -> Case:
     section, entry = settings.studies.stability, plain_scene(settings, extreme.scene)
+    blade = blade_name_of(settings, section)
     scene, refused = None, ""
     try:
         scene = checked_scene(changed(entry, extreme.changes))
@@ -127,13 +128,13 @@ def _case(settings: Settings, extreme: Extreme) -> Case:
         refused = str(error)
     choice = replace(integration_of_level(settings, section.base, scene), revolutions=extreme.revolutions)
     return Case(
-        section.blade,
+        blade,
         replace(model_of_level(settings, section.base), **extreme.model),
         scene,
         choice if extreme.integrator is None else replace(choice, integrator=extreme.integrator),
         speeds=tuple(extreme.speed * share for share in _NEIGHBOURS),
         results=("energy",),
-        material=material_of(settings, section.blade),
+        material=material_of(settings, blade),
         kept=kept_of(level_of(settings, section.base)),
         share_of_limit=extreme.share_of_limit,
         refused=refused,

@@ -19,7 +19,7 @@ from r37core.time_integration.integration_choice import IntegrationChoice
 from r37core.time_integration.integrators import CENTRAL_DIFFERENCE, EXACT_MODAL
 
 from ..case import Case
-from ..plan import integration_of_level, kept_of, level_of, material_of, model_of_level, scene_entry_of
+from ..plan import blade_name_of, integration_of_level, kept_of, level_of, material_of, model_of_level, scene_entry_of
 
 LEVEL = "level"
 """The parameter that changes everything at once: the fidelity level."""
@@ -96,16 +96,16 @@ def _case(settings: Settings, section: TradeoffSection, parameter: str, value: s
     model = model_of_level(settings, level)
     if parameter in OF_THE_MODEL:
         model = replace(model, **OF_THE_MODEL[parameter](value))
-    entry = scene_entry_of(settings, scene).scene()
+    blade, entry = blade_name_of(settings, section), scene_entry_of(settings, scene).scene()
     varied, choice = vary(parameter, value, entry, integration_of_level(settings, level, entry))
     return Case(
-        section.blade,
+        blade,
         model,
         varied,
         choice,
         speeds=tuple(sorted({share for shares in shares_of(section).values() for share in shares})),
         results=("energy", "spectrum", "stress", "instants", *(["wear"] if varied.lining else [])),
-        material=material_of(settings, section.blade),
+        material=material_of(settings, blade),
         kept=kept_of(level_of(settings, level)),
         crossing=("1B", section.engine_order),
     )
@@ -147,7 +147,7 @@ def values(settings: Settings) -> dict[str, Any]:
     section = settings.studies.tradeoff
     assert section is not None
     return {
-        "blade": section.blade,
+        "blade": blade_name_of(settings, section),
         "base_level": section.base,
         "places": _rows_of(section),
         "references": {name: _text(one.reference) for name, one in section.parameters.given().items()},
