@@ -67,8 +67,8 @@ def constraint_and_fixed_modes(
 ) -> tuple[np.ndarray, np.ndarray]:
     """Constraint modes, shape (dofs, boundary dofs), and `count` fixed-interface modes, shape (dofs, count).
 
-    Both come from factors of the whole stiffness, `solve` if the caller has them: the boundary is held by the forces on it
-    that bring it back to zero.
+    Both come from factors of the whole stiffness, `solve` if the caller has them: forces on the boundary b that bring it back
+    to zero hold it. With F the displacements by unit forces there, Psi = F F_b^-1 and u_held = u - Psi u_b.
     """
     solve = solve or factorise(stiffness)
     forces = np.zeros((mass.shape[0], len(boundary_dofs)))
