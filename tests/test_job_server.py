@@ -2,6 +2,7 @@
 
 import os
 import signal
+import socket
 import subprocess
 import sys
 import time
@@ -24,6 +25,10 @@ if __name__ == "__main__":
         time.sleep(60)
     if what == "raise":
         raise ValueError("no")
+    if what == "text":
+        sys.exit("no")
+    if what == "none":
+        sys.exit()
     sys.exit(int(what) if what.isdigit() else 0)
 """
 
@@ -61,12 +66,13 @@ def parent():
     return int(Path("out").read_text())
 
 
-@pytest.mark.parametrize(("what", "status"), [("0", 0), ("3", 3), ("raise", 1)])
+@pytest.mark.parametrize(("what", "status"), [("0", 0), ("3", 3), ("258", 2), ("raise", 1), ("text", 1), ("none", 0)])
 def test_output_and_status_are_those_of_the_job(start, what, status):
     job = start(what)
     said, warned = job.communicate(timeout=20)
     assert (job.returncode, said) == (status, "said\n")
     assert warned.startswith("warned\n")
+    assert ("no" in warned) == (what in ("raise", "text"))
     assert parent() == start.server.pid
 
 
@@ -111,6 +117,33 @@ def test_jobs_side_by_side(start):
     jobs = [start("4", out=f"out_{number}") for number in range(30)]
     assert {job.wait(20) for job in jobs} == {4}
     assert {Path(f"out_{number}").read_text() for number in range(30)} == {str(start.server.pid)}
+
+
+def test_a_client_that_dies_while_it_asks_leaves_nothing(start):
+    """Killed between its first byte and its last."""
+    assert start("0").wait(20) == 0
+    with socket.socket(socket.AF_UNIX) as client:
+        client.connect(os.environ[job_server.ADDRESS])
+        client.sendall((100).to_bytes(8, "little"))
+        socket.send_fds(client, [b"o"], [1, 2])
+    children = Path(f"/proc/{start.server.pid}/task/{start.server.pid}/children")
+    until = time.monotonic() + 20.0
+    while children.read_text():
+        assert time.monotonic() < until
+        time.sleep(0.01)
+
+
+def test_modules_of_the_users_folder_are_not_the_servers(start):
+    """The server imports what it needs at its start and at the first job."""
+    Path("random.py").write_text("raise SystemExit(9)")
+    Path("runpy.py").write_text("raise SystemExit(9)")
+    job_server.start(Path("job.py").absolute(), Path(sys.executable))
+    second = job_server._KEPT.pop()
+    wait_for(Path(os.environ[job_server.ADDRESS]))
+    assert start("0").wait(20) == 0
+    assert parent() == second.pid
+    second.stdin.close()
+    assert second.wait(20) == 0
 
 
 def test_a_folder_without_sockets_has_no_server(tmp_path, monkeypatch):

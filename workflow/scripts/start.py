@@ -10,7 +10,7 @@ import sys
 
 def ask(address, arguments):
     """Exit status of the job; None if there is no server, or it did not end the job."""
-    message = "\0".join(arguments).encode()
+    message = b"\0".join(map(os.fsencode, arguments))
     server = _socket.socket(_socket.AF_UNIX, _socket.SOCK_STREAM)
     try:
         server.connect(address)

@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable
 
+from r37core.alignment import padded
 from r37core.blade.definition import BladeDefinition
 from r37core.exchange.importing.source import MatricesSource
 from r37core.time_integration.integration_choice import LARGEST_TABLE
@@ -156,7 +157,7 @@ def slowest_speed_fits_in_memory(settings: Settings) -> None:
     if isinstance(speeds := signals.speeds(), list):
         slowest.append((speeds[0], ("signals", signals.key_of_speeds)))
     steps, lined = settings.fidelity.time_integration, {one.scene.lining is not None for one in settings.scenes.values()}
-    nodes, step = settings.structure.boundary.nodes, min(map(steps.largest_step, lined))
+    nodes, step = padded(settings.structure.boundary.nodes), min(map(steps.largest_step, lined))
     for speed, path in slowest:
         size = 8 * nodes * 2.0 * math.pi / speed / step
         if size > LARGEST_TABLE:

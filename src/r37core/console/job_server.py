@@ -31,8 +31,10 @@ _KEPT: list[subprocess.Popen] = []
 def start(script: Path, python: Path) -> None:
     """Start the server of this process for the jobs of `script`; without one, where the folder can have no socket."""
     try:
-        address = Path(tempfile.mkdtemp(prefix="r37_jobs_", dir=".snakemake")) / "socket"
-        command = [str(python), "-m", __name__, str(address), str(script)]
+        folder = tempfile.mkdtemp(prefix="r37_jobs_", dir=".snakemake")
+        address = Path(os.path.relpath(folder)) / "socket"
+        # -P: the user's folder may hold a random.py
+        command = [str(python), "-P", "-m", __name__, str(address), str(script)]
         # a session of its own: the terminal's interrupt is for Snakemake, which ends the jobs
         _KEPT.append(subprocess.Popen(command, stdin=subprocess.PIPE, start_new_session=True))
         os.environ[ADDRESS] = str(address)
@@ -72,11 +74,14 @@ def _answer(connection: socket.socket, script: str) -> None:
         size = int.from_bytes(connection.recv(8, socket.MSG_WAITALL), "little")
         message, outputs, _, _ = socket.recv_fds(connection, 1, 2)
         while len(message) < size:
-            message += connection.recv(size - len(message))
+            part = connection.recv(size - len(message))
+            if not part:
+                return
+            message += part
         for output, number in zip(outputs, (1, 2), strict=True):
             os.dup2(output, number)
         threading.Thread(target=_end_with, args=(connection,), daemon=True).start()
-        sys.argv = [script, *message.decode().split("\0")]
+        sys.argv = [script, *map(os.fsdecode, message.split(b"\0"))]
         status = _status_of(script)
         sys.stdout.flush()
         sys.stderr.flush()
@@ -86,11 +91,15 @@ def _answer(connection: socket.socket, script: str) -> None:
 
 
 def _status_of(script: str) -> int:
+    """What the script would exit with by itself."""
     try:
         runpy.run_path(script, run_name="__main__")
     except SystemExit as end:
-        return end.code if isinstance(end.code, int) else 1
-    except Exception:
+        if isinstance(end.code, str):
+            print(end.code, file=sys.stderr)
+            return 1
+        return (end.code or 0) & 0xFF
+    except BaseException:
         traceback.print_exc()
         return 1
     return 0

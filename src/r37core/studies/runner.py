@@ -12,6 +12,7 @@ import netCDF4
 import numpy as np
 import xarray as xr
 
+from r37core.config import ConfigError
 from r37core.dataset_file import about, read_dataset, write_dataset
 from r37core.io import atomic_write, read_json
 from r37core.results.measures import largest_of_run, motion_of_run, peak_of
@@ -47,6 +48,11 @@ def run_case_of_files(case: Case, files: Mapping[str, str], output: Path | str) 
     if case.crossing:
         mode, order = case.crossing
         crossing = read_dataset(files["campbell"])["crossing_speed"].sel(mode=mode, engine_order=order).item()
+        if not np.isfinite(crossing):
+            raise ConfigError(
+                f"config.yaml: studies: {mode} of {case.blade} does not cross engine order {order}; choose another "
+                "engine_order, or a higher structure.maximum_speed_rad_s"
+            )
         case = replace(case, speeds=tuple(float(share * crossing) for share in case.speeds))
     if case.swept_peak:
         case = with_swept_peak(case, case.swept_peak, read_dataset(files["response"]))
