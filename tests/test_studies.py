@@ -18,7 +18,7 @@ from workflow_runs import snakemake
 from r37core.config import ConfigError, command_line_document, read_settings
 from r37core.config.fidelity import recommended_level
 from r37core.config.study_sections import Parameters
-from r37core.dataset_file import read_dataset
+from r37core.dataset_file import read_dataset, write_dataset
 from r37core.plain import from_plain, to_plain
 from r37core.results.measures import first_contact
 from r37core.studies import runner
@@ -276,6 +276,15 @@ def test_blades_of_ones_own_alone(config_copy):
     settings = read_settings(config_copy)
     assert list(settings.blades) == ["Mine"]
     assert {case.blade for case in tradeoff.cases(settings).values()} == {"Mine"}
+
+
+def test_a_crossing_that_is_not_there_is_named(settings, tmp_path):
+    """A blade of one's own may have none with the engine order about which a study looks."""
+    case = next(iter(tradeoff.cases(settings).values()))
+    crossing = xr.DataArray([[np.nan]], {"mode": ["1B"], "engine_order": [4]}, name="crossing_speed")
+    write_dataset(crossing.to_dataset(), tmp_path / "campbell.nc", {})
+    with pytest.raises(ConfigError, match="1B of Ref does not cross engine order 4; choose another engine_order"):
+        runner.run_case_of_files(case, {"campbell": str(tmp_path / "campbell.nc")}, tmp_path / "case.nc")
 
 
 @pytest.mark.slow
