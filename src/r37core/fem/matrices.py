@@ -39,11 +39,6 @@ class StructuralMatrices:
     free_nodes: np.ndarray
 
     @property
-    def free_dofs(self) -> np.ndarray:
-        """Numbers of the unclamped degrees of freedom in the order of the returned matrices."""
-        return (3 * self.free_nodes[:, None] + np.arange(3)).ravel()
-
-    @property
     def total_mass(self) -> float:
         """Mass of the blade (kg)."""
         return float(np.sum(self.mass_pairs))
