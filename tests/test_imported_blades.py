@@ -193,7 +193,7 @@ def test_plan_of_imported_blades(three, tmp_path, monkeypatch):
     assert "stress" not in sweep.results(given)
     assert '"snapshots_per_revolution": 0' in sweep.task(given)
     assert set(sweep.response_pictured(given)) == {"campbell", "rms"}
-    with pytest.raises(ConfigError, match="studies: found the blade 'Fan'; allowed in this run: Ref"):
+    with pytest.raises(ConfigError, match="the study needs the blade 'Fan'; allowed in this run: Ref"):
         blade_of(imported.settings, "Fan")
     monkeypatch.chdir(tmp_path / "config")
     assert all(file.startswith("/") for file in imported.files(fan))

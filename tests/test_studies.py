@@ -283,7 +283,7 @@ def test_a_crossing_that_is_not_there_is_named(settings, tmp_path):
     case = next(iter(tradeoff.cases(settings).values()))
     crossing = xr.DataArray([[np.nan]], {"mode": ["1B"], "engine_order": [4]}, name="crossing_speed")
     write_dataset(crossing.to_dataset(), tmp_path / "campbell.nc", {})
-    with pytest.raises(ConfigError, match="1B of Ref does not cross engine order 4; choose another engine_order"):
+    with pytest.raises(ValueError, match="1B of Ref does not cross engine order 4; choose another engine_order"):
         runner.run_case_of_files(case, {"campbell": str(tmp_path / "campbell.nc")}, tmp_path / "case.nc")
 
 

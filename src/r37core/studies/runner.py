@@ -12,7 +12,6 @@ import netCDF4
 import numpy as np
 import xarray as xr
 
-from r37core.config import ConfigError
 from r37core.dataset_file import about, read_dataset, write_dataset
 from r37core.io import atomic_write, read_json
 from r37core.results.measures import largest_of_run, motion_of_run, peak_of
@@ -44,12 +43,15 @@ _MOST_EXTRA = 40
 
 
 def run_case_of_files(case: Case, files: Mapping[str, str], output: Path | str) -> None:
-    """Run a case from its files: `contact`; `rom` for the stress, `cost` of the model, `campbell` or `response` for speeds."""
+    """Run a case from its files: `contact`; `rom` for the stress, `cost` of the model, `campbell` or `response` for speeds.
+
+    Raises ValueError for a crossing that the Campbell diagram does not have.
+    """
     if case.crossing:
         mode, order = case.crossing
         crossing = read_dataset(files["campbell"])["crossing_speed"].sel(mode=mode, engine_order=order).item()
         if not np.isfinite(crossing):
-            raise ConfigError(
+            raise ValueError(
                 f"config.yaml: studies: {mode} of {case.blade} does not cross engine order {order}; choose another "
                 "engine_order, or a higher structure.maximum_speed_rad_s"
             )
