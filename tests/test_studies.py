@@ -315,7 +315,7 @@ def test_studies_do_not_stand_in_the_way_of_another_blade(project):
     assert "simulate" in snakemake(project, "all_blades", "--cores", "2", "--dry-run")
     text = snakemake(project, "modelling_choices", "--cores", "2", "--dry-run", check=False)
     assert re.search(
-        r"config\.yaml: studies: found the (blade|scene) '(Ref|abradable)'; allowed in this run: (CS100|direct)", text
+        r"config\.yaml: the study needs the (blade|scene) '(Ref|abradable)'; allowed in this run: (CS100|direct)", text
     )
 
 

@@ -228,8 +228,8 @@ def test_a_parameter_of_the_model_changes_its_own_part_of_the_name(root):
 
 
 def test_a_study_names_what_it_lacks(root):
-    settings = read_settings(root, command_line_document({"blades": ["L50"]}))
-    with pytest.raises(ConfigError, match=r"studies: found the blade 'Ref'; allowed in this run: L50"):
+    settings = read_settings(root, command_line_document({"blades": ["L50"], "studies": {"tradeoff": {"blade": "Ref"}}}))
+    with pytest.raises(ConfigError, match=r"the study needs the blade 'Ref'; allowed in this run: L50"):
         tradeoff.cases(settings)
     # the outputs of every study are known all the same
     assert all(Studies(settings).outputs(study) for study in STUDIES)
