@@ -194,6 +194,10 @@ def test_unsuitable_matrices_are_refused(directory, choice, tmp_path):
     )
     free = np.diag([0.0, *np.arange(5.0, 28.0)])
     refused("the stiffness at rest is not positive .* clamp the root", K_0=free, K_100=free + small, K_200=free + 4 * small)
+    # large enough to be reduced, and without any pivot for the last row
+    chain = np.diag(2.0 * np.ones(900)) - np.eye(900, k=3) - np.eye(900, k=-3)
+    chain[:3, :3] = chain[-3:, -3:] = np.eye(3)
+    refused("the stiffness at rest is not positive .* clamp the root", M=np.eye(900), K_0=chain, K_100=chain, K_200=chain)
     refused("found matrices of 19 rows; allowed: 20", **{name: small[:19, :19] for name in ("M", "K_0", "K_100", "K_200")})
     broken = small.copy()
     broken[3, 3] = np.nan

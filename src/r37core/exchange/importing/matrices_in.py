@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 
 import numpy as np
@@ -18,7 +19,7 @@ import scipy.linalg as la
 import scipy.sparse as sp
 
 from r37core.exchange.refusal import ImportRefused, blamed
-from r37core.fem.solver import factorise
+from r37core.fem.solver import Solve, factorise
 from r37core.rom.craig_bampton import multi_speed_basis
 from r37core.rom.naming import NAMED_MODES
 from r37core.rom.reduce import projected
@@ -49,6 +50,14 @@ class _Given:
     residual: float
     points: np.ndarray
 
+    @cached_property
+    def solve_at_rest(self) -> Solve:
+        """Displacements (m) under forces (N); factorised at the first call. ImportRefused where nothing holds the blade."""
+        try:
+            return factorise(self.stiffness)
+        except RuntimeError:
+            raise _not_held(0.0) from None
+
 
 def import_matrices(source: MatricesSource, choice: ReductionChoice, folder: Path | str = ".") -> ReducedModel:
     """The reduced model of the matrices: as they are if small, else reduced as `choice` says (its boundary is the table's).
@@ -69,7 +78,11 @@ def _reduced(given: _Given, choice: ReductionChoice) -> ReducedModel:
         tolerance, singular = 0.0, np.ones(vectors.shape[1])
     else:
         basis = multi_speed_basis(
-            lambda speed: sp.csr_array(given.stiffness + speed**2 * given.per_square), given.mass, boundary, choice
+            lambda speed: sp.csr_array(given.stiffness + speed**2 * given.per_square),
+            given.mass,
+            boundary,
+            choice,
+            given.solve_at_rest,
         )
         vectors, tolerance, singular = basis.vectors, choice.basis_tolerance, basis.singular_values
     mass, stiffness = projected(given.mass, vectors), projected(given.stiffness, vectors)
@@ -106,10 +119,14 @@ def _check_positive(mass: np.ndarray, stiffness: np.ndarray) -> None:
         raise ImportRefused(f"the mass is not positive (lowest eigenvalue {lowest:.3g} kg); leave no massless rows")
     squares = la.eigvalsh(stiffness, mass)
     if not squares[0] > _RIGID * squares[-1]:
-        raise ImportRefused(
-            f"the stiffness at rest is not positive (lowest squared frequency {squares[0]:.3g} rad2/s2); clamp the "
-            "root: leave out its rows and columns"
-        )
+        raise _not_held(squares[0])
+
+
+def _not_held(square: float) -> ImportRefused:
+    return ImportRefused(
+        f"the stiffness at rest is not positive (lowest squared frequency {square:.3g} rad2/s2); clamp the "
+        "root: leave out its rows and columns"
+    )
 
 
 def _read(files: Mapping[str, Path], source: MatricesSource, fastest: float) -> _Given:
@@ -244,7 +261,7 @@ def _ideal_shapes(given: _Given) -> dict[str, np.ndarray]:
     inner, coupling = given.stiffness[boundary:, boundary:], given.stiffness[boundary:, :boundary]
     solve = factorise(inner) if inner.shape[0] else lambda load: load
     first, twist = (np.concatenate([part, -solve(coupling @ part)]) for part in (bending, torsion))
-    smooth = factorise(given.stiffness)(given.mass @ first)
+    smooth = given.solve_at_rest(given.mass @ first)
     second = first - smooth * (smooth @ (given.mass @ first)) / (smooth @ (given.mass @ smooth))
     return dict(zip(NAMED_MODES, (smooth, twist, second), strict=True))
 
