@@ -17,6 +17,7 @@ include: "workflow/rules/figures.smk"
 include: "workflow/rules/exports.smk"
 include: "workflow/rules/shapes.smk"
 include: "workflow/rules/signals.smk"
+include: "workflow/rules/run_ups.smk"
 include: "workflow/rules/designs.smk"
 include: "workflow/rules/studies.smk"
 

@@ -14,6 +14,7 @@ from r37core.plans.code import CodeHashes
 from r37core.plans.import_plan import Imported
 from r37core.plans.provenance import Provenance
 from r37core.plans.resources import Needs
+from r37core.plans.run_up_plan import RunUps
 from r37core.plans.structure_plan import Structure
 from r37core.plans.sweep_plan import MAPS, Sweep
 from r37core.plans.targets import targets

@@ -12,8 +12,9 @@ from r37core.rom.reduction_choice import BoundaryChoice, ReductionChoice, Stress
 from .blade_sections import Submesh, stress_region
 from .fidelity import Reduction
 from .output_sections import ExportSection, ShapeSection, SignalSection
+from .run_up_section import RunUpEntry
 from .scenes import TipLine
-from .section import AllOrNames, FileName, LeftOut, Name, Section, Speed, refused
+from .section import AllOrNames, FileName, LeftOut, Name, Section, Speed, check_names, refused
 from .si_fields import in_si, si_fields
 from .speed_section import RpmList, SpeedList, SpeedRange, SpeedRule, refuse_both_units
 from .study_sections import StudiesSection
@@ -187,9 +188,15 @@ class Config(Section):
     exports: ExportSection = ExportSection()
     shapes: ShapeSection = ShapeSection()
     signals: SignalSection = SignalSection()
+    run_ups: dict[Name, RunUpEntry] = Field(default={}, description="run-ups and run-downs by name")
 
     @model_validator(mode="after")
     def _one_unit(self) -> Config:
         if self.speeds_rpm is not None and "speeds" in self.model_fields_set:
             refuse_both_units("speeds", "speeds_rpm")
+        return self
+
+    @model_validator(mode="after")
+    def _run_up_names(self) -> Config:
+        check_names(self.run_ups)
         return self

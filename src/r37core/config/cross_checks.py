@@ -21,6 +21,10 @@ LARGEST_NUMBER_OF_SIMULATIONS = 200_000
 """Jobs that Snakemake can still plan: about 25 kB of memory and 1 ms for each."""
 
 
+LARGEST_CHANGE_PER_SAMPLE = 0.01
+"""Of the speed of a run-up."""
+
+
 def _known(settings: Settings, path: KeyPath, names: Iterable[str], entries: Iterable[str], file: Document) -> None:
     """ConfigError for a name, at `path` of config.yaml, that is none of the `entries` of `file`."""
     known = list(entries)
@@ -151,11 +155,13 @@ def exported_speeds_are_run(settings: Settings) -> None:
 
 
 def slowest_speed_fits_in_memory(settings: Settings) -> None:
-    """The revolution of the slowest speed, of the sweep or of signals, has not too many steps."""
+    """The revolution of the slowest speed, of the sweep, signals or run-ups, has not too many steps."""
     slowest: list[tuple[float, KeyPath]] = [(min(plan.certain[0] for plan in settings.speed_plans.values()), ("speeds",))]
     signals = settings.config.signals
     if isinstance(speeds := signals.speeds(), list):
         slowest.append((speeds[0], ("signals", signals.key_of_speeds)))
+    for name, entry in settings.config.run_ups.items():
+        slowest.append((min(entry.run_up(1).start, entry.run_up(1).stop), ("run_ups", name)))
     steps, lined = settings.fidelity.time_integration, {one.scene.lining is not None for one in settings.scenes.values()}
     nodes, step = padded(settings.structure.boundary.nodes), min(map(steps.largest_step, lined))
     for speed, path in slowest:
@@ -187,6 +193,32 @@ def signals_have_runs(settings: Settings) -> None:
         if wanted.revolutions is not None and wanted.revolutions > scene.revolutions:
             allowed = f"at most those of a run, {scene.revolutions} in '{name}'"
             raise documents.config.refusal(("signals", "revolutions"), f"{wanted.revolutions}", allowed)
+
+
+def run_ups_can_be_done(settings: Settings) -> None:
+    """Run-ups name blades and scenes that are there, wear a lining, and change little from one sample to the next."""
+    documents, per_revolution = settings.documents, settings.fidelity.time_integration.samples_per_revolution
+    for name, entry in settings.config.run_ups.items():
+        path: KeyPath = ("run_ups", name)
+        names = [*settings.designs.entries, *settings.designs.families]
+        _known(settings, (*path, "blades"), [] if entry.blades == "all" else entry.blades, names, documents.blades)
+        scenes = settings.scene_entries if entry.scenes == "all" else entry.scenes
+        _known(settings, (*path, "scenes"), scenes, settings.scene_entries, documents.scenes)
+        run_up = entry.run_up(1)
+        low, high = sorted((run_up.start, run_up.stop))
+        fewest = (high / low - 1.0) / LARGEST_CHANGE_PER_SAMPLE
+        if run_up.revolutions * per_revolution < fewest:
+            raise documents.config.refusal(
+                (*path, entry.key_of_length),
+                f"a change from {run_up.start:g} to {run_up.stop:g} rad/s within {run_up.revolutions:.3g} revolutions",
+                f"at least {fewest / per_revolution:.3g} revolutions, {100 * LARGEST_CHANGE_PER_SAMPLE:g}% in each of the "
+                f"{per_revolution} samples of one",
+            )
+        for scene in set(scenes) & set(settings.scenes):
+            if entry.lining == "worn" and settings.scenes[scene].scene.lining is None:
+                raise documents.config.refusal(
+                    (*path, "lining"), f"worn in the scene '{scene}', which has no lining", "new, or scenes with a lining"
+                )
 
 
 def matrices_hold_their_terms(settings: Settings) -> None:
@@ -224,6 +256,7 @@ CHECKS: tuple[Callable[[Settings], None], ...] = (
     exported_speeds_are_run,
     slowest_speed_fits_in_memory,
     signals_have_runs,
+    run_ups_can_be_done,
     matrices_hold_their_terms,
     families_have_shapes,
 )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
@@ -16,6 +16,7 @@ from r37core.contact.scene import Scene
 from r37core.exchange.importing.source import MatricesSource
 from r37core.plain import to_plain
 from r37core.rom.reduction_choice import ReductionChoice
+from r37core.run_ups.schedule import RunUp
 from r37core.speeds import SpeedError, SpeedPlan
 from r37core.time_integration.integration_choice import IntegrationChoice
 
@@ -95,8 +96,12 @@ class Settings:
         """Names of the blades that config.yaml chooses; that of a family is all of its designs."""
         if self.config.blades == "all":
             return list(self.designs.entries)
+        return self._designs(self.config.blades)
+
+    def _designs(self, names: Sequence[str]) -> list[str]:
+        """Each of the blades, and of the families' designs, once."""
         families = self.designs.families
-        several = [list(families[name].designs) if name in families else [name] for name in self.config.blades]
+        several = [list(families[name].designs) if name in families else [name] for name in names]
         return list(dict.fromkeys(name for names in several for name in names))
 
     @cached_property
@@ -248,6 +253,21 @@ class Settings:
         wanted = self.scenes[scene].results
         matrices = isinstance(self.blades[blade].definition, MatricesSource)
         return tuple(result for result in wanted if not (matrices and result in ("stress", "shapes")))
+
+    def run_ups_of(self, blade: str, scene: str) -> dict[str, RunUp]:
+        """Run-ups of a blade in a scene, by name."""
+        return {
+            name: entry.run_up(self.scenes[scene].revolutions)
+            for name, entry in self.config.run_ups.items()
+            if (entry.blades == "all" or blade in self._designs(entry.blades))
+            and (entry.scenes == "all" or scene in entry.scenes)
+        }
+
+    def run_up_choice(self, blade: str, scene: str, name: str) -> IntegrationChoice:
+        """Numbers of the time integration of a run-up: those of the sweep, with stress in every revolution."""
+        choice = self.integration_choice(blade, scene, 0.0)
+        before = self.run_ups_of(blade, scene)[name].before
+        return replace(choice, revolutions=before, snapshot_revolutions=before if choice.snapshots_per_revolution else 0)
 
     def integration_choice(self, blade: str, scene: str, speed: float) -> IntegrationChoice:
         """Numbers of the time integration at one speed of a blade and scene, with only what its results need."""

@@ -69,6 +69,15 @@ CAPTIONS = {
         "Blade {blade} in scene {scene}: amplitude of the strongest whole engine orders over the revolutions since the start, "
         "at each speed, and beside them, where there are probes, the leading edge's displacement that tip timing tells."
     ),
+    "run_ups": (
+        "Blade {blade} in scene {scene}, run up (solid) and down (dashed) at several rates: rms of the leading edge's motion "
+        "normal to the casing and tangential, largest von Mises stress, and largest wear so far, of every revolution over its "
+        "mean speed. Dashed line: yield stress."
+    ),
+    "run_up_rates": (
+        "Largest von Mises stress of every run-up (left) and run-down (right) in scene {scene} against its rate, for every "
+        "blade. Dashed: yield stress."
+    ),
     "modes": (
         "The first three modes of blade {blade} at rest, first bending (1B), first torsion (1T) and second bending (2B), "
         "each moved by its shape from the blade as it is (faint); the colour is the size of the displacement."

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from . import paths
 from .paths import Wildcards, of, of_runs
+from .run_up_plan import RunUps
 from .signal_plan import Signals
 from .sweep_plan import KINDS, MAPS, Sweep
 
@@ -14,6 +16,8 @@ def targets(sweep: Sweep, recorded: Signals) -> dict[str, Wildcards]:
     shown, signals, spectra = (
         of_runs(runs) for runs in (sweep.runs_with("shapes"), recorded.runs, sweep.runs_with("spectrum"))
     )
+    climbing = RunUps(sweep)
+    climbed = of_runs(climbing.pairs)
     of_shapes = of("blade", dict.fromkeys(run["blade"] for run in shown))
     pictures = {
         "campbell_{blade}": blades,
@@ -24,11 +28,15 @@ def targets(sweep: Sweep, recorded: Signals) -> dict[str, Wildcards]:
         "designs_{family}": families,
         "spectrogram_{blade}__{scene}": signals,
         "orders_{blade}__{scene}": signals,
+        "run_ups_{blade}__{scene}": climbed,
+        "run_up_rates_{scene}": of("scene", dict.fromkeys(run["scene"] for run in climbed)),
     }
     return {
         **{f"<results>/{kind}.nc": [{}] if kind in sweep.kinds else [] for kind in KINDS},
         "<results>/designs.csv": families and [{}],
         "<results>/signals.nc": signals and [{}],
+        **{f"<results>/{name}": climbed and [{}] for name in ("run_ups.nc", "run_ups.csv", "run_up_rates.csv")},
+        paths.RUN_UP: climbing.files,
         "<results>/{blade}/{scene}/signals.nc": signals,
         "<results>/shapes/{blade}.html": of_shapes,
         "<results>/figures/shapes_{blade}.png": of_shapes,

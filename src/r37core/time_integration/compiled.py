@@ -9,14 +9,14 @@ from typing import Any
 
 import numpy as np
 
-from r37core.alignment import LANES, aligned_copy, aligned_zeros
+from r37core.alignment import aligned_copy, aligned_zeros
 from r37core.contact.scene import Friction, Lining
 from r37core.native import Sources, cached_object, load_function
 
 from .integrators import CENTRAL_DIFFERENCE
-from .jump_plan import JumpPlan, nearest_casing, plan_jumps
+from .jump_plan import jump_lengths, nearest_casing
 from .layout import LINING, NEVER, NORMAL, TANGENTIAL, Kind, Layout, integration_record, layout_of
-from .problem import Problem
+from .problem import Pace, Problem
 from .state import SimulationRecord, SimulationState
 
 SOURCES = Sources(
@@ -44,8 +44,8 @@ class CompiledEngine:
         _, self._nodes, self._modes = problem.displacement_operator.shape
         self._layout = layout_of(self._modes, self._nodes, outputs)
         self._record = aligned_zeros((1,), integration_record(self._layout))
-        scene, choice = problem.scene, problem.choice
-        plan = plan_jumps(problem.recursion, problem.steps_per_sample, LANES) if choice.jumps else None
+        self._problem = problem
+        scene, choice, pace = problem.scene, problem.choice, problem.pace
         kind = Kind(
             published=choice.integrator == CENTRAL_DIFFERENCE,
             lined=scene.lining is not None,
@@ -54,13 +54,13 @@ class CompiledEngine:
             coupled=scene.friction is None or scene.friction.coupled,
             exact_gap=scene.exact_gap,
             energy=choice.energy,
-            jumps=plan is not None,
+            jumps=pace.jumps is not None,
         )
         self._advance = _program(self._layout, kind)
+        self._constant_share: np.ndarray | None = None
+        self._corners: dict[tuple[str, tuple[int, ...]], np.ndarray] = {}
         self._lay_out(problem)
-        self._lay_out_casing(problem, plan)
-        if choice.energy:
-            _put(self._record[0], loss=problem.recursion.loss)
+        self._lay_out_casing(problem, jumps=pace.jumps is not None)
         if scene.friction is not None:
             self._lay_out_friction(problem, scene.friction)
         if scene.lining is not None:
@@ -68,8 +68,34 @@ class CompiledEngine:
         self._second_order = problem.second_order
         if problem.second_order:
             self._lay_out_static_modes(problem)
+        self.take(pace)
+
+    def take(self, pace: Pace) -> None:
+        """Go on at another pace in the same modes, with as many steps in a revolution."""
+        recursion, coupling, plan = pace
+        normal = coupling[NORMAL]
+        # friction of constant direction is part of what a normal force does
+        response = normal if self._constant_share is None else normal + self._constant_share * coupling[TANGENTIAL]
+        self._record[0]["problem"]["diagonal"][: self._nodes] = normal.diagonal()
+        self._put(keep=recursion.keep, pull=recursion.pull, inverse=recursion.inverse)
+        self._put(coupling=coupling, columns=normal, response=response)
+        if self._problem.choice.energy:
+            self._put(loss=recursion.loss)
         if plan is not None:
-            self._lay_out_jumps(plan)
+            self._put(slow_modes=plan.slow_modes, jumps=plan.jumps)
+            self._put(amplitude_by_u=plan.amplitude_rows[0], amplitude_by_d=plan.amplitude_rows[1])
+
+    def _put(self, **values: Any) -> None:
+        """Put numbers and arrays into fields of the record; an array fills a corner, what pads it stays as it is."""
+        m = self._record[0]
+        for name, value in values.items():
+            if shape := np.shape(value):
+                # kept, for a run-up comes here in every revolution
+                if (name, shape) not in self._corners:
+                    self._corners[name, shape] = m[name][tuple(map(slice, shape))]
+                self._corners[name, shape][...] = value
+            else:
+                m[name] = value
 
     def advance(self, state: SimulationState, out: SimulationRecord) -> int:
         """Do one block of steps per row of `out.samples`, from `state`, which is changed, and fill samples and snapshots.
@@ -78,21 +104,19 @@ class CompiledEngine:
         """
         m, (modes, nodes, _) = self._record[0], self._layout
         snapshots = np.zeros((len(out.snapshots), modes + (3 * nodes if self._second_order else 0)))
-        flags = aligned_copy(state.on_casing, self._layout.nodes) > 0
-        _put(
-            m,
+        self._put(
             u=state.displacement,
             increment=state.increment,
-            on_casing=np.packbits(flags, bitorder="little"),
+            on_casing=np.packbits(state.on_casing, bitorder="little"),
             totals=state.totals,
-            first_step=state.revolutions * m["steps_per_revolution"],
+            first_step=state.samples * m["steps_per_block"],
             blocks=len(out.samples),
             wear=0 if state.wear is None else state.wear.ctypes.data,
             samples=out.samples.ctypes.data,
             snapshots=snapshots.ctypes.data,
         )
         if self._second_order:
-            _put(m, force=state.lining_force[NORMAL], friction_force=state.lining_force[TANGENTIAL:])
+            self._put(force=state.lining_force[NORMAL], friction_force=state.lining_force[TANGENTIAL:])
         done = int(self._advance(self._record.ctypes.data))
         state.displacement[:], state.increment[:] = m["u"][: self._modes], m["increment"][: self._modes]
         state.on_casing[:] = np.unpackbits(m["on_casing"].astype(np.uint8), bitorder="little")[: self._nodes]
@@ -106,20 +130,12 @@ class CompiledEngine:
         return done
 
     def _lay_out(self, problem: Problem) -> None:
-        m, coupling, recursion = self._record[0], problem.coupling, problem.recursion
+        m = self._record[0]
         # a node that only pads the vector must neither sit on the axis nor cancel a pivot
         m["radius"] = m["towards"] = m["problem"]["diagonal"] = 1.0
-        _put(m["problem"], diagonal=np.diag(coupling[NORMAL]))
-        _put(
-            m,
-            keep=recursion.keep,
-            pull=recursion.pull,
-            inverse=recursion.inverse,
+        self._put(
             displacement_operator=problem.displacement_operator,
             push_operator=problem.displacement_operator[NORMAL],
-            coupling=coupling,
-            response=coupling[NORMAL],
-            columns=coupling[NORMAL],
             radius=problem.model.radius,
             theta=problem.model.theta,
             outputs=problem.output_operator[None, :, : self._modes],
@@ -133,38 +149,36 @@ class CompiledEngine:
             samples_per_snapshot=problem.samples_per_snapshot,
         )
 
-    def _lay_out_casing(self, problem: Problem, plan: JumpPlan | None) -> None:
+    def _lay_out_casing(self, problem: Problem, jumps: bool) -> None:
         m, casing = self._record[0], problem.scene.casing
-        _put(
-            m["casing"],
-            clearance=casing.clearance,
-            # without lobes f is 0 everywhere, and so is what it is multiplied by
-            amplitude=casing.amplitude * casing.clearance if casing.lobes else 0.0,
-            rise=casing.rise_rate(problem.duration) * problem.time_step,
-            period=2.0 * np.pi / max(casing.lobes, 1),
-            width=casing.width,
-            cosine=np.cos(problem.cone_angle),
-            sine=np.sin(problem.cone_angle),
-        )
+        # without lobes f is 0 everywhere, and so is what it is multiplied by
+        amplitude = casing.amplitude * casing.clearance if casing.lobes else 0.0
+        rise, period = casing.rise_rate(problem.duration) * problem.time_step, 2.0 * np.pi / max(casing.lobes, 1)
+        cone = np.cos(problem.cone_angle), np.sin(problem.cone_angle)
+        # in the order of layout.CASING
+        m["casing"] = (casing.clearance, amplitude, rise, period, casing.width, *cone)
         shape = casing.shape(problem.theta(np.arange(problem.steps_per_revolution)[:, None]))
         self._shape = aligned_copy(shape, self._layout.nodes)
         m["casing_shape"] = self._shape.ctypes.data
-        if plan is not None:
+        if jumps:
             self._nearest = aligned_copy(nearest_casing(shape, problem.steps_per_sample), self._layout.nodes)
             m["nearest_casing"] = self._nearest.ctypes.data
+            lengths = jump_lengths(problem.steps_per_sample)
+            m["lengths"] = NEVER
+            self._put(lengths=lengths)
+            if np.isfinite(rise):
+                self._put(decay=np.exp(-rise * lengths))
 
     def _lay_out_friction(self, problem: Problem, friction: Friction) -> None:
-        """Friction; one of constant direction becomes part of what a normal force does."""
-        m, velocity = self._record[0], problem.rotation_velocity
-        _put(m, friction=friction.coefficient, rotation=velocity * problem.time_step)
+        velocity = problem.rotation_velocity
+        self._put(friction=friction.coefficient, rotation=velocity * problem.time_step)
         if not friction.vector:
             share = friction.coefficient * np.sign(velocity)[:, None]
-            operator, coupling = problem.displacement_operator, problem.coupling
-            _put(
-                m,
+            operator = problem.displacement_operator
+            self._constant_share = share
+            self._put(
                 friction_share=np.stack([share[:, 0], np.zeros(self._nodes)]),
                 push_operator=operator[NORMAL] + share * operator[TANGENTIAL],
-                response=coupling[NORMAL] + share * coupling[TANGENTIAL],
             )
 
     def _lay_out_lining(self, problem: Problem, lining: Lining) -> None:
@@ -173,7 +187,7 @@ class CompiledEngine:
             value = problem.bar_area if name == "area" else getattr(lining, name)
             m["lining"][name] = np.nan if value is None else value
         m["lining"]["bars"] = problem.bars
-        _put(m, bar_position=problem.model.theta / (2.0 * np.pi) * problem.bars)
+        self._put(bar_position=problem.model.theta / (2.0 * np.pi) * problem.bars)
 
     def _lay_out_static_modes(self, problem: Problem) -> None:
         flexibility = problem.residual_flexibility
@@ -181,30 +195,11 @@ class CompiledEngine:
         force_outputs = problem.output_operator[:, self._modes :].reshape(-1, 3, self._nodes)
         padded_forces = np.zeros((*force_outputs.shape[:2], self._layout.nodes))
         padded_forces[:, :, : self._nodes] = force_outputs
-        _put(
-            self._record[0],
+        self._put(
             own_flexibility=own,
             others_flexibility=flexibility - own[:, :, None] * np.eye(self._nodes),
             force_outputs=padded_forces.reshape(1, len(force_outputs), -1),
         )
-
-    def _lay_out_jumps(self, plan: JumpPlan) -> None:
-        m = self._record[0]
-        m["lengths"] = NEVER
-        _put(m, lengths=plan.lengths, slow_modes=plan.slow_modes, jumps=plan.jumps)
-        _put(m, amplitude_by_u=plan.amplitude_rows[0], amplitude_by_d=plan.amplitude_rows[1])
-        rise = m["casing"]["rise"]
-        if np.isfinite(rise):
-            _put(m, decay=np.exp(-rise * plan.lengths))
-
-
-def _put(record: Any, **values: Any) -> None:
-    """Put numbers and arrays into the fields of a record; an array fills a corner, what pads it stays as it is."""
-    for name, value in values.items():
-        if np.ndim(value):
-            record[name][tuple(map(slice, value.shape))] = value
-        else:
-            record[name] = value
 
 
 @cache

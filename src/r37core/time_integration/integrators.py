@@ -9,10 +9,15 @@ import numpy as np
 CENTRAL_DIFFERENCE, EXACT_MODAL = INTEGRATORS = ("central_difference", "exact_modal")
 
 
+_LARGEST_TURN = 3.0
+"""Of a mode in a step (rad), up to which its velocity follows from two displacements."""
+
+
 @dataclass(frozen=True)
 class Recursion:
     """u_{n+1} = a u_n + b u_{n-1} + c F of unit-mass modes under modal forces F; arrays of shape (modes,).
 
+    Of several recursions they have shape (recursions, modes).
     `keep` -b, `pull` 1 - a - b and `inverse` c: carried in displacement and increment d_n = u_n - u_{n-1} it reads
     d_{n+1} = keep d_n - pull u_n + inverse F, which keeps the digits that a + b = 1 - pull loses. `lost` = 1 - keep.
 
@@ -26,6 +31,10 @@ class Recursion:
     inverse: np.ndarray
     lost: np.ndarray
 
+    def __getitem__(self, row: int) -> Recursion:
+        """One of several recursions, whose arrays have shape (recursions, modes)."""
+        return Recursion(self.keep[row], self.pull[row], self.inverse[row], self.lost[row])
+
     @property
     def loss(self) -> np.ndarray:
         """Energy lost to damping per step and squared u_{n+1} - u_{n-1}, shape (modes,)."""
@@ -37,7 +46,7 @@ class Recursion:
         return float(np.sum((kinetic + self.pull * displacement * (displacement - increment)) / (2.0 * self.inverse)))
 
 
-def central_difference(frequencies: np.ndarray, damping_ratio: float, step: float) -> Recursion:
+def central_difference(frequencies: np.ndarray, damping_ratio: float, step: float | np.ndarray) -> Recursion:
     """Central differences for modes of angular `frequencies` (rad/s), stable for steps (s) below 2/frequency.
 
     c = (1/h^2 + xi omega/h)^-1, b = c (xi omega/h - 1/h^2), a = c (2/h^2 - omega^2) = 1 - b - c omega^2: section 5 of the
@@ -52,7 +61,7 @@ def central_difference(frequencies: np.ndarray, damping_ratio: float, step: floa
     )
 
 
-def exact_modal(frequencies: np.ndarray, damping_ratio: float, step: float) -> Recursion:
+def exact_modal(frequencies: np.ndarray, damping_ratio: float, step: float | np.ndarray) -> Recursion:
     """The free motion of underdamped modes (damping ratio below 1) without error, for any step (s).
 
     u(t) = e^(-xi omega t) (A cos omega_d t + B sin omega_d t) satisfies u_{n+1} = a u_n + b u_{n-1} with
@@ -67,7 +76,27 @@ def exact_modal(frequencies: np.ndarray, damping_ratio: float, step: float) -> R
     return Recursion(keep=np.exp(-2.0 * decay), pull=pull, inverse=pull / frequencies**2, lost=-np.expm1(-2.0 * decay))
 
 
-def recursion(integrator: str, frequencies: np.ndarray, damping_ratio: float, step: float) -> Recursion:
-    """The recursion of one of INTEGRATORS."""
+def recursion(integrator: str, frequencies: np.ndarray, damping_ratio: float, step: float | np.ndarray) -> Recursion:
+    """The recursion of one of INTEGRATORS; of several with steps of shape (recursions, 1)."""
     of = {CENTRAL_DIFFERENCE: central_difference, EXACT_MODAL: exact_modal}
     return of[integrator](frequencies, damping_ratio, step)
+
+
+def increments(
+    integrator: str, frequencies: np.ndarray, damping_ratio: float, step: float | np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Increment u_n - u_{n-1} of a free mode per displacement u_n and per velocity at t_n, in the shape of a recursion.
+
+    With exact_modal the closed form taken a step back; with central differences from v_n = (u_{n+1} - u_{n-1})/(2h) and the
+    recursion. A mode that turns by nearly half a turn in a step tells no velocity: its increment over the step stands for it.
+    """
+    if integrator == CENTRAL_DIFFERENCE:
+        of = central_difference(frequencies, damping_ratio, step)
+        return of.pull / (1.0 + of.keep), 2.0 * step / (1.0 + of.keep)
+    decay, damped = damping_ratio * frequencies * step, frequencies * np.sqrt(1.0 - damping_ratio**2)
+    grown, sine = np.exp(decay), np.sin(damped * step)
+    # 1 - e^decay (cos - xi omega/omega_d sin), without the cancellation of small steps
+    backwards = 2.0 * np.sin(0.5 * damped * step) ** 2 - np.expm1(decay) * np.cos(damped * step)
+    backwards += grown * sine * damping_ratio * frequencies / damped
+    told = damped * step < _LARGEST_TURN
+    return np.where(told, backwards, 0.0), np.where(told, grown * sine / damped, step)

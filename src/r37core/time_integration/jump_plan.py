@@ -20,7 +20,8 @@ class JumpPlan:
     `slow_modes`, shape (strides,): modes followed along their tangent; `jumps`, shape (strides, 8, modes): the entries of the
     map less the identity (u from u, u from d, d from u, d from d), the loss as a quadratic form (uu, ud, dd), and how far a
     mode of unit amplitude gets beyond its tangent or, for fast ones, from zero; `amplitude_rows`, shape (2, modes): the
-    imaginary part of a mode's complex amplitude from u and d.
+    imaginary part of a mode's complex amplitude from u and d. Of several recursions all but the lengths have a
+    first axis more.
     """
 
     lengths: np.ndarray
@@ -28,9 +29,15 @@ class JumpPlan:
     jumps: np.ndarray
     amplitude_rows: np.ndarray
 
+    def __getitem__(self, row: int) -> JumpPlan:
+        """The plan of one of several recursions."""
+        return JumpPlan(self.lengths, self.slow_modes[row], self.jumps[row], self.amplitude_rows[row])
+
 
 def plan_jumps(recursion: Recursion, steps_per_block: int, multiple: int) -> JumpPlan | None:
-    """Plan for ascending modes; None if a mode does not oscillate. `multiple`: slow modes are counted in these.
+    """Plan for ascending modes, of one recursion or several; None if a mode does not oscillate.
+
+    `multiple`: slow modes are counted in these.
 
     One step maps (u, d) to d' = k d - p u, u' = u + d', with k = `keep` and p = `pull` of the recursion. Its eigenvalues
     lambda are complex with |lambda|^2 = k while (1 + k - p)^2 < 4 k, so u_n = Re(C lambda^n).
@@ -43,38 +50,45 @@ def plan_jumps(recursion: Recursion, steps_per_block: int, multiple: int) -> Jum
     # lambda = modulus * (cosine + i sine); u_{n-1} = u - d = Re(C / lambda)
     cosine = half_trace / modulus
     sine = np.sqrt(1.0 - cosine**2)
-    amplitude_rows = np.array([(modulus - cosine) / sine, -modulus / sine])
+    amplitude_rows = np.stack([(modulus - cosine) / sine, -modulus / sine], axis=-2)
     curvature = np.abs(1.0 - 1.0 / (modulus * (cosine + 1j * sine))) ** 2
+    lengths = jump_lengths(steps_per_block)
+    *several, modes = keep.shape
+    jumps = np.zeros((*several, len(lengths), 8, modes))
+    slow = np.zeros((*several, len(lengths)), dtype=np.int64)
+    for stride, length in enumerate(lengths):
+        if stride >= 2:
+            jumps[..., stride, :7, :] = _after(jumps[..., stride - 1, :7, :], jumps[..., stride - 1, :7, :])
+        else:
+            for _ in range(length):
+                jumps[..., stride, :7, :] = _after(jumps[..., stride, :7, :], _single(recursion))
+        beyond = 0.5 * curvature * length * (length + 1)
+        slow[..., stride] = np.count_nonzero(beyond < 1.0, axis=-1) // multiple * multiple
+        jumps[..., stride, 7, :] = np.where(np.arange(modes) < slow[..., stride, None], beyond, 1.0)
+    return JumpPlan(lengths, slow, jumps, amplitude_rows)
+
+
+def jump_lengths(steps_per_block: int) -> np.ndarray:
+    """Steps of the jumps: what is left of a block after whole stretches, then stretches doubled while they fit."""
     lengths = [steps_per_block % COARSE]
     while len(lengths) < STRIDES and COARSE << (len(lengths) - 1) <= steps_per_block:
         lengths.append(COARSE << (len(lengths) - 1))
-    jumps = np.zeros((len(lengths), 8, len(keep)))
-    slow = np.zeros(len(lengths), dtype=np.int64)
-    for stride, length in enumerate(lengths):
-        if stride >= 2:
-            jumps[stride, :7] = _after(jumps[stride - 1, :7], jumps[stride - 1, :7])
-        else:
-            for _ in range(length):
-                jumps[stride, :7] = _after(jumps[stride, :7], _single(recursion))
-        beyond = 0.5 * curvature * length * (length + 1)
-        slow[stride] = int(np.count_nonzero(beyond < 1.0)) // multiple * multiple
-        jumps[stride, 7] = np.where(np.arange(len(keep)) < slow[stride], beyond, 1.0)
-    return JumpPlan(np.array(lengths, dtype=np.int64), slow, jumps, amplitude_rows)
+    return np.array(lengths, dtype=np.int64)
 
 
 def _single(recursion: Recursion) -> np.ndarray:
     """One step less the identity; its loss is that of the central difference (u' - u_before) = (1 + k) d - p u."""
     keep, pull, loss = recursion.keep, recursion.pull, recursion.loss
     of_loss = [loss * pull**2, -2.0 * loss * pull * (1.0 + keep), loss * (1.0 + keep) ** 2]
-    return np.array([-pull, keep, -pull, keep - 1.0, *of_loss])
+    return np.stack([-pull, keep, -pull, keep - 1.0, *of_loss], axis=-2)
 
 
 def _after(first: np.ndarray, second: np.ndarray) -> np.ndarray:
     """`second` done after `first`: (I + F)(I + E) = I + E + F + F E, and the loss of both."""
-    a, b, c, d, q, r, s = first
-    e, f, g, h, t, v, w = second
+    a, b, c, d, q, r, s = np.moveaxis(first, -2, 0)
+    e, f, g, h, t, v, w = np.moveaxis(second, -2, 0)
     mapped_u, mapped_d = (1.0 + a, b), (c, 1.0 + d)
-    return np.array(
+    return np.stack(
         [
             a + e + e * a + f * c,
             b + f + e * b + f * d,
@@ -86,7 +100,8 @@ def _after(first: np.ndarray, second: np.ndarray) -> np.ndarray:
             + v * (mapped_u[0] * mapped_d[1] + mapped_u[1] * mapped_d[0])
             + 2.0 * w * mapped_d[0] * mapped_d[1],
             s + t * mapped_u[1] ** 2 + v * mapped_u[1] * mapped_d[1] + w * mapped_d[1] ** 2,
-        ]
+        ],
+        axis=-2,
     )
 
 

@@ -4,21 +4,31 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 
-from r37core.alignment import padded
+from r37core.alignment import LANES, padded
 from r37core.contact.casing import casing_axes
 from r37core.contact.scene import Scene
-from r37core.rom.contact_model import ContactModel
+from r37core.rom.contact_model import BucklingError, ContactModel
 
 from .integration_choice import LARGEST_TABLE, IntegrationChoice
-from .integrators import EXACT_MODAL, Recursion, recursion
+from .integrators import EXACT_MODAL, Recursion, increments, recursion
+from .jump_plan import JumpPlan, plan_jumps
 from .step_limit import UnstableStepError, check_step
 
 
 class LongRevolutionError(ValueError):
     """A revolution of so many steps that the casing's table would not fit in memory."""
+
+
+class Pace(NamedTuple):
+    """What of a problem changes with the speed while its modes are held."""
+
+    recursion: Recursion
+    coupling: np.ndarray
+    jumps: JumpPlan | None
 
 
 @dataclass(frozen=True, eq=False)
@@ -82,7 +92,9 @@ class Problem:
 
     @cached_property
     def steps_per_sample(self) -> int:
-        """So many that a step is not above the chosen one, and a revolution has whole samples."""
+        """So many that a step is not above the chosen one, and a revolution has whole samples; or as the choice says."""
+        if self.choice.steps_per_sample is not None:
+            return self.choice.steps_per_sample
         shortest = 2.0 * np.pi / self.speed / (self.choice.samples_per_revolution * self.choice.time_step)
         return int(np.ceil(shortest - 1e-9))
 
@@ -164,9 +176,47 @@ class Problem:
 
         Shape (3, nodes, nodes).
         """
+        return self._coupling(self.recursion.inverse)
+
+    def _coupling(self, inverse: np.ndarray) -> np.ndarray:
+        """`coupling` of the recursion's `inverse`, shape (..., modes); shape (..., 3, nodes, nodes)."""
         normal = self.displacement_operator[0]
-        stepped = np.array([(rows * self.recursion.inverse) @ normal.T for rows in self.displacement_operator])
+        stepped = np.stack([(rows * inverse[..., None, :]) @ normal.T for rows in self.displacement_operator], axis=-3)
         return stepped + self.residual_flexibility
+
+    @property
+    def pace(self) -> Pace:
+        """Of the problem's own speed."""
+        return Pace(self.recursion, self.coupling, self._jumps(self.recursion))
+
+    def _jumps(self, recursion: Recursion) -> JumpPlan | None:
+        return plan_jumps(recursion, self.steps_per_sample, LANES) if self.choice.jumps else None
+
+    def paces(self, speeds: np.ndarray) -> list[Pace]:
+        """At other `speeds` (rad/s), shape (speeds,), in the modes of the problem's speed and with its steps per revolution.
+
+        A mode's squared frequency is its stiffness at the speed, phi^T K(Omega) phi; the stiffness between modes is left out.
+        Raises BucklingError where it is not positive.
+        """
+        several = self._recursion_at(speeds)
+        couplings, plans = self._coupling(several.inverse), self._jumps(several)
+        return [Pace(several[row], couplings[row], plans and plans[row]) for row in range(len(speeds))]
+
+    def increments(self, speeds: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Increments per displacement and per velocity at `speeds`, each of shape (speeds, modes); see integrators."""
+        return increments(self.choice.integrator, *self._motion_at(speeds))
+
+    def _recursion_at(self, speeds: np.ndarray) -> Recursion:
+        return recursion(self.choice.integrator, *self._motion_at(speeds))
+
+    def _motion_at(self, speeds: np.ndarray) -> tuple[np.ndarray, float, np.ndarray]:
+        """Frequencies (rad/s) of the modes at each of the speeds, damping ratio, and steps (s)."""
+        change = np.sum(self.modes * (self.model.stiffness_per_square @ self.modes), axis=0) / self.frequencies**2
+        ratio = 1.0 + (speeds[:, None] ** 2 - self.speed**2) * change
+        if not np.all(ratio > 0.0):
+            raise BucklingError(float(speeds[np.argmin(ratio.min(axis=1))]))
+        steps = 2.0 * np.pi / speeds[:, None] / self.steps_per_revolution
+        return self.frequencies * np.sqrt(ratio), self.scene.damping_ratio, steps
 
     @property
     def rotation_velocity(self) -> np.ndarray:

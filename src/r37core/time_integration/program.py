@@ -29,7 +29,7 @@ def _integrate(m, kind):
         start = m.first_step + done * m.steps_per_block
         place = start % m.steps_per_revolution
         remaining = 0.0 if at_once else np.exp(-m.casing.rise * start)
-        if place == 0:
+        if place == 0 or done == 0:
             # so that a run stopped after a revolution goes on with the same bits
             beyond, bounded, first_stride = False, False, 1
             if kind.second_order:

@@ -12,7 +12,7 @@ import numpy as np
 from r37core.contact.laws import series_modulus
 from r37core.contact.scene import Lining
 
-from .problem import Problem
+from .problem import Pace, Problem
 from .state import SimulationRecord, SimulationState
 
 
@@ -21,7 +21,7 @@ class ReferenceEngine:
 
     def __init__(self, problem: Problem):
         self.problem = problem
-        modes, recursion = problem.modes, problem.recursion
+        modes = problem.modes
         self.normal, self.tangential, self.meridional = problem.displacement_operator @ modes.T
         self.rows = np.array([self.normal, self.tangential, self.meridional])
         self.outputs = problem.output_operator[:, : modes.shape[1]] @ modes.T
@@ -29,6 +29,11 @@ class ReferenceEngine:
         self.flexibility = problem.residual_flexibility
         # what all forces (N) on the nodes do to the static modes
         self.static_force = np.zeros((3, len(problem.model.radius)))
+        self.take(problem.pace)
+
+    def take(self, pace: Pace) -> None:
+        """Go on at another pace in the same modes, with as many steps in a revolution."""
+        modes, recursion = self.problem.modes, pace.recursion
         # -B, I - A - B, C and the loss per squared central difference, as matrices
         self.keep, self.pull, self.inverse, self.loss = (
             modes @ np.diag(diagonal) @ modes.T
@@ -40,7 +45,7 @@ class ReferenceEngine:
         problem, modes = self.problem, self.problem.modes
         # u_n and d_n = u_n - u_{n-1}: A + B rounds to 1 - 1e-9 of omega^2 away, so the recursion is carried in these
         u, d = modes @ state.displacement, modes @ state.increment
-        first = state.revolutions * problem.choice.samples_per_revolution
+        first = state.samples
         done, kept, bounded = 0, 0, True
         step = self._second_order_step if problem.second_order else self._step
         self.static_force = state.lining_force.copy()

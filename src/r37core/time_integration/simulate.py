@@ -39,9 +39,12 @@ class Simulation:
 
     def advance(self, state: SimulationState, revolutions: int) -> SimulationRecord:
         """Go on by `revolutions` from `state`, which is changed."""
+        return self.advance_samples(state, revolutions * self.problem.choice.samples_per_revolution)
+
+    def advance_samples(self, state: SimulationState, samples: int) -> SimulationRecord:
+        """The same by a number of samples."""
         problem = self.problem
-        first = state.revolutions * problem.choice.samples_per_revolution
-        asked = revolutions * problem.choice.samples_per_revolution
+        first, asked = state.samples, samples
 
         def snapshots(samples: int) -> int:
             return problem.snapshots_after(first + samples) - problem.snapshots_after(first)
@@ -49,7 +52,7 @@ class Simulation:
         outputs, numbers = problem.output_operator.shape
         out = SimulationRecord(np.zeros((asked, outputs)), np.zeros((snapshots(asked), numbers)))
         done = self.engine.advance(state, out)
-        state.revolutions += revolutions
+        state.samples += asked
         diverged = done < asked or not np.all(np.abs(out.samples[done - 1]) < problem.scene.divergence_limit)
         return SimulationRecord(out.samples[:done], out.snapshots[: snapshots(done)], bool(diverged))
 

@@ -11,7 +11,7 @@ from .layout import TOTALS
 
 @dataclass
 class SimulationState:
-    """Where a run stands; a run may be stopped after any revolution and go on from its state.
+    """Where a run stands; a run may be stopped after any of its `samples` and go on from its state.
 
     `displacement` u_n and `increment` u_n - u_{n-1}, shape (modes,), in the speed's modes; `wear` (m), shape (rings, bars);
     `on_casing`, shape (nodes,): whether a node touched the casing in the last step; `lining_force` (N), shape (3, nodes): what
@@ -23,7 +23,7 @@ class SimulationState:
     wear: np.ndarray | None
     on_casing: np.ndarray
     lining_force: np.ndarray
-    revolutions: int = 0
+    samples: int = 0
     totals: np.ndarray = field(default_factory=lambda: np.zeros((), TOTALS))
 
 

@@ -1,0 +1,61 @@
+"""The plan of the run-ups: of which blades and scenes, from what."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from r37core.plain import to_plain
+
+from . import paths
+from .sweep_plan import Sweep
+
+
+@dataclass(frozen=True)
+class RunUps:
+    """Plan of the run-ups that the configuration asks for. Methods with `wildcards` are inputs and parameters of rules."""
+
+    sweep: Sweep
+
+    @property
+    def files(self) -> paths.Wildcards:
+        """Wildcards of the files of all run-ups: blade, scene and name."""
+        settings = self.sweep.settings
+        pairs = [(blade, scene) for blade in settings.blades for scene in settings.scenes]
+        return [
+            {"blade": blade, "scene": scene, "run_up": name}
+            for blade, scene in pairs
+            for name in settings.run_ups_of(blade, scene)
+        ]
+
+    @property
+    def pairs(self) -> list[tuple[str, str]]:
+        """Pairs of blade and scene with run-ups."""
+        return list(dict.fromkeys((run["blade"], run["scene"]) for run in self.files))
+
+    @property
+    def names(self) -> list[str]:
+        """Names of all run-ups."""
+        return list(self.sweep.settings.config.run_ups)
+
+    @property
+    def runs(self) -> list[tuple[str, str, str]]:
+        """Blade, scene and name of each, in the order of the dataset."""
+        return [(run["blade"], run["scene"], run["run_up"]) for run in self.files]
+
+    def inputs(self, wildcards: Any) -> dict[str, str]:
+        """What a run-up starts from, with the reduced model where its stress is wanted."""
+        prepared = paths.fill(paths.INTEGRATION_STAMP, blade=wildcards.blade, scene=wildcards.scene)
+        return {"prepared": prepared, "model": self.sweep.contact_model(wildcards)} | self.sweep.recovery(wildcards)
+
+    def run_up(self, wildcards: Any) -> dict[str, Any]:
+        """Speeds and revolutions, as plain values."""
+        return to_plain(self.sweep.settings.run_ups_of(wildcards.blade, wildcards.scene)[wildcards.run_up])
+
+    def choice(self, wildcards: Any) -> dict[str, Any]:
+        """Numbers of the time integration."""
+        return to_plain(self.sweep.settings.run_up_choice(wildcards.blade, wildcards.scene, wildcards.run_up))
+
+    def results(self, wildcards: Any) -> list[str]:
+        """What is wanted of the scene."""
+        return list(self.sweep.results(wildcards))

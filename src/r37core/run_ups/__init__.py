@@ -1,0 +1,1 @@
+"""Run-ups and run-downs: the speed changes while the blade rubs."""

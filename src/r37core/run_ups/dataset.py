@@ -1,0 +1,106 @@
+"""run_ups.nc: all run-ups of all blades and scenes, revolution by revolution."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+
+import netCDF4
+import numpy as np
+import xarray as xr
+
+from r37core.dataset_file import about
+from r37core.io import FILE_ATTRIBUTES, atomic_write
+from r37core.results.netcdf import create_axis, create_labels, create_variable
+from r37core.time_integration.simulate import DIRECTIONS, TIP_POINTS
+from r37core.time_integration.speed_file import read_speed
+from r37core.time_integration.status import RunStatus
+
+_TURN, _TIP, _ORDER = ("revolution",), ("revolution", "tip_point"), ("revolution", "engine_order")
+
+VARIABLES = {
+    "start_speed": ((), "f8", "rad s-1", "speed before the change"),
+    "stop_speed": ((), "f8", "rad s-1", "speed after the change"),
+    "rate": ((), "f8", "rad s-2", "rate of the change, negative where the speed falls"),
+    "revolutions_before": ((), "i4", "1", "revolutions at the start speed, in which the casing becomes lobed"),
+    "worn": ((), "i1", "1", "1: the lining is worn by the same run-up, done once before"),
+    "status": ((), "i1", "1", "how the run ended"),
+    "diverged_revolution": ((), "f8", "1", "revolution at which the run diverged"),
+    "yield_stress": ((), "f8", "Pa", "yield stress of the blade's material"),
+    "largest_normal_force": ((), "f8", "N", "largest normal force on a tip node"),
+    "casing_hits": ((), "f8", "1", "how often a tip node came upon the casing"),
+    "contact_work": ((), "f8", "J", "work of the contact forces on the blade"),
+    "damping_loss": ((), "f8", "J", "energy lost to damping"),
+    "stiffness_work": ((), "f8", "J", "energy that the change of the stiffness with the speed brings to the vibration"),
+    "energy_change": ((), "f8", "J", "energy of the vibration at the end"),
+    "energy_residual": ((), "f8", "J", "energy change minus both works plus damping loss"),
+    "speed": (_TURN, "f8", "rad s-1", "mean angular speed of the revolution"),
+    "time": (_TURN, "f8", "s", "time at the end of the revolution"),
+    **{
+        f"{kind}_{direction}": (_TIP, "f4", "m", f"{measure} {direction} displacement in the revolution")
+        for kind, measure in (("rms", "rms of the"), ("maximum", "largest"))
+        for direction in DIRECTIONS
+    },
+    "amplitude": (_ORDER, "f4", "m", "amplitude of the leading edge's normal displacement in the revolution"),
+    "amplitude_tangential": (_ORDER, "f4", "m", "amplitude of the leading edge's tangential displacement in the revolution"),
+    "max_von_mises": (_TURN, "f8", "Pa", "largest von Mises stress on the submesh in the revolution"),
+    "max_wear": (_TURN, "f8", "m", "largest wear of the lining so far"),
+}
+"""Variable -> dimensions beyond the run, type, units, meaning."""
+
+LABELS = ("blade", "scene", "run_up")
+"""Of a run."""
+
+
+def write_run_ups(files: Mapping[tuple[str, str, str], Path | str], file: Path | str, provenance: Mapping[str, object]) -> None:
+    """Join the files of all runs, by blade, scene and name, along the dimension `run`; one is in memory at a time.
+
+    Shorter runs have NaN after their last revolution. Raises InputFileError for a file that cannot be read.
+    """
+    revolutions, orders, names = 0, 0, set[str]()
+    for _, values in _runs(files):
+        revolutions = max(revolutions, len(values["speed"]))
+        orders = max(orders, values["amplitude"].shape[-1] if "amplitude" in values else 0)
+        names |= set(values)
+    with atomic_write(file) as partial, netCDF4.Dataset(partial, "w") as target:
+        target.setncatts(FILE_ATTRIBUTES | {name: str(value) for name, value in provenance.items()})
+        target.createDimension("run", len(files))
+        create_labels(target, "tip_point", TIP_POINTS)
+        create_axis(target, "revolution", np.arange(1, revolutions + 1), about("1", "number of the revolution"))
+        if orders:
+            create_axis(target, "engine_order", np.arange(orders), about("1", "engine order"))
+        for name in LABELS:
+            target.createVariable(name, str, ("run",))
+        for name in VARIABLES.keys() & names:
+            dims, dtype, units, meaning = VARIABLES[name]
+            create_variable(target, name, dtype, ("run", *dims), about(units, meaning) | {"coordinates": " ".join(LABELS)})
+        flags = {"flag_values": np.array(list(RunStatus), dtype="i1"), "flag_meanings": " ".join(one.text for one in RunStatus)}
+        target["status"].setncatts(flags)
+        for row, (run, values) in enumerate(_runs(files)):
+            for name, label in zip(LABELS, run, strict=True):
+                target[name][row] = label
+            for name in VARIABLES.keys() & values.keys():
+                value = values[name]
+                target[name][(row, *(slice(length) for length in value.shape))] = value
+
+
+def _runs(files: Mapping[tuple[str, str, str], Path | str]) -> Iterator[tuple[tuple[str, str, str], dict[str, np.ndarray]]]:
+    for run, file in files.items():
+        values = read_speed(file)
+        for kind in ("rms", "maximum"):
+            values |= {f"{kind}_{name}": values[kind][:, :, place] for place, name in enumerate(DIRECTIONS)}
+        if "amplitude" in values:
+            values["amplitude_tangential"] = values["amplitude"][:, 1]
+            values["amplitude"] = values["amplitude"][:, 0]
+        yield run, values
+
+
+def runs_of(dataset: xr.Dataset, **labels: str) -> list[xr.Dataset]:
+    """The runs with these labels, each with the revolutions that it has after the casing has become lobed."""
+    found = []
+    for number in range(dataset.sizes["run"]):
+        run = dataset.isel(run=number)
+        if all(str(run[name].values) == value for name, value in labels.items()):
+            after = (run["revolution"] > run["revolutions_before"]) & np.isfinite(run["speed"])
+            found.append(run.isel(revolution=after.values))
+    return found

@@ -1,0 +1,103 @@
+"""The time integration of a run-up: one blade, one scene, a speed that changes.
+
+Casing, bars and steps are counted by angle, so they are those of a run at constant speed. From stretch to stretch the recursion
+of the modes changes. Displacement and velocity go over as they are, and so into the modes of the next segment: these are
+orthonormal, so the projection on all of them loses nothing.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from r37core.contact.scene import Scene
+from r37core.rom.contact_model import ContactModel
+from r37core.time_integration.integration_choice import IntegrationChoice
+from r37core.time_integration.problem import stable_problem
+from r37core.time_integration.simulate import Simulation
+
+from .schedule import RunUp, Segment, schedule
+
+
+@dataclass(frozen=True)
+class Stage:
+    """What a stretch at one `speed` (rad/s) leaves behind: `samples` and `snapshots` as a simulation records them.
+
+    `shapes`, shape (modes at rest, numbers): of the numbers of a snapshot; `wear` (m): the largest so far; `diverged`.
+    """
+
+    speed: float
+    samples: np.ndarray
+    snapshots: np.ndarray
+    shapes: np.ndarray
+    wear: float
+    diverged: bool
+
+
+class March:
+    """A run-up as it goes: the `state` of the time integration, and the `velocity` of the modes, shape (modes,).
+
+    `energy` (J): of the vibration; `stiffness_work` (J): what the change of the stiffness with the speed has brought to it.
+    `wear` (m), shape (rings, bars): of a lining that is worn at the beginning.
+
+    Raises what Problem raises, of the steps at the lowest speed, which are the longest.
+    """
+
+    def __init__(
+        self, model: ContactModel, scene: Scene, choice: IntegrationChoice, run_up: RunUp, wear: np.ndarray | None = None
+    ):
+        coarsest = stable_problem(model, min(run_up.start, run_up.stop), scene, choice)
+        self._model, self._scene = model, scene
+        self._choice = replace(coarsest.choice, shorten=False, steps_per_sample=coarsest.steps_per_sample)
+        stiffening = model.stiffness_per_square[0, 0] / model.squared_frequencies[0]
+        self.segments = schedule(run_up, choice.samples_per_revolution, float(stiffening))
+        self.state = self._simulation(self.segments[0]).start()
+        if wear is not None:
+            assert self.state.wear is not None
+            self.state.wear[:] = wear
+        self.velocity = np.zeros(len(self.state.displacement))
+        self.energy = self.stiffness_work = 0.0
+
+    def _simulation(self, segment: Segment) -> Simulation:
+        return Simulation(self._model, segment.speed, self._scene, self._choice)
+
+    def stages(self) -> Iterator[Stage]:
+        """Do all stretches; ends with a stage that says so when the run diverges."""
+        modes = None
+        for segment in self.segments:
+            simulation = self._simulation(segment)
+            if modes is not None:
+                turned = simulation.problem.modes.T @ modes
+                self.state.displacement, self.velocity = turned @ self.state.displacement, turned @ self.velocity
+            modes = simulation.problem.modes
+            for stage in self._stages_of(simulation, segment):
+                yield stage
+                if stage.diverged:
+                    return
+
+    def _stages_of(self, simulation: Simulation, segment: Segment) -> Iterator[Stage]:
+        state, problem, taken = self.state, simulation.problem, -1
+        speeds, places = np.unique([one.speed for one in segment.stretches], return_inverse=True)
+        paces, (of_displacement, of_velocity) = problem.paces(speeds), problem.increments(speeds)
+        shapes = problem.state_shapes
+        for place, stretch in zip(places, segment.stretches, strict=True):
+            recursion = paces[place].recursion
+            if place != taken:
+                simulation.engine.take(paces[place])
+                state.increment[:] = of_displacement[place] * state.displacement + of_velocity[place] * self.velocity
+                self.stiffness_work += recursion.energy(state.displacement, state.increment) - self.energy
+                taken = place
+            record = simulation.advance_samples(state, stretch.samples)
+            self.energy = recursion.energy(state.displacement, state.increment)
+            self.velocity = (state.increment - of_displacement[place] * state.displacement) / of_velocity[place]
+            wear = 0.0 if state.wear is None else float(state.wear.max())
+            yield Stage(stretch.speed, record.samples, record.snapshots, shapes, wear, record.diverged)
+
+
+def worn_by(march: March) -> np.ndarray | None:
+    """Wear (m), shape (rings, bars), that a run-up leaves behind; None without a lining."""
+    for _ in march.stages():
+        pass
+    return march.state.wear

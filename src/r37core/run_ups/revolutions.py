@@ -1,0 +1,166 @@
+"""What a run-up's file keeps: some numbers of every revolution, made while the run goes on."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from r37core.contact.scene import Scene
+from r37core.results.stress_recovery import StressRecovery
+from r37core.rom.contact_model import ContactModel
+from r37core.time_integration.integration_choice import IntegrationChoice
+from r37core.time_integration.simulate import DIRECTIONS, TIP_POINTS
+from r37core.time_integration.status import RunStatus
+
+from .march import March, Stage, worn_by
+from .schedule import RunUp
+
+_AT_ONCE = 32
+"""Revolutions whose samples are in memory together."""
+
+_SPECTRA = [DIRECTIONS.index("normal"), DIRECTIONS.index("tangential")]
+
+
+def record_run_up(
+    model: ContactModel,
+    scene: Scene,
+    choice: IntegrationChoice,
+    run_up: RunUp,
+    results: Sequence[str],
+    *,
+    highest_order: int,
+    recovery: StressRecovery | None,
+) -> dict[str, np.ndarray]:
+    """Do a run-up, and keep of every whole revolution what is asked for in `results`.
+
+    Always: `status` and `diverged_revolution`; `speed` (rad/s, the mean of the revolution) and `time` (s, at its end), shape
+    (revolutions,); `rms` and `maximum` (m), shape (revolutions, 2, 3): TIP_POINTS by DIRECTIONS. `amplitude` (m), shape
+    (revolutions, 2, orders): whole engine orders of the leading edge's normal and tangential motion; `max_von_mises` (Pa) and
+    `max_wear` (m, by the end of the stretch of equal steps that the revolution ends in), shape (revolutions,). A run that
+    diverges has the revolutions before it. Raises what Problem raises.
+    """
+    wear = worn_by(March(model, scene, choice, run_up)) if run_up.worn and scene.lining else None
+    march = March(model, scene, choice, run_up, wear)
+    kept = _Revolutions(model, choice, highest_order if "spectrum" in results else None, recovery)
+    diverged, samples = False, 0
+    for stage in march.stages():
+        diverged, samples = stage.diverged, samples + len(stage.samples)
+        kept.add(stage)
+    totals = march.state.totals
+    found = kept.joined() | {
+        "status": np.array(int(RunStatus.DIVERGED if diverged else RunStatus.COMPLETED)),
+        "start_speed": np.array(run_up.start),
+        "stop_speed": np.array(run_up.stop),
+        "rate": np.array(run_up.rate),
+        "revolutions_before": np.array(run_up.before),
+        "worn": np.array(int(run_up.worn)),
+        "diverged_revolution": np.array(samples / choice.samples_per_revolution if diverged else np.nan),
+        "largest_normal_force": np.array(totals["largest_force"]),
+        "casing_hits": np.array(totals["casing_hits"]),
+    }
+    if "wear" not in results:
+        del found["max_wear"]
+    if "energy" in results:
+        work, loss, change = totals["work"], totals["loss"], march.energy
+        found |= {
+            "contact_work": np.array(work),
+            "damping_loss": np.array(loss),
+            "stiffness_work": np.array(march.stiffness_work),
+            "energy_change": np.array(change),
+            "energy_residual": np.array(change - work + loss - march.stiffness_work),
+        }
+    return found
+
+
+@dataclass
+class _Revolutions:
+    """Stages, reduced as soon as they make up some whole revolutions."""
+
+    model: ContactModel
+    choice: IntegrationChoice
+    highest_order: int | None
+    recovery: StressRecovery | None
+    waiting: dict[str, list[np.ndarray]] = field(default_factory=dict)
+    kept: list[dict[str, np.ndarray]] = field(default_factory=list)
+    lasted: float = 0.0
+    shapes: np.ndarray | None = None
+
+    def add(self, stage: Stage) -> None:
+        """Add a stage; the last sample of one that diverged, which may be infinite, is left out."""
+        count = len(stage.samples) - stage.diverged
+        interval = 2.0 * np.pi / stage.speed / self.choice.samples_per_revolution
+        self._wait(
+            samples=stage.samples[:count].reshape(count, len(TIP_POINTS), len(DIRECTIONS)),
+            interval=np.full(count, interval),
+            wear=np.full(count, stage.wear),
+        )
+        if self.recovery is not None:
+            if stage.shapes is not self.shapes:
+                self.shapes, self._to_reduced = stage.shapes, self.model.to_reduced @ stage.shapes
+                self._stress_of_shapes = self.recovery.max_von_mises(self._to_reduced.T)
+            self._wait(
+                coordinates=stage.snapshots @ self._to_reduced.T,
+                # of a sum of shapes the stress is no more than the sum of theirs
+                bound=np.abs(stage.snapshots) @ self._stress_of_shapes,
+            )
+        waiting = sum(map(len, self.waiting["interval"])) // self.choice.samples_per_revolution
+        if waiting >= _AT_ONCE:
+            self._reduce(waiting)
+
+    def joined(self) -> dict[str, np.ndarray]:
+        """All whole revolutions."""
+        self._reduce(sum(map(len, self.waiting["interval"])) // self.choice.samples_per_revolution)
+        return {name: np.concatenate([part[name] for part in self.kept]) for name in self.kept[0]}
+
+    def _wait(self, **arrays: np.ndarray) -> None:
+        for name, array in arrays.items():
+            self.waiting.setdefault(name, []).append(array)
+
+    def _reduce(self, revolutions: int) -> None:
+        found = {}
+        for name, parts in self.waiting.items():
+            instants = name in ("coordinates", "bound")
+            each = self.choice.snapshots_per_revolution if instants else self.choice.samples_per_revolution
+            whole = np.concatenate(parts)
+            self.waiting[name] = [whole[revolutions * each :]]
+            found[name] = whole[: revolutions * each].reshape(revolutions, each, *whole.shape[1:])
+        samples, lasting = found["samples"], found["interval"].sum(axis=1)
+        time = self.lasted + np.cumsum(lasting)
+        self.lasted = float(time[-1]) if revolutions else self.lasted
+        kept = {
+            "speed": 2.0 * np.pi / lasting,
+            "time": time,
+            "rms": np.sqrt(np.mean(samples**2, axis=1)),
+            "maximum": np.abs(samples).max(axis=1, initial=0.0),
+            "max_wear": found["wear"][:, -1],
+        }
+        if self.highest_order is not None:
+            kept["amplitude"] = _orders(samples[:, :, 0, _SPECTRA], self.highest_order)
+        if self.recovery is not None:
+            kept["max_von_mises"] = largest_stress(self.recovery, found["coordinates"], found["bound"])
+        self.kept.append(kept)
+
+
+def _orders(motion: np.ndarray, highest: int) -> np.ndarray:
+    """Amplitude (m) of whole engine orders, shape (revolutions, 2, orders), of motion, shape (revolutions, samples, 2)."""
+    amplitude = 2.0 * np.abs(np.fft.rfft(motion, axis=1)) / motion.shape[1]
+    amplitude[:, 0] /= 2.0
+    return amplitude[:, : highest + 1].swapaxes(1, 2).astype(np.float32)
+
+
+def largest_stress(recovery: StressRecovery, coordinates: np.ndarray, bound: np.ndarray) -> np.ndarray:
+    """Largest von Mises stress (Pa) of each revolution, shape (revolutions,), of the instants that may have it alone.
+
+    `coordinates`, shape (revolutions, instants, coordinates); `bound` (Pa), shape (revolutions, instants): what the stress of
+    an instant does not exceed.
+    """
+    if not len(bound):
+        return np.empty(0)
+    revolutions, first = np.arange(len(bound)), bound.argmax(axis=1)
+    largest = recovery.max_von_mises(coordinates[revolutions, first])
+    rest = bound > largest[:, None]
+    rest[revolutions, first] = False
+    np.maximum.at(largest, np.nonzero(rest)[0], recovery.max_von_mises(coordinates[rest]))
+    return largest

@@ -1,0 +1,103 @@
+"""run_ups.csv and run_up_rates.csv: what a run-up does to a blade, and how fast it has to be."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pandas as pd
+import xarray as xr
+
+from r37core.results.measures import first_yield
+from r37core.time_integration.status import RunStatus
+
+from .dataset import runs_of
+
+_CASE = ["blade", "scene", "low_speed_rad_s", "high_speed_rad_s", "direction", "lining"]
+"""What run-ups have in common that differ by their rates alone."""
+
+
+def run_up_table(dataset: xr.Dataset) -> pd.DataFrame:
+    """One row for each run-up, of its revolutions after those at the first speed; NaN where there is no such number.
+
+    The `peak` is where the leading edge's normal and tangential rms are together largest.
+    """
+    return pd.DataFrame([_row(run) for run in runs_of(dataset)])
+
+
+def _row(run: xr.Dataset) -> dict[str, Any]:
+    edge, speed = run.sel(tip_point="leading_edge"), run["speed"].values
+    start, stop = float(run["start_speed"]), float(run["stop_speed"])
+    row: dict[str, Any] = {
+        "blade": str(run["blade"].values),
+        "scene": str(run["scene"].values),
+        "run_up": str(run["run_up"].values),
+        "low_speed_rad_s": min(start, stop),
+        "high_speed_rad_s": max(start, stop),
+        "direction": "down" if stop < start else "up",
+        "rate_rad_s2": abs(float(run["rate"])),
+        "lining": "worn" if run["worn"] else "new",
+        "status": RunStatus(int(run["status"])).text,
+    }
+    level = np.hypot(edge["rms_normal"].values, edge["rms_tangential"].values)
+    if len(speed):
+        peak = int(np.argmax(level))
+        row |= {
+            "peak_speed_rad_s": float(speed[peak]),
+            "peak_rms_normal_m": float(edge["rms_normal"][peak]),
+            "peak_rms_tangential_m": float(edge["rms_tangential"][peak]),
+        }
+    if "max_von_mises" in run and len(speed):
+        stress, limit = run["max_von_mises"].values, float(run["yield_stress"])
+        place, first = int(np.argmax(stress)), first_yield(stress, limit)
+        row |= {
+            "max_von_mises_pa": float(stress[place]),
+            "max_von_mises_speed_rad_s": float(speed[place]),
+            "first_yield_speed_rad_s": float(speed[int(first) - 1]) if np.isfinite(first) else np.nan,
+            "revolutions_above_yield": int(np.count_nonzero(stress > limit)),
+            "yield_stress_pa": limit,
+        }
+    if "max_wear" in run and len(speed):
+        row["max_wear_m"] = float(run["max_wear"][-1])
+    return row
+
+
+def rate_table(runs: pd.DataFrame) -> pd.DataFrame:
+    """One row for each blade, scene, range of speeds, direction and lining: which of the rates stay below yield.
+
+    `lowest_safe_rate_rad_s2`: the slowest of the rates from which on all faster ones stay below, NaN where the fastest does
+    not. `rate_at_yield_rad_s2`: between it and the next slower one, where a straight line of the logarithms passes yield; NaN
+    where all stay below. A run that diverged is above.
+    """
+    if "max_von_mises_pa" not in runs:
+        return pd.DataFrame(columns=[*_CASE, *_RATES])
+    return pd.DataFrame(
+        [dict(zip(_CASE, case, strict=True)) | _safe_rates(group) for case, group in runs.groupby(_CASE, sort=False)],
+        columns=[*_CASE, *_RATES],
+    )
+
+
+_RATES = [
+    "rates",
+    "slowest_rate_rad_s2",
+    "fastest_rate_rad_s2",
+    "lowest_safe_rate_rad_s2",
+    "rate_at_yield_rad_s2",
+    "worst_ratio",
+]
+
+
+def _safe_rates(group: pd.DataFrame) -> dict[str, float]:
+    group = group.sort_values("rate_rad_s2")
+    rates = group["rate_rad_s2"].to_numpy()
+    ratios = (group["max_von_mises_pa"] / group["yield_stress_pa"]).where(group["status"] == "completed", np.inf).to_numpy()
+    above = np.flatnonzero(~(ratios <= 1.0))
+    first = int(above[-1]) + 1 if len(above) else 0
+    at_yield = np.nan
+    if 0 < first < len(rates):
+        slow, fast = np.log(ratios[first - 1]), np.log(ratios[first])
+        share = slow / (slow - fast) if np.isfinite(slow) else 1.0
+        at_yield = float(rates[first - 1] * (rates[first] / rates[first - 1]) ** share)
+    lowest = float(rates[first]) if first < len(rates) else np.nan
+    values = (len(rates), float(rates[0]), float(rates[-1]), lowest, at_yield, float(np.max(ratios)))
+    return dict(zip(_RATES, values, strict=True))

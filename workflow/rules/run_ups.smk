@@ -1,0 +1,94 @@
+# Run-ups and run-downs: the speed changes while the blade rubs; each is a run of its own.
+run_ups = RunUps(sweep)
+
+
+rule run_up:
+    input:
+        unpack(run_ups.inputs),
+    output:
+        paths.RUN_UP,
+    log:
+        "<logs>/{blade}/{scene}/run_up_{run_up}.log",
+    wildcard_constraints:
+        run_up="|".join(run_ups.names) or "none",
+    conda:
+        ENVIRONMENT
+    resources:
+        **needs.of("run_up"),
+    params:
+        scene=sweep.plain_scene,
+        choice=run_ups.choice,
+        run_up=run_ups.run_up,
+        results=run_ups.results,
+        highest_order=settings.fidelity.time_integration.spectrum_highest_order,
+        material=structure.material,
+        provenance=made.sweep,
+        code=code("run_up"),
+    script:
+        "../scripts/run_up.py"
+
+
+rule run_ups_dataset:
+    input:
+        paths.filled({paths.RUN_UP: run_ups.files}),
+    output:
+        "<results>/run_ups.nc",
+    log:
+        "<logs>/run_ups_dataset.log",
+    conda:
+        ENVIRONMENT
+    resources:
+        **needs.of("run_ups_dataset"),
+    params:
+        runs=run_ups.runs,
+        fidelity=settings.fidelity_name,
+        code=code("run_ups_dataset"),
+    script:
+        "../scripts/run_ups_dataset.py"
+
+
+rule run_up_tables:
+    input:
+        rules.run_ups_dataset.output[0],
+    output:
+        runs=report(
+            "<results>/run_ups.csv",
+            **shown(TEXTS / "run_ups.rst", TOGETHER, EVERY_SCENE, figure="run-ups"),
+        ),
+        rates="<results>/run_up_rates.csv",
+    log:
+        "<logs>/run_up_tables.log",
+    conda:
+        ENVIRONMENT
+    params:
+        code=code("run_up_tables"),
+    script:
+        "../scripts/run_up_tables.py"
+
+
+use rule figure as run_up_figure with:
+    input:
+        run_ups=rules.run_ups_dataset.output[0],
+    output:
+        **pictures("run_ups_{blade}__{scene}", "{blade}", "{scene}", "run-ups"),
+    log:
+        "<logs>/figures/run_ups_{blade}__{scene}.log",
+    params:
+        **drawing(code, "run_up_curves.draw_run_ups", "run_ups", blade="{blade}", scene="{scene}"),
+
+
+use rule figure as run_up_rates_figure with:
+    input:
+        runs=rules.run_up_tables.output.runs,
+    output:
+        **pictures("run_up_rates_{scene}", TOGETHER, "{scene}", "rates"),
+    log:
+        "<logs>/figures/run_up_rates_{scene}.log",
+    params:
+        **drawing(code, "run_up_curves.draw_rates", "run_up_rates", scene="{scene}"),
+
+
+# the run-ups alone, without the sweep
+rule run_ups:
+    input:
+        paths.filled({name: wildcards for name, wildcards in targets(sweep, recorded).items() if "run_up" in name}),

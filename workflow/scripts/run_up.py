@@ -1,0 +1,37 @@
+"""Do one run-up. Inputs: model and, for stress, rom. Params: scene, choice, run_up, results, ... Output: run_up_*.npz."""
+
+import math
+
+import numpy as np
+from job import run
+
+from r37core.contact.scene import Scene
+from r37core.fem.material import Material
+from r37core.plain import from_plain
+from r37core.results.stress_recovery import StressRecovery
+from r37core.rom.contact_model import read_contact_model
+from r37core.rom.rom_file import read_reduced_model
+from r37core.run_ups.revolutions import record_run_up
+from r37core.run_ups.schedule import RunUp
+from r37core.time_integration.integration_choice import IntegrationChoice
+from r37core.time_integration.speed_file import write_speed
+
+
+def main(snakemake):
+    given, params = snakemake.input, snakemake.params
+    material = from_plain(Material | None, params.material)
+    recovery = StressRecovery(read_reduced_model(given.rom), material) if "stress" in params.results else None
+    result = record_run_up(
+        read_contact_model(given.model),
+        from_plain(Scene, params.scene),
+        from_plain(IntegrationChoice, params.choice),
+        from_plain(RunUp, params.run_up),
+        params.results,
+        highest_order=params.highest_order,
+        recovery=recovery,
+    )
+    result["yield_stress"] = np.array(material.yield_stress if material else math.inf)
+    write_speed(result, snakemake.output[0], params.provenance)
+
+
+run(snakemake, main)
