@@ -95,6 +95,56 @@ CONFIG_REFUSALS = [
         "signals: { speeds_rad_s: [900], blades: [Reff] }",
         r"signals\.blades: found 'Reff'; allowed: Ref, L50",
     ),
+    (
+        "speeds_for: []",
+        "run_ups: { a: { from_rad_s: 900, to_rad_s: 1000 } }",
+        r"run_ups\.a\.rate_rad_s2: found nothing; allowed: one of rate_rad_s2, rate_rpm_s, revolutions",
+    ),
+    (
+        "speeds_for: []",
+        "run_ups: { a: { from_rad_s: 900, from_rpm: 9000, to_rad_s: 1000, revolutions: 5 } }",
+        r"run_ups\.a\.from_rpm: found from_rad_s and from_rpm; allowed: one of",
+    ),
+    (
+        "speeds_for: []",
+        "run_ups: { a: { from_rad_s: 900, to_rad_s: 900, rate_rpm_s: 5 } }",
+        r"run_ups\.a\.rate_rpm_s: found a rate between equal speeds; allowed: revolutions",
+    ),
+    (
+        "speeds_for: []",
+        "run_ups: { a: { from_rad_s: 900, to_rad_s: 1000, rate_rad_s2: 1.0e-3 } }",
+        r"run_ups\.a\.rate_rad_s2: found a run-up of 1\.512e\+07 revolutions; allowed: .* rates from 0\.151 to 1\.51e\+07",
+    ),
+    (
+        "speeds_for: []",
+        "run_ups: { a: { from_rad_s: 900, to_rad_s: 1900, revolutions: 0.1 } }",
+        r"run_ups\.a\.revolutions: found a change from 900 to 1900 rad/s within 0\.1 revolutions; allowed: at least 0\.224",
+    ),
+    (
+        "speeds_for: []",
+        "run_ups: { a: { from_rad_s: 900, to_rad_s: 1000, rate_rad_s2: -10 } }",
+        r"run_ups\.a\.rate_rad_s2: found -10; allowed: number, more than 0",
+    ),
+    (
+        "speeds_for: []",
+        "run_ups: { a: { from_rad_s: 900, to_rad_s: 1000, rate_rad_s2: 10, blades: [Reff] } }",
+        r"run_ups\.a\.blades: found 'Reff'; allowed: Ref, L50",
+    ),
+    (
+        "speeds_for: []",
+        "run_ups: { a: { from_rad_s: 900, to_rad_s: 1000, rate_rad_s2: 10, lining: worn } }",
+        r"run_ups\.a\.lining: found worn in the scene 'direct', which has no lining; allowed: new, or scenes with a lining",
+    ),
+    (
+        "speeds_for: []",
+        "run_ups: { a: { from_rad_s: 0.1, to_rad_s: 0.11, revolutions: 1 } }",
+        r"run_ups\.a: found 0\.1 rad/s, a revolution of",
+    ),
+    (
+        "speeds_for: []",
+        "run_ups: { a: { from_rad_s: 9, to_rad_s: 10, revolutions: 1 }, A: { from_rad_s: 9, to_rad_s: 10, revolutions: 1 } }",
+        r"run_ups\.A: found 'A' beside 'a'",
+    ),
     ("shapes: { modes: 6 }", "shapes: { modes: 0 }", r"shapes\.modes: found 0; allowed: integer, at least 1, at most 30"),
     ("speeds_for: []", "signals: { speeds_rad_s: [0.1] }", r"signals\.speeds_rad_s: found 0\.1 rad/s, a revolution of"),
     (

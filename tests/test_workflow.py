@@ -135,6 +135,43 @@ def test_shapes_and_signals_of_a_finished_run(finished_copy):
     assert planned(finished_copy, *(f"results/{name}" for name in wanted)) == {}
 
 
+def test_run_ups_of_a_finished_run(finished_copy):
+    """Run-ups start from what is there; one at constant speed is the sweep's run, and its stress is that of the response."""
+    (finished_copy / "config/run_ups.yaml").write_text(
+        "run_ups:\n"
+        "  level: { from_rad_s: 1150, to_rad_s: 1150, revolutions: 2, revolutions_before: 8 }\n"
+        "  up: { blades: [Ref], from_rpm: 10000, to_rpm: 10500, rate_rpm_s: 20000 }\n"
+        "  again: { scenes: [abradable], from_rad_s: 1200, to_rad_s: 1100, revolutions: 6.5, lining: worn }\n"
+    )
+    given = ("run_ups", "--configfile", "config/config.yaml", "config/run_ups.yaml")
+    text = snakemake(finished_copy, *given, "--cores", "2")
+    assert "rule simulate" not in text
+    results = finished_copy / "results"
+    runs, rates = (pd.read_csv(results / f"{name}.csv") for name in ("run_ups", "run_up_rates"))
+    assert len(runs) == 2 * 2 + 2 + 2
+    assert len(rates) == 8
+    assert set(runs["direction"]) == {"up", "down"}
+    assert (runs["max_von_mises_pa"] > 0.0).all()
+    with xr.open_dataset(results / "run_ups.nc") as found, xr.open_dataset(results / "rms.nc") as rms:
+        residual = abs(found["energy_residual"]) / (abs(found["contact_work"]) + found["damping_loss"])
+        assert float(residual.max()) < 1e-9
+        for row in range(found.sizes["run"]):
+            run = found.isel(run=row)
+            speed, whole = run["speed"].dropna("revolution"), int(run["speed"].notnull().sum())
+            assert np.isfinite(run["max_von_mises"][:whole]).all()
+            assert speed[0] == pytest.approx(float(run["start_speed"]), rel=1e-9)
+            if str(run["run_up"].values) != "level":
+                continue
+            same = {"blade": run["blade"].item(), "scene": run["scene"].item(), "speed": 1150.0}
+            normal = run["rms_normal"].isel(revolution=slice(4, 8))
+            np.testing.assert_allclose(np.sqrt((normal**2).mean("revolution")), rms["rms_normal"].sel(same), rtol=1e-5)
+            largest = run["maximum_normal"].isel(revolution=slice(0, 8))
+            np.testing.assert_allclose(largest, rms["revolution_maximum"].sel(same), rtol=1e-5)
+    for name in ("run_ups_Ref__abradable", "run_ups_CS100__direct", "run_up_rates_direct"):
+        assert (results / f"figures/{name}.png").stat().st_size > 10_000
+    assert planned(finished_copy, *given) == {}
+
+
 def test_an_added_blade_runs_its_own_jobs_only(finished_copy):
     config = finished_copy / "config/config.yaml"
     config.write_text(config.read_text().replace("[Ref, CS100]", "[Ref, CS100, Eighth]"))

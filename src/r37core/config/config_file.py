@@ -152,6 +152,11 @@ class Run(Section):
         return names[first:last]
 
 
+def _names_differ(entries: dict[str, RunUpEntry]) -> dict[str, RunUpEntry]:
+    check_names(entries)
+    return entries
+
+
 class Config(Section):
     """config.yaml, what to run."""
 
@@ -188,15 +193,12 @@ class Config(Section):
     exports: ExportSection = ExportSection()
     shapes: ShapeSection = ShapeSection()
     signals: SignalSection = SignalSection()
-    run_ups: dict[Name, RunUpEntry] = Field(default={}, description="run-ups and run-downs by name")
+    run_ups: Annotated[dict[Name, RunUpEntry], AfterValidator(_names_differ)] = Field(
+        default={}, description="run-ups and run-downs by name"
+    )
 
     @model_validator(mode="after")
     def _one_unit(self) -> Config:
         if self.speeds_rpm is not None and "speeds" in self.model_fields_set:
             refuse_both_units("speeds", "speeds_rpm")
-        return self
-
-    @model_validator(mode="after")
-    def _run_up_names(self) -> Config:
-        check_names(self.run_ups)
         return self

@@ -1,0 +1,204 @@
+"""Run-ups: the schedule, exact limits of the march, and a linear oscillator that is swept through its resonance."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from defaults import Casing, IntegrationChoice, Lining, Scene
+from integration_cases import ABRADABLE, LINING, oscillator
+from scipy.special import wofz
+
+from r37core.run_ups import schedule as schedule_module
+from r37core.run_ups.march import March
+from r37core.run_ups.schedule import RunUp, schedule
+from r37core.time_integration.integrators import EXACT_MODAL
+from r37core.time_integration.simulate import Simulation
+
+LONG = IntegrationChoice(3.2e-6, 4, 62, integrator=EXACT_MODAL, energy=True)
+NARROW = replace(ABRADABLE, lining=replace(LINING, bar_width=1e-3))
+FREE = Scene(Casing(1.0, lobes=0))
+
+
+def samples_of(march):
+    return np.concatenate([stage.samples for stage in march.stages()])
+
+
+@pytest.mark.parametrize(("start", "stop"), [(1300.0, 1800.0), (1800.0, 1300.0), (100.0, 101.0)])
+@pytest.mark.parametrize("revolutions", [0.4, 3.7, 250.0])
+def test_a_schedule_keeps_angle_and_time_of_a_constant_rate(start, stop, revolutions):
+    per_revolution = 496
+    run_up = RunUp(start, stop, revolutions, 3, 2, worn=False)
+    segments = schedule(run_up, per_revolution, 1e-8)
+    stretches = [stretch for segment in segments for stretch in segment.stretches]
+    samples = sum(stretch.samples for stretch in stretches)
+    assert samples % per_revolution == 0
+    assert samples == per_revolution * (5 + np.ceil(round(revolutions * per_revolution) / per_revolution))
+    changing = [one for one in stretches if one.speed not in (start, stop)]
+    time = sum(2.0 * np.pi * one.samples / per_revolution / one.speed for one in changing)
+    angle = 2.0 * np.pi * sum(one.samples for one in changing) / per_revolution
+    assert angle == pytest.approx(2.0 * np.pi * round(revolutions * per_revolution) / per_revolution, rel=1e-12)
+    # at a constant rate the mean speed is that of the ends
+    assert time == pytest.approx(angle / (0.5 * (start + stop)), rel=1e-12)
+    assert np.all(np.diff([one.speed for one in changing]) * np.sign(stop - start) > 0.0)
+
+
+def test_a_run_down_is_its_run_up_backwards():
+    up, down = (schedule(RunUp(*ends, 40.3, 1, 0, worn=False), 496, 2e-7) for ends in ((1500.0, 1700.0), (1700.0, 1500.0)))
+    stretches = [[stretch for segment in one[1:-1] for stretch in segment.stretches] for one in (up, down)]
+    assert stretches[0] == stretches[1][::-1]
+    assert [one.speed for one in up[1:-1]] == [one.speed for one in down[1:-1]][::-1]
+
+
+@pytest.mark.parametrize("engine", ["compiled", "reference"])
+def test_at_one_speed_a_run_up_is_the_run_at_that_speed(contact, engine):
+    choice = replace(LONG, engine=engine)
+    run = Simulation(contact, 1600.0, NARROW, choice)
+    expected = run.advance(run.start(), 6).samples
+    march = March(contact, NARROW, choice, RunUp(1600.0, 1600.0, 1.5, 4, 0, worn=False))
+    np.testing.assert_array_equal(samples_of(march), expected)
+
+
+@pytest.mark.parametrize("start", [1600.0, 1700.0])
+def test_a_change_that_ends_where_it_began_hardly_differs_from_the_run_at_that_speed(contact, start):
+    """Other modes, and displacement and velocity taken over: a change of 1e-7 of the speed changes no more than that."""
+    run = Simulation(contact, start, NARROW, LONG)
+    expected = run.advance(run.start(), 6).samples
+    march = March(contact, NARROW, LONG, RunUp(start, start * (1.0 + 1e-7), 2.0, 4, 0, worn=False))
+    found = samples_of(march)
+    assert len(march.segments) == 2
+    np.testing.assert_allclose(found, expected, rtol=0, atol=1e-5 * np.abs(expected).max())
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("scene", [NARROW, replace(ABRADABLE, lining=None)], ids=["abradable", "direct"])
+def test_compiled_run_up_is_that_of_the_reference(contact, scene):
+    choice = replace(LONG, time_step=3.2e-6 if scene.lining else 8e-7)
+    run_up = RunUp(5000.0, 6000.0, 1.3, 1, 0, worn=False)
+    ours, theirs = (March(contact, scene, replace(choice, engine=engine), run_up) for engine in ("compiled", "reference"))
+    found, expected = samples_of(ours), samples_of(theirs)
+    assert len(ours.segments) > 5
+    np.testing.assert_allclose(found, expected, rtol=0, atol=1e-10 * np.abs(expected).max())
+    for name in ("work", "loss"):
+        assert ours.state.totals[name] == pytest.approx(float(theirs.state.totals[name]), rel=1e-8)
+    assert ours.stiffness_work == pytest.approx(theirs.stiffness_work, rel=1e-8)
+    assert ours.stiffness_work != 0.0
+
+
+@pytest.mark.parametrize("scene", [NARROW, replace(ABRADABLE, lining=None)], ids=["abradable", "direct"])
+def test_energy_closes_with_the_work_of_the_changing_stiffness(contact, scene):
+    choice = replace(LONG, time_step=3.2e-6 if scene.lining else 8e-7)
+    march = March(contact, scene, choice, RunUp(1500.0, 1900.0, 3.2, 1, 0, worn=False))
+    samples_of(march)
+    work, loss = march.state.totals["work"], march.state.totals["loss"]
+    assert loss > 0.0
+    assert abs(march.stiffness_work) > 1e-6 * abs(work)
+    assert abs(march.energy - work + loss - march.stiffness_work) < 1e-10 * (abs(work) + loss)
+
+
+@pytest.mark.parametrize("integrator", ["exact_modal", "central_difference"])
+def test_the_stiffness_works_half_of_its_change_times_the_squared_displacement(integrator):
+    """One mode whose stiffness grows with the squared speed; exact: the sum of u^2 dk/2 where the speed changes."""
+    model = replace(oscillator(3000.0), stiffness_per_square=np.array([[2.0]]))
+    errors = []
+    for step in (4e-6, 2e-6):
+        choice = replace(LONG, time_step=step, integrator=integrator, samples_per_revolution=124)
+        march = March(model, replace(FREE, damping_ratio=0.0), choice, RunUp(1000.0, 1200.0, 5.0, 1, 0, worn=False))
+        march.state.displacement[:] = 1e-3
+        march.energy = 0.5 * 3000.0**2 * 1e-6 + 0.5 * 2.0 * 1000.0**2 * 1e-6
+        first, work, speed, displacement = march.energy, 0.0, 1000.0, 1e-3
+        for stage in march.stages():
+            work += (stage.speed**2 - speed**2) * displacement**2
+            speed, displacement = stage.speed, stage.samples[-1, 0]
+        errors.append(abs(march.energy - first - work) / abs(work))
+    assert errors[0] < 1e-3
+    assert errors[1] < 0.3 * errors[0]
+
+
+@pytest.mark.parametrize("integrator", ["exact_modal", "central_difference"])
+def test_without_contact_a_run_up_and_its_run_down_give_back_what_was_there(contact, integrator):
+    """Undamped motion goes back the way it came when its velocity is turned round, through all changes of the modes."""
+    choice = replace(LONG, time_step=1e-7 if integrator == "central_difference" else 5e-7, integrator=integrator)
+    scene = replace(FREE, damping_ratio=0.0)
+    ends, revolutions = (4000.0, 5000.0), 2.0
+    up = March(contact, scene, choice, RunUp(*ends, revolutions, 1, 0, worn=False))
+    down = March(contact, scene, choice, RunUp(*ends[::-1], revolutions, 1, 0, worn=False))
+    up.segments, down.segments = up.segments[1:], down.segments[1:]
+    started = 1e-5 / (1.0 + np.arange(len(up.velocity))), 1e-2 * np.ones(len(up.velocity))
+    up.state.displacement[:], up.velocity = started
+    largest = np.abs(samples_of(up)).max()
+    assert len(up.segments) > 5
+    assert np.abs(up.state.displacement - started[0]).max() > 1e-6
+    down.state.displacement, down.velocity = up.state.displacement, -up.velocity
+    samples_of(down)
+    np.testing.assert_allclose(down.state.displacement, started[0], rtol=0, atol=1e-9 * largest)
+    np.testing.assert_allclose(-down.velocity, started[1], rtol=0, atol=1e-7)
+
+
+def test_a_swept_oscillator_follows_the_closed_form(monkeypatch):
+    """A mode always pressed on an elastic bar by a lobed casing is linear: Lewis (Trans. ASME 54, 1932) with Fresnel integrals.
+
+    Each harmonic of the casing forces it with exp(i m (theta_0 + Omega t + a t^2/2)); the motion is the steady one at the first
+    speed and Duhamel's integral, which the Faddeeva function has in closed form.
+    """
+    frequency, ratio, start, rate, revolutions, per_revolution = 4000.0, 0.004, 1900.0, 1500.0, 60.0, 62
+    casing = Casing(1e-5, lobes=2, width=1.0, amplitude=20.0, rise_fraction=0.0)
+    lining = Lining(5e-3, 20e9, 5e9, 1e30, bar_area=4e-14)
+    bar, model = lining.elastic_modulus * lining.bar_area / lining.thickness, oscillator(frequency)
+    natural = np.sqrt(frequency**2 + bar)
+    run_up = RunUp(start, float(np.sqrt(start**2 + 4.0 * np.pi * rate * revolutions)), revolutions, 250, 0, worn=False)
+    angle = 2.0 * np.pi * np.arange(1, revolutions * per_revolution + 1) / per_revolution
+    time = (np.sqrt(start**2 + 2.0 * rate * angle) - start) / rate
+    exact = swept_motion(casing, model.theta[0], bar, natural, ratio * frequency / natural, start, rate, time)
+    level = np.abs(exact - exact.mean())
+    # the peak comes after the resonance, at 2010 rad/s, and the motion beats
+    assert 2040.0 < start + rate * time[np.argmax(level)] < 2060.0
+    errors = {}
+    for lead, step in ((1e-5, 4e-5), (1e-5, 1e-5), (schedule_module.LARGEST_LEAD, 1e-5)):
+        monkeypatch.setattr(schedule_module, "LARGEST_LEAD", lead)
+        choice = replace(LONG, time_step=step, samples_per_revolution=per_revolution, static_above=10.0)
+        march = March(model, Scene(casing, lining, damping_ratio=ratio), choice, run_up)
+        found = samples_of(march)[250 * per_revolution :, 0]
+        assert march.state.totals["steps_in_contact"] > 0.9999 * march.state.totals["steps"]
+        errors[lead, step] = np.abs(found - exact).max() / level.max()
+    coarse, fine, shipped = errors.values()
+    assert fine < 3e-4
+    # two steps against six in a sample
+    assert fine < 0.15 * coarse
+    assert shipped < 6e-4
+
+
+def swept_motion(casing, theta, bar, natural, damping, start, rate, time):
+    """Displacement (m) at times (s) after the change of the speed begins; the angle falls with time, from theta."""
+    period = 2.0 * np.pi / casing.lobes
+    angles = np.arange(4096) * period / 4096
+    fourier = np.fft.fft(casing.clearance * (1.0 - casing.amplitude * casing.shape(angles))) / 4096
+    damped = natural * np.sqrt(1.0 - damping**2)
+    found = np.full(len(time), bar * fourier[0].real / natural**2, dtype=complex)
+    for harmonic in range(1, 8):
+        order, amplitude = harmonic * casing.lobes, 2.0 * fourier[harmonic] * bar
+        # Re(amplitude exp(i order (theta - Omega t - a t^2/2)))
+        force = amplitude * np.exp(1j * order * theta)
+        steady = force / (natural**2 - (order * start) ** 2 - 2j * damping * natural * order * start)
+        decay, swing = np.exp(-damping * natural * time), damped * time
+        velocity = -1j * order * start * steady
+        free = steady.real * np.cos(swing) + (velocity.real + damping * natural * steady.real) / damped * np.sin(swing)
+        found += decay * free
+        for sign in (1.0, -1.0):
+            root = -damping * natural + sign * 1j * damped
+            swept = _integral(-root - 1j * order * start, order * rate, time)
+            found += (force / (2j * sign * damped) * np.exp(root * time) * swept).real
+    return found.real
+
+
+def _integral(slope, curvature, time):
+    """Integral of exp(slope t - i curvature t^2/2) from 0 to the times, by the error function of a complex number."""
+    root = np.sqrt(0.5j * curvature)
+
+    def primitive(t):
+        # exp(slope t - root^2 t^2) erfc(z) exp(z^2) with z = root t - slope/(2 root), but for the sign of its real part
+        z = root * t - slope / (2.0 * root)
+        left = z.real < 0.0
+        scaled = wofz(1j * np.where(left, -z, z)) * np.exp(slope * t - root**2 * t**2)
+        return np.where(left, 2.0 * np.exp(slope**2 / (4.0 * root**2)) - scaled, scaled)
+
+    return np.sqrt(np.pi) / (2.0 * root) * (primitive(np.zeros(1)) - primitive(time))
