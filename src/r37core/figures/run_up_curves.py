@@ -26,7 +26,8 @@ _LININGS = {"new": "o", "worn": "x"}
 def draw_run_ups(run_ups: xr.Dataset, title: str, *, blade: str, scene: str) -> Figure:
     """Leading edge's rms, stress and wear of every revolution over its speed; colour is the rate, dashes are run-downs."""
     runs = sorted(runs_of(run_ups, blade=blade, scene=scene), key=lambda run: abs(float(run["rate"])))
-    shown = {name: about for name, about in _QUANTITIES.items() if name in run_ups}
+    # what another scene computes is in the dataset, too
+    shown = {name: about for name, about in _QUANTITIES.items() if name in run_ups and runs[0][name].notnull().any()}
     figure, panels = plt.subplots(len(shown), 1, figsize=(style.PAGE, 1.6 * len(shown) + 0.8), sharex=True)
     rates = list(dict.fromkeys(abs(float(run["rate"])) for run in runs))
     colours = dict(zip(rates, plt.get_cmap("viridis")(np.linspace(0.95, 0.0, len(rates))), strict=True))
