@@ -113,12 +113,12 @@ CONFIG_REFUSALS = [
     (
         "speeds_for: []",
         "run_ups: { a: { from_rad_s: 900, to_rad_s: 1000, rate_rad_s2: 1.0e-3 } }",
-        r"run_ups\.a\.rate_rad_s2: found a run-up of 1\.512e\+07 revolutions; allowed: .* rates from 0\.151 to 1\.51e\+07",
+        r"run_ups\.a\.rate_rad_s2: found a change from 900 to 1000 .* 1\.512e\+07 revolutions; allowed: .* from 0\.151",
     ),
     (
         "speeds_for: []",
         "run_ups: { a: { from_rad_s: 900, to_rad_s: 1900, revolutions: 0.1 } }",
-        r"run_ups\.a\.revolutions: found a change from 900 to 1900 rad/s within 0\.1 revolutions; allowed: at least 0\.224",
+        r"run_ups\.a\.revolutions: found a change from 900 to 1900 rad/s within 0\.1 revolutions; allowed: 0\.224 to 1",
     ),
     (
         "speeds_for: []",
@@ -134,6 +134,16 @@ CONFIG_REFUSALS = [
         "speeds_for: []",
         "run_ups: { a: { from_rad_s: 900, to_rad_s: 1000, rate_rad_s2: 10, lining: worn } }",
         r"run_ups\.a\.lining: found worn in the scene 'direct', which has no lining; allowed: new, or scenes with a lining",
+    ),
+    (
+        "speeds_for: []",
+        "run_ups: { a: { crossing: { mode: 1B, engine_order: 4, first: 0, last: 0.1 }, from_rad_s: 900, revolutions: 5 } }",
+        r"run_ups\.a\.crossing: found from_rad_s and crossing; allowed: one of from_rad_s, from_rpm, crossing",
+    ),
+    (
+        "speeds_for: []",
+        "run_ups: { a: { crossing: { mode: 1B, engine_order: 40, first: 0, last: 0.1 }, revolutions: 5 } }",
+        r"run_ups\.a\.crossing\.engine_order: found 40; allowed: at most campbell\.highest_engine_order \(20\)",
     ),
     (
         "speeds_for: []",

@@ -1,4 +1,4 @@
-"""Do one run-up. Inputs: model and, for stress, rom. Params: scene, choice, run_up, results, ... Output: run_up_*.npz."""
+"""Do one run-up. Inputs: model, and rom and campbell if needed. Params: scene, choice, ... Output: run_up_*.npz."""
 
 import math
 
@@ -6,13 +6,14 @@ import numpy as np
 from job import run
 
 from r37core.contact.scene import Scene
+from r37core.dataset_file import read_dataset
 from r37core.fem.material import Material
 from r37core.plain import from_plain
 from r37core.results.stress_recovery import StressRecovery
 from r37core.rom.contact_model import read_contact_model
 from r37core.rom.rom_file import read_reduced_model
+from r37core.run_ups.choice import RunUpChoice
 from r37core.run_ups.revolutions import record_run_up
-from r37core.run_ups.schedule import RunUp
 from r37core.time_integration.integration_choice import IntegrationChoice
 from r37core.time_integration.speed_file import write_speed
 
@@ -21,11 +22,13 @@ def main(snakemake):
     given, params = snakemake.input, snakemake.params
     material = from_plain(Material | None, params.material)
     recovery = StressRecovery(read_reduced_model(given.rom), material) if "stress" in params.results else None
+    choice = from_plain(IntegrationChoice, params.choice)
+    campbell = read_dataset(given.campbell) if hasattr(given, "campbell") else None
     result = record_run_up(
         read_contact_model(given.model),
         from_plain(Scene, params.scene),
-        from_plain(IntegrationChoice, params.choice),
-        from_plain(RunUp, params.run_up),
+        choice,
+        from_plain(RunUpChoice, params.run_up).of_blade(choice.samples_per_revolution, campbell),
         params.results,
         highest_order=params.highest_order,
         recovery=recovery,

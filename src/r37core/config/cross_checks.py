@@ -11,6 +11,7 @@ from collections.abc import Callable, Iterable
 from r37core.alignment import padded
 from r37core.blade.definition import BladeDefinition
 from r37core.exchange.importing.source import MatricesSource
+from r37core.run_ups.choice import RunUpError
 from r37core.time_integration.integration_choice import LARGEST_TABLE
 from r37core.yaml_file import KeyPath
 
@@ -19,10 +20,6 @@ from .settings import Settings
 
 LARGEST_NUMBER_OF_SIMULATIONS = 200_000
 """Jobs that Snakemake can still plan: about 25 kB of memory and 1 ms for each."""
-
-
-LARGEST_CHANGE_PER_SAMPLE = 0.01
-"""Of the speed of a run-up."""
 
 
 def _known(settings: Settings, path: KeyPath, names: Iterable[str], entries: Iterable[str], file: Document) -> None:
@@ -161,7 +158,8 @@ def slowest_speed_fits_in_memory(settings: Settings) -> None:
     if isinstance(speeds := signals.speeds(), list):
         slowest.append((speeds[0], ("signals", signals.key_of_speeds)))
     for name, entry in settings.config.run_ups.items():
-        slowest.append((min(entry.run_up(1).start, entry.run_up(1).stop), ("run_ups", name)))
+        if entry.crossing is None:
+            slowest.append((min(entry.choice(1).start, entry.choice(1).stop), ("run_ups", name)))
     steps, lined = settings.fidelity.time_integration, {one.scene.lining is not None for one in settings.scenes.values()}
     nodes, step = padded(settings.structure.boundary.nodes), min(map(steps.largest_step, lined))
     for speed, path in slowest:
@@ -196,7 +194,7 @@ def signals_have_runs(settings: Settings) -> None:
 
 
 def run_ups_can_be_done(settings: Settings) -> None:
-    """Run-ups name blades and scenes that are there, wear a lining, and change little from one sample to the next."""
+    """Run-ups name blades, scenes and orders that are there, wear a lining, and change little from sample to sample."""
     documents, per_revolution = settings.documents, settings.fidelity.time_integration.samples_per_revolution
     for name, entry in settings.config.run_ups.items():
         path: KeyPath = ("run_ups", name)
@@ -204,15 +202,16 @@ def run_ups_can_be_done(settings: Settings) -> None:
         _known(settings, (*path, "blades"), [] if entry.blades == "all" else entry.blades, names, documents.blades)
         scenes = settings.scene_entries if entry.scenes == "all" else entry.scenes
         _known(settings, (*path, "scenes"), scenes, settings.scene_entries, documents.scenes)
-        run_up = entry.run_up(1)
-        low, high = sorted((run_up.start, run_up.stop))
-        fewest = (high / low - 1.0) / LARGEST_CHANGE_PER_SAMPLE
-        if run_up.revolutions * per_revolution < fewest:
+        if entry.crossing is None:
+            try:
+                entry.choice(1).run_up(per_revolution)
+            except RunUpError as error:
+                raise documents.config.error((*path, entry.key_of_length), str(error)) from None
+        elif entry.crossing.engine_order > settings.campbell.highest_engine_order:
             raise documents.config.refusal(
-                (*path, entry.key_of_length),
-                f"a change from {run_up.start:g} to {run_up.stop:g} rad/s within {run_up.revolutions:.3g} revolutions",
-                f"at least {fewest / per_revolution:.3g} revolutions, {100 * LARGEST_CHANGE_PER_SAMPLE:g}% in each of the "
-                f"{per_revolution} samples of one",
+                (*path, "crossing", "engine_order"),
+                f"{entry.crossing.engine_order}",
+                f"at most campbell.highest_engine_order ({settings.campbell.highest_engine_order})",
             )
         for scene in set(scenes) & set(settings.scenes):
             if entry.lining == "worn" and settings.scenes[scene].scene.lining is None:

@@ -16,7 +16,7 @@ from r37core.contact.scene import Scene
 from r37core.exchange.importing.source import MatricesSource
 from r37core.plain import to_plain
 from r37core.rom.reduction_choice import ReductionChoice
-from r37core.run_ups.schedule import RunUp
+from r37core.run_ups.choice import RunUpChoice
 from r37core.speeds import SpeedError, SpeedPlan
 from r37core.time_integration.integration_choice import IntegrationChoice
 
@@ -254,10 +254,10 @@ class Settings:
         matrices = isinstance(self.blades[blade].definition, MatricesSource)
         return tuple(result for result in wanted if not (matrices and result in ("stress", "shapes")))
 
-    def run_ups_of(self, blade: str, scene: str) -> dict[str, RunUp]:
+    def run_ups_of(self, blade: str, scene: str) -> dict[str, RunUpChoice]:
         """Run-ups of a blade in a scene, by name."""
         return {
-            name: entry.run_up(self.scenes[scene].revolutions)
+            name: entry.choice(self.scenes[scene].revolutions)
             for name, entry in self.config.run_ups.items()
             if (entry.blades == "all" or blade in self._designs(entry.blades))
             and (entry.scenes == "all" or scene in entry.scenes)

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from r37core.plain import to_plain
+from r37core.run_ups.choice import RunUpChoice
 
 from . import paths
 from .sweep_plan import Sweep
@@ -46,11 +47,17 @@ class RunUps:
     def inputs(self, wildcards: Any) -> dict[str, str]:
         """What a run-up starts from, with the reduced model where its stress is wanted."""
         prepared = paths.fill(paths.INTEGRATION_STAMP, blade=wildcards.blade, scene=wildcards.scene)
-        return {"prepared": prepared, "model": self.sweep.contact_model(wildcards)} | self.sweep.recovery(wildcards)
+        found = {"prepared": prepared, "model": self.sweep.contact_model(wildcards)} | self.sweep.recovery(wildcards)
+        if self._choice(wildcards).crossing:
+            found["campbell"] = paths.fill(paths.CAMPBELL, blade=wildcards.blade)
+        return found
 
     def run_up(self, wildcards: Any) -> dict[str, Any]:
         """Speeds and revolutions, as plain values."""
-        return to_plain(self.sweep.settings.run_ups_of(wildcards.blade, wildcards.scene)[wildcards.run_up])
+        return to_plain(self._choice(wildcards))
+
+    def _choice(self, wildcards: Any) -> RunUpChoice:
+        return self.sweep.settings.run_ups_of(wildcards.blade, wildcards.scene)[wildcards.run_up]
 
     def choice(self, wildcards: Any) -> dict[str, Any]:
         """Numbers of the time integration."""

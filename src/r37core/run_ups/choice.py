@@ -1,0 +1,83 @@
+"""A run-up as it is asked for: between speeds, or about a crossing of the blade's own Campbell diagram."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import xarray as xr
+
+from .schedule import RunUp
+
+LARGEST_CHANGE_PER_SAMPLE = 0.01
+"""Of the speed."""
+
+SHORTEST, LONGEST = 1e-3, 100_000
+"""Revolutions of a change of speed."""
+
+
+class RunUpError(ValueError):
+    """A run-up that cannot be done as it is asked for."""
+
+
+@dataclass(frozen=True)
+class Crossing:
+    """Where a `mode` has the frequency of an `engine_order`."""
+
+    mode: str
+    engine_order: int
+
+
+@dataclass(frozen=True)
+class RunUpChoice:
+    """A run-up from `start` to `stop` (rad/s), or with a `crossing` so far above its speed, as shares of it.
+
+    Of `rate` (rad/s2, positive) and `revolutions` one is given; `before`, `after` and `worn`: see RunUp.
+    """
+
+    start: float
+    stop: float
+    crossing: Crossing | None
+    rate: float | None
+    revolutions: float | None
+    before: int
+    after: int
+    worn: bool
+
+    def run_up(self, samples_per_revolution: int, crossing_speed: float | None = None) -> RunUp:
+        """The run-up in numbers; `crossing_speed` (rad/s): of the crossing, where there is one.
+
+        Raises RunUpError for one of too few or too many revolutions.
+        """
+        start, stop = self.start, self.stop
+        if crossing_speed is not None:
+            start, stop = crossing_speed * (1.0 + start), crossing_speed * (1.0 + stop)
+        low, high = sorted((start, stop))
+        squares = high**2 - low**2
+        fewest = max((high / low - 1.0) / LARGEST_CHANGE_PER_SAMPLE / samples_per_revolution, SHORTEST)
+        revolutions = self.revolutions
+        if revolutions is None:
+            assert self.rate is not None
+            revolutions = squares / (4.0 * np.pi * self.rate)
+        if not fewest <= revolutions <= LONGEST:
+            slowest, fastest = (squares / (4.0 * np.pi * number) for number in (LONGEST, fewest))
+            raise RunUpError(
+                f"found a change from {start:g} to {stop:g} rad/s within {revolutions:.4g} revolutions; "
+                f"allowed: {fewest:.3g} to {LONGEST:g} of them (rates from {slowest:.3g} to {fastest:.3g} rad/s2)"
+            )
+        return RunUp(start, stop, revolutions, self.before, self.after, self.worn)
+
+    def of_blade(self, samples_per_revolution: int, campbell: xr.Dataset | None) -> RunUp:
+        """The run-up of a blade with this Campbell diagram, which one about a crossing needs; RunUpError without one."""
+        if self.crossing is None:
+            return self.run_up(samples_per_revolution)
+        assert campbell is not None
+        mode, order = self.crossing.mode, self.crossing.engine_order
+        speed = float(campbell["crossing_speed"].sel(mode=mode, engine_order=order))
+        if not np.isfinite(speed):
+            highest = float(campbell["speed"].max())
+            raise RunUpError(
+                f"found a run-up about {mode} and engine order {order}, which do not cross up to {highest:g} rad/s; "
+                "allowed: crossings of the Campbell diagram (run_ups in config.yaml; its blades leave out some)"
+            )
+        return self.run_up(samples_per_revolution, speed)
