@@ -13,7 +13,14 @@ from pathlib import Path
 ROOT = Path(__file__).parent.parent
 STUDIES = ROOT / "results" / "studies"
 TABLES = {
-    "accuracy": {"levels": "levels.md", "tradeoff": "tradeoff.md", "growth": "growth.md", "refinement": "refinement.md"},
+    "accuracy": {
+        "levels": "levels.md",
+        "tradeoff": "tradeoff.md",
+        "growth": "growth.md",
+        "refinement": "refinement.md",
+        "run_ups": "run_up_accuracy.md",
+    },
+    "run_ups": {"run_up_rates": "run_up_rates.md"},
     "stability": {"stability": "stability.md"},
     "validation": {"validation": "validation.md", "modelling_choices": "modelling_choices.md"},
     "speed": {"estimate": "estimate.md"},
@@ -24,6 +31,11 @@ PICTURES = (
     "modelling_choices",
     *(f"validation_{name}" for name in ("reference", "blades", "stress", "histories", "spectrum_lined", "spectrum_direct")),
 )
+
+FIGURES = {
+    "run_up_rates": ROOT / "results/figures/run_up_rates_abradable.png",
+    "run_ups_Ref": ROOT / "results/figures/run_ups_Ref__abradable.png",
+}
 
 
 def fill(page, name, text):
@@ -58,6 +70,9 @@ def main():
         file = STUDIES / "figures" / f"{picture}.png"
         if file.exists():
             shutil.copy(file, ROOT / "docs" / file.name)
+    for name, file in FIGURES.items():
+        if file.exists():
+            shutil.copy(file, ROOT / "docs" / f"{name}.png")
 
 
 if __name__ == "__main__":

@@ -1,0 +1,100 @@
+"""Tables of docs/run_ups.md and docs/accuracy.md, from finished results of the default sweep and of config/run_ups.yaml.
+
+Run where these lie: python benchmarks/run_ups.py; then make docs.
+"""
+
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+
+from r37core.config import read_settings
+from r37core.dataset_file import read_dataset
+from r37core.io import write_text
+from r37core.rom.contact_model import read_contact_model
+from r37core.run_ups import schedule
+from r37core.run_ups.choice import RunUpChoice
+from r37core.run_ups.revolutions import record_run_up
+from r37core.studies.tables import markdown_table
+
+RESULTS = Path("results")
+SCENE, MODE, ORDER = "abradable", "1B", 4
+SHOWN_RATES = (100, 300, 1000)
+ACCURACY_BLADE, ACCURACY_RATES = "Ref", (30.0, 100.0, 300.0, 1000.0)
+FINEST = (2e-6, 1e-3)
+"""Lead (rad) and stiffening that the others are compared with."""
+TRIED = ((2e-6, 3e-3), (2e-6, 1e-2), (2e-6, 3e-2), (2.5e-4, 1e-2), (1e-3, 1e-2), (4e-3, 1e-2))
+
+
+def rates_table():
+    """Blades in the order of the rate that they need on the way up, with the width of the interaction beside it."""
+    campbell = read_dataset(RESULTS / "campbell.nc")
+    summary = pd.read_csv(RESULTS / "summary.csv").query("scene == @SCENE and mode == @MODE and engine_order == @ORDER")
+    runs, rates = (pd.read_csv(RESULTS / f"{name}.csv").query("scene == @SCENE") for name in ("run_ups", "run_up_rates"))
+    rows = []
+    for blade in dict.fromkeys(runs["blade"]):
+        of_blade = runs[runs["blade"] == blade]
+        share = of_blade["max_von_mises_pa"] / of_blade["yield_stress_pa"]
+        row = {
+            "blade": blade,
+            "crossing (rad/s)": f"{float(campbell['crossing_speed'].sel(blade=blade, mode=MODE, engine_order=ORDER)):.0f}",
+            "width": float(summary[summary["blade"] == blade]["width_above_yield_rad_s"].max()),
+        }
+        for direction in ("up", "down"):
+            going = of_blade["direction"] == direction
+            for rate in SHOWN_RATES:
+                row[f"{direction} at {rate}"] = f"{float(share[going & (of_blade['rate_rad_s2'] == rate)].max()):.2f}"
+            found = rates[(rates["blade"] == blade) & (rates["direction"] == direction)].iloc[0]
+            row[direction] = float(found["rate_at_yield_rad_s2"])
+        rows.append(row)
+    table = pd.DataFrame(rows)
+    correlation = table["width"].corr(table["up"].fillna(0.0), method="spearman")
+    slowest = float(rates["slowest_rate_rad_s2"].min())
+    table = table.sort_values("up", ascending=False)
+    for direction in ("up", "down"):
+        passed = table.pop(direction)
+        table[f"{direction}: below yield from (rad/s2)"] = [
+            f"{rate:.3g}" if np.isfinite(rate) else f"{slowest:g} or less" for rate in passed
+        ]
+    widths = table.pop("width")
+    table.insert(2, "width above yield at constant speed (rad/s)", [f"{width:.0f}" for width in widths])
+    said = (
+        f"Columns with a rate (rad/s2): largest stress of the run-up as a share of yield. Rank correlation (Spearman) of the "
+        f"width with the rate that is needed upwards: {correlation:.2f}."
+    )
+    return f"{markdown_table(list(table), table.values.tolist())}\n{said}\n"
+
+
+def accuracy_table():
+    """Error of stretches and segments of other lengths, of one blade's way up the rising branch."""
+    settings = read_settings(Path())
+    scene, model = settings.scenes[SCENE], read_contact_model(RESULTS / ACCURACY_BLADE / "contact_pressure_edge.npz")
+    choice = settings.integration_choice(ACCURACY_BLADE, SCENE, 0.0)
+    speed = float(read_dataset(RESULTS / ACCURACY_BLADE / "campbell.nc")["crossing_speed"].sel(mode=MODE, engine_order=ORDER))
+    errors = {tried: [] for tried in TRIED}
+
+    def rms(rate, lead, stiffening):
+        schedule.LARGEST_LEAD, schedule.LARGEST_STIFFENING = lead, stiffening
+        asked = RunUpChoice(0.98 * speed, 1.012 * speed, None, rate, None, choice.revolutions, 0, worn=False)
+        run_up = asked.run_up(choice.samples_per_revolution)
+        found = record_run_up(model, scene.scene, choice, run_up, (), highest_order=20, recovery=None)
+        return found["rms"][choice.revolutions :, 0, [0, 2]]
+
+    for rate in ACCURACY_RATES:
+        finest = rms(rate, *FINEST)
+        for tried in TRIED:
+            errors[tried].append(float((np.abs(rms(rate, *tried) - finest) / finest.max(axis=0)).max()))
+    rows = [
+        {"lead (rad)": f"{lead:g}", "stiffening": f"{100 * stiffening:g}%"}
+        | {
+            f"{rate:g} rad/s2": f"{100 * error:.3f}%"
+            for rate, error in zip(ACCURACY_RATES, errors[lead, stiffening], strict=True)
+        }
+        for lead, stiffening in TRIED
+    ]
+    return markdown_table(list(rows[0]), [list(row.values()) for row in rows])
+
+
+if __name__ == "__main__":
+    write_text(rates_table(), RESULTS / "studies/run_up_rates.md")
+    write_text(accuracy_table(), RESULTS / "studies/run_up_accuracy.md")
