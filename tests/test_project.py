@@ -33,6 +33,7 @@ LAYERS = [
     "contact",
     "time_integration",
     "results",
+    "run_ups",
     "signals",
     "adaptive",
     "exchange",

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from defaults import Casing, IntegrationChoice, Lining, Scene
 from integration_cases import ABRADABLE, LINING, oscillator
+from scipy.integrate import solve_ivp
 from scipy.special import wofz
 
 from r37core.run_ups import schedule as schedule_module
@@ -112,6 +113,41 @@ def test_the_stiffness_works_half_of_its_change_times_the_squared_displacement(i
         errors.append(abs(march.energy - first - work) / abs(work))
     assert errors[0] < 1e-3
     assert errors[1] < 0.3 * errors[0]
+
+
+def test_free_motion_is_that_of_the_whole_stiffness_at_every_speed(monkeypatch):
+    """Eight modes that the speed couples strongly, against DOP853 on u'' + (K_0 + Omega(t)^2 K_1) u = 0."""
+    generator, start, stop, revolutions = np.random.default_rng(1), 1000.0, 1500.0, 6.0
+    squares, coupled = np.linspace(4e3, 2e4, 8) ** 2, generator.standard_normal((8, 8))
+    model = replace(
+        oscillator(1.0),
+        squared_frequencies=squares,
+        stiffness_per_square=coupled @ coupled.T,
+        displacement_operator=generator.standard_normal((3, 1, 8)),
+        tip_displacement_operator=generator.standard_normal((3, 2, 8)),
+        to_reduced=np.eye(8),
+    )
+    rate, first = (stop**2 - start**2) / (4.0 * np.pi * revolutions), 1e-4 * generator.standard_normal(8)
+
+    def motion(time, state):
+        stiffness = np.diag(squares) + (start + rate * time) ** 2 * model.stiffness_per_square
+        return np.concatenate([state[8:], -stiffness @ state[:8]])
+
+    choice, errors = replace(LONG, time_step=1e-5, samples_per_revolution=124), []
+    duration = (stop - start) / rate
+    exact = solve_ivp(motion, (0.0, duration), [*first, *np.zeros(8)], "DOP853", rtol=1e-11, atol=1e-15).y[:8, -1]
+    for lead, stiffening in ((2.5e-4, 0.01), (1e-5, 0.001)):
+        monkeypatch.setattr(schedule_module, "LARGEST_LEAD", lead)
+        monkeypatch.setattr(schedule_module, "LARGEST_STIFFENING", stiffening)
+        march = March(model, replace(FREE, damping_ratio=0.0), choice, RunUp(start, stop, revolutions, 1, 0, worn=False))
+        march.segments = march.segments[1:]
+        modes = Simulation(model, march.segments[0].speed, FREE, choice).problem.modes
+        march.state.displacement[:] = modes.T @ first
+        samples_of(march)
+        modes = Simulation(model, march.segments[-1].speed, FREE, choice).problem.modes
+        errors.append(np.abs(modes @ march.state.displacement - exact).max() / np.abs(exact).max())
+    assert errors[0] < 0.05
+    assert errors[1] < 0.1 * errors[0]
 
 
 @pytest.mark.parametrize("integrator", ["exact_modal", "central_difference"])

@@ -18,7 +18,7 @@ _QUANTITIES = {
     "max_von_mises": ("largest von Mises (GPa)", 1e-9),
     "max_wear": ("largest wear (mm)", 1e3),
 }
-_FEW_REVOLUTIONS = 60
+_FEW_REVOLUTIONS, _FAINT = 60, 1e-5
 _DIRECTIONS = {"up": "-", "down": "--"}
 _LININGS = {"new": "o", "worn": "x"}
 
@@ -47,7 +47,9 @@ def draw_run_ups(run_ups: xr.Dataset, title: str, *, blade: str, scene: str) -> 
             )
     for axes, (name, (label, _)) in zip(panels, shown.items(), strict=True):
         axes.set_ylabel(label)
-        axes.set_yscale("log")
+        if name != "max_wear":
+            axes.set_yscale("log")
+            axes.set_ylim(bottom=_FAINT * axes.get_ylim()[1])
         if name == "max_von_mises":
             style.yield_lines(axes, {blade: float(runs[0]["yield_stress"])})
     panels[-1].set_xlabel("mean speed of the revolution (rad/s)")
