@@ -20,7 +20,7 @@ TABLES = {
         "refinement": "refinement.md",
         "run_ups": "run_up_accuracy.md",
     },
-    "run_ups": {"run_up_rates": "run_up_rates.md"},
+    "run_ups": {"run_up_rates": "run_up_rates.md", "run_up_variants": "run_up_variants.md"},
     "stability": {"stability": "stability.md"},
     "validation": {"validation": "validation.md", "modelling_choices": "modelling_choices.md"},
     "speed": {"estimate": "estimate.md"},

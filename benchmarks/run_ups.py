@@ -3,6 +3,7 @@
 Run where these lie: python benchmarks/run_ups.py; then make docs.
 """
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -11,11 +12,15 @@ import pandas as pd
 from r37core.config import read_settings
 from r37core.dataset_file import read_dataset
 from r37core.io import write_text
+from r37core.results.stress_recovery import StressRecovery
 from r37core.rom.contact_model import read_contact_model
+from r37core.rom.rom_file import read_reduced_model
 from r37core.run_ups import schedule
 from r37core.run_ups.choice import RunUpChoice
 from r37core.run_ups.revolutions import record_run_up
+from r37core.run_ups.tables import safe_rates
 from r37core.studies.tables import markdown_table
+from r37core.time_integration.integrators import CENTRAL_DIFFERENCE
 
 RESULTS = Path("results")
 SCENE, MODE, ORDER = "abradable", "1B", 4
@@ -23,6 +28,21 @@ SHOWN_RATES = (100, 300, 1000)
 ACCURACY_BLADE, ACCURACY_RATES = "Ref", (30.0, 100.0, 300.0, 1000.0)
 FINEST = (2e-6, 1e-3)
 """Lead (rad) and stiffening that the others are compared with."""
+
+BEFORE, AFTER, FIRST, LAST = 200, 50, -0.015, 0.07
+"""Of config/run_ups.yaml."""
+RATES = (200.0, 300.0, 450.0, 700.0, 1000.0, 1500.0, 2200.0, 3200.0, 4600.0, 7000.0)
+VARIANTS = {
+    "shipped": {},
+    "half the step": {"time_step": 0.5},
+    "the published scheme and step": {"published": True},
+    "friction of constant direction": {"constant": True},
+    "begun 1% below the crossing": {"first": -0.01},
+    "begun 0.5% below it": {"first": -0.005},
+    "ended 6% above it": {"last": 0.06},
+    "twice the revolutions before": {"before": 400},
+    "lining worn by the same run-up": {"worn": True},
+}
 TRIED = ((2e-6, 3e-3), (2e-6, 1e-2), (2e-6, 3e-2), (2.5e-4, 1e-2), (1e-3, 1e-2), (4e-3, 1e-2))
 
 
@@ -95,6 +115,46 @@ def accuracy_table():
     return markdown_table(list(rows[0]), [list(row.values()) for row in rows])
 
 
+def needed_rate(blade, settings, campbell, changes):
+    """Rate (rad/s2) that a blade needs upwards, interpolated between RATES; text where it is none of them."""
+    scene, material = settings.scenes[SCENE].scene, settings.blades[blade].material
+    choice = settings.integration_choice(blade, SCENE, 0.0)
+    before = changes.get("before", BEFORE)
+    choice = replace(choice, revolutions=before, snapshot_revolutions=before, energy=False)
+    if "time_step" in changes:
+        choice = replace(choice, time_step=changes["time_step"] * choice.time_step)
+    if "published" in changes:
+        choice = replace(choice, time_step=1e-7, integrator=CENTRAL_DIFFERENCE, shorten=False)
+    if "constant" in changes:
+        scene = replace(scene, friction=replace(scene.friction, vector=False))
+    recovery = StressRecovery(read_reduced_model(RESULTS / blade / "rom_pressure_edge.nc"), material)
+    model = read_contact_model(RESULTS / blade / "contact_pressure_edge.npz")
+    crossing = float(campbell["crossing_speed"].sel(blade=blade, mode=MODE, engine_order=ORDER))
+    rows = []
+    for rate in RATES:
+        ends = (crossing * (1.0 + changes.get(end, default)) for end, default in (("first", FIRST), ("last", LAST)))
+        asked = RunUpChoice(*ends, None, rate, None, before, AFTER, worn=changes.get("worn", False))
+        run_up = asked.run_up(choice.samples_per_revolution)
+        found = record_run_up(model, scene, choice, run_up, (), highest_order=20, recovery=recovery)
+        stress = float(found["max_von_mises"][before:].max())
+        rows.append({"rate_rad_s2": rate, "max_von_mises_pa": stress, "status": "completed"})
+    found = safe_rates(pd.DataFrame(rows).assign(yield_stress_pa=material.yield_stress))
+    if np.isfinite(found["rate_at_yield_rad_s2"]):
+        return f"{found['rate_at_yield_rad_s2']:.0f}"
+    return f"below {RATES[0]:g}" if np.isfinite(found["lowest_safe_rate_rad_s2"]) else f"above {RATES[-1]:g}"
+
+
+def variants_table():
+    """Rates that the blades need upwards when one thing is varied."""
+    settings, campbell = read_settings(Path()), read_dataset(RESULTS / "campbell.nc")
+    blades = list(settings.blades)
+    rows = [
+        [name, *(needed_rate(blade, settings, campbell, changes) for blade in blades)] for name, changes in VARIANTS.items()
+    ]
+    return markdown_table(["rate needed upwards (rad/s2)", *blades], rows)
+
+
 if __name__ == "__main__":
+    write_text(variants_table(), RESULTS / "studies/run_up_variants.md")
     write_text(rates_table(), RESULTS / "studies/run_up_rates.md")
     write_text(accuracy_table(), RESULTS / "studies/run_up_accuracy.md")

@@ -22,7 +22,9 @@ IN_SI = {
     "_pa": (0.3, 0.3),
     "_kg_m3": (0.3, 0.3),
     "_rad_s": (0.3, 0.3),
+    "_rad_s2": (0.3, 0.3),
     "_rpm": (60.0, 2.0 * math.pi),
+    "_rpm_s": (60.0, 2.0 * math.pi),
     "_deg": (90.0, 0.5 * math.pi),
     "_percent": (30.0, 0.3),
     "_clearances": (0.3, 0.3),
@@ -30,7 +32,7 @@ IN_SI = {
 """Suffix -> a number in its unit, and the same in that of the SI."""
 
 UNIT = re.compile(
-    r"_([kcmu]?m|in|ft|m?m[23]|k?g|t|m?s|min|k?hz|[kmg]?pa|k?n|j|w|rad|deg|rpm|rad_s|percent|kg_m3)$", re.IGNORECASE
+    r"_([kcmu]?m|in|ft|m?m[23]|k?g|t|m?s|min|k?hz|[kmg]?pa|k?n|j|w|rad|deg|rpm|rad_s2?|rpm_s|percent|kg_m3)$", re.IGNORECASE
 )
 """Ends of names that a reader takes for a unit."""
 

@@ -72,7 +72,7 @@ def rate_table(runs: pd.DataFrame) -> pd.DataFrame:
     if "max_von_mises_pa" not in runs:
         return pd.DataFrame(columns=[*_CASE, *_RATES])
     return pd.DataFrame(
-        [dict(zip(_CASE, case, strict=True)) | _safe_rates(group) for case, group in runs.groupby(_CASE, sort=False)],
+        [dict(zip(_CASE, case, strict=True)) | safe_rates(group) for case, group in runs.groupby(_CASE, sort=False)],
         columns=[*_CASE, *_RATES],
     )
 
@@ -87,7 +87,8 @@ _RATES = [
 ]
 
 
-def _safe_rates(group: pd.DataFrame) -> dict[str, float]:
+def safe_rates(group: pd.DataFrame) -> dict[str, float]:
+    """The numbers of a row of `rate_table`, of run-ups that differ by their rates alone."""
     group = group.sort_values("rate_rad_s2")
     rates = group["rate_rad_s2"].to_numpy()
     ratios = (group["max_von_mises_pa"] / group["yield_stress_pa"]).where(group["status"] == "completed", np.inf).to_numpy()
