@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
-import xarray as xr
 
 from .schedule import RunUp
+
+if TYPE_CHECKING:
+    # it takes longer to import than all else here
+    import xarray as xr
 
 LARGEST_CHANGE_PER_SAMPLE = 0.01
 """Of the speed."""
