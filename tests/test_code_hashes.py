@@ -1,14 +1,16 @@
 """Code hashes: what a rule's script imports and nothing else, without comments and docstrings."""
 
+import functools
 import re
 import subprocess
 import sys
 
 import pytest
 
+from r37core import kept
 from r37core.figures.reporting import drawing
 from r37core.plans import code as code_module
-from r37core.plans.code import CodeHashes, fingerprint, imported_names
+from r37core.plans.code import CodeHashes, fingerprint
 
 SCRIPT = "from job import run\nfrom r37core.a import f\n"
 
@@ -35,7 +37,7 @@ def tree(tmp_path):
 
 
 def hashes(tree):
-    for cached in (fingerprint, imported_names, code_module._tree, code_module.module_files):
+    for cached in (code_module._facts, code_module.module_files):
         cached.cache_clear()
     return CodeHashes(tree / "src", tree / "scripts")
 
@@ -79,6 +81,21 @@ def test_what_counts(tree, file, old, new, counts):
     assert old in text
     (tree / file).write_text(text.replace(old, new, 1))
     assert (hashes(tree)("one") != before) == counts
+
+
+@pytest.mark.parametrize("damage", [lambda file: file.unlink(), lambda file: file.write_bytes(file.read_bytes()[:-7])])
+def test_what_is_kept_of_files_may_be_lost_or_damaged(tree, tmp_path, monkeypatch, damage):
+    monkeypatch.setattr(kept, "_folder", lambda: tmp_path)
+    monkeypatch.setattr(code_module, "_facts_of_files", functools.cache(code_module._FactsOfFiles))
+    before = hashes(tree)("one")
+    code_module._facts_of_files.cache_clear()
+    monkeypatch.setattr(code_module.ast, "parse", None)
+    assert hashes(tree)("one") == before
+    monkeypatch.undo()
+    monkeypatch.setattr(kept, "_folder", lambda: tmp_path)
+    monkeypatch.setattr(code_module, "_facts_of_files", functools.cache(code_module._FactsOfFiles))
+    damage(tmp_path / "code_hashes.json")
+    assert hashes(tree)("one") == before
 
 
 @pytest.fixture(scope="module")

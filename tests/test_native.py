@@ -13,7 +13,7 @@ import pytest
 from defaults import IntegrationChoice, Scene
 from integration_cases import DIRECT, LINING, oscillator
 
-from r37core import native
+from r37core import kept, native
 from r37core.native import ObjectCodeError, Sources, cached_object, load_function, object_code
 from r37core.plain import to_plain
 from r37core.time_integration import compiled
@@ -32,7 +32,7 @@ define i64 @odd_name(i64 %x) {
 def cache(monkeypatch, tmp_path):
     """An empty cache folder, as of a package that cannot be written."""
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
-    monkeypatch.setattr(native, "_writable", lambda _: False)
+    monkeypatch.setattr(kept, "_writable", lambda _: False)
     return tmp_path / "r37"
 
 
@@ -100,7 +100,7 @@ def test_what_only_the_compiler_has_is_refused():
 def test_side_by_side(tmp_path):
     """Processes that make the same object at once all get a whole one, though the package cannot be written."""
     code = (
-        "import ctypes\nfrom r37core import native\nnative._writable = lambda _: False\n"
+        "import ctypes\nfrom r37core import kept, native\nkept._writable = lambda _: False\n"
         f"assembly = {TWICE!r}\n"
         "code = native.cached_object('twice', native.Sources(), 5, lambda: native.object_code(assembly, 'odd_name', 'twice'))\n"
         "print(native.load_function(code, 'twice', ctypes.c_int64, ctypes.c_int64)(5))"

@@ -20,6 +20,7 @@ LAYERS = [
     "dataset_file",
     "alignment",
     "lanes",
+    "kept",
     "native",
     "text_file",
     "yaml_file",

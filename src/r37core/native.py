@@ -1,7 +1,6 @@
 """Object code for this machine's processor: made once, kept, checked, and loaded without its compiler.
 
-Light: the simulation jobs import it. An object is kept beside the package, or in the user's cache folder where the package
-cannot be written, under a name made of everything it depends on. A file that is cut short or damaged is made again.
+Light: the simulation jobs import it. An object is kept (r37core.kept) under a name made of everything it depends on.
 """
 
 from __future__ import annotations
@@ -9,7 +8,6 @@ from __future__ import annotations
 import ctypes
 import hashlib
 import os
-import tempfile
 from collections.abc import Callable
 from functools import cache
 from importlib.util import find_spec
@@ -19,8 +17,9 @@ from typing import Any
 import llvmlite
 import llvmlite.binding as llvm
 
+from .kept import keep, read_kept
+
 _PACKAGE = Path(__file__).parent
-_DIGEST_BYTES = 32
 
 
 class ObjectCodeError(RuntimeError):
@@ -64,12 +63,12 @@ def cached_object(name: str, sources: Sources, about: object, build: Callable[[]
     taken along. What is built is not kept if the sources were edited after this process imported them.
     """
     made_of = (name, about, sources.digest, _numba_version(), llvmlite.__version__, processor())
-    file = _cache() / f"{name}-{hashlib.sha256(repr(made_of).encode()).hexdigest()[:16]}.o"
-    code = _read(file)
+    file = f"{name}-{hashlib.sha256(repr(made_of).encode()).hexdigest()[:16]}.o"
+    code = read_kept(file)
     if code is None:
         code = build()
         if sources.unchanged:
-            _write(code, file)
+            keep(code, file)
     return code
 
 
@@ -118,41 +117,3 @@ def _target_machine(**options: Any) -> llvm.TargetMachine:
 
 def _in_process(function: str) -> bool:
     return hasattr(ctypes.CDLL(None), function)
-
-
-def _read(file: Path) -> bytes | None:
-    """Content of a kept file; None if it is not there or not what was written."""
-    try:
-        content = file.read_bytes()
-    except FileNotFoundError:
-        return None
-    digest, code = content[:_DIGEST_BYTES], content[_DIGEST_BYTES:]
-    return code if digest == hashlib.sha256(code).digest() else None
-
-
-def _write(code: bytes, file: Path) -> None:
-    """Write to a file of its own and move it into place, so that processes may do so side by side."""
-    handle, partial = tempfile.mkstemp(suffix=".partial", dir=file.parent)
-    try:
-        with os.fdopen(handle, "wb") as stream:
-            stream.write(hashlib.sha256(code).digest() + code)
-        os.replace(partial, file)
-    finally:
-        Path(partial).unlink(missing_ok=True)
-
-
-def _cache() -> Path:
-    beside = _PACKAGE / "__pycache__"
-    if _writable(beside):
-        return beside
-    users = Path(os.environ.get("XDG_CACHE_HOME", Path.home() / ".cache")) / "r37"
-    users.mkdir(parents=True, exist_ok=True)
-    return users
-
-
-def _writable(folder: Path) -> bool:
-    try:
-        folder.mkdir(exist_ok=True)
-    except OSError:
-        return False
-    return os.access(folder, os.W_OK)

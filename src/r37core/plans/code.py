@@ -4,9 +4,12 @@ from __future__ import annotations
 
 import ast
 import hashlib
+import json
 from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
+
+from r37core.kept import keep, read_kept
 
 PACKAGE = "r37core"
 
@@ -29,6 +32,7 @@ class CodeHashes:
         digest = hashlib.sha256()
         for file in self.closure(script, *modules):
             digest.update(file.name.encode() + fingerprint(file))
+        _facts_of_files().save()
         return digest.hexdigest()[:16]
 
     def closure(self, script: str, *modules: str) -> list[Path]:
@@ -53,33 +57,73 @@ def module_files(name: str, roots: tuple[Path, ...]) -> tuple[Path, ...]:
     return tuple(file for file in candidates if file.exists())
 
 
-@cache
 def imported_names(file: Path) -> tuple[str, ...]:
     """Absolute dotted names of all that a file imports, functions' own imports included."""
+    return _facts(file)[1]
+
+
+def fingerprint(file: Path) -> bytes:
+    """Hash of what a Python file does: its syntax tree without docstrings, the same in every version of Python."""
+    return _facts(file)[0]
+
+
+class _FactsOfFiles:
+    """Fingerprint and imports by a hash of all that they follow from, kept from run to run: hundreds of trees take seconds."""
+
+    _NAME, _MOST = "code_hashes.json", 5000
+
+    def __init__(self) -> None:
+        kept = read_kept(self._NAME)
+        self._known: dict[str, tuple[str, list[str]]] = json.loads(kept) if kept else {}
+        self._new = False
+        self._own = Path(__file__).read_bytes()
+
+    def __call__(self, file: Path) -> tuple[bytes, tuple[str, ...]]:
+        content, package = file.read_bytes(), _package_of(file)
+        key = hashlib.sha256(b"\0".join([self._own, ".".join(package).encode(), content])).hexdigest()
+        if key not in self._known:
+            tree = ast.parse(content)
+            self._known[key] = (_fingerprint(tree).hex(), _imported_names(tree, package))
+            self._new = True
+        fingerprint, names = self._known[key]
+        return bytes.fromhex(fingerprint), tuple(names)
+
+    def save(self) -> None:
+        if self._new and len(self._known) <= self._MOST:
+            keep(json.dumps(self._known).encode(), self._NAME)
+        elif self._new:
+            # those of versions long past
+            keep(b"{}", self._NAME)
+        self._new = False
+
+
+@cache
+def _facts_of_files() -> _FactsOfFiles:
+    return _FactsOfFiles()
+
+
+@cache
+def _facts(file: Path) -> tuple[bytes, tuple[str, ...]]:
+    return _facts_of_files()(file)
+
+
+def _imported_names(tree: ast.Module, package: list[str]) -> list[str]:
     names: list[str] = []
-    package = _package_of(file)
-    for node in ast.walk(_tree(file)):
+    for node in ast.walk(tree):
         if isinstance(node, ast.Import):
             names += [alias.name for alias in node.names]
         elif isinstance(node, ast.ImportFrom):
             above = package[: len(package) - node.level + 1] if node.level else []
             module = [*above, *([node.module] if node.module else [])]
             names += [".".join([*module, alias.name]) for alias in node.names]
-    return tuple(names)
+    return names
 
 
-@cache
-def fingerprint(file: Path) -> bytes:
-    """Hash of what a Python file does: its syntax tree without docstrings, the same in every version of Python."""
+def _fingerprint(tree: ast.Module) -> bytes:
     digest = hashlib.sha256()
-    for part in _parts(_tree(file)):
+    for part in _parts(tree):
         digest.update(part.encode() + b"\0")
     return digest.digest()
-
-
-@cache
-def _tree(file: Path) -> ast.Module:
-    return ast.parse(file.read_text(encoding="utf-8"))
 
 
 def _package_of(file: Path) -> list[str]:

@@ -21,6 +21,7 @@ from .state import SimulationRecord, SimulationState
 
 SOURCES = Sources(
     "alignment.py",
+    "kept.py",
     "lanes.py",
     "native.py",
     "contact/casing.py",

@@ -1,0 +1,53 @@
+"""What is kept from run to run because it takes long to make: each in a file that is checked when it is read.
+
+It lies beside the package, or in the user's cache folder where the package cannot be written. A file that is cut short or
+damaged is made again. Light: the simulation jobs import it.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import tempfile
+from pathlib import Path
+
+_PACKAGE = Path(__file__).parent
+_DIGEST_BYTES = 32
+
+
+def read_kept(name: str) -> bytes | None:
+    """Content of what is kept under a name; None if it is not there or not what was written."""
+    try:
+        content = (_folder() / name).read_bytes()
+    except FileNotFoundError:
+        return None
+    digest, kept = content[:_DIGEST_BYTES], content[_DIGEST_BYTES:]
+    return kept if digest == hashlib.sha256(kept).digest() else None
+
+
+def keep(content: bytes, name: str) -> None:
+    """Write to a file of its own and move it into place, so that processes may do so side by side."""
+    handle, partial = tempfile.mkstemp(suffix=".partial", dir=_folder())
+    try:
+        with os.fdopen(handle, "wb") as stream:
+            stream.write(hashlib.sha256(content).digest() + content)
+        os.replace(partial, _folder() / name)
+    finally:
+        Path(partial).unlink(missing_ok=True)
+
+
+def _folder() -> Path:
+    beside = _PACKAGE / "__pycache__"
+    if _writable(beside):
+        return beside
+    users = Path(os.environ.get("XDG_CACHE_HOME", Path.home() / ".cache")) / "r37"
+    users.mkdir(parents=True, exist_ok=True)
+    return users
+
+
+def _writable(folder: Path) -> bool:
+    try:
+        folder.mkdir(exist_ok=True)
+    except OSError:
+        return False
+    return os.access(folder, os.W_OK)
