@@ -74,7 +74,7 @@ def rates_table():
     for direction in ("up", "down"):
         passed = table.pop(direction)
         table[f"{direction}: below yield from (rad/s2)"] = [
-            f"{rate:.3g}" if np.isfinite(rate) else f"{slowest:g} or less" for rate in passed
+            f"{float(f'{rate:.2g}'):g}" if np.isfinite(rate) else f"{slowest:g} or less" for rate in passed
         ]
     widths = table.pop("width")
     table.insert(2, "width above yield at constant speed (rad/s)", [f"{width:.0f}" for width in widths])

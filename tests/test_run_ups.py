@@ -3,6 +3,7 @@
 from dataclasses import replace
 
 import numpy as np
+import pandas as pd
 import pytest
 from defaults import Casing, IntegrationChoice, Lining, Scene
 from integration_cases import ABRADABLE, LINING, oscillator
@@ -12,6 +13,7 @@ from scipy.special import wofz
 from r37core.run_ups import schedule as schedule_module
 from r37core.run_ups.march import March
 from r37core.run_ups.schedule import RunUp, schedule
+from r37core.run_ups.tables import rate_table
 from r37core.time_integration.integrators import EXACT_MODAL
 from r37core.time_integration.simulate import Simulation
 
@@ -238,3 +240,42 @@ def _integral(slope, curvature, time):
         return np.where(left, 2.0 * np.exp(slope**2 / (4.0 * root**2)) - scaled, scaled)
 
     return np.sqrt(np.pi) / (2.0 * root) * (primitive(np.zeros(1)) - primitive(time))
+
+
+def runs_at(rates, shares, **others):
+    """Rows of run_ups.csv that differ by their rates, with stress as shares of yield."""
+    common = {"blade": "Ref", "scene": "abradable", "low_speed_rad_s": 1600.0, "high_speed_rad_s": 1800.0, "direction": "up"}
+    common |= {"lining": "new", "revolutions_before": 200, "revolutions_after": 50, "status": "completed"}
+    stress = [{"rate_rad_s2": rate, "max_von_mises_pa": 1e9 * share} for rate, share in zip(rates, shares, strict=True)]
+    return pd.DataFrame([common | others | row | {"yield_stress_pa": 1e9} for row in stress])
+
+
+@pytest.mark.parametrize(
+    ("shares", "lowest", "at_yield"),
+    [
+        ((0.9, 0.5, 0.1), 10.0, np.nan),
+        ((4.0, 2.0, 0.5), 1000.0, np.sqrt(1e5)),
+        # a slow one that stays below by chance does not count
+        ((0.5, 10.0, 0.1), 1000.0, np.sqrt(1e5)),
+        ((4.0, 2.0, 1.5), np.nan, np.nan),
+    ],
+)
+def test_rates_that_stay_below_yield(shares, lowest, at_yield):
+    row = rate_table(runs_at((10.0, 100.0, 1000.0), shares).iloc[::-1]).iloc[0]
+    assert row["rates"] == 3
+    assert row["largest_share_of_yield"] == pytest.approx(max(shares))
+    np.testing.assert_allclose([row["lowest_safe_rate_rad_s2"], row["rate_at_yield_rad_s2"]], [lowest, at_yield])
+
+
+def test_runs_that_differ_in_more_than_their_rate_are_told_apart_and_constant_speed_has_none():
+    runs = pd.concat(
+        [runs_at((10.0, 100.0), (2.0, 0.5)), runs_at((100.0,), (3.0,), revolutions_after=0), runs_at((0.0,), (3.0,))]
+    )
+    assert list(rate_table(runs)["lowest_safe_rate_rad_s2"].fillna(-1.0)) == [100.0, -1.0]
+
+
+def test_a_run_that_diverged_is_above_yield():
+    runs = runs_at((10.0, 100.0, 1000.0), (2.0, np.nan, 0.5))
+    runs.loc[1, "status"] = "diverged"
+    row = rate_table(runs).iloc[0]
+    assert row["lowest_safe_rate_rad_s2"] == row["rate_at_yield_rad_s2"] == 1000.0

@@ -1,4 +1,4 @@
-"""Run-ups: motion, stress and wear over the speed as it changes, and the largest stress against the rate."""
+"""Run-ups: motion, stress and wear while the speed changes, and the largest stress against the rate."""
 
 from __future__ import annotations
 
@@ -24,38 +24,50 @@ _LININGS = {"new": "o", "worn": "x"}
 
 
 def draw_run_ups(run_ups: xr.Dataset, title: str, *, blade: str, scene: str) -> Figure:
-    """Leading edge's rms, stress and wear of every revolution over its speed; colour is the rate, dashes are run-downs."""
-    runs = sorted(runs_of(run_ups, blade=blade, scene=scene), key=lambda run: abs(float(run["rate"])))
+    """Leading edge's rms, stress and wear of every revolution, over its speed and over the revolutions since the change began.
+
+    Colour is the rate, dashes are run-downs.
+    """
+    runs = sorted(
+        runs_of(run_ups, blade=blade, scene=scene), key=lambda run: (float(run["rate"]) < 0.0, abs(float(run["rate"])))
+    )
     # what another scene computes is in the dataset, too
     shown = {name: about for name, about in _QUANTITIES.items() if name in run_ups and runs[0][name].notnull().any()}
-    figure, panels = plt.subplots(len(shown), 1, figsize=(style.PAGE, 1.6 * len(shown) + 0.8), sharex=True)
-    rates = list(dict.fromkeys(abs(float(run["rate"])) for run in runs))
-    colours = dict(zip(rates, plt.get_cmap("viridis")(np.linspace(0.95, 0.0, len(rates))), strict=True))
+    size = (style.PAGE, 1.6 * len(shown) + 0.8)
+    figure, grid = plt.subplots(len(shown), 2, figsize=size, sharex="col", sharey="row", squeeze=False)
+    rates = sorted({abs(float(run["rate"])) for run in runs})
+    colours = dict(zip(rates, plt.get_cmap("turbo")(np.linspace(0.95, 0.05, len(rates))), strict=True))
     for run in runs:
-        rate, direction = abs(float(run["rate"])), "down" if run["stop_speed"] < run["start_speed"] else "up"
-        worn = ", worn" if run["worn"] else ""
-        for axes, (name, (_, scale)) in zip(panels, shown.items(), strict=True):
+        direction = "down" if run["stop_speed"] < run["start_speed"] else "up"
+        since = run["revolution"] - run["revolutions_before"]
+        for row, (name, (_, scale)) in zip(grid, shown.items(), strict=True):
             values = run[name].sel(tip_point="leading_edge") if "tip_point" in run[name].dims else run[name]
-            axes.plot(
-                run["speed"],
-                scale * values,
-                color=colours[rate],
-                linestyle=_DIRECTIONS[direction],
-                marker="." if run.sizes["revolution"] < _FEW_REVOLUTIONS else None,
-                markersize=3,
-                label=f"{direction}, {rate:.4g} rad/s²{worn}",
-            )
-    for axes, (name, (label, _)) in zip(panels, shown.items(), strict=True):
-        axes.set_ylabel(label)
+            for axes, along in zip(row, (run["speed"], since), strict=True):
+                axes.plot(
+                    along,
+                    scale * values,
+                    color=colours[abs(float(run["rate"]))],
+                    linestyle=_DIRECTIONS[direction],
+                    marker="." if run.sizes["revolution"] < _FEW_REVOLUTIONS else None,
+                    markersize=2,
+                    linewidth=0.9,
+                    label=str(run["run_up"].values),
+                )
+    for row, (name, (label, _)) in zip(grid, shown.items(), strict=True):
+        row[0].set_ylabel(label)
         if name != "max_wear":
-            axes.set_yscale("log")
-            axes.set_ylim(bottom=_FAINT * axes.get_ylim()[1])
+            row[0].set_yscale("log")
+            low, high = row[0].get_ylim()
+            row[0].set_ylim(max(low, _FAINT * high), high)
         if name == "max_von_mises":
-            style.yield_lines(axes, {blade: float(runs[0]["yield_stress"])})
-    panels[-1].set_xlabel("mean speed of the revolution (rad/s)")
-    style.rpm_axis(panels[0])
-    figure.suptitle(f"run-ups: {title}")
-    figure.legend(*panels[0].get_legend_handles_labels(), loc="outside lower center", ncols=4)
+            for axes in row:
+                style.yield_lines(axes, {blade: float(runs[0]["yield_stress"])})
+    grid[-1, 0].set_xlabel("mean speed of the revolution (rad/s)")
+    grid[-1, 1].set_xlabel("revolutions since the change began")
+    grid[-1, 1].set_xscale("log")
+    style.rpm_axis(grid[0, 0], most_ticks=5)
+    figure.suptitle(f"run-ups: {title}, leading edge; dashed line: yield")
+    figure.legend(*grid[0, 0].get_legend_handles_labels(), loc="outside lower center", ncols=7)
     return figure
 
 
@@ -63,25 +75,30 @@ def draw_rates(runs: pd.DataFrame, title: str, *, scene: str) -> Figure:
     """Largest stress of each run-up of a scene against its rate, run-ups beside run-downs; blades in their colours."""
     styles = style.blade_styles(dict.fromkeys(runs["blade"]))
     runs = runs[(runs["scene"] == scene) & (runs["rate_rad_s2"] > 0.0)].sort_values("rate_rad_s2")
-    figure, panels = plt.subplots(1, 2, figsize=(style.PAGE, 3.6), sharey=True)
-    if "max_von_mises_pa" in runs:
-        for axes, direction in zip(panels, _DIRECTIONS, strict=True):
-            for (blade, lining, _, _), group in runs[runs["direction"] == direction].groupby(_CURVE, sort=False):
-                label = f"{blade}, worn" if lining == "worn" else str(blade)
-                stress, look = 1e-9 * group["max_von_mises_pa"], {"marker": _LININGS[str(lining)], "markersize": 3}
-                axes.plot(group["rate_rad_s2"], stress, label=label, **styles[str(blade)] | look)
-            style.yield_lines(axes, runs.groupby("blade")["yield_stress_pa"].first().to_dict())
-            axes.set_xscale("log")
-            axes.set_yscale("log")
-    for axes, direction in zip(panels, _DIRECTIONS, strict=True):
-        axes.set_title(f"run-{direction}s")
+    directions = [name for name in _DIRECTIONS if name in set(runs["direction"])] or ["up"]
+    figure, panels = plt.subplots(1, len(directions), figsize=(style.PAGE, 3.6), sharey=True, squeeze=False)
+    several = runs.groupby("blade")[_RANGE].nunique().max().max() > 1 if len(runs) else False
+    for axes, direction in zip(panels[0], directions, strict=True):
+        axes.set_title(f"run-{direction}s; dashed line: yield")
         axes.set_xlabel("rate (rad/s²)")
-    panels[0].set_ylabel("largest von Mises (GPa)")
+        if "max_von_mises_pa" not in runs:
+            continue
+        for (blade, lining, low, high, *_), group in runs[runs["direction"] == direction].groupby(_CURVE, sort=False):
+            label = ", ".join(
+                [str(blade), *(["worn"] if lining == "worn" else []), *([f"{low:.0f} to {high:.0f}"] if several else [])]
+            )
+            stress, look = 1e-9 * group["max_von_mises_pa"], {"marker": _LININGS[str(lining)], "markersize": 3}
+            axes.plot(group["rate_rad_s2"], stress, label=label, **styles[str(blade)] | look)
+        style.yield_lines(axes, runs.groupby("blade")["yield_stress_pa"].first().to_dict())
+        axes.set_xscale("log")
+        axes.set_yscale("log")
+    panels[0, 0].set_ylabel("largest von Mises (GPa)")
     figure.suptitle(f"largest stress against rate: {title}")
-    entries = {label: line for axes in panels for line, label in zip(*axes.get_legend_handles_labels(), strict=True)}
+    entries = {label: line for axes in panels[0] for line, label in zip(*axes.get_legend_handles_labels(), strict=True)}
     if entries:
         figure.legend(entries.values(), entries.keys(), loc="outside lower center", ncols=7)
     return figure
 
 
-_CURVE = ["blade", "lining", "low_speed_rad_s", "high_speed_rad_s"]
+_RANGE = ["low_speed_rad_s", "high_speed_rad_s"]
+_CURVE = ["blade", "lining", *_RANGE, "revolutions_before", "revolutions_after"]

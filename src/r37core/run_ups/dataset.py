@@ -23,6 +23,7 @@ VARIABLES = {
     "stop_speed": ((), "f8", "rad s-1", "speed after the change"),
     "rate": ((), "f8", "rad s-2", "rate of the change, negative where the speed falls"),
     "revolutions_before": ((), "i4", "1", "revolutions at the start speed, in which the casing becomes lobed"),
+    "revolutions_after": ((), "i4", "1", "revolutions at the stop speed, beyond the one in which the change ends"),
     "worn": ((), "i1", "1", "1: the lining is worn by the same run-up, done once before"),
     "status": ((), "i1", "1", "how the run ended"),
     "diverged_revolution": ((), "f8", "1", "revolution at which the run diverged"),
@@ -44,7 +45,12 @@ VARIABLES = {
     "amplitude": (_ORDER, "f4", "m", "amplitude of the leading edge's normal displacement in the revolution"),
     "amplitude_tangential": (_ORDER, "f4", "m", "amplitude of the leading edge's tangential displacement in the revolution"),
     "max_von_mises": (_TURN, "f8", "Pa", "largest von Mises stress on the submesh in the revolution"),
-    "max_wear": (_TURN, "f8", "m", "largest wear of the lining so far"),
+    "max_wear": (
+        _TURN,
+        "f8",
+        "m",
+        "largest wear of the lining by the end of the stretch of equal steps, up to 7 revolutions on",
+    ),
 }
 """Variable -> dimensions beyond the run, type, units, meaning."""
 

@@ -55,6 +55,7 @@ def record_run_up(
         "stop_speed": np.array(run_up.stop),
         "rate": np.array(run_up.rate),
         "revolutions_before": np.array(run_up.before),
+        "revolutions_after": np.array(run_up.after),
         "worn": np.array(int(run_up.worn)),
         "diverged_revolution": np.array(samples / choice.samples_per_revolution if diverged else np.nan),
         "largest_normal_force": np.array(totals["largest_force"]),

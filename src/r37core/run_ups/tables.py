@@ -14,13 +14,15 @@ from r37core.time_integration.status import RunStatus
 from .dataset import runs_of
 
 _CASE = ["blade", "scene", "low_speed_rad_s", "high_speed_rad_s", "direction", "lining"]
+_CASE += ["revolutions_before", "revolutions_after"]
 """What run-ups have in common that differ by their rates alone."""
 
 
 def run_up_table(dataset: xr.Dataset) -> pd.DataFrame:
     """One row for each run-up, of its revolutions after those at the first speed; NaN where there is no such number.
 
-    The `peak` is where the leading edge's normal and tangential rms are together largest.
+    The `peak` is where the leading edge's normal and tangential rms are together largest; `last` is the last revolution.
+    `casing_hits`: how often a node came upon the bare casing, in the revolutions before, too.
     """
     return pd.DataFrame([_row(run) for run in runs_of(dataset)])
 
@@ -37,6 +39,8 @@ def _row(run: xr.Dataset) -> dict[str, Any]:
         "direction": "down" if stop < start else "up",
         "rate_rad_s2": abs(float(run["rate"])),
         "lining": "worn" if run["worn"] else "new",
+        "revolutions_before": int(run["revolutions_before"]),
+        "revolutions_after": int(run["revolutions_after"]),
         "status": RunStatus(int(run["status"])).text,
     }
     level = np.hypot(edge["rms_normal"].values, edge["rms_tangential"].values)
@@ -46,6 +50,7 @@ def _row(run: xr.Dataset) -> dict[str, Any]:
             "peak_speed_rad_s": float(speed[peak]),
             "peak_rms_normal_m": float(edge["rms_normal"][peak]),
             "peak_rms_tangential_m": float(edge["rms_tangential"][peak]),
+            "casing_hits": int(run["casing_hits"]),
         }
     if "max_von_mises" in run and len(speed):
         stress, limit = run["max_von_mises"].values, float(run["yield_stress"])
@@ -55,6 +60,7 @@ def _row(run: xr.Dataset) -> dict[str, Any]:
             "max_von_mises_speed_rad_s": float(speed[place]),
             "first_yield_speed_rad_s": float(speed[int(first) - 1]) if np.isfinite(first) else np.nan,
             "revolutions_above_yield": int(np.count_nonzero(stress > limit)),
+            "last_von_mises_pa": float(stress[-1]),
             "yield_stress_pa": limit,
         }
     if "max_wear" in run and len(speed):
@@ -67,10 +73,11 @@ def rate_table(runs: pd.DataFrame) -> pd.DataFrame:
 
     `lowest_safe_rate_rad_s2`: the slowest of the rates from which on all faster ones stay below, NaN where the fastest does
     not. `rate_at_yield_rad_s2`: between it and the next slower one, where a straight line of the logarithms passes yield; NaN
-    where all stay below. A run that diverged is above.
+    where all stay below. A run that diverged is above. Runs at constant speed have no rate.
     """
     if "max_von_mises_pa" not in runs:
         return pd.DataFrame(columns=[*_CASE, *_RATES])
+    runs = runs[runs["rate_rad_s2"] > 0.0]
     return pd.DataFrame(
         [dict(zip(_CASE, case, strict=True)) | safe_rates(group) for case, group in runs.groupby(_CASE, sort=False)],
         columns=[*_CASE, *_RATES],
