@@ -90,7 +90,7 @@ _RATES = [
     "fastest_rate_rad_s2",
     "lowest_safe_rate_rad_s2",
     "rate_at_yield_rad_s2",
-    "worst_ratio",
+    "largest_share_of_yield",
 ]
 
 
