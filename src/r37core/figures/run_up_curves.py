@@ -74,7 +74,7 @@ def draw_run_ups(run_ups: xr.Dataset, title: str, *, blade: str, scene: str) -> 
 def draw_rates(runs: pd.DataFrame, title: str, *, scene: str) -> Figure:
     """Largest stress of each run-up of a scene against its rate, run-ups beside run-downs; blades in their colours."""
     styles = style.blade_styles(dict.fromkeys(runs["blade"]))
-    runs = runs[(runs["scene"] == scene) & (runs["rate_rad_s2"] > 0.0)].sort_values("rate_rad_s2")
+    runs = runs[(runs["scene"] == scene) & (runs["rate_rad_s2"] > 0.0)].sort_values("rate_rad_s2", kind="stable")
     directions = [name for name in _DIRECTIONS if name in set(runs["direction"])] or ["up"]
     figure, panels = plt.subplots(1, len(directions), figsize=(style.PAGE, 3.6), sharey=True, squeeze=False)
     several = runs.groupby("blade")[_RANGE].nunique().max().max() > 1 if len(runs) else False

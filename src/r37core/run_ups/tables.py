@@ -96,9 +96,10 @@ _RATES = [
 
 def safe_rates(group: pd.DataFrame) -> dict[str, float]:
     """The numbers of a row of `rate_table`, of run-ups that differ by their rates alone."""
-    group = group.sort_values("rate_rad_s2")
-    rates = group["rate_rad_s2"].to_numpy()
-    ratios = (group["max_von_mises_pa"] / group["yield_stress_pa"]).where(group["status"] == "completed", np.inf).to_numpy()
+    ratio = (group["max_von_mises_pa"] / group["yield_stress_pa"]).where(group["status"] == "completed", np.inf)
+    # of several with one rate the worst counts
+    ordered = group.assign(ratio=ratio).sort_values(["rate_rad_s2", "ratio"])
+    rates, ratios = ordered["rate_rad_s2"].to_numpy(), ordered["ratio"].to_numpy()
     above = np.flatnonzero(~(ratios <= 1.0))
     first = int(above[-1]) + 1 if len(above) else 0
     at_yield = np.nan
