@@ -14,10 +14,12 @@ from r37core.plain import from_plain
 from r37core.plans.import_plan import Imported
 from r37core.plans.paths import filled
 from r37core.plans.provenance import Provenance
+from r37core.plans.run_up_plan import RunUps
 from r37core.plans.signal_plan import Signals
 from r37core.plans.structure_plan import Structure
 from r37core.plans.sweep_plan import Sweep
 from r37core.plans.targets import targets
+from r37core.run_ups.choice import RunUpChoice
 from r37core.speeds import SpeedPlan
 from r37core.studies.estimate import cases as estimate
 from r37core.studies.modelling_choices import cases as modelling_choices
@@ -286,3 +288,37 @@ def test_targets_are_what_the_configuration_asks_for(config_copy):
     assert not [file for file in without if "wear" in file or "design" in file or "signals" in file or "L50" in file]
     figures = {f"figures/{kind}_Ref__direct.{suffix}" for kind in ("orders", "spectrogram") for suffix in ("png", "pdf")}
     assert asked(signals={"speeds_rad_s": [900]}) - without == {"signals.nc", "Ref/direct/signals.nc", *figures}
+
+
+def test_run_ups_are_planned_like_speeds(root):
+    """Of chosen blades, families among them, and scenes; from the Campbell diagram where they are about a crossing of it."""
+    crossing = {"mode": "1B", "engine_order": 4, "first": -0.02, "last": 0.08}
+    changes = {
+        "blades": ["Ref", "L50"],
+        "scenes": ["abradable", "direct"],
+        "run_ups": {
+            "climb": {"from_rpm": 9000, "to_rpm": 12000, "rate_rpm_s": 300, "blades": ["L50"]},
+            "down": {"crossing": crossing, "revolutions": 40, "scenes": ["direct"], "revolutions_before": 30},
+        },
+    }
+    settings = read_settings(root, command_line_document(changes))
+    planned = RunUps(Sweep(settings))
+    assert planned.runs == [
+        ("Ref", "direct", "down"),
+        ("L50", "abradable", "climb"),
+        ("L50", "direct", "climb"),
+        ("L50", "direct", "down"),
+    ]
+    climb = of(blade="L50", scene="abradable", run_up="climb")
+    down = of(blade="Ref", scene="direct", run_up="down")
+    assert set(planned.inputs(climb)) == {"prepared", "model", "rom"}
+    assert planned.inputs(down)["campbell"] == "<results>/Ref/campbell.nc"
+    found = from_plain(RunUpChoice, planned.run_up(climb)).of_blade(496, None)
+    assert (found.start, found.stop) == pytest.approx((300.0 * math.pi, 400.0 * math.pi))
+    assert found.rate == pytest.approx(10.0 * math.pi)
+    assert found.before == planned.choice(climb)["revolutions"] == 200
+    # stress in every revolution, the first ones too
+    assert planned.choice(down)["revolutions"] == planned.choice(down)["snapshot_revolutions"] == 30
+    wanted = targets(Sweep(settings), Signals(Imported(settings, root), Sweep(settings)))
+    assert {"<results>/run_ups.nc", "<results>/figures/run_ups_Ref__direct.png"} <= set(filled(wanted))
+    assert "<results>/figures/run_ups_Ref__abradable.png" not in filled(wanted)
