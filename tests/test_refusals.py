@@ -118,7 +118,7 @@ CONFIG_REFUSALS = [
     (
         "speeds_for: []",
         "run_ups: { a: { from_rad_s: 900, to_rad_s: 1900, revolutions: 0.1 } }",
-        r"run_ups\.a\.revolutions: found a change from 900 to 1900 rad/s within 0\.1 revolutions; allowed: 0\.224 to 1",
+        r"run_ups\.a\.revolutions: found a change from 900 to 1900 rad/s within 0\.1 revolutions; allowed: 0\.347 to 1",
     ),
     (
         "speeds_for: []",
@@ -139,6 +139,16 @@ CONFIG_REFUSALS = [
         "speeds_for: []",
         "run_ups: { a: { crossing: { mode: 1B, engine_order: 4, first: 0, last: 0.1 }, from_rad_s: 900, revolutions: 5 } }",
         r"run_ups\.a\.crossing: found from_rad_s and crossing; allowed: one of from_rad_s, from_rpm, crossing",
+    ),
+    (
+        "speeds_for: []",
+        "run_ups: { a: { from_rad_s: 1900, to_rad_s: 2100, revolutions: 5 } }",
+        r"run_ups\.a\.revolutions: found 2100 rad/s; allowed: up to structure\.maximum_speed_rad_s, 2000",
+    ),
+    (
+        "speeds_for: []",
+        "run_ups: { a: { crossing: { mode: 1B, engine_order: 4, first: -0.5, last: 1 }, revolutions: 0.1 } }",
+        r"run_ups\.a\.revolutions: found a change from 1000 to 4000 rad/s within 0\.1 revolutions; allowed: 1\.5",
     ),
     (
         "speeds_for: []",

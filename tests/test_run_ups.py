@@ -2,20 +2,30 @@
 
 from dataclasses import replace
 
+import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
 import pytest
+import xarray as xr
 from defaults import Casing, IntegrationChoice, Lining, Scene
 from integration_cases import ABRADABLE, LINING, oscillator
 from scipy.integrate import solve_ivp
 from scipy.special import wofz
 
+from r37core.figures.run_up_curves import draw_rates, draw_run_ups
+from r37core.io import InputFileError
+from r37core.rom.contact_model import BucklingError
 from r37core.run_ups import schedule as schedule_module
-from r37core.run_ups.march import March
+from r37core.run_ups.choice import Crossing, RunUpChoice, RunUpError
+from r37core.run_ups.dataset import write_run_ups
+from r37core.run_ups.march import March, told_problem
+from r37core.run_ups.revolutions import record_run_up
 from r37core.run_ups.schedule import RunUp, schedule
-from r37core.run_ups.tables import rate_table
+from r37core.run_ups.tables import rate_table, run_up_table
 from r37core.time_integration.integrators import EXACT_MODAL
 from r37core.time_integration.simulate import Simulation
+from r37core.time_integration.speed_file import write_speed
+from r37core.time_integration.step_limit import UnstableStepError
 
 LONG = IntegrationChoice(3.2e-6, 4, 62, integrator=EXACT_MODAL, energy=True)
 NARROW = replace(ABRADABLE, lining=replace(LINING, bar_width=1e-3))
@@ -240,6 +250,123 @@ def _integral(slope, curvature, time):
         return np.where(left, 2.0 * np.exp(slope**2 / (4.0 * root**2)) - scaled, scaled)
 
     return np.sqrt(np.pi) / (2.0 * root) * (primitive(np.zeros(1)) - primitive(time))
+
+
+def recorded(model, scene, choice, run_up, results=("spectrum", "wear", "energy")):
+    return record_run_up(model, scene, choice, run_up, results, highest_order=8, recovery=None)
+
+
+def test_modes_that_pass_the_highest_frequency_come_and_go(contact):
+    """The first mode stiffens beyond it on the way."""
+    first = contact.modes_at(1650.0)[0][1] / 2.0 / np.pi
+    choice = replace(LONG, highest_frequency=first)
+    found = recorded(contact, NARROW, choice, RunUp(1500.0, 1800.0, 3.0, 1, 0, worn=False))
+    assert found["status"] == 0
+    assert abs(found["energy_residual"]) < 1e-10 * (abs(found["contact_work"]) + found["damping_loss"])
+
+
+def test_a_run_that_diverges_keeps_what_was_before_also_when_it_wears_the_lining(contact):
+    run_up = RunUp(1500.0, 1800.0, 3.0, 2, 0, worn=False)
+    whole = recorded(contact, NARROW, LONG, run_up)
+    limit = float(whole["maximum"][1:].max()) * 0.999
+    scene = replace(NARROW, divergence_limit=limit)
+    assert np.all(whole["maximum"][0] < limit)
+    for worn in (False, True):
+        found = recorded(contact, scene, LONG, replace(run_up, worn=worn))
+        assert found["status"] == 1
+        kept = len(found["speed"])
+        assert 1 <= kept == int(found["diverged_revolution"] - 1e-9) < len(whole["speed"])
+        for name in ("speed", "rms", "amplitude"):
+            np.testing.assert_array_equal(found[name], whole[name][:kept])
+
+
+def test_a_lining_worn_by_the_same_run_up(contact):
+    """Where the first pass has worn it, the second one finds room."""
+    new, worn = (recorded(contact, NARROW, LONG, RunUp(1500.0, 1800.0, 3.0, 2, 0, worn=worn)) for worn in (False, True))
+    assert worn["max_wear"][0] >= new["max_wear"][-1] > new["max_wear"][0] > 0.0
+    assert worn["rms"].max() < 0.9 * new["rms"].max()
+
+
+def test_steps_are_so_short_that_every_mode_tells_its_velocity(contact):
+    choice = replace(LONG, time_step=1.6e-6, shorten=True)
+    scene = replace(ABRADABLE, lining=None)
+    problem = told_problem(contact, 1600.0, scene, choice)
+    assert 2.5 < problem.frequencies[-1] * problem.time_step < 3.0
+    with pytest.raises(UnstableStepError, match=r"time_step_s: 1\.6e-06 s; allowed in run-ups: below 1\.04\d+e-06 s"):
+        told_problem(contact, 1600.0, scene, replace(choice, shorten=False))
+
+
+def test_a_blade_that_buckles_on_the_way_is_refused_at_once(contact):
+    soft = replace(contact, stiffness_per_square=-contact.stiffness_per_square)
+    with pytest.raises(BucklingError, match=r"no stable position at 6000 rad/s.*run_ups"):
+        March(soft, NARROW, LONG, RunUp(1500.0, 6000.0, 200.0, 4, 0, worn=False))
+
+
+def test_a_slow_change_has_few_stretches_in_memory_at_once():
+    segments = schedule(RunUp(1600.0, 1600.001, 100_000.0, 1, 0, worn=False), 62, 1e-7)
+    assert max(len(one.stretches) for one in segments) <= 500
+
+
+@pytest.mark.parametrize(
+    ("start", "stop", "revolutions", "message"),
+    [
+        (100.0, 2000.0, 30.0, r"found a change from 100 to 2000 rad/s within 30 revolutions; allowed: 40 to 100000"),
+        (0.5, 1e6, 90000.0, r"found speeds from 0\.5 to 1e\+06 rad/s; allowed: nearer ones"),
+    ],
+)
+def test_a_sample_changes_the_speed_by_one_percent_at_most(start, stop, revolutions, message):
+    choice = RunUpChoice(start, stop, None, None, revolutions, 1, 0, worn=False)
+    with pytest.raises(RunUpError, match=message):
+        choice.run_up(496)
+    shortest = replace(choice, stop=2.0 * start, revolutions=3.0 / (1.01**2 - 1.0) / 496).run_up(496)
+    samples = shortest.samples(496)
+    speeds = np.sqrt(start**2 * (1.0 + 3.0 * np.arange(samples + 1) / samples))
+    assert 0.0095 < np.max(np.diff(speeds) / speeds[:-1]) < 0.0101
+
+
+def test_crossings_that_a_blade_does_not_have():
+    speeds = {"speed": np.array([0.0, 2000.0]), "mode": ["1B"], "engine_order": [3, 4]}
+    campbell = xr.Dataset({"crossing_speed": (("mode", "engine_order"), [[np.nan, 1900.0]])}, speeds)
+    choice = RunUpChoice(-0.02, 0.08, Crossing("1B", 3), 100.0, None, 200, 0, worn=False)
+    with pytest.raises(RunUpError, match="1B and engine order 3, which do not cross up to 2000 rad/s"):
+        choice.of_blade(496, campbell)
+    with pytest.raises(RunUpError, match=r"found 2052 rad/s; allowed: up to structure\.maximum_speed_rad_s, 2000"):
+        replace(choice, crossing=Crossing("1B", 4)).of_blade(496, campbell)
+    assert replace(choice, stop=0.05, crossing=Crossing("1B", 4)).of_blade(496, campbell).stop == pytest.approx(1995.0)
+
+
+def test_files_that_are_no_run_ups_are_named(contact, tmp_path):
+    found = recorded(contact, NARROW, LONG, RunUp(1500.0, 1600.0, 1.0, 1, 0, worn=False)) | {"yield_stress": np.array(1e9)}
+    write_speed(found, tmp_path / "good.npz", {})
+    write_speed(found | {"rms": found["rms"][:1]}, tmp_path / "short.npz", {})
+    write_speed({"status": found["status"]}, tmp_path / "other.npz", {})
+    for name in ("short", "other"):
+        with pytest.raises(InputFileError, match=rf"{name}\.npz: cannot be read .* delete it and run again"):
+            write_run_ups({("Ref", "abradable", "up"): tmp_path / f"{name}.npz"}, tmp_path / "run_ups.nc", {})
+    write_run_ups({("Ref", "abradable", "up"): tmp_path / "good.npz"}, tmp_path / "run_ups.nc", {})
+    with xr.open_dataset(tmp_path / "run_ups.nc") as dataset:
+        assert list(dataset.data_vars)[:3] == ["start_speed", "stop_speed", "rate"]
+        assert dataset["amplitude"].dims == ("run", "revolution", "engine_order")
+        np.testing.assert_array_equal(dataset["speed"][0], found["speed"])
+        # without stress there is nothing to say of it
+        table = run_up_table(dataset.load())
+        assert "max_von_mises_pa" not in table
+        assert len(rate_table(table)) == 0
+        for figure in (draw_run_ups(dataset, "", blade="Ref", scene="abradable"), draw_rates(table, "", scene="abradable")):
+            plt.close(figure)
+
+
+def test_figures_of_runs_that_diverged_at_once(contact, tmp_path):
+    scene = replace(NARROW, divergence_limit=1e-12)
+    found = recorded(contact, scene, LONG, RunUp(1500.0, 1600.0, 1.0, 1, 0, worn=False))
+    write_speed(found | {"yield_stress": np.array(1e9), "max_von_mises": np.empty(0)}, tmp_path / "a.npz", {})
+    write_run_ups({("Ref", "abradable", "up"): tmp_path / "a.npz"}, tmp_path / "run_ups.nc", {})
+    with xr.open_dataset(tmp_path / "run_ups.nc") as dataset:
+        table = run_up_table(dataset.load())
+        assert list(table["status"]) == ["diverged"]
+        assert np.isnan(rate_table(table)["lowest_safe_rate_rad_s2"].item())
+        for figure in (draw_run_ups(dataset, "", blade="Ref", scene="abradable"), draw_rates(table, "", scene="abradable")):
+            plt.close(figure)
 
 
 def runs_at(rates, shares, **others):

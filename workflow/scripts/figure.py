@@ -12,7 +12,8 @@ from r37core.figures.style import save
 def read(file, wildcards):
     """A table, or the part of a dataset that is of the figure's blade and scene."""
     if file.endswith(".csv"):
-        return pd.read_csv(file)
+        # a blade may be called NA
+        return pd.read_csv(file, keep_default_na=False, na_values=[""])
     dataset = read_dataset(file)
     return dataset.sel({name: wildcards[name] for name in ("blade", "scene") if name in wildcards and name in dataset.dims})
 

@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterable
 from r37core.alignment import padded
 from r37core.blade.definition import BladeDefinition
 from r37core.exchange.importing.source import MatricesSource
-from r37core.run_ups.choice import RunUpError
+from r37core.run_ups.choice import RunUpError, check_highest
 from r37core.time_integration.integration_choice import LARGEST_TABLE
 from r37core.yaml_file import KeyPath
 
@@ -202,19 +202,22 @@ def run_ups_can_be_done(settings: Settings) -> None:
         _known(settings, (*path, "blades"), [] if entry.blades == "all" else entry.blades, names, documents.blades)
         scenes = settings.scene_entries if entry.scenes == "all" else entry.scenes
         _known(settings, (*path, "scenes"), scenes, settings.scene_entries, documents.scenes)
-        if entry.crossing is None:
-            try:
-                entry.choice(1).run_up(per_revolution)
-            except RunUpError as error:
-                raise documents.config.error((*path, entry.key_of_length), str(error)) from None
-        elif entry.crossing.engine_order > settings.campbell.highest_engine_order:
+        choice, highest = entry.choice(1), settings.structure.maximum_speed_rad_s
+        try:
+            # of a crossing what holds wherever it lies: the higher, the more revolutions
+            choice.run_up(per_revolution, highest if entry.crossing else None)
+            if entry.crossing is None:
+                check_highest(max(choice.start, choice.stop), highest)
+        except RunUpError as error:
+            raise documents.config.error((*path, entry.key_of_length), str(error)) from None
+        if entry.crossing and entry.crossing.engine_order > settings.campbell.highest_engine_order:
             raise documents.config.refusal(
                 (*path, "crossing", "engine_order"),
                 f"{entry.crossing.engine_order}",
                 f"at most campbell.highest_engine_order ({settings.campbell.highest_engine_order})",
             )
-        for scene in set(scenes) & set(settings.scenes):
-            if entry.lining == "worn" and settings.scenes[scene].scene.lining is None:
+        for scene in scenes if entry.scenes != "all" else settings.scenes:
+            if entry.lining == "worn" and settings.scene_entries[scene].lining is None:
                 raise documents.config.refusal(
                     (*path, "lining"), f"worn in the scene '{scene}', which has no lining", "new, or scenes with a lining"
                 )

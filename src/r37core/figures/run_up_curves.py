@@ -31,8 +31,9 @@ def draw_run_ups(run_ups: xr.Dataset, title: str, *, blade: str, scene: str) -> 
     runs = sorted(
         runs_of(run_ups, blade=blade, scene=scene), key=lambda run: (float(run["rate"]) < 0.0, abs(float(run["rate"])))
     )
-    # what another scene computes is in the dataset, too
-    shown = {name: about for name, about in _QUANTITIES.items() if name in run_ups and runs[0][name].notnull().any()}
+    # what another scene computes is in the dataset, too; runs that diverged at once have nothing
+    there = [name for name in _QUANTITIES if name in run_ups and any(run[name].notnull().any() for run in runs)]
+    shown = {name: _QUANTITIES[name] for name in there or ["rms_normal"]}
     size = (style.PAGE, 1.6 * len(shown) + 0.8)
     figure, grid = plt.subplots(len(shown), 2, figsize=size, sharex="col", sharey="row", squeeze=False)
     rates = sorted({abs(float(run["rate"])) for run in runs})
@@ -55,7 +56,7 @@ def draw_run_ups(run_ups: xr.Dataset, title: str, *, blade: str, scene: str) -> 
                 )
     for row, (name, (label, _)) in zip(grid, shown.items(), strict=True):
         row[0].set_ylabel(label)
-        if name != "max_wear":
+        if there and name != "max_wear":
             row[0].set_yscale("log")
             low, high = row[0].get_ylim()
             row[0].set_ylim(max(low, _FAINT * high), high)
@@ -64,7 +65,8 @@ def draw_run_ups(run_ups: xr.Dataset, title: str, *, blade: str, scene: str) -> 
                 style.yield_lines(axes, {blade: float(runs[0]["yield_stress"])})
     grid[-1, 0].set_xlabel("mean speed of the revolution (rad/s)")
     grid[-1, 1].set_xlabel("revolutions since the change began")
-    grid[-1, 1].set_xscale("log")
+    if there:
+        grid[-1, 1].set_xscale("log")
     style.rpm_axis(grid[0, 0], most_ticks=5)
     figure.suptitle(f"run-ups: {title}, leading edge; dashed line: yield")
     figure.legend(*grid[0, 0].get_legend_handles_labels(), loc="outside lower center", ncols=7)
@@ -81,12 +83,13 @@ def draw_rates(runs: pd.DataFrame, title: str, *, scene: str) -> Figure:
     for axes, direction in zip(panels[0], directions, strict=True):
         axes.set_title(f"run-{direction}s; dashed line: yield")
         axes.set_xlabel("rate (rad/s²)")
-        if "max_von_mises_pa" not in runs:
+        if "max_von_mises_pa" not in runs or runs["max_von_mises_pa"].isna().all():
             continue
         for (blade, lining, low, high, *_), group in runs[runs["direction"] == direction].groupby(_CURVE, sort=False):
             label = ", ".join(
                 [str(blade), *(["worn"] if lining == "worn" else []), *([f"{low:.0f} to {high:.0f}"] if several else [])]
             )
+            group = group.dropna(subset="max_von_mises_pa")
             stress, look = 1e-9 * group["max_von_mises_pa"], {"marker": _LININGS[str(lining)], "markersize": 3}
             axes.plot(group["rate_rad_s2"], stress, label=label, **styles[str(blade)] | look)
         style.yield_lines(axes, runs.groupby("blade")["yield_stress_pa"].first().to_dict())

@@ -9,8 +9,14 @@ from pathlib import Path
 import r37core
 from r37core.config import ConfigError, Settings
 
+from .run_up_plan import RunUps
+from .sweep_plan import Sweep
+
 CONFIGURATION = "configuration.json"
 """In the folder of the results."""
+
+RUN_UPS = "run_ups"
+"""The rule that makes the run-ups and nothing else."""
 
 RESPONSES = "responses"
 """The rule that makes what lies in the folders of the blades, and nothing of all blades together."""
@@ -24,6 +30,16 @@ def check_part(settings: Settings, targets: Collection[str]) -> None:
             f"run.part: found {part} with the target {', '.join(sorted(targets)) or 'all_blades'}; "
             f"allowed: the target {RESPONSES}, as in: "
             f"snakemake {RESPONSES} --config run='{{part: {part}}}'; then all_blades without a part"
+        )
+
+
+def check_run_ups(settings: Settings, targets: Collection[str]) -> None:
+    """ConfigError for the target of the run-ups where none are asked for."""
+    if RUN_UPS in targets and not RunUps(Sweep(settings)).files:
+        raise ConfigError(
+            f"run_ups: found the target {RUN_UPS} and no run-up of the blades and scenes that are run; "
+            "allowed: some under run_ups in config.yaml, or a file that has some, as in: "
+            f"snakemake {RUN_UPS} --cores 2 --configfile config/config.yaml config/run_ups.yaml"
         )
 
 

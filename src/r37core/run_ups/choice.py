@@ -58,7 +58,14 @@ class RunUpChoice:
             start, stop = crossing_speed * (1.0 + start), crossing_speed * (1.0 + stop)
         low, high = sorted((start, stop))
         squares = high**2 - low**2
-        fewest = max((high / low - 1.0) / LARGEST_CHANGE_PER_SAMPLE / samples_per_revolution, SHORTEST)
+        # the squared speed is linear in the angle, so the first sample above the lower speed changes it most
+        samples = max(((high / low) ** 2 - 1.0) / ((1.0 + LARGEST_CHANGE_PER_SAMPLE) ** 2 - 1.0), 1.0)
+        fewest = max(samples / samples_per_revolution, SHORTEST)
+        if fewest > LONGEST:
+            raise RunUpError(
+                f"found speeds from {low:g} to {high:g} rad/s; allowed: nearer ones, for the speed may change by "
+                f"{100 * LARGEST_CHANGE_PER_SAMPLE:g}% in a sample, and a change take {LONGEST} revolutions"
+            )
         revolutions = self.revolutions
         if revolutions is None:
             assert self.rate is not None
@@ -72,16 +79,26 @@ class RunUpChoice:
         return RunUp(start, stop, revolutions, self.before, self.after, self.worn)
 
     def of_blade(self, samples_per_revolution: int, campbell: xr.Dataset | None) -> RunUp:
-        """The run-up of a blade with this Campbell diagram, which one about a crossing needs; RunUpError without one."""
+        """The run-up of a blade with this Campbell diagram, which one about a crossing needs.
+
+        Raises RunUpError where there is no crossing, and for speeds beyond the diagram's.
+        """
         if self.crossing is None:
             return self.run_up(samples_per_revolution)
         assert campbell is not None
         mode, order = self.crossing.mode, self.crossing.engine_order
-        speed = float(campbell["crossing_speed"].sel(mode=mode, engine_order=order))
+        speed, highest = float(campbell["crossing_speed"].sel(mode=mode, engine_order=order)), float(campbell["speed"].max())
         if not np.isfinite(speed):
-            highest = float(campbell["speed"].max())
             raise RunUpError(
                 f"found a run-up about {mode} and engine order {order}, which do not cross up to {highest:g} rad/s; "
-                "allowed: crossings of the Campbell diagram (run_ups in config.yaml; its blades leave out some)"
+                "allowed: crossings of the Campbell diagram (`blades` of a run-up says which it is for)"
             )
-        return self.run_up(samples_per_revolution, speed)
+        run_up = self.run_up(samples_per_revolution, speed)
+        check_highest(max(run_up.start, run_up.stop), highest)
+        return run_up
+
+
+def check_highest(speed: float, highest: float) -> None:
+    """RunUpError for a speed (rad/s) beyond the `highest` that the reduced model is made for."""
+    if speed > highest:
+        raise RunUpError(f"found {speed:g} rad/s; allowed: up to structure.maximum_speed_rad_s, {highest:g}")

@@ -10,7 +10,7 @@ import numpy as np
 import xarray as xr
 
 from r37core.dataset_file import about
-from r37core.io import FILE_ATTRIBUTES, atomic_write
+from r37core.io import FILE_ATTRIBUTES, atomic_write, readable
 from r37core.results.netcdf import create_axis, create_labels, create_variable
 from r37core.time_integration.simulate import DIRECTIONS, TIP_POINTS
 from r37core.time_integration.speed_file import read_speed
@@ -77,7 +77,7 @@ def write_run_ups(files: Mapping[tuple[str, str, str], Path | str], file: Path |
             create_axis(target, "engine_order", np.arange(orders), about("1", "engine order"))
         for name in LABELS:
             target.createVariable(name, str, ("run",))
-        for name in VARIABLES.keys() & names:
+        for name in (one for one in VARIABLES if one in names):
             dims, dtype, units, meaning = VARIABLES[name]
             create_variable(target, name, dtype, ("run", *dims), about(units, meaning) | {"coordinates": " ".join(LABELS)})
         flags = {"flag_values": np.array(list(RunStatus), dtype="i1"), "flag_meanings": " ".join(one.text for one in RunStatus)}
@@ -85,7 +85,7 @@ def write_run_ups(files: Mapping[tuple[str, str, str], Path | str], file: Path |
         for row, (run, values) in enumerate(_runs(files)):
             for name, label in zip(LABELS, run, strict=True):
                 target[name][row] = label
-            for name in VARIABLES.keys() & values.keys():
+            for name in (one for one in VARIABLES if one in values):
                 value = values[name]
                 target[name][(row, *(slice(length) for length in value.shape))] = value
 
@@ -93,11 +93,14 @@ def write_run_ups(files: Mapping[tuple[str, str, str], Path | str], file: Path |
 def _runs(files: Mapping[tuple[str, str, str], Path | str]) -> Iterator[tuple[tuple[str, str, str], dict[str, np.ndarray]]]:
     for run, file in files.items():
         values = read_speed(file)
-        for kind in ("rms", "maximum"):
-            values |= {f"{kind}_{name}": values[kind][:, :, place] for place, name in enumerate(DIRECTIONS)}
-        if "amplitude" in values:
-            values["amplitude_tangential"] = values["amplitude"][:, 1]
-            values["amplitude"] = values["amplitude"][:, 0]
+        with readable(file):
+            revolutions = len(values["speed"])
+            for kind in ("rms", "maximum"):
+                if values[kind].shape != (revolutions, len(TIP_POINTS), len(DIRECTIONS)):
+                    raise ValueError(f"{kind} is not of {revolutions} revolutions")
+                values |= {f"{kind}_{name}": values[kind][:, :, place] for place, name in enumerate(DIRECTIONS)}
+            if "amplitude" in values:
+                values["amplitude"], values["amplitude_tangential"] = values["amplitude"].swapaxes(0, 1)
         yield run, values
 
 

@@ -15,8 +15,10 @@ import numpy as np
 from r37core.contact.scene import Scene
 from r37core.rom.contact_model import ContactModel
 from r37core.time_integration.integration_choice import IntegrationChoice
-from r37core.time_integration.problem import stable_problem
+from r37core.time_integration.integrators import CENTRAL_DIFFERENCE
+from r37core.time_integration.problem import Problem, stable_problem
 from r37core.time_integration.simulate import Simulation
+from r37core.time_integration.step_limit import UnstableStepError
 
 from .schedule import RunUp, Segment, schedule
 
@@ -42,13 +44,16 @@ class March:
     `energy` (J): of the vibration; `stiffness_work` (J): what the change of the stiffness with the speed has brought to it.
     `wear` (m), shape (rings, bars): of a lining that is worn at the beginning.
 
-    Raises what Problem raises, of the steps at the lowest speed, which are the longest.
+    Raises what Problem raises, of the steps at the lowest speed, which are the longest; BucklingError for the highest speed.
     """
 
     def __init__(
         self, model: ContactModel, scene: Scene, choice: IntegrationChoice, run_up: RunUp, wear: np.ndarray | None = None
     ):
-        coarsest = stable_problem(model, min(run_up.start, run_up.stop), scene, choice)
+        low, high = sorted((run_up.start, run_up.stop))
+        # between two speeds with a stable position there are only such
+        model.modes_at(high)
+        coarsest = told_problem(model, low, scene, choice)
         self._model, self._scene = model, scene
         self._choice = replace(coarsest.choice, shorten=False, steps_per_sample=coarsest.steps_per_sample)
         stiffening = model.stiffness_per_square[0, 0] / model.squared_frequencies[0]
@@ -71,6 +76,8 @@ class March:
             if modes is not None:
                 turned = simulation.problem.modes.T @ modes
                 self.state.displacement, self.velocity = turned @ self.state.displacement, turned @ self.velocity
+                # there may be more of them or fewer, where the fastest are left out
+                self.state.increment = np.zeros_like(self.state.displacement)
             modes = simulation.problem.modes
             for stage in self._stages_of(simulation, segment):
                 yield stage
@@ -96,8 +103,24 @@ class March:
             yield Stage(stretch.speed, record.samples, record.snapshots, shapes, wear, record.diverged)
 
 
-def worn_by(march: March) -> np.ndarray | None:
-    """Wear (m), shape (rings, bars), that a run-up leaves behind; None without a lining."""
-    for _ in march.stages():
-        pass
-    return march.state.wear
+_LARGEST_TURN = 3.0
+"""Of a mode in a step (rad), up to which its velocity follows from two displacements."""
+
+
+def told_problem(model: ContactModel, speed: float, scene: Scene, choice: IntegrationChoice) -> Problem:
+    """The problem at a speed (rad/s), with steps so short that every mode tells its velocity.
+
+    Raises what Problem raises; UnstableStepError for an explicit step that is too long.
+    """
+    problem = stable_problem(model, speed, scene, choice)
+    fastest = problem.frequencies[-1]
+    if choice.integrator == CENTRAL_DIFFERENCE or fastest * problem.time_step < _LARGEST_TURN:
+        return problem
+    limit = _LARGEST_TURN / fastest
+    if not choice.shorten:
+        raise UnstableStepError(
+            f"time_step_s: {choice.time_step:g} s; allowed in run-ups: below {limit:.6g} s, so that the fastest mode "
+            f"({fastest / 2e3 / np.pi:.1f} kHz) turns by less than {_LARGEST_TURN:g} rad in a step",
+            limit,
+        )
+    return told_problem(model, speed, scene, replace(choice, time_step=0.99 * limit))

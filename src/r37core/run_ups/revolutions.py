@@ -14,11 +14,11 @@ from r37core.time_integration.integration_choice import IntegrationChoice
 from r37core.time_integration.simulate import DIRECTIONS, TIP_POINTS
 from r37core.time_integration.status import RunStatus
 
-from .march import March, Stage, worn_by
+from .march import March, Stage
 from .schedule import RunUp
 
-_AT_ONCE = 32
-"""Revolutions whose samples are in memory together."""
+_AT_ONCE, _INSTANTS_AT_ONCE = 32, 256
+"""Revolutions whose samples, and instants whose stresses, are in memory together."""
 
 _SPECTRA = [DIRECTIONS.index("normal"), DIRECTIONS.index("tangential")]
 
@@ -39,32 +39,25 @@ def record_run_up(
     (revolutions,); `rms` and `maximum` (m), shape (revolutions, 2, 3): TIP_POINTS by DIRECTIONS. `amplitude` (m), shape
     (revolutions, 2, orders): whole engine orders of the leading edge's normal and tangential motion; `max_von_mises` (Pa) and
     `max_wear` (m, by the end of the stretch of equal steps that the revolution ends in), shape (revolutions,). A run that
-    diverges has the revolutions before it. Raises what Problem raises.
+    diverges has the revolutions before it; one that does so while it wears the lining is that of the lining as new.
+    Raises what March raises.
     """
-    wear = worn_by(March(model, scene, choice, run_up)) if run_up.worn and scene.lining else None
-    march = March(model, scene, choice, run_up, wear)
-    kept = _Revolutions(model, choice, highest_order if "spectrum" in results else None, recovery)
-    diverged, samples = False, 0
-    for stage in march.stages():
-        diverged, samples = stage.diverged, samples + len(stage.samples)
-        kept.add(stage)
-    totals = march.state.totals
-    found = kept.joined() | {
-        "status": np.array(int(RunStatus.DIVERGED if diverged else RunStatus.COMPLETED)),
+    orders = highest_order if "spectrum" in results else None
+    march, found = _done(March(model, scene, choice, run_up), model, choice, orders, recovery)
+    if run_up.worn and not found["status"]:
+        march, found = _done(March(model, scene, choice, run_up, march.state.wear), model, choice, orders, recovery)
+    found |= {
         "start_speed": np.array(run_up.start),
         "stop_speed": np.array(run_up.stop),
-        "rate": np.array(run_up.rate),
+        "rate": np.array(run_up.rate(choice.samples_per_revolution)),
         "revolutions_before": np.array(run_up.before),
         "revolutions_after": np.array(run_up.after),
         "worn": np.array(int(run_up.worn)),
-        "diverged_revolution": np.array(samples / choice.samples_per_revolution if diverged else np.nan),
-        "largest_normal_force": np.array(totals["largest_force"]),
-        "casing_hits": np.array(totals["casing_hits"]),
     }
     if "wear" not in results:
         del found["max_wear"]
     if "energy" in results:
-        work, loss, change = totals["work"], totals["loss"], march.energy
+        work, loss, change = march.state.totals["work"], march.state.totals["loss"], march.energy
         found |= {
             "contact_work": np.array(work),
             "damping_loss": np.array(loss),
@@ -73,6 +66,22 @@ def record_run_up(
             "energy_residual": np.array(change - work + loss - march.stiffness_work),
         }
     return found
+
+
+def _done(
+    march: March, model: ContactModel, choice: IntegrationChoice, highest_order: int | None, recovery: StressRecovery | None
+) -> tuple[March, dict[str, np.ndarray]]:
+    """The march when it is done, and what it left behind."""
+    kept, diverged, samples = _Revolutions(model, choice, highest_order, recovery), False, 0
+    for stage in march.stages():
+        diverged, samples = stage.diverged, samples + len(stage.samples)
+        kept.add(stage)
+    return march, kept.joined() | {
+        "status": np.array(int(RunStatus.DIVERGED if diverged else RunStatus.COMPLETED)),
+        "diverged_revolution": np.array(samples / choice.samples_per_revolution if diverged else np.nan),
+        "largest_normal_force": np.array(march.state.totals["largest_force"]),
+        "casing_hits": np.array(march.state.totals["casing_hits"]),
+    }
 
 
 @dataclass
@@ -163,5 +172,8 @@ def largest_stress(recovery: StressRecovery, coordinates: np.ndarray, bound: np.
     largest = recovery.max_von_mises(coordinates[revolutions, first])
     rest = bound > largest[:, None]
     rest[revolutions, first] = False
-    np.maximum.at(largest, np.nonzero(rest)[0], recovery.max_von_mises(coordinates[rest]))
+    rows, instants = np.nonzero(rest)
+    for part in range(0, len(rows), _INSTANTS_AT_ONCE):
+        some = slice(part, part + _INSTANTS_AT_ONCE)
+        np.maximum.at(largest, rows[some], recovery.max_von_mises(coordinates[rows[some], instants[some]]))
     return largest

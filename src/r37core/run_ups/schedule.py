@@ -37,10 +37,18 @@ class RunUp:
     after: int
     worn: bool
 
-    @property
-    def rate(self) -> float:
-        """Rate (rad/s2), negative where the speed falls."""
-        return (self.stop**2 - self.start**2) / (4.0 * np.pi * self.revolutions)
+    def samples(self, per_revolution: int) -> int:
+        """Samples that the change takes: whole ones, of which a revolution has so many."""
+        return max(round(self.revolutions * per_revolution), 1)
+
+    def rate(self, per_revolution: int) -> float:
+        """Rate (rad/s2) that these samples make, negative where the speed falls."""
+        angle = 2.0 * np.pi * self.samples(per_revolution) / per_revolution
+        return (self.stop**2 - self.start**2) / (2.0 * angle)
+
+
+_AT_ONCE = 500
+"""Stretches of a segment."""
 
 
 class Stretch(NamedTuple):
@@ -65,7 +73,7 @@ def schedule(run_up: RunUp, samples_per_revolution: int, squared_frequency_chang
     whole samples, so its rate differs from the given one by half a sample at most. A run-down is its run-up backwards.
     """
     per_revolution = samples_per_revolution
-    samples = max(round(run_up.revolutions * per_revolution), 1)
+    samples = run_up.samples(per_revolution)
     low, high = sorted((run_up.start, run_up.stop))
     before, after = run_up.before * per_revolution, -samples % per_revolution + run_up.after * per_revolution
     if low == high:
@@ -105,5 +113,7 @@ def _rising(low: float, high: float, samples: int, per_revolution: int, squared_
             following = min(at + min(max(longest, 1), LARGEST_STRETCH * per_revolution), last)
             stretches.append(Stretch(0.5 * (speed_at(at) + speed_at(following)), following - at))
             at = following
-        segments.append(Segment(speed_at(0.5 * (first + last)), tuple(stretches)))
+        # some at a time: the numbers of all stretches of a segment are in memory together
+        parts = [tuple(stretches[part : part + _AT_ONCE]) for part in range(0, len(stretches), _AT_ONCE)]
+        segments += [Segment(speed_at(0.5 * (first + last)), part) for part in parts]
     return segments

@@ -52,7 +52,9 @@ def _row(run: xr.Dataset) -> dict[str, Any]:
             "peak_rms_tangential_m": float(edge["rms_tangential"][peak]),
             "casing_hits": int(run["casing_hits"]),
         }
-    if "max_von_mises" in run and len(speed):
+    if "max_von_mises" in run:
+        row |= {"max_von_mises_pa": np.nan, "yield_stress_pa": float(run["yield_stress"])}
+    if "max_von_mises" in run and run["max_von_mises"].notnull().any():
         stress, limit = run["max_von_mises"].values, float(run["yield_stress"])
         place, first = int(np.argmax(stress)), first_yield(stress, limit)
         row |= {
@@ -61,7 +63,6 @@ def _row(run: xr.Dataset) -> dict[str, Any]:
             "first_yield_speed_rad_s": float(speed[int(first) - 1]) if np.isfinite(first) else np.nan,
             "revolutions_above_yield": int(np.count_nonzero(stress > limit)),
             "last_von_mises_pa": float(stress[-1]),
-            "yield_stress_pa": limit,
         }
     if "max_wear" in run and len(speed):
         row["max_wear_m"] = float(run["max_wear"][-1])
@@ -77,7 +78,9 @@ def rate_table(runs: pd.DataFrame) -> pd.DataFrame:
     """
     if "max_von_mises_pa" not in runs:
         return pd.DataFrame(columns=[*_CASE, *_RATES])
-    runs = runs[runs["rate_rad_s2"] > 0.0]
+    # a scene without stress says nothing
+    told = runs["max_von_mises_pa"].notna() | (runs["status"] == RunStatus.DIVERGED.text)
+    runs = runs[told & (runs["rate_rad_s2"] > 0.0)]
     return pd.DataFrame(
         [dict(zip(_CASE, case, strict=True)) | safe_rates(group) for case, group in runs.groupby(_CASE, sort=False)],
         columns=[*_CASE, *_RATES],

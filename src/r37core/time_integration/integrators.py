@@ -9,10 +9,6 @@ import numpy as np
 CENTRAL_DIFFERENCE, EXACT_MODAL = INTEGRATORS = ("central_difference", "exact_modal")
 
 
-_LARGEST_TURN = 3.0
-"""Of a mode in a step (rad), up to which its velocity follows from two displacements."""
-
-
 @dataclass(frozen=True)
 class Recursion:
     """u_{n+1} = a u_n + b u_{n-1} + c F of unit-mass modes under modal forces F; arrays of shape (modes,).
@@ -88,7 +84,7 @@ def increments(
     """Increment u_n - u_{n-1} of a free mode per displacement u_n and per velocity at t_n, in the shape of a recursion.
 
     With exact_modal the closed form taken a step back; with central differences from v_n = (u_{n+1} - u_{n-1})/(2h) and the
-    recursion. A mode that turns by nearly half a turn in a step tells no velocity: its increment over the step stands for it.
+    recursion. Of modes that turn by less than half a turn in a step.
     """
     if integrator == CENTRAL_DIFFERENCE:
         of = central_difference(frequencies, damping_ratio, step)
@@ -98,5 +94,4 @@ def increments(
     # 1 - e^decay (cos - xi omega/omega_d sin), without the cancellation of small steps
     backwards = 2.0 * np.sin(0.5 * damped * step) ** 2 - np.expm1(decay) * np.cos(damped * step)
     backwards += grown * sine * damping_ratio * frequencies / damped
-    told = damped * step < _LARGEST_TURN
-    return np.where(told, backwards, 0.0), np.where(told, grown * sine / damped, step)
+    return backwards, grown * sine / damped
