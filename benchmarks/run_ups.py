@@ -97,7 +97,7 @@ def accuracy_table():
         schedule.LARGEST_LEAD, schedule.LARGEST_STIFFENING = lead, stiffening
         asked = RunUpChoice(0.98 * speed, 1.012 * speed, None, rate, None, choice.revolutions, 0, worn=False)
         run_up = asked.run_up(choice.samples_per_revolution)
-        found = record_run_up(model, scene.scene, choice, run_up, (), highest_order=20, recovery=None)
+        found = record_run_up(model, scene.scene, choice, run_up, (), highest_order=20, recovery=None, yield_stress=np.inf)
         return found["rms"][choice.revolutions :, 0, [0, 2]]
 
     for rate in ACCURACY_RATES:
@@ -135,7 +135,9 @@ def needed_rate(blade, settings, campbell, changes):
         ends = (crossing * (1.0 + changes.get(end, default)) for end, default in (("first", FIRST), ("last", LAST)))
         asked = RunUpChoice(*ends, None, rate, None, before, AFTER, worn=changes.get("worn", False))
         run_up = asked.run_up(choice.samples_per_revolution)
-        found = record_run_up(model, scene, choice, run_up, (), highest_order=20, recovery=recovery)
+        found = record_run_up(
+            model, scene, choice, run_up, (), highest_order=20, recovery=recovery, yield_stress=material.yield_stress
+        )
         stress = float(found["max_von_mises"][before:].max())
         rows.append({"rate_rad_s2": rate, "max_von_mises_pa": stress, "status": "completed"})
     found = safe_rates(pd.DataFrame(rows).assign(yield_stress_pa=material.yield_stress))

@@ -253,7 +253,7 @@ def _integral(slope, curvature, time):
 
 
 def recorded(model, scene, choice, run_up, results=("spectrum", "wear", "energy")):
-    return record_run_up(model, scene, choice, run_up, results, highest_order=8, recovery=None)
+    return record_run_up(model, scene, choice, run_up, results, highest_order=8, recovery=None, yield_stress=1e9)
 
 
 def test_modes_that_pass_the_highest_frequency_come_and_go(contact):
@@ -328,15 +328,18 @@ def test_crossings_that_a_blade_does_not_have():
     speeds = {"speed": np.array([0.0, 2000.0]), "mode": ["1B"], "engine_order": [3, 4]}
     campbell = xr.Dataset({"crossing_speed": (("mode", "engine_order"), [[np.nan, 1900.0]])}, speeds)
     choice = RunUpChoice(-0.02, 0.08, Crossing("1B", 3), 100.0, None, 200, 0, worn=False)
-    with pytest.raises(RunUpError, match="1B and engine order 3, which do not cross up to 2000 rad/s"):
-        choice.of_blade(496, campbell)
+    with pytest.raises(
+        RunUpError,
+        match=r"config\.yaml: run_ups\.up: found a run-up about 1B and engine order 3, which do not cross up to 2000 rad/s",
+    ):
+        choice.of_blade(496, campbell, "up")
     with pytest.raises(RunUpError, match=r"found 2052 rad/s; allowed: up to structure\.maximum_speed_rad_s, 2000"):
-        replace(choice, crossing=Crossing("1B", 4)).of_blade(496, campbell)
-    assert replace(choice, stop=0.05, crossing=Crossing("1B", 4)).of_blade(496, campbell).stop == pytest.approx(1995.0)
+        replace(choice, crossing=Crossing("1B", 4)).of_blade(496, campbell, "up")
+    assert replace(choice, stop=0.05, crossing=Crossing("1B", 4)).of_blade(496, campbell, "up").stop == pytest.approx(1995.0)
 
 
 def test_files_that_are_no_run_ups_are_named(contact, tmp_path):
-    found = recorded(contact, NARROW, LONG, RunUp(1500.0, 1600.0, 1.0, 1, 0, worn=False)) | {"yield_stress": np.array(1e9)}
+    found = recorded(contact, NARROW, LONG, RunUp(1500.0, 1600.0, 1.0, 1, 0, worn=False))
     write_speed(found, tmp_path / "good.npz", {})
     write_speed(found | {"rms": found["rms"][:1]}, tmp_path / "short.npz", {})
     write_speed({"status": found["status"]}, tmp_path / "other.npz", {})
@@ -359,7 +362,7 @@ def test_files_that_are_no_run_ups_are_named(contact, tmp_path):
 def test_figures_of_runs_that_diverged_at_once(contact, tmp_path):
     scene = replace(NARROW, divergence_limit=1e-12)
     found = recorded(contact, scene, LONG, RunUp(1500.0, 1600.0, 1.0, 1, 0, worn=False))
-    write_speed(found | {"yield_stress": np.array(1e9), "max_von_mises": np.empty(0)}, tmp_path / "a.npz", {})
+    write_speed(found | {"max_von_mises": np.empty(0)}, tmp_path / "a.npz", {})
     write_run_ups({("Ref", "abradable", "up"): tmp_path / "a.npz"}, tmp_path / "run_ups.nc", {})
     with xr.open_dataset(tmp_path / "run_ups.nc") as dataset:
         table = run_up_table(dataset.load())

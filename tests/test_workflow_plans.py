@@ -313,9 +313,9 @@ def test_run_ups_are_planned_like_speeds(root):
     down = of(blade="Ref", scene="direct", run_up="down")
     assert set(planned.inputs(climb)) == {"prepared", "model", "rom"}
     assert planned.inputs(down)["campbell"] == "<results>/Ref/campbell.nc"
-    found = from_plain(RunUpChoice, planned.run_up(climb)).of_blade(496, None)
+    found = from_plain(RunUpChoice, planned.run_up(climb)).of_blade(496, None, "climb")
     assert (found.start, found.stop) == pytest.approx((300.0 * math.pi, 400.0 * math.pi))
-    assert found.rate == pytest.approx(10.0 * math.pi)
+    assert found.rate(496) == pytest.approx(10.0 * math.pi)
     assert found.before == planned.choice(climb)["revolutions"] == 200
     # stress in every revolution, the first ones too
     assert planned.choice(down)["revolutions"] == planned.choice(down)["snapshot_revolutions"] == 30

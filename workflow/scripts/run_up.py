@@ -2,7 +2,6 @@
 
 import math
 
-import numpy as np
 from job import run
 
 from r37core.contact.scene import Scene
@@ -12,7 +11,7 @@ from r37core.plain import from_plain
 from r37core.results.stress_recovery import StressRecovery
 from r37core.rom.contact_model import read_contact_model
 from r37core.rom.rom_file import read_reduced_model
-from r37core.run_ups.choice import RunUpChoice, RunUpError
+from r37core.run_ups.choice import RunUpChoice
 from r37core.run_ups.revolutions import record_run_up
 from r37core.time_integration.integration_choice import IntegrationChoice
 from r37core.time_integration.speed_file import write_speed
@@ -24,21 +23,17 @@ def main(snakemake):
     recovery = StressRecovery(read_reduced_model(given.rom), material) if "stress" in params.results else None
     choice = from_plain(IntegrationChoice, params.choice)
     campbell = read_dataset(given.campbell) if hasattr(given, "campbell") else None
-    asked = from_plain(RunUpChoice, params.run_up)
-    try:
-        run_up = asked.of_blade(choice.samples_per_revolution, campbell)
-    except RunUpError as error:
-        raise RunUpError(f"config.yaml: run_ups.{snakemake.wildcards.run_up}: {error}") from None
+    asked, name = from_plain(RunUpChoice, params.run_up), snakemake.wildcards.run_up
     result = record_run_up(
         read_contact_model(given.model),
         from_plain(Scene, params.scene),
         choice,
-        run_up,
+        asked.of_blade(choice.samples_per_revolution, campbell, name),
         params.results,
         highest_order=params.highest_order,
         recovery=recovery,
+        yield_stress=material.yield_stress if material else math.inf,
     )
-    result["yield_stress"] = np.array(material.yield_stress if material else math.inf)
     write_speed(result, snakemake.output[0], params.provenance)
 
 

@@ -78,11 +78,17 @@ class RunUpChoice:
             )
         return RunUp(start, stop, revolutions, self.before, self.after, self.worn)
 
-    def of_blade(self, samples_per_revolution: int, campbell: xr.Dataset | None) -> RunUp:
-        """The run-up of a blade with this Campbell diagram, which one about a crossing needs.
+    def of_blade(self, samples_per_revolution: int, campbell: xr.Dataset | None, name: str) -> RunUp:
+        """The run-up called `name` of a blade with this Campbell diagram, which one about a crossing needs.
 
         Raises RunUpError where there is no crossing, and for speeds beyond the diagram's.
         """
+        try:
+            return self._of_blade(samples_per_revolution, campbell)
+        except RunUpError as error:
+            raise RunUpError(f"config.yaml: run_ups.{name}: {error}") from None
+
+    def _of_blade(self, samples_per_revolution: int, campbell: xr.Dataset | None) -> RunUp:
         if self.crossing is None:
             return self.run_up(samples_per_revolution)
         assert campbell is not None

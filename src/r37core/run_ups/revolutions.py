@@ -32,11 +32,12 @@ def record_run_up(
     *,
     highest_order: int,
     recovery: StressRecovery | None,
+    yield_stress: float,
 ) -> dict[str, np.ndarray]:
     """Do a run-up, and keep of every whole revolution what is asked for in `results`.
 
-    Always: `status` and `diverged_revolution`; `speed` (rad/s, the mean of the revolution) and `time` (s, at its end), shape
-    (revolutions,); `rms` and `maximum` (m), shape (revolutions, 2, 3): TIP_POINTS by DIRECTIONS. `amplitude` (m), shape
+    Always: `status`, `diverged_revolution` and `yield_stress` (Pa, as given); `speed` (rad/s, the mean of the revolution) and
+    `time` (s, at its end), shape (revolutions,); `rms` and `maximum` (m), shape (revolutions, 2, 3): TIP_POINTS by DIRECTIONS. `amplitude` (m), shape
     (revolutions, 2, orders): whole engine orders of the leading edge's normal and tangential motion; `max_von_mises` (Pa) and
     `max_wear` (m, by the end of the stretch of equal steps that the revolution ends in), shape (revolutions,). A run that
     diverges has the revolutions before it; one that does so while it wears the lining is that of the lining as new.
@@ -53,6 +54,7 @@ def record_run_up(
         "revolutions_before": np.array(run_up.before),
         "revolutions_after": np.array(run_up.after),
         "worn": np.array(int(run_up.worn)),
+        "yield_stress": np.array(yield_stress),
     }
     if "wear" not in results:
         del found["max_wear"]
