@@ -37,11 +37,11 @@ def record_run_up(
     """Do a run-up, and keep of every whole revolution what is asked for in `results`.
 
     Always: `status`, `diverged_revolution` and `yield_stress` (Pa, as given); `speed` (rad/s, the mean of the revolution) and
-    `time` (s, at its end), shape (revolutions,); `rms` and `maximum` (m), shape (revolutions, 2, 3): TIP_POINTS by DIRECTIONS. `amplitude` (m), shape
-    (revolutions, 2, orders): whole engine orders of the leading edge's normal and tangential motion; `max_von_mises` (Pa) and
-    `max_wear` (m, by the end of the stretch of equal steps that the revolution ends in), shape (revolutions,). A run that
-    diverges has the revolutions before it; one that does so while it wears the lining is that of the lining as new.
-    Raises what March raises.
+    `time` (s, at its end), shape (revolutions,); `rms` and `maximum` (m), shape (revolutions, 2, 3): TIP_POINTS by DIRECTIONS.
+    `amplitude` (m), shape (revolutions, 2, orders): whole engine orders of the leading edge's normal and tangential motion;
+    `max_von_mises` (Pa) and `max_wear` (m, by the end of the stretch of equal steps that the revolution ends in), shape
+    (revolutions,). A run that diverges has the revolutions before it; one that does so while it wears the lining is that of
+    the lining as new. Raises what March raises.
     """
     orders = highest_order if "spectrum" in results else None
     march, found = _done(March(model, scene, choice, run_up), model, choice, orders, recovery)
