@@ -17,9 +17,9 @@ report: $(VENV)/.ready
 	@$(BIN)/python -m snakemake all_blades --report '$(RESULTS)/report.zip' $(if $(FIDELITY),--config fidelity=$(FIDELITY)) || \
 		{ echo "the report is made of a finished run: make all_blades, then make report" >&2; exit 1; }
 
-# the files of tests spread over the cores
+# the files of tests spread over the cores, in the order of tests/conftest.py
 test: $(VENV)/.ready
-	$(BIN)/python -m pytest --numprocesses $(CORES) --dist loadfile
+	$(BIN)/python -m pytest --numprocesses $(CORES) --dist loadfile --no-loadscope-reorder
 
 # without those that run Snakemake or build larger models
 test-fast: $(VENV)/.ready

@@ -30,6 +30,12 @@ def edited_configuration():
     return sorted(files.difference(filecmp.cmpfiles(*folders, files, shallow=False)[0]))
 
 
+def pytest_collection_modifyitems(items):
+    """Files with slow tests first, so that at the end no core waits for one of them."""
+    slow = {item.path for item in items if item.get_closest_marker("slow")}
+    items.sort(key=lambda item: item.path not in slow)
+
+
 def pytest_terminal_summary(terminalreporter):
     """What the skipped tests need, one line each, and whether the configuration in use is not the tests'."""
     reasons = Counter(report.longrepr[2].removeprefix("Skipped: ") for report in terminalreporter.stats.get("skipped", []))
