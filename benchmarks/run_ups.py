@@ -10,6 +10,7 @@ import numpy as np
 import pandas as pd
 
 from r37core.config import read_settings
+from r37core.config.document import read_document
 from r37core.dataset_file import read_dataset
 from r37core.io import write_text
 from r37core.results.stress_recovery import StressRecovery
@@ -29,17 +30,18 @@ ACCURACY_BLADE, ACCURACY_RATES = "Ref", (30.0, 100.0, 300.0, 1000.0)
 FINEST = (2e-6, 1e-3)
 """Lead (rad) and stiffening that the others are compared with."""
 
-BEFORE, AFTER, FIRST, LAST = 200, 50, -0.015, 0.07
-"""Of config/run_ups.yaml."""
+VARIED = "up_1000"
+"""Of config/run_ups.yaml: what of it is varied, and its rate, is below."""
+
 RATES = (200.0, 300.0, 450.0, 700.0, 1000.0, 1500.0, 2200.0, 3200.0, 4600.0, 7000.0)
 VARIANTS = {
     "shipped": {},
     "half the step": {"time_step": 0.5},
     "the published scheme and step": {"published": True},
     "friction of constant direction": {"constant": True},
-    "begun 1% below the crossing": {"first": -0.01},
-    "begun 0.5% below it": {"first": -0.005},
-    "ended 6% above it": {"last": 0.06},
+    "begun 1% below the crossing": {"start": -0.01},
+    "begun 0.5% below it": {"start": -0.005},
+    "ended 6% above it": {"stop": 0.06},
     "twice the revolutions before": {"before": 400},
     "lining worn by the same run-up": {"worn": True},
 }
@@ -118,9 +120,10 @@ def accuracy_table():
 def needed_rate(blade, settings, campbell, changes):
     """Rate (rad/s2) that a blade needs upwards, interpolated between RATES; text where it is none of them."""
     scene, material = settings.scenes[SCENE].scene, settings.blades[blade].material
-    choice = settings.integration_choice(blade, SCENE, 0.0)
-    before = changes.get("before", BEFORE)
-    choice = replace(choice, revolutions=before, snapshot_revolutions=before, energy=False)
+    asked = settings.run_ups[blade, SCENE][VARIED]
+    asked = replace(asked, **{name: value for name, value in changes.items() if hasattr(asked, name)})
+    choice = settings.run_up_choice(blade, SCENE, VARIED)
+    choice = replace(choice, revolutions=asked.before, snapshot_revolutions=asked.before, energy=False)
     if "time_step" in changes:
         choice = replace(choice, time_step=changes["time_step"] * choice.time_step)
     if "published" in changes:
@@ -129,16 +132,13 @@ def needed_rate(blade, settings, campbell, changes):
         scene = replace(scene, friction=replace(scene.friction, vector=False))
     recovery = StressRecovery(read_reduced_model(RESULTS / blade / "rom_pressure_edge.nc"), material)
     model = read_contact_model(RESULTS / blade / "contact_pressure_edge.npz")
-    crossing = float(campbell["crossing_speed"].sel(blade=blade, mode=MODE, engine_order=ORDER))
     rows = []
     for rate in RATES:
-        ends = (crossing * (1.0 + changes.get(end, default)) for end, default in (("first", FIRST), ("last", LAST)))
-        asked = RunUpChoice(*ends, None, rate, None, before, AFTER, worn=changes.get("worn", False))
-        run_up = asked.run_up(choice.samples_per_revolution)
+        run_up = replace(asked, rate=rate).of_blade(choice.samples_per_revolution, campbell.sel(blade=blade), VARIED)
         found = record_run_up(
             model, scene, choice, run_up, (), highest_order=20, recovery=recovery, yield_stress=material.yield_stress
         )
-        stress = float(found["max_von_mises"][before:].max())
+        stress = float(found["max_von_mises"][asked.before :].max())
         rows.append({"rate_rad_s2": rate, "max_von_mises_pa": stress, "status": "completed"})
     found = safe_rates(pd.DataFrame(rows).assign(yield_stress_pa=material.yield_stress))
     if np.isfinite(found["rate_at_yield_rad_s2"]):
@@ -148,7 +148,8 @@ def needed_rate(blade, settings, campbell, changes):
 
 def variants_table():
     """Rates that the blades need upwards when one thing is varied."""
-    settings, campbell = read_settings(Path()), read_dataset(RESULTS / "campbell.nc")
+    settings = read_settings(Path(), read_document(Path(), "config/run_ups.yaml"))
+    campbell = read_dataset(RESULTS / "campbell.nc")
     blades = list(settings.blades)
     rows = [
         [name, *(needed_rate(blade, settings, campbell, changes) for blade in blades)] for name, changes in VARIANTS.items()

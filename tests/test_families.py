@@ -43,7 +43,7 @@ def test_a_range_becomes_blades_with_readable_names(read):
 def test_run_ups_of_a_family_are_those_of_its_designs(read):
     run_ups = {"up": {"from_rad_s": 900, "to_rad_s": 1000, "revolutions": 50, "blades": ["Sweep"]}}
     settings = read(SWEEP, blades=["Ref", "Sweep"], run_ups=run_ups)
-    assert [name for name in settings.blades if settings.run_ups_of(name, "direct")] == ["Sweep_-50", "Sweep_50", "Sweep_150"]
+    assert [name for name in settings.blades if settings.run_ups[name, "direct"]] == ["Sweep_-50", "Sweep_50", "Sweep_150"]
 
 
 def test_lean_is_scaled_apart_from_sweep(read):

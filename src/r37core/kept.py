@@ -16,10 +16,10 @@ _DIGEST_BYTES = 32
 
 
 def read_kept(name: str) -> bytes | None:
-    """Content of what is kept under a name; None if it is not there or not what was written."""
+    """Content of what is kept under a name; None if it is not there, cannot be read or is not what was written."""
     try:
         content = (_folder() / name).read_bytes()
-    except FileNotFoundError:
+    except OSError:
         return None
     digest, kept = content[:_DIGEST_BYTES], content[_DIGEST_BYTES:]
     return kept if digest == hashlib.sha256(kept).digest() else None

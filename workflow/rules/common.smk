@@ -31,6 +31,7 @@ made = Provenance(settings)
 structure = Structure(settings)
 imported = Imported(settings, ROOT)
 sweep = Sweep(settings, lambda **wildcards: checkpoints.refine.get(**wildcards).output[0])
+run_ups = RunUps(sweep)
 needs = Needs(settings, sweep.most_runs)
 
 

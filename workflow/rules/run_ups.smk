@@ -1,5 +1,4 @@
 # Run-ups and run-downs: the speed changes while the blade rubs; each is a run of its own.
-run_ups = RunUps(sweep)
 
 
 rule run_up:

@@ -198,9 +198,8 @@ def run_ups_can_be_done(settings: Settings) -> None:
     documents, per_revolution = settings.documents, settings.fidelity.time_integration.samples_per_revolution
     for name, entry in settings.config.run_ups.items():
         path: KeyPath = ("run_ups", name)
-        names = [*settings.designs.entries, *settings.designs.families]
-        _known(settings, (*path, "blades"), [] if entry.blades == "all" else entry.blades, names, documents.blades)
-        scenes = settings.scene_entries if entry.scenes == "all" else entry.scenes
+        blades, scenes = ([] if names == "all" else names for names in (entry.blades, entry.scenes))
+        _known(settings, (*path, "blades"), blades, [*settings.designs.entries, *settings.designs.families], documents.blades)
         _known(settings, (*path, "scenes"), scenes, settings.scene_entries, documents.scenes)
         choice, highest = entry.choice(1), settings.structure.maximum_speed_rad_s
         try:
@@ -216,7 +215,7 @@ def run_ups_can_be_done(settings: Settings) -> None:
                 f"{entry.crossing.engine_order}",
                 f"at most campbell.highest_engine_order ({settings.campbell.highest_engine_order})",
             )
-        for scene in scenes if entry.scenes != "all" else settings.scenes:
+        for scene in scenes or settings.scenes:
             if entry.lining == "worn" and settings.scene_entries[scene].lining is None:
                 raise documents.config.refusal(
                     (*path, "lining"), f"worn in the scene '{scene}', which has no lining", "new, or scenes with a lining"

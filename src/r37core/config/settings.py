@@ -7,6 +7,7 @@ import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from itertools import product
 from pathlib import Path
 from typing import Any
 
@@ -254,19 +255,25 @@ class Settings:
         matrices = isinstance(self.blades[blade].definition, MatricesSource)
         return tuple(result for result in wanted if not (matrices and result in ("stress", "shapes")))
 
-    def run_ups_of(self, blade: str, scene: str) -> dict[str, RunUpChoice]:
-        """Run-ups of a blade in a scene, by name."""
-        return {
-            name: entry.choice(self.scenes[scene].revolutions)
-            for name, entry in self.config.run_ups.items()
-            if (entry.blades == "all" or blade in self._designs(entry.blades))
-            and (entry.scenes == "all" or scene in entry.scenes)
+    @cached_property
+    def run_ups(self) -> dict[tuple[str, str], dict[str, RunUpChoice]]:
+        """Run-ups of each blade and scene, by name."""
+        found: dict[tuple[str, str], dict[str, RunUpChoice]] = {
+            (blade, scene): {} for blade in self.blade_names for scene in self.scene_names
         }
+        for name, entry in self.config.run_ups.items():
+            blades = self.blade_names if entry.blades == "all" else self._designs(entry.blades)
+            scenes = self.scene_names if entry.scenes == "all" else entry.scenes
+            choices = {scene: entry.choice(self.scenes[scene].revolutions) for scene in scenes if scene in self.scenes}
+            for blade, (scene, choice) in product(blades, choices.items()):
+                if (blade, scene) in found:
+                    found[blade, scene][name] = choice
+        return found
 
     def run_up_choice(self, blade: str, scene: str, name: str) -> IntegrationChoice:
         """Numbers of the time integration of a run-up: those of the sweep, with stress in every revolution."""
         choice = self.integration_choice(blade, scene, 0.0)
-        before = self.run_ups_of(blade, scene)[name].before
+        before = self.run_ups[blade, scene][name].before
         return replace(choice, revolutions=before, snapshot_revolutions=before if choice.snapshots_per_revolution else 0)
 
     def integration_choice(self, blade: str, scene: str, speed: float) -> IntegrationChoice:

@@ -9,6 +9,7 @@ import xarray as xr
 from matplotlib.figure import Figure
 
 from r37core.run_ups.dataset import runs_of
+from r37core.run_ups.tables import CASE
 
 from . import style
 
@@ -21,6 +22,7 @@ _QUANTITIES = {
 _FEW_REVOLUTIONS, _FAINT = 60, 1e-5
 _DIRECTIONS = {"up": "-", "down": "--"}
 _LININGS = {"new": "o", "worn": "x"}
+_RANGE = ["low_speed_rad_s", "high_speed_rad_s"]
 
 
 def draw_run_ups(run_ups: xr.Dataset, title: str, *, blade: str, scene: str) -> Figure:
@@ -85,13 +87,13 @@ def draw_rates(runs: pd.DataFrame, title: str, *, scene: str) -> Figure:
         axes.set_xlabel("rate (rad/s²)")
         if "max_von_mises_pa" not in runs or runs["max_von_mises_pa"].isna().all():
             continue
-        for (blade, lining, low, high, *_), group in runs[runs["direction"] == direction].groupby(_CURVE, sort=False):
-            label = ", ".join(
-                [str(blade), *(["worn"] if lining == "worn" else []), *([f"{low:.0f} to {high:.0f}"] if several else [])]
-            )
+        for values, group in runs[runs["direction"] == direction].groupby(CASE, sort=False):
+            case = dict(zip(CASE, values, strict=True))
+            speeds = " to ".join(f"{case[name]:.0f}" for name in _RANGE)
+            label = ", ".join([case["blade"], *(["worn"] if case["lining"] == "worn" else []), *([speeds] if several else [])])
             group = group.dropna(subset="max_von_mises_pa")
-            stress, look = 1e-9 * group["max_von_mises_pa"], {"marker": _LININGS[str(lining)], "markersize": 3}
-            axes.plot(group["rate_rad_s2"], stress, label=label, **styles[str(blade)] | look)
+            stress, look = 1e-9 * group["max_von_mises_pa"], {"marker": _LININGS[case["lining"]], "markersize": 3}
+            axes.plot(group["rate_rad_s2"], stress, label=label, **styles[case["blade"]] | look)
         style.yield_lines(axes, runs.groupby("blade")["yield_stress_pa"].first().to_dict())
         axes.set_xscale("log")
         axes.set_yscale("log")
@@ -101,7 +103,3 @@ def draw_rates(runs: pd.DataFrame, title: str, *, scene: str) -> Figure:
     if entries:
         figure.legend(entries.values(), entries.keys(), loc="outside lower center", ncols=7)
     return figure
-
-
-_RANGE = ["low_speed_rad_s", "high_speed_rad_s"]
-_CURVE = ["blade", "lining", *_RANGE, "revolutions_before", "revolutions_after"]

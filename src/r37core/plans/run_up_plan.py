@@ -21,18 +21,12 @@ class RunUps:
     @property
     def files(self) -> paths.Wildcards:
         """Wildcards of the files of all run-ups: blade, scene and name."""
-        settings = self.sweep.settings
-        pairs = [(blade, scene) for blade in settings.blades for scene in settings.scenes]
-        return [
-            {"blade": blade, "scene": scene, "run_up": name}
-            for blade, scene in pairs
-            for name in settings.run_ups_of(blade, scene)
-        ]
+        return [{"blade": blade, "scene": scene, "run_up": name} for blade, scene, name in self.runs]
 
     @property
     def pairs(self) -> list[tuple[str, str]]:
         """Pairs of blade and scene with run-ups."""
-        return list(dict.fromkeys((run["blade"], run["scene"]) for run in self.files))
+        return [pair for pair, named in self.sweep.settings.run_ups.items() if named]
 
     @property
     def names(self) -> list[str]:
@@ -42,7 +36,7 @@ class RunUps:
     @property
     def runs(self) -> list[tuple[str, str, str]]:
         """Blade, scene and name of each, in the order of the dataset."""
-        return [(run["blade"], run["scene"], run["run_up"]) for run in self.files]
+        return [(*pair, name) for pair, named in self.sweep.settings.run_ups.items() for name in named]
 
     def inputs(self, wildcards: Any) -> dict[str, str]:
         """What a run-up starts from, with the reduced model where its stress is wanted."""
@@ -57,7 +51,7 @@ class RunUps:
         return to_plain(self._choice(wildcards))
 
     def _choice(self, wildcards: Any) -> RunUpChoice:
-        return self.sweep.settings.run_ups_of(wildcards.blade, wildcards.scene)[wildcards.run_up]
+        return self.sweep.settings.run_ups[wildcards.blade, wildcards.scene][wildcards.run_up]
 
     def choice(self, wildcards: Any) -> dict[str, Any]:
         """Numbers of the time integration."""

@@ -9,7 +9,13 @@ import netCDF4
 import numpy as np
 
 from r37core.dataset_file import SPEED_RPM
+from r37core.time_integration.status import RunStatus
 from r37core.units import RPM
+
+
+def status_flags() -> dict[str, Any]:
+    """Attributes of a variable that holds a RunStatus, after the CF conventions."""
+    return {"flag_values": np.array(list(RunStatus), dtype="i1"), "flag_meanings": " ".join(one.text for one in RunStatus)}
 
 
 def create_labels(dataset: netCDF4.Dataset, name: str, labels: Sequence[str]) -> None:

@@ -11,10 +11,9 @@ import numpy as np
 from r37core.io import FILE_ATTRIBUTES, atomic_write
 from r37core.time_integration.simulate import DIRECTIONS, TIP_POINTS
 from r37core.time_integration.speed_file import read_speed
-from r37core.time_integration.status import RunStatus
 
 from .measures import first_yield, largest_of_run, stress_history
-from .netcdf import create_axis, create_labels, create_variable
+from .netcdf import create_axis, create_labels, create_variable, status_flags
 from .stress_recovery import StressRecovery
 from .variables import VARIABLES
 
@@ -90,9 +89,7 @@ def _create(
         if name in values:
             attributes = {"units": about.units, "long_name": about.long_name}
             create_variable(dataset, name, about.dtype, ("speed", *about.dims), attributes)
-    dataset["status"].setncatts(
-        {"flag_values": np.array(list(RunStatus), dtype="i1"), "flag_meanings": " ".join(status.text for status in RunStatus)}
-    )
+    dataset["status"].setncatts(status_flags())
     if history_speeds:
         history = {"units": "Pa", "long_name": "largest von Mises stress of each revolution"}
         create_variable(dataset, "max_von_mises_history", "f4", ("history_speed", "revolution"), history)

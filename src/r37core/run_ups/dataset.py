@@ -11,10 +11,9 @@ import xarray as xr
 
 from r37core.dataset_file import about
 from r37core.io import FILE_ATTRIBUTES, atomic_write, readable
-from r37core.results.netcdf import create_axis, create_labels, create_variable
+from r37core.results.netcdf import create_axis, create_labels, create_variable, status_flags
 from r37core.time_integration.simulate import DIRECTIONS, TIP_POINTS
 from r37core.time_integration.speed_file import read_speed
-from r37core.time_integration.status import RunStatus
 
 _TURN, _TIP, _ORDER = ("revolution",), ("revolution", "tip_point"), ("revolution", "engine_order")
 
@@ -80,8 +79,7 @@ def write_run_ups(files: Mapping[tuple[str, str, str], Path | str], file: Path |
         for name in (one for one in VARIABLES if one in names):
             dims, dtype, units, meaning = VARIABLES[name]
             create_variable(target, name, dtype, ("run", *dims), about(units, meaning) | {"coordinates": " ".join(LABELS)})
-        flags = {"flag_values": np.array(list(RunStatus), dtype="i1"), "flag_meanings": " ".join(one.text for one in RunStatus)}
-        target["status"].setncatts(flags)
+        target["status"].setncatts(status_flags())
         for row, (run, values) in enumerate(_runs(files)):
             for name, label in zip(LABELS, run, strict=True):
                 target[name][row] = label

@@ -12,6 +12,7 @@ from r37core.results.stress_recovery import StressRecovery
 from r37core.rom.contact_model import ContactModel
 from r37core.time_integration.integration_choice import IntegrationChoice
 from r37core.time_integration.simulate import DIRECTIONS, TIP_POINTS
+from r37core.time_integration.speed_run import amplitudes, energy_balance
 from r37core.time_integration.status import RunStatus
 
 from .march import March, Stage
@@ -59,14 +60,8 @@ def record_run_up(
     if "wear" not in results:
         del found["max_wear"]
     if "energy" in results:
-        work, loss, change = march.state.totals["work"], march.state.totals["loss"], march.energy
-        found |= {
-            "contact_work": np.array(work),
-            "damping_loss": np.array(loss),
-            "stiffness_work": np.array(march.stiffness_work),
-            "energy_change": np.array(change),
-            "energy_residual": np.array(change - work + loss - march.stiffness_work),
-        }
+        found |= energy_balance(march.state, march.energy, march.stiffness_work)
+        found["stiffness_work"] = np.array(march.stiffness_work)
     return found
 
 
@@ -149,17 +144,12 @@ class _Revolutions:
             "max_wear": found["wear"][:, -1],
         }
         if self.highest_order is not None:
-            kept["amplitude"] = _orders(samples[:, :, 0, _SPECTRA], self.highest_order)
+            # of the leading edge, its directions before the samples
+            motion = np.moveaxis(samples[:, :, 0, _SPECTRA], 1, 2)
+            kept["amplitude"] = amplitudes(motion)[..., : self.highest_order + 1].astype(np.float32)
         if self.recovery is not None:
             kept["max_von_mises"] = largest_stress(self.recovery, found["coordinates"], found["bound"])
         self.kept.append(kept)
-
-
-def _orders(motion: np.ndarray, highest: int) -> np.ndarray:
-    """Amplitude (m) of whole engine orders, shape (revolutions, 2, orders), of motion, shape (revolutions, samples, 2)."""
-    amplitude = 2.0 * np.abs(np.fft.rfft(motion, axis=1)) / motion.shape[1]
-    amplitude[:, 0] /= 2.0
-    return amplitude[:, : highest + 1].swapaxes(1, 2).astype(np.float32)
 
 
 def largest_stress(recovery: StressRecovery, coordinates: np.ndarray, bound: np.ndarray) -> np.ndarray:

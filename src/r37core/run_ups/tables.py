@@ -8,13 +8,13 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 
-from r37core.results.measures import first_yield
+from r37core.results.measures import first_yield, leading_edge, motion
 from r37core.time_integration.status import RunStatus
 
 from .dataset import runs_of
 
-_CASE = ["blade", "scene", "low_speed_rad_s", "high_speed_rad_s", "direction", "lining"]
-_CASE += ["revolutions_before", "revolutions_after"]
+CASE = ["blade", "scene", "low_speed_rad_s", "high_speed_rad_s", "direction", "lining"]
+CASE += ["revolutions_before", "revolutions_after"]
 """What run-ups have in common that differ by their rates alone."""
 
 
@@ -28,7 +28,7 @@ def run_up_table(dataset: xr.Dataset) -> pd.DataFrame:
 
 
 def _row(run: xr.Dataset) -> dict[str, Any]:
-    edge, speed = run.sel(tip_point="leading_edge"), run["speed"].values
+    edge, speed = leading_edge(run), run["speed"].values
     start, stop = float(run["start_speed"]), float(run["stop_speed"])
     row: dict[str, Any] = {
         "blade": str(run["blade"].values),
@@ -43,9 +43,8 @@ def _row(run: xr.Dataset) -> dict[str, Any]:
         "revolutions_after": int(run["revolutions_after"]),
         "status": RunStatus(int(run["status"])).text,
     }
-    level = np.hypot(edge["rms_normal"].values, edge["rms_tangential"].values)
     if len(speed):
-        peak = int(np.argmax(level))
+        peak = int(np.argmax(motion(run)))
         row |= {
             "peak_speed_rad_s": float(speed[peak]),
             "peak_rms_normal_m": float(edge["rms_normal"][peak]),
@@ -77,13 +76,13 @@ def rate_table(runs: pd.DataFrame) -> pd.DataFrame:
     where all stay below. A run that diverged is above. Runs at constant speed have no rate.
     """
     if "max_von_mises_pa" not in runs:
-        return pd.DataFrame(columns=[*_CASE, *_RATES])
+        return pd.DataFrame(columns=[*CASE, *_RATES])
     # a scene without stress says nothing
     told = runs["max_von_mises_pa"].notna() | (runs["status"] == RunStatus.DIVERGED.text)
     runs = runs[told & (runs["rate_rad_s2"] > 0.0)]
     return pd.DataFrame(
-        [dict(zip(_CASE, case, strict=True)) | safe_rates(group) for case, group in runs.groupby(_CASE, sort=False)],
-        columns=[*_CASE, *_RATES],
+        [dict(zip(CASE, case, strict=True)) | safe_rates(group) for case, group in runs.groupby(CASE, sort=False)],
+        columns=[*CASE, *_RATES],
     )
 
 
@@ -99,7 +98,7 @@ _RATES = [
 
 def safe_rates(group: pd.DataFrame) -> dict[str, float]:
     """The numbers of a row of `rate_table`, of run-ups that differ by their rates alone."""
-    ratio = (group["max_von_mises_pa"] / group["yield_stress_pa"]).where(group["status"] == "completed", np.inf)
+    ratio = (group["max_von_mises_pa"] / group["yield_stress_pa"]).where(group["status"] == RunStatus.COMPLETED.text, np.inf)
     # of several with one rate the worst counts
     ordered = group.assign(ratio=ratio).sort_values(["rate_rad_s2", "ratio"])
     rates, ratios = ordered["rate_rad_s2"].to_numpy(), ordered["ratio"].to_numpy()

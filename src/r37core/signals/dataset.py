@@ -11,10 +11,9 @@ import xarray as xr
 
 from r37core.dataset_file import SPEED_RPM, about
 from r37core.io import FILE_ATTRIBUTES, atomic_write, readable
-from r37core.results.netcdf import create_axis, create_labels, create_variable
+from r37core.results.netcdf import create_axis, create_labels, create_variable, status_flags
 from r37core.rom.reduced_model import RecoveryNodes
 from r37core.time_integration.simulate import TIP_POINTS
-from r37core.time_integration.status import RunStatus
 from r37core.units import RPM
 
 from .record import Record, revolutions_of
@@ -129,9 +128,7 @@ def gather_signals(files: Mapping[tuple[str, str], Path | str], file: Path | str
         for name, (dims, dtype, units, meaning) in VARIABLES.items():
             if set(dims) <= {"tip_point", "axis", *axes}:
                 create_variable(target, name, dtype, ("run", *dims), about(units, meaning) | {"coordinates": _COORDINATES})
-        target["status"].setncatts(
-            {"flag_values": np.array(list(RunStatus), dtype="i1"), "flag_meanings": " ".join(one.text for one in RunStatus)}
-        )
+        target["status"].setncatts(status_flags())
         for (blade, scene), source in files.items():
             with readable(source), xr.open_dataset(source) as dataset:
                 if dataset.sizes["speed"]:

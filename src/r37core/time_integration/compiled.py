@@ -45,7 +45,6 @@ class CompiledEngine:
         _, self._nodes, self._modes = problem.displacement_operator.shape
         self._layout = layout_of(self._modes, self._nodes, outputs)
         self._record = aligned_zeros((1,), integration_record(self._layout))
-        self._problem = problem
         scene, choice, pace = problem.scene, problem.choice, problem.pace
         kind = Kind(
             published=choice.integrator == CENTRAL_DIFFERENCE,
@@ -57,6 +56,7 @@ class CompiledEngine:
             energy=choice.energy,
             jumps=pace.jumps is not None,
         )
+        self._energy = choice.energy
         self._advance = _program(self._layout, kind)
         self._constant_share: np.ndarray | None = None
         self._corners: dict[tuple[str, tuple[int, ...]], np.ndarray] = {}
@@ -80,7 +80,7 @@ class CompiledEngine:
         self._record[0]["problem"]["diagonal"][: self._nodes] = normal.diagonal()
         self._put(keep=recursion.keep, pull=recursion.pull, inverse=recursion.inverse)
         self._put(coupling=coupling, columns=normal, response=response)
-        if self._problem.choice.energy:
+        if self._energy:
             self._put(loss=recursion.loss)
         if plan is not None:
             self._put(slow_modes=plan.slow_modes, jumps=plan.jumps)
@@ -152,12 +152,19 @@ class CompiledEngine:
 
     def _lay_out_casing(self, problem: Problem, jumps: bool) -> None:
         m, casing = self._record[0], problem.scene.casing
-        # without lobes f is 0 everywhere, and so is what it is multiplied by
-        amplitude = casing.amplitude * casing.clearance if casing.lobes else 0.0
-        rise, period = casing.rise_rate(problem.duration) * problem.time_step, 2.0 * np.pi / max(casing.lobes, 1)
-        cone = np.cos(problem.cone_angle), np.sin(problem.cone_angle)
-        # in the order of layout.CASING
-        m["casing"] = (casing.clearance, amplitude, rise, period, casing.width, *cone)
+        rise = casing.rise_rate(problem.duration) * problem.time_step
+        numbers = {
+            "clearance": casing.clearance,
+            # without lobes f is 0 everywhere, and so is what it is multiplied by
+            "amplitude": casing.amplitude * casing.clearance if casing.lobes else 0.0,
+            "rise": rise,
+            "period": 2.0 * np.pi / max(casing.lobes, 1),
+            "width": casing.width,
+            "cosine": np.cos(problem.cone_angle),
+            "sine": np.sin(problem.cone_angle),
+        }
+        for name, number in numbers.items():
+            m["casing"][name] = number
         shape = casing.shape(problem.theta(np.arange(problem.steps_per_revolution)[:, None]))
         self._shape = aligned_copy(shape, self._layout.nodes)
         m["casing_shape"] = self._shape.ctypes.data

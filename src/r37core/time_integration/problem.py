@@ -198,7 +198,7 @@ class Problem:
         A mode's squared frequency is its stiffness at the speed, phi^T K(Omega) phi; the stiffness between modes is left out.
         Raises BucklingError where it is not positive.
         """
-        several = self._recursion_at(speeds)
+        several = recursion(self.choice.integrator, *self._motion_at(speeds))
         couplings, plans = self._coupling(several.inverse), self._jumps(several)
         return [Pace(several[row], couplings[row], plans and plans[row]) for row in range(len(speeds))]
 
@@ -206,13 +206,14 @@ class Problem:
         """Increments per displacement and per velocity at `speeds`, each of shape (speeds, modes); see integrators."""
         return increments(self.choice.integrator, *self._motion_at(speeds))
 
-    def _recursion_at(self, speeds: np.ndarray) -> Recursion:
-        return recursion(self.choice.integrator, *self._motion_at(speeds))
+    @cached_property
+    def _stiffening(self) -> np.ndarray:
+        """Relative change of the modes' squared frequencies per squared speed (s2), shape (modes,)."""
+        return np.sum(self.modes * (self.model.stiffness_per_square @ self.modes), axis=0) / self.frequencies**2
 
     def _motion_at(self, speeds: np.ndarray) -> tuple[np.ndarray, float, np.ndarray]:
         """Frequencies (rad/s) of the modes at each of the speeds, damping ratio, and steps (s)."""
-        change = np.sum(self.modes * (self.model.stiffness_per_square @ self.modes), axis=0) / self.frequencies**2
-        ratio = 1.0 + (speeds[:, None] ** 2 - self.speed**2) * change
+        ratio = 1.0 + (speeds[:, None] ** 2 - self.speed**2) * self._stiffening
         if not np.all(ratio > 0.0):
             raise BucklingError(float(speeds[np.argmin(ratio.min(axis=1))]))
         steps = 2.0 * np.pi / speeds[:, None] / self.steps_per_revolution

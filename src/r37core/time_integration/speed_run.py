@@ -78,16 +78,22 @@ def run_speed(
         assert scene.lining is not None
         kept |= _wear(state, min(wear_angles, scene.lining.bars))
     if "energy" in results:
-        kept |= _energy_balance(simulation, state)
+        kept |= energy_balance(state, simulation.energy(state))
     return kept
 
 
 def _spectrum(displacement: np.ndarray, revolutions: int, highest_order: int) -> dict[str, np.ndarray]:
     """Amplitude (m) of displacements, shape (directions, samples), at multiples of 1/revolutions of the engine order."""
-    amplitude = 2.0 * np.abs(np.fft.rfft(displacement)) / displacement.shape[1]
+    amplitude = amplitudes(displacement)
     count = min(highest_order * revolutions + 1, amplitude.shape[1])
-    amplitude[:, 0] /= 2.0
     return {"amplitude": amplitude[:, :count].astype(np.float32), "engine_order": np.arange(count) / revolutions}
+
+
+def amplitudes(values: np.ndarray) -> np.ndarray:
+    """Amplitudes of the Fourier series of real values, along the last axis; the first is the mean's size."""
+    found = 2.0 * np.abs(np.fft.rfft(values)) / values.shape[-1]
+    found[..., 0] /= 2.0
+    return found
 
 
 def _wear(state: SimulationState, angles: int) -> dict[str, np.ndarray]:
@@ -96,22 +102,22 @@ def _wear(state: SimulationState, angles: int) -> dict[str, np.ndarray]:
     profile = state.wear.max(axis=0)
     sectors = np.linspace(0, len(profile), angles, endpoint=False).astype(int)
     kept = np.maximum.reduceat(profile, sectors) if len(profile) >= angles else profile[sectors]
-    lobes = np.abs(np.fft.rfft(profile))[: _WEAR_LOBES + 1] * 2.0 / len(profile)
-    lobes[0] /= 2.0
     return {
         "wear": kept.astype(np.float32),
         "max_wear": np.array(profile.max()),
-        "wear_harmonic": lobes,
+        "wear_harmonic": amplitudes(profile)[: _WEAR_LOBES + 1],
     }
 
 
-def _energy_balance(simulation: Simulation, state: SimulationState) -> dict[str, np.ndarray]:
-    """Work of the contact forces, loss to damping, change of energy, and what does not close (all J)."""
+def energy_balance(state: SimulationState, change: float, stiffness_work: float = 0.0) -> dict[str, np.ndarray]:
+    """Work of the contact forces, loss to damping, change of energy, and what does not close (all J).
+
+    `stiffness_work`: what a changing speed brings to the vibration.
+    """
     work, loss = state.totals["work"], state.totals["loss"]
-    change = simulation.energy(state)
     return {
         "contact_work": np.array(work),
         "damping_loss": np.array(loss),
         "energy_change": np.array(change),
-        "energy_residual": np.array(change - work + loss),
+        "energy_residual": np.array(change - work + loss - stiffness_work),
     }
