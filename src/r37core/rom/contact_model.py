@@ -3,7 +3,8 @@
 Light: the simulation jobs import it.
 
 In the modes at rest the mass is the identity and the stiffness at speed Omega is diag(frequencies^2) + Omega^2 K1, so a
-speed's own modes follow from a plain symmetric eigenproblem, without loss of digits and without SciPy.
+speed's own modes follow from a plain symmetric eigenproblem, without loss of digits and without SciPy. Those that the Coriolis
+force couples: r37core.time_integration.gyroscopic.
 """
 
 from __future__ import annotations
@@ -35,7 +36,8 @@ class ContactModel:
     displacement of the contact nodes, from leading to trailing edge; `radius` (m) and `theta` (rad) of the nodes, shape
     (nodes,); `tip_cone_angle` (rad): half angle of the tip line's cone, negative where it narrows downstream;
     `tip_displacement_operator`, shape (3, 2, modes): the same displacements of the tip's leading and trailing edge;
-    `to_reduced`, shape (coordinates, modes): modes at rest in the reduced model's coordinates.
+    `to_reduced`, shape (coordinates, modes): modes at rest in the reduced model's coordinates; `coriolis` (rad^-1), shape
+    (modes, modes): skew-symmetric, force per velocity and Omega, or None where simulations are to leave it out.
     """
 
     squared_frequencies: np.ndarray
@@ -46,6 +48,7 @@ class ContactModel:
     tip_cone_angle: float
     tip_displacement_operator: np.ndarray
     to_reduced: np.ndarray
+    coriolis: np.ndarray | None = None
 
     def modes_at(self, speed: float) -> tuple[np.ndarray, np.ndarray]:
         """Angular frequencies (rad/s), ascending, and modes, shape (modes at rest, modes), at `speed` (rad/s).
@@ -60,14 +63,14 @@ class ContactModel:
 
 
 def write_contact_model(model: ContactModel, file: Path | str) -> None:
-    """Write the model as a small .npz."""
+    """Write the model as a small .npz; a term that it lacks is absent from the file."""
     with atomic_write(file) as partial:
-        np.savez(partial, **asdict(model))
+        np.savez(partial, **{name: value for name, value in asdict(model).items() if value is not None})
 
 
 def read_contact_model(file: Path | str) -> ContactModel:
     """The model of a file; InputFileError when it cannot be read."""
     with readable(file), np.load(file) as stored:
-        content = {field.name: stored[field.name] for field in fields(ContactModel)}
+        content = {field.name: stored[field.name] for field in fields(ContactModel) if field.name in stored}
         content["tip_cone_angle"] = float(content["tip_cone_angle"])
         return ContactModel(**content)

@@ -142,14 +142,10 @@ def _gyroscopic_modes(
 
 
 def contact_model(model: ReducedModel, tip_line: str) -> ContactModel:
-    """The contact model of a reduced model whose boundary nodes lie on `tip_line`.
-
-    Raises ValueError for a model with a Coriolis matrix, which the modal time integration cannot carry.
-    """
-    if model.coriolis is not None:
-        raise ValueError("simulations cannot carry the Coriolis matrix yet; set structure.coriolis to false in config.yaml")
+    """The contact model of a reduced model whose boundary nodes lie on `tip_line`."""
     frequencies, modes = model.modes(0.0)
     per_square = modes.T @ model.stiffness_per_square @ modes
+    coriolis = None if model.coriolis is None else modes.T @ model.coriolis @ modes
     line, nodes = model.tip_lines[tip_line], model.contact_nodes(tip_line)
     return ContactModel(
         squared_frequencies=frequencies**2,
@@ -160,6 +156,7 @@ def contact_model(model: ReducedModel, tip_line: str) -> ContactModel:
         tip_cone_angle=line.cone_angle,
         tip_displacement_operator=_cylindrical_operator(line.select([0, -1]), modes),
         to_reduced=modes,
+        coriolis=None if coriolis is None else 0.5 * (coriolis - coriolis.T),
     )
 
 

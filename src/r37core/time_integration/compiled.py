@@ -55,12 +55,15 @@ class CompiledEngine:
             exact_gap=scene.exact_gap,
             energy=choice.energy,
             jumps=pace.jumps is not None,
+            coriolis=problem.complex_modes is not None,
         )
-        self._energy = choice.energy
+        self._energy, self._coriolis = choice.energy, kind.coriolis
         self._advance = _program(self._layout, kind)
         self._constant_share: np.ndarray | None = None
         self._corners: dict[tuple[str, tuple[int, ...]], np.ndarray] = {}
         self._lay_out(problem)
+        if self._coriolis:
+            self._lay_out_coriolis(problem)
         self._lay_out_casing(problem, jumps=pace.jumps is not None)
         if scene.friction is not None:
             self._lay_out_friction(problem, scene.friction)
@@ -82,6 +85,8 @@ class CompiledEngine:
         self._put(coupling=coupling, columns=normal, response=response)
         if self._energy:
             self._put(loss=recursion.loss)
+        if self._coriolis:
+            self._put(inverse_keep=1.0 / recursion.keep)
         if plan is not None:
             self._put(slow_modes=plan.slow_modes, jumps=plan.jumps)
             self._put(amplitude_by_u=plan.amplitude_rows[0], amplitude_by_d=plan.amplitude_rows[1])
@@ -104,7 +109,10 @@ class CompiledEngine:
         Returns the blocks done: fewer when an output passed the limit or is NaN.
         """
         m, (modes, nodes, _) = self._record[0], self._layout
-        snapshots = np.zeros((len(out.snapshots), modes + (3 * nodes if self._second_order else 0)))
+        # u and, with Coriolis, d of each
+        of_mode = 1 + self._coriolis
+        numbers, kept = of_mode * modes, of_mode * self._modes
+        snapshots = np.zeros((len(out.snapshots), numbers + (3 * nodes if self._second_order else 0)))
         self._put(
             u=state.displacement,
             increment=state.increment,
@@ -122,12 +130,13 @@ class CompiledEngine:
         state.displacement[:], state.increment[:] = m["u"][: self._modes], m["increment"][: self._modes]
         state.on_casing[:] = np.unpackbits(m["on_casing"].astype(np.uint8), bitorder="little")[: self._nodes]
         state.totals[()] = m["totals"]
-        out.snapshots[:, : self._modes] = snapshots[:, : self._modes]
+        of_modes = snapshots[:, :numbers].reshape(len(snapshots), of_mode, modes)[:, :, : self._modes]
+        out.snapshots[:, :kept] = of_modes.reshape(len(snapshots), kept)
         if self._second_order:
             state.lining_force[NORMAL] = m["force"][: self._nodes]
             state.lining_force[TANGENTIAL:] = m["friction_force"][:, : self._nodes]
-            forces = snapshots[:, modes:].reshape(-1, 3, nodes)[:, :, : self._nodes]
-            out.snapshots[:, self._modes :] = forces.reshape(len(snapshots), 3 * self._nodes)
+            forces = snapshots[:, numbers:].reshape(-1, 3, nodes)[:, :, : self._nodes]
+            out.snapshots[:, kept:] = forces.reshape(len(snapshots), 3 * self._nodes)
         return done
 
     def _lay_out(self, problem: Problem) -> None:
@@ -148,6 +157,15 @@ class CompiledEngine:
             steps_per_block=problem.steps_per_sample,
             samples_before_snapshots=problem.samples_before_snapshots,
             samples_per_snapshot=problem.samples_per_snapshot,
+        )
+
+    def _lay_out_coriolis(self, problem: Problem) -> None:
+        assert problem.complex_operator is not None
+        self._put(
+            increment_operator=problem.increment_operator,
+            increment_push_operator=problem.increment_operator[NORMAL],
+            increment_outputs=problem.output_operator[None, :, self._modes : 2 * self._modes],
+            size_operator=np.abs(problem.complex_operator),
         )
 
     def _lay_out_casing(self, problem: Problem, jumps: bool) -> None:
@@ -182,12 +200,14 @@ class CompiledEngine:
         self._put(friction=friction.coefficient, rotation=velocity * problem.time_step)
         if not friction.vector:
             share = friction.coefficient * np.sign(velocity)[:, None]
-            operator = problem.displacement_operator
+            operator, increments = problem.displacement_operator, problem.increment_operator
             self._constant_share = share
             self._put(
                 friction_share=np.stack([share[:, 0], np.zeros(self._nodes)]),
                 push_operator=operator[NORMAL] + share * operator[TANGENTIAL],
             )
+            if self._coriolis:
+                self._put(increment_push_operator=increments[NORMAL] + share * increments[TANGENTIAL])
 
     def _lay_out_lining(self, problem: Problem, lining: Lining) -> None:
         m = self._record[0]
@@ -200,7 +220,7 @@ class CompiledEngine:
     def _lay_out_static_modes(self, problem: Problem) -> None:
         flexibility = problem.residual_flexibility
         own = np.diagonal(flexibility, axis1=1, axis2=2)
-        force_outputs = problem.output_operator[:, self._modes :].reshape(-1, 3, self._nodes)
+        force_outputs = problem.output_operator[:, -3 * self._nodes :].reshape(-1, 3, self._nodes)
         padded_forces = np.zeros((*force_outputs.shape[:2], self._layout.nodes))
         padded_forces[:, :, : self._nodes] = force_outputs
         self._put(

@@ -77,10 +77,9 @@ def jump_lengths(steps_per_block: int) -> np.ndarray:
 
 
 def _single(recursion: Recursion) -> np.ndarray:
-    """One step less the identity; its loss is that of the central difference (u' - u_before) = (1 + k) d - p u."""
-    keep, pull, loss = recursion.keep, recursion.pull, recursion.loss
-    of_loss = [loss * pull**2, -2.0 * loss * pull * (1.0 + keep), loss * (1.0 + keep) ** 2]
-    return np.stack([-pull, keep, -pull, keep - 1.0, *of_loss], axis=-2)
+    """One step less the identity, and its loss."""
+    keep, pull = recursion.keep, recursion.pull
+    return np.stack([-pull, keep, -pull, keep - 1.0, *recursion.loss_form], axis=-2)
 
 
 def _after(first: np.ndarray, second: np.ndarray) -> np.ndarray:

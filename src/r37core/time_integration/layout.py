@@ -44,7 +44,7 @@ class Kind(NamedTuple):
     `published`: the integrator is central_difference. `second_order`: the lining presses with its force at t_n; see
     r37core.time_integration.lined_steps. `vector_friction`: along the real sliding velocity; friction of constant direction
     is in the push rows and responses. `coupled`: friction is part of the complementarity problem. `exact_gap`, `energy`,
-    `jumps`: see Scene and IntegrationChoice.
+    `jumps`: see Scene and IntegrationChoice. `coriolis`: modes are complex; see r37core.time_integration.gyroscopic.
     """
 
     published: bool
@@ -55,6 +55,7 @@ class Kind(NamedTuple):
     exact_gap: bool
     energy: bool
     jumps: bool
+    coriolis: bool
 
 
 def layout_of(modes: int, nodes: int, outputs: int) -> Layout:
@@ -120,6 +121,12 @@ def integration_record(layout: Layout) -> np.dtype:
             *_arrays("push_operator", nodes, modes),
             *_arrays("outputs", 1, padded(outputs), modes),
             *_arrays("sample", padded(outputs)),
+            # with Coriolis the same per increment; the size of displacement_operator per complex amplitude; increment of the
+            # last increment, had there been no force; 1/keep; forces on the modes' increments
+            *_arrays("increment_operator size_operator", 3, nodes, modes),
+            *_arrays("increment_push_operator", nodes, modes),
+            *_arrays("increment_outputs", 1, padded(outputs), modes),
+            *_arrays("last_second_difference inverse_keep increment_push", modes),
             # normal displacement of the last node per force in the three directions on the one before
             *_arrays("coupling", 3, nodes, nodes),
             # opening of the last node's gap per unit multiplier of the one before: with friction, and as the problem has it

@@ -39,7 +39,7 @@ def push_lining(m, kind, work, lost):
     count = list_pressed(m)
     if count == 0:
         return False, work, lost
-    return push_blade(m, count, kind.vector_friction, kind.energy, work, lost)
+    return push_blade(m, count, kind, work, lost)
 
 
 @inlined
@@ -54,9 +54,9 @@ def meet_lining(m, here, lobes, kind, pushed, work, lost):
         # what the casing presses stays where it is
         settle(m, True)
         if kind.exact_gap:
-            measure_exact_gaps(m, here, lobes, True)
+            measure_exact_gaps(m, here, lobes, True, kind.coriolis)
         else:
-            measure_gaps(m, here, lobes, True)
+            measure_gaps(m, here, lobes, True, kind.coriolis)
         keep_static_force(m, False)
     else:
         leave_casing(m)
@@ -101,8 +101,9 @@ def push_casing(m, kind, pushed, work, lost):
         store(m.pushed, i, load(m.push, i) if pushed else spread(0.0))
     count = press_casing(m, kind)
     set_friction_force(m)
-    presses, work, lost = push_blade(m, count, kind.vector_friction, kind.energy, work, lost)
-    if presses:
+    presses, work, lost = push_blade(m, count, kind, work, lost)
+    # a kick of complex modes sees those before it
+    if presses and not kind.coriolis:
         for i in range(0, len(m.u), LANES):
             work += load(m.pushed, i) * load(m.inverse, i) * load(m.push, i)
     return presses, work, lost

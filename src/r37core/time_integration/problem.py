@@ -14,9 +14,14 @@ from r37core.contact.scene import Scene
 from r37core.rom.contact_model import BucklingError, ContactModel
 
 from .integration_choice import LARGEST_TABLE, IntegrationChoice
-from .integrators import EXACT_MODAL, Recursion, increments, recursion
+from .gyroscopic import ComplexModes, complex_recursion, coupled_modes
+from .integrators import CENTRAL_DIFFERENCE, EXACT_MODAL, Recursion, increments, recursion
 from .jump_plan import JumpPlan, plan_jumps
 from .step_limit import UnstableStepError, check_step
+
+
+NO_CORIOLIS = "central differences do not carry the Coriolis force; use the integrator exact_modal"
+"""Why a problem is refused."""
 
 
 class LongRevolutionError(ValueError):
@@ -37,10 +42,11 @@ class Problem:
 
     With the integrator exact_modal a lining presses with its force at t_n (`second_order`), and modes faster than
     `choice.static_above` per step follow it statically: they are none of `frequencies` and `modes`. Everywhere else all modes
-    are stepped.
+    are stepped. A model with a Coriolis matrix has its stepped modes coupled by it (`complex_modes`).
 
     Raises UnstableStepError for a step at or above the stability limit 2/omega_max of central differences, or that of nodes
-    pressed on the lining's bars; LongRevolutionError for a revolution of too many steps.
+    pressed on the lining's bars; LongRevolutionError for a revolution of too many steps; ValueError for a Coriolis matrix with
+    central differences.
     """
 
     model: ContactModel
@@ -49,6 +55,8 @@ class Problem:
     choice: IntegrationChoice
 
     def __post_init__(self) -> None:
+        if self.model.coriolis is not None and self.choice.integrator == CENTRAL_DIFFERENCE:
+            raise ValueError(NO_CORIOLIS)
         self._check_length()
         check_step(self)
 
@@ -59,13 +67,23 @@ class Problem:
 
     @property
     def frequencies(self) -> np.ndarray:
-        """Of the modes that are stepped (rad/s), ascending."""
+        """Of the modes that are stepped (rad/s), ascending, without the Coriolis force."""
         return self._kept_modes[0][: self._stepped]
 
     @cached_property
     def modes(self) -> np.ndarray:
         """Those that are stepped, of the speed, shape (modes at rest, modes)."""
         return np.ascontiguousarray(self._kept_modes[1][:, : self._stepped])
+
+    @cached_property
+    def coriolis(self) -> np.ndarray:
+        """What couples the stepped modes at the speed (rad/s), skew-symmetric, shape (modes, modes)."""
+        return self.speed * self.modes.T @ self.model.coriolis @ self.modes
+
+    @cached_property
+    def complex_modes(self) -> ComplexModes | None:
+        """Of the stepped modes as the Coriolis force couples them; None for a model without it."""
+        return None if self.model.coriolis is None else coupled_modes(self.frequencies, self.coriolis, self.time_step)
 
     @cached_property
     def _stepped(self) -> int:
@@ -115,8 +133,19 @@ class Problem:
 
     @cached_property
     def recursion(self) -> Recursion:
-        """How a mode goes from step to step."""
-        return recursion(self.choice.integrator, self.frequencies, self.scene.damping_ratio, self.time_step)
+        """How a mode goes from step to step: a complex one in the real part of its amplitude."""
+        coupled = self.complex_modes
+        frequencies = self.frequencies if coupled is None else coupled.frequencies
+        found = recursion(self.choice.integrator, frequencies, self.scene.damping_ratio, self.time_step)
+        return found if coupled is None else complex_recursion(found)
+
+    @cached_property
+    def _shapes(self) -> tuple[np.ndarray, np.ndarray]:
+        """Displacement in the modes at rest per u and per d of the stepped modes; no column of the second without Coriolis."""
+        if self.complex_modes is None:
+            return self.modes, np.empty((len(self.modes), 0))
+        by_u, by_d = self.complex_modes.real_shapes(self.recursion)
+        return self.modes @ by_u, self.modes @ by_d
 
     @property
     def cone_angle(self) -> float:
@@ -130,26 +159,55 @@ class Problem:
 
     @cached_property
     def displacement_operator(self) -> np.ndarray:
-        """Displacement of the contact nodes along the casing's normal, tangent and meridian, shape (3, nodes, modes)."""
-        return self._operator_at_rest @ self.modes
+        """Displacement of the contact nodes along the casing's normal, tangent and meridian, shape (3, nodes, modes).
+
+        Per displacement u of the stepped modes; a coupled one's increment d moves the nodes by `increment_operator`, too.
+        """
+        return self._operator_at_rest @ self._shapes[0]
+
+    @cached_property
+    def increment_operator(self) -> np.ndarray:
+        """The same per increment d, shape (3, nodes, modes); no column without Coriolis."""
+        return self._operator_at_rest @ self._shapes[1]
+
+    @cached_property
+    def complex_operator(self) -> np.ndarray | None:
+        """The same per complex amplitude, shape (3, nodes, modes)."""
+        return None if self.complex_modes is None else self._operator_at_rest @ self.modes @ self.complex_modes.shapes
 
     @cached_property
     def static_shapes(self) -> np.ndarray:
-        """Displacement of the modes that are not stepped per force on the contact nodes, shape (modes at rest, 3 nodes).
+        """Displacement that follows forces on the contact nodes at once, shape (modes at rest, 3 nodes).
 
-        Their residual flexibility, of forces in the directions of `displacement_operator`: sum of phi phi^T/omega^2 over those
-        modes (Craig and Kurdila, Fundamentals of Structural Dynamics, section 17.4). No column where all modes are stepped.
+        That of the modes that are not stepped, their residual flexibility, of forces in the directions of
+        `displacement_operator`: sum of phi phi^T/omega^2 over those modes (Craig and Kurdila, Fundamentals of Structural
+        Dynamics, section 17.4). With Coriolis also half of the kick by which a force at t_n acts on the stepped modes. No
+        column where the forces are not those at t_n.
         """
         if not self.second_order:
             return np.empty((len(self.modes), 0))
         frequencies, modes = (part[..., self._stepped :] for part in self._kept_modes)
         rows = (self._operator_at_rest @ modes).reshape(3 * len(self.model.radius), len(frequencies))
-        return (modes / frequencies**2) @ rows.T
+        residual = (modes / frequencies**2) @ rows.T
+        return residual if self.complex_modes is None else residual + self._half_kick
+
+    @property
+    def _half_kick(self) -> np.ndarray:
+        """Half of what a kick moves the stepped modes by, in the shape of `static_shapes`; see ComplexRecursion."""
+        by_u, by_d = self._shapes
+        size = 0.5 * self.recursion.inverse / self.recursion.keep
+        rows, increment_rows = (
+            one.reshape(-1, len(size)) for one in (self.displacement_operator, self.increment_operator)
+        )
+        return (by_d * size) @ rows.T - (by_u * size) @ increment_rows.T
 
     @property
     def state_shapes(self) -> np.ndarray:
-        """Displacement in the modes at rest per number of a snapshot: the stepped modes', then the contact forces' (N)."""
-        return np.hstack([self.modes, self.static_shapes])
+        """Displacement in the modes at rest per number of a snapshot.
+
+        They are the stepped modes' u, with Coriolis their d, then the contact forces (N).
+        """
+        return np.hstack([*self._shapes, self.static_shapes])
 
     @cached_property
     def output_operator(self) -> np.ndarray:
@@ -161,9 +219,9 @@ class Problem:
 
     @cached_property
     def residual_flexibility(self) -> np.ndarray:
-        """Static normal displacement (m/N) of the last node per normal, tangential or meridional force on the first.
+        """Normal displacement (m/N) of the last node by `static_shapes` per force on the first, along each direction.
 
-        Of the modes that are not stepped; shape (3, nodes, nodes).
+        Shape (3, nodes, nodes).
         """
         nodes = len(self.model.radius)
         if not self.static_shapes.size:
@@ -176,7 +234,15 @@ class Problem:
 
         Shape (3, nodes, nodes).
         """
-        return self._coupling(self.recursion.inverse)
+        coupling = self._coupling(self.recursion.inverse)
+        if self.complex_modes is not None:
+            of = self.recursion
+            normal, normal_increment = self.displacement_operator[0], self.increment_operator[0]
+            by_increment = self.increment_operator * (of.inverse / of.keep)
+            # c pull b/keep on both coordinates, less c b/keep on u, and c a on d
+            coupling += (by_increment * of.pull) @ (normal + normal_increment).T - by_increment @ normal.T
+            coupling += (self.displacement_operator * of.inverse) @ normal_increment.T
+        return coupling
 
     def _coupling(self, inverse: np.ndarray) -> np.ndarray:
         """`coupling` of the recursion's `inverse`, shape (..., modes); shape (..., 3, nodes, nodes)."""

@@ -39,11 +39,11 @@ def _integrate(m, kind):
         while position < m.steps_per_block:
             if kind.jumps and not beyond and not follows and position % COARSE == 0:
                 if not bounded:
-                    bound_amplitudes(m, kind.exact_gap)
+                    bound_amplitudes(m, kind.exact_gap, kind.coriolis)
                     bounded = True
                 nearest = (place // m.steps_per_block * coarse_per_block + position // COARSE) * len(m.force)
                 left = m.steps_per_block - position
-                stride = choose_jump(m, nearest, first_stride, left, remaining, kind.exact_gap)
+                stride = choose_jump(m, nearest, first_stride, left, remaining, kind.exact_gap, kind.coriolis)
                 first_stride = max(min(stride + 1, STRIDES - 1), 1)
                 if stride >= 0:
                     lost = jump_ahead(m, stride, kind.energy, lost)
@@ -54,16 +54,16 @@ def _integrate(m, kind):
                     continue
             position += 1
             remaining *= decay
-            lost = predict(m, kind.energy, lost)
+            lost = predict(m, kind.energy, lost, kind.coriolis)
             here = place + position if place + position < m.steps_per_revolution else 0
             lobes = m.casing.amplitude * (1.0 - remaining)
             if kind.second_order:
                 pushed, work, lost = push_lining(m, kind, work, lost) if follows else (False, work, lost)
             # not a function of its own: sums are reordered by how they are inlined, and the published scheme keeps its bits
             if kind.exact_gap:
-                beyond = measure_exact_gaps(m, here, lobes, kind.second_order)
+                beyond = measure_exact_gaps(m, here, lobes, kind.second_order, kind.coriolis)
             else:
-                beyond = measure_gaps(m, here, lobes, kind.second_order)
+                beyond = measure_gaps(m, here, lobes, kind.second_order, kind.coriolis)
             if kind.second_order:
                 if beyond:
                     work, lost = meet_lining(m, here, lobes, kind, pushed, work, lost)

@@ -68,15 +68,21 @@ def second_order_ratio(problem: Problem, lining: Lining) -> float:
     lambda^2 - (1 + k_x - m_x) lambda + k_x lie inside the unit circle if m_x < 2 (1 + k_x), k_x and m_x being means over x.
     The static displacement that the other nodes' forces add lags by a step. F_n = -K (N u_n + R F_{n-1}), R the residual
     flexibility without its diagonal, and about F = -A (N u - h R A N du/dt), A = (K^-1 + R)^-1: the lag damps some motions and
-    feeds others, for R has no trace. The structure's damping bears that while the largest eigenvalue of K^(1/2) R K^(1/2) is
+    feeds others, for R has no trace. The structure's damping bears that while the largest singular value of K^(1/2) R K^(1/2) is
     below _LARGEST_LAG, found with every few of the nodes pressed, on several blades and linings.
+    A coupled mode counts as two, with the real and the imaginary part of its shape: the limit is where a motion changes its
+    sign in every step, and there the two are not coupled.
     """
     recursion, normal, flexibility = problem.recursion, problem.displacement_operator[0], problem.residual_flexibility[0]
+    inverse, pull = recursion.inverse, recursion.pull
+    if problem.complex_operator is not None:
+        normal = np.hstack([problem.complex_operator[0].real, problem.complex_operator[0].imag])
+        inverse, pull = np.tile(inverse, 2), np.tile(pull, 2)
     own = np.diag(flexibility)
     series = series_modulus(lining.elastic_modulus, problem.bar_stiffness, own) * (problem.bar_area / lining.thickness)
-    root = np.sqrt(recursion.inverse)
-    matrix = np.diag(recursion.pull) + (root[:, None] * normal.T * series) @ (normal * root)
+    root = np.sqrt(inverse)
+    matrix = np.diag(pull) + (root[:, None] * normal.T * series) @ (normal * root)
     stepped = float(np.linalg.eigvalsh(matrix)[-1]) / (2.0 * (1.0 + float(recursion.keep.min())))
     half = np.sqrt(series)
     lagging = half[:, None] * (flexibility - np.diag(own)) * half
-    return max(stepped, float(np.abs(np.linalg.eigvalsh(lagging)).max()) / _LARGEST_LAG)
+    return max(stepped, float(np.linalg.norm(lagging, 2)) / _LARGEST_LAG)

@@ -3,6 +3,7 @@
 Recursion (section 5 of the benchmark, diagonal in the modes of one speed): u* = a u_n + b u_{n-1}; where a tip node passes the
 lining or the casing, u_{n+1} = u* + c F. It is carried in displacement u and increment d = u_n - u_{n-1}, which is the same
 recursion without its loss of digits: d* = keep d - pull u, u* = u + d*, with keep = -b, pull = 1 - a - b, inverse = c.
+With Coriolis u is the real part of a complex amplitude, whose increment moves the nodes, too: time_integration.gyroscopic.
 
 `m` is a record of time_integration.layout; tip nodes are lanes (r37core.lanes), sets of nodes are bits, eight nodes to an
 integer. Arguments that choose (`kind`, `energy`, ...) are constants where the time integration is compiled.
@@ -44,26 +45,47 @@ def along(rows, direction, modal, g, used):
 
 
 @inlined
-def predict(m, energy, lost):
+def displaced(m, direction, g, coriolis):
+    """Displacement of the eight nodes from g on, by all modes."""
+    total = along(m.displacement_operator, direction, m.u, g, len(m.u))
+    if coriolis:
+        total += along(m.increment_operator, direction, m.increment, g, len(m.u))
+    return total
+
+
+@inlined
+def second_difference(m, i):
+    """Increment of the increments of the eight modes from i on: d_n - d_{n-1} of the free motion through u_n, d_n."""
+    u, d, keep = load(m.u, i), load(m.increment, i), load(m.keep, i)
+    return ((keep - 1.0) * d - load(m.pull, i) * (u - d)) * load(m.inverse_keep, i)
+
+
+@inlined
+def predict(m, energy, lost, coriolis):
     """The free step of every mode; returns `lost` and the energy it loses, in lanes."""
     for i in range(0, len(m.u), LANES):
+        if coriolis:
+            store(m.last_second_difference, i, second_difference(m, i))
         u, last = load(m.u, i), load(m.increment, i)
         d = load(m.keep, i) * last - load(m.pull, i) * u
         store(m.last_increment, i, last)
         store(m.increment, i, d)
         store(m.u, i, u + d)
-        if energy:
+        if energy and coriolis:
+            keep, pull = load(m.keep, i), load(m.pull, i)
+            lost += load(m.loss, i) * (pull * u * (u - last) + ((1.0 - keep) * u + keep * last) * last)
+        elif energy:
             lost += load(m.loss, i) * (d + last) * (d + last)
     return lost
 
 
 @inlined
-def measure_gaps(m, place, lobes, settles):
+def measure_gaps(m, place, lobes, settles, coriolis):
     """Linear gaps: clearance, less the lobes at the undeformed angle, less the normal displacement. Whether any is passed."""
     shape = numbers_at(m.casing_shape)
     any_beyond = 0
     for g in range(0, len(m.force), LANES):
-        normal = along(m.displacement_operator, NORMAL, m.u, g, len(m.u))
+        normal = displaced(m, NORMAL, g, coriolis)
         gap = m.casing.clearance - lobes * load(shape, place * len(m.force) + g) - normal
         if settles:
             gap += load(m.settled, g)
@@ -75,15 +97,15 @@ def measure_gaps(m, place, lobes, settles):
 
 
 @inlined
-def measure_exact_gaps(m, place, lobes, settles):
+def measure_exact_gaps(m, place, lobes, settles, coriolis):
     """Gaps between the displaced nodes and the lobed cone: see r37core.contact.casing. Whether any is passed."""
     turned = place * (2.0 * np.pi / m.steps_per_revolution)
     any_beyond = False
     for g in range(0, len(m.force), LANES):
         # room that is free before contact
-        store(m.problem.multiplier, g, along(m.displacement_operator, NORMAL, m.u, g, len(m.u)))
-        store(m.problem.answer, g, along(m.displacement_operator, TANGENTIAL, m.u, g, len(m.u)))
-        store(m.problem.short, g, along(m.displacement_operator, MERIDIONAL, m.u, g, len(m.u)))
+        store(m.problem.multiplier, g, displaced(m, NORMAL, g, coriolis))
+        store(m.problem.answer, g, displaced(m, TANGENTIAL, g, coriolis))
+        store(m.problem.short, g, displaced(m, MERIDIONAL, g, coriolis))
         m.beyond[g // LANES] = 0
     for k in range(m.nodes):
         p, casing = m.problem, m.casing
@@ -109,7 +131,7 @@ def set_friction(m, g, tangential, meridional):
 
 
 @inlined
-def set_friction_of_listed(m, count, centred):
+def set_friction_of_listed(m, count, centred, coriolis):
     """Vector friction on the listed nodes: more costly for each than `set_friction_of_all`, but they are few.
 
     `centred`: against the sliding at t_n, extrapolated from the last two increments, else in the last step.
@@ -126,6 +148,12 @@ def set_friction_of_listed(m, count, centred):
                         last = 1.5 * load(m.increment, i) - 0.5 * last
                     t += load(m.displacement_operator, (TANGENTIAL, k, i)) * last
                     r += load(m.displacement_operator, (MERIDIONAL, k, i)) * last
+                    if coriolis:
+                        last = load(m.last_second_difference, i)
+                        if centred:
+                            last = 1.5 * second_difference(m, i) - 0.5 * last
+                        t += load(m.increment_operator, (TANGENTIAL, k, i)) * last
+                        r += load(m.increment_operator, (MERIDIONAL, k, i)) * last
                 # put into lanes here: loading together what was stored one by one stalls the processor
                 tangential = np.where(flag_at(k - g), sum_of_lanes(t), tangential)
                 meridional = np.where(flag_at(k - g), sum_of_lanes(r), meridional)
@@ -133,11 +161,15 @@ def set_friction_of_listed(m, count, centred):
 
 
 @inlined
-def set_friction_of_all(m):
+def set_friction_of_all(m, coriolis):
     """Vector friction on all nodes, and the gaps' response with it."""
     for g in range(0, len(m.force), LANES):
         tangential = along(m.displacement_operator, TANGENTIAL, m.last_increment, g, len(m.u))
-        set_friction(m, g, tangential, along(m.displacement_operator, MERIDIONAL, m.last_increment, g, len(m.u)))
+        meridional = along(m.displacement_operator, MERIDIONAL, m.last_increment, g, len(m.u))
+        if coriolis:
+            tangential += along(m.increment_operator, TANGENTIAL, m.last_second_difference, g, len(m.u))
+            meridional += along(m.increment_operator, MERIDIONAL, m.last_second_difference, g, len(m.u))
+        set_friction(m, g, tangential, meridional)
     for k in range(m.nodes):
         for g in range(0, len(m.force), LANES):
             store(m.response, (k, g), response_with_friction(m, k, g))
@@ -158,7 +190,7 @@ def press_bars(m, place, kind):
     turned = place * lining.bars / m.steps_per_revolution
     count = list_nodes(m.beyond, p.listed)
     if kind.vector_friction:
-        set_friction_of_listed(m, count, kind.second_order)
+        set_friction_of_listed(m, count, kind.second_order, kind.coriolis)
     for j in range(count):
         k = p.listed[j]
         position = m.bar_position[k] - turned
@@ -208,7 +240,7 @@ def press_casing(m, kind):
     p = m.problem
     if kind.vector_friction:
         # the others' reaction may bring any of them to the casing
-        set_friction_of_all(m)
+        set_friction_of_all(m, kind.coriolis)
     guessed = 0
     for g in range(len(m.on_casing)):
         p.touching[g] = m.on_casing[g]
@@ -253,7 +285,7 @@ def set_friction_force(m):
 
 
 @inlined
-def push_blade(m, count, vector, energy, work, lost):
+def push_blade(m, count, kind, work, lost):
     """Correct displacement and increment for the listed nodes' forces; adds the work, doubled, and the energy lost.
 
     Returns also whether any presses.
@@ -261,6 +293,8 @@ def push_blade(m, count, vector, energy, work, lost):
     pressed = False
     for i in range(0, len(m.u), LANES):
         store(m.push, i, 0.0)
+        if kind.coriolis:
+            store(m.increment_push, i, 0.0)
     for j in range(count):
         k = m.problem.listed[j]
         normal = m.force[k]
@@ -270,24 +304,58 @@ def push_blade(m, count, vector, energy, work, lost):
         m.totals.largest_force = max(m.totals.largest_force, -normal)
         tangential, meridional = m.friction_force[0, k], m.friction_force[1, k]
         for i in range(0, len(m.u), LANES):
-            if vector:
+            if kind.vector_friction:
                 push = load(m.displacement_operator, (NORMAL, k, i)) * normal
                 push += load(m.displacement_operator, (TANGENTIAL, k, i)) * tangential
                 push += load(m.displacement_operator, (MERIDIONAL, k, i)) * meridional
             else:
                 push = load(m.push_operator, (k, i)) * normal
             store(m.push, i, load(m.push, i) + push)
+            if kind.coriolis:
+                if kind.vector_friction:
+                    push = load(m.increment_operator, (NORMAL, k, i)) * normal
+                    push += load(m.increment_operator, (TANGENTIAL, k, i)) * tangential
+                    push += load(m.increment_operator, (MERIDIONAL, k, i)) * meridional
+                else:
+                    push = load(m.increment_push_operator, (k, i)) * normal
+                store(m.increment_push, i, load(m.increment_push, i) + push)
     if not pressed:
         return False, work, lost
+    if kind.coriolis:
+        work, lost = kick_complex_modes(m, kind.energy, work, lost)
+        return True, work, lost
     for i in range(0, len(m.u), LANES):
         free, push = load(m.increment, i) + load(m.last_increment, i), load(m.push, i)
         pushed = load(m.inverse, i) * push
         store(m.increment, i, load(m.increment, i) + pushed)
         store(m.u, i, load(m.u, i) + pushed)
         work += push * (free + pushed)
-        if energy:
+        if kind.energy:
             lost += load(m.loss, i) * pushed * (free + free + pushed)
     return True, work, lost
+
+
+@inlined
+def kick_complex_modes(m, energy, work, lost):
+    """What a kick at the beginning of the step adds to its end, its work, doubled, and loss: see gyroscopic.ComplexRecursion."""
+    for i in range(0, len(m.u), LANES):
+        keep, pull, inverse_keep, inverse = load(m.keep, i), load(m.pull, i), load(m.inverse_keep, i), load(m.inverse, i)
+        push, increment_push, d = load(m.push, i), load(m.increment_push, i), load(m.increment, i)
+        # twice the displacement mid-kick, its increment times keep, and q
+        before = load(m.u, i) - d
+        kicked = inverse * inverse_keep * increment_push
+        displacement = before + before - kicked
+        increment = 2.0 * (d + pull * before) + inverse * push
+        sense = 0.5 * (1.0 - keep - pull)
+        of_push = push * (increment + sense * displacement)
+        of_push -= increment_push * (sense * inverse_keep * increment + pull * displacement)
+        work += of_push
+        if energy:
+            lost += 0.5 * (1.0 - keep) * of_push
+        pushed = inverse * push + pull * kicked
+        store(m.increment, i, d + pushed)
+        store(m.u, i, before + d + pushed - kicked)
+    return work, lost
 
 
 @inlined
@@ -303,7 +371,7 @@ def meet(m, place, kind, work, lost):
         leave_casing(m)
     if kind.vector_friction:
         set_friction_force(m)
-    pressed, work, lost = push_blade(m, count, kind.vector_friction, kind.energy, work, lost)
+    pressed, work, lost = push_blade(m, count, kind, work, lost)
     m.totals.steps_in_contact += pressed
     return work, lost
 
@@ -319,23 +387,28 @@ def leave_casing(m):
 def record(m, block, row, kind):
     """Samples and, unless `row` is -1, a snapshot at the end of a block; returns whether the outputs are within the limit."""
     snapshots, modes = numbers_at(m.snapshots), len(m.u)
-    bounded = sample_as_published(m, block) if kind.published else sample(m, block, kind.second_order)
+    bounded = sample_as_published(m, block) if kind.published else sample(m, block, kind.second_order, kind.coriolis)
     if row >= 0:
-        width = modes + (len(m.static_force) if kind.second_order else 0)
+        numbers = 2 * modes if kind.coriolis else modes
+        width = numbers + (len(m.static_force) if kind.second_order else 0)
         for i in range(modes):
             snapshots[row * width + i] = m.u[i]
-        for k in range(width - modes):
-            snapshots[row * width + modes + k] = m.static_force[k]
+            if kind.coriolis:
+                snapshots[row * width + modes + i] = m.increment[i]
+        for k in range(width - numbers):
+            snapshots[row * width + numbers + k] = m.static_force[k]
     return bounded
 
 
 @inlined
-def sample(m, block, settles):
+def sample(m, block, settles, coriolis):
     """The outputs, with those of the static modes where it `settles`; returns whether they are within the limit."""
     samples, outputs = numbers_at(m.samples), m.number_of_outputs
     beyond = 0
     for g in range(0, len(m.sample), LANES):
         total = along(m.outputs, 0, m.u, g, len(m.u))
+        if coriolis:
+            total += along(m.increment_outputs, 0, m.increment, g, len(m.u))
         if settles:
             total += along(m.force_outputs, 0, m.static_force, g, len(m.static_force))
         store(m.sample, g, total)

@@ -1,0 +1,116 @@
+"""Modes that the Coriolis force couples: complex shapes, each with one complex amplitude that is followed without error.
+
+In a speed's own modes, of angular frequencies W, the blade follows q'' + g q' + W^2 q = f with g skew-symmetric. With
+y = (W q, q') that is y' = A y + (0, f), A real and skew-symmetric: -i A is Hermitian, its eigenvalues +-w_j are real and its
+eigenvectors orthonormal (Meirovitch, J. Appl. Mech. 42 (1975) 446-450). So
+
+    q = Re sum_j s_j zeta_j,    zeta_j' = i w_j zeta_j - (i/w_j) s_j^H f,    energy = sum_j w_j^2 |zeta_j|^2/2.
+
+Damping makes i w_j the root of lambda^2 + 2 xi w_j lambda + w_j^2, as of every real mode without the coupling.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from .integrators import Recursion
+
+LARGEST_TURN = 2.0
+"""Of a mode in a step (rad), up to which the Coriolis force acts on it. Faster ones, which only rigid impacts have, keep their
+real shapes: towards half a turn in a step two real numbers no longer tell a complex amplitude."""
+
+
+@dataclass(frozen=True)
+class ComplexModes:
+    """Angular `frequencies` w_j (rad/s), shape (modes,), and complex `shapes` s_j, shape (real modes, modes).
+
+    The sum of Re s_j s_j^H is the identity, and that of Re s_j s_j^H/w_j^2 the flexibility, which the coupling leaves alone.
+    """
+
+    frequencies: np.ndarray
+    shapes: np.ndarray
+
+    def real_shapes(self, recursion: Recursion) -> tuple[np.ndarray, np.ndarray]:
+        """Displacement of the real modes per u_j and per d_j, where u_n = Re zeta and d_n = u_n - u_{n-1} of free motion."""
+        by_u, by_d = imaginary_part(recursion)
+        # none where the shape is real, however fast the mode
+        turned = self.shapes.imag
+        by_u, by_d = (np.where(turned.any(axis=0), one, 0.0) for one in (by_u, by_d))
+        return self.shapes.real - turned * by_u, -turned * by_d
+
+
+def complex_modes(frequencies: np.ndarray, coupling: np.ndarray) -> ComplexModes:
+    """Modes of q'' + g q' + diag(frequencies^2) q = 0, with a skew-symmetric `coupling` g (rad/s), shape (modes, modes).
+
+    A shape's largest number is real and positive, so that without coupling the shapes are the real modes.
+    """
+    modes = len(frequencies)
+    system = np.zeros((2 * modes, 2 * modes))
+    system[:modes, modes:] = np.diag(frequencies)
+    system[modes:, :modes] = -np.diag(frequencies)
+    system[modes:, modes:] = -coupling
+    values, vectors = np.linalg.eigh(-1j * system)
+    found = values[modes:]
+    shapes = np.sqrt(2.0) * found * vectors[:modes, modes:] / frequencies[:, None]
+    largest = shapes[np.abs(shapes).argmax(axis=0), np.arange(modes)]
+    return ComplexModes(found, shapes * (np.abs(largest) / largest))
+
+
+def coupled_modes(frequencies: np.ndarray, coupling: np.ndarray, step: float) -> ComplexModes:
+    """The same where only modes that turn by up to LARGEST_TURN in a `step` (s) are coupled, the slowest ones."""
+    modes, slow = len(frequencies), int(np.count_nonzero(frequencies * step <= LARGEST_TURN))
+    of_slow = complex_modes(frequencies[:slow], coupling[:slow, :slow])
+    shapes = np.eye(modes, dtype=complex)
+    shapes[:slow, :slow] = of_slow.shapes
+    return ComplexModes(np.concatenate([of_slow.frequencies, frequencies[slow:]]), shapes)
+
+
+def imaginary_part(recursion: Recursion) -> tuple[np.ndarray, np.ndarray]:
+    """Im zeta_n per u_n = Re zeta_n and per d_n = Re(zeta_n - zeta_n/Lambda), each of shape (modes,).
+
+    Lambda = rho (cos + i sin) is the root of Lambda^2 - (1 + keep - pull) Lambda + keep.
+    """
+    modulus = np.sqrt(recursion.keep)
+    # without the cancellation of small steps: rho sin = sqrt(keep - ((1 + keep - pull)/2)^2)
+    shrunk = recursion.lost / (1.0 + modulus)
+    turned = 0.5 * np.sqrt((recursion.pull - shrunk**2) * ((1.0 + modulus) ** 2 - recursion.pull))
+    return 0.5 * (recursion.pull - recursion.lost) / turned, -recursion.keep / turned
+
+
+@dataclass(frozen=True)
+class ComplexRecursion(Recursion):
+    """The recursion of u_n = Re zeta_n of complex modes, whose energy and loss do not depend on their phase.
+
+    A force is a kick at t_n between two flights. With a = N_u^T F and b = N_d^T F, N_u and N_d the displacement per u and d,
+    it adds -(c/keep) b to u_n and (c/keep) a to d_n: -i c/Im(Lambda) s^H F to zeta_n. One flight on that is
+    c (a + pull b/keep) to d_{n+1}, and as much less c b/keep to u_{n+1}. Without coupling b is zero and this is the recursion of
+    a real mode. Mid-kick, a constant force holds the static deflection: with filters of the kick by Hairer, Lubich and Wang,
+    Numer. Math. 144 (2020) 787-809, of charged particles in a magnetic field.
+
+    E_n = keep/(2c) (pull u_n (u_n - d_n) + ((1 - keep) u_n + keep d_n) d_n) is cos^2(w h/2) w^2 |zeta_n|^2/2 without damping.
+    A flight loses (1 - keep) E_n. A kick adds F times the central difference of the displacement on the free motion
+    through the mid-kick state: N_u (keep d + q u) - N_d (q d + pull u), q = (1 - keep - pull)/2.
+    """
+
+    @property
+    def loss(self) -> np.ndarray:
+        """Energy lost to damping per step and number of `loss_form`, shape (modes,)."""
+        return self.lost * self.keep / (2.0 * self.inverse)
+
+    @property
+    def loss_form(self) -> list[np.ndarray]:
+        """The loss of a free step as a quadratic form of u and d before it: uu, ud, dd."""
+        return [self.loss * self.pull, self.loss * (self.lost - self.pull), self.loss * self.keep]
+
+    def energy(self, displacement: np.ndarray, increment: np.ndarray) -> float:
+        """Energy E_n (J) of u_n and d_n, shape (modes,)."""
+        kinetic = (self.lost * displacement + self.keep * increment) * increment
+        elastic = self.pull * displacement * (displacement - increment)
+        return float(np.sum((kinetic + elastic) * self.keep / (2.0 * self.inverse)))
+
+
+def complex_recursion(recursion: Recursion) -> ComplexRecursion:
+    """A recursion as that of complex modes."""
+    return ComplexRecursion(recursion.keep, recursion.pull, recursion.inverse, recursion.lost)
