@@ -35,8 +35,8 @@ class ComplexModes:
     def real_shapes(self, recursion: Recursion) -> tuple[np.ndarray, np.ndarray]:
         """Displacement of the real modes per u_j and per d_j, where u_n = Re zeta and d_n = u_n - u_{n-1} of free motion."""
         by_u, by_d = imaginary_part(recursion)
-        # none where the shape is real, however fast the mode
         turned = self.shapes.imag
+        # none where the shape is real, however fast the mode
         by_u, by_d = (np.where(turned.any(axis=0), one, 0.0) for one in (by_u, by_d))
         return self.shapes.real - turned * by_u, -turned * by_d
 
@@ -44,27 +44,19 @@ class ComplexModes:
 def complex_modes(frequencies: np.ndarray, coupling: np.ndarray) -> ComplexModes:
     """Modes of q'' + g q' + diag(frequencies^2) q = 0, with a skew-symmetric `coupling` g (rad/s), shape (modes, modes).
 
-    A shape's largest number is real and positive, so that without coupling the shapes are the real modes.
+    A shape's largest number is real and positive, so that modes without coupling keep their real shapes.
     """
-    modes = len(frequencies)
-    system = np.zeros((2 * modes, 2 * modes))
-    system[:modes, modes:] = np.diag(frequencies)
-    system[modes:, :modes] = -np.diag(frequencies)
-    system[modes:, modes:] = -coupling
-    values, vectors = np.linalg.eigh(-1j * system)
-    found = values[modes:]
-    shapes = np.sqrt(2.0) * found * vectors[:modes, modes:] / frequencies[:, None]
-    largest = shapes[np.abs(shapes).argmax(axis=0), np.arange(modes)]
-    return ComplexModes(found, shapes * (np.abs(largest) / largest))
-
-
-def coupled_modes(frequencies: np.ndarray, coupling: np.ndarray, step: float) -> ComplexModes:
-    """The same where only modes that turn by up to LARGEST_TURN in a `step` (s) are coupled, the slowest ones."""
-    modes, slow = len(frequencies), int(np.count_nonzero(frequencies * step <= LARGEST_TURN))
-    of_slow = complex_modes(frequencies[:slow], coupling[:slow, :slow])
-    shapes = np.eye(modes, dtype=complex)
-    shapes[:slow, :slow] = of_slow.shapes
-    return ComplexModes(np.concatenate([of_slow.frequencies, frequencies[slow:]]), shapes)
+    found, shapes = frequencies.copy(), np.eye(len(frequencies), dtype=complex)
+    coupled = np.flatnonzero(coupling.any(axis=0))
+    if len(coupled):
+        stiff, modes = np.diag(frequencies[coupled]), len(coupled)
+        block = coupling[np.ix_(coupled, coupled)]
+        values, vectors = np.linalg.eigh(-1j * np.block([[np.zeros_like(stiff), stiff], [-stiff, -block]]))
+        found[coupled] = values[modes:]
+        moving = np.sqrt(2.0) * found[coupled] * vectors[:modes, modes:] / frequencies[coupled, None]
+        largest = moving[np.abs(moving).argmax(axis=0), np.arange(modes)]
+        shapes[np.ix_(coupled, coupled)] = moving * (np.abs(largest) / largest)
+    return ComplexModes(found, shapes)
 
 
 def imaginary_part(recursion: Recursion) -> tuple[np.ndarray, np.ndarray]:

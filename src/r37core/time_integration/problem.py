@@ -14,7 +14,7 @@ from r37core.contact.scene import Scene
 from r37core.rom.contact_model import BucklingError, ContactModel
 
 from .integration_choice import LARGEST_TABLE, IntegrationChoice
-from .gyroscopic import ComplexModes, complex_recursion, coupled_modes
+from .gyroscopic import LARGEST_TURN, ComplexModes, complex_modes, complex_recursion
 from .integrators import CENTRAL_DIFFERENCE, EXACT_MODAL, Recursion, increments, recursion
 from .jump_plan import JumpPlan, plan_jumps
 from .step_limit import UnstableStepError, check_step
@@ -76,14 +76,20 @@ class Problem:
         return np.ascontiguousarray(self._kept_modes[1][:, : self._stepped])
 
     @cached_property
-    def coriolis(self) -> np.ndarray:
-        """What couples the stepped modes at the speed (rad/s), skew-symmetric, shape (modes, modes)."""
-        return self.speed * self.modes.T @ self.model.coriolis @ self.modes
+    def gyroscopic_coupling(self) -> np.ndarray | None:
+        """What couples the stepped modes at the speed (rad/s), skew-symmetric, shape (modes, modes); None without Coriolis.
+
+        Modes that turn by more than LARGEST_TURN in a step are not coupled.
+        """
+        if self.model.coriolis is None:
+            return None
+        slow = self.frequencies * self.time_step <= LARGEST_TURN
+        return np.where(np.outer(slow, slow), self.speed * self.modes.T @ self.model.coriolis @ self.modes, 0.0)
 
     @cached_property
     def complex_modes(self) -> ComplexModes | None:
         """Of the stepped modes as the Coriolis force couples them; None for a model without it."""
-        return None if self.model.coriolis is None else coupled_modes(self.frequencies, self.coriolis, self.time_step)
+        return None if self.gyroscopic_coupling is None else complex_modes(self.frequencies, self.gyroscopic_coupling)
 
     @cached_property
     def _stepped(self) -> int:
@@ -153,7 +159,7 @@ class Problem:
         return self.scene.casing.angle(self.model.tip_cone_angle)
 
     @cached_property
-    def _operator_at_rest(self) -> np.ndarray:
+    def operator_at_rest(self) -> np.ndarray:
         """`displacement_operator` of the modes at rest."""
         return casing_axes(self.model.displacement_operator, self.cone_angle)
 
@@ -163,17 +169,17 @@ class Problem:
 
         Per displacement u of the stepped modes; a coupled one's increment d moves the nodes by `increment_operator`, too.
         """
-        return self._operator_at_rest @ self._shapes[0]
+        return self.operator_at_rest @ self._shapes[0]
 
     @cached_property
     def increment_operator(self) -> np.ndarray:
         """The same per increment d, shape (3, nodes, modes); no column without Coriolis."""
-        return self._operator_at_rest @ self._shapes[1]
+        return self.operator_at_rest @ self._shapes[1]
 
     @cached_property
     def complex_operator(self) -> np.ndarray | None:
         """The same per complex amplitude, shape (3, nodes, modes)."""
-        return None if self.complex_modes is None else self._operator_at_rest @ self.modes @ self.complex_modes.shapes
+        return None if self.complex_modes is None else self.operator_at_rest @ self.modes @ self.complex_modes.shapes
 
     @cached_property
     def static_shapes(self) -> np.ndarray:
@@ -187,7 +193,7 @@ class Problem:
         if not self.second_order:
             return np.empty((len(self.modes), 0))
         frequencies, modes = (part[..., self._stepped :] for part in self._kept_modes)
-        rows = (self._operator_at_rest @ modes).reshape(3 * len(self.model.radius), len(frequencies))
+        rows = (self.operator_at_rest @ modes).reshape(3 * len(self.model.radius), len(frequencies))
         residual = (modes / frequencies**2) @ rows.T
         return residual if self.complex_modes is None else residual + self._half_kick
 
@@ -226,7 +232,7 @@ class Problem:
         nodes = len(self.model.radius)
         if not self.static_shapes.size:
             return np.zeros((3, nodes, nodes))
-        return (self._operator_at_rest[0] @ self.static_shapes).T.reshape(3, nodes, nodes)
+        return (self.operator_at_rest[0] @ self.static_shapes).T.reshape(3, nodes, nodes)
 
     @cached_property
     def coupling(self) -> np.ndarray:

@@ -1,8 +1,8 @@
 """The reference engine: the time integration as it reads on paper, in dense NumPy. Slow; the compiled engine must equal it.
 
 Equations after section 5 of the benchmark, in the coordinates of the modes at rest, where the mass is the identity:
-u* = A u_n + B u_{n-1} without contact, u_{n+1} = u* + C F with it. Work per step is of the order of modes squared.
-A lining of second order, and the static modes with it: see r37core.time_integration.lined_steps.
+u* = A u_n + B u_{n-1} without contact, u_{n+1} = u* + C F with it (reference_motion). Work per step is of the order of modes
+squared. A lining of second order, and the static modes with it: see r37core.time_integration.lined_steps.
 """
 
 from __future__ import annotations
@@ -13,6 +13,7 @@ from r37core.contact.laws import series_modulus
 from r37core.contact.scene import Lining
 
 from .problem import Pace, Problem
+from .reference_motion import CoupledMotion, RealMotion
 from .state import SimulationRecord, SimulationState
 
 
@@ -21,11 +22,8 @@ class ReferenceEngine:
 
     def __init__(self, problem: Problem):
         self.problem = problem
-        modes = problem.modes
-        self.normal, self.tangential, self.meridional = problem.displacement_operator @ modes.T
-        self.rows = np.array([self.normal, self.tangential, self.meridional])
-        self.outputs = problem.output_operator[:, : modes.shape[1]] @ modes.T
-        self.force_outputs = problem.output_operator[:, modes.shape[1] :]
+        self.rows = problem.operator_at_rest @ problem.modes @ problem.modes.T
+        self.normal, self.tangential, self.meridional = self.rows
         self.flexibility = problem.residual_flexibility
         # what all forces (N) on the nodes do to the static modes
         self.static_force = np.zeros((3, len(problem.model.radius)))
@@ -33,93 +31,89 @@ class ReferenceEngine:
 
     def take(self, pace: Pace) -> None:
         """Go on at another pace in the same modes, with as many steps in a revolution."""
-        modes, recursion = self.problem.modes, pace.recursion
-        # -B, I - A - B, C and the loss per squared central difference, as matrices
-        self.keep, self.pull, self.inverse, self.loss = (
-            modes @ np.diag(diagonal) @ modes.T
-            for diagonal in (recursion.keep, recursion.pull, recursion.inverse, recursion.loss)
-        )
+        self.motion = (RealMotion if self.problem.complex_modes is None else CoupledMotion)(self.problem, pace)
 
     def advance(self, state: SimulationState, out: SimulationRecord) -> int:
         """Do the steps of every row of `out.samples`, as the compiled engine does; returns the rows done."""
-        problem, modes = self.problem, self.problem.modes
-        # u_n and d_n = u_n - u_{n-1}: A + B rounds to 1 - 1e-9 of omega^2 away, so the recursion is carried in these
-        u, d = modes @ state.displacement, modes @ state.increment
+        problem, motion = self.problem, self.motion.read(state)
         first = state.samples
         done, kept, bounded = 0, 0, True
         step = self._second_order_step if problem.second_order else self._step
         self.static_force = state.lining_force.copy()
         while done < len(out.samples) and bounded:
             for n in range(1, problem.steps_per_sample + 1):
-                u, d = step(u, d, (first + done) * problem.steps_per_sample + n, state)
+                motion = step(motion, (first + done) * problem.steps_per_sample + n, state)
             static = self.static_force.ravel() if problem.second_order else np.empty(0)
-            out.samples[done] = self.outputs @ u + self.force_outputs @ static
+            numbers = np.concatenate([self.motion.numbers(motion), static])
+            out.samples[done] = problem.output_operator @ numbers
             bounded = bool(np.all(np.abs(out.samples[done]) < problem.scene.divergence_limit))
             done += 1
             if problem.snapshots_after(first + done) > problem.snapshots_after(first) + kept:
-                out.snapshots[kept] = np.concatenate([modes.T @ u, static])
+                out.snapshots[kept] = numbers
                 kept += 1
-        state.displacement[:], state.increment[:] = modes.T @ u, modes.T @ d
+        self.motion.write(motion, state)
         return done
 
-    def _step(self, u: np.ndarray, d: np.ndarray, n: int, state: SimulationState) -> tuple[np.ndarray, np.ndarray]:
-        """From u_{n-1}, d_{n-1} to u_n, d_n; changes wear, totals and the nodes on the casing."""
+    def _step(self, before: np.ndarray, n: int, state: SimulationState) -> np.ndarray:
+        """The motion at t_n from that at t_{n-1}; changes wear, totals and the nodes on the casing."""
         lining = self.problem.scene.lining
-        predicted = self.keep @ d - self.pull @ u
-        gap, theta = self.gap(u + predicted, n)
-        directions = self._directions(d)
-        force = np.zeros(len(u))
+        predicted = self.motion.flown(before)
+        gap, theta = self.gap(self.motion.displacement(predicted), n)
+        directions = self._directions(self.motion.slid(before))
+        force = np.zeros(self.rows.shape[-1])
         pressure = np.zeros(len(gap))
         if lining is not None and state.wear is not None:
             modulus = np.full(len(gap), lining.elastic_modulus)
             pressure = self._press_lining(gap, theta, lining, state.wear, modulus)
             force = self._modal(pressure * directions)
             # the casing lies behind the lining; what is left to it after the lining's forces
-            gap = gap + lining.thickness - self.normal @ self.inverse @ force
+            gap = gap + lining.thickness - self.normal @ self.motion.response @ force
         multipliers = self._press_casing(gap, directions)
         force = force + self._modal(multipliers * directions)
-        following = predicted + self.inverse @ force
-        self._add_up(state, force, d + following, pressure + multipliers, multipliers)
-        return u + following, following
+        after = self.motion.pushed(predicted, force)
+        self._add_up(state, self.motion.work_and_loss(before, after, force), pressure + multipliers, multipliers)
+        return after
 
-    def _second_order_step(self, u: np.ndarray, d: np.ndarray, n: int, state: SimulationState) -> tuple[np.ndarray, np.ndarray]:
+    def _second_order_step(self, before: np.ndarray, n: int, state: SimulationState) -> np.ndarray:
         """The same with the lining's force at t_{n-1}, which the state has, and that at t_n, for the next step."""
         lining = self.problem.scene.lining
         assert lining is not None and state.wear is not None
         force = self._modal(state.lining_force)
-        following = self.keep @ d - self.pull @ u + self.inverse @ force
+        after, slid = self.motion.pushed(self.motion.flown(before), force), self.motion.slid(before)
         own = np.diagonal(self.flexibility, axis1=1, axis2=2)
         settled = self._settled(state.lining_force) - np.sum(own * state.lining_force, axis=0)
-        gap, theta = self.gap(u + following, n)
-        directions = self._directions(d)
+        gap, theta = self.gap(self.motion.displacement(after), n)
+        directions = self._directions(slid)
         multipliers = self._press_casing(gap - settled + lining.thickness, directions)
         casing_force = multipliers * directions
         if multipliers.any():
             force = force + self._modal(casing_force)
-            following = following + self.inverse @ self._modal(casing_force)
-            gap, theta = self.gap(u + following, n)
+            after = self.motion.pushed(after, self._modal(casing_force))
+            gap, theta = self.gap(self.motion.displacement(after), n)
             settled = settled + self._settled(casing_force)
         # the lining's is of t_{n-1}, the casing's of t_n
-        self._add_up(state, force, d + following, np.maximum(-state.lining_force[0], multipliers), multipliers)
-        directions = self._directions(1.5 * following - 0.5 * d)
+        normal_force = np.maximum(-state.lining_force[0], multipliers)
+        self._add_up(state, self.motion.work_and_loss(before, after, force), normal_force, multipliers)
+        directions = self._directions(1.5 * self.motion.slid(after) - 0.5 * slid)
         flexibility = np.maximum(-np.sum(directions * own, axis=0), 0.0)
         modulus = series_modulus(lining.elastic_modulus, self.problem.bar_stiffness, flexibility)
         pressure = self._press_lining(gap - settled, theta, lining, state.wear, modulus)
         state.lining_force[:] = pressure * directions
         self.static_force = state.lining_force + casing_force
-        return u + following, following
+        return after
 
     def _add_up(
-        self, state: SimulationState, force: np.ndarray, moved: np.ndarray, normal_force: np.ndarray, multipliers: np.ndarray
+        self, state: SimulationState, work_and_loss: tuple[float, float], normal_force: np.ndarray, multipliers: np.ndarray
     ) -> None:
-        """Totals of a step in which the blade `moved` by u_{n+1} - u_{n-1} under the force."""
+        """Totals of a step."""
         totals = state.totals
         totals["steps"] += 1
         totals["steps_in_contact"] += np.any(normal_force > 0.0)
         totals["casing_hits"] += np.sum((multipliers > 0.0) & (state.on_casing == 0.0))
         totals["largest_force"] = max(totals["largest_force"], normal_force.max())
-        totals["work"] += 0.5 * force @ moved
-        totals["loss"] += moved @ self.loss @ moved
+        work, loss = work_and_loss
+        totals["work"] += work
+        totals["loss"] += loss
         state.on_casing[:] = multipliers > 0.0
 
     def gap(self, u: np.ndarray, n: int) -> tuple[np.ndarray, np.ndarray]:
@@ -194,7 +188,7 @@ class ReferenceEngine:
         # of each node's unit multiplier, along the last axis
         forces = directions[:, :, None] * np.eye(len(gap))
         static = np.einsum("dkj,dkg->gj", forces, self.flexibility)
-        return complementary(-self.normal @ self.inverse @ self._modal(forces).T - static, gap)
+        return complementary(-self.normal @ self.motion.response @ self._modal(forces).T - static, gap)
 
 
 def complementary(matrix: np.ndarray, gap: np.ndarray) -> np.ndarray:

@@ -1,0 +1,132 @@
+"""How the blade of the reference engine goes from step to step, with dense matrices: freely, and with a force in a step."""
+
+from __future__ import annotations
+
+import numpy as np
+import scipy.linalg as la
+
+from .gyroscopic import imaginary_part
+from .problem import Pace, Problem
+from .state import SimulationState
+
+
+class RealMotion:
+    """Modes without coupling, in u_n and d_n = u_n - u_{n-1} of the modes at rest.
+
+    A + B rounds to 1 - 1e-9 of omega^2 away, so the recursion is carried in these. `response`: displacement of the modes at
+    rest one step on per force on them.
+    """
+
+    def __init__(self, problem: Problem, pace: Pace):
+        self._modes, recursion = problem.modes, pace.recursion
+        # -B, I - A - B, C and the loss per squared central difference, as matrices
+        self._keep, self._pull, self.response, self._loss = (
+            self._modes @ np.diag(diagonal) @ self._modes.T
+            for diagonal in (recursion.keep, recursion.pull, recursion.inverse, recursion.loss)
+        )
+
+    def read(self, state: SimulationState) -> np.ndarray:
+        """u and d, shape (2, modes at rest)."""
+        return np.array([state.displacement, state.increment]) @ self._modes.T
+
+    def write(self, motion: np.ndarray, state: SimulationState) -> None:
+        """Put them back into the state."""
+        state.displacement[:], state.increment[:] = motion @ self._modes
+
+    def numbers(self, motion: np.ndarray) -> np.ndarray:
+        """Those of a snapshot."""
+        return motion[0] @ self._modes
+
+    def flown(self, motion: np.ndarray) -> np.ndarray:
+        """A step on, without force."""
+        u, d = motion
+        following = self._keep @ d - self._pull @ u
+        return np.array([u + following, following])
+
+    def pushed(self, motion: np.ndarray, force: np.ndarray) -> np.ndarray:
+        """What a force on the modes at rest adds at the end of a step."""
+        return motion + self.response @ force
+
+    def displacement(self, motion: np.ndarray) -> np.ndarray:
+        """Of the modes at rest."""
+        return motion[0]
+
+    def slid(self, motion: np.ndarray) -> np.ndarray:
+        """Displacement in the last step."""
+        return motion[1]
+
+    def work_and_loss(self, before: np.ndarray, after: np.ndarray, force: np.ndarray) -> tuple[float, float]:
+        """Of a step under a force: see integrators.Recursion."""
+        moved = before[1] + after[1]
+        return float(0.5 * force @ moved), float(moved @ self._loss @ moved)
+
+
+class CoupledMotion:
+    """Modes that the Coriolis force couples, in y = (W q, q') of the stepped modes q: real, without complex modes.
+
+    y' = A y in free flight (see r37core.time_integration.gyroscopic). Damping turns every eigenvalue i w of A into
+    -xi w + i w sqrt(1 - xi^2): y' = (sqrt(1 - xi^2) A - xi (-A^2)^(1/2)) y, and Phi is the exponential of that times the step.
+    A force is a kick at the beginning of a step, y + Theta (0, f), with Theta = [-A S]^-1 (I - Phi)^T (I - Phi) and
+    S = (Phi - Phi^T)/2: 2 A^-1 tanh(A h/2) without damping, so that mid-kick a constant force holds the static deflection.
+    The energy y^T S^T S [(I - Phi)^T (I - Phi)]^-1 y/2 changes by the work f^T W^-1 [S y]_q of the state mid-kick.
+    """
+
+    def __init__(self, problem: Problem, pace: Pace):
+        coupled, coupling = problem.complex_modes, problem.gyroscopic_coupling
+        assert coupled is not None and coupling is not None
+        self._modes, self._root, self._coupled = problem.modes, problem.frequencies, coupled
+        modes, ratio, step = len(self._root), problem.scene.damping_ratio, problem.time_step
+        system = np.block([[np.zeros((modes, modes)), np.diag(self._root)], [-np.diag(self._root), -coupling]])
+        squares, axes = np.linalg.eigh(-system @ system)
+        size = (axes * np.sqrt(squares)) @ axes.T
+        self._flight = la.expm(step * (np.sqrt(1.0 - ratio**2) * system - ratio * size))
+        left = np.eye(2 * modes) - self._flight
+        gain, self._swing = left.T @ left, 0.5 * (self._flight - self._flight.T)
+        self._kick = np.linalg.solve(-system @ self._swing, gain)[:, modes:]
+        self._energy = self._swing.T @ self._swing @ np.linalg.inv(gain)
+        self._back = np.linalg.inv(self._flight)
+        self._imaginary, self._recursion = imaginary_part(pace.recursion), pace.recursion
+        self.response = self._modes @ (self._flight @ self._kick / np.tile(self._root, 2)[:, None])[:modes] @ self._modes.T
+
+    def read(self, state: SimulationState) -> np.ndarray:
+        """y, shape (2 stepped modes,)."""
+        by_u, by_d = self._imaginary
+        amplitude = state.displacement + 1j * (by_u * state.displacement + by_d * state.increment)
+        moving = self._coupled.shapes * amplitude
+        return np.concatenate([self._root * moving.real.sum(axis=1), -(moving @ self._coupled.frequencies).imag])
+
+    def write(self, motion: np.ndarray, state: SimulationState) -> None:
+        """Put it back into the state."""
+        state.displacement[:], state.increment[:] = self.numbers(motion).reshape(2, -1)
+
+    def numbers(self, motion: np.ndarray) -> np.ndarray:
+        """Those of a snapshot: u and d of the complex modes."""
+        elastic, velocity = np.split(motion, 2)
+        frequencies, recursion = self._coupled.frequencies, self._recursion
+        amplitude = self._coupled.shapes.conj().T @ (self._root * elastic) / frequencies**2
+        amplitude = amplitude - 1j * (self._coupled.shapes.conj().T @ velocity) / frequencies
+        by_u, by_d = self._imaginary
+        return np.concatenate([amplitude.real, (amplitude.imag - by_u * amplitude.real) / by_d])
+
+    def flown(self, motion: np.ndarray) -> np.ndarray:
+        """A step on, without force."""
+        return self._flight @ motion
+
+    def pushed(self, motion: np.ndarray, force: np.ndarray) -> np.ndarray:
+        """What a force on the modes at rest, acting since the step began, adds at its end."""
+        return motion + self._flight @ self._kick @ (self._modes.T @ force)
+
+    def displacement(self, motion: np.ndarray) -> np.ndarray:
+        """Of the modes at rest."""
+        return self._modes @ (motion[: len(self._root)] / self._root)
+
+    def slid(self, motion: np.ndarray) -> np.ndarray:
+        """Displacement in a step of free flight that ends here."""
+        return self.displacement(motion - self._back @ motion)
+
+    def work_and_loss(self, before: np.ndarray, after: np.ndarray, force: np.ndarray) -> tuple[float, float]:
+        """Of a step under a force that kicks the blade as it begins."""
+        kick = self._kick @ (self._modes.T @ force)
+        kicked = before + kick
+        work = force @ self.displacement(self._swing @ (before + 0.5 * kick))
+        return float(work), float(0.5 * (kicked @ self._energy @ kicked - after @ self._energy @ after))
