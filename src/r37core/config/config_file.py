@@ -35,7 +35,7 @@ class StructureSection(Section):
     boundary: Boundary = Boundary()
     maximum_speed_rad_s: Speed = Field(default=2000.0, description="highest speed of the basis and of the Campbell diagram")
     spin_softening: bool = False
-    coriolis: bool = False
+    coriolis: bool = Field(default=False, description="in the Campbell diagram and in all simulations; needs exact_modal")
     stress_submesh: Submesh = Submesh()
     recover_whole_blade: bool = Field(default=False, description="keep the basis on every node (a large file)")
 

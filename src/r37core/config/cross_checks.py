@@ -13,6 +13,7 @@ from r37core.blade.definition import BladeDefinition
 from r37core.exchange.importing.source import MatricesSource
 from r37core.run_ups.choice import RunUpError, check_highest
 from r37core.time_integration.integration_choice import LARGEST_TABLE
+from r37core.time_integration.integrators import EXACT_MODAL
 from r37core.yaml_file import KeyPath
 
 from .document import Document
@@ -234,6 +235,24 @@ def matrices_hold_their_terms(settings: Settings) -> None:
             )
 
 
+def coriolis_can_be_carried(settings: Settings) -> None:
+    """The Coriolis force is wanted with the integrator that carries it, and of runs at constant speed."""
+    if not settings.structure.coriolis:
+        return
+    document, integrator = settings.documents.config, settings.fidelity.time_integration.integrator
+    if integrator != EXACT_MODAL:
+        others = [name for name, level in settings.levels.items() if level.time_integration.integrator == EXACT_MODAL]
+        raise document.refusal(
+            ("structure", "coriolis"),
+            f"true at the level '{settings.fidelity_name}', whose integrator {integrator} does not carry the Coriolis force",
+            f"false, or a level of {EXACT_MODAL}" + (f" ({', '.join(others)})" if others else ""),
+        )
+    for name in settings.config.run_ups:
+        raise document.refusal(
+            ("run_ups", name), "a run-up with structure.coriolis: true", "none; run-ups do not carry the Coriolis force yet"
+        )
+
+
 def families_have_shapes(settings: Settings) -> None:
     """No family is of an imported blade: what is compared of designs needs their shape."""
     for name, family in settings.families.items():
@@ -259,6 +278,7 @@ CHECKS: tuple[Callable[[Settings], None], ...] = (
     signals_have_runs,
     run_ups_can_be_done,
     matrices_hold_their_terms,
+    coriolis_can_be_carried,
     families_have_shapes,
 )
 """In this order: those that name something come first, for the others look it up."""

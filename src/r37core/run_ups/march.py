@@ -44,12 +44,15 @@ class March:
     `energy` (J): of the vibration; `stiffness_work` (J): what the change of the stiffness with the speed has brought to it.
     `wear` (m), shape (rings, bars): of a lining that is worn at the beginning.
 
-    Raises what Problem raises, of the steps at the lowest speed, which are the longest; BucklingError for the highest speed.
+    Raises what Problem raises, of the steps at the lowest speed, which are the longest; BucklingError for the highest speed;
+    ValueError for a model with a Coriolis matrix: complex modes turn into each other as the speed changes.
     """
 
     def __init__(
         self, model: ContactModel, scene: Scene, choice: IntegrationChoice, run_up: RunUp, wear: np.ndarray | None = None
     ):
+        if model.coriolis is not None:
+            raise ValueError("run-ups do not carry the Coriolis force")
         low, high = sorted((run_up.start, run_up.stop))
         # between two speeds with a stable position there are only such
         model.modes_at(high)

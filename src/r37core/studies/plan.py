@@ -21,6 +21,7 @@ from r37core.fem.material import Material
 from r37core.plain import to_plain
 from r37core.plans import paths
 from r37core.time_integration.integration_choice import IntegrationChoice
+from r37core.time_integration.integrators import EXACT_MODAL
 
 from .case import Case, ModelChoice, model_of_name
 
@@ -34,7 +35,7 @@ class Studies:
 
     def __init__(self, settings: Settings):
         self._settings = settings
-        self._cases = cache(lambda study: _plan(study).cases(settings))
+        self._cases = cache(lambda study: _cases_of(settings, study))
 
     def outputs(self, study: str) -> dict[str, str]:
         """Files of a study."""
@@ -88,6 +89,15 @@ class Studies:
 
 def _plan(study: str) -> ModuleType:
     return import_module(f"r37core.studies.{study}.cases")
+
+
+def _cases_of(settings: Settings, study: str) -> dict[str, Case]:
+    """Cases of a study; ConfigError for one that steps with central differences where the Coriolis force is wanted."""
+    cases = _plan(study).cases(settings)
+    if settings.structure.coriolis and any(case.choice.integrator != EXACT_MODAL for case in cases.values()):
+        path, found = ("structure", "coriolis"), f"true in the study {study}, which runs central differences, too"
+        raise settings.documents.config.refusal(path, found, "false; only exact_modal carries the Coriolis force")
+    return cases
 
 
 def model_files(blade: str, model: ModelChoice | str) -> dict[str, str]:

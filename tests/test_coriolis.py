@@ -1,0 +1,426 @@
+"""The Coriolis force in the time integration: exact solutions, the reference engine, energy, limits and refusals."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from defaults import Casing, Friction, IntegrationChoice, Lining, Scene
+from integration_cases import ABRADABLE, DIRECT, random_model
+from scipy.integrate import solve_ivp
+from scipy.optimize import brentq
+
+from r37core.config import ConfigError, command_line_document, read_settings
+from r37core.rom.contact_model import ContactModel, read_contact_model, write_contact_model
+from r37core.rom.reduce import reduce_blade
+from r37core.rom.reduced_model import contact_model
+from r37core.run_ups.march import March
+from r37core.run_ups.schedule import RunUp
+from r37core.studies.plan import Studies
+from r37core.time_integration import problem as problem_module
+from r37core.time_integration import step_limit
+from r37core.time_integration.gyroscopic import LARGEST_TURN
+from r37core.time_integration.integrators import CENTRAL_DIFFERENCE, EXACT_MODAL
+from r37core.time_integration.problem import Problem
+from r37core.time_integration.reference_motion import CoupledMotion
+from r37core.time_integration.simulate import Simulation
+from r37core.time_integration.step_limit import second_order_ratio
+
+CHOICE = IntegrationChoice(2e-7, 1, 62, integrator=EXACT_MODAL, energy=True)
+FREE = Scene(Casing(1.0, lobes=0), damping_ratio=0.0, divergence_limit=10.0)
+TURN = np.array([[0.0, -2.0], [2.0, 0.0]])
+"""2 Omega z x velocity of a point, per Omega."""
+
+ELASTIC = Lining(5e-3, 20e9, 5e9, 1e30, bar_area=1e-11)
+"""Bars that never yield."""
+
+
+def point_mass(frequency, radius=0.25, softening=-1.0, coriolis=TURN):
+    """A point on a spring, alike in all directions across the axis, that turns with the rotor: radial and tangential motion."""
+    operator = np.array([[[1.0, 0.0]], [[0.0, 1.0]], [[0.0, 0.0]]])
+    return ContactModel(
+        squared_frequencies=np.full(2, frequency**2),
+        stiffness_per_square=softening * np.eye(2),
+        displacement_operator=operator,
+        radius=np.array([radius]),
+        theta=np.array([0.0]),
+        tip_cone_angle=0.0,
+        tip_displacement_operator=np.repeat(operator, 2, axis=1),
+        to_reduced=np.eye(2),
+        coriolis=coriolis,
+    )
+
+
+def coupled_model(nodes=8, size=3.0):
+    """A blade of random nodes and modes, with a Coriolis matrix of random numbers of about this size."""
+    model = random_model(nodes)
+    modes = len(model.squared_frequencies)
+    coupling = size * np.random.default_rng(nodes + 1).standard_normal((modes, modes))
+    return replace(model, coriolis=coupling - coupling.T)
+
+
+def moving(simulation, displacement, velocity):
+    """A state with displacement and velocity of the speed's real modes."""
+    problem, state = simulation.problem, simulation.start()
+    CoupledMotion(problem, problem.pace).write(np.concatenate([problem.frequencies * displacement, velocity]), state)
+    return state
+
+
+def times(simulation, record):
+    problem = simulation.problem
+    return (1 + np.arange(len(record.samples))) * problem.steps_per_sample * problem.time_step
+
+
+@pytest.mark.parametrize("jumps", [True, False])
+@pytest.mark.parametrize("engine", ["compiled", "reference"])
+def test_foucault_pendulum(jumps, engine):
+    """In the fixed frame it is a plain oscillator; the rotor's frame turns under it, hundreds of turns."""
+    frequency, speed = 5000.0, 1300.0
+    choice = replace(CHOICE, time_step=2e-5, revolutions=300 if engine == "compiled" else 30, jumps=jumps, engine=engine)
+    simulation = Simulation(point_mass(frequency), speed, FREE, choice)
+    start, velocity = np.array([1e-3, 2e-3]), np.array([3.0, -1.0])
+    state = moving(simulation, start, velocity)
+    record = simulation.advance(state, choice.revolutions)
+    # the velocity in the fixed frame has that of the frame, Omega z x start
+    fixed = velocity + speed * np.array([-start[1], start[0]])
+    time = times(simulation, record)[:, None]
+    motion = start * np.cos(frequency * time) + fixed / frequency * np.sin(frequency * time)
+    seen = (motion[:, 0] + 1j * motion[:, 1]) * np.exp(-1j * speed * time[:, 0])
+    largest = np.abs(seen).max()
+    assert (state.totals["steps_jumped"] > 0) == (jumps and engine == "compiled")
+    np.testing.assert_allclose(record.samples[:, 1], seen.real, rtol=0, atol=1e-10 * largest)
+    np.testing.assert_allclose(record.samples[:, 2], seen.imag, rtol=0, atol=1e-10 * largest)
+
+
+@pytest.fixture(scope="module")
+def reduced(mesh, matrices, choice):
+    return reduce_blade(mesh, matrices, replace(choice, coriolis=True))
+
+
+@pytest.fixture(scope="module")
+def blade(reduced):
+    return contact_model(reduced, "pressure_edge")
+
+
+@pytest.mark.slow
+def test_free_motion_has_the_frequencies_of_the_campbell_diagram(reduced, blade):
+    """Each mode alone: three samples in a row obey the recursion of its frequency."""
+    speed = 1800.0
+    campbell, without = (model.modes(speed, 8)[0] for model in (reduced, replace(reduced, coriolis=None)))
+    assert np.abs(campbell / without - 1.0).max() > 1e-4
+    simulation = Simulation(blade, speed, FREE, CHOICE)
+    for mode, frequency in enumerate(campbell):
+        state = simulation.start()
+        state.displacement[mode] = state.increment[mode] = 1e-3
+        samples = simulation.advance(state, 1).samples
+        turn = 2.0 * np.cos(frequency * times(simulation, simulation.advance(state, 1))[0])
+        missing = samples[2:] + samples[:-2] - turn * samples[1:-1]
+        assert np.abs(missing).max() < 1e-8 * np.abs(samples).max(), mode
+    # with static modes, which the Coriolis force does not reach
+    lined = Problem(blade, speed, ABRADABLE, replace(CHOICE, time_step=6.4e-6, shorten=True))
+    assert len(lined.frequencies) < len(blade.squared_frequencies)
+    np.testing.assert_allclose(lined.complex_modes.frequencies[:8], campbell, rtol=1e-5)
+
+
+@pytest.mark.slow
+def test_contact_model_with_coriolis(blade, contact, tmp_path):
+    np.testing.assert_array_equal(blade.coriolis, -blade.coriolis.T)
+    write_contact_model(blade, tmp_path / "contact.npz")
+    np.testing.assert_array_equal(read_contact_model(tmp_path / "contact.npz").coriolis, blade.coriolis)
+    write_contact_model(contact, tmp_path / "without.npz")
+    assert read_contact_model(tmp_path / "without.npz").coriolis is None
+
+
+SCENES = {
+    "direct": DIRECT,
+    "direct_constant": replace(DIRECT, friction=Friction(0.15, vector=False)),
+    "direct_after": replace(DIRECT, friction=Friction(0.15, coupled=False)),
+    "direct_exact": replace(DIRECT, exact_gap=True),
+    "abradable": ABRADABLE,
+    "abradable_constant": replace(ABRADABLE, friction=Friction(0.15, vector=False)),
+    "abradable_exact": replace(ABRADABLE, exact_gap=True),
+    "thin_lining": replace(ABRADABLE, lining=Lining(1e-4, 1e8, 5e7, 1e5, bar_width=0.03)),
+}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("step", [2e-7, 1.2e-6])
+@pytest.mark.parametrize("name", SCENES)
+def test_compiled_time_integration_is_the_reference(name, step, monkeypatch):
+    """Against the dense exponential of displacement and velocity; at the long step modes are static, or too fast to couple."""
+    monkeypatch.setattr(step_limit, "_LARGEST_LAG", 1.0)
+    model, scene = coupled_model(), SCENES[name]
+    choice = replace(CHOICE, time_step=step, snapshots_per_revolution=62, snapshot_revolutions=1)
+    found = []
+    for engine in ("compiled", "reference"):
+        simulation = Simulation(model, 6000.0, scene, replace(choice, engine=engine))
+        state = simulation.start()
+        found.append((state, simulation.advance(state, 1)))
+    problem, ((ours, record), (theirs, plain)) = simulation.problem, found
+    assert (len(problem.frequencies) < len(model.squared_frequencies)) == (scene.lining is not None and step > 1e-6)
+    assert (problem.frequencies[-1] * step > LARGEST_TURN) == (scene.lining is None and step > 1e-6)
+    assert problem.complex_modes.shapes.imag.any()
+    assert ours.totals["steps_in_contact"] > 100 and ours.totals["steps_jumped"] > 100
+    for name in ("samples", "snapshots"):
+        largest = np.abs(getattr(plain, name)).max()
+        np.testing.assert_allclose(getattr(record, name), getattr(plain, name), rtol=0, atol=1e-10 * largest)
+    for name in ("displacement", "increment"):
+        largest = np.abs(getattr(theirs, name)).max()
+        np.testing.assert_allclose(getattr(ours, name), getattr(theirs, name), rtol=0, atol=1e-9 * largest)
+    for total in ("steps", "steps_in_contact", "casing_hits"):
+        assert ours.totals[total] == theirs.totals[total]
+    for total in ("largest_force", "work", "loss"):
+        assert ours.totals[total] == pytest.approx(theirs.totals[total], rel=1e-8)
+    if ours.wear is not None:
+        np.testing.assert_allclose(ours.wear, theirs.wear, rtol=0, atol=1e-10 * theirs.wear.max())
+
+
+@pytest.mark.parametrize("name", ["direct", "abradable", "thin_lining"])
+def test_without_a_force_to_speak_of_it_is_the_run_without(name):
+    """A Coriolis matrix that tends to zero, in the program that has complex modes."""
+    samples = []
+    for coriolis in (None, 1e-14 * coupled_model().coriolis):
+        simulation = Simulation(replace(random_model(8), coriolis=coriolis), 3000.0, SCENES[name], CHOICE)
+        state = simulation.start()
+        samples.append(simulation.advance(state, 1).samples)
+        assert state.totals["steps_in_contact"] > 100
+    np.testing.assert_allclose(samples[1], samples[0], rtol=0, atol=1e-11 * np.abs(samples[0]).max())
+
+
+@pytest.mark.parametrize("name", ["direct", "direct_exact", "abradable", "abradable_constant", "thin_lining"])
+@pytest.mark.parametrize(("size", "ratio"), [(1.0, 5e-4), (30.0, 0.0), (30.0, 0.05)])
+def test_energy_balance_closes(name, size, ratio):
+    scene = replace(SCENES[name], damping_ratio=ratio)
+    simulation = Simulation(coupled_model(8, size), 3000.0, scene, replace(CHOICE, revolutions=3))
+    state = simulation.start()
+    simulation.advance(state, 3)
+    work, loss = state.totals["work"], state.totals["loss"]
+    assert (loss > 0.0) == (ratio > 0.0) and work != 0.0
+    assert abs(simulation.energy(state) - work + loss) < 1e-10 * (abs(work) + loss)
+
+
+def test_energy_of_free_damped_motion_falls_in_every_sample():
+    scene, choice = replace(FREE, damping_ratio=0.02), replace(CHOICE, revolutions=1, jumps=False)
+    simulation = Simulation(coupled_model(8, 30.0), 3000.0, scene, choice)
+    state, energies = simulation.start(), []
+    state.displacement[:] = 1e-5
+    for _ in range(62):
+        energies.append(simulation.energy(state))
+        simulation.advance_samples(state, 1)
+    assert np.all(np.diff(energies) < 0.0)
+
+
+def pressed_point(frequency, speed, scene, radius):
+    """Right-hand side of a point mass under lobes on an elastic bar with vector friction, without damping."""
+    casing, friction = scene.casing, scene.friction.coefficient
+    stiffness = scene.lining.elastic_modulus * scene.lining.bar_area / scene.lining.thickness
+
+    def motion(time, state):
+        position, velocity = state[:2], state[2:]
+        shape = casing.shape(np.array([-speed * time]))[0]
+        pressed = stiffness * max(0.0, position[0] - casing.clearance * (1.0 - casing.amplitude * shape))
+        sliding = -radius * speed + velocity[1]
+        force = np.array([-pressed, -friction * pressed * np.sign(sliding)])
+        return np.concatenate([velocity, force - frequency**2 * position - speed * TURN @ velocity])
+
+    return motion
+
+
+def test_error_on_an_elastic_bar_falls_with_the_square_of_the_step():
+    """Lobes press a bar against a point whose radial and tangential motion the rotation couples; exact: SciPy's DOP853."""
+    frequency, speed, radius = 3000.0, 1000.0, 0.25
+    casing = Casing(1e-4, lobes=2, amplitude=2.0, rise_fraction=0.0)
+    scene = Scene(casing, ELASTIC, Friction(0.4), damping_ratio=0.0, divergence_limit=1.0)
+    errors = []
+    for step in (1.6e-5, 8e-6, 4e-6, 2e-6):
+        choice = replace(CHOICE, time_step=step, revolutions=3, samples_per_revolution=50)
+        simulation = Simulation(point_mass(frequency, radius, softening=0.0), speed, scene, choice)
+        record = simulation.advance(simulation.start(), 3)
+        time = times(simulation, record)
+        motion = pressed_point(frequency, speed, scene, radius)
+        exact = solve_ivp(motion, (0.0, time[-1]), np.zeros(4), "DOP853", time, rtol=1e-12, atol=1e-16, max_step=1e-5).y
+        errors.append(np.abs(record.samples[:, [1, 2]].T - exact[:2]).max() / np.abs(exact[:2]).max())
+    orders = np.log2(np.divide(errors[:-1], errors[1:]))
+    assert errors[0] < 1e-2
+    assert np.all((orders > 1.8) & (orders < 2.3)), orders
+
+
+def test_friction_follows_the_real_sliding_velocity():
+    """A slow rotor, whose vibration turns the friction about: its direction is that of an ODE with velocity from shapes in motion."""
+    frequency, speed, radius = 3000.0, 1000.0, 2e-4
+    casing = Casing(1e-4, lobes=2, amplitude=2.0, rise_fraction=0.0)
+    scene = Scene(casing, ELASTIC, Friction(0.4), damping_ratio=0.0, divergence_limit=1.0)
+    model = point_mass(frequency, radius, softening=0.0)
+    # out of the plane, too, where the friction's direction is smooth
+    operator = np.array([[[1.0, 0.0, 0.0]], [[0.0, 1.0, 0.0]], [[0.0, 0.0, -1.0]]])
+    coriolis = np.zeros((3, 3))
+    coriolis[:2, :2] = TURN
+    coriolis[0, 2], coriolis[2, 0] = 1.5, -1.5
+    model = replace(
+        model,
+        squared_frequencies=np.full(3, frequency**2),
+        stiffness_per_square=np.zeros((3, 3)),
+        displacement_operator=operator,
+        tip_displacement_operator=np.repeat(operator, 2, axis=1),
+        to_reduced=np.eye(3),
+        coriolis=coriolis,
+    )
+    stiffness = ELASTIC.elastic_modulus * ELASTIC.bar_area / ELASTIC.thickness
+
+    def motion(time, state):
+        position, velocity = state[:3], state[3:]
+        shape = casing.shape(np.array([-speed * time]))[0]
+        pressed = stiffness * max(0.0, position[0] - casing.clearance * (1.0 - casing.amplitude * shape))
+        sliding = np.array([0.0, -radius * speed + velocity[1], velocity[2]])
+        force = np.array([-pressed, 0.0, 0.0]) - 0.4 * pressed * sliding / np.linalg.norm(sliding)
+        return np.concatenate([velocity, force - frequency**2 * position - speed * coriolis @ velocity])
+
+    errors = []
+    for step in (4e-6, 2e-6, 1e-6):
+        simulation = Simulation(model, speed, scene, replace(CHOICE, time_step=step, samples_per_revolution=50))
+        state = simulation.start()
+        record = simulation.advance(state, 1)
+        time = times(simulation, record)
+        exact = solve_ivp(motion, (0.0, time[-1]), np.zeros(6), "DOP853", time, rtol=1e-11, atol=1e-15, max_step=1e-5).y
+        errors.append(np.abs(record.samples[:, [1, 2]].T - exact[:2]).max() / np.abs(exact[:2]).max())
+    assert errors[0] < 0.02
+    assert errors[2] < 0.1 * errors[0]
+
+
+def test_a_pressed_bar_rests_where_the_stiffness_says():
+    """A casing that is too tight for the blade: with damping, motion dies down to the static deflection, friction in it."""
+    penetration, scene = 1e-4, Scene(Casing(-1e-4, lobes=0), replace(ELASTIC, bar_area=1e-9), Friction(0.3), damping_ratio=0.3)
+    frequency, speed = 4e4, 2000.0
+    # a step long enough for the kick to tell
+    simulation = Simulation(point_mass(frequency, softening=0.0), speed, scene, replace(CHOICE, time_step=1.5e-5))
+    samples = simulation.advance(simulation.start(), 1).samples
+    stiffness = simulation.problem.bar_stiffness
+    force = stiffness * penetration / (1.0 + stiffness / frequency**2)
+    np.testing.assert_allclose(samples[-1, :3], np.array([-1.0, -1.0, 0.3]) * force / frequency**2, rtol=1e-9)
+
+
+def edge_of_the_lining(share, monkeypatch):
+    """Two coupled modes pressed on a bar whose stiffness is `share` of the limit's, and where they rest."""
+    frequency, speed, penetration = 2e4, 1000.0, 1e-3
+    model = replace(
+        point_mass(frequency, softening=0.0, coriolis=6.0 * TURN), squared_frequencies=np.array([2e4**2, 2.2e4**2])
+    )
+    choice = replace(CHOICE, time_step=2e-5, samples_per_revolution=314)
+
+    def problem(area):
+        return Problem(model, speed, Scene(Casing(-penetration, lobes=0), replace(ELASTIC, bar_area=area)), choice)
+
+    with monkeypatch.context() as without:
+        without.setattr(problem_module, "check_step", lambda problem: None)
+        limit = brentq(lambda area: second_order_ratio(problem(area), problem(area).scene.lining) - 1.0, 1e-7, 1e-1)
+    lining = replace(ELASTIC, bar_area=share * limit)
+    return model, speed, Scene(Casing(-penetration, lobes=0), lining, damping_ratio=0.0, divergence_limit=1e300), choice
+
+
+@pytest.mark.parametrize("share", [0.97, 1.03])
+def test_the_limit_of_the_lining_is_where_pressed_nodes_become_unstable(monkeypatch, share):
+    model, speed, scene, choice = edge_of_the_lining(share, monkeypatch)
+    if share > 1.0:
+        with pytest.raises(step_limit.UnstableStepError, match="limit for this lining"):
+            Problem(model, speed, scene, choice)
+        monkeypatch.setattr(problem_module, "check_step", lambda problem: None)
+    simulation = Simulation(model, speed, scene, choice)
+    stiffness = simulation.problem.bar_stiffness
+    rest = -1e-3 * stiffness / (stiffness + model.squared_frequencies[0])
+    state = moving(simulation, np.array([rest * (1.0 + 1e-9), 0.0]), np.zeros(2))
+    state.lining_force[0] = -stiffness * (1e-3 + rest)
+    away = np.abs(simulation.advance(state, 1).samples[:, 0] / rest - 1.0)
+    assert (away.max() > 1e-2) == (share > 1.0)
+    assert share > 1.0 or away.max() < 1e-6
+
+
+@pytest.mark.parametrize("seed", range(12))
+@pytest.mark.parametrize("excess", [1e-6, -1e-6])
+def test_no_contact_is_missed_by_a_jump(seed, excess):
+    """The casing is put where a step of the free motion just passes it, or just does not."""
+    generator = np.random.default_rng(seed)
+    model = coupled_model(2, 10.0 ** generator.uniform(-1, 1.5))
+    model = replace(model, tip_displacement_operator=model.displacement_operator, tip_cone_angle=0.3)
+    modes = len(model.squared_frequencies)
+    share = generator.uniform(0.2, 1.0) ** np.arange(modes)
+    start, velocity = generator.standard_normal((2, modes)) * share / [model.squared_frequencies**0.5, np.ones(modes)]
+    every_step = replace(CHOICE, time_step=3e-7, samples_per_revolution=5000, jumps=False)
+    free = Simulation(model, 4000.0, replace(FREE, divergence_limit=1e9), every_step)
+    samples = free.advance(moving(free, start, velocity), 1).samples
+    reach = samples[:, [0, 3]].max()
+    # the same steps, of which many are jumped over
+    choice = replace(CHOICE, time_step=free.problem.time_step, samples_per_revolution=free.problem.steps_per_revolution // 100)
+    scene = replace(FREE, casing=Casing(reach * (1.0 - excess), lobes=0), divergence_limit=1e9)
+    jumping = Simulation(model, 4000.0, scene, choice)
+    assert jumping.problem.steps_per_revolution == free.problem.steps_per_revolution
+    state = moving(jumping, start, velocity)
+    jumping.advance(state, 1)
+    assert (state.totals["steps_in_contact"] > 0) == (excess > 0)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["direct", "direct_exact", "abradable"])
+def test_a_run_with_jumps_is_the_plain_run(blade, name):
+    scene = replace(SCENES[name], casing=Casing(0.356e-3))
+    found = []
+    for jumps in (True, False):
+        simulation = Simulation(blade, 1600.0, scene, replace(CHOICE, time_step=4e-7, revolutions=8, jumps=jumps))
+        state = simulation.start()
+        found.append((state, simulation.advance(state, 8).samples))
+    (jumped, ours), (plain, theirs) = found
+    assert jumped.totals["steps_jumped"] > 0.1 * jumped.totals["steps"] and plain.totals["steps_jumped"] == 0
+    np.testing.assert_allclose(ours, theirs, rtol=0, atol=1e-10 * np.abs(theirs).max())
+    np.testing.assert_allclose(jumped.totals["loss"], plain.totals["loss"], rtol=1e-9)
+
+
+@pytest.mark.slow
+def test_snapshots_and_split_runs(blade):
+    """Samples are the snapshots' shapes at the tip, to the last number; a run that is stopped goes on with the same bits."""
+    choice = replace(CHOICE, time_step=3.2e-6, revolutions=2, snapshots_per_revolution=62, snapshot_revolutions=2)
+    simulation = Simulation(blade, 1600.0, replace(ABRADABLE, lining=replace(ABRADABLE.lining, bar_width=1e-3)), choice)
+    whole_state, state = simulation.start(), simulation.start()
+    whole = simulation.advance(whole_state, 2)
+    parts = [simulation.advance(state, 1) for _ in range(2)]
+    np.testing.assert_array_equal(np.concatenate([part.snapshots for part in parts]), whole.snapshots)
+    np.testing.assert_array_equal(state.increment, whole_state.increment)
+    radial = blade.tip_displacement_operator[0, 0] @ simulation.problem.state_shapes
+    largest = np.abs(whole.samples[:, 1]).max()
+    np.testing.assert_allclose(whole.snapshots @ radial, whole.samples[:, 1], rtol=0, atol=1e-12 * largest)
+
+
+def test_central_differences_do_not_carry_it():
+    with pytest.raises(ValueError, match="central differences do not carry the Coriolis force; use .* exact_modal"):
+        Problem(coupled_model(), 1000.0, DIRECT, replace(CHOICE, integrator=CENTRAL_DIFFERENCE))
+
+
+def test_run_ups_do_not_carry_it():
+    with pytest.raises(ValueError, match="run-ups do not carry the Coriolis force"):
+        March(coupled_model(), DIRECT, CHOICE, RunUp(1000.0, 1100.0, 5.0, 0, 0, worn=False))
+
+
+WITH_CORIOLIS = {"structure": {"coriolis": True}}
+RUN_UP = {"climb": {"from_rad_s": 1600, "to_rad_s": 1800, "rate_rad_s2": 100}}
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        (
+            {"fidelity": "paper"},
+            r"structure\.coriolis: found true at the level 'paper', whose integrator central_difference .*; allowed: false, or "
+            r"a level of exact_modal \(draft, standard, fine\)",
+        ),
+        ({"run_ups": RUN_UP}, r"run_ups\.climb: found a run-up with structure\.coriolis: true; allowed: none"),
+    ],
+)
+def test_configurations_that_cannot_carry_it(root, changes, message):
+    with pytest.raises(ConfigError, match=message):
+        read_settings(root, command_line_document(WITH_CORIOLIS | changes))
+    read_settings(root, command_line_document(changes))
+
+
+def test_studies_of_central_differences_do_not_carry_it(root):
+    settings = read_settings(root, command_line_document(WITH_CORIOLIS))
+    for study in ("tradeoff", "stability"):
+        with pytest.raises(ConfigError, match=rf"structure\.coriolis: found true in the study {study}, which runs central"):
+            Studies(settings).names(study)(None)
+    assert Studies(settings).names("estimate")(None)
