@@ -1,6 +1,7 @@
 """The Coriolis force in the time integration: exact solutions, the reference engine, energy, limits and refusals."""
 
 from dataclasses import replace
+from itertools import combinations
 
 import numpy as np
 import pytest
@@ -20,7 +21,7 @@ from r37core.time_integration import problem as problem_module
 from r37core.time_integration import step_limit
 from r37core.time_integration.gyroscopic import LARGEST_TURN
 from r37core.time_integration.integrators import CENTRAL_DIFFERENCE, EXACT_MODAL
-from r37core.time_integration.problem import Problem
+from r37core.time_integration.problem import Problem, stable_problem
 from r37core.time_integration.reference_motion import CoupledMotion
 from r37core.time_integration.simulate import Simulation
 from r37core.time_integration.step_limit import second_order_ratio
@@ -97,35 +98,35 @@ def reduced(mesh, matrices, choice):
 
 
 @pytest.fixture(scope="module")
-def blade(reduced):
+def coupled_blade(reduced):
     return contact_model(reduced, "pressure_edge")
 
 
 @pytest.mark.slow
-def test_free_motion_has_the_frequencies_of_the_campbell_diagram(reduced, blade):
+def test_free_motion_has_the_frequencies_of_the_campbell_diagram(reduced, coupled_blade):
     """Each mode alone: three samples in a row obey the recursion of its frequency."""
     speed = 1800.0
     campbell, without = (model.modes(speed, 8)[0] for model in (reduced, replace(reduced, coriolis=None)))
     assert np.abs(campbell / without - 1.0).max() > 1e-4
-    simulation = Simulation(blade, speed, FREE, CHOICE)
+    simulation = Simulation(coupled_blade, speed, FREE, CHOICE)
     for mode, frequency in enumerate(campbell):
         state = simulation.start()
-        state.displacement[mode] = state.increment[mode] = 1e-3
-        samples = simulation.advance(state, 1).samples
-        turn = 2.0 * np.cos(frequency * times(simulation, simulation.advance(state, 1))[0])
+        state.displacement[mode] = state.increment[mode] = 1e-6
+        record = simulation.advance(state, 1)
+        samples, turn = record.samples, 2.0 * np.cos(frequency * times(simulation, record)[0])
         missing = samples[2:] + samples[:-2] - turn * samples[1:-1]
         assert np.abs(missing).max() < 1e-8 * np.abs(samples).max(), mode
     # with static modes, which the Coriolis force does not reach
-    lined = Problem(blade, speed, ABRADABLE, replace(CHOICE, time_step=6.4e-6, shorten=True))
-    assert len(lined.frequencies) < len(blade.squared_frequencies)
+    lined = Problem(coupled_blade, speed, ABRADABLE, replace(CHOICE, time_step=6.4e-6, shorten=True))
+    assert len(lined.frequencies) < len(coupled_blade.squared_frequencies)
     np.testing.assert_allclose(lined.complex_modes.frequencies[:8], campbell, rtol=1e-5)
 
 
 @pytest.mark.slow
-def test_contact_model_with_coriolis(blade, contact, tmp_path):
-    np.testing.assert_array_equal(blade.coriolis, -blade.coriolis.T)
-    write_contact_model(blade, tmp_path / "contact.npz")
-    np.testing.assert_array_equal(read_contact_model(tmp_path / "contact.npz").coriolis, blade.coriolis)
+def test_contact_model_with_coriolis(coupled_blade, contact, tmp_path):
+    np.testing.assert_array_equal(coupled_blade.coriolis, -coupled_blade.coriolis.T)
+    write_contact_model(coupled_blade, tmp_path / "contact.npz")
+    np.testing.assert_array_equal(read_contact_model(tmp_path / "contact.npz").coriolis, coupled_blade.coriolis)
     write_contact_model(contact, tmp_path / "without.npz")
     assert read_contact_model(tmp_path / "without.npz").coriolis is None
 
@@ -286,7 +287,7 @@ def resting(simulation, force):
 
 
 def test_a_pressed_node_rests_where_the_stiffness_says():
-    """A casing too tight for the blade, and steps in which the modes turn by up to 48 degrees: friction's sideways push, too."""
+    """A casing too tight for the blade, friction, and steps in which the modes turn by up to 48 degrees."""
     penetration, frequency, speed = 1e-4, 4e4, 2000.0
     scene = replace(PRESSED, casing=Casing(-penetration, lobes=0), friction=Friction(0.3))
     model = replace(point_in_space(frequency, 0.25), squared_frequencies=np.array([4e4, 3e4, 5.6e4]) ** 2)
@@ -303,9 +304,7 @@ def test_a_pressed_node_rests_where_the_stiffness_says():
 def edge_of_the_lining(share, monkeypatch):
     """Two coupled modes pressed on a bar whose stiffness is `share` of the limit's, and where they rest."""
     frequency, speed, penetration = 2e4, 1000.0, 1e-3
-    model = replace(
-        point_mass(frequency, softening=0.0, coriolis=6.0 * TURN), squared_frequencies=np.array([2e4**2, 2.2e4**2])
-    )
+    model = replace(point_mass(frequency, softening=0.0, coriolis=6.0 * TURN), squared_frequencies=np.array([2e4**2, 2.2e4**2]))
     choice = replace(CHOICE, time_step=2e-5, samples_per_revolution=314)
 
     def problem(area):
@@ -335,6 +334,37 @@ def test_the_limit_of_the_lining_is_where_pressed_nodes_become_unstable(monkeypa
     assert share > 1.0 or away.max() < 1e-6
 
 
+def _pressed_step(problem, nodes):
+    """A step of u, d and the lining's force with `nodes` on elastic bars without friction, as a matrix."""
+    recursion, modes = problem.recursion, len(problem.frequencies)
+    by_u, by_d = (one[0, nodes] for one in (problem.displacement_operator, problem.increment_operator))
+    flexibility = problem.residual_flexibility[0][np.ix_(nodes, nodes)].T
+    own = np.diag(flexibility)
+    bars = problem.bar_stiffness / (1.0 + problem.bar_stiffness * own)
+    kick = recursion.inverse / recursion.keep
+    kicked = np.hstack([np.eye(2 * modes), np.vstack([-kick[:, None] * by_d.T, kick[:, None] * by_u.T])])
+    increment = np.hstack([-np.diag(recursion.pull), np.diag(recursion.keep)]) @ kicked
+    moved = np.vstack([increment, increment])
+    moved[:modes] += kicked[:modes]
+    lagging = np.hstack([np.zeros((len(nodes), 2 * modes)), flexibility - np.diag(own)])
+    return np.vstack([moved, -bars[:, None] * (np.hstack([by_u, by_d]) @ moved + lagging)])
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("modulus", [2e10, 1e12, 1e14])
+@pytest.mark.parametrize("size", [None, 1.0, 10.0])
+def test_no_few_nodes_that_stay_pressed_grow(coupled_blade, modulus, size):
+    """Eigenvalues of the step at the steps taken, for a blade and for random models with more and more coupling."""
+    lining = replace(ABRADABLE.lining, bar_width=1e-3, elastic_modulus=modulus)
+    model = coupled_model(8, size) if size else coupled_blade
+    for step in (6.4e-6, 1.6e-6):
+        choice = replace(CHOICE, time_step=step, shorten=True)
+        problem = stable_problem(model, 1600.0, replace(ABRADABLE, lining=lining, friction=Friction(0.0)), choice)
+        for nodes in [*combinations(range(8), 2), range(8)]:
+            largest = np.abs(np.linalg.eigvals(_pressed_step(problem, list(nodes)))).max()
+            assert largest**problem.steps_per_revolution - 1.0 < 0.01, (step, problem.time_step, nodes)
+
+
 @pytest.mark.parametrize("seed", range(12))
 @pytest.mark.parametrize("excess", [1e-6, -1e-6])
 def test_no_contact_is_missed_by_a_jump(seed, excess):
@@ -362,11 +392,11 @@ def test_no_contact_is_missed_by_a_jump(seed, excess):
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", ["direct", "direct_exact", "abradable"])
-def test_a_run_with_jumps_is_the_plain_run(blade, name):
+def test_a_run_with_jumps_is_the_plain_run(coupled_blade, name):
     scene = replace(SCENES[name], casing=Casing(0.356e-3))
     found = []
     for jumps in (True, False):
-        simulation = Simulation(blade, 1600.0, scene, replace(CHOICE, time_step=4e-7, revolutions=8, jumps=jumps))
+        simulation = Simulation(coupled_blade, 1600.0, scene, replace(CHOICE, time_step=4e-7, revolutions=8, jumps=jumps))
         state = simulation.start()
         found.append((state, simulation.advance(state, 8).samples))
     (jumped, ours), (plain, theirs) = found
@@ -376,22 +406,22 @@ def test_a_run_with_jumps_is_the_plain_run(blade, name):
 
 
 @pytest.mark.slow
-def test_snapshots_and_split_runs(blade):
+def test_snapshots_and_split_runs(coupled_blade):
     """Samples are the snapshots' shapes at the tip, to the last number; a run that is stopped goes on with the same bits."""
     choice = replace(CHOICE, time_step=3.2e-6, revolutions=2, snapshots_per_revolution=62, snapshot_revolutions=2)
-    simulation = Simulation(blade, 1600.0, replace(ABRADABLE, lining=replace(ABRADABLE.lining, bar_width=1e-3)), choice)
+    simulation = Simulation(coupled_blade, 1600.0, replace(ABRADABLE, lining=replace(ABRADABLE.lining, bar_width=1e-3)), choice)
     whole_state, state = simulation.start(), simulation.start()
     whole = simulation.advance(whole_state, 2)
     parts = [simulation.advance(state, 1) for _ in range(2)]
     np.testing.assert_array_equal(np.concatenate([part.snapshots for part in parts]), whole.snapshots)
     np.testing.assert_array_equal(state.increment, whole_state.increment)
-    radial = blade.tip_displacement_operator[0, 0] @ simulation.problem.state_shapes
+    radial = coupled_blade.tip_displacement_operator[0, 0] @ simulation.problem.state_shapes
     largest = np.abs(whole.samples[:, 1]).max()
     np.testing.assert_allclose(whole.snapshots @ radial, whole.samples[:, 1], rtol=0, atol=1e-12 * largest)
 
 
 def test_central_differences_do_not_carry_it():
-    with pytest.raises(ValueError, match="central differences do not carry the Coriolis force; use .* exact_modal"):
+    with pytest.raises(ValueError, match=r"central differences do not carry the Coriolis force; use .* exact_modal"):
         Problem(coupled_model(), 1000.0, DIRECT, replace(CHOICE, integrator=CENTRAL_DIFFERENCE))
 
 

@@ -59,8 +59,8 @@ def complex_modes(frequencies: np.ndarray, coupling: np.ndarray) -> ComplexModes
     return ComplexModes(found, shapes)
 
 
-def imaginary_part(recursion: Recursion) -> tuple[np.ndarray, np.ndarray]:
-    """Im zeta_n per u_n = Re zeta_n and per d_n = Re(zeta_n - zeta_n/Lambda), each of shape (modes,).
+def imaginary_part(recursion: Recursion) -> np.ndarray:
+    """Im zeta_n per u_n = Re zeta_n and per d_n = Re(zeta_n - zeta_n/Lambda), shape (2, modes).
 
     Lambda = rho (cos + i sin) is the root of Lambda^2 - (1 + keep - pull) Lambda + keep.
     """
@@ -68,7 +68,7 @@ def imaginary_part(recursion: Recursion) -> tuple[np.ndarray, np.ndarray]:
     # without the cancellation of small steps: rho sin = sqrt(keep - ((1 + keep - pull)/2)^2)
     shrunk = recursion.lost / (1.0 + modulus)
     turned = 0.5 * np.sqrt((recursion.pull - shrunk**2) * ((1.0 + modulus) ** 2 - recursion.pull))
-    return 0.5 * (recursion.pull - recursion.lost) / turned, -recursion.keep / turned
+    return np.array([0.5 * (recursion.pull - recursion.lost), -recursion.keep]) / turned
 
 
 @dataclass(frozen=True)
@@ -76,10 +76,10 @@ class ComplexRecursion(Recursion):
     """The recursion of u_n = Re zeta_n of complex modes, whose energy and loss do not depend on their phase.
 
     A force is a kick at t_n between two flights. With a = N_u^T F and b = N_d^T F, N_u and N_d the displacement per u and d,
-    it adds -(c/keep) b to u_n and (c/keep) a to d_n: -i c/Im(Lambda) s^H F to zeta_n. One flight on that is
-    c (a + pull b/keep) to d_{n+1}, and as much less c b/keep to u_{n+1}. Without coupling b is zero and this is the recursion of
-    a real mode. Mid-kick, a constant force holds the static deflection: with filters of the kick by Hairer, Lubich and Wang,
-    Numer. Math. 144 (2020) 787-809, of charged particles in a magnetic field.
+    it adds -(c/keep) b to u_n and (c/keep) a to d_n: -i c/Im(Lambda) s^H F to zeta_n. One flight on that is c (a + pull b/keep)
+    to d_{n+1}, and as much less c b/keep to u_{n+1}. Without coupling b is zero and this is the recursion of a real mode.
+    Undamped modes rest under a constant force, mid-kick, where the stiffness says. Filtered kicks between exact flights:
+    Hairer, Lubich and Wang, Numer. Math. 144 (2020) 787-809, of charged particles in a magnetic field.
 
     E_n = keep/(2c) (pull u_n (u_n - d_n) + ((1 - keep) u_n + keep d_n) d_n) is cos^2(w h/2) w^2 |zeta_n|^2/2 without damping.
     A flight loses (1 - keep) E_n. A kick adds F times the central difference of the displacement on the free motion

@@ -3,8 +3,8 @@
 Each mode is u_n = Re(C lambda^n) with |lambda| <= 1, so m steps are a 2 x 2 map of (u, d), made once
 (time_integration.jump_plan), and |C| bounds the mode until the next contact. A jump is taken only if a bound on every node's
 position over all the steps it skips stays clear of the casing's nearest position over them: modes slow in the jump follow
-their tangent within |C| |1 - 1/lambda|^2 m (m + 1)/2, the others stay within |C|. A complex mode moves a node by up to |C| times
-the size of its shape there.
+their tangent within |C| |1 - 1/lambda|^2 m (m + 1)/2, the others stay within |C|. A complex mode moves a node by up
+to |C| times the size of its shape there.
 
 With the exact gap a node's position is at most n + cos(alpha) y^2/(2 R), and the lobes at its displaced angle at most
 their greatest slope times |y|/R nearer than at its undeformed one; n, y (sideways) and R (distance from the axis) are bounded.

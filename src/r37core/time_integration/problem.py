@@ -13,12 +13,11 @@ from r37core.contact.casing import casing_axes
 from r37core.contact.scene import Scene
 from r37core.rom.contact_model import BucklingError, ContactModel
 
-from .integration_choice import LARGEST_TABLE, IntegrationChoice
 from .gyroscopic import LARGEST_TURN, ComplexModes, complex_modes, complex_recursion
+from .integration_choice import LARGEST_TABLE, IntegrationChoice
 from .integrators import CENTRAL_DIFFERENCE, EXACT_MODAL, Recursion, increments, recursion
 from .jump_plan import JumpPlan, plan_jumps
 from .step_limit import UnstableStepError, check_step
-
 
 NO_CORIOLIS = "central differences do not carry the Coriolis force; use the integrator exact_modal"
 """Why a problem is refused."""
@@ -202,9 +201,7 @@ class Problem:
         """Half of what a kick moves the stepped modes by, in the shape of `static_shapes`; see ComplexRecursion."""
         by_u, by_d = self._shapes
         size = 0.5 * self.recursion.inverse / self.recursion.keep
-        rows, increment_rows = (
-            one.reshape(-1, len(size)) for one in (self.displacement_operator, self.increment_operator)
-        )
+        rows, increment_rows = (one.reshape(-1, len(size)) for one in (self.displacement_operator, self.increment_operator))
         return (by_d * size) @ rows.T - (by_u * size) @ increment_rows.T
 
     @property

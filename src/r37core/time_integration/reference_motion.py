@@ -85,13 +85,14 @@ class CoupledMotion:
         self._kick = np.linalg.solve(-system @ self._swing, gain)[:, modes:]
         self._energy = self._swing.T @ self._swing @ np.linalg.inv(gain)
         self._back = np.linalg.inv(self._flight)
-        self._imaginary, self._recursion = imaginary_part(pace.recursion), pace.recursion
+        # of the two roots of the recursion that of the motion, which may turn by more than half a turn in a step
+        sense = np.sign(np.sin(step * np.sqrt(1.0 - ratio**2) * coupled.frequencies))
+        self._by_u, self._by_d = sense * imaginary_part(pace.recursion)
         self.response = self._modes @ (self._flight @ self._kick / np.tile(self._root, 2)[:, None])[:modes] @ self._modes.T
 
     def read(self, state: SimulationState) -> np.ndarray:
         """y, shape (2 stepped modes,)."""
-        by_u, by_d = self._imaginary
-        amplitude = state.displacement + 1j * (by_u * state.displacement + by_d * state.increment)
+        amplitude = state.displacement + 1j * (self._by_u * state.displacement + self._by_d * state.increment)
         moving = self._coupled.shapes * amplitude
         return np.concatenate([self._root * moving.real.sum(axis=1), -(moving @ self._coupled.frequencies).imag])
 
@@ -102,11 +103,10 @@ class CoupledMotion:
     def numbers(self, motion: np.ndarray) -> np.ndarray:
         """Those of a snapshot: u and d of the complex modes."""
         elastic, velocity = np.split(motion, 2)
-        frequencies, recursion = self._coupled.frequencies, self._recursion
+        frequencies = self._coupled.frequencies
         amplitude = self._coupled.shapes.conj().T @ (self._root * elastic) / frequencies**2
         amplitude = amplitude - 1j * (self._coupled.shapes.conj().T @ velocity) / frequencies
-        by_u, by_d = self._imaginary
-        return np.concatenate([amplitude.real, (amplitude.imag - by_u * amplitude.real) / by_d])
+        return np.concatenate([amplitude.real, (amplitude.imag - self._by_u * amplitude.real) / self._by_d])
 
     def flown(self, motion: np.ndarray) -> np.ndarray:
         """A step on, without force."""

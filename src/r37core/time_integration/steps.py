@@ -337,7 +337,7 @@ def push_blade(m, count, kind, work, lost):
 
 @inlined
 def kick_complex_modes(m, energy, work, lost):
-    """What a kick at the beginning of the step adds to its end, its work, doubled, and loss: see gyroscopic.ComplexRecursion."""
+    """What a kick as the step began adds to its end; adds its work, doubled, and loss. See gyroscopic.ComplexRecursion."""
     for i in range(0, len(m.u), LANES):
         keep, pull, inverse_keep, inverse = load(m.keep, i), load(m.pull, i), load(m.inverse_keep, i), load(m.inverse, i)
         push, increment_push, d = load(m.push, i), load(m.increment_push, i), load(m.increment, i)

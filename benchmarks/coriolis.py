@@ -1,0 +1,134 @@
+"""What the Coriolis force changes for the seven blades, and what it costs: tables of docs/coriolis.md.
+
+Run: snakemake campbell, with structure.coriolis: true in config/config.yaml; python benchmarks/coriolis.py (about ten minutes);
+make docs. Everything is run with the force and without, from the same reduced models.
+"""
+
+import os
+import time
+from dataclasses import replace
+from pathlib import Path
+
+os.environ["OPENBLAS_NUM_THREADS"] = "1"
+
+import numpy as np
+
+from r37core.config import read_settings
+from r37core.io import write_text
+from r37core.published import INTERACTIONS
+from r37core.results.campbell import campbell_diagram
+from r37core.rom.reduced_model import contact_model
+from r37core.rom.rom_file import read_reduced_model
+from r37core.studies.tables import markdown_table
+from r37core.time_integration.simulate import Simulation
+from r37core.time_integration.speed_run import run_speed
+
+ROOT = Path(__file__).parent.parent
+STUDIES = ROOT / "results/studies"
+LINED, DIRECT = "abradable", "direct"
+KEPT = {"spectrum_highest_order": 1, "wear_angles": 8}
+BEFORE, AFTER = 15, 25
+"""Speeds, in rad/s, about a published peak."""
+
+DIRECT_SHARES = np.linspace(0.98, 1.06, 17)
+"""Of the crossing of 1B with order 4."""
+
+GRID = np.arange(800.0, 2000.0, 50.0)
+ROUNDS = 3
+
+
+def main():
+    settings = read_settings(ROOT)
+    models = {blade: models_of(blade, settings) for blade in settings.blades}
+    write_text(peaks_table(settings, models), STUDIES / "coriolis_peaks.md")
+    write_text(cost_table(settings, models["Ref"]), STUDIES / "coriolis_cost.md")
+    write_text(direct_table(settings, models), STUDIES / "coriolis_direct.md")
+
+
+def models_of(blade, settings):
+    """Reduced models of a blade without the Coriolis matrix and with it, each with its contact model."""
+    model = read_reduced_model(ROOT / f"results/{blade}/rom_pressure_edge.nc")
+    return [(one, contact_model(one, settings.structure.boundary.tip_line)) for one in (replace(model, coriolis=None), model)]
+
+
+def run(settings, blade, contact, scene, speed):
+    """A run at a speed (rad/s) as the sweep does it, without stress."""
+    choice = replace(settings.integration_choice(blade, scene, speed), energy=False, snapshot_revolutions=0)
+    return run_speed(contact, float(speed), settings.scenes[scene].scene, choice, (), **KEPT)
+
+
+def moved(result):
+    """Rms (m) of the leading edge's normal and tangential motion together: one blade hardly moves towards the casing."""
+    return float(np.hypot(*result["rms"][0, [0, 2]]))
+
+
+def crossing(model, order):
+    """Speed (rad/s) at which 1B has the frequency of an engine order."""
+    return campbell_diagram(model, np.linspace(0.0, 2000.0, 41), 3).crossing_speeds(np.array([order]))[0, 0]
+
+
+def peaks_table(settings, models):
+    """Peaks of the ten published interactions, every 1 rad/s about them."""
+    rows = []
+    for one in INTERACTIONS:
+        speeds = np.arange(round(one.peak) - BEFORE, round(one.peak) + AFTER + 1.0)
+        cells = [f"{one.blade} 1B/{one.engine_order}"]
+        crossings = [crossing(model, one.engine_order) for model, _ in models[one.blade]]
+        rms = [[moved(run(settings, one.blade, contact, LINED, v)) for v in speeds] for _, contact in models[one.blade]]
+        peaks = [int(np.argmax(values)) for values in rms]
+        cells += [f"{crossings[0]:.1f}", f"{crossings[1] - crossings[0]:+.1f}", f"{speeds[peaks[0]]:.0f}"]
+        cells += [f"{speeds[peaks[1]] - speeds[peaks[0]]:+.0f}", f"{1e3 * rms[0][peaks[0]]:.2f}"]
+        cells += [f"{100.0 * (rms[1][peaks[1]] / rms[0][peaks[0]] - 1.0):+.1f}%"]
+        rows.append(cells)
+        print(cells, flush=True)
+    head = ["interaction", "crossing without (rad/s)", "with", "peak without (rad/s)", "with", "its rms (mm)", "with"]
+    return markdown_table(head, rows)
+
+
+def direct_table(settings, models):
+    """Direct contact about the crossing of 1B with order 4: means over the speeds, which single chaotic runs do not move."""
+    rows = []
+    for blade, pair in models.items():
+        speeds = DIRECT_SHARES * crossing(pair[0][0], 4)
+        runs = [[run(settings, blade, contact, DIRECT, speed) for speed in speeds] for _, contact in pair]
+        rms = np.array([[1e3 * one["rms"][0, [0, 2]] for one in of_model] for of_model in runs])
+        cells = [blade, f"{speeds[0]:.0f} to {speeds[-1]:.0f}"]
+        for direction in range(2):
+            without, with_force = rms[..., direction].mean(axis=1)
+            cells += [f"{without:.4f}", f"{100.0 * (with_force / without - 1.0):+.1f}%"]
+        rows.append(cells)
+        print(cells, flush=True)
+    head = ["blade", "speeds (rad/s)", "mean rms, normal (mm)", "with", "mean rms, tangential (mm)", "with"]
+    return markdown_table(head, rows)
+
+
+def cost_table(settings, pair):
+    """Ratio of CPU times of whole runs and of the march alone, the reference blade, one after the other in one process."""
+    rows = []
+    for scene in (LINED, DIRECT):
+        ratios = np.array([timed(settings, pair, scene, speed) for speed in GRID for _ in range(ROUNDS)])
+        for what, column in (("whole run", 0), ("march alone", 1)):
+            low, middle, high = np.percentile(ratios[:, column], [10, 50, 90])
+            rows.append([scene, what, f"{middle:.2f}", f"{low:.2f} to {high:.2f}"])
+        print(rows[-2:], flush=True)
+    said = f"{len(GRID)} speeds from {GRID[0]:g} to {GRID[-1]:g} rad/s, {ROUNDS} rounds."
+    return f"{markdown_table(['scene', 'of', 'ratio of CPU times, median', '10% to 90%'], rows)}\n{said}\n"
+
+
+def timed(settings, pair, scene, speed):
+    """CPU time with the force as a multiple of that without: of a whole run, and of its steps."""
+    whole, steps = [], []
+    choice = settings.integration_choice("Ref", scene, speed)
+    for _, contact in pair:
+        began = time.process_time()
+        simulation = Simulation(contact, float(speed), settings.scenes[scene].scene, choice)
+        state = simulation.start()
+        laid_out = time.process_time()
+        simulation.advance(state, choice.revolutions)
+        whole.append(time.process_time() - began)
+        steps.append(time.process_time() - laid_out)
+    return whole[1] / whole[0], steps[1] / steps[0]
+
+
+if __name__ == "__main__":
+    main()
