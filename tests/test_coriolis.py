@@ -31,6 +31,8 @@ FREE = Scene(Casing(1.0, lobes=0), damping_ratio=0.0, divergence_limit=10.0)
 TURN = np.array([[0.0, -2.0], [2.0, 0.0]])
 """2 Omega z x velocity of a point, per Omega."""
 
+NARROW = replace(ABRADABLE, lining=replace(ABRADABLE.lining, bar_width=1e-3))
+
 ELASTIC = Lining(5e-3, 20e9, 5e9, 1e30, bar_area=1e-11)
 """Bars that never yield."""
 
@@ -117,7 +119,7 @@ def test_free_motion_has_the_frequencies_of_the_campbell_diagram(reduced, couple
         missing = samples[2:] + samples[:-2] - turn * samples[1:-1]
         assert np.abs(missing).max() < 1e-8 * np.abs(samples).max(), mode
     # with static modes, which the Coriolis force does not reach
-    lined = Problem(coupled_blade, speed, ABRADABLE, replace(CHOICE, time_step=6.4e-6, shorten=True))
+    lined = Problem(coupled_blade, speed, NARROW, replace(CHOICE, time_step=6.4e-6))
     assert len(lined.frequencies) < len(coupled_blade.squared_frequencies)
     np.testing.assert_allclose(lined.complex_modes.frequencies[:8], campbell, rtol=1e-5)
 
@@ -355,7 +357,7 @@ def _pressed_step(problem, nodes):
 @pytest.mark.parametrize("size", [None, 1.0, 10.0])
 def test_no_few_nodes_that_stay_pressed_grow(coupled_blade, modulus, size):
     """Eigenvalues of the step at the steps taken, for a blade and for random models with more and more coupling."""
-    lining = replace(ABRADABLE.lining, bar_width=1e-3, elastic_modulus=modulus)
+    lining = replace(NARROW.lining, elastic_modulus=modulus)
     model = coupled_model(8, size) if size else coupled_blade
     for step in (6.4e-6, 1.6e-6):
         choice = replace(CHOICE, time_step=step, shorten=True)
@@ -409,7 +411,7 @@ def test_a_run_with_jumps_is_the_plain_run(coupled_blade, name):
 def test_snapshots_and_split_runs(coupled_blade):
     """Samples are the snapshots' shapes at the tip, to the last number; a run that is stopped goes on with the same bits."""
     choice = replace(CHOICE, time_step=3.2e-6, revolutions=2, snapshots_per_revolution=62, snapshot_revolutions=2)
-    simulation = Simulation(coupled_blade, 1600.0, replace(ABRADABLE, lining=replace(ABRADABLE.lining, bar_width=1e-3)), choice)
+    simulation = Simulation(coupled_blade, 1600.0, NARROW, choice)
     whole_state, state = simulation.start(), simulation.start()
     whole = simulation.advance(whole_state, 2)
     parts = [simulation.advance(state, 1) for _ in range(2)]

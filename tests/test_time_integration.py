@@ -348,11 +348,3 @@ def test_the_tip_is_the_line_wherever_its_contact_nodes_lie(model, contact):
     assert inner.displacement_operator.shape[1] == len(line.nodes[2:-2:3])
     np.testing.assert_array_equal(inner.tip_displacement_operator, contact.tip_displacement_operator)
     assert inner.tip_cone_angle == contact.tip_cone_angle
-
-
-def test_coriolis_is_refused(mesh, matrices, choice):
-    from r37core.rom.reduce import reduce_blade
-
-    model = reduce_blade(mesh, matrices, replace(choice, coriolis=True))
-    with pytest.raises(ValueError, match=r"structure\.coriolis"):
-        contact_model(model, "pressure_edge")
