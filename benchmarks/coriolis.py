@@ -1,4 +1,4 @@
-"""What the Coriolis force changes for the seven blades, and what it costs: tables of docs/coriolis.md.
+"""What the Coriolis force changes for the seven blades, and what it costs: tables and picture of docs/coriolis.md.
 
 Run: snakemake campbell, with structure.coriolis: true in config/config.yaml; python benchmarks/coriolis.py (about ten minutes);
 make docs. Everything is run with the force and without, from the same reduced models.
@@ -14,12 +14,14 @@ os.environ["OPENBLAS_NUM_THREADS"] = "1"
 import numpy as np
 
 from r37core.config import read_settings
+from r37core.figures.style import PAGE, plt
 from r37core.io import write_text
 from r37core.published import INTERACTIONS
 from r37core.results.campbell import campbell_diagram
 from r37core.rom.reduced_model import contact_model
 from r37core.rom.rom_file import read_reduced_model
 from r37core.studies.tables import markdown_table
+from r37core.time_integration.gyroscopic import LARGEST_TURN
 from r37core.time_integration.simulate import Simulation
 from r37core.time_integration.speed_run import run_speed
 
@@ -33,6 +35,8 @@ BEFORE, AFTER = 15, 25
 DIRECT_SHARES = np.linspace(0.98, 1.06, 17)
 """Of the crossing of 1B with order 4."""
 
+FREQUENCIES = 10
+
 GRID = np.arange(800.0, 2000.0, 50.0)
 ROUNDS = 3
 
@@ -40,6 +44,7 @@ ROUNDS = 3
 def main():
     settings = read_settings(ROOT)
     models = {blade: models_of(blade, settings) for blade in settings.blades}
+    write_text(frequencies_table(settings, models), STUDIES / "coriolis_frequencies.md")
     write_text(peaks_table(settings, models), STUDIES / "coriolis_peaks.md")
     write_text(cost_table(settings, models["Ref"]), STUDIES / "coriolis_cost.md")
     write_text(direct_table(settings, models), STUDIES / "coriolis_direct.md")
@@ -67,9 +72,29 @@ def crossing(model, order):
     return campbell_diagram(model, np.linspace(0.0, 2000.0, 41), 3).crossing_speeds(np.array([order]))[0, 0]
 
 
+def frequencies_table(settings, models):
+    """Shift of the first ten frequencies at the highest speed, and what the modes that are not coupled leave out of it."""
+    rows, speed = [], settings.structure.maximum_speed_rad_s
+    for blade, ((without, _), (model, contact)) in models.items():
+        exact = model.modes(speed, FREQUENCIES)[0]
+        shift = exact / without.modes(speed, FREQUENCIES)[0] - 1.0
+        cells = [blade, f"{100.0 * shift[0]:+.3f}%", f"{100.0 * shift[np.abs(shift).argmax()]:+.3f}%"]
+        for scene in (LINED, DIRECT):
+            choice = settings.integration_choice(blade, scene, speed)
+            problem = Simulation(contact, speed, settings.scenes[scene].scene, choice).problem
+            turns = problem.frequencies * problem.time_step
+            left_out = np.abs(problem.complex_modes.frequencies[:FREQUENCIES] / exact - 1.0).max()
+            cells += [f"{np.count_nonzero(turns <= LARGEST_TURN)} of {len(contact.squared_frequencies)}", f"{left_out:.0e}"]
+        rows.append(cells)
+    head = ["blade", "1B", "largest of ten", "coupled modes, lined", "off by up to", "coupled modes, direct", "off by up to"]
+    return markdown_table(head, rows)
+
+
 def peaks_table(settings, models):
-    """Peaks of the ten published interactions, every 1 rad/s about them."""
+    """Peaks of the ten published interactions, every 1 rad/s about them; draws those of order 4, too."""
     rows = []
+    figure, panels = plt.subplots(1, len(models), figsize=(PAGE, 1.9), sharey=True)
+    axes_of = dict(zip(models, panels, strict=True))
     for one in INTERACTIONS:
         speeds = np.arange(round(one.peak) - BEFORE, round(one.peak) + AFTER + 1.0)
         cells = [f"{one.blade} 1B/{one.engine_order}"]
@@ -81,6 +106,15 @@ def peaks_table(settings, models):
         cells += [f"{100.0 * (rms[1][peaks[1]] / rms[0][peaks[0]] - 1.0):+.1f}%"]
         rows.append(cells)
         print(cells, flush=True)
+        if one.engine_order == 4:
+            axes = axes_of[one.blade]
+            for values, label in zip(rms, ("without", "with"), strict=True):
+                axes.plot(speeds, 1e3 * np.array(values), label=label)
+            axes.set(title=one.blade, xlabel="rad/s")
+    panels[0].set_ylabel("rms, normal and tangential (mm)")
+    panels[0].legend()
+    (STUDIES / "figures").mkdir(parents=True, exist_ok=True)
+    figure.savefig(STUDIES / "figures/coriolis_peaks.png")
     head = ["interaction", "crossing without (rad/s)", "with", "peak without (rad/s)", "with", "its rms (mm)", "with"]
     return markdown_table(head, rows)
 

@@ -20,6 +20,7 @@ TABLES = {
         "refinement": "refinement.md",
         "run_ups": "run_up_accuracy.md",
     },
+    "coriolis": {name: f"coriolis_{name}.md" for name in ("frequencies", "peaks", "direct", "cost")},
     "run_ups": {"run_up_rates": "run_up_rates.md", "run_up_variants": "run_up_variants.md"},
     "stability": {"stability": "stability.md"},
     "validation": {"validation": "validation.md", "modelling_choices": "modelling_choices.md"},
@@ -28,6 +29,7 @@ TABLES = {
 PICTURES = (
     "tradeoff_pareto",
     "growth",
+    "coriolis_peaks",
     "modelling_choices",
     *(f"validation_{name}" for name in ("reference", "blades", "stress", "histories", "spectrum_lined", "spectrum_direct")),
 )
