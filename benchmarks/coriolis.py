@@ -111,11 +111,11 @@ def peaks_table(settings, models):
             for values, label in zip(rms, ("without", "with"), strict=True):
                 axes.plot(speeds, 1e3 * np.array(values), label=label)
             axes.set(title=one.blade, xlabel="rad/s")
-    panels[0].set_ylabel("rms, normal and tangential (mm)")
+    panels[0].set_ylabel("rms (mm)")
     panels[0].legend()
     (STUDIES / "figures").mkdir(parents=True, exist_ok=True)
     figure.savefig(STUDIES / "figures/coriolis_peaks.png")
-    head = ["interaction", "crossing without (rad/s)", "with", "peak without (rad/s)", "with", "its rms (mm)", "with"]
+    head = ["interaction", "crossing without (rad/s)", "change", "peak without (rad/s)", "change", "its rms (mm)", "change"]
     return markdown_table(head, rows)
 
 
@@ -132,7 +132,7 @@ def direct_table(settings, models):
             cells += [f"{without:.4f}", f"{100.0 * (with_force / without - 1.0):+.1f}%"]
         rows.append(cells)
         print(cells, flush=True)
-    head = ["blade", "speeds (rad/s)", "mean rms, normal (mm)", "with", "mean rms, tangential (mm)", "with"]
+    head = ["blade", "speeds (rad/s)", "normal rms, mean, without (mm)", "change", "tangential", "change"]
     return markdown_table(head, rows)
 
 
