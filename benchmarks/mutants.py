@@ -36,6 +36,7 @@ TESTS = {
     "speeds.py": "test_results.py test_config.py",
     "studies/runner.py": "test_studies.py test_modelling_choices.py",
     "time_integration/integrators.py": "test_integrators.py test_time_integration.py",
+    "time_integration/gyroscopic.py": "test_coriolis.py",
     "time_integration/jump_plan.py": "test_jumps.py",
     "time_integration/problem.py": "test_run_statistics.py test_time_integration.py",
     "time_integration/speed_run.py": "test_run_statistics.py",

@@ -164,4 +164,4 @@ def test_a_parameter_of_the_lining_reaches_the_law():
 
 
 def test_kinds_are_told_apart():
-    assert len({repr((layout_of(88, 8, 6), Kind(*flags))) for flags in ([True] * 8, [False] * 8)}) == 2
+    assert len({repr((layout_of(88, 8, 6), Kind(*flags))) for flags in ([True] * 9, [False] * 9)}) == 2

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-import scipy.linalg as la
 
 from .gyroscopic import imaginary_part
 from .problem import Pace, Problem
@@ -72,6 +71,9 @@ class CoupledMotion:
     """
 
     def __init__(self, problem: Problem, pace: Pace):
+        # simulation jobs of the other engine never import SciPy
+        from scipy.linalg import expm
+
         coupled, coupling = problem.complex_modes, problem.gyroscopic_coupling
         assert coupled is not None and coupling is not None
         self._modes, self._root, self._coupled = problem.modes, problem.frequencies, coupled
@@ -79,7 +81,7 @@ class CoupledMotion:
         system = np.block([[np.zeros((modes, modes)), np.diag(self._root)], [-np.diag(self._root), -coupling]])
         squares, axes = np.linalg.eigh(-system @ system)
         size = (axes * np.sqrt(squares)) @ axes.T
-        self._flight = la.expm(step * (np.sqrt(1.0 - ratio**2) * system - ratio * size))
+        self._flight = expm(step * (np.sqrt(1.0 - ratio**2) * system - ratio * size))
         left = np.eye(2 * modes) - self._flight
         gain, self._swing = left.T @ left, 0.5 * (self._flight - self._flight.T)
         self._kick = np.linalg.solve(-system @ self._swing, gain)[:, modes:]
