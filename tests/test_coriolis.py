@@ -367,6 +367,23 @@ def test_no_few_nodes_that_stay_pressed_grow(coupled_blade, modulus, size):
             assert largest**problem.steps_per_revolution - 1.0 < 0.01, (step, problem.time_step, nodes)
 
 
+def _meets_casing(model, start, velocity, excess):
+    """Whether a run with jumps meets a casing that a step of the free motion passes by `excess` of the closest position."""
+    speed, steps = 4000.0, 5000
+    choice = replace(CHOICE, time_step=2.0 * np.pi / speed / steps, samples_per_revolution=steps, jumps=False)
+    free = Simulation(model, speed, replace(FREE, divergence_limit=1e9), choice)
+    reach = free.advance(moving(free, start, velocity), 1).samples[:, [0, 3]].max()
+    # the same steps, of which many are jumped over
+    choice = replace(choice, samples_per_revolution=50, jumps=True)
+    jumping = Simulation(
+        model, speed, replace(FREE, casing=Casing(reach * (1.0 - excess), lobes=0), divergence_limit=1e9), choice
+    )
+    assert free.problem.steps_per_revolution == jumping.problem.steps_per_revolution == steps
+    state = moving(jumping, start, velocity)
+    jumping.advance(state, 1)
+    return bool(state.totals["steps_in_contact"] > 0)
+
+
 @pytest.mark.parametrize("seed", range(12))
 @pytest.mark.parametrize("excess", [1e-6, -1e-6])
 def test_no_contact_is_missed_by_a_jump(seed, excess):
@@ -377,19 +394,19 @@ def test_no_contact_is_missed_by_a_jump(seed, excess):
     modes = len(model.squared_frequencies)
     share = generator.uniform(0.2, 1.0) ** np.arange(modes)
     start, velocity = generator.standard_normal((2, modes)) * share / [model.squared_frequencies**0.5, np.ones(modes)]
-    every_step = replace(CHOICE, time_step=2.0 * np.pi / 4000.0 / 5000, samples_per_revolution=5000, jumps=False)
-    free = Simulation(model, 4000.0, replace(FREE, divergence_limit=1e9), every_step)
-    samples = free.advance(moving(free, start, velocity), 1).samples
-    reach = samples[:, [0, 3]].max()
-    assert free.problem.steps_per_sample == 1
-    # the same steps, of which many are jumped over
-    choice = replace(CHOICE, time_step=free.problem.time_step, samples_per_revolution=free.problem.steps_per_revolution // 100)
-    scene = replace(FREE, casing=Casing(reach * (1.0 - excess), lobes=0), divergence_limit=1e9)
-    jumping = Simulation(model, 4000.0, scene, choice)
-    assert jumping.problem.steps_per_revolution == free.problem.steps_per_revolution
-    state = moving(jumping, start, velocity)
-    jumping.advance(state, 1)
-    assert (state.totals["steps_in_contact"] > 0) == (excess > 0)
+    assert _meets_casing(model, start, velocity, excess) == (excess > 0)
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_no_contact_is_missed_where_the_increment_moves_the_node(seed):
+    """Two slow modes, whose shapes are imaginary along the casing's normal."""
+    frequencies = np.array([5000.0, 5300.0])
+    model = point_mass(frequencies[0], softening=0.0)
+    operator = model.displacement_operator[:, :, ::-1]
+    tip = np.repeat(operator, 2, axis=1)
+    model = replace(model, squared_frequencies=frequencies**2, displacement_operator=operator, tip_displacement_operator=tip)
+    start, velocity = np.random.default_rng(seed).standard_normal((2, 2)) * [[1e-3], [5.0]]
+    assert _meets_casing(model, start, velocity, 1e-6)
 
 
 @pytest.mark.slow
