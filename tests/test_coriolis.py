@@ -372,11 +372,15 @@ def _meets_casing(model, start, velocity, excess):
     speed, steps = 4000.0, 5000
     choice = replace(CHOICE, time_step=2.0 * np.pi / speed / steps, samples_per_revolution=steps, jumps=False)
     free = Simulation(model, speed, replace(FREE, divergence_limit=1e9), choice)
-    reach = free.advance(moving(free, start, velocity), 1).samples[:, [0, 3]].max()
+    samples = free.advance(moving(free, start, velocity), 1).samples[:, [0, 3]]
+    # lobes that come while a node still rises
+    casing = Casing(1.0, lobes=40, width=0.1, amplitude=0.5, rise_fraction=0.0)
+    theta = free.problem.theta(np.arange(1, steps + 1)[:, None])
+    reach = (samples[:, : theta.shape[1]] / (1.0 - casing.amplitude * casing.shape(theta))).max()
     # the same steps, of which many are jumped over
     choice = replace(choice, samples_per_revolution=50, jumps=True)
     jumping = Simulation(
-        model, speed, replace(FREE, casing=Casing(reach * (1.0 - excess), lobes=0), divergence_limit=1e9), choice
+        model, speed, replace(FREE, casing=replace(casing, clearance=reach * (1.0 - excess)), divergence_limit=1e9), choice
     )
     assert free.problem.steps_per_revolution == jumping.problem.steps_per_revolution == steps
     state = moving(jumping, start, velocity)
