@@ -28,12 +28,13 @@ class ReferenceEngine:
         self.force_outputs = problem.output_operator[:, modes.shape[1] :]
         self.flexibility = problem.residual_flexibility
         # what all forces (N) on the nodes do to the static modes
-        self.static_force = np.zeros((3, len(problem.model.radius)))
+        self.static_force = np.zeros((3, len(problem.tip.radius)))
         self.take(problem.pace)
 
     def take(self, pace: Pace) -> None:
         """Go on at another pace in the same modes, with as many steps in a revolution."""
         modes, recursion = self.problem.modes, pace.recursion
+        self.clearance = pace.clearance
         # -B, I - A - B, C and the loss per squared central difference, as matrices
         self.keep, self.pull, self.inverse, self.loss = (
             modes @ np.diag(diagonal) @ modes.T
@@ -130,12 +131,12 @@ class ReferenceEngine:
         if problem.scene.exact_gap:
             # the displaced node's radius is sqrt((r + u_r)^2 + u_theta^2), its angle theta + atan(u_theta/(r + u_r))
             cosine, sine = np.cos(problem.cone_angle), np.sin(problem.cone_angle)
-            radius = problem.model.radius + cosine * (self.normal @ u) + sine * (self.meridional @ u)
+            radius = problem.tip.radius + cosine * (self.normal @ u) + sine * (self.meridional @ u)
             across = self.tangential @ u
             position = position + cosine * (np.hypot(radius, across) - radius)
             theta = theta + np.arctan2(across, radius)
-        distance = problem.scene.casing.distance(theta, np.array(n * problem.time_step), problem.duration)
-        return distance - position, theta
+        lobes = problem.scene.casing.lobe(theta, np.array(n * problem.time_step), problem.duration)
+        return self.clearance - lobes - position, theta
 
     def _directions(self, d: np.ndarray) -> np.ndarray:
         """Forces per unit normal force on each node, shape (3, nodes): towards the axis, with friction against the sliding.
