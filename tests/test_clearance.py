@@ -11,7 +11,7 @@ from box_mesh import box_mesh
 from defaults import Casing, IntegrationChoice, Scene
 from integration_cases import ABRADABLE, DIRECT, LINING, random_model
 
-from r37core.config import ConfigError, checked_scene
+from r37core.config import ConfigError, checked_scene, load_settings
 from r37core.exchange.exporting.fields import displacement_of
 from r37core.fem.material import Material
 from r37core.fem.matrices import assemble
@@ -31,6 +31,7 @@ from r37core.time_integration.problem import Problem
 from r37core.time_integration.simulate import Simulation
 from r37core.time_integration.speed_file import write_speed
 from r37core.time_integration.speed_run import run_speed
+from r37core.yaml_file import load_yaml
 
 SHORT = IntegrationChoice(4e-7, 3, 62, integrator="exact_modal", energy=True)
 NARROW = replace(ABRADABLE, lining=replace(LINING, bar_area=1.6e-7))
@@ -348,6 +349,20 @@ def test_keys_reach_their_fields():
 def test_a_clearance_that_is_none_is_refused(casing, message):
     with pytest.raises(ConfigError, match=message):
         checked_scene({"casing": casing})
+
+
+def test_growth_of_a_casing_reaches_the_highest_speed(config_copy):
+    file = config_copy / "config/scenes.yaml"
+    table = "casing_growth: { speeds_rpm: [0, 9000], growth_m: [0, 1.0e-5] }"
+    first = "abradable:\n  casing: { clearance: { cold_m: 3.56e-4"
+    file.write_text(file.read_text().replace(first, f"{first}, {table}"))
+    load_settings(load_yaml(config_copy / "config/config.yaml"), config_copy)
+    config = load_yaml(config_copy / "config/config.yaml") | {"scenes": ["growing_abradable"]}
+    found = r"growing_abradable\.casing\.clearance\.casing_growth: found growth up to 942\.478 rad/s; allowed: up to "
+    with pytest.raises(
+        ConfigError, match=rf"{found}structure\.maximum_speed_rad_s, 2000 rad/s \(19098\.6 rpm\)"
+    ):
+        load_settings(config, config_copy)
 
 
 def test_stress_of_rotation_is_part_of_the_stress():
