@@ -359,9 +359,7 @@ def test_growth_of_a_casing_reaches_the_highest_speed(config_copy):
     load_settings(load_yaml(config_copy / "config/config.yaml"), config_copy)
     config = load_yaml(config_copy / "config/config.yaml") | {"scenes": ["growing_abradable"]}
     found = r"growing_abradable\.casing\.clearance\.casing_growth: found growth up to 942\.478 rad/s; allowed: up to "
-    with pytest.raises(
-        ConfigError, match=rf"{found}structure\.maximum_speed_rad_s, 2000 rad/s \(19098\.6 rpm\)"
-    ):
+    with pytest.raises(ConfigError, match=rf"{found}structure\.maximum_speed_rad_s, 2000 rad/s \(19098\.6 rpm\)"):
         load_settings(config, config_copy)
 
 
