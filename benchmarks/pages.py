@@ -21,6 +21,7 @@ TABLES = {
         "run_ups": "run_up_accuracy.md",
     },
     "run_ups": {"run_up_rates": "run_up_rates.md", "run_up_variants": "run_up_variants.md"},
+    "clearance": {"clearance_growth": "clearance_growth.md", "clearance_effect": "clearance_effect.md"},
     "stability": {"stability": "stability.md"},
     "validation": {"validation": "validation.md", "modelling_choices": "modelling_choices.md"},
     "speed": {"estimate": "estimate.md"},
@@ -33,6 +34,7 @@ PICTURES = (
 )
 
 FIGURES = {
+    "clearance_growing_abradable": ROOT / "results/figures/clearance_growing_abradable.png",
     "run_up_rates": ROOT / "results/figures/run_up_rates_abradable.png",
     "run_ups_Ref": ROOT / "results/figures/run_ups_Ref__abradable.png",
 }
