@@ -23,6 +23,7 @@ from r37core.rom.contact_model import read_contact_model, write_contact_model
 from r37core.rom.reduce import reduce_blade
 from r37core.rom.reduced_model import contact_model
 from r37core.rom.rotation import BucklingError, rotation_amplitudes, shapes_of_rotation
+from r37core.run_ups import revolutions
 from r37core.run_ups.march import March
 from r37core.run_ups.revolutions import record_run_up
 from r37core.run_ups.schedule import RunUp
@@ -300,6 +301,32 @@ def test_responses_have_the_clearance_and_the_stress_of_rotation(whole, steel, t
     kept = record_run_up(contact, scene, choice, run_up, results, highest_order=5, recovery=recovery, yield_stress=1e9)
     np.testing.assert_allclose(kept["max_von_mises"][[0, -1]], largest, rtol=1e-6)
     assert np.all(np.diff(kept["max_von_mises"]) >= 0.0)
+
+
+def test_a_run_up_leaves_no_instant_out_that_has_the_largest_stress(whole, steel, monkeypatch):
+    """Of rotation and vibration together: what bounds the stress of an instant must hold both."""
+    contact, run_up = contact_model(whole, "pressure_edge"), RunUp(1490.0, 1500.0, 1.0, 2, 0, worn=False)
+    choice = replace(SHORT, time_step=1e-6, revolutions=2, snapshots_per_revolution=31, snapshot_revolutions=2)
+    found = []
+    recovery, shipped = StressRecovery(whole, steel), revolutions.largest_stress
+
+    def of_all(_recovery, coordinates, _bound):
+        return np.array([recovery.max_von_mises(one).max() for one in coordinates])
+
+    for largest in (shipped, of_all):
+        monkeypatch.setattr(revolutions, "largest_stress", largest)
+        kept = record_run_up(
+            contact,
+            growing(NARROW),
+            choice,
+            run_up,
+            ["stress", "static_stress"],
+            highest_order=5,
+            recovery=recovery,
+            yield_stress=1e9,
+        )
+        found.append(kept["max_von_mises"])
+    np.testing.assert_allclose(*found, rtol=1e-10)
 
 
 # configuration
