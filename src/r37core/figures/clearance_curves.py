@@ -20,7 +20,7 @@ def draw_clearance(rms: xr.Dataset, title: str = "") -> Figure:
         room = 1e6 * rms["clearance"].sel(blade=blade).dropna("speed", how="all").dropna("contact_node", how="all")
         for name, (node, line) in _ENDS.items():
             curve = room.isel(contact_node=node)
-            axes.plot(curve["speed"], curve, label=f"{blade}, {name}", **styles[str(blade)] | {"linestyle": line})
+            axes.plot(curve["speed"], curve, label=f"{blade}, {name}", color=styles[str(blade)]["color"], linestyle=line)
     axes.set(xlabel="speed (rad/s)", ylabel="clearance at rest (µm)", title=f"clearance in scene {title}")
     style.rpm_axis(axes)
     figure.legend(loc="outside right center")
