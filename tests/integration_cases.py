@@ -11,6 +11,11 @@ ABRADABLE = Scene(AT_ONCE, LINING, Friction(0.15))
 DIRECT = Scene(AT_ONCE, None, Friction(0.15))
 
 
+def held(nodes):
+    """Contact nodes that rotation leaves where they are."""
+    return {"rotation_shapes": np.zeros((3, nodes, 1)), "rotation_stiffening": np.zeros(1)}
+
+
 def oscillator(frequency, radius=0.25):
     """One mode whose amplitude is the radial displacement of one node."""
     return ContactModel(
@@ -22,6 +27,7 @@ def oscillator(frequency, radius=0.25):
         tip_cone_angle=0.0,
         tip_displacement_operator=np.array([[[1.0], [1.0]], [[0.0], [0.0]], [[0.0], [0.0]]]),
         to_reduced=np.eye(1),
+        **held(1),
     )
 
 
@@ -39,4 +45,5 @@ def random_model(nodes):
         tip_cone_angle=-0.26,
         tip_displacement_operator=generator.standard_normal((3, 2, modes)),
         to_reduced=np.eye(modes),
+        **held(nodes),
     )

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from defaults import Casing, IntegrationChoice, Scene
-from integration_cases import ABRADABLE, AT_ONCE, DIRECT
+from integration_cases import ABRADABLE, AT_ONCE, DIRECT, held
 
 from r37core.contact.casing import casing_axes
 from r37core.results.campbell import campbell_diagram, dynamic_clearance
@@ -30,6 +30,7 @@ def moving_along(directions, frequencies):
         tip_cone_angle=ANGLE,
         tip_displacement_operator=np.repeat(rows, 2, axis=1),
         to_reduced=np.eye(len(frequencies)),
+        **held(1),
     )
 
 

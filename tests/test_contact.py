@@ -20,9 +20,9 @@ def test_casing_of_the_benchmark():
     casing = Casing(0.356e-3)
     assert casing.shape(np.array([np.pi / 2, 3 * np.pi / 2])) == pytest.approx([1.0, 1.0])
     assert casing.shape(np.array([0.0])) == pytest.approx(np.exp(-((0.5 / 0.15) ** 2)))
-    assert casing.distance(np.array([1.0]), 0.0, 1.0) == pytest.approx(0.356e-3)
-    late = casing.distance(np.array([np.pi / 2]), 0.2, 1.0)
-    assert late == pytest.approx(0.356e-3 * (1.0 - 2.0 * 0.99))
+    assert casing.lobe(np.array([1.0]), 0.0, 1.0) == 0.0
+    late = casing.lobe(np.array([np.pi / 2]), 0.2, 1.0)
+    assert late == pytest.approx(0.356e-3 * 2.0 * 0.99)
 
 
 @pytest.mark.parametrize("lobes", [1, 2, 5])
@@ -34,9 +34,9 @@ def test_lobes_repeat(lobes):
 
 def test_circular_casing_and_casing_deformed_from_the_start():
     theta = np.linspace(0.0, 6.0, 50)
-    np.testing.assert_array_equal(Casing(1e-3, lobes=0).distance(theta, 5.0, 10.0), 1e-3)
+    np.testing.assert_array_equal(Casing(1e-3, lobes=0).lobe(theta, 5.0, 10.0), 0.0)
     at_once = Casing(1e-3, rise_fraction=0.0)
-    np.testing.assert_allclose(at_once.distance(theta, 0.0, 10.0), 1e-3 * (1.0 - 2.0 * at_once.shape(theta)))
+    np.testing.assert_allclose(at_once.lobe(theta, 0.0, 10.0), 2e-3 * at_once.shape(theta))
 
 
 def test_bar_area():

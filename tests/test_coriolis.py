@@ -6,7 +6,7 @@ from itertools import combinations
 import numpy as np
 import pytest
 from defaults import Casing, Friction, IntegrationChoice, Lining, Scene
-from integration_cases import ABRADABLE, DIRECT, random_model
+from integration_cases import ABRADABLE, DIRECT, held, random_model
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
@@ -50,6 +50,7 @@ def point_mass(frequency, radius=0.25, softening=-1.0, coriolis=TURN):
         tip_displacement_operator=np.repeat(operator, 2, axis=1),
         to_reduced=np.eye(2),
         coriolis=coriolis,
+        **held(1),
     )
 
 

@@ -154,6 +154,14 @@ def test_terms_of_rotation_cannot_be_added_to_matrices(settings_with, key):
         settings_with(MATRICES, config={f"{key}: false": f"{key}: true"})
 
 
+def test_growth_of_matrices_is_not_known(settings_with):
+    with pytest.raises(
+        ConfigError,
+        match=r"growing_abradable\.casing\.clearance\.centrifugal: found true with the blade 'Fan', given by.*casing_growth",
+    ):
+        settings_with(MATRICES, config={"scenes: [abradable, direct]": "scenes: [growing_abradable]"})
+
+
 def test_exports_of_speeds_that_are_not_run(settings_with):
     with pytest.raises(
         ConfigError, match=r"exports\.stress_speeds_rad_s\.0: found 1000\.5; allowed: speeds that are simulated"

@@ -24,7 +24,7 @@ from r37core.io import InputFileError, write_json
 from r37core.plans.run import check_tree, replaced_level
 from r37core.results.campbell_dataset import campbell_dataset
 from r37core.results.netcdf import create_axis, create_variable
-from r37core.rom.contact_model import BucklingError
+from r37core.rom.rotation import BucklingError
 from r37core.time_integration.simulate import Simulation
 
 

@@ -28,7 +28,7 @@ def box_model(*fields):
     """A stand-in for a reduced model: a box whose reduced coordinates are given displacement fields."""
     mesh = box_mesh(1.0, 0.5, 0.2, (3, 2, 1))
     basis = np.stack([field(mesh.points) for field in fields], axis=2)
-    nodes = RecoveryNodes(np.arange(len(mesh.points)), mesh.points, basis)
+    nodes = RecoveryNodes(np.arange(len(mesh.points)), mesh.points, basis, np.zeros((len(mesh.points), 3, 1)))
     return SimpleNamespace(stress_submesh=nodes, stress_elements=mesh.blocks, size=len(fields))
 
 

@@ -14,7 +14,7 @@ from scipy.special import wofz
 
 from r37core.figures.run_up_curves import draw_rates, draw_run_ups
 from r37core.io import InputFileError
-from r37core.rom.contact_model import BucklingError
+from r37core.rom.rotation import BucklingError
 from r37core.run_ups import schedule as schedule_module
 from r37core.run_ups.choice import Crossing, RunUpChoice, RunUpError
 from r37core.run_ups.dataset import write_run_ups

@@ -7,7 +7,8 @@ import re
 import pytest
 from defaults import defaults_of
 
-from r37core.config import scenes, schemas, si_fields
+from r37core.config import schemas, si_fields
+from r37core.config.casing_section import CasingSection
 from r37core.config.section import Section
 from r37core.config.si_fields import WORDS, in_si
 from r37core.contact.casing import Casing
@@ -78,7 +79,7 @@ def test_of_two_units_the_one_that_is_given_counts(rad_s, rpm, speeds):
 
 
 def test_a_dataclass_takes_its_fields_and_parts_made_otherwise():
-    section = scenes.CasingSection(clearance_m=1e-3, cone_angle_deg=-90.0 / 2)
+    section = CasingSection(clearance_m=1e-3, cone_angle_deg=-90.0 / 2)
     assert in_si(Casing, section) == Casing(1e-3, 2, 0.15, 2.0, 0.2, -0.25 * math.pi)
     assert in_si(Casing, section, cone_angle=None).cone_angle is None
     with pytest.raises(TypeError, match="depth"):

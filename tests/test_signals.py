@@ -275,7 +275,7 @@ def test_a_divergence_ends_the_record(contact, scene):
 
 
 PLACE = np.array([0.2, 0.01, 0.02])
-TIP = RecoveryNodes(np.arange(2), np.array([[0.25, 0.0, 0.0], [0.24, 0.01, 0.03]]), np.zeros((2, 3, 1)))
+TIP = RecoveryNodes(np.arange(2), np.array([[0.25, 0.0, 0.0], [0.24, 0.01, 0.03]]), np.zeros((2, 3, 1)), np.zeros((2, 3, 1)))
 
 
 def record_of(turns, last=None, gauges=1):

@@ -113,6 +113,19 @@ use rule figure as comparison_figure with:
         ),
 
 
+use rule figure as clearance_figure with:
+    input:
+        rms=expand(rules.sweep_dataset.output, kind="rms")[0],
+    output:
+        **pictures("clearance_{scene}", TOGETHER, "{scene}", "clearance"),
+    log:
+        "<logs>/figures/clearance_{scene}.log",
+    resources:
+        **needs.of("response_overview"),
+    params:
+        **drawing(code, "clearance_curves.draw_clearance", "clearance"),
+
+
 rule blade_shapes_figure:
     input:
         expand(rules.mesh.output.vtu, blade=imported.with_mesh),

@@ -14,6 +14,7 @@ from r37core.exchange.importing.source import MatricesSource
 from r37core.run_ups.choice import RunUpError, check_highest
 from r37core.time_integration.integration_choice import LARGEST_TABLE
 from r37core.time_integration.integrators import EXACT_MODAL
+from r37core.units import RPM
 from r37core.yaml_file import KeyPath
 
 from .document import Document
@@ -253,6 +254,20 @@ def coriolis_can_be_carried(settings: Settings) -> None:
         )
 
 
+def clearances_reach_all_speeds(settings: Settings) -> None:
+    """The growth of a casing is given up to the highest speed; the blades' own follows from their mesh."""
+    highest, document = settings.structure.maximum_speed_rad_s, settings.documents.scenes
+    matrices = [name for name, blade in settings.blades.items() if isinstance(blade.definition, MatricesSource)]
+    for name, chosen in settings.scenes.items():
+        casing, path = chosen.scene.casing, (name, "casing", "clearance")
+        if casing.growth_speeds and casing.growth_speeds[-1] < highest:
+            allowed = f"up to structure.maximum_speed_rad_s, {highest:g} rad/s ({highest * RPM:.6g} rpm)"
+            raise document.refusal((*path, "casing_growth"), f"growth up to {casing.growth_speeds[-1]:g} rad/s", allowed)
+        if casing.centrifugal and matrices:
+            found = f"true with the blade '{matrices[0]}', given by matrices, whose centrifugal load is not known"
+            raise document.refusal((*path, "centrifugal"), found, "false, with the blade's growth in casing_growth")
+
+
 def families_have_shapes(settings: Settings) -> None:
     """No family is of an imported blade: what is compared of designs needs their shape."""
     for name, family in settings.families.items():
@@ -279,6 +294,7 @@ CHECKS: tuple[Callable[[Settings], None], ...] = (
     run_ups_can_be_done,
     matrices_hold_their_terms,
     coriolis_can_be_carried,
+    clearances_reach_all_speeds,
     families_have_shapes,
 )
 """In this order: those that name something come first, for the others look it up."""

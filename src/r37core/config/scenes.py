@@ -6,30 +6,15 @@ from typing import Annotated, Literal
 
 from pydantic import Field, RootModel, model_validator
 
-from r37core.contact.casing import Casing
 from r37core.contact.scene import Friction, Lining, Scene
 
+from .casing_section import CasingSection
 from .section import LeftOut, Name, Rpm, Section, Speed, check_names, refused
 from .si_fields import in_si, si_fields
 from .speed_section import refuse_both_units
 
 TipLine = Literal["pressure_edge", "camber", "suction_edge"]
-Result = Literal["spectrum", "signal", "stress", "wear", "energy", "shapes"]
-
-
-class CasingSection(Section):
-    """Shape of the casing."""
-
-    clearance_m: float = Field(ge=0, le=0.1, description="normal to the casing")
-    cone_angle_deg: Literal["tip"] | Annotated[float, Field(ge=-80, le=80)] = Field(
-        default="tip",
-        description="half angle of the casing's cone, negative where it narrows downstream, 0 for a cylinder; "
-        "tip: that of each blade's tip",
-    )
-    lobes: int = Field(default=2, ge=0, le=100, description="0 is a circular casing")
-    width: float = Field(default=0.15, ge=1e-3, le=100, description="width of a lobe in shares of its period")
-    amplitude_clearances: float = Field(default=2.0, ge=0, le=1000)
-    rise_fraction: float = Field(default=0.2, ge=0, le=1, description="share of the run at which 99% is reached")
+Result = Literal["spectrum", "signal", "stress", "static_stress", "wear", "energy", "shapes"]
 
 
 class LiningSection(Section):
@@ -85,7 +70,11 @@ class SceneEntry(Section):
     revolutions: Annotated[int, Field(ge=1, le=20000)] | LeftOut = Field(
         default=None, description="in place of the fidelity level's"
     )
-    results: list[Result] = Field(default=["spectrum", "stress"], json_schema_extra={"uniqueItems": True})
+    results: list[Result] = Field(
+        default=["spectrum", "stress"],
+        json_schema_extra={"uniqueItems": True},
+        description="what is computed and kept; with static_stress, that of rotation is part of the stress",
+    )
     stress_history_speeds_rad_s: list[Speed] = Field(
         default=[], description="speeds at which the largest stress of every revolution is kept"
     )
@@ -103,8 +92,9 @@ class SceneEntry(Section):
                     raise refused((key, number), f"{value} twice", "each once")
         if "wear" in self.results and self.lining is None:
             raise refused(("results",), "wear", "only in a scene with a lining")
-        if "shapes" in self.results and "stress" not in self.results:
-            raise refused(("results",), "shapes", "only with stress among the results")
+        for result in ("shapes", "static_stress"):
+            if result in self.results and "stress" not in self.results:
+                raise refused(("results",), result, "only with stress among the results")
         for key in histories:
             if getattr(self, key) and "stress" not in self.results:
                 raise refused((key,), "speeds", "only with stress among the results")
@@ -119,7 +109,7 @@ class SceneEntry(Section):
         return in_si(
             Scene,
             self,
-            casing=in_si(Casing, self.casing),
+            casing=self.casing.casing(),
             lining=self.lining and in_si(Lining, self.lining),
             friction=self.friction and in_si(Friction, self.friction),
         )

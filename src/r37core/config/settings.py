@@ -250,10 +250,10 @@ class Settings:
         return self.structure.reduction(self.fidelity.reduction, tip_line, submesh)
 
     def results_of(self, blade: str, scene: str) -> tuple[str, ...]:
-        """What is wanted of a scene, as far as the blade can give it: matrices have neither stress nor shapes."""
+        """What is wanted of a scene, as far as the blade can give it: matrices have no stress, nor shapes."""
         wanted = self.scenes[scene].results
         matrices = isinstance(self.blades[blade].definition, MatricesSource)
-        return tuple(result for result in wanted if not (matrices and result in ("stress", "shapes")))
+        return tuple(result for result in wanted if not (matrices and result in ("stress", "static_stress", "shapes")))
 
     @cached_property
     def run_ups(self) -> dict[tuple[str, str], dict[str, RunUpChoice]]:

@@ -18,6 +18,10 @@ class Casing:
     run. `clearance` in m, normal to the casing; `amplitude` in clearances; no lobes: a circular casing. `cone_angle`: half
     angle (rad) of the cone that the casing is, negative where it narrows downstream, 0 for a cylinder; None: that of the
     blade's tip. Source: section 5 of the benchmark.
+
+    The clearance is that of every speed, unless the blade or the casing grows with it. Then it is the cold one, at rest:
+    `centrifugal`, the blade's static displacement is taken off; `growth` (m) of the casing is added, given at
+    `growth_speeds` (rad/s), ascending, and linear between them. The lobes stay as they are.
     """
 
     clearance: float
@@ -26,6 +30,9 @@ class Casing:
     amplitude: float
     rise_fraction: float
     cone_angle: float | None = None
+    centrifugal: bool = False
+    growth_speeds: tuple[float, ...] = ()
+    growth: tuple[float, ...] = ()
 
     def shape(self, theta: np.ndarray) -> np.ndarray:
         """f(theta), between 0 and 1, for angles in rad."""
@@ -42,10 +49,24 @@ class Casing:
         """The rate a (1/s) for a run of `duration` (s); infinite when the casing is deformed from the start."""
         return -np.log(0.01) / (self.rise_fraction * duration) if self.rise_fraction > 0.0 else np.inf
 
-    def distance(self, theta: np.ndarray, time: np.ndarray, duration: float) -> np.ndarray:
-        """Distance (m) between tip and casing or lining at angles (rad) and times (s) of a run of `duration` (s)."""
+    @property
+    def changes_with_speed(self) -> bool:
+        """Whether the clearance does."""
+        return self.centrifugal or bool(self.growth)
+
+    @property
+    def lobe_height(self) -> float:
+        """Height (m) of a lobe; 0 without lobes."""
+        return self.amplitude * self.clearance if self.lobes else 0.0
+
+    def lobe(self, theta: np.ndarray, time: np.ndarray, duration: float) -> np.ndarray:
+        """How far (m) the lobes reach inwards at angles (rad) and times (s) of a run of `duration` (s)."""
         grown = 1.0 - np.exp(-self.rise_rate(duration) * np.asarray(time)) if self.rise_fraction > 0.0 else 1.0
-        return self.clearance * (1.0 - self.amplitude * grown * self.shape(theta))
+        return self.lobe_height * grown * self.shape(theta)
+
+    def opening(self, speeds: np.ndarray) -> np.ndarray:
+        """What the casing's growth adds to the clearance (m) at `speeds` (rad/s), shape (speeds,)."""
+        return np.interp(speeds, self.growth_speeds, self.growth) if self.growth else np.zeros(len(speeds))
 
 
 def casing_axes(cylindrical: np.ndarray, cone_angle: float) -> np.ndarray:

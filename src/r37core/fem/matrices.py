@@ -28,7 +28,8 @@ class StructuralMatrices:
     """Matrices over node pairs; the methods return sparse matrices over the unclamped degrees of freedom (x y z per node).
 
     `indptr`, `indices`: pattern of node pairs; `stiffness_blocks` (N/m), shape (pairs, 3, 3); `mass_pairs` (kg) and
-    `geometric_pairs` (N/m per rad2/s2), shape (pairs,), both times the identity; `free_nodes`: unclamped node numbers.
+    `geometric_pairs` (N/m per rad2/s2), shape (pairs,), both times the identity; `centrifugal_load`: nodal forces of rotation
+    per Omega^2 (N s2/rad2), shape (nodes, 3); `free_nodes`: unclamped node numbers.
     """
 
     indptr: np.ndarray
@@ -36,6 +37,7 @@ class StructuralMatrices:
     stiffness_blocks: np.ndarray
     mass_pairs: np.ndarray
     geometric_pairs: np.ndarray
+    centrifugal_load: np.ndarray
     free_nodes: np.ndarray
 
     @property
@@ -94,9 +96,10 @@ def assemble(mesh: BladeMesh, material: Material) -> StructuralMatrices:
         stiffness_blocks=assemble_stiffness(pattern, blocks, points, material),
         mass_pairs=assemble_mass(pattern, blocks, points, material.density),
         geometric_pairs=np.zeros(len(pattern.indices)),
+        centrifugal_load=centrifugal_load(blocks, points, material.density),
         free_nodes=mesh.free_nodes,
     )
-    displacement = static_displacement(matrices, centrifugal_load(blocks, points, material.density))
+    displacement = static_displacement(matrices, matrices.centrifugal_load)
     # in place: the factors of the stiffness, a third of the work of a reduction, are kept for it
     matrices.geometric_pairs[:] = assemble_geometric_stiffness(pattern, blocks, points, material, displacement)
     return matrices

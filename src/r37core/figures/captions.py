@@ -49,6 +49,11 @@ CAPTIONS = {
         "stress (dashed), over the speed above each blade's own crossing, in percent of it. Contact stiffens a blade, so "
         "peaks lie above the crossing."
     ),
+    "clearance": (
+        "Clearance of the round casing over speed at the first contact node (leading edge) and at the last one (trailing edge) "
+        "of all blades in scene {scene}, before anything vibrates: what the casing leaves less what rotation brings the blade "
+        "nearer to it."
+    ),
     "designs": (
         "Family {family}: what each design is and how robust, over what varies. Frequencies, largest loss of clearance as "
         "the tip swings along free modes, speeds above yield, largest stress, and where interactions lie."

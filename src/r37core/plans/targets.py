@@ -19,12 +19,14 @@ def targets(sweep: Sweep, recorded: Signals) -> dict[str, Wildcards]:
     climbing = RunUps(sweep)
     climbed = of_runs(climbing.pairs)
     of_shapes = of("blade", dict.fromkeys(run["blade"] for run in shown))
+    growing = [name for name, chosen in settings.scenes.items() if chosen.scene.casing.changes_with_speed]
     pictures = {
         "campbell_{blade}": blades,
         "response_{blade}": blades,
         **{f"{kind}_{{blade}}__{{scene}}": of_runs(sweep.runs_with(kind)) for kind in MAPS},
         "waterfall_{blade}__{scene}": spectra,
         "comparison_{scene}": scenes,
+        "clearance_{scene}": of("scene", growing),
         "designs_{family}": families,
         "spectrogram_{blade}__{scene}": signals,
         "orders_{blade}__{scene}": signals,

@@ -6,8 +6,8 @@ import numpy as np
 import xarray as xr
 
 from r37core.dataset_file import SPEED_RPM, about
-from r37core.rom.contact_model import BucklingError
 from r37core.rom.reduced_model import ReducedModel
+from r37core.rom.rotation import BucklingError
 from r37core.units import RPM
 
 from .campbell import campbell_diagram, dynamic_clearance

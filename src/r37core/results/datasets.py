@@ -73,7 +73,7 @@ def _axes(responses: Mapping[tuple[str, str], Path | str]) -> dict[str, np.ndarr
     axes: dict[str, np.ndarray] = {}
     for source in responses.values():
         with readable(source), netCDF4.Dataset(source) as response:
-            for name in ("speed", "history_speed", "revolution", "engine_order", "angle", "lobes"):
+            for name in ("speed", "history_speed", "revolution", "engine_order", "angle", "lobes", "contact_node"):
                 if name in response.variables:
                     axes[name] = np.union1d(axes.get(name, np.empty(0)), response[name][:].filled(np.nan))
     return axes

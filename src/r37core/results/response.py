@@ -80,6 +80,9 @@ def _create(
         sectors = len(values["wear"])
         coordinates["angle"] = (np.arange(sectors) * 2.0 * np.pi / sectors, "rad", "start of the sector round the casing")
         coordinates["lobes"] = (np.arange(len(values["wear_harmonic"])), "1", "number of lobes")
+    if "clearance" in values:
+        nodes = np.arange(1, len(values["clearance"]) + 1)
+        coordinates["contact_node"] = (nodes, "1", "number of the contact node, from the leading edge on")
     if history_speeds:
         coordinates["history_speed"] = (np.array(history_speeds), "rad s-1", "speed with a stress history")
     create_labels(dataset, "tip_point", TIP_POINTS)

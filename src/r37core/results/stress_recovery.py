@@ -14,10 +14,10 @@ from .measures import last_revolution
 
 
 class StressRecovery:
-    """Stress of the vibration at the nodes of the stress submesh; the static stress of rotation is not part of it.
+    """Stress at the nodes of the stress submesh: of the vibration, and of rotation where the coordinates have it.
 
-    `operator`, shape (6, nodes, coordinates): components xx yy zz xy yz zx (Pa) per unit of each reduced coordinate, averaged
-    over the submesh elements that share the node.
+    `operator`, shape (6, nodes, coordinates + shapes): components xx yy zz xy yz zx (Pa) per unit of each reduced coordinate,
+    then of each amplitude of rotation's shapes, averaged over the submesh elements that share the node.
 
     Raises ValueError when the submesh has no elements.
     """
@@ -29,11 +29,16 @@ class StressRecovery:
                 "the stress submesh has no elements; enlarge structure.stress_submesh in config.yaml (of an imported mesh, its "
                 "own stress_submesh in blades.yaml), or use a finer mesh"
             )
-        self.operator = nodal_stress(model.stress_elements, submesh.points, submesh.basis, material)
+        self.operator = nodal_stress(model.stress_elements, submesh.points, submesh.fields, material)
 
     def max_von_mises(self, coordinates: np.ndarray) -> np.ndarray:
-        """Largest von Mises stress (Pa) over the submesh, shape (instants,), for coordinates, shape (instants, coordinates)."""
-        stress = np.einsum("cnj,tj->ctn", self.operator, coordinates, optimize=True)
+        """Largest von Mises stress (Pa) over the submesh, shape (instants,).
+
+        `coordinates`, shape (instants, coordinates), of the vibration alone, or with the amplitudes of rotation's shapes after
+        them: then it is the stress of both together.
+        """
+        operator = self.operator[:, :, : coordinates.shape[1]]
+        stress = np.einsum("cnj,tj->ctn", operator, coordinates, optimize=True)
         return von_mises(stress).max(axis=1)
 
     def of_last_revolution(self, run: Mapping[str, np.ndarray], per_revolution: int) -> np.ndarray:

@@ -25,6 +25,7 @@ VARIABLES = {
         for kind, measure in (("rms", "rms of the"), ("peak", "largest"))
         for direction, note in (("normal", " (along the casing's normal)"), ("radial", ""), ("tangential", ""))
     },
+    "clearance": Variable(("contact_node",), "m", "clearance of the round casing at the contact nodes, leading edge first"),
     "share_of_time_in_contact": Variable((), "1", "share of the steps with a contact force"),
     "largest_normal_force": Variable((), "N", "largest normal force on a tip node"),
     "casing_hits": Variable((), "1", "how often a tip node came upon the casing"),
@@ -45,6 +46,7 @@ VARIABLES = {
 DATASETS = {
     "rms": (
         "casing_cone_angle",
+        "clearance",
         "rms_normal",
         "rms_radial",
         "rms_tangential",

@@ -9,22 +9,14 @@ force couples: r37core.time_integration.gyroscopic.
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass, fields
+from dataclasses import asdict, dataclass, fields, replace
 from pathlib import Path
 
 import numpy as np
 
 from r37core.io import atomic_write, readable
 
-
-class BucklingError(ValueError):
-    """A blade without a stable position at a speed."""
-
-    def __init__(self, speed: float):
-        super().__init__(
-            f"the blade has no stable position at {speed:g} rad/s: its stiffness is not positive there; choose lower speeds "
-            "(speeds, run_ups, and structure.maximum_speed_rad_s), or a stiffer or lighter material, or less sweep and lean"
-        )
+from .rotation import BucklingError, rotation_amplitudes
 
 
 @dataclass(frozen=True)
@@ -36,8 +28,10 @@ class ContactModel:
     displacement of the contact nodes, from leading to trailing edge; `radius` (m) and `theta` (rad) of the nodes, shape
     (nodes,); `tip_cone_angle` (rad): half angle of the tip line's cone, negative where it narrows downstream;
     `tip_displacement_operator`, shape (3, 2, modes): the same displacements of the tip's leading and trailing edge;
-    `to_reduced`, shape (coordinates, modes): modes at rest in the reduced model's coordinates; `coriolis` (rad^-1), shape
-    (modes, modes): skew-symmetric, force per velocity and Omega, or None where simulations are to leave it out.
+    `to_reduced`, shape (coordinates, modes): modes at rest in the reduced model's coordinates. `rotation_shapes` (m s2/rad2),
+    shape (3, nodes, shapes), and `rotation_stiffening` (s2/rad2), shape (shapes,): what rotation does to the contact nodes, in
+    the same directions; see r37core.rom.rotation.
+    `coriolis` (rad^-1), shape (modes, modes): skew-symmetric, force per velocity and Omega, or None to leave it out.
     """
 
     squared_frequencies: np.ndarray
@@ -48,6 +42,8 @@ class ContactModel:
     tip_cone_angle: float
     tip_displacement_operator: np.ndarray
     to_reduced: np.ndarray
+    rotation_shapes: np.ndarray
+    rotation_stiffening: np.ndarray
     coriolis: np.ndarray | None = None
 
     def modes_at(self, speed: float) -> tuple[np.ndarray, np.ndarray]:
@@ -60,6 +56,32 @@ class ContactModel:
         if not squares[0] > 0.0:
             raise BucklingError(speed)
         return np.sqrt(squares), modes
+
+    def _held(self, speeds: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Radius (m), angle turned (rad) and axial displacement (m) of the contact nodes, each of shape (speeds, nodes)."""
+        amplitudes = rotation_amplitudes(self.rotation_stiffening, speeds)
+        radial, tangential, axial = (amplitudes @ shapes.T for shapes in self.rotation_shapes)
+        return np.hypot(self.radius + radial, tangential), np.arctan2(tangential, self.radius + radial), axial
+
+    def growth(self, speeds: np.ndarray, cone_angle: float) -> np.ndarray:
+        """Distance (m) by which rotation at `speeds` (rad/s) brings the contact nodes nearer to a cone, shape (speeds, nodes).
+
+        cos(alpha) (|r + u| - r) - sin(alpha) u_z at the half angle alpha (rad): exact for a cone about the axis.
+        Raises BucklingError.
+        """
+        radius, _, axial = self._held(speeds)
+        return np.cos(cone_angle) * (radius - self.radius) - np.sin(cone_angle) * axial
+
+    def spun(self, speed: float) -> ContactModel:
+        """The model with its contact nodes where rotation at `speed` (rad/s) holds them; BucklingError where nothing does.
+
+        Radial and tangential are those of the displaced nodes. The outputs keep those of rest.
+        """
+        (radius,), (turned,), _ = self._held(np.array([speed]))
+        radial, tangential, axial = self.displacement_operator
+        cosine, sine = np.cos(turned)[:, None], np.sin(turned)[:, None]
+        operator = np.stack([cosine * radial + sine * tangential, cosine * tangential - sine * radial, axial])
+        return replace(self, radius=radius, theta=self.theta + turned, displacement_operator=operator)
 
 
 def write_contact_model(model: ContactModel, file: Path | str) -> None:

@@ -36,18 +36,23 @@ def multi_speed_basis(
     boundary_dofs: np.ndarray,
     choice: ReductionChoice,
     solve_at_rest: Solve | None = None,
-) -> MultiSpeedBasis:
+    load: np.ndarray | None = None,
+) -> tuple[MultiSpeedBasis, np.ndarray]:
     """Constraint modes and fixed-interface modes at each of the choice's speeds, combined into one basis.
 
     `stiffness_at` gives the stiffness at a speed (rad/s); `solve_at_rest` solves with that at rest, where the caller has its
     factors. The first speed's constraint modes stay as they are, so that static responses to boundary loads at that speed
-    are exact.
+    are exact. Also, from the same factors, the displacements (m) under a `load` (N), shape (dofs, speeds); none without it.
     """
     columns: list[np.ndarray] = []
-    for speed in choice.speeds:
-        solve = None if speed else solve_at_rest
-        columns += constraint_and_fixed_modes(stiffness_at(speed), mass, boundary_dofs, choice.fixed_interface_modes, solve)
-    return combine_columns(columns[0], np.hstack(columns), mass, boundary_dofs, choice.basis_tolerance)
+    displaced = np.empty((mass.shape[0], 0 if load is None else len(choice.speeds)))
+    for number, speed in enumerate(choice.speeds):
+        stiffness = stiffness_at(speed)
+        solve = solve_at_rest if solve_at_rest and not speed else factorise(stiffness)
+        columns += constraint_and_fixed_modes(stiffness, mass, boundary_dofs, choice.fixed_interface_modes, solve)
+        if load is not None:
+            displaced[:, number] = solve(load)
+    return combine_columns(columns[0], np.hstack(columns), mass, boundary_dofs, choice.basis_tolerance), displaced
 
 
 def combine_columns(

@@ -12,6 +12,7 @@ from .craig_bampton import multi_speed_basis
 from .naming import ideal_shapes
 from .reduced_model import RecoveryNodes, ReducedModel
 from .reduction_choice import ReductionChoice, boundary_nodes
+from .rotation import shapes_of_rotation
 
 
 def reduce_blade(mesh: BladeMesh, matrices: StructuralMatrices, choice: ReductionChoice) -> ReducedModel:
@@ -24,15 +25,23 @@ def reduce_blade(mesh: BladeMesh, matrices: StructuralMatrices, choice: Reductio
     per_square = geometric if softening is None else geometric + softening
     nodes = boundary_nodes(mesh, choice.boundary)
     boundary_dofs = (3 * np.searchsorted(matrices.free_nodes, nodes)[:, None] + np.arange(3)).ravel()
-    basis = multi_speed_basis(
-        lambda speed: sp.csr_array(stiffness + speed**2 * per_square), mass, boundary_dofs, choice, matrices.solve_at_rest
+    load = matrices.centrifugal_load[matrices.free_nodes].ravel()
+    basis, displaced = multi_speed_basis(
+        lambda speed: sp.csr_array(stiffness + speed**2 * per_square), mass, boundary_dofs, choice, matrices.solve_at_rest, load
     )
     vectors = basis.vectors
-    whole = np.zeros((len(mesh.points), 3, vectors.shape[1]))
-    whole[matrices.free_nodes] = vectors.reshape(-1, 3, vectors.shape[1])
+    rotation_shapes, rotation_stiffening = shapes_of_rotation(stiffness, per_square, displaced, load)
+
+    def of_all_nodes(of_free: np.ndarray) -> np.ndarray:
+        """The columns over the unclamped degrees of freedom as displacements of all nodes, shape (nodes, 3, columns)."""
+        whole = np.zeros((len(mesh.points), 3, of_free.shape[1]))
+        whole[matrices.free_nodes] = of_free.reshape(-1, 3, of_free.shape[1])
+        return whole
+
+    whole, rotated = of_all_nodes(vectors), of_all_nodes(rotation_shapes)
 
     def recovery(of: np.ndarray) -> RecoveryNodes:
-        return RecoveryNodes(of, mesh.points[of], whole[of])
+        return RecoveryNodes(of, mesh.points[of], whole[of], rotated[of])
 
     stress_blocks = choice.stress_submesh.elements(mesh, nodes)
     stress_nodes = np.unique(np.concatenate([np.empty(0, int), *(nodes.ravel() for nodes in stress_blocks.values())]))
@@ -55,6 +64,7 @@ def reduce_blade(mesh: BladeMesh, matrices: StructuralMatrices, choice: Reductio
         shape_norms=np.array([np.sqrt(shape @ (mass @ shape)) for shape in shapes.values()]),
         tolerance=choice.basis_tolerance,
         singular_values=basis.singular_values,
+        rotation_stiffening=rotation_stiffening,
         quadratic_residual=_quadratic_residual(stiffness, per_square, vectors, at_rest, max(choice.speeds)),
     )
 

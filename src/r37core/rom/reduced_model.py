@@ -7,7 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.linalg as la
 
-from .contact_model import BucklingError, ContactModel
+from .contact_model import ContactModel
+from .rotation import BucklingError
 
 
 @dataclass(frozen=True)
@@ -15,16 +16,23 @@ class RecoveryNodes:
     """Nodes whose displacement can be recovered from the reduced coordinates.
 
     `nodes`: mesh node numbers, shape (n,); `points` (m), shape (n, 3); `basis`, shape (n, 3, coordinates): displacement
-    (x, y, z) per unit of each reduced coordinate.
+    (x, y, z) per unit of each reduced coordinate; `rotation_shapes` (m s2/rad2), shape (n, 3, shapes): what rotation does,
+    see r37core.rom.rotation.
     """
 
     nodes: np.ndarray
     points: np.ndarray
     basis: np.ndarray
+    rotation_shapes: np.ndarray
+
+    @property
+    def fields(self) -> np.ndarray:
+        """Displacement per reduced coordinate, then per amplitude of rotation's shapes, shape (n, 3, coordinates + shapes)."""
+        return np.concatenate([self.basis, self.rotation_shapes], axis=2)
 
     def select(self, which: list[int]) -> RecoveryNodes:
         """Some of the nodes, by their place."""
-        return RecoveryNodes(self.nodes[which], self.points[which], self.basis[which])
+        return RecoveryNodes(self.nodes[which], self.points[which], self.basis[which], self.rotation_shapes[which])
 
     @property
     def cone_angle(self) -> float:
@@ -58,7 +66,9 @@ class ReducedModel:
     `stress_elements`, element type -> shape (elements, nodes of the type), indexing its nodes; `whole_blade` only on request.
     `shape_names`, `shape_products`, shape (shapes, coordinates), and `shape_norms`: mass products of the basis with the
     ideal bending and torsion shapes, by which modes are named. `tolerance`, `singular_values`: of the basis.
-    `quadratic_residual`: size of the Omega^4 term of the reduced stiffness at the highest speed against the stiffness.
+    `rotation_stiffening` (s2/rad2), shape (shapes,): of what rotation does, see r37core.rom.rotation; none of a blade whose
+    load is not known. `quadratic_residual`: size of the Omega^4 term of the reduced stiffness at the highest speed against
+    the stiffness.
     """
 
     stiffness: np.ndarray
@@ -77,6 +87,7 @@ class ReducedModel:
     shape_norms: np.ndarray
     tolerance: float
     singular_values: np.ndarray
+    rotation_stiffening: np.ndarray
     quadratic_residual: float
 
     @property
@@ -147,20 +158,22 @@ def contact_model(model: ReducedModel, tip_line: str) -> ContactModel:
     per_square = modes.T @ model.stiffness_per_square @ modes
     coriolis = None if model.coriolis is None else modes.T @ model.coriolis @ modes
     line, nodes = model.tip_lines[tip_line], model.contact_nodes(tip_line)
+    ends = line.select([0, -1])
     return ContactModel(
         squared_frequencies=frequencies**2,
         stiffness_per_square=0.5 * (per_square + per_square.T),
-        displacement_operator=_cylindrical_operator(nodes, modes),
+        displacement_operator=_cylindrical_parts(nodes, nodes.basis @ modes),
         radius=np.hypot(nodes.points[:, 0], nodes.points[:, 1]),
         theta=np.arctan2(nodes.points[:, 1], nodes.points[:, 0]),
         tip_cone_angle=line.cone_angle,
-        tip_displacement_operator=_cylindrical_operator(line.select([0, -1]), modes),
+        tip_displacement_operator=_cylindrical_parts(ends, ends.basis @ modes),
         to_reduced=modes,
+        rotation_shapes=_cylindrical_parts(nodes, nodes.rotation_shapes),
+        rotation_stiffening=model.rotation_stiffening,
         coriolis=None if coriolis is None else 0.5 * (coriolis - coriolis.T),
     )
 
 
-def _cylindrical_operator(nodes: RecoveryNodes, modes: np.ndarray) -> np.ndarray:
-    """Radial, tangential and axial displacement per mode, shape (3, nodes, modes)."""
-    per_mode = np.moveaxis(nodes.basis @ modes, 2, 0)
-    return nodes.cylindrical(per_mode).transpose(2, 1, 0)
+def _cylindrical_parts(nodes: RecoveryNodes, fields: np.ndarray) -> np.ndarray:
+    """Radial, tangential and axial parts, shape (3, nodes, fields), of displacements (x, y, z), shape (nodes, 3, fields)."""
+    return nodes.cylindrical(np.moveaxis(fields, 2, 0)).transpose(2, 1, 0)

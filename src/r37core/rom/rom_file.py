@@ -42,6 +42,11 @@ def write_reduced_model(model: ReducedModel, file: Path | str, provenance: Mappi
         "boundary_chord": ("boundary_node", model.boundary_chord, about("1", "chord fraction of the boundary nodes")),
         "shape_products": (("shape", "column"), model.shape_products, about("kg1/2", "mass product with ideal shapes")),
         "shape_norms": ("shape", model.shape_norms, about("kg1/2", "mass norm of the ideal shapes")),
+        "rotation_stiffening": (
+            "rotation_shape",
+            model.rotation_stiffening,
+            about("s2 rad-2", "relative stiffening of these shapes per squared speed"),
+        ),
         "singular_values": ("basis_column", model.singular_values, about("1", "singular values of the basis columns")),
     }
     for name, elements in model.stress_elements.items():
@@ -78,6 +83,7 @@ def read_reduced_model(file: Path | str) -> ReducedModel:
             shape_norms=dataset["shape_norms"].values,
             tolerance=float(dataset.attrs["basis_tolerance"]),
             singular_values=dataset["singular_values"].values,
+            rotation_stiffening=dataset["rotation_stiffening"].values,
             quadratic_residual=float(dataset.attrs["quadratic_residual"]),
         )
 
@@ -88,8 +94,13 @@ def _recovery_variables(group: str, recovery: RecoveryNodes) -> dict:
         f"{group}_nodes": (node, recovery.nodes, about("1", f"mesh node numbers ({group})")),
         f"{group}_points": ((node, "axis"), recovery.points, about("m", f"coordinates ({group})")),
         f"{group}_basis": ((node, "axis", "column"), recovery.basis, about("1", f"displacement per coordinate ({group})")),
+        f"{group}_rotation_shapes": (
+            (node, "axis", "rotation_shape"),
+            recovery.rotation_shapes,
+            about("m s2 rad-2", f"shapes of the displacement by rotation ({group})"),
+        ),
     }
 
 
 def _recovery(dataset: xr.Dataset, group: str) -> RecoveryNodes:
-    return RecoveryNodes(*(dataset[f"{group}_{part}"].values for part in ("nodes", "points", "basis")))
+    return RecoveryNodes(*(dataset[f"{group}_{part}"].values for part in ("nodes", "points", "basis", "rotation_shapes")))

@@ -14,6 +14,7 @@ import numpy as np
 
 from r37core.contact.scene import Scene
 from r37core.rom.contact_model import ContactModel
+from r37core.time_integration.clearance import check_room
 from r37core.time_integration.integration_choice import IntegrationChoice
 from r37core.time_integration.integrators import CENTRAL_DIFFERENCE
 from r37core.time_integration.problem import Problem, stable_problem
@@ -56,6 +57,7 @@ class March:
         low, high = sorted((run_up.start, run_up.stop))
         # between two speeds with a stable position there are only such
         model.modes_at(high)
+        check_room(model, scene, np.array([low, *scene.casing.growth_speeds, high]).clip(low, high))
         coarsest = told_problem(model, low, scene, choice)
         self._model, self._scene = model, scene
         self._choice = replace(coarsest.choice, shorten=False, steps_per_sample=coarsest.steps_per_sample)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from functools import partial
 
 import numpy as np
 
@@ -12,7 +13,7 @@ from r37core.results.stress_recovery import StressRecovery
 from r37core.rom.contact_model import ContactModel
 from r37core.time_integration.integration_choice import IntegrationChoice
 from r37core.time_integration.simulate import DIRECTIONS, TIP_POINTS
-from r37core.time_integration.speed_run import amplitudes, energy_balance
+from r37core.time_integration.speed_run import amplitudes, energy_balance, with_rotation
 from r37core.time_integration.status import RunStatus
 
 from .march import March, Stage
@@ -45,9 +46,10 @@ def record_run_up(
     the lining as new. Raises what March raises.
     """
     orders = highest_order if "spectrum" in results else None
-    march, found = _done(March(model, scene, choice, run_up), model, choice, orders, recovery)
+    empty = partial(_Revolutions, model, choice, orders, recovery, "static_stress" in results)
+    march, found = _done(March(model, scene, choice, run_up), empty())
     if run_up.worn and not found["status"]:
-        march, found = _done(March(model, scene, choice, run_up, march.state.wear), model, choice, orders, recovery)
+        march, found = _done(March(model, scene, choice, run_up, march.state.wear), empty())
     found |= {
         "start_speed": np.array(run_up.start),
         "stop_speed": np.array(run_up.stop),
@@ -65,17 +67,15 @@ def record_run_up(
     return found
 
 
-def _done(
-    march: March, model: ContactModel, choice: IntegrationChoice, highest_order: int | None, recovery: StressRecovery | None
-) -> tuple[March, dict[str, np.ndarray]]:
+def _done(march: March, kept: _Revolutions) -> tuple[March, dict[str, np.ndarray]]:
     """The march when it is done, and what it left behind."""
-    kept, diverged, samples = _Revolutions(model, choice, highest_order, recovery), False, 0
+    diverged, samples = False, 0
     for stage in march.stages():
         diverged, samples = stage.diverged, samples + len(stage.samples)
         kept.add(stage)
     return march, kept.joined() | {
         "status": np.array(int(RunStatus.DIVERGED if diverged else RunStatus.COMPLETED)),
-        "diverged_revolution": np.array(samples / choice.samples_per_revolution if diverged else np.nan),
+        "diverged_revolution": np.array(samples / kept.choice.samples_per_revolution if diverged else np.nan),
         "largest_normal_force": np.array(march.state.totals["largest_force"]),
         "casing_hits": np.array(march.state.totals["casing_hits"]),
     }
@@ -89,6 +89,7 @@ class _Revolutions:
     choice: IntegrationChoice
     highest_order: int | None
     recovery: StressRecovery | None
+    static_stress: bool
     waiting: dict[str, list[np.ndarray]] = field(default_factory=dict)
     kept: list[dict[str, np.ndarray]] = field(default_factory=list)
     lasted: float = 0.0
@@ -107,11 +108,14 @@ class _Revolutions:
             if stage.shapes is not self.shapes:
                 self.shapes, self._to_reduced = stage.shapes, self.model.to_reduced @ stage.shapes
                 self._stress_of_shapes = self.recovery.max_von_mises(self._to_reduced.T)
-            self._wait(
-                coordinates=stage.snapshots @ self._to_reduced.T,
-                # of a sum of shapes the stress is no more than the sum of theirs
-                bound=np.abs(stage.snapshots) @ self._stress_of_shapes,
-            )
+            coordinates = stage.snapshots @ self._to_reduced.T
+            # of a sum of shapes the stress is no more than the sum of theirs
+            bound = np.abs(stage.snapshots) @ self._stress_of_shapes
+            if self.static_stress:
+                still = with_rotation(np.zeros((1, len(self._to_reduced))), self.model, stage.speed)
+                bound += self.recovery.max_von_mises(still)
+                coordinates = with_rotation(coordinates, self.model, stage.speed)
+            self._wait(coordinates=coordinates, bound=bound)
         waiting = sum(map(len, self.waiting["interval"])) // self.choice.samples_per_revolution
         if waiting >= _AT_ONCE:
             self._reduce(waiting)

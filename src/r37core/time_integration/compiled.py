@@ -76,12 +76,12 @@ class CompiledEngine:
 
     def take(self, pace: Pace) -> None:
         """Go on at another pace in the same modes, with as many steps in a revolution."""
-        recursion, coupling, plan = pace
+        recursion, coupling, plan, clearance = pace
         normal = coupling[NORMAL]
         # friction of constant direction is part of what a normal force does
         response = normal if self._constant_share is None else normal + self._constant_share * coupling[TANGENTIAL]
         self._record[0]["problem"]["diagonal"][: self._nodes] = normal.diagonal()
-        self._put(keep=recursion.keep, pull=recursion.pull, inverse=recursion.inverse)
+        self._put(keep=recursion.keep, pull=recursion.pull, inverse=recursion.inverse, clearance=clearance)
         self._put(coupling=coupling, columns=normal, response=response)
         if self._energy:
             self._put(loss=recursion.loss)
@@ -141,13 +141,13 @@ class CompiledEngine:
 
     def _lay_out(self, problem: Problem) -> None:
         m = self._record[0]
-        # a node that only pads the vector must neither sit on the axis nor cancel a pivot
-        m["radius"] = m["towards"] = m["problem"]["diagonal"] = 1.0
+        # a node that only pads the vector must neither touch, nor sit on the axis, nor cancel a pivot
+        m["clearance"] = m["radius"] = m["towards"] = m["problem"]["diagonal"] = 1.0
         self._put(
             displacement_operator=problem.displacement_operator,
             push_operator=problem.displacement_operator[NORMAL],
-            radius=problem.model.radius,
-            theta=problem.model.theta,
+            radius=problem.tip.radius,
+            theta=problem.tip.theta,
             outputs=problem.output_operator[None, :, : self._modes],
             number_of_outputs=len(problem.output_operator),
             limit=problem.scene.divergence_limit,
@@ -172,9 +172,7 @@ class CompiledEngine:
         m, casing = self._record[0], problem.scene.casing
         rise = casing.rise_rate(problem.duration) * problem.time_step
         numbers = {
-            "clearance": casing.clearance,
-            # without lobes f is 0 everywhere, and so is what it is multiplied by
-            "amplitude": casing.amplitude * casing.clearance if casing.lobes else 0.0,
+            "amplitude": casing.lobe_height,
             "rise": rise,
             "period": 2.0 * np.pi / max(casing.lobes, 1),
             "width": casing.width,
@@ -215,7 +213,7 @@ class CompiledEngine:
             value = problem.bar_area if name == "area" else getattr(lining, name)
             m["lining"][name] = np.nan if value is None else value
         m["lining"]["bars"] = problem.bars
-        self._put(bar_position=problem.model.theta / (2.0 * np.pi) * problem.bars)
+        self._put(bar_position=problem.tip.theta / (2.0 * np.pi) * problem.bars)
 
     def _lay_out_static_modes(self, problem: Problem) -> None:
         flexibility = problem.residual_flexibility

@@ -94,9 +94,10 @@ def _is_clear(m, place, stride, remaining, exact, coriolis):
             nearest = np.where(nearest < 1.0, nearest, 1.0)
             if bits_of(towards > 0.0) != (1 << LANES) - 1:
                 return False
-        gap = m.casing.clearance - lobes * nearest - position
+        clearance = load(m.clearance, g)
+        gap = clearance - lobes * nearest - position
         # written so that NaN is not clear
-        clear = bits_of(gap > ROUNDING_MARGIN * (m.casing.clearance + lobes + np.abs(position)))
+        clear = bits_of(gap > ROUNDING_MARGIN * (np.abs(clearance) + lobes + np.abs(position)))
         if clear != (1 << LANES) - 1:
             return False
     return True

@@ -88,8 +88,8 @@ TOTALS = np.dtype(
 LINING = aligned_record(_numbers(" ".join(field.name for field in fields(Lining)) + " area"))
 """What the law of the lining may use: every field of Lining as a number, and a bar's area (m2)."""
 
-CASING = aligned_record(_numbers("clearance amplitude rise period width cosine sine"))
-"""Clearance and amplitude (m); rise rate times step; angle (rad) between lobes and their relative width; cone angle."""
+CASING = aligned_record(_numbers("amplitude rise period width cosine sine"))
+"""Amplitude (m) of the lobes; rise rate times step; angle (rad) between lobes and their relative width; cone angle."""
 
 
 def complementarity_record(nodes: int) -> np.dtype:
@@ -143,6 +143,7 @@ def integration_record(layout: Layout) -> np.dtype:
             *_arrays("force_outputs", 1, padded(outputs), 3 * nodes),
             *_arrays("rotation", nodes),  # signed sliding in a step by the rotation (m)
             *_arrays("bar_position", nodes),  # angle at step 0, in bars
+            *_arrays("clearance", nodes),  # of the round casing (m)
             *_arrays("radius theta shift", nodes),  # m; angle at step 0 and what vibration adds to it (rad)
             ("problem", complementarity_record(nodes), ()),
             *_arrays("beyond on_casing", groups, kind=np.int64),

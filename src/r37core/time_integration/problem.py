@@ -11,8 +11,10 @@ import numpy as np
 from r37core.alignment import LANES, padded
 from r37core.contact.casing import casing_axes
 from r37core.contact.scene import Scene
-from r37core.rom.contact_model import BucklingError, ContactModel
+from r37core.rom.contact_model import ContactModel
+from r37core.rom.rotation import BucklingError
 
+from .clearance import check_room, clearances
 from .gyroscopic import LARGEST_TURN, ComplexModes, complex_modes, complex_recursion
 from .integration_choice import LARGEST_TABLE, IntegrationChoice
 from .integrators import CENTRAL_DIFFERENCE, EXACT_MODAL, Recursion, increments, recursion
@@ -33,6 +35,7 @@ class Pace(NamedTuple):
     recursion: Recursion
     coupling: np.ndarray
     jumps: JumpPlan | None
+    clearance: np.ndarray
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,8 +47,8 @@ class Problem:
     are stepped. A model with a Coriolis matrix has its stepped modes coupled by it (`complex_modes`).
 
     Raises UnstableStepError for a step at or above the stability limit 2/omega_max of central differences, or that of nodes
-    pressed on the lining's bars; LongRevolutionError for a revolution of too many steps; ValueError for a Coriolis matrix with
-    central differences.
+    pressed on the lining's bars; LongRevolutionError for a revolution of too many steps; NoRoomError for a tip inside of the
+    casing; ValueError for a Coriolis matrix with central differences.
     """
 
     model: ContactModel
@@ -57,6 +60,7 @@ class Problem:
         if self.model.coriolis is not None and self.choice.integrator == CENTRAL_DIFFERENCE:
             raise ValueError(NO_CORIOLIS)
         self._check_length()
+        check_room(self.model, self.scene, np.array([self.speed]))
         check_step(self)
 
     @property
@@ -158,9 +162,19 @@ class Problem:
         return self.scene.casing.angle(self.model.tip_cone_angle)
 
     @cached_property
+    def tip(self) -> ContactModel:
+        """The model whose contact nodes are where the rotation holds them, if the blade grows with the speed."""
+        return self.model.spun(self.speed) if self.scene.casing.centrifugal else self.model
+
+    @property
+    def clearance(self) -> np.ndarray:
+        """Of the round casing at each contact node (m), shape (nodes,)."""
+        return clearances(self.model, self.scene, np.array([self.speed]))[0]
+
+    @cached_property
     def operator_at_rest(self) -> np.ndarray:
         """`displacement_operator` of the modes at rest."""
-        return casing_axes(self.model.displacement_operator, self.cone_angle)
+        return casing_axes(self.tip.displacement_operator, self.cone_angle)
 
     @cached_property
     def displacement_operator(self) -> np.ndarray:
@@ -192,7 +206,7 @@ class Problem:
         if not self.second_order:
             return np.empty((len(self.modes), 0))
         frequencies, modes = (part[..., self._stepped :] for part in self._kept_modes)
-        rows = (self.operator_at_rest @ modes).reshape(3 * len(self.model.radius), len(frequencies))
+        rows = (self.operator_at_rest @ modes).reshape(3 * len(self.tip.radius), len(frequencies))
         residual = (modes / frequencies**2) @ rows.T
         return residual if self.complex_modes is None else residual + self._half_kick
 
@@ -226,7 +240,7 @@ class Problem:
 
         Shape (3, nodes, nodes).
         """
-        nodes = len(self.model.radius)
+        nodes = len(self.tip.radius)
         if not self.static_shapes.size:
             return np.zeros((3, nodes, nodes))
         return (self.operator_at_rest[0] @ self.static_shapes).T.reshape(3, nodes, nodes)
@@ -256,7 +270,7 @@ class Problem:
     @property
     def pace(self) -> Pace:
         """Of the problem's own speed."""
-        return Pace(self.recursion, self.coupling, self._jumps(self.recursion))
+        return Pace(self.recursion, self.coupling, self._jumps(self.recursion), self.clearance)
 
     def _jumps(self, recursion: Recursion) -> JumpPlan | None:
         return plan_jumps(recursion, self.steps_per_sample, LANES) if self.choice.jumps else None
@@ -269,7 +283,8 @@ class Problem:
         """
         several = recursion(self.choice.integrator, *self._motion_at(speeds))
         couplings, plans = self._coupling(several.inverse), self._jumps(several)
-        return [Pace(several[row], couplings[row], plans and plans[row]) for row in range(len(speeds))]
+        rooms = clearances(self.model, self.scene, speeds)
+        return [Pace(several[row], couplings[row], plans and plans[row], rooms[row]) for row in range(len(speeds))]
 
     def increments(self, speeds: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Increments per displacement and per velocity at `speeds`, each of shape (speeds, modes); see integrators."""
@@ -292,7 +307,7 @@ class Problem:
     def rotation_velocity(self) -> np.ndarray:
         """What the rotation adds to the nodes' sliding over the casing (m/s), positive along the tangent, shape (nodes,)."""
         friction = self.scene.friction
-        return self.model.radius * self.speed * (-1.0 if friction and friction.against_rotation else 1.0)
+        return self.tip.radius * self.speed * (-1.0 if friction and friction.against_rotation else 1.0)
 
     @property
     def bar_area(self) -> float:
@@ -320,11 +335,11 @@ class Problem:
     def rings(self) -> int:
         """How many rings of bars the lining has."""
         lining = self.scene.lining
-        return 0 if lining is None else 1 if lining.shared_ring else len(self.model.radius)
+        return 0 if lining is None else 1 if lining.shared_ring else len(self.tip.radius)
 
     def theta(self, step: np.ndarray | int) -> np.ndarray:
         """Angle (rad) of the undeformed contact nodes at a step of a revolution; the rotor turns towards negative theta."""
-        return self.model.theta - 2.0 * np.pi * step / self.steps_per_revolution
+        return self.tip.theta - 2.0 * np.pi * step / self.steps_per_revolution
 
     @property
     def samples_before_snapshots(self) -> int:
@@ -344,7 +359,7 @@ class Problem:
         return max(samples - self.samples_before_snapshots, 0) // every if every else 0
 
     def _check_length(self) -> None:
-        table = 8 * self.steps_per_revolution * padded(len(self.model.radius))
+        table = 8 * self.steps_per_revolution * padded(len(self.model.theta))
         if table > LARGEST_TABLE:
             steps = f"{self.steps_per_revolution} steps of {self.time_step:.3g} s"
             raise LongRevolutionError(

@@ -26,12 +26,13 @@ class ReferenceEngine:
         self.normal, self.tangential, self.meridional = self.rows
         self.flexibility = problem.residual_flexibility
         # what all forces (N) on the nodes do to the static modes
-        self.static_force = np.zeros((3, len(problem.model.radius)))
+        self.static_force = np.zeros((3, len(problem.tip.radius)))
         self.take(problem.pace)
 
     def take(self, pace: Pace) -> None:
         """Go on at another pace in the same modes, with as many steps in a revolution."""
         self.motion = (RealMotion if self.problem.complex_modes is None else CoupledMotion)(self.problem, pace)
+        self.clearance = pace.clearance
 
     def advance(self, state: SimulationState, out: SimulationRecord) -> int:
         """Do the steps of every row of `out.samples`, as the compiled engine does; returns the rows done."""
@@ -124,12 +125,12 @@ class ReferenceEngine:
         if problem.scene.exact_gap:
             # the displaced node's radius is sqrt((r + u_r)^2 + u_theta^2), its angle theta + atan(u_theta/(r + u_r))
             cosine, sine = np.cos(problem.cone_angle), np.sin(problem.cone_angle)
-            radius = problem.model.radius + cosine * (self.normal @ u) + sine * (self.meridional @ u)
+            radius = problem.tip.radius + cosine * (self.normal @ u) + sine * (self.meridional @ u)
             across = self.tangential @ u
             position = position + cosine * (np.hypot(radius, across) - radius)
             theta = theta + np.arctan2(across, radius)
-        distance = problem.scene.casing.distance(theta, np.array(n * problem.time_step), problem.duration)
-        return distance - position, theta
+        lobes = problem.scene.casing.lobe(theta, np.array(n * problem.time_step), problem.duration)
+        return self.clearance - lobes - position, theta
 
     def _directions(self, d: np.ndarray) -> np.ndarray:
         """Forces per unit normal force on each node, shape (3, nodes): towards the axis, with friction against the sliding.

@@ -8,13 +8,14 @@ import numpy as np
 
 from r37core.contact.scene import Scene
 from r37core.rom.contact_model import ContactModel
+from r37core.rom.rotation import rotation_amplitudes
 
 from .integration_choice import IntegrationChoice
 from .simulate import DIRECTIONS, TIP_POINTS, Simulation
 from .state import SimulationState
 from .status import RunStatus
 
-OF_RUNS = ("spectrum", "stress", "wear", "energy")
+OF_RUNS = ("spectrum", "stress", "static_stress", "wear", "energy")
 """Results of a scene that its simulations give; others are made of them later."""
 
 _WEAR_LOBES = 20
@@ -36,9 +37,11 @@ def run_speed(
 
     Always: `status`, `diverged_revolution` and `diverged_time` (NaN unless diverged), `time_step`, the casing's `cone_angle`
     (rad), `rms` and `peak` (m) over the last half, shape (2, 3): TIP_POINTS by DIRECTIONS, `revolution_maxima` (m), shape
-    (revolutions, 2, 3), and contact statistics. `amplitude`, shape (2, orders): spectrum of the leading edge's normal and
-    tangential motion. A diverged run has NaN where a number would need the rest of the run.
-    Raises UnstableStepError for a step beyond the stability limit.
+    (revolutions, 2, 3), and contact statistics. `clearance` (m), shape (nodes,): where it changes with the speed. `amplitude`,
+    shape (2, orders): spectrum of the leading edge's normal and tangential motion. `snapshots`: the reduced coordinates of the
+    vibration and, with static_stress, the amplitudes of rotation's shapes. A diverged run has NaN where a number would need the
+    rest of the run.
+    Raises what Problem raises.
     """
     simulation = Simulation(model, speed, scene, choice)
     state = simulation.start()
@@ -69,17 +72,28 @@ def run_speed(
         "casing_hits": np.array(totals["casing_hits"]),
         "worst_complementarity": np.array(totals["worst_complementarity"]),
     }
+    if scene.casing.changes_with_speed:
+        kept["clearance"] = simulation.problem.clearance
     if "spectrum" in results:
         kept |= _spectrum(half[:, 0, _KEPT].T, len(half) // per_revolution, spectrum_highest_order)
     if "stress" in results:
         # a stress of them differs by 1e-7 of the largest, in two thirds of the file
-        kept["snapshots"] = (record.snapshots @ (model.to_reduced @ simulation.problem.state_shapes).T).astype(np.float32)
+        coordinates = record.snapshots @ (model.to_reduced @ simulation.problem.state_shapes).T
+        if "static_stress" in results:
+            coordinates = with_rotation(coordinates, model, speed)
+        kept["snapshots"] = coordinates.astype(np.float32)
     if "wear" in results:
         assert scene.lining is not None
         kept |= _wear(state, min(wear_angles, scene.lining.bars))
     if "energy" in results:
         kept |= energy_balance(state, simulation.energy(state))
     return kept
+
+
+def with_rotation(coordinates: np.ndarray, model: ContactModel, speed: float) -> np.ndarray:
+    """Coordinates of the vibration, shape (instants, coordinates), and after them the amplitudes of rotation's shapes."""
+    amplitudes_of_shapes = rotation_amplitudes(model.rotation_stiffening, speed)
+    return np.hstack([coordinates, np.tile(amplitudes_of_shapes, (len(coordinates), 1))])
 
 
 def _spectrum(displacement: np.ndarray, revolutions: int, highest_order: int) -> dict[str, np.ndarray]:

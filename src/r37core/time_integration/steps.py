@@ -86,7 +86,7 @@ def measure_gaps(m, place, lobes, settles, coriolis):
     any_beyond = 0
     for g in range(0, len(m.force), LANES):
         normal = displaced(m, NORMAL, g, coriolis)
-        gap = m.casing.clearance - lobes * load(shape, place * len(m.force) + g) - normal
+        gap = load(m.clearance, g) - lobes * load(shape, place * len(m.force) + g) - normal
         if settles:
             gap += load(m.settled, g)
         store(m.problem.gap, g, gap)
@@ -113,7 +113,7 @@ def measure_exact_gaps(m, place, lobes, settles, coriolis):
             p.multiplier[k], p.answer[k], p.short[k], m.radius[k], casing.cosine, casing.sine
         )
         shape = _lobe_shape(m.theta[k] - turned + m.shift[k], casing.period, casing.width)
-        p.gap[k] = casing.clearance - lobes * shape - position
+        p.gap[k] = m.clearance[k] - lobes * shape - position
         if settles:
             p.gap[k] += m.settled[k]
         if p.gap[k] < 0.0:

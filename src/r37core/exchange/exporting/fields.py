@@ -19,7 +19,7 @@ from r37core.mesh.mesh_files import vtk_grid
 from r37core.results.campbell import name_modes
 from r37core.results.measures import last_revolution
 from r37core.results.stress_recovery import StressRecovery
-from r37core.rom.reduced_model import ReducedModel
+from r37core.rom.reduced_model import RecoveryNodes, ReducedModel
 from r37core.speeds import exact_text
 from r37core.time_integration.speed_file import read_speed
 
@@ -65,7 +65,7 @@ class ModeShapes:
 
 def mode_shapes(model: ReducedModel, speed: float, count: int) -> ModeShapes:
     """The `count` lowest modes at `speed` (rad/s); ValueError for a model that does not recover the whole blade."""
-    basis = _whole(model)
+    basis = _whole(model).basis
     frequencies, shapes = model.modes(speed, max(count, _NAMED_AMONG))
     names, order = name_modes(model, shapes, count)
     displacement = np.array([(basis @ shapes[:, mode]).real for mode in order])
@@ -115,8 +115,8 @@ def write_stress(
 ) -> None:
     """Write stress_<speed> for the instant at each speed (rad/s), and stress.pvd.
 
-    Displacement (the target's unit), stress components xx yy zz xy yz zx and von Mises stress (Pa) of the vibration on the
-    whole blade. The model must recover the whole blade.
+    Displacement (the target's unit), stress components xx yy zz xy yz zx and von Mises stress (Pa) on the whole blade: of
+    the vibration, and of rotation in a scene whose stress has it. The model must recover the whole blade.
     """
     shown = target.orientation.mesh_to_file(mesh)
     files = {}
@@ -133,14 +133,14 @@ def write_stress(
 
 
 def stress_of(mesh: BladeMesh, model: ReducedModel, material: Material, instant: WorstInstant) -> tuple[np.ndarray, np.ndarray]:
-    """Displacement (m), shape (nodes, 3), and stress (Pa), shape (6, nodes), of the vibration on the whole blade."""
+    """Displacement (m), shape (nodes, 3), and stress (Pa), shape (6, nodes), on the whole blade."""
     displacement = displacement_of(model, instant.coordinates[None])[0]
     return displacement, nodal_stress(mesh.blocks, mesh.points, displacement[:, :, None], material)[:, :, 0]
 
 
 def displacement_of(model: ReducedModel, coordinates: np.ndarray) -> np.ndarray:
-    """Displacement of all nodes (m), shape (instants, nodes, 3), for reduced coordinates, shape (instants, coordinates)."""
-    return np.moveaxis(_whole(model) @ coordinates.T, 2, 0)
+    """Displacement of all nodes (m), shape (instants, nodes, 3), for coordinates as StressRecovery takes them."""
+    return np.moveaxis(_whole(model).fields[:, :, : coordinates.shape[1]] @ coordinates.T, 2, 0)
 
 
 def _turned(stress: np.ndarray, rows: np.ndarray) -> np.ndarray:
@@ -151,10 +151,10 @@ def _turned(stress: np.ndarray, rows: np.ndarray) -> np.ndarray:
     return (rows.T @ tensors @ rows)[:, *_UPPER].T
 
 
-def _whole(model: ReducedModel) -> np.ndarray:
+def _whole(model: ReducedModel) -> RecoveryNodes:
     if model.whole_blade is None:
         raise ValueError("the reduced model does not recover the whole blade")
-    return model.whole_blade.basis
+    return model.whole_blade
 
 
 def _write_fields(

@@ -77,7 +77,7 @@ def _reduced(given: _Given, choice: ReductionChoice) -> ReducedModel:
         vectors = np.eye(given.mass.shape[0])
         tolerance, singular = 0.0, np.ones(vectors.shape[1])
     else:
-        basis = multi_speed_basis(
+        basis, _ = multi_speed_basis(
             lambda speed: sp.csr_array(given.stiffness + speed**2 * given.per_square),
             given.mass,
             boundary,
@@ -90,7 +90,7 @@ def _reduced(given: _Given, choice: ReductionChoice) -> ReducedModel:
     shapes = _ideal_shapes(given)
     nodes = np.arange(len(given.points))
     size = vectors.shape[1]
-    line = RecoveryNodes(nodes, given.points, vectors[boundary].reshape(-1, 3, size))
+    line = RecoveryNodes(nodes, given.points, vectors[boundary].reshape(-1, 3, size), np.empty((len(nodes), 3, 0)))
     return ReducedModel(
         stiffness=stiffness,
         geometric_stiffness=projected(given.per_square, vectors),
@@ -100,7 +100,7 @@ def _reduced(given: _Given, choice: ReductionChoice) -> ReducedModel:
         boundary_nodes=nodes,
         boundary_chord=_fractions(given.points),
         tip_lines={choice.boundary.tip_line: line},
-        stress_submesh=RecoveryNodes(np.empty(0, dtype=int), np.empty((0, 3)), np.empty((0, 3, size))),
+        stress_submesh=RecoveryNodes(np.empty(0, dtype=int), np.empty((0, 3)), np.empty((0, 3, size)), np.empty((0, 3, 0))),
         stress_elements={},
         whole_blade=None,
         shape_names=tuple(shapes),
@@ -108,6 +108,7 @@ def _reduced(given: _Given, choice: ReductionChoice) -> ReducedModel:
         shape_norms=np.array([np.sqrt(shape @ (given.mass @ shape)) for shape in shapes.values()]),
         tolerance=tolerance,
         singular_values=singular,
+        rotation_stiffening=np.empty(0),
         quadratic_residual=given.residual,
     )
 

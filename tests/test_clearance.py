@@ -1,0 +1,395 @@
+"""Clearance that changes with the speed: where rotation holds the blade, what contact makes of it, the stress of rotation."""
+
+import re
+from dataclasses import replace
+
+import netCDF4
+import numpy as np
+import pytest
+import scipy.sparse as sp
+from box_mesh import box_mesh
+from defaults import Casing, IntegrationChoice, Scene
+from integration_cases import ABRADABLE, DIRECT, LINING, random_model
+
+from r37core.config import ConfigError, checked_scene, load_settings
+from r37core.exchange.exporting.fields import displacement_of
+from r37core.fem.material import Material
+from r37core.fem.matrices import assemble
+from r37core.fem.solver import factorise
+from r37core.fem.stress import nodal_stress, von_mises
+from r37core.results.response import write_response
+from r37core.results.stress_recovery import StressRecovery
+from r37core.rom.contact_model import read_contact_model, write_contact_model
+from r37core.rom.reduce import reduce_blade
+from r37core.rom.reduced_model import contact_model
+from r37core.rom.rotation import BucklingError, rotation_amplitudes, shapes_of_rotation
+from r37core.run_ups import revolutions
+from r37core.run_ups.march import March
+from r37core.run_ups.revolutions import record_run_up
+from r37core.run_ups.schedule import RunUp
+from r37core.time_integration.clearance import NoRoomError, check_room, clearances
+from r37core.time_integration.problem import Problem
+from r37core.time_integration.simulate import Simulation
+from r37core.time_integration.speed_file import write_speed
+from r37core.time_integration.speed_run import run_speed
+from r37core.yaml_file import load_yaml
+
+SHORT = IntegrationChoice(4e-7, 3, 62, integrator="exact_modal", energy=True)
+NARROW = replace(ABRADABLE, lining=replace(LINING, bar_area=1.6e-7))
+COLD = {"cold_m": 3.56e-4}
+
+
+def growing(scene, **others):
+    return replace(scene, casing=replace(scene.casing, centrifugal=True, **others))
+
+
+def moved(nodes, size=2e-5, stiffening=(0.0, 2e-7)):
+    """A random blade whose nodes rotation moves, each its own way; at 1000 rad/s by about `size` (m)."""
+    generator = np.random.default_rng(5)
+    shapes = generator.standard_normal((3, nodes, len(stiffening))) * size * 1e-6
+    return replace(random_model(nodes), rotation_shapes=shapes, rotation_stiffening=np.array(stiffening))
+
+
+# where rotation holds the blade
+
+
+def test_a_bar_on_the_axis_is_stretched_as_in_closed_form():
+    """u(b) = rho Omega^2/(2 E) (b^2 (b - a) - (b^3 - a^3)/3): slender, between the radii a and b, Poisson's ratio 0."""
+    a, b, density, modulus = 0.1, 0.3, 8000.0, 180e9
+    mesh = box_mesh(b - a, 0.01, 0.01, (8, 1, 1), origin=(a, -0.005, -0.005))
+    matrices = assemble(mesh, Material(modulus, density, 0.0, 1e9))
+    free = matrices.free_nodes
+    load = matrices.centrifugal_load[free].ravel()
+    displaced = matrices.solve_at_rest(load)[:, None]
+    shapes, _ = shapes_of_rotation(matrices.stiffness(), matrices.geometric_stiffness(), displaced, load)
+    np.testing.assert_allclose(shapes, displaced, rtol=1e-9, atol=1e-12 * abs(displaced).max())
+    tip = np.isclose(mesh.points[free, 0], b)
+    expected = density / (2.0 * modulus) * (b**2 * (b - a) - (b**3 - a**3) / 3.0)
+    assert shapes.reshape(-1, 3)[tip, 0] == pytest.approx(expected, rel=2e-3)
+
+
+@pytest.mark.parametrize("spin_softening", [False, True])
+def test_shapes_of_a_few_speeds_give_the_displacement_at_any(mesh, matrices, choice, spin_softening):
+    model = reduce_blade(mesh, matrices, replace(choice, spin_softening=spin_softening, recover_whole_blade=True))
+    per_square = matrices.geometric_stiffness() + (matrices.spin_softening() if spin_softening else 0.0 * matrices.mass())
+    load = matrices.centrifugal_load[matrices.free_nodes].ravel()
+    for speed in (200.0, 900.0, 1730.0, 2000.0):
+        solve = factorise(sp.csr_array(matrices.stiffness() + speed**2 * per_square))
+        exact = speed**2 * solve(load)
+        found = model.whole_blade.rotation_shapes @ rotation_amplitudes(model.rotation_stiffening, speed)
+        np.testing.assert_allclose(found[matrices.free_nodes].ravel(), exact, rtol=0, atol=1e-4 * abs(exact).max())
+    # a stiffness that does not change with the speed would give 1.3 times the displacement
+    assert np.ptp(model.rotation_stiffening) * 1730.0**2 > 0.05
+
+
+def test_nodes_are_where_rotation_holds_them(model, tmp_path):
+    """Radius, angle, directions and distance from the cone of the displaced nodes themselves."""
+    speed, contact = 1730.0, contact_model(model, "pressure_edge")
+    nodes = model.contact_nodes("pressure_edge")
+    x, y, z = (nodes.points + nodes.rotation_shapes @ rotation_amplitudes(model.rotation_stiffening, speed)).T
+    write_contact_model(contact, tmp_path / "contact.npz")
+    spun = read_contact_model(tmp_path / "contact.npz").spun(speed)
+    np.testing.assert_allclose(spun.radius, np.hypot(x, y), rtol=1e-14)
+    np.testing.assert_allclose(spun.theta, np.arctan2(y, x), rtol=1e-12)
+    assert np.abs(spun.theta - contact.theta).max() > 1e-4
+    outwards = np.stack([np.cos(spun.theta), np.sin(spun.theta)], axis=1)
+    modal = nodes.basis @ contact.to_reduced
+    np.testing.assert_allclose(spun.displacement_operator[0], np.einsum("ni,nim->nm", outwards, modal[:, :2]), atol=1e-13)
+    np.testing.assert_allclose(spun.displacement_operator[2], modal[:, 2], atol=1e-13)
+    angle = -0.3
+    cold_x, cold_y, cold_z = nodes.points.T
+    # signed distance from a cone, along its normal
+    distance = np.cos(angle) * np.hypot(x, y) - np.sin(angle) * z
+    before = np.cos(angle) * np.hypot(cold_x, cold_y) - np.sin(angle) * cold_z
+    np.testing.assert_allclose(contact.growth(np.array([speed]), angle)[0], distance - before, rtol=0, atol=1e-15)
+    np.testing.assert_array_equal(contact.growth(np.array([0.0]), angle), 0.0)
+
+
+def test_rotation_that_leaves_no_stiffness_is_refused():
+    assert rotation_amplitudes(np.array([-1e-6]), 900.0)[0] == pytest.approx(900.0**2 / 0.19)
+    with pytest.raises(BucklingError, match="no stable position at 1000 rad/s"):
+        rotation_amplitudes(np.array([1e-7, -1e-6]), np.array([900.0, 1000.0, 2000.0]))
+
+
+# contact
+
+
+@pytest.mark.parametrize("exact_gap", [False, True])
+@pytest.mark.parametrize("scene", [NARROW, DIRECT], ids=["abradable", "direct"])
+def test_a_growing_blade_is_the_grown_one(scene, exact_gap):
+    """Its run is that of a blade whose nodes are there from the first, and whose growth the casing makes room for or not."""
+    model, speed = moved(1), 1000.0
+    grown = model.spun(speed)
+    growth = model.growth(np.array([speed]), model.tip_cone_angle)[0, 0]
+    assert abs(growth) > 1e-6
+    # lobes as high
+    cold = scene.casing.clearance
+    casing = replace(scene.casing, clearance=cold - growth, amplitude=scene.casing.amplitude * cold / (cold - growth))
+    scene = replace(scene, exact_gap=exact_gap)
+    found, expected = (
+        Simulation(blade, speed, one, SHORT) for blade, one in ((model, growing(scene)), (grown, replace(scene, casing=casing)))
+    )
+    runs = [one.advance(one.start(), 3).samples for one in (found, expected)]
+    assert np.abs(runs[0]).max() > 1e-9
+    np.testing.assert_allclose(*runs, rtol=0, atol=1e-9 * np.abs(runs[1]).max())
+
+
+@pytest.mark.parametrize("scene", [NARROW, DIRECT], ids=["abradable", "direct"])
+def test_a_growing_casing_is_the_wider_one(scene):
+    model, speed = random_model(3), 1000.0
+    wide = replace(scene.casing, growth_speeds=(0.0, 800.0, 1200.0), growth=(1e-5, 2e-5, 6e-5))
+    same = replace(scene.casing, clearance=scene.casing.clearance + 4e-5)
+    same = replace(same, amplitude=scene.casing.lobe_height / same.clearance)
+    runs = []
+    for casing in (wide, same):
+        simulation = Simulation(model, speed, replace(scene, casing=casing), SHORT)
+        runs.append(simulation.advance(simulation.start(), 3).samples)
+    assert np.abs(runs[0]).max() > 1e-9
+    np.testing.assert_allclose(*runs, rtol=0, atol=1e-9 * np.abs(runs[1]).max())
+
+
+SCENES = {
+    "abradable": growing(NARROW),
+    "abradable_exact": growing(replace(NARROW, exact_gap=True)),
+    "direct": growing(DIRECT),
+    "direct_exact": growing(replace(DIRECT, exact_gap=True)),
+    # the tip cuts its way into the lining before anything vibrates
+    "pressed_in": growing(NARROW, clearance=1e-6, amplitude=20.0),
+}
+
+
+@pytest.mark.parametrize("integrator", ["exact_modal", "central_difference"])
+@pytest.mark.parametrize("scene", SCENES.values(), ids=SCENES)
+def test_compiled_engine_is_the_reference(scene, integrator):
+    """With nodes that rotation moves each its own way, and so another clearance at each."""
+    model, choice = moved(5, size=4e-5), replace(SHORT, time_step=6e-7, integrator=integrator, revolutions=1)
+    assert np.ptp(clearances(model, scene, np.array([1000.0]))) > 1e-5
+    records = []
+    for engine in ("compiled", "reference"):
+        simulation = Simulation(model, 1000.0, scene, replace(choice, engine=engine))
+        state = simulation.start()
+        records.append((simulation.advance(state, 1).samples, state.totals["steps_in_contact"]))
+    assert records[0][1] == records[1][1] > 0
+    np.testing.assert_allclose(records[0][0], records[1][0], rtol=0, atol=1e-7 * np.abs(records[1][0]).max())
+
+
+@pytest.mark.parametrize("scene", [growing(NARROW), growing(DIRECT), growing(replace(DIRECT, exact_gap=True))])
+def test_jumps_pass_no_contact_over(scene):
+    """The largest room is at the first node, the least at another one: jumps must look at each."""
+    model = moved(8, size=6e-5)
+    records = []
+    for jumps in (True, False):
+        simulation = Simulation(model, 1000.0, scene, replace(SHORT, jumps=jumps))
+        state = simulation.start()
+        records.append((simulation.advance(state, 3).samples, state.totals["steps_jumped"]))
+    assert records[0][1] > 0 == records[1][1]
+    np.testing.assert_allclose(records[0][0], records[1][0], rtol=0, atol=1e-8 * np.abs(records[1][0]).max())
+
+
+def test_energy_closes_where_the_tip_is_pressed_in():
+    scene = growing(NARROW, clearance=0.0, amplitude=0.0)
+    model = moved(4, size=5e-5)
+    assert clearances(model, scene, np.array([1000.0])).min() < 0.0
+    kept = run_speed(model, 1000.0, scene, SHORT, ["energy", "wear"], spectrum_highest_order=5, wear_angles=60)
+    # its own track, all round
+    assert kept["wear"].min() > 1e-6
+    scale = np.abs([kept["contact_work"], kept["damping_loss"]]).max()
+    assert abs(kept["energy_residual"]) < 1e-9 * scale
+    np.testing.assert_array_equal(kept["clearance"], Problem(model, 1000.0, scene, SHORT).clearance)
+
+
+def test_a_tip_inside_of_the_casing_is_refused():
+    """With a lining in front of it as well, where the tip is pressed in by more than that is thick."""
+    model = moved(4, size=5e-5)
+    direct = growing(DIRECT, clearance=2e-5)
+    found = r"casing\.clearance: at 1000 rad/s contact node \d of 4 from the leading edge is \S+ m inside of the casing at rest"
+    with pytest.raises(NoRoomError, match=rf"{found}; allowed: a cold_m of at least (\S+) m") as refused:
+        Problem(model, 1000.0, direct, SHORT)
+    enough = float(re.search(r"at least (\S+) m", str(refused.value))[1])
+    check_room(model, growing(DIRECT, clearance=enough * (1.0 + 1e-5)), np.array([1000.0]))
+    lined = growing(NARROW, clearance=0.0)
+    Problem(model, 1000.0, lined, SHORT)
+    with pytest.raises(NoRoomError):
+        Problem(model, 1000.0, replace(lined, lining=replace(LINING, thickness=1e-6)), SHORT)
+
+
+# run-ups
+
+
+@pytest.mark.parametrize("engine", ["compiled", "reference"])
+def test_at_one_speed_a_run_up_is_the_run_at_that_speed(engine):
+    model, choice = moved(3), replace(SHORT, time_step=2e-6, engine=engine)
+    simulation = Simulation(model, 1000.0, growing(NARROW), choice)
+    expected = simulation.advance(simulation.start(), 3).samples
+    march = March(model, growing(NARROW), choice, RunUp(1000.0, 1000.0, 1.0, 1, 1, worn=False))
+    np.testing.assert_array_equal(np.concatenate([stage.samples for stage in march.stages()]), expected)
+
+
+def test_the_clearance_follows_the_speed():
+    """A blade that nothing but its growth brings to the round lining begins to press it at the speed that closes the gap."""
+    model = replace(random_model(1), rotation_shapes=np.array([[[1e-10]], [[0.0]], [[0.0]]]), tip_cone_angle=0.0)
+    scene = growing(NARROW, clearance=1.21e-4, lobes=0)
+    march = March(model, scene, replace(SHORT, time_step=2e-6), RunUp(1000.0, 1200.0, 20.0, 1, 1, worn=False))
+    touching = [stage.speed for stage in march.stages() if stage.wear > 0.0]
+    assert min(touching) == pytest.approx(1100.0, abs=2.0)
+    with pytest.raises(NoRoomError, match="at 1200 rad/s"):
+        March(model, replace(scene, lining=None), replace(SHORT, time_step=2e-6), RunUp(1000.0, 1200.0, 20.0, 1, 1, worn=False))
+
+
+# stress of rotation
+
+
+@pytest.fixture(scope="module")
+def whole(mesh, matrices, choice):
+    return reduce_blade(mesh, matrices, replace(choice, recover_whole_blade=True))
+
+
+def test_stress_is_that_of_both_displacements_together(whole, mesh, steel):
+    """Of the sum of the displacements, from the elements themselves; not the sum of two von Mises stresses."""
+    contact, speed = contact_model(whole, "pressure_edge"), 1500.0
+    choice = replace(SHORT, snapshots_per_revolution=31, snapshot_revolutions=1)
+    kept = {
+        name: run_speed(contact, speed, growing(NARROW), choice, results, spectrum_highest_order=5, wear_angles=60)
+        for name, results in (("total", ["stress", "static_stress"]), ("vibration", ["stress"]))
+    }
+    recovery = StressRecovery(whole, steel)
+    found = recovery.max_von_mises(kept["total"]["snapshots"])
+    vibration = recovery.max_von_mises(kept["vibration"]["snapshots"])
+    still = whole.stress_submesh.rotation_shapes @ rotation_amplitudes(whole.rotation_stiffening, speed)
+    moving = whole.stress_submesh.basis @ kept["vibration"]["snapshots"].T
+    points = whole.stress_submesh.points
+    tensors = nodal_stress(whole.stress_elements, points, still[:, :, None] + moving, steel)
+    np.testing.assert_allclose(found, von_mises(tensors).max(axis=0), rtol=1e-5)
+    rotation = von_mises(nodal_stress(whole.stress_elements, points, still[:, :, None], steel)).max()
+    assert rotation > 1e8
+    assert np.all(found <= (rotation + vibration) * (1.0 + 1e-6))
+    assert np.all(np.abs(found - rotation - vibration) > 1e-3 * rotation)
+    # exports have the displacement of both, too
+    everywhere = displacement_of(whole, kept["total"]["snapshots"]) - displacement_of(whole, kept["vibration"]["snapshots"])
+    alone = whole.whole_blade.rotation_shapes @ rotation_amplitudes(whole.rotation_stiffening, speed)
+    np.testing.assert_allclose(everywhere[0], alone, rtol=0, atol=1e-6 * np.abs(alone).max())
+
+
+def test_responses_have_the_clearance_and_the_stress_of_rotation(whole, steel, tmp_path):
+    """A blade that touches nothing has the stress of rotation, in its response and in every revolution of a run-up."""
+    contact, scene = contact_model(whole, "pressure_edge"), growing(Scene(Casing(1e-3, lobes=0)))
+    choice = replace(SHORT, time_step=1e-6, snapshots_per_revolution=31, snapshot_revolutions=1)
+    results, speeds, recovery = ["stress", "static_stress"], (1000.0, 1500.0), StressRecovery(whole, steel)
+    files = [tmp_path / f"{speed:g}.npz" for speed in speeds]
+    for speed, file in zip(speeds, files, strict=True):
+        kept = run_speed(contact, speed, scene, choice, results, spectrum_highest_order=5, wear_angles=60)
+        write_speed(kept, file, {})
+    write_response(
+        files,
+        speeds,
+        tmp_path / "response.nc",
+        recovery,
+        stress_history_speeds=(),
+        stress_instants=31,
+        yield_stress=1e9,
+        provenance={},
+    )
+    with netCDF4.Dataset(tmp_path / "response.nc") as response:
+        assert response["clearance"].dimensions == ("speed", "contact_node")
+        np.testing.assert_allclose(response["clearance"][:], clearances(contact, scene, np.array(speeds)))
+        largest = response["max_von_mises"][:]
+    for speed, found in zip(speeds, largest, strict=True):
+        alone = whole.stress_submesh.rotation_shapes @ rotation_amplitudes(whole.rotation_stiffening, speed)
+        tensors = nodal_stress(whole.stress_elements, whole.stress_submesh.points, alone[:, :, None], steel)
+        assert found == pytest.approx(von_mises(tensors).max(), rel=1e-6)
+    run_up, choice = RunUp(1000.0, 1500.0, 5.0, 1, 1, worn=False), replace(choice, revolutions=1)
+    kept = record_run_up(contact, scene, choice, run_up, results, highest_order=5, recovery=recovery, yield_stress=1e9)
+    np.testing.assert_allclose(kept["max_von_mises"][[0, -1]], largest, rtol=1e-6)
+    assert np.all(np.diff(kept["max_von_mises"]) >= 0.0)
+
+
+def test_a_run_up_leaves_no_instant_out_that_has_the_largest_stress(whole, steel, monkeypatch):
+    """Of rotation and vibration together: what bounds the stress of an instant must hold both."""
+    contact, run_up = contact_model(whole, "pressure_edge"), RunUp(1490.0, 1500.0, 1.0, 2, 0, worn=False)
+    choice = replace(SHORT, time_step=1e-6, revolutions=2, snapshots_per_revolution=31, snapshot_revolutions=2)
+    found = []
+    recovery, shipped = StressRecovery(whole, steel), revolutions.largest_stress
+
+    def of_all(_recovery, coordinates, _bound):
+        return np.array([recovery.max_von_mises(one).max() for one in coordinates])
+
+    for largest in (shipped, of_all):
+        monkeypatch.setattr(revolutions, "largest_stress", largest)
+        kept = record_run_up(
+            contact,
+            growing(NARROW),
+            choice,
+            run_up,
+            ["stress", "static_stress"],
+            highest_order=5,
+            recovery=recovery,
+            yield_stress=1e9,
+        )
+        found.append(kept["max_von_mises"])
+    np.testing.assert_allclose(*found, rtol=1e-10)
+
+
+# configuration
+
+
+def casing_of(**clearance):
+    return checked_scene({"casing": {"lobes": 0} | clearance}).casing
+
+
+def test_keys_reach_their_fields():
+    assert casing_of(clearance=COLD) == replace(casing_of(clearance_m=3.56e-4), centrifugal=True)
+    assert not casing_of(clearance=COLD | {"centrifugal": False}).changes_with_speed
+    table = {"speeds_rpm": [0, 30.0, 60.0], "growth_m": [0.0, 1e-5, -2e-5]}
+    growth = casing_of(clearance=COLD | {"casing_growth": table})
+    assert growth.growth_speeds == pytest.approx((0.0, np.pi, 2.0 * np.pi))
+    assert growth.opening(np.array([0.5 * np.pi, 1.5 * np.pi])) == pytest.approx([0.5e-5, -0.5e-5])
+
+
+@pytest.mark.parametrize(
+    ("casing", "message"),
+    [
+        ({}, r"casing: found neither of clearance_m and clearance; allowed: one of"),
+        ({"clearance_m": 1e-4, "clearance": COLD}, r"casing: found clearance_m and clearance; allowed: one of"),
+        ({"clearance": {"centrifugal": True}}, r"casing\.clearance: missing key cold_m"),
+        (
+            {"clearance": COLD | {"casing_growth": {"growth_m": [0, 1e-5]}}},
+            r"casing_growth: found no speeds; allowed: speeds_rad_s",
+        ),
+        (
+            {"clearance": COLD | {"casing_growth": {"speeds_rad_s": [0, 9], "speeds_rpm": [0, 9], "growth_m": [0, 1e-5]}}},
+            r"casing_growth: found speeds_rad_s and speeds_rpm",
+        ),
+        (
+            {"clearance": COLD | {"casing_growth": {"speeds_rad_s": [5, 9], "growth_m": [0, 1e-5]}}},
+            r"casing_growth\.speeds_rad_s: found \[5.*\]; allowed: ascending speeds, the first of them 0",
+        ),
+        (
+            {"clearance": COLD | {"casing_growth": {"speeds_rpm": [0, 9, 9], "growth_m": [0, 1e-5, 0]}}},
+            r"casing_growth\.speeds_rpm: found .*ascending",
+        ),
+        (
+            {"clearance": COLD | {"casing_growth": {"speeds_rpm": [0, 9], "growth_m": [0, 1e-5, 0]}}},
+            r"casing_growth\.growth_m: found 3 numbers for 2 speeds; allowed: one for each speed",
+        ),
+    ],
+)
+def test_a_clearance_that_is_none_is_refused(casing, message):
+    with pytest.raises(ConfigError, match=message):
+        checked_scene({"casing": casing})
+
+
+def test_growth_of_a_casing_reaches_the_highest_speed(config_copy):
+    file = config_copy / "config/scenes.yaml"
+    table = "casing_growth: { speeds_rpm: [0, 9000], growth_m: [0, 1.0e-5] }"
+    first = "abradable:\n  casing: { clearance: { cold_m: 3.56e-4"
+    file.write_text(file.read_text().replace(first, f"{first}, {table}"))
+    load_settings(load_yaml(config_copy / "config/config.yaml"), config_copy)
+    config = load_yaml(config_copy / "config/config.yaml") | {"scenes": ["growing_abradable"]}
+    found = r"growing_abradable\.casing\.clearance\.casing_growth: found growth up to 942\.478 rad/s; allowed: up to "
+    with pytest.raises(ConfigError, match=rf"{found}structure\.maximum_speed_rad_s, 2000 rad/s \(19098\.6 rpm\)"):
+        load_settings(config, config_copy)
+
+
+def test_stress_of_rotation_is_part_of_the_stress():
+    with pytest.raises(ConfigError, match=r"results: found static_stress; allowed: only with stress among the results"):
+        checked_scene({"casing": {"clearance_m": 1e-4}, "results": ["static_stress"]})
