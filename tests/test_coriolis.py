@@ -55,11 +55,12 @@ def point_mass(frequency, radius=0.25, softening=-1.0, coriolis=TURN):
 
 
 def coupled_model(nodes=8, size=3.0):
-    """A blade of random nodes and modes, with a Coriolis matrix of random numbers of about this size."""
-    model = random_model(nodes)
+    """A blade of random nodes and modes, with a Coriolis matrix of random numbers of about this size, that rotation moves."""
+    model, generator = random_model(nodes), np.random.default_rng(nodes + 1)
     modes = len(model.squared_frequencies)
-    coupling = size * np.random.default_rng(nodes + 1).standard_normal((modes, modes))
-    return replace(model, coriolis=coupling - coupling.T)
+    coupling = size * generator.standard_normal((modes, modes))
+    moved = 2e-12 * generator.standard_normal(model.rotation_shapes.shape)
+    return replace(model, coriolis=coupling - coupling.T, rotation_shapes=moved)
 
 
 def moving(simulation, displacement, velocity):
@@ -142,6 +143,7 @@ SCENES = {
     "abradable": ABRADABLE,
     "abradable_constant": replace(ABRADABLE, friction=Friction(0.15, vector=False)),
     "abradable_exact": replace(ABRADABLE, exact_gap=True),
+    "abradable_growing": replace(ABRADABLE, casing=replace(ABRADABLE.casing, centrifugal=True)),
     "thin_lining": replace(ABRADABLE, lining=Lining(1e-4, 1e8, 5e7, 1e5, bar_width=0.03)),
 }
 
@@ -261,7 +263,7 @@ def test_error_on_an_elastic_bar_falls_with_the_square_of_the_step(radius):
         simulation = Simulation(model, speed, PRESSED, choice)
         problem, state = simulation.problem, simulation.start()
         # the lining's force at the start, against the rotation, of whose kick only the second half comes after it
-        force = stiffness * casing.distance(model.theta, np.zeros(1), 1.0)[0] * np.array([1.0, -0.4, 0.0])
+        force = stiffness * (casing.clearance - casing.lobe(model.theta, np.zeros(1), 1.0)[0]) * np.array([1.0, -0.4, 0.0])
         state.lining_force[:, 0] = force
         by_u, by_d = (np.einsum("dki,d->i", one, force) for one in (problem.displacement_operator, problem.increment_operator))
         state.displacement[:], state.increment[:] = 0.5 * problem.recursion.inverse * np.array([by_d, -by_u])
@@ -412,6 +414,34 @@ def test_no_contact_is_missed_where_the_increment_moves_the_node(seed):
     model = replace(model, squared_frequencies=frequencies**2, displacement_operator=operator, tip_displacement_operator=tip)
     start, velocity = np.random.default_rng(seed).standard_normal((2, 2)) * [[1e-3], [5.0]]
     assert _meets_casing(model, start, velocity, 1e-6)
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_jumps_follow_the_tangent_of_slow_modes(seed):
+    """Four pendulums that move one node together: so many modes are followed along their tangent towards the casing."""
+    frequencies = np.repeat([4000.0, 4700.0, 5200.0, 6100.0], 2)
+    pendulum, modes = point_mass(frequencies[0], softening=0.0), len(frequencies)
+    operator = np.tile(pendulum.displacement_operator, 4)
+    model = replace(
+        pendulum,
+        squared_frequencies=frequencies**2,
+        stiffness_per_square=np.zeros((modes, modes)),
+        displacement_operator=operator,
+        tip_displacement_operator=np.repeat(operator, 2, axis=1),
+        to_reduced=np.eye(modes),
+        coriolis=np.kron(np.eye(4), TURN),
+    )
+    scene = Scene(Casing(2e-3, lobes=0), damping_ratio=0.0)
+    start, velocity = np.random.default_rng(seed).standard_normal((2, modes)) * [[1e-3], [5.0]]
+    start -= np.maximum(operator[0, 0] @ start, 0.0) * operator[0, 0] / 4.0
+    records = []
+    for jumps in (True, False):
+        simulation = Simulation(model, 1300.0, scene, replace(CHOICE, jumps=jumps))
+        state = moving(simulation, start, velocity)
+        records.append(simulation.advance(state, 1).samples)
+        assert (state.totals["steps_jumped"] > 0.5 * state.totals["steps"]) == jumps
+        assert state.totals["casing_hits"] > 0
+    np.testing.assert_allclose(*records, rtol=0, atol=1e-9 * np.abs(records[1]).max())
 
 
 @pytest.mark.slow
