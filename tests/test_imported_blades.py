@@ -157,7 +157,7 @@ def test_terms_of_rotation_cannot_be_added_to_matrices(settings_with, key):
 def test_growth_of_matrices_is_not_known(settings_with):
     with pytest.raises(
         ConfigError,
-        match=r"growing_abradable\.casing\.clearance\.centrifugal: found true with the blade 'Fan', given by.*casing_growth",
+        match=r"growing_abradable\.casing\.clearance\.centrifugal: found true, as.*'Fan', given by matrices.*casing_growth",
     ):
         settings_with(MATRICES, config={"scenes: [abradable, direct]": "scenes: [growing_abradable]"})
 

@@ -22,8 +22,8 @@ class GrowthSection(Section):
     speeds_rpm: list[Annotated[float, Field(ge=0, le=9.5e6)]] | LeftOut = Field(
         default=None, min_length=2, description="the same in revolutions per minute"
     )
-    growth_m: list[Annotated[float, Field(ge=-0.1, le=0.1)]] = Field(
-        min_length=2, description="away from the blade, along the casing's normal; at each of the speeds"
+    growth_m: list[Annotated[float, Field(ge=-0.01, le=0.01)]] = Field(
+        min_length=2, description="away from the blade, along the casing's normal; at each of the speeds, 0 at the first"
     )
 
     @model_validator(mode="after")
@@ -36,6 +36,8 @@ class GrowthSection(Section):
             raise refused((given[0],), f"{speeds}", "ascending speeds, the first of them 0")
         if len(speeds) != len(self.growth_m):
             raise refused(("growth_m",), f"{len(self.growth_m)} numbers for {len(speeds)} speeds", "one for each speed")
+        if self.growth_m[0] != 0.0:
+            raise refused(("growth_m", 0), f"{self.growth_m[0]:g} at speed 0", "0; the clearance there is cold_m")
         return self
 
 

@@ -8,6 +8,9 @@ import numpy as np
 
 from .laws import lobe_shape
 
+ROUNDED = 1e-5
+"""Relative difference of speeds that are the same, given in rad/s and in rpm with six digits."""
+
 
 @dataclass(frozen=True)
 class Casing:
@@ -65,8 +68,17 @@ class Casing:
         return self.lobe_height * grown * self.shape(theta)
 
     def opening(self, speeds: np.ndarray) -> np.ndarray:
-        """What the casing's growth adds to the clearance (m) at `speeds` (rad/s), shape (speeds,)."""
-        return np.interp(speeds, self.growth_speeds, self.growth) if self.growth else np.zeros(len(speeds))
+        """What the casing's growth adds to the clearance (m) at `speeds` (rad/s), shape (speeds,).
+
+        Raises ValueError beyond the speeds that it is given for.
+        """
+        if not self.growth:
+            return np.zeros(len(speeds))
+        if (highest := float(np.max(speeds))) > self.growth_speeds[-1] * (1.0 + ROUNDED):
+            raise ValueError(
+                f"casing.clearance.casing_growth: given up to {self.growth_speeds[-1]:g} rad/s; needed up to {highest:g} rad/s"
+            )
+        return np.interp(speeds, self.growth_speeds, self.growth)
 
 
 def casing_axes(cylindrical: np.ndarray, cone_angle: float) -> np.ndarray:

@@ -64,7 +64,7 @@ CAPTIONS = {
     ),
     "worst_shapes": (
         "Blade {blade} in scene {scene} at the worst instant of each interaction: displaced as the title says (black outline: "
-        "as it is), coloured by the von Mises stress of the vibration, each on a scale of its own."
+        "as it is), coloured by the von Mises stress, each on a scale of its own."
     ),
     "spectrogram": (
         "Blade {blade} in scene {scene}: engine orders of the leading edge's motion and of strain gauges over the revolutions "

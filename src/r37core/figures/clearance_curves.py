@@ -21,7 +21,7 @@ def draw_clearance(rms: xr.Dataset, title: str = "") -> Figure:
         for name, (node, line) in _ENDS.items():
             curve = room.isel(contact_node=node)
             axes.plot(curve["speed"], curve, label=f"{blade}, {name}", color=styles[str(blade)]["color"], linestyle=line)
-    axes.set(xlabel="speed (rad/s)", ylabel="clearance at rest (µm)", title=f"clearance in scene {title}")
+    axes.set(xlabel="speed (rad/s)", ylabel="clearance before vibration (µm)", title=f"clearance in scene {title}")
     style.rpm_axis(axes)
     figure.legend(loc="outside right center")
     return figure

@@ -46,6 +46,10 @@ def write_response(
                 _create(dataset, speeds, values, history_speeds)
                 about = {"units": "rad", "long_name": "half angle of the casing's cone, negative where it narrows downstream"}
                 create_variable(dataset, "casing_cone_angle", "f8", (), about)[...] = values["cone_angle"]
+                if recovery is not None:
+                    total = recovery.have_rotation(values["snapshots"])
+                    about = {"units": "1", "long_name": "1 where max_von_mises has the stress of rotation, 0: vibration alone"}
+                    create_variable(dataset, "static_stress", "f4", (), about)[...] = total
             for name in VARIABLES:
                 if name in values:
                     dataset[name][row] = values[name]

@@ -29,7 +29,12 @@ class StressRecovery:
                 "the stress submesh has no elements; enlarge structure.stress_submesh in config.yaml (of an imported mesh, its "
                 "own stress_submesh in blades.yaml), or use a finer mesh"
             )
+        self._coordinates = submesh.basis.shape[2]
         self.operator = nodal_stress(model.stress_elements, submesh.points, submesh.fields, material)
+
+    def have_rotation(self, coordinates: np.ndarray) -> bool:
+        """Whether the coordinates, shape (instants, coordinates), have the amplitudes of rotation's shapes."""
+        return coordinates.shape[1] > self._coordinates
 
     def max_von_mises(self, coordinates: np.ndarray) -> np.ndarray:
         """Largest von Mises stress (Pa) over the submesh, shape (instants,).

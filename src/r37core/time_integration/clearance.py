@@ -23,7 +23,7 @@ def clearances(model: ContactModel, scene: Scene, speeds: np.ndarray) -> np.ndar
 
 
 def check_room(model: ContactModel, scene: Scene, speeds: np.ndarray) -> None:
-    """NoRoomError where the tip reaches the round casing; through a lining in front of it the tip cuts its way.
+    """NoRoomError where the tip reaches the round casing; a lining in front of it is worn by `cut`.
 
     A run that begins inside of a rigid casing would begin with a blow that is not there: the speed was reached slowly.
     """
@@ -31,9 +31,19 @@ def check_room(model: ContactModel, scene: Scene, speeds: np.ndarray) -> None:
     if room.min() >= 0.0:
         return
     row, node = np.unravel_index(room.argmin(), room.shape)
+    lacking, lining = -room[row, node], "a thicker lining" if scene.lining else "a lining"
     raise NoRoomError(
-        f"casing.clearance: at {speeds[row]:g} rad/s contact node {node + 1} of {room.shape[1]} from the leading edge "
-        f"is {-room[row, node]:.3g} m inside of the casing at rest; allowed: a cold_m of at least "
-        f"{scene.casing.clearance - room[row, node]:.6g} m for this speed, a lining, a casing that grows more, or lower speeds "
+        f"casing.clearance of the scene (scenes.yaml): at {speeds[row]:g} rad/s contact node {node + 1} of {room.shape[1]} from "
+        f"the leading edge is {lacking:.3g} m inside of the casing before anything vibrates; allowed: a cold_m of at least "
+        f"{scene.casing.clearance + lacking:.6g} m for this speed, {lining}, a casing_growth larger by as much, or lower speeds "
         "(speeds, run_ups, and structure.maximum_speed_rad_s)"
     )
+
+
+def cut(clearance: np.ndarray, rings: int) -> np.ndarray:
+    """Wear (m) of each ring of the lining where the tip reaches into it before anything vibrates, shape (rings, 1).
+
+    `clearance` (m), shape (nodes,). The speed was reached slowly, so the tip has cut its way and presses nothing.
+    """
+    depth = np.maximum(-clearance, 0.0)
+    return (depth if rings == len(depth) else depth.max(keepdims=True))[:, None]

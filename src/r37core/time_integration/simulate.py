@@ -7,6 +7,7 @@ import numpy as np
 from r37core.contact.scene import Scene
 from r37core.rom.contact_model import ContactModel
 
+from .clearance import cut
 from .compiled import CompiledEngine
 from .integration_choice import IntegrationChoice
 from .problem import stable_problem
@@ -30,10 +31,12 @@ class Simulation:
         self.engine = _ENGINES[choice.engine](self.problem)
 
     def start(self) -> SimulationState:
-        """The blade at rest in an unworn lining."""
-        directions, nodes, modes = self.problem.displacement_operator.shape
-        lining = self.problem.scene.lining
-        wear = None if lining is None else np.zeros((self.problem.rings, self.problem.bars))
+        """The blade at rest in an unworn lining, or in one that it has cut its way into."""
+        problem = self.problem
+        directions, nodes, modes = problem.displacement_operator.shape
+        wear = None
+        if problem.scene.lining is not None:
+            wear = np.tile(cut(problem.clearance, problem.rings), (1, problem.bars))
         forces = np.zeros((directions, nodes))
         return SimulationState(np.zeros(modes), np.zeros(modes), wear, np.zeros(nodes, dtype=bool), forces)
 

@@ -13,7 +13,7 @@ from ..plan import case_of_sweep
 _STEPS = (5.0, 8.0, 20.0)
 """Plain grids (rad/s) beside: as many runs as a fifth of every 1 rad/s, and those of two fidelity levels."""
 
-_COMPARED = ("spectrum", "stress", "wear")
+_COMPARED = ("spectrum", "stress", "static_stress", "wear")
 """Results of a scene by which interactions are told."""
 
 

@@ -15,6 +15,8 @@ from ..plan import blade_name_of, integration_of_level, kept_of, level_of, mater
 HALF = "__half_step"
 """End of the name of an extreme's second case."""
 
+_CLEARANCE = "casing.clearance_m"
+
 _NEIGHBOURS = (0.997, 1.0, 1.003)
 """Speeds that are run, as shares of an extreme's."""
 
@@ -65,7 +67,7 @@ def extremes(lined: str, direct: str) -> list[Extreme]:
     cases += [
         Extreme(what, f"{value:g}", scene, {path: value})
         for what, path, values in (
-            ("clearance", "casing.clearance_m", (0.0, 1e-9, 1e-2)),
+            ("clearance", _CLEARANCE, (0.0, 1e-9, 1e-2)),
             ("lobes", "casing.lobes", (1, 5, 20)),
             ("ovalisation in clearances", "casing.amplitude_clearances", (0.0, 10.0)),
             ("damping ratio", "damping_ratio", (0.0, 0.1, 0.999, 1.0)),
@@ -123,7 +125,7 @@ def _case(settings: Settings, extreme: Extreme) -> Case:
     blade = blade_name_of(settings, section)
     scene, refused = None, ""
     try:
-        scene = checked_scene(changed(entry, extreme.changes))
+        scene = checked_scene(changed(entry, _of_scene(entry, extreme.changes)))
     except ConfigError as error:
         refused = str(error)
     choice = replace(integration_of_level(settings, section.base, scene), revolutions=extreme.revolutions)
@@ -139,6 +141,12 @@ def _case(settings: Settings, extreme: Extreme) -> Case:
         share_of_limit=extreme.share_of_limit,
         refused=refused,
     )
+
+
+def _of_scene(entry: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
+    """The changes, of the cold clearance in a scene that has one."""
+    cold = "casing.clearance.cold_m" if "clearance" in entry["casing"] else _CLEARANCE
+    return {cold if path == _CLEARANCE else path: value for path, value in changes.items()}
 
 
 def inputs(settings: Settings) -> dict[str, Any]:

@@ -96,15 +96,16 @@ def _case(settings: Settings, section: TradeoffSection, parameter: str, value: s
     model = model_of_level(settings, level)
     if parameter in OF_THE_MODEL:
         model = replace(model, **OF_THE_MODEL[parameter](value))
-    blade, entry = blade_name_of(settings, section), scene_entry_of(settings, scene).scene()
-    varied, choice = vary(parameter, value, entry, integration_of_level(settings, level, entry))
+    blade, entry = blade_name_of(settings, section), scene_entry_of(settings, scene)
+    varied, choice = vary(parameter, value, entry.scene(), integration_of_level(settings, level, entry.scene()))
+    as_the_scene = [result for result in entry.results if result == "static_stress"]
     return Case(
         blade,
         model,
         varied,
         choice,
         speeds=tuple(sorted({share for shares in shares_of(section).values() for share in shares})),
-        results=("energy", "spectrum", "stress", "instants", *(["wear"] if varied.lining else [])),
+        results=("energy", "spectrum", "stress", *as_the_scene, "instants", *(["wear"] if varied.lining else [])),
         material=material_of(settings, blade),
         kept=kept_of(level_of(settings, level)),
         crossing=("1B", section.engine_order),
