@@ -34,9 +34,9 @@ class Simulation:
         """The blade at rest in an unworn lining, or in one that it has cut its way into."""
         problem = self.problem
         directions, nodes, modes = problem.displacement_operator.shape
-        wear = None
-        if problem.scene.lining is not None:
-            wear = np.tile(cut(problem.clearance, problem.rings), (1, problem.bars))
+        wear = None if problem.scene.lining is None else np.zeros((problem.rings, problem.bars))
+        if wear is not None and problem.scene.casing.changes_with_speed:
+            wear += cut(problem.clearance, problem.rings)
         forces = np.zeros((directions, nodes))
         return SimulationState(np.zeros(modes), np.zeros(modes), wear, np.zeros(nodes, dtype=bool), forces)
 
