@@ -211,6 +211,9 @@ class Recovery(StressRecovery):
     def __init__(self):
         pass
 
+    def have_rotation(self, snapshots):
+        return False
+
     def max_von_mises(self, snapshots):
         return snapshots[:, 0]
 
