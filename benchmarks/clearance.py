@@ -14,6 +14,7 @@ import pandas as pd
 
 from r37core.config import read_settings
 from r37core.config.document import read_document
+from r37core.contact.casing import approach
 from r37core.dataset_file import read_dataset
 from r37core.fem.abaqus_deck import write_abaqus
 from r37core.io import write_text
@@ -24,6 +25,7 @@ from r37core.results.stress_recovery import StressRecovery
 from r37core.rom.contact_model import read_contact_model
 from r37core.rom.rom_file import read_reduced_model
 from r37core.studies.tables import markdown_table
+from r37core.time_integration.clearance import growth
 from r37core.time_integration.speed_run import with_rotation
 
 RESULTS = Path("results")
@@ -38,10 +40,10 @@ def crossing_of(blade):
     return float(read_dataset(RESULTS / "campbell.nc")["crossing_speed"].sel(blade=blade, mode=MODE, engine_order=ORDER))
 
 
-def ends(growth):
+def ends(nearer):
     """Change of the clearance (um) at the leading edge, mid-chord and the trailing edge, as text."""
-    places = np.linspace(0, len(growth) - 1, 3)
-    return " / ".join(f"{1e6 * value:+.0f}" for value in np.interp(places, np.arange(len(growth)), -growth))
+    places = np.linspace(0, len(nearer) - 1, 3)
+    return " / ".join(f"{1e6 * value:+.0f}" for value in np.interp(places, np.arange(len(nearer)), -nearer))
 
 
 def in_calculix(blade, material, speed):
@@ -66,35 +68,31 @@ def growth_table(settings):
     for blade in settings.blades:
         speed, material = crossing_of(blade), settings.blades[blade].material
         contact = read_contact_model(RESULTS / blade / "contact_pressure_edge.npz")
-        growth = contact.growth(np.array([speed]), contact.tip_cone_angle)[0]
+        ours = growth(contact, np.array([speed]), contact.tip_cone_angle)[0]
         reduced = read_reduced_model(RESULTS / blade / "rom_pressure_edge.nc")
         still = with_rotation(np.zeros((1, reduced.size)), contact, speed)
         stress = StressRecovery(reduced, material).max_von_mises(still)[0]
         row = {
             "blade": blade,
             "crossing (rad/s)": f"{speed:.0f}",
-            "change of clearance (µm)": ends(growth),
+            "change of clearance (µm)": ends(ours),
             "tip turned (mrad)": f"{1e3 * (contact.spun(speed).theta - contact.theta).mean():+.1f}",
             "stress of rotation / yield": f"{stress / material.yield_stress:.2f}",
         }
         if shutil.which("ccx"):
             nodes = reduced.contact_nodes("pressure_edge")
-            before, after = nodes.points, nodes.points + in_calculix(blade, material, speed)[nodes.nodes]
-            radial = np.hypot(after[:, 0], after[:, 1]) - np.hypot(before[:, 0], before[:, 1])
-            angle = contact.tip_cone_angle
-            theirs = np.cos(angle) * radial - np.sin(angle) * (after - before)[:, 2]
+            displacement = nodes.cylindrical(in_calculix(blade, material, speed)[nodes.nodes]).T
+            theirs = approach(contact.radius, displacement, contact.tip_cone_angle)
             row["with large displacements (CalculiX)"] = ends(theirs)
-            row["largest difference (µm)"] = f"{1e6 * np.abs(theirs - growth).max():.0f}"
+            row["largest difference (µm)"] = f"{1e6 * np.abs(theirs - ours).max():.0f}"
         rows.append(row)
     return markdown_table(list(rows[0]), [list(row.values()) for row in rows])
 
 
 def first_touch(scene, revolutions, clearance):
     """Revolution in which the growing lobes reach the blade at rest; NaN where they do not."""
-    casing = scene.casing
-    rate = -np.log(0.01) / (casing.rise_fraction * revolutions)
-    share = clearance / casing.lobe_height
-    return -np.log(1.0 - share) / rate if share < 1.0 else np.nan
+    share = clearance / scene.casing.lobe_height
+    return -np.log(1.0 - share) / scene.casing.rise_rate(revolutions) if share < 1.0 else np.nan
 
 
 def effect_table(settings):

@@ -10,7 +10,6 @@ from collections.abc import Callable, Iterable
 
 from r37core.alignment import padded
 from r37core.blade.definition import BladeDefinition
-from r37core.contact.casing import ROUNDED
 from r37core.exchange.importing.source import MatricesSource
 from r37core.run_ups.choice import RunUpError, check_highest
 from r37core.time_integration.integration_choice import LARGEST_TABLE
@@ -261,7 +260,7 @@ def clearances_reach_all_speeds(settings: Settings) -> None:
     matrices = [name for name, blade in settings.blades.items() if isinstance(blade.definition, MatricesSource)]
     for name, chosen in settings.scenes.items():
         casing, path = chosen.scene.casing, (name, "casing", "clearance")
-        if casing.growth_speeds and casing.growth_speeds[-1] * (1.0 + ROUNDED) < highest:
+        if not casing.knows(highest):
             allowed = f"up to structure.maximum_speed_rad_s, {highest:g} rad/s ({highest * RPM:.6g} rpm)"
             raise document.refusal((*path, "casing_growth"), f"growth up to {casing.growth_speeds[-1]:g} rad/s", allowed)
         if casing.centrifugal and matrices:

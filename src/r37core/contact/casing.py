@@ -8,7 +8,7 @@ import numpy as np
 
 from .laws import lobe_shape
 
-ROUNDED = 1e-5
+_ROUNDED = 1e-5
 """Relative difference of speeds that are the same, given in rad/s and in rpm with six digits."""
 
 
@@ -67,6 +67,10 @@ class Casing:
         grown = 1.0 - np.exp(-self.rise_rate(duration) * np.asarray(time)) if self.rise_fraction > 0.0 else 1.0
         return self.lobe_height * grown * self.shape(theta)
 
+    def knows(self, speed: float) -> bool:
+        """Whether the casing's growth, if it has any, is given up to a speed (rad/s)."""
+        return not self.growth_speeds or speed <= self.growth_speeds[-1] * (1.0 + _ROUNDED)
+
     def opening(self, speeds: np.ndarray) -> np.ndarray:
         """What the casing's growth adds to the clearance (m) at `speeds` (rad/s), shape (speeds,).
 
@@ -74,11 +78,22 @@ class Casing:
         """
         if not self.growth:
             return np.zeros(len(speeds))
-        if (highest := float(np.max(speeds))) > self.growth_speeds[-1] * (1.0 + ROUNDED):
+        if not self.knows(highest := float(np.max(speeds))):
             raise ValueError(
                 f"casing.clearance.casing_growth: given up to {self.growth_speeds[-1]:g} rad/s; needed up to {highest:g} rad/s"
             )
         return np.interp(speeds, self.growth_speeds, self.growth)
+
+
+def approach(radius: np.ndarray, displacement: np.ndarray, cone_angle: float) -> np.ndarray:
+    """Distance (m) by which displaced nodes come nearer to a cone about the axis, shape (...): exact for large displacements.
+
+    cos(alpha) (sqrt((r + u_r)^2 + u_theta^2) - r) - sin(alpha) u_z of nodes at `radius` r (m), shape (...), with the radial,
+    tangential and axial parts of `displacement` (m), shape (3, ...); `cone_angle` alpha (rad).
+    """
+    radial, tangential, axial = displacement
+    outwards = np.hypot(radius + radial, tangential) - radius
+    return casing_axes(np.stack([outwards, np.zeros_like(outwards), axial]), cone_angle)[0]
 
 
 def casing_axes(cylindrical: np.ndarray, cone_angle: float) -> np.ndarray:

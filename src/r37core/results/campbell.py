@@ -8,7 +8,7 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 from scipy.optimize import brentq, linear_sum_assignment
 
-from r37core.contact.casing import casing_axes
+from r37core.contact.casing import approach
 from r37core.rom.reduced_model import ReducedModel
 
 _SPARE_MODES = 6
@@ -106,8 +106,7 @@ def dynamic_clearance(
 
     `shapes`: reduced shapes (columns); `tangential_displacement` (m), positive towards growing theta, of the tip's
     leading edge on `tip_line`; `cone_angle` (rad) of the casing, the tip's own without it. The mode is scaled to that
-    displacement u_theta; with u_r and u_z its other parts, the node moves normal to the casing by
-    cos(alpha) (sqrt((r + u_r)^2 + u_theta^2) - r) - sin(alpha) u_z, and the clearance changes by the opposite.
+    displacement; the node comes nearer to the casing by `approach`, and the clearance changes by the opposite.
     """
     line = model.tip_lines[tip_line]
     leading_edge = line.select([0])
@@ -115,7 +114,5 @@ def dynamic_clearance(
     radial, tangential, axial = leading_edge.cylindrical(displacement)[:, 0].T[:, :, None]
     scale = tangential_displacement / tangential
     radius = np.hypot(*leading_edge.points[0, :2])
-    outwards = np.hypot(radius + scale * radial, tangential_displacement) - radius
-    return -casing_axes(
-        np.stack([outwards, np.zeros_like(outwards), scale * axial]), line.cone_angle if cone_angle is None else cone_angle
-    )[0]
+    swung = np.stack(np.broadcast_arrays(scale * radial, tangential_displacement, scale * axial))
+    return -approach(radius, swung, line.cone_angle if cone_angle is None else cone_angle)

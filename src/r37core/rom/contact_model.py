@@ -57,27 +57,21 @@ class ContactModel:
             raise BucklingError(speed)
         return np.sqrt(squares), modes
 
-    def _held(self, speeds: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Radius (m), angle turned (rad) and axial displacement (m) of the contact nodes, each of shape (speeds, nodes)."""
-        amplitudes = rotation_amplitudes(self.rotation_stiffening, speeds)
-        radial, tangential, axial = (amplitudes @ shapes.T for shapes in self.rotation_shapes)
-        return np.hypot(self.radius + radial, tangential), np.arctan2(tangential, self.radius + radial), axial
+    def displaced(self, speeds: np.ndarray) -> np.ndarray:
+        """Displacement of the contact nodes (m) by rotation at `speeds` (rad/s), shape (3, speeds, nodes); see BucklingError.
 
-    def growth(self, speeds: np.ndarray, cone_angle: float) -> np.ndarray:
-        """Distance (m) by which rotation at `speeds` (rad/s) brings the contact nodes nearer to a cone, shape (speeds, nodes).
-
-        cos(alpha) (|r + u| - r) - sin(alpha) u_z at the half angle alpha (rad): exact for a cone about the axis.
-        Raises BucklingError.
+        Directions as of `displacement_operator`.
         """
-        radius, _, axial = self._held(speeds)
-        return np.cos(cone_angle) * (radius - self.radius) - np.sin(cone_angle) * axial
+        amplitudes = rotation_amplitudes(self.rotation_stiffening, speeds)
+        return amplitudes @ self.rotation_shapes.swapaxes(1, 2)
 
     def spun(self, speed: float) -> ContactModel:
         """The model with its contact nodes where rotation at `speed` (rad/s) holds them; BucklingError where nothing does.
 
         Radial and tangential are those of the displaced nodes. The outputs keep those of rest.
         """
-        (radius,), (turned,), _ = self._held(np.array([speed]))
+        out, aside, _ = self.displaced(np.array([speed]))[:, 0]
+        radius, turned = np.hypot(self.radius + out, aside), np.arctan2(aside, self.radius + out)
         radial, tangential, axial = self.displacement_operator
         cosine, sine = np.cos(turned)[:, None], np.sin(turned)[:, None]
         operator = np.stack([cosine * radial + sine * tangential, cosine * tangential - sine * radial, axial])

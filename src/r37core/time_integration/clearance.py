@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from r37core.contact.casing import approach
 from r37core.contact.scene import Scene
 from r37core.rom.contact_model import ContactModel
 
@@ -19,7 +20,15 @@ def clearances(model: ContactModel, scene: Scene, speeds: np.ndarray) -> np.ndar
     """
     casing = scene.casing
     undeformed = np.repeat((casing.clearance + casing.opening(speeds))[:, None], len(model.theta), axis=1)
-    return undeformed - model.growth(speeds, casing.angle(model.tip_cone_angle)) if casing.centrifugal else undeformed
+    return undeformed - growth(model, speeds, casing.angle(model.tip_cone_angle)) if casing.centrifugal else undeformed
+
+
+def growth(model: ContactModel, speeds: np.ndarray, cone_angle: float) -> np.ndarray:
+    """Distance (m) by which rotation at `speeds` (rad/s) brings the contact nodes nearer to a cone, shape (speeds, nodes).
+
+    `cone_angle`: its half angle (rad). Raises BucklingError.
+    """
+    return approach(model.radius, model.displaced(speeds), cone_angle)
 
 
 def check_room(model: ContactModel, scene: Scene, speeds: np.ndarray) -> None:

@@ -166,7 +166,7 @@ class Problem:
         """The model whose contact nodes are where the rotation holds them, if the blade grows with the speed."""
         return self.model.spun(self.speed) if self.scene.casing.centrifugal else self.model
 
-    @property
+    @cached_property
     def clearance(self) -> np.ndarray:
         """Of the round casing at each contact node (m), shape (nodes,)."""
         return clearances(self.model, self.scene, np.array([self.speed]))[0]
