@@ -49,7 +49,7 @@ bench: $(VENV)/.ready
 
 # all studies, at their default size about half an hour on two cores, and their tables into the pages of docs/
 docs: $(VENV)/.ready
-	$(BIN)/python -m snakemake tradeoff stability modelling_choices --cores $(CORES)
+	$(BIN)/python -m snakemake tradeoff stability modelling_choices validation_ranges --cores $(CORES)
 	$(BIN)/python benchmarks/pages.py
 
 # the documentation as a site that opens from the disk: site/index.html; a warning is an error

@@ -18,6 +18,7 @@ include: "workflow/rules/exports.smk"
 include: "workflow/rules/shapes.smk"
 include: "workflow/rules/signals.smk"
 include: "workflow/rules/run_ups.smk"
+include: "workflow/rules/tolerances.smk"
 include: "workflow/rules/designs.smk"
 include: "workflow/rules/studies.smk"
 

@@ -23,8 +23,13 @@ TABLES = {
     "coriolis": {name: f"coriolis_{name}.md" for name in ("frequencies", "peaks", "direct", "cost")},
     "run_ups": {"run_up_rates": "run_up_rates.md", "run_up_variants": "run_up_variants.md"},
     "clearance": {"clearance_growth": "clearance_growth.md", "clearance_effect": "clearance_effect.md"},
+    "tolerances": {name: f"{name}.md" for name in ("tolerance_ranges", "tolerance_sensitivity", "tolerance_members")},
     "stability": {"stability": "stability.md"},
-    "validation": {"validation": "validation.md", "modelling_choices": "modelling_choices.md"},
+    "validation": {
+        "validation": "validation.md",
+        "ranges": "validation_ranges.md",
+        "modelling_choices": "modelling_choices.md",
+    },
     "speed": {"estimate": "estimate.md"},
 }
 PICTURES = (
@@ -38,6 +43,7 @@ PICTURES = (
 FIGURES = {
     "clearance_growing_abradable": ROOT / "results/figures/clearance_growing_abradable.png",
     "run_up_rates": ROOT / "results/figures/run_up_rates_abradable.png",
+    "tolerances_Ref": ROOT / "results/runs/sensitivity/figures/tolerances_Ref__abradable.png",
     "run_ups_Ref": ROOT / "results/figures/run_ups_Ref__abradable.png",
 }
 

@@ -4,6 +4,7 @@ import filecmp
 import os
 import shutil
 from collections import Counter
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -30,10 +31,16 @@ def edited_configuration():
     return sorted(files.difference(filecmp.cmpfiles(*folders, files, shallow=False)[0]))
 
 
+LONGEST = ("workflow", "coriolis", "studies", "refined_runs", "slurm", "your_blade", "reruns", "clearance", "run_ups")
+LONGEST += ("time_integration", "lined_steps")
+"""Files that take minutes. The first two need different programs, so that no two workers compile the same one at once."""
+
+
 def pytest_collection_modifyitems(items):
-    """Files with slow tests first, so that at the end no core waits for one of them."""
+    """The longest files first, then those with slow tests, so that at the end no core waits for one of them."""
     slow = {item.path for item in items if item.get_closest_marker("slow")}
-    items.sort(key=lambda item: item.path not in slow)
+    rank = {f"test_{name}.py": number for number, name in enumerate(LONGEST)}
+    items.sort(key=lambda item: (rank.get(item.path.name, len(rank)), item.path not in slow))
 
 
 def pytest_terminal_summary(terminalreporter):
@@ -125,6 +132,34 @@ def contact(model):
     from r37core.rom.reduced_model import contact_model
 
     return contact_model(model, "pressure_edge")
+
+
+@pytest.fixture(scope="session")
+def compiled(root, tmp_path_factory):
+    """The programs of the small sweep, with and without energies, made in this process.
+
+    After the first one, another of the same layout takes a tenth of its time; in jobs, each takes as long as the first.
+    """
+    from workflow_runs import copy_project
+
+    from r37core.config import read_settings
+    from r37core.fem.matrices import assemble
+    from r37core.mesh.generate import generate_mesh
+    from r37core.rom.reduce import reduce_blade
+    from r37core.rom.reduced_model import contact_model
+    from r37core.time_integration.simulate import Simulation
+
+    folder = tmp_path_factory.mktemp("compiled")
+    copy_project(root, folder)
+    settings = read_settings(folder)
+    level, blade = settings.fidelity.mesh, settings.blades["Ref"]
+    mesh = generate_mesh(blade.definition.build(round_edges=True), level.nodes, level.layers, level.tip_elements)
+    reduced = reduce_blade(mesh, assemble(mesh, blade.material), settings.reduction_choice())
+    model = contact_model(reduced, "pressure_edge")
+    for name, scene in settings.scenes.items():
+        choice = settings.integration_choice("Ref", name, 1150.0)
+        for energy in (True, False):
+            Simulation(model, 1150.0, scene.scene, replace(choice, energy=energy))
 
 
 @pytest.fixture

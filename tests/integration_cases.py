@@ -1,6 +1,7 @@
 """Scenes and a model that the tests of the time integration share."""
 
 import numpy as np
+import pytest
 from defaults import Casing, Friction, Lining, Scene
 
 from r37core.rom.contact_model import ContactModel
@@ -47,3 +48,13 @@ def random_model(nodes):
         to_reduced=np.eye(modes),
         **held(nodes),
     )
+
+
+def assert_same_totals_and_wear(ours, theirs):
+    """Of the states that two engines leave."""
+    for total in ("steps", "steps_in_contact", "casing_hits"):
+        assert ours.totals[total] == theirs.totals[total]
+    for total in ("largest_force", "work", "loss"):
+        assert ours.totals[total] == pytest.approx(theirs.totals[total], rel=1e-8)
+    if ours.wear is not None:
+        np.testing.assert_allclose(ours.wear, theirs.wear, rtol=0, atol=1e-10 * theirs.wear.max())

@@ -59,3 +59,16 @@ def edit(project, name, old, new):
     text = file.read_text()
     assert old in text
     file.write_text(text.replace(old, new, 1))
+
+
+def refine(folder, entry="{ start: 750, stop: 1550, step: 400, refine_to: 0.5 }"):
+    """Make the speeds of a copy adaptive."""
+    config = folder / "config/config.yaml"
+    text = config.read_text()
+    assert "- { start: 750, stop: 1600 }" in text
+    config.write_text(text.replace("- { start: 750, stop: 1600 }", f"- {entry}"))
+
+
+def simulated(text):
+    """Output of every simulation that was started, in order, with repetitions."""
+    return re.findall(r"^ +output: results/(\S+/speed_\S+\.npz)", text, re.MULTILINE)

@@ -9,9 +9,11 @@ import pandas as pd
 import pytest
 import xarray as xr
 from browser import opened
+from workflow_runs import copy_project, planned
 
 from r37core.explorer import write_page
 from r37core.explorer.contents import explorer_contents, joined, order_bins, packed, rounded, stretches
+from r37core.results.table_file import read_table
 from r37core.time_integration.status import RunStatus
 
 SPEEDS = np.array([900.0, 1000.25, 1100.0, 1200.0, 1300.0])
@@ -80,6 +82,44 @@ def interactions():
     return pd.DataFrame([row, other])
 
 
+MEMBERS = 66
+
+
+@pytest.fixture(scope="module")
+def tolerances():
+    """66 members in the lining, at speeds of their own, with two of the quantities.
+
+    Ref's begin later; of the other blade's, all diverge at one speed and some at the next.
+    """
+    speeds = np.array([850.0, 950.0, 1000.25, 1050.0, 1100.0])
+    status = np.zeros((2, 2, MEMBERS, 5), dtype="i1")
+    status[:, 1], status[0, :, :, 0] = RunStatus.NOT_RUN, RunStatus.NOT_RUN
+    status[1, 0, :, 2], status[1, 0, 60:, 3] = RunStatus.DIVERGED, RunStatus.DIVERGED
+    values = 1e-4 * np.arange(1.0, 6.0) + 1e-6 * np.arange(MEMBERS)[:, None] + np.array([0.0, 1e-3])[:, None, None, None]
+    # whether a run that diverged has a number is its own affair
+    values = np.where(status == RunStatus.NOT_RUN, np.nan, values)
+    dims = ("blade", "scene", "member", "speed")
+    made = xr.Dataset(
+        {"status": (dims, status)},
+        {"blade": BLADES, "scene": SCENES, "member": np.arange(MEMBERS), "speed": speeds, "quantile": [0.05, 0.5, 0.95]},
+    )
+    for name, factor in {"rms_normal": 1.0, "max_von_mises": 1e12}.items():
+        made[name] = (dims, factor * values)
+        spread = made[name].where(made["status"] != RunStatus.DIVERGED, np.inf)
+        made[f"{name}_quantile"] = spread.quantile([0.05, 0.5, 0.95], "member", method="inverted_cdf", skipna=False).where(
+            (made["status"] != RunStatus.DIVERGED).any("member")
+        )
+    return made
+
+
+@pytest.fixture(scope="module")
+def ranged(interactions):
+    """Interactions with what summary.csv has of the members; the second has none."""
+    ranges = {"low": 1150.0, "median": 1200.5, "high": 1210.0}
+    columns = {f"peak_speed_rad_s_{end}": [speed, np.nan] for end, speed in ranges.items()}
+    return interactions.assign(share_of_members=[0.75, np.nan], robust=[True, None], **columns)
+
+
 def unpacked(array):
     data = np.frombuffer(gzip.decompress(base64.b64decode(array["base64"])), dtype=f"<f{array['bits'] // 8}")
     return data.reshape(array["shape"])
@@ -128,6 +168,17 @@ def test_contents_are_those_of_the_datasets(datasets, interactions):
     assert contents["interactions"][1]["mode"] is None
 
 
+def test_a_blade_called_na_keeps_its_name(interactions, tmp_path):
+    """And one that reads like a number; where no mode is, none is made of the gap."""
+    file = tmp_path / "summary.csv"
+    interactions.assign(blade=["NA", "NA"], scene=["1e5", "1e5"]).to_csv(file, index=False)
+    table = read_table(file)
+    assert list(table["blade"]) == ["NA", "NA"]
+    assert list(table["scene"]) == ["1e5", "1e5"]
+    assert table["mode"].isna().tolist() == [False, True]
+    assert table["max_von_mises_pa"].isna().all()
+
+
 def test_interactions_that_have_a_shape(datasets, interactions):
     assert explorer_contents(datasets, interactions)["shapes"] == []
     assert explorer_contents(datasets, interactions, [("Ref", "abradable")])["shapes"] == [["Ref", "abradable"]]
@@ -139,18 +190,47 @@ def test_what_was_not_computed_is_left_out(datasets, interactions, tmp_path):
     write_page(contents, "r37", tmp_path / "explorer.html")
 
 
+def test_contents_have_the_members_of_a_sample(datasets, interactions, tolerances):
+    contents = explorer_contents(datasets | {"tolerances": tolerances}, interactions)
+    found = contents.pop("tolerances")
+    assert contents == explorer_contents(datasets, interactions)
+    assert found["pairs"] == [["Ref", "abradable"], ["L<50>", "abradable"]]
+    assert found["members"] == [66, 66]
+    assert found["numbers"] == list(range(64))
+    np.testing.assert_array_equal(unpacked(found["speeds"]), tolerances["speed"])
+    assert list(found["curves"]) == ["rms_normal", "max_von_mises"]
+    for name, factor in {"rms_normal": 1e3, "max_von_mises": 1e-6}.items():
+        band, members = (unpacked(found["curves"][name][part]) for part in ("band", "members"))
+        assert (band.shape, members.shape) == ((2, 3, 5), (2, 64, 5))
+        both = tolerances.sel(scene="abradable")
+        expected = factor * both[f"{name}_quantile"].transpose("blade", "quantile", "speed").values
+        np.testing.assert_allclose(np.delete(band, 2, axis=2), np.delete(expected, 2, axis=2), rtol=1e-6)
+        np.testing.assert_allclose(members[0], factor * both[name][0, :64], rtol=1e-6)
+        # not run, diverged
+        assert np.isnan(band[0, :, 0]).all()
+        assert np.isposinf(band[1, 2, 3])
+        assert np.isposinf(band[1, :, 2]).all()
+        assert np.isposinf(members[1, 60:, 3]).all()
+        assert np.isfinite(members[1, :60, 3]).all()
+
+
 @pytest.fixture(scope="module")
-def page(datasets, interactions, tmp_path_factory):
-    """The page in headless Chromium; a message in its console is an error."""
+def page(request, datasets, interactions, tolerances, ranged, tmp_path_factory):
+    """The page in headless Chromium, with members where a test asks for them; a message in its console is an error."""
     file = tmp_path_factory.mktemp("explorer") / "explorer.html"
-    write_page(explorer_contents(datasets, interactions, [("Ref", "abradable")]), "r37 <trial>", file)
+    members = getattr(request, "param", "") == "members"
+    given = (datasets | {"tolerances": tolerances}, ranged) if members else (datasets, interactions)
+    write_page(explorer_contents(*given, [("Ref", "abradable")]), "r37 <trial>", file)
     with opened(file, viewport={"width": 1500, "height": 1400}) as page:
         page.wait_for_selector("html[data-ready]", timeout=60_000)
         yield page
         assert page.problems == []
         folder = os.environ.get("R37_SCREENSHOTS")
         if folder:
-            page.screenshot(path=f"{folder}/explorer.png", full_page=True)
+            page.screenshot(path=f"{folder}/explorer{'_members' * members}.png", full_page=True)
+
+
+with_members = pytest.mark.parametrize("page", ["members"], indirect=True)
 
 
 def choose(page, **state):
@@ -167,8 +247,17 @@ def traces(page, plot):
 
 
 def hover(page, plot, curve, point):
+    """What stands at a point, once it does: plotly leaves time between two of them."""
+    at = [plot, curve, point]
     page.evaluate(
-        "([name, curve, point]) => Plotly.Fx.hover(name, [{ curveNumber: curve, pointNumber: point }])", [plot, curve, point]
+        "([name, curve, point]) => { document.getElementById(name)._hoverdata = undefined;"
+        " Plotly.Fx.hover(name, [{ curveNumber: curve, pointNumber: point }]); }",
+        at,
+    )
+    page.wait_for_function(
+        "([name, curve, point]) => { const one = document.getElementById(name)._hoverdata?.[0];"
+        " return one?.curveNumber === curve && one.pointNumber === point; }",
+        arg=at,
     )
     return page.text_content(f"#{plot} .hovertext")
 
@@ -251,3 +340,115 @@ def test_table_keys_and_clicks_move_the_speed(page):
     page.focus("#interactions tbody tr:nth-child(2)")
     page.keyboard.press("Enter")
     assert "1000.3 rad/s" in page.text_content("#now")
+
+
+@pytest.mark.slow
+def test_without_members_nothing_speaks_of_them(page):
+    choose(page, blade="Ref", scene="abradable", quantity="rms_normal", speed="900", unit="rad/s", all="false")
+    for name in ("band", "members"):
+        assert not page.is_visible(f"#{name}")
+        assert f"{name}=" not in page.url
+    assert "members" not in page.inner_text("body")
+    assert [one["name"] for one in traces(page, "response")] == ["abradable", "direct", "Ref diverged"]
+
+
+@pytest.mark.slow
+@with_members
+def test_band_and_members_are_switched(page):
+    choose(page, blade="Ref", scene="abradable", quantity="rms_normal", speed="900", unit="rad/s", all="false")
+    curves = ["abradable", "direct", "Ref diverged"]
+
+    def drawn():
+        return [one["name"] for one in traces(page, "response")]
+
+    assert page.is_checked("#band")
+    assert not page.is_checked("#members")
+    assert drawn() == ["band", "median", *curves]
+    page.get_by_label("first 64 of 66 members").check()
+    assert drawn() == ["band", "median", "members", *curves]
+    page.get_by_label("band").uncheck()
+    assert drawn() == ["members", *curves]
+    choose(page, blade="Ref", quantity="rms_normal", members="true", band="true")
+    assert drawn() == ["band", "median", "members", *curves]
+    page.locator("h1").click()
+    page.keyboard.press("m")
+    page.keyboard.press("t")
+    assert drawn() == curves
+    page.keyboard.press("t")
+    # of a quantity that the members do not have there is nothing to switch
+    page.select_option("#quantity", "peak_normal")
+    assert drawn() == curves
+    assert page.is_disabled("#band")
+    assert page.is_disabled("#members")
+
+
+@pytest.mark.slow
+@with_members
+def test_a_band_has_the_ends_that_the_dataset_has(page, tolerances):
+    choose(page, blade="Ref", scene="abradable", quantity="rms_normal", speed="900", unit="rad/s", all="false", members="true")
+    band, median, members = traces(page, "response")[:3]
+    low, middle, high = 1e3 * tolerances["rms_normal_quantile"].sel(blade="Ref", scene="abradable")[:, 1:]
+    np.testing.assert_allclose(band["y"][:-1], [*low, *high[::-1]], rtol=1e-6)
+    np.testing.assert_allclose(median["y"], middle, rtol=1e-6)
+    # each line and the gap after it
+    assert len(members["y"]) == 64 * 5
+    text = hover(page, "response", 0, 1)
+    assert text.startswith("Ref, abradable1000.3 rad/s, 9551.7 rpmband of 66 members5%: 0.303 mmmedian: 0.332 mm95%: 0.362 mm")
+    text = hover(page, "response", 2, 5 * 7 + 3)
+    assert text.startswith("Ref, abradable1100 rad/s, 10504 rpm0.507 mmmember 7")
+
+
+@pytest.mark.slow
+@with_members
+def test_a_band_of_members_that_diverged(page):
+    """Its upper end is above all that has a number; where all diverged it has a gap."""
+    choose(page, blade="Ref", scene="abradable", quantity="rms_normal", speed="900", unit="rad/s", all="true", band="true")
+    assert [one["name"] for one in traces(page, "response")] == ["band", "median"] * 2 + BLADES
+    band, median = traces(page, "response")[2:4]
+    assert [y is None for y in band["y"]] == 2 * [False, False, False, False, True]
+    # low at 1050 and 1100, high at 1100 and 1050
+    assert band["y"][5:7] == pytest.approx([1.403, 1.503])
+    assert band["y"][7] == pytest.approx(1.562)
+    assert 1.562 < band["y"][8] < 2.0
+    assert median["y"][2] is None
+    assert hover(page, "response", 2, 5).startswith("L<50>, abradable1050 rad/s, 10027 rpm")
+    assert "95%: diverged" in page.text_content("#response .hovertext")
+    assert "median: 1.432 mm" in page.text_content("#response .hovertext")
+
+
+@pytest.mark.slow
+@with_members
+def test_the_legend_hides_a_curve_with_its_band(page):
+    choose(page, blade="Ref", scene="abradable", quantity="rms_normal", speed="900", unit="rad/s", all="true", members="false")
+    page.locator("#response .legendtoggle").nth(0).click()
+    hidden = (
+        "() => document.getElementById('response').data.filter(one => one.visible === 'legendonly').map(one => one.legendgroup)"
+    )
+    page.wait_for_function(f"() => ({hidden})().length === 3")
+    page.uncheck("#band")
+    assert page.evaluate(hidden) == ["Ref"]
+    page.locator("#response .legendtoggle").nth(0).click()
+    page.wait_for_function(f"() => ({hidden})().length === 0")
+    page.check("#band")
+
+
+@pytest.mark.slow
+@with_members
+def test_table_has_the_range_of_the_peak(page):
+    titles = page.locator("#interactions th").all_text_contents()
+    at = titles.index("5%")
+    assert titles[at - 1 : at + 4] == ["peak (rad/s)", "5%", "median", "95%", "members (%)"]
+    rows = [line.locator("td").all_text_contents() for line in page.locator("#interactions tbody tr").all()]
+    assert rows[0][at : at + 4] == ["1150", "1200.5", "1210", "75"]
+    assert rows[1][at : at + 4] == [""] * 4
+
+
+@pytest.mark.slow
+def test_the_page_is_made_of_the_members_where_there_are_some(root, tmp_path):
+    """Only the page needs their dataset: the table of interactions is made of another file."""
+    copy_project(root, tmp_path)
+    assert "tolerances_dataset" not in planned(tmp_path, "results/explorer.html")
+    with open(tmp_path / "config/config.yaml", "a") as stream:
+        stream.write("tolerances: { members: 2, blades: [Ref], of_scenes: { friction.coefficient: { uniform_percent: 5 } } }\n")
+    assert "tolerances_dataset" in planned(tmp_path, "results/explorer.html")
+    assert "tolerances_dataset" not in planned(tmp_path, "results/summary.csv")

@@ -37,6 +37,7 @@ LAYERS = [
     "run_ups",
     "signals",
     "adaptive",
+    "tolerances",
     "exchange",
     "config",
     "plans",

@@ -13,7 +13,7 @@ import time
 import numpy as np
 import pytest
 import xarray as xr
-from stubbed_runs import copy_stubbed, planned_outputs
+from stubbed_runs import copy_stubbed, planned_outputs, refine, simulated
 from workflow_runs import SNAKEMAKE, copy_project, snakemake
 
 from r37core.config import read_settings
@@ -25,20 +25,8 @@ COARSE, ADDED = ("750", "1150", "1550"), ("1149", "1150.5")
 DATASETS = {"configuration", "sweep_dataset", "summary", "response_figure", "response_overview", "map_figure"}
 
 
-def refine(folder, entry="{ start: 750, stop: 1550, step: 400, refine_to: 0.5 }"):
-    config = folder / "config/config.yaml"
-    text = config.read_text()
-    assert "- { start: 750, stop: 1600 }" in text
-    config.write_text(text.replace("- { start: 750, stop: 1600 }", f"- {entry}"))
-
-
 def runs(speeds, blades=BLADES, scenes=SCENES):
     return {f"{blade}/{scene}/speed_{speed}.npz" for blade in blades for scene in scenes for speed in speeds}
-
-
-def simulated(text):
-    """Output of every simulation that was started, in order, with repetitions."""
-    return re.findall(r"^ +output: results/(\S+/speed_\S+\.npz)", text, re.MULTILINE)
 
 
 @pytest.fixture(scope="module")
@@ -95,19 +83,6 @@ def test_another_criterion_asks_anew_and_simulates_nothing_that_is_there(project
 
 
 @pytest.mark.slow
-def test_a_list_that_becomes_adaptive_runs_what_its_rounds_ask_for(root, tmp_path):
-    copy_stubbed(root, tmp_path)
-    snakemake(tmp_path, "all_blades", "--cores", "2")
-    # as in a real sweep, older than the responses; else Snakemake has a reason of its own to make these again
-    for file in tmp_path.glob("results/*/campbell.nc"):
-        os.utime(file, (next(file.parent.glob("rom_*.nc")).stat().st_mtime,) * 2)
-    refine(tmp_path)
-    done = simulated(snakemake(tmp_path, "all_blades", "--cores", "2"))
-    assert sorted(done) == sorted(runs(ADDED))
-    assert planned_outputs(tmp_path) == {}
-
-
-@pytest.mark.slow
 def test_a_lost_speed_of_a_later_round_runs_alone(project):
     (project / "results/CS100/direct/speed_1149.npz").unlink()
     # Snakemake makes nothing again that only finished files would need
@@ -151,7 +126,7 @@ def test_a_study_without_a_range_that_refines_is_refused(root, tmp_path):
 
 
 @pytest.fixture(scope="module")
-def real(root, tmp_path_factory):
+def real(root, compiled, tmp_path_factory):
     """A small real run: windows, halving, the study against the whole grid."""
     folder = tmp_path_factory.mktemp("real")
     prepare_real(root, folder)

@@ -346,14 +346,14 @@ def test_a_round_of_a_blade_without_stress(root, tmp_path, monkeypatch):
     """A blade given by matrices has no material: its rounds go by rms and status alone."""
     write_round(Round((900.0,)), tmp_path / "round_0.json")
     write_speed({"status": np.array(0), "rms": np.full((2, 3), 1e-4)}, tmp_path / "speed_900.npz", {})
-    params = {"plan": to_plain(SpeedPlan((900.0,))), "choice": to_plain(CHOICE), "stress": False, "stress_instants": 1}
+    params = {"plan": to_plain(SpeedPlan((900.0,))), "choice": to_plain(CHOICE), "stress_instants": 1}
     job = SimpleNamespace(
         rule="refine",
         log=[str(tmp_path / "refine.log")],
         wildcards=_Wildcards(round="1"),
         input=SimpleNamespace(before=tmp_path / "round_0.json", speeds=str(tmp_path / "speed_900.npz")),
         output=[str(tmp_path / "round_1.json")],
-        params=SimpleNamespace(**params, material=None),
+        params=SimpleNamespace(**params, members=[{"material": None, "rom": 0}]),
     )
     monkeypatch.syspath_prepend(root / "workflow/scripts")
     runpy.run_path(str(root / "workflow/scripts/refine.py"), {"snakemake": job})

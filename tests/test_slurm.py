@@ -159,7 +159,7 @@ def project(root, folder):
     return folder
 
 
-def test_parts_on_slurm_one_of_them_killed_give_the_bits_of_one_run(root, tmp_path, slurm):
+def test_parts_on_slurm_one_of_them_killed_give_the_bits_of_one_run(root, compiled, tmp_path, slurm):
     alone = project(root, tmp_path / "alone")
     snakemake(alone, "all_blades", "--cores", "2")
 

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from defaults import Casing, Friction, IntegrationChoice, Lining, Scene
-from integration_cases import ABRADABLE, AT_ONCE, DIRECT, LINING, oscillator, random_model
+from integration_cases import ABRADABLE, AT_ONCE, DIRECT, LINING, assert_same_totals_and_wear, oscillator, random_model
 
 from r37core.contact.casing import casing_axes
 from r37core.rom.contact_model import read_contact_model, write_contact_model
@@ -119,19 +119,15 @@ def test_compiled_time_integration_is_the_reference(contact, name, way, monkeypa
     np.testing.assert_allclose(ours.displacement, theirs.displacement, rtol=0, atol=1e-10 * np.abs(theirs.displacement).max())
     if name != "free":
         assert ours.totals["steps_in_contact"] > 100
-    for total in ("steps", "steps_in_contact", "casing_hits"):
-        assert ours.totals[total] == theirs.totals[total]
-    for total in ("largest_force", "work", "loss"):
-        assert ours.totals[total] == pytest.approx(theirs.totals[total], rel=1e-8)
-    if ours.wear is not None:
-        np.testing.assert_allclose(ours.wear, theirs.wear, rtol=0, atol=1e-10 * theirs.wear.max())
+    assert_same_totals_and_wear(ours, theirs)
     if name == "thin_lining":
         assert ours.totals["casing_hits"] > 0
     assert ours.totals["worst_complementarity"] == 0.0
 
 
 MANY = [(nodes, name) for nodes in (1, 8) for name in ("direct", "thin_lining")]
-MANY += [(15, "direct_exact"), (40, "thin_lining"), (200, "direct")]
+# the last of ten vectors half full
+MANY += [(76, name) for name in ("direct", "direct_exact", "thin_lining")]
 
 
 @pytest.mark.slow

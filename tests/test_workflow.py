@@ -12,9 +12,10 @@ import pytest
 import xarray as xr
 import yaml
 from browser import opened
-from stubbed_runs import edit
+from stubbed_runs import edit, planned_outputs
 from workflow_runs import copy_odd_project, copy_project, planned, run_in_odd_project, snakemake
 
+from r37core.config import ConfigError, read_settings
 from r37core.figures.captions import caption
 from r37core.yaml_file import load_yaml
 
@@ -22,7 +23,7 @@ pytestmark = pytest.mark.slow
 
 
 @pytest.fixture(scope="module")
-def finished(root, tmp_path_factory):
+def finished(root, compiled, tmp_path_factory):
     folder = tmp_path_factory.mktemp("two_cores")
     copy_project(root, folder)
     snakemake(folder, "all_blades", "--cores", "2")
@@ -35,24 +36,6 @@ def finished_copy(finished, tmp_path):
     return tmp_path / "project"
 
 
-STRUCTURE = {"geometry", "mesh", "abaqus_deck", "reduced_model", "contact_model"}
-PER_BLADE = STRUCTURE | {"campbell_of_blade", "campbell_figure", "prepare_time_integration", "simulate", "response"}
-GATHERED = {
-    "explorer",
-    "configuration",
-    "campbell_of_all",
-    "campbell_overview",
-    "blade_shapes_figure",
-    "sweep_dataset",
-    "summary",
-    "response_figure",
-    "response_overview",
-    "map_figure",
-    "waterfall_figure",
-    "comparison_figure",
-}
-
-
 def test_results_of_a_real_run(finished):
     with xr.open_dataset(finished / "results/campbell.nc") as dataset:
         assert list(dataset["blade"].values) == ["Ref", "CS100"]
@@ -61,7 +44,7 @@ def test_results_of_a_real_run(finished):
     with xr.open_dataset(finished / "results/CS100/rom_pressure_edge.nc") as dataset:
         assert dataset.attrs["blade"] == "CS100"
         assert dataset.attrs["fidelity"] == "tiny"
-        assert dataset.attrs["basis_columns"] == 102
+        assert dataset.attrs["basis_columns"] == 96
     with xr.open_dataset(finished / "results/rms.nc") as dataset:
         assert len(dataset.attrs["input_hash"]) == 16
         assert dataset["rms_normal"].dims == ("blade", "scene", "speed", "tip_point")
@@ -173,66 +156,39 @@ def test_run_ups_of_a_finished_run(finished_copy):
     assert planned(finished_copy, *given) == {}
 
 
-def test_an_added_blade_runs_its_own_jobs_only(finished_copy):
-    config = finished_copy / "config/config.yaml"
-    config.write_text(config.read_text().replace("[Ref, CS100]", "[Ref, CS100, Eighth]"))
-    with open(finished_copy / "config/blades.yaml", "a") as stream:
-        stream.write("\nEighth: { base: Ref, chordwise_sweep_deg: 7.5 }\n")
-    jobs = planned(finished_copy)
-    assert {rule: blades for rule, blades in jobs.items() if rule in PER_BLADE} == {rule: {"Eighth"} for rule in PER_BLADE}
-    assert set(jobs) - PER_BLADE <= GATHERED | {"all_blades"}
+def test_tolerances_of_a_finished_run(root, finished_copy):
+    """Members run beside the nominal runs; one with nominal values is the nominal run, and more members run alone."""
 
+    def given(members):
+        (finished_copy / "config/tolerances.yaml").write_text(
+            f"tolerances:\n  members: {members}\n  blades: [Ref]\n"
+            "  of_scenes: { friction.coefficient: { values: [0.15] }, lining.thickness_m: { uniform_percent: 5 } }\n"
+            "  of_blades: { material.yield_stress_pa: { uniform_percent: 10 } }\n"
+        )
+        return ("all_blades", "--configfile", "config/config.yaml", "config/tolerances.yaml")
 
-def test_editing_one_blade_runs_that_blade_only(finished_copy):
-    table = finished_copy / "config/stacking/rotor37.csv"
-    table.write_text(table.read_text().replace("CS100,100,-1.16,4.89", "CS100,100,-1.20,4.89"))
-    jobs = planned(finished_copy)
-    assert jobs["geometry"] == {"CS100"}
-    assert jobs["reduced_model"] == {"CS100"}
-
-
-def test_editing_a_rotation_option_keeps_the_meshes(finished_copy):
-    config = finished_copy / "config/config.yaml"
-    config.write_text(config.read_text().replace("spin_softening: false", "spin_softening: true"))
-    jobs = planned(finished_copy)
-    assert jobs["reduced_model"] == {"Ref", "CS100"}
-    assert not {"geometry", "mesh", "abaqus_deck"} & set(jobs)
-
-
-def test_editing_the_material_keeps_the_mesh(finished_copy):
-    blades = finished_copy / "config/blades.yaml"
-    blades.write_text(blades.read_text().replace("density_kg_m3: 8000.0", "density_kg_m3: 8001.0"))
-    jobs = planned(finished_copy)
-    assert jobs["reduced_model"] == {"Ref", "CS100"}
-    assert not {"geometry", "mesh"} & set(jobs)
-
-
-def test_a_stress_history_runs_its_speed_only(finished_copy):
-    scenes = finished_copy / "config/scenes.yaml"
-    scenes.write_text(scenes.read_text() + "  stress_history_speeds_rad_s: [1150]\n")
-    text = snakemake(finished_copy, "all_blades", "--cores", "2", "--dry-run")
-    assert set(re.findall(r"output: results/\w+/(direct/speed_\d+)\.npz", text)) == {"direct/speed_1150"}
-
-
-def test_editing_friction_runs_that_scene_and_no_mesh(finished_copy):
-    scenes = finished_copy / "config/scenes.yaml"
-    parts = scenes.read_text().split("direct:")
-    scenes.write_text(parts[0] + "direct:" + parts[1].replace("coefficient: 0.15", "coefficient: 0.2"))
-    text = snakemake(finished_copy, "all_blades", "--cores", "2", "--dry-run")
-    jobs = planned(finished_copy)
-    assert not STRUCTURE & set(jobs)
-    assert jobs["simulate"] == {"Ref", "CS100"}
-    assert len(re.findall(r"output: results/\w+/direct/speed_\d+\.npz", text)) == 6
-    assert not re.findall(r"output: results/\w+/abradable/speed_\d+\.npz", text)
-
-
-def test_an_added_speed_runs_alone(finished_copy):
-    config = finished_copy / "config/config.yaml"
-    config.write_text(
-        config.read_text().replace("  - { start: 750, stop: 1600 }", "  - { start: 750, stop: 1600 }\n  - 1000.5")
-    )
-    text = snakemake(finished_copy, "all_blades", "--cores", "2", "--dry-run")
-    assert set(re.findall(r"speed_([\d.]+)\.npz\n    log", text)) == {"1000.5"}
+    text = snakemake(finished_copy, *given(2), "--cores", "2")
+    assert not re.search("rule (simulate|response|member_model):", text)
+    results = finished_copy / "results"
+    with xr.open_dataset(results / "tolerances.nc") as found, xr.open_dataset(results / "rms.nc") as rms:
+        assert found["member"].values.tolist() == [0, 1]
+        both = found["rms_normal"].sel(blade="Ref", scene="direct")
+        edge = rms["rms_normal"].sel(blade="Ref", scene="direct", tip_point="leading_edge")
+        np.testing.assert_array_equal(both, [edge, edge])
+        limits = found["yield_stress"].sel(blade="Ref", scene="direct").values
+        np.testing.assert_array_equal(
+            limits, found["value"].sel(blade="Ref", scene="direct", number="material.yield_stress_pa")
+        )
+        assert limits[0] != limits[1]
+        assert (found["status"] == 0).all()
+    summary, table = pd.read_csv(results / "summary.csv"), pd.read_csv(results / "tolerances.csv")
+    assert set(table["blade"]) <= {"Ref"} and "share_of_members" in summary
+    assert (results / "figures/tolerances_Ref__direct.png").stat().st_size > 10_000
+    run_python(re.search(r"```python\n(.*?)```", (root / "docs/tolerances.md").read_text(), re.DOTALL)[1], finished_copy)
+    assert planned(finished_copy, *given(2)) == {}
+    more = planned_outputs(finished_copy, *given(4))
+    assert {file.split("/")[3] for file in more["simulate_member"]} == {"2", "3"}
+    assert "simulate" not in more
 
 
 def test_interrupted_sweep_keeps_what_is_done(finished_copy):
@@ -325,21 +281,24 @@ def test_bad_speeds_and_scenes_are_refused(project, old, new, message):
     text = config.read_text()
     assert old in text
     config.write_text(text.replace(old, new))
-    assert re.search(message, snakemake(project, "all_blades", "--cores", "1", check=False))
+    with pytest.raises(ConfigError, match=message):
+        read_settings(project)
 
 
 def test_history_of_a_speed_that_is_not_run_is_refused(project):
     scenes = project / "config/scenes.yaml"
     scenes.write_text(scenes.read_text() + "  stress_history_speeds_rad_s: [1717]\n")
-    text = snakemake(project, "all_blades", "--cores", "1", check=False)
-    assert "direct.stress_history_speeds_rad_s: found 1717; allowed: speeds that are simulated" in text
+    message = r"direct\.stress_history_speeds_rad_s: found 1717; allowed: speeds that are simulated"
+    with pytest.raises(ConfigError, match=message):
+        read_settings(project)
 
 
 def test_wear_without_a_lining_is_refused(project):
     scenes = project / "config/scenes.yaml"
     scenes.write_text(scenes.read_text().replace("results: [spectrum, signal, stress, energy]", "results: [wear]"))
-    text = snakemake(project, "all_blades", "--cores", "1", check=False)
-    assert re.search(r"config/scenes\.yaml:\d+: direct\.results: found wear; allowed: only in a scene with a lining", text)
+    message = r"config/scenes\.yaml:\d+: direct\.results: found wear; allowed: only in a scene with a lining"
+    with pytest.raises(ConfigError, match=message):
+        read_settings(project)
 
 
 def test_bad_configuration_stops_before_the_dag(project):

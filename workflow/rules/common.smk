@@ -18,6 +18,7 @@ from r37core.plans.run_up_plan import RunUps
 from r37core.plans.structure_plan import Structure
 from r37core.plans.sweep_plan import MAPS, Sweep
 from r37core.plans.targets import targets
+from r37core.plans.tolerance_plan import Tolerances, of_member
 
 ROOT = Path(workflow.basedir)
 ENVIRONMENT = ROOT / "envs" / "r37.yaml"
@@ -32,6 +33,7 @@ structure = Structure(settings)
 imported = Imported(settings, ROOT)
 sweep = Sweep(settings, lambda **wildcards: checkpoints.refine.get(**wildcards).output[0])
 run_ups = RunUps(sweep)
+tolerances = Tolerances(sweep, made, lambda **wildcards: checkpoints.refine_members.get(**wildcards).output[0])
 needs = Needs(settings, sweep.most_runs)
 
 

@@ -27,7 +27,8 @@ rule responses:
         expand(rules.campbell_of_blade.output, blade=settings.blades),
         paths.filled({rules.response.output[0]: paths.of_runs(sweep.runs_with("rms"))}),
         sweep.first_rounds,
-        paths.filled({paths.RUN_UP: run_ups.files}),
+        paths.filled({paths.RUN_UP: run_ups.files, paths.MEMBER_RESPONSE: tolerances.files}),
+        tolerances.first_rounds,
 
 
 rule sweep_dataset:
@@ -58,6 +59,7 @@ datasets = {kind: expand(rules.sweep_dataset.output, kind=kind)[0] for kind in s
 rule summary:
     input:
         **datasets,
+        **({"tolerances": "<results>/tolerances.csv"} if settings.members.pairs else {}),
         campbell=rules.campbell_of_all.output[0],
     output:
         report(
@@ -80,6 +82,7 @@ rule summary:
 rule explorer:
     input:
         **datasets,
+        **({"tolerances": "<results>/tolerances.nc"} if settings.members.pairs else {}),
         campbell=rules.campbell_of_all.output[0],
         summary=rules.summary.output[0],
     output:

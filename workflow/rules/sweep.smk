@@ -42,6 +42,15 @@ rule prepare_time_integration:
         "../scripts/prepare_time_integration.py"
 
 
+# of jobs that the server runs; paths and no texts: another place is no reason to run again
+served = {
+    "python": PYTHON,
+    "start": SCRIPTS / "start.py",
+    "script": SCRIPTS / "simulate.py",
+    "code": code("simulate"),
+}
+
+
 rule simulate:
     input:
         prepared=rules.prepare_time_integration.output,
@@ -56,12 +65,9 @@ rule simulate:
     resources:
         **needs.of("simulate"),
     params:
+        **served,
         task=sweep.task,
         about=made.sweep,
-        python=PYTHON,  # a path and no text: another place is no reason to run again
-        start=SCRIPTS / "start.py",
-        script=SCRIPTS / "simulate.py",
-        code=code("simulate"),
     # not `script:`, whose preamble imports Snakemake into each of thousands of jobs
     shell:
         "{params.python:q} -S -E {params.start:q} {params.script:q} {input.model:q} {wildcards.speed:q} {output:q} {log:q} {params.task:q} {params.about:q}"
@@ -86,9 +92,8 @@ checkpoint refine:
     params:
         plan=sweep.refined_plan,
         choice=sweep.refinement_choice,
-        stress=sweep.with_stress,
+        members=sweep.members_of_round,
         stress_instants=settings.fidelity.time_integration.stress_instants,
-        material=structure.material,
         code=code("refine"),
     script:
         "../scripts/refine.py"

@@ -2,18 +2,17 @@
 
 from importlib import import_module
 
-import pandas as pd
 from job import run
 
 from r37core.dataset_file import read_dataset
 from r37core.figures.style import save
+from r37core.results.table_file import read_table
 
 
 def read(file, wildcards):
     """A table, or the part of a dataset that is of the figure's blade and scene."""
     if file.endswith(".csv"):
-        # a blade may be called NA
-        return pd.read_csv(file, keep_default_na=False, na_values=[""])
+        return read_table(file)
     dataset = read_dataset(file)
     return dataset.sel({name: wildcards[name] for name in ("blade", "scene") if name in wildcards and name in dataset.dims})
 

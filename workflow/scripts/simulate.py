@@ -1,5 +1,6 @@
 """Simulate one blade at one speed in one scene. Arguments: contact model, speed, output, log, task, about. Output: speed_*.npz.
 
+With `only_prepare` in the task it compiles what the run needs, refuses what cannot be run, and writes nothing.
 Started by start.py, without Snakemake's own preamble; task and attributes of the file, in JSON, are made in r37core.plans.
 """
 
@@ -12,6 +13,7 @@ from r37core.native import this_processor
 from r37core.plain import from_plain
 from r37core.rom.contact_model import read_contact_model
 from r37core.time_integration.integration_choice import IntegrationChoice
+from r37core.time_integration.simulate import Simulation
 from r37core.time_integration.speed_file import write_speed
 from r37core.time_integration.speed_run import run_speed
 
@@ -22,7 +24,11 @@ this_processor()
 def main(model, speed, output, task, about):
     task = json.loads(task)
     scene, choice = from_plain(Scene, task["scene"]), from_plain(IntegrationChoice, task["choice"])
-    result = run_speed(read_contact_model(model), float(speed), scene, choice, task["results"], **task["kept"])
+    contact_model = read_contact_model(model)
+    if task.get("only_prepare"):
+        Simulation(contact_model, float(speed), scene, choice)
+        return
+    result = run_speed(contact_model, float(speed), scene, choice, task["results"], **task["kept"])
     write_speed(result, output, json.loads(about))
 
 

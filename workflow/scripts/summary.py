@@ -1,4 +1,4 @@
-"""List the interactions. Inputs: campbell, rms and, where computed, stress and wear. Params: choice. Output: summary.csv."""
+"""List the interactions. Inputs: campbell, rms and, if there, stress, wear, tolerances. Param: choice. Output: summary.csv."""
 
 from job import run
 
@@ -6,11 +6,16 @@ from r37core.dataset_file import read_dataset
 from r37core.io import atomic_write
 from r37core.plain import from_plain
 from r37core.results.interactions import InteractionChoice, summarise
+from r37core.tolerances.table import read_ranges, with_ranges
 
 
 def main(snakemake):
-    datasets = {kind: read_dataset(file) for kind, file in snakemake.input.items()}
+    given = dict(snakemake.input.items())
+    ranges = given.pop("tolerances", None)
+    datasets = {kind: read_dataset(file) for kind, file in given.items()}
     table = summarise(datasets, from_plain(InteractionChoice, snakemake.params.choice))
+    if ranges:
+        table = with_ranges(table, read_ranges(ranges))
     with atomic_write(snakemake.output[0]) as partial:
         table.to_csv(partial, index=False)
 

@@ -96,16 +96,18 @@ def window_speeds(grid: RefinedRange, expected: Sequence[Stretch]) -> list[float
     return [grid.speed(place) for place in sorted(added)]
 
 
-def next_speeds(grid: RefinedRange, known: KnownSpeeds, choice: RefinementChoice) -> list[float]:
+def next_speeds(grid: RefinedRange, members: Sequence[KnownSpeeds], choice: RefinementChoice) -> list[float]:
     """Speeds (rad/s), ascending, in the middle of the intervals that are worth halving; none when all is said.
 
-    Every coarse speed of the grid must be known. The result depends on nothing but the arguments.
+    `members`: what runs have given, of one run or of several members of a sample, all at the same speeds; an interval is worth
+    what it is worth to them on average. Every coarse speed of the grid must be known. The result depends on nothing but the
+    arguments.
     """
-    places = _places(grid, known.speeds)
+    places = _places(grid, members[0].speeds)
     on_grid = np.flatnonzero(places >= 0)
     places = places[on_grid]
     room = int(choice.largest_share * (grid.last + 1)) - len(places)
-    worth = _worth(known.curves[:, on_grid], known.status[on_grid], _scale(known), choice)
+    worth = np.mean([_worth(one.curves[:, on_grid], one.status[on_grid], _scale(one), choice) for one in members], axis=0)
     open_intervals = np.flatnonzero((np.diff(places) > 1) & (worth > 0.0))
     # the largest first; half of the room, so that later rounds can follow what this one finds
     chosen = sorted(open_intervals, key=lambda i: (-worth[i], i))[: max(-(-room // 2), 0)]
@@ -159,8 +161,8 @@ def _near_a_peak(curve: np.ndarray, choice: RefinementChoice) -> np.ndarray:
     return near[:-1] | near[1:]
 
 
-def known_of(measured: Mapping[float, Sequence[float]]) -> KnownSpeeds:
-    """Of each speed (rad/s) its status and then its CURVES."""
+def known_of(measured: Mapping[float, Sequence[float]]) -> list[KnownSpeeds]:
+    """Of each speed (rad/s) status and CURVES of one member after the other."""
     speeds = np.array(sorted(measured))
-    rows = np.array([measured[speed] for speed in speeds], dtype=float).reshape(len(speeds), 1 + len(CURVES))
-    return KnownSpeeds(speeds, rows[:, 1:].T, rows[:, 0].astype(int))
+    rows = np.array([measured[speed] for speed in speeds], dtype=float).reshape(len(speeds), -1, 1 + len(CURVES))
+    return [KnownSpeeds(speeds, member[:, 1:].T, member[:, 0].astype(int)) for member in rows.swapaxes(0, 1)]

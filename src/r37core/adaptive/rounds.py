@@ -3,25 +3,34 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import cache
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import xarray as xr
 
+from r37core.fem.material import Material
 from r37core.io import read_json, readable, write_json
+from r37core.plain import from_plain
 from r37core.results.measures import largest_of_run
 from r37core.results.stress_recovery import StressRecovery
+from r37core.rom.rom_file import read_reduced_model
 from r37core.speeds import SpeedPlan
 from r37core.time_integration.simulate import DIRECTIONS, TIP_POINTS
+from r37core.time_integration.speed_file import read_speed
 
 from .criterion import RefinementChoice, known_of, next_speeds, stretches, window_speeds
 
 
 @dataclass(frozen=True)
 class Round:
-    """One round: its `new` speeds (rad/s), ascending, none in the last; `measured` of each speed before: status, CURVES."""
+    """One round: its `new` speeds (rad/s), ascending, none in the last; `measured` of each speed before: status, CURVES.
+
+    Of several members of a sample these follow one after the other.
+    """
 
     new: tuple[float, ...]
     measured: Mapping[float, Sequence[float]] = field(default_factory=dict)
@@ -40,6 +49,34 @@ def round_after(before: Round, gave: Mapping[float, Sequence[float]], plan: Spee
     known = known_of(measured)
     new = {speed for grid in plan.refined for speed in next_speeds(grid, known, choice)}
     return Round(tuple(sorted(new)), measured)
+
+
+def measure_members(
+    members: Sequence[Mapping[str, Any]],
+    speeds: Sequence[float],
+    files: Iterable[Path | str],
+    models: Sequence[Path | str],
+    stress_instants: int,
+) -> dict[float, list[float]]:
+    """Of each speed (rad/s) status and CURVES of one member after the other, as Round has them; one blade alone is one member.
+
+    `members`: plain `material` of each, and the place of its reduced model, `rom`, among the `models`, none without stress;
+    `files`: member by member those of all speeds. Raises InputFileError for a file that cannot be read.
+    """
+
+    @cache
+    def recovery_of(rom: int, material: Material) -> StressRecovery:
+        return StressRecovery(read_reduced_model(models[rom]), material)
+
+    gave: dict[float, list[float]] = {speed: [] for speed in speeds}
+    every = iter(files)
+    for member in members:
+        material = from_plain(Material | None, member["material"])  # type: ignore[arg-type]
+        recovery = recovery_of(member["rom"], material) if models and material else None
+        yield_stress = material.yield_stress if material else math.inf
+        for speed in speeds:
+            gave[speed] += measure(read_speed(next(every)), recovery, stress_instants, yield_stress)
+    return gave
 
 
 def measure(

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Annotated, Any, Literal, TypeVar
 
@@ -28,7 +29,7 @@ from .si_fields import in_si, si_fields
 
 Table = TypeVar("Table")
 
-RESERVED = ("figures", "studies", "runs", "exports", "shapes")
+RESERVED = ("figures", "studies", "runs", "exports", "shapes", "tolerances")
 """Folders beside those of the blades."""
 
 LARGEST_FAMILY = 10_000
@@ -154,6 +155,11 @@ class BladeSettings:
     definition: BladeDefinition | MeshSource | MatricesSource
     material: fem_material.Material | None
     stress_submesh: StressSubmesh | None = None
+
+    @property
+    def elastic(self) -> BladeSettings:
+        """The same as if it never yielded: a new yield stress asks for no new model."""
+        return self if self.material is None else replace(self, material=replace(self.material, yield_stress=math.inf))
 
 
 def blade_settings(name: str, entries: Mapping[str, Any], root: Path, document: Document) -> BladeSettings:

@@ -18,6 +18,7 @@ from .section import AllOrNames, FileName, LeftOut, Name, Section, Speed, check_
 from .si_fields import in_si, si_fields
 from .speed_section import RpmList, SpeedList, SpeedRange, SpeedRule, refuse_both_units
 from .study_sections import StudiesSection
+from .tolerance_section import ToleranceSection
 
 
 class Boundary(Section):
@@ -196,6 +197,7 @@ class Config(Section):
     run_ups: Annotated[dict[Name, RunUpEntry], AfterValidator(_names_differ)] = Field(
         default={}, description="run-ups and run-downs by name"
     )
+    tolerances: ToleranceSection = ToleranceSection()
 
     @model_validator(mode="after")
     def _one_unit(self) -> Config:

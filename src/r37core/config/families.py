@@ -116,7 +116,7 @@ def _design(family: str, entry: BladeEntry, values: Mapping[str, float], design:
     content = entry.model_dump(exclude_none=True, exclude_unset=True, exclude=set(FAMILY_KEYS))
     for key, value in values.items():
         try:
-            content = _with_value(content, key.split("."), value)
+            content = with_value(content, key.split("."), value)
         except (KeyError, IndexError, TypeError, ValueError):
             raise document.error(
                 (family,), f"design {design}: found no {key} to vary; rows of sweep_lean stand in the entry, counted from 0"
@@ -129,7 +129,7 @@ def _design(family: str, entry: BladeEntry, values: Mapping[str, float], design:
         raise document.error(place, f"design {design}: {text}", (family, *named)) from None
 
 
-def _with_value(content: dict[str, Any], path: Sequence[str], value: float) -> dict[str, Any]:
+def with_value(content: dict[str, Any], path: Sequence[str], value: float) -> dict[str, Any]:
     """A copy of the content with one value set; sections that are not there are made, rows of a list are not."""
     changed = copy.deepcopy(content)
     inner: Any = changed

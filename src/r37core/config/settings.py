@@ -26,6 +26,7 @@ from .config_file import CampbellSection, Config, Interactions, RefinementSectio
 from .document import Document
 from .families import Designs, Family
 from .fidelity import Level, recommended_level
+from .members import Members
 from .scenes import SceneEntry
 from .speed_section import UNITS, SpeedRule, key_of_speeds, planned
 from .study_sections import StudiesSection
@@ -97,9 +98,9 @@ class Settings:
         """Names of the blades that config.yaml chooses; that of a family is all of its designs."""
         if self.config.blades == "all":
             return list(self.designs.entries)
-        return self._designs(self.config.blades)
+        return self.designs_of(self.config.blades)
 
-    def _designs(self, names: Sequence[str]) -> list[str]:
+    def designs_of(self, names: Sequence[str]) -> list[str]:
         """Each of the blades, and of the families' designs, once."""
         families = self.designs.families
         several = [list(families[name].designs) if name in families else [name] for name in names]
@@ -228,6 +229,9 @@ class Settings:
                 f"adaptive speed sampling: {certain} simulations and those of the windows first, about {most} at most; "
                 "they are planned round by round, so a dry run shows none of those to come"
             )
+        if self.members.pairs:
+            members, drawn = self.most_of_members, self.config.tolerances.members
+            said.append(f"tolerances: {drawn} members, {members} simulations of theirs at most, beside those of the sweep")
         return said
 
     def shape_hash(self, blade: str) -> str:
@@ -256,13 +260,24 @@ class Settings:
         return tuple(result for result in wanted if not (matrices and result in ("stress", "static_stress", "shapes")))
 
     @cached_property
+    def members(self) -> Members:
+        """Blades and scenes with other values of what is never known exactly."""
+        return Members(self)
+
+    @property
+    def most_of_members(self) -> int:
+        """Simulations of all members, at most where speeds are adaptive."""
+        share, plans = self.config.tolerances.largest_share, self.speed_plans
+        return sum(len(members) * plans[pair].at_most(share) for pair, members in self.members.all.items())
+
+    @cached_property
     def run_ups(self) -> dict[tuple[str, str], dict[str, RunUpChoice]]:
         """Run-ups of each blade and scene, by name."""
         found: dict[tuple[str, str], dict[str, RunUpChoice]] = {
             (blade, scene): {} for blade in self.blade_names for scene in self.scene_names
         }
         for name, entry in self.config.run_ups.items():
-            blades = self.blade_names if entry.blades == "all" else self._designs(entry.blades)
+            blades = self.blade_names if entry.blades == "all" else self.designs_of(entry.blades)
             scenes = self.scene_names if entry.scenes == "all" else entry.scenes
             choices = {scene: entry.choice(self.scenes[scene].revolutions) for scene in scenes if scene in self.scenes}
             for blade, (scene, choice) in product(blades, choices.items()):

@@ -8,6 +8,7 @@ from typing import Annotated, Any, Generic, Literal, TypeVar
 from pydantic import Field, model_validator
 
 from .section import AllOrNames, LeftOut, Name, Section, Unique, refused
+from .tolerance_section import MemberCount, ToleranceEntry
 
 Value = TypeVar("Value")
 Step = Annotated[float, Field(ge=0.05, le=100)]
@@ -85,7 +86,7 @@ class SpeedSteps(Section):
     """Grids of speeds (rad/s)."""
 
     fine: Step = Field(default=2.0, description="about interactions, as shipped")
-    coarse: Step = Field(default=4.0, description="each choice varied once, and convergence")
+    coarse: Step = Field(default=4.0, description="each choice varied once, convergence, and members")
     survey: Step = Field(default=5.0, description="the whole range in the lined scene; direct contact every other one")
 
 
@@ -99,6 +100,19 @@ class ModellingChoicesSection(Section):
     lined_scene: Name = "abradable"
     direct_scene: Name = "direct"
     speed_steps_rad_s: SpeedSteps = SpeedSteps()
+
+
+class ValidationRangesSection(Section):
+    """The published numbers beside the range of ours under tolerances (snakemake validation_ranges).
+
+    Scenes, mesh, time integration (`quick`) and step of the speeds (`coarse`) are those of modelling_choices.
+    """
+
+    members: MemberCount = Field(default=16, description="a power of two; more of them change none that are there")
+    seed: int = Field(default=0, ge=0, le=2**31)
+    of_scenes: Annotated[dict[str, ToleranceEntry], Field(min_length=1)] = Field(
+        description="by dotted keys of scenes.yaml; direct contact has those that it knows"
+    )
 
 
 class StabilitySection(Section):
@@ -134,5 +148,6 @@ class StudiesSection(Section):
 
     tradeoff: TradeoffSection | LeftOut = None
     modelling_choices: ModellingChoicesSection = ModellingChoicesSection()
+    validation_ranges: ValidationRangesSection | LeftOut = None
     stability: StabilitySection = StabilitySection()
     estimate: EstimateSection = EstimateSection()

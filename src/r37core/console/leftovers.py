@@ -37,6 +37,7 @@ def _of_runs(results: Path, settings: Settings) -> Iterator[Path]:
             yield folder
     yield from (folder for folder in (results / "exports").glob("*/") if folder.name not in settings.blades)
     yield from _of_shapes(results / "shapes", settings)
+    yield from _of_members(results / "tolerances", settings)
     for blade in settings.blades:
         for folder in (results / blade).glob("*/"):
             if folder.is_dir() and folder.name not in settings.scenes:
@@ -85,6 +86,17 @@ def _of_shapes(folder: Path, settings: Settings) -> Iterator[Path]:
         for scene in shown.glob("stress_*"):
             if (shown.name, scene.name.removeprefix("stress_")) not in wanted:
                 yield scene
+
+
+def _of_members(folder: Path, settings: Settings) -> Iterator[Path]:
+    """Folders of members, and of models of members, that are not drawn any more."""
+    wanted = {(*pair, name) for pair, members in settings.members.all.items() for name in members}
+    models = {("models", blade, name) for blade, _, name in wanted}
+    kept = {place[:depth] for place in wanted | models for depth in (1, 2, 3)}
+    for depth in (1, 2, 3):
+        for one in folder.glob("*/" * depth):
+            if one.relative_to(folder).parts not in kept:
+                yield one
 
 
 def _speeds(folder: Path, plan: SpeedPlan) -> list[float]:

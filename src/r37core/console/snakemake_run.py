@@ -19,7 +19,7 @@ from pathlib import Path
 from typing import Any
 
 from r37core.config import ConfigError, Settings, settings_of_run
-from r37core.plans.run import check_part, check_run_ups, check_tree, replaced_level
+from r37core.plans.run import check_asked, check_part, check_tree, replaced_level
 from r37core.plans.sweep_plan import Sweep
 
 from . import failures, interpreter, job_server, lock
@@ -46,7 +46,7 @@ class Console:
         """Before the first job, when the targets are known."""
         with _refused(self.refusal):
             check_part(self.settings, self.workflow.dag_settings.targets)
-            check_run_ups(self.settings, self.workflow.dag_settings.targets)
+            check_asked(self.settings, self.workflow.dag_settings.targets)
         if self.workflow.execution_settings.lock:
             lock.claim()
         # Snakemake keeps to a number of jobs per second by timers, one more for every job that ends while others wait: a
@@ -86,7 +86,7 @@ def begin(workflow: Any, logger: logging.Logger, refusal: Refusal) -> Console:
     for line in [*lock.lift_stale(), *settings.remarks, *replaced_level(settings)]:
         logger.info(line)
     if not (os.environ.get("R37_FULL_LOG") or output.dryrun or output.verbose):
-        quieten(logger.handlers, Progress(Sweep(settings).most_runs))
+        quieten(logger.handlers, Progress(Sweep(settings).most_runs + settings.most_of_members))
     return Console(workflow, refusal, settings, began)
 
 

@@ -13,6 +13,7 @@ import xarray as xr
 
 from r37core.published import INTERACTIONS
 from r37core.results.variables import VARIABLES
+from r37core.time_integration.status import RunStatus
 
 CURVES = (
     ("rms", "rms_normal", "mm", 1e3),
@@ -27,6 +28,9 @@ CURVES = (
 MOST_SPEEDS = 400
 """Speeds of a map; beyond it neighbours are joined by their maximum. Curves keep every speed."""
 
+MOST_MEMBERS = 64
+"""Members with curves of their own, the first of the sample: a sample too, for it grows by doubling. The band is of all."""
+
 MOST_ANGLES = 180
 ORDERS_PER_STEP = 0.1
 """Width of a spectrum's bins in engine orders; a bin has the largest amplitude in it."""
@@ -35,7 +39,7 @@ ORDERS_PER_STEP = 0.1
 def explorer_contents(
     datasets: Mapping[str, xr.Dataset], interactions: pd.DataFrame, shapes: Iterable[Sequence[str]] = ()
 ) -> dict[str, object]:
-    """All that the page needs. `datasets`: campbell, rms and, where computed, spectrum, stress and wear.
+    """All that the page needs. `datasets`: campbell, rms and, where computed, spectrum, stress, wear and tolerances.
 
     `shapes`: pairs of blade and scene whose interactions are shown in shapes/<blade>.html beside the page.
     Curves have every speed; maps are thinned, each cell the largest value of what it stands for.
@@ -59,6 +63,7 @@ def explorer_contents(
         "interactions": interactions.astype(object).where(interactions.notna(), None).to_dict("records"),
         "shapes": [list(pair) for pair in shapes],
         "published": [asdict(one) for one in INTERACTIONS if one.blade in blades],
+        **({"tolerances": _tolerances(datasets["tolerances"])} if "tolerances" in datasets else {}),
     }
 
 
@@ -129,6 +134,35 @@ def _wear(wear: xr.Dataset | None, rms: xr.Dataset) -> dict[str, object] | None:
     starts = stretches(wear.sizes["angle"], MOST_ANGLES)
     values = _like(wear, rms)["wear"].transpose("blade", "scene", "speed", "angle").values
     return _map(1e3 * values, starts, rms["speed"].values, np.degrees(wear["angle"].values[starts]))
+
+
+def _tolerances(tolerances: xr.Dataset) -> dict[str, object]:
+    """Bands and members' curves, over the members' own speeds, of the pairs of blade and scene that have members."""
+    members = (tolerances["status"] != RunStatus.NOT_RUN).any("speed").sum("member").stack(pair=("blade", "scene"))
+    members = members[members > 0]
+    return {
+        "pairs": [[str(name) for name in pair] for pair in members["pair"].values],
+        "members": members.values.tolist(),
+        "numbers": tolerances["member"].values[:MOST_MEMBERS].tolist(),
+        "speeds": packed(tolerances["speed"].values, 64),
+        "curves": {
+            name: _spread(tolerances, members["pair"], name, factor)
+            for _, name, _, factor in CURVES
+            if f"{name}_quantile" in tolerances
+        },
+    }
+
+
+def _spread(tolerances: xr.Dataset, pairs: xr.DataArray, name: str, factor: float) -> dict[str, object]:
+    """Band (pair, quantile, speed) and members (pair, member, speed) of a curve; infinite: diverged, NaN: not run."""
+    kept = tolerances.isel(member=slice(MOST_MEMBERS))
+    members = kept[name].where(kept["status"] != RunStatus.DIVERGED, np.inf)
+    band = tolerances[f"{name}_quantile"].where((tolerances["status"] != RunStatus.DIVERGED).any("member"), np.inf)
+
+    def of_pairs(values: xr.DataArray, axis: str) -> dict[str, object]:
+        return packed(factor * values.stack(pair=("blade", "scene")).sel(pair=pairs).transpose("pair", axis, "speed").values)
+
+    return {"band": of_pairs(band, "quantile"), "members": of_pairs(members, "member")}
 
 
 def packed(values: np.ndarray, bits: int = 32) -> dict[str, object]:

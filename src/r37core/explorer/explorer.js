@@ -41,7 +41,18 @@
   const history = data.history
     && { speeds: (await unpack(data.history.speeds)).values, values: await unpack(data.history.values) };
 
-  const state = { blade: data.blades[0], scene: data.scenes[0], quantity: curves[0].name, speed: speeds[0], unit: "rad/s", all: false };
+  async function unpackTolerances({ curves: spreads, ...kept }) {
+    const unpackSpread = async ([name, { band, members }]) => [name, { band: await unpack(band), members: await unpack(members) }];
+    return {
+      ...kept, speeds: (await unpack(kept.speeds)).values,
+      curves: Object.fromEntries(await Promise.all(Object.entries(spreads).map(unpackSpread))),
+    };
+  }
+  const tolerances = data.tolerances && await unpackTolerances(data.tolerances);
+
+  // and what they are where the address does not say
+  const SWITCHES = { all: false, ...(tolerances && { band: true, members: false }) };
+  const state = { blade: data.blades[0], scene: data.scenes[0], quantity: curves[0].name, speed: speeds[0], unit: "rad/s", ...SWITCHES };
 
   const bladeIndex = () => data.blades.indexOf(state.blade);
   const sceneIndex = () => data.scenes.indexOf(state.scene);
@@ -139,21 +150,93 @@
     draw("campbell", [orders, ...lines, found], plan);
   }
 
+  // places of the speeds that members of a pair ran at: the values of others are NaN
+  const ranOfMembers = (values) => tolerances.speeds.map((_, at) => at).filter((at) => !Number.isNaN(values[at]));
+  // a line, with gaps where runs diverged
+  const lineOfMembers = (places, values) => ({
+    x: shown(places.map((at) => tolerances.speeds[at])), y: places.map((at) => (Number.isFinite(values[at]) ? values[at] : null)),
+  });
+
+  // edges of the band, place and value, with gaps where its lower end diverged; an upper end that did is above all else
+  function edges(places, low, high) {
+    const top = 1.1 * Math.max(...[...low, ...high].filter(Number.isFinite));
+    const areas = [[]];
+    places.forEach((at) => { if (Number.isFinite(low[at])) areas[areas.length - 1].push(at); else areas.push([]); });
+    return areas.filter((area) => area.length).flatMap((area) => [
+      ...area.map((at) => [at, low[at]]), ...area.map((at) => [at, Math.min(high[at], top)]).reverse(), [area[0], null],
+    ]);
+  }
+
+  // the band, and the median in it
+  function bandTraces(pair, curve, say, { colour, uid, ...look }) {
+    const [low, median, high] = [0, 1, 2].map((number) => tolerances.curves[curve.name].band.row(pair, number));
+    const value = (number) => (number === Infinity ? "diverged" : `${digits(number)} ${curve.unit}`);
+    const text = (at) => `${say(at)}<br>band of ${tolerances.members[pair]} members`
+      + `<br>5%: ${value(low[at])}<br>median: ${value(median[at])}<br>95%: ${value(high[at])}`;
+    const places = ranOfMembers(low);
+    const edge = edges(places, low, high);
+    return [
+      {
+        ...look, x: shown(edge.map(([at]) => tolerances.speeds[at])), y: edge.map(([, y]) => y), text: edge.map(([at]) => text(at)),
+        name: "band", uid: `${uid}-band`, fill: "toself", hoveron: "points", fillcolor: `${colour}2b`,
+        line: { color: `${colour}66`, width: 0.5 },
+      },
+      {
+        ...look, ...lineOfMembers(places, median), text: places.map(text), name: "median", uid: `${uid}-median`,
+        line: { color: colour, width: 1, dash: "dot" },
+      },
+    ];
+  }
+
+  // all members' lines in one trace, with a gap between them
+  function memberTrace(pair, curve, say, { colour, uid, ...look }) {
+    const { members } = tolerances.curves[curve.name];
+    const said = tolerances.speeds.map((_, at) => say(at));
+    const points = tolerances.numbers.flatMap((number, row) => {
+      const values = members.row(pair, row);
+      const places = ranOfMembers(values);
+      const { x, y } = lineOfMembers(places, values);
+      return [...places.map((at, index) => [x[index], y[index], `${said[at]}<br>${digits(values[at])} ${curve.unit}<br>member ${number}`]),
+        [null, null, null]];
+    });
+    const [x, y, text] = [0, 1, 2].map((column) => points.map((point) => point[column]));
+    return { ...look, x, y, text, name: "members", uid: `${uid}-members`, line: { color: `${colour}70`, width: 0.7 } };
+  }
+
+  // what lies below the curve of a blade and scene: band and members, as far as they are there and wanted
+  function spreadTraces(curve, blade, scene, given) {
+    if (!tolerances?.curves[curve.name]) return [];
+    const pair = tolerances.pairs.findIndex(([one, other]) => one === data.blades[blade] && other === data.scenes[scene]);
+    if (pair < 0) return [];
+    const say = (at) => `${data.blades[blade]}, ${data.scenes[scene]}<br>${speedText(tolerances.speeds[at])}`;
+    const look = { ...given, mode: "lines", showlegend: false, hoverinfo: "text" };
+    return [
+      ...(state.band ? bandTraces(pair, curve, say, look) : []),
+      ...(state.members ? [memberTrace(pair, curve, say, look)] : []),
+    ];
+  }
+
   function drawResponse() {
     const curve = curves.find((one) => one.name === state.quantity);
     const scene = sceneIndex();
     const blades = state.all ? data.blades.map((_, number) => number) : [bladeIndex()];
     const scenes = state.all ? [scene] : data.scenes.map((_, number) => number);
     const traces = [];
+    const below = [];
     blades.forEach((blade) => scenes.forEach((number) => {
       const places = ran(blade, number);
       const values = curve.values.row(blade, number);
       if (!places.some((at) => Number.isFinite(values[at]))) return;
       const rank = state.all ? blade : number;
+      const name = state.all ? data.blades[blade] : data.scenes[number];
+      const colour = COLOURS[rank % COLOURS.length];
+      // a click on the legend hides a curve with its band and members, and for plotly each stays itself when others come and go
+      const together = { legendgroup: name, uid: `curve-${rank}` };
+      below.push(...spreadTraces(curve, blade, number, { ...together, colour }));
       traces.push({
-        x: shown(places.map((at) => speeds[at])), y: places.map((at) => values[at]),
-        name: state.all ? data.blades[blade] : data.scenes[number], mode: "lines+markers", hoverinfo: "text",
-        line: { color: COLOURS[rank % COLOURS.length], dash: DASHES[Math.floor(rank / COLOURS.length) % DASHES.length], width: 1.5 },
+        x: shown(places.map((at) => speeds[at])), y: places.map((at) => values[at]), name, mode: "lines+markers", hoverinfo: "text",
+        ...(tolerances && together),
+        line: { color: colour, dash: DASHES[Math.floor(rank / COLOURS.length) % DASHES.length], width: 1.5 },
         marker: { size: 4, symbol: MARKERS[Math.floor(rank / COLOURS.length) % MARKERS.length] },
         text: places.map((at) => pointText(curve, blade, number, at)),
       });
@@ -161,7 +244,7 @@
       if (lost.length) {
         traces.push({
           x: shown(lost.map((at) => speeds[at])), y: lost.map(() => 0), mode: "markers", name: `${data.blades[blade]} diverged`,
-          marker: { symbol: "x", size: 9, color: COLOURS[rank % COLOURS.length] }, hoverinfo: "text",
+          marker: { symbol: "x", size: 9, color: colour }, hoverinfo: "text", ...(tolerances && { uid: `${together.uid}-diverged` }),
           text: lost.map((at) => pointText(curve, blade, number, at)),
         });
       }
@@ -176,7 +259,7 @@
       });
     });
     if (state.quantity === "max_von_mises" && yieldStress) markYield(plan, blades, scene);
-    draw("response", traces, plan);
+    draw("response", [...below, ...traces], plan);
   }
 
   function drawMap(name, title, unit, say, bottom) {
@@ -228,10 +311,14 @@
     draw("stress", traces, plan, { empty, clicks: false });
   }
 
+  // of the members, where there are some
+  const RANGE_COLUMNS = [
+    ["peak_speed_rad_s_low", "5%"], ["peak_speed_rad_s_median", "median"], ["peak_speed_rad_s_high", "95%"],
+    ["share_of_members", "members (%)", 100],
+  ].filter(([name]) => data.interactions.some((row) => name in row));
   const COLUMNS = [
     ["blade", "blade"], ["scene", "scene"], ["mode", "mode"], ["engine_order", "order"], ["campbell_speed_rad_s", "Campbell (rad/s)"],
-    ["direction", "direction"],
-    ["peak_speed_rad_s", "peak (rad/s)"], ["published", "published"], ["shift_rad_s", "shift"], ["peak_rms_normal_m", "rms (mm)", 1e3],
+    ["direction", "direction"], ["peak_speed_rad_s", "peak (rad/s)"], ...RANGE_COLUMNS, ["published", "published"], ["shift_rad_s", "shift"], ["peak_rms_normal_m", "rms (mm)", 1e3],
     ["drop", "drop"], ["width_above_yield_rad_s", "above yield (rad/s)"], ["share_above_yield", "share of it"],
     ["max_von_mises_pa", "stress (MPa)", 1e-6],
     ["max_wear_m", "wear (mm)", 1e3], ["status", "status"],
@@ -285,7 +372,8 @@
     document.getElementById("now").textContent = pointText(curve, bladeIndex(), sceneIndex(), at).replaceAll("<br>", ", ");
     for (const name of ["blade", "scene", "quantity", "unit"]) document.getElementById(name).value = state[name];
     document.getElementById("speed").value = digits(state.speed * factor());
-    document.getElementById("all").checked = state.all;
+    for (const name of Object.keys(SWITCHES)) document.getElementById(name).checked = state[name];
+    for (const name of ["band", "members"]) document.getElementById(name).disabled = !tolerances?.curves[state.quantity];
     const words = new URLSearchParams(Object.entries(state).map(([name, value]) => [name, String(value)]));
     window.history.replaceState(null, "", `#${words}`);
   }
@@ -313,6 +401,7 @@
     b: () => set({ blade: next(data.blades, state.blade, 1) }), B: () => set({ blade: next(data.blades, state.blade, -1) }),
     s: () => set({ scene: next(data.scenes, state.scene, 1) }), u: () => set({ unit: state.unit === "rpm" ? "rad/s" : "rpm" }),
     q: () => set({ quantity: next(curves.map((one) => one.name), state.quantity, 1) }), a: () => set({ all: !state.all }),
+    ...(tolerances && { t: () => set({ band: !state.band }), m: () => set({ members: !state.members }) }),
   };
 
   function listen() {
@@ -326,7 +415,11 @@
     document.getElementById("speed").addEventListener("change", (event) => {
       if (Number.isFinite(event.target.valueAsNumber)) set({ speed: event.target.valueAsNumber / factor() });
     });
-    document.getElementById("all").addEventListener("change", (event) => set({ all: event.target.checked }));
+    for (const name of Object.keys(SWITCHES)) {
+      const box = document.getElementById(name);
+      box.closest("label").hidden = false;
+      box.addEventListener("change", (event) => set({ [name]: event.target.checked }));
+    }
     document.getElementById("controls").addEventListener("submit", (event) => event.preventDefault());
     document.addEventListener("keydown", (event) => {
       const typing = ["INPUT", "SELECT"].includes(event.target.tagName);
@@ -344,13 +437,19 @@
     if (curves.some((one) => one.name === words.quantity)) wanted.quantity = words.quantity;
     if (["rad/s", "rpm"].includes(words.unit)) wanted.unit = words.unit;
     if (Number.isFinite(Number.parseFloat(words.speed))) wanted.speed = Number.parseFloat(words.speed);
-    wanted.all = words.all === "true";
+    for (const [name, usual] of Object.entries(SWITCHES)) wanted[name] = name in words ? words[name] === "true" : usual;
     return wanted;
   }
 
   const about = Object.entries(data.about).map(([name, value]) => `${name} ${value}`).join(", ");
   document.getElementById("about").append(` ${about}. Maps show the largest amplitude within 0.1 engine orders, and the largest`
     + " wear within two degrees; beyond 400 speeds neighbours are joined. Curves have every speed.");
+  if (tolerances) {
+    const [kept, most] = [tolerances.numbers.length, Math.max(...tolerances.members)];
+    document.getElementById("members").after(kept < most ? ` first ${kept} of ${most} members` : " members");
+    document.getElementById("about").append(" Nine tenths of the members lie in a band, half of them below its dotted line."
+      + " Keys: t band, m members.");
+  }
   listen();
   set({ speed: speeds[0], ...fromAddress() });
   document.documentElement.dataset.ready = PLOTS.join(" ");

@@ -54,6 +54,11 @@ CAPTIONS = {
         "of all blades in scene {scene}, before anything vibrates: what the casing leaves less what rotation brings the blade "
         "nearer to it."
     ),
+    "tolerances": (
+        "Tolerances of blade {blade} in scene {scene}: median of all members and the band that nine tenths lie in, with "
+        "the nominal run (dashed); share of the members above yield; Sobol indices of what varies, total (bars, with nine "
+        "tenths of bootstrap samples) and first order (dashes)."
+    ),
     "designs": (
         "Family {family}: what each design is and how robust, over what varies. Frequencies, largest loss of clearance as "
         "the tip swings along free modes, speeds above yield, largest stress, and where interactions lie."

@@ -13,12 +13,7 @@ from r37core.run_ups.tables import CASE
 
 from . import style
 
-_QUANTITIES = {
-    "rms_normal": ("rms, normal (mm)", 1e3),
-    "rms_tangential": ("rms, tangential (mm)", 1e3),
-    "max_von_mises": ("largest von Mises (GPa)", 1e-9),
-    "max_wear": ("largest wear (mm)", 1e3),
-}
+_QUANTITIES = {**style.CURVES, "max_wear": ("largest wear (mm)", 1e3)}
 _FEW_REVOLUTIONS, _FAINT = 60, 1e-5
 _DIRECTIONS = {"up": "-", "down": "--"}
 _LININGS = {"new": "o", "worn": "x"}

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Collection
+from collections.abc import Callable, Collection
 from pathlib import Path
+from typing import Any
 
 import r37core
 from r37core.config import ConfigError, Settings
@@ -14,9 +15,6 @@ from .sweep_plan import Sweep
 
 CONFIGURATION = "configuration.json"
 """In the folder of the results."""
-
-RUN_UPS = "run_ups"
-"""The rule that makes the run-ups and nothing else."""
 
 RESPONSES = "responses"
 """The rule that makes what lies in the folders of the blades, and nothing of all blades together."""
@@ -33,14 +31,19 @@ def check_part(settings: Settings, targets: Collection[str]) -> None:
         )
 
 
-def check_run_ups(settings: Settings, targets: Collection[str]) -> None:
-    """ConfigError for the target of the run-ups where none are asked for."""
-    if RUN_UPS in targets and not RunUps(Sweep(settings)).files:
-        raise ConfigError(
-            f"run_ups: found the target {RUN_UPS} and no run-up of the blades and scenes that are run; "
-            "allowed: some under run_ups in config.yaml, or a file that has some, as in: "
-            f"snakemake {RUN_UPS} --cores 2 --configfile config/config.yaml config/run_ups.yaml"
-        )
+def check_asked(settings: Settings, targets: Collection[str]) -> None:
+    """ConfigError for a target that makes what one section asks for, and nothing else, where that asks for nothing."""
+    asked: dict[str, Callable[[], Collection[Any]]] = {
+        "run_ups": lambda: RunUps(Sweep(settings)).files,
+        "tolerances": lambda: settings.members.pairs,
+    }
+    for name, of_run in asked.items():
+        if name in targets and not of_run():
+            raise ConfigError(
+                f"{name}: found the target {name} and none of the blades and scenes that are run; "
+                f"allowed: some under {name} in config.yaml, or a file that has some, as in: "
+                f"snakemake {name} --cores 2 --configfile config/config.yaml config/{name}.yaml"
+            )
 
 
 def replaced_level(settings: Settings) -> list[str]:

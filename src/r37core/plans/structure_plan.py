@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 from r37core.config import Settings
@@ -25,10 +24,8 @@ class Structure:
         return to_plain(self.settings.blades[wildcards.blade].material)
 
     def elastic(self, wildcards: Any) -> dict[str, float]:
-        """Material of a blade with a mesh, as if it never yielded: a new yield stress asks for no new model."""
-        material = self.settings.blades[wildcards.blade].material
-        assert material is not None
-        return to_plain(replace(material, yield_stress=math.inf))
+        """Material of a blade with a mesh, as if it never yielded."""
+        return to_plain(self.settings.blades[wildcards.blade].elastic.material)
 
     @property
     def base_reduction(self) -> dict[str, Any]:

@@ -5,7 +5,8 @@ from __future__ import annotations
 import json
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from itertools import count
+from functools import cache, partial
+from itertools import chain, count, takewhile
 from pathlib import Path
 from typing import Any
 
@@ -41,15 +42,7 @@ class Sweep:
 
     def speed_files(self, wildcards: Any) -> list[str]:
         """The simulations of one blade and scene, by ascending speed: of all rounds, where its speeds are adaptive."""
-        if not self.speed_plan(wildcards).refined:
-            return self._files_of(wildcards, self.speed_plan(wildcards).certain)
-        speeds: list[float] = []
-        for number in count():
-            new = self._asked(wildcards, number)
-            if not new:
-                break
-            speeds += new
-        return self._files_of(wildcards, sorted(speeds))
+        return self._files_of(wildcards, speeds_of_rounds(self.speed_plan(wildcards), partial(self._asked, wildcards)))
 
     def round_inputs(self, wildcards: Any) -> dict[str, Any]:
         """What a round of refinement looks at: the Campbell diagram, or what the round before it asked for."""
@@ -65,7 +58,11 @@ class Sweep:
     def _asked(self, wildcards: Any, number: int) -> list[float]:
         """Speeds (rad/s) that a round asked for."""
         assert self.round_file is not None
-        return read_json(self.round_file(blade=wildcards.blade, scene=wildcards.scene, round=number))["new"]
+        return asked_by(self.round_file(blade=wildcards.blade, scene=wildcards.scene, round=number))
+
+    def members_of_round(self, wildcards: Any) -> list[dict[str, Any]]:
+        """Whose runs a round looks at, as `measure_members` takes them: one blade, and its reduced model."""
+        return [{"material": to_plain(self.settings.blades[wildcards.blade].material), "rom": 0}]
 
     def _files_of(self, wildcards: Any, speeds: Sequence[float]) -> list[str]:
         blade, scene = wildcards.blade, wildcards.scene
@@ -192,6 +189,21 @@ class Sweep:
 
     def _scene(self, wildcards: Any) -> Any:
         return self.settings.scenes[wildcards.scene]
+
+
+def speeds_of_rounds(plan: SpeedPlan, asked: Callable[[int], Sequence[float]]) -> list[float]:
+    """Speeds (rad/s), ascending: all that the rounds `asked` for until one asks for none, where they are adaptive."""
+    return sorted(chain.from_iterable(takewhile(bool, map(asked, count()))) if plan.refined else plan.certain)
+
+
+def asked_by(file: str) -> list[float]:
+    """Speeds (rad/s) that a round asked for. Each member of a sample asks: the file is read once as long as it is the same."""
+    return _asked_by(file, Path(file).stat().st_mtime_ns)
+
+
+@cache
+def _asked_by(file: str, _time: int) -> list[float]:
+    return read_json(file)["new"]
 
 
 def _drawn(with_stress: bool) -> dict[str, str]:

@@ -31,6 +31,7 @@ def targets(sweep: Sweep, recorded: Signals) -> dict[str, Wildcards]:
         "spectrogram_{blade}__{scene}": signals,
         "orders_{blade}__{scene}": signals,
         "run_ups_{blade}__{scene}": climbed,
+        "tolerances_{blade}__{scene}": of_runs(settings.members.pairs),
         "run_up_rates_{scene}": of("scene", dict.fromkeys(run["scene"] for run in climbed)),
     }
     return {
@@ -38,6 +39,7 @@ def targets(sweep: Sweep, recorded: Signals) -> dict[str, Wildcards]:
         "<results>/designs.csv": families and [{}],
         "<results>/signals.nc": signals and [{}],
         **{f"<results>/{name}": climbed and [{}] for name in ("run_ups.nc", "run_ups.csv", "run_up_rates.csv")},
+        **{f"<results>/{name}": [{}] if settings.members.pairs else [] for name in ("tolerances.nc", "tolerances.csv")},
         paths.RUN_UP: climbing.files,
         "<results>/{blade}/{scene}/signals.nc": signals,
         "<results>/shapes/{blade}.html": of_shapes,

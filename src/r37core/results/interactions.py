@@ -49,14 +49,15 @@ class InteractionChoice:
 class Interaction:
     """One row of summary.csv; units are part of the names.
 
-    `direction` in which the rms has its peak: normal, tangential or both. What is named peak is at the peak speed, what is
-    named max the largest within the interaction. `drop`: share of the motion lost within measures.DROP_WITHIN above the
-    peak. `width_above_yield_rad_s`: from the first to the last speed of the interaction above yield; `share_above_yield`:
-    how much of it is. An interaction reaches, on both sides, to the lowest motion before the neighbouring peak, or to where
-    the motion stays below QUIET of its own peak for more than DROP_WITHIN: single speeds in between do not end it, for near
-    the end of a branch the motion is chaotic. `mode` is empty and the Campbell speed NaN for a peak that no crossing of a
-    named mode explains; NaN is also what a scene does not compute, and the drop of a motion that only rises. `status` is
-    diverged where any run of the interaction did.
+    `direction` in which the rms has its peak: normal, tangential or both. What is named peak is at the peak speed, what
+    is named max the largest within the interaction. `drop`: share of the motion lost within measures.DROP_WITHIN above
+    the peak. `first_yield_speed_rad_s`: first speed of the interaction above yield, NaN where none is.
+    `width_above_yield_rad_s`: from the first to the last speed of the interaction above yield; `share_above_yield`: how
+    much of it is. An interaction reaches, on both sides, to the lowest motion before the neighbouring peak, or to where
+    the motion stays below QUIET of its own peak for more than DROP_WITHIN: single speeds in between do not end it, for
+    near the end of a branch the motion is chaotic. `mode` is empty and the Campbell speed NaN for a peak that no
+    crossing of a named mode explains; NaN is also what a scene does not compute, and the drop of a motion that only
+    rises. `status` is diverged where any run of the interaction did.
     """
 
     mode: str
@@ -68,6 +69,7 @@ class Interaction:
     peak_rms_normal_m: float
     peak_rms_tangential_m: float
     drop: float
+    first_yield_speed_rad_s: float
     width_above_yield_rad_s: float
     share_above_yield: float
     max_von_mises_pa: float
@@ -233,6 +235,7 @@ def _interaction(reach: xr.Dataset, peak: xr.Dataset, group: list[_Peak], place:
         peak_rms_normal_m=float(peak["rms_normal"]),
         peak_rms_tangential_m=float(peak["rms_tangential"]),
         drop=drop,
+        first_yield_speed_rad_s=above.first if above else np.nan,
         width_above_yield_rad_s=above.width if above else np.nan,
         share_above_yield=above.share if above else np.nan,
         max_von_mises_pa=stress,

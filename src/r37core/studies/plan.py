@@ -25,7 +25,7 @@ from r37core.time_integration.integrators import EXACT_MODAL
 
 from .case import Case, ModelChoice, model_of_name
 
-STUDIES = ("estimate", "tradeoff", "stability", "modelling_choices", "refinement", "gallery")
+STUDIES = ("estimate", "tradeoff", "stability", "modelling_choices", "validation_ranges", "refinement", "gallery")
 
 Entry = TypeVar("Entry")
 

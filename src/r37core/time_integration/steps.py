@@ -285,6 +285,22 @@ def set_friction_force(m):
 
 
 @inlined
+def force_on_modes(rows, constant_rows, k, i, force, vector):
+    """What a node's `force`, normal, tangential and meridional, is to the eight modes from i on.
+
+    `constant_rows` have friction of constant direction in them, for the normal force alone.
+    """
+    normal, tangential, meridional = force
+    if vector:
+        push = load(rows, (NORMAL, k, i)) * normal
+        push += load(rows, (TANGENTIAL, k, i)) * tangential
+        push += load(rows, (MERIDIONAL, k, i)) * meridional
+    else:
+        push = load(constant_rows, (k, i)) * normal
+    return push
+
+
+@inlined
 def push_blade(m, count, kind, work, lost):
     """Correct displacement and increment for the listed nodes' forces; adds the work, doubled, and the energy lost.
 
@@ -302,22 +318,12 @@ def push_blade(m, count, kind, work, lost):
             continue
         pressed = True
         m.totals.largest_force = max(m.totals.largest_force, -normal)
-        tangential, meridional = m.friction_force[0, k], m.friction_force[1, k]
+        force = normal, m.friction_force[0, k], m.friction_force[1, k]
         for i in range(0, len(m.u), LANES):
-            if kind.vector_friction:
-                push = load(m.displacement_operator, (NORMAL, k, i)) * normal
-                push += load(m.displacement_operator, (TANGENTIAL, k, i)) * tangential
-                push += load(m.displacement_operator, (MERIDIONAL, k, i)) * meridional
-            else:
-                push = load(m.push_operator, (k, i)) * normal
+            push = force_on_modes(m.displacement_operator, m.push_operator, k, i, force, kind.vector_friction)
             store(m.push, i, load(m.push, i) + push)
             if kind.coriolis:
-                if kind.vector_friction:
-                    push = load(m.increment_operator, (NORMAL, k, i)) * normal
-                    push += load(m.increment_operator, (TANGENTIAL, k, i)) * tangential
-                    push += load(m.increment_operator, (MERIDIONAL, k, i)) * meridional
-                else:
-                    push = load(m.increment_push_operator, (k, i)) * normal
+                push = force_on_modes(m.increment_operator, m.increment_push_operator, k, i, force, kind.vector_friction)
                 store(m.increment_push, i, load(m.increment_push, i) + push)
     if not pressed:
         return False, work, lost

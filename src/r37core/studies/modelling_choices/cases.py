@@ -12,6 +12,7 @@ from typing import Any
 
 from r37core.config import Settings, checked_scene
 from r37core.config.study_sections import SpeedSteps
+from r37core.contact.scene import Scene
 from r37core.plans import paths
 from r37core.published import BLADES, DIRECT_PEAK, INTERACTIONS, QUIET, REFERENCE, PublishedInteraction
 
@@ -108,6 +109,9 @@ DIRECT = "Ref_direct"
 HISTORIES = "Ref_histories"
 """Cases of direct contact, and of speeds of the lined scene whose stress is kept for every revolution."""
 
+LEVEL = "level"
+"""Name of the base level's own mesh among those of Campbell diagrams."""
+
 MESHES = (10000, 40000)
 """Nodes of the meshes whose Campbell diagrams are compared."""
 
@@ -182,9 +186,18 @@ def cases(settings: Settings) -> dict[str, Case]:
 
 
 def _case(settings: Settings, choice: ModellingChoice, window: Window) -> Case:
+    entry = plain_scene(settings, scene_name(settings, window.kind))
+    return case_in(settings, choice, window, checked_scene(changed(entry, choice.changes)))
+
+
+def scene_name(settings: Settings, kind: str) -> str:
+    """Name of the `lined` or the `direct` scene."""
+    return getattr(settings.studies.modelling_choices, f"{kind}_scene")
+
+
+def case_in(settings: Settings, choice: ModellingChoice, window: Window, scene: Scene) -> Case:
+    """What a choice runs in a window, in a scene with the choice's changes."""
     section = settings.studies.modelling_choices
-    entry = plain_scene(settings, getattr(section, f"{window.kind}_scene"))
-    scene = checked_scene(changed(entry, choice.changes))
     integration = integration_of_level(settings, section.quick if choice.quick else section.base, scene)
     return Case(
         window.blade,
@@ -210,16 +223,16 @@ def _model(settings: Settings, blade: str, changes: Mapping[str, Any]) -> ModelC
     return replace(model_of_level(settings, settings.studies.modelling_choices.base), **changes)
 
 
-def _campbells(settings: Settings) -> dict[tuple[str, str], str]:
-    """Campbell diagrams by blade and mesh: `level`, or so many nodes."""
-    found = {(blade, "level"): campbell_file(blade, _model(settings, blade, {})) for blade in BLADES}
+def campbell_files(settings: Settings) -> dict[tuple[str, str], str]:
+    """Campbell diagrams by blade and mesh: LEVEL, or so many nodes."""
+    found = {(blade, LEVEL): campbell_file(blade, _model(settings, blade, {})) for blade in BLADES}
     finer = {str(nodes): _model(settings, REFERENCE, {"nodes": nodes}) for nodes in MESHES}
     return found | {(REFERENCE, nodes): campbell_file(REFERENCE, model) for nodes, model in finer.items()}
 
 
 def inputs(settings: Settings) -> dict[str, Any]:
     """Shape of the reference blade, and Campbell diagrams."""
-    return {"geometry": paths.fill(paths.GEOMETRY, blade=REFERENCE), "campbells": list(_campbells(settings).values())}
+    return {"geometry": paths.fill(paths.GEOMETRY, blade=REFERENCE), "campbells": list(campbell_files(settings).values())}
 
 
 def outputs(settings: Settings) -> dict[str, str]:
@@ -232,4 +245,4 @@ def outputs(settings: Settings) -> dict[str, str]:
 
 def values(settings: Settings) -> dict[str, Any]:
     """Which Campbell diagrams there are."""
-    return {"campbells": list(_campbells(settings))}
+    return {"campbells": list(campbell_files(settings))}

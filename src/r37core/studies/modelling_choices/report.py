@@ -23,9 +23,7 @@ from .validation import Runs, choice_checks, convergence_checks, shipped_checks
 def report(responses: Mapping[str, xr.Dataset], files: Any, values: Mapping[str, Any]) -> dict[str, Any]:
     """Tables and pictures."""
     runs = runs_of(responses)
-    campbells: dict[str, dict[str, xr.Dataset]] = {}
-    for (blade, mesh), file in zip(values["campbells"], files.campbells, strict=True):
-        campbells.setdefault(blade, {})[mesh] = read_dataset(file)
+    campbells = campbells_of(files, values)
     shipped, survey, varied = runs[SHIPPED], runs[SURVEY], {name: runs[name] for name in (SHIPPED, *VARIED)}
     checks = shipped_checks(read_dataset(files.geometry), campbells, runs)
     made: dict[str, Any] = {
@@ -40,6 +38,14 @@ def report(responses: Mapping[str, xr.Dataset], files: Any, values: Mapping[str,
     for window in ("Ref_lined", "Ref_direct"):
         made[f"spectrum_{window[4:]}"] = draw_spectral_map(survey[window], campbells[REFERENCE]["level"], window)
     return made
+
+
+def campbells_of(files: Any, values: Mapping[str, Any]) -> dict[str, dict[str, xr.Dataset]]:
+    """Campbell diagrams by blade and mesh."""
+    campbells: dict[str, dict[str, xr.Dataset]] = {}
+    for (blade, mesh), file in zip(values["campbells"], files.campbells, strict=True):
+        campbells.setdefault(blade, {})[mesh] = read_dataset(file)
+    return campbells
 
 
 def runs_of(responses: Mapping[str, xr.Dataset]) -> dict[str, dict[str, xr.Dataset]]:

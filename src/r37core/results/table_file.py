@@ -1,0 +1,20 @@
+"""Reading the tables of a run (CSV): names stay texts, whatever a blade is called."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pandas as pd
+
+from r37core.io import readable
+
+_NAMES = ("blade", "scene", "mode")
+
+
+def read_table(file: Path | str) -> pd.DataFrame:
+    """A table that a rule wrote; an empty field is NaN. Raises InputFileError where it cannot be read.
+
+    A blade may be called NA, inf or 1e5.
+    """
+    with readable(file):
+        return pd.read_csv(file, dtype=dict.fromkeys(_NAMES, str), keep_default_na=False, na_values=[""])

@@ -1,0 +1,119 @@
+"""The study `validation_ranges`: whether the published numbers lie in the range of ours where what goes in spreads.
+
+`snakemake validation_ranges`
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import Any
+
+from r37core.config import ConfigError, Settings
+from r37core.config.member_changes import ImpossibleValueError, changed_scene, scene_numbers
+from r37core.config.study_sections import ValidationRangesSection
+from r37core.contact.scene import Scene
+from r37core.plans import paths
+from r37core.published import REFERENCE
+from r37core.tolerances.sample import Tolerance, drawn, is_of_sample, places
+
+from ..case import Case
+from ..modelling_choices import cases as modelling_choices
+from ..modelling_choices.cases import CHOICES, LEVEL, SHIPPED, SURVEY, campbell_files, case_in, scene_name, windows
+from ..plan import scene_entry_of
+
+NOMINAL = "nominal"
+"""Name of the run without tolerances among the members, which are 0, 1, ..."""
+
+_CHOICE = replace(CHOICES[SHIPPED], quick=True)
+"""The windows of what is shipped: in narrow ones a member's peak, which moves by 2%, may lie outside."""
+
+
+def cases(settings: Settings) -> dict[str, Case]:
+    """A case for the nominal run and each member, blade and window of speeds, as `member/window`."""
+    steps = settings.studies.modelling_choices.speed_steps_rad_s
+    planned = windows(_CHOICE, steps.model_copy(update={"fine": steps.coarse}))
+    scenes = {kind: _scenes(settings, kind) for kind in ("lined", "direct")}
+    return {
+        f"{member}/{place}": case_in(settings, replace(_CHOICE, what=f"member {member}"), window, scenes[window.kind][member])
+        for member in scenes["lined"]
+        for place, window in planned.items()
+    }
+
+
+def _scenes(settings: Settings, kind: str) -> dict[str, Scene]:
+    """The `lined` or the `direct` scene without tolerances, and as each member has it."""
+    entry = scene_entry_of(settings, scene_name(settings, kind))
+    numbers, tolerances, scenes = scene_numbers(entry), _tolerances(settings), {NOMINAL: entry.scene()}
+    nominal = [numbers.get(key) for key in tolerances]
+    for member, place in _sample(settings, len(tolerances)).items():
+        values = dict(zip(tolerances, drawn(tolerances.values(), nominal, place), strict=True))
+        try:
+            scenes[member] = changed_scene(entry, {key: value for key, value in values.items() if value is not None})
+        except ImpossibleValueError as error:
+            raise _refusal(settings, error.key, f"member {member}: {error}", "a narrower tolerance") from None
+    return scenes
+
+
+def _tolerances(settings: Settings) -> Mapping[str, Tolerance]:
+    """Key of each number -> how it spreads; ConfigError for one that neither scene has."""
+    known = {
+        key: value
+        for kind in ("lined", "direct")
+        for key, value in scene_numbers(scene_entry_of(settings, scene_name(settings, kind))).items()
+    }
+    found = {key: entry.tolerance() for key, entry in _section(settings).of_scenes.items()}
+    for key, tolerance in found.items():
+        if key not in known:
+            raise _refusal(settings, key, key, f"one of {', '.join(known)}")
+        if tolerance.percent and known[key] == 0.0:
+            raise _refusal(settings, key, f"percent of {key}, which is 0", "uniform, normal, between or values")
+    return found
+
+
+def _sample(settings: Settings, numbers: int) -> dict[str, tuple[float, ...]]:
+    section = _section(settings)
+    drawn = places(numbers, section.members, section.seed)
+    return {member: place for member, place in drawn.items() if is_of_sample(member)}
+
+
+def _section(settings: Settings) -> ValidationRangesSection:
+    section = settings.studies.validation_ranges
+    if section is None:
+        raise ConfigError(
+            "config.yaml: studies.validation_ranges: missing; the study needs its tolerances, as in the shipped file"
+        )
+    return section
+
+
+def _refusal(settings: Settings, key: str, found: str, allowed: str) -> ConfigError:
+    return settings.documents.config.refusal(("studies", "validation_ranges", "of_scenes", key), found, allowed)
+
+
+def inputs(settings: Settings) -> dict[str, Any]:
+    """Shape of the reference blade, Campbell diagrams, and what modelling_choices ran of what is shipped."""
+    return {
+        "geometry": paths.fill(paths.GEOMETRY, blade=REFERENCE),
+        "campbells": list(_campbells(settings).values()),
+        "shipped": [paths.fill(paths.STUDY_CASE, study="modelling_choices", case=name) for name in _shipped(settings)],
+    }
+
+
+def _campbells(settings: Settings) -> dict[tuple[str, str], str]:
+    """Those of the level's own mesh alone."""
+    return {which: file for which, file in campbell_files(settings).items() if which[1] == LEVEL}
+
+
+def _shipped(settings: Settings) -> list[str]:
+    return [name for name in modelling_choices.cases(settings) if name.split("/")[0] in (SHIPPED, SURVEY)]
+
+
+def outputs(settings: Settings) -> dict[str, str]:
+    """The table."""
+    return {"table": "<results>/studies/validation_ranges.md"}
+
+
+def values(settings: Settings) -> dict[str, Any]:
+    """Which Campbell diagrams and which runs as shipped there are, and the tolerances in words."""
+    words = {key: tolerance.words for key, tolerance in _tolerances(settings).items()}
+    return {"campbells": list(_campbells(settings)), "shipped": _shipped(settings), "tolerances": words}

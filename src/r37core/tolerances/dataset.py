@@ -1,0 +1,139 @@
+"""tolerances.nc: what the members of all samples gave, their quantiles, and where their spread comes from."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import xarray as xr
+
+from r37core.dataset_file import SPEED_RPM, about, read_dataset
+from r37core.io import readable
+from r37core.results.measures import largest_stress, leading_edge, peak_of, ratio_to_yield, speeds_above_yield
+from r37core.results.netcdf import status_flags
+from r37core.results.variables import VARIABLES
+from r37core.time_integration.status import RunStatus
+from r37core.units import RPM
+
+from .sample import is_of_sample, number_of
+from .sensitivity import CONFIDENCE, ORDERS, sobol_indices
+
+QUANTILES = (0.05, 0.5, 0.95)
+"""Ends and middle of the range that nine tenths of the members lie in."""
+
+_CURVES = ("rms_normal", "rms_tangential", "max_von_mises")
+
+MEASURES = {
+    "peak_speed": ("rad s-1", "speed of the leading edge's largest motion"),
+    "first_yield_speed": ("rad s-1", "first speed above yield"),
+    "width_above_yield": ("rad s-1", "from the first to the last speed above yield"),
+    "largest_stress": ("Pa", "largest von Mises stress over all speeds"),
+}
+"""What is read off each member over all its speeds -> units, meaning; all but the first need the stress."""
+
+INDEXED = ("peak_speed", "width_above_yield", "largest_stress")
+"""Measures that have sensitivity indices."""
+
+
+@dataclass(frozen=True)
+class MemberRun:
+    """A member and its response: `values` of the numbers, NaN for one that its blade or scene does not have."""
+
+    blade: str
+    scene: str
+    member: str
+    values: tuple[float, ...]
+    file: Path | str
+
+
+def tolerances_dataset(runs: Iterable[MemberRun], numbers: Sequence[str]) -> xr.Dataset:
+    """All of it, over (blade, scene, member, speed, number); one response is in memory at a time.
+
+    Of members beside the sample, which are there for the sensitivity indices, only these are kept. Where nothing was run
+    numbers are NaN. Raises InputFileError for a response that cannot be read.
+    """
+    groups: dict[tuple[str, str], list[xr.Dataset]] = {}
+    measured: dict[tuple[str, str], dict[str, dict[str, float]]] = {}
+    for run in runs:
+        response, pair = read_dataset(run.file), (run.blade, run.scene)
+        with readable(run.file):
+            values = _measured(response)
+        for name, value in values.items():
+            measured.setdefault(pair, {}).setdefault(name, {})[run.member] = value
+        if is_of_sample(run.member):
+            groups.setdefault(pair, []).append(_kept(response, run, numbers, values))
+    parts = [_of_pair(pair, members, measured[pair], numbers) for pair, members in groups.items()]
+    joined = xr.merge(parts, join="outer", compat="no_conflicts", combine_attrs="override")
+    joined["status"] = joined["status"].fillna(RunStatus.NOT_RUN).astype("i1")
+    joined = joined.assign_coords(speed_rpm=("speed", RPM * joined["speed"].values, SPEED_RPM))
+    blades, scenes = (list(dict.fromkeys(pair[place] for pair in groups)) for place in (0, 1))
+    return joined.sel(blade=blades, scene=scenes)
+
+
+def _measured(response: xr.Dataset) -> dict[str, float]:
+    """MEASURES of one member."""
+    found = {**dict.fromkeys(MEASURES, np.nan), "peak_speed": float(peak_of(response)["speed"])}
+    if "max_von_mises" in response:
+        above, (largest, _) = speeds_above_yield(response), largest_stress(response)
+        found |= {"first_yield_speed": above.first, "width_above_yield": above.width, "largest_stress": largest}
+    return found
+
+
+def _kept(response: xr.Dataset, run: MemberRun, numbers: Sequence[str], values: Mapping[str, float]) -> xr.Dataset:
+    """What stays of one member."""
+    edge = leading_edge(response)
+    kept = edge[["status", *(name for name in (*_CURVES, "yield_stress") if name in edge)]].drop_vars(
+        "speed_rpm", errors="ignore"
+    )
+    kept = kept.assign({name: ((), value, about(*MEASURES[name])) for name, value in values.items()})
+    kept["value"] = ("number", list(run.values), {"long_name": "value of the number, in the unit of its key"})
+    return kept.assign_coords(number=list(numbers)).expand_dims(member=[int(run.member)])
+
+
+def _of_pair(
+    pair: tuple[str, str], members: Sequence[xr.Dataset], measured: Mapping[str, Mapping[str, float]], numbers: Sequence[str]
+) -> xr.Dataset:
+    """One blade in one scene."""
+    sample = xr.concat(members, "member", join="exact", combine_attrs="override").drop_attrs(deep=False)
+    sample["status"].attrs.update(status_flags())
+    diverged = sample["status"] == RunStatus.DIVERGED
+    for name in _CURVES:
+        if name not in sample:
+            continue
+        kind = VARIABLES[name]
+        units, meaning = kind.units, kind.long_name + (", leading edge" if "tip_point" in kind.dims else "")
+        sample[name].attrs = about(units, meaning)
+        # a run that diverged is above all others; a value of some member, for between infinite ones there is none
+        spread = sample[name].where(~diverged, np.inf)
+        quantiles = spread.quantile(QUANTILES, "member", method="inverted_cdf").where(~diverged.all("member"))
+        sample[f"{name}_quantile"] = quantiles.assign_attrs(about(units, f"quantiles over the members: {meaning}"))
+    if "max_von_mises" in sample:
+        share = (ratio_to_yield(sample) > 1.0).mean("member")
+        sample["probability_above_yield"] = share.assign_attrs(
+            about("1", "share of the members above yield, diverged ones among them")
+        )
+    for name, index in _sensitivities(measured, numbers).items():
+        sample[name] = index
+    return sample.expand_dims(blade=[pair[0]], scene=[pair[1]])
+
+
+def _sensitivities(measured: Mapping[str, Mapping[str, float]], numbers: Sequence[str]) -> dict[str, xr.DataArray]:
+    """Sobol indices of INDEXED; nothing without the members for them."""
+    varied = sorted({number for name in measured[INDEXED[0]] if (number := number_of(name)) is not None})
+    if not varied:
+        return {}
+    found = [sobol_indices(measured[name], varied, len(numbers)) for name in INDEXED]
+    indices, ends = {}, f"{CONFIDENCE:.0%} of bootstrap samples"
+    for place, (order, meaning) in enumerate(ORDERS.items()):
+        indices[f"sobol_{order}"] = _index([one.index[place] for one in found], f"{meaning} (Sobol)")
+        indices[f"sobol_{order}_low"] = _index([one.low[place] for one in found], f"lower end of {ends}: {meaning}")
+        indices[f"sobol_{order}_high"] = _index([one.high[place] for one in found], f"upper end of {ends}: {meaning}")
+    counted = xr.DataArray([one.members for one in found], {"measure": list(INDEXED)}, "measure")
+    indices["sobol_members"] = counted.assign_attrs(about("1", "members that the indices are made of"))
+    return indices
+
+
+def _index(rows: Sequence[np.ndarray], meaning: str) -> xr.DataArray:
+    return xr.DataArray(np.array(rows), {"measure": list(INDEXED)}, ("measure", "number"), attrs=about("1", meaning))

@@ -1,0 +1,470 @@
+"""Tolerances: the sample, what its members are, their ranges, and Sobol indices against closed forms."""
+
+import re
+from dataclasses import asdict, replace
+
+import matplotlib.pyplot as plt
+import numpy as np
+import pandas as pd
+import pytest
+import xarray as xr
+import yaml
+from defaults import InteractionChoice
+from test_interactions import campbell, response
+
+from r37core.adaptive.criterion import RefinementChoice, known_of, next_speeds
+from r37core.config import ConfigError, Document, read_settings
+from r37core.console.leftovers import leftovers
+from r37core.dataset_file import write_dataset
+from r37core.figures.tolerance_curves import draw_tolerances
+from r37core.io import InputFileError
+from r37core.results.interactions import COLUMNS, find_interactions
+from r37core.results.measures import largest_stress, ratio_to_yield, speeds_above_yield
+from r37core.speeds import RefinedRange
+from r37core.time_integration.status import RunStatus
+from r37core.tolerances.dataset import MemberRun, tolerances_dataset
+from r37core.tolerances.sample import Tolerance, is_of_sample, number_of, places
+from r37core.tolerances.sensitivity import sobol_indices
+from r37core.tolerances.table import range_table, ranges, read_ranges, with_ranges
+
+
+def test_more_members_change_none_that_are_there():
+    few, many = places(3, 16, 7), places(3, 32, 7)
+    assert all(many[name] == place for name, place in few.items())
+    assert len(many) == 32 * 5 and len(set(many.values())) == len(many)
+    assert places(3, 16, 8)["0"] != few["0"]
+
+
+def test_members_for_the_indices_take_one_number_from_the_second_sample():
+    found = places(3, 8, 0)
+    assert [name for name in found if is_of_sample(name)] == [str(row) for row in range(8)]
+    for row in range(8):
+        for number in range(3):
+            mixed = found[f"{row}f{number + 1}"]
+            assert number_of(f"{row}f{number + 1}") == number
+            assert mixed[number] == found[f"{row}b"][number]
+            assert [mixed[other] == found[str(row)][other] for other in range(3)] == [other != number for other in range(3)]
+
+
+@pytest.mark.parametrize(
+    ("tolerance", "shares", "expected"),
+    [
+        (Tolerance("uniform", (5.0,), percent=True), (0.0, 0.5, 1.0), (1.9, 2.0, 2.1)),
+        (Tolerance("uniform", (0.5,)), (0.0, 0.25, 1.0), (1.5, 1.75, 2.5)),
+        (
+            Tolerance("normal", (10.0,), percent=True),
+            (0.5, 0.975, 0.025),
+            (2.0, 2.0 + 0.2 * 1.959963985, 2.0 - 0.2 * 1.959963985),
+        ),
+        (Tolerance("between", (0.8, 1.25)), (0.0, 1.0), (0.8, 1.25)),
+        (Tolerance("values", (3.0, 1.0)), (0.0, 0.49, 0.5, 1.0), (3.0, 3.0, 1.0, 1.0)),
+    ],
+)
+def test_values_of_a_distribution(tolerance, shares, expected):
+    assert [tolerance.value(2.0, share) for share in shares] == pytest.approx(expected, rel=1e-9)
+
+
+def test_a_negative_number_spreads_like_its_amount():
+    assert Tolerance("uniform", (10.0,), percent=True).value(-2.0, 1.0) == pytest.approx(-1.8)
+
+
+def measured(function, numbers, members=2048):
+    return {name: function(*place) for name, place in places(numbers, members, 3).items()}
+
+
+def test_indices_of_the_ishigami_function():
+    """Closed form: Ishigami and Homma (1990), with a = 7, b = 0.1."""
+
+    def ishigami(*place):
+        x, y, z = (Tolerance("between", (-np.pi, np.pi)).value(0.0, share) for share in place)
+        return np.sin(x) + 7.0 * np.sin(y) ** 2 + 0.1 * z**4 * np.sin(x)
+
+    found = sobol_indices(measured(ishigami, 3), [0, 1, 2], 3)
+    variance = 0.5 + 49.0 / 8.0 + 0.1 * np.pi**4 / 5.0 + 0.01 * np.pi**8 / 18.0
+    alone = [0.5 * (1.0 + 0.1 * np.pi**4 / 5.0) ** 2, 49.0 / 8.0, 0.0]
+    together = 0.01 * np.pi**8 * 8.0 / 225.0
+    np.testing.assert_allclose(found.index[0], np.array(alone) / variance, atol=0.02)
+    np.testing.assert_allclose(found.index[1], np.array([alone[0] + together, alone[1], together]) / variance, atol=0.02)
+    assert np.all((found.low < found.index) & (found.index < found.high))
+    assert found.members == 2048
+
+
+def test_indices_of_an_oscillators_peak():
+    """F/(2 zeta k) of uniform numbers: a product, whose indices follow from the moments of its factors."""
+    bounds = {"force": (1.0, 2.0), "damping": (0.01, 0.03), "stiffness": (0.8, 1.25)}
+
+    def peak(*place):
+        force, damping, stiffness = (
+            Tolerance("between", one).value(0.0, share) for one, share in zip(bounds.values(), place, strict=True)
+        )
+        return force / (2.0 * damping * stiffness)
+
+    inverse = [
+        (np.log(high / low) / (high - low), 1.0 / (low * high)) for low, high in (bounds["damping"], bounds["stiffness"])
+    ]
+    means, squares = np.array([(1.5, 7.0 / 3.0), *inverse]).T
+    variance = squares.prod() - means.prod() ** 2
+    own = squares - means**2
+    found = sobol_indices(measured(peak, 3), [0, 1, 2], 3)
+    np.testing.assert_allclose(found.index[0], own * (means.prod() / means) ** 2 / variance, atol=0.01)
+    np.testing.assert_allclose(found.index[1], own * (squares.prod() / squares) / variance, atol=0.01)
+
+
+def test_indices_are_the_same_every_time_and_leave_out_what_is_no_number():
+    values = measured(lambda x, y: x + 0.5 * y, 2, 64)
+    values["3f2"] = values["40"] = np.nan
+    one, other = (sobol_indices(values, [0, 1], 2) for _ in range(2))
+    assert one.members == 32
+    for name in ("index", "low", "high"):
+        np.testing.assert_array_equal(getattr(one, name), getattr(other, name))
+    np.testing.assert_allclose(one.index[1], [0.8, 0.2], atol=0.1)
+
+
+def test_a_number_that_a_scene_does_not_have_has_no_index():
+    values = {name: value for name, value in measured(lambda x, y, z: x + z, 3, 64).items() if number_of(name) != 1}
+    found = sobol_indices(values, [0, 2], 3)
+    assert np.isnan(found.index[:, 1]).all() and np.isfinite(found.index[:, [0, 2]]).all()
+
+
+def test_where_nothing_spreads_there_is_no_index():
+    found = sobol_indices(measured(lambda x: 1.0, 1, 16), [0], 1)
+    assert np.isnan(found.index).all() and found.members == 0
+
+
+def settings_of(root, content, **more):
+    return read_settings(
+        root,
+        Document("over.yaml", {"blades": ["Ref", "S100"], "scenes": ["abradable", "direct"], "tolerances": content, **more}),
+    )
+
+
+def test_members_have_the_values_of_the_sample(root):
+    numbers = {"friction.coefficient": {"uniform_percent": 5.0}, "lining.elastic_modulus_pa": {"values": [1.0e10, 3.0e10]}}
+    settings = settings_of(root, {"members": 8, "blades": ["Ref"], "of_scenes": numbers})
+    assert settings.members.pairs == [("Ref", "abradable"), ("Ref", "direct")]
+    lined, direct = (settings.members.all["Ref", scene] for scene in ("abradable", "direct"))
+    assert list(lined) == [str(row) for row in range(8)]
+    for name, member in lined.items():
+        assert member.values == (member.scene.friction.coefficient, member.scene.lining.elastic_modulus)
+        assert 0.1425 < member.values[0] < 0.1575
+        assert direct[name].values == (member.values[0], None)
+        assert replace(member.scene, friction=None, lining=None) == replace(
+            settings.scenes["abradable"].scene, friction=None, lining=None
+        )
+    assert {member.scene.lining.elastic_modulus for member in lined.values()} == {1.0e10, 3.0e10}
+
+
+def test_indices_have_members_for_each_number_that_a_scene_has(root):
+    numbers = {"friction.coefficient": {"uniform_percent": 5.0}, "lining.thickness_m": {"uniform_percent": 5.0}}
+    members = settings_of(root, {"members": 2, "sensitivity": True, "of_scenes": numbers}).members
+    assert list(members.all["Ref", "abradable"]) == ["0", "1", "0b", "1b", "0f1", "1f1", "0f2", "1f2"]
+    assert list(members.all["Ref", "direct"]) == ["0", "1", "0b", "1b", "0f1", "1f1"]
+
+
+def test_a_blade_spreads_in_material_thickness_and_place(root):
+    numbers = {
+        "material.youngs_modulus_pa": {"normal_percent": 1.0},
+        "thickness_percent": {"between": [90.0, 110.0]},
+        "sweep_percent": {"uniform": 10.0},
+        "lean_deg": {"uniform": 1.0},
+    }
+    settings = settings_of(root, {"members": 4, "of_blades": numbers})
+    for name in ("Ref", "S100"):
+        nominal = settings.blades[name]
+        for member in settings.members.all[name, "direct"].values():
+            young, thickness, sweep, lean = member.values
+            assert member.blade.material == replace(nominal.material, youngs_modulus=young)
+            hub, tip = member.blade.definition.profiles[0], member.blade.definition.profiles[-1]
+            assert hub.maximum_thickness == pytest.approx(0.01 * thickness * nominal.definition.profiles[0].maximum_thickness)
+            assert tip.inlet_thickness == pytest.approx(0.01 * thickness * nominal.definition.profiles[-1].inlet_thickness)
+            # Ref has no table of which a share could be kept
+            assert (sweep is None) == (name == "Ref")
+            before = np.array(nominal.definition.stacking or [(0.0, 0.0, 0.0), (1.0, 0.0, 0.0)])
+            after = np.array(member.blade.definition.stacking)
+            np.testing.assert_allclose(after[:, 1], (sweep or 100.0) / 100.0 * before[:, 1])
+            np.testing.assert_allclose(after[:, 2], before[:, 2] + np.radians(lean) * before[:, 0], atol=1e-15)
+
+
+def test_the_tolerances_of_the_page_and_of_the_file_are_accepted(root):
+    page = (root / "docs/tolerances.md").read_text()
+    asked = yaml.safe_load(re.search(r"```yaml\n(.*?)```", page, re.DOTALL)[1])
+    assert len(settings_of(root, asked["tolerances"]).members.all["S100", "abradable"]) == 32
+    with open(root / "config/tolerances.yaml") as stream:
+        assert len(settings_of(root, {}, **yaml.safe_load(stream)).members.all["Ref", "abradable"]) == 32
+
+
+def test_without_numbers_there_are_no_members(settings):
+    assert settings.members.pairs == []
+
+
+@pytest.mark.parametrize(
+    ("content", "message"),
+    [
+        ({"members": 12}, "tolerances.members: found 12; allowed: a power of two, such as 8 or 16"),
+        (
+            {"of_scenes": {"friction.coeficient": {"uniform": 0.1}}},
+            "found friction.coeficient; allowed: a number of the scenes",
+        ),
+        ({"of_scenes": {"casing.lobes": {"uniform": 1.0}}}, "found casing.lobes; allowed: a number of the scenes"),
+        ({"of_scenes": {"friction.coefficient": {}}}, "found nothing; allowed: one of uniform_percent"),
+        ({"of_scenes": {"friction.coefficient": {"uniform": 0.1, "normal": 0.1}}}, "found uniform and normal"),
+        ({"of_scenes": {"friction.coefficient": {"between": [0.2, 0.1]}}}, "a lower and a higher number"),
+        ({"of_scenes": {"friction.coefficient": {"values": [0.1, 0.1]}}}, "twice"),
+        (
+            {"of_scenes": {"friction.coefficient": {"normal": 0.2}}},
+            r"tolerances.of_scenes.friction.coefficient: member \d+ of Ref in abradable: found -.*at least 0.*narrower",
+        ),
+        ({"of_blades": {"thickness": {"uniform": 1.0}}}, "found thickness; allowed: one of material.youngs_modulus_pa"),
+        ({"of_blades": {"lean_deg": {"uniform_percent": 1.0}}}, "percent of lean_deg, which is 0"),
+        ({"of_blades": {"thickness_percent": {"uniform": 150.0}}}, r"thickness_percent: the end of its range of Ref.*least 10"),
+        ({"of_blades": {"material.poissons_ratio": {"values": [0.3, 0.5]}}}, r"poissons_ratio: the end of its .*less than 0.5"),
+        ({"of_blades": {"sweep_cm": {"uniform": 300.0}}}, "of_blades.sweep_cm: .*at least -100"),
+        ({"of_blades": {"lean_deg": {"values": [89.0, 90.0]}}}, "of_blades.lean_deg: .*less than 90"),
+        ({"of_blades": {"sweep_percent": {"values": [100.0, 1e9]}}, "blades": ["S100"]}, "sweep_percent: .*at most 1000"),
+        ({"of_scenes": {"friction.coefficient": {"between": [0.0, 11.0]}}, "members": 2}, "the end of its range.*at most 10"),
+        ({"of_scenes": {"divergence_limit_m": {"uniform": 1e-3}}}, "allowed: a number of the scenes"),
+        (
+            {"of_blades": {"sweep_percent": {"uniform": 1.0}}, "blades": ["Ref"]},
+            r"none of its numbers \(sweep_percent\) in Ref in",
+        ),
+        ({"of_scenes": {"damping_ratio": {"uniform": 1e-4}}, "blades": ["L50"]}, "none of its numbers .* in L50"),
+        ({"members": 4}, "tolerances: found no numbers; allowed: some under of_scenes or of_blades"),
+        ({"of_scenes": {"damping_ratio": {"uniform": 1e-4}}, "blades": ["Rex"]}, "found 'Rex'"),
+        ({"of_scenes": {"damping_ratio": {"uniform": 1e-4}}, "scenes": ["lined"]}, "found 'lined'"),
+        ({"of_scenes": {"damping_ratio": {"uniform": 1e-4}}, "members": 4096, "sensitivity": True}, "simulations of members"),
+    ],
+)
+def test_what_cannot_be_is_refused_before_the_sweep(root, content, message):
+    with pytest.raises(ConfigError, match=message):
+        settings_of(root, content)
+
+
+def test_percent_of_a_number_that_is_zero_is_refused(root, tmp_path):
+    scenes = {"zero": {"casing": {"clearance_m": 1e-4}, "friction": {"coefficient": 0.0}}}
+    (tmp_path / "scenes.yaml").write_text(yaml.safe_dump(scenes))
+    numbers = {"friction.coefficient": {"uniform_percent": 5.0}}
+    with pytest.raises(ConfigError, match=r"percent of friction\.coefficient, which is 0"):
+        settings_of(root, {"of_scenes": numbers}, scenes=["zero"], scenes_file=str(tmp_path / "scenes.yaml"))
+
+
+def test_a_blade_or_scene_without_any_of_the_numbers_has_no_members(root):
+    lining = {"lining.thickness_m": {"uniform_percent": 5.0}}
+    assert settings_of(root, {"of_scenes": lining}).members.pairs == [("Ref", "abradable"), ("S100", "abradable")]
+    sweep = {"sweep_percent": {"uniform": 5.0}}
+    assert settings_of(root, {"of_blades": sweep}).members.pairs == [("S100", "abradable"), ("S100", "direct")]
+    # another part of the blades may have some
+    assert settings_of(root, {"of_blades": sweep}, run={"part": "1/2"}).members.pairs == []
+
+
+def test_a_table_of_sweep_and_lean_stays_within_its_bounds(root):
+    numbers = {"lean_percent": {"values": [1000.0]}, "lean_deg": {"values": [80.0]}}
+    with pytest.raises(ConfigError, match=r"of_blades: member \d+ of CS100.*table: lean_deg: found .*less than 90"):
+        settings_of(root, {"of_blades": numbers}, blades=["CS100"])
+
+
+def test_what_is_wrong_with_a_blade_is_told_of_the_blade(root, tmp_path):
+    blades = yaml.safe_load((root / "config/blades.yaml").read_text())
+    del blades["Ref"]["material"]["yield_stress_pa"]
+    (tmp_path / "blades.yaml").write_text(yaml.safe_dump(blades))
+    numbers = {"material.yield_stress_pa": {"normal_percent": 1.0}}
+    with pytest.raises(ConfigError, match=r"blades\.yaml.*missing key yield_stress_pa") as refusal:
+        settings_of(root, {"of_blades": numbers}, blades_file=str(tmp_path / "blades.yaml"))
+    assert "tolerances" not in str(refusal.value)
+
+
+CHOICE = RefinementChoice(windows=(), change=0.25, peak=0.0, largest_share=1.0, prominence=0.1)
+GRID = RefinedRange(100.0, 1.0, 8, 32)
+
+
+def curves(*heights):
+    """Speeds every 8 rad/s, a status and three curves for each member."""
+    members = np.array(heights)
+    return {
+        100.0 + 8.0 * place: [value for height in column for value in (0, height, 0.0, 0.0)]
+        for place, column in enumerate(members.T)
+    }
+
+
+def test_members_share_their_speeds_where_some_see_something():
+    quiet, early, late = [1e-3] * 5, [1e-3, 1.0, 0.9, 0.9, 0.9], [1e-3, 1e-3, 1e-3, 1.0, 0.95]
+    one = next_speeds(GRID, known_of(curves(early)), CHOICE)
+    assert 104.0 in one and 120.0 not in one
+    assert next_speeds(GRID, known_of(curves(quiet, quiet)), CHOICE) == []
+    both = next_speeds(GRID, known_of(curves(quiet, early, late)), CHOICE)
+    assert {104.0, 120.0} <= set(both)
+    # with room for one more speed it is where most members are
+    narrow = replace(CHOICE, largest_share=6.5 / 33.0)
+    assert next_speeds(GRID, known_of(curves(early, late, late)), narrow) == [120.0]
+
+
+def test_rounds_of_one_run_are_what_they_were():
+    rows = curves([1e-3, 1.0, 0.5, 0.2, 0.1])
+    assert next_speeds(GRID, known_of(rows), CHOICE) == next_speeds(
+        GRID, known_of(curves(*2 * [[1e-3, 1.0, 0.5, 0.2, 0.1]])), CHOICE
+    )
+
+
+NUMBERS = ["friction.coefficient", "damping_ratio"]
+
+
+def branch(peak, height=0.01):
+    return (
+        response(normal=[(peak, height, 4)]).sel(speed=slice(1600.0, 1850.0)).drop_vars(["amplitude", "amplitude_tangential"])
+    )
+
+
+def member_run(folder, name, peak, height=0.01, diverged=()):
+    """A response with a branch of 1B/4 that ends at `peak`."""
+    one = branch(peak, height)
+    one["status"] = xr.where(one["speed"].isin(diverged), RunStatus.DIVERGED, one["status"]).astype("i1")
+    lost = one["status"] == RunStatus.DIVERGED
+    for curve in ("rms_normal", "rms_tangential", "max_von_mises"):
+        one[curve] = one[curve].where(~lost)
+    write_dataset(one, folder / f"{name}.nc")
+    return MemberRun("Ref", "abradable", name, (0.1 + 0.001 * peak, np.nan), folder / f"{name}.nc")
+
+
+def test_the_dataset_of_members(tmp_path):
+    peaks = {str(row): 1700.0 + 5.0 * row for row in range(20)}
+    runs = [member_run(tmp_path, name, peak) for name, peak in peaks.items()]
+    found = tolerances_dataset(runs, NUMBERS).sel(blade="Ref", scene="abradable")
+    assert found.sizes["member"] == 20
+    np.testing.assert_array_equal(found["peak_speed"], list(peaks.values()))
+    np.testing.assert_allclose(found["value"].sel(number=NUMBERS[0]), 0.1 + 0.001 * np.array(list(peaks.values())))
+    assert found["value"].sel(number=NUMBERS[1]).isnull().all()
+    shares = np.mean([ratio_to_yield(branch(peak)).values > 1.0 for peak in peaks.values()], axis=0)
+    np.testing.assert_allclose(found["probability_above_yield"], shares)
+    assert found["probability_above_yield"].sel(speed=[1600.0, 1750.0, 1795.0]).values.tolist() == [0.0, 0.5, 0.05]
+    spread = found["rms_normal"].sel(speed=1700.0).values
+    np.testing.assert_allclose(found["rms_normal_quantile"].sel(speed=1700.0), np.sort(spread)[[0, 9, 18]])
+    for row in range(20):
+        alone = branch(peaks[str(row)])
+        assert found["width_above_yield"][row] == speeds_above_yield(alone).width
+        assert found["largest_stress"][row] == pytest.approx(largest_stress(alone)[0])
+    assert not any(str(name).startswith("sobol") for name in found)
+
+
+def test_a_member_that_diverges_is_one_recorded_member(tmp_path):
+    runs = [member_run(tmp_path, str(row), 1700.0, diverged=[1710.0] if row == 3 else ()) for row in range(4)]
+    found = tolerances_dataset(runs, NUMBERS).sel(blade="Ref", scene="abradable")
+    at = found.sel(speed=1710.0)
+    assert at["status"].values.tolist() == [0, 0, 0, RunStatus.DIVERGED]
+    assert at["probability_above_yield"] == 0.25
+    assert np.isinf(at["rms_normal_quantile"].sel(quantile=0.95)) and np.isfinite(at["rms_normal_quantile"].sel(quantile=0.5))
+    plt.close(draw_tolerances(found, branch(1700.0), "Ref, abradable"))
+
+
+def test_the_peak_s_spread_comes_from_the_number_that_moves_it(tmp_path):
+    runs = [
+        member_run(tmp_path, name, 5.0 * round((1700.0 + 60.0 * place[1]) / 5.0)) for name, place in places(2, 8, 0).items()
+    ]
+    found = tolerances_dataset(runs, NUMBERS).sel(blade="Ref", scene="abradable", measure="peak_speed")
+    assert found["member"].values.tolist() == list(range(8))
+    assert found["sobol_members"] == 8
+    np.testing.assert_allclose(found["sobol_total"], [0.0, 1.0], atol=0.4)
+    assert found["sobol_total"][0] == 0.0
+    figure = draw_tolerances(tolerances_dataset(runs, NUMBERS).sel(blade="Ref", scene="abradable"), branch(1700.0), "Ref")
+    assert len(figure.subfigs) == 2
+    plt.close(figure)
+
+
+def test_two_scenes_with_other_speeds_and_numbers_stand_in_one_dataset(tmp_path):
+    runs = [member_run(tmp_path, str(row), 1700.0) for row in range(2)]
+    bare = response(normal=[(1000.0, 0.01, 6)], step=10.0).drop_vars(["max_von_mises", "yield_stress"])
+    write_dataset(bare.isel(speed=slice(3, 9)), tmp_path / "bare.nc")
+    other = [MemberRun("S100", "direct", str(row), (0.2, 0.3), tmp_path / "bare.nc") for row in range(2)]
+    found = tolerances_dataset([*runs, *other], NUMBERS)
+    assert found["blade"].values.tolist() == ["Ref", "S100"]
+    assert found["rms_normal"].sel(blade="S100", scene="direct").notnull().sum() == 12
+    assert found["rms_normal"].sel(blade="S100", scene="abradable").isnull().all()
+    assert (found["status"].sel(blade="S100", scene="abradable") == RunStatus.NOT_RUN).all()
+    assert found["status"].dtype == np.int8
+    assert found["largest_stress"].sel(blade="S100").isnull().all()
+    plt.close(draw_tolerances(found.sel(blade="S100", scene="direct"), bare, "S100"))
+
+
+def interactions_of(*branches):
+    return find_interactions(response(normal=branches), campbell(), InteractionChoice())
+
+
+def test_ranges_of_interactions():
+    nominal = interactions_of((1700.0, 0.01, 4), (1240.0, 0.005, 5))
+    members = {
+        str(row): interactions_of((1690.0 + 5.0 * row, 0.01, 4), *([(990.0, 0.004, 6)] if row < 4 else [])) for row in range(10)
+    }
+    six, five, four = ranges(nominal, members, InteractionChoice())
+    assert [one["engine_order"] for one in (six, five, four)] == [6, 5, 4]
+    assert (five["share_of_members"], five["robust"], five["peak_speed_rad_s"]) == (0.0, False, 1240.0)
+    assert np.isnan(five["peak_speed_rad_s_median"])
+    assert (six["share_of_members"], six["robust"]) == (0.4, False) and np.isnan(six["peak_speed_rad_s"])
+    assert (four["share_of_members"], four["robust"], four["members"]) == (1.0, True, 10)
+    assert [four[f"peak_speed_rad_s_{end}"] for end in ("low", "median", "high")] == [1690.0, 1710.0, 1735.0]
+    assert four["width_above_yield_rad_s_median"] == pytest.approx(four["width_above_yield_rad_s"])
+
+
+def test_what_lies_beyond_the_members_speeds_is_not_theirs_to_show():
+    nominal = interactions_of((1700.0, 0.01, 4), (1240.0, 0.005, 5))
+    (only,) = ranges(nominal, {"0": interactions_of((1710.0, 0.01, 4))}, InteractionChoice(), (1600.0, 1800.0))
+    assert (only["engine_order"], only["share_of_members"]) == (4, 1.0)
+
+
+def test_peaks_without_a_crossing_are_told_apart_by_their_speed():
+    nominal = interactions_of((1100.0, 0.01, 3), (1500.0, 0.01, 3))
+    members = {"0": interactions_of((1105.0, 0.01, 3)), "1": interactions_of((1495.0, 0.01, 3))}
+    low, high = ranges(nominal, members, InteractionChoice())
+    assert (low["share_of_members"], low["peak_speed_rad_s_median"]) == (0.5, 1105.0)
+    assert (high["share_of_members"], high["peak_speed_rad_s_median"]) == (0.5, 1495.0)
+
+
+def test_the_summary_has_the_ranges_beside_the_nominal_run(tmp_path):
+    nominal = interactions_of((1700.0, 0.01, 4), (1240.0, 0.005, 5))
+    rows = ranges(nominal, {"0": interactions_of((1710.0, 0.01, 4), (990.0, 0.004, 6))}, InteractionChoice())
+    range_table([("NA", "lined", row) for row in rows]).to_csv(tmp_path / "tolerances.csv", index=False)
+    summary = pd.DataFrame([{"blade": blade, "scene": "lined", **asdict(one)} for blade in ("NA", "L50") for one in nominal])
+    joined = with_ranges(summary.astype({"engine_order": "Int64"}), read_ranges(tmp_path / "tolerances.csv"))
+    assert len(joined) == len(summary)
+    assert joined["share_of_members"].fillna(-1.0).tolist() == [0.0, 1.0, -1.0, -1.0]
+    assert joined["peak_speed_rad_s_median"].dropna().tolist() == [1710.0]
+
+
+def test_leftovers_are_members_that_are_not_drawn_any_more(root, tmp_path):
+    settings = settings_of(
+        root,
+        {
+            "members": 2,
+            "blades": ["Ref"],
+            "of_scenes": {"lining.thickness_m": {"uniform_percent": 5.0}},
+            "scenes": ["abradable"],
+        },
+    )
+    folder = tmp_path / "tolerances"
+    kept = ["Ref/abradable/1/response.nc", "Ref/abradable/round_0.json", "models/Ref/0/mesh.vtu"]
+    gone = ["Ref/abradable/2", "Ref/abradable/0b", "Ref/direct", "S100", "models/Ref/0f1", "models/S100"]
+    for name in [*kept, *(f"{name}/file" for name in gone)]:
+        (folder / name).parent.mkdir(parents=True, exist_ok=True)
+        (folder / name).write_text("x")
+    assert leftovers(tmp_path, settings) == sorted(folder / name for name in gone)
+
+
+@pytest.mark.parametrize("blade", ["NA", "inf", "1e5"])
+def test_a_summary_without_a_nominal_interaction(tmp_path, blade):
+    """One that members show alone stands in tolerances.csv, whatever the blade is called."""
+    rows = ranges([], {"0": interactions_of((1710.0, 0.01, 4)), "1": []}, InteractionChoice())
+    range_table([(blade, "lined", row) for row in rows]).to_csv(tmp_path / "tolerances.csv", index=False)
+    table = read_ranges(tmp_path / "tolerances.csv")
+    assert (table["blade"][0], table["share_of_members"][0]) == (blade, 0.5)
+    joined = with_ranges(pd.DataFrame([], columns=list(COLUMNS)), table)
+    assert len(joined) == 0 and "peak_speed_rad_s_low" in joined
+
+
+@pytest.mark.parametrize("text", ["", "blade,scene\n", "a\0b", "blade,scene,mode,engine_order\nRef,lined,1B,x\n"])
+def test_a_damaged_table_is_named(tmp_path, text):
+    (tmp_path / "tolerances.csv").write_text(text)
+    with pytest.raises(InputFileError, match=r"tolerances\.csv: cannot be read"):
+        read_ranges(tmp_path / "tolerances.csv")
+
+
+def test_a_response_that_is_none_is_named(tmp_path):
+    write_dataset(xr.Dataset({"status": ("speed", [0])}), tmp_path / "other.nc")
+    with pytest.raises(InputFileError, match=r"other\.nc: cannot be read"):
+        tolerances_dataset([MemberRun("Ref", "lined", "0", (0.1,), tmp_path / "other.nc")], NUMBERS[:1])
