@@ -32,7 +32,7 @@ _LEFT_OUT = (
     re.compile(r"<!--.*?-->", re.DOTALL),
 )
 _LIST_ITEM = re.compile(r"^ *(?:[-*]|\d+\.) +", re.MULTILINE)
-_END = re.compile(r"(?<=[.!?])[)*\"”]*\s+(?=[\"(*_`\[]*[A-Z0-9`])")
+_END = re.compile(r"(?<!\b[A-Z]\.)(?<=[.!?])[)*\"”]*\s+(?=[\"(*_`\[]*[A-Z0-9`])")
 
 
 @dataclass(frozen=True)
