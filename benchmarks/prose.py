@@ -16,8 +16,9 @@ FORBIDDEN = {
     r"dear(er|est)?": "expensive",
     r"nudged?": "perturbed",
     r"refines? (itself|themselves)": "adaptive speed sampling",
-    r"readings? of (the paper|section \d)": "modelling choice",
-    r"[,;:] for (it|they|there|this|these|its|their|he|we|no)": "because",
+    r"readings|(the|a|one|our) reading": "modelling choice",
+    r"turned (once|alone|one at a time)": "varied",
+    r"[a-z`)][,;] for (it|they|there|this|these|its|their|he|we|no|contact|modes)": "because",
 }
 """Pattern of a word or a phrase -> what to write instead."""
 
@@ -85,7 +86,7 @@ def forbidden(text):
     """What stands in a page that the project says otherwise -> what to write."""
     found = {}
     for pattern, better in FORBIDDEN.items():
-        for one in re.finditer(rf"(?<!\w){pattern}\b", plain(text), re.IGNORECASE):
+        for one in re.finditer(rf"(?<!\w)(?:{pattern})\b", plain(text), re.IGNORECASE):
             found[one[0]] = better
     return found
 

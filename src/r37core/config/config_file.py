@@ -103,7 +103,7 @@ class RefinementSection(Section):
             WindowSection(mode="1B", highest_engine_order=8, first=0.01, last=0.06, step_rad_s=5.0),
             WindowSection(mode="1T", highest_engine_order=20, first=0.0, last=0.02, step_rad_s=5.0),
         ],
-        description="where interactions are expected, for contact stiffens a blade",
+        description="where interactions are expected, because contact stiffens a blade",
     )
     change: float = Field(
         default=0.25,

@@ -28,7 +28,7 @@ class Parameter(Section, Generic[Value]):
 
 
 class Parameters(Section):
-    """The parameters whose price is measured; `level` always, for the recommended level is the study's result."""
+    """The parameters whose price is measured; `level` always, because the recommended level is the study's result."""
 
     level: Parameter[Name] = Field(description="fidelity levels")
     central_difference_step: Parameter[Annotated[float, Field(ge=1e-12, le=1e-2)]] | LeftOut = Field(
