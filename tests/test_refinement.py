@@ -31,7 +31,9 @@ from r37core.time_integration.status import RunStatus
 from r37core.yaml_file import load_yaml
 
 WINDOWS = (Window("1B", 8, 0.0, 0.05, 5.0),)
-CHOICE = RefinementChoice(windows=WINDOWS, change=0.25, peak=0.1, largest_share=0.25, prominence=0.1)
+CHOICE = RefinementChoice(
+    windows=WINDOWS, change=0.25, peak=0.1, largest_share=0.25, prominence=0.1, steep_change=0.8, steep_prominence=0.01
+)
 PLAN = plan_speeds([{"start": 750, "stop": 2000, "step": 20, "refine_to": 1}], 8.0)
 GRID = PLAN.refined[0]
 
@@ -194,6 +196,19 @@ def test_a_change_counts_where_the_larger_value_does():
     assert min(asked_of(values)) == 800.0
     values[:3] = 0.1
     assert min(asked_of(values)) > 1000.0
+
+
+def test_a_steep_change_counts_though_it_is_low():
+    """The foot of an interaction between two speeds: a fall by more than four fifths, from 2% of the top."""
+    values = np.full(len(PLAN.certain), 1e-3)
+    values[40:] = np.linspace(0.5, 1.0, len(values) - 40)
+    values[10:12] = 0.0105, 0.002
+    foot = PLAN.certain[10] + 10.0
+    assert foot in asked_of(values)
+    assert PLAN.certain[10] - 10.0 in asked_of(values)
+    for other in (0.0095, 0.002), (0.0105, 0.0022):
+        values[10:12] = other
+        assert foot not in asked_of(values)
 
 
 def test_both_flanks_of_a_peak_of_one_speed_are_looked_at():

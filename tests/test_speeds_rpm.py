@@ -38,7 +38,9 @@ def test_ranges_in_rpm_refine_themselves_on_their_own_grid():
     assert plan.certain == tuple(rpm * RAD_S for rpm in (8000, 8200, 8203, 8400, 8600, 8800, 9000))
     assert from_plain(SpeedPlan, json.loads(json.dumps(to_plain(plan)))) == plan
     # a peak at one end is followed there, on speeds of the grid
-    choice = RefinementChoice(windows=(), change=0.25, peak=0.1, largest_share=1.0, prominence=0.1)
+    choice = RefinementChoice(
+        windows=(), change=0.25, peak=0.1, largest_share=1.0, prominence=0.1, steep_change=1, steep_prominence=1
+    )
     known = known_of(
         {speed: (0, height, height, 0.0) for speed, height in zip(plan.certain, (9, 1, 1, 1, 1, 1, 1), strict=True)}
     )

@@ -272,7 +272,9 @@ def test_what_is_wrong_with_a_blade_is_told_of_the_blade(root, tmp_path):
     assert "tolerances" not in str(refusal.value)
 
 
-CHOICE = RefinementChoice(windows=(), change=0.25, peak=0.0, largest_share=1.0, prominence=0.1)
+CHOICE = RefinementChoice(
+    windows=(), change=0.25, peak=0.0, largest_share=1.0, prominence=0.1, steep_change=1, steep_prominence=1
+)
 GRID = RefinedRange(100.0, 1.0, 8, 32)
 
 

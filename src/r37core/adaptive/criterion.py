@@ -37,8 +37,9 @@ class RefinementChoice:
 
     `windows` come first. Then an interval is halved when rms or stress change by more than `change` of the larger, when
     stress crosses yield, when the status changes, and when a peak of at least `prominence` of the largest reaches within
-    `peak` of its height in it; changes below `prominence` of the largest do not count. At most `largest_share` of the grid
-    is run, where the response is largest first.
+    `peak` of its height in it; changes below `prominence` of the largest do not count. A change by more than `steep_change`
+    counts down to `steep_prominence`: an interaction narrower than the interval leaves no more than its foot. At most
+    `largest_share` of the grid is run, where the response is largest first.
     """
 
     windows: tuple[Window, ...]
@@ -46,6 +47,8 @@ class RefinementChoice:
     peak: float
     largest_share: float
     prominence: float
+    steep_change: float
+    steep_prominence: float
 
 
 @dataclass(frozen=True)
@@ -135,6 +138,7 @@ def _worth(curves: np.ndarray, status: np.ndarray, scale: np.ndarray, choice: Re
     for name, curve, top in zip(CURVES, np.nan_to_num(curves, nan=0.0) / scale[:, None], scale, strict=True):
         larger, change = np.maximum(curve[:-1], curve[1:]), np.abs(np.diff(curve))
         seen = (change > choice.change * larger) & (larger > choice.prominence)
+        seen |= (change > choice.steep_change * larger) & (larger > choice.steep_prominence)
         if name == "stress":
             above = curve * top > 1.0
             seen |= above[:-1] != above[1:]

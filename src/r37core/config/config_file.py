@@ -114,6 +114,16 @@ class RefinementSection(Section):
     peak: float = Field(
         default=0.1, ge=0, lt=1, description="intervals are halved that reach so close to a peak's height, as a share of it"
     )
+    steep_change: float = Field(
+        default=0.8,
+        gt=0,
+        le=1,
+        description="a change by more is the foot of an interaction narrower than the interval: it is halved down to "
+        "steep_prominence; 1: never",
+    )
+    steep_prominence: float = Field(
+        default=0.01, gt=0, le=1, description="height from which a steep change counts, as a share of the largest"
+    )
     largest_share: float = Field(
         default=0.2, gt=0, le=1, description="of the finest grid that is run at most; where the response is largest goes first"
     )
