@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+import os
+import sys
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 import matplotlib
 
-matplotlib.use("Agg")
+# jobs need no display; who has loaded pyplot, or named a backend, as notebooks do, has chosen one
+if "matplotlib.pyplot" not in sys.modules and "MPLBACKEND" not in os.environ:
+    matplotlib.use("Agg")
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -33,31 +37,32 @@ CURVES = {
 
 _DASHES = ("-", "--", ":", "-.")
 
-plt.rcParams.update(
-    {
-        "figure.dpi": 110,
-        "savefig.dpi": 200,
-        "figure.constrained_layout.use": True,
-        "font.size": 8,
-        "axes.titlesize": 8,
-        "axes.labelsize": 8,
-        "xtick.labelsize": 7,
-        "ytick.labelsize": 7,
-        "legend.fontsize": 7,
-        "figure.titlesize": 9,
-        "axes.prop_cycle": plt.cycler(color=COLOURS),
-        "axes.grid": True,
-        "grid.alpha": 0.25,
-        "axes.spines.top": False,
-        "axes.spines.right": False,
-        "lines.linewidth": 1.1,
-        "legend.frameon": False,
-        # letters stay letters
-        "pdf.fonttype": 42,
-        # no creation date, so that the same data give the same bytes
-        "svg.hashsalt": "r37",
-    }
-)
+PARAMETERS: dict[Any, Any] = {
+    "figure.dpi": 110,
+    "savefig.dpi": 200,
+    "figure.constrained_layout.use": True,
+    "font.size": 8,
+    "axes.titlesize": 8,
+    "axes.labelsize": 8,
+    "xtick.labelsize": 7,
+    "ytick.labelsize": 7,
+    "legend.fontsize": 7,
+    "figure.titlesize": 9,
+    "axes.prop_cycle": plt.cycler(color=COLOURS),
+    "axes.grid": True,
+    "grid.alpha": 0.25,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "lines.linewidth": 1.1,
+    "legend.frameon": False,
+    # letters stay letters
+    "pdf.fonttype": 42,
+    # no creation date, so that the same data give the same bytes
+    "svg.hashsalt": "r37",
+}
+"""Matplotlib's parameters of all figures."""
+
+plt.rcParams.update(PARAMETERS)
 
 
 def blade_styles(blades: Iterable[Any]) -> dict[str, dict[str, str]]:
