@@ -250,6 +250,25 @@ def test_results_of_a_run_are_a_mapping(finished):
         results["signals"]
 
 
+@pytest.mark.parametrize(
+    ("before", "backend"),
+    [("", "Agg"), ("import matplotlib; matplotlib.use('svg')", "svg"), ("import r37core.figures.style", "Agg")],
+)
+def test_plots_take_the_chosen_backend(before, backend):
+    """Without one, what matplotlib chooses on a machine without a display."""
+    code = f"""
+{before}
+import matplotlib, numpy, r37, xarray
+rms = {{f"rms_{{name}}": (("speed", "tip_point"), numpy.ones((2, 1))) for name in ("normal", "tangential")}}
+rms["status"] = ("speed", [0, 0])
+r37.plot_response(xarray.Dataset(rms, {{"speed": [1.0, 2.0], "tip_point": ["leading_edge"]}}))
+print(matplotlib.get_backend())
+"""
+    kept = {name: value for name, value in os.environ.items() if name not in ("DISPLAY", "WAYLAND_DISPLAY", "MPLBACKEND")}
+    done = subprocess.run([sys.executable, "-c", code], env=kept, capture_output=True, text=True, check=True)
+    assert done.stdout.strip().lower() == backend.lower()
+
+
 def test_results_that_are_not_there(tmp_path):
     with pytest.raises(r37.InputFileError, match="there is no such folder"):
         r37.open_results(tmp_path / "results")

@@ -49,9 +49,11 @@ def plot_response(response: xr.Dataset, campbell: xr.Dataset | None = None, titl
 
 def _drawn(draw: Callable[[], Figure]) -> Figure:
     """What `draw` gives in the workflow's style."""
-    # before the style, which takes a backend without a display where no other has been chosen
+    import matplotlib
     import matplotlib.pyplot as plt
 
+    # chosen now, as pyplot would when it draws: the style takes one without a display where none has been
+    matplotlib.get_backend()
     with plt.rc_context():
         from r37core.figures.style import PARAMETERS
 

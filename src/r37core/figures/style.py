@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-import os
-import sys
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 import matplotlib
 
-# jobs need no display; who has loaded pyplot, or named a backend, as notebooks do, has chosen one
-if "matplotlib.pyplot" not in sys.modules and "MPLBACKEND" not in os.environ:
+# a notebook has chosen its backend; for the rest no display is needed
+if matplotlib.get_backend(auto_select=False) is None:
     matplotlib.use("Agg")
 
 import matplotlib.pyplot as plt
