@@ -2,6 +2,7 @@
 
 import os
 import re
+import runpy
 import subprocess
 import sys
 import tarfile
@@ -13,13 +14,17 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 import xarray as xr
+import yaml
 from workflow_runs import copy_project, snakemake
 
 import r37
 from r37 import structure_cache, structure_files, structure_steps
 from r37.structure_cache import cached_file
+from r37.structure_files import StructureFiles
 from r37core.config import read_settings
 from r37core.dataset_file import read_dataset
+from r37core.exchange.exporting.matrices_out import write_reduced_matrices
+from r37core.rom.rom_file import read_reduced_model
 
 SPEEDS = [750.0, 1150.0, 1550.0]
 
@@ -127,6 +132,29 @@ def test_files_of_ones_own_may_lie_anywhere(root, tmp_path):
     assert r37.scene("mine", file=tmp_path / "scenes.yaml").entry == read_settings(root).scene_entries["abradable"]
     with pytest.raises(r37.ConfigError, match="abradable, direct"):
         r37.simulate(blade, "none", 1000)
+
+
+@pytest.mark.slow
+def test_blades_of_other_programs(root, config, tmp_path, monkeypatch):
+    """The mesh of docs/your_blade.md, and matrices of our own reduced model: it comes back as it was."""
+    page = (root / "docs/your_blade.md").read_text()
+    (tmp_path / "draw.py").write_text(re.search(r"```python\n(.*?)```", page, re.DOTALL)[1])
+    monkeypatch.chdir(tmp_path)
+    runpy.run_path("draw.py")
+    settings = read_settings(config.parent.parent)
+    model = read_reduced_model(StructureFiles(settings, "Ref").reduced_model("pressure_edge"))
+    write_reduced_matrices(model, "pressure_edge", [0.0, 1000.0, 2000.0], tmp_path / "matrices")
+    entry = {"matrices": "matrices", "mass_unit": "kg", "stiffness_unit": "N/m", "length_unit": "m", "rotation": "negative"}
+    frame = {"rotor_axis": [0, 0, 1], "radial": [1, 0, 0]}
+    mesh = re.search(r"```yaml\n(.*?)```", page, re.DOTALL)[1]
+    (tmp_path / "blades.yaml").write_text(mesh + yaml.safe_dump({"Reduced": {**entry, **frame}}))
+    fan, reduced = (r37.blade(name, file="blades.yaml", config=config) for name in ("Fan", "Reduced"))
+    monkeypatch.chdir("/")
+    assert r37.campbell(fan)["crossing_speed"].sel(mode="1B", engine_order=6).item() == pytest.approx(1492, rel=0.01)
+    shipped = r37.simulate("Ref", "direct", 1150, config=config, results=["energy"])
+    ours = r37.simulate(reduced, "direct", 1150)
+    assert "max_von_mises" not in ours and "amplitude" in ours
+    np.testing.assert_allclose(ours["rms_normal"], shipped["rms_normal"], rtol=1e-6)
 
 
 BAD = {
