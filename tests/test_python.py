@@ -3,6 +3,7 @@
 import os
 import re
 import runpy
+import shlex
 import subprocess
 import sys
 import tarfile
@@ -19,6 +20,7 @@ from workflow_runs import copy_project, snakemake
 
 import r37
 from r37 import structure_cache, structure_files, structure_steps
+from r37.command import main
 from r37.structure_cache import cached_file
 from r37.structure_files import StructureFiles
 from r37core.config import read_settings
@@ -342,6 +344,37 @@ def test_python_of_the_pages_runs(root, finished, monkeypatch):
 
 
 @pytest.mark.slow
+def test_the_command_does_what_the_page_says(root, finished, monkeypatch, capsys):
+    """With the small level in place of others, and speeds of its own."""
+    monkeypatch.setattr("r37.configuration._PACKAGE", finished)
+    monkeypatch.chdir(finished)
+    (finished / "config.yaml").write_text((finished / "config/config.yaml").read_text())
+    page = re.search(r"```sh\n(.*?)```", (root / "docs/python.md").read_text(), re.DOTALL)[1].replace("draft", "tiny")
+    told = []
+    for line in page.splitlines():
+        assert main(shlex.split(line, comments=True)[1:]) == 0
+        told.append(capsys.readouterr().out)
+    dataset = read_dataset("campbell.nc")
+    xr.testing.assert_identical(dataset, r37.campbell("Ref"))
+    assert f"{dataset['crossing_speed'].sel(mode='1B', engine_order=4).item():.6g}" in told[0]
+    rows = [line.split() for line in told[1].splitlines()[2:]]
+    assert [row[0] for row in rows] == ["1700.0", "1729.0"]
+    peak = r37.simulate("Ref", "abradable", 1729)
+    assert float(rows[1][3]) == pytest.approx(1e-6 * peak["max_von_mises"].item(), rel=1e-5)
+    assert "blades: Ref\n" in told[2] and "simulations: 6\n" in told[2]
+
+
+def test_the_command_refuses_in_one_line(root, capsys):
+    config = str(root / "config/config.yaml")
+    assert main(["simulate", "Ref", "rub", "1000", "--config", config]) == 1
+    told = capsys.readouterr()
+    assert told.out == "" and told.err.startswith("r37: scene: found 'rub'; allowed: abradable") and told.err.count("\n") == 1
+    assert main(["check", "missing.yaml"]) == 1
+    assert main(["check", config]) == 0
+    assert "level: standard\nsimulations: 896 to about 3500\n" in capsys.readouterr().out
+
+
+@pytest.mark.slow
 def test_an_installed_package_needs_no_repository(root, tmp_path):
     """Built as a source distribution and installed from it into an environment of its own, which borrows other packages."""
     project, environment, elsewhere = (tmp_path / name for name in ("project", "environment", "elsewhere"))
@@ -378,4 +411,5 @@ def test_an_installed_package_needs_no_repository(root, tmp_path):
     code = "import r37; print(r37.__file__); print(float(r37.campbell('Ref', fidelity='tiny').frequency[0, 0]))"
     file, frequency = python("-c", code)
     assert Path(file).is_relative_to(packages)
+    assert "level: tiny" in python(environment / "bin/r37", "check")
     assert 800.0 < float(frequency) < 900.0  # Hz, 1B at rest

@@ -70,6 +70,6 @@ def api():
     pages = {f"api/{name}.md": f"# r37core.{name}\n\n::: r37core.{name}\n" for name in packages()}
     listed = "\n".join(f"- [`r37core.{name}`]({name}.md)" for name in packages())
     text = "A package may import those above it in [the list of layers](../architecture.md#layers), none below it."
-    pages["api/r37.md"] = "# r37\n\n::: r37\n"
+    pages["api/r37.md"] = "# r37\n\n::: r37\n    options:\n      show_submodules: false\n"
     listed = f"- [`r37`](r37.md), the [calls from Python](../python.md)\n{listed}"
     return {**pages, "api/index.md": f"# API\n\n{text}\n\n{listed}\n"}
