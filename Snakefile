@@ -5,7 +5,7 @@ import os
 for library in ("OPENBLAS", "OMP", "MKL", "NUMBA"):
     os.environ[f"{library}_NUM_THREADS"] = "1"
 # figures are files, also where a notebook that started this has named a backend of its own
-os.environ["MPLBACKEND"] = "Agg"
+os.environ.update(MPLBACKEND="Agg")
 
 
 report: "workflow/report/workflow.rst"

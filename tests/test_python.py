@@ -85,7 +85,7 @@ def test_what_is_kept_is_not_made_again(config, cache, monkeypatch):
         monkeypatch.setattr(structure_steps, step, lambda file, *_, step=step, **__: made.append(step) or file.write_text("x"))
     xr.testing.assert_identical(r37.campbell("Ref", config=config), first)
     assert made == []
-    monkeypatch.setattr(structure_files, "_code", lambda: "other code")
+    monkeypatch.setattr(structure_files, "_code", lambda: ["other code"])
     with pytest.raises(r37.InputFileError):
         r37.campbell("Ref", config=config)
     assert made == ["geometry", "mesh", "reduced_model", "campbell"]

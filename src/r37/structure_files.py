@@ -6,6 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
 from importlib import import_module
+from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any
 
@@ -91,7 +92,19 @@ def _made(name: str, made_of: object, make: Callable[[Path], None]) -> Path:
     return cached_file(name, [_code(), made_of], make)
 
 
+_LIBRARIES = ("gmsh", "h5py", "meshio", "numpy", "scipy")
+"""Those that the numbers of a structure come from."""
+
+
 @cache
-def _code() -> str:
-    """Hash of the code of the steps: other code makes other files."""
-    return CodeHashes(_HERE.parent, _HERE, packages=("r37", "r37core"))("structure_steps")
+def _code() -> list[str]:
+    """Hash of the code of the steps, and versions of libraries: others make other files, and environments share the cache."""
+    return [CodeHashes(_HERE.parent, _HERE, packages=("r37", "r37core"))("structure_steps"), *map(_version, _LIBRARIES)]
+
+
+def _version(library: str) -> str:
+    try:
+        return version(library)
+    except PackageNotFoundError:
+        # installed by another way than pip's
+        return ""
