@@ -24,10 +24,13 @@ DELIVERED += ("Makefile", "MANIFEST.in", "Snakefile", "CHANGELOG.md", "CONTRIBUT
 
 
 def edited_configuration():
-    """Files of `config/` that differ from those of the tests, are missing or are new; the schemas are generated."""
+    """Files of `config/` that differ from those of the tests, are missing or are new.
+
+    The schemas are generated, and files of one's own (.gitignore) count for nothing.
+    """
     folders = (CONFIGURATION, CHECKOUT / "config")
     files = {str(file.relative_to(folder)) for folder in folders for file in folder.rglob("*.*")}
-    files = {file for file in files if not file.startswith("schemas")}
+    files = {file for file in files if not file.startswith(("schemas", "my", "own/"))}
     return sorted(files.difference(filecmp.cmpfiles(*folders, files, shallow=False)[0]))
 
 

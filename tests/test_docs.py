@@ -4,10 +4,14 @@ import ast
 import json
 import re
 import runpy
+import shlex
 from pathlib import Path
 
 import pytest
+from conftest import CHECKOUT
+from yaml import safe_load
 
+from r37core.config import command_line_document, read_settings
 from r37core.published import INTERACTIONS
 from r37core.studies.modelling_choices.cases import CHOICES, SHIPPED, VARIED
 from r37core.yaml_file import load_yaml
@@ -100,6 +104,37 @@ def test_rule_graph_is_that_of_the_workflow(root):
     """`make docs` renews it."""
     graph = runpy.run_path(str(root / "benchmarks/pages.py"))["rule_graph"]()
     assert section((root / "docs/architecture.md").read_text(), "rules").strip() == graph
+
+
+def test_the_first_run_is_one_that_can_be_made(root):
+    """One blade in the shipped scenes about one crossing, in a folder of its own, which the page names."""
+    page = (root / "docs/first_run.md").read_text()
+    words = shlex.split(re.search(r"^snakemake all_blades .*--config (.*)$", page, re.MULTILINE)[1])
+    given = {key: safe_load(value) for key, value in (word.split("=", 1) for word in words)}
+    settings = read_settings(root, command_line_document(given))
+    assert (settings.blade_names, settings.scene_names, settings.fidelity_name) == (["Ref"], ["abradable", "direct"], "draft")
+    plan = settings.speed_plans["Ref", "abradable"]
+    crossing = next(one.campbell for one in INTERACTIONS if (one.blade, one.engine_order) == ("Ref", 4))
+    assert min(plan.certain) < crossing < max(plan.certain)
+    assert set(re.findall(r"results/runs/\w+", page)) == {str(settings.results)}
+
+
+@pytest.mark.parametrize("page", ["README.md", *sorted(f"docs/{file.name}" for file in (CHECKOUT / "docs").glob("*.md"))])
+def test_links_lead_to_pages_and_headings(root, page):
+    file = root / page
+    for target in re.findall(r"\]\(([^)\s]+)\)", re.sub(r"^```.*?^```", "", file.read_text(), flags=re.DOTALL | re.MULTILINE)):
+        name, _, heading = target.partition("#")
+        linked = file.parent / name if name else file
+        if re.match(r"https?:", target) or linked.name in ("tutorial.md",):  # the page that the site makes of the notebook
+            continue
+        assert linked.exists(), target
+        assert not heading or heading in headings(linked.read_text()), target
+
+
+def headings(page):
+    """The anchors of a page's headings."""
+    lines = re.findall(r"^#+ (.*)$", page, re.MULTILINE)
+    return {re.sub(r"\s", "-", re.sub(r"[^\w\s-]", "", line.lower()).strip()) for line in lines}
 
 
 def test_readme_is_short(readme):

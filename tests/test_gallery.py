@@ -18,14 +18,14 @@ from r37core.studies.runner import with_swept_peak
 def test_verdicts_name_what_agrees_and_what_does_not():
     few = [Check("peak", 100.0, 100.4, "rad/s"), Check("width", 17.0, 25.0, "rad/s", 0.2), claim("low above", True, "30%")]
     assert verdict(few) == (
-        "**Agrees** (2 of 3): peak 100.4 rad/s (published 100); low above (30%). "
-        "**Does not agree**: width 25 rad/s (published 17)."
+        "**Agrees** (2 of 3):\n\n- peak 100.4 rad/s (published 100)\n- low above (30%)\n\n"
+        "**Does not agree**:\n\n- width 25 rad/s (published 17)"
     )
     many = [Check(f"area {number}", 1.0, 1.0 + 1e-3 * number, "cm2") for number in range(6)] + [claim("true", True)]
     assert verdict(many) == (
-        "**Agrees** (7 of 7): 6 numbers, the largest difference 0.5%, area 5 1.005 cm2 (published 1) and 1 statement."
+        "**Agrees** (7 of 7):\n\n- 6 numbers, the largest difference 0.5%, area 5 1.005 cm2 (published 1) and 1 statement"
     )
-    assert verdict([Check("ours", None, 3.0, "Hz")]) == "Ours alone: ours 3 Hz."
+    assert verdict([Check("ours", None, 3.0, "Hz")]) == "Ours alone:\n\n- ours 3 Hz"
 
 
 def test_checks_go_to_their_figures():

@@ -56,7 +56,26 @@ def test_made_once(cache):
     assert len(made) == 1
     cached_object("twice", Sources(), 2, build)
     assert len(made) == 2
-    assert len(list(cache.iterdir())) == 2
+    assert len(list(cache.glob("*.o"))) == 2
+
+
+def test_processes_wait_for_the_one_that_makes_it(cache):
+    """Two that need the same at once: one takes its time, and only it makes it; another thing is made beside."""
+    code = (
+        "import sys, time\n"
+        "from r37core import kept, native\n"
+        "kept._writable = lambda folder: False\n"
+        "def build():\n"
+        "    time.sleep(2)\n"
+        "    print(sys.argv[1], flush=True)\n"
+        "    return sys.argv[1].encode()\n"
+        "print(native.cached_object('slow', native.Sources(), sys.argv[2], build).decode(), flush=True)\n"
+    )
+    names = [("first", "1"), ("second", "1"), ("other", "2")]
+    running = [subprocess.Popen([sys.executable, "-c", code, *name], stdout=subprocess.PIPE, text=True) for name in names]
+    first, second, other = (process.communicate(timeout=60)[0].split() for process in running)
+    assert other == ["other", "other"]
+    assert sorted([first, second], key=len) in ([["first"], ["first", "first"]], [["second"], ["second", "second"]])
 
 
 def test_an_edited_source_or_another_processor_is_made_again(cache, monkeypatch, tmp_path):
@@ -65,10 +84,10 @@ def test_an_edited_source_or_another_processor_is_made_again(cache, monkeypatch,
     cached_object("twice", Sources("law.py"), None, make)
     (tmp_path / "law.py").write_text("2")
     cached_object("twice", Sources("law.py"), None, make)
-    assert len(list(cache.iterdir())) == 2
+    assert len(list(cache.glob("*.o"))) == 2
     monkeypatch.setenv("NUMBA_CPU_NAME", "x86-64-v3")
     cached_object("twice", Sources("law.py"), None, lambda: b"")
-    assert len(list(cache.iterdir())) == 3
+    assert len(list(cache.glob("*.o"))) == 3
 
 
 def test_a_source_edited_while_its_importer_runs_leaves_no_object(cache, monkeypatch, tmp_path):
@@ -78,13 +97,13 @@ def test_a_source_edited_while_its_importer_runs_leaves_no_object(cache, monkeyp
     imported = Sources("law.py")
     (tmp_path / "law.py").write_text("2")
     assert twice(cached_object("twice", imported, None, make)) == 42
-    assert not list(cache.iterdir())
+    assert not list(cache.glob("*.o"))
 
 
 @pytest.mark.parametrize("damage", [lambda c: c[:100], lambda c: c[:-1], lambda c: b"", lambda c: c[:80] + b"?" + c[81:]])
 def test_a_damaged_file_is_made_again(cache, damage):
     cached_object("twice", Sources(), None, make)
-    (file,) = cache.iterdir()
+    (file,) = cache.glob("*.o")
     whole = file.read_bytes()
     file.write_bytes(damage(whole))
     assert twice(cached_object("twice", Sources(), None, make)) == 42
@@ -109,7 +128,7 @@ def test_side_by_side(tmp_path):
     command = [sys.executable, "-c", code]
     running = [subprocess.Popen(command, stdout=subprocess.PIPE, text=True, env=environment) for _ in range(4)]
     assert [process.communicate()[0].strip() for process in running] == ["10"] * 4
-    assert len(list((tmp_path / "r37").iterdir())) == 1
+    assert len(list((tmp_path / "r37").glob("*.o"))) == 1
 
 
 def test_a_job_does_not_import_numba(contact, tmp_path):

@@ -69,6 +69,14 @@ def test_plain_lines_come_once_a_minute_and_at_the_end(clock):
     assert "\r" not in stream.getvalue()
 
 
+def test_no_bound_is_said_that_windows_have_passed(clock):
+    progress = Progress(2, io.StringIO(), clock)
+    for number in range(1, 4):
+        clock.now = float(number)
+        simulate(progress, number, "Ref")
+        assert ("of at most 2" in progress.line()) == (number <= 2)
+
+
 def test_on_a_terminal_the_line_renews_itself(clock):
     stream = Terminal()
     progress = Progress(10, stream, clock)

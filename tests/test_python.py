@@ -327,7 +327,7 @@ def test_plots_are_those_of_the_workflow_and_leave_matplotlib_alone(finished, co
 @pytest.mark.slow
 def test_python_of_the_pages_runs(root, finished, monkeypatch):
     """With the small level in place of others: the page's speeds and names count, its numbers do not."""
-    monkeypatch.setattr("r37.configuration._PACKAGE", finished)
+    monkeypatch.setattr("r37.call_configuration._PACKAGE", finished)
     monkeypatch.chdir(finished)
     (finished / "blades.yaml").write_text((finished / "config/blades.yaml").read_text())
     blocks = [
@@ -346,7 +346,7 @@ def test_python_of_the_pages_runs(root, finished, monkeypatch):
 @pytest.mark.slow
 def test_the_command_does_what_the_page_says(root, finished, monkeypatch, capsys):
     """With the small level in place of others, and speeds of its own."""
-    monkeypatch.setattr("r37.configuration._PACKAGE", finished)
+    monkeypatch.setattr("r37.call_configuration._PACKAGE", finished)
     monkeypatch.chdir(finished)
     (finished / "config.yaml").write_text((finished / "config/config.yaml").read_text())
     page = re.search(r"```sh\n(.*?)```", (root / "docs/python.md").read_text(), re.DOTALL)[1].replace("draft", "tiny")

@@ -334,6 +334,22 @@ def test_study_names_what_is_missed():
     assert f"1 found, 1 the same, {found.runs} runs in {found.rounds} rounds | 2 found, 2 the same, 1251 runs |" in table
     assert "| 1836, 3.1 | 2.04 | none |" in table.split("Missed")[1]
     assert "1237" not in table.split("Missed")[1]
+    assert "robust" not in table.split("|", 1)[1]
+
+
+def test_study_says_what_is_robust():
+    """One interaction is shown by all three members, one by a single member: it is not robust, and nothing robust is missed."""
+    both, one = ((1232.0, 1237.0, 1e-3), (1832.0, 1836.0, 1e-3)), ((1234.0, 1240.0, 1e-3),)
+    response, diagram, members = spiked(*both), campbell([1200.0]), [spiked(*spikes) for spikes in (one, both, one)]
+    found = compare(response, diagram, replay(response, diagram, PLAN, CHOICE), InteractionChoice(), members)
+    assert [(one.found, one.robust, one.share_of_members) for one in found.interactions] == [
+        (True, True, 1.0),
+        (False, False, pytest.approx(1 / 3)),
+    ]
+    place = ("Ref", "abradable")
+    table = refinement_table({"refined": {place: found}}, {place: 1251})
+    assert "| 2, 1 robust, in 1251 runs | 1 found, 1 of the robust, 1 the same" in table
+    assert "| none | 33% |" in table
 
 
 class _Wildcards(dict):

@@ -59,14 +59,16 @@ def test_speeds_and_their_files(chosen):
     assert sweep.speed_files(L50) == ["<results>/L50/direct/speed_1000.25.npz"]
 
 
+REFINED = {
+    "blades": ["Ref", "L50"],
+    "scenes": ["abradable", "direct"],
+    "speeds": [{"start": 900, "stop": 1000, "step": 50, "refine_to": 5}],
+}
+
+
 @pytest.fixture
 def refining(root, tmp_path):
     """A plan with adaptive speeds, with two finished rounds of the reference blade and one of the other."""
-    changes = {
-        "blades": ["Ref", "L50"],
-        "scenes": ["abradable", "direct"],
-        "speeds": [{"start": 900, "stop": 1000, "step": 50, "refine_to": 5}],
-    }
     rounds = {("Ref", 0): [900, 950, 1000], ("Ref", 1): [925], ("Ref", 2): [], ("L50", 0): [900, 950, 1000]}
 
     def file_of_round(blade, scene, round):
@@ -74,7 +76,7 @@ def refining(root, tmp_path):
         file.write_text(json.dumps({"new": rounds[blade, round], "measured": []}))
         return file
 
-    return Sweep(read_settings(root, command_line_document(changes)), file_of_round)
+    return Sweep(read_settings(root, command_line_document(REFINED)), file_of_round)
 
 
 def test_speeds_of_all_rounds_are_reduced(refining):
@@ -105,6 +107,22 @@ def test_plain_grids_beside_are_part_of_the_whole_one(refining):
     assert refinement.plain_steps(refining.settings) == [5.0, 20.0]
     whole = refinement.cases(refining.settings)["Ref__abradable"]
     assert list(whole.speeds) == [900.0 + 5.0 * place for place in range(21)]
+
+
+def test_members_are_run_at_every_speed_too(root):
+    """Beside the nominal runs of the study, as cases of their own, in scenes that have the numbers."""
+    tolerances = {"members": 2, "of_scenes": {"lining.bar_width_m": {"between": [8e-4, 1.25e-3]}}}
+    settings = read_settings(root, command_line_document({**REFINED, "blades": ["Ref"], "tolerances": tolerances}))
+    cases, members = refinement.cases(settings), refinement.values(settings)["members"]
+    assert list(cases) == ["Ref__abradable", "Ref__direct", "Ref__abradable/0", "Ref__abradable/1"]
+    assert members == {"Ref__abradable": {"0": "Ref__abradable/0", "1": "Ref__abradable/1"}}
+    nominal, member = cases["Ref__abradable"], cases["Ref__abradable/1"]
+    assert member.scene == settings.members.all["Ref", "abradable"]["1"].scene != nominal.scene
+    assert replace(member, scene=nominal.scene, what=nominal.what) == nominal
+    of_blades = {"of_blades": {"thickness_percent": {"normal": 1}}}
+    settings = read_settings(root, command_line_document({**REFINED, "blades": ["Ref"], "tolerances": of_blades}))
+    with pytest.raises(ConfigError, match="found thickness_percent; allowed: of_scenes alone"):
+        refinement.cases(settings)
 
 
 def test_estimate_of_speeds_that_refine_themselves_is_their_share(refining):

@@ -13,7 +13,7 @@ from r37core.config.blades import Blades, blade_settings
 from r37core.config.families import with_designs, with_value
 from r37core.config.scenes import Scenes
 
-from .configuration import Configuration, read_configuration
+from .call_configuration import Configuration, read_configuration
 
 
 @dataclass(frozen=True)

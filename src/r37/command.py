@@ -16,7 +16,7 @@ from r37core.io import InputFileError
 from r37core.plans.sweep_plan import Sweep
 from r37core.time_integration.status import RunStatus
 
-from .configuration import read_configuration
+from .call_configuration import read_configuration
 from .simulations import campbell, sweep
 
 

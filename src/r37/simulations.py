@@ -24,8 +24,8 @@ from r37core.rom.rom_file import read_reduced_model
 from r37core.time_integration.speed_file import write_speed
 from r37core.time_integration.speed_run import OF_RUNS, run_speed
 
+from .call_configuration import Configuration, read_configuration
 from .choices import BladeChoice, SceneChoice
-from .configuration import Configuration, read_configuration
 from .structure_files import StructureFiles
 
 

@@ -6,9 +6,12 @@ damaged is made again. Light: the simulation jobs import it.
 
 from __future__ import annotations
 
+import fcntl
 import hashlib
 import os
 import tempfile
+from collections.abc import Callable
+from contextlib import suppress
 from pathlib import Path
 
 _PACKAGE = Path(__file__).parent
@@ -23,6 +26,26 @@ def read_kept(name: str) -> bytes | None:
         return None
     digest, kept = content[:_DIGEST_BYTES], content[_DIGEST_BYTES:]
     return kept if digest == hashlib.sha256(kept).digest() else None
+
+
+def kept_or_made(name: str, make: Callable[[], bytes], worth_keeping: Callable[[], bool]) -> bytes:
+    """Content of what is kept under a name, or what `make` gives, kept if it is `worth_keeping` then.
+
+    Of several processes that need the same one makes it and the others wait, so that a core is not busy twice with one thing.
+    """
+    content = read_kept(name)
+    if content is not None:
+        return content
+    with open(_folder() / "making.lock", "ab") as lock:
+        # a byte of its own for each name; where the file system has no locks, several may make it
+        with suppress(OSError):
+            fcntl.lockf(lock, fcntl.LOCK_EX, 1, int(hashlib.sha256(name.encode()).hexdigest()[:7], 16))
+        content = read_kept(name)
+        if content is None:
+            content = make()
+            if worth_keeping():
+                keep(content, name)
+    return content
 
 
 def keep(content: bytes, name: str) -> None:

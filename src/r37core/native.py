@@ -17,7 +17,7 @@ from typing import Any
 import llvmlite
 import llvmlite.binding as llvm
 
-from .kept import keep, read_kept
+from .kept import kept_or_made
 
 _PACKAGE = Path(__file__).parent
 
@@ -64,12 +64,7 @@ def cached_object(name: str, sources: Sources, about: object, build: Callable[[]
     """
     made_of = (name, about, sources.digest, _numba_version(), llvmlite.__version__, processor())
     file = f"{name}-{hashlib.sha256(repr(made_of).encode()).hexdigest()[:16]}.o"
-    code = read_kept(file)
-    if code is None:
-        code = build()
-        if sources.unchanged:
-            keep(code, file)
-    return code
+    return kept_or_made(file, build, lambda: sources.unchanged)
 
 
 def object_code(assembly: str, symbol: str, name: str) -> bytes:

@@ -20,18 +20,20 @@ _LAYERS = "layers of elements left out round contact nodes and root, where stres
 class MaterialSection(Section):
     """Isotropic material; what is left out comes from the base."""
 
-    youngs_modulus_pa: Annotated[float, Field(ge=1e6, le=1e13)] | LeftOut = None
-    density_kg_m3: Annotated[float, Field(ge=1, le=1e5)] | LeftOut = None
-    poissons_ratio: Annotated[float, Field(gt=-1, lt=0.5)] | LeftOut = None
-    yield_stress_pa: Annotated[float, Field(ge=1, le=1e12)] | LeftOut = None
+    youngs_modulus_pa: Annotated[float, Field(ge=1e6, le=1e13)] | LeftOut = Field(default=None, description="Young's modulus")
+    density_kg_m3: Annotated[float, Field(ge=1, le=1e5)] | LeftOut = Field(default=None, description="density")
+    poissons_ratio: Annotated[float, Field(gt=-1, lt=0.5)] | LeftOut = Field(default=None, description="Poisson's ratio")
+    yield_stress_pa: Annotated[float, Field(ge=1, le=1e12)] | LeftOut = Field(
+        default=None, description="results say where the stress is above it; nothing yields"
+    )
 
 
 class Submesh(Section):
     """Where stress is recovered; nodes with x (radial) below and z (downstream) between these bounds."""
 
-    maximum_x_m: float = Field(default=0.197, gt=0, le=100)
-    minimum_z_m: Coordinate = 0.0165
-    maximum_z_m: Coordinate = 0.0265
+    maximum_x_m: float = Field(default=0.197, gt=0, le=100, description="upper bound of x")
+    minimum_z_m: Coordinate = Field(default=0.0165, description="lower bound of z")
+    maximum_z_m: Coordinate = Field(default=0.0265, description="upper bound of z")
     excluded_layers: Layers = Field(default=0, description=_LAYERS)
 
     @model_validator(mode="after")
@@ -43,9 +45,9 @@ class Submesh(Section):
 class ImportedSubmesh(Section):
     """Where stress is recovered on a blade of another program: everywhere but near contact nodes and root, or in a box too."""
 
-    maximum_x_m: Annotated[float, Field(gt=0, le=100)] | LeftOut = None
-    minimum_z_m: Coordinate | LeftOut = None
-    maximum_z_m: Coordinate | LeftOut = None
+    maximum_x_m: Annotated[float, Field(gt=0, le=100)] | LeftOut = Field(default=None, description="upper bound of x")
+    minimum_z_m: Coordinate | LeftOut = Field(default=None, description="lower bound of z")
+    maximum_z_m: Coordinate | LeftOut = Field(default=None, description="upper bound of z")
     excluded_layers: Layers = Field(default=1, description=_LAYERS)
 
     @model_validator(mode="after")

@@ -45,7 +45,7 @@ SHARES = ("sweep_percent", "lean_percent")
 class SweepLean(Section):
     """One row of sweep and lean."""
 
-    span_percent: float = Field(ge=0, le=100)
+    span_percent: float = Field(ge=0, le=100, description="from the hub (0) to the tip (100)")
     sweep_cm: float = Field(ge=-100, le=100, description="positive downstream")
     lean_deg: float = Field(gt=-90, lt=90, description="positive in the direction of rotation")
 
@@ -53,9 +53,9 @@ class SweepLean(Section):
 class Variation(Section):
     """Values from `start` to `stop`, both included, as far as the step goes."""
 
-    start: float = Field(ge=-1e12, le=1e12)
-    stop: float = Field(ge=-1e12, le=1e12)
-    step: float = Field(gt=0, le=1e12)
+    start: float = Field(ge=-1e12, le=1e12, description="first value, in the unit of the key that varies")
+    stop: float = Field(ge=-1e12, le=1e12, description="last value, if the step reaches it")
+    step: float = Field(gt=0, le=1e12, description="from value to value")
 
     @model_validator(mode="after")
     def _forward(self) -> Variation:
@@ -85,8 +85,12 @@ class BladeEntry(Section):
     profiles: FileName | LeftOut = Field(default=None, description="profile table (CSV)")
     base: Name | LeftOut = Field(default=None, description="blade to inherit profiles, sweep and lean, and material from")
     stacking_table: FileName | LeftOut = Field(default=None, description="sweep and lean table (CSV) with a column `blade`")
-    sweep_lean: Annotated[list[SweepLean], Field(min_length=2)] | LeftOut = None
-    chordwise_sweep_deg: Annotated[float, Field(gt=-60, lt=60)] | LeftOut = Field(default=None, description="positive forward")
+    sweep_lean: Annotated[list[SweepLean], Field(min_length=2)] | LeftOut = Field(
+        default=None, description="the table written here, one entry a row"
+    )
+    chordwise_sweep_deg: Annotated[float, Field(gt=-60, lt=60)] | LeftOut = Field(
+        default=None, description="one angle of sweep along the chord in place of a table, positive forward"
+    )
     sweep_percent: Annotated[float, Field(ge=-1000, le=1000)] | LeftOut = Field(
         default=None, description="share of the table's sweep that is kept, its own or that of its base"
     )

@@ -63,7 +63,7 @@ class CasingSection(Section):
     )
     lobes: int = Field(default=2, ge=0, le=100, description="0 is a circular casing")
     width: float = Field(default=0.15, ge=1e-3, le=100, description="width of a lobe in shares of its period")
-    amplitude_clearances: float = Field(default=2.0, ge=0, le=1000)
+    amplitude_clearances: float = Field(default=2.0, ge=0, le=1000, description="height of the lobes")
     rise_fraction: float = Field(default=0.2, ge=0, le=1, description="share of the run at which 99% is reached")
 
     @model_validator(mode="after")

@@ -24,8 +24,8 @@ from .tolerance_section import ToleranceSection
 class Boundary(Section):
     """The contact nodes, kept as physical coordinates of the reduced model."""
 
-    tip_line: TipLine = "pressure_edge"
-    nodes: int = Field(default=8, ge=1, le=200)
+    tip_line: TipLine = Field(default="pressure_edge", description="line of the tip on which they lie")
+    nodes: int = Field(default=8, ge=1, le=200, description="how many, evenly spaced")
     corners: bool = Field(default=True, description="whether leading and trailing corner are among them")
 
 
@@ -35,7 +35,7 @@ class StructureSection(Section):
     edges: Literal["round", "blunt"] = Field(default="round", description="how leading and trailing edge are closed")
     boundary: Boundary = Boundary()
     maximum_speed_rad_s: Speed = Field(default=2000.0, description="highest speed of the basis and of the Campbell diagram")
-    spin_softening: bool = False
+    spin_softening: bool = Field(default=False, description="loss of stiffness because centrifugal forces follow the motion")
     coriolis: bool = Field(default=False, description="in the Campbell diagram and in all simulations; needs exact_modal")
     stress_submesh: Submesh = Submesh()
     recover_whole_blade: bool = Field(default=False, description="keep the basis on every node (a large file)")
@@ -61,10 +61,12 @@ class StructureSection(Section):
 class CampbellSection(Section):
     """The Campbell diagram."""
 
-    speed_step_rad_s: float = Field(default=50.0, ge=0.1, le=1e6)
-    modes: int = Field(default=10, ge=3, le=30)
-    highest_engine_order: int = Field(default=20, ge=1, le=100)
-    largest_tangential_displacement_m: float = Field(default=0.01, gt=0, le=1)
+    speed_step_rad_s: float = Field(default=50.0, ge=0.1, le=1e6, description="from speed to speed of the diagram")
+    modes: int = Field(default=10, ge=3, le=30, description="how many are drawn and kept")
+    highest_engine_order: int = Field(default=20, ge=1, le=100, description="crossings are looked for up to this order")
+    largest_tangential_displacement_m: float = Field(
+        default=0.01, gt=0, le=1, description="how far the leading edge swings in the dynamic clearance"
+    )
 
 
 class Interactions(Section):
@@ -80,8 +82,8 @@ class Interactions(Section):
 class WindowSection(Section):
     """Speeds above the crossings of a mode with engine orders, which are looked at more closely before anything is known."""
 
-    mode: Literal["1B", "1T", "2B"]
-    highest_engine_order: int = Field(ge=1, le=100)
+    mode: Literal["1B", "1T", "2B"] = Field(description="whose crossings")
+    highest_engine_order: int = Field(ge=1, le=100, description="from order 1 up to this one")
     first: float = Field(ge=-0.5, le=1, description="where it begins, as a share of the crossing's speed above it")
     last: float = Field(ge=-0.5, le=1, description="where it ends")
     step_rad_s: Speed = Field(description="its intervals are halved until none is longer")
@@ -101,7 +103,7 @@ class RefinementSection(Section):
             WindowSection(mode="1B", highest_engine_order=8, first=0.01, last=0.06, step_rad_s=5.0),
             WindowSection(mode="1T", highest_engine_order=20, first=0.0, last=0.02, step_rad_s=5.0),
         ],
-        description="where interactions are expected, for contact stiffens a blade",
+        description="where interactions are expected, because contact stiffens a blade",
     )
     change: float = Field(
         default=0.25,

@@ -28,7 +28,9 @@ class Mesh(Section):
 class Reduction(Section):
     """Size of the reduced model."""
 
-    fixed_interface_modes: int = Field(ge=0, le=500)
+    fixed_interface_modes: int = Field(
+        ge=0, le=500, description="at each of three speeds: rest, half the maximum and the maximum"
+    )
     basis_tolerance: float = Field(
         default=1e-8, ge=0, lt=1, description="columns with smaller relative singular values are dropped"
     )
@@ -40,7 +42,7 @@ class Measured(Section):
     error: float = Field(
         ge=0, le=1e6, description="largest relative error, over scenes, of rms, largest displacement and stress"
     )
-    cpu_s_per_run: float = Field(gt=0, le=1e9)
+    cpu_s_per_run: float = Field(gt=0, le=1e9, description="CPU seconds of a run")
 
 
 Step = Annotated[float, Field(ge=1e-12, le=1e-2)]
@@ -49,8 +51,8 @@ Step = Annotated[float, Field(ge=1e-12, le=1e-2)]
 class Steps(Section):
     """Largest steps of the scenes with a lining and of those without."""
 
-    lined: Step
-    direct: Step
+    lined: Step = Field(description="with a lining")
+    direct: Step = Field(description="without")
 
 
 class TimeIntegration(Section):
@@ -63,7 +65,7 @@ class TimeIntegration(Section):
     largest_time_step_s: Steps | LeftOut = Field(
         default=None, description="in place of time_step_s: of each kind of scene; shortened also where it is unstable"
     )
-    revolutions: int = Field(ge=2, le=20000)
+    revolutions: int = Field(ge=2, le=20000, description="length of a run")
     speed_step_rad_s: Speed = Field(description="step of the speed ranges that give none")
     integrator: Literal["central_difference", "exact_modal"] = Field(
         default="central_difference",
@@ -75,7 +77,9 @@ class TimeIntegration(Section):
     )
     stress_instants: int = Field(default=62, ge=1, le=10000, description="stress evaluations per revolution")
     samples_per_stress_instant: int = Field(default=8, ge=1, le=10000, description="samples of the tip motion between them")
-    spectrum_highest_order: int = Field(default=20, ge=1, le=10000)
+    spectrum_highest_order: int = Field(
+        default=20, ge=1, le=10000, description="highest engine order of the spectrum that is kept"
+    )
     wear_angles: int = Field(default=1000, ge=8, le=1_000_000, description="angles of the wear profile that are kept")
 
     @model_validator(mode="after")

@@ -22,16 +22,16 @@ MeridianPoint = Annotated[list[Annotated[float, Field(ge=-100, le=100)]], Field(
 class SurfaceRule(Section):
     """All outer faces within limits; r is the distance from the rotor axis, x radial, z along the axis downstream."""
 
-    r_at_least_m: Length = None
-    r_at_most_m: Length = None
-    x_at_least_m: Length = None
-    x_at_most_m: Length = None
-    z_at_least_m: Length = None
-    z_at_most_m: Length = None
+    r_at_least_m: Length = Field(default=None, description="lower bound of the distance from the rotor axis")
+    r_at_most_m: Length = Field(default=None, description="upper bound of the distance from the rotor axis")
+    x_at_least_m: Length = Field(default=None, description="lower bound of the radial coordinate")
+    x_at_most_m: Length = Field(default=None, description="upper bound of the radial coordinate")
+    z_at_least_m: Length = Field(default=None, description="lower bound of the axial coordinate")
+    z_at_most_m: Length = Field(default=None, description="upper bound of the axial coordinate")
     cone_zr_m: Annotated[list[MeridianPoint], Field(min_length=2, max_length=2)] | LeftOut = Field(
         default=None, description="two points [z, r] of the straight meridian that the faces lie on"
     )
-    tolerance_m: float = Field(default=1e-4, gt=0, le=0.1)
+    tolerance_m: float = Field(default=1e-4, gt=0, le=0.1, description="how far beyond a limit a face may lie")
 
     @model_validator(mode="after")
     def _says_something(self) -> SurfaceRule:

@@ -81,7 +81,7 @@ class GaugeEntry(Section):
 
     chord: float = Field(ge=0, le=1, description="place along the chord, from the leading (0) to the trailing edge (1)")
     span: float = Field(ge=0, le=1, description="place along the span, from the root (0) to the tip (1)")
-    side: Literal["pressure", "suction"]
+    side: Literal["pressure", "suction"] = Field(description="of the blade's surface")
     angle_deg: float = Field(
         default=0.0,
         ge=-180,
@@ -93,7 +93,7 @@ class GaugeEntry(Section):
 class SignalSection(Section):
     """Which signals of which runs are kept; none without speeds."""
 
-    blades: AllOrNames = "all"
+    blades: AllOrNames = Field(default="all", description="of those that are run")
     speeds_rad_s: SignalSpeeds | LeftOut = Field(
         default=None,
         description="interactions: the peak speeds of each blade and scene that summary.csv has; or any speeds, each a run of "

@@ -19,8 +19,8 @@ Share = Annotated[float, Field(ge=-0.5, le=1)]
 class CrossingSection(Section):
     """Speeds about a crossing of each blade's own Campbell diagram."""
 
-    mode: Literal["1B", "1T", "2B"]
-    engine_order: int = Field(ge=1, le=100)
+    mode: Literal["1B", "1T", "2B"] = Field(description="whose crossing")
+    engine_order: int = Field(ge=1, le=100, description="with which engine order")
     first: Share = Field(description="where the run-up begins, as a share of the crossing's speed above it")
     last: Share = Field(description="where it ends; below first it is a run-down")
 
@@ -31,14 +31,16 @@ class RunUpEntry(Section):
     blades: AllOrNames = Field(default="all", description="of those that are run")
     scenes: AllOrNames = Field(default="all", description="of those that are run")
     from_rad_s: Speed | LeftOut = Field(default=None, description="first speed, at which the casing becomes lobed")
-    from_rpm: Rpm | LeftOut = None
+    from_rpm: Rpm | LeftOut = Field(default=None, description="the same in revolutions per minute")
     to_rad_s: Speed | LeftOut = Field(default=None, description="last speed; a lower one makes a run-down")
-    to_rpm: Rpm | LeftOut = None
+    to_rpm: Rpm | LeftOut = Field(default=None, description="the same in revolutions per minute")
     crossing: CrossingSection | LeftOut = Field(default=None, description="in place of the speeds")
     rate_rad_s2: Annotated[float, Field(gt=0, le=1e9)] | LeftOut = Field(
         default=None, description="change of the speed per second, of a run-down too; or rate_rpm_s; or revolutions"
     )
-    rate_rpm_s: Annotated[float, Field(gt=0, le=1e10)] | LeftOut = None
+    rate_rpm_s: Annotated[float, Field(gt=0, le=1e10)] | LeftOut = Field(
+        default=None, description="the rate in revolutions per minute per second"
+    )
     revolutions: Annotated[float, Field(ge=SHORTEST, le=LONGEST)] | LeftOut = Field(
         default=None, description="revolutions that the change takes, in place of a rate"
     )

@@ -20,11 +20,11 @@ Result = Literal["spectrum", "signal", "stress", "static_stress", "wear", "energ
 class LiningSection(Section):
     """The abradable lining in front of the casing."""
 
-    thickness_m: float = Field(ge=1e-6, le=1)
-    elastic_modulus_pa: float = Field(gt=0, le=1e15)
-    plastic_modulus_pa: float = Field(ge=0, le=1e15)
-    yield_stress_pa: float = Field(ge=0, le=1e15)
-    bars: int = Field(default=10000, ge=10, le=10_000_000)
+    thickness_m: float = Field(ge=1e-6, le=1, description="from its surface to the casing behind it")
+    elastic_modulus_pa: float = Field(gt=0, le=1e15, description="of a bar that is not worn further")
+    plastic_modulus_pa: float = Field(ge=0, le=1e15, description="hardening of a bar as it wears")
+    yield_stress_pa: float = Field(ge=0, le=1e15, description="stress from which on a bar wears")
+    bars: int = Field(default=10000, ge=10, le=10_000_000, description="bars round the circumference")
     rings: Literal["per_node", "shared"] = Field(
         default="per_node", description="shared, one ring worn by all nodes, is kept for the study modelling_choices"
     )
@@ -37,8 +37,11 @@ class LiningSection(Section):
 class FrictionSection(Section):
     """Friction at the tip."""
 
-    form: Literal["constant", "vector"] = "vector"
-    coefficient: float = Field(ge=0, le=10)
+    form: Literal["constant", "vector"] = Field(
+        default="vector",
+        description="vector: against the sliding velocity of rotation and vibration; constant: of the rotation alone",
+    )
+    coefficient: float = Field(ge=0, le=10, description="Coulomb coefficient")
     direction: Literal["against_rotation", "along_rotation"] = Field(
         default="against_rotation", description="along_rotation, against physics, is kept for the study modelling_choices"
     )
@@ -54,9 +57,9 @@ class SceneEntry(Section):
         default=None, description="line of the contact nodes; default: structure.boundary.tip_line"
     )
     casing: CasingSection
-    lining: LiningSection | LeftOut = None
-    friction: FrictionSection | LeftOut = None
-    damping_ratio: float = Field(default=0.0005, ge=0, lt=1)
+    lining: LiningSection | LeftOut = Field(default=None, description="abradable lining; without it the tip meets the casing")
+    friction: FrictionSection | LeftOut = Field(default=None, description="friction at the tip; none without it")
+    damping_ratio: float = Field(default=0.0005, ge=0, lt=1, description="of every mode of the reduced model")
     gap: Literal["linear", "exact"] = Field(
         default="linear",
         description="clearance less the normal displacement, or distance of the displaced node from the casing",

@@ -52,12 +52,13 @@ def _unique(values: list[T]) -> list[T]:
     return values
 
 
-_NAME = r"^[A-Za-z0-9][A-Za-z0-9-]*(_[A-Za-z0-9-]+)*$"
+TEXT_PATTERN = r"\S"
+NAME_PATTERN = r"^[A-Za-z0-9][A-Za-z0-9-]*(_[A-Za-z0-9-]+)*$"
 
 
 def check_name(name: str) -> str:
     """The name itself; the error of one that cannot be part of file names."""
-    if not re.fullmatch(_NAME, name) or len(name) > 60 or name == "all" or not isinstance(scalar(name), str):
+    if not re.fullmatch(NAME_PATTERN, name) or len(name) > 60 or name == "all" or not isinstance(scalar(name), str):
         raise refused(
             (),
             repr(name),
@@ -67,7 +68,7 @@ def check_name(name: str) -> str:
     return name
 
 
-Name = Annotated[str, AfterValidator(check_name), WithJsonSchema({"type": "string", "pattern": _NAME, "maxLength": 60})]
+Name = Annotated[str, AfterValidator(check_name), WithJsonSchema({"type": "string", "pattern": NAME_PATTERN, "maxLength": 60})]
 """Of a blade, scene, level or run. They are parts of file names, where two underscores separate them."""
 
 Unique = Annotated[list[T], Field(min_length=1), AfterValidator(_unique)]
@@ -86,7 +87,7 @@ def _printable(name: str) -> str:
     return name
 
 
-FileName = Annotated[str, StringConstraints(min_length=1, pattern=r"\S"), AfterValidator(_printable)]
+FileName = Annotated[str, StringConstraints(min_length=1, pattern=TEXT_PATTERN), AfterValidator(_printable)]
 LeftOut = SkipJsonSchema[None]
 """What an optional key is when it is not given; null is refused."""
 

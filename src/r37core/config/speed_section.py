@@ -25,8 +25,8 @@ _REFINE_TO = Field(
 class SpeedRange(Section):
     """Speeds from `start` to `stop`, both included."""
 
-    start: Speed
-    stop: Speed
+    start: Speed = Field(description="first speed")
+    stop: Speed = Field(description="last speed, if the step reaches it")
     step: Speed | LeftOut = _STEP
     refine_to: Speed | LeftOut = _REFINE_TO
 
@@ -40,8 +40,8 @@ class SpeedRange(Section):
 class RpmRange(SpeedRange):
     """Speeds in rpm from `start` to `stop`, both included."""
 
-    start: Rpm
-    stop: Rpm
+    start: Rpm = Field(description="first speed")
+    stop: Rpm = Field(description="last speed, if the step reaches it")
     step: Rpm | LeftOut = _STEP
     refine_to: Rpm | LeftOut = _REFINE_TO
 
@@ -59,9 +59,9 @@ RpmList = Annotated[list[RpmEntry], Field(min_length=1)]
 class SpeedRule(Section):
     """Speeds of some blades or scenes (both, where both are given)."""
 
-    blades: Names | LeftOut = None
-    scenes: Names | LeftOut = None
-    speeds: SpeedList | LeftOut = None
+    blades: Names | LeftOut = Field(default=None, description="of these blades; of all without it")
+    scenes: Names | LeftOut = Field(default=None, description="in these scenes; in all without it")
+    speeds: SpeedList | LeftOut = Field(default=None, description="their speeds, as those of the top level")
     speeds_rpm: RpmList | LeftOut = Field(default=None, description="the same in revolutions per minute, in place of speeds")
 
     @model_validator(mode="after")

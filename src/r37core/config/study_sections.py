@@ -17,8 +17,8 @@ Step = Annotated[float, Field(ge=0.05, le=100)]
 class Parameter(Section, Generic[Value]):
     """Values of one parameter, and the one that the others are compared with."""
 
-    values: Unique[Value]
-    reference: Value
+    values: Unique[Value] = Field(description="those that are tried")
+    reference: Value = Field(description="the one that the others are compared with")
 
     @model_validator(mode="after")
     def _reference_is_a_value(self) -> Parameter[Value]:
@@ -28,21 +28,39 @@ class Parameter(Section, Generic[Value]):
 
 
 class Parameters(Section):
-    """The parameters whose price is measured; `level` always, for the recommended level is the study's result."""
+    """The parameters whose price is measured; `level` always, because the recommended level is the study's result."""
 
-    level: Parameter[Name]
-    central_difference_step: Parameter[Annotated[float, Field(ge=1e-12, le=1e-2)]] | LeftOut = None
-    exact_modal_step: Parameter[Annotated[float, Field(ge=1e-12, le=1e-2)]] | LeftOut = None
-    static_above: Parameter[Annotated[float, Field(gt=0, le=1e9)]] | LeftOut = None
-    revolutions: Parameter[Annotated[int, Field(ge=2, le=20000)]] | LeftOut = None
-    mesh_nodes: Parameter[Annotated[int, Field(ge=500, le=500_000)]] | LeftOut = None
-    boundary_nodes: Parameter[Annotated[int, Field(ge=1, le=200)]] | LeftOut = None
-    fixed_interface_modes: Parameter[Annotated[int, Field(ge=0, le=500)]] | LeftOut = None
-    highest_frequency: Parameter[Annotated[float, Field(gt=0, le=1e12)]] | LeftOut = None
-    bars: Parameter[Annotated[int, Field(ge=10, le=10_000_000)]] | LeftOut = None
-    stress_instants: Parameter[Annotated[int, Field(ge=1, le=10000)]] | LeftOut = None
-    stress_region: Parameter[Literal["submesh", "whole"]] | LeftOut = None
-    friction_form: Parameter[Literal["constant", "vector"]] | LeftOut = None
+    level: Parameter[Name] = Field(description="fidelity levels")
+    central_difference_step: Parameter[Annotated[float, Field(ge=1e-12, le=1e-2)]] | LeftOut = Field(
+        default=None, description="step of central differences (s)"
+    )
+    exact_modal_step: Parameter[Annotated[float, Field(ge=1e-12, le=1e-2)]] | LeftOut = Field(
+        default=None, description="exact modal step (s)"
+    )
+    static_above: Parameter[Annotated[float, Field(gt=0, le=1e9)]] | LeftOut = Field(
+        default=None, description="modes with omega h above it follow statically in a lined scene"
+    )
+    revolutions: Parameter[Annotated[int, Field(ge=2, le=20000)]] | LeftOut = Field(default=None, description="length of a run")
+    mesh_nodes: Parameter[Annotated[int, Field(ge=500, le=500_000)]] | LeftOut = Field(
+        default=None, description="nodes of the mesh"
+    )
+    boundary_nodes: Parameter[Annotated[int, Field(ge=1, le=200)]] | LeftOut = Field(default=None, description="contact nodes")
+    fixed_interface_modes: Parameter[Annotated[int, Field(ge=0, le=500)]] | LeftOut = Field(
+        default=None, description="fixed-interface modes of the reduced model at each of its speeds"
+    )
+    highest_frequency: Parameter[Annotated[float, Field(gt=0, le=1e12)]] | LeftOut = Field(
+        default=None, description="highest frequency that is kept (Hz)"
+    )
+    bars: Parameter[Annotated[int, Field(ge=10, le=10_000_000)]] | LeftOut = Field(
+        default=None, description="bars of the lining"
+    )
+    stress_instants: Parameter[Annotated[int, Field(ge=1, le=10000)]] | LeftOut = Field(
+        default=None, description="stress evaluations per revolution"
+    )
+    stress_region: Parameter[Literal["submesh", "whole"]] | LeftOut = Field(
+        default=None, description="submesh, or the whole blade"
+    )
+    friction_form: Parameter[Literal["constant", "vector"]] | LeftOut = Field(default=None, description="form of friction")
 
     def given(self) -> dict[str, Parameter]:
         """The parameters that are varied, by name."""
@@ -52,9 +70,9 @@ class Parameters(Section):
 class PlaceSection(Section):
     """Neighbouring speeds, as shares of the Campbell speed."""
 
-    first: float = Field(ge=0.01, le=100)
-    last: float = Field(ge=0.01, le=100)
-    speeds: int = Field(ge=1, le=1000)
+    first: float = Field(ge=0.01, le=100, description="lowest")
+    last: float = Field(ge=0.01, le=100, description="highest")
+    speeds: int = Field(ge=1, le=1000, description="how many, evenly spaced")
 
     @model_validator(mode="after")
     def _forward(self) -> PlaceSection:
@@ -75,7 +93,7 @@ class TradeoffSection(Section):
     """What accuracy costs (snakemake tradeoff)."""
 
     blade: Name | LeftOut = Field(default=None, description="if left out, the first one of the run with profiles")
-    scenes: AllOrNames = "all"
+    scenes: AllOrNames = Field(default="all", description="of those that are run")
     base: Name = Field(default="standard", description="fidelity level that all parameters but one keep")
     engine_order: int = Field(default=4, ge=1, le=100, description="the speeds lie about this crossing of 1B")
     places: Places = Places()
@@ -97,8 +115,8 @@ class ModellingChoicesSection(Section):
     quick: Name = Field(
         default="standard", description="level whose time integration the varied choices and the whole range take"
     )
-    lined_scene: Name = "abradable"
-    direct_scene: Name = "direct"
+    lined_scene: Name = Field(default="abradable", description="scene with a lining")
+    direct_scene: Name = Field(default="direct", description="scene without one")
     speed_steps_rad_s: SpeedSteps = SpeedSteps()
 
 
@@ -109,7 +127,7 @@ class ValidationRangesSection(Section):
     """
 
     members: MemberCount = Field(default=16, description="a power of two; more of them change none that are there")
-    seed: int = Field(default=0, ge=0, le=2**31)
+    seed: int = Field(default=0, ge=0, le=2**31, description="another one gives another sample")
     of_scenes: Annotated[dict[str, ToleranceEntry], Field(min_length=1)] = Field(
         description="by dotted keys of scenes.yaml; direct contact has those that it knows"
     )
@@ -119,9 +137,9 @@ class StabilitySection(Section):
     """What happens at extremes (snakemake stability)."""
 
     blade: Name | LeftOut = Field(default=None, description="if left out, the first one of the run with profiles")
-    base: Name = "standard"
-    lined_scene: Name = "abradable"
-    direct_scene: Name = "direct"
+    base: Name = Field(default="standard", description="fidelity level that the cases change")
+    lined_scene: Name = Field(default="abradable", description="scene with a lining")
+    direct_scene: Name = Field(default="direct", description="scene without one")
 
 
 class EstimateSection(Section):

@@ -68,7 +68,7 @@ class ToleranceSection(Section):
         "(in proportion to the span), thickness_percent of all profiles",
     )
     members: MemberCount = Field(default=32, description="a power of two; more of them change none that are there")
-    seed: int = Field(default=0, ge=0, le=2**31)
+    seed: int = Field(default=0, ge=0, le=2**31, description="another one gives another sample")
     sensitivity: bool = Field(
         default=False, description="Sobol indices, which take as many members again for each number, and once more"
     )

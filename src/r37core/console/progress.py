@@ -46,8 +46,9 @@ _ON_TERMINAL_S, _ELSEWHERE_S = 0.5, 60.0
 class Progress(logging.Filter):
     """A filter for the handler of Snakemake's messages that keeps those about single jobs back and writes a line instead.
 
-    `most`: how many simulations there may be at most, those of earlier runs included. The line goes to `stream`: renewed in
-    place if that is a terminal, and now and then as a line of its own if it is not. Snakemake's log file has everything.
+    `most`: how many simulations there may be at most, those of earlier runs included; windows of adaptive speeds, which are
+    run in any case, may pass it. The line goes to `stream`: renewed in place if that is a terminal, and now and then as a line
+    of its own if it is not. Snakemake's log file has everything.
     """
 
     most: int
@@ -97,7 +98,8 @@ class Progress(logging.Filter):
             blades = list(self._simulated.items())
             shown = ", ".join(f"{blade} {number}" for blade, number in blades[-3:])
             more = f"{len(blades) - 3} blades more, " if len(blades) > 3 else ""
-            parts.append(f"simulations {self._simulated.total()} of at most {self.most} ({more}{shown})")
+            bound = f" of at most {self.most}" if self._simulated.total() <= self.most else ""
+            parts.append(f"simulations {self._simulated.total()}{bound} ({more}{shown})")
             parts.append(f"{self._diverged} diverged")
         if rate > 0.0:
             parts += [f"{rate:.1f} a second", f"{_duration((self._known - self._done) / rate)} for those known"]

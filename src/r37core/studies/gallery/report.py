@@ -107,23 +107,23 @@ def of_item(item: Item, checks: Iterable[Check]) -> list[Check]:
 
 
 def verdict(checks: Sequence[Check]) -> str:
-    """One line: what agrees with the published values, what does not, and what is ours alone."""
+    """What agrees with the published values, what does not, and what is ours alone, each as a list."""
     scored = [check for check in checks if check.published is not None]
     agreeing, differing = ([check for check in scored if check.agrees == agrees] for agrees in (True, False))
     parts = []
     if agreeing:
-        said = _listed(agreeing) if len(agreeing) <= _LISTED else _summed(agreeing)
-        parts.append(f"**Agrees** ({len(agreeing)} of {len(scored)}): {said}")
+        said = [_one(check) for check in agreeing] if len(agreeing) <= _LISTED else [_summed(agreeing)]
+        parts.append(_listed(f"**Agrees** ({len(agreeing)} of {len(scored)}):", said))
     if differing:
-        parts.append("**Does not agree**: " + _listed(differing))
+        parts.append(_listed("**Does not agree**:", [_one(check) for check in differing]))
     alone = [f"{check.name} {check.shown}{_unit(check)}" for check in checks if check.published is None]
     if alone:
-        parts.append("Ours alone: " + "; ".join(alone))
-    return ". ".join(parts) + "."
+        parts.append(_listed("Ours alone:", alone))
+    return "\n\n".join(parts)
 
 
-def _listed(checks: Sequence[Check]) -> str:
-    return "; ".join(_one(check) for check in checks)
+def _listed(head: str, said: Sequence[str]) -> str:
+    return "\n".join([head, "", *(f"- {one}" for one in said)])
 
 
 def _one(check: Check) -> str:

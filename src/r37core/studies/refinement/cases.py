@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 from r37core.config import ConfigError, Settings, plain
 from r37core.plans.sweep_plan import Sweep
+from r37core.tolerances.sample import is_of_sample
 
 from ..case import Case
 from ..plan import case_of_sweep
@@ -23,10 +25,10 @@ def adaptive(settings: Settings) -> dict[str, tuple[str, str]]:
 
 
 def cases(settings: Settings) -> dict[str, Case]:
-    """Every speed of each of them; ConfigError if there are none."""
+    """Every speed of each of them, and of each of its members where the run has tolerances; ConfigError if there are none."""
     if not adaptive(settings):
         raise ConfigError("config.yaml: speeds: found no range with refine_to; allowed: at least one, for this study")
-    return {
+    nominal = {
         name: case_of_sweep(
             settings,
             *place,
@@ -34,6 +36,26 @@ def cases(settings: Settings) -> dict[str, Case]:
             results=tuple(kind for kind in settings.results_of(*place) if kind in _COMPARED),
         )
         for name, place in adaptive(settings).items()
+    }
+    members = adaptive_members(settings)
+    return nominal | {
+        case: replace(nominal[name], scene=settings.members.all[place][member].scene, what=f"member {member}")
+        for name, place in adaptive(settings).items()
+        for member, case in members.get(name, {}).items()
+    }
+
+
+def adaptive_members(settings: Settings) -> dict[str, dict[str, str]]:
+    """Cases of the members of each adaptive sweep, by its name and the member's; ConfigError where their blades differ."""
+    of_blades = settings.config.tolerances.of_blades
+    if of_blades:
+        raise settings.documents.config.refusal(
+            ("tolerances", "of_blades"), ", ".join(of_blades), "of_scenes alone: the study runs the nominal models"
+        )
+    return {
+        name: {member: f"{name}/{member}" for member in settings.members.all[place] if is_of_sample(member)}
+        for name, place in adaptive(settings).items()
+        if place in settings.members.pairs
     }
 
 
@@ -51,6 +73,7 @@ def values(settings: Settings) -> dict[str, Any]:
     """Plans of the speeds, steps of the plain grids, and what a sweep refines by."""
     return {
         "places": adaptive(settings),
+        "members": adaptive_members(settings),
         "plans": {name: settings.speed_plans[place] for name, place in adaptive(settings).items()},
         "steps": plain_steps(settings),
         "choice": Sweep(settings).refinement_choice,

@@ -17,6 +17,7 @@ from r37core.plain import from_plain
 from r37core.results.interactions import Interaction, InteractionChoice, find_interactions
 from r37core.results.measures import leading_edge
 from r37core.speeds import SpeedPlan
+from r37core.tolerances.table import ROBUST, ranges
 
 from ..checks import ran
 from ..tables import markdown_table
@@ -30,7 +31,8 @@ class Comparison:
     """One interaction above yield of the whole grid, and what the adaptive speeds have of it.
 
     Speeds and widths in rad/s, `stress` in Pa; `found_peak` and `found_width` NaN where there is no interaction
-    above yield within the width, or TOLERANCE, of it.
+    above yield within the width, or TOLERANCE, of it. `share_of_members`: how many of a sample's show it above yield, at
+    every speed of the grid; NaN without members.
     """
 
     mode: str
@@ -40,6 +42,12 @@ class Comparison:
     stress: float
     found_peak: float
     found_width: float
+    share_of_members: float
+
+    @property
+    def robust(self) -> bool:
+        """Whether at least half of the members show it."""
+        return self.share_of_members >= ROBUST
 
     @property
     def found(self) -> bool:
@@ -68,14 +76,15 @@ def report(responses: Mapping[str, xr.Dataset], files: Any, values: Mapping[str,
     diagrams = read_dataset(files.campbell)
     ways: dict[str, dict[tuple[str, str], Outcome]] = {"refined": {}}
     every = {}
-    for name, response in responses.items():
-        blade, scene = values["places"][name]
+    for name, (blade, scene) in values["places"].items():
+        response = ran(responses[name], name)
         campbell, plan = diagrams.sel(blade=blade), from_plain(SpeedPlan, values["plans"][name])
-        every[blade, scene] = ran(response, name).sizes["speed"]
+        members = [ran(responses[case], case) for case in values["members"].get(name, {}).values()]
+        every[blade, scene] = response.sizes["speed"]
         speeds = {"refined": replay(response, campbell, plan, choice)}
         speeds |= {f"every {step:g} rad/s": [plain_grid(plan, step)] for step in values["steps"]}
         for way, several in speeds.items():
-            ways.setdefault(way, {})[blade, scene] = compare(response, campbell, several, interactions)
+            ways.setdefault(way, {})[blade, scene] = compare(response, campbell, several, interactions, members)
     return {"table": refinement_table(ways, every)}
 
 
@@ -110,12 +119,34 @@ def plain_grid(plan: SpeedPlan, step: float) -> list[float]:
 
 
 def compare(
-    response: xr.Dataset, campbell: xr.Dataset, speeds: Sequence[Sequence[float]], interactions: InteractionChoice
+    response: xr.Dataset,
+    campbell: xr.Dataset,
+    speeds: Sequence[Sequence[float]],
+    interactions: InteractionChoice,
+    members: Sequence[xr.Dataset] = (),
 ) -> Outcome:
-    """Hold the interactions above yield that the `speeds` (rad/s) of each round show against those of the whole grid."""
+    """Hold the interactions above yield that the `speeds` (rad/s) of each round show against those of the whole grid.
+
+    `members`: what members of a sample give on the whole grid.
+    """
     run = sorted(speed for new in speeds for speed in new)
     wanted, got = (_above_yield(part, campbell, interactions) for part in (response, response.sel(speed=run)))
-    return Outcome(len(speeds[0]), len(run), len(speeds), [_held_against(row, got) for row in wanted])
+    shares = _shares(wanted, [_above_yield(member, campbell, interactions) for member in members], interactions)
+    compared = [_held_against(row, got, share) for row, share in zip(wanted, shares, strict=True)]
+    return Outcome(len(speeds[0]), len(run), len(speeds), compared)
+
+
+def _shares(
+    wanted: Sequence[Interaction], members: Sequence[Sequence[Interaction]], interactions: InteractionChoice
+) -> list[float]:
+    """Share of the members that show each of the interactions; NaN without members."""
+    if not members:
+        return [math.nan] * len(wanted)
+    rows = ranges(wanted, {f"{number}": found for number, found in enumerate(members)}, interactions)
+    share: dict[tuple[object, ...], Any] = {
+        (row["mode"], row["engine_order"], row["peak_speed_rad_s"]): row["share_of_members"] for row in rows
+    }
+    return [share[one.mode, one.engine_order, one.peak_speed_rad_s] for one in wanted]
 
 
 def _above_yield(response: xr.Dataset, campbell: xr.Dataset, interactions: InteractionChoice) -> list[Interaction]:
@@ -123,7 +154,7 @@ def _above_yield(response: xr.Dataset, campbell: xr.Dataset, interactions: Inter
     return [row for row in rows if row.width_above_yield_rad_s > 0.0]
 
 
-def _held_against(row: Interaction, got: Sequence[Interaction]) -> Comparison:
+def _held_against(row: Interaction, got: Sequence[Interaction], share_of_members: float) -> Comparison:
     """One interaction beside the nearest of those that were found."""
     peak, width = row.peak_speed_rad_s, row.width_above_yield_rad_s
     near = [other for other in got if abs(other.peak_speed_rad_s - peak) <= max(width, TOLERANCE)]
@@ -136,40 +167,51 @@ def _held_against(row: Interaction, got: Sequence[Interaction]) -> Comparison:
         stress=row.max_von_mises_pa,
         found_peak=nearest.peak_speed_rad_s if nearest else math.nan,
         found_width=nearest.width_above_yield_rad_s if nearest else math.nan,
+        share_of_members=share_of_members,
     )
 
 
 def refinement_table(outcomes: Mapping[str, Mapping[tuple[str, str], Outcome]], every: Mapping[tuple[str, str], int]) -> str:
-    """What each way to choose speeds finds. `outcomes`: way -> (blade, scene) -> outcome, the first way refines itself.
+    """What each way to choose speeds finds, of all interactions and of the robust ones where there are members.
+
+    `outcomes`: way -> (blade, scene) -> outcome, the first way refines itself.
 
     `every`: number of speeds of the whole grid of each blade and scene.
     """
     first = next(iter(outcomes.values()))
     rows = []
     for blade, scene in first:
-        number = len(first[blade, scene].interactions)
-        cells = [_cell(ways[blade, scene]) for ways in outcomes.values()]
-        rows.append([blade, scene, f"{number} in {every[blade, scene]} runs", *cells])
-    totals = [_total(list(ways.values())) for ways in outcomes.values()]
-    number = sum(len(one.interactions) for one in first.values())
-    rows.append(["all", "", f"{number} in {sum(every.values())} runs", *totals])
+        cells = [_cell([ways[blade, scene]]) for ways in outcomes.values()]
+        rows.append([blade, scene, _whole([first[blade, scene]], every[blade, scene]), *cells])
+    scenes = dict.fromkeys(scene for _, scene in first)
+    for scene in scenes:
+        totals = [_cell([one for place, one in ways.items() if place[1] == scene]) for ways in outcomes.values()]
+        of_scene = [place for place in first if place[1] == scene]
+        rows.append(["all", scene, _whole([first[one] for one in of_scene], sum(every[one] for one in of_scene)), *totals])
     missed = [(*place, one) for place, outcome in first.items() for one in outcome.interactions if not one.same]
     return (
         f"Interactions above yield that are found at all, and with peak and width within {TOLERANCE:g} rad/s; runs of each way "
-        f"to choose speeds.\n\n{markdown_table(['blade', 'scene', 'whole grid', *outcomes], rows)}\n{_of_missed(missed)}"
+        f"to choose speeds. Robust: at least half of the members show it.\n\n"
+        f"{markdown_table(['blade', 'scene', 'whole grid', *outcomes], rows)}\n{_of_missed(missed)}"
     )
 
 
-def _cell(outcome: Outcome) -> str:
-    found, same = (sum(getattr(one, name) for one in outcome.interactions) for name in ("found", "same"))
-    rounds = f" in {outcome.rounds} rounds" if outcome.rounds > 1 else ""
-    return f"{found} found, {same} the same, {outcome.runs} runs{rounds}"
-
-
-def _total(outcomes: Sequence[Outcome]) -> str:
+def _whole(outcomes: Sequence[Outcome], runs: int) -> str:
     together = [one for outcome in outcomes for one in outcome.interactions]
-    runs = sum(outcome.runs for outcome in outcomes)
-    return f"{sum(one.found for one in together)} found, {sum(one.same for one in together)} the same, {runs} runs"
+    robust = f", {sum(one.robust for one in together)} robust," if _with_members(together) else ""
+    return f"{len(together)}{robust} in {runs} runs"
+
+
+def _cell(outcomes: Sequence[Outcome]) -> str:
+    together = [one for outcome in outcomes for one in outcome.interactions]
+    robust = f", {sum(one.found and one.robust for one in together)} of the robust" if _with_members(together) else ""
+    rounds = f" in {outcomes[0].rounds} rounds" if len(outcomes) == 1 and outcomes[0].rounds > 1 else ""
+    found, same = (sum(getattr(one, name) for one in together) for name in ("found", "same"))
+    return f"{found} found{robust}, {same} the same, {sum(one.runs for one in outcomes)} runs{rounds}"
+
+
+def _with_members(interactions: Sequence[Comparison]) -> bool:
+    return any(not math.isnan(one.share_of_members) for one in interactions)
 
 
 def _of_missed(missed: Sequence[tuple[str, str, Comparison]]) -> str:
@@ -180,6 +222,7 @@ def _of_missed(missed: Sequence[tuple[str, str, Comparison]]) -> str:
         order = "" if one.engine_order is None or math.isnan(one.engine_order) else f"/{one.engine_order}"
         name = f"{one.mode}{order}" if one.mode else f"no crossing, order {one.engine_order}"
         found = f"{one.found_peak:g}, {one.found_width:.1f}" if one.found else "none"
-        rows.append([blade, scene, name, f"{one.peak:g}, {one.width:.1f}", f"{1e-9 * one.stress:.2f}", found])
-    head = ["blade", "scene", "interaction", "peak, width (rad/s)", "largest stress (GPa)", "found peak, width"]
+        share = "" if math.isnan(one.share_of_members) else f"{100 * one.share_of_members:.0f}%"
+        rows.append([blade, scene, name, f"{one.peak:g}, {one.width:.1f}", f"{1e-9 * one.stress:.2f}", found, share])
+    head = ["blade", "scene", "interaction", "peak, width (rad/s)", "largest stress (GPa)", "found peak, width", "members"]
     return f"Missed, or off by more:\n\n{markdown_table(head, rows)}"

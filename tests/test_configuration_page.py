@@ -1,0 +1,94 @@
+"""docs/configuration.md: a table of every key, and files of one's own beside the shipped ones."""
+
+import re
+import shutil
+import subprocess
+
+import pytest
+from conftest import CHECKOUT
+
+from r37core.config import ConfigError, read_document, read_settings
+from r37core.config.reference import UNIT_OF_SUFFIX, filled, tables
+from r37core.units import SUFFIXES
+
+
+@pytest.fixture(scope="module")
+def page(root):
+    return (root / "docs/configuration.md").read_text()
+
+
+@pytest.fixture(scope="module")
+def rows():
+    """File -> key -> the other cells of its row."""
+    found = {}
+    for name, text in tables().items():
+        cells = [re.split(r"(?<!\\)\|", line)[1:-1] for line in text.splitlines() if line.startswith("| `")]
+        found[name] = {row[0].strip(" `"): [cell.strip() for cell in row[1:]] for row in cells}
+    return found
+
+
+def test_the_page_is_fresh(page):
+    """`python -m r37core.config.reference` renews it."""
+    assert filled(page) == page
+
+
+def test_every_key_says_what_it_is(rows):
+    assert [(name, key) for name, keys in rows.items() for key, cells in keys.items() if not cells[-1]] == []
+
+
+@pytest.mark.parametrize(
+    ("file", "key", "cells"),
+    [
+        ("config", "structure.boundary.nodes", ["`8`", "", "integer, at least 1, at most 200"]),
+        ("config", "speeds[].start", ["needed", "rad/s", "number, at least 0.001, at most 1e+06"]),
+        ("config", "speeds_for[].speeds_rpm", ["left out", "rpm"]),
+        ("config", "structure.coriolis", ["`false`", "", "true or false"]),
+        ("config", "signals.gauges.NAME.angle_deg", ["`0`", "degrees"]),
+        ("config", "studies.tradeoff.places.jump", ["`{ first: 1.024, last: 1.044, speeds: 5 }`", "", "section"]),
+        ("blades", "material.density_kg_m3", ["left out", "kg/m³"]),
+        ("blades", "vary.NAME.step", ["needed"]),
+        ("scenes", "casing.cone_angle_deg", ["`tip`", "degrees", "tip; or number, at least -80, at most 80"]),
+        ("fidelity", "time_integration.largest_time_step_s.lined", ["needed", "s"]),
+    ],
+)
+def test_rows_have_default_unit_and_what_is_allowed(rows, file, key, cells):
+    assert rows[file][key][: len(cells)] == cells
+
+
+def test_every_key_of_the_shipped_files_is_there(root, rows):
+    """As deep as the files go, with names and entries of lists as the page writes them."""
+    for name, keys in rows.items():
+        for path in read_document(root, f"config/{name}.yaml").places:
+            steps = path if name == "config" else path[1:]
+            if "of_scenes" in steps or not steps:
+                continue
+            shown = ".".join("[]" if isinstance(step, int) else step for step in steps).replace(".[]", "[]")
+            referred = shown.startswith("studies.tradeoff.parameters.")  # rows of models that come again stand elsewhere
+            assert shown.removesuffix("[]") in keys or referred or f"{shown}." in "\n".join(keys), (name, shown)
+
+
+def test_every_unit_has_a_name():
+    assert set(UNIT_OF_SUFFIX) == set(SUFFIXES)
+
+
+def test_the_file_of_the_page_lies_on_top_of_the_shipped_one(page, config_copy):
+    text = re.search(r"```yaml\n(.*?)```", page, re.DOTALL)[1]
+    (config_copy / "config/my.yaml").write_text(text)
+    settings = read_settings(config_copy, read_document(config_copy, "config/my.yaml"))
+    assert (settings.blade_names, settings.scene_names) == (["Ref", "CS50"], ["abradable"])
+    assert (settings.campbell.modes, settings.campbell.highest_engine_order) == (12, 20)
+    assert settings.results.parts == ("results", "runs", "my_sweep")
+    (config_copy / "config/my.yaml").write_text(text.replace("modes", "moods"))
+    with pytest.raises(ConfigError, match=r"^config/my\.yaml:\d: campbell: found unknown key moods"):
+        read_settings(config_copy, read_document(config_copy, "config/my.yaml"))
+
+
+@pytest.mark.skipif(not shutil.which("git"), reason="git")
+def test_git_ignores_files_of_ones_own_and_no_shipped_one(tmp_path):
+    shutil.copy(CHECKOUT / ".gitignore", tmp_path)
+    subprocess.run(["git", "init", "--quiet", tmp_path], check=True)
+    shipped = [str(file.relative_to(CHECKOUT)) for file in (CHECKOUT / "tests/config").rglob("*.*")]
+    shipped = [name.removeprefix("tests/") for name in shipped]
+    own = ["config/my.yaml", "config/my_blades.yaml", "config/own/study.yaml", "config/own/profiles/fan.csv"]
+    command = ["git", "-C", tmp_path, "check-ignore", *own, *shipped]
+    assert subprocess.run(command, capture_output=True, text=True, check=False).stdout.split() == own
