@@ -383,6 +383,7 @@ def test_an_installed_package_needs_no_repository(root, tmp_path):
     copy_project(root, project)
     for name in ("pyproject.toml", "MANIFEST.in", "README.md"):
         (project / name).write_text((root / name).read_text())
+    (project / "config/my_trial.yaml").write_text("fidelity: draft\n")
     venv.create(environment, symlinks=True)
     packages = next(environment.glob("lib/python*/site-packages"))
     (packages / "borrowed.pth").write_text("\n".join(path for path in sys.path if path.endswith("site-packages")))
