@@ -4,6 +4,8 @@ import os
 # one thread per job: Snakemake runs jobs side by side, and results must not depend on the number of cores
 for library in ("OPENBLAS", "OMP", "MKL", "NUMBA"):
     os.environ[f"{library}_NUM_THREADS"] = "1"
+# figures are files, also where a notebook that started this has named a backend of its own
+os.environ.update(MPLBACKEND="Agg")
 
 
 report: "workflow/report/workflow.rst"

@@ -11,6 +11,7 @@ import pytest
 import yaml
 from conftest import edited_configuration
 
+import r37
 from r37core import __version__
 from r37core.io import FILE_ATTRIBUTES
 
@@ -72,19 +73,42 @@ def test_the_shipped_configuration_is_that_of_the_tests():
     assert edited_configuration() == []
 
 
+def imports_of(file):
+    """Absolute names of what a file imports, functions' own imports included."""
+    names = []
+    for node in ast.walk(ast.parse(file.read_text())):
+        names += [node.module or ""] if isinstance(node, ast.ImportFrom) and node.level == 0 else []
+        names += [alias.name for alias in node.names] if isinstance(node, ast.Import) else []
+    return names
+
+
 def test_packages_import_only_those_above_them(root):
     """blade, mesh, fem, rom, ...: a package may use those above it, never one below it; Snakemake nowhere."""
     core = root / "src/r37core"
     for file in core.rglob("*.py"):
         layer = file.relative_to(core).parts[0].removesuffix(".py")
-        for node in ast.walk(ast.parse(file.read_text())):
-            names = [node.module or ""] if isinstance(node, ast.ImportFrom) and node.level == 0 else []
-            names += [alias.name for alias in node.names] if isinstance(node, ast.Import) else []
-            for name in names:
-                assert not name.startswith(("snakemake", "workflow")), f"{file} imports {name}"
-                if name.startswith("r37core.") and layer != "__init__":
-                    used = name.split(".")[1]
-                    assert LAYERS.index(used) <= LAYERS.index(layer), f"{file} imports {name}, which is below it"
+        for name in imports_of(file):
+            assert not name.startswith(("snakemake", "workflow")), f"{file} imports {name}"
+            if name.startswith("r37core.") and layer != "__init__":
+                used = name.split(".")[1]
+                assert LAYERS.index(used) <= LAYERS.index(layer), f"{file} imports {name}, which is below it"
+
+
+def test_the_calls_from_python_stand_above_all_else(root):
+    """r37 takes nothing of what runs, shows or studies a whole workflow; r37core and the workflow do not know it."""
+    aside = ("r37core.console", "r37core.studies", "r37core.explorer", "snakemake", "workflow")
+    for file in (root / "src/r37").rglob("*.py"):
+        assert not [name for name in imports_of(file) if name.startswith(aside)], file
+    for file in [*(root / "src/r37core").rglob("*.py"), *(root / "workflow").rglob("*.py")]:
+        assert not [name for name in imports_of(file) if name.split(".")[0] == "r37"], file
+
+
+def test_public_names_are_those_of_the_page(root):
+    """What `import r37` gives stands in docs/python.md, and is documented."""
+    text = (root / "docs/python.md").read_text()
+    calls = [name for name in r37.__all__ if callable(getattr(r37, name)) and not isinstance(getattr(r37, name), type)]
+    assert len(calls) == 8
+    assert [name for name in calls if f"`r37.{name}(" not in text or not getattr(r37, name).__doc__] == []
 
 
 def test_scripts_are_thin(root):

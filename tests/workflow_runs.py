@@ -15,7 +15,8 @@ LONGEST = 1800.0
 
 def copy_project(root, to):
     for folder in ("config", "workflow", "profiles", "envs", "src"):
-        shutil.copytree(root / folder, to / folder, ignore=shutil.ignore_patterns("__pycache__", "*.egg-info"))
+        # src/r37/config stays a link: to the copy's config/
+        shutil.copytree(root / folder, to / folder, symlinks=True, ignore=shutil.ignore_patterns("__pycache__", "*.egg-info"))
     # what was compiled for one copy is good for all
     compiled = Path("src/r37core/__pycache__")
     (root / compiled).mkdir(exist_ok=True)

@@ -19,7 +19,7 @@ def on_files(files, config):
 
 def on_config(config):
     """Put the packages under the API."""
-    config.nav.append({"API": ["api/index.md", *(f"api/{name}.md" for name in packages())]})
+    config.nav.append({"API": ["api/index.md", "api/r37.md", *(f"api/{name}.md" for name in packages())]})
     return config
 
 
@@ -66,8 +66,10 @@ def packages():
 
 
 def api():
-    """One page per package or module of r37core."""
+    """A page of r37, and one per package or module of r37core."""
     pages = {f"api/{name}.md": f"# r37core.{name}\n\n::: r37core.{name}\n" for name in packages()}
     listed = "\n".join(f"- [`r37core.{name}`]({name}.md)" for name in packages())
     text = "A package may import those above it in [the list of layers](../architecture.md#layers), none below it."
+    pages["api/r37.md"] = "# r37\n\n::: r37\n    options:\n      show_submodules: false\n"
+    listed = f"- [`r37`](r37.md), the [calls from Python](../python.md)\n{listed}"
     return {**pages, "api/index.md": f"# API\n\n{text}\n\n{listed}\n"}

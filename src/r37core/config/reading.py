@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -39,20 +39,31 @@ def settings_of_run(root: Path, files: Sequence[Path], values: Mapping[str, Any]
     return load_settings(_together(changes[0], changes[1:]), root)
 
 
-def load_settings(config: Document | Mapping[str, Any], root: Path) -> Settings:
+def load_settings(
+    config: Document | Mapping[str, Any],
+    root: Path,
+    *,
+    blades_above: Document | None = None,
+    scenes_above: Document | None = None,
+    checks: Iterable[Callable[[Settings], None]] = CHECKS,
+) -> Settings:
     """Check a configuration (the content of config.yaml) and the files it names, relative to the folder `root`.
 
-    Raises ConfigError for anything wrong, before any work is done.
+    `blades_above`, `scenes_above`: changes that lie on top of these two files. Raises ConfigError for anything wrong, before
+    any work is done.
     """
     document = config if isinstance(config, Document) else Document(CONFIG_FILE, dict(config))
     checked = document.check(Config)
     files = (checked.blades_file, checked.fidelity_file, checked.scenes_file)
     blades, levels, scenes = (read_document(root, name) for name in files)
+    blades, scenes = (
+        below.overlaid(above) if above else below for below, above in ((blades, blades_above), (scenes, scenes_above))
+    )
     level_models, scene_models = levels.check(Levels).root, scenes.check(Scenes).root
     designs = with_designs(blades.check(Blades).root, root, blades)
     documents = Documents(document, designs.document, levels, scenes)
     settings = Settings(root, documents, checked, designs, level_models, scene_models)
-    for check in CHECKS:
+    for check in checks:
         check(settings)
     return settings
 

@@ -13,8 +13,11 @@ from r37core.time_integration.status import RunStatus
 from . import style
 
 
-def draw_response(title: str, campbell: xr.Dataset, rms: xr.Dataset, stress: xr.Dataset | None = None) -> Figure:
-    """One blade: normal and tangential rms of the leading edge in every scene, and the largest stress with the yield line."""
+def draw_response(title: str, campbell: xr.Dataset | None, rms: xr.Dataset, stress: xr.Dataset | None = None) -> Figure:
+    """One blade: normal and tangential rms of the leading edge in every scene, and the largest stress with the yield line.
+
+    `campbell`: where 1B crosses engine orders, None to leave that out.
+    """
     figure, panels = plt.subplots(2 if stress is None else 3, 1, figsize=(style.PAGE, 6.4), sharex=True)
     for axes, part in zip(panels, ("normal", "tangential"), strict=False):
         for scene in rms["scene"].values:
@@ -23,7 +26,8 @@ def draw_response(title: str, campbell: xr.Dataset, rms: xr.Dataset, stress: xr.
             _mark_diverged(axes, rms.sel(scene=scene))
         axes.set_ylabel(f"rms, {part} (mm)")
         _mark_crossings(axes, campbell)
-    panels[0].set_title(f"blade {title}: leading edge over the last half of the run; dotted: 1B with engine orders")
+    crossings = "; dotted: 1B with engine orders" if campbell is not None else ""
+    panels[0].set_title(f"blade {title}: leading edge over the last half of the run{crossings}")
     panels[0].legend()
     if stress is not None:
         for scene in stress["scene"].values:
@@ -65,7 +69,9 @@ def _mark_diverged(axes: Axes, runs: xr.Dataset) -> None:
         axes.plot(diverged, np.zeros(len(diverged)), "x", color="red", label="diverged")
 
 
-def _mark_crossings(axes: Axes, campbell: xr.Dataset) -> None:
+def _mark_crossings(axes: Axes, campbell: xr.Dataset | None) -> None:
+    if campbell is None:
+        return
     low, high = axes.get_xlim()
     for order, speed in campbell["crossing_speed"].sel(mode="1B").to_series().dropna().items():
         if low <= speed <= high:

@@ -8,7 +8,9 @@ from typing import Any
 
 import matplotlib
 
-matplotlib.use("Agg")
+# a notebook has chosen its backend; for the rest no display is needed
+if matplotlib.get_backend(auto_select=False) is None:
+    matplotlib.use("Agg")
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -33,31 +35,32 @@ CURVES = {
 
 _DASHES = ("-", "--", ":", "-.")
 
-plt.rcParams.update(
-    {
-        "figure.dpi": 110,
-        "savefig.dpi": 200,
-        "figure.constrained_layout.use": True,
-        "font.size": 8,
-        "axes.titlesize": 8,
-        "axes.labelsize": 8,
-        "xtick.labelsize": 7,
-        "ytick.labelsize": 7,
-        "legend.fontsize": 7,
-        "figure.titlesize": 9,
-        "axes.prop_cycle": plt.cycler(color=COLOURS),
-        "axes.grid": True,
-        "grid.alpha": 0.25,
-        "axes.spines.top": False,
-        "axes.spines.right": False,
-        "lines.linewidth": 1.1,
-        "legend.frameon": False,
-        # letters stay letters
-        "pdf.fonttype": 42,
-        # no creation date, so that the same data give the same bytes
-        "svg.hashsalt": "r37",
-    }
-)
+PARAMETERS: dict[Any, Any] = {
+    "figure.dpi": 110,
+    "savefig.dpi": 200,
+    "figure.constrained_layout.use": True,
+    "font.size": 8,
+    "axes.titlesize": 8,
+    "axes.labelsize": 8,
+    "xtick.labelsize": 7,
+    "ytick.labelsize": 7,
+    "legend.fontsize": 7,
+    "figure.titlesize": 9,
+    "axes.prop_cycle": plt.cycler(color=COLOURS),
+    "axes.grid": True,
+    "grid.alpha": 0.25,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "lines.linewidth": 1.1,
+    "legend.frameon": False,
+    # letters stay letters
+    "pdf.fonttype": 42,
+    # no creation date, so that the same data give the same bytes
+    "svg.hashsalt": "r37",
+}
+"""Matplotlib's parameters of all figures."""
+
+plt.rcParams.update(PARAMETERS)
 
 
 def blade_styles(blades: Iterable[Any]) -> dict[str, dict[str, str]]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 import hashlib
 import json
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from functools import cache
 from pathlib import Path
 
@@ -17,11 +17,12 @@ PACKAGE = "r37core"
 class CodeHashes:
     """Hashes of the scripts in the folder `scripts` and of all they import from it and from the package in `source`.
 
-    Comments, docstrings and layout do not count, nor does the version in the package's own __init__.
+    Comments, docstrings and layout do not count, nor does the version in the package's own __init__. `packages`: with it,
+    only imports of these count, for a `source` that holds others' packages too.
     """
 
-    def __init__(self, source: Path, scripts: Path):
-        self._roots = (scripts, source)
+    def __init__(self, source: Path, scripts: Path, packages: Collection[str] | None = None):
+        self._roots, self._packages = (scripts, source), packages
         self._version_file = source / PACKAGE / "__init__.py"
 
     def __call__(self, script: str, *modules: str) -> str:
@@ -44,8 +45,12 @@ class CodeHashes:
             file = waiting.pop()
             if file not in found:
                 found.add(file)
-                waiting += [imported for name in imported_names(file) for imported in module_files(name, self._roots)]
+                names = [name for name in imported_names(file) if self._counts(name)]
+                waiting += [imported for name in names for imported in module_files(name, self._roots)]
         return sorted(found - {self._version_file})
+
+    def _counts(self, name: str) -> bool:
+        return self._packages is None or name.partition(".")[0] in self._packages
 
 
 @cache

@@ -1,0 +1,34 @@
+"""r37 from Python: the Campbell diagram of a blade, and its response while it rubs against the casing.
+
+Blades, scenes and accuracy levels are those of the shipped configuration, or of one's own (`config="config.yaml"`). Datasets
+have the variables, units and attributes of the workflow's files. Speeds are in rad/s, everything is SI. What takes minutes,
+the structure of a blade, is kept in a cache folder (r37.structure_cache).
+
+Bad input raises ConfigError, a file that cannot be read InputFileError.
+"""
+
+from r37core import __version__
+from r37core.config import ConfigError
+from r37core.io import InputFileError
+
+from .choices import BladeChoice, SceneChoice, blade, scene
+from .plots import plot_campbell, plot_response
+from .run_results import RunResults, open_results
+from .simulations import campbell, simulate, sweep
+
+__all__ = [
+    "BladeChoice",
+    "ConfigError",
+    "InputFileError",
+    "RunResults",
+    "SceneChoice",
+    "__version__",
+    "blade",
+    "campbell",
+    "open_results",
+    "plot_campbell",
+    "plot_response",
+    "scene",
+    "simulate",
+    "sweep",
+]

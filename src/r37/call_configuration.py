@@ -1,0 +1,78 @@
+"""Which configuration a call is made with: the shipped one, or one's own; and the settings of one blade and scene of it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+from r37core.config import ConfigError, Document, Settings, command_line_document, load_settings, read_document
+from r37core.config.config_file import Config
+from r37core.config.cross_checks import CHECKS, history_speeds_are_run
+
+_PACKAGE = Path(__file__).parent
+_FOLDER = "config"
+"""Of the repository and of this package, where it is a link or, once installed, a copy."""
+
+_OF_A_RUN = ("run", "speeds", "speeds_rpm", "speeds_for", "exports", "signals", "run_ups", "tolerances", "studies")
+"""Sections of config.yaml that say what a run of the workflow makes, and nothing of a single simulation."""
+
+_CHECKS = tuple(check for check in CHECKS if check is not history_speeds_are_run)
+"""A call names its speeds: of those with a stress history it has the ones that it runs."""
+
+
+@dataclass(frozen=True)
+class Configuration:
+    """A config.yaml and the folder `root` that names of tables start from; names of its own files are absolute."""
+
+    document: Document
+    root: Path
+
+    @property
+    def checked(self) -> Config:
+        """The content as a model. Raises ConfigError."""
+        return self.document.check(Config)
+
+    def with_file(self, key: str, file: Path | str) -> Configuration:
+        """The same with another file under the key `blades_file` or `scenes_file`; tables of blades lie beside it."""
+        path = Path(file).absolute()
+        document = self.document.overlaid(command_line_document({key: str(path)}, f"{key[:-5]} file"))
+        return Configuration(document, _root_of(path) if key == "blades_file" else self.root)
+
+    def settings(
+        self, asked: Mapping[str, Any], caller: str, blades_above: Document | None = None, scenes_above: Document | None = None
+    ) -> Settings:
+        """Checked settings of what is `asked` on top of this configuration; a message names the `caller` as its place.
+
+        `blades_above`, `scenes_above`: changes on top of these files. Raises ConfigError.
+        """
+        content = {key: value for key, value in self.document.content.items() if key not in _OF_A_RUN}
+        places = {path: place for path, place in self.document.places.items() if not path or path[0] not in _OF_A_RUN}
+        document = replace(self.document, content=content, places=places).overlaid(command_line_document(asked, caller))
+        return load_settings(document, self.root, blades_above=blades_above, scenes_above=scenes_above, checks=_CHECKS)
+
+
+def read_configuration(file: Path | str | None = None) -> Configuration:
+    """The configuration of a config.yaml, or without it the shipped one.
+
+    Names of files in it start from its folder or, where that is called config, as in the repository, from the one above. Raises
+    ConfigError for a file that cannot be read, or that has no keys.
+    """
+    path = (_PACKAGE / _FOLDER / "config.yaml" if file is None else Path(file)).absolute()
+    if not path.is_file():
+        raise ConfigError(
+            f"config: found {file}, and there is no such file; allowed: a config.yaml, or none for the shipped one"
+        )
+    document, root = read_document(path.parent, str(path)), _root_of(path)
+    if not isinstance(document.content, Mapping):
+        raise document.refusal((), repr(document.content)[:60], "keys and values, as in config/config.yaml")
+    fields = Config.model_fields
+    files = {key: document.content.get(key, fields[key].default) for key in ("blades_file", "fidelity_file", "scenes_file")}
+    absolute = {key: str(root / name) if isinstance(name, str) and name else name for key, name in files.items()}
+    return Configuration(replace(document, content={**document.content, **absolute}), root)
+
+
+def _root_of(file: Path) -> Path:
+    """The folder that names in a file start from."""
+    return file.parent.parent if file.parent.name == _FOLDER else file.parent

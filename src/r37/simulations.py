@@ -1,0 +1,146 @@
+"""The calls that compute: Campbell diagram, response at one speed, response at several."""
+
+from __future__ import annotations
+
+import math
+import tempfile
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from r37core.config import ConfigError, Settings
+from r37core.dataset_file import read_dataset
+from r37core.io import FILE_ATTRIBUTES
+from r37core.plans.provenance import Provenance
+from r37core.plans.sweep_plan import Sweep
+from r37core.results.response import write_response
+from r37core.results.stress_recovery import StressRecovery
+from r37core.rom.contact_model import read_contact_model
+from r37core.rom.rom_file import read_reduced_model
+from r37core.time_integration.speed_file import write_speed
+from r37core.time_integration.speed_run import OF_RUNS, run_speed
+
+from .call_configuration import Configuration, read_configuration
+from .choices import BladeChoice, SceneChoice
+from .structure_files import StructureFiles
+
+
+def campbell(blade: BladeChoice | str, *, fidelity: str | None = None, config: Path | str | None = None) -> xr.Dataset:
+    """The Campbell diagram of a blade: frequencies (Hz), crossings with engine orders (rad/s), dynamic clearance (m).
+
+    As campbell.nc of a run: dimensions mode, speed, engine_order, tangential_displacement. `fidelity`: an accuracy level in
+    place of the configuration's. `config`: a config.yaml in place of the shipped one. Raises ConfigError for bad input, and
+    what a shape, mesh or model raises that is impossible.
+    """
+    settings = _settings("r37.campbell", blade, None, config, _level(fidelity))
+    (name,) = settings.blade_names
+    made = Provenance(settings).structure(SimpleNamespace(blade=name))
+    return read_dataset(StructureFiles(settings, name).campbell()).assign_attrs(FILE_ATTRIBUTES | dict(made))
+
+
+def simulate(
+    blade: BladeChoice | str,
+    scene: SceneChoice | str,
+    speed: float,
+    *,
+    fidelity: str | None = None,
+    results: Sequence[str] | None = None,
+    config: Path | str | None = None,
+) -> xr.Dataset:
+    """The response of a blade in a scene at one speed (rad/s): what `sweep` gives of it, without the dimension speed.
+
+    Arguments and errors as of `sweep`.
+    """
+    asked = {"speeds": _numbers([speed]), **_level(fidelity)}
+    return _response(_settings("r37.simulate", blade, scene, config, asked, results)).isel(speed=0)
+
+
+def sweep(
+    blade: BladeChoice | str,
+    scene: SceneChoice | str,
+    speeds: Iterable[float],
+    *,
+    fidelity: str | None = None,
+    results: Sequence[str] | None = None,
+    config: Path | str | None = None,
+) -> xr.Dataset:
+    """The response of a blade in a scene at several speeds (rad/s), by ascending speed, one after another in this process.
+
+    As response.nc of a run: the same variables, units, attributes and numbers. With several threads of the linear algebra
+    library numbers may differ by round-off; OPENBLAS_NUM_THREADS=1, set before Python starts, gives the very bits.
+    `fidelity`: an accuracy level in place of the configuration's. `results`: in place of the scene's. `config`: a config.yaml
+    in place of the shipped one, where names are looked up and from which structure and levels are taken. Raises ConfigError
+    for bad input, and what a shape, mesh, model or time step raises that is impossible.
+    """
+    asked = {"speeds": _numbers(speeds), **_level(fidelity)}
+    return _response(_settings("r37.sweep", blade, scene, config, asked, results))
+
+
+def _numbers(speeds: Iterable[float]) -> list[float]:
+    """Speeds as plain numbers; ConfigError for others. Their bounds are the configuration's."""
+    found = [speed.item() if isinstance(speed, np.generic | np.ndarray) and speed.size == 1 else speed for speed in speeds]
+    for speed in found:
+        if isinstance(speed, bool) or not isinstance(speed, int | float):
+            raise ConfigError(f"speeds: found {speed!r}; allowed: numbers, in rad/s")
+    return found
+
+
+def _level(fidelity: str | None) -> dict[str, Any]:
+    return {} if fidelity is None else {"fidelity": fidelity}
+
+
+def _settings(
+    caller: str,
+    blade: BladeChoice | str,
+    scene: SceneChoice | str | None,
+    config: Path | str | None,
+    asked: dict[str, Any],
+    results: Sequence[str] | None = None,
+) -> Settings:
+    """Settings of one blade and, where there is one, one scene; structure and levels are of `config`, else of the blade's."""
+    base = blade.configuration if isinstance(blade, BladeChoice) and config is None else read_configuration(config)
+    blade = blade if isinstance(blade, BladeChoice) else BladeChoice(blade, {}, base)
+    _ = blade.settings
+    asked |= {"blades": [blade.name], "blades_file": blade.configuration.checked.blades_file}
+    above = None
+    if scene is not None:
+        scene = scene if isinstance(scene, SceneChoice) else SceneChoice(scene, {}, base)
+        if results is not None:
+            scene = SceneChoice(scene.name, {**scene.changes, "results": list(results)}, scene.configuration)
+        _ = scene.entry
+        asked |= {"scenes": [scene.name], "scenes_file": scene.configuration.checked.scenes_file}
+        above = scene.above
+    return Configuration(base.document, blade.configuration.root).settings(asked, caller, blade.above, above)
+
+
+def _response(settings: Settings) -> xr.Dataset:
+    """The response of the one blade in the one scene of the settings, at their speeds."""
+    ((blade, scene), plan), *_ = settings.speed_plans.items()
+    at, sweep = SimpleNamespace(blade=blade, scene=scene), Sweep(settings)
+    chosen, material, structure = settings.scenes[scene], settings.blades[blade].material, StructureFiles(settings, blade)
+    model = read_contact_model(structure.contact_model(chosen.tip_line))
+    recovery = None
+    if sweep.with_stress(at) and material is not None:
+        recovery = StressRecovery(read_reduced_model(structure.reduced_model(chosen.tip_line)), material)
+    results = [result for result in sweep.results(at) if result in OF_RUNS]
+    with tempfile.TemporaryDirectory() as folder:
+        files = [Path(folder, f"{number}.npz") for number in range(len(plan.certain))]
+        for speed, file in zip(plan.certain, files, strict=True):
+            choice = settings.integration_choice(blade, scene, speed)
+            write_speed(run_speed(model, speed, chosen.scene, choice, results, **sweep.kept), file, {})
+        response = Path(folder, "response.nc")
+        write_response(
+            files,
+            plan.certain,
+            response,
+            recovery,
+            stress_history_speeds=sweep.stress_history_speeds(at),
+            stress_instants=settings.fidelity.time_integration.stress_instants,
+            yield_stress=material.yield_stress if material else math.inf,
+            provenance=Provenance(settings).sweep(at),
+        )
+        return read_dataset(response)

@@ -1,0 +1,416 @@
+"""The package r37: what it gives is what the workflow gives, what takes long is kept, and bad input has one clear message."""
+
+import os
+import re
+import runpy
+import shlex
+import subprocess
+import sys
+import tarfile
+import tomllib
+import venv
+from pathlib import Path
+
+import matplotlib.pyplot as plt
+import numpy as np
+import pytest
+import xarray as xr
+import yaml
+from workflow_runs import copy_project, snakemake
+
+import r37
+from r37 import structure_cache, structure_files, structure_steps
+from r37.command import main
+from r37.structure_cache import cached_file
+from r37.structure_files import StructureFiles
+from r37core.config import read_settings
+from r37core.dataset_file import read_dataset
+from r37core.exchange.exporting.matrices_out import write_reduced_matrices
+from r37core.rom.rom_file import read_reduced_model
+
+SPEEDS = [750.0, 1150.0, 1550.0]
+
+
+@pytest.fixture(scope="module", autouse=True)
+def cache(tmp_path_factory):
+    """A cache folder of this module."""
+    folder = tmp_path_factory.mktemp("cache")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("R37_CACHE", str(folder))
+        yield folder
+
+
+@pytest.fixture(scope="module")
+def study(root, tmp_path_factory):
+    """A copy of the project with a small level; its config.yaml is the one that calls name."""
+    folder = tmp_path_factory.mktemp("study")
+    copy_project(root, folder)
+    config = folder / "config/config.yaml"
+    config.write_text(config.read_text().replace("blades: [Ref, CS100] ", "blades: [Ref] "))
+    return folder
+
+
+@pytest.fixture(scope="module")
+def config(study):
+    return study / "config/config.yaml"
+
+
+@pytest.fixture(scope="module")
+def finished(study, compiled):
+    """The same, run by the workflow."""
+    snakemake(study, "results/campbell.nc", "results/rms.nc", "results/summary.csv", "--cores", "1")
+    return study
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("scene", ["abradable", "direct"])
+def test_a_sweep_is_that_of_the_workflow(finished, config, scene):
+    response = r37.sweep("Ref", scene, reversed(SPEEDS), config=config)
+    xr.testing.assert_identical(response, read_dataset(finished / f"results/Ref/{scene}/response.nc"))
+    assert list(response["speed"]) == SPEEDS
+    one = r37.simulate("Ref", scene, 1150, config=config)
+    xr.testing.assert_identical(one, response.sel(speed=1150.0))
+
+
+@pytest.mark.slow
+def test_a_campbell_diagram_is_that_of_the_workflow(finished, config):
+    xr.testing.assert_identical(r37.campbell("Ref", config=config), read_dataset(finished / "results/Ref/campbell.nc"))
+
+
+@pytest.mark.slow
+def test_what_is_kept_is_not_made_again(config, cache, monkeypatch):
+    first = r37.campbell("Ref", config=config)
+    made = []
+    for step in ("geometry", "mesh", "reduced_model", "campbell"):
+        monkeypatch.setattr(structure_steps, step, lambda file, *_, step=step, **__: made.append(step) or file.write_text("x"))
+    xr.testing.assert_identical(r37.campbell("Ref", config=config), first)
+    assert made == []
+    monkeypatch.setattr(structure_files, "_code", lambda: ["other code"])
+    with pytest.raises(r37.InputFileError):
+        r37.campbell("Ref", config=config)
+    assert made == ["geometry", "mesh", "reduced_model", "campbell"]
+
+
+@pytest.mark.slow
+def test_changes_count(config):
+    less = r37.scene("abradable", config=config, results=["wear"], **{"friction.coefficient": 0.05})
+    before, after = (r37.simulate("Ref", scene, 1150, results=["wear"], config=config) for scene in ("abradable", less))
+    assert "max_von_mises" not in before and "amplitude" not in before
+    assert not np.array_equal(before["rms_normal"], after["rms_normal"])
+    assert '"coefficient": 0.05' in after.attrs["scene_parameters"]
+    heavy = r37.blade("Ref", config=config, **{"material.density_kg_m3": 16000.0})
+    ratio = r37.campbell(heavy)["frequency"] / r37.campbell("Ref", config=config)["frequency"]
+    # at rest; the basis is that of other speeds, too
+    np.testing.assert_allclose(ratio.isel(speed=0), np.sqrt(0.5), rtol=1e-3)
+    assert r37.campbell(heavy).attrs["input_hash"] != r37.campbell("Ref", config=config).attrs["input_hash"]
+
+
+@pytest.mark.slow
+def test_a_stress_history_is_kept_of_the_speeds_that_are_run(config):
+    scene = r37.scene("abradable", config=config, stress_history_speeds_rad_s=[1150, 1900])
+    assert list(r37.sweep("Ref", scene, [1000, 1150], config=config)["history_speed"]) == [1150.0]
+
+
+def test_a_changed_entry_is_the_one_that_an_edited_file_has(root, config_copy):
+    changed = r37.blade("L50", config=root / "config/config.yaml", sweep_percent=50, **{"material.yield_stress_pa": 1e9})
+    file = config_copy / "config/blades.yaml"
+    old = "L50: { base: Ref,"
+    assert old in file.read_text()
+    file.write_text(file.read_text().replace(old, f"{old} material: {{ yield_stress_pa: 1.0e+9 }}, sweep_percent: 50,"))
+    assert changed.settings == read_settings(config_copy).blades["L50"]
+    assert changed.settings == r37.blade("L50", file=file).settings
+
+
+def test_files_of_ones_own_may_lie_anywhere(root, tmp_path):
+    """Tables of a blades.yaml lie beside it, or beside the folder config; the other files are the shipped ones."""
+    (tmp_path / "profiles.csv").write_text((root / "config/profiles/rotor37.csv").read_text())
+    (tmp_path / "mine.yaml").write_text(
+        "Mine:\n  profiles: profiles.csv\n  chordwise_sweep_deg: 10\n"
+        "  material: { youngs_modulus_pa: 1.8e+11, density_kg_m3: 8000, poissons_ratio: 0.3, yield_stress_pa: 1.0e+9 }\n"
+    )
+    (tmp_path / "scenes.yaml").write_text((root / "config/scenes.yaml").read_text().replace("abradable:", "mine:", 1))
+    blade = r37.blade("Mine", file=tmp_path / "mine.yaml")
+    assert len(blade.settings.definition.profiles) == len(read_settings(root).blades["Ref"].definition.profiles)
+    assert r37.scene("mine", file=tmp_path / "scenes.yaml").entry == read_settings(root).scene_entries["abradable"]
+    with pytest.raises(r37.ConfigError, match="abradable, direct"):
+        r37.simulate(blade, "none", 1000)
+
+
+@pytest.mark.slow
+def test_blades_of_other_programs(root, config, tmp_path, monkeypatch):
+    """The mesh of docs/your_blade.md, and matrices of our own reduced model: it comes back as it was."""
+    page = (root / "docs/your_blade.md").read_text()
+    (tmp_path / "draw.py").write_text(re.search(r"```python\n(.*?)```", page, re.DOTALL)[1])
+    monkeypatch.chdir(tmp_path)
+    runpy.run_path("draw.py")
+    settings = read_settings(config.parent.parent)
+    model = read_reduced_model(StructureFiles(settings, "Ref").reduced_model("pressure_edge"))
+    write_reduced_matrices(model, "pressure_edge", [0.0, 1000.0, 2000.0], tmp_path / "matrices")
+    entry = {"matrices": "matrices", "mass_unit": "kg", "stiffness_unit": "N/m", "length_unit": "m", "rotation": "negative"}
+    frame = {"rotor_axis": [0, 0, 1], "radial": [1, 0, 0]}
+    mesh = re.search(r"```yaml\n(.*?)```", page, re.DOTALL)[1]
+    (tmp_path / "blades.yaml").write_text(mesh + yaml.safe_dump({"Reduced": {**entry, **frame}}))
+    fan, reduced = (r37.blade(name, file="blades.yaml", config=config) for name in ("Fan", "Reduced"))
+    monkeypatch.chdir("/")
+    assert r37.campbell(fan)["crossing_speed"].sel(mode="1B", engine_order=6).item() == pytest.approx(1492, rel=0.01)
+    shipped = r37.simulate("Ref", "direct", 1150, config=config, results=["energy"])
+    ours = r37.simulate(reduced, "direct", 1150)
+    assert "max_von_mises" not in ours and "amplitude" in ours
+    np.testing.assert_allclose(ours["rms_normal"], shipped["rms_normal"], rtol=1e-6)
+
+
+BAD = {
+    "an unknown blade": (lambda config: r37.campbell("Ref2", config=config), r"blade: found 'Ref2'; allowed: Ref, L50, L100"),
+    "an unknown scene": (
+        lambda config: r37.simulate("Ref", "rub", 1000, config=config),
+        "scene: found 'rub'; allowed: abradable",
+    ),
+    "a negative speed": (
+        lambda config: r37.simulate("Ref", "direct", -5, config=config),
+        r"r37.simulate: speeds.0: found -5; allowed: number, at least 0.001",
+    ),
+    "a speed twice": (
+        lambda config: r37.sweep("Ref", "direct", [5, 5.0], config=config),
+        "r37.sweep: speeds: found 5 rad/s twice",
+    ),
+    "no speed": (lambda config: r37.sweep("Ref", "direct", [], config=config), "speeds: found .*; allowed: .* at least 1"),
+    "a speed in words": (
+        lambda config: r37.simulate("Ref", "direct", "fast", config=config),
+        "speeds: found 'fast'; allowed: num",
+    ),
+    "several speeds at once": (lambda config: r37.simulate("Ref", "direct", [1, 2], config=config), "speeds: found"),
+    "an unknown level": (
+        lambda config: r37.campbell("Ref", fidelity="rough", config=config),
+        "r37.campbell: fidelity: found 'rough'; allowed: draft, standard",
+    ),
+    "an unknown key": (
+        lambda config: r37.scene("direct", lining_m=1, config=config),
+        r'r37.scene\("direct"\): .*unknown key lining_m',
+    ),
+    "an impossible value": (
+        lambda config: r37.scene("direct", config=config, **{"friction.coefficient": -1}),
+        r'r37.scene\("direct"\): direct.friction.coefficient: found -1',
+    ),
+    "changes of nothing": (
+        lambda config: r37.blade("X", sweep_percent=5, config=config),
+        "changed blade: found 'X'; allowed: Ref",
+    ),
+    "a result that is not": (
+        lambda config: r37.simulate("Ref", "direct", 9, results=["wear"], config=config),
+        "results: found wear",
+    ),
+    "no configuration": (lambda _: r37.campbell("Ref", config="missing.yaml"), "config: found missing.yaml"),
+    "no file of blades": (lambda _: r37.blade("Ref", file="missing.yaml"), "file: found missing.yaml"),
+}
+
+
+@pytest.mark.parametrize("case", BAD)
+def test_bad_input_has_one_clear_message(root, case):
+    call, message = BAD[case]
+    with pytest.raises(r37.ConfigError, match=message) as caught:
+        call(root / "config/config.yaml")
+    assert "\n" not in str(caught.value)
+
+
+def test_a_damaged_file_is_made_again(monkeypatch, tmp_path):
+    monkeypatch.setenv("R37_CACHE", str(tmp_path / "cache"))
+    made = []
+
+    def make(file):
+        made.append(file)
+        file.write_text("content")
+
+    def kept(made_of=1.0):
+        return cached_file("model.nc", [made_of], make)
+
+    file = kept()
+    assert kept() == file and len(made) == 1
+    assert kept(2.0) != file and len(made) == 2
+    for damage in ("", "contenT"):
+        file.write_text(damage)
+        assert kept().read_text() == "content"
+    file.with_name("sha256").unlink()
+    assert kept().read_text() == "content"
+    assert len(made) == 5
+    assert [path.name for path in (tmp_path / "cache").iterdir() if path.name.startswith(".")] == []
+
+
+def test_what_fails_leaves_nothing_in_the_cache(monkeypatch, tmp_path):
+    monkeypatch.setenv("R37_CACHE", str(tmp_path / "cache"))
+
+    def make(file):
+        file.write_text("half of")
+        raise ValueError("impossible")
+
+    with pytest.raises(ValueError, match="impossible"):
+        cached_file("model.nc", [1.0], make)
+    assert list((tmp_path / "cache").iterdir()) == []
+
+
+def test_another_process_may_be_faster(monkeypatch, tmp_path):
+    monkeypatch.setenv("R37_CACHE", str(tmp_path / "cache"))
+
+    def make(file):
+        if not list((tmp_path / "cache").glob("model-*")):
+            cached_file("model.nc", [1.0], lambda other: other.write_text("first"))
+        file.write_text("second")
+
+    assert cached_file("model.nc", [1.0], make).read_text() == "first"
+
+
+def test_the_cache_folder_is_where_the_environment_says(monkeypatch, tmp_path):
+    monkeypatch.delenv("R37_CACHE")
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+    assert structure_cache.cache_folder() == tmp_path / "r37"
+    monkeypatch.setenv("R37_CACHE", str(tmp_path / "mine"))
+    assert structure_cache.cache_folder() == tmp_path / "mine"
+    (tmp_path / "mine").write_text("no folder")
+    with pytest.raises(r37.ConfigError, match=r"R37_CACHE: found the cache folder .*mine, which cannot be written"):
+        cached_file("model.nc", [1.0], lambda file: None)
+
+
+@pytest.mark.slow
+def test_results_of_a_run_are_a_mapping(finished):
+    results = r37.open_results(finished / "results")
+    assert list(results) == ["campbell", "rms", "spectrum", "stress", "wear"] and len(results) == 5
+    assert results["rms"] is results["rms"]
+    assert set(results.summary["blade"]) <= {"Ref"}
+    assert results.response("Ref", "direct").attrs["scene"] == "direct"
+    with pytest.raises(KeyError, match="found 'signals'; allowed: campbell, rms"):
+        results["signals"]
+
+
+@pytest.mark.parametrize(
+    ("before", "backend"),
+    [("", "Agg"), ("import matplotlib; matplotlib.use('svg')", "svg"), ("import r37core.figures.style", "Agg")],
+)
+def test_plots_take_the_chosen_backend(before, backend):
+    """Without one, what matplotlib chooses on a machine without a display."""
+    code = f"""
+{before}
+import matplotlib, numpy, r37, xarray
+rms = {{f"rms_{{name}}": (("speed", "tip_point"), numpy.ones((2, 1))) for name in ("normal", "tangential")}}
+rms["status"] = ("speed", [0, 0])
+r37.plot_response(xarray.Dataset(rms, {{"speed": [1.0, 2.0], "tip_point": ["leading_edge"]}}))
+print(matplotlib.get_backend())
+"""
+    kept = {name: value for name, value in os.environ.items() if name not in ("DISPLAY", "WAYLAND_DISPLAY", "MPLBACKEND")}
+    done = subprocess.run([sys.executable, "-c", code], env=kept, capture_output=True, text=True, check=True)
+    assert done.stdout.strip().lower() == backend.lower()
+
+
+def test_results_that_are_not_there(tmp_path):
+    with pytest.raises(r37.InputFileError, match="there is no such folder"):
+        r37.open_results(tmp_path / "results")
+    with pytest.raises(r37.InputFileError, match="there are no datasets"):
+        r37.open_results(tmp_path)
+
+
+@pytest.mark.slow
+def test_plots_are_those_of_the_workflow_and_leave_matplotlib_alone(finished, config):
+    results, before = r37.open_results(finished / "results"), dict(plt.rcParams)
+    campbell, response = r37.campbell("Ref", config=config), results.response("Ref", "abradable")
+    for diagram in (campbell, results["campbell"].sel(blade="Ref")):
+        assert r37.plot_campbell(diagram).axes[0].get_title() == "Campbell diagram, blade Ref"
+    assert r37.plot_campbell(campbell, title="mine").axes[0].get_title().endswith("blade mine")
+    with_stress = r37.plot_response(response, campbell)
+    assert len(with_stress.axes) == 3 and "dotted" in with_stress.axes[0].get_title()
+    (line,) = (one for one in with_stress.axes[0].lines if one.get_label() == "abradable")
+    np.testing.assert_allclose(line.get_ydata(), 1e3 * response["rms_normal"].sel(tip_point="leading_edge"))
+    part = results["rms"].sel(blade="Ref", scene="direct")
+    assert len(r37.plot_response(part).axes) == 2 and "dotted" not in r37.plot_response(part).axes[0].get_title()
+    assert len(r37.plot_response(response.sel(speed=1150.0)).axes) == 3
+    assert dict(plt.rcParams) == before
+    plt.close("all")
+
+
+@pytest.mark.slow
+def test_python_of_the_pages_runs(root, finished, monkeypatch):
+    """With the small level in place of others: the page's speeds and names count, its numbers do not."""
+    monkeypatch.setattr("r37.call_configuration._PACKAGE", finished)
+    monkeypatch.chdir(finished)
+    (finished / "blades.yaml").write_text((finished / "config/blades.yaml").read_text())
+    blocks = [
+        block
+        for page in ("README.md", "docs/python.md")
+        for block in re.findall(r"```python\n(.*?)```", (root / page).read_text(), re.DOTALL)
+        if "r37." in block
+    ]
+    assert len(blocks) > 5
+    names = {"r37": r37}
+    for block in blocks:
+        exec(block.replace('"draft"', '"tiny"'), names)
+    plt.close("all")
+
+
+@pytest.mark.slow
+def test_the_command_does_what_the_page_says(root, finished, monkeypatch, capsys):
+    """With the small level in place of others, and speeds of its own."""
+    monkeypatch.setattr("r37.call_configuration._PACKAGE", finished)
+    monkeypatch.chdir(finished)
+    (finished / "config.yaml").write_text((finished / "config/config.yaml").read_text())
+    page = re.search(r"```sh\n(.*?)```", (root / "docs/python.md").read_text(), re.DOTALL)[1].replace("draft", "tiny")
+    told = []
+    for line in page.splitlines():
+        assert main(shlex.split(line, comments=True)[1:]) == 0
+        told.append(capsys.readouterr().out)
+    dataset = read_dataset("campbell.nc")
+    xr.testing.assert_identical(dataset, r37.campbell("Ref"))
+    assert f"{dataset['crossing_speed'].sel(mode='1B', engine_order=4).item():.6g}" in told[0]
+    rows = [line.split() for line in told[1].splitlines()[2:]]
+    assert [row[0] for row in rows] == ["1700.0", "1729.0"]
+    peak = r37.simulate("Ref", "abradable", 1729)
+    assert float(rows[1][3]) == pytest.approx(1e-6 * peak["max_von_mises"].item(), rel=1e-5)
+    assert "blades: Ref\n" in told[2] and "simulations: 6\n" in told[2]
+
+
+def test_the_command_refuses_in_one_line(root, capsys):
+    config = str(root / "config/config.yaml")
+    assert main(["simulate", "Ref", "rub", "1000", "--config", config]) == 1
+    told = capsys.readouterr()
+    assert told.out == "" and told.err.startswith("r37: scene: found 'rub'; allowed: abradable") and told.err.count("\n") == 1
+    assert main(["check", "missing.yaml"]) == 1
+    assert main(["check", config]) == 0
+    assert "level: standard\nsimulations: 896 to about 3500\n" in capsys.readouterr().out
+
+
+@pytest.mark.slow
+def test_an_installed_package_needs_no_repository(root, tmp_path):
+    """Built as a source distribution and installed from it into an environment of its own, which borrows other packages."""
+    project, environment, elsewhere = (tmp_path / name for name in ("project", "environment", "elsewhere"))
+    for folder in (project, elsewhere):
+        folder.mkdir()
+    copy_project(root, project)
+    for name in ("pyproject.toml", "MANIFEST.in", "README.md"):
+        (project / name).write_text((root / name).read_text())
+    (project / "config/my_trial.yaml").write_text("fidelity: draft\n")
+    venv.create(environment, symlinks=True)
+    packages = next(environment.glob("lib/python*/site-packages"))
+    (packages / "borrowed.pth").write_text("\n".join(path for path in sys.path if path.endswith("site-packages")))
+
+    def run(*arguments, cwd=elsewhere):
+        kept = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
+        command = [environment / "bin/python", *arguments]
+        return subprocess.run(command, cwd=cwd, env=kept, capture_output=True, text=True, timeout=900, check=False)
+
+    def python(*arguments, cwd=elsewhere):
+        done = run(*arguments, cwd=cwd)
+        assert done.returncode == 0, done.stdout + done.stderr
+        return done.stdout.strip().splitlines()
+
+    needed = tomllib.loads((project / "pyproject.toml").read_text())["build-system"]["requires"]
+    if run("-m", "pip", "install", "--quiet", *needed).returncode:
+        pytest.skip("an index of packages that pip reaches")
+    build = "from setuptools import build_meta; print(build_meta.build_sdist('.'))"
+    *_, source = python("-c", build, cwd=project)
+    python("-m", "pip", "install", "--quiet", "--no-index", "--no-deps", "--no-build-isolation", project / source)
+    shipped = {file.relative_to(root) for file in (root / "config").rglob("*.*") if file.parent.name != "schemas"}
+    assert {file.relative_to(packages / "r37") for file in (packages / "r37/config").rglob("*.*")} == shipped
+    with tarfile.open(project / source) as archive:
+        assert not [name for name in archive.getnames() if "/tests/" in name]
+    (project / "src").rename(project / "gone")
+    code = "import r37; print(r37.__file__); print(float(r37.campbell('Ref', fidelity='tiny').frequency[0, 0]))"
+    file, frequency = python("-c", code)
+    assert Path(file).is_relative_to(packages)
+    assert "level: tiny" in python(environment / "bin/r37", "check")
+    assert 800.0 < float(frequency) < 900.0  # Hz, 1B at rest
