@@ -74,14 +74,14 @@ def report(responses: Mapping[str, xr.Dataset], files: Any, values: Mapping[str,
     """Each way to choose speeds against every speed of the grids."""
     choice, interactions = from_plain(RefinementChoice, values["choice"]), from_plain(InteractionChoice, values["interactions"])
     diagrams = read_dataset(files.campbell)
-    ways: dict[str, dict[tuple[str, str], Outcome]] = {"refined": {}}
+    ways: dict[str, dict[tuple[str, str], Outcome]] = {"adaptive": {}}
     every = {}
     for name, (blade, scene) in values["places"].items():
         response = ran(responses[name], name)
         campbell, plan = diagrams.sel(blade=blade), from_plain(SpeedPlan, values["plans"][name])
         members = [ran(responses[case], case) for case in values["members"].get(name, {}).values()]
         every[blade, scene] = response.sizes["speed"]
-        speeds = {"refined": replay(response, campbell, plan, choice)}
+        speeds = {"adaptive": replay(response, campbell, plan, choice)}
         speeds |= {f"every {step:g} rad/s": [plain_grid(plan, step)] for step in values["steps"]}
         for way, several in speeds.items():
             ways.setdefault(way, {})[blade, scene] = compare(response, campbell, several, interactions, members)
