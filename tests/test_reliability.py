@@ -100,6 +100,10 @@ def test_the_lock_of_a_killed_run_is_lifted(folder):
     mine = json.loads(holder.read_text())
     holder.write_text(json.dumps(mine | {"host": "elsewhere", "began": "1"}))
     assert lock.lift_stale() == []  # another machine, which cannot be asked
+    for odd in ("[]", "{}", '{"pid": null}', "{"):
+        holder.write_text(odd)
+        assert lock.lift_stale() == []  # cut short, or not ours
+        lock.release()
     holder.write_text(json.dumps(mine | {"began": "1"}))
     assert "was killed" in lock.lift_stale()[0]
     assert not locks.exists()

@@ -10,6 +10,7 @@ import pytest
 from r37core.adaptive.criterion import RefinementChoice
 from r37core.config import ConfigError, command_line_document, read_settings
 from r37core.contact.scene import Scene
+from r37core.io import InputFileError
 from r37core.plain import from_plain
 from r37core.plans.import_plan import Imported
 from r37core.plans.paths import filled
@@ -17,7 +18,7 @@ from r37core.plans.provenance import Provenance
 from r37core.plans.run_up_plan import RunUps
 from r37core.plans.signal_plan import Signals
 from r37core.plans.structure_plan import Structure
-from r37core.plans.sweep_plan import Sweep
+from r37core.plans.sweep_plan import Sweep, asked_by
 from r37core.plans.targets import targets
 from r37core.run_ups.choice import RunUpChoice
 from r37core.speeds import SpeedPlan
@@ -101,6 +102,13 @@ def test_what_a_round_is_told_is_what_it_takes(refining):
     choice = from_plain(RefinementChoice, json.loads(json.dumps(refining.refinement_choice)))
     assert [window.mode for window in choice.windows] == ["1B", "1T"]
     assert choice.prominence == 0.1
+
+
+@pytest.mark.parametrize("content", ["{}", '{"new": 3}', '{"new": ["x"]}', "{"])
+def test_a_damaged_round_is_named(content, tmp_path):
+    (tmp_path / "round_0.json").write_text(content)
+    with pytest.raises(InputFileError, match=r"round_0\.json: cannot be read .*; if it is a result, delete it and run again"):
+        asked_by(str(tmp_path / "round_0.json"))
 
 
 def test_plain_grids_beside_are_part_of_the_whole_one(refining):

@@ -39,10 +39,12 @@ def lift_stale() -> list[str]:
 
 
 def _holder() -> dict[str, Any]:
+    """What the file says; nothing where it is not there, or not as `claim` writes it."""
     try:
-        return json.loads(_HOLDER.read_text(encoding="utf-8"))
+        found = json.loads(_HOLDER.read_text(encoding="utf-8"))
     except (OSError, ValueError):
         return {}
+    return found if isinstance(found, dict) and isinstance(found.get("pid"), int) else {}
 
 
 def _identity(pid: Any) -> dict[str, str | int]:

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from r37core.config import Settings, si_fields
-from r37core.io import as_list, read_json
+from r37core.io import as_list, read_json, readable
 from r37core.plain import to_plain
 from r37core.speeds import SpeedPlan, exact_text
 from r37core.time_integration.speed_run import OF_RUNS
@@ -203,7 +203,8 @@ def asked_by(file: str) -> list[float]:
 
 @cache
 def _asked_by(file: str, _time: int) -> list[float]:
-    return read_json(file)["new"]
+    with readable(file):
+        return [float(speed) for speed in read_json(file)["new"]]
 
 
 def _drawn(with_stress: bool) -> dict[str, str]:
