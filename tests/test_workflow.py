@@ -88,13 +88,14 @@ def test_nothing_to_do_after_a_run(finished_copy):
 
 
 def test_shapes_and_signals_of_a_finished_run(root, finished_copy):
-    """As the pages ask for them: made of what is there, and the signal is that of the sweep's run."""
+    """As the pages ask for them, of one blade: made of what is there, and the signal is that of the sweep's run."""
     asked = next(block for block in blocks(root, "yaml") if block.startswith("signals:"))
     config = finished_copy / "config/config.yaml"
     with open(config, "a") as stream:
         stream.write("\n" + asked.replace("speeds_rad_s: interactions", "speeds_rad_s: [1150]"))
     # one speed more, so that there is an interaction: 1B with order 6
     config.write_text(config.read_text().replace("- { start: 750, stop: 1600 }", "- { start: 750, stop: 1600 }\n  - 1000"))
+    edit(finished_copy, "config.yaml", "[Ref, CS100]", "[Ref]")
     edit(finished_copy, "scenes.yaml", "results: [spectrum, signal, ", "results: [shapes, spectrum, signal, ")
     snakemake(finished_copy, "results/summary.csv", "--cores", "2")
     assert "rule simulate:" not in snakemake(finished_copy, "all_blades", "--cores", "2")
@@ -102,13 +103,13 @@ def test_shapes_and_signals_of_a_finished_run(root, finished_copy):
     made = ["shapes/Ref.html", "figures/shapes_Ref.png", "figures/shapes_Ref__abradable.png", "signals.nc"]
     made += [f"figures/{kind}_Ref__abradable.png" for kind in ("spectrogram", "orders")]
     assert all((results / name).stat().st_size > 10_000 for name in made)
-    assert all(len(list((results / "shapes" / blade / "modes").glob("mode_*.glb"))) == 6 for blade in ("Ref", "CS100"))
+    assert len(list((results / "shapes/Ref/modes").glob("mode_*.glb"))) == 6
     found = pd.read_csv(results / "summary.csv").query("blade == 'Ref' and scene == 'abradable'")
     assert len(found)
     names = {f"stress_{speed:g}.glb" for speed in found["peak_speed_rad_s"]}
     assert {file.name for file in (results / "shapes/Ref/stress_abradable").glob("*.glb")} == names
     with xr.open_dataset(results / "signals.nc") as signals, xr.open_dataset(results / "rms.nc") as rms:
-        assert signals.sizes["run"] == 4
+        assert signals.sizes["run"] == 2
         for row in range(signals.sizes["run"]):
             run = signals.isel(run=row)
             same = {name: run[name].item() for name in ("blade", "scene", "speed")}
