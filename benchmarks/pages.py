@@ -41,6 +41,7 @@ PICTURES = (
 )
 
 FIGURES = {
+    "response_Ref": ROOT / "results/figures/response_Ref.png",
     "clearance_growing_abradable": ROOT / "results/figures/clearance_growing_abradable.png",
     "run_up_rates": ROOT / "results/figures/run_up_rates_abradable.png",
     "tolerances_Ref": ROOT / "results/runs/sensitivity/figures/tolerances_Ref__abradable.png",
