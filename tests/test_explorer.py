@@ -315,6 +315,20 @@ def test_choices_change_what_is_drawn(page, datasets):
 
 
 @pytest.mark.slow
+@pytest.mark.parametrize(("place", "speed"), [("", "1100 rad/s"), ("#speed=1200", "1200 rad/s")])
+def test_it_opens_at_the_strongest_interaction(page, datasets, interactions, tmp_path, place, speed):
+    """The largest stress counts, not the largest motion; what the address says goes before it."""
+    weaker = interactions.assign(max_von_mises_pa=1e9, peak_rms_normal_m=2e-3)
+    stronger = weaker.iloc[[0]].assign(blade="L<50>", peak_speed_rad_s=1100.0, max_von_mises_pa=2e9, peak_rms_normal_m=1e-3)
+    write_page(explorer_contents(datasets, pd.concat([weaker, stronger])), "r37", tmp_path / "explorer.html")
+    other = page.context.browser.new_page()
+    other.goto((tmp_path / "explorer.html").as_uri() + place)
+    other.wait_for_selector("html[data-ready]", timeout=60_000)
+    assert other.text_content("#now").startswith(f"L<50>, abradable, {speed}")
+    other.close()
+
+
+@pytest.mark.slow
 def test_a_diverged_run_is_marked(page):
     choose(page, blade="Ref", scene="direct", quantity="rms_normal", speed="1200", unit="rad/s", all="false")
     assert "Ref diverged" in [one["name"] for one in traces(page, "response")]

@@ -428,6 +428,16 @@
     window.addEventListener("hashchange", () => set(fromAddress()));
   }
 
+  // the interaction with the largest stress, or motion where there is no stress: what the page opens at
+  function strongest() {
+    const larger = (one, other) => ["max_von_mises_pa", "peak_rms_normal_m"]
+      .reduce((found, name) => found || (one[name] ?? 0) - (other[name] ?? 0), 0) > 0;
+    const [first, ...others] = data.interactions;
+    if (!first) return { speed: speeds[0] };
+    const { blade, scene, peak_speed_rad_s: speed } = others.reduce((found, one) => (larger(one, found) ? one : found), first);
+    return { blade, scene, speed };
+  }
+
   // what the address asks for, as far as the data have it
   function fromAddress() {
     const words = Object.fromEntries(new URLSearchParams(window.location.hash.slice(1)));
@@ -451,6 +461,6 @@
       + " Keys: t band, m members.");
   }
   listen();
-  set({ speed: speeds[0], ...fromAddress() });
+  set({ ...strongest(), ...fromAddress() });
   document.documentElement.dataset.ready = PLOTS.join(" ");
 })();
