@@ -10,6 +10,8 @@ import sys
 import tempfile
 from pathlib import Path
 
+from r37core.text_file import with_part
+
 ROOT = Path(__file__).parent.parent
 STUDIES = ROOT / "results" / "studies"
 TABLES = {
@@ -51,9 +53,7 @@ FIGURES = {
 
 def fill(page, name, text):
     """Replace what stands between the page's markers of this name."""
-    before, rest = page.read_text(encoding="utf-8").split(f"<!-- {name} -->\n", 1)
-    after = rest.split("<!-- end -->", 1)[1]
-    page.write_text(f"{before}<!-- {name} -->\n{text.rstrip()}\n<!-- end -->{after}", encoding="utf-8")
+    page.write_text(with_part(page.read_text(encoding="utf-8"), name, text), encoding="utf-8")
 
 
 def rule_graph():

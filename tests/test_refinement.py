@@ -25,7 +25,7 @@ from r37core.config import ConfigError, load_settings
 from r37core.io import InputFileError
 from r37core.plain import from_plain, to_plain
 from r37core.speeds import RefinedRange, SpeedError, SpeedPlan, exact_text, plan_speeds
-from r37core.studies.refinement.report import compare, plain_grid, refinement_table, replay
+from r37core.studies.refinement.report import above_yield, compare, plain_grid, refinement_table, replay
 from r37core.time_integration.speed_file import write_speed
 from r37core.time_integration.status import RunStatus
 from r37core.yaml_file import load_yaml
@@ -355,7 +355,9 @@ def test_study_names_what_is_missed():
 def test_study_says_what_is_robust():
     """One interaction is shown by all three members, one by a single member: it is not robust, and nothing robust is missed."""
     both, one = ((1232.0, 1237.0, 1e-3), (1832.0, 1836.0, 1e-3)), ((1234.0, 1240.0, 1e-3),)
-    response, diagram, members = spiked(*both), campbell([1200.0]), [spiked(*spikes) for spikes in (one, both, one)]
+    response, diagram = spiked(*both), campbell([1200.0])
+    several = {name: spiked(*spikes) for name, spikes in {"0": one, "1": both, "2": one}.items()}
+    members = {name: above_yield(member, diagram, InteractionChoice()) for name, member in several.items()}
     found = compare(response, diagram, replay(response, diagram, PLAN, CHOICE), InteractionChoice(), members)
     assert [(one.found, one.robust, one.share_of_members) for one in found.interactions] == [
         (True, True, 1.0),

@@ -32,10 +32,8 @@ class BladeChoice:
     @cached_property
     def settings(self) -> BladeSettings:
         """Shape and material, in the SI. Raises ConfigError."""
-        document, root = (
-            _changed("blade", self.configuration.checked.blades_file, self.name, self.above),
-            self.configuration.root,
-        )
+        document = _changed("blade", self.configuration.checked.blades_file, self.name, self.above)
+        root = self.configuration.root
         designs = with_designs(document.check(Blades).root, root, document)
         if self.name not in designs.entries:
             raise _unknown("blade", self.name, designs.entries, document.name)

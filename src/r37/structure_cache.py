@@ -16,6 +16,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 from r37core.config import ConfigError
+from r37core.kept import users_cache
 from r37core.plain import to_plain
 
 _DIGEST = "sha256"
@@ -23,9 +24,8 @@ _DIGEST = "sha256"
 
 def cache_folder() -> Path:
     """Where the files are kept."""
-    if named := os.environ.get("R37_CACHE"):
-        return Path(named)
-    return Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "r37"
+    named = os.environ.get("R37_CACHE")
+    return Path(named) if named else users_cache()
 
 
 def cached_file(name: str, made_of: object, make: Callable[[Path], None]) -> Path:

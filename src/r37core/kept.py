@@ -63,9 +63,14 @@ def _folder() -> Path:
     beside = _PACKAGE / "__pycache__"
     if _writable(beside):
         return beside
-    users = Path(os.environ.get("XDG_CACHE_HOME", Path.home() / ".cache")) / "r37"
+    users = users_cache()
     users.mkdir(parents=True, exist_ok=True)
     return users
+
+
+def users_cache() -> Path:
+    """The user's cache folder for r37, which may not be there yet."""
+    return Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "r37"
 
 
 def _writable(folder: Path) -> bool:

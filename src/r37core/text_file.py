@@ -1,4 +1,4 @@
-"""Text files that people write: read as UTF-8, with the line in the message where that fails."""
+"""Text files that people write: read as UTF-8, with the line in the message where that fails, and their generated parts."""
 
 from __future__ import annotations
 
@@ -35,3 +35,10 @@ def read_text(file: Path) -> str:
         if _MERGE_MARKER.match(line_of_text):
             raise TextFileError(number, f"found a merge marker, {line_of_text[:20]!r}; resolve the conflict")
     return text
+
+
+def with_part(text: str, name: str, part: str) -> str:
+    """The text with another part between its markers <!-- name --> and <!-- end -->; ValueError where these are missing."""
+    before, rest = text.split(f"<!-- {name} -->\n", 1)
+    after = rest.split("<!-- end -->", 1)[1]
+    return f"{before}<!-- {name} -->\n{part.rstrip()}\n<!-- end -->{after}"

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from r37core.io import write_text
+from r37core.text_file import with_part
 from r37core.units import SUFFIXES
 
 from .messages import describe
@@ -190,8 +191,7 @@ def _text(description: str) -> str:
 def filled(page: str) -> str:
     """The page with the tables between its markers."""
     for name, text in tables().items():
-        before, rest = page.split(f"<!-- {name} -->\n", 1)
-        page = f"{before}<!-- {name} -->\n{text}\n<!-- end -->{rest.split('<!-- end -->', 1)[1]}"
+        page = with_part(page, name, text)
     return page
 
 

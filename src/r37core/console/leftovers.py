@@ -11,12 +11,11 @@ from pathlib import Path
 
 from r37core.config import Settings, read_settings
 from r37core.config.blades import RESERVED
-from r37core.io import read_json
 from r37core.plans import paths
 from r37core.plans.export_plan import Exports
 from r37core.plans.import_plan import Imported
 from r37core.plans.signal_plan import Signals
-from r37core.plans.sweep_plan import Sweep
+from r37core.plans.sweep_plan import Sweep, asked_by
 from r37core.plans.targets import targets
 from r37core.speeds import SpeedPlan, exact_text
 
@@ -106,7 +105,7 @@ def _speeds(folder: Path, plan: SpeedPlan) -> list[float]:
         file = folder / f"round_{number}.json"
         if not plan.refined or not file.exists():
             break
-        new = read_json(file)["new"]
+        new = asked_by(str(file))
         if not new:
             return asked
         asked += new

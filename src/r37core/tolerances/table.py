@@ -63,7 +63,23 @@ def ranges(
     Two are the same where mode and engine order are; those that no crossing explains where one crossing could hold both.
     `speeds`: first and last (rad/s) of the members; what the nominal run shows beyond them no member could.
     """
-    found = [_Found(one) for one in nominal if speeds[0] <= one.peak_speed_rad_s <= speeds[1]]
+    within = [one for one in nominal if speeds[0] <= one.peak_speed_rad_s <= speeds[1]]
+    found = sorted(_matched(within, members, choice), key=_Found.speed)
+    return [_row(one, len(members)) for one in found]
+
+
+def shares_of_members(
+    nominal: Sequence[Interaction], members: Mapping[str, Sequence[Interaction]], choice: InteractionChoice
+) -> list[float]:
+    """Share of the members that show each of the nominal interactions, as in `ranges`, in the order of these."""
+    return [len(one.members) / len(members) for one in _matched(nominal, members, choice)[: len(nominal)]]
+
+
+def _matched(
+    nominal: Sequence[Interaction], members: Mapping[str, Sequence[Interaction]], choice: InteractionChoice
+) -> list[_Found]:
+    """The nominal interactions in their order with the members that show them, then those of members alone."""
+    found = [_Found(one) for one in nominal]
     for name, interactions in members.items():
         for one in interactions:
             fits = [other for other in found if name not in other.members and _same(one, other, choice)]
@@ -71,7 +87,7 @@ def ranges(
                 min(fits, key=lambda other: abs(other.speed() - one.peak_speed_rad_s)).members[name] = one
             else:
                 found.append(_Found(members={name: one}))
-    return [_row(one, len(members)) for one in sorted(found, key=_Found.speed)]
+    return found
 
 
 def _same(one: Interaction, other: _Found, choice: InteractionChoice) -> bool:

@@ -17,7 +17,7 @@ from r37core.plain import from_plain
 from r37core.results.interactions import Interaction, InteractionChoice, find_interactions
 from r37core.results.measures import leading_edge
 from r37core.speeds import SpeedPlan
-from r37core.tolerances.table import ROBUST, ranges
+from r37core.tolerances.table import ROBUST, shares_of_members
 
 from ..checks import ran
 from ..tables import markdown_table
@@ -79,7 +79,8 @@ def report(responses: Mapping[str, xr.Dataset], files: Any, values: Mapping[str,
     for name, (blade, scene) in values["places"].items():
         response = ran(responses[name], name)
         campbell, plan = diagrams.sel(blade=blade), from_plain(SpeedPlan, values["plans"][name])
-        members = [ran(responses[case], case) for case in values["members"].get(name, {}).values()]
+        cases = values["members"].get(name, {})
+        members = {member: above_yield(ran(responses[case], case), campbell, interactions) for member, case in cases.items()}
         every[blade, scene] = response.sizes["speed"]
         speeds = {"adaptive": replay(response, campbell, plan, choice)}
         speeds |= {f"every {step:g} rad/s": [plain_grid(plan, step)] for step in values["steps"]}
@@ -123,33 +124,21 @@ def compare(
     campbell: xr.Dataset,
     speeds: Sequence[Sequence[float]],
     interactions: InteractionChoice,
-    members: Sequence[xr.Dataset] = (),
+    members: Mapping[str, Sequence[Interaction]] | None = None,
 ) -> Outcome:
     """Hold the interactions above yield that the `speeds` (rad/s) of each round show against those of the whole grid.
 
-    `members`: what members of a sample give on the whole grid.
+    `members`: interactions above yield of the members of a sample, on the whole grid, by name.
     """
     run = sorted(speed for new in speeds for speed in new)
-    wanted, got = (_above_yield(part, campbell, interactions) for part in (response, response.sel(speed=run)))
-    shares = _shares(wanted, [_above_yield(member, campbell, interactions) for member in members], interactions)
+    wanted, got = (above_yield(part, campbell, interactions) for part in (response, response.sel(speed=run)))
+    shares = shares_of_members(wanted, members, interactions) if members else [math.nan] * len(wanted)
     compared = [_held_against(row, got, share) for row, share in zip(wanted, shares, strict=True)]
     return Outcome(len(speeds[0]), len(run), len(speeds), compared)
 
 
-def _shares(
-    wanted: Sequence[Interaction], members: Sequence[Sequence[Interaction]], interactions: InteractionChoice
-) -> list[float]:
-    """Share of the members that show each of the interactions; NaN without members."""
-    if not members:
-        return [math.nan] * len(wanted)
-    rows = ranges(wanted, {f"{number}": found for number, found in enumerate(members)}, interactions)
-    share: dict[tuple[object, ...], Any] = {
-        (row["mode"], row["engine_order"], row["peak_speed_rad_s"]): row["share_of_members"] for row in rows
-    }
-    return [share[one.mode, one.engine_order, one.peak_speed_rad_s] for one in wanted]
-
-
-def _above_yield(response: xr.Dataset, campbell: xr.Dataset, interactions: InteractionChoice) -> list[Interaction]:
+def above_yield(response: xr.Dataset, campbell: xr.Dataset, interactions: InteractionChoice) -> list[Interaction]:
+    """Interactions of a response that pass yield."""
     rows = find_interactions(response, campbell, interactions)
     return [row for row in rows if row.width_above_yield_rad_s > 0.0]
 
