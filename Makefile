@@ -4,9 +4,12 @@ PYTHON ?= python3
 CORES ?= 2
 VENV := .venv
 BIN := $(VENV)/bin
+LOCK := envs/lock.txt
 # programs are run as modules: in a folder with a blank in its name, pip writes scripts that a shell reads, and runs `$()` in the name
 
-.PHONY: all_blades campbell report test test-fast test-slurm mutants lint bench docs site tutorial setup clean clean-results
+PIP_INSTALL := $(BIN)/python -m pip install --quiet --disable-pip-version-check --constraint $(LOCK)
+
+.PHONY: all_blades campbell report test test-fast test-slurm mutants lint bench docs site tutorial setup lock clean clean-results
 
 all_blades campbell: $(VENV)/.ready
 	$(BIN)/python -m snakemake $@ --cores $(CORES) $(if $(FIDELITY),--config fidelity=$(FIDELITY))
@@ -32,13 +35,13 @@ test-slurm: $(VENV)/.ready
 
 # whether the tests notice small changes of the code: a sample, about half an hour, and what they missed; MUTANTS='results/stress_recovery.py --each 20' for one module
 mutants: $(VENV)/.ready
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[test,mutants]'
+	$(PIP_INSTALL) --editable '.[test,mutants]'
 	$(BIN)/python benchmarks/mutants.py $(MUTANTS)
 
 lint: $(VENV)/.ready
 	$(BIN)/python -m ruff check .
 	$(BIN)/python -m ruff format --check .
-	$(BIN)/python -m snakefmt --check Snakefile workflow
+	$(BIN)/python -m snakefmt --check Snakefile workflow src/r37/study.smk
 	$(BIN)/python -m mypy
 	$(BIN)/python -m snakemake --lint
 
@@ -61,19 +64,27 @@ tutorial: $(VENV)/.docs
 	$(BIN)/python benchmarks/tutorial.py
 
 $(VENV)/.docs: $(VENV)/.ready
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[docs]'
+	$(PIP_INSTALL) --editable '.[docs]'
 	@touch $@
 
 setup: $(VENV)/.ready
 
-$(VENV)/.ready: pyproject.toml envs/system_libraries.sh
+$(VENV)/.ready: pyproject.toml $(LOCK) envs/system_libraries.sh
 	@'$(PYTHON)' -c 'import sys; sys.exit(sys.version_info < (3, 11))' || \
 		{ echo "r37 needs Python 3.11 or newer; say which with: make PYTHON=/path/to/python3.11 ..." >&2; exit 1; }
 	@'$(PYTHON)' -m venv $(VENV) || \
 		{ echo "the venv module is missing; on Debian: apt-get install python3-venv" >&2; exit 1; }
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[test]'
+	$(PIP_INSTALL) --editable '.[test]'
 	sh envs/system_libraries.sh $(BIN)/python
 	@touch $@
+
+# the newest versions that pyproject.toml allows, of all packages that the commands here install, for everyone after
+lock:
+	'$(PYTHON)' -m venv --clear build/lock
+	build/lock/bin/python -m pip install --quiet --disable-pip-version-check '.[test,mutants,docs,ansys]'
+	{ echo "# written by make lock: what pip installed"; build/lock/bin/python -m pip freeze --exclude r37; } > $(LOCK).new
+	mv $(LOCK).new $(LOCK)
+	rm -rf build/lock
 
 # what the configuration no longer asks for: lists it; REMOVE=yes removes it
 clean: $(VENV)/.ready

@@ -1,13 +1,13 @@
 """What r37 knows of Snakemake's inside: the version it was written for, and each name that it uses, looked for in it."""
 
 import inspect
-import tomllib
+import re
 from dataclasses import fields
 from importlib.metadata import version
 from pathlib import Path
 
 import pytest
-from snakemake import api, jobs, logging, script
+from snakemake import api, jobs, logging, modules, script
 from snakemake.persistence import file as persistence
 from snakemake.scheduling import job_scheduler
 from snakemake.settings import types
@@ -19,10 +19,9 @@ from r37core.console.lock import _LOCKS
 
 
 def test_the_version_is_the_one_that_the_console_was_written_for(root):
-    pins = tomllib.loads((root / "pyproject.toml").read_text())["project"]["dependencies"]
-    pinned = next(pin.removeprefix("snakemake==") for pin in pins if pin.startswith("snakemake=="))
+    pinned = re.search(r"^snakemake==(.*)$", (root / "envs/lock.txt").read_text(), re.MULTILINE)[1]
     assert {pinned, version("snakemake")} == {snakemake_run.SNAKEMAKE}, (
-        f"r37core.console was written for the inside of Snakemake {snakemake_run.SNAKEMAKE}, pyproject.toml pins {pinned}, "
+        f"r37core.console was written for the inside of Snakemake {snakemake_run.SNAKEMAKE}, envs/lock.txt has {pinned}, "
         f"installed is {version('snakemake')}: look through src/r37core/console and the tests here, then set SNAKEMAKE to it"
     )
 
@@ -48,7 +47,9 @@ def test_settings_have_their_names(where, name):
 
 
 def test_the_workflow_has_what_is_asked_of_it():
-    assert all(hasattr(api.Workflow, name) for name in ("is_main_process", "basedir", "local_exec", "scheduler"))
+    names = ("is_main_process", "basedir", "current_basedir", "local_exec", "modifier", "scheduler")
+    assert all(hasattr(api.Workflow, name) for name in names)
+    assert hasattr(modules.WorkflowModifier, "is_main_snakefile")
     assert types.DeploymentMethod.CONDA.name == "CONDA"
 
 

@@ -181,7 +181,7 @@ def three(settings_with, config_copy, monkeypatch):
     """A blade of each kind, seen from the project's folder."""
     monkeypatch.chdir(config_copy)
     settings = settings_with(MESH, {"Given": MATRICES}, blades=("Ref", "Fan", "Given"))
-    return Imported(settings, config_copy), Sweep(settings)
+    return Imported(settings), Sweep(settings)
 
 
 def test_plan_of_imported_blades(three, tmp_path, monkeypatch):

@@ -1,15 +1,20 @@
 """The project's own promises: pins, layers, README."""
 
 import ast
+import contextlib
 import os
 import re
 import tomllib
 from collections import Counter
 from graphlib import TopologicalSorter
+from importlib.metadata import PackageNotFoundError, version
+from itertools import chain
 
 import pytest
 import yaml
 from conftest import edited_configuration
+from packaging.requirements import Requirement
+from packaging.utils import canonicalize_name
 
 import r37
 from r37core import __version__
@@ -50,12 +55,30 @@ LAYERS = [
 ]
 
 
-def test_conda_environment_has_the_pins_of_pyproject(root):
-    pins = tomllib.loads((root / "pyproject.toml").read_text())["project"]["dependencies"]
-    environment = yaml.safe_load((root / "envs/r37.yaml").read_text())["dependencies"]
-    pip_section = next(entry["pip"] for entry in environment if isinstance(entry, dict))
-    assert sorted(pip_section) == sorted(pins)
-    assert all("==" in pin for pin in pins)
+def test_the_lock_has_a_version_of_all_that_is_asked_for(root):
+    """And every command that installs something takes it from there."""
+    project = tomllib.loads((root / "pyproject.toml").read_text())["project"]
+    pins = dict(line.split("==") for line in (root / "envs/lock.txt").read_text().splitlines() if not line.startswith("#"))
+    locked = {canonicalize_name(name): version for name, version in pins.items()}
+    for text in chain(project["dependencies"], *project["optional-dependencies"].values()):
+        requirement = Requirement(text)
+        assert requirement.specifier.contains(locked[canonicalize_name(requirement.name)]), text
+    assert all("==" not in text for text in project["dependencies"])
+    commands = (root / "Makefile").read_text().split("\nlock:")[0] + (root / "envs/r37.yaml").read_text()
+    installing = [line for line in commands.splitlines() if "pip install" in line]
+    assert len(installing) == 1 and "--constraint $(LOCK)" in installing[0]
+    assert "--constraint lock.txt" in commands
+
+
+def test_installed_is_what_is_locked(root):
+    """In the environment that `make test` made; the reference of every number that a test compares."""
+    wrong = {}
+    for line in (root / "envs/lock.txt").read_text().splitlines():
+        name, _, locked = line.partition("==")
+        with contextlib.suppress(PackageNotFoundError):
+            if locked and version(name) != locked:
+                wrong[name] = version(name), locked
+    assert wrong == {}, "make setup"
 
 
 def test_one_version(root):
@@ -107,7 +130,7 @@ def test_public_names_are_those_of_the_page(root):
     """What `import r37` gives stands in docs/python.md, and is documented."""
     text = (root / "docs/python.md").read_text()
     calls = [name for name in r37.__all__ if callable(getattr(r37, name)) and not isinstance(getattr(r37, name), type)]
-    assert len(calls) == 8
+    assert len(calls) == 9
     assert [name for name in calls if f"`r37.{name}(" not in text or not getattr(r37, name).__doc__] == []
 
 

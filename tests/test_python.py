@@ -349,6 +349,8 @@ def test_the_command_does_what_the_page_says(root, finished, monkeypatch, capsys
     monkeypatch.setattr("r37.call_configuration._PACKAGE", finished)
     monkeypatch.chdir(finished)
     (finished / "config.yaml").write_text((finished / "config/config.yaml").read_text())
+    shape, _, rest = (finished / "config/blades.yaml").read_text().partition("\nL50:")
+    (finished / "blades.yaml").write_text(f"{shape}\nL50:{rest.splitlines()[0]}\n")
     page = re.search(r"```sh\n(.*?)```", (root / "docs/python.md").read_text(), re.DOTALL)[1].replace("draft", "tiny")
     told = []
     for line in page.splitlines():
@@ -357,11 +359,12 @@ def test_the_command_does_what_the_page_says(root, finished, monkeypatch, capsys
     dataset = read_dataset("campbell.nc")
     xr.testing.assert_identical(dataset, r37.campbell("Ref"))
     assert f"{dataset['crossing_speed'].sel(mode='1B', engine_order=4).item():.6g}" in told[0]
-    rows = [line.split() for line in told[1].splitlines()[2:]]
+    assert told[1].startswith(f"Ref\n{told[0]}L50\n") and told[1].count("1B") == 2
+    rows = [line.split() for line in told[2].splitlines()[2:]]
     assert [row[0] for row in rows] == ["1700.0", "1729.0"]
     peak = r37.simulate("Ref", "abradable", 1729)
     assert float(rows[1][3]) == pytest.approx(1e-6 * peak["max_von_mises"].item(), rel=1e-5)
-    assert "blades: Ref\n" in told[2] and "simulations: 6\n" in told[2]
+    assert "blades: Ref\n" in told[3] and "simulations: 6\n" in told[3]
 
 
 def test_the_command_refuses_in_one_line(root, capsys):
@@ -371,7 +374,7 @@ def test_the_command_refuses_in_one_line(root, capsys):
     assert told.out == "" and told.err.startswith("r37: scene: found 'rub'; allowed: abradable") and told.err.count("\n") == 1
     assert main(["check", "missing.yaml"]) == 1
     assert main(["check", config]) == 0
-    assert "level: standard\nsimulations: 896 to about 3500\n" in capsys.readouterr().out
+    assert "level: standard\nsimulations: 896 to about 3500\ntheir CPU time: about 8.75 minutes" in capsys.readouterr().out
 
 
 @pytest.mark.slow
@@ -404,8 +407,12 @@ def test_an_installed_package_needs_no_repository(root, tmp_path):
     build = "from setuptools import build_meta; print(build_meta.build_sdist('.'))"
     *_, source = python("-c", build, cwd=project)
     python("-m", "pip", "install", "--quiet", "--no-index", "--no-deps", "--no-build-isolation", project / source)
-    shipped = {file.relative_to(root) for file in (root / "config").rglob("*.*") if file.parent.name != "schemas"}
-    assert {file.relative_to(packages / "r37") for file in (packages / "r37/config").rglob("*.*")} == shipped
+    for folder in ("config", "envs", "profiles", "workflow"):
+        shipped, installed = (
+            {file.relative_to(place) for file in (place / folder).rglob("*.*") if file.suffix != ".pyc"}
+            for place in (root, packages / "r37")
+        )
+        assert installed == shipped
     with tarfile.open(project / source) as archive:
         assert not [name for name in archive.getnames() if "/tests/" in name]
     (project / "src").rename(project / "gone")
@@ -414,3 +421,9 @@ def test_an_installed_package_needs_no_repository(root, tmp_path):
     assert Path(file).is_relative_to(packages)
     assert "level: tiny" in python(environment / "bin/r37", "check")
     assert 800.0 < float(frequency) < 900.0  # Hz, 1B at rest
+    python(environment / "bin/r37", "init", "study")
+    campbell = "results/Ref/campbell.nc"
+    done = run("-m", "snakemake", campbell, "--cores", "1", "--config", "blades=[Ref]", cwd=elsewhere / "study")
+    # the hooks of the study's Snakefile are those of the workflow
+    assert done.returncode == 0 and "jobs 4 of 4" in done.stderr, done.stderr
+    assert read_dataset(elsewhere / "study" / campbell)["frequency"][0, 0] == pytest.approx(float(frequency), rel=1e-12)

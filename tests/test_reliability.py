@@ -21,7 +21,7 @@ from r37core.console import failures, lock
 from r37core.console.leftovers import leftovers
 from r37core.dataset_file import about, read_dataset, write_dataset
 from r37core.io import InputFileError, write_json
-from r37core.plans.run import check_tree, replaced_level
+from r37core.plans.run import replaced_level, source_folder
 from r37core.results.campbell_dataset import campbell_dataset
 from r37core.results.netcdf import create_axis, create_variable
 from r37core.rom.rotation import BucklingError
@@ -111,9 +111,9 @@ def test_the_lock_of_a_killed_run_is_lifted(folder):
 
 
 def test_another_trees_package_is_refused(root, tmp_path):
-    check_tree(root)
+    assert source_folder(root) == (root / "src").resolve()
     with pytest.raises(ConfigError, match=r"r37core: found the package in .*; allowed: the one beside the Snakefile"):
-        check_tree(tmp_path)
+        source_folder(tmp_path)
 
 
 def test_leftovers_of_removed_blades_scenes_and_speeds(root, tmp_path):

@@ -117,7 +117,7 @@ def test_refusals(root, changes, message):
 
 def test_exports_name_speeds_in_rpm(root):
     settings = on_command_line(root, speeds_rpm=[8000, 9000], exports={"stress_speeds_rpm": [9000]})
-    exported = Exports(Imported(settings, root), Sweep(settings))
+    exported = Exports(Imported(settings), Sweep(settings))
     assert not exported.only_worst(PLACE)
     assert exported.speed_files(PLACE) == [f"<results>/Ref/direct/speed_{exact_text(9000 * RAD_S)}.npz"]
 

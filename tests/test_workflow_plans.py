@@ -304,9 +304,7 @@ def test_targets_are_what_the_configuration_asks_for(config_copy):
     def asked(**sections):
         settings = read_settings(config_copy, command_line_document(few | sections))
         sweep = Sweep(settings)
-        return {
-            file.removeprefix("<results>/") for file in filled(targets(sweep, Signals(Imported(settings, config_copy), sweep)))
-        }
+        return {file.removeprefix("<results>/") for file in filled(targets(sweep, Signals(Imported(settings), sweep)))}
 
     without = asked()
     assert {"rms.nc", "stress.nc", "spectrum.nc", "shapes/Ref.html", "figures/shapes_Ref__direct.png"} <= without
@@ -345,6 +343,6 @@ def test_run_ups_are_planned_like_speeds(root):
     assert found.before == planned.choice(climb)["revolutions"] == 200
     # stress in every revolution, the first ones too
     assert planned.choice(down)["revolutions"] == planned.choice(down)["snapshot_revolutions"] == 30
-    wanted = targets(Sweep(settings), Signals(Imported(settings, root), Sweep(settings)))
+    wanted = targets(Sweep(settings), Signals(Imported(settings), Sweep(settings)))
     assert {"<results>/run_ups.nc", "<results>/figures/run_ups_Ref__direct.png"} <= set(filled(wanted))
     assert "<results>/figures/run_ups_Ref__abradable.png" not in filled(wanted)

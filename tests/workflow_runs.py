@@ -67,9 +67,14 @@ def run_in_odd_project(folder, *command, **environment):
     return done.stdout + done.stderr
 
 
+def source(folder):
+    """Where a project's package lies."""
+    return folder / "src"
+
+
 def snakemake(folder, *arguments, check=True):
     environment = {key: value for key, value in os.environ.items() if not key.startswith("SNAKEMAKE")}
-    environment |= {"PYTHONPATH": str(folder / "src"), "R37_FULL_LOG": "1"}
+    environment |= {"PYTHONPATH": str(source(folder)), "R37_FULL_LOG": "1"}
     done = subprocess.run(
         [SNAKEMAKE, *arguments], cwd=folder, env=environment, capture_output=True, text=True, timeout=LONGEST, check=False
     )

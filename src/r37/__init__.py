@@ -11,12 +11,14 @@ from r37core import __version__
 from r37core.config import ConfigError
 from r37core.io import InputFileError
 
-from .choices import BladeChoice, SceneChoice, blade, scene
+from .choices import BladeChoice, SceneChoice, blade, blades, scene
 from .plots import plot_campbell, plot_response
 from .run_results import RunResults, open_results
 from .simulations import campbell, simulate, sweep
+from .study_folder import SNAKEFILE
 
 __all__ = [
+    "SNAKEFILE",
     "BladeChoice",
     "ConfigError",
     "InputFileError",
@@ -24,6 +26,7 @@ __all__ = [
     "SceneChoice",
     "__version__",
     "blade",
+    "blades",
     "campbell",
     "open_results",
     "plot_campbell",

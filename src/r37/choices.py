@@ -10,7 +10,7 @@ from typing import Any
 
 from r37core.config import BladeSettings, ConfigError, Document, SceneEntry, command_line_document, read_document
 from r37core.config.blades import Blades, blade_settings
-from r37core.config.families import with_designs, with_value
+from r37core.config.families import Designs, with_designs, with_value
 from r37core.config.scenes import Scenes
 
 from .call_configuration import Configuration, read_configuration
@@ -34,7 +34,7 @@ class BladeChoice:
         """Shape and material, in the SI. Raises ConfigError."""
         document = _changed("blade", self.configuration.checked.blades_file, self.name, self.above)
         root = self.configuration.root
-        designs = with_designs(document.check(Blades).root, root, document)
+        designs = _designs(document, root)
         if self.name not in designs.entries:
             raise _unknown("blade", self.name, designs.entries, document.name)
         return blade_settings(self.name, designs.entries, root, designs.document)
@@ -61,6 +61,16 @@ class SceneChoice:
         if self.name not in entries:
             raise _unknown("scene", self.name, entries, document.name)
         return entries[self.name]
+
+
+def blades(*, file: Path | str | None = None, config: Path | str | None = None) -> list[str]:
+    """Names of the blades, designs of families included: shipped ones, one's own (`config`), or of a blades.yaml (`file`).
+
+    Raises ConfigError for files that cannot be read, or are no blades.
+    """
+    chosen = _configuration("blades_file", file, config)
+    blades_file = Path(chosen.checked.blades_file)
+    return list(_designs(read_document(blades_file.parent, str(blades_file)), chosen.root).entries)
 
 
 def blade(name: str, *, file: Path | str | None = None, config: Path | str | None = None, **changes: Any) -> BladeChoice:
@@ -92,6 +102,10 @@ def _configuration(key: str, file: Path | str | None, config: Path | str | None)
     if not Path(file).is_file():
         raise ConfigError(f"file: found {file}; allowed: a file that is there")
     return found.with_file(key, file)
+
+
+def _designs(document: Document, root: Path) -> Designs:
+    return with_designs(document.check(Blades).root, root, document)
 
 
 def _above(function: str, name: str, changes: Mapping[str, Any]) -> Document | None:

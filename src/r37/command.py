@@ -1,4 +1,4 @@
-"""The command r37: a Campbell diagram, a response, or a look at a configuration, without writing Python."""
+"""The command r37: a folder for a study, a Campbell diagram, a response, a look at a configuration, without writing Python."""
 
 from __future__ import annotations
 
@@ -10,14 +10,16 @@ from pathlib import Path
 import pandas as pd
 import xarray as xr
 
-from r37core.config import load_settings
+from r37core.config import ConfigError, load_settings
 from r37core.dataset_file import write_dataset
 from r37core.io import InputFileError
 from r37core.plans.sweep_plan import Sweep
 from r37core.time_integration.status import RunStatus
 
 from .call_configuration import read_configuration
+from .choices import blade, blades
 from .simulations import campbell, sweep
+from .study_folder import init
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -36,30 +38,53 @@ def _parser() -> argparse.ArgumentParser:
     commands = parser.add_subparsers(required=True, metavar="command")
     common = argparse.ArgumentParser(add_help=False)
     common.add_argument("--config", help="a config.yaml in place of the shipped one")
+    common.add_argument("--blades", help="a blades.yaml in place of the configuration's")
     common.add_argument("--fidelity", help="an accuracy level in place of the configuration's")
     common.add_argument("--output", type=Path, help="netCDF file to write the dataset to")
     diagram = commands.add_parser("campbell", parents=[common], help="natural frequencies and crossings of a blade")
     diagram.set_defaults(run=_campbell)
     response = commands.add_parser("simulate", parents=[common], help="response of a blade in a scene")
     response.set_defaults(run=_simulate)
-    for command in (diagram, response):
-        command.add_argument("blade")
+    diagram.add_argument("blade", help="its name, or a blades.yaml: each blade of it")
+    response.add_argument("blade")
     response.add_argument("scene")
     response.add_argument("speeds", nargs="+", type=float, metavar="speed", help="rad/s")
     check = commands.add_parser("check", help="validate a configuration, and count its simulations")
     check.set_defaults(run=_check)
     check.add_argument("config", nargs="?", help="a config.yaml; without it the shipped one")
+    folder = commands.add_parser("init", help="write a folder for a study of one's own: configuration, Snakefile, profile")
+    folder.set_defaults(run=_init)
+    folder.add_argument("folder", help="new or empty")
     return parser
 
 
+def _init(given: argparse.Namespace) -> None:
+    init(given.folder)
+    print(f"{given.folder}: edit config/, then, in that folder: snakemake all_blades --cores 2")
+
+
 def _campbell(given: argparse.Namespace) -> None:
-    dataset = campbell(given.blade, fidelity=given.fidelity, config=given.config)
+    is_file = given.blade.endswith((".yaml", ".yml"))
+    file = given.blade if is_file else given.blades
+    names = blades(file=file, config=given.config) if is_file else [given.blade]
+    if given.output is not None and len(names) > 1:
+        raise ConfigError(
+            f"--output: found {len(names)} blades in {file}; allowed: one, as in: r37 campbell {names[0]} --blades {file}"
+        )
+    for name in names:
+        if len(names) > 1:
+            print(name)
+        dataset = campbell(blade(name, file=file, config=given.config), fidelity=given.fidelity, config=given.config)
+        _show(_campbell_table(dataset))
+        _write(dataset, given.output)
+
+
+def _campbell_table(dataset: xr.Dataset) -> pd.DataFrame:
     table = pd.DataFrame({"at rest (Hz)": dataset["frequency"].isel(speed=0).values}, index=dataset["mode"].to_index())
     crossings = dataset["crossing_speed"].sel(mode="1B").dropna("engine_order")
     for order in crossings["engine_order"].values[:_MOST_ORDERS]:
         table[f"crosses {order} (rad/s)"] = dataset["crossing_speed"].sel(engine_order=order).values
-    _show(table)
-    _write(dataset, given.output)
+    return table
 
 
 _MOST_ORDERS = 6
@@ -67,7 +92,8 @@ _MOST_ORDERS = 6
 
 
 def _simulate(given: argparse.Namespace) -> None:
-    dataset = sweep(given.blade, given.scene, given.speeds, fidelity=given.fidelity, config=given.config)
+    chosen = blade(given.blade, file=given.blades, config=given.config)
+    dataset = sweep(chosen, given.scene, given.speeds, fidelity=given.fidelity, config=given.config)
     edge, table = dataset.sel(tip_point="leading_edge"), pd.DataFrame(index=dataset["speed"].to_index().rename("speed (rad/s)"))
     table["rms, normal (mm)"] = 1e3 * edge["rms_normal"].values
     table["rms, tangential (mm)"] = 1e3 * edge["rms_tangential"].values
@@ -86,6 +112,10 @@ def _check(given: argparse.Namespace) -> None:
     print(f"scenes: {', '.join(settings.scene_names)}")
     print(f"level: {settings.fidelity_name}")
     print(f"simulations: {certain}" if most == certain else f"simulations: {certain} to about {most}")
+    measured = settings.fidelity.measured
+    if measured is not None:
+        minutes = most * measured.cpu_s_per_run / 60.0
+        print(f"their CPU time: about {minutes:.3g} minutes at most, as measured on the reference blade")
     for remark in settings.remarks:
         print(remark)
 

@@ -20,17 +20,17 @@ from r37core.plans.sweep_plan import MAPS, Sweep
 from r37core.plans.targets import targets
 from r37core.plans.tolerance_plan import Tolerances, of_member
 
-ROOT = Path(workflow.basedir)
+ROOT = Path(workflow.current_basedir).parent.parent
 ENVIRONMENT = ROOT / "envs" / "r37.yaml"
 SCRIPTS = ROOT / "workflow" / "scripts"
 TEXTS = ROOT / "workflow" / "report"
 
-console = begin(workflow, logger, WorkflowError)
+console = begin(workflow, logger, WorkflowError, ROOT, config)
 settings = console.settings
-code = CodeHashes(ROOT / "src", SCRIPTS)
+code = CodeHashes(console.source, SCRIPTS)
 made = Provenance(settings)
 structure = Structure(settings)
-imported = Imported(settings, ROOT)
+imported = Imported(settings)
 sweep = Sweep(settings, lambda **wildcards: checkpoints.refine.get(**wildcards).output[0])
 run_ups = RunUps(sweep)
 tolerances = Tolerances(sweep, made, lambda **wildcards: checkpoints.refine_members.get(**wildcards).output[0])

@@ -10,7 +10,7 @@ from typing import Any
 from .blades import Blades
 from .config_file import Config
 from .cross_checks import CHECKS
-from .document import Document, command_line_document, read_document
+from .document import ConfigError, Document, command_line_document, read_document
 from .families import with_designs
 from .fidelity import Levels
 from .scenes import Scenes
@@ -25,18 +25,31 @@ def read_settings(root: Path, *changes: Document) -> Settings:
     return load_settings(_together(read_document(root, CONFIG_FILE), changes), root)
 
 
-def settings_of_run(root: Path, files: Sequence[Path], values: Mapping[str, Any], only_given: bool = False) -> Settings:
+def settings_of_run(
+    root: Path,
+    files: Sequence[Path],
+    values: Mapping[str, Any],
+    of_module: Mapping[str, Any] | None = None,
+    only_given: bool = False,
+) -> Settings:
     """Settings of a run of the workflow in the current folder: the configuration, `files` on top, then `values`.
 
     The configuration is config/config.yaml of the current folder or, where that has none, of `root`; it is left out if
-    `only_given`. Raises ConfigError.
+    `only_given`. `of_module`: on top of all, what another workflow gives its module r37. Raises ConfigError.
     """
     here = Path.cwd()
     folder = here if (here / CONFIG_FILE).exists() else root
-    first = [] if only_given and files else [read_document(folder, CONFIG_FILE)]
+    first = [] if only_given and files else [_configuration(folder)]
     named = [Path(file).relative_to(here) if Path(file).is_relative_to(here) else Path(file) for file in files]
     changes = [*first, *(read_document(here, str(file)) for file in named), command_line_document(values)]
+    changes += [command_line_document(of_module, "config of the module r37")] if of_module else []
     return load_settings(_together(changes[0], changes[1:]), root)
+
+
+def _configuration(folder: Path) -> Document:
+    if not (folder / CONFIG_FILE).exists():
+        raise ConfigError(f"{CONFIG_FILE}: there is no such file in {folder}; `r37 init FOLDER` writes a folder that has one")
+    return read_document(folder, CONFIG_FILE)
 
 
 def load_settings(

@@ -63,7 +63,7 @@ def _dropped(results: Path, settings: Settings) -> Iterator[Path]:
 def _planned(settings: Settings) -> dict[str, paths.Wildcards]:
     """Patterns of files that one configuration makes and another does not, with those of this one."""
     sweep = Sweep(settings)
-    imported = Imported(settings, Path())
+    imported = Imported(settings)
     tip_lines = {settings.structure.boundary.tip_line, *(scene.tip_line for scene in settings.scenes.values())}
     models = [{"blade": blade, "tip_line": line} for blade in settings.blades for line in tip_lines]
     return {

@@ -13,13 +13,13 @@ import os
 import socket
 import sys
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from r37core.config import ConfigError, Settings, settings_of_run
-from r37core.plans.run import check_asked, check_part, check_tree, replaced_level
+from r37core.plans.run import check_asked, check_part, replaced_level, source_folder
 from r37core.plans.sweep_plan import Sweep
 
 from . import failures, interpreter, job_server, lock
@@ -35,11 +35,13 @@ Refusal = Callable[[str], Exception]
 
 @dataclass(frozen=True)
 class Console:
-    """One run of the `workflow`, with its `settings`; `began`: time in s."""
+    """One run of the `workflow`, with its `settings` and scripts and its package's `source`; `began`: time in s."""
 
     workflow: Any
     refusal: Refusal
     settings: Settings
+    scripts: Path
+    source: Path
     began: float
 
     def start(self) -> None:
@@ -53,7 +55,7 @@ class Console:
         # quarter of a core in the default sweep. The limit is for the queues of clusters
         if self.workflow.local_exec:
             self.workflow.scheduler.job_rate_limiter = None
-            job_server.start(Path(self.workflow.basedir) / "workflow/scripts/simulate.py", interpreter.PYTHON)
+            job_server.start(self.scripts / "simulate.py", interpreter.PYTHON)
 
     def succeed(self) -> None:
         """After the last job: nothing is said where there is nothing to say."""
@@ -66,8 +68,10 @@ class Console:
         _say_last(["", *failures.taken()])
 
 
-def begin(workflow: Any, logger: logging.Logger, refusal: Refusal) -> Console:
+def begin(workflow: Any, logger: logging.Logger, refusal: Refusal, root: Path, values: Mapping[str, Any]) -> Console:
     """Read the configuration of a run, say what there is to say, and put one line in place of thousands of messages.
+
+    `root`: folder of our Snakefile. `values`: configuration that another Snakefile gives its module r37, on top of all.
 
     Snakemake's own messages of each job are in its log file, and on the terminal with R37_FULL_LOG=1 or --verbose. Raises
     `refusal` for a configuration that is not allowed.
@@ -78,16 +82,19 @@ def begin(workflow: Any, logger: logging.Logger, refusal: Refusal) -> Console:
     interpreter.quote()
     if "CONDA" in {method.name for method in workflow.deployment_settings.deployment_method}:
         raise refusal("--sdm conda: jobs need the Python that runs Snakemake, with r37 in it; leave the option out")
-    root = Path(workflow.basedir)
+    # of our Snakefile itself they are those of the command line, without lines and with texts for numbers
+    above = {} if workflow.modifier.is_main_snakefile() else values
     # read here instead of by a `configfile:`, so that messages have lines and numbers are numbers in every file
     with _refused(refusal):
-        check_tree(root)
-        settings = settings_of_run(root, given.configfiles, given.config, only_given=given.replace_workflow_config)
+        source = source_folder(root)
+        settings = settings_of_run(
+            Path(workflow.basedir), given.configfiles, given.config, above, only_given=given.replace_workflow_config
+        )
     for line in [*lock.lift_stale(), *settings.remarks, *replaced_level(settings)]:
         logger.info(line)
     if not (os.environ.get("R37_FULL_LOG") or output.dryrun or output.verbose):
         quieten(logger.handlers, Progress(Sweep(settings).most_runs + settings.most_of_members))
-    return Console(workflow, refusal, settings, began)
+    return Console(workflow, refusal, settings, root / "workflow/scripts", source, began)
 
 
 @contextlib.contextmanager

@@ -17,12 +17,12 @@ PACKAGE = "r37core"
 class CodeHashes:
     """Hashes of the scripts in the folder `scripts` and of all they import from it and from the package in `source`.
 
-    Comments, docstrings and layout do not count, nor does the version in the package's own __init__. `packages`: with it,
-    only imports of these count, for a `source` that holds others' packages too.
+    Comments, docstrings and layout do not count, nor does the version in the package's own __init__. `source` may hold
+    other packages, too: of those in it only imports of `packages` count.
     """
 
-    def __init__(self, source: Path, scripts: Path, packages: Collection[str] | None = None):
-        self._roots, self._packages = (scripts, source), packages
+    def __init__(self, source: Path, scripts: Path, packages: Collection[str] = (PACKAGE,)):
+        self._source, self._scripts, self._packages = source, scripts, packages
         self._version_file = source / PACKAGE / "__init__.py"
 
     def __call__(self, script: str, *modules: str) -> str:
@@ -39,18 +39,18 @@ class CodeHashes:
     def closure(self, script: str, *modules: str) -> list[Path]:
         """The files of the script and `modules` and of all that they import, directly or not, sorted."""
         found: set[Path] = set()
-        waiting = [self._roots[0] / f"{script}.py"]
-        waiting += [file for name in modules for file in module_files(name, self._roots)]
+        waiting = [self._scripts / f"{script}.py"]
+        waiting += [file for name in modules for file in self._files(name)]
         while waiting:
             file = waiting.pop()
             if file not in found:
                 found.add(file)
-                names = [name for name in imported_names(file) if self._counts(name)]
-                waiting += [imported for name in names for imported in module_files(name, self._roots)]
+                waiting += [imported for name in imported_names(file) for imported in self._files(name)]
         return sorted(found - {self._version_file})
 
-    def _counts(self, name: str) -> bool:
-        return self._packages is None or name.partition(".")[0] in self._packages
+    def _files(self, name: str) -> tuple[Path, ...]:
+        counts = name.partition(".")[0] in self._packages
+        return module_files(name, (self._scripts, self._source) if counts else (self._scripts,))
 
 
 @cache

@@ -19,13 +19,12 @@ from .provenance import Attributes
 
 @dataclass(frozen=True)
 class Imported:
-    """Blades by what gives them. `root`: folder that file names in the configuration start from.
+    """Blades by what gives them.
 
     Methods with `wildcards` are inputs and parameters of rules.
     """
 
     settings: Settings
-    root: Path
 
     def given_by(self, *kinds: type) -> list[str]:
         """Names of the blades that are given in one of these ways."""
@@ -55,10 +54,10 @@ class Imported:
         """What a blade is imported from, as seen from the current folder where that is possible."""
         source = self.settings.blades[wildcards.blade].definition
         if isinstance(source, MeshSource):
-            found = mesh_files(source.file, self.root)
+            found = mesh_files(source.file, self.settings.root)
         else:
             assert isinstance(source, MatricesSource)
-            found = list(matrix_files(source.folder, self.root).values())
+            found = list(matrix_files(source.folder, self.settings.root).values())
         return [_seen_from_here(file) for file in found]
 
     def source(self, wildcards: Any) -> Any:
@@ -72,7 +71,7 @@ class Imported:
     @property
     def folder(self) -> Attributes:
         """The folder that file names start from; another place of the project re-runs nothing."""
-        return Attributes(folder=str(self.root))
+        return Attributes(folder=str(self.settings.root))
 
 
 def _pattern(names: Iterable[str]) -> str:

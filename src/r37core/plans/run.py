@@ -64,11 +64,16 @@ def replaced_level(settings: Settings) -> list[str]:
     ]
 
 
-def check_tree(root: Path) -> None:
-    """Raise ConfigError unless r37core is imported from the folder `root` of the Snakefile, whose code is hashed."""
-    imported, beside = Path(r37core.__file__).resolve().parent, (root / "src" / "r37core").resolve()
-    if imported != beside:
+def source_folder(root: Path) -> Path:
+    """The folder that r37core is imported from, whose code is hashed.
+
+    Raises ConfigError unless that belongs to the rules in the folder `root`: it is the repository's, or both are installed.
+    """
+    imported = Path(r37core.__file__).resolve().parent.parent
+    beside = (root / "src").resolve()
+    if imported not in (beside, root.resolve().parent):
         raise ConfigError(
             f"r37core: found the package in {imported}; allowed: the one beside the Snakefile, {beside} "
             "(make setup there, and use its .venv/bin/snakemake)"
         )
+    return imported

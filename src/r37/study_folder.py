@@ -1,0 +1,46 @@
+"""A folder for a study of one's own: configuration, Snakefile and profile, from which Snakemake runs the workflow."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import tempfile
+from pathlib import Path
+
+from r37core.config import ConfigError
+
+_PACKAGE = Path(__file__).parent
+
+SNAKEFILE = (_PACKAGE / "Snakefile").resolve()
+"""The workflow's Snakefile, for `module r37: snakefile: SNAKEFILE`. In the repository it is that at its top."""
+
+_KEPT_OUT_OF_GIT = "/results/\n/logs/\n/.snakemake/\n/config/my*.yaml\n"
+
+
+def init(folder: Path | str) -> Path:
+    """Write the shipped configuration, a Snakefile and a profile into a new folder, and give its path.
+
+    Raises ConfigError for a folder that has something in it, and for one that cannot be written.
+    """
+    path = Path(folder).absolute()
+    if path.exists() and not (path.is_dir() and not any(path.iterdir())):
+        raise ConfigError(f"init: found {folder}, which is not empty; allowed: a folder that is new or empty")
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryDirectory(prefix=".r37-init-", dir=path.parent) as temporary:
+            made = Path(temporary, path.name)
+            _fill(made)
+            # complete or not there: onto an empty folder, too
+            os.rename(made, path)
+    except OSError as error:
+        raise ConfigError(f"init: found {folder}, which cannot be written ({error.strerror}); allowed: one that can") from None
+    return path
+
+
+def _fill(folder: Path) -> None:
+    # files that the user's own configuration keeps out of Git stay with the user
+    ours = shutil.ignore_patterns("my*.yaml", "own")
+    shutil.copytree(_PACKAGE / "config", folder / "config", ignore=ours)
+    shutil.copytree(_PACKAGE / "profiles" / "default", folder / "profiles" / "default")
+    shutil.copyfile(_PACKAGE / "study.smk", folder / "Snakefile")
+    (folder / ".gitignore").write_text(_KEPT_OUT_OF_GIT)
