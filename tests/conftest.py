@@ -19,7 +19,18 @@ for library in ("OPENBLAS", "OMP", "MKL"):
 
 CHECKOUT = Path(__file__).parent.parent
 CONFIGURATION = Path(__file__).parent / "config"
-DELIVERED = ("benchmarks", "cluster", "docs", "envs", "profiles", "workflow", "mkdocs.yml", "pyproject.toml", "CITATION.cff")
+DELIVERED = (
+    "benchmarks",
+    "cluster",
+    "docs",
+    "envs",
+    "examples",
+    "profiles",
+    "workflow",
+    "mkdocs.yml",
+    "pyproject.toml",
+    "CITATION.cff",
+)
 DELIVERED += ("Makefile", "MANIFEST.in", "Snakefile", "CHANGELOG.md", "CONTRIBUTING.md", "README.md")
 
 

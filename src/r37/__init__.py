@@ -15,7 +15,7 @@ from .choices import BladeChoice, SceneChoice, blade, blades, scene
 from .plots import plot_campbell, plot_response
 from .run_results import RunResults, open_results
 from .simulations import campbell, simulate, sweep
-from .study_folder import SNAKEFILE
+from .study_folder import SNAKEFILE, init
 
 __all__ = [
     "SNAKEFILE",
@@ -28,6 +28,7 @@ __all__ = [
     "blade",
     "blades",
     "campbell",
+    "init",
     "open_results",
     "plot_campbell",
     "plot_response",
