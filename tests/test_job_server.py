@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from r37core.console import job_server
+from r37core.console import interpreter, job_server
 
 SCRIPT = """
 import os, sys, time
@@ -74,6 +74,38 @@ def test_output_and_status_are_those_of_the_job(start, what, status):
     assert warned.startswith("warned\n")
     assert ("no" in warned) == (what in ("raise", "text"))
     assert parent() == start.server.pid
+
+
+def test_what_a_script_imports_is_there_before_its_job(start, root):
+    """Of other scripts than the server's own, and only what it finds; TMPDIR is that of the job."""
+    Path("figure.py").write_text(
+        "import sys, tempfile\nearly = {'wave', 'xml.dom.minidom', 'tempfile'} & set(sys.modules)\n"
+        "import wave\nfrom xml.dom import minidom\nprint(sorted(early), tempfile.gettempdir())\nimport missing\n"
+    )
+    command = [sys.executable, "-S", "-E", str(root / "workflow/scripts/start.py"), "figure.py"]
+    for _ in range(2):
+        job = subprocess.run(command, env=os.environ | {"TMPDIR": os.getcwd()}, capture_output=True, text=True, timeout=20)
+        assert job.stdout == f"['tempfile', 'wave', 'xml.dom.minidom'] {os.getcwd()}\n"
+        assert job.returncode == 1 and "ModuleNotFoundError: No module named 'missing'" in job.stderr
+    assert start("0").wait(20) == 0
+
+
+def test_a_module_is_run_without_the_server(start, root):
+    """As Snakemake runs itself for some jobs, with the interpreter that it knows."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(sys, "executable", sys.executable)
+        interpreter.through(root / "workflow/scripts/start.py")
+        command = f"{sys.executable} -m calendar 2026 11"
+    job = subprocess.run(command, shell=True, capture_output=True, text=True, timeout=20)
+    assert "November 2026" in job.stdout and job.returncode == 0
+    assert start.server.poll() is None
+
+
+def test_a_client_that_says_nothing_keeps_no_other_waiting(start, monkeypatch):
+    assert start("0").wait(20) == 0
+    with socket.socket(socket.AF_UNIX) as client:
+        client.connect(os.environ[job_server.ADDRESS])
+        assert start("3").wait(20) == 3
 
 
 def test_only_the_owner_reaches_the_server(start):

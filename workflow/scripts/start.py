@@ -1,6 +1,6 @@
 """Run a script's job in the job server of this Snakemake (r37core.console.job_server), or by itself where none answers.
 
-Started as `python -S -E start.py SCRIPT ARGUMENTS`, with as few imports as there can be: it starts once for every simulation.
+Started as `python -S -E start.py SCRIPT ARGUMENTS`, with as few imports as there can be: it starts once for every job.
 """
 
 import _socket  # what `socket` is made of: a hundredth of a second less
@@ -25,7 +25,10 @@ def ask(address, arguments):
     return answer[0] if answer else None
 
 
-status = ask(os.environ["R37_JOB_SERVER"], sys.argv[2:]) if "R37_JOB_SERVER" in os.environ else None
+address, arguments = os.environ.get("R37_JOB_SERVER"), sys.argv[1:]
+# `-m snakemake`, of a job that is a Snakemake of its own, is no script
+is_script = not arguments[0].startswith("-")
+status = ask(address, [os.environ.get("TMPDIR", ""), *arguments]) if address and is_script else None
 if status is None:
     os.execv(sys.executable, [sys.executable, *sys.argv[1:]])
 # nothing is left to clean up

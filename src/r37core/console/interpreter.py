@@ -9,6 +9,11 @@ from pathlib import Path
 PYTHON = Path(sys.executable)
 
 
+def through(start: Path) -> None:
+    """Let Snakemake start the Python scripts of its rules by way of `start`, a script that hands them to the job server."""
+    sys.executable = shlex.join([str(PYTHON), "-S", "-E", str(start)])
+
+
 def quote() -> None:
     """Quote `sys.executable`, which Snakemake 9.27 puts into the commands of its scripts as it stands.
 

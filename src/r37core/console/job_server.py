@@ -1,13 +1,17 @@
-"""A server that has imported what a simulation needs, and forks for each: `python -m r37core.console.job_server SOCKET SCRIPT`.
+"""A server that has imported what jobs need, and forks for each: `python -m r37core.console.job_server SOCKET SCRIPT`.
 
-Importing takes longer than a simulation. Jobs reach it through `workflow/scripts/start.py`, which hands over the arguments and
-its output, waits, and passes the exit status on; where no server answers, the job runs by itself. Only its owner can talk to
-it: the socket is in a folder of mode 0700. It ends when its standard input does, which Snakemake holds.
+Importing takes longer than a simulation, and as long as drawing a figure. Jobs reach the server through
+`workflow/scripts/start.py`, which hands over their arguments and its output, waits, and passes the exit status on; where no
+server answers, the job runs by itself. Only its owner can talk to it: the socket is in a folder of mode 0700. It ends when its
+standard input does, which Snakemake holds.
 """
 
 from __future__ import annotations
 
+import ast
+import contextlib
 import gc
+import importlib
 import os
 import runpy
 import select
@@ -19,7 +23,9 @@ import sys
 import tempfile
 import threading
 import traceback
+from collections.abc import Iterator
 from pathlib import Path
+from typing import NoReturn
 
 ADDRESS = "R37_JOB_SERVER"
 """Environment variable with the socket's path, for the jobs; relative, for such a path may have a hundred letters."""
@@ -27,9 +33,15 @@ ADDRESS = "R37_JOB_SERVER"
 _KEPT: list[subprocess.Popen] = []
 """A server whose handle is gone has no standard input any more."""
 
+_PATIENCE_S = 5.0
+"""With a client that has come and does not say what it wants."""
 
-def start(script: Path, python: Path) -> None:
-    """Start the server of this process for the jobs of `script`; without one, where the folder can have no socket."""
+
+def start(script: Path, python: Path) -> bool:
+    """Start the server of this process, with `script` as that of most jobs; whether it is there.
+
+    There is none where the folder can have no socket.
+    """
     try:
         folder = tempfile.mkdtemp(prefix="r37_jobs_", dir=".snakemake")
         address = Path(os.path.relpath(folder)) / "socket"
@@ -40,49 +52,96 @@ def start(script: Path, python: Path) -> None:
         os.environ[ADDRESS] = str(address)
     except OSError:
         os.environ.pop(ADDRESS, None)
+    return ADDRESS in os.environ
 
 
 def serve(address: Path, script: str) -> None:
-    """Fork for every connection until standard input ends."""
-    imported = False
+    """Fork for every connection until standard input ends; see _Imported for `script`."""
+    imported = _Imported(script)
     try:
         with socket.socket(socket.AF_UNIX) as listener:
             listener.bind(str(address))
             listener.listen(256)
+            signal.signal(signal.SIGCHLD, signal.SIG_IGN)
             while sys.stdin not in select.select([listener, sys.stdin], [], [])[0]:
                 connection, _ = listener.accept()
-                if not imported:
-                    # not before the first job: a run may have none
-                    runpy.run_path(script)
-                    # what is imported is no garbage: no job needs to look through it, and its memory stays shared
-                    gc.freeze()
-                    signal.signal(signal.SIGCHLD, signal.SIG_IGN)
-                    imported = True
-                if os.fork() == 0:
-                    listener.close()
-                    _answer(connection, script)
-                connection.close()
+                # a client that is gone, or says nothing, is done with
+                with connection, contextlib.suppress(OSError), _asked(connection) as (arguments, outputs):
+                    imported.add(arguments[1])
+                    if os.fork() == 0:
+                        listener.close()
+                        _answer(connection, arguments, outputs)
     finally:
         shutil.rmtree(address.parent, ignore_errors=True)
 
 
-def _answer(connection: socket.socket, script: str) -> None:
+class _Imported:
+    """What the server has imported. Of `main`, a script, all is run once that stands outside its main part."""
+
+    def __init__(self, main: str):
+        self._main, self._known = main, set[str]()
+
+    def add(self, script: str) -> None:
+        """Import what a script imports, as far as that is found; what is not is the job's own affair."""
+        needed = {script} if script == self._main else _imports_of(script)
+        if not (new := needed - self._known):
+            return
+        # what is imported may start programs, and asks how they ended
+        signal.signal(signal.SIGCHLD, signal.SIG_DFL)
+        for name in sorted(new):
+            with contextlib.suppress(Exception):
+                runpy.run_path(name) if name == self._main else importlib.import_module(name)
+        signal.signal(signal.SIGCHLD, signal.SIG_IGN)
+        # what is imported is no garbage: no job needs to look through it, and its memory stays shared
+        gc.freeze()
+        self._known |= new
+
+
+def _imports_of(script: str) -> set[str]:
+    """Modules that a script imports where it begins, and names out of them that may be modules."""
+    names: set[str] = set()
+    for node in ast.parse(Path(script).read_bytes()).body:
+        if isinstance(node, ast.Import):
+            names |= {alias.name for alias in node.names}
+        elif isinstance(node, ast.ImportFrom) and node.module and not node.level:
+            names |= {node.module, *(f"{node.module}.{alias.name}" for alias in node.names)}
+    return names
+
+
+@contextlib.contextmanager
+def _asked(connection: socket.socket) -> Iterator[tuple[list[str], list[int]]]:
+    """What a client asks for: TMPDIR, script and arguments; and its outputs, closed here in the end.
+
+    Raises OSError where it says less.
+    """
+    connection.settimeout(_PATIENCE_S)
+    size = int.from_bytes(connection.recv(8, socket.MSG_WAITALL), "little")
+    message, outputs, _, _ = socket.recv_fds(connection, 1, 2)
+    try:
+        while len(message) < size:
+            part = connection.recv(size - len(message))
+            if not part:
+                raise ConnectionError
+            message += part
+        connection.settimeout(None)
+        yield [os.fsdecode(argument) for argument in message.split(b"\0")], outputs
+    finally:
+        for output in outputs:
+            os.close(output)
+
+
+def _answer(connection: socket.socket, arguments: list[str], outputs: list[int]) -> NoReturn:
     """Run a job in this process, which ends with it, or when its client is gone."""
     status = 1
     try:
         signal.signal(signal.SIGCHLD, signal.SIG_DFL)
-        size = int.from_bytes(connection.recv(8, socket.MSG_WAITALL), "little")
-        message, outputs, _, _ = socket.recv_fds(connection, 1, 2)
-        while len(message) < size:
-            part = connection.recv(size - len(message))
-            if not part:
-                return
-            message += part
         for output, number in zip(outputs, (1, 2), strict=True):
             os.dup2(output, number)
         threading.Thread(target=_end_with, args=(connection,), daemon=True).start()
-        sys.argv = [script, *map(os.fsdecode, message.split(b"\0"))]
-        status = _status_of(script)
+        folder, *sys.argv = arguments
+        if folder:
+            os.environ["TMPDIR"], tempfile.tempdir = folder, None
+        status = _status_of(sys.argv[0])
         sys.stdout.flush()
         sys.stderr.flush()
         connection.sendall(bytes([status]))

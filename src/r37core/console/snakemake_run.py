@@ -55,7 +55,8 @@ class Console:
         # quarter of a core in the default sweep. The limit is for the queues of clusters
         if self.workflow.local_exec:
             self.workflow.scheduler.job_rate_limiter = None
-            job_server.start(self.scripts / "simulate.py", interpreter.PYTHON)
+            if job_server.start(self.scripts / "simulate.py", interpreter.PYTHON):
+                interpreter.through(self.scripts / "start.py")
 
     def succeed(self) -> None:
         """After the last job: nothing is said where there is nothing to say."""
