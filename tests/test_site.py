@@ -122,3 +122,17 @@ def test_every_page_is_in_the_site(root):
     index = (root / "docs/index.md").read_text()
     for page in (root / "docs").glob("*.md"):
         assert page.stem == "index" or re.search(rf"^{page.stem}$|<{page.stem}>$", index, re.MULTILINE), page.name
+
+
+def test_pages_are_named_by_words_and_other_files_are_no_links(root):
+    adapt = runpy.run_path(str(root / "docs/site/repository_links.py"))["adapt"]
+    text = ["See [your_blade.md](your_blade.md#a). [speed.md](speed.md) and [`config.yaml`](../config/config.yaml)."]
+    adapt(None, "page", text)
+    assert text == ["See [your blade](your_blade.md#a). [Speed](speed.md) and `config.yaml`."]
+
+
+def test_the_graph_of_rules_becomes_a_table(root):
+    adapt = runpy.run_path(str(root / "docs/site/repository_links.py"))["adapt"]
+    text = ["```mermaid\nflowchart LR\n    mesh --> model\n    mesh --> deck\n```"]
+    adapt(None, "page", text)
+    assert text == ["| rule | its results go to |\n|---|---|\n| `mesh` | `model`, `deck` |"]
