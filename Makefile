@@ -57,7 +57,7 @@ docs: $(VENV)/.ready
 
 # the documentation as a site that opens from the disk: site/index.html; a warning is an error
 site: $(VENV)/.docs
-	NO_MKDOCS_2_WARNING=1 $(BIN)/python -m mkdocs build --strict --quiet
+	$(BIN)/python -m sphinx --quiet --fail-on-warning --keep-going --conf-dir docs/site docs site
 
 # docs/tutorial.ipynb of docs/tutorial.py, run; about a minute
 tutorial: $(VENV)/.docs

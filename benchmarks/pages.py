@@ -1,6 +1,6 @@
 """Puts the tables and pictures of the studies into the pages of docs/. Run: make docs (after that, read the difference).
 
-A page says where with <!-- name --> ... <!-- end -->.
+A page says where with <!-- name --> ... <!-- end -->. Long tables have pages of their own; what they say stands before them.
 """
 
 import re
@@ -17,23 +17,25 @@ STUDIES = ROOT / "results" / "studies"
 TABLES = {
     "accuracy": {
         "levels": "levels.md",
-        "tradeoff": "tradeoff.md",
         "growth": "growth.md",
-        "refinement": "refinement.md",
         "run_ups": "run_up_accuracy.md",
     },
+    "accuracy_tables": {"refinement": "refinement.md", "tradeoff": "tradeoff.md"},
     "coriolis": {name: f"coriolis_{name}.md" for name in ("frequencies", "peaks", "direct", "cost")},
     "run_ups": {"run_up_rates": "run_up_rates.md", "run_up_variants": "run_up_variants.md"},
     "clearance": {"clearance_growth": "clearance_growth.md", "clearance_effect": "clearance_effect.md"},
     "tolerances": {name: f"{name}.md" for name in ("tolerance_ranges", "tolerance_sensitivity", "tolerance_members")},
-    "stability": {"stability": "stability.md"},
-    "validation": {
-        "validation": "validation.md",
-        "ranges": "validation_ranges.md",
-        "modelling_choices": "modelling_choices.md",
-    },
+    "stability_tables": {"stability": "stability.md"},
+    "validation": {"modelling_choices": "modelling_choices.md"},
+    "validation_tables": {"validation": "validation.md", "ranges": "validation_ranges.md"},
     "speed": {"estimate": "estimate.md"},
 }
+SUMMARIES = {
+    "stability": {"stability": "stability.md"},
+    "validation": {"validation": "validation.md", "ranges": "validation_ranges.md"},
+}
+"""What stands on a page itself of a long table, which has a page of its own."""
+
 PICTURES = (
     "tradeoff_pareto",
     "growth",
@@ -56,6 +58,14 @@ def fill(page, name, text):
     page.write_text(with_part(page.read_text(encoding="utf-8"), name, text), encoding="utf-8")
 
 
+def summary(text):
+    """What stands before the first table, and the rows of that with something bold in them: what differs."""
+    before, _, table = text.partition("\n|")
+    header, line, *rows = f"|{table}".splitlines()
+    bold = [row for row in rows if row.startswith("|") and "**" in row]
+    return "\n".join([before.strip(), *(["", header, line, *bold] if bold else [])])
+
+
 def rule_graph():
     """The rules of the main job as a Mermaid diagram, without their way to the final target.
 
@@ -73,10 +83,11 @@ def rule_graph():
 
 def main():
     fill(ROOT / "docs" / "architecture.md", "rules", rule_graph())
-    for page, tables in TABLES.items():
-        for name, file in tables.items():
-            if (STUDIES / file).exists():
-                fill(ROOT / "docs" / f"{page}.md", name, (STUDIES / file).read_text(encoding="utf-8"))
+    for parts, made in ((TABLES, str), (SUMMARIES, summary)):
+        for page, tables in parts.items():
+            for name, file in tables.items():
+                if (STUDIES / file).exists():
+                    fill(ROOT / "docs" / f"{page}.md", name, made((STUDIES / file).read_text(encoding="utf-8")))
     for picture in PICTURES:
         file = STUDIES / "figures" / f"{picture}.png"
         if file.exists():

@@ -18,7 +18,7 @@ FORBIDDEN = {
     r"\brefines? (itself|themselves)\b": "adaptive speed sampling",
     r"\breadings\b|\b(the|a|one|our) reading\b": "modelling choice",
     r"\bturned (once|alone|one at a time)\b": "varied",
-    r"[,;] for (it|they|there|this|these|its|their|he|we|no|contact|modes)\b": "because",
+    r"[,;] for (it|they|there|this|these|its|their|he|we|no|none|others|machines|contact|modes)\b": "because",
 }
 """Pattern of a word or a phrase -> what to write instead."""
 

@@ -27,7 +27,6 @@ DELIVERED = (
     "examples",
     "profiles",
     "workflow",
-    "mkdocs.yml",
     "pyproject.toml",
     "CITATION.cff",
 )

@@ -24,7 +24,8 @@ def section(page, name):
 
 @pytest.fixture(scope="module")
 def pages(root):
-    names = ("accuracy", "stability", "validation", "speed")
+    tables = ("accuracy_tables", "stability_tables", "validation_tables")
+    names = ("accuracy", "stability", "validation", "speed", *tables)
     return {name: (root / "docs" / f"{name}.md").read_text() for name in names}
 
 
@@ -84,7 +85,7 @@ def test_mutants_are_of_modules_and_tests_that_are_there(root):
 
 
 def test_validation_page_has_every_interaction_and_every_modelling_choice(pages):
-    rows = section(pages["validation"], "validation").splitlines()
+    rows = section(pages["validation_tables"], "validation").splitlines()
     for one in INTERACTIONS:
         start = f"| {one.blade} 1B/{one.engine_order}: peak | {one.peak:g} rad/s |"
         assert any(row.startswith(start) for row in rows), start
@@ -93,10 +94,34 @@ def test_validation_page_has_every_interaction_and_every_modelling_choice(pages)
 
 
 def test_every_extreme_has_an_outcome(pages):
-    table = section(pages["stability"], "stability")
+    table = section(pages["stability_tables"], "stability")
     counted = re.match(r"(\d+) accurate, (\d+) degraded, (\d+) diverged, (\d+) refused, of (\d+) cases", table.strip())
     numbers = [int(number) for number in counted.groups()]
     assert sum(numbers[:4]) == numbers[4] == len(re.findall(r"\| (?:accurate|degraded|diverged|refused) \|", table)) > 90
+
+
+def test_pages_say_what_their_long_tables_do(root, pages):
+    """What `make docs` writes on the page itself: the text before the table, and the rows that differ."""
+    script = runpy.run_path(str(root / "benchmarks/pages.py"))
+    for page, parts in script["SUMMARIES"].items():
+        for name in parts:
+            assert section(pages[page], name).strip() == script["summary"](section(pages[f"{page}_tables"], name)), (page, name)
+
+
+def test_a_summary_has_the_rows_that_differ(root):
+    summary = runpy.run_path(str(root / "benchmarks/pages.py"))["summary"]
+    table = "2 of 3 agree.\n\n| what | ours |\n|---|---|\n| a | **2** |\n| b | 3 |\n\nAfter it.\n"
+    assert summary(table) == "2 of 3 agree.\n\n| what | ours |\n|---|---|\n| a | **2** |"
+    assert summary(table.replace("**", "")) == "2 of 3 agree."
+
+
+def test_pages_and_tables_of_the_studies_have_their_places(root):
+    """Every table that `make docs` fills has its markers."""
+    script = runpy.run_path(str(root / "benchmarks/pages.py"))
+    for parts in (script["TABLES"], script["SUMMARIES"]):
+        for page, names in parts.items():
+            text = (root / "docs" / f"{page}.md").read_text()
+            assert [name for name in names if f"<!-- {name} -->\n" not in text] == [], page
 
 
 @pytest.mark.slow
@@ -125,7 +150,7 @@ def test_links_lead_to_pages_and_headings(root, page):
     for target in re.findall(r"\]\(([^)\s]+)\)", re.sub(r"^```.*?^```", "", file.read_text(), flags=re.DOTALL | re.MULTILINE)):
         name, _, heading = target.partition("#")
         linked = file.parent / name if name else file
-        if re.match(r"https?:", target) or linked.name in ("tutorial.md",):  # the page that the site makes of the notebook
+        if re.match(r"https?:", target):
             continue
         assert linked.exists(), target
         assert not heading or heading in headings(linked.read_text()), target

@@ -76,19 +76,21 @@ def test_a_member_without_a_check_has_no_number():
     assert said.shown == "1 of 2"
 
 
-def test_the_conclusion_says_which_misses_are_inside_and_which_remain(judged):
+def test_the_conclusion_says_what_differs_inside_the_range_and_outside(judged):
     text = range_report(list(judged.values()), {"friction.coefficient": "± 5%"})
-    assert "3 of 6 published numbers and statements lie inside the range. Of 5 misses, 2 are inside and 3 remain." in text
-    assert f"- misses inside (2): width; {SAID}\n" in text
-    assert "- misses that remain (2): wear; never\n" in text
-    assert "- misses that remain, for none of these tolerances touches them (1): clearance\n" in text
+    assert (
+        "3 of 6 published numbers and statements lie inside the range. Of the 5 that differ as shipped, 2 lie inside." in text
+    )
+    assert f"- differ as shipped, but lie inside (2): width; {SAID}\n" in text
+    assert "- differ, and the range does not reach them (2): wear; never\n" in text
+    assert "- differ, and none of these tolerances touches them (1): clearance\n" in text
     assert "- agree as shipped, though outside (1): good but outside\n" in text
     assert "3 members; `friction.coefficient` ± 5%." in text
     # the first has `good` and `width`, the others one each; the third is the nominal run here
     assert "Of these 6, single members agree with 1 to 2. The nominal run agrees with 1 of 6." in text
 
 
-def test_misses_come_first_and_what_has_neither_range_nor_error_is_left_out(judged):
+def test_what_differs_comes_first_and_what_has_neither_range_nor_error_is_left_out(judged):
     rows = [[cell.strip() for cell in line.split("|")[1:-1]] for line in range_table(list(judged.values())).splitlines()]
     assert rows[0] == ["what", "published", "ours", "nominal", "range", "inside"]
     assert [row[0] for row in rows[2:]] == ["wear", "clearance", "never", "width", SAID, "good but outside", "good"]

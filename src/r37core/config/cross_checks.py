@@ -322,4 +322,4 @@ CHECKS: tuple[Callable[[Settings], None], ...] = (
     clearances_reach_all_speeds,
     families_have_shapes,
 )
-"""In this order: those that name something come first, for the others look it up."""
+"""In this order: those that name something come first, because the others look it up."""

@@ -62,7 +62,7 @@ class Parameters(Section):
     )
     friction_form: Parameter[Literal["constant", "vector"]] | LeftOut = Field(default=None, description="form of friction")
 
-    def given(self) -> dict[str, Parameter]:
+    def varied(self) -> dict[str, Parameter]:
         """The parameters that are varied, by name."""
         return {name: getattr(self, name) for name in type(self).model_fields if getattr(self, name) is not None}
 

@@ -28,7 +28,7 @@ from pathlib import Path
 from typing import NoReturn
 
 ADDRESS = "R37_JOB_SERVER"
-"""Environment variable with the socket's path, for the jobs; relative, for such a path may have a hundred letters."""
+"""Environment variable with the socket's path, for the jobs; relative, because such a path may have a hundred letters."""
 
 _KEPT: list[subprocess.Popen] = []
 """A server whose handle is gone has no standard input any more."""

@@ -29,7 +29,7 @@ MOST_SPEEDS = 400
 """Speeds of a map; beyond it neighbours are joined by their maximum. Curves keep every speed."""
 
 MOST_MEMBERS = 64
-"""Members with curves of their own, the first of the sample: a sample too, for it grows by doubling. The band is of all."""
+"""Members with curves of their own, the first of the sample: a sample too, because it grows by doubling. The band is of all."""
 
 MOST_ANGLES = 180
 ORDERS_PER_STEP = 0.1

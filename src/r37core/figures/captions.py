@@ -90,7 +90,7 @@ CAPTIONS = {
     ),
     "modes": (
         "The first three modes of blade {blade} at rest, first bending (1B), first torsion (1T) and second bending (2B), "
-        "each moved by its shape from the blade as it is (faint); the colour is the size of the displacement."
+        "each moved by its shape from the blade at rest (lines); the colour is the size of the displacement."
     ),
     "mesh": ("Mesh of blade {blade}, and the part of it on which stress is recovered."),
     "reference": (

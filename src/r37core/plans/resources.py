@@ -23,7 +23,7 @@ PER_SWEEP = frozenset({"sweep_dataset", "summary", "explorer", "response_figure"
 """Rules whose jobs grow with the number of all simulations; those of the rest grow with the mesh."""
 
 MARGIN = 1.5
-"""Of memory, for what differs between blades; time has four times as much, for machines differ more."""
+"""Of memory, for what differs between blades; time has four times as much, because machines differ more."""
 
 SMALLEST_MB, SHORTEST_MIN = 300, 5
 

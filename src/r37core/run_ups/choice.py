@@ -63,7 +63,7 @@ class RunUpChoice:
         fewest = max(samples / samples_per_revolution, SHORTEST)
         if fewest > LONGEST:
             raise RunUpError(
-                f"found speeds from {low:g} to {high:g} rad/s; allowed: nearer ones, for the speed may change by "
+                f"found speeds from {low:g} to {high:g} rad/s; allowed: nearer ones, because the speed may change by "
                 f"{100 * LARGEST_CHANGE_PER_SAMPLE:g}% in a sample, and a change take {LONGEST} revolutions"
             )
         revolutions = self.revolutions

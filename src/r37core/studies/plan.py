@@ -195,6 +195,6 @@ def plain_scene(settings: Settings, name: str) -> Mapping[str, Any]:
 def _known(kind: str, name: str, entries: Mapping[str, Entry]) -> Entry:
     """The entry of this name; a study may name what this run leaves out, which matters only when the study is asked for."""
     if name not in entries:
-        allowed = ", ".join(entries) or f"none, for no {kind} of this run will do"
+        allowed = ", ".join(entries) or f"none, because no {kind} of this run will do"
         raise ConfigError(f"config.yaml: the study needs the {kind} '{name}'; allowed in this run: {allowed}")
     return entries[name]

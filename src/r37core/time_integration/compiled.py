@@ -96,7 +96,7 @@ class CompiledEngine:
         m = self._record[0]
         for name, value in values.items():
             if shape := np.shape(value):
-                # kept, for a run-up comes here in every revolution
+                # kept, because a run-up comes here in every revolution
                 if (name, shape) not in self._corners:
                     self._corners[name, shape] = m[name][tuple(map(slice, shape))]
                 self._corners[name, shape][...] = value

@@ -68,8 +68,8 @@ def second_order_ratio(problem: Problem, lining: Lining) -> float:
     lambda^2 - (1 + k_x - m_x) lambda + k_x lie inside the unit circle if m_x < 2 (1 + k_x), k_x and m_x being means over x.
     The static displacement that the other nodes' forces add lags by a step. F_n = -K (N u_n + R F_{n-1}), R the residual
     flexibility without its diagonal, and about F = -A (N u - h R A N du/dt), A = (K^-1 + R)^-1: the lag damps some motions and
-    feeds others, for R has no trace. The structure's damping bears that while the largest singular value of K^(1/2) R K^(1/2)
-    is below _LARGEST_LAG, found with every few of the nodes pressed, on several blades and linings.
+    feeds others, because R has no trace. The structure's damping bears that while the largest singular value of
+    K^(1/2) R K^(1/2) is below _LARGEST_LAG, found with every few of the nodes pressed, on several blades and linings.
     A coupled mode counts as two, with the real and the imaginary part of its shape: the limit is where a motion changes its
     sign in every step, and there the two are not coupled.
     """

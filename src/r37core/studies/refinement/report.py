@@ -163,7 +163,7 @@ def _held_against(row: Interaction, got: Sequence[Interaction], share_of_members
 def refinement_table(outcomes: Mapping[str, Mapping[tuple[str, str], Outcome]], every: Mapping[tuple[str, str], int]) -> str:
     """What each way to choose speeds finds, of all interactions and of the robust ones where there are members.
 
-    `outcomes`: way -> (blade, scene) -> outcome, the first way refines itself.
+    `outcomes`: way -> (blade, scene) -> outcome, the first way is adaptive.
 
     `every`: number of speeds of the whole grid of each blade and scene.
     """

@@ -127,7 +127,9 @@ def _rows_of(section: TradeoffSection) -> dict[str, list[int]]:
 def values_of(settings: Settings) -> dict[str, list[str]]:
     """Values of each parameter, as texts; none without the section."""
     section = settings.studies.tradeoff
-    return {name: [_text(value) for value in one.values] for name, one in section.parameters.given().items()} if section else {}
+    return (
+        {name: [_text(value) for value in one.values] for name, one in section.parameters.varied().items()} if section else {}
+    )
 
 
 def inputs(settings: Settings) -> dict[str, Any]:
@@ -151,7 +153,7 @@ def values(settings: Settings) -> dict[str, Any]:
         "blade": blade_name_of(settings, section),
         "base_level": section.base,
         "places": _rows_of(section),
-        "references": {name: _text(one.reference) for name, one in section.parameters.given().items()},
+        "references": {name: _text(one.reference) for name, one in section.parameters.varied().items()},
         "tolerance": settings.config.tolerance,
     }
 

@@ -86,16 +86,16 @@ def range_report(judged: Sequence[Judged], tolerances: Mapping[str, str]) -> str
 
 def _conclusion(judged: Sequence[Judged]) -> str:
     ranged = [one for one in judged if one.members]
-    misses = [one for one in judged if not one.shipped.agrees]
-    inside = [one for one in misses if one.inside]
+    differing = [one for one in judged if not one.shipped.agrees]
+    inside = [one for one in differing if one.inside]
     groups = {
-        "misses inside": inside,
-        "misses that remain": [one for one in misses if one.members and not one.inside],
-        "misses that remain, for none of these tolerances touches them": [one for one in misses if not one.members],
+        "differ as shipped, but lie inside": inside,
+        "differ, and the range does not reach them": [one for one in differing if one.members and not one.inside],
+        "differ, and none of these tolerances touches them": [one for one in differing if not one.members],
         "agree as shipped, though outside": [one for one in ranged if one.shipped.agrees and not one.inside],
     }
     first = f"{sum(one.inside for one in ranged)} of {len(ranged)} published numbers and statements lie inside the range."
-    second = f"Of {len(misses)} misses, {len(inside)} are inside and {len(misses) - len(inside)} remain."
+    second = f"Of the {len(differing)} that differ as shipped, {len(inside)} lie inside."
     lines = [f"- {words} ({len(group)}): {'; '.join(one.shipped.name for one in group)}" for words, group in groups.items()]
     return "\n".join([f"{first} {second}", "", *(line for line, group in zip(lines, groups.values(), strict=True) if group)])
 
@@ -111,7 +111,7 @@ def _members(judged: Sequence[Judged], tolerances: Mapping[str, str]) -> str:
 
 
 def range_table(judged: Sequence[Judged]) -> str:
-    """All that have a range, and the misses without one: first the misses, those that remain before those inside."""
+    """All that have a range, and those that differ without one: first what differs, outside the range before inside."""
     rows = []
     shown = [one for one in judged if one.members or not one.shipped.agrees]
     for one in sorted(shown, key=lambda one: (one.shipped.agrees, one.inside)):

@@ -1,0 +1,38 @@
+"""The documentation site, of Sphinx: make site writes it to site/, which opens from the disk without a network.
+
+Why Sphinx, and how equations are drawn: docs/architecture.md.
+"""
+
+import sys
+from pathlib import Path
+
+HERE = Path(__file__).parent
+sys.path[:0] = [str(HERE), str(HERE.parent.parent / "src")]
+
+project = "r37"
+extensions = ["myst_nb", "sphinx.ext.autodoc", "api_pages", "equations", "repository_links"]
+exclude_patterns = ["site/*", "tutorial.py"]
+
+# pages are Markdown as GitHub shows it, with $...$ and $$...$$ for formulas
+myst_enable_extensions = ["dollarmath"]
+# links to headings, as far down as pages have any
+myst_heading_anchors = 4
+# make tutorial runs the notebook; the site shows what it has
+nb_execution_mode = "off"
+
+autodoc_member_order = "bysource"
+# `name` in a docstring is code
+default_role = "code"
+add_module_names = False
+python_maximum_signature_line_length = 100
+toc_object_entries = False
+
+html_theme = "furo"
+html_title = "r37"
+html_static_path = ["style"]
+html_css_files = ["r37.css"]
+# excerpts would be fetched, which browsers refuse to a page on the disk
+html_show_search_summary = False
+html_copy_source = False
+html_show_copyright = False
+html_show_sphinx = False
