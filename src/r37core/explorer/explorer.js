@@ -19,6 +19,8 @@
   const DRAG = window.matchMedia("(pointer: coarse)").matches ? false : "zoom";
   const OUTSIDE = "above yield: outside the linear model";
   const SPECTRUM_DECIBELS = 60;
+  // the archive of Snakemake's report has each page in a folder of its own
+  const IN_REPORT = /\/data\/raw\/[0-9a-f]+\/[^/]+$/.test(window.location.pathname);
 
   async function unpack(array) {
     const bytes = Uint8Array.from(atob(array.base64), (letter) => letter.charCodeAt(0));
@@ -383,7 +385,8 @@
   // to the worst instant of an interaction, in the page of its blade, where that was made
   function shapeLink({ blade, scene, peak_speed_rad_s: speed, status: ended }) {
     if (ended !== "completed" || !data.shapes.some(([one, other]) => one === blade && other === scene)) return [];
-    const href = `shapes/${encodeURIComponent(blade)}.html#${new URLSearchParams({ scene, speed })}`;
+    const page = IN_REPORT ? encodeURI(data.shapes_in_report[blade]) : `shapes/${encodeURIComponent(blade)}.html`;
+    const href = `${page}#${new URLSearchParams({ scene, speed })}`;
     const link = Object.assign(document.createElement("a"), { href, textContent: "moves" });
     link.addEventListener("click", (event) => event.stopPropagation());
     link.addEventListener("keydown", (event) => event.stopPropagation());
