@@ -334,9 +334,9 @@
     return draw(name, [trace], layout(speedAxis(), axis(title), { showlegend: false }));
   }
 
-  // below the largest at the same speed: beside a resonance all else would be dark
+  // below the largest at the same speed: beside a resonance all else would be dark; order 0, the mean, does not count
   function decibels(column) {
-    const largest = Math.max(...column.filter(Number.isFinite));
+    const largest = Math.max(...column.slice(1).filter(Number.isFinite));
     return column.map((value) => Math.max(20 * Math.log10(value / largest), -SPECTRUM_DECIBELS));
   }
 

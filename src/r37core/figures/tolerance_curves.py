@@ -37,8 +37,8 @@ def draw_tolerances(tolerances: xr.Dataset, nominal: xr.Dataset, title: str) -> 
     panels[-1].set_xlabel("speed (rad/s)")
     style.rpm_axis(panels[0])
     if "max_von_mises" in curves:
-        style.yield_lines(panels[curves.index("max_von_mises")], {"": float(tolerances["yield_stress"].median())})
-    above.legend(*panels[0].get_legend_handles_labels(), loc="outside lower center", ncols=4)
+        style.yield_lines(panels[curves.index("max_von_mises")], {"": float(tolerances["yield_stress"].median())}, named=True)
+    above.legend(*style.legend_entries(panels), loc="outside lower center", ncols=5)
     above.suptitle(f"tolerances: {title}, {tolerances.sizes['member']} members")
     for part in below:
         _indices(part.subplots(1, 1), tolerances)
