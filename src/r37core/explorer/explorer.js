@@ -331,7 +331,10 @@
       text: rows(columns).map((row, number) => row.map((value, place) => say(map, number, places[place], value))),
       colorbar: { title: { text: unit, side: "right" }, thickness: 12 },
     };
-    return draw(name, [trace], layout(speedAxis(), axis(title), { showlegend: false }));
+    const plan = layout(speedAxis(), axis(title), { showlegend: false });
+    // on dark colours
+    plan.shapes[0].line.color = "#fff";
+    return draw(name, [trace], plan);
   }
 
   // below the largest at the same speed: beside a resonance all else would be dark; order 0, the mean, does not count
