@@ -130,7 +130,8 @@ def shapes_in_the_report(project, speed):
     snakemake(project, "all_blades", "--report", "r37.zip")
     shutil.unpack_archive(project / "r37.zip", project)
     (explorer,) = (project / "r37/data/raw").rglob("explorer.html")
-    with opened(explorer, {"width": 1400, "height": 900}, lambda text: False, SOFTWARE_GRAPHICS) as page:
+    more = {"flags": SOFTWARE_GRAPHICS, "reduced_motion": "reduce"}
+    with opened(explorer, {"width": 1400, "height": 900}, lambda text: False, **more) as page:
         page.wait_for_selector("html[data-ready]", timeout=60_000)
         page.locator("#interactions a").first.click()
         page.wait_for_selector("html[data-ready=yes]", timeout=60_000)
