@@ -134,6 +134,19 @@ def test_png_and_pdf_are_the_same_bytes_again(datasets, tmp_path):
     assert digests(tmp_path / "one") == digests(tmp_path / "two")
 
 
+def test_a_rendered_picture_is_a_pdf_of_the_same_bytes_again(tmp_path):
+    pixels = np.linspace(0.0, 1.0, 30 * 60 * 3).reshape(30, 60, 3)
+    plt.imsave(tmp_path / "blades.png", pixels)
+    found = []
+    for name in ("one.pdf", "two.pdf"):
+        figure = style.picture_figure(tmp_path / "blades.png")
+        assert tuple(figure.get_size_inches()) == pytest.approx((style.PAGE, style.PAGE / 2))
+        style.save(figure, tmp_path / name, "What is seen.")
+        found.append((tmp_path / name).read_bytes())
+    assert found[0] == found[1]
+    assert b"CreationDate" not in found[0]
+
+
 def test_blades_of_several_materials_have_a_yield_line_each(datasets):
     stress = datasets["stress"].sel(scene="abradable")
     of_one = draw_comparison(datasets["campbell"], datasets["rms"].sel(scene="abradable"), stress, "abradable")

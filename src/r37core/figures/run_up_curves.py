@@ -96,5 +96,5 @@ def draw_rates(runs: pd.DataFrame, title: str, *, scene: str) -> Figure:
     figure.suptitle(f"largest stress against rate: {title}")
     handles, labels = style.legend_entries(panels[0])
     if labels:
-        figure.legend(handles, labels, loc="outside lower center", ncols=7)
+        figure.legend(handles, labels, loc="outside lower center", ncols=5)
     return figure

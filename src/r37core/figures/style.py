@@ -131,6 +131,16 @@ def rpm_axis_beside(axes: Axes) -> None:
 _RPM = (lambda speed: np.multiply(speed, RPM), lambda turns: np.divide(turns, RPM))
 
 
+def picture_figure(picture: Path | str) -> Figure:
+    """A figure across the page that shows a picture as it is, so that what was rendered can be had as a PDF, too."""
+    pixels = plt.imread(picture)
+    figure = plt.figure(figsize=(PAGE, PAGE * pixels.shape[0] / pixels.shape[1]))
+    axes = figure.add_axes((0.0, 0.0, 1.0, 1.0))
+    axes.imshow(pixels, interpolation="none")
+    axes.set_axis_off()
+    return figure
+
+
 def save(
     figure: Figure, files: Path | str | Sequence[Path | str], caption: str | None = None, dots_per_inch: float | None = None
 ) -> None:

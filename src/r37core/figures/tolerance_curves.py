@@ -85,6 +85,8 @@ def _indices(axes: Axes, tolerances: xr.Dataset) -> None:
         axes.bar(at, total, 0.9 * width, label=label, yerr=ends, error_kw={"linewidth": 0.6, "ecolor": "0.3"}, **look)
         axes.plot(at, of["sobol_first"].values, "k_", markersize=6)
     axes.set_xticks(np.arange(len(numbers)), [str(number).replace(".", "\n") for number in numbers], fontsize=6)
+    # numbers whose indices are not known have their room, too
+    axes.set_xlim(-0.5, len(numbers) - 0.5)
     # room for the legend
     axes.set_ylim(0.0, 1.25 * axes.get_ylim()[1])
     axes.set_ylabel("Sobol index")

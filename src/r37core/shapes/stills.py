@@ -37,7 +37,7 @@ def draw_shapes(folder: Path) -> Figure:
     """
     entries: Sequence[Mapping[str, Any]] = read_json(folder / INDEX)
     rows = max(1, ceil(len(entries) / _COLUMNS))
-    columns = min(_COLUMNS, max(1, len(entries)))
+    columns = max(1, ceil(len(entries) / rows))
     size = (style.PAGE * columns / _COLUMNS, rows * _PANEL_HEIGHT)
     figure, grid = plt.subplots(rows, columns, figsize=size if entries else (4.0, 1.5), squeeze=False)
     for axes in grid.flat:
