@@ -327,10 +327,10 @@ def test_it_opens_at_the_strongest_interaction(page, datasets, interactions, tmp
 
 
 @contextmanager
-def beside(page, contents, file, size=(1500, 1400), place=""):
+def beside(page, contents, file, size=(1500, 1400), place="", **more):
     """Another page in the browser of a page."""
     write_page(contents, "r37", file)
-    other = page.context.browser.new_page(viewport={"width": size[0], "height": size[1]})
+    other = page.context.browser.new_page(viewport={"width": size[0], "height": size[1]}, **more)
     other.goto(file.as_uri() + place)
     other.wait_for_selector("html[data-ready]", timeout=60_000)
     yield other
@@ -356,6 +356,25 @@ def test_it_fits_the_screen(page, datasets, tolerances, ranged, tmp_path, width)
         other.select_option("#scene", "direct")
         assert folded.locator("h2").all_text_contents() == ["Wear", "Stress of every revolution"]
         assert all(one.bounding_box()["height"] < 100 for one in folded.all())
+
+
+@pytest.mark.slow
+def test_a_finger_that_moves_over_a_plot_scrolls_the_page(page, datasets, interactions, tmp_path):
+    phone = {"is_mobile": True, "has_touch": True}
+    with beside(page, explorer_contents(datasets, interactions), tmp_path / "explorer.html", (390, 844), **phone) as other:
+        touches = other.context.new_cdp_session(other)
+
+        def touch(kind, *heights):
+            points = [{"x": 200, "y": height} for height in heights]
+            touches.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": points})
+
+        middle = other.locator("#campbell .nsewdrag").bounding_box()
+        start = middle["y"] + 0.5 * middle["height"]
+        touch("touchStart", start)
+        for moved in range(15, 240, 15):
+            touch("touchMove", start - moved)
+        touch("touchEnd")
+        other.wait_for_function("scrollY > 100")
 
 
 @pytest.mark.slow

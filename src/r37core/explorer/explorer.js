@@ -71,6 +71,8 @@
   const factor = () => (state.unit === "rpm" ? RPM : 1);
   const shown = (values) => values.map((value) => value * factor());
   const digits = (value, count = 5) => (Number.isFinite(value) ? Number(value.toPrecision(count)).toString() : "none");
+  // a number with its unit; of what has none, the number
+  const quantityText = (value, unit) => (unit === "1" ? digits(value) : `${digits(value)} ${unit}`);
   const speedText = (speed) => `${digits(speed)} rad/s, ${digits(speed * RPM)} rpm`;
   const ran = (blade, scene) => speeds.map((_, at) => at).filter((at) => status.row(blade, scene)[at] !== 2);
   const axis = (title, more = {}) => ({ title: { text: title }, zeroline: false, ...more });
@@ -94,7 +96,7 @@
     const value = curve.values.row(blade, scene)[at];
     const number = status.row(blade, scene)[at];
     return `${data.blades[blade]}, ${data.scenes[scene]}<br>${speedText(speeds[at])}<br>`
-      + `${digits(value)} ${curve.unit}<br>${STATUS[number]}${yieldText(curve, blade, scene, at)}`;
+      + `${quantityText(value, curve.unit)}<br>${STATUS[number]}${yieldText(curve, blade, scene, at)}`;
   }
 
   function layout(x, y, more = {}) {
@@ -230,7 +232,7 @@
   // the band, and the median in it
   function bandTraces(pair, curve, say, { colour, uid, ...look }) {
     const [low, median, high] = [0, 1, 2].map((number) => tolerances.curves[curve.name].band.row(pair, number));
-    const value = (number) => (number === Infinity ? "diverged" : `${digits(number)} ${curve.unit}`);
+    const value = (number) => (number === Infinity ? "diverged" : quantityText(number, curve.unit));
     const text = (at) => `${say(at)}<br>band of ${tolerances.members[pair]} members`
       + `<br>5%: ${value(low[at])}<br>median: ${value(median[at])}<br>95%: ${value(high[at])}`;
     const places = ranOfMembers(low);
@@ -256,7 +258,7 @@
       const values = members.row(pair, row);
       const places = ranOfMembers(values);
       const { x, y } = lineOfMembers(places, values);
-      return [...places.map((at, index) => [x[index], y[index], `${said[at]}<br>${digits(values[at])} ${curve.unit}<br>member ${number}`]),
+      return [...places.map((at, index) => [x[index], y[index], `${said[at]}<br>${quantityText(values[at], curve.unit)}<br>member ${number}`]),
         [null, null, null]];
     });
     const [x, y, text] = [0, 1, 2].map((column) => points.map((point) => point[column]));
@@ -309,7 +311,7 @@
         });
       }
     }));
-    const plan = layout(speedAxis(), axis(`${state.quantity.replaceAll("_", " ")} (${curve.unit})`));
+    const plan = layout(speedAxis(), axis(state.quantity.replaceAll("_", " ") + (curve.unit === "1" ? "" : ` (${curve.unit})`)));
     markPublished(plan);
     if (state.quantity === "max_von_mises" && yieldStress) markYield(plan, [...below, ...traces], blades, scene);
     draw("response", [...below, ...traces], plan);
