@@ -110,7 +110,7 @@
   }
 
   // a line at the yield stress of each of the blades, and what is above the lowest of them; several lines say whose they are
-  function markYield(plan, traces, blades, scene) {
+  function markStress(plan, traces, blades, scene) {
     const bladesOf = new Map();
     blades.forEach((blade) => {
       const limit = yieldStress.row(blade)[scene];
@@ -313,7 +313,7 @@
     }));
     const plan = layout(speedAxis(), axis(state.quantity.replaceAll("_", " ") + (curve.unit === "1" ? "" : ` (${curve.unit})`)));
     markPublished(plan);
-    if (state.quantity === "max_von_mises" && yieldStress) markYield(plan, [...below, ...traces], blades, scene);
+    if (state.quantity === "max_von_mises" && yieldStress) markStress(plan, [...below, ...traces], blades, scene);
     draw("response", [...below, ...traces], plan);
   }
 
@@ -368,7 +368,7 @@
         });
       });
     }
-    if (traces.length) markYield(plan, traces, [here[0]], here[1]);
+    if (traces.length) markStress(plan, traces, [here[0]], here[1]);
     const empty = `none for ${state.blade} in ${state.scene}: name speeds in the scene's stress_history_speeds_rad_s.`
       + " The quantity max_von_mises has the stress over speed.";
     draw("stress", traces, plan, { empty, clicks: false });
