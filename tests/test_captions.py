@@ -20,6 +20,12 @@ def test_captions_are_filled_in_whole_sentences():
         assert text.endswith(".")
 
 
+def test_captions_have_short_sentences():
+    for figure in CAPTIONS:
+        lengths = [len(sentence.split()) for sentence in caption(figure, **NAMES).split(". ")]
+        assert max(lengths) <= 30, figure
+
+
 def test_every_figure_of_the_rules_has_a_caption_and_is_in_the_report(root):
     for name in ("figures", "designs", "shapes", "signals"):
         text = (root / f"workflow/rules/{name}.smk").read_text()

@@ -3,6 +3,7 @@
 import base64
 import gzip
 import os
+from contextlib import contextmanager
 
 import numpy as np
 import pandas as pd
@@ -306,7 +307,7 @@ def test_choices_change_what_is_drawn(page, datasets):
     assert [one["name"] for one in traces(page, "response")] == BLADES
     assert page.locator("#wear .js-plotly-plot, #wear.js-plotly-plot").count() == 1
     page.select_option("#scene", "direct")
-    assert "Not computed for L<50> in direct" in page.text_content("#wear")
+    assert page.inner_text("section.folded:has(#wear)") == "Wear: not computed for L<50> in direct."
     page.select_option("#scene", "abradable")
     assert page.locator("#wear.js-plotly-plot").count() == 1
     # drawn anew, it is still listened to
@@ -320,12 +321,111 @@ def test_it_opens_at_the_strongest_interaction(page, datasets, interactions, tmp
     """The largest stress counts, not the largest motion; what the address says goes before it."""
     weaker = interactions.assign(max_von_mises_pa=1e9, peak_rms_normal_m=2e-3)
     stronger = weaker.iloc[[0]].assign(blade="L<50>", peak_speed_rad_s=1100.0, max_von_mises_pa=2e9, peak_rms_normal_m=1e-3)
-    write_page(explorer_contents(datasets, pd.concat([weaker, stronger])), "r37", tmp_path / "explorer.html")
-    other = page.context.browser.new_page()
-    other.goto((tmp_path / "explorer.html").as_uri() + place)
+    contents = explorer_contents(datasets, pd.concat([weaker, stronger]))
+    with beside(page, contents, tmp_path / "explorer.html", place=place) as other:
+        assert other.text_content("#now").startswith(f"L<50>, abradable, {speed}")
+
+
+@contextmanager
+def beside(page, contents, file, size=(1500, 1400), place="", **more):
+    """Another page in the browser of a page."""
+    write_page(contents, "r37", file)
+    other = page.context.browser.new_page(viewport={"width": size[0], "height": size[1]}, **more)
+    other.goto(file.as_uri() + place)
     other.wait_for_selector("html[data-ready]", timeout=60_000)
-    assert other.text_content("#now").startswith(f"L<50>, abradable, {speed}")
+    yield other
     other.close()
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("width", [390, 1400])
+def test_it_fits_the_screen(page, datasets, tolerances, ranged, tmp_path, width):
+    """Without scrolling sideways, and with plotly's buttons clear of what is drawn."""
+    contents = explorer_contents(datasets | {"tolerances": tolerances}, ranged, [("Ref", "abradable")])
+    place = "#quantity=share_of_time_in_contact&all=true"
+    with beside(page, contents, tmp_path / "explorer.html", (width, 844), place) as other:
+        assert other.evaluate("document.documentElement.scrollWidth") <= width
+        for name in ("campbell", "response", "spectrum", "wear", "stress"):
+            buttons, plot = (other.locator(f"#{name} {part}").first.bounding_box() for part in (".modebar", ".main-svg"))
+            assert buttons["y"] + buttons["height"] <= plot["y"], name
+            assert buttons["x"] + buttons["width"] <= width, name
+            titles = {button.get_attribute("data-title") for button in other.locator(f"#{name} .modebar-btn").all()}
+            assert titles == {"Download plot as a PNG", "Zoom", "Pan", "Reset axes"}
+        folded = other.locator("section.folded")
+        assert folded.count() == 0
+        other.select_option("#scene", "direct")
+        assert folded.locator("h2").all_text_contents() == ["Wear", "Stress of every revolution"]
+        assert all(one.bounding_box()["height"] < 100 for one in folded.all())
+
+
+@pytest.mark.slow
+def test_a_finger_that_moves_over_a_plot_scrolls_the_page(page, datasets, interactions, tmp_path):
+    phone = {"is_mobile": True, "has_touch": True}
+    with beside(page, explorer_contents(datasets, interactions), tmp_path / "explorer.html", (390, 844), **phone) as other:
+        touches = other.context.new_cdp_session(other)
+
+        def touch(kind, *heights):
+            points = [{"x": 200, "y": height} for height in heights]
+            touches.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": points})
+
+        middle = other.locator("#campbell .nsewdrag").bounding_box()
+        start = middle["y"] + 0.5 * middle["height"]
+        touch("touchStart", start)
+        for moved in range(15, 240, 15):
+            touch("touchMove", start - moved)
+        touch("touchEnd")
+        other.wait_for_function("scrollY > 100")
+
+
+@pytest.mark.slow
+def test_modes_have_one_colour_each_and_those_beyond_the_axis_are_hidden(page, datasets, interactions, tmp_path):
+    campbell = datasets["campbell"].isel(mode=[0] * 9).assign_coords(mode=["1B", "1T", "2B", *map(str, range(4, 10))])
+    rising = xr.DataArray(500.0 * np.arange(1, 10), dims="mode") + 0.1 * campbell["speed"]
+    campbell["frequency"] = rising.expand_dims(blade=BLADES)
+    contents = explorer_contents(datasets | {"campbell": campbell}, interactions)
+    with beside(page, contents, tmp_path / "explorer.html") as other:
+        drawn = other.evaluate(
+            "() => document.getElementById('campbell').data.slice(1)"
+            ".map(one => [one.name, (one.line || one.marker).color ?? one.marker.color])"
+        )
+        # 3200 Hz of the sixth mode at the highest speed and a little are the top of the axis; the seventh begins above
+        assert [name for name, _ in drawn[::2]] == ["1B", "1T", "2B", "mode 4", "mode 5", "mode 6"]
+        assert drawn[::2] == drawn[1::2]
+        assert len({colour for _, colour in drawn}) == 6
+
+
+@pytest.mark.slow
+def test_stress_above_yield_is_marked_as_outside_the_linear_model(page, datasets, interactions, tmp_path):
+    limits = datasets["stress"]["yield_stress"].copy()
+    limits[0, 0] = 1e6
+    stressed = interactions.assign(max_von_mises_pa=5e8)
+    contents = explorer_contents(datasets | {"stress": datasets["stress"].assign(yield_stress=limits)}, stressed)
+    outside = "above yield: outside the linear model"
+    with beside(page, contents, tmp_path / "explorer.html", place="#speed=1000.25") as other:
+        stress = 1e-6 * float(datasets["stress"]["max_von_mises"].sel(blade="Ref", scene="abradable", speed=1000.25))
+        assert other.text_content("#now").endswith(f"completed, stress of {stress:.5g} MPa {outside}")
+        other.select_option("#quantity", "max_von_mises")
+        assert other.text_content("#now").endswith(f"{stress:.5g} MPa, completed, {outside}")
+        shapes = other.evaluate("document.getElementById('response').layout.shapes")
+        across = [(one["name"], one["y0"]) for one in shapes if one["x1"] == 1]
+        assert across == [("outside the linear model", 1), ("yield stress", 1)]
+        rows = [line.locator("td").all_text_contents() for line in other.locator("#interactions tbody tr").all()]
+        assert ["500 *" in row for row in rows] == [True, False]
+        assert outside in other.text_content("#note")
+        other.select_option("#scene", "direct")
+        assert "yield" not in other.text_content("#now")
+
+
+@pytest.mark.slow
+def test_the_spectrum_shows_every_speed_on_its_own_scale(page, datasets):
+    choose(page, blade="Ref", scene="abradable", quantity="rms_normal", speed="900", unit="rad/s", all="false")
+    shown = np.array(page.evaluate("document.getElementById('spectrum').data[0].z"), dtype=float)
+    amplitude = datasets["spectrum"]["amplitude"].sel(blade="Ref", scene="abradable")
+    starts = order_bins(amplitude["engine_order"].values)
+    largest = np.maximum.reduceat(amplitude.values, starts, axis=1)
+    expected = np.maximum(20.0 * np.log10(largest / largest[:, 1:].max(axis=1, keepdims=True)), -60.0)
+    np.testing.assert_allclose(shown.T, expected, atol=2e-3)
+    assert "mm" in page.evaluate("document.getElementById('spectrum').data[0].text[3][1]")
 
 
 @pytest.mark.slow

@@ -94,7 +94,7 @@ def test_a_map_of_runs_that_all_diverged_says_so(datasets):
     of = {kind: datasets[kind].sel(blade="Ref") for kind in ("campbell", "spectrum")}
     figure = maps.draw_spectral_map(np.nan * of["spectrum"].sel(scene="abradable"), of["campbell"], "Ref, abradable")
     figure.canvas.draw()
-    assert [axes.texts[0].get_text() for axes in figure.axes] == ["every run diverged"] * 2
+    assert [text.get_text() for axes in figure.axes for text in axes.texts] == ["every run diverged"] * 2
     plt.close(figure)
 
 
@@ -134,6 +134,19 @@ def test_png_and_pdf_are_the_same_bytes_again(datasets, tmp_path):
     assert digests(tmp_path / "one") == digests(tmp_path / "two")
 
 
+def test_a_rendered_picture_is_a_pdf_of_the_same_bytes_again(tmp_path):
+    pixels = np.linspace(0.0, 1.0, 30 * 60 * 3).reshape(30, 60, 3)
+    plt.imsave(tmp_path / "blades.png", pixels)
+    found = []
+    for name in ("one.pdf", "two.pdf"):
+        figure = style.picture_figure(tmp_path / "blades.png")
+        assert tuple(figure.get_size_inches()) == pytest.approx((style.PAGE, style.PAGE / 2))
+        style.save(figure, tmp_path / name, "What is seen.")
+        found.append((tmp_path / name).read_bytes())
+    assert found[0] == found[1]
+    assert b"CreationDate" not in found[0]
+
+
 def test_blades_of_several_materials_have_a_yield_line_each(datasets):
     stress = datasets["stress"].sel(scene="abradable")
     of_one = draw_comparison(datasets["campbell"], datasets["rms"].sel(scene="abradable"), stress, "abradable")
@@ -158,8 +171,56 @@ def test_waterfall_keeps_the_largest_of_each_stretch():
     rows = waterfall.thinned(speeds, largest)
     assert {3, 700} <= set(rows)
     assert rows == sorted(rows)
-    assert len(rows) <= 50
+    assert 12 <= len(rows) <= 25
+    # no line stands on another
+    assert np.diff(speeds[rows]).min() >= 1250.0 / 24
     assert waterfall.thinned(np.array([900.0]), np.array([1.0])) == [0]
+
+
+def test_waterfall_has_one_scale_for_both_directions(datasets):
+    """A direction ten times as small stands 20 dB lower."""
+    spectra = datasets["spectrum"].sel(blade="Ref", scene="abradable")
+    spectra = spectra.assign(amplitude=0.1 * spectra["amplitude_tangential"])
+    figure = waterfall.draw_waterfall(spectra, datasets["campbell"].sel(blade="Ref"), "Ref, abradable")
+    heights = [max(np.ptp(line.get_ydata()) for line in axes.lines if line.get_color() == "0.15") for axes in figure.axes[:2]]
+    assert heights[0] / heights[1] == pytest.approx(2.0 / 3.0)
+    plt.close(figure)
+
+
+def test_spectral_map_has_every_speed_on_its_own_scale(datasets):
+    """Beside the peak, a thousandth of its motion is as bright; how much it is stands above."""
+    spectra = datasets["spectrum"].sel(blade="Ref", scene="abradable")
+    figure = maps.draw_spectral_map(spectra, datasets["campbell"].sel(blade="Ref"), "Ref, abradable")
+    strip, picture = figure.axes[0], figure.axes[2].collections[0]
+    shown = np.asarray(picture.get_array())
+    np.testing.assert_allclose(shown[1:].max(axis=0), 0.0, atol=1e-12)
+    assert picture.get_clim() == (-60.0, 0.0)
+    np.testing.assert_allclose(strip.lines[0].get_ydata(), 1e3 * spectra["amplitude"].max("engine_order"))
+    assert "dB" in figure.axes[-1].get_xlabel()
+    plt.close(figure)
+
+
+def test_a_mode_has_one_colour_everywhere(datasets):
+    campbell, spectra = datasets["campbell"].sel(blade="Ref"), datasets["spectrum"].sel(blade="Ref", scene="abradable")
+    diagram, fall = campbell_figures.draw_campbell(campbell, "Ref"), waterfall.draw_waterfall(spectra, campbell, "Ref")
+    wanted = {line.get_label(): line.get_color() for line in diagram.axes[0].lines if not line.get_label().startswith("_")}
+    assert list(wanted) == ["1B", "1T", "2B"]
+    assert len(set(wanted.values())) == 3
+    assert {line.get_label(): line.get_color() for line in diagram.axes[1].lines}.items() <= wanted.items()
+    assert {text.get_text(): text.get_color() for text in fall.axes[0].texts if text.get_text() in wanted} == wanted
+    plt.close(diagram)
+    plt.close(fall)
+
+
+def test_stress_above_yield_is_tinted_and_said_to_be_outside_the_linear_model(datasets):
+    of = {kind: datasets[kind].sel(blade="Ref") for kind in ("campbell", "rms", "stress")}
+    figure = response.draw_response("Ref", of["campbell"], of["rms"], of["stress"])
+    axes = figure.axes[2]
+    (tint,) = axes.patches
+    assert tint.get_y() == pytest.approx(1.38)
+    assert axes.get_ylim()[1] < 10.0 < tint.get_y() + tint.get_height()
+    assert style.OUTSIDE in [text.get_text() for text in figure.legends[0].get_texts()]
+    plt.close(figure)
 
 
 def test_comparison_takes_the_order_that_most_blades_meet(datasets):

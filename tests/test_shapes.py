@@ -9,11 +9,12 @@ import numpy as np
 import pytest
 import pyvista
 from box_mesh import box_mesh
-from browser import opened
+from browser import SOFTWARE_GRAPHICS, opened
 from vtkmodules.vtkIOGeometry import vtkGLTFReader
 
 from r37core.exchange.exporting.fields import WorstInstant, displacement_of, mode_shapes
 from r37core.explorer import write_page
+from r37core.figures.style import save
 from r37core.io import read_json, write_json
 from r37core.results.stress_recovery import StressRecovery
 from r37core.rom.reduce import reduce_blade
@@ -135,6 +136,14 @@ def instant(whole, steel):
     return WorstInstant(revolution[number], float(stress[number]), revolution, number)
 
 
+@pytest.mark.parametrize(("share", "said"), [(0.99, ", above yield: outside the linear model;"), (1.01, " MPa;")])
+def test_stress_above_yield_is_said_to_be_outside_the_linear_model(whole, mesh, steel, instant, tmp_path, share, said):
+    material = replace(steel, yield_stress=share * instant.largest)
+    write_worst_shapes(mesh, whole, material, {1150.5: instant}, {1150.5: "1B/4"}, tmp_path)
+    (entry,) = read_json(tmp_path / INDEX)
+    assert said in entry["title"]
+
+
 def test_the_worst_instant_moves_as_the_blade_did(whole, mesh, steel, instant, tmp_path):
     write_worst_shapes(mesh, whole, steel, {1150.5: instant}, {1150.5: "1B/4"}, tmp_path)
     (entry,) = read_json(tmp_path / INDEX)
@@ -183,15 +192,19 @@ def folders(whole, mesh, steel, instant, tmp_path):
 
 def test_stills(folders, tmp_path):
     for name, folder in folders.items():
-        draw_shapes(folder, tmp_path / f"of_{name}.png")
-        picture = np.asarray(pyvista.read(tmp_path / f"of_{name}.png").point_data.active_scalars)
+        files = [tmp_path / f"of_{name}.{suffix}" for suffix in ("png", "pdf")]
+        save(draw_shapes(folder), files, "What is seen.")
+        picture = np.asarray(pyvista.read(files[0]).point_data.active_scalars)
         assert len(np.unique(picture, axis=0)) > 200
+        assert b"/FontFile" in files[1].read_bytes()
     write_json([], folders[""] / INDEX)
-    draw_shapes(folders[""], tmp_path / "none.png")
+    save(draw_shapes(folders[""]), tmp_path / "none.png")
 
 
 def test_what_the_page_holds(folders):
-    contents = shapes_contents(folders)
+    contents = shapes_contents(folders, "../0123/explorer.html")
+    assert contents["explorer_in_report"] == "../0123/explorer.html"
+    contents = contents["shapes"]
     assert [one["name"] for one in contents][2:] == [
         "modes/mode_2B",
         "stress_abradable/stress_900",
@@ -210,8 +223,7 @@ def not_slow(message):
 def test_the_page_moves_the_blade(folders, tmp_path):
     """In headless Chromium: as the files say, without a message in the console."""
     write_page(shapes_contents(folders), "Shapes of Ref", tmp_path / "Ref.html", PARTS)
-    software = ("--enable-unsafe-swiftshader", "--use-gl=angle", "--use-angle=swiftshader")
-    more = {"flags": software, "place": "#scene=abradable&speed=1150.4", "reduced_motion": "reduce"}
+    more = {"flags": SOFTWARE_GRAPHICS, "place": "#scene=abradable&speed=1150.4", "reduced_motion": "reduce"}
     with opened(tmp_path / "Ref.html", {"width": 1200, "height": 800}, kept=not_slow, **more) as page:
         page.wait_for_selector("html[data-ready]", timeout=60_000)
         assert page.text_content("#now").startswith("1B/5, abradable at 1150.5 rad/s")

@@ -11,7 +11,7 @@ import pandas as pd
 import pytest
 import xarray as xr
 import yaml
-from browser import opened
+from browser import SOFTWARE_GRAPHICS, opened
 from stubbed_runs import edit, planned_outputs
 from workflow_runs import copy_odd_project, copy_project, planned, run_in_odd_project, snakemake
 
@@ -122,6 +122,25 @@ def test_shapes_and_signals_of_a_finished_run(root, finished_copy):
         next(block for block in blocks(root, "python") if "signals.nc" in block).replace("1716.0", "1150.0"), finished_copy
     )
     assert planned(finished_copy) == {}
+    shapes_in_the_report(finished_copy, int(found["peak_speed_rad_s"].iloc[0]))
+
+
+def shapes_in_the_report(project, speed):
+    """From the explorer to an interaction that moves and back, in the unpacked archive."""
+    snakemake(project, "all_blades", "--report", "r37.zip")
+    shutil.unpack_archive(project / "r37.zip", project)
+    (explorer,) = (project / "r37/data/raw").rglob("explorer.html")
+    more = {"flags": SOFTWARE_GRAPHICS, "reduced_motion": "reduce"}
+    with opened(explorer, {"width": 1400, "height": 900}, lambda text: False, **more) as page:
+        page.wait_for_selector("html[data-ready]", timeout=60_000)
+        page.locator("#interactions a").first.click()
+        page.wait_for_selector("html[data-ready=yes]", timeout=60_000)
+        assert f"{speed} rad/s" in page.text_content("#now")
+        with page.expect_download() as download:
+            page.locator("#files a").click()
+        assert download.value.suggested_filename == f"stress_{speed}.glb"
+        page.click("#explorer")
+        page.wait_for_selector("#interactions table")
 
 
 def test_run_ups_of_a_finished_run(finished_copy):

@@ -130,7 +130,7 @@ rule blade_shapes_figure:
     input:
         expand(rules.mesh.output.vtu, blade=imported.with_mesh),
     output:
-        pictures("blades", TOGETHER, EVERY_SCENE, "shapes")["png"],
+        **pictures("blades", TOGETHER, EVERY_SCENE, "shapes"),
     log:
         "<logs>/figures/blades.log",
     conda:

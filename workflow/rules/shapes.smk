@@ -47,7 +47,10 @@ rule shapes_page:
         rules.mode_shapes.output,
         sweep.worst_shapes,
     output:
-        "<results>/shapes/{blade}.html",
+        report(
+            "<results>/shapes/{blade}.html",
+            **shown(TEXTS / "shapes.rst", "{blade}", EVERY_SCENE, figure="moving shapes"),
+        ),
     log:
         "<logs>/shapes/{blade}_page.log",
     conda:
@@ -64,7 +67,7 @@ rule modes_figure:
     input:
         rules.mode_shapes.output,
     output:
-        pictures("shapes_{blade}", "{blade}", EVERY_SCENE, "first modes")["png"],
+        **pictures("shapes_{blade}", "{blade}", EVERY_SCENE, "first modes"),
     log:
         "<logs>/figures/shapes_{blade}.log",
     conda:
@@ -80,7 +83,7 @@ use rule modes_figure as worst_shapes_figure with:
     input:
         rules.worst_shapes.output,
     output:
-        pictures("shapes_{blade}__{scene}", "{blade}", "{scene}", "worst instants")["png"],
+        **pictures("shapes_{blade}__{scene}", "{blade}", "{scene}", "worst instants"),
     log:
         "<logs>/figures/shapes_{blade}__{scene}.log",
     params:

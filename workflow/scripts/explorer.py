@@ -1,5 +1,7 @@
 """One page to look at all results. Inputs: datasets, if there tolerances, summary. Params: title, shapes. Output: HTML."""
 
+from pathlib import Path
+
 from job import run
 
 from r37core.dataset_file import read_dataset
@@ -12,8 +14,9 @@ def main(snakemake):
     files = dict(snakemake.input.items())
     interactions = read_table(files.pop("summary"))
     datasets = {kind: read_dataset(file) for kind, file in files.items()}
-    params = snakemake.params
-    write_page(explorer_contents(datasets, interactions, params.shapes), params.title, snakemake.output[0])
+    params, file = snakemake.params, Path(snakemake.output[0])
+    in_report = {blade: str(snakemake.report_href(file.parent / f"shapes/{blade}.html")) for blade, _ in params.shapes}
+    write_page(explorer_contents(datasets, interactions, params.shapes, in_report), params.title, file)
 
 
 run(snakemake, main)

@@ -1,14 +1,15 @@
-"""Draw a folder of shapes. Input: folder. Output: picture."""
+"""Draw a folder of shapes. Input: folder. Params: caption. Output: png, pdf."""
 
 from pathlib import Path
 
 from job import run
 
+from r37core.figures.style import save
 from r37core.shapes.stills import draw_shapes
 
 
 def main(snakemake):
-    draw_shapes(Path(snakemake.input[0]), snakemake.output[0])
+    save(draw_shapes(Path(snakemake.input[0])), snakemake.output, snakemake.params.caption)
 
 
 run(snakemake, main)

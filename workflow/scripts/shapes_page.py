@@ -11,7 +11,9 @@ from r37core.shapes import PARTS, shapes_contents
 def main(snakemake):
     folders = dict(zip(["", *snakemake.params.scenes], map(Path, snakemake.input), strict=True))
     title = f"Shapes of {snakemake.wildcards.blade}"
-    write_page(shapes_contents(folders), title, snakemake.output[0], PARTS)
+    file = Path(snakemake.output[0])
+    explorer = str(snakemake.report_href(file.parents[1] / "explorer.html"))
+    write_page(shapes_contents(folders, explorer), title, file, PARTS)
 
 
 run(snakemake, main)

@@ -1,5 +1,6 @@
 """Write worst instants. Inputs: mesh, model, campbell, response, speeds. Params: speeds, material, ... Output: folder."""
 
+from dataclasses import replace
 from pathlib import Path
 
 from job import run
@@ -18,9 +19,11 @@ from r37core.shapes.moving import write_worst_shapes
 
 def main(snakemake):
     given, params = snakemake.input, snakemake.params
-    model, material = read_reduced_model(given.model), from_plain(Material, params.material)
+    model, response = read_reduced_model(given.model), read_dataset(given.response)
+    # the elastic material in params and the yield stress that the response was judged by
+    material = replace(from_plain(Material, params.material), yield_stress=float(response["yield_stress"]))
     choice = from_plain(InteractionChoice, params.interactions)
-    found = titles(find_interactions(read_dataset(given.response), read_dataset(given.campbell), choice))
+    found = titles(find_interactions(response, read_dataset(given.campbell), choice))
     files = {speed: file for speed, file in zip(params.speeds, as_list(given.speeds), strict=True) if speed in found}
     recovery = StressRecovery(model, material)
     instants = worst_instants(files.values(), list(files), recovery, False, params.stress_instants)

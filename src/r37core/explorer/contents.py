@@ -37,11 +37,15 @@ ORDERS_PER_STEP = 0.1
 
 
 def explorer_contents(
-    datasets: Mapping[str, xr.Dataset], interactions: pd.DataFrame, shapes: Iterable[Sequence[str]] = ()
+    datasets: Mapping[str, xr.Dataset],
+    interactions: pd.DataFrame,
+    shapes: Iterable[Sequence[str]] = (),
+    shapes_in_report: Mapping[str, str] | None = None,
 ) -> dict[str, object]:
     """All that the page needs. `datasets`: campbell, rms and, where computed, spectrum, stress, wear and tolerances.
 
-    `shapes`: pairs of blade and scene whose interactions are shown in shapes/<blade>.html beside the page.
+    `shapes`: pairs of blade and scene whose interactions are shown in shapes/<blade>.html beside the page;
+    `shapes_in_report`: where that is in the archive of the report, by blade.
     Curves have every speed; maps are thinned, each cell the largest value of what it stands for.
     """
     rms, campbell = datasets["rms"], datasets["campbell"]
@@ -62,6 +66,7 @@ def explorer_contents(
         "wear": _wear(datasets.get("wear"), rms),
         "interactions": interactions.astype(object).where(interactions.notna(), None).to_dict("records"),
         "shapes": [list(pair) for pair in shapes],
+        "shapes_in_report": dict(shapes_in_report or {}),
         "published": [asdict(one) for one in INTERACTIONS if one.blade in blades],
         **({"tolerances": _tolerances(datasets["tolerances"])} if "tolerances" in datasets else {}),
     }

@@ -5,10 +5,22 @@
   const COLOURS = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00", "#000000"];
   const MARKERS = ["circle", "square", "diamond", "triangle-up", "star"];
   const DASHES = ["solid", "dash", "dot", "dashdot"];
+  // of the figures; plotly does not have it
+  const MAGMA = ["#000004", "#1c1044", "#4f127b", "#812581", "#b5367a", "#e55064", "#fb8761", "#fec287", "#fcfdbf"]
+    .map((colour, at, all) => [at / (all.length - 1), colour]);
   const STATUS = ["completed", "diverged", "not run"];
   const RPM = 30 / Math.PI;
   const PLOTS = ["campbell", "response", "spectrum", "wear", "stress"];
-  const OPTIONS = { responsive: true, displaylogo: false };
+  // plotly's own choice has a button that uploads; explorer.css puts the bar beside the heading
+  const OPTIONS = {
+    responsive: true, displaylogo: false, displayModeBar: true, modeBarButtons: [["toImage", "zoom2d", "pan2d", "resetScale2d"]],
+  };
+  // a finger that drags over a plot scrolls the page
+  const DRAG = window.matchMedia("(pointer: coarse)").matches ? false : "zoom";
+  const OUTSIDE = "above yield: outside the linear model";
+  const SPECTRUM_DECIBELS = 60;
+  // the archive of Snakemake's report has each page in a folder of its own
+  const IN_REPORT = /\/data\/raw\/[0-9a-f]+\/[^/]+$/.test(window.location.pathname);
 
   async function unpack(array) {
     const bytes = Uint8Array.from(atob(array.base64), (letter) => letter.charCodeAt(0));
@@ -59,38 +71,64 @@
   const factor = () => (state.unit === "rpm" ? RPM : 1);
   const shown = (values) => values.map((value) => value * factor());
   const digits = (value, count = 5) => (Number.isFinite(value) ? Number(value.toPrecision(count)).toString() : "none");
+  // a number with its unit; of what has none, the number
+  const quantityText = (value, unit) => (unit === "1" ? digits(value) : `${digits(value)} ${unit}`);
   const speedText = (speed) => `${digits(speed)} rad/s, ${digits(speed * RPM)} rpm`;
   const ran = (blade, scene) => speeds.map((_, at) => at).filter((at) => status.row(blade, scene)[at] !== 2);
   const axis = (title, more = {}) => ({ title: { text: title }, zeroline: false, ...more });
   const speedAxis = () => axis(`speed (${state.unit})`, { range: shown([speeds[0], speeds[speeds.length - 1]]) });
+
+  const modeText = (mode) => (/^\d+$/.test(mode) ? `mode ${mode}` : mode);
+
+  // whether a stress (MPa) is beyond what a linear blade can tell
+  const aboveYield = (stress, blade, scene) => Boolean(yieldStress) && stress > yieldStress.row(blade)[scene];
+
+  // of the run at a speed, whatever is shown of it
+  function yieldText(shownCurve, blade, scene, at) {
+    const curve = curves.find((one) => one.name === "max_von_mises");
+    const stress = curve?.values.row(blade, scene)[at];
+    if (!aboveYield(stress, blade, scene)) return "";
+    return curve === shownCurve ? `<br>${OUTSIDE}` : `<br>stress of ${digits(stress)} MPa ${OUTSIDE}`;
+  }
 
   // name of a curve -> what one of its points says
   function pointText(curve, blade, scene, at) {
     const value = curve.values.row(blade, scene)[at];
     const number = status.row(blade, scene)[at];
     return `${data.blades[blade]}, ${data.scenes[scene]}<br>${speedText(speeds[at])}<br>`
-      + `${digits(value)} ${curve.unit}<br>${STATUS[number]}`;
+      + `${quantityText(value, curve.unit)}<br>${STATUS[number]}${yieldText(curve, blade, scene, at)}`;
   }
 
   function layout(x, y, more = {}) {
     const cursor = state.speed * factor();
     return {
-      margin: { l: 60, r: 15, t: 10, b: 45 }, hovermode: "closest", xaxis: x, yaxis: y, showlegend: true,
-      legend: { orientation: "h", y: 1.02, yanchor: "bottom" }, uirevision: state.unit,
+      margin: { l: 60, r: 15, t: 10, b: 45 }, hovermode: "closest", dragmode: DRAG, xaxis: x, yaxis: y, showlegend: true,
+      legend: { orientation: "h", y: 1.02, yanchor: "bottom", font: { size: 11 } }, uirevision: state.unit,
       shapes: [{ type: "line", x0: cursor, x1: cursor, yref: "paper", y0: 0, y1: 1, line: { color: "#444", width: 1, dash: "dot" } }],
       ...more,
     };
   }
 
-  // a line at the yield stress of each of the blades; where they differ, each says whose it is
-  function markYield(plan, blades, scene) {
+  // a line at the yield stress of each of the blades, and what is above the lowest of them; several lines say whose they are
+  function markStress(plan, traces, blades, scene) {
     const bladesOf = new Map();
     blades.forEach((blade) => {
       const limit = yieldStress.row(blade)[scene];
       if (Number.isFinite(limit)) bladesOf.set(limit, [...(bladesOf.get(limit) ?? []), data.blades[blade]]);
     });
-    bladesOf.forEach((names, limit) => {
-      plan.shapes.push({ type: "line", xref: "paper", x0: 0, x1: 1, y0: limit, y1: limit, line: { color: "#D55E00", width: 1.5 } });
+    if (!bladesOf.size) return;
+    const across = { xref: "paper", x0: 0, x1: 1, layer: "below", showlegend: true };
+    const lowest = Math.min(...bladesOf.keys());
+    const top = 1.05 * traces.flatMap(({ y }) => y).filter(Number.isFinite).reduce((most, value) => Math.max(most, value), lowest);
+    plan.yaxis.range = [0, top];
+    plan.shapes.push({
+      ...across, type: "rect", y0: lowest, y1: top, line: { width: 0 }, fillcolor: "#B00020", opacity: 0.1, name: "outside the linear model",
+    });
+    [...bladesOf].forEach(([limit, names], number) => {
+      plan.shapes.push({
+        ...across, type: "line", y0: limit, y1: limit, line: { color: "#444", width: 1.5, dash: "dash" }, name: "yield stress",
+        showlegend: number === 0,
+      });
       if (bladesOf.size > 1) {
         (plan.annotations ||= []).push({
           xref: "paper", x: 1, xanchor: "right", y: limit, yanchor: "bottom", showarrow: false, font: { size: 10 }, text: names.join(", "),
@@ -99,15 +137,32 @@
     });
   }
 
-  // `empty`: what stands there without traces; `clicks`: whether a click goes to the speed under it
-  function draw(name, traces, plan, { empty = `Not computed for ${state.blade} in ${state.scene}.`, clicks = true } = {}) {
+  // where the paper has the peaks of the blade
+  function markPublished(plan) {
+    data.published.filter((one) => one.blade === state.blade).forEach((one, number) => {
+      const x = one.peak * factor();
+      plan.shapes.push({
+        type: "line", x0: x, x1: x, yref: "paper", y0: 0, y1: 1, line: { color: "#777", width: 1, dash: "longdash" }, layer: "below",
+        name: "published peak", showlegend: number === 0,
+      });
+      (plan.annotations ||= []).push({
+        x, y: 1, yref: "paper", yanchor: "bottom", showarrow: false, font: { size: 10 }, text: `1B/${one.engine_order}`,
+      });
+      // above the names
+      plan.legend.y = 1.08;
+    });
+  }
+
+  // `empty`: what the folded panel says without traces; `clicks`: whether a click goes to the speed under it
+  function draw(name, traces, plan, { empty = `not computed for ${state.blade} in ${state.scene}.`, clicks = true } = {}) {
     const place = document.getElementById(name);
+    place.parentElement.classList.toggle("folded", traces.length === 0);
     if (traces.length === 0) {
       if (place.classList.contains("js-plotly-plot")) {
         Plotly.purge(place);
         delete place.dataset.listens;
       }
-      place.innerHTML = `<p class="empty">${empty}</p>`;
+      place.textContent = `: ${empty}`;
       return;
     }
     if (!place.classList.contains("js-plotly-plot")) place.innerHTML = "";
@@ -120,13 +175,7 @@
 
   function drawCampbell() {
     const blade = bladeIndex();
-    const lines = campbell.modes.map((mode, number) => {
-      const values = frequency.row(blade, number);
-      return {
-        x: shown(campbellSpeeds), y: values, name: mode, mode: "lines", line: { color: COLOURS[number % COLOURS.length] },
-        text: values.map((value, at) => `${mode}<br>${speedText(campbellSpeeds[at])}<br>${digits(value)} Hz`), hoverinfo: "text",
-      };
-    });
+    const top = Math.max(...frequency.row(blade, Math.min(5, campbell.modes.length - 1)).filter(Number.isFinite)) * 1.05;
     const last = campbellSpeeds[campbellSpeeds.length - 1];
     const orders = {
       x: [], y: [], text: [], mode: "lines", line: { color: "#bbb", width: 1 }, hoverinfo: "text", showlegend: false,
@@ -136,18 +185,31 @@
       orders.y.push(0, order * last / 2 / Math.PI, null);
       orders.text.push(`engine order ${order}`, `engine order ${order}`, null);
     });
-    const found = { x: [], y: [], text: [], mode: "markers", marker: { color: "#444", size: 6 }, hoverinfo: "text", showlegend: false };
-    campbell.modes.forEach((mode, number) => crossing.row(blade, number).forEach((speed, at) => {
+    const modes = campbell.modes.map((_, number) => number).filter((number) => Math.min(...frequency.row(blade, number)) < top);
+    const traces = modes.flatMap((number) => modeTraces(blade, number));
+    const x = axis(`speed (${state.unit})`, { range: shown([campbellSpeeds[0], last]) });
+    draw("campbell", [orders, ...traces], layout(x, axis("frequency (Hz)", { range: [0, top] })));
+  }
+
+  // a mode's frequency and its crossings with engine orders, in its colour
+  function modeTraces(blade, number) {
+    const mode = campbell.modes[number];
+    const look = { name: modeText(mode), legendgroup: mode, hoverinfo: "text" };
+    const color = COLOURS[number % COLOURS.length];
+    const values = frequency.row(blade, number);
+    const found = { ...look, x: [], y: [], text: [], mode: "markers", marker: { color, size: 6 }, showlegend: false };
+    crossing.row(blade, number).forEach((speed, at) => {
       if (!Number.isFinite(speed)) return;
       const order = campbell.orders[at];
       found.x.push(speed * factor());
       found.y.push(order * speed / 2 / Math.PI);
-      found.text.push(`${mode} with engine order ${order}<br>${speedText(speed)}<br>${digits(order * speed / 2 / Math.PI)} Hz`);
-    }));
-    const top = Math.max(...frequency.row(blade, Math.min(5, campbell.modes.length - 1)).filter(Number.isFinite)) * 1.05;
-    const x = axis(`speed (${state.unit})`, { range: shown([campbellSpeeds[0], last]) });
-    const plan = layout(x, axis("frequency (Hz)", { range: [0, top] }), { legend: { x: 1.01, y: 1 } });
-    draw("campbell", [orders, ...lines, found], plan);
+      found.text.push(`${look.name} with engine order ${order}<br>${speedText(speed)}<br>${digits(order * speed / 2 / Math.PI)} Hz`);
+    });
+    const line = {
+      ...look, x: shown(campbellSpeeds), y: values, mode: "lines", line: { color, dash: DASHES[Math.floor(number / COLOURS.length) % 4] },
+      text: values.map((value, at) => `${look.name}<br>${speedText(campbellSpeeds[at])}<br>${digits(value)} Hz`),
+    };
+    return [line, found];
   }
 
   // places of the speeds that members of a pair ran at: the values of others are NaN
@@ -170,7 +232,7 @@
   // the band, and the median in it
   function bandTraces(pair, curve, say, { colour, uid, ...look }) {
     const [low, median, high] = [0, 1, 2].map((number) => tolerances.curves[curve.name].band.row(pair, number));
-    const value = (number) => (number === Infinity ? "diverged" : `${digits(number)} ${curve.unit}`);
+    const value = (number) => (number === Infinity ? "diverged" : quantityText(number, curve.unit));
     const text = (at) => `${say(at)}<br>band of ${tolerances.members[pair]} members`
       + `<br>5%: ${value(low[at])}<br>median: ${value(median[at])}<br>95%: ${value(high[at])}`;
     const places = ranOfMembers(low);
@@ -196,7 +258,7 @@
       const values = members.row(pair, row);
       const places = ranOfMembers(values);
       const { x, y } = lineOfMembers(places, values);
-      return [...places.map((at, index) => [x[index], y[index], `${said[at]}<br>${digits(values[at])} ${curve.unit}<br>member ${number}`]),
+      return [...places.map((at, index) => [x[index], y[index], `${said[at]}<br>${quantityText(values[at], curve.unit)}<br>member ${number}`]),
         [null, null, null]];
     });
     const [x, y, text] = [0, 1, 2].map((column) => points.map((point) => point[column]));
@@ -249,20 +311,13 @@
         });
       }
     }));
-    const plan = layout(speedAxis(), axis(`${state.quantity.replaceAll("_", " ")} (${curve.unit})`));
-    data.published.filter((one) => one.blade === state.blade).forEach((one) => {
-      const x = one.peak * factor();
-      plan.shapes.push({ type: "line", x0: x, x1: x, yref: "paper", y0: 0, y1: 1, line: { color: "#E69F00", width: 1.5 } });
-      (plan.annotations ||= []).push({
-        x, y: 1, yref: "paper", yanchor: "top", xanchor: "right", showarrow: false, textangle: -90, font: { size: 10 },
-        text: `published 1B/${one.engine_order}`,
-      });
-    });
-    if (state.quantity === "max_von_mises" && yieldStress) markYield(plan, blades, scene);
+    const plan = layout(speedAxis(), axis(state.quantity.replaceAll("_", " ") + (curve.unit === "1" ? "" : ` (${curve.unit})`)));
+    markPublished(plan);
+    if (state.quantity === "max_von_mises" && yieldStress) markStress(plan, [...below, ...traces], blades, scene);
     draw("response", [...below, ...traces], plan);
   }
 
-  function drawMap(name, title, unit, say, bottom) {
+  function drawMap(name, { title, unit, say, colorscale, scaled = (column) => column }) {
     const map = maps[name];
     const here = [bladeIndex(), sceneIndex()];
     const values = map && map.values.row(...here);
@@ -270,16 +325,24 @@
     const across = map.other.length;
     // where other blades were run and this one was not there is no column; a cell reaches half-way to its neighbours
     const places = map.speeds.map((_, at) => at).filter((at) => values.slice(at * across, (at + 1) * across).some(Number.isFinite));
-    const columns = map.other.map((_, number) => places.map((at) => values[at * across + number]));
-    const finite = values.filter((value) => Number.isFinite(value) && value > 0);
-    const largest = finite.reduce((most, value) => Math.max(most, value), 0);
+    const columns = places.map((at) => values.slice(at * across, (at + 1) * across));
+    const rows = (of) => map.other.map((_, number) => of.map((column) => column[number]));
     const trace = {
-      type: "heatmap", x: shown(places.map((at) => map.speeds[at])), y: map.other, colorscale: "Cividis", zsmooth: false, hoverinfo: "text",
-      z: bottom ? columns.map((row) => row.map((value) => Math.log10(Math.max(value, bottom * largest)))) : columns,
-      text: columns.map((row, number) => row.map((value, column) => say(map, number, places[column], value))),
-      colorbar: { title: { text: bottom ? `log10 of ${unit}` : unit, side: "right" }, thickness: 12 },
+      type: "heatmap", x: shown(places.map((at) => map.speeds[at])), y: map.other, colorscale, zsmooth: false, hoverinfo: "text",
+      z: rows(columns.map(scaled)),
+      text: rows(columns).map((row, number) => row.map((value, place) => say(map, number, places[place], value))),
+      colorbar: { title: { text: unit, side: "right" }, thickness: 12 },
     };
-    return draw(name, [trace], layout(speedAxis(), axis(title), { showlegend: false }));
+    const plan = layout(speedAxis(), axis(title), { showlegend: false });
+    // on dark colours
+    plan.shapes[0].line.color = "#fff";
+    return draw(name, [trace], plan);
+  }
+
+  // below the largest at the same speed: beside a resonance all else would be dark; order 0, the mean, does not count
+  function decibels(column) {
+    const largest = Math.max(...column.slice(1).filter(Number.isFinite));
+    return column.map((value) => Math.max(20 * Math.log10(value / largest), -SPECTRUM_DECIBELS));
   }
 
   const sayAmplitude = (map, number, at, value) => {
@@ -305,9 +368,9 @@
         });
       });
     }
-    if (traces.length) markYield(plan, [here[0]], here[1]);
-    const empty = `No history of stress for ${state.blade} in ${state.scene}: name speeds in the scene's`
-      + " stress_history_speeds_rad_s. The quantity max_von_mises has the stress over speed.";
+    if (traces.length) markStress(plan, traces, [here[0]], here[1]);
+    const empty = `none for ${state.blade} in ${state.scene}: name speeds in the scene's stress_history_speeds_rad_s.`
+      + " The quantity max_von_mises has the stress over speed.";
     draw("stress", traces, plan, { empty, clicks: false });
   }
 
@@ -327,7 +390,8 @@
   // to the worst instant of an interaction, in the page of its blade, where that was made
   function shapeLink({ blade, scene, peak_speed_rad_s: speed, status: ended }) {
     if (ended !== "completed" || !data.shapes.some(([one, other]) => one === blade && other === scene)) return [];
-    const href = `shapes/${encodeURIComponent(blade)}.html#${new URLSearchParams({ scene, speed })}`;
+    const page = IN_REPORT ? encodeURI(data.shapes_in_report[blade]) : `shapes/${encodeURIComponent(blade)}.html`;
+    const href = `${page}#${new URLSearchParams({ scene, speed })}`;
     const link = Object.assign(document.createElement("a"), { href, textContent: "moves" });
     link.addEventListener("click", (event) => event.stopPropagation());
     link.addEventListener("keydown", (event) => event.stopPropagation());
@@ -337,10 +401,14 @@
   function drawTable() {
     const place = document.getElementById("interactions");
     if (data.interactions.length === 0) { place.innerHTML = '<p class="empty">None found.</p>'; return; }
+    const outside = ({ blade, scene, max_von_mises_pa: stress }) => aboveYield(
+      1e-6 * stress, data.blades.indexOf(blade), data.scenes.indexOf(scene),
+    );
     const cell = (row, [name, , scale]) => {
       const value = row[name];
       if (value === null || value === undefined) return "";
-      return typeof value === "number" ? digits(scale ? value * scale : value) : value;
+      const text = typeof value === "number" ? digits(scale ? value * scale : value, name.includes("speed") ? 5 : 4) : value;
+      return name === "max_von_mises_pa" && outside(row) ? `${text} *` : text;
     };
     const table = document.createElement("table");
     const titles = [...COLUMNS.map(([, title]) => title), ...(data.shapes.length ? ["shape"] : [])];
@@ -358,13 +426,19 @@
       line.addEventListener("keydown", (event) => { if (event.key === "Enter") go(); });
     });
     place.replaceChildren(table);
+    document.getElementById("note").textContent = data.interactions.some(outside) ? `* ${OUTSIDE}, a flag and no prediction` : "";
+    const chosen = table.querySelector(".chosen");
+    const above = chosen ? chosen.offsetTop - place.scrollTop : 0;
+    if (above < 0 || above + 2 * chosen?.offsetHeight > place.clientHeight) place.scrollTop = chosen.offsetTop - place.clientHeight / 2;
   }
 
   function drawAll() {
     drawCampbell();
     drawResponse();
-    drawMap("spectrum", "engine order", "mm", sayAmplitude, 1e-4);
-    drawMap("wear", "angle (degrees)", "mm", sayWear, 0);
+    drawMap("spectrum", {
+      title: "engine order", unit: "dB below the largest at that speed", say: sayAmplitude, colorscale: MAGMA, scaled: decibels,
+    });
+    drawMap("wear", { title: "angle (degrees)", unit: "mm", say: sayWear, colorscale: "Viridis" });
     drawStress();
     drawTable();
     const curve = curves.find((one) => one.name === state.quantity);

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import matplotlib.pyplot as plt
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from r37core.rom.naming import NAMED_MODES
+from r37core.rom.naming import NAMED_MODES, mode_label
 
 from . import style
 
@@ -26,15 +28,17 @@ def draw_campbell(campbell: xr.Dataset, title: str) -> Figure:
         frequency = campbell["frequency"].sel(mode=name)
         if float(frequency.min()) > highest:
             continue
-        (line,) = left.plot(speed, frequency, label=str(name))
+        colour = style.mode_colour(campbell, name)
+        left.plot(speed, frequency, label=mode_label(str(name)), color=colour)
         crossing = campbell["crossing_speed"].sel(mode=name)
-        left.plot(crossing, crossing * campbell["engine_order"] / (2.0 * np.pi), "o", color=line.get_color(), markersize=3.5)
+        left.plot(crossing, crossing * campbell["engine_order"] / (2.0 * np.pi), "o", color=colour, markersize=3.5)
     left.set_title(f"Campbell diagram, blade {title}")
     left.legend(loc="upper left", ncols=3)
     style.rpm_axis(left)
     for name in NAMED_MODES[:2]:
         clearance = campbell["dynamic_clearance"].sel(mode=name)
-        right.plot(1e3 * clearance["tangential_displacement"], 1e3 * clearance, label=name)
+        along = 1e3 * clearance["tangential_displacement"]
+        right.plot(along, 1e3 * clearance, label=name, color=style.mode_colour(campbell, name))
     right.set(xlabel="tangential displacement (mm)", ylabel="change of clearance (mm)")
     right.set_title("dynamic clearance, leading edge")
     right.legend()
@@ -53,7 +57,7 @@ def draw_campbell_overview(campbell: xr.Dataset) -> Figure:
         low, high = float(frequencies.min()), float(frequencies.max())
         margin = 0.08 * (high - low)
         axes.set(xlabel="speed (rad/s)", title=name, xlim=(0.0, speed[-1]), ylim=(low - margin, high + margin))
-        _draw_engine_orders(axes, campbell["engine_order"].values, speed, high)
+        _draw_engine_orders(axes, campbell["engine_order"].values, speed, high + margin)
         style.rpm_axis(axes, most_ticks=5)
     panels[0].set_ylabel("frequency (Hz)")
     figure.legend(*panels[0].get_legend_handles_labels(), loc="outside lower center", ncols=7)
@@ -65,9 +69,17 @@ def _draw_engine_orders(axes: Axes, orders: np.ndarray, speed: np.ndarray, highe
     labelled = np.array([np.inf, np.inf])
     for order in orders:
         axes.plot(speed, order * speed / (2.0 * np.pi), color="0.7", linewidth=0.6, zorder=0)
-        end = 0.97 * min(speed[-1], 2.0 * np.pi * highest / order)
+        end = min(speed[-1], 2.0 * np.pi * highest / order)
         place = np.array([(end - left) / (right - left), (order * end / (2.0 * np.pi) - low) / (high - low)])
         # high orders lie close together: a number only where there is room for it
-        if np.linalg.norm(place - labelled) > _ROOM:
-            axes.annotate(str(order), (end, order * end / (2.0 * np.pi)), fontsize=6, color="0.4", annotation_clip=True)
+        if place[1] > 0.0 and np.linalg.norm(place - labelled) > _ROOM:
+            _number(axes, order, end, at_the_right=end == speed[-1])
             labelled = place
+
+
+def _number(axes: Axes, order: int, end: float, at_the_right: bool) -> None:
+    """The number of an engine order where its line leaves the panel: beside it at the right, within it at the top."""
+    look: dict[str, Any] = {"fontsize": 6, "color": "0.3", "textcoords": "offset points", "annotation_clip": False}
+    top = {"xytext": (0, -3), "ha": "center", "va": "top", "bbox": {"facecolor": "white", "linewidth": 0, "pad": 0.6}}
+    beside = {"xytext": (2, 0), "ha": "left", "va": "center"}
+    axes.annotate(str(order), (end, order * end / (2.0 * np.pi)), **look, **(beside if at_the_right else top))

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 CAPTIONS = {
     "campbell": (
-        "Campbell diagram of blade {blade}. Left: natural frequencies of the reduced model over speed, engine orders as "
-        "grey lines, their crossings as dots. Right: change of the clearance at the leading edge, normal to the casing, "
-        "while the blade swings freely in its first bending (1B) and first torsion mode (1T), over the tangential "
-        "displacement; below zero the gap closes."
+        "Campbell diagram of blade {blade}. Left: natural frequencies of the reduced model over speed, each mode in its "
+        "colour, with its crossings with engine orders (grey) as dots. Right: change of the clearance at the leading edge, "
+        "normal to the casing, over the tangential displacement. The blade swings freely in its first bending (1B) or "
+        "first torsion mode (1T); below zero the gap closes."
     ),
     "campbell_overview": (
         "Frequencies of the first bending (1B), first torsion (1T) and second bending mode (2B) of all blades over speed, "
@@ -18,20 +18,21 @@ CAPTIONS = {
         "The arrow shows the rotation, LE the leading edge."
     ),
     "response": (
-        "Response of blade {blade} over speed in every scene: root mean square of the leading edge's displacement over "
-        "the last half of the run, normal to the casing and tangential, and the largest von Mises stress of the last "
-        "revolution with the yield stress (dashed). Dotted lines and numbers: crossings of 1B with engine orders; red "
-        "crosses: runs that diverged."
+        "Response of blade {blade} over speed in every scene. Above: root mean square of the leading edge's displacement "
+        "over the last half of the run, normal to the casing and tangential. Below: largest von Mises stress of the last "
+        "revolution; where it is above yield (tinted) it is outside the linear model. Dotted: crossings of 1B with engine "
+        "orders; red crosses: runs that diverged."
     ),
     "response_overview": (
         "Response of all blades over speed in every scene: root mean square of the leading edge's displacement over the "
-        "last half of the run, normal to the casing (left) and tangential (right), each column on one scale; red crosses: "
-        "runs that diverged."
+        "last half of the run. Left: normal to the casing; right: tangential, each column on one scale. Red crosses: runs "
+        "that diverged."
     ),
     "spectrum": (
         "Spectral map of blade {blade} in scene {scene}: amplitude of the leading edge's motion, normal to the casing "
-        "(left) and tangential (right), over speed and engine order. Dashed: frequencies of 1B, 1T and 2B; where they "
-        "meet a bright row of a whole engine order, the blade interacts with the casing."
+        "(left) and tangential (right), over speed and engine order. Colours are decibels below the largest amplitude at "
+        "the same speed, which stands above the map; order 0 does not count. Dashed: frequencies of 1B, 1T and 2B. Where "
+        "they meet a bright row of a whole engine order, the blade interacts with the casing."
     ),
     "wear": (
         "Wear of the lining at the end of the run, over speed and the angle round the casing, for blade {blade} in scene "
@@ -39,71 +40,70 @@ CAPTIONS = {
     ),
     "waterfall": (
         "Waterfall of blade {blade} in scene {scene}: spectra of the leading edge's motion, normal to the casing (left) "
-        "and tangential (right), one above the other by speed; of each stretch of speeds the one with the largest "
-        "amplitude. Heights are logarithmic over three decades below the largest. Dotted: engine orders; dashed: "
-        "frequencies of 1B, 1T and 2B."
+        "and tangential (right), one above the other by speed. Speeds with the largest amplitudes are drawn, as far as "
+        "they lie apart. All heights have one logarithmic scale, 60 dB below the largest amplitude. Dotted: engine orders; "
+        "dashed: frequencies of 1B, 1T and 2B."
     ),
     "comparison": (
-        "All blades in scene {scene} around the same interaction, 1B with the engine order that most of them meet within "
-        "the speeds: rms of the leading edge normal to the casing and tangential, and largest stress with the yield "
-        "stress (dashed), over the speed above each blade's own crossing, in percent of it. Contact stiffens a blade, so "
-        "peaks lie above the crossing."
+        "All blades in scene {scene} around the same interaction: 1B with the engine order that most of them meet. Over "
+        "the speed above each blade's own crossing: rms of the leading edge, normal to the casing and tangential, and "
+        "largest stress, tinted above yield. Contact stiffens a blade, so peaks lie above the crossing."
     ),
     "clearance": (
-        "Clearance of the round casing over speed at the first contact node (leading edge) and at the last one (trailing edge) "
-        "of all blades in scene {scene}, before anything vibrates: what the casing leaves less what rotation brings the blade "
-        "nearer to it."
+        "Clearance of the round casing over speed, of all blades in scene {scene}, at the first contact node (leading "
+        "edge) and the last one (trailing edge). It is what the casing leaves less what rotation brings the blade nearer "
+        "to it, before anything vibrates."
     ),
     "tolerances": (
-        "Tolerances of blade {blade} in scene {scene}: median of all members and the band that nine tenths lie in, with "
-        "the nominal run (dashed); share of the members above yield; Sobol indices of what varies, total (bars, with nine "
-        "tenths of bootstrap samples) and first order (dashes)."
+        "Tolerances of blade {blade} in scene {scene}: median of all members, the band that nine tenths lie in, and the "
+        "nominal run (dashed). Then the share of the members above yield. Last, Sobol indices of what varies: total (bars, "
+        "with nine tenths of bootstrap samples) and first order (dashes)."
     ),
     "designs": (
         "Family {family}: what each design is and how robust, over what varies. Frequencies, largest loss of clearance as "
         "the tip swings along free modes, speeds above yield, largest stress, and where interactions lie."
     ),
     "mode_shapes": (
-        "The first modes of blade {blade} at rest, each moved by its shape from the blade as it is (black outline); the colour "
-        "is the displacement as a share of its largest. The page of the blade's shapes moves them."
+        "The first modes of blade {blade} at rest, each moved by its shape from the blade as it is (black outline). The "
+        "colour is the displacement as a share of its largest. The page of the blade's shapes moves them."
     ),
     "worst_shapes": (
-        "Blade {blade} in scene {scene} at the worst instant of each interaction: displaced as the title says (black outline: "
-        "as it is), coloured by the von Mises stress, each on a scale of its own."
+        "Blade {blade} in scene {scene} at the worst instant of each interaction, displaced as the title says (black "
+        "outline: as it is). Colours are the von Mises stress, each on a scale of its own."
     ),
     "spectrogram": (
         "Blade {blade} in scene {scene}: engine orders of the leading edge's motion and of strain gauges over the revolutions "
         "since the start, at each speed; Hann windows of eight revolutions."
     ),
     "orders": (
-        "Blade {blade} in scene {scene}: amplitude of the strongest whole engine orders over the revolutions since the start, "
-        "at each speed, and beside them, where there are probes, the leading edge's displacement that tip timing tells."
+        "Blade {blade} in scene {scene}: amplitude of the strongest whole engine orders over the revolutions since the "
+        "start, at each speed. Beside them, where there are probes: the leading edge's displacement that tip timing tells."
     ),
     "run_ups": (
-        "Blade {blade} in scene {scene}, run up (solid) and down (dashed) at several rates: rms of the leading edge's motion "
-        "normal to the casing and tangential, largest von Mises stress, and largest wear so far, of every revolution over its "
-        "mean speed. Dashed line: yield stress."
+        "Blade {blade} in scene {scene}, run up (solid) and down (dashed) at several rates. Of every revolution over its "
+        "mean speed: rms of the leading edge's motion normal to the casing and tangential, largest von Mises stress, and "
+        "largest wear so far. Dashed line: yield stress; above it (tinted) the blade is outside the linear model."
     ),
     "run_up_rates": (
         "Largest von Mises stress of every run-up (left) and run-down (right) in scene {scene} against its rate, for every "
-        "blade. Dashed: yield stress."
+        "blade. Tinted: above yield."
     ),
     "modes": (
-        "The first three modes of blade {blade} at rest, first bending (1B), first torsion (1T) and second bending (2B), "
-        "each moved by its shape from the blade at rest (lines); the colour is the size of the displacement."
+        "The first three modes of blade {blade} at rest: first bending (1B), first torsion (1T) and second bending (2B). "
+        "Each is moved by its shape from the blade at rest (lines); the colour is the size of the displacement."
     ),
     "mesh": ("Mesh of blade {blade}, and the part of it on which stress is recovered."),
     "reference": (
-        "Response of blade {blade} over speed with lining and in direct contact: root mean square of the leading edge's "
-        "displacement over the last half of the run, normal to the casing and tangential. Dotted: published peaks."
+        "Response of blade {blade} over speed with lining and in direct contact. It is the root mean square of the leading "
+        "edge's displacement over the last half of the run, normal to the casing and tangential. Dotted: published peaks."
     ),
     "revolution": (
         "Largest von Mises stress on the submesh of blade {blade} within the last revolution, with lining, at the "
-        "published peak of 1B with order 4: at 248 instants, and at the 62 of which the largest is kept for every speed."
+        "published peak of 1B with order 4. Line: 248 instants; dots: the 62 of which the largest is kept for every speed."
     ),
     "histories": (
-        "Largest von Mises stress of every revolution of blade {blade} in both scenes, at the published peak of 1B with "
-        "order 4, at that of direct contact and at a speed where all is quiet. Dashed: yield stress."
+        "Largest von Mises stress of every revolution of blade {blade} in both scenes. Left to right: at the published "
+        "peak of 1B with order 4, at that of direct contact, and where all is quiet. Dashed: yield stress."
     ),
     "stress": (
         "Largest von Mises stress of the last revolution of blade {blade} over speed, in both scenes. Dashed: yield "

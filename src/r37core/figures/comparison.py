@@ -58,11 +58,11 @@ def draw_comparison(
         axes.axvline(0.0, color="0.5", linewidth=0.8, linestyle=":")
         axes.set_ylabel(label)
     if stress is not None:
-        style.yield_lines(panels[-1], stress["yield_stress"].to_series())
+        style.yield_lines(panels[-1], stress["yield_stress"].to_series(), named=True)
     panels[-1].set_xlabel(
         f"speed above the crossing of 1B with engine order {order} (%)" if order else "no crossing of 1B was run"
     )
     panels[0].set_title(f"blades in scene {title}")
     if panels[0].lines[:-1]:
-        figure.legend(*panels[0].get_legend_handles_labels(), loc="outside upper center", ncols=7)
+        figure.legend(*style.legend_entries(panels), loc="outside lower center", ncols=5)
     return figure

@@ -14,6 +14,9 @@ from r37core.results.designs import MEASURES
 
 from . import style
 
+_UNITS = {"(m)": ("(mm)", 1e3), "(Pa)": ("(GPa)", 1e-9)}
+"""Unit of a measure -> the one it is drawn in, and its factor."""
+
 
 def draw_designs(title: str, table: pd.DataFrame, varied: Sequence[str], blades: Sequence[str] | None = None) -> Figure:
     """Every measure of one family, a line or points per scene: over the one key that varies, or over the designs by name.
@@ -24,11 +27,13 @@ def draw_designs(title: str, table: pd.DataFrame, varied: Sequence[str], blades:
         table = table[table["blade"].isin(blades)]
     figure, grid = plt.subplots(3, 3, figsize=(style.PAGE, 6.4), sharex=True)
     for axes, (column, label) in zip(grid.flat, MEASURES.items(), strict=True):
+        quantity, _, unit = label.rpartition(" ")
+        unit, scale = _UNITS.get(unit, (unit, 1.0))
         for scene, rows in table.groupby("scene", sort=False):
-            _draw(axes, rows, column, varied, str(scene))
-        axes.set_ylabel(label)
-    # what does not depend on the scene is the same line twice: the legend stands where scenes differ
-    grid.flat[5].legend()
+            _draw(axes, rows.assign(**{column: scale * rows[column]}), column, varied, str(scene))
+        axes.set_ylabel(f"{quantity} {unit}")
+    # what does not depend on the scene is the same line twice
+    figure.legend(*style.legend_entries([grid.flat[5]]), loc="outside lower center", ncols=4)
     for axes in grid[-1]:
         if len(varied) == 1:
             axes.set_xlabel(varied[0])

@@ -2,18 +2,24 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import matplotlib.pyplot as plt
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
-from matplotlib.colors import LogNorm
+from matplotlib.collections import QuadMesh
 from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
 
 from r37core.rom.naming import NAMED_MODES
 
 from . import style
+from .bins import largest_of_bins
 
-_DECADES = 4.0
+_DECIBELS = 60.0
+_MOST_BINS = 400
+DIRECTIONS = {"amplitude": "normal", "amplitude_tangential": "tangential"}
 
 
 def draw_map(maps: xr.Dataset, campbell: xr.Dataset, title: str) -> Figure:
@@ -22,42 +28,58 @@ def draw_map(maps: xr.Dataset, campbell: xr.Dataset, title: str) -> Figure:
 
 
 def draw_spectral_map(maps: xr.Dataset, campbell: xr.Dataset, title: str) -> Figure:
-    """Amplitudes, normal and tangential, over speed and engine order, with the named modes' frequencies as lines."""
-    figure, panels = plt.subplots(1, 2, figsize=(style.PAGE, 3.8), sharex=True, sharey=True)
-    figure.suptitle(f"spectrum: {title}")
-    for axes, (name, direction) in zip(panels, (("amplitude", "normal"), ("amplitude_tangential", "tangential")), strict=True):
-        _draw_spectrum(axes, maps[name].dropna("speed", how="all"), campbell, direction)
-    panels[0].set_ylabel("engine order")
+    """Amplitudes, normal and tangential, over speed and engine order, with the named modes' frequencies as lines.
+
+    In decibels below the largest amplitude at the same speed, so that what is not resonant is seen, too; that largest amplitude
+    (mm) stands above the map. Order 0, the mean, does not count.
+    """
+    size, ratios = (style.PAGE, 4.4), [1.0, 4.0]
+    figure, grid = plt.subplots(2, 2, figsize=size, sharex=True, sharey="row", height_ratios=ratios)
+    figure.suptitle(f"spectrum: {title}, leading edge")
+    pictures = [
+        _draw_spectrum(strip, axes, maps[name].dropna("speed", how="all"), campbell)
+        for strip, axes, name in zip(*grid, DIRECTIONS, strict=True)
+    ]
+    for strip, direction in zip(grid[0], DIRECTIONS.values(), strict=True):
+        strip.set_title(direction)
+    grid[0, 0].set_ylabel("largest (mm)")
+    grid[1, 0].set_ylabel("engine order")
+    if any(pictures):
+        label = "amplitude (dB below the largest at that speed)"
+        figure.colorbar(next(filter(None, pictures)), ax=grid[1], location="bottom", aspect=60, label=label)
     return figure
 
 
-def _draw_spectrum(axes: Axes, amplitude: xr.DataArray, campbell: xr.Dataset, direction: str) -> None:
+def _draw_spectrum(strip: Axes, axes: Axes, amplitude: xr.DataArray, campbell: xr.Dataset) -> QuadMesh | None:
     if not amplitude.sizes["speed"]:
         axes.text(0.5, 0.5, "every run diverged", ha="center", transform=axes.transAxes)
-        return
-    values = np.maximum(1e3 * amplitude.transpose("engine_order", "speed").values, 1e-12)
-    top = max(float(np.nanmax(values)), 1e-11)
-    picture = axes.pcolormesh(
-        amplitude["speed"],
-        amplitude["engine_order"],
-        values,
-        norm=LogNorm(top / 10**_DECADES, top),
-        cmap="magma",
-        rasterized=True,
+        strip.set_axis_off()
+        return None
+    speed = amplitude["speed"].values
+    order, values = largest_of_bins(
+        amplitude["engine_order"].values, 1e3 * amplitude.transpose("speed", "engine_order").values, _MOST_BINS
     )
-    axes.figure.colorbar(picture, ax=axes, location="bottom", aspect=35, label=f"amplitude, {direction}, leading edge (mm)")
+    largest = np.maximum(values[:, 1:].max(axis=1), 1e-12)
+    decibels = 20.0 * np.log10(np.maximum(values / largest[:, None], 1e-30))
+    strip.semilogy(speed, largest, linewidth=0.8)
+    style.rpm_axis(strip, most_ticks=6)
+    picture = axes.pcolormesh(speed, order, decibels.T, vmin=-_DECIBELS, vmax=0.0, cmap="magma", rasterized=True)
     for mode in NAMED_MODES:
         frequency = campbell["frequency"].sel(mode=mode)
-        speed = frequency["speed"].values[1:]
-        order = 2.0 * np.pi * frequency.values[1:] / speed
-        axes.plot(speed, order, color="white", linewidth=0.8, linestyle="--")
-        axes.annotate(mode, (0.99, np.interp(amplitude["speed"].values[-1], speed, order)), color="white",
-                      xycoords=("axes fraction", "data"), ha="right", va="bottom", fontsize=8)  # fmt: skip
-    axes.set(xlabel="speed (rad/s)")
-    axes.set_ylim(0.0, float(amplitude["engine_order"].max()))
-    axes.set_xlim(float(amplitude["speed"].min()), float(amplitude["speed"].max()))
-    style.rpm_axis(axes)
+        turning = frequency["speed"].values[1:]
+        order_of_mode = 2.0 * np.pi * frequency.values[1:] / turning
+        axes.plot(turning, order_of_mode, color="white", linewidth=0.6, alpha=0.7, dashes=(3.0, 5.0))
+        _write_on_dark(axes, mode, 0.99, float(np.interp(speed[-1], turning, order_of_mode)), ha="right", va="bottom")
+    axes.set(xlabel="speed (rad/s)", xlim=(float(speed[0]), float(speed[-1])), ylim=(0.0, round(float(order[-1]))))
+    axes.yaxis.set_major_locator(MaxNLocator(integer=True))
     axes.grid(False)
+    return picture
+
+
+def _write_on_dark(axes: Axes, text: str, share: float, height: float, **where: Any) -> None:
+    """White letters that a bright cell below them does not swallow; at a share of the panel's width."""
+    shade = {"facecolor": "black", "alpha": 0.5, "linewidth": 0.0, "pad": 0.8}
+    axes.text(share, height, text, color="white", fontsize=7, transform=axes.get_yaxis_transform(), bbox=shade, **where)
 
 
 def draw_wear_map(maps: xr.Dataset, campbell: xr.Dataset, title: str) -> Figure:
@@ -72,7 +94,7 @@ def draw_wear_map(maps: xr.Dataset, campbell: xr.Dataset, title: str) -> Figure:
     for order, speed in campbell["crossing_speed"].sel(mode="1B").to_series().dropna().items():
         if low <= speed <= high:
             axes.axvline(speed, color="white", linewidth=0.7, linestyle=":")
-            axes.annotate(f"1B/{order}", (speed, 350.0), color="white", fontsize=7)
+            _write_on_dark(axes, f"1B/{order}", (speed - low) / (high - low), 352.0, ha="left", va="top")
     axes.set(xlabel="speed (rad/s)", ylabel="angle round the casing (degrees)", title=f"wear: {title}")
     style.rpm_axis(axes)
     axes.grid(False)

@@ -10,6 +10,7 @@ from pathlib import Path
 if sys.platform == "linux":
     os.environ.setdefault("VTK_DEFAULT_OPENGL_WINDOW", "vtkOSOpenGLRenderWindow")
 
+import numpy as np
 import pyvista
 
 from r37core.io import atomic_write
@@ -29,6 +30,13 @@ def look(plotter: pyvista.Plotter, seen_from: Point = SEEN_FROM, zoom: float = 1
     plotter.camera_position = [seen_from, (0.0, 0.0, 0.0), (1.0, 0.0, 0.0)]
     plotter.reset_camera()  # type: ignore[call-arg]  # the wrapper hides the method from mypy
     plotter.camera.zoom(zoom)
+
+
+def rendered(plotter: pyvista.Plotter) -> np.ndarray:
+    """What was drawn, as pixels of shape (height, width, 3), and the end of the plotter."""
+    pixels = np.asarray(plotter.screenshot(return_img=True))
+    plotter.close()
+    return pixels
 
 
 def save_picture(plotter: pyvista.Plotter, file: Path | str) -> None:

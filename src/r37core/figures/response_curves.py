@@ -25,19 +25,21 @@ def draw_response(title: str, campbell: xr.Dataset | None, rms: xr.Dataset, stre
             axes.plot(response["speed"], 1e3 * response, ".-", markersize=3, label=str(scene))
             _mark_diverged(axes, rms.sel(scene=scene))
         axes.set_ylabel(f"rms, {part} (mm)")
+    if rms.sizes["speed"] > 1:
+        panels[0].set_xlim(float(rms["speed"].min()), float(rms["speed"].max()))
+    for axes in panels:
         _mark_crossings(axes, campbell)
     crossings = "; dotted: 1B with engine orders" if campbell is not None else ""
     panels[0].set_title(f"blade {title}: leading edge over the last half of the run{crossings}")
-    panels[0].legend()
     if stress is not None:
         for scene in stress["scene"].values:
             largest = stress["max_von_mises"].sel(scene=scene).dropna("speed")
             panels[2].plot(largest["speed"], 1e-9 * largest, ".-", markersize=3, label=str(scene))
-        style.yield_lines(panels[2], stress["yield_stress"].to_series())
+        style.yield_lines(panels[2], stress["yield_stress"].to_series(), named=True)
         panels[2].set_ylabel("largest von Mises (GPa)")
-        _mark_crossings(panels[2], campbell)
     panels[-1].set_xlabel("speed (rad/s)")
     style.rpm_axis(panels[0])
+    figure.legend(*style.legend_entries(panels), loc="outside lower center", ncols=4)
     return figure
 
 
@@ -57,8 +59,9 @@ def draw_response_overview(rms: xr.Dataset) -> Figure:
     for axes, title in zip(grid[0], ("normal to the casing", "tangential"), strict=True):
         axes.set_title(f"rms, {title}, leading edge (mm)")
         style.rpm_axis(axes)
-    grid[0, 0].legend()
-    figure.supxlabel("speed (rad/s)", fontsize=8)
+    for axes in grid[-1]:
+        axes.set_xlabel("speed (rad/s)")
+    figure.legend(*style.legend_entries(grid.flat), loc="outside lower center", ncols=4)
     return figure
 
 
@@ -76,4 +79,6 @@ def _mark_crossings(axes: Axes, campbell: xr.Dataset | None) -> None:
     for order, speed in campbell["crossing_speed"].sel(mode="1B").to_series().dropna().items():
         if low <= speed <= high:
             axes.axvline(speed, color="0.5", linewidth=0.8, linestyle=":")
-            axes.annotate(f"{order}", (speed, 0.93), xycoords=("data", "axes fraction"), fontsize=7, color="0.4")
+            axes.annotate(
+                f"1B/{order} ", (speed, 0.98), xycoords=("data", "axes fraction"), fontsize=6, color="0.3", ha="right", va="top"
+            )

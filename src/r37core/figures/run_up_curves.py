@@ -59,14 +59,14 @@ def draw_run_ups(run_ups: xr.Dataset, title: str, *, blade: str, scene: str) -> 
             row[0].set_ylim(max(low, _FAINT * high), high)
         if name == "max_von_mises":
             for axes in row:
-                style.yield_lines(axes, {blade: float(runs[0]["yield_stress"])})
+                style.yield_lines(axes, {blade: float(runs[0]["yield_stress"])}, named=True)
     grid[-1, 0].set_xlabel("mean speed of the revolution (rad/s)")
     grid[-1, 1].set_xlabel("revolutions since the change began")
     if there:
         grid[-1, 1].set_xscale("log")
     style.rpm_axis(grid[0, 0], most_ticks=5)
-    figure.suptitle(f"run-ups: {title}, leading edge; dashed line: yield")
-    figure.legend(*grid[0, 0].get_legend_handles_labels(), loc="outside lower center", ncols=7)
+    figure.suptitle(f"run-ups: {title}, leading edge")
+    figure.legend(*style.legend_entries(grid[:, 0]), loc="outside lower center", ncols=6)
     return figure
 
 
@@ -78,7 +78,7 @@ def draw_rates(runs: pd.DataFrame, title: str, *, scene: str) -> Figure:
     figure, panels = plt.subplots(1, len(directions), figsize=(style.PAGE, 3.6), sharey=True, squeeze=False)
     several = runs.groupby("blade")[_RANGE].nunique().max().max() > 1 if len(runs) else False
     for axes, direction in zip(panels[0], directions, strict=True):
-        axes.set_title(f"run-{direction}s; dashed line: yield")
+        axes.set_title(f"run-{direction}s")
         axes.set_xlabel("rate (rad/s²)")
         if "max_von_mises_pa" not in runs or runs["max_von_mises_pa"].isna().all():
             continue
@@ -89,12 +89,12 @@ def draw_rates(runs: pd.DataFrame, title: str, *, scene: str) -> Figure:
             group = group.dropna(subset="max_von_mises_pa")
             stress, look = 1e-9 * group["max_von_mises_pa"], {"marker": _LININGS[case["lining"]], "markersize": 3}
             axes.plot(group["rate_rad_s2"], stress, label=label, **styles[case["blade"]] | look)
-        style.yield_lines(axes, runs.groupby("blade")["yield_stress_pa"].first().to_dict())
+        style.yield_lines(axes, runs.groupby("blade")["yield_stress_pa"].first().to_dict(), named=True)
         axes.set_xscale("log")
         axes.set_yscale("log")
     panels[0, 0].set_ylabel("largest von Mises (GPa)")
     figure.suptitle(f"largest stress against rate: {title}")
-    entries = {label: line for axes in panels[0] for line, label in zip(*axes.get_legend_handles_labels(), strict=True)}
-    if entries:
-        figure.legend(entries.values(), entries.keys(), loc="outside lower center", ncols=7)
+    handles, labels = style.legend_entries(panels[0])
+    if labels:
+        figure.legend(handles, labels, loc="outside lower center", ncols=5)
     return figure

@@ -14,8 +14,10 @@ if matplotlib.get_backend(auto_select=False) is None:
 
 import matplotlib.pyplot as plt
 import numpy as np
+import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.patches import Rectangle
 from matplotlib.ticker import MaxNLocator
 
 from r37core.io import atomic_write
@@ -33,6 +35,8 @@ CURVES = {
 }
 """Variable that is drawn over speed -> label of its axis, and what a unit there is in the SI, inverted."""
 
+OUTSIDE = "above yield: outside the linear model"
+_BEYOND_ALL = 1e6  # GPa
 _DASHES = ("-", "--", ":", "-.")
 
 PARAMETERS: dict[Any, Any] = {
@@ -72,17 +76,44 @@ def blade_styles(blades: Iterable[Any]) -> dict[str, dict[str, str]]:
     }
 
 
-def yield_lines(axes: Axes, limits: Mapping[Any, float], label: str = "_") -> None:
-    """A dashed line (GPa) at each of the yield stresses (Pa), each by its name; several lines say whose they are."""
+def mode_colour(campbell: xr.Dataset, mode: str) -> str:
+    """Colour of a mode, by its place in the Campbell diagram: the same in every figure and in the explorer."""
+    return COLOURS[list(campbell["mode"].values).index(mode) % len(COLOURS)]
+
+
+def yield_lines(axes: Axes, limits: Mapping[Any, float], named: bool = False) -> None:
+    """A dashed line (GPa) at each of the yield stresses (Pa), each by its name, and above the lowest a tint: not linear there.
+
+    Several lines say whose they are. `named`: whether the legend says what line and tint are.
+    """
     blades_of: dict[float, list[str]] = {}
     for blade, limit in limits.items():
         if np.isfinite(limit):
-            blades_of.setdefault(limit, []).append(str(blade))
-    for limit, blades in sorted(blades_of.items()):
-        axes.axhline(1e-9 * limit, color="0.3", linewidth=0.9, linestyle="--", label=label)
+            blades_of.setdefault(1e-9 * limit, []).append(str(blade))
+    for number, (limit, blades) in enumerate(sorted(blades_of.items())):
+        label = "yield stress" if named and number == 0 else "_"
+        axes.axhline(limit, color="0.3", linewidth=0.9, linestyle="--", label=label)
         if len(blades_of) > 1:
             along: dict[str, Any] = {"transform": axes.get_yaxis_transform(), "ha": "right", "va": "bottom"}
-            axes.text(1.0, 1e-9 * limit, ", ".join(blades), fontsize=6, color="0.3", **along)
+            axes.text(1.0, limit, ", ".join(blades), fontsize=6, color="0.3", **along)
+    if blades_of:
+        lowest = min(blades_of)
+        tint: dict[str, Any] = {
+            "facecolor": "#B00020",
+            "alpha": 0.08,
+            "linewidth": 0.0,
+            "zorder": 0.0,
+            "label": OUTSIDE if named else "_",
+        }
+        # as an artist it does not stretch the axis
+        axes.add_artist(Rectangle((0.0, lowest), 1.0, _BEYOND_ALL - lowest, transform=axes.get_yaxis_transform(), **tint))
+
+
+def legend_entries(panels: Iterable[Axes]) -> tuple[list[Any], list[str]]:
+    """Handles and labels of several panels for one legend, each label once."""
+    pairs = (zip(*axes.get_legend_handles_labels(), strict=True) for axes in panels)
+    entries = {label: handle for of_panel in pairs for handle, label in of_panel}
+    return list(entries.values()), list(entries)
 
 
 def rpm_axis(axes: Axes, most_ticks: int = 9) -> None:
@@ -98,6 +129,16 @@ def rpm_axis_beside(axes: Axes) -> None:
 
 
 _RPM = (lambda speed: np.multiply(speed, RPM), lambda turns: np.divide(turns, RPM))
+
+
+def picture_figure(picture: Path | str) -> Figure:
+    """A figure across the page that shows a picture as it is, so that what was rendered can be had as a PDF, too."""
+    pixels = plt.imread(picture)
+    figure = plt.figure(figsize=(PAGE, PAGE * pixels.shape[0] / pixels.shape[1]))
+    axes = figure.add_axes((0.0, 0.0, 1.0, 1.0))
+    axes.imshow(pixels, interpolation="none")
+    axes.set_axis_off()
+    return figure
 
 
 def save(

@@ -37,8 +37,8 @@ def draw_tolerances(tolerances: xr.Dataset, nominal: xr.Dataset, title: str) -> 
     panels[-1].set_xlabel("speed (rad/s)")
     style.rpm_axis(panels[0])
     if "max_von_mises" in curves:
-        style.yield_lines(panels[curves.index("max_von_mises")], {"": float(tolerances["yield_stress"].median())})
-    above.legend(*panels[0].get_legend_handles_labels(), loc="outside lower center", ncols=4)
+        style.yield_lines(panels[curves.index("max_von_mises")], {"": float(tolerances["yield_stress"].median())}, named=True)
+    above.legend(*style.legend_entries(panels), loc="outside lower center", ncols=5)
     above.suptitle(f"tolerances: {title}, {tolerances.sizes['member']} members")
     for part in below:
         _indices(part.subplots(1, 1), tolerances)
@@ -85,6 +85,8 @@ def _indices(axes: Axes, tolerances: xr.Dataset) -> None:
         axes.bar(at, total, 0.9 * width, label=label, yerr=ends, error_kw={"linewidth": 0.6, "ecolor": "0.3"}, **look)
         axes.plot(at, of["sobol_first"].values, "k_", markersize=6)
     axes.set_xticks(np.arange(len(numbers)), [str(number).replace(".", "\n") for number in numbers], fontsize=6)
+    # numbers whose indices are not known have their room, too
+    axes.set_xlim(-0.5, len(numbers) - 0.5)
     # room for the legend
     axes.set_ylim(0.0, 1.25 * axes.get_ylim()[1])
     axes.set_ylabel("Sobol index")

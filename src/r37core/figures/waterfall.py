@@ -11,21 +11,30 @@ from matplotlib.figure import Figure
 from r37core.rom.naming import NAMED_MODES
 
 from . import style
+from .bins import largest_of_bins
+from .maps import DIRECTIONS
 
-_LINES = 40
-_PER_LINE = 250
-_DECADES = 3.0
-_HEIGHT = 6.0
+_LINES = 24
+_MOST_BINS = 250
+_DECIBELS = 60.0
+_HEIGHT = 2.5
 """Of the largest amplitude, in distances between lines."""
 
 
 def draw_waterfall(maps: xr.Dataset, campbell: xr.Dataset, title: str) -> Figure:
-    """Spectra of one blade and scene, normal and tangential, with engine orders and the frequencies of the named modes."""
-    figure, panels = plt.subplots(1, 2, figsize=(style.PAGE, 4.6), sharex=True, sharey=True)
+    """Spectra of one blade and scene, normal and tangential, with engine orders and the frequencies of the named modes.
+
+    All lines have one scale, in decibels below the largest amplitude of either direction; one hides what is behind it.
+    """
+    figure, panels = plt.subplots(1, 2, figsize=(style.PAGE, 5.0), sharex=True, sharey=True)
     figure.suptitle(f"waterfall: {title}")
     highest = 1.15 * float(campbell["frequency"].sel(mode="2B").max())
-    for axes, (name, direction) in zip(panels, (("amplitude", "normal"), ("amplitude_tangential", "tangential")), strict=True):
-        _draw(axes, maps[name].dropna("speed", how="all"), campbell, highest)
+    kept = maps[list(DIRECTIONS)].dropna("speed", how="all")
+    top = max([1e-15, *(float(kept[name].max()) for name in DIRECTIONS if kept.sizes["speed"])])
+    rows = thinned(kept["speed"].values, kept.to_dataarray().max(("variable", "engine_order")).values)
+    for axes, (name, direction) in zip(panels, DIRECTIONS.items(), strict=True):
+        if rows:
+            _draw(axes, kept[name], rows, campbell, highest, top)
         axes.set(xlabel="frequency (Hz)", xlim=(0.0, highest))
         axes.set_title(f"leading edge, {direction}", pad=14)
         axes.grid(False)
@@ -34,45 +43,49 @@ def draw_waterfall(maps: xr.Dataset, campbell: xr.Dataset, title: str) -> Figure
     return figure
 
 
-def _draw(axes: Axes, amplitude: xr.DataArray, campbell: xr.Dataset, highest: float) -> None:
+def _draw(axes: Axes, amplitude: xr.DataArray, rows: list[int], campbell: xr.Dataset, highest: float, top: float) -> None:
     speeds = amplitude["speed"].values
     values = amplitude.transpose("speed", "engine_order").values
-    if not speeds.size:
-        return
-    rows = thinned(speeds, values.max(axis=1))
     low, high = float(speeds[0]), float(speeds[-1])
     distance = max(high - low, 1.0) / _LINES
-    top = max(float(values.max()), 1e-15)
-    order, coarse = _largest_of_bins(amplitude["engine_order"].values, values[rows])
-    for place in range(len(rows))[::-1]:
-        speed = speeds[rows[place]]
-        height = np.clip(np.log10(np.maximum(coarse[place], 1e-30) / top) / _DECADES + 1.0, 0.0, None)
+    order, coarse = largest_of_bins(amplitude["engine_order"].values, values[rows], _MOST_BINS)
+    for place, row in enumerate(rows):
+        speed = speeds[row]
+        height = np.clip(20.0 * np.log10(np.maximum(coarse[place], 1e-30) / top) / _DECIBELS + 1.0, 0.0, None)
         frequency = order * speed / (2.0 * np.pi)
         kept = frequency <= highest
         line = speed + _HEIGHT * distance * height[kept]
-        axes.fill_between(frequency[kept], speed, line, facecolor="white", linewidth=0.0, zorder=2.0 - 1e-3 * place)
-        axes.plot(frequency[kept], line, color=style.COLOURS[0], linewidth=0.5, zorder=2.0 - 1e-3 * place + 5e-4)
+        # the lowest speed is in front
+        front = 2.0 - 1e-3 * place
+        axes.fill_between(frequency[kept], speed, line, facecolor="white", linewidth=0.0, zorder=front)
+        axes.plot(frequency[kept], line, color="0.15", linewidth=0.5, zorder=front + 5e-4)
     _draw_orders(axes, float(order[-1]), low, high, highest)
     for mode in NAMED_MODES:
+        colour = style.mode_colour(campbell, mode)
         frequency = campbell["frequency"].sel(mode=mode)
-        axes.plot(frequency, frequency["speed"], color=style.COLOURS[1], linestyle="--", linewidth=0.8, zorder=4)
+        axes.plot(frequency, frequency["speed"], color=colour, linestyle="--", linewidth=0.9, zorder=4)
         x = float(np.interp(high, frequency["speed"].values, frequency.values))
-        axes.annotate(mode, (x, 1.0), xycoords=("data", "axes fraction"), color=style.COLOURS[1], fontsize=7, ha="center")
+        axes.annotate(mode, (x, 1.0), xycoords=("data", "axes fraction"), color=colour, fontsize=7, ha="center")
     axes.set_ylim(low, high + _HEIGHT * distance)
+    _draw_scale(axes, low, _HEIGHT * distance, highest)
+
+
+def _draw_scale(axes: Axes, low: float, height: float, highest: float) -> None:
+    """How high the largest amplitude stands, at the lower right, where orders end."""
+    x, y = 0.97 * highest, low + 0.4 * height
+    bar = {"arrowstyle": "|-|", "mutation_scale": 2.0, "linewidth": 0.7}
+    axes.annotate("", (x, y), (x, y + height), arrowprops=bar, zorder=5)
+    axes.annotate(f"{_DECIBELS:.0f} dB ", (x, y + 0.5 * height), fontsize=6, ha="right", va="center", zorder=5)
 
 
 def thinned(speeds: np.ndarray, largest: np.ndarray) -> list[int]:
-    """Rows of at most _LINES speeds, ascending: of each stretch of speeds the one with the largest amplitude."""
-    stretch = np.minimum(((speeds - speeds[0]) / max(float(np.ptp(speeds)), 1e-9) * _LINES).astype(int), _LINES - 1)
-    rows = np.arange(len(speeds))
-    return [int(rows[stretch == one][np.argmax(largest[stretch == one])]) for one in np.unique(stretch)]
-
-
-def _largest_of_bins(order: np.ndarray, values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Middles of at most _PER_LINE bins of engine orders, and the largest value in each, shape (speeds, bins)."""
-    width = -(-len(order) // _PER_LINE)
-    whole = len(order) // width * width
-    return order[:whole].reshape(-1, width).mean(axis=1), values[:, :whole].reshape(len(values), -1, width).max(axis=2)
+    """Rows of at most _LINES + 1 speeds, ascending: those with the largest amplitudes that lie far enough apart."""
+    apart = float(np.ptp(speeds)) / _LINES if len(speeds) else 0.0
+    rows: list[int] = []
+    for row in np.argsort(-largest, kind="stable"):
+        if all(abs(speeds[row] - speeds[other]) >= apart for other in rows):
+            rows.append(int(row))
+    return sorted(rows)
 
 
 def _draw_orders(axes: Axes, highest_order: float, low: float, high: float, highest: float) -> None:
@@ -87,4 +100,6 @@ def _draw_orders(axes: Axes, highest_order: float, low: float, high: float, high
         )
         end = min(high, 2.0 * np.pi * highest / order)
         if end > low:
-            axes.annotate(str(order), (order * end / (2 * np.pi), end), fontsize=6, color="0.4", ha="right", zorder=5)
+            place = (order * end / (2 * np.pi), end)
+            clear = {"facecolor": "white", "alpha": 0.8, "linewidth": 0.0, "pad": 0.3}
+            axes.annotate(str(order), place, fontsize=6, color="0.3", ha="right", zorder=5, bbox=clear)

@@ -30,6 +30,8 @@ def targets(sweep: Sweep, recorded: Signals) -> dict[str, Wildcards]:
         "designs_{family}": families,
         "spectrogram_{blade}__{scene}": signals,
         "orders_{blade}__{scene}": signals,
+        "shapes_{blade}": of_shapes,
+        "shapes_{blade}__{scene}": shown,
         "run_ups_{blade}__{scene}": climbed,
         "tolerances_{blade}__{scene}": of_runs(settings.members.pairs),
         "run_up_rates_{scene}": of("scene", dict.fromkeys(run["scene"] for run in climbed)),
@@ -43,7 +45,5 @@ def targets(sweep: Sweep, recorded: Signals) -> dict[str, Wildcards]:
         paths.RUN_UP: climbing.files,
         "<results>/{blade}/{scene}/signals.nc": signals,
         "<results>/shapes/{blade}.html": of_shapes,
-        "<results>/figures/shapes_{blade}.png": of_shapes,
-        "<results>/figures/shapes_{blade}__{scene}.png": shown,
         **{f"<results>/figures/{name}.{suffix}": found for name, found in pictures.items() for suffix in ("png", "pdf")},
     }

@@ -16,6 +16,11 @@ NAMED_MODES = ("1B", "1T", "2B")
 FIRST_BENDING, FIRST_TORSION, _ = NAMED_MODES
 
 
+def mode_label(name: str) -> str:
+    """What a legend calls a mode: those without a name of their own are numbered."""
+    return name if name in NAMED_MODES else f"mode {name}"
+
+
 def ideal_shapes(mesh: BladeMesh) -> dict[str, np.ndarray]:
     """Displacement fields, shape (nodes, 3), named 1B, 1T and 2B.
 

@@ -16,9 +16,10 @@ INDEX = "shapes.json"
 """In each folder of shapes: what its .glb files show."""
 
 
-def shapes_contents(folders: Mapping[str, Path]) -> list[dict[str, object]]:
+def shapes_contents(folders: Mapping[str, Path], explorer_in_report: str = "") -> dict[str, object]:
     """All shapes of the folders, by the scene whose interactions they are of ("" for modes); files lie beside the page.
 
+    `explorer_in_report`: where the explorer is in the archive of the report.
     Raises InputFileError for a file that cannot be read.
     """
     found = []
@@ -31,4 +32,4 @@ def shapes_contents(folders: Mapping[str, Path]) -> list[dict[str, object]]:
             data = "modes_0" if not scene else entry["shape"]
             files = [f"{here}/{file.name}", f"{here}/{data}.vtu"]
             found.append({**entry, "name": f"{folder.name}/{entry['shape']}", "scene": scene, "files": files, "glb": glb})
-    return found
+    return {"shapes": found, "explorer_in_report": explorer_in_report}

@@ -93,11 +93,12 @@ def write_worst_shapes(
         weights = np.concatenate([weights, weights[:1]])
         times = np.linspace(0.0, _REVOLUTION_SECONDS, len(weights))
         name = f"stress_{exact_text(speed)}"
+        outside = ", above yield: outside the linear model" if instant.largest > material.yield_stress else ""
         largest = max(instant.largest, float(np.quantile(stress, _SHOWN)))
         about = {
             "shape": name,
             "title": f"{titles[speed]} at {speed:g} rad/s ({RPM * speed:.0f} rpm): largest von Mises stress of the submesh "
-            f"{1e-6 * instant.largest:.0f} MPa; displacement {magnified:g} times as large",
+            f"{1e-6 * instant.largest:.0f} MPa{outside}; displacement {magnified:g} times as large",
             "quantity": "von Mises stress",
             "unit": "Pa",
             "largest_shown": largest,

@@ -1,6 +1,10 @@
 "use strict";
 (() => {
-  const shapes = JSON.parse(document.getElementById("data").textContent);
+  const { shapes, explorer_in_report: explorer } = JSON.parse(document.getElementById("data").textContent);
+  // the archive of Snakemake's report has each page in a folder of its own, and no files beside it
+  const IN_REPORT = /\/data\/raw\/[0-9a-f]+\/[^/]+$/.test(window.location.pathname);
+  // plotly's own choice has a button that uploads
+  const OPTIONS = { responsive: true, displaylogo: false, displayModeBar: true, modeBarButtons: [["toImage", "resetCameraDefault3d"]] };
   const plot = document.getElementById("shape");
   const which = document.getElementById("which");
   const phase = document.getElementById("phase");
@@ -51,7 +55,7 @@
       type: "mesh3d", x, y, z, i: shape.corners[0], j: shape.corners[1], k: shape.corners[2], intensity: values,
       cmin: 0, cmax: scale * shape.largest_shown, colorscale: "Viridis", flatshading: false, hoverinfo: "text",
       text: Array.from(values, (value) => `${Number(value.toPrecision(4))}${unit}`),
-      lighting: { ambient: 0.6, diffuse: 0.5, specular: 0.05 }, colorbar: { title: { text: shape.quantity + unit, side: "right" }, thickness: 14 },
+      lighting: { ambient: 0.75, diffuse: 0.4, specular: 0.05 }, colorbar: { title: { text: shape.quantity + unit, side: "right" }, thickness: 14 },
     };
     const pad = 0.12 * (Math.max(...shape.points[0]) - Math.min(...shape.points[0]));
     const range = (axis) => [Math.min(...shape.points[axis]) - pad, Math.max(...shape.points[axis]) + pad];
@@ -64,11 +68,14 @@
       },
     };
     document.getElementById("now").textContent = shape.title;
-    document.getElementById("files").replaceChildren("Files: ", ...shape.files.flatMap((file) => {
-      const link = Object.assign(document.createElement("a"), { href: file, textContent: file });
-      return [link, " "];
-    }));
-    return Plotly.react(plot, [trace], layout, { responsive: true, displaylogo: false });
+    document.getElementById("files").replaceChildren("Files: ", ...links(shape));
+    return Plotly.react(plot, [trace], layout, OPTIONS);
+  }
+
+  function links({ files, glb }) {
+    const inside = { href: `data:model/gltf-binary;base64,${glb}`, download: files[0].split("/").pop(), textContent: files[0] };
+    const all = IN_REPORT ? [inside] : files.map((file) => ({ href: file, textContent: file }));
+    return all.flatMap((about) => [Object.assign(document.createElement("a"), about), " "]);
   }
 
   function place() {
@@ -113,7 +120,7 @@
   phase.addEventListener("input", () => { play(false); state.time = phase.valueAsNumber * duration(); place(); });
   document.getElementById("play").addEventListener("click", () => play(!state.playing));
   document.getElementById("controls").addEventListener("submit", (event) => event.preventDefault());
-    // what a test may ask for: x, y and z of all points as they are drawn
+  // what a test may ask for: x, y and z of all points as they are drawn
   window.shown = () => ["x", "y", "z"].map((name) => Array.from(plot.data[0][name]));
   const KEYS = {
     ArrowDown: () => choose(Number(which.value) + 1), ArrowUp: () => choose(Number(which.value) - 1),
@@ -124,6 +131,7 @@
     if (KEYS[event.key] && !typing && !event.ctrlKey && !event.metaKey && !event.altKey) { event.preventDefault(); KEYS[event.key](); }
   });
   window.addEventListener("hashchange", () => choose(wanted()));
+  if (IN_REPORT) document.getElementById("explorer").href = encodeURI(explorer);
   play(state.playing);
   choose(wanted()).then(() => { document.documentElement.dataset.ready = "yes"; window.requestAnimationFrame(tick); });
 })();

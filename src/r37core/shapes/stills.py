@@ -1,26 +1,36 @@
-"""Stills of shapes: modes, and the worst instants of interactions, rendered off screen."""
+"""Stills of shapes: modes, and the worst instants of interactions, rendered off screen, with letters and colour bars beside."""
 
 from __future__ import annotations
 
+import textwrap
 from collections.abc import Mapping, Sequence
 from math import ceil
 from pathlib import Path
 from typing import Any
 
+import matplotlib.pyplot as plt
 import numpy as np
 import pyvista
+from matplotlib.axes import Axes
+from matplotlib.cm import ScalarMappable
+from matplotlib.colors import Normalize
+from matplotlib.figure import Figure
 
-from r37core.figures.offscreen import look, new_plotter, save_picture
+from r37core.figures import style
+from r37core.figures.offscreen import look, new_plotter, rendered
 from r37core.io import read_json, readable
 
 from . import INDEX
 from .moving import COLOUR_MAP, LARGEST_SHOWN
 
-_COLUMNS, _PANEL = 6, (300, 420)
+_COLUMNS, _PANEL_HEIGHT = 5, 2.9
+_PIXELS = (600, 900)
+_LETTERS = 29
+"""In a line that fits a panel."""
 
 
-def draw_shapes(folder: Path, file: Path | str) -> None:
-    """Draw all shapes of a folder that exchange.shapes has written, each beside its undeformed blade, into a PNG.
+def draw_shapes(folder: Path) -> Figure:
+    """Draw all shapes of a folder that `moving` has written, each with the outline of its undeformed blade.
 
     Modes: coloured by the displacement as a share of its largest; worst instants: by the von Mises stress (MPa), each on a
     scale of its own. A folder without shapes gives a picture that says so.
@@ -28,16 +38,18 @@ def draw_shapes(folder: Path, file: Path | str) -> None:
     entries: Sequence[Mapping[str, Any]] = read_json(folder / INDEX)
     rows = max(1, ceil(len(entries) / _COLUMNS))
     columns = max(1, ceil(len(entries) / rows))
-    plotter = new_plotter(columns, (columns * _PANEL[0], rows * _PANEL[1]), rows)
-    for number, entry in enumerate(entries):
-        plotter.subplot(*divmod(number, columns))
-        _draw(plotter, folder, entry)
+    size = (style.PAGE * columns / _COLUMNS, rows * _PANEL_HEIGHT)
+    figure, grid = plt.subplots(rows, columns, figsize=size if entries else (4.0, 1.5), squeeze=False)
+    for axes in grid.flat:
+        axes.set_axis_off()
+    for axes, entry in zip(grid.flat, entries, strict=False):
+        _draw(axes, folder, entry)
     if not entries:
-        plotter.add_text("no interaction that ran to its end", font_size=8)
-    save_picture(plotter, file)
+        grid[0, 0].text(0.5, 0.5, "no interaction that ran to its end", ha="center", va="center")
+    return figure
 
 
-def _draw(plotter: pyvista.Plotter, folder: Path, entry: Mapping[str, Any]) -> None:
+def _draw(axes: Axes, folder: Path, entry: Mapping[str, Any]) -> None:
     name = str(entry["shape"])
     of_mode = name.startswith("mode_")
     file = folder / ("modes_0.vtu" if of_mode else f"{name}.vtu")
@@ -49,28 +61,46 @@ def _draw(plotter: pyvista.Plotter, folder: Path, entry: Mapping[str, Any]) -> N
         values, label, largest = size / size.max(), "share of the largest", 1.0
         factor = LARGEST_SHOWN * float(np.ptp(np.hypot(*grid.points[:, :2].T))) / float(size.max())
     else:
-        values, label, largest = 1e-6 * grid.point_data["von Mises stress"], "MPa", 1e-6 * entry["largest_shown"]
-        factor = float(entry["magnification"])
-    grid.point_data[label] = values
+        values, label = 1e-6 * grid.point_data["von Mises stress"], "von Mises stress (MPa)"
+        largest, factor = 1e-6 * entry["largest_shown"], float(entry["magnification"])
+    grid.point_data["shown"] = values
+    axes.imshow(_rendered(grid, moved, factor, largest), interpolation="none")
+    axes.set_title(_words(str(entry["title"])), fontsize=6)
+    colours = ScalarMappable(Normalize(0.0, largest), COLOUR_MAP)
+    bar = axes.figure.colorbar(colours, ax=axes, location="bottom", shrink=0.8, aspect=18, pad=0.02, ticks=[0.0, largest])
+    bar.ax.set_xticklabels(["0", f"{largest:.0f}"])
+    bar.ax.tick_params(labelsize=6, length=2, pad=1)
+    bar.set_label(label, fontsize=6, labelpad=1)
+
+
+def _rendered(grid: Any, moved: str, factor: float, largest: float) -> np.ndarray:
+    """The blade displaced by `factor` times the vectors `moved`, coloured by "shown" up to `largest`, as pixels."""
     still = grid.extract_surface(nonlinear_subdivision=1, algorithm="dataset_surface")
-    bar: Any = {"width": 0.8, "position_x": 0.1, "title_font_size": 15, "label_font_size": 15, "n_labels": 2, "fmt": "%.0f"}
-    plotter.add_mesh(still.extract_feature_edges(feature_angle=50.0), color="black", line_width=1)
+    plotter = new_plotter(1, _PIXELS)
+    plotter.add_mesh(still.extract_feature_edges(feature_angle=50.0), color="black", line_width=1.5)
     plotter.add_mesh(
         still.warp_by_vector(moved, factor=factor),
-        scalars=label,
+        scalars="shown",
         clim=(0.0, largest),
         cmap=COLOUR_MAP,
         ambient=0.55,
         diffuse=0.5,
         smooth_shading=True,
         split_sharp_edges=True,
-        # each panel has a bar of its own, which VTK tells apart by their titles
-        scalar_bar_args=bar | {"title": label + " " * plotter.renderers.active_index},
+        show_scalar_bar=False,
     )
-    plotter.add_text(_words(str(entry["title"])), font_size=8)
-    look(plotter, seen_from=(0.35, -1.0, -0.25), zoom=1.1)
+    look(plotter, seen_from=(0.35, -1.0, -0.25), zoom=1.25)
+    return _without_margins(rendered(plotter))
+
+
+def _without_margins(pixels: np.ndarray) -> np.ndarray:
+    """The part of a picture that is not white."""
+    drawn = np.argwhere((pixels < 255).any(axis=2))
+    (top, left), (bottom, right) = drawn.min(axis=0), drawn.max(axis=0) + 1
+    return pixels[top:bottom, left:right]
 
 
 def _words(title: str) -> str:
     """A title as lines that fit a panel."""
-    return title.replace(" at ", "\nat ").replace(": ", "\n").replace("; ", "\n").replace(", ", "\n")
+    parts = title.replace(" at ", "\nat ").replace(": ", ":\n").replace("; ", "\n").split("\n")
+    return "\n".join(line for part in parts for line in textwrap.wrap(part, _LETTERS))

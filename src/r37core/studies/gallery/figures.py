@@ -89,7 +89,7 @@ def draw_stress_over_speed(survey: Runs) -> Figure:
     for kind, label in _LABELS.items():
         run = survey[f"Ref_{kind}"]
         axes.semilogy(run["speed"], 1e-9 * run["max_von_mises"], marker=".", markersize=2, linewidth=0.9, label=label)
-    style.yield_lines(axes, {REFERENCE: float(survey["Ref_lined"]["yield_stress"])}, label="yield")
+    style.yield_lines(axes, {REFERENCE: float(survey["Ref_lined"]["yield_stress"])}, named=True)
     for one in INTERACTIONS:
         if one.blade == REFERENCE:
             axes.axvline(one.peak, color="0.5", linestyle=":", linewidth=0.8)

@@ -62,7 +62,7 @@ def draw_stress(shipped: Runs) -> Figure:
     figure, axes = plt.subplots(figsize=(style.PAGE, 3.6))
     _draw_about_order_4(axes, shipped, "max_von_mises", 1e-9)
     yields = {one.blade: float(shipped[one.name]["yield_stress"]) for one in INTERACTIONS[: len(BLADES)]}
-    style.yield_lines(axes, yields, label="yield")
+    style.yield_lines(axes, yields, named=True)
     axes.set(ylabel="largest von Mises, last revolution (GPa)", yscale="log")
     axes.set_xlabel("speed (rad/s); dotted: published peaks")
     style.rpm_axis(axes)
