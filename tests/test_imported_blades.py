@@ -125,6 +125,8 @@ def test_meshes_that_cannot_be_meant(settings_with, changes, message):
     ("changes", "message"),
     [
         ({"matrices": "meshes"}, r"Fan\.matrices: meshes: found no files; needed: M and K_<speed> at three speeds"),
+        ({"matrices": "meshes/none"}, r"Fan\.matrices: there is no folder meshes/none$"),
+        ({"matrices": 5000 * "x"}, r"Fan\.matrices: found 'x{75} \.\.\.; allowed: string, .* at most 1000"),
         ({"mass_unit": None}, r"Fan: missing key mass_unit"),
         ({"stiffness_unit": "N/cm"}, r"Fan\.stiffness_unit: found 'N/cm'; allowed: one of N/m, N/mm"),
         ({"material": MATERIAL}, r"Fan: found unknown key material"),

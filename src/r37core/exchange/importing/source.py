@@ -98,6 +98,8 @@ def kind_of(file: Path) -> str:
 def matrix_files(name: str, root: Path) -> dict[str, Path]:
     """`M`, `K_<speed>` and `boundary` -> file, in the folder `name` of `root`; ImportRefused where one is missing."""
     folder = root / name
+    if not os.path.isdir(folder):
+        raise ImportRefused(f"there is no folder {name}", "matrices")
     files = [file for file in sorted(folder.glob("*")) if file.suffix in (".mtx", ".npz") or file.name == "boundary.csv"]
     found = {file.stem: file for file in files}
     speeds = [stem for stem in found if stem.startswith("K_")]
