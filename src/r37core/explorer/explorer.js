@@ -82,8 +82,13 @@
     };
   }
 
-  // a line at the yield stress of each of the blades; where they differ, each says whose it is
-  function markYield(plan, blades, scene) {
+  // where on the blades stress is looked for, and a line at the yield stress of each; what differs says whose it is
+  function markStress(plan, blades, scene) {
+    const regions = new Set(blades.map((blade) => data.stress_region[data.blades[blade]]).filter(Boolean));
+    (plan.annotations ||= []).push({
+      xref: "paper", x: 0, xanchor: "left", yref: "paper", y: 1, yanchor: "top", showarrow: false, font: { size: 10 },
+      text: regions.size > 1 ? "stress in regions of each blade: see summary.csv" : [...regions].map((region) => `stress: ${region}`).join("").replaceAll("<", "&lt;"),
+    });
     const bladesOf = new Map();
     blades.forEach((blade) => {
       const limit = yieldStress.row(blade)[scene];
@@ -258,7 +263,7 @@
         text: `published 1B/${one.engine_order}`,
       });
     });
-    if (state.quantity === "max_von_mises" && yieldStress) markYield(plan, blades, scene);
+    if (state.quantity === "max_von_mises" && yieldStress) markStress(plan, blades, scene);
     draw("response", [...below, ...traces], plan);
   }
 
@@ -305,7 +310,7 @@
         });
       });
     }
-    if (traces.length) markYield(plan, [here[0]], here[1]);
+    if (traces.length) markStress(plan, [here[0]], here[1]);
     const empty = `No history of stress for ${state.blade} in ${state.scene}: name speeds in the scene's`
       + " stress_history_speeds_rad_s. The quantity max_von_mises has the stress over speed.";
     draw("stress", traces, plan, { empty, clicks: false });

@@ -101,6 +101,7 @@ def _reduced(given: _Given, choice: ReductionChoice) -> ReducedModel:
         tip_lines={choice.boundary.tip_line: line},
         stress_submesh=RecoveryNodes(np.empty(0, dtype=int), np.empty((0, 3)), np.empty((0, 3, size)), np.empty((0, 3, 0))),
         stress_elements={},
+        stress_region="none",
         whole_blade=None,
         shape_names=tuple(shapes),
         shape_products=np.array([shape @ (given.mass @ vectors) for shape in shapes.values()]),
