@@ -13,7 +13,6 @@ from r37core.io import readable
 
 from .offscreen import look, new_plotter, save_picture
 
-
 _BESIDE = 0.09
 """Of the blade's height: how far a name stands from what it names."""
 
@@ -47,7 +46,7 @@ def draw_blade_shapes(meshes: Mapping[str, Path | str], file: Path | str) -> Non
 
 
 def _mark_sense(plotter: pyvista.Plotter, grid: Any) -> None:
-    """An arrow along the rotation, towards negative theta, above the tip; names of it, of both edges and of the side in view."""
+    """An arrow along the rotation, towards negative theta, above the tip; names of it, both edges and the side in view."""
     height = float(np.ptp(grid.points[:, 0]))
     leading, trailing, tip, pressure, suction = (
         grid.points[np.flatnonzero(grid.point_data[name])].mean(axis=0)
