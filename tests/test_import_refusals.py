@@ -112,6 +112,27 @@ def test_a_rule_may_be_taken_as_it_is(theirs):
     assert len(attempt(folder, wide | {"end_check": False}).node_set("root")) > len(ours.node_set("root"))
 
 
+def bent(points):
+    """Nodes of the blade near the casing moved by up to 0.6 mm, so that the tip's meridian is an arc."""
+    radius = np.hypot(points[:, 0], points[:, 1])
+    share = np.clip((points[:, 2] - TIP[0][0]) / (TIP[1][0] - TIP[0][0]), 0.0, 1.0)
+    out = 2.4e-3 * share * (1.0 - share) * np.clip((radius - 0.23) / 0.015, 0.0, 1.0)
+    return points * np.stack([1.0 + out / radius, 1.0 + out / radius, np.ones(len(points))], axis=1)
+
+
+def test_a_curved_tip_is_no_cone_but_still_one_end(theirs):
+    """Its rule is offered, with a wider tolerance; another that catches less is not refused for that."""
+    ours, folder = theirs
+    write_mesh(replace(ours, points=bent(ours.points)), folder / "bent.vtu")
+    entry = ENTRY | {"mesh": "bent.vtu", "length_unit": "m", "rotor_axis": [0, 0, 1], "radial": [1, 0, 0], "root": "root"}
+    with pytest.raises(ImportRefused, match="no surface of revolution") as refusal:
+        attempt(folder, entry)
+    tip = yaml.safe_load(refusal.value.fitting["tip"])
+    assert tip["tolerance_m"] > 5e-4
+    mesh = attempt(folder, entry | {"tip": tip, "revolution_tolerance_m": 1e-3})
+    np.testing.assert_array_equal(mesh.node_set("tip"), ours.node_set("tip"))
+
+
 @pytest.mark.parametrize("unit", [1, 0.0254, 0.25])
 def test_metres_per_unit(theirs, unit):
     """A unit without a name, as of coordinates over a reference length."""

@@ -33,7 +33,7 @@ def find_axes(mesh: RawMesh, like: Orientation) -> Orientation | None:
         tried = replace(like, length_unit=_SIZE / size, rotor_axis=tuple(axis), radial=radial, rotation="negative")
         placed = tried.points_to_blade(mesh.points)
         hub, casing = (find_end(what, placed, surface) for what in ("root", "tip"))
-        if hub is not None and casing is not None:
+        if hub is not None and casing is not None and hub.straight and casing.straight:
             found.append((hub.rule.tolerance + casing.rule.tolerance, tried))
     _, best = min(found, key=lambda one: one[0])
     if best is like:

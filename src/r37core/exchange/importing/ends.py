@@ -35,16 +35,20 @@ class Caught:
 
 @dataclass(frozen=True)
 class End(Caught):
-    """An end of the blade on a cone about the rotor axis, and the `rule` that catches it."""
+    """An end of the blade, the `rule` of a cone that catches it, and whether it lies on that cone, `straight`.
+
+    One that does not may be curved, flat as the bottom of a foot, or run into a fillet.
+    """
 
     rule: Where
+    straight: bool
 
 
 def find_end(what: str, points: np.ndarray, surface: list[Faces]) -> End | None:
     """The end `what` (root or tip) of a mesh with nodes at `points` (m), shape (nodes, 3), and these outer faces.
 
-    It is the smooth patch of faces that look along the radius, the outermost or innermost large one. None where no cone has
-    all its nodes, or where a cone has other faces too.
+    It is the smooth patch of faces that look along the radius, the outermost or innermost large one. None where no cone
+    catches all of it and nothing else.
     """
     vectors = area_vectors(surface, points)
     sizes = np.linalg.norm(vectors, axis=1)
@@ -66,8 +70,8 @@ def find_end(what: str, points: np.ndarray, surface: list[Faces]) -> End | None:
     nodes = nodes_of(faces)
     rule = _cone(points[nodes])
     straight = rule.tolerance <= max(_STRAIGHT * np.ptp(radius), _TOLERANCES[0])
-    told = straight and np.array_equal(mask_within(surface, rule.within(points)), mask)
-    return End(nodes, faces, mask, rule) if told else None
+    told = np.array_equal(mask_within(surface, rule.within(points)), mask)
+    return End(nodes, faces, mask, rule, straight) if told else None
 
 
 def caught_root(where: Where, mesh: RawMesh, surface: list[Faces]) -> Caught:
@@ -90,10 +94,11 @@ def caught_tip(where: Where, mesh: RawMesh, surface: list[Faces]) -> Caught:
 def check_end(what: str, where: Where, caught: Caught, end: End | None) -> None:
     """Refuse faces, `caught` by `where`, that are not all of the `end` and nothing else.
 
-    Without an end that the shape tells there is nothing to compare with. A set as the root says what it means: any nodes may
-    be clamped.
+    Without an end that the shape tells for certain there is nothing to compare with. A set as the root says what it means:
+    any nodes may be clamped.
     """
-    if end is None or np.array_equal(caught.mask, end.mask) or (what == "root" and where.set_name is not None):
+    any_nodes = what == "root" and where.set_name is not None
+    if end is None or not end.straight or any_nodes or np.array_equal(caught.mask, end.mask):
         return
     whole, within, beside = end.mask.sum(), (caught.mask & end.mask).sum(), (caught.mask & ~end.mask).sum()
     also = f"; it also caught {beside} side faces: narrow it" if beside else ": widen it"

@@ -74,10 +74,11 @@ def _direction(vector: tuple[float, float, float]) -> str:
 
 
 def _catches(what: str, source: MeshSource, mesh: RawMesh, surface: list[Faces], end: End) -> bool:
-    """Whether the set or rule of the entry is accepted for this end."""
-    find, where = (caught_root, source.root) if what == "root" else (caught_tip, source.tip)
+    """Whether the set or rule of the entry catches this end, or may well be meant otherwise."""
     try:
-        check_end(what, where, find(where, mesh, surface), end)
+        if what == "root":
+            check_end(what, source.root, caught_root(source.root, mesh, surface), end)
+            return True
+        return np.array_equal(caught_tip(source.tip, mesh, surface).mask, end.mask)
     except ImportRefused:
         return False
-    return True

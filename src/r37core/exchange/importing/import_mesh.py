@@ -82,7 +82,7 @@ def _ends(source: MeshSource, raw: RawMesh) -> tuple[np.ndarray, np.ndarray, Tip
                 with refusals.of(what):
                     check_end(what, where, found, end)
         # where the rule for the tip is refused, the sense is still told of the faces that it should have caught
-        tip = casing or tip
+        tip = casing if casing is not None and casing.straight else tip
     lines = None
     if tip is not None:
         with refusals.of("tip"):
