@@ -174,7 +174,7 @@ def test_matrices_run_to_the_same_response(root, drawn, tmp_path):
 @pytest.mark.parametrize(
     ("key", "value", "message"),
     [
-        ("root", "clamp", "root: found no set 'clamp'; the file has: blade, "),
+        ("root", "clamp", "root: found no set 'clamp'; the file has: blade ("),
         ("rotation", "negative", "found the tip's leading edge at "),
     ],
 )
