@@ -55,3 +55,8 @@ def box_mesh(length, width, height, counts, origin=(0.0, 0.0, 0.0), warp=0.0, el
     parameters = np.stack([share[:, 1], share[:, 0], 2.0 * share[:, 2] - 1.0], axis=1)
     normals = np.tile([0.0, 0.0, 1.0], (len(points), 1))
     return BladeMesh(points, blocks, parameters, normals, parametric_node_sets(parameters))
+
+
+def plate(element="hexahedron20", counts=(6, 1, 3)):
+    """A plate 60 mm high, 4 mm thick, 30 mm along the axis, on a radius of 200 mm: x radial, y tangential, z axial."""
+    return box_mesh(0.06, 0.004, 0.03, counts, origin=(0.2, -0.002, 0.0), element=element)

@@ -11,7 +11,7 @@ from r37core.config.imported_entry import MeshEntry, SurfaceRule
 from r37core.config.scenes import CasingSection, FrictionSection, LiningSection, SceneEntry
 from r37core.contact import casing, scene
 from r37core.exchange import orientation
-from r37core.exchange.importing import source
+from r37core.exchange.importing import source, where
 from r37core.results import interactions
 from r37core.rom import reduction_choice
 from r37core.time_integration import integration_choice
@@ -42,4 +42,4 @@ BoundaryChoice = _with_defaults(reduction_choice.BoundaryChoice, Boundary)
 Orientation = _with_defaults(orientation.Orientation, MeshEntry)
 MeshSource = _with_defaults(source.MeshSource, MeshEntry)
 MatricesSource = _with_defaults(source.MatricesSource, MeshEntry, mass_unit="kg", stiffness_unit="N/m")
-Where = _with_defaults(source.Where, SurfaceRule)
+Where = _with_defaults(where.Where, SurfaceRule)

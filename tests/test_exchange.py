@@ -7,7 +7,7 @@ from dataclasses import replace
 import gmsh
 import numpy as np
 import pytest
-from box_mesh import box_mesh
+from box_mesh import plate
 from defaults import MeshSource, Orientation, Where
 from scipy import constants
 
@@ -35,11 +35,6 @@ TITANIUM = Material(115e9, 4400.0, 0.32, 9e8)
 
 def source(file, **changes):
     return replace(MeshSource(str(file), OURS, Where("root"), Where("tip")), **changes)
-
-
-def plate(element="hexahedron20", counts=(6, 1, 3)):
-    """A plate 60 mm high, 4 mm thick, 30 mm along the axis, on a radius of 200 mm: x radial, y tangential, z axial."""
-    return box_mesh(0.06, 0.004, 0.03, counts, origin=(0.2, -0.002, 0.0), element=element)
 
 
 def difference(first, second):
@@ -333,16 +328,26 @@ def test_all_elements_of_the_other_winding_are_turned(tmp_path):
 @pytest.mark.parametrize(
     ("changes", "message"),
     [
-        ({"orientation": replace(OURS, length_unit="mm")}, "length_unit 'mm' or rotor_axis does not fit"),
+        (
+            {"orientation": replace(OURS, length_unit="mm")},
+            r"length_unit mm or rotor_axis does not fit .* fitting units: m \(0\.06",
+        ),
         ({"orientation": replace(OURS, radial=(0, 1, 0))}, r"-90 degrees round the axis from `radial`"),
         ({"orientation": replace(OURS, radial=(0, 0, 2))}, "must be two directions, not parallel"),
         ({"orientation": replace(OURS, axis_point=(0.23, 0, 0.0))}, "passes through the blade|from `radial`"),
         ({"orientation": replace(OURS, rotor_axis=(0, 1, 0))}, "revolution|tell"),
-        ({"tip": Where("root")}, "share nodes"),
+        ({"tip": Where("root")}, r"a radius of 0\.2 m and a tip at 0\.2 m"),
         ({"tip": Where("blade")}, "found no set 'blade'"),
-        ({"tip": Where(limits=(("r", "at_least", 0.3),))}, r"no outer face .* within r at least 0.3 m, to 0.0001 m"),
+        ({"tip": Where(limits=(("r", "at_least", 0.3),))}, r"no outer face .* the rule 'r at least 0.3 m, to 0.0001 m'; give"),
         ({"tip": Where(cone_zr=((0.0, 0.27), (0.03, 0.25)))}, r"the cone through \(z, r\) = \(0, 0.27\) and \(0.03, 0.25\) m"),
-        ({"tip": Where(limits=(("r", "at_least", 0.2495),))}, "no surface of revolution about the rotor axis"),
+        (
+            {"tip": Where(limits=(("r", "at_least", 0.2495),))},
+            r"caught 3 of the 3 faces .*; it also caught 8 side faces: narrow",
+        ),
+        (
+            {"tip": Where(limits=(("r", "at_least", 0.2495),)), "end_check": False},
+            "no surface of revolution about the rotor axis",
+        ),
     ],
 )
 def test_wrong_orientation_and_rules_are_refused(tmp_path, changes, message):
@@ -418,7 +423,10 @@ def test_files_that_cannot_be_read(tmp_path):
             import_mesh(source(name), tmp_path)
     with pytest.raises(ImportRefused, match=r"there is no file .*none\.msh"):
         import_mesh(source("none.msh"), tmp_path)
-    with pytest.raises(ImportRefused, match=r"found a file of kind '\.step'; allowed: \.inp"):
+    (tmp_path / "a.step").write_text("ISO-10303-21;\n")
+    with pytest.raises(
+        ImportRefused, match=r"found a file of kind '\.step' .* allowed: \.inp.*, and Abaqus text with any ending"
+    ):
         import_mesh(source("a.step"), tmp_path)
 
 

@@ -45,6 +45,7 @@ def datasets():
     stress = {
         "max_von_mises": (dims, 1e12 * over()),
         "yield_stress": (dims[:2], np.full((2, 2), 1.38e9)),
+        "stress_region": (dims[:2], np.array([["x < 0.197 m"] * 2, ["whole blade", ""]], dtype=object)),
         "max_von_mises_history": ((*dims[:2], "history_speed", "revolution"), history),
     }
     orders = np.arange(0.0, 4.001, 0.01)
@@ -188,6 +189,7 @@ def test_interactions_that_have_a_shape(datasets, interactions):
 def test_what_was_not_computed_is_left_out(datasets, interactions, tmp_path):
     contents = explorer_contents({name: datasets[name] for name in ("rms", "campbell")}, interactions.iloc[:0])
     assert contents["spectrum"] is contents["wear"] is contents["history"] is contents["yield_stress"] is None
+    assert contents["stress_region"] == {}
     write_page(contents, "r37", tmp_path / "explorer.html")
 
 
@@ -288,6 +290,9 @@ def test_hover_says_what_the_dataset_has(page, datasets):
     choose(page, blade="Ref", scene="abradable", quantity="max_von_mises", speed="900", unit="rad/s", all="false")
     value = 1e-6 * float(datasets["stress"]["max_von_mises"].sel(blade="Ref", scene="abradable", speed=1100.0))
     assert f"{float(f'{value:.5g}'):g} MPa" in hover(page, "response", 0, 2)
+    assert "x < 0.197 m" in page.text_content("#response .infolayer")
+    choose(page, blade="Ref", scene="abradable", quantity="max_von_mises", speed="900", unit="rad/s", all="true")
+    assert "regions of each blade" in page.text_content("#response .infolayer")
 
 
 @pytest.mark.slow

@@ -1,5 +1,6 @@
 """Results for other programs, and matrices that come back."""
 
+import re
 from dataclasses import replace
 
 import meshio
@@ -7,11 +8,13 @@ import numpy as np
 import pandas as pd
 import pytest
 import pyvista
+import scipy.sparse as sp
 from defaults import MatricesSource, Orientation
 
 from r37core.exchange.exporting.fields import Target, WorstInstant, worst_instants, write_modes, write_stress
 from r37core.exchange.exporting.matrices_out import write_full_matrices, write_reduced_matrices
 from r37core.exchange.importing.matrices_in import import_matrices
+from r37core.exchange.importing.matrix_file import read_matrix
 from r37core.exchange.refusal import ImportRefused
 from r37core.results.campbell import campbell_diagram
 from r37core.results.stress_recovery import StressRecovery
@@ -187,6 +190,10 @@ def test_unsuitable_matrices_are_refused(directory, choice, tmp_path):
     refused("found K_<speed> up to 2 rad/s, for a blade that is needed up to 2000 .* 100 or more", **files)
     refused("is not linear in the squared speed", K_200=7 * small)
     refused("matrices differ in size: 24, 3, 24, 24", K_0=small[:3, :3])
+    for shape in ((24,), (24, 24, 1), (24, 25), ()):
+        refused(rf"K_0\.npz: found an array of shape {re.escape(str(shape))}; allowed: a square matrix", K_0=np.ones(shape))
+    for kind in ("complex128", "bool", "str"):
+        refused(rf"M\.npz: found entries of kind {kind}\d*; allowed: real numbers", M=small.astype(kind))
     refused("a matrix that is not symmetric", K_0=small + np.eye(24, k=1))
     refused(
         "the mass is not positive .lowest eigenvalue -1 kg.; leave no massless rows",
@@ -206,11 +213,77 @@ def test_unsuitable_matrices_are_refused(directory, choice, tmp_path):
     refused(r"K_100\.npz: .* some are no numbers", K_100=np.where(small > 0.0, np.inf, 0.0))
 
 
+SPARSE = sp.csr_array(np.diag(np.arange(4.0, 28.0)))
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"indices": SPARSE.indices - 30}, "indices must be >= 0"),
+        ({"indices": SPARSE.indices + 10**6}, "indices must be < 24"),
+        ({"indices": SPARSE.indices + 99, "format": b"csc"}, "indices must be < 24"),
+        ({"indptr": SPARSE.indptr[::-1]}, "index pointer"),
+        ({"indptr": 1000 * SPARSE.indptr}, "index pointer"),
+        ({"shape": np.array([10**9, 10**9])}, "index pointer size"),
+    ],
+)
+def test_damaged_sparse_matrices(tmp_path, changes, message):
+    """Indices out of range would end the process, not the call."""
+    parts = {name: getattr(SPARSE, name) for name in ("indices", "indptr", "data", "shape")} | {"format": b"csr"}
+    np.savez(tmp_path / "M.npz", **parts | changes)
+    with pytest.raises(ImportRefused, match=rf"^M\.npz: cannot be read as a matrix \(ValueError: .*{message}"):
+        read_matrix(tmp_path / "M.npz")
+
+
+@pytest.mark.parametrize("layout", ["csr", "csc", "coo", "dia", "bsr"])
+def test_every_sparse_layout_is_read(tmp_path, layout):
+    sp.save_npz(tmp_path / "M.npz", SPARSE.asformat(layout))
+    assert abs(read_matrix(tmp_path / "M.npz") - SPARSE).max() == 0.0
+
+
+@pytest.mark.parametrize(
+    ("head", "message"),
+    [
+        ("coordinate real symmetric\n1000000000 1000000000 1", "found 1000000000 rows and only 1 entries; allowed: no empty"),
+        ("coordinate real general\n24 24 1000000000000", "its header says 1000000000000 entries, for which the file is too"),
+        ("array real general\n100000000 100000000", "its header says 10000000000000000 entries, for which the file is too sh"),
+        ("array real symmetric\n100000000 100000000", "its header says 5000000050000000 entries, for which the file is too"),
+        ("coordinate complex general\n1 1 1", "found entries of kind complex; allowed: real numbers"),
+        ("coordinate pattern general\n1 1 1", "found entries of kind pattern; allowed: real numbers"),
+    ],
+)
+def test_headers_that_promise_too_much(tmp_path, head, message):
+    """Memory is taken by the header's numbers: a matrix of 1e9 rows took 24 s to its MemoryError."""
+    (tmp_path / "M.mtx").write_text(f"%%MatrixMarket matrix {head}\n1 1 1.0\n")
+    with pytest.raises(ImportRefused, match=rf"^M\.mtx: {message}"):
+        read_matrix(tmp_path / "M.mtx")
+
+
+def test_a_small_matrix_of_matrix_market_fits_its_header(tmp_path):
+    """The shortest entries that there can be."""
+    for text in ("array integer symmetric\n2 2\n2\n1\n2\n", "coordinate integer symmetric\n2 2 2\n1 1 3\n2 2 3\n"):
+        (tmp_path / "M.mtx").write_text(f"%%MatrixMarket matrix {text}")
+        assert read_matrix(tmp_path / "M.mtx").shape == (2, 2)
+
+
+def test_an_archive_has_one_matrix(tmp_path):
+    np.savez(tmp_path / "M.npz", SPARSE.toarray(), 2.0 * SPARSE.toarray())
+    with pytest.raises(ImportRefused, match=r"^M\.npz: found 2 arrays \(arr_0, arr_1\); allowed: one, or a sparse matrix"):
+        read_matrix(tmp_path / "M.npz")
+
+
+@pytest.mark.parametrize("name", ["none", 5000 * "x"])
+def test_a_folder_of_matrices_that_is_not_there(choice, tmp_path, name):
+    with pytest.raises(ImportRefused, match=f"^there is no folder {name}$") as refusal:
+        import_matrices(MatricesSource(name, OURS), choice, tmp_path)
+    assert refusal.value.key == "matrices"
+
+
 @pytest.mark.parametrize(
     ("table", "message"),
     [
         ("x,y,z\n0.2,0,0\n", "found columns x, y, z; allowed: x, y, z, dof_x, dof_y, dof_z"),
-        ("x,y,z,dof_x,dof_y,dof_z\n", "found columns .*; allowed"),
+        ("x,y,z,dof_x,dof_y,dof_z\n", "found no contact nodes; allowed: one or more rows below the names of the columns"),
         ("x,y,z,dof_x,dof_y,dof_z\n0.2,0,0,0,1,2\n0.2,0,1,3,4,\n", r"boundary\.csv:3: each row must have three coordinates"),
         ("x,y,z,dof_x,dof_y,dof_z\n0.2,0,0,0,1,1.5\n", r"boundary\.csv:2: each row must have"),
         ("x,y,z,dof_x,dof_y,dof_z\n0.2,0,0,0,1,2\n0.2,0,0,3,4,5\n", "two contact nodes lie at the same place"),
@@ -231,8 +304,8 @@ def test_unsuitable_tables_are_refused(choice, tmp_path, table, message):
 @pytest.mark.parametrize(
     ("change", "key", "message"),
     [
-        (lambda nodes: 1e3 * nodes, "length_unit", r"24\d to 2\d\d m from the rotor axis .*length_unit 'm'.* does not fit"),
-        (lambda nodes: 1e-3 * nodes, "length_unit", r"length_unit 'm'"),
+        (lambda nodes: 1e3 * nodes, "length_unit", r"24\d to 2\d\d m from the rotor axis .*length_unit m.* does not fit"),
+        (lambda nodes: 1e-3 * nodes, "length_unit", r"length_unit m"),
         (lambda nodes: nodes + np.array([1e9, 0, 0]), "length_unit", r"1e\+09 to 1e\+09 m from the rotor axis"),
         (lambda nodes: nodes * [0, 0, 1], "length_unit", "0 to 0 m from the rotor axis .* rotor_axis or axis_point"),
         (lambda nodes: nodes[:, [1, 0, 2]], "radial", "the contact nodes' middle lies at .* degrees round the axis"),

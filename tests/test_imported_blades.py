@@ -86,7 +86,7 @@ def test_a_mesh_with_another_material(settings_with):
     ("changes", "message"),
     [
         ({"mesh": "meshes/none.inp"}, r"Fan\.mesh: there is no file meshes/none\.inp$"),
-        ({"mesh": "meshes/fan.stl"}, r"Fan\.mesh: found a file of kind '\.stl'; allowed: \.inp, \.msh"),
+        ({"mesh": "meshes/fan/boundary.csv"}, r"Fan\.mesh: found a file of kind '\.csv' .*; allowed: \.inp, \.msh"),
         ({"mesh": "meshes/fan.inp\n"}, r"Fan\.mesh: found 'meshes/fan\.inp\\n'; allowed: a name without line breaks"),
         ({"root": "hub\n"}, r"Fan\.root: found 'hub\\n'; allowed: a name without line breaks"),
         ({"mesh": 3}, r"Fan\.mesh: found 3; allowed: string"),
@@ -101,6 +101,7 @@ def test_a_mesh_with_another_material(settings_with):
         ({"rotor_axis": [0, 0, 2]}, r"Fan\.radial: .* must be two directions, not parallel"),
         ({"rotor_axis": [1, 0]}, r"Fan\.rotor_axis: found \[1, 0\]; allowed: list of number, entries: at least 3, at most 3"),
         ({"length_unit": "inch"}, r"Fan\.length_unit: found 'inch'; allowed: one of m, cm, mm, um, in, ft"),
+        ({"length_unit": 0}, r"Fan\.length_unit: found 0; allowed: one of .* or number, at least 1e-09, at most 1000"),
         ({"rotation": "clockwise"}, r"Fan\.rotation: found 'clockwise'; allowed: one of positive, negative"),
         ({"rotoraxis": [1, 0, 0]}, r"Fan: found unknown key rotoraxis; .*did you mean rotor_axis"),
         ({"profiles": "a.csv"}, r"Fan: found unknown key profiles; allowed keys: length_unit, "),
@@ -124,6 +125,8 @@ def test_meshes_that_cannot_be_meant(settings_with, changes, message):
     ("changes", "message"),
     [
         ({"matrices": "meshes"}, r"Fan\.matrices: meshes: found no files; needed: M and K_<speed> at three speeds"),
+        ({"matrices": "meshes/none"}, r"Fan\.matrices: there is no folder meshes/none$"),
+        ({"matrices": 5000 * "x"}, r"Fan\.matrices: found 'x{75} \.\.\.; allowed: string, .* at most 1000"),
         ({"mass_unit": None}, r"Fan: missing key mass_unit"),
         ({"stiffness_unit": "N/cm"}, r"Fan\.stiffness_unit: found 'N/cm'; allowed: one of N/m, N/mm"),
         ({"material": MATERIAL}, r"Fan: found unknown key material"),

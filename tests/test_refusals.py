@@ -291,6 +291,7 @@ BLADE_REFUSALS = [
     (f"? {'x' * 5000}\n: {{base: Ref}}", r"x{76} \.\.\.: found 'x{75} \.\.\.; allowed: a name of letters"),
     ("../A: {base: Ref}", r"\.\./A: found '\.\./A'"),
     ("figures: {base: Ref}", r"figures: found the blade 'figures'; allowed: another name"),
+    ("FIGURES: {base: Ref}", r"FIGURES: found the blade 'FIGURES'; allowed: another name"),
     ("ref: {base: Ref}", r"ref: found 'ref' beside 'Ref'; allowed: names that differ in more than capitals"),
     ("X: {base: Ref, stacking_table: ''}", r"X\.stacking_table: found ''; allowed: string"),
     ("X: {base: Ref, stacking_table: .}", r"X\.stacking_table: \. cannot be read: Is a directory"),

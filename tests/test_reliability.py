@@ -52,6 +52,11 @@ def test_a_failure_is_one_line_and_its_traceback_is_in_the_log(folder, capsys):
     assert failures.taken() == []
 
 
+def test_lines_to_be_copied_stay_lines(folder):
+    fail(ValueError("no tip; write:\n  tip: crown\nthen run again"))
+    assert failures.taken() == ["rule mesh: no tip; write:\n  tip: crown\nthen run again (details in a.log)"]
+
+
 def test_runs_side_by_side_keep_their_failures_apart(folder):
     failures.note("rule mesh: of this run")
     failures.begin("another")

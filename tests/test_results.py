@@ -29,7 +29,7 @@ def box_model(*fields):
     mesh = box_mesh(1.0, 0.5, 0.2, (3, 2, 1))
     basis = np.stack([field(mesh.points) for field in fields], axis=2)
     nodes = RecoveryNodes(np.arange(len(mesh.points)), mesh.points, basis, np.zeros((len(mesh.points), 3, 1)))
-    return SimpleNamespace(stress_submesh=nodes, stress_elements=mesh.blocks, size=len(fields))
+    return SimpleNamespace(stress_submesh=nodes, stress_elements=mesh.blocks, stress_region="box", size=len(fields))
 
 
 def test_stress_of_simple_states():
@@ -125,6 +125,7 @@ def test_response_holds_every_speed(sweep):
         assert response["wear"].shape == (3, 60)
         assert np.all(response["status"] == 0)
         assert np.all(response["max_von_mises"] > 0.0)
+        assert response["stress_region"].item() == "x < 0.197 m, z > 0.0165 m, z < 0.0265 m"
         history = response["max_von_mises_history"].sel(history_speed=1200.0)
         assert history.shape == (4,)
         assert history[-1] == pytest.approx(float(response["max_von_mises"].sel(speed=1200.0)), rel=1e-6)
@@ -164,6 +165,10 @@ def test_datasets_join_blades_and_scenes(sweep, kind):
     folder, files = sweep
     files = {key: file for key, file in files.items() if kind != "wear" or key[1] == "abradable"}
     write_sweep_dataset(kind, files, folder / f"{kind}.nc", {"fidelity": "draft"})
+    if kind == "stress":
+        with xr.open_dataset(folder / "stress.nc") as joined:
+            assert joined["stress_region"].dims == ("blade", "scene")
+            assert set(joined["stress_region"].values.ravel()) == {"x < 0.197 m, z > 0.0165 m, z < 0.0265 m"}
     with xr.open_dataset(folder / f"{kind}.nc") as dataset:
         assert dataset.attrs["fidelity"] == "draft"
         assert list(dataset["blade"].values) == ["Ref"]

@@ -179,4 +179,4 @@ def test_the_picture_of_a_blade_names_the_side_in_view(mesh, tmp_path, monkeypat
     for name, shown in {"ours": mesh, "swapped": replace(mesh, node_sets=swapped)}.items():
         write_vtu(shown, tmp_path / f"{name}.vtu", np.ones(sum(map(len, mesh.blocks.values()))))
     draw_blade_shapes({name: tmp_path / f"{name}.vtu" for name in ("ours", "swapped")}, tmp_path / "blades.png")
-    assert named == [["LE", "pressure side"], ["LE", "suction side"]]
+    assert named == [["LE", "TE", "pressure side", "rotation"], ["LE", "TE", "suction side", "rotation"]]

@@ -13,6 +13,10 @@ import yaml
 from stubbed_runs import copy_stubbed, edit, planned_outputs
 from workflow_runs import copy_project, snakemake
 
+from r37core.config.imported_entry import MeshEntry
+from r37core.exchange.importing.import_mesh import import_mesh
+from r37core.exchange.refusal import ImportRefused
+
 
 def blocks(root, language):
     return re.findall(rf"```{language}\n(.*?)```", (root / "docs/your_blade.md").read_text(), re.DOTALL)
@@ -43,6 +47,34 @@ def with_example(root, drawn, to, copy):
     return to
 
 
+def told(text):
+    """A message without the line breaks of a page, and without digits, which are another mesh generator's too."""
+    return re.sub(r"[\d.]+", "#", " ".join(text.split()))
+
+
+def test_the_page_shows_the_refusal_as_it_is(root, drawn):
+    """With another rotation and rule for the tip; its lines make the entry that is accepted."""
+    page = (root / "docs/your_blade.md").read_text()
+    (shown,) = re.findall(r"<!-- refusal -->\n```text\n(.*?)```", page, re.DOTALL)
+    (entry,) = yaml.safe_load(blocks(root, "yaml")[0]).values()
+    wrong = entry | {"rotation": "negative", "tip": yaml.safe_load(re.search(r"`tip: (\{ r_at_least_m: .*? \})`", page)[1])}
+    with pytest.raises(ImportRefused) as refusal:
+        import_mesh(MeshEntry.model_validate(wrong).source(drawn), drawn)
+    assert told(str(refusal.value)) == told(shown)
+    lines = yaml.safe_load("\n".join(line for line in shown.splitlines() if line.startswith("  ")))
+    again, _ = import_mesh(MeshEntry.model_validate(wrong | lines).source(drawn), drawn)
+    ours, _ = import_mesh(MeshEntry.model_validate(entry).source(drawn), drawn)
+    for name in ("root", "tip", "tip_pressure_edge"):
+        np.testing.assert_array_equal(again.node_set(name), ours.node_set(name))
+
+
+def test_a_first_attempt_may_ask(drawn, root):
+    (entry,) = yaml.safe_load(blocks(root, "yaml")[0]).values()
+    with pytest.raises(ImportRefused, match=r"(?s)found no set '\?'; the file has: .*hub \(.*\n  root: .*\n  tip: ") as refusal:
+        import_mesh(MeshEntry.model_validate(entry | {"root": "?", "tip": "?"}).source(drawn), drawn)
+    assert list(refusal.value.fitting) == ["root", "tip"]
+
+
 @pytest.mark.slow
 def test_the_example_runs_to_its_interactions(root, drawn, tmp_path, monkeypatch, capsys):
     project = with_example(root, drawn, tmp_path, copy_project)
@@ -57,7 +89,7 @@ def test_the_example_runs_to_its_interactions(root, drawn, tmp_path, monkeypatch
     assert set(table["blade"]) == {"Fan"}
     with xr.open_dataset("results/campbell.nc") as dataset:
         crossing = dataset["crossing_speed"].sel(blade="Fan", mode="1B", engine_order=6).item()
-        assert crossing == pytest.approx(1492, rel=0.01)
+        assert crossing == pytest.approx(1486, rel=0.005)
         assert dataset["smallest_mac"].min() > 0.99
     with xr.open_dataset("results/stress.nc") as dataset:
         assert (dataset["max_von_mises"] > 0.0).all()
@@ -142,7 +174,7 @@ def test_matrices_run_to_the_same_response(root, drawn, tmp_path):
 @pytest.mark.parametrize(
     ("key", "value", "message"),
     [
-        ("root", "clamp", "root: found no set 'clamp'; the file has: blade, "),
+        ("root", "clamp", "root: found no set 'clamp'; the file has: blade ("),
         ("rotation", "negative", "found the tip's leading edge at "),
     ],
 )

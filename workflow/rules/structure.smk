@@ -106,6 +106,7 @@ rule reduced_model:
     params:
         material=structure.elastic,
         reduction=structure.reduction,
+        made_before=structure.made_before,
         provenance=made.structure,
         code=code("reduced_model"),
     script:

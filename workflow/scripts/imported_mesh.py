@@ -15,6 +15,7 @@ def main(snakemake):
     with placed(params.places), warnings_told(params.places["mesh"]):
         mesh, quality = import_mesh(from_plain(MeshSource, params.source), params.folder["folder"])
     print(f"{len(mesh.points)} nodes, " + ", ".join(f"{len(nodes)} {name}" for name, nodes in mesh.blocks.items()))
+    print(f"root: {len(mesh.node_set('root'))} nodes, tip: {len(mesh.node_set('tip'))} nodes")
     print(f"scaled Jacobian: minimum {quality.min():.3f}")
     write_mesh(mesh, snakemake.output.msh)
     write_vtu(mesh, snakemake.output.vtu, quality)

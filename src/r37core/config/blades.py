@@ -147,7 +147,7 @@ class Blades(RootModel):
     def _names(self) -> Blades:
         check_names(self.root)
         for name in self.root:
-            if name in RESERVED:
+            if name.lower() in RESERVED:
                 raise refused((name,), f"the blade '{name}'", f"another name; {', '.join(RESERVED)} are folders of the results")
         return self
 

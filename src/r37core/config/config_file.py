@@ -149,7 +149,9 @@ class Run(Section):
     """Where the results go, and which share of them is made."""
 
     name: Name | LeftOut = Field(
-        default=None, description="a run with a name has its results in results/runs/<name>, beside those of others"
+        default=None,
+        description="a run with a name has its results in results/runs/<name>, beside those of others; reduced models made of "
+        "the same are copied from results/",
     )
     part: Part | LeftOut = Field(
         default=None,

@@ -61,7 +61,7 @@ def with_designs(entries: Mapping[str, AnyEntry], root: Path, document: Document
             continue
         families[name] = family = _family(name, entry, root, document)
         for design, values in family.designs.items():
-            if design in entries or design in found or design in RESERVED:
+            if design in entries or design in found or design.lower() in RESERVED:
                 raise document.refusal((name,), f"the design '{design}'", "designs that are not named like another blade")
             found[design] = _design(name, entry, dict(zip(family.keys, values, strict=True)), design, document)
             places |= {(design, *path[1:]): place for path, place in document.places.items() if path[:1] == (name,)}

@@ -7,7 +7,8 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Discriminator, Field, Tag, model_validator
 
-from r37core.exchange.importing.source import MatricesSource, MeshSource, Where, digest_of, matrix_files, mesh_files
+from r37core.exchange.importing.source import MatricesSource, MeshSource, digest_of, matrix_files, mesh_files
+from r37core.exchange.importing.where import Where
 from r37core.exchange.orientation import Orientation
 
 from .blade_sections import ImportedSubmesh, MaterialSection
@@ -57,10 +58,17 @@ SetOrRule = Annotated[
 ]
 
 
+LengthUnit = Annotated[
+    Annotated[Literal["m", "cm", "mm", "um", "in", "ft"], Tag("name")]
+    | Annotated[float, Field(ge=1e-9, le=1e3), Tag("metres")],
+    Discriminator(lambda value: "name" if isinstance(value, str) else "metres"),
+]
+
+
 class Oriented(Section):
     """How a file of another program describes space."""
 
-    length_unit: Literal["m", "cm", "mm", "um", "in", "ft"] = Field(description="of the file's coordinates")
+    length_unit: LengthUnit = Field(description="of the file's coordinates, or how many metres their unit is")
     rotor_axis: Direction = Field(description="direction of the rotor's axis in the file's axes, downstream")
     radial: Direction = Field(description="direction from the axis to the blade, in the file's axes")
     rotation: Literal["positive", "negative"] = Field(
@@ -81,7 +89,7 @@ class MeshEntry(Oriented):
 
     mesh: FileName = Field(description="mesh file: .inp, .msh, .vtu, .med, .bdf, .nas, or .cdb with the extra package meshlane")
     material: MaterialSection
-    root: SetOrRule = Field(description="clamped faces: name of a set of the file, or a rule")
+    root: SetOrRule = Field(description="what is clamped: name of a set of the file (BOUNDARY: nodes of *BOUNDARY), or a rule")
     tip: SetOrRule = Field(description="faces towards the casing: name of a set of the file, or a rule")
     pressure_side: Literal["forward", "backward"] = Field(
         default="forward", description="forward: the pressure side looks towards the rotation, as in a compressor"
@@ -92,6 +100,9 @@ class MeshEntry(Oriented):
     drop_free_nodes: bool = Field(default=False, description="leave out nodes of no solid element instead of refusing them")
     minimum_scaled_jacobian: float = Field(
         default=0.02, gt=0, le=1, description="meshes with elements below are refused; 1 is ideal, 0 folded"
+    )
+    end_check: bool = Field(
+        default=True, description="refuse a root or tip with side faces, or without a part of the blade's end"
     )
     stress_submesh: ImportedSubmesh = ImportedSubmesh()
 

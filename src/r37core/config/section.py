@@ -87,7 +87,7 @@ def _printable(name: str) -> str:
     return name
 
 
-FileName = Annotated[str, StringConstraints(min_length=1, pattern=TEXT_PATTERN), AfterValidator(_printable)]
+FileName = Annotated[str, StringConstraints(min_length=1, max_length=1000, pattern=TEXT_PATTERN), AfterValidator(_printable)]
 LeftOut = SkipJsonSchema[None]
 """What an optional key is when it is not given; null is refused."""
 

@@ -31,6 +31,9 @@ from .scenes import SceneEntry
 from .speed_section import UNITS, SpeedRule, key_of_speeds, planned
 from .study_sections import StudiesSection
 
+RESULTS = Path("results")
+"""Folder of the results of a run without a name."""
+
 
 @dataclass(frozen=True)
 class SceneSettings:
@@ -195,7 +198,7 @@ class Settings:
     @property
     def results(self) -> Path:
         """Folder of the results."""
-        return Path("results", "runs", self.config.run.name) if self.config.run.name else Path("results")
+        return RESULTS / "runs" / self.config.run.name if self.config.run.name else RESULTS
 
     @property
     def logs(self) -> Path:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import errno
+import json
 import os
 import shutil
 import sys
@@ -45,11 +46,11 @@ def begin(run: str) -> None:
 
 
 def note(line: str) -> None:
-    """Keep the line for the end of the run."""
+    """Keep the line for the end of the run; several lines become one, unless some are indented, to be copied as they are."""
     file = _file()
     if file is not None and file.parent.is_dir():
         with open(file, "a", encoding="utf-8") as stream:
-            stream.write(line.replace("\n", " ") + "\n")
+            stream.write(json.dumps(line if "\n  " in line else line.replace("\n", " ")) + "\n")
 
 
 def taken(most: int = 5) -> list[str]:
@@ -57,7 +58,7 @@ def taken(most: int = 5) -> list[str]:
     file = _file()
     if file is None or not file.exists():
         return []
-    lines = list(dict.fromkeys(file.read_text(encoding="utf-8").splitlines()))
+    lines = list(dict.fromkeys(map(json.loads, file.read_text(encoding="utf-8").splitlines())))
     file.unlink()
     more = [f"... and {len(lines) - most} more, see the logs"] if len(lines) > most else []
     return [*lines[:most], *more]

@@ -16,27 +16,40 @@ UNITS = {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "um": 1e-6, "in": 0.0254, "ft": 0.304
 """Name of a length unit -> metres."""
 
 _SPAN_BETWEEN = (1e-3, 5.0)
+_USUAL_SPAN = 0.1
 _TIP_RADIUS_BETWEEN = (5e-3, 10.0)
 _RADIAL_WITHIN = np.cos(np.radians(45.0))
+
+
+def fitting_units(span: float) -> list[str]:
+    """Units in which a blade of this span, in its file's numbers, has a plausible size; the likeliest first."""
+    sizes = {name: span * metres for name, metres in UNITS.items()}
+    plausible = [name for name, size in sizes.items() if _SPAN_BETWEEN[0] < size < _SPAN_BETWEEN[1]]
+    return sorted(plausible, key=lambda name: abs(np.log(sizes[name] / _USUAL_SPAN)))
 
 
 @dataclass(frozen=True)
 class Orientation:
     """How a file describes space.
 
-    `length_unit`: a key of UNITS; `rotor_axis`: direction of the axis, pointing downstream; `axis_point`: a point of it, in
-    the file's unit; `radial`: direction from the axis to the blade; `rotation`: `positive` where the rotor turns by the
-    right hand about `rotor_axis`, else `negative`.
+    `length_unit`: a key of UNITS, or metres per unit; `rotor_axis`: direction of the axis, pointing downstream; `axis_point`:
+    a point of it, in the file's unit; `radial`: direction from the axis to the blade; `rotation`: `positive` where the rotor
+    turns by the right hand about `rotor_axis`, else `negative`.
 
     The blade's frame has z downstream, x radial, and a rotor that turns towards negative theta. A blade that turns the other
     way is mirrored: in an isotropic material its mirror image has the same motion, and every sign keeps its meaning.
     """
 
-    length_unit: str
+    length_unit: str | float
     rotor_axis: tuple[float, float, float]
     radial: tuple[float, float, float]
     rotation: str
     axis_point: tuple[float, float, float]
+
+    @property
+    def metres_per_unit(self) -> float:
+        """Length of the file's unit (m)."""
+        return UNITS[self.length_unit] if isinstance(self.length_unit, str) else self.length_unit
 
     def check(self) -> None:
         """Raise ImportRefused where the two directions are none or parallel."""
@@ -77,7 +90,7 @@ class Orientation:
         if not low <= radius.min() <= radius.max() <= high:
             raise ImportRefused(
                 f"the contact nodes would lie {radius.min():.3g} to {radius.max():.3g} m from the rotor axis (allowed: {low:g} "
-                f"to {high:g} m); length_unit '{self.length_unit}', rotor_axis or axis_point does not fit the file",
+                f"to {high:g} m); length_unit {self.length_unit}, rotor_axis or axis_point does not fit the file",
                 "length_unit",
             )
         self._check_side(placed, "the contact nodes' middle")
@@ -85,15 +98,15 @@ class Orientation:
 
     def points_to_blade(self, points: np.ndarray) -> np.ndarray:
         """Points of the file, shape (n, 3), in metres and the blade's frame."""
-        return UNITS[self.length_unit] * (points - np.array(self.axis_point, dtype=float)) @ self.rows.T
+        return self.metres_per_unit * (points - np.array(self.axis_point, dtype=float)) @ self.rows.T
 
     def to_file(self, points: np.ndarray) -> np.ndarray:
         """Points (m) of the blade's frame, shape (n, 3), in the file's unit and axes."""
-        return points @ self.rows / UNITS[self.length_unit] + np.array(self.axis_point, dtype=float)
+        return points @ self.rows / self.metres_per_unit + np.array(self.axis_point, dtype=float)
 
     def vectors_to_file(self, vectors: np.ndarray) -> np.ndarray:
         """Displacements (m) of the blade's frame, shape (n, 3), in the file's unit and axes."""
-        return vectors @ self.rows / UNITS[self.length_unit]
+        return vectors @ self.rows / self.metres_per_unit
 
     def mesh_to_file(self, mesh: BladeMesh) -> BladeMesh:
         """The blade's mesh in the file's unit and axes, its elements the right way out there."""
@@ -108,9 +121,12 @@ class Orientation:
         sizes = " x ".join(f"{size:.3g}" for size in np.ptp(points, axis=0))
         low, high = _SPAN_BETWEEN
         if not low < span < high:
+            own = span / self.metres_per_unit
+            fitting = [f"{name} ({own * UNITS[name]:.3g} m)" for name in fitting_units(own)]
             raise ImportRefused(
-                f"the blade would be {sizes} m in size (radial, tangential, axial) with a span of {span:.3g} m; "
-                f"length_unit '{self.length_unit}' or rotor_axis does not fit the file",
+                f"the blade would be {sizes} m in size (radial, tangential, axial) with a span of {span:.3g} m (allowed: "
+                f"{low:g} to {high:g} m); length_unit {self.length_unit} or rotor_axis does not fit the file; "
+                f"fitting units: {', '.join(fitting) or 'none, give metres per unit'}",
                 "length_unit",
             )
         self._check_side(points, "the blade's middle")

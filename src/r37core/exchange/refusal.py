@@ -9,12 +9,16 @@ from contextlib import contextmanager
 class ImportRefused(ValueError):
     """A mesh or a set of matrices that cannot be used; the message names the file, what was found and what helps.
 
-    `key`: of blades.yaml, whose value is to blame.
+    `reason`: the message without the lines that help; `key`: of blades.yaml, whose value is to blame; `fitting`: keys and
+    values for the blade's entry, as YAML, that would be accepted.
     """
 
-    def __init__(self, text: str, key: str | None = None):
-        super().__init__(text)
-        self.key = key
+    def __init__(self, reason: str, key: str | None = None, fitting: Mapping[str, str] | None = None):
+        lines = "".join(f"\n  {name}: {value}" for name, value in (fitting or {}).items())
+        super().__init__(
+            f"{reason}; what fits its shape, for its entry in blades.yaml:{lines}\nthen run again" if lines else reason
+        )
+        self.reason, self.key, self.fitting = reason, key, fitting
 
 
 class MeshWarning(UserWarning):
@@ -27,7 +31,30 @@ def blamed(key: str, file: str | None = None) -> Iterator[None]:
     try:
         yield
     except ImportRefused as error:
-        raise ImportRefused(f"{file}: {error}" if file else str(error), error.key or key) from None
+        raise ImportRefused(f"{file}: {error.reason}" if file else error.reason, error.key or key, error.fitting) from None
+
+
+class Refusals:
+    """Several refusals of one file, kept to be told together."""
+
+    def __init__(self, file: str):
+        self._file = file
+        self._kept: list[ImportRefused] = []
+
+    @contextmanager
+    def of(self, key: str) -> Iterator[None]:
+        """Keep a refusal that ends the block; `key`: to blame where it names none."""
+        try:
+            with blamed(key):
+                yield
+        except ImportRefused as error:
+            self._kept.append(error)
+
+    def tell(self) -> None:
+        """Raise what was kept as one ImportRefused, which blames the first one's key."""
+        if self._kept:
+            reasons = dict.fromkeys(error.reason for error in self._kept)
+            raise ImportRefused(f"{self._file}: " + "; and ".join(reasons), self._kept[0].key)
 
 
 @contextmanager
@@ -37,4 +64,4 @@ def placed(places: Mapping[str, str]) -> Iterator[None]:
         yield
     except ImportRefused as error:
         place = places.get(error.key or "")
-        raise ImportRefused(f"{place}: {error}" if place else str(error), error.key) from None
+        raise ImportRefused(f"{place}: {error.reason}" if place else error.reason, error.key, error.fitting) from None

@@ -61,6 +61,7 @@ def explorer_contents(
             _curve(_like(datasets[kind], rms), name, unit, factor) for kind, name, unit, factor in CURVES if kind in datasets
         ],
         "yield_stress": _yield_stress(datasets.get("stress"), rms),
+        "stress_region": _stress_region(datasets.get("stress"), blades),
         "history": _history(datasets.get("stress"), rms),
         "spectrum": _spectrum(datasets.get("spectrum"), rms),
         "wear": _wear(datasets.get("wear"), rms),
@@ -100,6 +101,14 @@ def _yield_stress(stress: xr.Dataset | None, rms: xr.Dataset) -> dict[str, objec
         return None
     values = stress["yield_stress"].reindex(blade=rms["blade"], scene=rms["scene"])
     return packed(1e-6 * values.transpose("blade", "scene").values)
+
+
+def _stress_region(stress: xr.Dataset | None, blades: Iterable[str]) -> dict[str, str]:
+    """Where the stress of each blade is looked for, in words; of those that have one."""
+    if stress is None:
+        return {}
+    texts = {blade: stress["stress_region"].sel(blade=blade).values for blade in blades if blade in stress["blade"].values}
+    return {blade: max(map(str, of_scenes)) for blade, of_scenes in texts.items()}
 
 
 def _history(stress: xr.Dataset | None, rms: xr.Dataset) -> dict[str, object] | None:

@@ -109,8 +109,14 @@
     };
   }
 
-  // a line at the yield stress of each of the blades, and what is above the lowest of them; several lines say whose they are
+  // where on the blades stress is looked for, a line at the yield stress of each, and what is above the lowest of them;
+  // what differs says whose it is
   function markStress(plan, traces, blades, scene) {
+    const regions = new Set(blades.map((blade) => data.stress_region[data.blades[blade]]).filter(Boolean));
+    (plan.annotations ||= []).push({
+      xref: "paper", x: 0, xanchor: "left", yref: "paper", y: 1, yanchor: "top", showarrow: false, font: { size: 10 },
+      text: regions.size > 1 ? "stress in regions of each blade: see summary.csv" : [...regions].map((region) => `stress: ${region}`).join("").replaceAll("<", "&lt;"),
+    });
     const bladesOf = new Map();
     blades.forEach((blade) => {
       const limit = yieldStress.row(blade)[scene];

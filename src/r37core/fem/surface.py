@@ -30,10 +30,6 @@ class Faces:
         middle = self.nodes[:, self.corners :] if self.quadratic else np.full_like(start, -1)
         return np.stack([start, middle, np.roll(start, -1, axis=1)], axis=2).reshape(-1, 3)
 
-    def where(self, members: np.ndarray) -> Faces:
-        """Faces all of whose nodes are `members`, a mask over the mesh's nodes."""
-        return Faces(self.corners, self.nodes[members[self.nodes].all(axis=1)])
-
 
 def outer_faces(blocks: Mapping[str, np.ndarray]) -> list[Faces]:
     """Faces that belong to one element only, by shape (triangles and quadrangles, with or without mid-nodes)."""
@@ -54,10 +50,20 @@ def outer_faces(blocks: Mapping[str, np.ndarray]) -> list[Faces]:
     return outer
 
 
+def mask_within(faces: list[Faces], members: np.ndarray) -> np.ndarray:
+    """Mask over the faces, shape (faces,), whose nodes are all `members`, a mask over the mesh's nodes."""
+    return np.concatenate([np.empty(0, dtype=bool), *(members[part.nodes].all(axis=1) for part in faces)])
+
+
+def chosen(faces: list[Faces], mask: np.ndarray) -> list[Faces]:
+    """The faces of a mask over all of them, shape (faces,)."""
+    parts = np.split(mask, np.cumsum([len(part.nodes) for part in faces])[:-1])
+    return [Faces(part.corners, part.nodes[keep]) for part, keep in zip(faces, parts, strict=True) if keep.any()]
+
+
 def faces_within(faces: list[Faces], members: np.ndarray) -> list[Faces]:
     """The faces all of whose nodes are `members`, a mask over the mesh's nodes."""
-    within = [part.where(members) for part in faces]
-    return [part for part in within if len(part.nodes)]
+    return chosen(faces, mask_within(faces, members))
 
 
 def nodes_of(faces: list[Faces]) -> np.ndarray:
@@ -94,3 +100,33 @@ def loops(faces: list[Faces]) -> list[np.ndarray]:
             node = end
         found.append(np.array(line))
     return found
+
+
+def area_vectors(faces: list[Faces], points: np.ndarray) -> np.ndarray:
+    """Outward normal of each face times its area, shape (faces, 3), of its corners at `points`, shape (nodes, 3)."""
+    of_shape = []
+    for part in faces:
+        corners = points[part.nodes[:, : part.corners]]
+        # of a quadrangle both diagonals, of a triangle two edges
+        first, second = corners[:, 2] - corners[:, 0], corners[:, -1] - corners[:, 1]
+        of_shape.append(
+            0.5 * np.cross(first, second) if part.corners == 4 else 0.5 * np.cross(corners[:, 1] - corners[:, 0], first)
+        )
+    return np.concatenate(of_shape)
+
+
+def smooth_patches(faces: list[Faces], vectors: np.ndarray, crease: float) -> np.ndarray:
+    """Number of the patch that each face belongs to, shape (faces,): neighbours whose normals differ by less than `crease`.
+
+    `vectors`: of `area_vectors`; `crease`: an angle (rad).
+    """
+    edges = np.sort(np.concatenate([part.edges()[:, [0, 2]] for part in faces]), axis=1)
+    owner = np.repeat(np.arange(len(vectors)), np.concatenate([np.full(len(part.nodes), part.corners) for part in faces]))
+    _, of_edge = np.unique(edges, axis=0, return_inverse=True)
+    order = np.argsort(of_edge.ravel(), kind="stable")
+    pairs = np.flatnonzero(np.diff(of_edge.ravel()[order]) == 0)
+    first, second = owner[order[pairs]], owner[order[pairs + 1]]
+    normals = vectors / np.linalg.norm(vectors, axis=1)[:, None]
+    smooth = np.sum(normals[first] * normals[second], axis=1) > np.cos(crease)
+    graph = sp.coo_array((np.ones(smooth.sum()), (first[smooth], second[smooth])), shape=(len(vectors),) * 2)
+    return connected_components(graph, directed=False)[1]

@@ -13,11 +13,14 @@ from r37core.io import readable
 
 from .offscreen import look, new_plotter, save_picture
 
+_BESIDE = 0.09
+"""Of the blade's height: how far a name stands from what it names."""
+
 
 def draw_blade_shapes(meshes: Mapping[str, Path | str], file: Path | str) -> None:
     """Draw the meshes (blade name -> .vtu) side by side, coloured by the scaled Jacobian, into a PNG.
 
-    An arrow shows the rotation; the leading edge and the side that is seen have their names.
+    An arrow shows the rotation; leading and trailing edge (LE, TE) and the side that is seen have their names.
     """
     plotter = new_plotter(len(meshes), (260 * len(meshes), 420))
     for i, (name, mesh_file) in enumerate(meshes.items()):
@@ -43,20 +46,23 @@ def draw_blade_shapes(meshes: Mapping[str, Path | str], file: Path | str) -> Non
 
 
 def _mark_sense(plotter: pyvista.Plotter, grid: Any) -> None:
-    """An arrow along the rotation, towards negative theta, above the tip; names of the leading edge and of the side in view."""
+    """An arrow along the rotation, towards negative theta, above the tip; names of it, both edges and the side in view."""
     height = float(np.ptp(grid.points[:, 0]))
-    leading, tip, pressure, suction = (
+    leading, trailing, tip, pressure, suction = (
         grid.points[np.flatnonzero(grid.point_data[name])].mean(axis=0)
-        for name in ("leading_edge", "tip", "tip_pressure_edge", "tip_suction_edge")
+        for name in ("leading_edge", "trailing_edge", "tip", "tip_pressure_edge", "tip_suction_edge")
     )
     start = tip + height * np.array([0.12, 0.2, 0.0])
     plotter.add_mesh(pyvista.Arrow(start=start, direction=(0.0, -1.0, 0.0), scale=0.5 * height), color="black")
     # the camera looks from negative y
     side = "pressure side" if pressure[1] < suction[1] else "suction side"
     middle = grid.points.mean(axis=0)
+    # beside the edges, where nothing lies under them
+    ends = [edge + _BESIDE * height * (edge - middle) / np.linalg.norm(edge - middle) for edge in (leading, trailing)]
+    above = start + height * np.array([_BESIDE, -0.25, 0.0])
     plotter.add_point_labels(
-        np.array([leading, middle]),
-        ["LE", side],
+        np.array([*ends, middle, above]),
+        ["LE", "TE", side, "rotation"],
         font_size=10,
         show_points=False,
         always_visible=True,

@@ -6,7 +6,11 @@ from dataclasses import dataclass
 from typing import Any
 
 from r37core.config import Settings
+from r37core.config.settings import RESULTS
 from r37core.plain import to_plain
+
+from .paths import REDUCED_MODEL, fill
+from .provenance import Attributes
 
 
 @dataclass(frozen=True)
@@ -31,6 +35,13 @@ class Structure:
     def base_reduction(self) -> dict[str, Any]:
         """What reduced models are made of, with contact nodes as config.yaml has them."""
         return to_plain(self.settings.reduction_choice())
+
+    def made_before(self, wildcards: Any) -> Attributes:
+        """Of a run with a name, where the reduced model lies in the results without one; that it is there re-runs nothing."""
+        if self.settings.config.run.name is None:
+            return Attributes(file=None)
+        pattern = REDUCED_MODEL.replace("<results>", str(RESULTS))
+        return Attributes(file=fill(pattern, blade=wildcards.blade, tip_line=wildcards.tip_line))
 
     def reduction(self, wildcards: Any) -> dict[str, Any]:
         """What the reduced model is made of, with contact nodes on the line that the wildcard names."""

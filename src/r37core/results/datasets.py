@@ -13,7 +13,7 @@ from r37core.io import FILE_ATTRIBUTES, InputFileError, atomic_write, readable
 from r37core.time_integration.simulate import TIP_POINTS
 from r37core.time_integration.status import RunStatus
 
-from .netcdf import create_axis, create_labels, create_variable
+from .netcdf import create_axis, create_labels, create_text, create_variable
 from .variables import DATASETS, FLAGS
 
 
@@ -89,6 +89,9 @@ def _copy(
         for dim in source.dimensions:
             if dim in axes and dim not in target.variables:
                 create_axis(target, dim, axes[dim], _attributes(response[dim]))
+        if source.dtype is str:
+            _copy_text(source, target, place)
+            continue
         if name not in target.variables:
             dims = ("blade", "scene", *source.dimensions)
             created = create_variable(target, name, source.dtype, dims, _attributes(source))
@@ -101,6 +104,12 @@ def _copy(
         slab = np.full(target[name].shape[2:], RunStatus.NOT_RUN if name == "status" else np.nan, dtype=source.dtype)
         slab[np.ix_(*rows)] = np.ma.filled(source[:], np.nan) if source.dtype.kind == "f" else source[:]
         target[name][place] = slab
+
+
+def _copy_text(source: netCDF4.Variable, target: netCDF4.Dataset, place: tuple[int, int]) -> None:
+    if source.name not in target.variables:
+        create_text(target, source.name, ("blade", "scene"), source.long_name)
+    target[source.name][place] = source[...]
 
 
 def _attributes(variable: netCDF4.Variable) -> dict[str, object]:

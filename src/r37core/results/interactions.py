@@ -74,6 +74,7 @@ class Interaction:
     share_above_yield: float
     max_von_mises_pa: float
     max_von_mises_speed_rad_s: float
+    stress_region: str
     max_wear_m: float
     status: str
 
@@ -240,6 +241,7 @@ def _interaction(reach: xr.Dataset, peak: xr.Dataset, group: list[_Peak], place:
         share_above_yield=above.share if above else np.nan,
         max_von_mises_pa=stress,
         max_von_mises_speed_rad_s=stress_speed,
+        stress_region=str(reach["stress_region"].item()) if "stress_region" in reach else "",
         max_wear_m=float(reach["max_wear"].max()) if "max_wear" in reach else np.nan,
         status=RunStatus(int(reach["status"].max())).text,
     )

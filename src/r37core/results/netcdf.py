@@ -37,6 +37,13 @@ def create_axis(dataset: netCDF4.Dataset, name: str, values: np.ndarray, attribu
         dataset.setncattr("coordinates", "speed_rpm")
 
 
+def create_text(dataset: netCDF4.Dataset, name: str, dims: Sequence[str], long_name: str) -> netCDF4.Variable:
+    """A variable of texts, empty where nothing is written; texts have no unit, compression or checksum."""
+    variable = dataset.createVariable(name, str, tuple(dims))
+    variable.setncatts({"units": "1", "long_name": long_name})
+    return variable
+
+
 def create_variable(
     dataset: netCDF4.Dataset, name: str, dtype: str | np.dtype, dims: Sequence[str], attributes: Mapping[str, Any]
 ) -> netCDF4.Variable:

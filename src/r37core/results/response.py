@@ -13,7 +13,7 @@ from r37core.time_integration.simulate import DIRECTIONS, TIP_POINTS
 from r37core.time_integration.speed_file import read_speed
 
 from .measures import first_yield, largest_of_run, stress_history
-from .netcdf import create_axis, create_labels, create_variable, status_flags
+from .netcdf import create_axis, create_labels, create_text, create_variable, status_flags
 from .stress_recovery import StressRecovery
 from .variables import VARIABLES
 
@@ -40,6 +40,7 @@ def write_response(
         if recovery is not None:
             about = {"units": "Pa", "long_name": "yield stress of the blade's material"}
             create_variable(dataset, "yield_stress", "f8", (), about)[...] = yield_stress
+            create_text(dataset, "stress_region", (), "where max_von_mises is looked for")[...] = recovery.region
         for row, (speed, source) in enumerate(zip(speeds, files, strict=True)):
             values = _row(read_speed(source), recovery, stress_instants)
             if row == 0:

@@ -17,7 +17,8 @@ class StressRecovery:
     """Stress at the nodes of the stress submesh: of the vibration, and of rotation where the coordinates have it.
 
     `operator`, shape (6, nodes, coordinates + shapes): components xx yy zz xy yz zx (Pa) per unit of each reduced coordinate,
-    then of each amplitude of rotation's shapes, averaged over the submesh elements that share the node.
+    then of each amplitude of rotation's shapes, averaged over the submesh elements that share the node. `region`: the submesh
+    in words.
 
     Raises ValueError when the submesh has no elements.
     """
@@ -29,6 +30,7 @@ class StressRecovery:
                 "the stress submesh has no elements; enlarge structure.stress_submesh in config.yaml (of an imported mesh, its "
                 "own stress_submesh in blades.yaml), or use a finer mesh"
             )
+        self.region = model.stress_region
         self._coordinates = submesh.basis.shape[2]
         self.operator = nodal_stress(model.stress_elements, submesh.points, submesh.fields, material)
 

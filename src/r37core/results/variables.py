@@ -64,7 +64,14 @@ DATASETS = {
         "revolution_maximum",
     ),
     "spectrum": ("amplitude", "amplitude_tangential"),
-    "stress": ("max_von_mises", "static_stress", "yield_stress", "max_von_mises_history", "first_yield_revolution"),
+    "stress": (
+        "max_von_mises",
+        "stress_region",
+        "static_stress",
+        "yield_stress",
+        "max_von_mises_history",
+        "first_yield_revolution",
+    ),
     "wear": ("wear", "max_wear", "wear_harmonic"),
 }
 """Dataset -> its variables, where a response has them; each also carries those of FLAGS."""

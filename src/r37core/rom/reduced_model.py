@@ -63,7 +63,8 @@ class ReducedModel:
     `stiffness` (N/m), `geometric_stiffness` (per Omega^2), `mass` (kg), and, only when asked for, `spin_softening`
     (per Omega^2) and `coriolis` (per Omega): each of shape (coordinates, coordinates). `boundary_nodes`: mesh numbers;
     `boundary_chord`: their chord fractions. `tip_lines`: recovery along each tip line; `stress_submesh` with
-    `stress_elements`, element type -> shape (elements, nodes of the type), indexing its nodes; `whole_blade` only on request.
+    `stress_elements`, element type -> shape (elements, nodes of the type), indexing its nodes, and `stress_region`, what it is
+    in words; `whole_blade` only on request.
     `shape_names`, `shape_products`, shape (shapes, coordinates), and `shape_norms`: mass products of the basis with the
     ideal bending and torsion shapes, by which modes are named. `tolerance`, `singular_values`: of the basis.
     `rotation_stiffening` (s2/rad2), shape (shapes,): of what rotation does, see r37core.rom.rotation; none of a blade whose
@@ -81,6 +82,7 @@ class ReducedModel:
     tip_lines: dict[str, RecoveryNodes]
     stress_submesh: RecoveryNodes
     stress_elements: dict[str, np.ndarray]
+    stress_region: str
     whole_blade: RecoveryNodes | None
     shape_names: tuple[str, ...]
     shape_products: np.ndarray

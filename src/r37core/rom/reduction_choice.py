@@ -63,6 +63,13 @@ class StressSubmesh:
     maximum_z: float
     excluded_layers: int
 
+    def in_words(self) -> str:
+        """The region as results name it."""
+        bounds = (("x <", self.maximum_x), ("z >", self.minimum_z), ("z <", self.maximum_z))
+        box = ", ".join(f"{name} {bound:g} m" for name, bound in bounds if np.isfinite(bound)) or "whole blade"
+        layers = f"{self.excluded_layers} layer{'s' if self.excluded_layers > 1 else ''} of elements"
+        return box + (f", without {layers} at contact nodes and root" if self.excluded_layers else "")
+
     def elements(self, mesh: BladeMesh, contact_nodes: np.ndarray) -> dict[str, np.ndarray]:
         """Nodes of the elements all of whose nodes qualify, by element type."""
         x, _, z = mesh.points.T

@@ -58,6 +58,7 @@ def write_reduced_model(model: ReducedModel, file: Path | str, provenance: Mappi
         "basis_tolerance": model.tolerance,
         "quadratic_residual": model.quadratic_residual,
         "tip_line_names": list(model.tip_lines),
+        "stress_region": model.stress_region,
     }
     dataset = xr.Dataset(data, coords={"shape": list(model.shape_names)}, attrs=attributes)
     write_dataset(dataset, file, provenance)
@@ -77,6 +78,7 @@ def read_reduced_model(file: Path | str) -> ReducedModel:
             stress_elements={
                 name.removeprefix(_ELEMENTS): dataset[name].values for name in map(str, dataset) if name.startswith(_ELEMENTS)
             },
+            stress_region=str(dataset.attrs["stress_region"]),
             whole_blade=_recovery(dataset, "blade") if "blade_basis" in dataset else None,
             shape_names=tuple(str(name) for name in dataset["shape"].values),
             shape_products=dataset["shape_products"].values,

@@ -18,9 +18,13 @@ from scipy.spatial.transform import Rotation
 from r37core.exchange.refusal import ImportRefused
 from r37core.fem.elements import ELEMENTS
 
+from .deck_text import deck_lines, included, keyword_and_options
 from .raw_mesh import RawMesh, solid_blocks
 
 T = TypeVar("T")
+
+CLAMPED = "BOUNDARY"
+"""Name of the set of the nodes that *BOUNDARY clamps."""
 
 _TYPES = {element.abaqus: name for name, element in ELEMENTS.items()}
 # they make or move nodes and elements
@@ -42,6 +46,7 @@ class _Deck:
     element_sets: dict[str, list[int]] = field(default_factory=dict)
     nodes_of_elements: list[tuple[str, str]] = field(default_factory=list)
     surfaces: dict[str, list[tuple[str, str]]] = field(default_factory=dict)
+    held: list[tuple[str, range]] = field(default_factory=list)
     parts: list[str] = field(default_factory=list)
     instances: dict[str, list[list[str]]] = field(default_factory=dict)
     scope: str = ""
@@ -49,6 +54,8 @@ class _Deck:
 
 def read_abaqus(file: Path) -> RawMesh:
     """The mesh of a deck with one part, where its instance stands; sets of nodes, elements and faces become sets of nodes.
+
+    The nodes that *BOUNDARY holds in all three directions are the set CLAMPED.
 
     Raises ImportRefused for decks with several parts or instances, and for what cannot be read.
     """
@@ -62,7 +69,8 @@ def read_abaqus(file: Path) -> RawMesh:
         cells = [(name, np.array([[number[n] for n in row] for row in of.values()])) for name, of in deck.solids.items()]
     except KeyError as error:
         raise ImportRefused(f"an element names node {error.args[0]}, which the deck lacks") from None
-    sets = {name: np.unique([number[label] for label in labels if label in number]) for name, labels in _node_lists(deck)}
+    members = {name: [number[label] for label in labels if label in number] for name, labels in _node_lists(deck)}
+    sets = {name: np.unique(np.array(nodes, dtype=np.int64)) for name, nodes in members.items()}
     return RawMesh(points, labels, solid_blocks(cells), sets)
 
 
@@ -71,25 +79,14 @@ def _blocks(file: Path) -> Iterator[tuple[str, dict[str, str], list[list[str]]]]
     keyword = ""
     options: dict[str, str] = {}
     rows: list[list[str]] = []
-    unfinished = ""
-    for line in file.read_text(encoding="utf-8", errors="replace").splitlines():
-        line = unfinished + line.strip()
-        unfinished = ""
-        if not line or line.startswith("**"):
-            continue
+    for line in deck_lines(file):
         if not line.startswith("*"):
             rows.append([cell.strip() for cell in line.split(",")])
             continue
-        if line.endswith(","):
-            unfinished = line
-            continue
         yield keyword, options, rows
-        words = [word.strip() for word in line[1:].split(",")]
-        keyword, rows = words[0].upper(), []
-        pairs = (word.partition("=") for word in words[1:])
-        options = {key.strip().upper(): value.strip().strip('"') for key, _, value in pairs}
+        (keyword, options), rows = keyword_and_options(line), []
         if keyword == "INCLUDE":
-            yield from _blocks(file.parent / options.get("INPUT", ""))
+            yield from _blocks(included(file, options))
             keyword = ""
     yield keyword, options, rows
 
@@ -118,6 +115,8 @@ def _take(deck: _Deck, keyword: str, options: dict[str, str], rows: list[list[st
     elif keyword in ("NSET", "ELSET"):
         sets = deck.node_sets if keyword == "NSET" else deck.element_sets
         _add(sets, options.get(keyword), _members(sets, "GENERATE" in options, rows))
+    elif keyword == "BOUNDARY":
+        deck.held += [(row[0], _directions_held(row)) for row in rows] if _of_displacement(options) else []
     elif keyword == "SURFACE" and options.get("TYPE", "ELEMENT").upper() == "ELEMENT":
         deck.surfaces[options.get("NAME", "")] = [(row[0], row[1].upper() if len(row) > 1 else "") for row in rows]
 
@@ -191,35 +190,71 @@ def _members(sets: dict[str, list[int]], generated: bool, rows: list[list[str]])
             members += range(first, last + 1, step)
             continue
         for cell in cells:
-            # Part-1-1.12 is node 12 of an instance
-            plain = cell.strip('"').rpartition(".")[2]
-            members += [int(plain)] if plain.isdigit() else sets.get(_found(sets, plain), [])
+            members += _named(sets, cell)
     return members
 
 
+def _named(sets: dict[str, list[int]], cell: str) -> list[int]:
+    """The number that a cell has, or the members of the set that it names; Part-1-1.12 is number 12 of an instance."""
+    plain = cell.strip('"').rpartition(".")[2]
+    return [int(plain)] if plain.isdigit() else sets.get(_found(sets, plain), [])
+
+
+def _of_displacement(options: dict[str, str]) -> bool:
+    """Whether a block *BOUNDARY prescribes displacements, not velocities or those of another model."""
+    return options.get("TYPE", "DISPLACEMENT").upper() == "DISPLACEMENT" and not {"SUBMODEL", "USER", "AMPLITUDE"} & set(
+        options
+    )
+
+
+def _directions_held(row: list[str]) -> range:
+    """Directions in which a row of *BOUNDARY (node or set, first and last direction, value) holds the place: of 1, 2, 3."""
+    first, last, value = ([*row[1:], "", "", ""])[:3]
+    if first.upper() in ("ENCASTRE", "PINNED"):
+        return range(1, 4)
+    if not first.isdigit() or float(value or 0.0):
+        return range(0)
+    return range(int(first), min(int(last or first), 3) + 1)
+
+
+def _clamped(held: list[tuple[str, range]], node_sets: dict[str, list[int]]) -> list[int]:
+    """Labels of the nodes that are held in all three directions."""
+    by_direction = [{n for cell, of in held if direction in of for n in _named(node_sets, cell)} for direction in (1, 2, 3)]
+    return sorted(set.intersection(*by_direction))
+
+
 def _node_lists(deck: _Deck) -> Iterator[tuple[str, list[int]]]:
-    """Every set as node labels: of nodes, of elements (their nodes), of element faces."""
-    elements = {label: nodes for of_type in deck.solids.values() for label, nodes in of_type.items()} | deck.others
+    """Every set as node labels: of nodes, of elements (their nodes), of element faces, of clamped nodes."""
+    solids = {label: nodes for of_type in deck.solids.values() for label, nodes in of_type.items()}
+    elements = solids | deck.others
     of_elements = {name: [n for e in members for n in elements.get(e, [])] for name, members in deck.element_sets.items()}
     yield from of_elements.items()
-    for name, element_set in deck.nodes_of_elements:
-        yield name, of_elements.get(_found(deck.element_sets, element_set), [])
+    node_sets = {name: of_elements.get(_found(deck.element_sets, of), []) for name, of in deck.nodes_of_elements}
     for name, faces in deck.surfaces.items():
         nodes: list[int] = []
         for of, face in faces:
-            members = [int(of)] if of.isdigit() else deck.element_sets.get(_found(deck.element_sets, of), [])
-            for element in members:
-                nodes += _face_nodes(elements.get(element, []), face)
+            for element in _named(deck.element_sets, of):
+                nodes += _face_nodes(name, solids[element], face) if element in solids else elements.get(element, [])
         yield name, nodes
-    yield from deck.node_sets.items()
+    node_sets |= deck.node_sets
+    clamped = _clamped(deck.held, node_sets)
+    if clamped and not _found(node_sets, CLAMPED):
+        yield CLAMPED, clamped
+    yield from node_sets.items()
 
 
-def _face_nodes(nodes: list[int], face: str) -> list[int]:
-    """Corners and mid-nodes of face S1, S2, ... of a solid element; all nodes of a surface element."""
-    element = next((e for e in ELEMENTS.values() if len(e.nodes) == len(nodes)), None)
-    if element is None or not face[1:].isdigit():
+def _face_nodes(surface: str, nodes: list[int], face: str) -> list[int]:
+    """Corners and mid-nodes of face S1, S2, ... of a solid element, all its nodes where no face is named.
+
+    Raises ImportRefused for a face that the element lacks.
+    """
+    if not face:
         return nodes
-    corners = set(_FACE_CORNERS[element.corners][int(face[1:]) - 1])
+    element = next(e for e in ELEMENTS.values() if len(e.nodes) == len(nodes))
+    faces = {f"S{number}": set(corners) for number, corners in enumerate(_FACE_CORNERS[element.corners], start=1)}
+    if face not in faces:
+        raise ImportRefused(f"surface {surface}: found the face {face}; allowed: {', '.join(faces)}")
+    corners = faces[face]
     middle = [node for edge, node in element.edges.items() if edge <= corners]
     return [nodes[i] for i in (*corners, *middle)]
 

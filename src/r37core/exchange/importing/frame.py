@@ -5,6 +5,8 @@ from __future__ import annotations
 import numpy as np
 from scipy.spatial import cKDTree
 
+from r37core.exchange.refusal import ImportRefused
+
 _SECTIONS = 25
 _SHARE = 0.06  # of the span: nodes within it make a section
 _FEWEST = 24  # nodes of a section
@@ -19,7 +21,8 @@ def blade_parameters(
     over that to root and tip. Each section (nodes of like span) has a chord, the longest principal axis of its nodes across
     the blade's height, pointing downstream, and a normal, the shortest, from the pressure to the suction side; chord and
     thickness are the place between the section's extremes along them. They serve the names of the modes and pictures, not the
-    mechanics. `pressure_forward`: whether the pressure side looks towards the rotation.
+    mechanics. `pressure_forward`: whether the pressure side looks towards the rotation. Raises ImportRefused for a mesh with
+    too few nodes for sections.
     """
     to_root, _ = cKDTree(points[root]).query(points)
     to_tip, _ = cKDTree(points[tip]).query(points)
@@ -28,6 +31,10 @@ def blade_parameters(
     members = [_members(span, level) for level in levels]
     centres = np.array([0.5 * (points[m].max(axis=0) + points[m].min(axis=0)) for m in members])
     height = np.gradient(centres, levels, axis=0)
+    if not np.linalg.norm(centres[-1] - centres[0]) > 1e-6 * np.ptp(points, axis=0).max():
+        raise ImportRefused(
+            f"found a mesh of {len(points)} nodes, too few to tell sections between root and tip; mesh the blade finer"
+        )
     # a coarse mesh has the same nodes in neighbouring sections
     height[np.linalg.norm(height, axis=1) < 0.2 * np.linalg.norm(centres[-1] - centres[0])] = centres[-1] - centres[0]
     height /= np.linalg.norm(height, axis=1)[:, None]

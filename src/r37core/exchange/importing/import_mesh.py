@@ -7,17 +7,19 @@ from pathlib import Path
 
 import numpy as np
 
-from r37core.exchange.refusal import ImportRefused, blamed
-from r37core.fem.surface import nodes_of, outer_faces
+from r37core.exchange.refusal import ImportRefused, Refusals, blamed
+from r37core.fem.surface import outer_faces
 from r37core.mesh.blade_mesh import NODE_SETS, BladeMesh
 
 from .abaqus_reader import read_abaqus
+from .ends import Caught, caught_root, caught_tip, check_end, check_root, find_end
+from .fitting_entry import fitting_entry
 from .frame import blade_parameters
 from .mesh_checks import checked, without_free_nodes
 from .meshio_reader import read_ansys, read_nastran, read_with_meshio
 from .raw_mesh import RawMesh
-from .source import MeshSource, mesh_files
-from .tip import check_revolution, check_sense, find_tip_lines
+from .source import MeshSource, kind_of, mesh_files
+from .tip import TipLines, check_revolution, check_sense, find_tip_lines
 
 _READERS: dict[str, Callable[[Path], RawMesh]] = {
     ".inp": read_abaqus,
@@ -39,21 +41,15 @@ def import_mesh(source: MeshSource, folder: Path | str = ".") -> tuple[BladeMesh
         raw = _read(source.file, Path(folder))
     with blamed("mesh", source.file):
         raw, quality = checked(without_free_nodes(raw) if source.drop_free_nodes else raw, source.minimum_scaled_jacobian)
-    with blamed("rotor_axis", source.file):
-        raw = source.orientation.to_blade(raw)
-    surface = outer_faces(raw.blocks)
-    with blamed("root", source.file):
-        root = nodes_of(source.root.faces("root", raw, surface))
-    with blamed("tip", source.file):
-        tip_faces = source.tip.faces("tip", raw, surface)
-        tip = nodes_of(tip_faces)
-        if np.intersect1d(root, tip).size:
-            raise ImportRefused(f"root ({source.root.describe()}) and tip ({source.tip.describe()}) share nodes")
-        check_revolution(raw.points[tip], source.revolution_tolerance)
-        lines = find_tip_lines(raw.points, tip_faces, source.pressure_side_forward)
-        if source.sense_check:
-            check_sense(raw.points, lines, source.pressure_side_forward)
-    parameters, normals = blade_parameters(raw.points, root, tip, source.pressure_side_forward)
+    try:
+        with blamed("rotor_axis", source.file):
+            placed = source.orientation.to_blade(raw)
+        root, tip, lines = _ends(source, placed)
+    except ImportRefused as error:
+        raise ImportRefused(error.reason, error.key, fitting_entry(source, raw)) from None
+    raw = placed
+    with blamed("mesh", source.file):
+        parameters, normals = blade_parameters(raw.points, root, tip, source.pressure_side_forward)
     sets = dict.fromkeys(NODE_SETS, np.empty(0, dtype=np.int64)) | {"root": root, "tip": tip}
     # the edges come last: nodes that they share with the camber line count by their place on the edge
     for name, (nodes, fractions) in reversed(lines.lines.items()):
@@ -64,11 +60,52 @@ def import_mesh(source: MeshSource, folder: Path | str = ".") -> tuple[BladeMesh
     return BladeMesh(raw.points, raw.blocks, parameters, normals, sets), quality
 
 
+def _ends(source: MeshSource, raw: RawMesh) -> tuple[np.ndarray, np.ndarray, TipLines]:
+    """The clamped nodes, those of the tip and lines along it, of a mesh in the blade's frame.
+
+    Raises ImportRefused for ends that cannot be meant: one message with all that is wrong, so that one change mends it.
+    """
+    surface = outer_faces(raw.blocks)
+    hub, casing = (find_end(what, raw.points, surface) for what in ("root", "tip"))
+    refusals = Refusals(source.file)
+    root = tip = None
+    with refusals.of("root"):
+        root = caught_root(source.root, raw, surface)
+    with refusals.of("tip"):
+        tip = caught_tip(source.tip, raw, surface)
+    if root is not None and tip is not None:
+        with blamed("root", source.file):
+            check_root(raw.points, root.nodes, tip.nodes)
+    if source.end_check:
+        for what, where, found, end in (("root", source.root, root, hub), ("tip", source.tip, tip, casing)):
+            if found is not None:
+                with refusals.of(what):
+                    check_end(what, where, found, end)
+        # where the rule for the tip is refused, the sense is still told of the faces that it should have caught
+        tip = casing if casing is not None and casing.straight else tip
+    lines = None
+    if tip is not None:
+        with refusals.of("tip"):
+            lines = _tip_lines(source, raw.points, tip)
+    refusals.tell()
+    assert root is not None and tip is not None and lines is not None
+    return root.nodes, tip.nodes, lines
+
+
+def _tip_lines(source: MeshSource, points: np.ndarray, tip: Caught) -> TipLines:
+    """Lines along the faces of the tip; ImportRefused where contact or rotation make no sense there."""
+    check_revolution(points[tip.nodes], source.revolution_tolerance)
+    lines = find_tip_lines(points, tip.faces, source.pressure_side_forward)
+    if source.sense_check:
+        check_sense(points, lines, source.pressure_side_forward)
+    return lines
+
+
 def _read(name: str, root: Path) -> RawMesh:
     """The mesh of the file `name` in the folder `root`; ImportRefused for a file that is missing, unknown or unsuitable."""
     file = mesh_files(name, root)[0]
     try:
-        return _READERS[file.suffix.lower()](file)
+        return _READERS[kind_of(file)](file)
     except ImportRefused as error:
         raise ImportRefused(f"{name}: {error}") from None
     except Exception as error:

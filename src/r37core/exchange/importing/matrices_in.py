@@ -14,7 +14,6 @@ from pathlib import Path
 
 import numpy as np
 import pandas as pd
-import scipy.io
 import scipy.linalg as la
 import scipy.sparse as sp
 
@@ -26,13 +25,13 @@ from r37core.rom.reduce import projected
 from r37core.rom.reduced_model import RecoveryNodes, ReducedModel
 from r37core.rom.reduction_choice import ReductionChoice
 
+from .matrix_file import read_matrix
 from .source import MASS_UNITS, STIFFNESS_UNITS, MatricesSource, matrix_files
 from .tip import arc_length, check_order, check_sense_of_nodes
 
 COLUMNS = ("x", "y", "z", "dof_x", "dof_y", "dof_z")
 _REDUCED_UP_TO = 500  # coordinates beside those of the contact nodes: matrices that small are taken as they are
 _FEWEST = 20  # rows: the Campbell diagram follows some more modes than it shows
-_SYMMETRIC = 1e-8
 _RIGID = 1e-15
 _LINEAR = 1e-6
 _FASTEST = 1e6  # rad/s, as in the configuration
@@ -102,6 +101,7 @@ def _reduced(given: _Given, choice: ReductionChoice) -> ReducedModel:
         tip_lines={choice.boundary.tip_line: line},
         stress_submesh=RecoveryNodes(np.empty(0, dtype=int), np.empty((0, 3)), np.empty((0, 3, size)), np.empty((0, 3, 0))),
         stress_elements={},
+        stress_region="none",
         whole_blade=None,
         shape_names=tuple(shapes),
         shape_products=np.array([shape @ (given.mass @ vectors) for shape in shapes.values()]),
@@ -141,7 +141,7 @@ def _read(files: Mapping[str, Path], source: MatricesSource, fastest: float) -> 
             check_sense_of_nodes(points)
     speeds = sorted((_speed(name, file), name) for name, file in files.items() if name.startswith("K_"))
     _check_speeds([speed for speed, _ in speeds], fastest)
-    mass, *stiffness = (_matrix(files[name]) for name in ("M", *(name for _, name in speeds)))
+    mass, *stiffness = (read_matrix(files[name]) for name in ("M", *(name for _, name in speeds)))
     size = mass.shape[0]
     if any(matrix.shape != (size, size) for matrix in stiffness):
         raise ImportRefused(f"the matrices differ in size: {', '.join(str(m.shape[0]) for m in (mass, *stiffness))}")
@@ -188,8 +188,10 @@ def _boundary(file: Path) -> tuple[np.ndarray, np.ndarray]:
         table = pd.read_csv(file, skipinitialspace=True)
     except Exception as error:
         raise ImportRefused(f"{file.name}: cannot be read as a table ({error})") from None
-    if tuple(table.columns) != COLUMNS or table.empty:
+    if tuple(table.columns) != COLUMNS:
         raise ImportRefused(f"{file.name}: found columns {', '.join(map(str, table.columns))}; allowed: {', '.join(COLUMNS)}")
+    if table.empty:
+        raise ImportRefused(f"{file.name}: found no contact nodes; allowed: one or more rows below the names of the columns")
     numbers = table.apply(pd.to_numeric, errors="coerce").to_numpy(dtype=float)
     wrong = ~np.isfinite(numbers).all(axis=1) | (numbers[:, 3:] % 1.0 != 0.0).any(axis=1)
     if wrong.any():
@@ -197,27 +199,6 @@ def _boundary(file: Path) -> tuple[np.ndarray, np.ndarray]:
     if len(np.unique(numbers[:, :3], axis=0)) < len(numbers):
         raise ImportRefused(f"{file.name}: two contact nodes lie at the same place")
     return numbers[:, :3], numbers[:, 3:].astype(np.int64).ravel()
-
-
-def _matrix(file: Path) -> sp.csr_array:
-    try:
-        if file.suffix == ".mtx":
-            matrix = sp.csr_array(scipy.io.mmread(file))
-        else:
-            with np.load(file) as stored:
-                arrays = dict(stored)
-            matrix = sp.csr_array(sp.load_npz(file) if "indptr" in arrays else next(iter(arrays.values())))
-    except Exception as error:
-        raise ImportRefused(f"{file.name}: cannot be read as a matrix ({type(error).__name__}: {error})") from None
-    largest = abs(matrix).max() if matrix.nnz else 0.0
-    if not 0.0 < largest < np.inf:
-        raise ImportRefused(f"{file.name}: found a matrix of which all entries are 0, or some are no numbers; write it again")
-    off = abs(matrix - matrix.T).max() if matrix.shape[0] == matrix.shape[1] else np.inf
-    if not off <= _SYMMETRIC * largest:
-        raise ImportRefused(
-            f"{file.name}: found a matrix that is not symmetric; allowed: clamped, symmetric mass and stiffness"
-        )
-    return 0.5 * (matrix + matrix.T)
 
 
 def _fitted(speeds: np.ndarray, stiffness: list[sp.csr_array]) -> tuple[sp.csr_array, sp.csr_array, float]:

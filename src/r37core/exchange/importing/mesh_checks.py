@@ -40,6 +40,7 @@ def checked(mesh: RawMesh, minimum_scaled_jacobian: float) -> tuple[RawMesh, np.
         blocks[name], of_block = _right_way_out(mesh, name, nodes)
         _check_shape(mesh, name, of_block, minimum_scaled_jacobian)
         quality.append(of_block)
+    _check_one_order(mesh)
     linear = [name for name in blocks if not ELEMENTS[name].quadratic]
     if linear:
         warnings.warn(
@@ -93,6 +94,27 @@ def _check_once(mesh: RawMesh, name: str, nodes: np.ndarray) -> None:
             f"{len(again)} of {len(nodes)} elements of type {name} are given twice, with the same corners (numbers {pairs} of "
             f"their type, near {_place(mesh.points[nodes[again[0]]].mean(axis=0))}); their mass and stiffness would count "
             "twice: delete the second ones"
+        )
+
+
+def _check_one_order(mesh: RawMesh) -> None:
+    """Refuse edges of first-order elements that have a mid-node in the second-order element beside them."""
+    edges: dict[bool, list[np.ndarray]] = {True: [], False: []}
+    for name, nodes in mesh.blocks.items():
+        element = ELEMENTS[name]
+        of_second_order = next(other for other in ELEMENTS.values() if other.quadratic and other.corners == element.corners)
+        corners = [nodes[:, list(edge)] for edge in of_second_order.edges]
+        edges[element.quadratic].append(np.sort(np.concatenate(corners), axis=1))
+    if not (edges[True] and edges[False]):
+        return
+    first, second = (np.unique(np.concatenate(edges[order]), axis=0) for order in (False, True))
+    shared, times = np.unique(np.concatenate([first, second]), axis=0, return_counts=True)
+    hanging = shared[times == 2]
+    if len(hanging):
+        raise ImportRefused(
+            f"found elements of first beside some of second order; the mid-nodes of {len(hanging)} edges, for example between "
+            f"the nodes {_some(mesh.labels[hanging[0]])}, belong to one side alone and would come apart from the other: write "
+            "all elements in second order"
         )
 
 

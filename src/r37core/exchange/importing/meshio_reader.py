@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import io
+import re
 import tempfile
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -27,8 +28,15 @@ def read_with_meshio(file: Path) -> RawMesh:
 
 
 def read_nastran(file: Path) -> RawMesh:
-    """The mesh of a bulk data file, which may lack the line BEGIN BULK (gmsh writes none)."""
+    """The mesh of a bulk data file, which may lack the line BEGIN BULK (gmsh writes none).
+
+    Raises ImportRefused for a file without nodes or without its end.
+    """
     text = file.read_text(encoding="utf-8", errors="replace")
+    # meshio waits for ever for the first card of a file without one
+    for card in ("GRID", "ENDDATA"):
+        if not re.search(rf"^{card}", text, re.MULTILINE | re.IGNORECASE):
+            raise ImportRefused(f"found no {card}; the file is empty, cut short, or no bulk data of Nastran: write it again")
     if "BEGIN BULK" in text.upper():
         return read_with_meshio(file)
     with tempfile.TemporaryDirectory() as folder:
@@ -56,7 +64,7 @@ def quietly(read: Callable[[Path], Any], file: Path) -> Any:
             return read(file)
     except (Exception, SystemExit) as error:
         lacking = f"something names {error}, which the file lacks; are there elements without their mid-nodes?"
-        found = lacking if isinstance(error, KeyError) else f"{type(error).__name__}: {error}"
+        found = lacking if isinstance(error, KeyError) else f"{type(error).__name__}: {str(error) or 'the file is damaged'}"
         reason = " ".join(said.getvalue().split()) or found
         raise ImportRefused(f"the reader gave up: {reason}") from None
 

@@ -3,19 +3,21 @@
 from __future__ import annotations
 
 import hashlib
+import os
 from collections.abc import Iterable
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
-
-import numpy as np
 
 from r37core.exchange.orientation import Orientation
 from r37core.exchange.refusal import ImportRefused
-from r37core.fem.surface import Faces, faces_within
 
-from .raw_mesh import RawMesh
+from .deck_text import included_files, is_deck
+from .where import Where
 
-SUFFIXES = (".inp", ".msh", ".vtu", ".med", ".bdf", ".nas", ".cdb")
+DECK = ".inp"
+"""Ending of a deck of Abaqus or CalculiX; the text tells it too."""
+
+SUFFIXES = (DECK, ".msh", ".vtu", ".med", ".bdf", ".nas", ".cdb")
 """Of mesh files that can be read."""
 
 
@@ -27,73 +29,14 @@ STIFFNESS_UNITS = {"N/m": 1.0, "N/mm": 1e3}
 
 
 @dataclass(frozen=True)
-class Where:
-    """A part of the surface: all faces whose nodes are in the set `set_name` or keep all the limits given.
-
-    `limits`: (coordinate, bound, value in m) with coordinate r, x or z of the blade's frame and bound `at_least` or
-    `at_most`; `cone_zr`: two points (z, r) in m of a straight meridian that the faces lie on; `tolerance` (m): of limits and
-    cone.
-    """
-
-    set_name: str | None = None
-    limits: tuple[tuple[str, str, float], ...] = ()
-    cone_zr: tuple[tuple[float, float], tuple[float, float]] | None = None
-    tolerance: float = field(kw_only=True)
-
-    def faces(self, what: str, mesh: RawMesh, surface: list[Faces]) -> list[Faces]:
-        """Faces of `surface`, the outer faces of `mesh`; ImportRefused, naming `what` is looked for, where there are none."""
-        members = self._members(what, mesh)
-        found = faces_within(surface, members)
-        if not found:
-            inside = "" if self.set_name is None else f" of set '{self.set_name}', which has {members.sum()} nodes,"
-            raise ImportRefused(
-                f"{what}: no outer face has all its nodes within {self.describe()}{inside and ';'}{inside} give another set "
-                "or rule, or a wider tolerance_m"
-            )
-        return found
-
-    def describe(self) -> str:
-        """The rule in words."""
-        if self.set_name is not None:
-            return f"the set '{self.set_name}'"
-        parts = [f"{name} {bound.replace('_', ' ')} {value:g} m" for name, bound, value in self.limits]
-        if self.cone_zr is not None:
-            parts.append("the cone through (z, r) = ({:g}, {:g}) and ({:g}, {:g}) m".format(*self.cone_zr[0], *self.cone_zr[1]))
-        return f"{' and '.join(parts)}, to {self.tolerance:g} m"
-
-    def _members(self, what: str, mesh: RawMesh) -> np.ndarray:
-        """Mask over the nodes."""
-        if self.set_name is not None:
-            names = {name.upper(): name for name in mesh.sets}
-            if self.set_name.upper() not in names:
-                known = ", ".join(sorted(mesh.sets)) or "none"
-                raise ImportRefused(f"{what}: found no set '{self.set_name}'; the file has: {known}")
-            members = np.zeros(len(mesh.points), dtype=bool)
-            members[mesh.sets[names[self.set_name.upper()]]] = True
-            return members
-        x, y, z = mesh.points.T
-        coordinates = {"r": np.hypot(x, y), "x": x, "z": z}
-        members = np.ones(len(mesh.points), dtype=bool)
-        for name, bound, value in self.limits:
-            sign = 1.0 if bound == "at_least" else -1.0
-            members &= sign * (coordinates[name] - value) >= -self.tolerance
-        if self.cone_zr is not None:
-            (z0, r0), (z1, r1) = self.cone_zr
-            length = np.hypot(z1 - z0, r1 - r0)
-            off = ((coordinates["r"] - r0) * (z1 - z0) - (z - z0) * (r1 - r0)) / length
-            members &= np.abs(off) <= self.tolerance
-        return members
-
-
-@dataclass(frozen=True)
 class MeshSource:
     """Where a blade's mesh is and how to read it.
 
     `file`; its `orientation`; where `root` and `tip` are; `pressure_side_forward`: whether the pressure side looks towards
     the rotation, as in a compressor; `revolution_tolerance` (m): how far the tip may be from a surface of revolution;
     `drop_free_nodes`: whether nodes of no solid element are left out instead of refused; `minimum_scaled_jacobian`: elements
-    below are refused; `sense_check`: whether a tip that contradicts rotation or pressure side is refused; `digest`: hash of
-    the files.
+    below are refused; `end_check`: whether a root or tip is refused that has side faces, or not all of the blade's end;
+    `sense_check`: whether a tip that contradicts rotation or pressure side is refused; `digest`: hash of the files.
     """
 
     file: str
@@ -104,6 +47,7 @@ class MeshSource:
     revolution_tolerance: float
     drop_free_nodes: bool
     minimum_scaled_jacobian: float
+    end_check: bool
     sense_check: bool
     digest: str = ""
 
@@ -126,26 +70,36 @@ class MatricesSource:
 def mesh_files(name: str, root: Path) -> list[Path]:
     """The mesh file `name` in the folder `root` and those that it includes (*INCLUDE of an Abaqus deck).
 
-    Raises ImportRefused for a file of an unknown kind and for one that is not there.
+    Raises ImportRefused for a file of an unknown kind, for one that is not there, and for one that includes itself.
     """
     file = root / name
-    if file.suffix.lower() not in SUFFIXES:
-        raise ImportRefused(f"found a file of kind '{file.suffix}'; allowed: {', '.join(SUFFIXES)}", "mesh")
-    found: list[Path] = []
-    waiting = [(name, file)]
-    while waiting:
-        called, one = waiting.pop(0)
-        if not one.is_file():
-            raise ImportRefused(f"there is no file {called}", "mesh")
-        if one not in found:
-            found.append(one)
-            waiting += [(part, one.parent / part) for part in _included(one)] if one.suffix.lower() == ".inp" else []
-    return found
+    if not os.path.isfile(file):
+        raise ImportRefused(f"there is no file {name}", "mesh")
+    return [file, *(included_files(file) if kind_of(file) == DECK else [])]
+
+
+def kind_of(file: Path) -> str:
+    """The ending, one of SUFFIXES, that says how a mesh file is read: DECK where its text is Abaqus's.
+
+    Raises ImportRefused for a file of an unknown kind.
+    """
+    if is_deck(file):
+        return DECK
+    suffix = file.suffix.lower()
+    if suffix not in SUFFIXES:
+        raise ImportRefused(
+            f"found a file of kind '{suffix}' whose text does not begin with a keyword of Abaqus, such as *NODE; allowed: "
+            f"{', '.join(SUFFIXES)}, and Abaqus text with any ending",
+            "mesh",
+        )
+    return suffix
 
 
 def matrix_files(name: str, root: Path) -> dict[str, Path]:
     """`M`, `K_<speed>` and `boundary` -> file, in the folder `name` of `root`; ImportRefused where one is missing."""
     folder = root / name
+    if not os.path.isdir(folder):
+        raise ImportRefused(f"there is no folder {name}", "matrices")
     files = [file for file in sorted(folder.glob("*")) if file.suffix in (".mtx", ".npz") or file.name == "boundary.csv"]
     found = {file.stem: file for file in files}
     speeds = [stem for stem in found if stem.startswith("K_")]
@@ -166,13 +120,3 @@ def digest_of(files: Iterable[Path]) -> str:
         with open(file, "rb") as stream:
             digest.update(hashlib.file_digest(stream, "sha256").digest())
     return digest.hexdigest()[:16]
-
-
-def _included(deck: Path) -> list[str]:
-    """Names of the files that a deck includes."""
-    names = []
-    with open(deck, encoding="utf-8", errors="replace") as lines:
-        for line in lines:
-            if line[:8].upper() == "*INCLUDE":
-                names += [word.partition("=")[2].strip() for word in line.split(",")[1:] if "=" in word]
-    return names

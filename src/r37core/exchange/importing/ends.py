@@ -1,0 +1,149 @@
+"""The ends of an imported blade, towards hub and casing: what its shape tells of them, and whether a rule catches them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from r37core.exchange.refusal import ImportRefused
+from r37core.fem.surface import Faces, area_vectors, chosen, mask_within, nodes_of, smooth_patches
+
+from .raw_mesh import RawMesh
+from .where import Where
+
+_CREASE = np.radians(40.0)
+_RADIAL = 0.5  # of a unit normal: faces that look along the radius, out or in
+_STRAIGHT = 2e-3  # of the blade's height: how far the nodes of an end may be from a cone
+_LARGE = 0.1  # of the largest patch's area: smaller ones are no end
+_ROUNDED = 7  # decimals of the rule's numbers (m)
+_TOLERANCES = (1e-5, 2e-5, 5e-5, 1e-4, 2e-4, 5e-4, 1e-3, 2e-3, 5e-3, np.inf)  # m
+_LOOKS = {"root": "towards the axis", "tip": "towards the casing"}
+
+
+@dataclass(frozen=True)
+class Caught:
+    """A part of the blade's surface: its `nodes`, its `faces` and a `mask` over all outer faces.
+
+    A set as the root may have more nodes than its faces.
+    """
+
+    nodes: np.ndarray
+    faces: list[Faces]
+    mask: np.ndarray
+
+
+@dataclass(frozen=True)
+class End(Caught):
+    """An end of the blade, the `rule` of a cone that catches it, and whether it lies on that cone, `straight`.
+
+    One that does not may be curved, flat as the bottom of a foot, or run into a fillet.
+    """
+
+    rule: Where
+    straight: bool
+
+
+def find_end(what: str, points: np.ndarray, surface: list[Faces]) -> End | None:
+    """The end `what` (root or tip) of a mesh with nodes at `points` (m), shape (nodes, 3), and these outer faces.
+
+    It is the smooth patch of faces that look along the radius, the outermost or innermost large one. None where no cone
+    catches all of it and nothing else.
+    """
+    vectors = area_vectors(surface, points)
+    sizes = np.linalg.norm(vectors, axis=1)
+    centres = np.concatenate([points[part.nodes[:, : part.corners]].mean(axis=1) for part in surface])
+    radius = np.hypot(centres[:, 0], centres[:, 1])
+    outward = np.sum(vectors[:, :2] * centres[:, :2], axis=1) / np.maximum(radius * sizes, 1e-300)
+    sign = 1.0 if what == "tip" else -1.0
+    patch = smooth_patches(surface, vectors, _CREASE)
+    # a fillet is smooth all the way to the blade's sides
+    patch = np.where(sign * outward >= _RADIAL, patch, -1)
+    numbers = np.unique(patch[patch >= 0])
+    if not len(numbers):
+        return None
+    areas = np.array([sizes[patch == number].sum() for number in numbers])
+    heights = np.array([np.average(radius[patch == number], weights=sizes[patch == number]) for number in numbers])
+    large = areas >= _LARGE * areas.max()
+    mask = patch == numbers[large][np.argmax(sign * heights[large])]
+    faces = chosen(surface, mask)
+    nodes = nodes_of(faces)
+    rule = _cone(points[nodes])
+    straight = rule.tolerance <= max(_STRAIGHT * np.ptp(radius), _TOLERANCES[0])
+    told = np.array_equal(mask_within(surface, rule.within(points)), mask)
+    return End(nodes, faces, mask, rule, straight) if told else None
+
+
+def caught_root(where: Where, mesh: RawMesh, surface: list[Faces]) -> Caught:
+    """What is clamped: all nodes of a set, or those of the outer faces that a rule catches.
+
+    Raises ImportRefused where there are none.
+    """
+    members = where.nodes("root", mesh)
+    if where.set_name is not None and members.any():
+        mask = mask_within(surface, members)
+        return Caught(np.flatnonzero(members), chosen(surface, mask), mask)
+    return _faces("root", where, members, surface)
+
+
+def caught_tip(where: Where, mesh: RawMesh, surface: list[Faces]) -> Caught:
+    """The outer faces whose nodes are all in a set, or keep a rule. Raises ImportRefused where there are none."""
+    return _faces("tip", where, where.nodes("tip", mesh), surface)
+
+
+def check_end(what: str, where: Where, caught: Caught, end: End | None) -> None:
+    """Refuse faces, `caught` by `where`, that are not all of the `end` and nothing else.
+
+    Without an end that the shape tells for certain there is nothing to compare with. A set as the root says what it means:
+    any nodes may be clamped.
+    """
+    any_nodes = what == "root" and where.set_name is not None
+    if end is None or not end.straight or any_nodes or np.array_equal(caught.mask, end.mask):
+        return
+    whole, within, beside = end.mask.sum(), (caught.mask & end.mask).sum(), (caught.mask & ~end.mask).sum()
+    also = f"; it also caught {beside} side faces: narrow it" if beside else ": widen it"
+    raise ImportRefused(
+        f"{what}: {where.describe()} caught {within} of the {whole} faces that look {_LOOKS[what]}{also}, or take what "
+        "was caught with end_check: false"
+    )
+
+
+def check_root(points: np.ndarray, root: np.ndarray, tip: np.ndarray) -> None:
+    """Refuse clamped nodes `root` that do not hold the blade, are the tip's or lie farther out than the nodes of the `tip`."""
+    place = points[root] - points[root].mean(axis=0)
+    if np.linalg.matrix_rank(place, tol=1e-6 * np.ptp(points, axis=0).max()) < 2:
+        raise ImportRefused(f"root: found {len(root)} nodes on one line, which do not hold the blade; give the nodes of a face")
+    inner, outer = (np.hypot(*points[nodes, :2].T).mean() for nodes in (root, tip))
+    if inner >= outer:
+        raise ImportRefused(
+            f"root: found clamped nodes at a radius of {inner:.4g} m and a tip at {outer:.4g} m; allowed: a root nearer to the "
+            "rotor axis; exchange root and tip, or check rotor_axis and axis_point"
+        )
+    if both := len(np.intersect1d(root, tip)):
+        raise ImportRefused(f"root: {both} of its {len(root)} nodes are the tip's too; allowed: root and tip apart")
+
+
+def _faces(what: str, where: Where, members: np.ndarray, surface: list[Faces]) -> Caught:
+    """The outer faces that have no other nodes than `members`, a mask over the mesh's nodes."""
+    mask = mask_within(surface, members)
+    if not mask.any():
+        of_set = "" if where.set_name is None else f", which has {members.sum()} nodes"
+        raise ImportRefused(
+            f"{what}: no outer face has all its nodes within {where.describe()}{of_set}; give another set or rule, or a wider "
+            f"tolerance_m"
+        )
+    faces = chosen(surface, mask)
+    return Caught(nodes_of(faces), faces, mask)
+
+
+def _cone(points: np.ndarray) -> Where:
+    """The rule of the cone about z through nodes at `points`, shape (n, 3): radius as a straight line of z, least squares."""
+    radius, z = np.hypot(points[:, 0], points[:, 1]), points[:, 2]
+    flat = np.ptp(z) < 1e-6 * np.ptp(points, axis=0).max()
+    line = np.polynomial.Polynomial.fit(z, radius, 0 if flat else 1)
+    first, last = z.min(), z.max() if not flat else z.min() + 1.0
+    start, end = ((round(float(at), _ROUNDED), round(float(line(at)), _ROUNDED)) for at in (first, last))
+    off = np.abs(Where(cone_zr=(start, end), tolerance=0.0).off_cone(points)).max()
+    # twice what is needed, and a round number
+    tolerance = next(step for step in _TOLERANCES if step >= 2.0 * off)
+    return Where(cone_zr=(start, end), tolerance=tolerance)

@@ -1,0 +1,84 @@
+"""What the shape of a refused mesh suggests for its entry in blades.yaml: axes, and rules for root and tip."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from r37core.exchange.orientation import Orientation, fitting_units
+from r37core.exchange.refusal import ImportRefused
+from r37core.fem.surface import Faces, outer_faces
+
+from .axes import find_axes
+from .ends import End, caught_root, caught_tip, check_end, find_end
+from .raw_mesh import RawMesh
+from .source import MeshSource
+
+_SAME_AXES = 0.2  # difference of unit vectors: radial may point anywhere within the blade
+
+
+def fitting_entry(source: MeshSource, raw: RawMesh) -> dict[str, str]:
+    """Keys of an entry and their values as YAML that differ from those of `source` and fit the shape of its mesh.
+
+    `raw`: the mesh in the file's unit and axes. Empty where the shape tells nothing.
+    """
+    given = source.orientation
+    entry: dict[str, str] = {}
+    # of a turbine both the side and the axes may be meant otherwise
+    found = find_axes(raw, given) if source.sense_check and source.pressure_side_forward else None
+    if found is not None and not _alike(found, given):
+        entry = {
+            "rotor_axis": _direction(found.rotor_axis),
+            "radial": _direction(found.radial),
+            "rotation": found.rotation,
+        }
+        given = found
+    unit = _fitting_unit(given, raw)
+    if unit is None:
+        return entry
+    if unit != given.length_unit:
+        entry["length_unit"] = str(unit)
+    try:
+        mesh = replace(given, length_unit=unit).to_blade(raw)
+    except ImportRefused:
+        return entry
+    surface = outer_faces(mesh.blocks)
+    for what in ("root", "tip"):
+        end = find_end(what, mesh.points, surface)
+        if end is not None and not _catches(what, source, mesh, surface, end):
+            entry[what] = end.rule.as_yaml()
+    return entry
+
+
+def _fitting_unit(given: Orientation, raw: RawMesh) -> str | float | None:
+    """The unit that is given where the blade has a plausible size with it, else the likeliest one; None without any."""
+    try:
+        given.to_blade(raw)
+    except ImportRefused as error:
+        if error.key == "length_unit":
+            points = given.points_to_blade(raw.points) / given.metres_per_unit
+            return next(iter(fitting_units(np.ptp(np.hypot(points[:, 0], points[:, 1])))), None)
+    return given.length_unit
+
+
+def _alike(one: Orientation, other: Orientation) -> bool:
+    try:
+        return np.allclose(one.rows, other.rows, atol=_SAME_AXES)
+    except ImportRefused:
+        return False
+
+
+def _direction(vector: tuple[float, float, float]) -> str:
+    return f"[{', '.join(f'{x:g}' for x in vector)}]"
+
+
+def _catches(what: str, source: MeshSource, mesh: RawMesh, surface: list[Faces], end: End) -> bool:
+    """Whether the set or rule of the entry catches this end, or may well be meant otherwise."""
+    try:
+        if what == "root":
+            check_end(what, source.root, caught_root(source.root, mesh, surface), end)
+            return True
+        return np.array_equal(caught_tip(source.tip, mesh, surface).mask, end.mask)
+    except ImportRefused:
+        return False

@@ -1,0 +1,76 @@
+"""One matrix of another program: a file of Matrix Market, or .npz of SciPy or with one array; what cannot be one is refused."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import scipy.io
+import scipy.sparse as sp
+
+from r37core.exchange.refusal import ImportRefused
+
+_SYMMETRIC = 1e-8
+_SHORTEST = {"coordinate": 6, "array": 2}
+"""Bytes that an entry of a Matrix Market file has at least: `1 1 1` and a line's end, `1` and one."""
+
+
+def read_matrix(file: Path) -> sp.csr_array:
+    """The matrix of a .mtx or .npz file, symmetric to the last bit.
+
+    Raises ImportRefused for a file that is damaged, and for a matrix that is not real, square, finite and symmetric.
+    """
+    try:
+        matrix = _market(file) if file.suffix == ".mtx" else _archive(file)
+    except ImportRefused as error:
+        raise ImportRefused(f"{file.name}: {error}") from None
+    except Exception as error:
+        raise ImportRefused(f"{file.name}: cannot be read as a matrix ({type(error).__name__}: {error})") from None
+    largest = abs(matrix).max() if matrix.nnz else 0.0
+    if not 0.0 < largest < np.inf:
+        raise ImportRefused(f"{file.name}: found a matrix of which all entries are 0, or some are no numbers; write it again")
+    if not abs(matrix - matrix.T).max() <= _SYMMETRIC * largest:
+        raise ImportRefused(
+            f"{file.name}: found a matrix that is not symmetric; allowed: clamped, symmetric mass and stiffness"
+        )
+    return 0.5 * (matrix + matrix.T)
+
+
+def _market(file: Path) -> sp.csr_array:
+    rows, columns, entries, layout, field, symmetry = scipy.io.mminfo(file)
+    _check_shape((rows, columns), entries, field)
+    stored = entries if layout == "coordinate" or symmetry == "general" else rows * (rows + 1) // 2
+    # the reader takes the header's word for the memory it needs
+    if _SHORTEST[layout] * stored > file.stat().st_size:
+        raise ImportRefused(f"its header says {stored} entries, for which the file is too short; write it again")
+    return sp.csr_array(scipy.io.mmread(file))
+
+
+def _archive(file: Path) -> sp.csr_array:
+    with np.load(file) as stored:
+        arrays = dict(stored)
+    if "format" in arrays:
+        matrix = sp.load_npz(file)
+        _check_shape(matrix.shape, matrix.nnz, matrix.dtype.name)
+        if hasattr(matrix, "check_format"):
+            # indices out of range would end the process, not the call
+            matrix.check_format(full_check=True)
+        return sp.csr_array(matrix)
+    if len(arrays) != 1:
+        raise ImportRefused(f"found {len(arrays)} arrays ({', '.join(arrays)}); allowed: one, or a sparse matrix of SciPy")
+    (array,) = arrays.values()
+    _check_shape(array.shape, array.size, array.dtype.name)
+    return sp.csr_array(array)
+
+
+def _check_shape(shape: tuple[int, ...], entries: int, numbers: str) -> None:
+    """Refuse what cannot be a mass or stiffness, before anything of its size is made.
+
+    `numbers`: of SciPy or NumPy, what kind the entries are.
+    """
+    if len(shape) != 2 or shape[0] != shape[1]:
+        raise ImportRefused(f"found an array of shape {shape}; allowed: a square matrix")
+    if not numbers.startswith(("real", "integer", "unsigned-integer", "float", "int", "uint")):
+        raise ImportRefused(f"found entries of kind {numbers}; allowed: real numbers")
+    if entries < shape[0]:
+        raise ImportRefused(f"found {shape[0]} rows and only {entries} entries; allowed: no empty rows")

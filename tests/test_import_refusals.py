@@ -1,0 +1,318 @@
+"""What a new user meets with a mesh of another program: the refusal of the first attempt says what the second must have."""
+
+import re
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import yaml
+from box_mesh import plate
+from defaults import MeshSource, Orientation, Where
+
+from r37core.config.imported_entry import MeshEntry
+from r37core.exchange.exporting.write_mesh import write_mesh
+from r37core.exchange.importing.abaqus_reader import read_abaqus
+from r37core.exchange.importing.import_mesh import import_mesh
+from r37core.exchange.importing.source import mesh_files
+from r37core.exchange.orientation import OURS
+from r37core.exchange.refusal import ImportRefused, MeshWarning
+from r37core.fem.abaqus_deck import write_abaqus
+from r37core.fem.elements import ELEMENTS
+from r37core.fem.material import Material
+from r37core.mesh.generate import generate_mesh
+
+TITANIUM = Material(115e9, 4400.0, 0.32, 9e8)
+THEIRS = Orientation("mm", (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), "negative")
+"""x along the rotor's axis, y through the blade."""
+
+
+@pytest.fixture(scope="module")
+def theirs(settings, tmp_path_factory):
+    """A folder with CS50 as another group has it, `cs50.dat`: Abaqus text in mm and its own axes, no sets, *BOUNDARY."""
+    folder = tmp_path_factory.mktemp("theirs")
+    ours = generate_mesh(settings.blades["CS50"].definition.build(round_edges=True), 600, 1, 8, folder / "ours.msh")
+    mesh = THEIRS.mesh_to_file(ours)
+    lines = ["** another group's", "*NODE, NSET=NALL"]
+    lines += [f"{i}, {x:.7f}, {y:.7f}, {z:.7f}" for i, (x, y, z) in enumerate(mesh.points, start=1)]
+    for name, elements in mesh.blocks.items():
+        lines.append(f"*ELEMENT, TYPE={ELEMENTS[name].abaqus}, ELSET=EALL")
+        lines += [", ".join(map(str, [i, *(nodes + 1)])) for i, nodes in enumerate(elements, start=1)]
+    lines += ["*BOUNDARY", *(f"{node + 1}, 1, 3" for node in mesh.node_set("root"))]
+    (folder / "cs50.dat").write_text("\n".join(lines) + "\n")
+    return ours, folder
+
+
+ENTRY = {
+    "mesh": "cs50.dat",
+    "material": {},
+    "length_unit": "mm",
+    "rotor_axis": [1.0, 0.0, 0.0],
+    "radial": [0.0, 1.0, 0.0],
+    "rotation": "negative",
+    "root": "BOUNDARY",
+    "tip": {"r_at_least_m": 0.2435},
+}
+
+
+TIP = [[0.001368, 0.25233], [0.0282954, 0.244993]]
+"""The tip's meridian, (z, r) in m."""
+
+
+def attempt(folder, entry):
+    return import_mesh(MeshEntry.model_validate(entry).source(folder), folder)[0]
+
+
+@pytest.mark.parametrize(
+    ("changes", "said", "fitting"),
+    [
+        ({}, r"caught (\d+) of the \1 faces that look towards the casing; it also caught \d+ side faces: narrow", {"tip"}),
+        ({"tip": {"r_at_least_m": 0.249}}, r"tip: .* caught \d+ of the \d+ faces that look towards the casing", {"tip"}),
+        ({"tip": {"cone_zr_m": [[0, 0.25], [0.04, 0.24]]}}, "tip: no outer face has all its nodes within the rule", {"tip"}),
+        ({"tip": "shroud"}, r"found no set 'shroud'; the file has: BOUNDARY \(\d+ nodes\), EALL", {"tip"}),
+        (
+            {"root": "hub"},
+            r"root: found no set 'hub'; the file has: BOUNDARY .*; and tip: the rule .* side faces",
+            {"root", "tip"},
+        ),
+        ({"root": {"r_at_most_m": 0.188}}, r"root: the rule .* it also caught \d+ side faces", {"root", "tip"}),
+        (
+            {"root": {"r_at_most_m": 0.185}},
+            "caught 4 of the 6 faces that look towards the axis: widen",
+            {"root", "tip"},
+        ),
+        ({"rotation": "positive"}, r"side faces.*; and found the tip's leading edge at .* trailing edge", {"rotation", "tip"}),
+        ({"rotor_axis": [-1.0, 0.0, 0.0]}, "pressure side that looks along the rotation and is convex", {"rotor_axis", "tip"}),
+        ({"rotor_axis": [0.0, 0.0, 1.0]}, "no surface of revolution about the rotor axis", {"rotor_axis", "tip"}),
+        ({"radial": [0.0, 0.0, 1.0]}, "degrees round the axis from `radial`", {"radial", "tip"}),
+        ({"length_unit": "m"}, r"fitting units: mm \(0\.07\d+ m\), cm", {"length_unit", "tip"}),
+        ({"length_unit": "m", "root": "hub", "rotor_axis": [0.0, 0.0, 1.0]}, "length_unit m or rot", {"length_unit", "root"}),
+    ],
+)
+def test_the_second_attempt_works(theirs, changes, said, fitting):
+    """Lines of the message, taken over as they are, make an entry that is accepted."""
+    ours, folder = theirs
+    first = ENTRY | changes
+    with pytest.raises(ImportRefused, match=said) as refusal:
+        attempt(folder, first)
+    lines = yaml.safe_load("\n".join(line for line in str(refusal.value).splitlines() if line.startswith("  ")))
+    assert set(lines) >= fitting
+    mesh = attempt(folder, first | lines)
+    for name in ("root", "tip", "tip_pressure_edge"):
+        np.testing.assert_array_equal(mesh.node_set(name), ours.node_set(name))
+    np.testing.assert_allclose(mesh.points, ours.points, atol=1e-9)
+
+
+def test_a_rule_may_be_taken_as_it_is(theirs):
+    ours, folder = theirs
+    with pytest.raises(ImportRefused, match="no surface of revolution"):
+        attempt(folder, ENTRY | {"end_check": False})
+    wide = ENTRY | {"root": {"r_at_most_m": 0.188}, "tip": {"cone_zr_m": TIP, "tolerance_m": 1e-4}}
+    with pytest.raises(ImportRefused, match=r"root: the rule .* side faces: narrow it, or take what was caught with end_check"):
+        attempt(folder, wide)
+    assert len(attempt(folder, wide | {"end_check": False}).node_set("root")) > len(ours.node_set("root"))
+
+
+def bent(points):
+    """Nodes of the blade near the casing moved by up to 0.6 mm, so that the tip's meridian is an arc."""
+    radius = np.hypot(points[:, 0], points[:, 1])
+    share = np.clip((points[:, 2] - TIP[0][0]) / (TIP[1][0] - TIP[0][0]), 0.0, 1.0)
+    out = 2.4e-3 * share * (1.0 - share) * np.clip((radius - 0.23) / 0.015, 0.0, 1.0)
+    return points * np.stack([1.0 + out / radius, 1.0 + out / radius, np.ones(len(points))], axis=1)
+
+
+def test_a_curved_tip_is_no_cone_but_still_one_end(theirs):
+    """Its rule is offered, with a wider tolerance; another that catches less is not refused for that."""
+    ours, folder = theirs
+    write_mesh(replace(ours, points=bent(ours.points)), folder / "bent.vtu")
+    entry = ENTRY | {"mesh": "bent.vtu", "length_unit": "m", "rotor_axis": [0, 0, 1], "radial": [1, 0, 0], "root": "root"}
+    with pytest.raises(ImportRefused, match="no surface of revolution") as refusal:
+        attempt(folder, entry)
+    tip = yaml.safe_load(refusal.value.fitting["tip"])
+    assert tip["tolerance_m"] > 5e-4
+    mesh = attempt(folder, entry | {"tip": tip, "revolution_tolerance_m": 1e-3})
+    np.testing.assert_array_equal(mesh.node_set("tip"), ours.node_set("tip"))
+
+
+@pytest.mark.parametrize("unit", [1, 0.0254, 0.25])
+def test_metres_per_unit(theirs, unit):
+    """A unit without a name, as of coordinates over a reference length."""
+    ours, folder = theirs
+    raw = read_abaqus(folder / "cs50.dat")
+    points = 1e-3 / unit * raw.points
+    lines = ["*NODE", *(", ".join(map(repr, [i, *row])) for i, row in enumerate(points.tolist(), start=1))]
+    text = (folder / "cs50.dat").read_text()
+    (folder / "scaled.inp").write_text("\n".join(lines) + "\n" + text[text.index("*ELEMENT") :])
+    tip = {"cone_zr_m": TIP}
+    mesh = attempt(folder, ENTRY | {"mesh": "scaled.inp", "length_unit": unit, "tip": tip})
+    np.testing.assert_allclose(mesh.points, ours.points, atol=1e-9)
+
+
+@pytest.fixture
+def deck(tmp_path):
+    """Write the deck of a plate, changed as text, to a file of this name in a folder that is given back."""
+
+    def write(change=lambda text: text, name="mesh.inp", element="hexahedron20"):
+        write_abaqus(plate(element), tmp_path / "whole.inp", TITANIUM, "plate")
+        (tmp_path / name).write_text(change((tmp_path / "whole.inp").read_text()))
+        return tmp_path
+
+    return write
+
+
+def read(folder, name="mesh.inp", root="root", tip="tip"):
+    return import_mesh(MeshSource(name, OURS, Where(root), Where(tip), sense_check=False), folder)[0]
+
+
+@pytest.mark.parametrize("name", ["mesh.dat", "mesh.msh", "mesh.nas", "mesh.TXT", "mesh"])
+def test_decks_are_recognised_by_their_text(deck, name):
+    """CalculiX's own preprocessor writes .msh; others .dat, .k or nothing."""
+    folder = deck(lambda text: "** made elsewhere\n\n" + text.lower().replace("*heading", " *Heading"), name)
+    np.testing.assert_array_equal(read(folder, name).node_set("tip"), plate().node_set("tip"))
+    (folder / "more.inc").write_text("*NSET, NSET=EXTRA\n1\n")
+    with open(folder / name, "a") as stream:
+        stream.write('*INCLUDE, INPUT="more.inc"\n')
+    assert [file.name for file in mesh_files(name, folder)] == [name, "more.inc"]
+
+
+@pytest.mark.parametrize("text", ["solid blade\n", "*KEYWORD\n*NODE\n", "", "\n**\n"])
+def test_other_texts_are_no_decks(tmp_path, text):
+    (tmp_path / "mesh.dat").write_text(text)
+    with pytest.raises(ImportRefused, match=r"found a file of kind '\.dat' whose text does not begin with a keyword of Abaqus"):
+        read(tmp_path, "mesh.dat")
+
+
+def boundary(rows, head="*BOUNDARY"):
+    return lambda text: text.replace("*BOUNDARY\nROOT, 1, 3", "\n".join([head, *rows(plate().node_set("root") + 1)]))
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        boundary(lambda root: [f"{node}, 1, 3" for node in root]),
+        boundary(lambda root: [f"{node}, 1, 6, 0." for node in root], "*Boundary, op=NEW"),
+        boundary(lambda root: [f"{node}, {direction}" for direction in (1, 2, 3) for node in root]),
+        boundary(lambda root: ["Root, ENCASTRE"]),
+        boundary(lambda root: ["root, pinned", "1, 2, 2, 0.5"]),
+        boundary(lambda root: [f"Blade-1.{node}, 1, 3, 0.0" for node in root]),
+        boundary(lambda root: ["root, 1, 3", "tip, 3", "tip, 1, 2, 0.1"]),
+    ],
+)
+def test_nodes_that_the_deck_clamps_are_a_set(deck, change):
+    mesh = read(deck(change), root="boundary")
+    np.testing.assert_array_equal(mesh.node_set("root"), plate().node_set("root"))
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        boundary(lambda root: ["root, 1, 2"]),
+        boundary(lambda root: ["root, 1, 3, 0.1"]),
+        boundary(lambda root: ["root, 1, 3"], "*BOUNDARY, TYPE=VELOCITY"),
+        boundary(lambda root: ["nowhere, 1, 3"]),
+    ],
+)
+def test_nodes_that_move_are_not_clamped(deck, change):
+    with pytest.raises(ImportRefused, match=r"found no set 'boundary'; the file has: ALL_NODES \(174 nodes\), BLADE"):
+        read(deck(change), root="boundary")
+
+
+def test_a_set_that_is_called_boundary_is_the_files_own(deck):
+    members = ", ".join(map(str, plate().node_set("root")[:10] + 1))
+    folder = deck(lambda text: text.replace("*MATERIAL", f"*NSET, NSET=Boundary\n{members}\n*MATERIAL"))
+    assert len(read(folder, root="BOUNDARY").node_set("root")) == 10
+
+
+def test_any_nodes_may_be_the_root(deck):
+    """Nodes without a whole face among them, and nodes inside, as of a dovetail's flanks."""
+    members = ", ".join(map(str, np.flatnonzero(plate().points[:, 0] < 0.212)[::2] + 1))
+    folder = deck(lambda text: text.replace("*MATERIAL", f"*NSET, NSET=SOME\n{members}\n*MATERIAL"))
+    assert len(read(folder, root="some").node_set("root")) == len(members.split(","))
+
+
+def test_sets_of_corners_get_their_mid_nodes(deck):
+    """Some preprocessors pick corners alone: a face of them is meant with its mid-nodes."""
+    mesh = plate()
+    corners = np.unique(mesh.blocks["hexahedron20"][:, :8])
+    lines = [
+        f"*NSET, NSET={name}_CORNERS\n" + ",\n".join(map(str, np.intersect1d(mesh.node_set(name), corners) + 1))
+        for name in ("root", "tip")
+    ]
+    folder = deck(lambda text: text.replace("*MATERIAL", "\n".join(lines) + "\n*MATERIAL"))
+    with pytest.warns(MeshWarning, match=r"tip: the set 'tip_corners' has corners of elements alone \(8 nodes\); the 10 mid"):
+        again = read(folder, root="root_corners", tip="tip_corners")
+    for name in ("root", "tip"):
+        np.testing.assert_array_equal(again.node_set(name), mesh.node_set(name))
+
+
+@pytest.mark.parametrize(
+    ("names", "message"),
+    [
+        (
+            ("tip", "root"),
+            r"clamped nodes at a radius of 0\.26 m and a tip at 0\.2 m; allowed: a root nearer",
+        ),
+        (("line", "tip"), "root: found 3 nodes on one line, which do not hold the blade"),
+        (("blade", "tip"), r"root: (\d+) of its \d+ nodes are the tip's too"),
+        (("none", "tip"), "the set 'none', which has 0 nodes"),
+    ],
+)
+def test_roots_that_cannot_be_meant(deck, names, message):
+    lines = "*NSET, NSET=LINE\n1, 2, 3\n*NSET, NSET=NONE\n99999\n*MATERIAL"
+    folder = deck(lambda text: text.replace("*MATERIAL", lines))
+    mesh = plate()
+    numbers = np.lexsort(mesh.points.T[::-1])[:3]
+    assert np.ptp(mesh.points[numbers], axis=0)[:2].max() < 1e-12
+    text = (folder / "mesh.inp").read_text().replace("\n1, 2, 3\n*NSET", f"\n{', '.join(map(str, numbers + 1))}\n*NSET")
+    (folder / "mesh.inp").write_text(text)
+    with pytest.raises(ImportRefused, match=message):
+        read(folder, root=names[0], tip=names[1])
+
+
+@pytest.mark.parametrize("element", ELEMENTS)
+@pytest.mark.filterwarnings("ignore:elements of first order")
+def test_a_mesh_of_one_element(tmp_path, element):
+    write_mesh(plate(element, (1, 1, 1)), tmp_path / "mesh.vtu")
+    with pytest.raises(ImportRefused, match=r"found a mesh of \d+ nodes, too few to tell sections between root and tip"):
+        read(tmp_path, "mesh.vtu")
+
+
+def test_elements_of_two_orders_must_not_touch(tmp_path):
+    mesh = plate()
+    nodes = mesh.blocks["hexahedron20"]
+    mixed = replace(mesh, blocks={"hexahedron": nodes[:9, :8], "hexahedron20": nodes[9:]})
+    write_mesh(mixed, tmp_path / "mesh.vtu")
+    with pytest.raises(ImportRefused, match=r"the mid-nodes of 10 edges, for example between the nodes \d+, \d+, belong"):
+        import_mesh(MeshSource("mesh.vtu", OURS, Where("root"), Where("tip"), drop_free_nodes=True), tmp_path)
+
+
+@pytest.mark.parametrize("face", ["S0", "S7", "S", "P1", "SPOS", "S1.5"])
+def test_faces_that_an_element_lacks(deck, face):
+    folder = deck(lambda text: text.replace("*MATERIAL", f"*SURFACE, NAME=CROWN\n1, {face}\n*MATERIAL"))
+    with pytest.raises(ImportRefused, match=rf"surface CROWN: found the face {re.escape(face)}; allowed: S1, .*, S6$"):
+        read(folder, tip="crown")
+
+
+@pytest.mark.parametrize("called", ["mesh.inp", "../{folder}/mesh.inp", "more.inc"])
+def test_a_deck_that_includes_itself(deck, called):
+    folder = deck(lambda text: text + " *Include, input=" + called)
+    folder = folder if "{" not in called else deck(lambda text: f"{text}*INCLUDE, INPUT={called.format(folder=folder.name)}")
+    (folder / "more.inc").write_text("*INCLUDE, INPUT=mesh.inp\n")
+    with pytest.raises(ImportRefused, match=r"includes mesh\.inp, which includes it; take one \*INCLUDE out"):
+        read(folder)
+
+
+def test_a_deck_may_include_a_file_twice(deck):
+    folder = deck(lambda text: text + "*INCLUDE, INPUT=a.inc\n*INCLUDE, INPUT=a.inc\n")
+    (folder / "a.inc").write_text("*NSET, NSET=EXTRA\n1\n")
+    assert [file.name for file in mesh_files("mesh.inp", folder)] == ["mesh.inp", "a.inc"]
+    read(folder)
+
+
+@pytest.mark.parametrize(("share", "lacking"), [(0.0, "GRID"), (0.1, "ENDDATA"), (0.9, "ENDDATA")])
+def test_bulk_data_that_is_cut_short(tmp_path, share, lacking):
+    """Without a card meshio waits for one for ever."""
+    write_mesh(plate(), tmp_path / "mesh.bdf")
+    text = (tmp_path / "mesh.bdf").read_text()
+    (tmp_path / "mesh.bdf").write_text(text[: int(share * len(text))])
+    with pytest.raises(ImportRefused, match=rf"mesh\.bdf: found no {lacking}; the file is empty, cut short, or no bulk data"):
+        read(tmp_path, "mesh.bdf")
