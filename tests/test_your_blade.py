@@ -81,7 +81,10 @@ def test_the_example_runs_to_its_interactions(root, drawn, tmp_path, monkeypatch
     fidelity = (project / "config/fidelity.yaml").read_text()
     (project / "config/fidelity.yaml").write_text(fidelity.replace("revolutions: 8,", "revolutions: 60,"))
     command = re.search(r"^snakemake (.*)$", blocks(root, "sh")[0], re.MULTILINE)[1]
-    snakemake(project, *shlex.split(command))
+    said = snakemake(project, *shlex.split(command))
+    assert re.search(
+        r"Fan.mesh: radius of the tip 0.25\d* m at the leading and 0.2\d* m at the trailing edge, of the root 0.2", said
+    )
     monkeypatch.chdir(project)
     exec(blocks(root, "python")[1], {})
     assert "peak_rms_normal" in capsys.readouterr().out

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -10,6 +10,7 @@ from typing import Any
 from r37core.config import ConfigError, Document, Settings, command_line_document, load_settings, read_document
 from r37core.config.config_file import Config
 from r37core.config.cross_checks import CHECKS, history_speeds_are_run
+from r37core.config.reading import together
 
 _PACKAGE = Path(__file__).parent
 _FOLDER = "config"
@@ -28,6 +29,10 @@ class Configuration:
 
     document: Document
     root: Path
+
+    def with_changes(self, files: Iterable[Path | str]) -> Configuration:
+        """The same with files of changes on top, each on those before it. Raises ConfigError."""
+        return replace(self, document=together(self.document, [read_document(Path.cwd(), str(file)) for file in files]))
 
     @property
     def checked(self) -> Config:

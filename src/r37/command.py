@@ -51,7 +51,7 @@ def _parser() -> argparse.ArgumentParser:
     response.add_argument("speeds", nargs="+", type=float, metavar="speed", help="rad/s")
     check = commands.add_parser("check", help="validate a configuration, and count its simulations")
     check.set_defaults(run=_check)
-    check.add_argument("config", nargs="?", help="a config.yaml; without it the shipped one")
+    check.add_argument("config", nargs="*", help="a config.yaml and files of changes on top; without any the shipped one")
     folder = commands.add_parser("init", help="write a folder for a study of one's own: configuration, Snakefile, profile")
     folder.set_defaults(run=_init)
     folder.add_argument("folder", help="new or empty")
@@ -105,7 +105,8 @@ def _simulate(given: argparse.Namespace) -> None:
 
 
 def _check(given: argparse.Namespace) -> None:
-    configuration = read_configuration(given.config)
+    first, *changes = given.config or [None]
+    configuration = read_configuration(first).with_changes(changes)
     settings = load_settings(configuration.document, configuration.root)
     certain, most = sum(len(plan.certain) for plan in settings.speed_plans.values()), Sweep(settings).most_runs
     print(f"blades: {', '.join(settings.blade_names)}")
@@ -114,8 +115,9 @@ def _check(given: argparse.Namespace) -> None:
     print(f"simulations: {certain}" if most == certain else f"simulations: {certain} to about {most}")
     measured = settings.fidelity.measured
     if measured is not None:
-        minutes = most * measured.cpu_s_per_run / 60.0
-        print(f"their CPU time: about {minutes:.3g} minutes at most, as measured on the reference blade")
+        cost = most * measured.cpu_s_per_run
+        told = f"{cost:.3g} s" if cost < 120.0 else f"{cost / 60.0:.3g} minutes"
+        print(f"their CPU time: about {told} at most, as measured on the reference blade")
     for remark in settings.remarks:
         print(remark)
 

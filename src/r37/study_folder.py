@@ -14,7 +14,7 @@ _PACKAGE = Path(__file__).parent
 SNAKEFILE = (_PACKAGE / "Snakefile").resolve()
 """The workflow's Snakefile, for `module r37: snakefile: SNAKEFILE`. In the repository it is that at its top."""
 
-_KEPT_OUT_OF_GIT = "/results/\n/logs/\n/.snakemake/\n/config/my*.yaml\n"
+_KEPT_OUT_OF_GIT = "/results/\n/logs/\n/.snakemake/\n"
 
 
 def init(folder: Path | str) -> Path:

@@ -22,7 +22,7 @@ CONFIG_FILE = "config/config.yaml"
 
 def read_settings(root: Path, *changes: Document) -> Settings:
     """Settings of config/config.yaml in the folder `root`, with `changes` on top. Raises ConfigError."""
-    return load_settings(_together(read_document(root, CONFIG_FILE), changes), root)
+    return load_settings(together(read_document(root, CONFIG_FILE), changes), root)
 
 
 def settings_of_run(
@@ -43,7 +43,7 @@ def settings_of_run(
     named = [Path(file).relative_to(here) if Path(file).is_relative_to(here) else Path(file) for file in files]
     changes = [*first, *(read_document(here, str(file)) for file in named), command_line_document(values)]
     changes += [command_line_document(of_module, "config of the module r37")] if of_module else []
-    return load_settings(_together(changes[0], changes[1:]), root)
+    return load_settings(together(changes[0], changes[1:]), root)
 
 
 def _configuration(folder: Path) -> Document:
@@ -81,7 +81,8 @@ def load_settings(
     return settings
 
 
-def _together(below: Document, changes: Iterable[Document]) -> Document:
+def together(below: Document, changes: Iterable[Document]) -> Document:
+    """A configuration with `changes` on top, each on those before it. Raises ConfigError for one without keys."""
     for change in changes:
         if not isinstance(change.content, Mapping):
             raise change.refusal((), repr(change.content)[:60], "keys and values, as in config/config.yaml")

@@ -224,6 +224,12 @@ class Settings:
         if self.config.fidelity == "auto" and measured is not None:
             error, cost = 100 * measured.error, measured.cpu_s_per_run
             said.append(f"fidelity auto: level {self.fidelity_name}, measured error {error:g}%, {cost:g} CPU s per run")
+        fastest, highest = max(plan.every_speed()[-1] for plan in self.speed_plans.values()), self.structure.maximum_speed_rad_s
+        if fastest > highest:
+            said.append(
+                f"speeds: up to {fastest:g} rad/s, and structure.maximum_speed_rad_s is {highest:g}: reduced models and "
+                "Campbell diagrams are made for speeds up to that; raise it to what is run"
+            )
         refining = [plan for plan in self.speed_plans.values() if plan.refined]
         if refining:
             certain = sum(len(plan.certain) for plan in refining)

@@ -433,7 +433,9 @@
     });
     place.replaceChildren(table);
     document.getElementById("note").textContent = data.interactions.some(outside) ? `* ${OUTSIDE}, a flag and no prediction` : "";
-    const chosen = table.querySelector(".chosen");
+    // the chosen interaction, else the first of the chosen blade
+    const ofBlade = data.interactions.findIndex((row) => row.blade === state.blade);
+    const chosen = table.querySelector(".chosen") ?? table.tBodies[0].rows[ofBlade];
     const above = chosen ? chosen.offsetTop - place.scrollTop : 0;
     if (above < 0 || above + 2 * chosen?.offsetHeight > place.clientHeight) place.scrollTop = chosen.offsetTop - place.clientHeight / 2;
   }

@@ -60,6 +60,16 @@ def import_mesh(source: MeshSource, folder: Path | str = ".") -> tuple[BladeMesh
     return BladeMesh(raw.points, raw.blocks, parameters, normals, sets), quality
 
 
+def told_size(mesh: BladeMesh) -> str:
+    """Radii of both ends of the tip and of the root, in words, for whoever knows the blade."""
+    radius = np.hypot(mesh.points[:, 0], mesh.points[:, 1])
+    leading, trailing = (radius[mesh.node_set(f"{name}_edge")].max() for name in ("leading", "trailing"))
+    root = radius[mesh.node_set("root")].mean()
+    return (
+        f"radius of the tip {leading:.4g} m at the leading and {trailing:.4g} m at the trailing edge, of the root {root:.4g} m"
+    )
+
+
 def _ends(source: MeshSource, raw: RawMesh) -> tuple[np.ndarray, np.ndarray, TipLines]:
     """The clamped nodes, those of the tip and lines along it, of a mesh in the blade's frame.
 
