@@ -34,7 +34,14 @@ if __name__ == "__main__":
 
 
 @pytest.fixture
-def start(root, tmp_path, monkeypatch):
+def starter(root, tmp_path):
+    """start.py in a folder of scripts that has job.py as one of its own."""
+    (tmp_path / "start.py").write_text((root / "workflow/scripts/start.py").read_text())
+    return str(tmp_path / "start.py")
+
+
+@pytest.fixture
+def start(root, tmp_path, starter, monkeypatch):
     """Starts a job of the script, as the rule does; `start.server` is the process of the server."""
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("PYTHONPATH", str(root / "src"))
@@ -46,7 +53,7 @@ def start(root, tmp_path, monkeypatch):
     wait_for(Path(os.environ[job_server.ADDRESS]))
 
     def one(*arguments, out="out", **options):
-        command = [sys.executable, "-S", "-E", str(root / "workflow/scripts/start.py"), "job.py", out, *arguments]
+        command = [sys.executable, "-S", "-E", starter, "job.py", out, *arguments]
         return subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, **options)
 
     one.server = server
@@ -76,18 +83,30 @@ def test_output_and_status_are_those_of_the_job(start, what, status):
     assert parent() == start.server.pid
 
 
-def test_what_a_script_imports_is_there_before_its_job(start, root):
-    """Of other scripts than the server's own, and only what it finds; TMPDIR is that of the job."""
+def test_what_a_script_imports_is_there_before_its_job(start, starter):
+    """Of other scripts than the server's first, and only what it finds; the environment is that of the job."""
     Path("figure.py").write_text(
         "import sys, tempfile\nearly = {'wave', 'xml.dom.minidom', 'tempfile'} & set(sys.modules)\n"
         "import wave\nfrom xml.dom import minidom\nprint(sorted(early), tempfile.gettempdir())\nimport missing\n"
     )
-    command = [sys.executable, "-S", "-E", str(root / "workflow/scripts/start.py"), "figure.py"]
+    command = [sys.executable, "-S", "-E", starter, "figure.py"]
     for _ in range(2):
         job = subprocess.run(command, env=os.environ | {"TMPDIR": os.getcwd()}, capture_output=True, text=True, timeout=20)
         assert job.stdout == f"['tempfile', 'wave', 'xml.dom.minidom'] {os.getcwd()}\n"
         assert job.returncode == 1 and "ModuleNotFoundError: No module named 'missing'" in job.stderr
     assert start("0").wait(20) == 0
+
+
+def test_scripts_of_others_run_by_themselves(start, starter, tmp_path):
+    """What they leave open is closed by Python's own end. Snakemake's copies of ours are ours."""
+    text = "import os, sys\nprint(os.getppid())\ndef line():\n    return 'x'\nout = open(sys.argv[1], 'w')\nout.write(line())\n"
+    command = [sys.executable, "-S", "-E", starter]
+    for ours in (False, True):
+        folder = str(tmp_path) if ours else "/somewhere/else"
+        Path(".snakemake/copy.py").write_text(f"__real_file__ = __file__; __file__ = {folder + '/mine.py'!r};\n{text}")
+        job = subprocess.run([*command, ".snakemake/copy.py", "out"], capture_output=True, text=True, timeout=20)
+        assert int(job.stdout) == (start.server.pid if ours else os.getpid())
+        assert ours or Path("out").read_text() == "x"
 
 
 def test_a_module_is_run_without_the_server(start, root):

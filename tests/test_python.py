@@ -372,6 +372,10 @@ def test_the_command_refuses_in_one_line(root, capsys):
     assert main(["simulate", "Ref", "rub", "1000", "--config", config]) == 1
     told = capsys.readouterr()
     assert told.out == "" and told.err.startswith("r37: scene: found 'rub'; allowed: abradable") and told.err.count("\n") == 1
+    for output in ("", str(root), f"{config}/x.nc"):
+        assert main(["campbell", "Ref", "--output", output]) == 1
+        told = capsys.readouterr().err
+        assert told.startswith("r37: --output: found ") and told.count("\n") == 1
     assert main(["check", "missing.yaml"]) == 1
     assert main(["check", config]) == 0
     assert "level: standard\nsimulations: 896 to about 3500\ntheir CPU time: about 8.75 minutes" in capsys.readouterr().out

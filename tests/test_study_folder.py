@@ -50,6 +50,8 @@ def test_init_replaces_nothing(tmp_path, capsys):
     for folder in (tmp_path, tmp_path / "notes.txt"):
         assert main(["init", str(folder)]) == 1
         assert "which is not empty; allowed: a folder that is new or empty" in capsys.readouterr().err
+    with pytest.raises(ConfigError, match=r"which cannot be written \(File name too long\)"):
+        init(tmp_path / ("n" * 300))
     with pytest.raises(ConfigError, match=r"which cannot be written \(File exists\)"):
         init(tmp_path / "notes.txt/study")
     assert [entry.name for entry in tmp_path.iterdir()] == ["notes.txt"]
@@ -78,6 +80,8 @@ def test_a_study_has_rules_of_its_own_and_changes_on_top(study):
     (study / "Snakefile").write_text(text + '\n\nrule mine:\n    input: "results/campbell.nc"\n    output: "mine.txt"\n')
     jobs = planned(study, "mine.txt")
     assert jobs["rub_reduced_model"] == {"CS50"} and "mine" in jobs
+    (study / "Snakefile").write_text(text.replace('{"fidelity": "draft", "blades": ["CS50"]}', "5"))
+    assert "config of the module r37: found 5; allowed: keys and values" in snakemake(study, "-n", check=False)
     (study / "Snakefile").write_text(text.replace('"draft"', '"rough"'))
     told = snakemake(study, "-n", check=False)
     assert "config of the module r37: fidelity: found 'rough'; allowed: draft, standard" in told

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import sys
+import tempfile
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -66,6 +67,7 @@ def _init(given: argparse.Namespace) -> None:
 def _campbell(given: argparse.Namespace) -> None:
     is_file = given.blade.endswith((".yaml", ".yml"))
     file = given.blade if is_file else given.blades
+    _check_output(given.output)
     names = blades(file=file, config=given.config) if is_file else [given.blade]
     if given.output is not None and len(names) > 1:
         raise ConfigError(
@@ -92,6 +94,7 @@ _MOST_ORDERS = 6
 
 
 def _simulate(given: argparse.Namespace) -> None:
+    _check_output(given.output)
     chosen = blade(given.blade, file=given.blades, config=given.config)
     dataset = sweep(chosen, given.scene, given.speeds, fidelity=given.fidelity, config=given.config)
     edge, table = dataset.sel(tip_point="leading_edge"), pd.DataFrame(index=dataset["speed"].to_index().rename("speed (rad/s)"))
@@ -124,6 +127,21 @@ def _check(given: argparse.Namespace) -> None:
 
 def _show(table: pd.DataFrame) -> None:
     print(table.to_string(float_format=lambda number: f"{number:.6g}", na_rep=""))
+
+
+def _check_output(file: Path | None) -> None:
+    """ConfigError for a file that cannot be written, before what takes minutes."""
+    if file is None:
+        return
+    allowed = "allowed: a file in a folder that can be written"
+    if not file.name or file.is_dir():
+        raise ConfigError(f"--output: found {str(file)!r}, a folder; {allowed}")
+    try:
+        file.parent.mkdir(parents=True, exist_ok=True)
+        with tempfile.NamedTemporaryFile(dir=file.parent, prefix=f".{file.name}"):
+            pass
+    except OSError as error:
+        raise ConfigError(f"--output: found {file}, which cannot be written ({error.strerror}); {allowed}") from None
 
 
 def _write(dataset: xr.Dataset, file: Path | None) -> None:

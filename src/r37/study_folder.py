@@ -23,9 +23,9 @@ def init(folder: Path | str) -> Path:
     Raises ConfigError for a folder that has something in it, and for one that cannot be written.
     """
     path = Path(folder).absolute()
-    if path.exists() and not (path.is_dir() and not any(path.iterdir())):
-        raise ConfigError(f"init: found {folder}, which is not empty; allowed: a folder that is new or empty")
     try:
+        if path.exists() and not (path.is_dir() and not any(path.iterdir())):
+            raise ConfigError(f"init: found {folder or '.'}, which is not empty; allowed: a folder that is new or empty")
         path.parent.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryDirectory(prefix=".r37-init-", dir=path.parent) as temporary:
             made = Path(temporary, path.name)

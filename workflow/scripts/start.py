@@ -26,9 +26,10 @@ def ask(address, arguments):
 
 
 address, arguments = os.environ.get("R37_JOB_SERVER"), sys.argv[1:]
-# `-m snakemake`, of a job that is a Snakemake of its own, is no script
-is_script = not arguments[0].startswith("-")
-status = ask(address, [os.environ.get("TMPDIR", ""), *arguments]) if address and is_script else None
+status = None
+if address:
+    environment = [f"{name}={value}" for name, value in os.environ.items()]
+    status = ask(address, [os.getcwd(), str(len(environment)), *environment, *arguments])
 if status is None:
     os.execv(sys.executable, [sys.executable, *sys.argv[1:]])
 # nothing is left to clean up

@@ -42,7 +42,10 @@ def settings_of_run(
     first = [] if only_given and files else [_configuration(folder)]
     named = [Path(file).relative_to(here) if Path(file).is_relative_to(here) else Path(file) for file in files]
     changes = [*first, *(read_document(here, str(file)) for file in named), command_line_document(values)]
-    changes += [command_line_document(of_module, "config of the module r37")] if of_module else []
+    if of_module:
+        if not isinstance(of_module, Mapping):
+            raise ConfigError(f"config of the module r37: found {of_module!r}; allowed: keys and values, as in {CONFIG_FILE}")
+        changes.append(command_line_document(of_module, "config of the module r37"))
     return load_settings(together(changes[0], changes[1:]), root)
 
 

@@ -25,7 +25,7 @@ import threading
 import traceback
 from collections.abc import Iterator
 from pathlib import Path
-from typing import NoReturn
+from typing import NamedTuple, NoReturn
 
 ADDRESS = "R37_JOB_SERVER"
 """Environment variable with the socket's path, for the jobs; relative, because such a path may have a hundred letters."""
@@ -66,13 +66,24 @@ def serve(address: Path, script: str) -> None:
             while sys.stdin not in select.select([listener, sys.stdin], [], [])[0]:
                 connection, _ = listener.accept()
                 # a client that is gone, or says nothing, is done with
-                with connection, contextlib.suppress(OSError), _asked(connection) as (arguments, outputs):
-                    imported.add(arguments[1])
+                with connection, contextlib.suppress(OSError), _asked(connection) as job:
+                    if not _is_ours(job.arguments[0], Path(script).parent):
+                        continue
+                    imported.add(job.arguments[0])
                     if os.fork() == 0:
                         listener.close()
-                        _answer(connection, arguments, outputs)
+                        _answer(connection, job)
     finally:
         shutil.rmtree(address.parent, ignore_errors=True)
+
+
+class _Job(NamedTuple):
+    """What a client asks for: its folder, its environment, script and arguments, and the files that its output goes to."""
+
+    folder: str
+    environment: dict[str, str]
+    arguments: list[str]
+    outputs: list[int]
 
 
 class _Imported:
@@ -97,6 +108,21 @@ class _Imported:
         self._known |= new
 
 
+def _is_ours(script: str, folder: Path) -> bool:
+    """Whether a script is one of the `folder`, or Snakemake's copy of one.
+
+    Those of others may need Python's own end, which closes what they leave open: they run by themselves.
+    """
+    ours = os.path.realpath(folder)
+    if os.path.realpath(os.path.dirname(script)) == ours:
+        return True
+    try:
+        # in the line that Snakemake puts before a copy
+        return f"__file__ = {ours + os.sep!r}"[:-1] in Path(script).read_text(encoding="utf-8")
+    except (OSError, ValueError):
+        return False
+
+
 def _imports_of(script: str) -> set[str]:
     """Modules that a script imports where it begins, and names out of them that may be modules."""
     names: set[str] = set()
@@ -109,11 +135,8 @@ def _imports_of(script: str) -> set[str]:
 
 
 @contextlib.contextmanager
-def _asked(connection: socket.socket) -> Iterator[tuple[list[str], list[int]]]:
-    """What a client asks for: TMPDIR, script and arguments; and its outputs, closed here in the end.
-
-    Raises OSError where it says less.
-    """
+def _asked(connection: socket.socket) -> Iterator[_Job]:
+    """What a client asks for; its outputs are closed here in the end. Raises OSError where it says less."""
     connection.settimeout(_PATIENCE_S)
     size = int.from_bytes(connection.recv(8, socket.MSG_WAITALL), "little")
     message, outputs, _, _ = socket.recv_fds(connection, 1, 2)
@@ -124,23 +147,28 @@ def _asked(connection: socket.socket) -> Iterator[tuple[list[str], list[int]]]:
                 raise ConnectionError
             message += part
         connection.settimeout(None)
-        yield [os.fsdecode(argument) for argument in message.split(b"\0")], outputs
+        folder, number, *rest = [os.fsdecode(part) for part in message.split(b"\0")]
+        environment = dict(entry.split("=", 1) for entry in rest[: int(number)])
+        yield _Job(folder, environment, rest[int(number) :], outputs)
     finally:
         for output in outputs:
             os.close(output)
 
 
-def _answer(connection: socket.socket, arguments: list[str], outputs: list[int]) -> NoReturn:
+def _answer(connection: socket.socket, job: _Job) -> NoReturn:
     """Run a job in this process, which ends with it, or when its client is gone."""
     status = 1
     try:
         signal.signal(signal.SIGCHLD, signal.SIG_DFL)
-        for output, number in zip(outputs, (1, 2), strict=True):
+        for output, number in zip(job.outputs, (1, 2), strict=True):
             os.dup2(output, number)
         threading.Thread(target=_end_with, args=(connection,), daemon=True).start()
-        folder, *sys.argv = arguments
-        if folder:
-            os.environ["TMPDIR"], tempfile.tempdir = folder, None
+        os.chdir(job.folder)
+        os.environ.clear()
+        os.environ.update(job.environment)
+        # of another TMPDIR
+        tempfile.tempdir = None
+        sys.argv = job.arguments
         status = _status_of(sys.argv[0])
         sys.stdout.flush()
         sys.stderr.flush()
@@ -154,10 +182,10 @@ def _status_of(script: str) -> int:
     try:
         runpy.run_path(script, run_name="__main__")
     except SystemExit as end:
-        if isinstance(end.code, str):
-            print(end.code, file=sys.stderr)
-            return 1
-        return (end.code or 0) & 0xFF
+        if end.code is None or isinstance(end.code, int):
+            return (end.code or 0) & 0xFF
+        print(end.code, file=sys.stderr)
+        return 1
     except BaseException:
         traceback.print_exc()
         return 1

@@ -180,6 +180,10 @@ def _define(known: dict[int, list[T]], what: str, given: list[tuple[int, list[T]
             raise ImportRefused(f"{what} {number} is given twice, and not alike; number nodes and elements once")
 
 
+_MOST_GENERATED = 10_000_000
+"""Numbers of a set in one row: more nodes than a blade has."""
+
+
 def _members(sets: dict[str, list[int]], generated: bool, rows: list[list[str]]) -> list[int]:
     """Numbers listed, generated, or taken over from other sets."""
     members: list[int] = []
@@ -187,6 +191,11 @@ def _members(sets: dict[str, list[int]], generated: bool, rows: list[list[str]])
         cells = [cell for cell in row if cell]
         if generated:
             first, last, step = ([int(cell) for cell in cells] + [1])[:3]
+            if step < 1 or last - first >= _MOST_GENERATED * step:
+                raise ImportRefused(
+                    f"a set has GENERATE with {', '.join(cells)}; allowed: first, last and a positive step, "
+                    f"at most {_MOST_GENERATED} numbers"
+                )
             members += range(first, last + 1, step)
             continue
         for cell in cells:

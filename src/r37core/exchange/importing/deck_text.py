@@ -18,7 +18,7 @@ _LOOKED_AT = 65536
 
 def is_deck(file: Path) -> bool:
     """Whether the first line that is no comment begins with a keyword of Abaqus, whatever the file's ending."""
-    with open(file, encoding="utf-8", errors="replace") as text:
+    with open(file, encoding="utf-8-sig", errors="replace") as text:
         lines = text.read(_LOOKED_AT).splitlines()
     first = next((line for line in map(str.strip, lines) if line and not line.startswith("**")), "")
     # *KEYWORD begins a file of LS-DYNA
@@ -28,7 +28,7 @@ def is_deck(file: Path) -> bool:
 def deck_lines(file: Path) -> Iterator[str]:
     """Lines without blanks at their ends, comments and empty ones left out; a keyword line and what continues it are one."""
     unfinished = ""
-    with open(file, encoding="utf-8", errors="replace") as text:
+    with open(file, encoding="utf-8-sig", errors="replace") as text:
         for line in map(str.strip, text):
             if not line or line.startswith("**"):
                 continue
