@@ -127,7 +127,9 @@ def bar_stiffness(blade):
 
 def _solved(blade, rate, times, method, tolerances):
     rest = np.zeros(2 * len(blade.frequencies))
-    found = solve_ivp(rate, (0.0, times[-1]), rest, method, times, **tolerances)
+    # at rest nothing tells the solver how soon the lobes come
+    longest = 2e-3 * 2.0 * np.pi / blade.speed
+    found = solve_ivp(rate, (0.0, times[-1]), rest, method, times, max_step=longest, **tolerances)
     if not found.success:
         raise RuntimeError(found.message)
     return found.y
