@@ -16,7 +16,7 @@ from r37core.time_integration.simulate import Simulation
 SPEED, SAMPLES, BARS = 3000.0, 50, 40
 HALF = SAMPLES // 2
 TIMES = (1 + np.arange(SAMPLES)) * 2.0 * np.pi / SPEED / SAMPLES
-ELASTIC = Lining(5e-3, 20e9, 5e9, 1e30, bar_area=2e-9)
+ELASTIC = Lining(5e-3, 20e9, 5e9, 1e30, bar_area=1e-7)
 SCENE = Scene(Casing(0.356e-3, amplitude=1.5, rise_fraction=0.0), ELASTIC, Friction(0.3), damping_ratio=0.01)
 
 
@@ -38,6 +38,8 @@ def slow_model(modes, highest):
         displacement_operator=rows,
         tip_displacement_operator=rows[:, [0, 1]],
         to_reduced=np.eye(modes),
+        # so slow over the casing that the vibration turns the friction
+        radius=np.full(2, 0.02),
     )
 
 
@@ -64,7 +66,7 @@ def error(found, exact):
     return np.abs(found - exact).max() / np.abs(exact).max()
 
 
-@pytest.mark.parametrize(("integrator", "order", "largest"), [(EXACT_MODAL, 2.0, 1e-3), (CENTRAL_DIFFERENCE, 1.0, 5e-2)])
+@pytest.mark.parametrize(("integrator", "order", "largest"), [(EXACT_MODAL, 2.0, 1e-4), (CENTRAL_DIFFERENCE, 1.0, 5e-2)])
 def test_on_bars_that_do_not_yield_the_march_has_the_order_that_it_claims(model, integrator, order, largest):
     from equations_of_motion import blade_of, without_yield
 
