@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 from scipy.io import loadmat, savemat
 
-HERE = Path(__file__).parent
+HERE = Path(__file__).resolve().parent
 
 
 def massless_boundary(blade, kept):
@@ -67,9 +67,10 @@ def run_nlstep(blade, kept, steps_per_sample, samples_per_revolution, samples):
     with tempfile.TemporaryDirectory() as folder:
         given, found = Path(folder) / "case.mat", Path(folder) / "found.mat"
         savemat(given, case)
-        call = f"addpath('{HERE / 'nlstep'}'); run_nlstep('{os.environ['NLSTEP']}', '{given}', '{found}')"
-        said = subprocess.run(["octave-cli", "--norc", "--quiet", "--eval", call], capture_output=True, text=True)
-        # Octave 7 may fail while it ends, with all done
+        program = Path(os.environ["NLSTEP"]).resolve()
+        call = f"addpath('{HERE / 'nlstep'}'); run_nlstep('{program}', '{given}', '{found}')"
+        # Octave 7 may fail while it ends, with all done, and leaves a file where it is
+        said = subprocess.run(["octave-cli", "--norc", "--quiet", "--eval", call], cwd=folder, capture_output=True, text=True)
         if not found.exists():
             raise RuntimeError(said.stderr)
         results = loadmat(found)

@@ -174,7 +174,8 @@ def histories(model, settings):
 
 
 RMS_REVOLUTIONS = 20
-RMS_CASES = [(speed, 30, 8) for speed in (1000.0, 1200.0, 1340.0, 1400.0, 1600.0, 1800.0)] + [(1340.0, 45, 16)]
+RMS_CASES = [(speed, 30, 8) for speed in (1000.0, 1200.0, 1340.0, 1400.0, 1600.0, 1800.0)]
+RMS_CASES += [(speed, 45, 16) for speed in (1000.0, 1200.0, 1340.0, 1400.0)]
 """Speeds (rad/s), and of NLstep the modes with mass and the steps per sample."""
 
 PERTURBED = 1.0 + 1e-3 * np.arange(-2, 3)
