@@ -26,7 +26,10 @@ TABLES = {
     "clearance": {"clearance_growth": "clearance_growth.md", "clearance_effect": "clearance_effect.md"},
     "tolerances": {name: f"{name}.md" for name in ("tolerance_ranges", "tolerance_sensitivity", "tolerance_members")},
     "stability_tables": {"stability": "stability.md"},
-    "validation": {"modelling_choices": "modelling_choices.md"},
+    "validation": {
+        "modelling_choices": "modelling_choices.md",
+        **{f"other_{name}": f"other_programs_{name}.md" for name in ("elastic", "worn", "direct", "histories", "rms")},
+    },
     "validation_tables": {"validation": "validation.md", "ranges": "validation_ranges.md"},
     "speed": {"estimate": "estimate.md"},
 }

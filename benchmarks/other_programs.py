@@ -1,0 +1,220 @@
+"""The march against SciPy's solve_ivp and against NLstep: tables of docs/validation.md, section "Other programs".
+
+Run: snakemake results/Ref/contact_pressure_edge.npz; python benchmarks/other_programs.py [elastic worn direct histories rms];
+make docs. The last two need GNU Octave and NLSTEP=/path/to/NLstep (https://github.com/maltekrack/NLstep). Ten minutes in all.
+Cases that `rms` has a row of are not run again.
+"""
+
+import json
+import os
+import sys
+from dataclasses import replace
+from itertools import chain
+from pathlib import Path
+
+os.environ["OPENBLAS_NUM_THREADS"] = "1"
+
+import numpy as np
+from equations_of_motion import against_spring, blade_of, with_wear, without_yield
+from massless_boundary import run_nlstep
+
+from r37core.config import read_settings
+from r37core.io import write_text
+from r37core.rom.contact_model import read_contact_model
+from r37core.studies.tables import markdown_table
+from r37core.time_integration.integrators import CENTRAL_DIFFERENCE, EXACT_MODAL
+from r37core.time_integration.simulate import Simulation
+
+ROOT = Path(__file__).parent.parent
+STUDIES = ROOT / "results/studies"
+SPEED, SAMPLES, REVOLUTIONS = 1600.0, 200, 2
+"""Speed (rad/s), samples per revolution and revolutions of the comparisons with solve_ivp."""
+
+HIGHEST_FREQUENCY = 1e5
+"""Modes up to it (Hz), in both programs, with solve_ivp: it takes steps of the fastest one."""
+
+EXACT = {"rtol": 1e-9, "atol": 1e-13}
+BARS = 1000
+LIGHT_RUB = 1.1
+"""Lobes of the comparisons in direct contact, in clearances: one light touch per lobe."""
+
+
+def main():
+    asked = sys.argv[1:] or ["elastic", "worn", "direct", "histories", "rms"]
+    model, settings = read_contact_model(ROOT / "results/Ref/contact_pressure_edge.npz"), read_settings(ROOT)
+    for name in asked:
+        made = {"elastic": elastic, "worn": worn, "direct": direct, "histories": histories, "rms": rms}[name](model, settings)
+        print(made, flush=True)
+        write_text(made, STUDIES / f"other_programs_{name}.md")
+
+
+def scene_of(settings, name, **casing):
+    """A scene of the configuration, its casing lobed from the start."""
+    scene = settings.scenes[name].scene
+    return replace(scene, casing=replace(scene.casing, **{"rise_fraction": 0.0} | casing))
+
+
+def march(model, settings, scene, step, revolutions, speed=SPEED, **choice):
+    """Samples (m) of the leading edge's normal displacement, shape (samples,), the step (s) and the state at the end."""
+    name = "direct" if scene.lining is None else "abradable"
+    choice = {"samples_per_revolution": SAMPLES, "energy": False, "snapshot_revolutions": 0, "shorten": False} | choice
+    asked = replace(settings.integration_choice("Ref", name, speed), time_step=step, revolutions=revolutions, **choice)
+    simulation = Simulation(model, speed, scene, asked)
+    state = simulation.start()
+    return simulation.advance(state, revolutions).samples[:, 0], simulation.problem.time_step, state
+
+
+def sample_times(speed, samples):
+    return (1 + np.arange(samples)) * 2.0 * np.pi / speed / SAMPLES
+
+
+def error(found, exact):
+    """Largest difference as a share of the largest value."""
+    return np.abs(found - exact).max() / np.abs(exact).max()
+
+
+def from_itself(coarse, fine):
+    return f"The march at 1e-7 s differs by {100.0 * error(coarse, fine):.2f}% from itself at twice the step."
+
+
+def with_orders(steps, errors):
+    """Cells of errors, and of the power of the step with which each fell from the one before."""
+    orders = np.diff(np.log(errors)) / np.diff(np.log(steps))
+    return [[f"{one:.1e}", of] for one, of in zip(errors, ["", *(f"{order:.1f}" for order in orders)], strict=True)]
+
+
+def elastic(model, settings):
+    """Bars that never yield."""
+    scene = scene_of(settings, "abradable")
+    scene = replace(scene, lining=replace(scene.lining, yield_stress=1e30))
+    blade, times = blade_of(model, SPEED, scene, np.inf, HIGHEST_FREQUENCY), sample_times(SPEED, REVOLUTIONS * SAMPLES)
+    exact = without_yield(blade, times, **EXACT)
+    steps = 6.4e-6 * 0.5 ** np.arange(7)
+    columns = []
+    for integrator, first in ((EXACT_MODAL, 0), (CENTRAL_DIFFERENCE, 3)):
+        choice = {"integrator": integrator, "highest_frequency": HIGHEST_FREQUENCY}
+        runs = [march(model, settings, scene, step, REVOLUTIONS, **choice)[:2] for step in steps[first:]]
+        cells = with_orders([step for _, step in runs], [error(found, exact) for found, _ in runs])
+        columns.append([["", ""]] * first + cells)
+    rows = [[f"{step:.1e}", *one, *other] for step, one, other in zip(steps, *columns, strict=True)]
+    checked = error(without_yield(blade, times, "LSODA", rtol=1e-9, atol=1e-14), exact)
+    head = ["largest step (s)", "`exact_modal`: error", "order", "`central_difference`: error", "order"]
+    return f"{markdown_table(head, rows)}\nDOP853 and LSODA, two methods of solve_ivp, differ by {checked:.0e}.\n"
+
+
+def worn(model, settings):
+    """Bars that yield, few enough for steps that are short beside the time on a bar; then those of the scene."""
+    scene = scene_of(settings, "abradable")
+    area = scene.lining.area(float(np.max(model.radius)))
+    few = replace(scene, lining=replace(scene.lining, bars=BARS, bar_area=area))
+    times, on_a_bar = sample_times(SPEED, SAMPLES), 2.0 * np.pi / SPEED / BARS
+    exact, wear = with_wear(blade_of(model, SPEED, few, np.inf, HIGHEST_FREQUENCY), times, **EXACT)
+    parts, columns = 2 ** np.arange(6), []
+    for integrator, first in ((EXACT_MODAL, 0), (CENTRAL_DIFFERENCE, 2)):
+        choice = {"integrator": integrator, "highest_frequency": HIGHEST_FREQUENCY}
+        runs = [march(model, settings, few, on_a_bar / part, 1, **choice) for part in parts[first:]]
+        steps = [step for _, step, _ in runs]
+        for errors in ([error(run[0], exact) for run in runs], [error(run[2].wear, wear) for run in runs]):
+            columns.append([["", ""]] * first + with_orders(steps, errors))
+    rows = [[str(part), f"{on_a_bar / part:.2e}", *chain(*cells)] for part, *cells in zip(parts, *columns, strict=True)]
+    head = ["steps per bar", "step (s)"]
+    for integrator in (EXACT_MODAL, CENTRAL_DIFFERENCE):
+        head += [f"`{integrator}`: motion", "order", "wear", "order"]
+    exact, _ = with_wear(blade_of(model, SPEED, scene, np.inf, HIGHEST_FREQUENCY), times, **EXACT)
+    choice = {"highest_frequency": HIGHEST_FREQUENCY}
+    errors = {step: error(march(model, settings, scene, step, 1, **choice)[0], exact) for step in (6.4e-6, 8e-7)}
+    said = ", ".join(f"{100.0 * value:.2f}% at {step:.1e} s" for step, value in errors.items())
+    said = f"With the scene's {scene.lining.bars} bars, `exact_modal` differs by {said}."
+    return f"{markdown_table(head, rows)}\n{said}\n"
+
+
+def direct(model, settings):
+    """Direct contact, the casing replaced by springs: with dashpots, so that a node does not bounce, and without."""
+    scene, half = scene_of(settings, "direct", amplitude=LIGHT_RUB), SAMPLES // 2
+    blade, times = blade_of(model, SPEED, scene, np.inf, HIGHEST_FREQUENCY), sample_times(SPEED, half)
+    ours, coarse = (
+        march(model, settings, scene, step, 1, highest_frequency=HIGHEST_FREQUENCY)[0][:half] for step in (1e-7, 2e-7)
+    )
+    stiffnesses, tolerances = (1e7, 1e8, 1e9, 1e10, 1e11), {"rtol": 1e-6, "atol": 1e-12}
+    without, damped = ([against_spring(blade, times, k, ratio, **tolerances) for k in stiffnesses] for ratio in (0.0, 2.0))
+    rows = [
+        [f"{k:.0e}", f"{100.0 * error(one, ours):.2f}%", f"{100.0 * error(other, ours):.2f}%"]
+        for k, one, other in zip(stiffnesses, without, damped, strict=True)
+    ]
+    rows.append(["extrapolated", *(share_at(limit(found), ours) for found in (without, damped))])
+    head = ["stiffness (N/m)", "springs alone: difference", "with dashpots: difference"]
+    return f"{markdown_table(head, rows)}\n{from_itself(coarse, ours)}\n"
+
+
+def limit(found):
+    """Where the last three of several histories lead, if each comes nearer by the same factor; None where they do not."""
+    before, last = (np.abs(one - other).max() for one, other in zip(found[-3:-1], found[-2:], strict=True))
+    factor = before / last
+    return found[-1] + (found[-1] - found[-2]) / (factor - 1.0) if factor > 1.5 else None
+
+
+def share_at(history, ours):
+    return "no limit" if history is None else f"{100.0 * error(history, ours):.2f}%"
+
+
+def histories(model, settings):
+    """NLstep and the march on the first light touch, with more and more modes that have mass in NLstep, and shorter steps."""
+    scene, half = scene_of(settings, "direct", amplitude=LIGHT_RUB), SAMPLES // 2
+    blade, rows = blade_of(model, SPEED, scene, np.inf), []
+    ours, coarse = (march(model, settings, scene, step, 1)[0][:half] for step in (1e-7, 2e-7))
+    for kept in (15, 30, 45, 60):
+        cells = [str(kept), f"{blade.frequencies[kept - 1] / 2e3 / np.pi:.0f}"]
+        for parts in (50, 100):
+            found = run_nlstep(blade, kept, parts, SAMPLES, half)[0]
+            cells.append(f"{100.0 * error(found, ours):.2f}%")
+        rows.append(cells)
+    steps = [f"difference at {2.0 * np.pi / SPEED / SAMPLES / parts:.1e} s" for parts in (50, 100)]
+    head = ["modes with mass in NLstep", "up to (kHz)", *steps]
+    return f"{markdown_table(head, rows)}\n{from_itself(coarse, ours)}\n"
+
+
+RMS_REVOLUTIONS = 20
+RMS_CASES = [(speed, 30, 8) for speed in (1000.0, 1200.0, 1340.0, 1400.0, 1600.0, 1800.0)]
+RMS_CASES += [(speed, 45, 16) for speed in (1000.0, 1200.0, 1340.0, 1400.0)]
+"""Speeds (rad/s), and of NLstep the modes with mass and the steps per sample."""
+
+PERTURBED = 1.0 + 1e-3 * np.arange(-2, 3)
+"""Factors of the friction coefficient: what chaos alone does to a run's rms."""
+
+
+def rms(model, settings):
+    """Rms of the last half of runs in direct contact, the casing rising, in NLstep and the march."""
+    scene, file = scene_of(settings, "direct", rise_fraction=0.2), STUDIES / "other_programs_rms.json"
+    rows = json.loads(file.read_text()) if file.exists() else {}
+    for speed, kept, parts in RMS_CASES:
+        if (name := f"{speed:g}, {kept} modes") in rows:
+            continue
+        duration = RMS_REVOLUTIONS * 2.0 * np.pi / speed
+        ours = []
+        for factor in PERTURBED:
+            rubbed = replace(scene, friction=replace(scene.friction, coefficient=factor * scene.friction.coefficient))
+            ours.append(rms_of(march(model, settings, rubbed, 8e-7, RMS_REVOLUTIONS, speed)[0]))
+        samples = RMS_REVOLUTIONS * SAMPLES
+        found = run_nlstep(blade_of(model, speed, scene, duration), kept, parts, SAMPLES, samples)[0]
+        cells = [f"{speed:g}", str(kept), str(parts * SAMPLES), f"{1e3 * rms_of(found):.4f}", f"{1e3 * np.mean(ours):.4f}"]
+        cells += [f"{100.0 * (rms_of(found) / np.mean(ours) - 1.0):+.1f}%", f"{1e3 * min(ours):.4f} to {1e3 * max(ours):.4f}"]
+        rows[name] = cells
+        write_text(json.dumps(rows), file)
+    head = [
+        "speed (rad/s)",
+        "modes with mass in NLstep",
+        "its steps per revolution",
+        "its rms (mm)",
+        "in the march (mm)",
+        "difference",
+        "of five perturbed runs of the march",
+    ]
+    return markdown_table(head, [rows[f"{speed:g}, {kept} modes"] for speed, kept, _ in RMS_CASES])
+
+
+def rms_of(samples):
+    return float(np.sqrt(np.mean(samples[len(samples) // 2 :] ** 2)))
+
+
+if __name__ == "__main__":
+    main()

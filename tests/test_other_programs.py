@@ -1,0 +1,144 @@
+"""The march against SciPy's solve_ivp, and what another program is told of a blade: benchmarks/other_programs.py, small."""
+
+import os
+import sys
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from conftest import CHECKOUT
+from defaults import Casing, Friction, IntegrationChoice, Lining, Scene
+from integration_cases import random_model
+
+from r37core.time_integration.integrators import CENTRAL_DIFFERENCE, EXACT_MODAL
+from r37core.time_integration.simulate import Simulation
+
+SPEED, SAMPLES, BARS = 3000.0, 50, 40
+HALF = SAMPLES // 2
+TIMES = (1 + np.arange(SAMPLES)) * 2.0 * np.pi / SPEED / SAMPLES
+ELASTIC = Lining(5e-3, 20e9, 5e9, 1e30, bar_area=1e-7)
+SCENE = Scene(Casing(0.356e-3, amplitude=1.5, rise_fraction=0.0), ELASTIC, Friction(0.3), damping_ratio=0.01)
+
+
+@pytest.fixture(scope="module", autouse=True)
+def benchmarks():
+    sys.path.insert(0, str(CHECKOUT / "benchmarks"))
+    yield
+    sys.path.remove(str(CHECKOUT / "benchmarks"))
+
+
+SLOW, FAST = np.linspace(6e3, 1e5, 10), np.linspace(3e6, 5e6, 14)
+"""Frequencies (rad/s)."""
+
+
+def model_of(frequencies):
+    """Two nodes, the first at the leading edge, on modes of these frequencies (rad/s)."""
+    full, modes = random_model(2), len(frequencies)
+    rows = full.displacement_operator[..., :modes] * np.where(frequencies > SLOW[-1], 10.0, 1.0)
+    return replace(
+        full,
+        squared_frequencies=frequencies**2,
+        stiffness_per_square=np.zeros((modes, modes)),
+        displacement_operator=rows,
+        tip_displacement_operator=rows[:, [0, 1]],
+        to_reduced=np.eye(modes),
+        # so slow over the casing that the vibration turns the friction
+        radius=np.full(2, 0.02),
+    )
+
+
+@pytest.fixture(scope="module")
+def model():
+    return model_of(SLOW)
+
+
+def march(model, scene, steps, integrator):
+    """Samples of the leading edge and wear after a revolution of so many steps; steps of static modes are left out."""
+    choice = IntegrationChoice(TIMES[-1] / steps, 1, SAMPLES, integrator=integrator, engine="reference", static_above=1e9)
+    simulation = Simulation(model, SPEED, scene, choice)
+    assert simulation.problem.steps_per_revolution == steps
+    state = simulation.start()
+    return simulation.advance(state, 1).samples[:, 0], state.wear
+
+
+def order_of(errors):
+    """Power of the step with which errors fall, over all halvings of it."""
+    return np.log2(errors[0] / errors[-1]) / (len(errors) - 1)
+
+
+def error(found, exact):
+    return np.abs(found - exact).max() / np.abs(exact).max()
+
+
+@pytest.mark.parametrize(("integrator", "order", "largest"), [(EXACT_MODAL, 2.0, 1e-4), (CENTRAL_DIFFERENCE, 1.0, 5e-2)])
+def test_on_bars_that_do_not_yield_the_march_has_the_order_that_it_claims(model, integrator, order, largest):
+    from equations_of_motion import blade_of, without_yield
+
+    exact = without_yield(blade_of(model, SPEED, SCENE, np.inf), TIMES, rtol=1e-9, atol=1e-14)
+    errors = [error(march(model, SCENE, steps, integrator)[0], exact) for steps in (1000, 2000, 4000)]
+    assert errors[0] < largest
+    assert order_of(errors) == pytest.approx(order, abs=0.35), errors
+
+
+def test_a_casing_that_rises(model):
+    from equations_of_motion import blade_of, without_yield
+
+    rising = replace(SCENE, casing=replace(SCENE.casing, rise_fraction=0.5))
+    exact = without_yield(blade_of(model, SPEED, rising, TIMES[-1]), TIMES, rtol=1e-9, atol=1e-14)
+    assert error(march(model, rising, 4000, EXACT_MODAL)[0], exact) < 1e-3
+
+
+def test_on_bars_that_wear_the_march_is_of_first_order(model):
+    """In motion and wear: what a node does on a bar after its last step there goes unseen."""
+    from equations_of_motion import blade_of, with_wear
+
+    scene = replace(SCENE, lining=replace(ELASTIC, yield_stress=1e6, bars=BARS))
+    exact, wear = with_wear(blade_of(model, SPEED, scene, np.inf), TIMES, rtol=1e-8, atol=1e-13)
+    assert np.count_nonzero(wear) > 4
+    runs = [march(model, scene, BARS * parts, EXACT_MODAL) for parts in (25, 50, 100)]
+    for which, truth in ((0, exact), (1, wear)):
+        errors = [error(run[which], truth) for run in runs]
+        assert errors[-1] < 1e-2
+        assert order_of(errors) > 0.7, errors
+
+
+def test_springs_with_dashpots_lead_to_the_multipliers_of_direct_contact(model):
+    from equations_of_motion import against_spring, blade_of
+
+    scene = replace(SCENE, lining=None)
+    ours = march(model, scene, 8000, EXACT_MODAL)[0][:HALF]
+    blade = blade_of(model, SPEED, scene, np.inf)
+    found = [against_spring(blade, TIMES[:HALF], k, 2.0, rtol=1e-6, atol=1e-12) for k in (1e7, 1e8, 1e9, 1e10)]
+    errors = [error(one, ours) for one in found]
+    assert errors[-1] < 2e-2
+    assert errors[0] > 5 * errors[-1]
+
+
+def test_a_massless_boundary_keeps_the_slow_modes_and_the_flexibility(model):
+    from equations_of_motion import blade_of
+    from massless_boundary import boundary_rows, massless_boundary
+
+    blade, kept = blade_of(random_model(2), SPEED, SCENE, np.inf), 12
+    mass, damping, stiffness = massless_boundary(blade, kept)
+    nodes = slice(0, 6)
+    assert not mass[nodes].any() and not damping[nodes].any()
+    flexibility = np.linalg.inv(stiffness)[nodes, nodes]
+    rows = boundary_rows(blade)
+    np.testing.assert_allclose(flexibility, (rows / blade.frequencies**2) @ rows.T, rtol=1e-8)
+    free = stiffness[6:, 6:] - stiffness[6:, nodes] @ np.linalg.solve(stiffness[nodes, nodes], stiffness[nodes, 6:])
+    np.testing.assert_allclose(np.linalg.eigvalsh(free), blade.frequencies[:kept] ** 2, rtol=1e-6)
+
+
+@pytest.mark.skipif("NLSTEP" not in os.environ, reason="NLstep, its folder in the variable NLSTEP, and GNU Octave")
+def test_nlstep_on_a_light_touch():
+    """Fast modes have mass in the march, none in NLstep."""
+    from equations_of_motion import blade_of
+    from massless_boundary import run_nlstep
+
+    stiff, scene = (
+        model_of(np.concatenate([SLOW, FAST])),
+        replace(SCENE, lining=None, casing=replace(SCENE.casing, amplitude=1.1)),
+    )
+    ours = march(stiff, scene, 8000, EXACT_MODAL)[0][:HALF]
+    found = run_nlstep(blade_of(stiff, SPEED, scene, np.inf), len(SLOW), 160, SAMPLES, HALF)[0]
+    assert error(found, ours) < 0.1
