@@ -11,6 +11,7 @@ from defaults import Casing, IntegrationChoice, Scene
 from r37core.config.study_sections import SpeedSteps
 from r37core.dataset_file import read_dataset
 from r37core.fem.material import Material
+from r37core.figures import style
 from r37core.published import BLADES, INTERACTIONS
 from r37core.results import measures
 from r37core.results.stress_recovery import StressRecovery
@@ -209,7 +210,7 @@ class Recovery(StressRecovery):
     """Stands for the stress: of each instant what the snapshots say."""
 
     def __init__(self):
-        pass
+        self.region = "airfoil"
 
     def have_rotation(self, snapshots):
         return False
@@ -256,7 +257,9 @@ def test_pictures_show_every_blade_and_both_scenes():
     shipped = published_runs()
     survey = {name: branch(1200.0, low=750.0, high=2000.0) for name in ("Ref_lined", "Ref_direct")}
     figures = [draw_reference(survey, shipped), draw_blades(shipped), draw_stress(shipped)]
-    for figure, legend in zip(figures, (["abradable lining", "direct contact"], list(BLADES), [*BLADES, "yield"]), strict=True):
+    for figure, legend in zip(
+        figures, (["abradable lining", "direct contact"], list(BLADES), [*BLADES, "yield stress", style.OUTSIDE]), strict=True
+    ):
         assert figure.axes[0].get_legend_handles_labels()[1] == legend
     speed, level = figures[0].axes[0].lines[0].get_data()
     assert np.all(np.diff(speed) > 0.0)

@@ -240,7 +240,7 @@ RULES_OF_MODULES = {
     "time_integration/simulate.py": {"prepare_time_integration"},
     "mesh/generate.py": {"mesh"},
     "results/interactions.py": {"summary"},
-    "figures/maps.py": {"map_figure"},
+    "figures/maps.py": {"map_figure", "waterfall_figure"},
     # together: none of them has a rule
     "studies/tradeoff/report.py config/settings.py plans/sweep_plan.py": set(),
 }

@@ -44,7 +44,7 @@ class GrowthSection(Section):
 class ClearanceSection(Section):
     """A clearance that changes with the speed, in place of clearance_m."""
 
-    cold_m: float = Field(ge=0, le=0.1, description="at rest, normal to the casing; lobes are given in shares of it")
+    cold_m: float = Field(ge=1e-6, le=0.1, description="at rest, normal to the casing; lobes are given in shares of it")
     centrifugal: bool = Field(default=True, description="whether the blade grows and untwists under its centrifugal load")
     casing_growth: GrowthSection | LeftOut = None
 
@@ -52,7 +52,7 @@ class ClearanceSection(Section):
 class CasingSection(Section):
     """Shape of the casing."""
 
-    clearance_m: Annotated[float, Field(ge=0, le=0.1)] | LeftOut = Field(
+    clearance_m: Annotated[float, Field(ge=1e-6, le=0.1)] | LeftOut = Field(
         default=None, description="normal to the casing, at every speed; or clearance, which changes with the speed"
     )
     clearance: ClearanceSection | LeftOut = None

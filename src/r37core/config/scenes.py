@@ -21,7 +21,7 @@ class LiningSection(Section):
     """The abradable lining in front of the casing."""
 
     thickness_m: float = Field(ge=1e-6, le=1, description="from its surface to the casing behind it")
-    elastic_modulus_pa: float = Field(gt=0, le=1e15, description="of a bar that is not worn further")
+    elastic_modulus_pa: float = Field(ge=1e3, le=1e15, description="of a bar that is not worn further")
     plastic_modulus_pa: float = Field(ge=0, le=1e15, description="hardening of a bar as it wears")
     yield_stress_pa: float = Field(ge=0, le=1e15, description="stress from which on a bar wears")
     bars: int = Field(default=10000, ge=10, le=10_000_000, description="bars round the circumference")
@@ -29,7 +29,7 @@ class LiningSection(Section):
         default="per_node", description="shared, one ring worn by all nodes, is kept for the study modelling_choices"
     )
     bar_width_m: float = Field(default=0.001, ge=1e-6, le=1, description="width of a bar, along the casing's meridian")
-    bar_area_m2: Annotated[float, Field(gt=0, le=1)] | LeftOut = Field(
+    bar_area_m2: Annotated[float, Field(ge=1e-12, le=1)] | LeftOut = Field(
         default=None, description="area of a bar, in place of its width times its arc length at the tip"
     )
 
