@@ -22,6 +22,7 @@ TABLES = {
     },
     "accuracy_tables": {"refinement": "refinement.md", "tradeoff": "tradeoff.md"},
     "coriolis": {name: f"coriolis_{name}.md" for name in ("frequencies", "peaks", "direct", "cost")},
+    "elastic_casing": {name: f"elastic_casing_{name}.md" for name in ("rings", "peaks", "direct", "diameters", "coincidences", "cost")},
     "run_ups": {"run_up_rates": "run_up_rates.md", "run_up_variants": "run_up_variants.md"},
     "clearance": {"clearance_growth": "clearance_growth.md", "clearance_effect": "clearance_effect.md"},
     "tolerances": {name: f"{name}.md" for name in ("tolerance_ranges", "tolerance_sensitivity", "tolerance_members")},
@@ -43,6 +44,7 @@ PICTURES = (
     "tradeoff_pareto",
     "growth",
     "coriolis_peaks",
+    "elastic_casing_peaks",
     "modelling_choices",
     *(f"validation_{name}" for name in ("reference", "blades", "stress", "histories", "spectrum_lined", "spectrum_direct")),
 )
@@ -50,6 +52,8 @@ PICTURES = (
 FIGURES = {
     "response_Ref": ROOT / "results/figures/response_Ref.png",
     "clearance_growing_abradable": ROOT / "results/figures/clearance_growing_abradable.png",
+    "casing_Ref": ROOT / "results/figures/casing_Ref__elastic_abradable.png",
+    "campbell_elastic_casing": ROOT / "results/figures/campbell_Ref.png",
     "run_up_rates": ROOT / "results/figures/run_up_rates_abradable.png",
     "tolerances_Ref": ROOT / "results/runs/sensitivity/figures/tolerances_Ref__abradable.png",
     "run_ups_Ref": ROOT / "results/figures/run_ups_Ref__abradable.png",

@@ -22,7 +22,7 @@ use rule figure as campbell_figure with:
     resources:
         **needs.of("campbell_figure"),
     params:
-        **drawing(code, "campbell_diagram.draw_campbell", "campbell"),
+        **drawing(code, "campbell_diagram.draw_campbell", "campbell", casings=sweep.casings),
 
 
 use rule figure as campbell_overview with:

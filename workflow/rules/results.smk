@@ -79,6 +79,27 @@ rule summary:
         "../scripts/summary.py"
 
 
+rule coincidences:
+    input:
+        campbell=rules.campbell_of_all.output[0],
+    output:
+        report(
+            "<results>/coincidences.csv",
+            **shown(TEXTS / "coincidences.rst", TOGETHER, EVERY_SCENE, figure="coincidences"),
+        ),
+    log:
+        "<logs>/coincidences.log",
+    conda:
+        ENVIRONMENT
+    resources:
+        **needs.of("summary"),
+    params:
+        casings=sweep.casings,
+        code=code("coincidences"),
+    script:
+        "../scripts/coincidences.py"
+
+
 rule explorer:
     input:
         **datasets,

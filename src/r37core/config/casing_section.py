@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from itertools import pairwise
 from typing import Annotated, Literal
 
 from pydantic import Field, model_validator
 
 from r37core.contact.casing import Casing
+from r37core.contact.ring import Ring, RingMode
 
 from .section import LeftOut, Section, refused
 from .si_fields import in_si, si_fields
@@ -49,8 +51,50 @@ class ClearanceSection(Section):
     casing_growth: GrowthSection | LeftOut = None
 
 
+class RingSection(Section):
+    """A casing that gives way: a thin ring of one material on an elastic foundation, its flanges."""
+
+    radius_m: float = Field(ge=1e-3, le=100, description="of the ring's middle line")
+    thickness_m: float = Field(ge=1e-6, le=10, description="radial; at most a fifth of the radius")
+    width_m: float = Field(ge=1e-6, le=100, description="axial")
+    elastic_modulus_pa: float = Field(ge=1e3, le=1e15, description="of the ring's material")
+    density_kg_m3: float = Field(ge=1e-3, le=1e6, description="of the ring's material")
+    damping_ratio: float = Field(default=0.005, ge=0, lt=1, description="of every mode of the ring")
+    radial_foundation_n_m2: float = Field(
+        default=0.0, ge=0, le=1e15, description="radial stiffness per length of circumference; 0: a free ring"
+    )
+    tangential_foundation_n_m2: float = Field(
+        default=0.0, ge=0, le=1e15, description="tangential stiffness per length of circumference; without it no ring turns"
+    )
+    highest_nodal_diameter: int = Field(default=20, ge=2, le=100, description="modes of more nodal diameters are left out")
+
+    @model_validator(mode="after")
+    def _thin(self) -> RingSection:
+        if self.thickness_m > 0.2 * self.radius_m:
+            raise refused(("thickness_m",), f"{self.thickness_m:g}", f"at most a fifth of radius_m, {0.2 * self.radius_m:g}")
+        return self
+
+
+class RingModeSection(Section):
+    """A mode of the casing, as a test or a finite-element model of it gives them; a pair where it has nodal diameters."""
+
+    nodal_diameter: int = Field(ge=0, le=200, description="waves round the circumference")
+    frequency_hz: float = Field(ge=1e-3, le=1e7, description="natural frequency, of a casing that does not turn")
+    modal_mass_kg: float = Field(ge=1e-9, le=1e9, description="for a radial displacement of 1 at the antinode")
+    damping_ratio: float = Field(default=0.005, ge=0, lt=1, description="of this mode")
+    tangential_ratio: Annotated[float, Field(ge=-10, le=10)] | LeftOut = Field(
+        default=None, description="tangential over radial displacement; default: 1/nodal_diameter, bending alone; 0 without any"
+    )
+
+    def mode(self) -> RingMode:
+        """The mode as the simulations take it."""
+        inextensional = 1.0 / self.nodal_diameter if self.nodal_diameter else 0.0
+        tangential = inextensional if self.tangential_ratio is None else self.tangential_ratio
+        return in_si(RingMode, self, frequency=2.0 * math.pi * self.frequency_hz, tangential=tangential)
+
+
 class CasingSection(Section):
-    """Shape of the casing."""
+    """Shape of the casing, and whether it gives way."""
 
     clearance_m: Annotated[float, Field(ge=1e-6, le=0.1)] | LeftOut = Field(
         default=None, description="normal to the casing, at every speed; or clearance, which changes with the speed"
@@ -65,6 +109,10 @@ class CasingSection(Section):
     width: float = Field(default=0.15, ge=1e-3, le=100, description="width of a lobe in shares of its period")
     amplitude_clearances: float = Field(default=2.0, ge=0, le=1000, description="height of the lobes")
     rise_fraction: float = Field(default=0.2, ge=0, le=1, description="share of the run at which 99% is reached")
+    ring: RingSection | LeftOut = Field(default=None, description="an elastic casing; rigid without it")
+    ring_modes: Annotated[list[RingModeSection], Field(min_length=1, max_length=200)] | LeftOut = Field(
+        default=None, description="the same by its modes, in place of ring"
+    )
 
     @model_validator(mode="after")
     def _one_clearance(self) -> CasingSection:
@@ -73,14 +121,27 @@ class CasingSection(Section):
             raise refused((), found, "one of clearance_m and clearance")
         return self
 
+    @model_validator(mode="after")
+    def _one_ring(self) -> CasingSection:
+        if self.ring is not None and self.ring_modes is not None:
+            raise refused((), "ring and ring_modes", "one of them")
+        return self
+
+    @property
+    def elastic(self) -> bool:
+        """Whether the casing gives way."""
+        return self.ring is not None or self.ring_modes is not None
+
     def casing(self) -> Casing:
         """The casing as the simulations take it."""
+        modes = in_si(Ring, self.ring).modes() if self.ring else tuple(one.mode() for one in self.ring_modes or ())
         if self.clearance is None:
-            return in_si(Casing, self)
+            return in_si(Casing, self, ring=modes)
         table = si_fields(self.clearance.casing_growth or ())
         return in_si(
             Casing,
             self,
+            ring=modes,
             clearance=self.clearance.cold_m,
             centrifugal=self.clearance.centrifugal,
             growth_speeds=table.get("speeds", ()),

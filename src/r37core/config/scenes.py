@@ -14,7 +14,7 @@ from .si_fields import in_si, si_fields
 from .speed_section import refuse_both_units
 
 TipLine = Literal["pressure_edge", "camber", "suction_edge"]
-Result = Literal["spectrum", "signal", "stress", "static_stress", "wear", "energy", "shapes"]
+Result = Literal["spectrum", "signal", "stress", "static_stress", "wear", "energy", "casing", "shapes"]
 
 
 class LiningSection(Section):
@@ -76,7 +76,8 @@ class SceneEntry(Section):
     results: list[Result] = Field(
         default=["spectrum", "stress"],
         json_schema_extra={"uniqueItems": True},
-        description="what is computed and kept; with static_stress, that of rotation is part of the stress",
+        description="what is computed and kept; with static_stress, that of rotation is part of the stress; casing: waves that "
+        "run round an elastic casing",
     )
     stress_history_speeds_rad_s: list[Speed] = Field(
         default=[], description="speeds at which the largest stress of every revolution is kept"
@@ -95,12 +96,20 @@ class SceneEntry(Section):
                     raise refused((key, number), f"{value} twice", "each once")
         if "wear" in self.results and self.lining is None:
             raise refused(("results",), "wear", "only in a scene with a lining")
+        if "casing" in self.results and not self.casing.elastic:
+            raise refused(("results",), "casing", "only in a scene whose casing has a ring or ring_modes")
         for result in ("shapes", "static_stress"):
             if result in self.results and "stress" not in self.results:
                 raise refused(("results",), result, "only with stress among the results")
         for key in histories:
             if getattr(self, key) and "stress" not in self.results:
                 raise refused((key,), "speeds", "only with stress among the results")
+        return self
+
+    @model_validator(mode="after")
+    def _elastic_casing_has_linear_gap(self) -> SceneEntry:
+        if self.casing.elastic and self.gap == "exact":
+            raise refused(("gap",), "exact with an elastic casing", "linear; the exact gap is that of a casing that keeps its shape")
         return self
 
     def stress_history_speeds(self) -> tuple[float, ...]:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .laws import lobe_shape
+from .ring import RingMode
 
 _ROUNDED = 1e-5
 """Relative difference of speeds that are the same, given in rad/s and in rpm with six digits."""
@@ -25,6 +26,8 @@ class Casing:
     The clearance is that of every speed, unless the blade or the casing grows with it. Then it is the cold one, at rest:
     `centrifugal`, the blade's static displacement is taken off; `growth` (m) of the casing is added, given at
     `growth_speeds` (rad/s), ascending, and linear between them. The lobes stay as they are.
+
+    `ring`: modes of a casing that gives way to the contact forces; without them it is rigid.
     """
 
     clearance: float
@@ -36,6 +39,7 @@ class Casing:
     centrifugal: bool = False
     growth_speeds: tuple[float, ...] = ()
     growth: tuple[float, ...] = ()
+    ring: tuple[RingMode, ...] = ()
 
     def shape(self, theta: np.ndarray) -> np.ndarray:
         """f(theta), between 0 and 1, for angles in rad."""

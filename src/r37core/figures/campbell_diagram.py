@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 import matplotlib.pyplot as plt
@@ -10,6 +11,9 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from r37core.contact.ring import RingMode
+from r37core.plain import from_plain
+from r37core.results.coincidences import coincidences, seen_from_rotor, waves_of
 from r37core.rom.naming import NAMED_MODES, mode_label
 
 from . import style
@@ -17,8 +21,11 @@ from . import style
 _ROOM = 0.07
 
 
-def draw_campbell(campbell: xr.Dataset, title: str) -> Figure:
-    """One blade: frequencies over speed with engine orders and crossings, and the dynamic clearance of 1B and 1T."""
+def draw_campbell(campbell: xr.Dataset, title: str, casings: Mapping[str, Any] | None = None) -> Figure:
+    """One blade: frequencies over speed with engine orders and crossings, and the dynamic clearance of 1B and 1T.
+
+    `casings`: modes of elastic casings by scene, as plain values; their waves are seen from the rotor.
+    """
     figure, (left, right) = plt.subplots(1, 2, figsize=(style.PAGE, 3.6), width_ratios=[1.7, 1.0])
     speed = campbell["speed"].values
     highest = 1.3 * float(campbell["frequency"].sel(mode="2B").max())
@@ -32,6 +39,7 @@ def draw_campbell(campbell: xr.Dataset, title: str) -> Figure:
         left.plot(speed, frequency, label=mode_label(str(name)), color=colour)
         crossing = campbell["crossing_speed"].sel(mode=name)
         left.plot(crossing, crossing * campbell["engine_order"] / (2.0 * np.pi), "o", color=colour, markersize=3.5)
+    _draw_casings(left, campbell, casings or {})
     left.set_title(f"Campbell diagram, blade {title}")
     left.legend(loc="upper left", ncols=3)
     style.rpm_axis(left)
@@ -62,6 +70,26 @@ def draw_campbell_overview(campbell: xr.Dataset) -> Figure:
     panels[0].set_ylabel("frequency (Hz)")
     figure.legend(*panels[0].get_legend_handles_labels(), loc="outside lower center", ncols=7)
     return figure
+
+
+def _draw_casings(axes: Axes, campbell: xr.Dataset, casings: Mapping[str, Any]) -> None:
+    """Waves of elastic casings, those that scenes share once, and where named modes of the blade meet them."""
+    if not casings:
+        return
+    different = dict.fromkeys(from_plain(tuple[RingMode, ...], modes) for modes in casings.values())
+    speeds, highest = campbell["speed"].values, axes.get_ylim()[1]
+    legend = {"forward": "casing, forward", "backward": "casing, backward"}
+    for mode in (mode for modes in different for mode in modes):
+        for wave in waves_of(mode):
+            seen = np.abs(seen_from_rotor(mode, wave, speeds))
+            if seen.min() > highest:
+                continue
+            dashes = (4.0, 2.0) if wave == "forward" else (1.0, 1.5)
+            label = legend.pop(wave, "_")
+            axes.plot(speeds, seen, color="#8C510A", linewidth=0.5, dashes=dashes, zorder=1, label=label)
+            for name in NAMED_MODES:
+                for place in coincidences(campbell["frequency"].sel(mode=name), mode, wave):
+                    axes.plot(*place, "D", color="#8C510A", markersize=2.5, markerfacecolor="white", zorder=4)
 
 
 def _draw_engine_orders(axes: Axes, orders: np.ndarray, speed: np.ndarray, highest: float) -> None:

@@ -7,7 +7,8 @@ CAPTIONS = {
         "Campbell diagram of blade {blade}. Left: natural frequencies of the reduced model over speed, each mode in its "
         "colour, with its crossings with engine orders (grey) as dots. Right: change of the clearance at the leading edge, "
         "normal to the casing, over the tangential displacement. The blade swings freely in its first bending (1B) or "
-        "first torsion mode (1T); below zero the gap closes."
+        "first torsion mode (1T); below zero the gap closes. With an elastic casing: its waves as seen from the rotor (brown), and "
+        "where a named mode meets one (diamonds)."
     ),
     "campbell_overview": (
         "Frequencies of the first bending (1B), first torsion (1T) and second bending mode (2B) of all blades over speed, "
@@ -33,6 +34,11 @@ CAPTIONS = {
         "(left) and tangential (right), over speed and engine order. Colours are decibels below the largest amplitude at "
         "the same speed, which stands above the map; order 0 does not count. Dashed: frequencies of 1B, 1T and 2B. Where "
         "they meet a bright row of a whole engine order, the blade interacts with the casing."
+    ),
+    "casing": (
+        "Waves round the elastic casing for blade {blade} in scene {scene}: rms of those that run with the rotor (left) and "
+        "against it (right), over speed and nodal diameters, in decibels below the largest. Below: energy of the casing, "
+        "mean over the last half of the run, and rms of all waves."
     ),
     "wear": (
         "Wear of the lining at the end of the run, over speed and the angle round the casing, for blade {blade} in scene "

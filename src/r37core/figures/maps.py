@@ -1,4 +1,4 @@
-"""Maps over speed: the spectrum against engine order, the wear against angle."""
+"""Maps over speed: the spectrum against engine order, the wear against angle, an elastic casing's waves."""
 
 from __future__ import annotations
 
@@ -16,6 +16,7 @@ from r37core.rom.naming import NAMED_MODES
 
 from . import style
 from .bins import largest_of_bins
+from .casing_map import draw_casing_map
 
 _DECIBELS = 60.0
 _MOST_BINS = 400
@@ -23,7 +24,9 @@ DIRECTIONS = {"amplitude": "normal", "amplitude_tangential": "tangential"}
 
 
 def draw_map(maps: xr.Dataset, campbell: xr.Dataset, title: str) -> Figure:
-    """The map of wear or of spectra, whichever the dataset has."""
+    """The map of wear, of the casing's waves or of spectra, whichever the dataset has."""
+    if "casing_energy" in maps:
+        return draw_casing_map(maps, title)
     return (draw_wear_map if "wear" in maps else draw_spectral_map)(maps, campbell, title)
 
 

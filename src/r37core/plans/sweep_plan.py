@@ -18,10 +18,10 @@ from r37core.time_integration.speed_run import OF_RUNS
 
 from . import paths
 
-KINDS = ("rms", "spectrum", "stress", "wear")
+KINDS = ("rms", "spectrum", "stress", "wear", "casing")
 """Kinds of datasets over all blades and scenes; the first of every scene, the others of those that want them."""
 
-MAPS = ("spectrum", "wear")
+MAPS = ("spectrum", "wear", "casing")
 """Kinds that are drawn as maps over speed."""
 
 
@@ -169,6 +169,12 @@ class Sweep:
         pairs = self.runs_with(getattr(wildcards, "kind", KINDS[0]))
         adaptive = [(blade, scene) for blade, scene in pairs if self.settings.speed_plans[blade, scene].refined]
         return [paths.fill(paths.ROUND, blade=blade, scene=scene, round=0) for blade, scene in adaptive]
+
+    @property
+    def casings(self) -> dict[str, Any]:
+        """Modes of the casing of each scene whose casing gives way, as plain values."""
+        rings = {name: chosen.scene.casing.ring for name, chosen in self.settings.scenes.items()}
+        return {name: to_plain(ring) for name, ring in rings.items() if ring}
 
     def scenes_with(self, kind: str, blade: str) -> list[str]:
         """Scenes of a blade that have this kind of result."""

@@ -39,6 +39,7 @@ def targets(sweep: Sweep, recorded: Signals) -> dict[str, Wildcards]:
     return {
         **{f"<results>/{kind}.nc": [{}] if kind in sweep.kinds else [] for kind in KINDS},
         "<results>/designs.csv": families and [{}],
+        "<results>/coincidences.csv": [{}] if sweep.casings else [],
         "<results>/signals.nc": signals and [{}],
         **{f"<results>/{name}": climbed and [{}] for name in ("run_ups.nc", "run_ups.csv", "run_up_rates.csv")},
         **{f"<results>/{name}": [{}] if settings.members.pairs else [] for name in ("tolerances.nc", "tolerances.csv")},

@@ -1,4 +1,4 @@
-"""rms.nc, spectrum.nc, stress.nc, wear.nc: the responses of all blades and scenes, joined slab by slab."""
+"""rms.nc, spectrum.nc, stress.nc, wear.nc, casing.nc: the responses of all blades and scenes, joined slab by slab."""
 
 from __future__ import annotations
 
@@ -15,6 +15,10 @@ from r37core.time_integration.status import RunStatus
 
 from .netcdf import create_axis, create_labels, create_text, create_variable
 from .variables import DATASETS, FLAGS
+
+
+_AXES = ("speed", "history_speed", "revolution", "engine_order", "angle", "lobes", "contact_node", "casing_mode", "casing_order")
+"""Numeric axes, of which a dataset has what its responses have together."""
 
 
 def write_sweep_dataset(
@@ -73,7 +77,7 @@ def _axes(responses: Mapping[tuple[str, str], Path | str]) -> dict[str, np.ndarr
     axes: dict[str, np.ndarray] = {}
     for source in responses.values():
         with readable(source), netCDF4.Dataset(source) as response:
-            for name in ("speed", "history_speed", "revolution", "engine_order", "angle", "lobes", "contact_node"):
+            for name in _AXES:
                 if name in response.variables:
                     axes[name] = np.union1d(axes.get(name, np.empty(0)), response[name][:].filled(np.nan))
     return axes

@@ -15,7 +15,7 @@ from r37core.time_integration.speed_file import read_speed
 from .measures import first_yield, largest_of_run, stress_history
 from .netcdf import create_axis, create_labels, create_text, create_variable, status_flags
 from .stress_recovery import StressRecovery
-from .variables import VARIABLES
+from .variables import OF_CASING, VARIABLES
 
 
 def write_response(
@@ -47,6 +47,10 @@ def write_response(
                 _create(dataset, speeds, values, history_speeds)
                 about = {"units": "rad", "long_name": "half angle of the casing's cone, negative where it narrows downstream"}
                 create_variable(dataset, "casing_cone_angle", "f8", (), about)[...] = values["cone_angle"]
+                for name, one in OF_CASING.items():
+                    if name in values:
+                        about = {"units": one.units, "long_name": one.long_name}
+                        create_variable(dataset, name, one.dtype, one.dims, about)[...] = values[name]
                 if recovery is not None:
                     total = recovery.have_rotation(values["snapshots"])
                     about = {"units": "1", "long_name": "1 where max_von_mises has the stress of rotation, 0: vibration alone"}
@@ -88,6 +92,11 @@ def _create(
     if "clearance" in values:
         nodes = np.arange(1, len(values["clearance"]) + 1)
         coordinates["contact_node"] = (nodes, "1", "number of the contact node, from the leading edge on")
+    if "casing_order" in values:
+        modes = np.arange(1, len(values["casing_energy"]) + 1)
+        coordinates["casing_mode"] = (modes, "1", "number of the casing's mode")
+        order = "frequency over speed, not turning; positive with the rotor, negative against it"
+        coordinates["casing_order"] = (values["casing_order"], "1", order)
     if history_speeds:
         coordinates["history_speed"] = (np.array(history_speeds), "rad s-1", "speed with a stress history")
     create_labels(dataset, "tip_point", TIP_POINTS)

@@ -41,7 +41,23 @@ VARIABLES = {
     "wear": Variable(("angle",), "m", "wear of the lining, largest over the rings, at the end", "f4"),
     "max_wear": Variable((), "m", "largest wear of the lining at the end"),
     "wear_harmonic": Variable(("lobes",), "m", "amplitude of the wear profile's lobes"),
+    "casing_amplitude": Variable(
+        ("casing_mode", "casing_order"), "m", "amplitude of the waves of the casing's modes, over the last half of the run", "f4"
+    ),
+    **{
+        f"casing_rms_{wave}": Variable(
+            ("casing_mode",), "m", f"rms, over time and circumference, of the waves that run {sense} the rotor", "f4"
+        )
+        for wave, sense in (("forward", "with"), ("backward", "against"))
+    },
+    "casing_energy": Variable(("casing_mode",), "J", "mean energy of the casing's modes over the last half of the run", "f4"),
 }
+
+OF_CASING = {
+    "casing_nodal_diameter": Variable(("casing_mode",), "1", "nodal diameters of the casing's mode"),
+    "casing_frequency": Variable(("casing_mode",), "Hz", "natural frequency of the casing's mode, which does not turn"),
+}
+"""The same at every speed."""
 
 DATASETS = {
     "rms": (
@@ -73,6 +89,7 @@ DATASETS = {
         "first_yield_revolution",
     ),
     "wear": ("wear", "max_wear", "wear_harmonic"),
+    "casing": (*OF_CASING, "casing_rms_forward", "casing_rms_backward", "casing_energy", "casing_amplitude"),
 }
 """Dataset -> its variables, where a response has them; each also carries those of FLAGS."""
 

@@ -80,7 +80,11 @@ class March:
             simulation = self._simulation(segment)
             if modes is not None:
                 turned = simulation.problem.modes.T @ modes
-                self.state.displacement, self.velocity = turned @ self.state.displacement, turned @ self.velocity
+                # an elastic casing's modes, which come after the blade's, stay as they are
+                self.state.displacement, self.velocity = (
+                    np.concatenate([turned @ one[: modes.shape[1]], one[modes.shape[1] :]])
+                    for one in (self.state.displacement, self.velocity)
+                )
                 # there may be more of them or fewer, where the fastest are left out
                 self.state.increment = np.zeros_like(self.state.displacement)
             modes = simulation.problem.modes
@@ -118,7 +122,7 @@ def told_problem(model: ContactModel, speed: float, scene: Scene, choice: Integr
     Raises what Problem raises; UnstableStepError for an explicit step that is too long.
     """
     problem = stable_problem(model, speed, scene, choice)
-    fastest = problem.frequencies[-1]
+    fastest = problem.highest_frequency
     if choice.integrator == CENTRAL_DIFFERENCE or fastest * problem.time_step < _LARGEST_TURN:
         return problem
     limit = _LARGEST_TURN / fastest

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from r37core.alignment import aligned_copy, aligned_zeros
+from r37core.contact.ring import RingMotion
 from r37core.contact.scene import Friction, Lining
 from r37core.native import Sources, cached_object, load_function
 
@@ -27,11 +28,13 @@ SOURCES = Sources(
     "contact/casing.py",
     "contact/complementarity.py",
     "contact/laws.py",
+    "contact/ring.py",
     "contact/scene.py",
     "time_integration/jump_steps.py",
     "time_integration/layout.py",
     "time_integration/lined_steps.py",
     "time_integration/program.py",
+    "time_integration/ring_steps.py",
     "time_integration/steps.py",
 )
 """What the compiled time integration is made from: a change in one of these compiles it anew."""
@@ -43,7 +46,11 @@ class CompiledEngine:
     def __init__(self, problem: Problem):
         outputs = len(problem.output_operator)
         _, self._nodes, self._modes = problem.displacement_operator.shape
-        self._layout = layout_of(self._modes, self._nodes, outputs)
+        blade, pairs = len(problem.frequencies), len(problem.scene.casing.ring)
+        self._layout = layout_of(blade, self._nodes, outputs, pairs)
+        # where the modes are: those of an elastic casing begin whole vectors
+        firsts = (self._layout.modes - 2 * self._layout.pairs, self._layout.modes - self._layout.pairs)
+        self._places = np.concatenate([np.arange(blade), *(first + np.arange(pairs) for first in firsts)])
         self._record = aligned_zeros((1,), integration_record(self._layout))
         scene, choice, pace = problem.scene, problem.choice, problem.pace
         kind = Kind(
@@ -56,6 +63,7 @@ class CompiledEngine:
             energy=choice.energy,
             jumps=pace.jumps is not None,
             coriolis=problem.complex_modes is not None,
+            ring=problem.ring is not None,
         )
         self._energy, self._coriolis = choice.energy, kind.coriolis
         self._advance = _program(self._layout, kind)
@@ -64,6 +72,10 @@ class CompiledEngine:
         self._lay_out(problem)
         if self._coriolis:
             self._lay_out_coriolis(problem)
+        if problem.ring is not None:
+            self._lay_out_ring(problem.ring, problem, jumps=pace.jumps is not None)
+        if kind.coriolis or kind.ring:
+            self._put_modes(size_operator=problem.size_operator)
         self._lay_out_casing(problem, jumps=pace.jumps is not None)
         if scene.friction is not None:
             self._lay_out_friction(problem, scene.friction)
@@ -81,15 +93,15 @@ class CompiledEngine:
         # friction of constant direction is part of what a normal force does
         response = normal if self._constant_share is None else normal + self._constant_share * coupling[TANGENTIAL]
         self._record[0]["problem"]["diagonal"][: self._nodes] = normal.diagonal()
-        self._put(keep=recursion.keep, pull=recursion.pull, inverse=recursion.inverse, clearance=clearance)
-        self._put(coupling=coupling, columns=normal, response=response)
+        self._put_modes(keep=recursion.keep, pull=recursion.pull, inverse=recursion.inverse)
+        self._put(clearance=clearance, coupling=coupling, columns=normal, response=response)
         if self._energy:
-            self._put(loss=recursion.loss)
+            self._put_modes(loss=recursion.loss)
         if self._coriolis:
-            self._put(inverse_keep=1.0 / recursion.keep)
+            self._put_modes(inverse_keep=1.0 / recursion.keep)
         if plan is not None:
-            self._put(slow_modes=plan.slow_modes, jumps=plan.jumps)
-            self._put(amplitude_by_u=plan.amplitude_rows[0], amplitude_by_d=plan.amplitude_rows[1])
+            self._put(slow_modes=plan.slow_modes)
+            self._put_modes(jumps=plan.jumps, amplitude_by_u=plan.amplitude_rows[0], amplitude_by_d=plan.amplitude_rows[1])
 
     def _put(self, **values: Any) -> None:
         """Put numbers and arrays into fields of the record; an array fills a corner, what pads it stays as it is."""
@@ -103,19 +115,29 @@ class CompiledEngine:
             else:
                 m[name] = value
 
+    def _put_modes(self, **values: np.ndarray) -> None:
+        """The same of arrays whose last axis is that of the modes."""
+        if self._layout.pairs:
+            values = {name: self._spread(value) for name, value in values.items()}
+        self._put(**values)
+
+    def _spread(self, values: np.ndarray) -> np.ndarray:
+        found = np.zeros((*values.shape[:-1], self._layout.modes))
+        found[..., self._places] = values
+        return found
+
     def advance(self, state: SimulationState, out: SimulationRecord) -> int:
         """Do one block of steps per row of `out.samples`, from `state`, which is changed, and fill samples and snapshots.
 
         Returns the blocks done: fewer when an output passed the limit or is NaN.
         """
-        m, (modes, nodes, _) = self._record[0], self._layout
+        m, modes, nodes = self._record[0], self._layout.modes, self._layout.nodes
         # u and, with Coriolis, d of each
         of_mode = 1 + self._coriolis
         numbers, kept = of_mode * modes, of_mode * self._modes
         snapshots = np.zeros((len(out.snapshots), numbers + (3 * nodes if self._second_order else 0)))
+        self._put_modes(u=state.displacement, increment=state.increment)
         self._put(
-            u=state.displacement,
-            increment=state.increment,
             on_casing=np.packbits(state.on_casing, bitorder="little"),
             totals=state.totals,
             first_step=state.samples * m["steps_per_block"],
@@ -127,10 +149,10 @@ class CompiledEngine:
         if self._second_order:
             self._put(force=state.lining_force[NORMAL], friction_force=state.lining_force[TANGENTIAL:])
         done = int(self._advance(self._record.ctypes.data))
-        state.displacement[:], state.increment[:] = m["u"][: self._modes], m["increment"][: self._modes]
+        state.displacement[:], state.increment[:] = m["u"][self._places], m["increment"][self._places]
         state.on_casing[:] = np.unpackbits(m["on_casing"].astype(np.uint8), bitorder="little")[: self._nodes]
         state.totals[()] = m["totals"]
-        of_modes = snapshots[:, :numbers].reshape(len(snapshots), of_mode, modes)[:, :, : self._modes]
+        of_modes = snapshots[:, :numbers].reshape(len(snapshots), of_mode, modes)[:, :, self._places]
         out.snapshots[:, :kept] = of_modes.reshape(len(snapshots), kept)
         if self._second_order:
             state.lining_force[NORMAL] = m["force"][: self._nodes]
@@ -143,12 +165,14 @@ class CompiledEngine:
         m = self._record[0]
         # a node that only pads the vector must neither touch, nor sit on the axis, nor cancel a pivot
         m["clearance"] = m["radius"] = m["towards"] = m["problem"]["diagonal"] = 1.0
-        self._put(
+        self._put_modes(
             displacement_operator=problem.displacement_operator,
             push_operator=problem.displacement_operator[NORMAL],
+            outputs=problem.output_operator[None, :, : self._modes],
+        )
+        self._put(
             radius=problem.tip.radius,
             theta=problem.tip.theta,
-            outputs=problem.output_operator[None, :, : self._modes],
             number_of_outputs=len(problem.output_operator),
             limit=problem.scene.divergence_limit,
             nodes=self._nodes,
@@ -160,13 +184,18 @@ class CompiledEngine:
         )
 
     def _lay_out_coriolis(self, problem: Problem) -> None:
-        assert problem.complex_operator is not None
-        self._put(
+        self._put_modes(
             increment_operator=problem.increment_operator,
             increment_push_operator=problem.increment_operator[NORMAL],
             increment_outputs=problem.output_operator[None, :, self._modes : 2 * self._modes],
-            size_operator=np.abs(problem.complex_operator),
         )
+
+    def _lay_out_ring(self, ring: RingMotion, problem: Problem, jumps: bool) -> None:
+        lengths = jump_lengths(problem.steps_per_sample) if jumps else np.empty(0)
+        turns = 2.0 * np.pi / problem.steps_per_revolution * ring.nodal_diameters[: len(ring.modes)]
+        self._put(turn_cosine=np.cos(lengths[:, None] * turns), turn_sine=np.sin(lengths[:, None] * turns))
+        m, pairs = self._record[0], slice(len(ring.modes))
+        m["turn_cosine"][-1, pairs], m["turn_sine"][-1, pairs] = np.cos(turns), np.sin(turns)
 
     def _lay_out_casing(self, problem: Problem, jumps: bool) -> None:
         m, casing = self._record[0], problem.scene.casing
@@ -200,12 +229,10 @@ class CompiledEngine:
             share = friction.coefficient * np.sign(velocity)[:, None]
             operator, increments = problem.displacement_operator, problem.increment_operator
             self._constant_share = share
-            self._put(
-                friction_share=np.stack([share[:, 0], np.zeros(self._nodes)]),
-                push_operator=operator[NORMAL] + share * operator[TANGENTIAL],
-            )
+            self._put(friction_share=np.stack([share[:, 0], np.zeros(self._nodes)]))
+            self._put_modes(push_operator=operator[NORMAL] + share * operator[TANGENTIAL])
             if self._coriolis:
-                self._put(increment_push_operator=increments[NORMAL] + share * increments[TANGENTIAL])
+                self._put_modes(increment_push_operator=increments[NORMAL] + share * increments[TANGENTIAL])
 
     def _lay_out_lining(self, problem: Problem, lining: Lining) -> None:
         m = self._record[0]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import astuple, dataclass
 
 import numpy as np
 
@@ -27,9 +27,9 @@ class Recursion:
     inverse: np.ndarray
     lost: np.ndarray
 
-    def __getitem__(self, row: int) -> Recursion:
-        """One of several recursions, whose arrays have shape (recursions, modes)."""
-        return Recursion(self.keep[row], self.pull[row], self.inverse[row], self.lost[row])
+    def __getitem__(self, row: int | slice) -> Recursion:
+        """One of several recursions, whose arrays have shape (recursions, modes), or some modes of one."""
+        return type(self)(self.keep[row], self.pull[row], self.inverse[row], self.lost[row])
 
     @property
     def loss(self) -> np.ndarray:
@@ -51,7 +51,13 @@ class Recursion:
         return float(np.sum((kinetic + self.pull * displacement * (displacement - increment)) / (2.0 * self.inverse)))
 
 
-def central_difference(frequencies: np.ndarray, damping_ratio: float, step: float | np.ndarray) -> Recursion:
+def joined(first: Recursion, second: Recursion) -> Recursion:
+    """The recursion of the modes of both."""
+    parts = zip(astuple(first), astuple(second), strict=True)
+    return Recursion(*(np.concatenate(part, axis=-1) for part in parts))
+
+
+def central_difference(frequencies: np.ndarray, damping_ratio: float | np.ndarray, step: float | np.ndarray) -> Recursion:
     """Central differences for modes of angular `frequencies` (rad/s), stable for steps (s) below 2/frequency.
 
     c = (1/h^2 + xi omega/h)^-1, b = c (xi omega/h - 1/h^2), a = c (2/h^2 - omega^2) = 1 - b - c omega^2: section 5 of the
@@ -66,7 +72,7 @@ def central_difference(frequencies: np.ndarray, damping_ratio: float, step: floa
     )
 
 
-def exact_modal(frequencies: np.ndarray, damping_ratio: float, step: float | np.ndarray) -> Recursion:
+def exact_modal(frequencies: np.ndarray, damping_ratio: float | np.ndarray, step: float | np.ndarray) -> Recursion:
     """The free motion of underdamped modes (damping ratio below 1) without error, for any step (s).
 
     u(t) = e^(-xi omega t) (A cos omega_d t + B sin omega_d t) satisfies u_{n+1} = a u_n + b u_{n-1} with
@@ -81,14 +87,16 @@ def exact_modal(frequencies: np.ndarray, damping_ratio: float, step: float | np.
     return Recursion(keep=np.exp(-2.0 * decay), pull=pull, inverse=pull / frequencies**2, lost=-np.expm1(-2.0 * decay))
 
 
-def recursion(integrator: str, frequencies: np.ndarray, damping_ratio: float, step: float | np.ndarray) -> Recursion:
+def recursion(
+    integrator: str, frequencies: np.ndarray, damping_ratio: float | np.ndarray, step: float | np.ndarray
+) -> Recursion:
     """The recursion of one of INTEGRATORS; of several with steps of shape (recursions, 1)."""
     of = {CENTRAL_DIFFERENCE: central_difference, EXACT_MODAL: exact_modal}
     return of[integrator](frequencies, damping_ratio, step)
 
 
 def increments(
-    integrator: str, frequencies: np.ndarray, damping_ratio: float, step: float | np.ndarray
+    integrator: str, frequencies: np.ndarray, damping_ratio: float | np.ndarray, step: float | np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
     """Increment u_n - u_{n-1} of a free mode per displacement u_n and per velocity at t_n, in the shape of a recursion.
 

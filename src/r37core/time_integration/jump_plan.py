@@ -34,10 +34,10 @@ class JumpPlan:
         return JumpPlan(self.lengths, self.slow_modes[row], self.jumps[row], self.amplitude_rows[row])
 
 
-def plan_jumps(recursion: Recursion, steps_per_block: int, multiple: int) -> JumpPlan | None:
+def plan_jumps(recursion: Recursion, steps_per_block: int, multiple: int, followed: int) -> JumpPlan | None:
     """Plan for ascending modes, of one recursion or several; None if a mode does not oscillate.
 
-    `multiple`: slow modes are counted in these.
+    `multiple`: slow modes are counted in these; `followed`: modes from the first on of which there may be slow ones.
 
     One step maps (u, d) to d' = k d - p u, u' = u + d', with k = `keep` and p = `pull` of the recursion. Its eigenvalues
     lambda are complex with |lambda|^2 = k while (1 + k - p)^2 < 4 k, so u_n = Re(C lambda^n).
@@ -63,7 +63,7 @@ def plan_jumps(recursion: Recursion, steps_per_block: int, multiple: int) -> Jum
             for _ in range(length):
                 jumps[..., stride, :7, :] = _after(jumps[..., stride, :7, :], _single(recursion))
         beyond = 0.5 * curvature * length * (length + 1)
-        slow[..., stride] = np.count_nonzero(beyond < 1.0, axis=-1) // multiple * multiple
+        slow[..., stride] = np.count_nonzero(beyond[..., :followed] < 1.0, axis=-1) // multiple * multiple
         jumps[..., stride, 7, :] = np.where(np.arange(modes) < slow[..., stride, None], beyond, 1.0)
     return JumpPlan(lengths, slow, jumps, amplitude_rows)
 

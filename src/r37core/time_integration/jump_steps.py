@@ -4,7 +4,7 @@ Each mode is u_n = Re(C lambda^n) with |lambda| <= 1, so m steps are a 2 x 2 map
 (time_integration.jump_plan), and |C| bounds the mode until the next contact. A jump is taken only if a bound on every node's
 position over all the steps it skips stays clear of the casing's nearest position over them: modes slow in the jump follow
 their tangent within |C| |1 - 1/lambda|^2 m (m + 1)/2, the others stay within |C|. A complex mode moves a node by up
-to |C| times the size of its shape there.
+to |C| times the size of its shape there, and so do the casing's, which turn.
 
 With the exact gap a node's position is at most n + cos(alpha) y^2/(2 R), and the lobes at its displaced angle at most
 their greatest slope times |y|/R nearer than at its undeformed one; n, y (sideways) and R (distance from the axis) are bounded.
@@ -39,24 +39,25 @@ ROUNDING_MARGIN = 1e-9
 
 
 @inlined
-def _size(m, direction, k, i, coriolis):
+def _size(m, direction, k, i, kind):
     """Largest displacement of a node by a mode of unit amplitude."""
-    return m.size_operator[direction, k, i] if coriolis else abs(m.displacement_operator[direction, k, i])
+    turns = kind.coriolis or kind.ring
+    return m.size_operator[direction, k, i] if turns else abs(m.displacement_operator[direction, k, i])
 
 
 @inlined
-def bound_amplitudes(m, exact, coriolis):
+def bound_amplitudes(m, kind):
     """|C| of each mode from displacement and increment and, for the exact gap, how far nodes can get sideways and inwards."""
     for i in range(len(m.u)):
         imaginary = m.amplitude_by_u[i] * m.u[i] + m.amplitude_by_d[i] * m.increment[i]
         m.amplitude[i] = np.sqrt(m.u[i] * m.u[i] + imaginary * imaginary)
-    if exact:
+    if kind.exact_gap:
         for k in range(m.nodes):
             normal = sideways = meridional = 0.0
             for i in range(len(m.u)):
-                normal += _size(m, NORMAL, k, i, coriolis) * m.amplitude[i]
-                sideways += _size(m, TANGENTIAL, k, i, coriolis) * m.amplitude[i]
-                meridional += _size(m, MERIDIONAL, k, i, coriolis) * m.amplitude[i]
+                normal += _size(m, NORMAL, k, i, kind) * m.amplitude[i]
+                sideways += _size(m, TANGENTIAL, k, i, kind) * m.amplitude[i]
+                meridional += _size(m, MERIDIONAL, k, i, kind) * m.amplitude[i]
             m.across[k] = sideways
             m.towards[k] = m.radius[k] - m.casing.cosine * normal - abs(m.casing.sine) * meridional
     for stride in range(STRIDES):
@@ -64,13 +65,13 @@ def bound_amplitudes(m, exact, coriolis):
 
 
 @inlined
-def _is_clear(m, place, stride, remaining, exact, coriolis):
+def _is_clear(m, place, stride, remaining, kind):
     """Whether no node can touch anything in a jump; `remaining`: what the casing's lobes lack before it."""
     if m.reach_known[stride] == 0:
         for k in range(m.nodes):
             bound = 0.0
             for i in range(len(m.u)):
-                bound += _size(m, NORMAL, k, i, coriolis) * (m.amplitude[i] * m.jumps[stride, BEYOND, i])
+                bound += _size(m, NORMAL, k, i, kind) * (m.amplitude[i] * m.jumps[stride, BEYOND, i])
             m.reach[stride, k] = bound
         m.reach_known[stride] = 1
     casing, nodes, length = numbers_at(m.nearest_casing), len(m.force), m.lengths[stride]
@@ -78,14 +79,14 @@ def _is_clear(m, place, stride, remaining, exact, coriolis):
     for g in range(0, nodes, LANES):
         velocity = along(m.displacement_operator, NORMAL, m.increment, g, m.slow_modes[stride])
         position = along(m.displacement_operator, NORMAL, m.u, g, m.slow_modes[stride])
-        if coriolis:
+        if kind.coriolis:
             velocity += along(m.increment_operator, NORMAL, m.last_second_difference, g, m.slow_modes[stride])
             position += along(m.increment_operator, NORMAL, m.increment, g, m.slow_modes[stride])
         position += np.maximum(velocity, velocity * length) + load(m.reach, (stride, g))
         nearest = load(casing, place + g)
         for j in range(1, (length + COARSE - 1) // COARSE):
             nearest = np.maximum(nearest, load(casing, place + j * nodes + g))
-        if exact:
+        if kind.exact_gap:
             across, towards = load(m.across, g), load(m.towards, g)
             position += across * across * (0.5 * m.casing.cosine) / towards
             # the greatest slope of exp(-x^2) is sqrt(2/e)
@@ -104,9 +105,9 @@ def _is_clear(m, place, stride, remaining, exact, coriolis):
 
 
 @inlined
-def choose_jump(m, place, first_stride, left, remaining, exact, coriolis):
+def choose_jump(m, place, first_stride, left, remaining, kind):
     """Stride of the longest jump that the rest of the block and the bounds allow, -1 if there is none."""
-    if coriolis:
+    if kind.coriolis:
         for i in range(0, len(m.u), LANES):
             store(m.last_second_difference, i, second_difference(m, i))
     stride = first_stride
@@ -115,7 +116,7 @@ def choose_jump(m, place, first_stride, left, remaining, exact, coriolis):
     else:
         while m.lengths[stride] > left:
             stride -= 1
-    while not _is_clear(m, place, stride, remaining, exact, coriolis):
+    while not _is_clear(m, place, stride, remaining, kind):
         if stride <= 1:
             return -1
         stride -= 1

@@ -31,11 +31,16 @@ NEVER = 2**60
 
 
 class Layout(NamedTuple):
-    """Numbers of modes and nodes, both rounded up to whole vectors, and of outputs."""
+    """Numbers of modes and nodes, both rounded up to whole vectors, and of outputs.
+
+    `pairs`: of the modes, pairs of an elastic casing, whole vectors too; the first of each pair come after the blade's modes,
+    then the second.
+    """
 
     modes: int
     nodes: int
     outputs: int
+    pairs: int
 
 
 class Kind(NamedTuple):
@@ -44,7 +49,8 @@ class Kind(NamedTuple):
     `published`: the integrator is central_difference. `second_order`: the lining presses with its force at t_n; see
     r37core.time_integration.lined_steps. `vector_friction`: along the real sliding velocity; friction of constant direction
     is in the push rows and responses. `coupled`: friction is part of the complementarity problem. `exact_gap`, `energy`,
-    `jumps`: see Scene and IntegrationChoice. `coriolis`: modes are complex; see r37core.time_integration.gyroscopic.
+    `jumps`: see Scene and IntegrationChoice. `coriolis`: modes are complex; see r37core.time_integration.gyroscopic. `ring`:
+    the casing has modes; see r37core.time_integration.ring_steps.
     """
 
     published: bool
@@ -56,11 +62,12 @@ class Kind(NamedTuple):
     energy: bool
     jumps: bool
     coriolis: bool
+    ring: bool
 
 
-def layout_of(modes: int, nodes: int, outputs: int) -> Layout:
+def layout_of(blade_modes: int, nodes: int, outputs: int, pairs: int = 0) -> Layout:
     """The layout that holds so many."""
-    return Layout(padded(modes), padded(nodes), outputs)
+    return Layout(padded(blade_modes) + 2 * padded(pairs), padded(nodes), outputs, padded(pairs))
 
 
 def _numbers(names: str, kind: type = np.float64) -> list[Field]:
@@ -108,7 +115,7 @@ def complementarity_record(nodes: int) -> np.dtype:
 
 def integration_record(layout: Layout) -> np.dtype:
     """The record of a time integration: its state, its constants, room to work in, and its totals."""
-    modes, nodes, outputs = layout
+    modes, nodes, outputs, pairs = layout
     groups = nodes // padded(1)
     return aligned_record(
         [
@@ -121,7 +128,7 @@ def integration_record(layout: Layout) -> np.dtype:
             *_arrays("push_operator", nodes, modes),
             *_arrays("outputs", 1, padded(outputs), modes),
             *_arrays("sample", padded(outputs)),
-            # with Coriolis the same per increment; the size of displacement_operator per complex amplitude; increment of the
+            # with Coriolis the same per increment; the size of displacement_operator per amplitude that turns; increment of the
             # last increment, had there been no force; 1/keep; forces on the modes' increments
             *_arrays("increment_operator size_operator", 3, nodes, modes),
             *_arrays("increment_push_operator", nodes, modes),
@@ -147,6 +154,8 @@ def integration_record(layout: Layout) -> np.dtype:
             *_arrays("radius theta shift", nodes),  # m; angle at step 0 and what vibration adds to it (rad)
             ("problem", complementarity_record(nodes), ()),
             *_arrays("beyond on_casing", groups, kind=np.int64),
+            # by how much pairs of the casing's modes turn in a jump and, in the last row, in a step
+            *_arrays("turn_cosine turn_sine", STRIDES + 1, pairs),
             # jumps over free flight: see time_integration.jump_plan
             *_arrays("jumps", STRIDES, 8, modes),
             *_arrays("amplitude_by_u amplitude_by_d amplitude", modes),

@@ -10,6 +10,7 @@ import numpy as np
 
 from r37core.alignment import LANES, padded
 from r37core.contact.casing import casing_axes
+from r37core.contact.ring import RingMotion
 from r37core.contact.scene import Scene
 from r37core.rom.contact_model import ContactModel
 from r37core.rom.rotation import BucklingError
@@ -17,11 +18,12 @@ from r37core.rom.rotation import BucklingError
 from .clearance import check_room, clearances
 from .gyroscopic import LARGEST_TURN, ComplexModes, complex_modes, complex_recursion
 from .integration_choice import LARGEST_TABLE, IntegrationChoice
-from .integrators import CENTRAL_DIFFERENCE, EXACT_MODAL, Recursion, increments, recursion
+from .integrators import CENTRAL_DIFFERENCE, EXACT_MODAL, Recursion, increments, joined, recursion
 from .jump_plan import JumpPlan, plan_jumps
 from .step_limit import UnstableStepError, check_step
 
 NO_CORIOLIS = "central differences do not carry the Coriolis force; use the integrator exact_modal"
+NO_EXACT_GAP = "an elastic casing needs the linear gap: the exact one is that of a casing which keeps its shape"
 """Why a problem is refused."""
 
 
@@ -44,11 +46,12 @@ class Problem:
 
     With the integrator exact_modal a lining presses with its force at t_n (`second_order`), and modes faster than
     `choice.static_above` per step follow it statically: they are none of `frequencies` and `modes`. Everywhere else all modes
-    are stepped. A model with a Coriolis matrix has its stepped modes coupled by it (`complex_modes`).
+    are stepped. A model with a Coriolis matrix has its stepped modes coupled by it (`complex_modes`). The modes of an elastic
+    casing follow those of the blade wherever "all modes" are meant: the recursion, the operators, a snapshot.
 
     Raises UnstableStepError for a step at or above the stability limit 2/omega_max of central differences, or that of nodes
     pressed on the lining's bars; LongRevolutionError for a revolution of too many steps; NoRoomError for a tip inside of the
-    casing; ValueError for a Coriolis matrix with central differences.
+    casing; ValueError for a Coriolis matrix with central differences, and an elastic casing with the exact gap.
     """
 
     model: ContactModel
@@ -59,6 +62,8 @@ class Problem:
     def __post_init__(self) -> None:
         if self.model.coriolis is not None and self.choice.integrator == CENTRAL_DIFFERENCE:
             raise ValueError(NO_CORIOLIS)
+        if self.scene.casing.ring and self.scene.exact_gap:
+            raise ValueError(NO_EXACT_GAP)
         self._check_length()
         check_room(self.model, self.scene, np.array([self.speed]))
         check_step(self)
@@ -70,8 +75,19 @@ class Problem:
 
     @property
     def frequencies(self) -> np.ndarray:
-        """Of the modes that are stepped (rad/s), ascending, without the Coriolis force."""
+        """Of the blade's modes that are stepped (rad/s), ascending, without the Coriolis force."""
         return self._kept_modes[0][: self._stepped]
+
+    @property
+    def highest_frequency(self) -> float:
+        """Of all modes that are stepped (rad/s), the casing's among them."""
+        of_ring = self.ring.frequencies.max() if self.ring is not None else 0.0
+        return float(max(self.frequencies[-1], of_ring))
+
+    @cached_property
+    def ring(self) -> RingMotion | None:
+        """The modes of an elastic casing; None for a rigid one."""
+        return RingMotion(self.scene.casing.ring) if self.scene.casing.ring else None
 
     @cached_property
     def modes(self) -> np.ndarray:
@@ -142,19 +158,38 @@ class Problem:
 
     @cached_property
     def recursion(self) -> Recursion:
-        """How a mode goes from step to step: a complex one in the real part of its amplitude."""
+        """How a mode goes from step to step: a complex one in the real part of its amplitude, the casing's without turning."""
+        found = self._blade_recursion
+        if self.ring is not None:
+            ring = self.ring
+            of_ring = recursion(self.choice.integrator, ring.frequencies, ring.damping_ratios, self.time_step)
+            found = joined(found, of_ring)
+        return found if self.complex_modes is None else complex_recursion(found)
+
+    @cached_property
+    def _blade_recursion(self) -> Recursion:
         coupled = self.complex_modes
         frequencies = self.frequencies if coupled is None else coupled.frequencies
-        found = recursion(self.choice.integrator, frequencies, self.scene.damping_ratio, self.time_step)
-        return found if coupled is None else complex_recursion(found)
+        return recursion(self.choice.integrator, frequencies, self.scene.damping_ratio, self.time_step)
 
     @cached_property
     def _shapes(self) -> tuple[np.ndarray, np.ndarray]:
-        """Displacement in the modes at rest per u and per d of the stepped modes; no column of the second without Coriolis."""
+        """Displacement in the modes at rest per u and per d of all modes; no column of the second without Coriolis.
+
+        The casing's move no mode of the blade.
+        """
+        none = np.zeros((len(self.modes), len(self._ring_rows[0, 0])))
         if self.complex_modes is None:
-            return self.modes, np.empty((len(self.modes), 0))
-        by_u, by_d = self.complex_modes.real_shapes(self.recursion)
-        return self.modes @ by_u, self.modes @ by_d
+            return np.hstack([self.modes, none]), np.empty((len(self.modes), 0))
+        by_u, by_d = self.complex_modes.real_shapes(self._blade_recursion)
+        return np.hstack([self.modes @ by_u, none]), np.hstack([self.modes @ by_d, none])
+
+    @cached_property
+    def _ring_rows(self) -> np.ndarray:
+        """What the casing's modes add to `displacement_operator`, with which the nodes come nearer to it."""
+        if self.ring is None:
+            return np.empty((3, len(self.tip.radius), 0))
+        return -casing_axes(self.ring.displacement(self.tip.theta), self.cone_angle)
 
     @property
     def cone_angle(self) -> float:
@@ -180,9 +215,13 @@ class Problem:
     def displacement_operator(self) -> np.ndarray:
         """Displacement of the contact nodes along the casing's normal, tangent and meridian, shape (3, nodes, modes).
 
-        Per displacement u of the stepped modes; a coupled one's increment d moves the nodes by `increment_operator`, too.
+        Per displacement u of all modes; a coupled one's increment d moves the nodes by `increment_operator`, too. It is that
+        relative to the casing, whose modes count against it.
         """
-        return self.operator_at_rest @ self._shapes[0]
+        found = self.operator_at_rest @ self._shapes[0]
+        if self.ring is not None:
+            found[..., len(self.frequencies) :] = self._ring_rows
+        return found
 
     @cached_property
     def increment_operator(self) -> np.ndarray:
@@ -192,7 +231,22 @@ class Problem:
     @cached_property
     def complex_operator(self) -> np.ndarray | None:
         """The same per complex amplitude, shape (3, nodes, modes)."""
-        return None if self.complex_modes is None else self.operator_at_rest @ self.modes @ self.complex_modes.shapes
+        if self.complex_modes is None:
+            return None
+        blade = self.operator_at_rest @ self.modes @ self.complex_modes.shapes
+        return np.concatenate([blade, self._ring_rows], axis=-1)
+
+    @property
+    def size_operator(self) -> np.ndarray:
+        """Largest displacement of the nodes per amplitude of each mode alone, in the shape of `displacement_operator`."""
+        operator = self.displacement_operator if self.complex_operator is None else self.complex_operator
+        found = np.abs(operator)
+        if self.ring is not None:
+            # a pair turns into each other
+            blade = len(self.frequencies)
+            first, second = np.split(found[..., blade:], 2, axis=-1)
+            found[..., blade:] = np.tile(np.hypot(first, second), 2)
+        return found
 
     @cached_property
     def static_shapes(self) -> np.ndarray:
@@ -228,11 +282,19 @@ class Problem:
 
     @cached_property
     def output_operator(self) -> np.ndarray:
-        """Rows of the samples, shape (6, numbers of a snapshot): see time_integration.simulate, TIP_POINTS and DIRECTIONS."""
+        """Rows of the samples, shape (6, numbers of a snapshot): see time_integration.simulate, TIP_POINTS and DIRECTIONS.
+
+        After them one row for each of the casing's oscillators: displacement at the antinode of its mode (m).
+        """
         radial, tangential, _ = self.model.tip_displacement_operator
         normal = casing_axes(self.model.tip_displacement_operator, self.cone_angle)[0]
         rows = np.stack([normal, radial, tangential], axis=1)
-        return rows.reshape(-1, rows.shape[-1]) @ self.state_shapes
+        outputs = rows.reshape(-1, rows.shape[-1]) @ self.state_shapes
+        if self.ring is None:
+            return outputs
+        of_ring = np.zeros((len(self.ring.size), outputs.shape[1]))
+        of_ring[:, len(self.frequencies) :][:, : len(of_ring)] = np.diag(self.ring.size)
+        return np.concatenate([outputs, of_ring])
 
     @cached_property
     def residual_flexibility(self) -> np.ndarray:
@@ -273,7 +335,10 @@ class Problem:
         return Pace(self.recursion, self.coupling, self._jumps(self.recursion), self.clearance)
 
     def _jumps(self, recursion: Recursion) -> JumpPlan | None:
-        return plan_jumps(recursion, self.steps_per_sample, LANES) if self.choice.jumps else None
+        if not self.choice.jumps:
+            return None
+        # the casing's modes turn as they go, and so do not follow a tangent
+        return plan_jumps(recursion, self.steps_per_sample, LANES, followed=len(self.frequencies))
 
     def paces(self, speeds: np.ndarray) -> list[Pace]:
         """At other `speeds` (rad/s), shape (speeds,), in the modes of the problem's speed and with its steps per revolution.
@@ -295,13 +360,18 @@ class Problem:
         """Relative change of the modes' squared frequencies per squared speed (s2), shape (modes,)."""
         return np.sum(self.modes * (self.model.stiffness_per_square @ self.modes), axis=0) / self.frequencies**2
 
-    def _motion_at(self, speeds: np.ndarray) -> tuple[np.ndarray, float, np.ndarray]:
-        """Frequencies (rad/s) of the modes at each of the speeds, damping ratio, and steps (s)."""
+    def _motion_at(self, speeds: np.ndarray) -> tuple[np.ndarray, float | np.ndarray, np.ndarray]:
+        """Frequencies (rad/s) of all modes at each of the speeds, damping ratio, and steps (s)."""
         ratio = 1.0 + (speeds[:, None] ** 2 - self.speed**2) * self._stiffening
         if not np.all(ratio > 0.0):
             raise BucklingError(float(speeds[np.argmin(ratio.min(axis=1))]))
         steps = 2.0 * np.pi / speeds[:, None] / self.steps_per_revolution
-        return self.frequencies * np.sqrt(ratio), self.scene.damping_ratio, steps
+        frequencies, damping = self.frequencies * np.sqrt(ratio), self.scene.damping_ratio
+        if self.ring is None:
+            return frequencies, damping, steps
+        of_ring = np.tile(self.ring.frequencies, (len(speeds), 1))
+        dampings = np.concatenate([np.full(len(self.frequencies), damping), self.ring.damping_ratios])
+        return np.hstack([frequencies, of_ring]), dampings, steps
 
     @property
     def rotation_velocity(self) -> np.ndarray:

@@ -12,6 +12,7 @@ from r37core.native import object_code
 from .jump_steps import bound_amplitudes, choose_jump, jump_ahead
 from .layout import COARSE, STRIDES, Kind, Layout, integration_record
 from .lined_steps import meet_lining, push_lining, release_lining, resume_lining
+from .ring_steps import turn_jump, turn_step
 from .steps import leave_casing, measure_exact_gaps, measure_gaps, meet, predict, record
 
 
@@ -39,14 +40,16 @@ def _integrate(m, kind):
         while position < m.steps_per_block:
             if kind.jumps and not beyond and not follows and position % COARSE == 0:
                 if not bounded:
-                    bound_amplitudes(m, kind.exact_gap, kind.coriolis)
+                    bound_amplitudes(m, kind)
                     bounded = True
                 nearest = (place // m.steps_per_block * coarse_per_block + position // COARSE) * len(m.force)
                 left = m.steps_per_block - position
-                stride = choose_jump(m, nearest, first_stride, left, remaining, kind.exact_gap, kind.coriolis)
+                stride = choose_jump(m, nearest, first_stride, left, remaining, kind)
                 first_stride = max(min(stride + 1, STRIDES - 1), 1)
                 if stride >= 0:
                     lost = jump_ahead(m, stride, kind.energy, lost)
+                    if kind.ring:
+                        turn_jump(m, stride)
                     remaining *= m.decay[stride]
                     position += m.lengths[stride]
                     m.totals.steps_jumped += m.lengths[stride]
@@ -59,6 +62,8 @@ def _integrate(m, kind):
             lobes = m.casing.amplitude * (1.0 - remaining)
             if kind.second_order:
                 pushed, work, lost = push_lining(m, kind, work, lost) if follows else (False, work, lost)
+            if kind.ring:
+                turn_step(m, kind.second_order)
             # not a function of its own: sums are reordered by how they are inlined, and the published scheme keeps its bits
             if kind.exact_gap:
                 beyond = measure_exact_gaps(m, here, lobes, kind.second_order, kind.coriolis)

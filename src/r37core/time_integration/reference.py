@@ -2,18 +2,19 @@
 
 Equations after section 5 of the benchmark, in the coordinates of the modes at rest, where the mass is the identity:
 u* = A u_n + B u_{n-1} without contact, u_{n+1} = u* + C F with it (reference_motion). Work per step is of the order of modes
-squared. A lining of second order, and the static modes with it: see r37core.time_integration.lined_steps.
+squared. An elastic casing is followed in the frame that does not turn. A lining of second order, and the static modes with it: see r37core.time_integration.lined_steps.
 """
 
 from __future__ import annotations
 
 import numpy as np
 
+from r37core.contact.casing import casing_axes
 from r37core.contact.laws import series_modulus
 from r37core.contact.scene import Lining
 
 from .problem import Pace, Problem
-from .reference_motion import CoupledMotion, RealMotion
+from .reference_motion import CoupledMotion, MotionWithCasing, RealMotion
 from .state import SimulationRecord, SimulationState
 
 
@@ -22,8 +23,8 @@ class ReferenceEngine:
 
     def __init__(self, problem: Problem):
         self.problem = problem
-        self.rows = problem.operator_at_rest @ problem.modes @ problem.modes.T
-        self.normal, self.tangential, self.meridional = self.rows
+        self._blade_rows = problem.operator_at_rest @ problem.modes @ problem.modes.T
+        self._turn(0)
         self.flexibility = problem.residual_flexibility
         # what all forces (N) on the nodes do to the static modes
         self.static_force = np.zeros((3, len(problem.tip.radius)))
@@ -31,8 +32,17 @@ class ReferenceEngine:
 
     def take(self, pace: Pace) -> None:
         """Go on at another pace in the same modes, with as many steps in a revolution."""
-        self.motion = (RealMotion if self.problem.complex_modes is None else CoupledMotion)(self.problem, pace)
+        blade = (RealMotion if self.problem.complex_modes is None else CoupledMotion)(self.problem, pace)
+        self.motion = blade if self.problem.ring is None else MotionWithCasing(blade, self.problem)
         self.clearance = pace.clearance
+
+    def _turn(self, n: int) -> None:
+        """Take the rows of the nodes where they are at t_n: of the blade's modes at rest, and of an elastic casing's."""
+        problem, self.rows = self.problem, self._blade_rows
+        if problem.ring is not None:
+            of_casing = -casing_axes(problem.ring.displacement(problem.theta(n)), problem.cone_angle)
+            self.rows = np.concatenate([self._blade_rows, of_casing], axis=-1)
+        self.normal, self.tangential, self.meridional = self.rows
 
     def advance(self, state: SimulationState, out: SimulationRecord) -> int:
         """Do the steps of every row of `out.samples`, as the compiled engine does; returns the rows done."""
@@ -41,6 +51,7 @@ class ReferenceEngine:
         done, kept, bounded = 0, 0, True
         step = self._second_order_step if problem.second_order else self._step
         self.static_force = state.lining_force.copy()
+        self._turn(first * problem.steps_per_sample)
         while done < len(out.samples) and bounded:
             for n in range(1, problem.steps_per_sample + 1):
                 motion = step(motion, (first + done) * problem.steps_per_sample + n, state)
@@ -58,6 +69,7 @@ class ReferenceEngine:
     def _step(self, before: np.ndarray, n: int, state: SimulationState) -> np.ndarray:
         """The motion at t_n from that at t_{n-1}; changes wear, totals and the nodes on the casing."""
         lining = self.problem.scene.lining
+        self._turn(n)
         predicted = self.motion.flown(before)
         gap, theta = self.gap(self.motion.displacement(predicted), n)
         directions = self._directions(self.motion.slid(before))
@@ -81,6 +93,7 @@ class ReferenceEngine:
         assert lining is not None and state.wear is not None
         force = self._modal(state.lining_force)
         after, slid = self.motion.pushed(self.motion.flown(before), force), self.motion.slid(before)
+        self._turn(n)
         own = np.diagonal(self.flexibility, axis1=1, axis2=2)
         settled = self._settled(state.lining_force) - np.sum(own * state.lining_force, axis=0)
         gap, theta = self.gap(self.motion.displacement(after), n)

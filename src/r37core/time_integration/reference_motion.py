@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
-from .gyroscopic import imaginary_part
+from .gyroscopic import ComplexRecursion, imaginary_part
 from .problem import Pace, Problem
 from .state import SimulationState
 
@@ -17,7 +19,7 @@ class RealMotion:
     """
 
     def __init__(self, problem: Problem, pace: Pace):
-        self._modes, recursion = problem.modes, pace.recursion
+        self._modes, recursion = problem.modes, pace.recursion[: len(problem.frequencies)]
         # -B, I - A - B, C and the loss per squared central difference, as matrices
         self._keep, self._pull, self.response, self._loss = (
             self._modes @ np.diag(diagonal) @ self._modes.T
@@ -89,7 +91,7 @@ class CoupledMotion:
         self._back = np.linalg.inv(self._flight)
         # of the two roots of the recursion that of the motion, which may turn by more than half a turn in a step
         sense = np.sign(np.sin(step * np.sqrt(1.0 - ratio**2) * coupled.frequencies))
-        self._by_u, self._by_d = sense * imaginary_part(pace.recursion)
+        self._by_u, self._by_d = sense * imaginary_part(pace.recursion[:modes])
         self.response = self._modes @ (self._flight @ self._kick / np.tile(self._root, 2)[:, None])[:modes] @ self._modes.T
 
     def read(self, state: SimulationState) -> np.ndarray:
@@ -132,3 +134,78 @@ class CoupledMotion:
         kicked = before + kick
         work = force @ self.displacement(self._swing @ (before + 0.5 * kick))
         return float(work), float(0.5 * (kicked @ self._energy @ kicked - after @ self._energy @ after))
+
+
+class MotionWithCasing:
+    """A blade's motion, and beside it that of an elastic casing: u and d of its modes in the frame that does not turn.
+
+    A motion is that of the blade, that of the casing, shape (2, casing modes), and the step it is at. Displacements and forces
+    are those of the modes at rest, then of the casing's.
+    """
+
+    def __init__(self, blade: RealMotion | CoupledMotion, problem: Problem):
+        assert problem.ring is not None
+        self._blade, self._problem, self._ring = blade, problem, problem.ring
+        self._stepped = len(problem.frequencies)
+        self._casing = problem.recursion[self._stepped :]
+        at_rest = len(problem.modes)
+        self.response = np.zeros((at_rest + len(self._casing.keep),) * 2)
+        self.response[:at_rest, :at_rest] = blade.response
+        self.response[at_rest:, at_rest:] = np.diag(self._casing.inverse)
+        self._at_rest = at_rest
+
+    def _turned(self, casing: np.ndarray, step: int) -> np.ndarray:
+        return self._ring.turned(casing, 2.0 * np.pi * step / self._problem.steps_per_revolution)
+
+    def read(self, state: SimulationState) -> tuple:
+        """From a state, which is in the rotor's frame."""
+        step, kept = state.samples * self._problem.steps_per_sample, slice(self._stepped)
+        of_blade = replace(state, displacement=state.displacement[kept], increment=state.increment[kept])
+        both = np.array([state.displacement[self._stepped :], state.increment[self._stepped :]])
+        return self._blade.read(of_blade), self._turned(both, -step), step
+
+    def write(self, motion: tuple, state: SimulationState) -> None:
+        """Put it back into the state."""
+        kept = slice(self._stepped)
+        of_blade = replace(state, displacement=state.displacement[kept], increment=state.increment[kept])
+        self._blade.write(motion[0], of_blade)
+        state.displacement[kept], state.increment[kept] = of_blade.displacement, of_blade.increment
+        state.displacement[self._stepped :], state.increment[self._stepped :] = self._turned(*motion[1:])
+
+    def numbers(self, motion: tuple) -> np.ndarray:
+        """Those of a snapshot, in the rotor's frame; casing modes have no increment of their own to show."""
+        blade, casing = self._blade.numbers(motion[0]), self._turned(*motion[1:])
+        parts = np.split(blade, range(self._stepped, len(blade), self._stepped))
+        return np.concatenate([np.concatenate(pair) for pair in zip(parts, casing, strict=False)])
+
+    def flown(self, motion: tuple) -> tuple:
+        """A step on, without force."""
+        blade, (u, d), step = motion
+        following = self._casing.keep * d - self._casing.pull * u
+        return self._blade.flown(blade), np.array([u + following, following]), step + 1
+
+    def pushed(self, motion: tuple, force: np.ndarray) -> tuple:
+        """What a force adds at the end of a step."""
+        blade, casing, step = motion
+        pushed = casing + self._casing.inverse * force[self._at_rest :]
+        return self._blade.pushed(blade, force[: self._at_rest]), pushed, step
+
+    def displacement(self, motion: tuple) -> np.ndarray:
+        """Of the modes at rest, then of the casing's."""
+        return np.concatenate([self._blade.displacement(motion[0]), motion[1][0]])
+
+    def slid(self, motion: tuple) -> np.ndarray:
+        """Displacement in the last step."""
+        return np.concatenate([self._blade.slid(motion[0]), motion[1][1]])
+
+    def work_and_loss(self, before: tuple, after: tuple, force: np.ndarray) -> tuple[float, float]:
+        """Of a step under a force: see integrators.Recursion, and with a Coriolis force ComplexRecursion, of a kick."""
+        work, loss = self._blade.work_and_loss(before[0], after[0], force[: self._at_rest])
+        of, on_casing, (u, d) = self._casing, force[self._at_rest :], before[1]
+        if isinstance(of, ComplexRecursion):
+            kicked = d + of.inverse / of.keep * on_casing
+            uu, ud, dd = of.loss_form
+            lost = float(np.sum(uu * u**2 + ud * u * kicked + dd * kicked**2))
+            return work + of.energy(*after[1]) - of.energy(u, d) + lost, loss + lost
+        moved = d + after[1][1]
+        return work + float(0.5 * on_casing @ moved), loss + float(of.loss @ moved**2)

@@ -57,7 +57,8 @@ class Simulation:
         done = self.engine.advance(state, out)
         state.samples += asked
         diverged = done < asked or not np.all(np.abs(out.samples[done - 1]) < problem.scene.divergence_limit)
-        return SimulationRecord(out.samples[:done], out.snapshots[: snapshots(done)], bool(diverged))
+        tip, casing = np.split(out.samples[:done], [len(TIP_POINTS) * len(DIRECTIONS)], axis=1)
+        return SimulationRecord(tip, out.snapshots[: snapshots(done)], bool(diverged), None if problem.ring is None else casing)
 
     def energy(self, state: SimulationState) -> float:
         """Energy (J) of the vibration; see Recursion."""

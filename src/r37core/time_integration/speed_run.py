@@ -10,12 +10,13 @@ from r37core.contact.scene import Scene
 from r37core.rom.contact_model import ContactModel
 from r37core.rom.rotation import rotation_amplitudes
 
+from .casing_waves import casing_waves
 from .integration_choice import IntegrationChoice
 from .simulate import DIRECTIONS, TIP_POINTS, Simulation
 from .state import SimulationState
 from .status import RunStatus
 
-OF_RUNS = ("spectrum", "stress", "static_stress", "wear", "energy")
+OF_RUNS = ("spectrum", "stress", "static_stress", "wear", "energy", "casing")
 """Results of a scene that its simulations give; others are made of them later."""
 
 _WEAR_LOBES = 20
@@ -39,19 +40,16 @@ def run_speed(
     (rad), `rms` and `peak` (m) over the last half, shape (2, 3): TIP_POINTS by DIRECTIONS, `revolution_maxima` (m), shape
     (revolutions, 2, 3), and contact statistics. `clearance` (m), shape (nodes,): where it changes with the speed. `amplitude`,
     shape (2, orders): spectrum of the leading edge's normal and tangential motion. `snapshots`: the reduced coordinates of the
-    vibration and, with static_stress, the amplitudes of rotation's shapes. A diverged run has NaN where a number would need the
-    rest of the run.
+    vibration and, with static_stress, the amplitudes of rotation's shapes. `casing_...`: see casing_waves. A diverged run has
+    NaN where a number would need the rest of the run.
     Raises what Problem raises.
     """
     simulation = Simulation(model, speed, scene, choice)
     state = simulation.start()
     record = simulation.advance(state, choice.revolutions)
     per_revolution = choice.samples_per_revolution
-    samples = record.samples.reshape(-1, len(TIP_POINTS), len(DIRECTIONS))
-    if record.diverged:
-        # the last sample is past the limit, and may be infinite
-        missing = choice.revolutions * per_revolution - len(samples) + 1
-        samples = np.concatenate([samples[:-1], np.full((missing, *samples.shape[1:]), np.nan)])
+    asked = choice.revolutions * per_revolution
+    samples = _whole(record.samples.reshape(-1, len(TIP_POINTS), len(DIRECTIONS)), asked, record.diverged)
     maxima = np.abs(samples).reshape(choice.revolutions, per_revolution, *samples.shape[1:]).max(axis=1)
     first = choice.revolutions // 2
     half = samples[first * per_revolution :]
@@ -87,7 +85,20 @@ def run_speed(
         kept |= _wear(state, min(wear_angles, scene.lining.bars))
     if "energy" in results:
         kept |= energy_balance(state, simulation.energy(state))
+    if "casing" in results:
+        ring = simulation.problem.ring
+        assert ring is not None and record.casing is not None
+        casing = _whole(record.casing, asked, record.diverged)[first * per_revolution :]
+        kept |= casing_waves(casing, ring, speed, len(casing) // per_revolution, spectrum_highest_order)
     return kept
+
+
+def _whole(samples: np.ndarray, asked: int, diverged: bool) -> np.ndarray:
+    """As many samples as were asked for: after a divergence NaN, for the last one is past the limit and may be infinite."""
+    if not diverged:
+        return samples
+    missing = asked - len(samples) + 1
+    return np.concatenate([samples[:-1], np.full((missing, *samples.shape[1:]), np.nan)])
 
 
 def with_rotation(coordinates: np.ndarray, model: ContactModel, speed: float) -> np.ndarray:

@@ -32,9 +32,11 @@ class SimulationRecord:
     """What a stretch of revolutions leaves behind.
 
     `samples` (m), shape (samples, 6): normal, radial and tangential displacement of the leading edge, then of the trailing
-    edge; `snapshots`, shape (snapshots, numbers): see Problem.state_shapes; `diverged`.
+    edge; `snapshots`, shape (snapshots, numbers): see Problem.state_shapes; `diverged`; `casing` (m), shape (samples, casing
+    modes), of an elastic casing: see Problem.output_operator. What an engine fills has them among the samples.
     """
 
     samples: np.ndarray
     snapshots: np.ndarray
     diverged: bool = False
+    casing: np.ndarray | None = None

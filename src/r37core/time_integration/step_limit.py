@@ -28,7 +28,7 @@ class UnstableStepError(ValueError):
 
 def check_step(problem: Problem) -> None:
     """Raises UnstableStepError unless the problem's step is below its limits, of the free blade and of the lining."""
-    choice, step, highest = problem.choice, problem.time_step, problem.frequencies[-1]
+    choice, step, highest = problem.choice, problem.time_step, problem.highest_frequency
     given = f"time_step_s: {choice.time_step:g} s gives steps of {step:.6g} s, not below the"
     limit = 2.0 / highest
     if choice.integrator == CENTRAL_DIFFERENCE and not step < limit:

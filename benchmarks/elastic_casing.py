@@ -1,0 +1,199 @@
+"""What a casing that gives way changes for the seven blades, and what it costs: tables and pictures of docs/elastic_casing.md.
+
+Run: snakemake campbell; python benchmarks/elastic_casing.py (about a quarter of an hour on two cores); make docs. The scenes are
+elastic_abradable and elastic_direct of config/scenes.yaml, with rings of several thicknesses, and without.
+"""
+
+import os
+import time
+from concurrent.futures import ProcessPoolExecutor
+from dataclasses import replace
+from functools import cache
+from pathlib import Path
+
+os.environ["OPENBLAS_NUM_THREADS"] = "1"
+
+import numpy as np
+
+from r37core.config import command_line_document, read_settings
+from r37core.config.si_fields import in_si
+from r37core.contact.ring import Ring
+from r37core.dataset_file import read_dataset
+from r37core.figures.style import PAGE, plt
+from r37core.io import write_text
+from r37core.published import INTERACTIONS
+from r37core.results.coincidences import coincidence_table
+from r37core.rom.reduced_model import contact_model
+from r37core.rom.rom_file import read_reduced_model
+from r37core.studies.tables import markdown_table
+from r37core.time_integration.simulate import Simulation
+from r37core.time_integration.speed_run import run_speed
+
+ROOT = Path(__file__).parent.parent
+STUDIES = ROOT / "results/studies"
+LINED, DIRECT = "elastic_abradable", "elastic_direct"
+THICKNESSES = (None, 4e-3, 2e-3, 1e-3)
+KEPT = {"spectrum_highest_order": 20, "wear_angles": 8}
+BEFORE, AFTER = 60, 60
+"""Speeds, in rad/s, about a published peak."""
+
+DIRECT_SHARES = np.linspace(0.98, 1.06, 17)
+"""Of the published peak of 1B with order 4."""
+
+DIAMETERS = (5, 10, 15, 20, 40)
+GRID, ROUNDS = np.arange(800.0, 2000.0, 100.0), 3
+
+
+def main():
+    with ProcessPoolExecutor(2) as pool:
+        write_text(peaks_table(pool), STUDIES / "elastic_casing_peaks.md")
+        write_text(direct_table(pool), STUDIES / "elastic_casing_direct.md")
+        write_text(diameters_table(pool), STUDIES / "elastic_casing_diameters.md")
+    write_text(rings_table(), STUDIES / "elastic_casing_rings.md")
+    write_text(meeting_table(), STUDIES / "elastic_casing_coincidences.md")
+    write_text(cost_table(), STUDIES / "elastic_casing_cost.md")
+
+
+@cache
+def settings():
+    return read_settings(ROOT, command_line_document({"scenes": [LINED, DIRECT]}))
+
+
+@cache
+def contact(blade):
+    model = read_reduced_model(ROOT / f"results/{blade}/rom_pressure_edge.nc")
+    return contact_model(model, settings().structure.boundary.tip_line)
+
+
+def ring_of(thickness, diameters=20):
+    """Modes of the shipped ring with another thickness (m); none without one."""
+    shipped = in_si(Ring, settings().scene_entries[LINED].casing.ring)
+    return () if thickness is None else replace(shipped, thickness=thickness, highest_nodal_diameter=diameters).modes()
+
+
+def with_casing(name, ring):
+    scene = settings().scenes[name].scene
+    return replace(scene, casing=replace(scene.casing, ring=ring))
+
+
+def name_of(thickness):
+    return "rigid" if thickness is None else f"{1e3 * thickness:g} mm"
+
+
+def run(task):
+    """Rms (m) of the leading edge, normal and tangential, and of all waves round the casing (m)."""
+    blade, name, speed, ring = task
+    choice = replace(settings().integration_choice(blade, name, speed), energy=False, snapshot_revolutions=0)
+    found = run_speed(contact(blade), float(speed), with_casing(name, ring), choice, ["casing"] if ring else [], **KEPT)
+    waves = np.sum(found["casing_rms_forward"] ** 2 + found["casing_rms_backward"] ** 2) if ring else 0.0
+    return *found["rms"][0, [0, 2]], np.sqrt(waves)
+
+
+def peaks_table(pool):
+    """Peaks of the ten published interactions, every 1 rad/s about them; draws those of order 4, too."""
+    rows = []
+    figure, panels = plt.subplots(1, 7, figsize=(PAGE, 1.9), sharey=True)
+    axes_of = iter(panels)
+    for one in INTERACTIONS:
+        speeds = np.arange(round(one.peak) - BEFORE, round(one.peak) + AFTER + 1.0)
+        cells = [f"{one.blade} 1B/{one.engine_order}", f"{one.peak:g}"]
+        axes = next(axes_of) if one.engine_order == 4 else None
+        for thickness in THICKNESSES:
+            ring = ring_of(thickness)
+            found = np.array(list(pool.map(run, [(one.blade, LINED, v, ring) for v in speeds], chunksize=8)))
+            rms = np.hypot(*found.T[:2])
+            peak = int(np.argmax(rms))
+            at_end = peak in (0, len(speeds) - 1)
+            cells.append(f"{speeds[peak]:.0f}{' (end)' if at_end else ''}, {1e3 * rms[peak]:.2f}")
+            if axes:
+                axes.plot(speeds, 1e3 * rms, label=name_of(thickness), linewidth=0.8)
+                axes.set(title=one.blade, xlabel="rad/s")
+        rows.append(cells)
+        print(cells, flush=True)
+    panels[0].set_ylabel("rms (mm)")
+    figure.legend(*panels[0].get_legend_handles_labels(), loc="outside upper center", ncols=len(THICKNESSES))
+    (STUDIES / "figures").mkdir(parents=True, exist_ok=True)
+    figure.savefig(STUDIES / "figures/elastic_casing_peaks.png")
+    return markdown_table(["interaction", "published (rad/s)", *map(name_of, THICKNESSES)], rows)
+
+
+def direct_table(pool):
+    """Direct contact about 1B with order 4: means over the speeds, which single chaotic runs do not move."""
+    rows, orders = [], {one.blade: one for one in INTERACTIONS if one.engine_order == 4}
+    for blade, one in orders.items():
+        cells = [blade, f"{DIRECT_SHARES[0] * one.peak:.0f} to {DIRECT_SHARES[-1] * one.peak:.0f}"]
+        for thickness in THICKNESSES:
+            ring = ring_of(thickness)
+            found = np.array(list(pool.map(run, [(blade, DIRECT, v, ring) for v in DIRECT_SHARES * one.peak])))
+            cells.append(" / ".join(f"{1e3 * value:.3f}" for value in found.mean(axis=0)[: 3 if ring else 2]))
+        rows.append(cells)
+        print(cells, flush=True)
+    return markdown_table(["blade", "speeds (rad/s)", *map(name_of, THICKNESSES)], rows)
+
+
+def diameters_table(pool):
+    """Peak of Ref 1B/4 with modes up to some nodal diameters."""
+    one, rows = INTERACTIONS[0], []
+    speeds = np.arange(round(one.peak) - BEFORE, round(one.peak) + AFTER + 1.0)
+    for thickness in THICKNESSES[1:]:
+        cells = [name_of(thickness)]
+        for diameters in DIAMETERS:
+            ring = ring_of(thickness, diameters)
+            found = np.array(list(pool.map(run, [(one.blade, LINED, v, ring) for v in speeds], chunksize=8)))
+            rms = np.hypot(*found.T[:2])
+            cells.append(f"{speeds[np.argmax(rms)]:.0f}, {1e3 * rms.max():.2f}")
+        rows.append(cells)
+        print(cells, flush=True)
+    return markdown_table(["ring", *(f"up to {number}" for number in DIAMETERS)], rows)
+
+
+def rings_table():
+    """Frequencies of the rings, and how far a force pushes the wall out."""
+    rows = []
+    for thickness in THICKNESSES[1:]:
+        modes = [mode for mode in ring_of(thickness) if mode.radial]
+        given_way = sum(1.0 / mode.modal_mass / mode.frequency**2 for mode in modes)
+        of = {mode.nodal_diameter: mode.frequency / 2.0 / np.pi for mode in modes}
+        rows.append([name_of(thickness), *(f"{of[n]:.0f}" for n in (0, 1, 2, 4, 8, 20)), f"{1e6 * given_way:.2f}"])
+    heads = [f"n = {n} (Hz)" for n in (0, 1, 2, 4, 8, 20)]
+    return markdown_table(["ring", *heads, "static, at the force (um/N)"], rows)
+
+
+def meeting_table():
+    """Coincidences of Ref's 1B with the shipped ring, up to the highest speed."""
+    campbell = read_dataset(ROOT / "results/campbell.nc")
+    table = coincidence_table(campbell.sel(blade=["Ref"]), {LINED: ring_of(2e-3)})
+    table = table[(table["mode"] == "1B") & (table["speed_rad_s"] > 750.0)]
+    columns = ["nodal_diameter", "wave", "speed_rad_s", "frequency_hz"]
+    rows = [[f"{value:.0f}" if isinstance(value, float) else str(value) for value in row] for row in table[columns].values]
+    return markdown_table(["nodal diameters", "wave", "speed (rad/s)", "frequency in the rotor's frame (Hz)"], rows)
+
+
+def cost_table():
+    """Ratio of CPU times of the march, the reference blade, one after the other in one process."""
+    rows = []
+    for name in (LINED, DIRECT):
+        for diameters in DIAMETERS[1::2]:
+            ratios = [timed(name, ring_of(2e-3, diameters), speed) for speed in GRID for _ in range(ROUNDS)]
+            low, middle, high = np.percentile(ratios, [10, 50, 90])
+            rows.append([name, str(diameters), f"{middle:.2f}", f"{low:.2f} to {high:.2f}"])
+        print(rows[-1], flush=True)
+    said = f"{len(GRID)} speeds from {GRID[0]:g} to {GRID[-1]:g} rad/s, {ROUNDS} rounds."
+    return f"{markdown_table(['scene', 'nodal diameters up to', 'ratio of CPU times, median', '10% to 90%'], rows)}\n{said}\n"
+
+
+def timed(name, ring, speed):
+    """CPU time of the march with the ring as a multiple of that without."""
+    times = []
+    for modes in ((), ring):
+        choice = replace(settings().integration_choice("Ref", name, speed), energy=False, snapshot_revolutions=0)
+        simulation = Simulation(contact("Ref"), float(speed), with_casing(name, modes), choice)
+        simulation.advance(simulation.start(), 1)
+        state, begun = simulation.start(), time.process_time()
+        simulation.advance(state, choice.revolutions)
+        times.append(time.process_time() - begun)
+    return times[1] / times[0]
+
+
+if __name__ == "__main__":
+    main()

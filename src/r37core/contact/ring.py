@@ -1,0 +1,134 @@
+"""An elastic casing: modes of a ring round the blade, by nodal diameter, from its dimensions or as a test gives them.
+
+At the angle theta a mode of n nodal diameters displaces the casing by
+
+    radially      w = radial (q_c cos n theta + q_s sin n theta),
+    tangentially  v = tangential (q_s cos n theta - q_c sin n theta).
+
+q_c and q_s are two oscillators alike. A ring that bends without being stretched has dv/dtheta + w = 0: tangential = radial/n.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+
+@dataclass(frozen=True)
+class RingMode:
+    """One mode of the casing, in the frame that does not turn.
+
+    Angular `frequency` (rad/s); `modal_mass` (kg) of q_c and of q_s; `damping_ratio`; `radial` and `tangential`: its shape.
+    """
+
+    nodal_diameter: int
+    frequency: float
+    modal_mass: float
+    damping_ratio: float
+    radial: float = 1.0
+    tangential: float = 0.0
+
+
+@dataclass(frozen=True)
+class Ring:
+    """A ring of one material on an elastic foundation.
+
+    `radius` (m) of its middle line, radial `thickness` and axial `width` (m), `elastic_modulus` (Pa), `density` (kg/m3),
+    `damping_ratio` of every mode; `radial_foundation` and `tangential_foundation` (N/m2): stiffness per length of its
+    circumference; `highest_nodal_diameter` that is kept.
+    """
+
+    radius: float
+    thickness: float
+    width: float
+    elastic_modulus: float
+    density: float
+    damping_ratio: float
+    radial_foundation: float
+    tangential_foundation: float
+    highest_nodal_diameter: int
+
+    def modes(self) -> tuple[RingMode, ...]:
+        """Breathing, turning where a foundation holds it, and bending with 1, 2, ... nodal diameters.
+
+        omega_0^2 = E/(rho R^2) + k_r/(rho A) of breathing, k_t/(rho A) of turning, and of bending without stretching
+        omega_n^2 = (E I/R^4 n^2 (n^2 - 1)^2 + k_r n^2 + k_t)/(rho A (n^2 + 1)), with I = b t^3/12 of the area A = b t.
+        Source: Timoshenko, Vibration Problems in Engineering, vibration of circular rings in their plane. A ring without a
+        foundation has no mode of one nodal diameter: nothing holds it.
+        """
+        mass = self.density * self.width * self.thickness
+        bending = self.elastic_modulus * self.width * self.thickness**3 / 12.0 / self.radius**4
+        stretching = self.elastic_modulus * self.width * self.thickness / self.radius**2
+        round_mass = 2.0 * np.pi * self.radius * mass
+        found = [self._mode(0, (stretching + self.radial_foundation) / mass, round_mass, 1.0, 0.0)]
+        if self.tangential_foundation > 0.0:
+            found.append(self._mode(0, self.tangential_foundation / mass, round_mass, 0.0, 1.0))
+        for n in range(1, self.highest_nodal_diameter + 1):
+            square = bending * n**2 * (n**2 - 1.0) ** 2 + self.radial_foundation * n**2 + self.tangential_foundation
+            if square > 0.0:
+                square /= mass * (n**2 + 1.0)
+                found.append(self._mode(n, square, 0.5 * round_mass * (1.0 + 1.0 / n**2), 1.0, 1.0 / n))
+        return tuple(found)
+
+    def _mode(self, nodal_diameter: int, square: float, mass: float, radial: float, tangential: float) -> RingMode:
+        return RingMode(nodal_diameter, float(np.sqrt(square)), float(mass), self.damping_ratio, radial, tangential)
+
+
+@dataclass(frozen=True, eq=False)
+class RingMotion:
+    """The modes of a casing as oscillators of unit mass: all q_c, then all q_s. Numbers have shape (2 modes,).
+
+    `nodal_diameters`, `frequencies` (rad/s), `damping_ratios`; `size` (kg^-1/2): largest displacement per coordinate.
+
+    The blade's nodes stand still in the rotor's frame, where the casing turns towards growing theta. A step turns the pair
+    (q_c, q_s), its increments and nothing else: free motion and recursion are those of the frame that does not turn, with no
+    stiffness lost to the rotation, at critical speeds, too.
+    """
+
+    modes: tuple[RingMode, ...]
+
+    def _of_both(self, values: Sequence[float]) -> np.ndarray:
+        return np.tile(np.array(values, dtype=float), 2)
+
+    @property
+    def nodal_diameters(self) -> np.ndarray:
+        """Of each coordinate."""
+        return self._of_both([mode.nodal_diameter for mode in self.modes])
+
+    @property
+    def frequencies(self) -> np.ndarray:
+        """Angular, in the frame that does not turn."""
+        return self._of_both([mode.frequency for mode in self.modes])
+
+    @property
+    def damping_ratios(self) -> np.ndarray:
+        """Of each coordinate."""
+        return self._of_both([mode.damping_ratio for mode in self.modes])
+
+    @property
+    def size(self) -> np.ndarray:
+        """Radial displacement of a mode per coordinate, tangential where it has no radial one."""
+        return self._of_both([(mode.radial or mode.tangential) / np.sqrt(mode.modal_mass) for mode in self.modes])
+
+    def displacement(self, theta: np.ndarray) -> np.ndarray:
+        """Radial, tangential and axial displacement (m) of the casing at angles (rad), per coordinate.
+
+        `theta`, shape (nodes,). Returns shape (3, nodes, 2 modes).
+        """
+        radial, tangential, mass = (np.array([getattr(mode, name) for mode in self.modes]) for name in _SHAPE)
+        angles = theta[:, None] * np.array([mode.nodal_diameter for mode in self.modes])
+        cosine, sine = np.cos(angles) / np.sqrt(mass), np.sin(angles) / np.sqrt(mass)
+        out = np.hstack([radial * cosine, radial * sine])
+        along = np.hstack([-tangential * sine, tangential * cosine])
+        return np.stack([out, along, np.zeros_like(out)])
+
+    def turned(self, coordinates: np.ndarray, angle: float) -> np.ndarray:
+        """Coordinates in a frame turned by `angle` (rad) towards negative theta, shape (..., 2 modes)."""
+        cosine, sine = (function(angle * self.nodal_diameters[: len(self.modes)]) for function in (np.cos, np.sin))
+        first, second = np.split(coordinates, 2, axis=-1)
+        return np.concatenate([cosine * first - sine * second, sine * first + cosine * second], axis=-1)
+
+
+_SHAPE = ("radial", "tangential", "modal_mass")

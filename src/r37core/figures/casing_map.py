@@ -1,0 +1,47 @@
+"""What an elastic casing does over speed: its waves by nodal diameter, and its energy."""
+
+from __future__ import annotations
+
+import matplotlib.pyplot as plt
+import numpy as np
+import xarray as xr
+from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
+
+from . import style
+
+_DECIBELS = 60.0
+
+
+def draw_casing_map(maps: xr.Dataset, title: str) -> Figure:
+    """Level of forward and backward waves over speed and nodal diameter, below it the casing's energy.
+
+    In decibels below the largest level of the whole map.
+    """
+    maps = maps.dropna("speed", how="all", subset=["casing_energy"]).dropna("casing_mode", how="all", subset=["casing_frequency"])
+    figure, panels = plt.subplots(2, 2, figsize=(style.PAGE, 4.4), sharex=True, height_ratios=[3.0, 1.0])
+    figure.suptitle(f"waves round the casing: {title}")
+    speed, diameters = maps["speed"].values, maps["casing_nodal_diameter"].values
+    levels = {wave: maps[f"casing_rms_{wave}"].transpose("casing_mode", "speed").values for wave in ("forward", "backward")}
+    largest = max((float(level.max()) for level in levels.values() if level.size), default=0.0)
+    if not largest > 0.0:
+        panels[0, 0].text(0.5, 0.5, "nothing moves the casing", ha="center", transform=panels[0, 0].transAxes)
+        return figure
+    # several modes of one nodal diameter add up
+    ascending = np.unique(diameters)
+    for axes, (wave, level) in zip(panels[0], levels.items(), strict=True):
+        of_diameter = np.array([np.sqrt(np.sum(level[diameters == one] ** 2, axis=0)) for one in ascending])
+        decibels = 20.0 * np.log10(np.maximum(of_diameter / largest, 1e-30))
+        picture = axes.pcolormesh(speed, ascending, decibels, vmin=-_DECIBELS, vmax=0.0, cmap="magma", rasterized=True)
+        axes.set_title(f"{wave}: {'with' if wave == 'forward' else 'against'} the rotor")
+        axes.yaxis.set_major_locator(MaxNLocator(integer=True))
+        axes.grid(False)
+    panels[0, 0].set_ylabel("nodal diameters")
+    figure.colorbar(picture, ax=panels[0], label=f"rms (dB below {1e3 * largest:.3g} mm)")
+    energy = maps["casing_energy"].transpose("casing_mode", "speed").values
+    panels[1, 0].semilogy(speed, np.maximum(energy.sum(axis=0), 1e-15))
+    panels[1, 0].set(xlabel="speed (rad/s)", ylabel="energy (J)")
+    total = 1e3 * np.sqrt(sum(np.sum(level**2, axis=0) for level in levels.values()))
+    panels[1, 1].semilogy(speed, np.maximum(total, 1e-12))
+    panels[1, 1].set(xlabel="speed (rad/s)", ylabel="rms (mm)")
+    return figure

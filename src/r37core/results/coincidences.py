@@ -1,0 +1,64 @@
+"""Coincidence: speeds at which a mode of the blade and a wave round an elastic casing have one frequency in the rotor's frame.
+
+A mode of n nodal diameters, of frequency f_n on a casing that does not turn, is seen from the rotor with |f_n - n Omega/(2 pi)|
+of its forward wave, which runs with the rotor, and f_n + n Omega/(2 pi) of its backward wave. Source: Schmiechen, Travelling
+Wave Speed Coincidence, PhD thesis, Imperial College London, 1997; Legrand et al., J. Sound Vib. 319 (2009) 366-391.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+
+import numpy as np
+import pandas as pd
+import xarray as xr
+from scipy.interpolate import CubicSpline
+
+from r37core.contact.ring import RingMode
+from r37core.rom.naming import NAMED_MODES
+
+WAVES = {"forward": -1.0, "backward": 1.0}
+"""Sense of a wave -> sign with which the rotation adds to its frequency."""
+
+COLUMNS = ("scene", "blade", "mode", "nodal_diameter", "wave", "speed_rad_s", "frequency_hz")
+
+
+def seen_from_rotor(mode: RingMode, wave: str, speeds: np.ndarray) -> np.ndarray:
+    """Frequency (Hz) of one of WAVES at `speeds` (rad/s), negative where the rotor overtakes the wave."""
+    return (mode.frequency + WAVES[wave] * mode.nodal_diameter * speeds) / (2.0 * np.pi)
+
+
+def waves_of(mode: RingMode) -> tuple[str, ...]:
+    """The waves of a mode; without nodal diameters it runs nowhere."""
+    return tuple(WAVES) if mode.nodal_diameter else ("forward",)
+
+
+def coincidence_table(campbell: xr.Dataset, casings: Mapping[str, Sequence[RingMode]]) -> pd.DataFrame:
+    """All coincidences of the named modes of every blade with the casing of each scene: one row each, by ascending speed."""
+    rows = [
+        (scene, str(blade), name, mode.nodal_diameter, wave, speed, frequency)
+        for scene, modes in casings.items()
+        for blade in campbell["blade"].values
+        for name in NAMED_MODES
+        for mode in modes
+        for wave in waves_of(mode)
+        for speed, frequency in coincidences(campbell["frequency"].sel(blade=blade, mode=name), mode, wave)
+    ]
+    return pd.DataFrame(rows, columns=COLUMNS).sort_values(["scene", "blade", "speed_rad_s"], kind="stable")
+
+
+def coincidences(frequency: xr.DataArray, mode: RingMode, wave: str) -> Iterator[tuple[float, float]]:
+    """Speeds (rad/s) and frequencies (Hz) at which a blade's `frequency` (Hz) over speed is that of a wave.
+
+    The blade's is interpolated by a cubic spline, the wave's is a straight line: the roots are exact of both.
+    """
+    speeds = frequency["speed"].values
+    of_wave = seen_from_rotor(mode, wave, speeds)
+    found = {
+        float(speed)
+        for sign in (1.0, -1.0)
+        for speed in CubicSpline(speeds, frequency.values - sign * of_wave).roots(extrapolate=False)
+        if speed > 0.0
+    }
+    for speed in sorted(found):
+        yield speed, abs(float(seen_from_rotor(mode, wave, np.array(speed))))

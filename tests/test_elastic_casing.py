@@ -1,0 +1,262 @@
+"""A casing that gives way: closed forms of rings, the frame that does not turn, SciPy, energy, limits, files and refusals."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from defaults import Casing, Friction, IntegrationChoice, Lining, Scene
+from integration_cases import ABRADABLE, DIRECT, assert_same_totals_and_wear, oscillator, random_model
+from scipy.integrate import solve_ivp
+from test_coriolis import SCENES, coupled_model
+
+from r37core.contact.ring import Ring, RingMode, RingMotion
+from r37core.run_ups.march import March
+from r37core.run_ups.schedule import RunUp
+from r37core.time_integration import step_limit
+from r37core.time_integration.casing_waves import casing_waves
+from r37core.time_integration.integrators import CENTRAL_DIFFERENCE, EXACT_MODAL
+from r37core.time_integration.problem import Problem
+from r37core.time_integration.simulate import Simulation
+
+CHOICE = IntegrationChoice(2e-7, 1, 62, integrator=EXACT_MODAL, energy=True)
+
+STEEL = Ring(0.255, 0.002, 0.05, 2.1e11, 7850.0, 0.002, 1e7, 1e6, 11)
+"""Eleven modes: more pairs than a vector has numbers."""
+
+ELASTIC = Lining(5e-3, 20e9, 5e9, 1e30, bar_area=1e-6)
+"""Bars that never yield."""
+
+
+def with_ring(scene, modes):
+    return replace(scene, casing=replace(scene.casing, ring=tuple(modes)))
+
+
+ELASTIC_SCENES = {name: with_ring(scene, STEEL.modes()) for name, scene in SCENES.items() if not scene.exact_gap}
+
+
+def test_two_opposite_forces_stretch_a_free_ring_as_timoshenko_says():
+    """The diameter under two forces F along it: (pi/4 - 2/pi) F R^3/(E I) (Timoshenko, Strength of Materials, curved bars)."""
+    ring = replace(STEEL, radial_foundation=0.0, tangential_foundation=0.0, highest_nodal_diameter=400)
+    bending = [mode for mode in ring.modes() if mode.nodal_diameter]
+    assert [mode.nodal_diameter for mode in bending] == list(range(2, 401))
+    motion = RingMotion(tuple(bending))
+    rows = motion.displacement(np.array([0.0, np.pi]))[0]
+    stretched = np.sum(rows.sum(axis=0) ** 2 / motion.frequencies**2)
+    inertia = ring.width * ring.thickness**3 / 12.0
+    expected = (np.pi / 4.0 - 2.0 / np.pi) * ring.radius**3 / (ring.elastic_modulus * inertia)
+    assert stretched == pytest.approx(expected, rel=1e-6)
+
+
+def test_many_nodal_diameters_are_a_beam_on_a_foundation():
+    """A point load on a long beam sinks by lambda/(2 k), lambda^4 = k/(4 E I) (Hetenyi); curvature is of no account there.
+
+    But for the mean, which the foundation alone bears under a beam that is not stretched.
+    """
+    ring = replace(STEEL, radial_foundation=1e9, tangential_foundation=0.0, highest_nodal_diameter=300)
+    motion = RingMotion(ring.modes()[1:])
+    sunk = np.sum(motion.displacement(np.zeros(1))[0, 0] ** 2 / motion.frequencies**2)
+    sunk += 1.0 / (2.0 * np.pi * ring.radius * 1e9)
+    bending = ring.elastic_modulus * ring.width * ring.thickness**3 / 12.0
+    expected = (1e9 / 4.0 / bending) ** 0.25 / 2.0 / 1e9
+    assert sunk == pytest.approx(expected, rel=5e-3)
+
+
+def test_a_rigid_translation_has_the_mass_of_the_ring_and_of_its_foundation_the_stiffness():
+    mode = next(one for one in STEEL.modes() if one.nodal_diameter == 1)
+    mass = 2.0 * np.pi * STEEL.radius * STEEL.thickness * STEEL.width * STEEL.density
+    assert mode.modal_mass == pytest.approx(mass)
+    stiffness = np.pi * STEEL.radius * (STEEL.radial_foundation + STEEL.tangential_foundation)
+    assert mode.frequency == pytest.approx(np.sqrt(stiffness / mass))
+    moved = RingMotion((mode,)).displacement(np.array([0.3]))[:, 0, 0] * np.sqrt(mass)
+    np.testing.assert_allclose(moved, [np.cos(0.3), -np.sin(0.3), 0.0], atol=1e-15)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("name", "step", "coriolis"),
+    [
+        *((name, 1.2e-6, False) for name in ELASTIC_SCENES),
+        ("abradable", 2e-7, False),
+        *((name, 1.2e-6, True) for name in ("direct", "abradable_constant", "thin_lining")),
+    ],
+)
+def test_compiled_time_integration_is_the_reference(name, step, coriolis, monkeypatch):
+    """In the rotor's frame by pairs that turn, and in the frame that does not turn with nodes that go round."""
+    monkeypatch.setattr(step_limit, "_LARGEST_LAG", 1.0)
+    model = coupled_model() if coriolis else random_model(8)
+    choice = replace(CHOICE, time_step=step, snapshots_per_revolution=62, snapshot_revolutions=1)
+    found = []
+    for engine in ("compiled", "reference"):
+        simulation = Simulation(model, 6000.0, ELASTIC_SCENES[name], replace(choice, engine=engine))
+        state = simulation.start()
+        # stopped in the middle of a revolution
+        records = [simulation.advance_samples(state, count) for count in (25, 37)]
+        found.append((state, records, simulation.energy(state)))
+    (ours, parts, energy), (theirs, plain, _) = found
+    for part, expected in zip(parts, plain, strict=True):
+        for kind in ("samples", "snapshots", "casing"):
+            largest = np.abs(getattr(expected, kind)).max()
+            np.testing.assert_allclose(getattr(part, kind), getattr(expected, kind), rtol=0, atol=1e-10 * largest)
+    for kind in ("displacement", "increment"):
+        largest = np.abs(getattr(theirs, kind)).max()
+        np.testing.assert_allclose(getattr(ours, kind), getattr(theirs, kind), rtol=0, atol=1e-9 * largest)
+    assert ours.totals["steps_in_contact"] > 100 and ours.totals["steps_jumped"] > 100
+    assert_same_totals_and_wear(ours, theirs)
+    work, loss = ours.totals["work"], ours.totals["loss"]
+    assert abs(energy - work + loss) < 1e-10 * (abs(work) + loss)
+
+
+@pytest.mark.parametrize("name", ["direct", "abradable"])
+def test_published_scheme_carries_the_casing(name):
+    choice, model = replace(CHOICE, integrator=CENTRAL_DIFFERENCE, time_step=1e-7), random_model(8)
+    found = []
+    for engine in ("compiled", "reference"):
+        simulation = Simulation(model, 6000.0, ELASTIC_SCENES[name], replace(choice, engine=engine))
+        state = simulation.start()
+        found.append((state, simulation.advance(state, 1)))
+    (ours, record), (theirs, plain) = found
+    np.testing.assert_allclose(record.casing, plain.casing, rtol=0, atol=1e-10 * np.abs(plain.casing).max())
+    assert_same_totals_and_wear(ours, theirs)
+
+
+@pytest.mark.parametrize("name", ["direct", "abradable", "thin_lining"])
+@pytest.mark.parametrize("coriolis", [False, True])
+def test_a_casing_of_great_mass_is_rigid(name, coriolis):
+    samples, heavy = [], [replace(mode, modal_mass=1e15) for mode in STEEL.modes()]
+    for scene in (SCENES[name], with_ring(SCENES[name], heavy)):
+        simulation = Simulation(coupled_model() if coriolis else random_model(8), 3000.0, scene, CHOICE)
+        samples.append(simulation.advance(simulation.start(), 1).samples)
+    np.testing.assert_allclose(samples[1], samples[0], rtol=0, atol=1e-10 * np.abs(samples[0]).max())
+
+
+def test_nodes_are_coupled_by_the_difference_of_their_angles():
+    model = replace(random_model(8), theta=np.linspace(0.3, -0.4, 8))
+    rigid, elastic = (Problem(model, 3000.0, scene, CHOICE) for scene in (DIRECT, ELASTIC_SCENES["direct"]))
+    added = elastic.coupling - rigid.coupling
+    normal = added[0]
+    assert normal.min() < 0.0 < normal.diagonal().min()
+    np.testing.assert_allclose(normal, normal.T, rtol=0, atol=1e-12 * normal.max())
+    for offset in range(8):
+        np.testing.assert_allclose(np.diagonal(normal, offset), normal[0, offset], rtol=0, atol=1e-12 * normal.max())
+    # a tangential force here pulls the wall there as much as a normal force there moves this point along
+    np.testing.assert_allclose(added[1], -added[1].T, rtol=0, atol=1e-12 * np.abs(added[1]).max())
+
+
+MOVING = (RingMode(0, 9000.0, 0.5, 0.1), RingMode(2, 3000.0, 0.8, 0.1, 1.0, 0.5), RingMode(5, 6000.0, 1.2, 0.05, 1.0, 0.2))
+PRESSED = Scene(Casing(-1e-4, lobes=0, rise_fraction=0.0), ELASTIC, damping_ratio=0.05, divergence_limit=1.0)
+
+
+# of both modes: below, at the critical speed of the second one, between, at that of the first one, above
+@pytest.mark.parametrize("speed", [600.0, 1200.0, 1350.0, 1500.0, 2000.0])
+def test_a_load_that_runs_round_the_ring(speed):
+    """Steady in the rotor's frame: zeta (omega^2 - n^2 Omega^2 + 2 i xi omega n Omega) = f, at critical speeds, too."""
+    model, scene = replace(oscillator(2e4), theta=np.array([0.7])), with_ring(PRESSED, MOVING)
+    simulation = Simulation(model, speed, scene, replace(CHOICE, time_step=1e-6, revolutions=40))
+    record = simulation.advance(simulation.start(), 40)
+    n, frequency, mass, ratio, *_ = np.array([list(vars(mode).values()) for mode in MOVING]).T
+    force_to_wave = np.exp(-1j * n * 0.7) / mass / (frequency**2 - (n * speed) ** 2 + 2j * ratio * frequency * n * speed)
+    given_way = np.sum(force_to_wave * np.exp(1j * n * 0.7)).real
+    force = 1e-4 / (1.0 / simulation.problem.bar_stiffness + given_way + 1.0 / 2e4**2)
+    # phase by phase: cosines, then sines
+    expected = np.concatenate([(force * force_to_wave).real, -(force * force_to_wave).imag])
+    np.testing.assert_allclose(record.casing[-1], expected, rtol=0, atol=2e-4 * np.abs(expected).max())
+    np.testing.assert_allclose(record.samples[-1, 0], -force / 2e4**2, rtol=2e-4)
+
+
+@pytest.mark.parametrize("jumps", [True, False])
+def test_free_waves_keep_their_frequency_and_their_sense(jumps):
+    """In the frame that does not turn a wave of a mode has the mode's frequency, whichever way it runs."""
+    speed, modes = 1300.0, (RingMode(3, 4 * 1300.0, 1.0, 0.0, 1.0, 1.0 / 3.0), RingMode(0, 3 * 1300.0, 1.0, 0.0))
+    scene = with_ring(Scene(Casing(1.0, lobes=0), damping_ratio=0.0, divergence_limit=10.0), modes)
+    choice = replace(CHOICE, time_step=2e-5, revolutions=40, jumps=jumps)
+    simulation = Simulation(oscillator(5000.0), speed, scene, choice)
+    state, step = simulation.start(), simulation.problem.time_step
+    # q_c = cos(omega t), q_s = -sin(omega t): Z = e^(i omega t); and the ring breathes
+    state.displacement[1:] = [1e-3, 1e-3, 0.0, 0.0]
+    angles = np.array([4, 3]) * speed * step
+    state.increment[1:] = 1e-3 * np.concatenate([2.0 * np.sin(0.5 * angles) ** 2, [-np.sin(angles[0]), 0.0]])
+    record = simulation.advance(state, 40)
+    assert (state.totals["steps_jumped"] > 0) == jumps
+    found = casing_waves(record.casing, simulation.problem.ring, speed, 40, 20)
+    peaks = found["casing_order"][found["casing_amplitude"].argmax(axis=1)]
+    assert peaks[0] == 4.0 and abs(peaks[1]) == 3.0
+    assert found["casing_amplitude"].max(axis=1) == pytest.approx([1e-3, 5e-4], rel=1e-6)
+    assert found["casing_rms_forward"] == pytest.approx(np.array([1e-3, 5e-4]) / np.sqrt(2.0))
+    assert found["casing_rms_backward"] == pytest.approx([0.0, 5e-4 / np.sqrt(2.0)], abs=1e-12)
+    # kinetic and elastic of q_c and q_s, and of the breathing alone
+    energy = [(4 * speed) ** 2 * 1e-6, 0.5 * (3 * speed) ** 2 * 1e-6]
+    assert found["casing_energy"] == pytest.approx(energy)
+    # that of central differences: cos^2 of half the angle of a step
+    assert simulation.energy(state) == pytest.approx(np.cos(0.5 * angles) ** 2 @ energy)
+
+
+def test_error_on_an_elastic_bar_falls_with_the_square_of_the_step():
+    """A node on its bar with friction, and a casing on two modes, in the frame that does not turn: SciPy's DOP853."""
+    frequency, speed, coefficient = 3000.0, 1000.0, 0.4
+    scene = with_ring(replace(PRESSED, friction=Friction(coefficient), casing=Casing(-1e-4, lobes=2, amplitude=0.2, rise_fraction=0.0)), MOVING)
+    model = replace(oscillator(frequency), displacement_operator=np.array([[[1.0]], [[0.3]], [[0.2]]]))
+    stiffness = ELASTIC.elastic_modulus * ELASTIC.bar_area / ELASTIC.thickness
+    ring = RingMotion(MOVING)
+    own, ratios = (np.concatenate([[one], of]) for one, of in ((frequency, ring.frequencies), (0.05, ring.damping_ratios)))
+
+    def motion(time, state):
+        position, velocity = np.split(state, 2)
+        theta = np.array([-speed * time])
+        rows = np.concatenate([[[1.0], [0.3], [0.2]], -ring.displacement(theta)[:, 0]], axis=1)
+        pressed = stiffness * (rows[0] @ position - scene.casing.clearance * (1.0 - 0.2 * scene.casing.shape(theta)[0]))
+        assert pressed > 0.0
+        sliding = np.array([0.0, -0.25 * speed, 0.0]) + [0.0, 1.0, 1.0] * (rows @ velocity)
+        force = rows.T @ (np.array([-pressed, 0.0, 0.0]) - coefficient * pressed * sliding / np.linalg.norm(sliding))
+        return np.concatenate([velocity, force - own**2 * position - 2.0 * ratios * own * velocity])
+
+    errors, steps = [], []
+    for step in (1.6e-5, 8e-6, 4e-6, 2e-6):
+        simulation = Simulation(model, speed, scene, replace(CHOICE, time_step=step, samples_per_revolution=50))
+        problem, state = simulation.problem, simulation.start()
+        pressed = -stiffness * scene.casing.clearance * (1.0 - 0.2 * scene.casing.shape(np.zeros(1))[0])
+        state.lining_force[:, 0] = force = pressed * np.array([-1.0, coefficient, 0.0])
+        # u(-h) of what moves off from rest under this force
+        state.increment[:] = -0.5 * problem.recursion.inverse * np.einsum("dki,d->i", problem.displacement_operator, force)
+        record = simulation.advance(state, 1)
+        count = len(record.samples)
+        time = (1 + np.arange(count)) * problem.steps_per_sample * problem.time_step
+        exact = solve_ivp(motion, (0.0, time[-1]), np.zeros(2 * len(own)), "DOP853", time, rtol=1e-11, atol=1e-16, max_step=1e-5).y
+        turned = np.array([ring.turned(exact[1 : len(own), i], speed * time[i]) for i in range(count)]) * ring.size
+        errors.append(np.abs(record.casing - turned).max() / np.abs(turned).max())
+        steps.append(problem.time_step)
+        assert np.abs(record.samples[:, 0] - exact[0]).max() < 30.0 * errors[-1] * np.abs(exact[0]).max()
+    orders = np.diff(np.log(errors)) / np.diff(np.log(steps))
+    assert errors[0] < 3e-2
+    assert np.all((orders > 1.9) & (orders < 2.1)), (orders, errors)
+
+
+def test_a_run_up_of_no_rate_is_the_run_at_constant_speed():
+    choice, scene, model = replace(CHOICE, revolutions=3), ELASTIC_SCENES["abradable"], random_model(8)
+    simulation = Simulation(model, 3000.0, scene, choice)
+    state = simulation.start()
+    record = simulation.advance(state, 3)
+    march = March(model, scene, choice, RunUp(3000.0, 3000.0 * (1.0 + 1e-12), 3, before=0, after=0, worn=False))
+    samples = np.concatenate([stage.samples for stage in march.stages()])
+    np.testing.assert_allclose(samples, record.samples, rtol=0, atol=1e-8 * np.abs(record.samples).max())
+
+
+def test_a_run_up_with_an_elastic_casing_keeps_its_balance():
+    choice = replace(CHOICE, revolutions=6)
+    march = March(random_model(8), ELASTIC_SCENES["abradable"], choice, RunUp(3000.0, 3300.0, 6, before=0, after=0, worn=False))
+    for _ in march.stages():
+        pass
+    totals = march.state.totals
+    missing = march.energy - march.stiffness_work - totals["work"] + totals["loss"]
+    assert totals["work"] != 0.0
+    assert abs(missing) < 1e-9 * (abs(totals["work"]) + totals["loss"])
+
+
+def test_exact_gap_is_refused():
+    with pytest.raises(ValueError, match="an elastic casing needs the linear gap"):
+        Problem(random_model(8), 3000.0, replace(ELASTIC_SCENES["direct"], exact_gap=True), CHOICE)
+
+
+def test_a_fast_casing_counts_for_central_differences():
+    scene = with_ring(ABRADABLE, [RingMode(2, 2.5e7, 1.0, 0.0)])
+    with pytest.raises(step_limit.UnstableStepError, match="highest mode 3978"):
+        Problem(random_model(8), 3000.0, scene, replace(CHOICE, integrator=CENTRAL_DIFFERENCE))

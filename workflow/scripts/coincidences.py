@@ -1,0 +1,19 @@
+"""Where modes of blades meet waves of a casing. Input: campbell. Params: casings. Output: coincidences.csv."""
+
+from job import run
+
+from r37core.contact.ring import RingMode
+from r37core.dataset_file import read_dataset
+from r37core.io import atomic_write
+from r37core.plain import from_plain
+from r37core.results.coincidences import coincidence_table
+
+
+def main(snakemake):
+    casings = from_plain(dict[str, tuple[RingMode, ...]], snakemake.params.casings)
+    table = coincidence_table(read_dataset(snakemake.input.campbell), casings)
+    with atomic_write(snakemake.output[0]) as partial:
+        table.to_csv(partial, index=False, float_format="%.8g")
+
+
+run(snakemake, main)
