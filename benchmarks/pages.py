@@ -22,7 +22,9 @@ TABLES = {
     },
     "accuracy_tables": {"refinement": "refinement.md", "tradeoff": "tradeoff.md"},
     "coriolis": {name: f"coriolis_{name}.md" for name in ("frequencies", "peaks", "direct", "cost")},
-    "elastic_casing": {name: f"elastic_casing_{name}.md" for name in ("rings", "peaks", "direct", "diameters", "coincidences", "cost")},
+    "elastic_casing": {
+        name: f"elastic_casing_{name}.md" for name in ("rings", "peaks", "direct", "diameters", "coincidences", "cost")
+    },
     "run_ups": {"run_up_rates": "run_up_rates.md", "run_up_variants": "run_up_variants.md"},
     "clearance": {"clearance_growth": "clearance_growth.md", "clearance_effect": "clearance_effect.md"},
     "tolerances": {name: f"{name}.md" for name in ("tolerance_ranges", "tolerance_sensitivity", "tolerance_members")},

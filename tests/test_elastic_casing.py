@@ -193,7 +193,10 @@ def test_free_waves_keep_their_frequency_and_their_sense(jumps):
 def test_error_on_an_elastic_bar_falls_with_the_square_of_the_step():
     """A node on its bar with friction, and a casing on two modes, in the frame that does not turn: SciPy's DOP853."""
     frequency, speed, coefficient = 3000.0, 1000.0, 0.4
-    scene = with_ring(replace(PRESSED, friction=Friction(coefficient), casing=Casing(-1e-4, lobes=2, amplitude=0.2, rise_fraction=0.0)), MOVING)
+    scene = with_ring(
+        replace(PRESSED, friction=Friction(coefficient), casing=Casing(-1e-4, lobes=2, amplitude=0.2, rise_fraction=0.0)),
+        MOVING,
+    )
     model = replace(oscillator(frequency), displacement_operator=np.array([[[1.0]], [[0.3]], [[0.2]]]))
     stiffness = ELASTIC.elastic_modulus * ELASTIC.bar_area / ELASTIC.thickness
     ring = RingMotion(MOVING)
@@ -220,7 +223,9 @@ def test_error_on_an_elastic_bar_falls_with_the_square_of_the_step():
         record = simulation.advance(state, 1)
         count = len(record.samples)
         time = (1 + np.arange(count)) * problem.steps_per_sample * problem.time_step
-        exact = solve_ivp(motion, (0.0, time[-1]), np.zeros(2 * len(own)), "DOP853", time, rtol=1e-11, atol=1e-16, max_step=1e-5).y
+        exact = solve_ivp(
+            motion, (0.0, time[-1]), np.zeros(2 * len(own)), "DOP853", time, rtol=1e-11, atol=1e-16, max_step=1e-5
+        ).y
         turned = np.array([ring.turned(exact[1 : len(own), i], speed * time[i]) for i in range(count)]) * ring.size
         errors.append(np.abs(record.casing - turned).max() / np.abs(turned).max())
         steps.append(problem.time_step)

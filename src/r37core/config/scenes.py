@@ -109,7 +109,9 @@ class SceneEntry(Section):
     @model_validator(mode="after")
     def _elastic_casing_has_linear_gap(self) -> SceneEntry:
         if self.casing.elastic and self.gap == "exact":
-            raise refused(("gap",), "exact with an elastic casing", "linear; the exact gap is that of a casing that keeps its shape")
+            raise refused(
+                ("gap",), "exact with an elastic casing", "linear; the exact gap is that of a casing that keeps its shape"
+            )
         return self
 
     def stress_history_speeds(self) -> tuple[float, ...]:

@@ -17,7 +17,17 @@ from .netcdf import create_axis, create_labels, create_text, create_variable
 from .variables import DATASETS, FLAGS
 
 
-_AXES = ("speed", "history_speed", "revolution", "engine_order", "angle", "lobes", "contact_node", "casing_mode", "casing_order")
+_AXES = (
+    "speed",
+    "history_speed",
+    "revolution",
+    "engine_order",
+    "angle",
+    "lobes",
+    "contact_node",
+    "casing_mode",
+    "casing_order",
+)
 """Numeric axes, of which a dataset has what its responses have together."""
 
 

@@ -42,7 +42,10 @@ VARIABLES = {
     "max_wear": Variable((), "m", "largest wear of the lining at the end"),
     "wear_harmonic": Variable(("lobes",), "m", "amplitude of the wear profile's lobes"),
     "casing_amplitude": Variable(
-        ("casing_mode", "casing_order"), "m", "amplitude of the waves of the casing's modes, over the last half of the run", "f4"
+        ("casing_mode", "casing_order"),
+        "m",
+        "amplitude of the waves of the casing's modes, over the last half of the run",
+        "f4",
     ),
     **{
         f"casing_rms_{wave}": Variable(
