@@ -4,12 +4,21 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+import xarray as xr
 from defaults import Casing, Friction, IntegrationChoice, Lining, Scene
 from integration_cases import ABRADABLE, DIRECT, assert_same_totals_and_wear, oscillator, random_model
 from scipy.integrate import solve_ivp
 from test_coriolis import SCENES, coupled_model
 
+from r37core.config import ConfigError, checked_scene
 from r37core.contact.ring import Ring, RingMode, RingMotion
+from r37core.figures.campbell_diagram import draw_campbell
+from r37core.figures.maps import draw_map
+from r37core.figures.style import plt
+from r37core.plain import to_plain
+from r37core.results.coincidences import coincidence_table
+from r37core.results.datasets import write_sweep_dataset
+from r37core.results.response import write_response
 from r37core.run_ups.march import March
 from r37core.run_ups.schedule import RunUp
 from r37core.time_integration import step_limit
@@ -17,6 +26,8 @@ from r37core.time_integration.casing_waves import casing_waves
 from r37core.time_integration.integrators import CENTRAL_DIFFERENCE, EXACT_MODAL
 from r37core.time_integration.problem import Problem
 from r37core.time_integration.simulate import Simulation
+from r37core.time_integration.speed_file import write_speed
+from r37core.time_integration.speed_run import run_speed
 
 CHOICE = IntegrationChoice(2e-7, 1, 62, integrator=EXACT_MODAL, energy=True)
 
@@ -265,3 +276,145 @@ def test_a_fast_casing_counts_for_central_differences():
     scene = with_ring(ABRADABLE, [RingMode(2, 2.5e7, 1.0, 0.0)])
     with pytest.raises(step_limit.UnstableStepError, match="highest mode 3978"):
         Problem(random_model(8), 3000.0, scene, replace(CHOICE, integrator=CENTRAL_DIFFERENCE))
+
+
+@pytest.fixture(scope="module")
+def waves(tmp_path_factory):
+    """casing.nc of one scene with an elastic casing, whose second speed diverges, and one without."""
+    folder, responses = tmp_path_factory.mktemp("casing"), {}
+    # faster than the rotor with all its nodal diameters, for what that overtakes may grow without bound
+    fast = replace(STEEL, radial_foundation=2e9).modes()
+    for name, scene in (("elastic", with_ring(ABRADABLE, fast)), ("rigid", ABRADABLE)):
+        files = []
+        for speed, limit in ((3000.0, 0.1), (3300.0, 1e-9)):
+            chosen = replace(scene, divergence_limit=limit)
+            results = ["casing"] if scene.casing.ring else []
+            choice = replace(CHOICE, revolutions=4)
+            run = run_speed(random_model(8), speed, chosen, choice, results, spectrum_highest_order=20, wear_angles=8)
+            files.append(folder / f"{name}_{speed:g}.npz")
+            write_speed(run, files[-1], {})
+        responses["Ref", name] = folder / f"{name}.nc"
+        of_stress = {"stress_history_speeds": (), "stress_instants": 31, "yield_stress": 1.0}
+        write_response(files, (3000.0, 3300.0), responses["Ref", name], None, **of_stress, provenance={"numerics": "one"})
+    write_sweep_dataset("casing", responses, folder / "casing.nc", {})
+    with xr.open_dataset(folder / "casing.nc") as dataset:
+        return dataset.load()
+
+
+def test_waves_of_all_scenes_are_in_one_dataset(waves):
+    elastic = waves.sel(blade="Ref", scene="elastic")
+    assert waves["casing_amplitude"].dims == ("blade", "scene", "speed", "casing_mode", "casing_order")
+    assert waves["casing_energy"].attrs["units"] == "J" and waves["casing_frequency"].attrs["units"] == "Hz"
+    np.testing.assert_array_equal(elastic["casing_nodal_diameter"], [mode.nodal_diameter for mode in STEEL.modes()])
+    orders = waves["casing_order"].values
+    np.testing.assert_array_equal(orders, np.arange(-40, 41) / 2.0)
+    assert np.isnan(waves["casing_energy"].sel(scene="rigid")).all()
+    first, second = (elastic.sel(speed=speed) for speed in (3000.0, 3300.0))
+    assert first["casing_energy"].min() > 0.0 and np.isnan(second["casing_energy"]).all()
+    assert int(second["status"]) == 1
+    # of what the spectrum keeps, which is nearly all
+    kept = np.sqrt(0.5 * (first["casing_amplitude"].sel(casing_order=slice(0.5, None)) ** 2).sum("casing_order"))
+    slow = first["casing_frequency"] < 20 * 3000.0 / 2.0 / np.pi
+    np.testing.assert_allclose(kept[slow], first["casing_rms_forward"][slow], rtol=0.1)
+
+
+def test_waves_are_drawn(waves):
+    figure = draw_map(waves.sel(blade="Ref", scene="elastic"), xr.Dataset(), "Ref, elastic")
+    titles = [axes.get_title() for axes in figure.axes]
+    assert titles[:2] == ["forward: with the rotor", "backward: against the rotor"]
+    still = waves.sel(blade="Ref", scene="elastic").isel(speed=[1])
+    assert "every run diverged" in [text.get_text() for text in draw_map(still, xr.Dataset(), "Ref").axes[0].texts]
+    plt.close("all")
+
+
+def straight_campbell():
+    """Named modes of frequencies that no speed changes."""
+    speed = np.linspace(0.0, 2000.0, 21)
+    frequency = np.repeat([[1000.0], [1500.0], [3000.0]], 21, axis=1)[None]
+    return xr.Dataset(
+        {"frequency": (("blade", "mode", "speed"), frequency)},
+        coords={"blade": ["Ref"], "mode": ["1B", "1T", "2B"], "speed": speed},
+    )
+
+
+def test_coincidences_of_straight_lines():
+    modes = (RingMode(0, 2.0 * np.pi * 1500.0, 1.0, 0.0), RingMode(6, 2.0 * np.pi * 800.0, 1.0, 0.0))
+    table = coincidence_table(straight_campbell(), {"elastic": modes})
+    found = {(row.mode, row.wave): row.speed_rad_s for row in table.itertuples() if row.nodal_diameter == 6}
+    hertz = 2.0 * np.pi / 6.0
+    assert found == {
+        ("1B", "backward"): pytest.approx(200.0 * hertz),
+        ("1T", "backward"): pytest.approx(700.0 * hertz),
+        # the rotor overtakes them
+        ("1B", "forward"): pytest.approx(1800.0 * hertz),
+    }
+    assert list(table["speed_rad_s"]) == sorted(table["speed_rad_s"])
+    np.testing.assert_allclose(table["frequency_hz"], [{"1B": 1000.0, "1T": 1500.0}[mode] for mode in table["mode"]])
+
+
+def test_campbell_diagram_shows_each_casing_once():
+    campbell = straight_campbell().isel(blade=0)
+    campbell = campbell.assign(
+        crossing_speed=(("mode", "engine_order"), np.full((3, 1), 900.0)),
+        dynamic_clearance=(("mode", "tangential_displacement"), np.zeros((3, 2))),
+    ).assign_coords(engine_order=[4], tangential_displacement=[-1e-3, 1e-3])
+    modes = to_plain((RingMode(6, 2.0 * np.pi * 800.0, 1.0, 0.0),))
+    one, two = (draw_campbell(campbell, "Ref", dict.fromkeys(names, modes)) for names in (["a"], ["a", "b"]))
+    labels = one.axes[0].get_legend_handles_labels()[1]
+    assert {"casing, forward", "casing, backward"} <= set(labels)
+    assert len(one.axes[0].lines) == len(two.axes[0].lines)
+    diamonds = [line for line in one.axes[0].lines if line.get_marker() == "D"]
+    assert len(diamonds) == 3
+    plt.close("all")
+
+
+RING = {"radius_m": 0.255, "thickness_m": 0.002, "width_m": 0.05, "elastic_modulus_pa": 2.1e11, "density_kg_m3": 7850}
+
+
+def test_a_ring_of_the_configuration():
+    free = checked_scene({"casing": {"clearance_m": 3e-4, "ring": RING}}).casing.ring
+    assert [mode.nodal_diameter for mode in free] == [0, *range(2, 21)]
+    held = RING | {
+        "radial_foundation_n_m2": 1e7,
+        "tangential_foundation_n_m2": 1e6,
+        "highest_nodal_diameter": 11,
+        "damping_ratio": 0.002,
+    }
+    assert checked_scene({"casing": {"clearance_m": 3e-4, "ring": held}}).casing.ring == STEEL.modes()
+    table = [
+        {"nodal_diameter": 3, "frequency_hz": 500, "modal_mass_kg": 0.7},
+        {"nodal_diameter": 0, "frequency_hz": 900, "modal_mass_kg": 1.5, "damping_ratio": 0.01},
+        {"nodal_diameter": 4, "frequency_hz": 600, "modal_mass_kg": 0.6, "tangential_ratio": 0.1},
+    ]
+    modes = checked_scene({"casing": {"clearance_m": 3e-4, "ring_modes": table}}).casing.ring
+    assert modes[0] == RingMode(3, 1000.0 * np.pi, 0.7, 0.005, 1.0, 1.0 / 3.0)
+    assert [mode.tangential for mode in modes[1:]] == [0.0, 0.1]
+
+
+@pytest.mark.parametrize(
+    ("changed", "message"),
+    [
+        (
+            {"casing": {"ring": RING | {"thickness_m": 0.06}}},
+            r"casing\.ring\.thickness_m: found 0\.06; allowed: at most a fifth",
+        ),
+        ({"casing": {"ring": RING | {"width_m": 0}}}, r"casing\.ring\.width_m: found 0"),
+        ({"casing": {"ring": RING | {"stiffness": 1}}}, r"casing\.ring: found unknown key stiffness"),
+        ({"casing": {"ring": {"radius_m": 0.2}}}, r"casing\.ring: missing key thickness_m"),
+        (
+            {"casing": {"ring": RING, "ring_modes": [{"nodal_diameter": 2, "frequency_hz": 1, "modal_mass_kg": 1}]}},
+            "found ring and ring_modes; allowed: one of them",
+        ),
+        ({"casing": {"ring_modes": []}}, "casing.ring_modes: found"),
+        (
+            {"casing": {"ring_modes": [{"nodal_diameter": 2, "frequency_hz": 0, "modal_mass_kg": 1}]}},
+            r"ring_modes\.0\.frequency_hz: found 0",
+        ),
+        ({"casing": {"ring": RING}, "gap": "exact"}, "gap: found exact with an elastic casing; allowed: linear"),
+        ({"results": ["casing"]}, "results: found casing; allowed: only in a scene whose casing has a ring or ring_modes"),
+    ],
+)
+def test_a_casing_that_cannot_be_meant_is_refused(changed, message):
+    changed = changed | {"casing": {"clearance_m": 3e-4} | changed.get("casing", {})}
+    with pytest.raises(ConfigError, match=message):
+        checked_scene(changed)

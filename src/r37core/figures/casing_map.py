@@ -27,7 +27,8 @@ def draw_casing_map(maps: xr.Dataset, title: str) -> Figure:
     levels = {wave: maps[f"casing_rms_{wave}"].transpose("casing_mode", "speed").values for wave in ("forward", "backward")}
     largest = max((float(level.max()) for level in levels.values() if level.size), default=0.0)
     if not largest > 0.0:
-        panels[0, 0].text(0.5, 0.5, "nothing moves the casing", ha="center", transform=panels[0, 0].transAxes)
+        said = "the casing is at rest" if len(speed) else "every run diverged"
+        panels[0, 0].text(0.5, 0.5, said, ha="center", transform=panels[0, 0].transAxes)
         return figure
     # several modes of one nodal diameter add up
     ascending = np.unique(diameters)

@@ -16,7 +16,6 @@ from r37core.time_integration.status import RunStatus
 from .netcdf import create_axis, create_labels, create_text, create_variable
 from .variables import DATASETS, FLAGS
 
-
 _AXES = (
     "speed",
     "history_speed",

@@ -2,10 +2,13 @@
 
 Equations after section 5 of the benchmark, in the coordinates of the modes at rest, where the mass is the identity:
 u* = A u_n + B u_{n-1} without contact, u_{n+1} = u* + C F with it (reference_motion). Work per step is of the order of modes
-squared. An elastic casing is followed in the frame that does not turn. A lining of second order, and the static modes with it: see r37core.time_integration.lined_steps.
+squared. A lining of second order, and the static modes with it: see r37core.time_integration.lined_steps. An elastic casing is
+followed in the frame that does not turn.
 """
 
 from __future__ import annotations
+
+from typing import Any
 
 import numpy as np
 
@@ -14,7 +17,7 @@ from r37core.contact.laws import series_modulus
 from r37core.contact.scene import Lining
 
 from .problem import Pace, Problem
-from .reference_motion import CoupledMotion, MotionWithCasing, RealMotion
+from .reference_motion import CoupledMotion, Motion, MotionWithCasing, RealMotion
 from .state import SimulationRecord, SimulationState
 
 
@@ -33,7 +36,7 @@ class ReferenceEngine:
     def take(self, pace: Pace) -> None:
         """Go on at another pace in the same modes, with as many steps in a revolution."""
         blade = (RealMotion if self.problem.complex_modes is None else CoupledMotion)(self.problem, pace)
-        self.motion = blade if self.problem.ring is None else MotionWithCasing(blade, self.problem)
+        self.motion: Motion = blade if self.problem.ring is None else MotionWithCasing(blade, self.problem)
         self.clearance = pace.clearance
 
     def _turn(self, n: int) -> None:
@@ -66,7 +69,7 @@ class ReferenceEngine:
         self.motion.write(motion, state)
         return done
 
-    def _step(self, before: np.ndarray, n: int, state: SimulationState) -> np.ndarray:
+    def _step(self, before: Any, n: int, state: SimulationState) -> Any:
         """The motion at t_n from that at t_{n-1}; changes wear, totals and the nodes on the casing."""
         lining = self.problem.scene.lining
         self._turn(n)
@@ -87,7 +90,7 @@ class ReferenceEngine:
         self._add_up(state, self.motion.work_and_loss(before, after, force), pressure + multipliers, multipliers)
         return after
 
-    def _second_order_step(self, before: np.ndarray, n: int, state: SimulationState) -> np.ndarray:
+    def _second_order_step(self, before: Any, n: int, state: SimulationState) -> Any:
         """The same with the lining's force at t_{n-1}, which the state has, and that at t_n, for the next step."""
         lining = self.problem.scene.lining
         assert lining is not None and state.wear is not None
