@@ -22,7 +22,7 @@ from r37core.dataset_file import read_dataset
 from r37core.figures.style import PAGE, plt
 from r37core.io import write_text
 from r37core.published import INTERACTIONS
-from r37core.results.coincidences import coincidence_table
+from r37core.results.casing_coincidence import coincidence_table
 from r37core.rom.reduced_model import contact_model
 from r37core.rom.rom_file import read_reduced_model
 from r37core.studies.tables import markdown_table

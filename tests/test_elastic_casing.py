@@ -16,7 +16,7 @@ from r37core.figures.campbell_diagram import draw_campbell
 from r37core.figures.maps import draw_map
 from r37core.figures.style import plt
 from r37core.plain import to_plain
-from r37core.results.coincidences import coincidence_table
+from r37core.results.casing_coincidence import coincidence_table
 from r37core.results.datasets import write_sweep_dataset
 from r37core.results.response import write_response
 from r37core.run_ups.march import March

@@ -112,7 +112,7 @@ def test_jump_is_the_power_of_the_step(ratio):
     recursion = central_difference(frequencies, ratio, 1e-6)
     loss = np.array([1.0, 2.0, 3.0])
     recursion = replace(recursion, lost=4.0 * recursion.inverse * loss)
-    plan = plan_jumps(recursion, 77, 1)
+    plan = plan_jumps(recursion, 77, 1, followed=3)
     np.testing.assert_array_equal(plan.lengths, [5, 8, 16, 32, 64])
     for length, jump in zip(plan.lengths, plan.jumps, strict=True):
         u, d, lost = np.array([1.0, -2.0, 0.5]), np.array([0.1, 0.2, -0.3]), np.zeros(3)
@@ -130,7 +130,7 @@ def test_jump_is_the_power_of_the_step(ratio):
 
 def test_bound_beyond_the_tangent_is_reached_but_not_passed():
     """A slow mode of unit amplitude, whatever its phase; a smaller bound would jump over contacts."""
-    plan = plan_jumps(central_difference(np.array([100.0]), 0.0, 1e-6), 77, 1)
+    plan = plan_jumps(central_difference(np.array([100.0]), 0.0, 1e-6), 77, 1, followed=1)
     assert plan.slow_modes.all()
     eigenvalue = np.exp(1j * np.arccos(1.0 - 0.5 * 1e-8))
     phases = np.exp(1j * np.linspace(0.0, 2.0 * np.pi, 721))
@@ -140,8 +140,14 @@ def test_bound_beyond_the_tangent_is_reached_but_not_passed():
         assert 0.99 * jump[7, 0] < beyond <= jump[7, 0] * (1.0 + 1e-6)
 
 
+def test_modes_that_follow_no_tangent_stay_within_their_amplitude():
+    plan = plan_jumps(central_difference(np.array([100.0, 200.0]), 0.0, 1e-6), 77, 1, followed=1)
+    assert set(plan.slow_modes) == {1}
+    assert np.all(plan.jumps[:, 7, 0] < 1e-3) and np.all(plan.jumps[:, 7, 1] == 1.0)
+
+
 def test_modes_that_do_not_oscillate_are_stepped():
-    assert plan_jumps(central_difference(np.array([1e4, 1e6]), 1.0, 1e-7), 64, 8) is None
+    assert plan_jumps(central_difference(np.array([1e4, 1e6]), 1.0, 1e-7), 64, 8, followed=2) is None
 
 
 def test_nearest_casing_of_every_stretch():

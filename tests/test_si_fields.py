@@ -21,7 +21,9 @@ IN_SI = {
     "_s": (0.3, 0.3),
     "_hz": (0.3, 0.3),
     "_pa": (0.3, 0.3),
+    "_kg": (0.3, 0.3),
     "_kg_m3": (0.3, 0.3),
+    "_n_m2": (0.3, 0.3),
     "_rad_s": (0.3, 0.3),
     "_rad_s2": (0.3, 0.3),
     "_rpm": (60.0, 2.0 * math.pi),
@@ -33,7 +35,8 @@ IN_SI = {
 """Suffix -> a number in its unit, and the same in that of the SI."""
 
 UNIT = re.compile(
-    r"_([kcmu]?m|in|ft|m?m[23]|k?g|t|m?s|min|k?hz|[kmg]?pa|k?n|j|w|rad|deg|rpm|rad_s2?|rpm_s|percent|kg_m3)$", re.IGNORECASE
+    r"_([kcmu]?m|in|ft|m?m[23]|k?g|t|m?s|min|k?hz|[kmg]?pa|k?n|j|w|rad|deg|rpm|rad_s2?|rpm_s|percent|kg_m3|n_m2)$",
+    re.IGNORECASE,
 )
 """Ends of names that a reader takes for a unit."""
 

@@ -6,7 +6,7 @@ from r37core.contact.ring import RingMode
 from r37core.dataset_file import read_dataset
 from r37core.io import atomic_write
 from r37core.plain import from_plain
-from r37core.results.coincidences import coincidence_table
+from r37core.results.casing_coincidence import coincidence_table
 
 
 def main(snakemake):

@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 
 from r37core.contact.ring import RingMode
 from r37core.plain import from_plain
-from r37core.results.coincidences import coincidences, seen_from_rotor, waves_of
+from r37core.results.casing_coincidence import coincidences, seen_from_rotor, waves_of
 from r37core.rom.naming import NAMED_MODES, mode_label
 
 from . import style
@@ -41,7 +41,7 @@ def draw_campbell(campbell: xr.Dataset, title: str, casings: Mapping[str, Any] |
         left.plot(crossing, crossing * campbell["engine_order"] / (2.0 * np.pi), "o", color=colour, markersize=3.5)
     _draw_casings(left, campbell, casings or {})
     left.set_title(f"Campbell diagram, blade {title}")
-    left.legend(loc="upper left", ncols=3)
+    left.legend(loc="upper left", ncols=3, frameon=bool(casings), framealpha=0.9)
     style.rpm_axis(left)
     for name in NAMED_MODES[:2]:
         clearance = campbell["dynamic_clearance"].sel(mode=name)

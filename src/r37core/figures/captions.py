@@ -36,9 +36,9 @@ CAPTIONS = {
         "they meet a bright row of a whole engine order, the blade interacts with the casing."
     ),
     "casing": (
-        "Waves round the elastic casing for blade {blade} in scene {scene}: rms of those that run with the rotor (left) and "
-        "against it (right), over speed and nodal diameters, in decibels below the largest. Below: energy of the casing, "
-        "mean over the last half of the run, and rms of all waves."
+        "Waves round the elastic casing for blade {blade} in scene {scene}: rms of those with the rotor (left) and against it "
+        "(right), over speed and nodal diameters. Below: mean energy of the casing over the last half of the run, and rms of "
+        "all waves."
     ),
     "wear": (
         "Wear of the lining at the end of the run, over speed and the angle round the casing, for blade {blade} in scene "
