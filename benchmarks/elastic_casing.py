@@ -17,7 +17,7 @@ import numpy as np
 
 from r37core.config import command_line_document, read_settings
 from r37core.config.si_fields import in_si
-from r37core.contact.ring import Ring
+from r37core.contact.ring import Ring, critical_speed
 from r37core.dataset_file import read_dataset
 from r37core.figures.style import PAGE, plt
 from r37core.io import write_text
@@ -32,13 +32,21 @@ from r37core.time_integration.speed_run import run_speed
 ROOT = Path(__file__).parent.parent
 STUDIES = ROOT / "results/studies"
 LINED, DIRECT = "elastic_abradable", "elastic_direct"
-THICKNESSES = (None, 4e-3, 2e-3, 1e-3)
+STIFF, SOFT = 1e9, 1e7
+"""Of the flanges, radially and along the tangent (N/m2)."""
+
+CASINGS = (None, *((thickness, foundation) for foundation in (STIFF, SOFT) for thickness in (4e-3, 2e-3, 1e-3)))
+"""Thickness of the ring (m) and its flanges; None is rigid."""
+
 KEPT = {"spectrum_highest_order": 20, "wear_angles": 8}
 BEFORE, AFTER = 60, 60
 """Speeds, in rad/s, about a published peak."""
 
 DIRECT_SHARES = np.linspace(0.98, 1.06, 17)
 """Of the published peak of 1B with order 4."""
+
+NEAR = (1600.0, 1800.0)
+"""Speeds (rad/s) about the interaction of Ref's 1B with order 4."""
 
 DIAMETERS = (5, 10, 15, 20, 40)
 GRID, ROUNDS = np.arange(800.0, 2000.0, 100.0), 3
@@ -65,10 +73,14 @@ def contact(blade):
     return contact_model(model, settings().structure.boundary.tip_line)
 
 
-def ring_of(thickness, diameters=20):
-    """Modes of the shipped ring with another thickness (m); none without one."""
+def ring_of(casing, diameters=20):
+    """Modes of the shipped ring with another thickness and other flanges; none of a rigid casing."""
+    if casing is None:
+        return ()
+    thickness, stiffness = casing
     shipped = in_si(Ring, settings().scene_entries[LINED].casing.ring)
-    return () if thickness is None else replace(shipped, thickness=thickness, highest_nodal_diameter=diameters).modes()
+    other = {"thickness": thickness, "radial_foundation": stiffness, "tangential_foundation": stiffness}
+    return replace(shipped, **other, highest_nodal_diameter=diameters).modes()
 
 
 def with_casing(name, ring):
@@ -76,8 +88,8 @@ def with_casing(name, ring):
     return replace(scene, casing=replace(scene.casing, ring=ring))
 
 
-def name_of(thickness):
-    return "rigid" if thickness is None else f"{1e3 * thickness:g} mm"
+def name_of(casing):
+    return "rigid" if casing is None else f"{1e3 * casing[0]:g} mm, {'stiff' if casing[1] == STIFF else 'soft'}"
 
 
 def run(task):
@@ -98,23 +110,23 @@ def peaks_table(pool):
         speeds = np.arange(round(one.peak) - BEFORE, round(one.peak) + AFTER + 1.0)
         cells = [f"{one.blade} 1B/{one.engine_order}", f"{one.peak:g}"]
         axes = next(axes_of) if one.engine_order == 4 else None
-        for thickness in THICKNESSES:
-            ring = ring_of(thickness)
+        for casing in CASINGS:
+            ring = ring_of(casing)
             found = np.array(list(pool.map(run, [(one.blade, LINED, v, ring) for v in speeds], chunksize=8)))
             rms = np.hypot(*found.T[:2])
             peak, diverged = int(np.nanargmax(rms)), int(np.isnan(rms).sum())
             notes = [" at the end"] * (peak in (0, len(speeds) - 1)) + [f" ({diverged} diverge)"] * (diverged > 0)
             cells.append(f"{speeds[peak]:.0f}, {1e3 * rms[peak]:.2f}{''.join(notes)}")
             if axes:
-                axes.plot(speeds, 1e3 * rms, label=name_of(thickness), linewidth=0.8)
+                axes.plot(speeds, 1e3 * rms, label=name_of(casing), linewidth=0.8)
                 axes.set(title=one.blade, xlabel="rad/s")
         rows.append(cells)
         print(cells, flush=True)
     panels[0].set_ylabel("rms (mm)")
-    figure.legend(*panels[0].get_legend_handles_labels(), loc="outside upper center", ncols=len(THICKNESSES))
+    figure.legend(*panels[0].get_legend_handles_labels(), loc="outside upper center", ncols=len(CASINGS))
     (STUDIES / "figures").mkdir(parents=True, exist_ok=True)
     figure.savefig(STUDIES / "figures/elastic_casing_peaks.png")
-    return markdown_table(["interaction", "published (rad/s)", *map(name_of, THICKNESSES)], rows)
+    return markdown_table(["interaction", "published (rad/s)", *map(name_of, CASINGS)], rows)
 
 
 def direct_table(pool):
@@ -122,25 +134,25 @@ def direct_table(pool):
     rows, orders = [], {one.blade: one for one in INTERACTIONS if one.engine_order == 4}
     for blade, one in orders.items():
         cells = [blade, f"{DIRECT_SHARES[0] * one.peak:.0f} to {DIRECT_SHARES[-1] * one.peak:.0f}"]
-        for thickness in THICKNESSES:
-            ring = ring_of(thickness)
+        for casing in CASINGS:
+            ring = ring_of(casing)
             found = np.array(list(pool.map(run, [(blade, DIRECT, v, ring) for v in DIRECT_SHARES * one.peak])))
             diverged = int(np.isnan(found[:, 0]).sum())
             means = " / ".join(f"{1e3 * value:.3f}" for value in np.nanmean(found, axis=0)[: 3 if ring else 2])
             cells.append("all diverge" if diverged == len(found) else means + f" ({diverged} diverge)" * (diverged > 0))
         rows.append(cells)
         print(cells, flush=True)
-    return markdown_table(["blade", "speeds (rad/s)", *map(name_of, THICKNESSES)], rows)
+    return markdown_table(["blade", "speeds (rad/s)", *map(name_of, CASINGS)], rows)
 
 
 def diameters_table(pool):
     """Peak of Ref 1B/4 with modes up to some nodal diameters."""
     one, rows = INTERACTIONS[0], []
     speeds = np.arange(round(one.peak) - BEFORE, round(one.peak) + AFTER + 1.0)
-    for thickness in THICKNESSES[1:]:
-        cells = [name_of(thickness)]
+    for casing in CASINGS[1:4]:
+        cells = [name_of(casing)]
         for diameters in DIAMETERS:
-            ring = ring_of(thickness, diameters)
+            ring = ring_of(casing, diameters)
             found = np.array(list(pool.map(run, [(one.blade, LINED, v, ring) for v in speeds], chunksize=8)))
             rms = np.hypot(*found.T[:2])
             cells.append(f"{speeds[np.nanargmax(rms)]:.0f}, {1e3 * np.nanmax(rms):.2f} ({np.isnan(rms).sum()} diverge)")
@@ -152,23 +164,28 @@ def diameters_table(pool):
 def rings_table():
     """Frequencies of the rings, and how far a force pushes the wall out."""
     rows = []
-    for thickness in THICKNESSES[1:]:
-        modes = [mode for mode in ring_of(thickness) if mode.radial]
+    for casing in CASINGS[1:]:
+        modes = [mode for mode in ring_of(casing) if mode.radial]
         given_way = sum(1.0 / mode.modal_mass / mode.frequency**2 for mode in modes)
         of = {mode.nodal_diameter: mode.frequency / 2.0 / np.pi for mode in modes}
-        rows.append([name_of(thickness), *(f"{of[n]:.0f}" for n in (0, 1, 2, 4, 8, 20)), f"{1e6 * given_way:.2f}"])
+        critical = critical_speed(ring_of(casing))
+        cells = [name_of(casing), *(f"{of[n]:.0f}" for n in (0, 1, 2, 4, 8, 20)), f"{1e6 * given_way:.3f}", f"{critical:.0f}"]
+        rows.append(cells)
     heads = [f"n = {n} (Hz)" for n in (0, 1, 2, 4, 8, 20)]
-    return markdown_table(["ring", *heads, "static, at the force (um/N)"], rows)
+    return markdown_table(["casing", *heads, "static, at the force (um/N)", "lowest critical speed (rad/s)"], rows)
 
 
 def meeting_table():
-    """Coincidences of Ref's 1B with the shipped ring, up to the highest speed."""
+    """Coincidences of Ref's 1B with each ring near its interaction with order 4."""
     campbell = read_dataset(ROOT / "results/campbell.nc")
-    table = coincidence_table(campbell.sel(blade=["Ref"]), {LINED: ring_of(2e-3)})
-    table = table[(table["mode"] == "1B") & (table["speed_rad_s"] > 750.0)]
-    columns = ["nodal_diameter", "wave", "speed_rad_s", "frequency_hz"]
-    rows = [[f"{value:.0f}" if isinstance(value, float) else str(value) for value in row] for row in table[columns].values]
-    return markdown_table(["nodal diameters", "wave", "speed (rad/s)", "frequency in the rotor's frame (Hz)"], rows)
+    rings = {name_of(casing): ring_of(casing) for casing in CASINGS[1:]}
+    table = coincidence_table(campbell.sel(blade=["Ref"]), rings)
+    near = table[(table["mode"] == "1B") & table["speed_rad_s"].between(*NEAR)]
+    rows = [
+        [row.scene, str(row.nodal_diameter), row.wave, f"{row.speed_rad_s:.0f}", f"{row.frequency_hz:.0f}"]
+        for row in near.itertuples()
+    ]
+    return markdown_table(["ring", "nodal diameters", "wave", "speed (rad/s)", "in the rotor's frame (Hz)"], rows)
 
 
 def cost_table():
@@ -176,7 +193,7 @@ def cost_table():
     rows = []
     for name in (LINED, DIRECT):
         for diameters in DIAMETERS[1::2]:
-            ratios = [timed(name, ring_of(2e-3, diameters), speed) for speed in GRID for _ in range(ROUNDS)]
+            ratios = [timed(name, ring_of((2e-3, STIFF), diameters), speed) for speed in GRID for _ in range(ROUNDS)]
             low, middle, high = np.percentile(ratios, [10, 50, 90])
             rows.append([name, str(diameters), f"{middle:.2f}", f"{low:.2f} to {high:.2f}"])
         print(rows[-1], flush=True)

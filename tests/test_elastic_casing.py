@@ -10,8 +10,8 @@ from integration_cases import ABRADABLE, DIRECT, assert_same_totals_and_wear, os
 from scipy.integrate import solve_ivp
 from test_coriolis import SCENES, coupled_model
 
-from r37core.config import ConfigError, checked_scene
-from r37core.contact.ring import Ring, RingMode, RingMotion
+from r37core.config import ConfigError, checked_scene, command_line_document, read_settings
+from r37core.contact.ring import Ring, RingMode, RingMotion, critical_speed
 from r37core.figures.campbell_diagram import draw_campbell
 from r37core.figures.maps import draw_map
 from r37core.figures.style import plt
@@ -369,6 +369,23 @@ def test_campbell_diagram_shows_each_casing_once():
 
 
 RING = {"radius_m": 0.255, "thickness_m": 0.002, "width_m": 0.05, "elastic_modulus_pa": 2.1e11, "density_kg_m3": 7850}
+
+
+@pytest.mark.parametrize(("speed", "said"), [(1900.0, 0), (2100.0, 1)])
+def test_a_run_above_a_critical_speed_says_so(root, speed, said):
+    changes = {"scenes": ["elastic_abradable", "abradable"], "speeds": [speed]}
+    remarks = read_settings(root, command_line_document(changes)).remarks
+    found = [one for one in remarks if one.startswith(f"scene elastic_abradable: speeds up to {speed:g} rad/s; above 200")]
+    assert len(found) == said
+    assert sum("overtakes" in one for one in remarks) == said
+
+
+def test_the_lowest_critical_speed_is_that_of_a_beam_on_a_foundation():
+    ring = replace(STEEL, radial_foundation=1e8, tangential_foundation=0.0, highest_nodal_diameter=100)
+    bending, mass = ring.elastic_modulus * ring.width * ring.thickness**3 / 12.0, ring.density * ring.width * ring.thickness
+    expected = (4.0 * 1e8 * bending / mass**2) ** 0.25 / ring.radius
+    assert critical_speed(ring.modes()) == pytest.approx(expected, rel=5e-3)
+    assert critical_speed((RingMode(0, 100.0, 1.0, 0.0),)) == np.inf
 
 
 def test_a_ring_of_the_configuration():

@@ -13,6 +13,7 @@ from typing import Any
 
 from pydantic import BaseModel
 
+from r37core.contact.ring import critical_speed
 from r37core.contact.scene import Scene
 from r37core.exchange.importing.source import MatricesSource
 from r37core.plain import to_plain
@@ -230,6 +231,13 @@ class Settings:
                 f"speeds: up to {fastest:g} rad/s, and structure.maximum_speed_rad_s is {highest:g}: reduced models and "
                 "Campbell diagrams are made for speeds up to that; raise it to what is run"
             )
+        for name, chosen in self.scenes.items():
+            critical = critical_speed(chosen.scene.casing.ring)
+            if critical < fastest:
+                said.append(
+                    f"scene {name}: speeds up to {fastest:g} rad/s; above {critical:.4g} the rotor overtakes waves of the "
+                    "casing, which may then grow without bound"
+                )
         refining = [plan for plan in self.speed_plans.values() if plan.refined]
         if refining:
             certain = sum(len(plan.certain) for plan in refining)

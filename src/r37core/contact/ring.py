@@ -76,6 +76,14 @@ class Ring:
         return RingMode(nodal_diameter, float(np.sqrt(square)), float(mass), self.damping_ratio, radial, tangential)
 
 
+def critical_speed(modes: Sequence[RingMode]) -> float:
+    """The lowest speed (rad/s) at which the rotor overtakes a wave of these modes; infinite without nodal diameters.
+
+    Above it a wave takes energy from the rotor through the contact, and damping of the blade feeds it, too.
+    """
+    return min((mode.frequency / mode.nodal_diameter for mode in modes if mode.nodal_diameter), default=float("inf"))
+
+
 @dataclass(frozen=True, eq=False)
 class RingMotion:
     """The modes of a casing as oscillators of unit mass: all q_c, then all q_s. Numbers have shape (2 modes,).
