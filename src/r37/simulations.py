@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import tempfile
+import warnings
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 from types import SimpleNamespace
@@ -121,6 +122,8 @@ def _response(settings: Settings) -> xr.Dataset:
     """The response of the one blade in the one scene of the settings, at their speeds."""
     ((blade, scene), plan), *_ = settings.speed_plans.items()
     at, sweep = SimpleNamespace(blade=blade, scene=scene), Sweep(settings)
+    for remark in settings.remarks_on_casings:
+        warnings.warn(remark, stacklevel=4)
     chosen, material, structure = settings.scenes[scene], settings.blades[blade].material, StructureFiles(settings, blade)
     model = read_contact_model(structure.contact_model(chosen.tip_line))
     recovery = None

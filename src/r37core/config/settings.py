@@ -231,13 +231,7 @@ class Settings:
                 f"speeds: up to {fastest:g} rad/s, and structure.maximum_speed_rad_s is {highest:g}: reduced models and "
                 "Campbell diagrams are made for speeds up to that; raise it to what is run"
             )
-        for name, chosen in self.scenes.items():
-            critical = critical_speed(chosen.scene.casing.ring)
-            if critical < fastest:
-                said.append(
-                    f"scene {name}: speeds up to {fastest:g} rad/s; above {critical:.4g} the rotor overtakes waves of the "
-                    "casing, which may then grow without bound"
-                )
+        said += self.remarks_on_casings
         refining = [plan for plan in self.speed_plans.values() if plan.refined]
         if refining:
             certain = sum(len(plan.certain) for plan in refining)
@@ -250,6 +244,25 @@ class Settings:
             members, drawn = self.most_of_members, self.config.tolerances.members
             said.append(f"tolerances: {drawn} members, {members} simulations of theirs at most, beside those of the sweep")
         return said
+
+    @property
+    def remarks_on_casings(self) -> list[str]:
+        """What a run should say of casings that the rotor overtakes."""
+        said = []
+        for name, chosen in self.scenes.items():
+            critical, fastest = critical_speed(chosen.scene.casing.ring), self._fastest_of(name)
+            if critical < fastest:
+                said.append(
+                    f"scene {name}: speeds up to {fastest:g} rad/s; above {critical:.4g} the rotor overtakes waves of the "
+                    "casing, which may then grow without bound"
+                )
+        return said
+
+    def _fastest_of(self, scene: str) -> float:
+        """The highest speed (rad/s) of a scene's simulations, and of its run-ups as far as no crossing decides it."""
+        swept = [plan.every_speed()[-1] for (_, one), plan in self.speed_plans.items() if one == scene]
+        climbs = [climb for (_, one), found in self.run_ups.items() if one == scene for climb in found.values()]
+        return max(*swept, *(max(climb.start, climb.stop) for climb in climbs if climb.crossing is None), 0.0)
 
     def shape_hash(self, blade: str) -> str:
         """Short hash of all that a blade's geometry depends on."""

@@ -44,14 +44,14 @@ VARIABLES = {
     "casing_amplitude": Variable(
         ("casing_mode", "casing_order"),
         "m",
-        "amplitude of the waves of the casing's modes, over the last half of the run",
+        "amplitude of the waves of the casing's modes, which does not turn",
         "f4",
     ),
     **{
         f"casing_rms_{wave}": Variable(
-            ("casing_mode",), "m", f"rms, over time and circumference, of the waves that run {sense} the rotor", "f4"
+            ("casing_mode",), "m", f"rms over time and circumference of the waves that run {sense}", "f4"
         )
-        for wave, sense in (("forward", "with"), ("backward", "against"))
+        for wave, sense in (("forward", "with the rotor, or nowhere"), ("backward", "against the rotor"))
     },
     "casing_energy": Variable(("casing_mode",), "J", "mean energy of the casing's modes over the last half of the run", "f4"),
 }

@@ -17,25 +17,31 @@ def casing_waves(
     wave that runs with the rotor, towards negative theta, where omega > 0, else against it. Returned, with the modes first:
     `casing_amplitude` (m), |A| over the signed `casing_order` omega/Omega; `casing_rms_forward` and `casing_rms_backward` (m),
     over time and circumference; `casing_energy` (J), kinetic and elastic, mean over the time:
-    m/2 sum of (omega^2 + omega_n^2) |A|^2 of the modal mass m. NaN among the samples stays NaN.
+    m/2 sum of (omega^2 + omega_n^2) |A|^2 of the modal mass m. A mode without nodal diameters runs nowhere: all of it counts as
+    forward. Orders are kept up to the blade's `highest_order` and, as the casing sees these, the nodal diameters more. NaN
+    among the samples stays NaN; so is a mode that is too fast for them.
     """
     count, modes = len(samples), len(ring.modes)
     size, nodal_diameters, own = (part[:modes] for part in (ring.size, ring.nodal_diameters, ring.frequencies))
     turn = 2.0 * np.pi * revolutions * np.arange(1, count + 1) / count
+    too_fast = own / speed + nodal_diameters > 0.5 * count / revolutions
     waves = (samples[:, :modes] - 1j * samples[:, modes:]).T * np.exp(1j * np.outer(nodal_diameters, turn))
-    amplitudes = np.abs(np.fft.fft(waves)) / count
+    amplitudes = np.abs(np.fft.fft(np.where(too_fast[:, None], np.nan, waves))) / count
     orders = np.rint(np.fft.fftfreq(count, 1.0 / count)) / revolutions
     squares = amplitudes**2
     energy = 0.5 * np.sum(((orders * speed) ** 2 + own[:, None] ** 2) * squares, axis=1) / size**2
-    forward, backward = (np.sqrt(0.5 * squares[:, one].sum(axis=1)) for one in (orders > 0.0, orders < 0.0))
+    forward, backward = (0.5 * squares[:, one].sum(axis=1) for one in (orders > 0.0, orders < 0.0))
+    # Z of a mode without nodal diameters is real, or imaginary: both halves move together
+    runs = nodal_diameters > 0
+    forward, backward = np.where(runs, forward, 2.0 * (forward + backward)), np.where(runs, backward, 0.0 * backward)
     ascending = np.argsort(orders)
-    kept = ascending[np.abs(orders[ascending]) <= highest_order]
+    kept = ascending[np.abs(orders[ascending]) <= highest_order + nodal_diameters.max()]
     return {
         "casing_nodal_diameter": nodal_diameters,
         "casing_frequency": own / 2.0 / np.pi,
         "casing_order": orders[kept],
         "casing_amplitude": amplitudes[:, kept].astype(np.float32),
-        "casing_rms_forward": forward,
-        "casing_rms_backward": backward,
+        "casing_rms_forward": np.sqrt(forward),
+        "casing_rms_backward": np.sqrt(backward),
         "casing_energy": energy,
     }

@@ -18,6 +18,9 @@ _LARGEST_LAG = 0.03
 """Of what nodes' forces add to each other's static displacement, relative to what they cause by themselves."""
 
 
+_OF_BLADE = "this reduced model", "raise basis_tolerance to drop the highest modes"
+
+
 class UnstableStepError(ValueError):
     """A time step beyond a stability limit; `limit` (s), about what the problem bears."""
 
@@ -31,10 +34,12 @@ def check_step(problem: Problem) -> None:
     choice, step, highest = problem.choice, problem.time_step, problem.highest_frequency
     given = f"time_step_s: {choice.time_step:g} s gives steps of {step:.6g} s, not below the"
     limit = 2.0 / highest
+    of_casing = highest > problem.frequencies[-1]
+    what, remedy = ("this casing", "leave its highest modes out") if of_casing else _OF_BLADE
     if choice.integrator == CENTRAL_DIFFERENCE and not step < limit:
         raise UnstableStepError(
-            f"{given} stability limit of this reduced model, {limit:.6g} s (highest mode {highest / 2e3 / np.pi:.1f} kHz); "
-            "use a smaller one, raise basis_tolerance to drop the highest modes, or take the integrator exact_modal",
+            f"{given} stability limit of {what}, {limit:.6g} s (highest mode {highest / 2e3 / np.pi:.1f} kHz); "
+            f"use a smaller one, {remedy}, or take the integrator exact_modal",
             limit,
         )
     lining = problem.scene.lining
