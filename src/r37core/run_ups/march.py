@@ -63,22 +63,24 @@ class March:
         self._choice = replace(coarsest.choice, shorten=False, steps_per_sample=coarsest.steps_per_sample)
         stiffening = model.stiffness_per_square[0, 0] / model.squared_frequencies[0]
         self.segments = schedule(run_up, choice.samples_per_revolution, float(stiffening))
-        self.state = self._simulation(self.segments[0]).start()
+        self._simulation = self._of(self.segments[0])
+        self.state = self._simulation.start()
         if wear is not None:
             assert self.state.wear is not None
             self.state.wear[:] = wear
         self.velocity = np.zeros(len(self.state.displacement))
         self.energy = self.stiffness_work = 0.0
 
-    def _simulation(self, segment: Segment) -> Simulation:
-        return Simulation(self._model, segment.speed, self._scene, self._choice)
+    def _of(self, segment: Segment, before: Simulation | None = None) -> Simulation:
+        return Simulation(self._model, segment.speed, self._scene, self._choice, segment.speeds, before)
 
     def stages(self) -> Iterator[Stage]:
         """Do all stretches; ends with a stage that says so when the run diverges."""
         modes = None
         for segment in self.segments:
-            simulation = self._simulation(segment)
+            simulation = self._simulation
             if modes is not None:
+                self._simulation = simulation = self._of(segment, simulation)
                 turned = simulation.problem.modes.T @ modes
                 # an elastic casing's modes, which come after the blade's, stay as they are
                 self.state.displacement, self.velocity = (
@@ -95,13 +97,12 @@ class March:
 
     def _stages_of(self, simulation: Simulation, segment: Segment) -> Iterator[Stage]:
         state, problem, taken = self.state, simulation.problem, -1
-        speeds, places = np.unique([one.speed for one in segment.stretches], return_inverse=True)
-        paces, (of_displacement, of_velocity) = problem.paces(speeds), problem.increments(speeds)
-        shapes = problem.state_shapes
-        for place, stretch in zip(places, segment.stretches, strict=True):
-            recursion = paces[place].recursion
+        of_displacement, of_velocity = problem.increments(segment.speeds)
+        shapes, recursions = problem.state_shapes, simulation.paces.recursion
+        for place, stretch in zip(segment.places, segment.stretches, strict=True):
+            recursion = recursions[place]
             if place != taken:
-                simulation.engine.take(paces[place])
+                simulation.engine.take(place)
                 state.increment[:] = of_displacement[place] * state.displacement + of_velocity[place] * self.velocity
                 self.stiffness_work += recursion.energy(state.displacement, state.increment) - self.energy
                 taken = place

@@ -7,6 +7,7 @@ time integration keeps the mean of the speeds at its ends, which passes the stre
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 from itertools import pairwise
 from typing import NamedTuple
 
@@ -64,6 +65,20 @@ class Segment:
 
     speed: float
     stretches: tuple[Stretch, ...]
+
+    @property
+    def speeds(self) -> np.ndarray:
+        """Those of the stretches, each once (rad/s), shape (speeds,), ascending."""
+        return self._unique[0]
+
+    @property
+    def places(self) -> list[int]:
+        """Where among `speeds` that of each stretch is."""
+        return self._unique[1].tolist()
+
+    @cached_property
+    def _unique(self) -> tuple[np.ndarray, np.ndarray]:
+        return np.unique([one.speed for one in self.stretches], return_inverse=True)
 
 
 def schedule(run_up: RunUp, samples_per_revolution: int, squared_frequency_change: float) -> list[Segment]:

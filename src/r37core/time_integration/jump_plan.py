@@ -29,8 +29,8 @@ class JumpPlan:
     jumps: np.ndarray
     amplitude_rows: np.ndarray
 
-    def __getitem__(self, row: int) -> JumpPlan:
-        """The plan of one of several recursions."""
+    def __getitem__(self, row: int | None) -> JumpPlan:
+        """The plan of one of several recursions; None: one as several."""
         return JumpPlan(self.lengths, self.slow_modes[row], self.jumps[row], self.amplitude_rows[row])
 
 
