@@ -16,7 +16,7 @@ from r37core.contact.scene import Scene
 from r37core.rom.contact_model import ContactModel
 from r37core.time_integration.clearance import check_room
 from r37core.time_integration.integration_choice import IntegrationChoice
-from r37core.time_integration.integrators import CENTRAL_DIFFERENCE
+from r37core.time_integration.integrators import CENTRAL_DIFFERENCE, Recursion
 from r37core.time_integration.problem import Problem, stable_problem
 from r37core.time_integration.simulate import Simulation
 from r37core.time_integration.step_limit import UnstableStepError
@@ -42,7 +42,8 @@ class Stage:
 class March:
     """A run-up as it goes: the `state` of the time integration, and the `velocity` of the modes, shape (modes,).
 
-    `energy` (J): of the vibration; `stiffness_work` (J): what the change of the stiffness with the speed has brought to it.
+    `energy` (J): of the vibration; `stiffness_work` (J): what the change of the stiffness with the speed has brought to it; both
+    as of the end of a segment.
     `wear` (m), shape (rings, bars): of a lining that is worn at the beginning.
 
     Raises what Problem raises, of the steps at the lowest speed, which are the longest; BucklingError for the highest speed;
@@ -72,7 +73,7 @@ class March:
         self.energy = self.stiffness_work = 0.0
 
     def _of(self, segment: Segment, before: Simulation | None = None) -> Simulation:
-        return Simulation(self._model, segment.speed, self._scene, self._choice, segment.speeds, before)
+        return Simulation(self._model, segment.speed, self._scene, self._choice, segment.paces.speeds, before)
 
     def stages(self) -> Iterator[Stage]:
         """Do all stretches; ends with a stage that says so when the run diverges."""
@@ -96,21 +97,32 @@ class March:
                     return
 
     def _stages_of(self, simulation: Simulation, segment: Segment) -> Iterator[Stage]:
-        state, problem, taken = self.state, simulation.problem, -1
-        of_displacement, of_velocity = problem.increments(segment.speeds)
-        shapes, recursions = problem.state_shapes, simulation.paces.recursion
-        for place, stretch in zip(segment.places, segment.stretches, strict=True):
-            recursion = recursions[place]
-            if place != taken:
+        state, shapes, paces = self.state, simulation.problem.state_shapes, segment.paces
+        of_displacement, of_velocity = simulation.problem.increments(paces.speeds)
+        # displacement and increment where each pace is taken, and where it is left
+        begun, ended = np.zeros((2, 2, len(paces.speeds), len(state.displacement)))
+        taken: list[int] = []
+        for left, place, stretch in zip(
+            reversed(range(len(segment.stretches))), paces.of_stretches, segment.stretches, strict=True
+        ):
+            if place not in taken[-1:]:
+                taken.append(place)
                 simulation.engine.take(place)
                 state.increment[:] = of_displacement[place] * state.displacement + of_velocity[place] * self.velocity
-                self.stiffness_work += recursion.energy(state.displacement, state.increment) - self.energy
-                taken = place
+                begun[0, place], begun[1, place] = state.displacement, state.increment
             record = simulation.advance_samples(state, stretch.samples)
-            self.energy = recursion.energy(state.displacement, state.increment)
+            ended[0, place], ended[1, place] = state.displacement, state.increment
             self.velocity = (state.increment - of_displacement[place] * state.displacement) / of_velocity[place]
             wear = 0.0 if state.wear is None else float(state.wear.max())
+            if record.diverged or not left:
+                self._balance(simulation.paces.recursion[taken], begun[:, taken], ended[:, taken])
             yield Stage(stretch.speed, record.samples, record.snapshots, shapes, wear, record.diverged)
+
+    def _balance(self, recursions: Recursion, begun: np.ndarray, ended: np.ndarray) -> None:
+        """Add up the energies of a segment; `begun`, `ended`, shape (2, paces, modes): displacement and increment."""
+        after, before = recursions.energy(*begun), np.roll(recursions.energy(*ended), 1)
+        self.energy, before[0] = float(before[0]), self.energy
+        self.stiffness_work += float(np.sum(after - before))
 
 
 _LARGEST_TURN = 3.0

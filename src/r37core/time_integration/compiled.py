@@ -50,7 +50,9 @@ class CompiledEngine:
         self._layout = layout_of(blade, self._nodes, outputs, pairs)
         # where the modes are: those of an elastic casing begin whole vectors
         firsts = (self._layout.modes - 2 * self._layout.pairs, self._layout.modes - self._layout.pairs)
-        self._places = np.concatenate([np.arange(blade), *(first + np.arange(pairs) for first in firsts)])
+        of_ring = [first + np.arange(pairs) for first in firsts]
+        # an array of places costs more in every stretch of a run-up
+        self._places = np.concatenate([np.arange(blade), *of_ring]) if pairs else slice(blade)
         scene, choice = problem.scene, problem.choice
         self._kind = kind = Kind(
             published=choice.integrator == CENTRAL_DIFFERENCE,
@@ -97,6 +99,7 @@ class CompiledEngine:
         else:
             self._record = aligned_zeros((1,), integration_record(self._layout))
             self._corners: dict[tuple[str, tuple[int, ...]], np.ndarray] = {}
+        self._address = self._record.ctypes.data
 
     def _corners_of(self, paces: Paces) -> list[tuple[np.ndarray, np.ndarray]]:
         """Corners of the record's fields, and what each is at every pace."""
@@ -167,7 +170,7 @@ class CompiledEngine:
         )
         if self._kind.second_order:
             self._put(force=state.lining_force[NORMAL], friction_force=state.lining_force[TANGENTIAL:])
-        done = int(self._advance(self._record.ctypes.data))
+        done = int(self._advance(self._address))
         state.displacement[:], state.increment[:] = m["u"][self._places], m["increment"][self._places]
         state.on_casing[:] = np.unpackbits(m["on_casing"].astype(np.uint8), bitorder="little")[: self._nodes]
         state.totals[()] = m["totals"]

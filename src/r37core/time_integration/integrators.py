@@ -27,8 +27,8 @@ class Recursion:
     inverse: np.ndarray
     lost: np.ndarray
 
-    def __getitem__(self, row: int | slice | None) -> Recursion:
-        """One of several recursions, whose arrays have shape (recursions, modes), or some modes of one; None: one as several."""
+    def __getitem__(self, row: int | slice | list[int] | None) -> Recursion:
+        """One or some of several recursions, whose arrays have shape (recursions, modes), or some modes of one; None: one as several."""
         return type(self)(self.keep[row], self.pull[row], self.inverse[row], self.lost[row])
 
     @property

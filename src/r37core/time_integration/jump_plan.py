@@ -57,7 +57,7 @@ def plan_jumps(recursion: Recursion, steps_per_block: int, multiple: int, follow
     jumps = np.zeros((*several, len(lengths), 8, modes))
     slow = np.zeros((*several, len(lengths)), dtype=np.int64)
     for stride, (length, jump) in enumerate(zip(lengths, _jumps(recursion, lengths), strict=True)):
-        jumps[..., stride, :7, :] = jump
+        jumps[..., stride, :7, :] = np.moveaxis(jump, 0, -2)
         beyond = 0.5 * curvature * length * (length + 1)
         slow[..., stride] = np.count_nonzero(beyond[..., :followed] < 1.0, axis=-1) // multiple * multiple
         jumps[..., stride, 7, :] = np.where(np.arange(modes) < slow[..., stride, None], beyond, 1.0)
@@ -73,10 +73,10 @@ def jump_lengths(steps_per_block: int) -> np.ndarray:
 
 
 def _jumps(recursion: Recursion, lengths: np.ndarray) -> list[np.ndarray]:
-    """Rows of the jumps up to BEYOND, each of shape (..., 7, modes); the third of `lengths` and all after it double."""
+    """Rows of the jumps up to BEYOND, each of shape (7, ..., modes); the third of `lengths` and all after it double."""
     keep, pull = recursion.keep, recursion.pull
     # of no step, of one and so on, less the identity
-    single = np.stack([-pull, keep, -pull, keep - 1.0, *recursion.loss_form], axis=-2)
+    single = np.stack([-pull, keep, -pull, keep - 1.0, *recursion.loss_form])
     powers = [np.zeros_like(single), single]
     while len(powers) <= lengths[:2].max():
         powers.append(_after(powers[-1], single))
@@ -88,25 +88,23 @@ def _jumps(recursion: Recursion, lengths: np.ndarray) -> list[np.ndarray]:
 
 def _after(first: np.ndarray, second: np.ndarray) -> np.ndarray:
     """`second` done after `first`: (I + F)(I + E) = I + E + F + F E, and the loss of both."""
-    a, b, c, d, q, r, s = (first[..., row, :] for row in range(7))
-    e, f, g, h, t, v, w = (second[..., row, :] for row in range(7))
+    a, b, c, d, q, r, s = first
+    e, f, g, h, t, v, w = second
     mapped_u, mapped_d = (1.0 + a, b), (c, 1.0 + d)
-    rows = [
-        a + e + e * a + f * c,
-        b + f + e * b + f * d,
-        c + g + g * a + h * c,
-        d + h + g * b + h * d,
-        q + t * mapped_u[0] ** 2 + v * mapped_u[0] * mapped_d[0] + w * mapped_d[0] ** 2,
-        r
-        + 2.0 * t * mapped_u[0] * mapped_u[1]
-        + v * (mapped_u[0] * mapped_d[1] + mapped_u[1] * mapped_d[0])
-        + 2.0 * w * mapped_d[0] * mapped_d[1],
-        s + t * mapped_u[1] ** 2 + v * mapped_u[1] * mapped_d[1] + w * mapped_d[1] ** 2,
-    ]
-    found = np.empty_like(first)
-    for row, values in enumerate(rows):
-        found[..., row, :] = values
-    return found
+    return np.stack(
+        [
+            a + e + e * a + f * c,
+            b + f + e * b + f * d,
+            c + g + g * a + h * c,
+            d + h + g * b + h * d,
+            q + t * mapped_u[0] ** 2 + v * mapped_u[0] * mapped_d[0] + w * mapped_d[0] ** 2,
+            r
+            + 2.0 * t * mapped_u[0] * mapped_u[1]
+            + v * (mapped_u[0] * mapped_d[1] + mapped_u[1] * mapped_d[0])
+            + 2.0 * w * mapped_d[0] * mapped_d[1],
+            s + t * mapped_u[1] ** 2 + v * mapped_u[1] * mapped_d[1] + w * mapped_d[1] ** 2,
+        ]
+    )
 
 
 def nearest_casing(shape: np.ndarray, steps_per_block: int) -> np.ndarray:
