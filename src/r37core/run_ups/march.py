@@ -42,9 +42,8 @@ class Stage:
 class March:
     """A run-up as it goes: the `state` of the time integration, and the `velocity` of the modes, shape (modes,).
 
-    `energy` (J): of the vibration; `stiffness_work` (J): what the change of the stiffness with the speed has brought to it; both
-    as of the end of a segment.
-    `wear` (m), shape (rings, bars): of a lining that is worn at the beginning.
+    `energy` (J): of the vibration; `stiffness_work` (J): what the change of the stiffness with the speed has brought to it. Both
+    are brought up to date where a segment ends. `wear` (m), shape (rings, bars): of a lining that is worn at the beginning.
 
     Raises what Problem raises, of the steps at the lowest speed, which are the longest; BucklingError for the highest speed;
     ValueError for a model with a Coriolis matrix: complex modes turn into each other as the speed changes.

@@ -28,7 +28,10 @@ class Recursion:
     lost: np.ndarray
 
     def __getitem__(self, row: int | slice | list[int] | None) -> Recursion:
-        """One or some of several recursions, whose arrays have shape (recursions, modes), or some modes of one; None: one as several."""
+        """One or some of several recursions, whose arrays have shape (recursions, modes), or some modes of one.
+
+        None: one as several.
+        """
         return type(self)(self.keep[row], self.pull[row], self.inverse[row], self.lost[row])
 
     @property

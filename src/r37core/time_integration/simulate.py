@@ -42,7 +42,7 @@ class Simulation:
         self.problem = stable_problem(model, speed, scene, choice)
         self.paces = self.problem.own_pace if speeds is None else self.problem.paces(speeds)
         # of one choice, so of one class
-        self.engine: Any = _ENGINES[choice.engine](self.problem, self.paces, before and before.engine)
+        self.engine: Any = _ENGINES[choice.engine](self.problem, self.paces, None if before is None else before.engine)
 
     def start(self) -> SimulationState:
         """The blade at rest in an unworn lining, or in one that it has cut its way into."""
