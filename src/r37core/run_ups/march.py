@@ -42,8 +42,8 @@ class Stage:
 class March:
     """A run-up as it goes: the `state` of the time integration, and the `velocity` of the modes, shape (modes,).
 
-    `energy` (J): of the vibration; `stiffness_work` (J): what the change of the stiffness with the speed has brought to it. Both
-    are brought up to date where a segment ends. `wear` (m), shape (rings, bars): of a lining that is worn at the beginning.
+    `energy` (J): of the vibration; `stiffness_work` (J): what the change of the stiffness with the speed has brought to it.
+    Both are those of the last segment's end. `wear` (m), shape (rings, bars): of a lining that is worn at the beginning.
 
     Raises what Problem raises, of the steps at the lowest speed, which are the longest; BucklingError for the highest speed;
     ValueError for a model with a Coriolis matrix: complex modes turn into each other as the speed changes.
@@ -63,24 +63,29 @@ class March:
         self._choice = replace(coarsest.choice, shorten=False, steps_per_sample=coarsest.steps_per_sample)
         stiffening = model.stiffness_per_square[0, 0] / model.squared_frequencies[0]
         self.segments = schedule(run_up, choice.samples_per_revolution, float(stiffening))
-        self._simulation = self._of(self.segments[0])
-        self.state = self._simulation.start()
+        self._segment: Segment | None = None
+        self._simulation: Simulation | None = None
+        self.state = self._of(self.segments[0]).start()
         if wear is not None:
             assert self.state.wear is not None
             self.state.wear[:] = wear
         self.velocity = np.zeros(len(self.state.displacement))
         self.energy = self.stiffness_work = 0.0
 
-    def _of(self, segment: Segment, before: Simulation | None = None) -> Simulation:
-        return Simulation(self._model, segment.speed, self._scene, self._choice, segment.paces.speeds, before)
+    def _of(self, segment: Segment) -> Simulation:
+        """The simulation of a segment, in the room of that of the segment before."""
+        if self._simulation is None or segment is not self._segment:
+            speeds, before = segment.paces.speeds, self._simulation
+            self._simulation = Simulation(self._model, segment.speed, self._scene, self._choice, speeds, before)
+            self._segment = segment
+        return self._simulation
 
     def stages(self) -> Iterator[Stage]:
         """Do all stretches; ends with a stage that says so when the run diverges."""
         modes = None
         for segment in self.segments:
-            simulation = self._simulation
+            simulation = self._of(segment)
             if modes is not None:
-                self._simulation = simulation = self._of(segment, simulation)
                 turned = simulation.problem.modes.T @ modes
                 # an elastic casing's modes, which come after the blade's, stay as they are
                 self.state.displacement, self.velocity = (

@@ -41,7 +41,15 @@ SOURCES = Sources(
 
 
 class CompiledEngine:
-    """The time integration of one problem, compiled for what its scene has: all that its program needs lies in one record."""
+    """The time integration of one problem, compiled for what its scene has: all that its program needs lies in one record.
+
+    It goes at the first of its `paces` until it takes another. Of an engine `before`, of the same scene and choice at another
+    speed, it keeps what fits, and that one must not go on.
+    """
+
+    _record: np.ndarray
+    _corners: dict[tuple[str, tuple[int, ...]], np.ndarray]
+    _tables: _CasingTables
 
     def __init__(self, problem: Problem, paces: Paces, before: CompiledEngine | None = None):
         outputs = len(problem.output_operator)
@@ -97,8 +105,7 @@ class CompiledEngine:
         if before is not None and sizes == (before._layout, before._kind, before._nodes, before._modes):
             self._record, self._corners = before._record, before._corners
         else:
-            self._record = aligned_zeros((1,), integration_record(self._layout))
-            self._corners: dict[tuple[str, tuple[int, ...]], np.ndarray] = {}
+            self._record, self._corners = aligned_zeros((1,), integration_record(self._layout)), {}
         self._address = self._record.ctypes.data
 
     def _corners_of(self, paces: Paces) -> list[tuple[np.ndarray, np.ndarray]]:
