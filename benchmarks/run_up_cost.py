@@ -1,6 +1,6 @@
 """What the march of a run-up costs beside that of a run at constant speed: table of docs/run_ups.md.
 
-Run: snakemake campbell; python benchmarks/run_up_cost.py (about three minutes); make docs. CPU times, in turns in one process.
+Run: snakemake campbell; python benchmarks/run_up_cost.py (about two minutes); make docs. CPU times, in turns in one process.
 """
 
 import os
@@ -29,7 +29,7 @@ SCENES, RATES = ("abradable", "direct"), (30.0, 100.0, 300.0, 1000.0)
 FROM, TO = 1644.0, 1786.0
 """Speeds (rad/s) of config/run_ups.yaml, about 1B/4 of the reference blade."""
 
-BEFORE, AFTER, ROUNDS = 20, 20, 7
+BEFORE, AFTER, ROUNDS = 200, 50, 5
 
 
 class Cost(NamedTuple):
