@@ -25,7 +25,7 @@ TABLES = {
     "elastic_casing": {
         name: f"elastic_casing_{name}.md" for name in ("rings", "peaks", "direct", "diameters", "coincidences", "cost")
     },
-    "run_ups": {"run_up_rates": "run_up_rates.md", "run_up_variants": "run_up_variants.md"},
+    "run_ups": {name: f"{name}.md" for name in ("run_up_rates", "run_up_variants", "run_up_cost")},
     "clearance": {"clearance_growth": "clearance_growth.md", "clearance_effect": "clearance_effect.md"},
     "tolerances": {name: f"{name}.md" for name in ("tolerance_ranges", "tolerance_sensitivity", "tolerance_members")},
     "stability_tables": {"stability": "stability.md"},

@@ -66,7 +66,7 @@ def coupled_model(nodes=8, size=3.0):
 def moving(simulation, displacement, velocity):
     """A state with displacement and velocity of the speed's real modes."""
     problem, state = simulation.problem, simulation.start()
-    CoupledMotion(problem, problem.pace).write(np.concatenate([problem.frequencies * displacement, velocity]), state)
+    CoupledMotion(problem, problem.recursion).write(np.concatenate([problem.frequencies * displacement, velocity]), state)
     return state
 
 

@@ -16,7 +16,7 @@ from r37core.contact.scene import Scene
 from r37core.rom.contact_model import ContactModel
 from r37core.time_integration.clearance import check_room
 from r37core.time_integration.integration_choice import IntegrationChoice
-from r37core.time_integration.integrators import CENTRAL_DIFFERENCE
+from r37core.time_integration.integrators import CENTRAL_DIFFERENCE, Recursion
 from r37core.time_integration.problem import Problem, stable_problem
 from r37core.time_integration.simulate import Simulation
 from r37core.time_integration.step_limit import UnstableStepError
@@ -43,7 +43,7 @@ class March:
     """A run-up as it goes: the `state` of the time integration, and the `velocity` of the modes, shape (modes,).
 
     `energy` (J): of the vibration; `stiffness_work` (J): what the change of the stiffness with the speed has brought to it.
-    `wear` (m), shape (rings, bars): of a lining that is worn at the beginning.
+    Both are those of the last segment's end. `wear` (m), shape (rings, bars): of a lining that is worn at the beginning.
 
     Raises what Problem raises, of the steps at the lowest speed, which are the longest; BucklingError for the highest speed;
     ValueError for a model with a Coriolis matrix: complex modes turn into each other as the speed changes.
@@ -63,21 +63,28 @@ class March:
         self._choice = replace(coarsest.choice, shorten=False, steps_per_sample=coarsest.steps_per_sample)
         stiffening = model.stiffness_per_square[0, 0] / model.squared_frequencies[0]
         self.segments = schedule(run_up, choice.samples_per_revolution, float(stiffening))
-        self.state = self._simulation(self.segments[0]).start()
+        self._segment: Segment | None = None
+        self._simulation: Simulation | None = None
+        self.state = self._of(self.segments[0]).start()
         if wear is not None:
             assert self.state.wear is not None
             self.state.wear[:] = wear
         self.velocity = np.zeros(len(self.state.displacement))
         self.energy = self.stiffness_work = 0.0
 
-    def _simulation(self, segment: Segment) -> Simulation:
-        return Simulation(self._model, segment.speed, self._scene, self._choice)
+    def _of(self, segment: Segment) -> Simulation:
+        """The simulation of a segment, in the room of that of the segment before."""
+        if self._simulation is None or segment is not self._segment:
+            speeds, before = segment.paces.speeds, self._simulation
+            self._simulation = Simulation(self._model, segment.speed, self._scene, self._choice, speeds, before)
+            self._segment = segment
+        return self._simulation
 
     def stages(self) -> Iterator[Stage]:
         """Do all stretches; ends with a stage that says so when the run diverges."""
         modes = None
         for segment in self.segments:
-            simulation = self._simulation(segment)
+            simulation = self._of(segment)
             if modes is not None:
                 turned = simulation.problem.modes.T @ modes
                 # an elastic casing's modes, which come after the blade's, stay as they are
@@ -94,22 +101,32 @@ class March:
                     return
 
     def _stages_of(self, simulation: Simulation, segment: Segment) -> Iterator[Stage]:
-        state, problem, taken = self.state, simulation.problem, -1
-        speeds, places = np.unique([one.speed for one in segment.stretches], return_inverse=True)
-        paces, (of_displacement, of_velocity) = problem.paces(speeds), problem.increments(speeds)
-        shapes = problem.state_shapes
-        for place, stretch in zip(places, segment.stretches, strict=True):
-            recursion = paces[place].recursion
-            if place != taken:
-                simulation.engine.take(paces[place])
+        state, shapes, paces = self.state, simulation.problem.state_shapes, segment.paces
+        of_displacement, of_velocity = simulation.problem.increments(paces.speeds)
+        # displacement and increment where each pace is taken, and where it is left
+        begun, ended = np.zeros((2, 2, len(paces.speeds), len(state.displacement)))
+        taken: list[int] = []
+        for left, place, stretch in zip(
+            reversed(range(len(segment.stretches))), paces.of_stretches, segment.stretches, strict=True
+        ):
+            if place not in taken[-1:]:
+                taken.append(place)
+                simulation.engine.take(place)
                 state.increment[:] = of_displacement[place] * state.displacement + of_velocity[place] * self.velocity
-                self.stiffness_work += recursion.energy(state.displacement, state.increment) - self.energy
-                taken = place
+                begun[0, place], begun[1, place] = state.displacement, state.increment
             record = simulation.advance_samples(state, stretch.samples)
-            self.energy = recursion.energy(state.displacement, state.increment)
+            ended[0, place], ended[1, place] = state.displacement, state.increment
             self.velocity = (state.increment - of_displacement[place] * state.displacement) / of_velocity[place]
             wear = 0.0 if state.wear is None else float(state.wear.max())
+            if record.diverged or not left:
+                self._balance(simulation.paces.recursion[taken], begun[:, taken], ended[:, taken])
             yield Stage(stretch.speed, record.samples, record.snapshots, shapes, wear, record.diverged)
+
+    def _balance(self, recursions: Recursion, begun: np.ndarray, ended: np.ndarray) -> None:
+        """Add up the energies of a segment; `begun`, `ended`, shape (2, paces, modes): displacement and increment."""
+        after, before = recursions.energy(*begun), np.roll(recursions.energy(*ended), 1)
+        self.energy, before[0] = float(before[0]), self.energy
+        self.stiffness_work += float(np.sum(after - before))
 
 
 _LARGEST_TURN = 3.0

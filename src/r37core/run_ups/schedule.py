@@ -6,7 +6,9 @@ time integration keeps the mean of the speeds at its ends, which passes the stre
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
+from functools import cached_property
 from itertools import pairwise
 from typing import NamedTuple
 
@@ -58,12 +60,25 @@ class Stretch(NamedTuple):
     samples: int
 
 
+class PacesOfStretches(NamedTuple):
+    """Different `speeds` (rad/s), shape (speeds,), and which of them each stretch has."""
+
+    speeds: np.ndarray
+    of_stretches: list[int]
+
+
 @dataclass(frozen=True)
 class Segment:
     """Stretches in which the modes of one `speed` (rad/s) are held."""
 
     speed: float
     stretches: tuple[Stretch, ...]
+
+    @cached_property
+    def paces(self) -> PacesOfStretches:
+        """The speeds of the stretches."""
+        speeds, of_stretches = np.unique([one.speed for one in self.stretches], return_inverse=True)
+        return PacesOfStretches(speeds, of_stretches.tolist())
 
 
 def schedule(run_up: RunUp, samples_per_revolution: int, squared_frequency_change: float) -> list[Segment]:
@@ -98,17 +113,17 @@ def _rising(low: float, high: float, samples: int, per_revolution: int, squared_
     rise = high**2 - low**2
 
     def speed_at(sample: float) -> float:
-        return float(np.sqrt(low**2 + rise * sample / samples))
+        return math.sqrt(low**2 + rise * sample / samples)
 
     rate = rise * per_revolution / (4.0 * np.pi * samples)
+    # within a time T the rotor leads its mean speed by up to a T^2/8
+    lasting = math.sqrt(8.0 * LARGEST_LEAD / rate)
     number = min(max(int(np.ceil(rise * abs(squared_frequency_change) / LARGEST_STIFFENING)), 1), samples)
     ends = [round(samples * part / number) for part in range(number + 1)]
     segments = []
     for first, last in pairwise(ends):
         stretches, at = [], first
         while at < last:
-            # within a time T the rotor leads its mean speed by up to a T^2/8
-            lasting = np.sqrt(8.0 * LARGEST_LEAD / rate)
             longest = int(lasting * speed_at(at) / (2.0 * np.pi) * per_revolution)
             following = min(at + min(max(longest, 1), LARGEST_STRETCH * per_revolution), last)
             stretches.append(Stretch(0.5 * (speed_at(at) + speed_at(following)), following - at))

@@ -17,7 +17,7 @@ from r37core.native import Sources, cached_object, load_function
 from .integrators import CENTRAL_DIFFERENCE
 from .jump_plan import jump_lengths, nearest_casing
 from .layout import LINING, NEVER, NORMAL, TANGENTIAL, Kind, Layout, integration_record, layout_of
-from .problem import Pace, Problem
+from .problem import Paces, Problem
 from .state import SimulationRecord, SimulationState
 
 SOURCES = Sources(
@@ -41,19 +41,28 @@ SOURCES = Sources(
 
 
 class CompiledEngine:
-    """The time integration of one problem, compiled for what its scene has: all that its program needs lies in one record."""
+    """The time integration of one problem, compiled for what its scene has: all that its program needs lies in one record.
 
-    def __init__(self, problem: Problem):
+    It goes at the first of its `paces` until it takes another. Of an engine `before`, of the same scene and choice at another
+    speed, it keeps what fits, and that one must not go on.
+    """
+
+    _record: np.ndarray
+    _corners: dict[tuple[str, tuple[int, ...]], np.ndarray]
+    _tables: _CasingTables
+
+    def __init__(self, problem: Problem, paces: Paces, before: CompiledEngine | None = None):
         outputs = len(problem.output_operator)
         _, self._nodes, self._modes = problem.displacement_operator.shape
         blade, pairs = len(problem.frequencies), len(problem.scene.casing.ring)
         self._layout = layout_of(blade, self._nodes, outputs, pairs)
         # where the modes are: those of an elastic casing begin whole vectors
         firsts = (self._layout.modes - 2 * self._layout.pairs, self._layout.modes - self._layout.pairs)
-        self._places = np.concatenate([np.arange(blade), *(first + np.arange(pairs) for first in firsts)])
-        self._record = aligned_zeros((1,), integration_record(self._layout))
-        scene, choice, pace = problem.scene, problem.choice, problem.pace
-        kind = Kind(
+        of_ring = [first + np.arange(pairs) for first in firsts]
+        # an array of places costs more in every stretch of a run-up
+        self._places = np.concatenate([np.arange(blade), *of_ring]) if pairs else slice(blade)
+        scene, choice = problem.scene, problem.choice
+        self._kind = kind = Kind(
             published=choice.integrator == CENTRAL_DIFFERENCE,
             lined=scene.lining is not None,
             second_order=problem.second_order,
@@ -61,67 +70,87 @@ class CompiledEngine:
             coupled=scene.friction is None or scene.friction.coupled,
             exact_gap=scene.exact_gap,
             energy=choice.energy,
-            jumps=pace.jumps is not None,
+            jumps=paces.jumps is not None,
             coriolis=problem.complex_modes is not None,
             ring=problem.ring is not None,
         )
-        self._energy, self._coriolis = choice.energy, kind.coriolis
         self._advance = _program(self._layout, kind)
         self._constant_share: np.ndarray | None = None
-        self._corners: dict[tuple[str, tuple[int, ...]], np.ndarray] = {}
+        self._take_room(before)
         self._lay_out(problem)
-        if self._coriolis:
+        if kind.coriolis:
             self._lay_out_coriolis(problem)
         if problem.ring is not None:
-            self._lay_out_ring(problem.ring, problem, jumps=pace.jumps is not None)
+            self._lay_out_ring(problem.ring, problem)
         if kind.coriolis or kind.ring:
             self._put_modes(size_operator=problem.size_operator)
-        self._lay_out_casing(problem, jumps=pace.jumps is not None)
+        self._lay_out_casing(problem, before)
         if scene.friction is not None:
             self._lay_out_friction(problem, scene.friction)
         if scene.lining is not None:
             self._lay_out_lining(problem, scene.lining)
-        self._second_order = problem.second_order
-        if problem.second_order:
+        if kind.second_order:
             self._lay_out_static_modes(problem)
-        self.take(pace)
+        self._paces = self._corners_of(paces)
+        self.take(0)
 
-    def take(self, pace: Pace) -> None:
-        """Go on at another pace in the same modes, with as many steps in a revolution."""
-        recursion, coupling, plan, clearance = pace
-        normal = coupling[NORMAL]
+    def take(self, number: int) -> None:
+        """Go on at the pace of this number."""
+        for corner, values in self._paces:
+            corner[...] = values[number]
+
+    def _take_room(self, before: CompiledEngine | None) -> None:
+        """Make the record, or take that of an engine before."""
+        sizes = (self._layout, self._kind, self._nodes, self._modes)
+        if before is not None and sizes == (before._layout, before._kind, before._nodes, before._modes):
+            self._record, self._corners = before._record, before._corners
+        else:
+            self._record, self._corners = aligned_zeros((1,), integration_record(self._layout)), {}
+        self._address = self._record.ctypes.data
+
+    def _corners_of(self, paces: Paces) -> list[tuple[np.ndarray, np.ndarray]]:
+        """Corners of the record's fields, and what each is at every pace."""
+        recursion, coupling, plan, clearance = paces
+        normal = coupling[:, NORMAL]
         # friction of constant direction is part of what a normal force does
-        response = normal if self._constant_share is None else normal + self._constant_share * coupling[TANGENTIAL]
-        self._record[0]["problem"]["diagonal"][: self._nodes] = normal.diagonal()
-        self._put_modes(keep=recursion.keep, pull=recursion.pull, inverse=recursion.inverse)
-        self._put(clearance=clearance, coupling=coupling, columns=normal, response=response)
-        if self._energy:
-            self._put_modes(loss=recursion.loss)
-        if self._coriolis:
-            self._put_modes(inverse_keep=1.0 / recursion.keep)
+        response = normal if self._constant_share is None else normal + self._constant_share * coupling[:, TANGENTIAL]
+        fields = {"clearance": clearance, "coupling": coupling, "columns": normal, "response": response}
+        of_modes = {"keep": recursion.keep, "pull": recursion.pull, "inverse": recursion.inverse}
+        if self._kind.energy:
+            of_modes["loss"] = recursion.loss
+        if self._kind.coriolis:
+            of_modes["inverse_keep"] = 1.0 / recursion.keep
         if plan is not None:
-            self._put(slow_modes=plan.slow_modes)
-            self._put_modes(jumps=plan.jumps, amplitude_by_u=plan.amplitude_rows[0], amplitude_by_d=plan.amplitude_rows[1])
+            fields["slow_modes"] = plan.slow_modes
+            of_modes |= {"jumps": plan.jumps}
+            of_modes |= {"amplitude_by_u": plan.amplitude_rows[:, 0], "amplitude_by_d": plan.amplitude_rows[:, 1]}
+        fields |= {name: self._spread(values) for name, values in of_modes.items()}
+        diagonal = self._record[0]["problem"]["diagonal"][: self._nodes]
+        found = [(self._corner(name, values.shape[1:]), values) for name, values in fields.items()]
+        return [*found, (diagonal, np.diagonal(normal, axis1=1, axis2=2))]
+
+    def _corner(self, name: str, shape: tuple[int, ...]) -> np.ndarray:
+        """The part of a field of the record that an array fills; what pads it stays as it is."""
+        if (name, shape) not in self._corners:
+            self._corners[name, shape] = self._record[0][name][tuple(map(slice, shape))]
+        return self._corners[name, shape]
 
     def _put(self, **values: Any) -> None:
-        """Put numbers and arrays into fields of the record; an array fills a corner, what pads it stays as it is."""
+        """Put numbers and arrays into fields of the record."""
         m = self._record[0]
         for name, value in values.items():
-            if shape := np.shape(value):
-                # kept, because a run-up comes here in every revolution
-                if (name, shape) not in self._corners:
-                    self._corners[name, shape] = m[name][tuple(map(slice, shape))]
-                self._corners[name, shape][...] = value
+            if isinstance(value, np.ndarray) and value.shape:
+                self._corner(name, value.shape)[...] = value
             else:
                 m[name] = value
 
     def _put_modes(self, **values: np.ndarray) -> None:
         """The same of arrays whose last axis is that of the modes."""
-        if self._layout.pairs:
-            values = {name: self._spread(value) for name, value in values.items()}
-        self._put(**values)
+        self._put(**{name: self._spread(value) for name, value in values.items()})
 
     def _spread(self, values: np.ndarray) -> np.ndarray:
+        if not self._layout.pairs:
+            return values
         found = np.zeros((*values.shape[:-1], self._layout.modes))
         found[..., self._places] = values
         return found
@@ -133,9 +162,9 @@ class CompiledEngine:
         """
         m, modes, nodes = self._record[0], self._layout.modes, self._layout.nodes
         # u and, with Coriolis, d of each
-        of_mode = 1 + self._coriolis
+        of_mode = 1 + self._kind.coriolis
         numbers, kept = of_mode * modes, of_mode * self._modes
-        snapshots = np.zeros((len(out.snapshots), numbers + (3 * nodes if self._second_order else 0)))
+        snapshots = np.zeros((len(out.snapshots), numbers + (3 * nodes if self._kind.second_order else 0)))
         self._put_modes(u=state.displacement, increment=state.increment)
         self._put(
             on_casing=np.packbits(state.on_casing, bitorder="little"),
@@ -146,15 +175,15 @@ class CompiledEngine:
             samples=out.samples.ctypes.data,
             snapshots=snapshots.ctypes.data,
         )
-        if self._second_order:
+        if self._kind.second_order:
             self._put(force=state.lining_force[NORMAL], friction_force=state.lining_force[TANGENTIAL:])
-        done = int(self._advance(self._record.ctypes.data))
+        done = int(self._advance(self._address))
         state.displacement[:], state.increment[:] = m["u"][self._places], m["increment"][self._places]
         state.on_casing[:] = np.unpackbits(m["on_casing"].astype(np.uint8), bitorder="little")[: self._nodes]
         state.totals[()] = m["totals"]
         of_modes = snapshots[:, :numbers].reshape(len(snapshots), of_mode, modes)[:, :, self._places]
         out.snapshots[:, :kept] = of_modes.reshape(len(snapshots), kept)
-        if self._second_order:
+        if self._kind.second_order:
             state.lining_force[NORMAL] = m["force"][: self._nodes]
             state.lining_force[TANGENTIAL:] = m["friction_force"][:, : self._nodes]
             forces = snapshots[:, numbers:].reshape(-1, 3, nodes)[:, :, : self._nodes]
@@ -190,14 +219,14 @@ class CompiledEngine:
             increment_outputs=problem.output_operator[None, :, self._modes : 2 * self._modes],
         )
 
-    def _lay_out_ring(self, ring: RingMotion, problem: Problem, jumps: bool) -> None:
-        lengths = jump_lengths(problem.steps_per_sample) if jumps else np.empty(0)
+    def _lay_out_ring(self, ring: RingMotion, problem: Problem) -> None:
+        lengths = jump_lengths(problem.steps_per_sample) if self._kind.jumps else np.empty(0)
         turns = 2.0 * np.pi / problem.steps_per_revolution * ring.nodal_diameters[: len(ring.modes)]
         self._put(turn_cosine=np.cos(lengths[:, None] * turns), turn_sine=np.sin(lengths[:, None] * turns))
         m, pairs = self._record[0], slice(len(ring.modes))
         m["turn_cosine"][-1, pairs], m["turn_sine"][-1, pairs] = np.cos(turns), np.sin(turns)
 
-    def _lay_out_casing(self, problem: Problem, jumps: bool) -> None:
+    def _lay_out_casing(self, problem: Problem, before: CompiledEngine | None) -> None:
         m, casing = self._record[0], problem.scene.casing
         rise = casing.rise_rate(problem.duration) * problem.time_step
         numbers = {
@@ -210,12 +239,10 @@ class CompiledEngine:
         }
         for name, number in numbers.items():
             m["casing"][name] = number
-        shape = casing.shape(problem.theta(np.arange(problem.steps_per_revolution)[:, None]))
-        self._shape = aligned_copy(shape, self._layout.nodes)
-        m["casing_shape"] = self._shape.ctypes.data
-        if jumps:
-            self._nearest = aligned_copy(nearest_casing(shape, problem.steps_per_sample), self._layout.nodes)
-            m["nearest_casing"] = self._nearest.ctypes.data
+        kept = None if before is None else before._tables
+        self._tables = kept if kept is not None and kept.fits(problem) else _CasingTables(problem, self._layout.nodes)
+        m["casing_shape"], m["nearest_casing"] = self._tables.shape.ctypes.data, self._tables.nearest.ctypes.data
+        if self._kind.jumps:
             lengths = jump_lengths(problem.steps_per_sample)
             m["lengths"] = NEVER
             self._put(lengths=lengths)
@@ -231,7 +258,7 @@ class CompiledEngine:
             self._constant_share = share
             self._put(friction_share=np.stack([share[:, 0], np.zeros(self._nodes)]))
             self._put_modes(push_operator=operator[NORMAL] + share * operator[TANGENTIAL])
-            if self._coriolis:
+            if self._kind.coriolis:
                 self._put_modes(increment_push_operator=increments[NORMAL] + share * increments[TANGENTIAL])
 
     def _lay_out_lining(self, problem: Problem, lining: Lining) -> None:
@@ -253,6 +280,22 @@ class CompiledEngine:
             others_flexibility=flexibility - own[:, :, None] * np.eye(self._nodes),
             force_outputs=padded_forces.reshape(1, len(force_outputs), -1),
         )
+
+
+class _CasingTables:
+    """f(theta) of the casing at every step of a revolution, and the nearest of each stretch; see nearest_casing."""
+
+    def __init__(self, problem: Problem, nodes: int):
+        shape = problem.scene.casing.shape(problem.theta(np.arange(problem.steps_per_revolution)[:, None]))
+        self.shape = aligned_copy(shape, nodes)
+        self.nearest = aligned_copy(nearest_casing(shape, problem.steps_per_sample), nodes)
+        self._of = problem
+
+    def fits(self, problem: Problem) -> bool:
+        """Whether they are those of this problem, too."""
+        mine = self._of
+        steps = (mine.steps_per_revolution, mine.steps_per_sample) == (problem.steps_per_revolution, problem.steps_per_sample)
+        return steps and mine.scene is problem.scene and np.array_equal(mine.tip.theta, problem.tip.theta)
 
 
 @cache

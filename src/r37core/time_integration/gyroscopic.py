@@ -97,11 +97,11 @@ class ComplexRecursion(Recursion):
         """The loss of a free step as a quadratic form of u and d before it: uu, ud, dd."""
         return [self.loss * self.pull, self.loss * (self.lost - self.pull), self.loss * self.keep]
 
-    def energy(self, displacement: np.ndarray, increment: np.ndarray) -> float:
-        """Energy E_n (J) of u_n and d_n, shape (modes,)."""
+    def energy(self, displacement: np.ndarray, increment: np.ndarray) -> np.ndarray:
+        """Energy E_n (J) of u_n and d_n, in the shape of the recursion."""
         kinetic = (self.lost * displacement + self.keep * increment) * increment
         elastic = self.pull * displacement * (displacement - increment)
-        return float(np.sum((kinetic + elastic) * self.keep / (2.0 * self.inverse)))
+        return np.sum((kinetic + elastic) * self.keep / (2.0 * self.inverse), axis=-1)
 
 
 def complex_recursion(recursion: Recursion) -> ComplexRecursion:

@@ -27,8 +27,11 @@ class Recursion:
     inverse: np.ndarray
     lost: np.ndarray
 
-    def __getitem__(self, row: int | slice) -> Recursion:
-        """One of several recursions, whose arrays have shape (recursions, modes), or some modes of one."""
+    def __getitem__(self, row: int | slice | list[int] | None) -> Recursion:
+        """One or some of several recursions, whose arrays have shape (recursions, modes), or some modes of one.
+
+        None: one as several.
+        """
         return type(self)(self.keep[row], self.pull[row], self.inverse[row], self.lost[row])
 
     @property
@@ -45,10 +48,10 @@ class Recursion:
         keep, pull, loss = self.keep, self.pull, self.loss
         return [loss * pull**2, -2.0 * loss * pull * (1.0 + keep), loss * (1.0 + keep) ** 2]
 
-    def energy(self, displacement: np.ndarray, increment: np.ndarray) -> float:
-        """Energy E_n (J) of u_n and d_n, shape (modes,); conserved by the free undamped recursion."""
+    def energy(self, displacement: np.ndarray, increment: np.ndarray) -> np.ndarray:
+        """Energy E_n (J) of u_n and d_n, in the shape of the recursion; conserved by the free undamped one."""
         kinetic = 0.5 * (1.0 + self.keep) * increment**2
-        return float(np.sum((kinetic + self.pull * displacement * (displacement - increment)) / (2.0 * self.inverse)))
+        return np.sum((kinetic + self.pull * displacement * (displacement - increment)) / (2.0 * self.inverse), axis=-1)
 
 
 def joined(first: Recursion, second: Recursion) -> Recursion:

@@ -29,8 +29,8 @@ class JumpPlan:
     jumps: np.ndarray
     amplitude_rows: np.ndarray
 
-    def __getitem__(self, row: int) -> JumpPlan:
-        """The plan of one of several recursions."""
+    def __getitem__(self, row: int | None) -> JumpPlan:
+        """The plan of one of several recursions; None: one as several."""
         return JumpPlan(self.lengths, self.slow_modes[row], self.jumps[row], self.amplitude_rows[row])
 
 
@@ -56,12 +56,8 @@ def plan_jumps(recursion: Recursion, steps_per_block: int, multiple: int, follow
     *several, modes = keep.shape
     jumps = np.zeros((*several, len(lengths), 8, modes))
     slow = np.zeros((*several, len(lengths)), dtype=np.int64)
-    for stride, length in enumerate(lengths):
-        if stride >= 2:
-            jumps[..., stride, :7, :] = _after(jumps[..., stride - 1, :7, :], jumps[..., stride - 1, :7, :])
-        else:
-            for _ in range(length):
-                jumps[..., stride, :7, :] = _after(jumps[..., stride, :7, :], _single(recursion))
+    for stride, (length, jump) in enumerate(zip(lengths, _jumps(recursion, lengths), strict=True)):
+        jumps[..., stride, :7, :] = np.moveaxis(jump, 0, -2)
         beyond = 0.5 * curvature * length * (length + 1)
         slow[..., stride] = np.count_nonzero(beyond[..., :followed] < 1.0, axis=-1) // multiple * multiple
         jumps[..., stride, 7, :] = np.where(np.arange(modes) < slow[..., stride, None], beyond, 1.0)
@@ -76,16 +72,24 @@ def jump_lengths(steps_per_block: int) -> np.ndarray:
     return np.array(lengths, dtype=np.int64)
 
 
-def _single(recursion: Recursion) -> np.ndarray:
-    """One step less the identity, and its loss."""
+def _jumps(recursion: Recursion, lengths: np.ndarray) -> list[np.ndarray]:
+    """Rows of the jumps up to BEYOND, each of shape (7, ..., modes); the third of `lengths` and all after it double."""
     keep, pull = recursion.keep, recursion.pull
-    return np.stack([-pull, keep, -pull, keep - 1.0, *recursion.loss_form], axis=-2)
+    # of no step, of one and so on, less the identity
+    single = np.stack([-pull, keep, -pull, keep - 1.0, *recursion.loss_form])
+    powers = [np.zeros_like(single), single]
+    while len(powers) <= lengths[:2].max():
+        powers.append(_after(powers[-1], single))
+    found = [powers[length] for length in lengths[:2]]
+    while len(found) < len(lengths):
+        found.append(_after(found[-1], found[-1]))
+    return found
 
 
 def _after(first: np.ndarray, second: np.ndarray) -> np.ndarray:
     """`second` done after `first`: (I + F)(I + E) = I + E + F + F E, and the loss of both."""
-    a, b, c, d, q, r, s = np.moveaxis(first, -2, 0)
-    e, f, g, h, t, v, w = np.moveaxis(second, -2, 0)
+    a, b, c, d, q, r, s = first
+    e, f, g, h, t, v, w = second
     mapped_u, mapped_d = (1.0 + a, b), (c, 1.0 + d)
     return np.stack(
         [
@@ -99,8 +103,7 @@ def _after(first: np.ndarray, second: np.ndarray) -> np.ndarray:
             + v * (mapped_u[0] * mapped_d[1] + mapped_u[1] * mapped_d[0])
             + 2.0 * w * mapped_d[0] * mapped_d[1],
             s + t * mapped_u[1] ** 2 + v * mapped_u[1] * mapped_d[1] + w * mapped_d[1] ** 2,
-        ],
-        axis=-2,
+        ]
     )
 
 

@@ -6,6 +6,7 @@ Only padded sizes and numbers that no speed changes are in it, so all speeds of 
 from __future__ import annotations
 
 from dataclasses import fields
+from functools import cache
 from typing import NamedTuple
 
 import numpy as np
@@ -113,6 +114,7 @@ def complementarity_record(nodes: int) -> np.dtype:
     )
 
 
+@cache
 def integration_record(layout: Layout) -> np.dtype:
     """The record of a time integration: its state, its constants, room to work in, and its totals."""
     modes, nodes, outputs, pairs = layout

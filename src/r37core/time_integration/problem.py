@@ -31,8 +31,8 @@ class LongRevolutionError(ValueError):
     """A revolution of so many steps that the casing's table would not fit in memory."""
 
 
-class Pace(NamedTuple):
-    """What of a problem changes with the speed while its modes are held."""
+class Paces(NamedTuple):
+    """What of a problem changes with the speed while its modes are held: all with a first axis of speeds."""
 
     recursion: Recursion
     coupling: np.ndarray
@@ -330,9 +330,10 @@ class Problem:
         return stepped + self.residual_flexibility
 
     @property
-    def pace(self) -> Pace:
-        """Of the problem's own speed."""
-        return Pace(self.recursion, self.coupling, self._jumps(self.recursion), self.clearance)
+    def own_pace(self) -> Paces:
+        """Of the problem's own speed alone."""
+        several = self.recursion[None]
+        return Paces(several, self.coupling[None], self._jumps(several), self.clearance[None])
 
     def _jumps(self, recursion: Recursion) -> JumpPlan | None:
         if not self.choice.jumps:
@@ -340,16 +341,15 @@ class Problem:
         # the casing's modes turn as they go, and so do not follow a tangent
         return plan_jumps(recursion, self.steps_per_sample, LANES, followed=len(self.frequencies))
 
-    def paces(self, speeds: np.ndarray) -> list[Pace]:
+    def paces(self, speeds: np.ndarray) -> Paces:
         """At other `speeds` (rad/s), shape (speeds,), in the modes of the problem's speed and with its steps per revolution.
 
         A mode's squared frequency is its stiffness at the speed, phi^T K(Omega) phi; the stiffness between modes is left out.
         Raises BucklingError where it is not positive.
         """
         several = recursion(self.choice.integrator, *self._motion_at(speeds))
-        couplings, plans = self._coupling(several.inverse), self._jumps(several)
         rooms = clearances(self.model, self.scene, speeds)
-        return [Pace(several[row], couplings[row], plans and plans[row], rooms[row]) for row in range(len(speeds))]
+        return Paces(several, self._coupling(several.inverse), self._jumps(several), rooms)
 
     def increments(self, speeds: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Increments per displacement and per velocity at `speeds`, each of shape (speeds, modes); see integrators."""

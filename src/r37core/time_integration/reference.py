@@ -16,7 +16,7 @@ from r37core.contact.casing import casing_axes
 from r37core.contact.laws import series_modulus
 from r37core.contact.scene import Lining
 
-from .problem import Pace, Problem
+from .problem import Paces, Problem
 from .reference_motion import CoupledMotion, Motion, MotionWithCasing, RealMotion
 from .state import SimulationRecord, SimulationState
 
@@ -24,20 +24,21 @@ from .state import SimulationRecord, SimulationState
 class ReferenceEngine:
     """The time integration of one problem with dense matrices, in the coordinates of the modes at rest."""
 
-    def __init__(self, problem: Problem):
-        self.problem = problem
+    def __init__(self, problem: Problem, paces: Paces, before: ReferenceEngine | None = None):
+        self.problem, self._paces = problem, paces
         self._blade_rows = problem.operator_at_rest @ problem.modes @ problem.modes.T
         self._turn(0)
         self.flexibility = problem.residual_flexibility
         # what all forces (N) on the nodes do to the static modes
         self.static_force = np.zeros((3, len(problem.tip.radius)))
-        self.take(problem.pace)
+        self.take(0)
 
-    def take(self, pace: Pace) -> None:
-        """Go on at another pace in the same modes, with as many steps in a revolution."""
-        blade = (RealMotion if self.problem.complex_modes is None else CoupledMotion)(self.problem, pace)
+    def take(self, number: int) -> None:
+        """Go on at the pace of this number."""
+        recursion = self._paces.recursion[number]
+        blade = (RealMotion if self.problem.complex_modes is None else CoupledMotion)(self.problem, recursion)
         self.motion: Motion = blade if self.problem.ring is None else MotionWithCasing(blade, self.problem)
-        self.clearance = pace.clearance
+        self.clearance = self._paces.clearance[number]
 
     def _turn(self, n: int) -> None:
         """Take the rows of the nodes where they are at t_n: of the blade's modes at rest, and of an elastic casing's."""

@@ -8,7 +8,8 @@ from typing import Any, Protocol
 import numpy as np
 
 from .gyroscopic import ComplexRecursion, imaginary_part
-from .problem import Pace, Problem
+from .integrators import Recursion
+from .problem import Problem
 from .state import SimulationState
 
 
@@ -49,8 +50,8 @@ class RealMotion:
     rest one step on per force on them.
     """
 
-    def __init__(self, problem: Problem, pace: Pace):
-        self._modes, recursion = problem.modes, pace.recursion[: len(problem.frequencies)]
+    def __init__(self, problem: Problem, recursion: Recursion):
+        self._modes, recursion = problem.modes, recursion[: len(problem.frequencies)]
         # -B, I - A - B, C and the loss per squared central difference, as matrices
         self._keep, self._pull, self.response, self._loss = (
             self._modes @ np.diag(diagonal) @ self._modes.T
@@ -103,7 +104,7 @@ class CoupledMotion:
     The energy y^T S^T S [(I - Phi)^T (I - Phi)]^-1 y/2 changes by the work f^T W^-1 [S y]_q of the state mid-kick.
     """
 
-    def __init__(self, problem: Problem, pace: Pace):
+    def __init__(self, problem: Problem, recursion: Recursion):
         # simulation jobs of the other engine never import SciPy
         from scipy.linalg import expm
 
@@ -122,7 +123,7 @@ class CoupledMotion:
         self._back = np.linalg.inv(self._flight)
         # of the two roots of the recursion that of the motion, which may turn by more than half a turn in a step
         sense = np.sign(np.sin(step * np.sqrt(1.0 - ratio**2) * coupled.frequencies))
-        self._by_u, self._by_d = sense * imaginary_part(pace.recursion[:modes])
+        self._by_u, self._by_d = sense * imaginary_part(recursion[:modes])
         self.response = self._modes @ (self._flight @ self._kick / np.tile(self._root, 2)[:, None])[:modes] @ self._modes.T
 
     def read(self, state: SimulationState) -> np.ndarray:

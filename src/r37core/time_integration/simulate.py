@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from r37core.contact.scene import Scene
@@ -23,12 +25,24 @@ _ENGINES: dict[str, type[CompiledEngine] | type[ReferenceEngine]] = {"compiled":
 class Simulation:
     """The time integration of one blade at one speed in one scene: its `problem`, and the `engine` that advances a state.
 
+    At `speeds` (rad/s), shape (speeds,), the engine may go in the modes of `speed`, from the first of them on; without them it
+    goes at `speed`. `before`: a simulation that is done, of the same scene and choice, of whose engine is kept what fits.
     Raises what Problem raises, of the step that `choice` leaves.
     """
 
-    def __init__(self, model: ContactModel, speed: float, scene: Scene, choice: IntegrationChoice):
+    def __init__(
+        self,
+        model: ContactModel,
+        speed: float,
+        scene: Scene,
+        choice: IntegrationChoice,
+        speeds: np.ndarray | None = None,
+        before: Simulation | None = None,
+    ):
         self.problem = stable_problem(model, speed, scene, choice)
-        self.engine = _ENGINES[choice.engine](self.problem)
+        self.paces = self.problem.own_pace if speeds is None else self.problem.paces(speeds)
+        # of one choice, so of one class
+        self.engine: Any = _ENGINES[choice.engine](self.problem, self.paces, None if before is None else before.engine)
 
     def start(self) -> SimulationState:
         """The blade at rest in an unworn lining, or in one that it has cut its way into."""
@@ -56,10 +70,11 @@ class Simulation:
         out = SimulationRecord(np.zeros((asked, outputs)), np.zeros((snapshots(asked), numbers)))
         done = self.engine.advance(state, out)
         state.samples += asked
-        diverged = done < asked or not np.all(np.abs(out.samples[done - 1]) < problem.scene.divergence_limit)
-        tip, casing = np.split(out.samples[:done], [len(TIP_POINTS) * len(DIRECTIONS)], axis=1)
-        return SimulationRecord(tip, out.snapshots[: snapshots(done)], bool(diverged), None if problem.ring is None else casing)
+        diverged = done < asked or not (np.abs(out.samples[done - 1]) < problem.scene.divergence_limit).all()
+        of_tip = len(TIP_POINTS) * len(DIRECTIONS)
+        casing = None if problem.ring is None else out.samples[:done, of_tip:]
+        return SimulationRecord(out.samples[:done, :of_tip], out.snapshots[: snapshots(done)], bool(diverged), casing)
 
     def energy(self, state: SimulationState) -> float:
         """Energy (J) of the vibration; see Recursion."""
-        return self.problem.recursion.energy(state.displacement, state.increment)
+        return float(self.problem.recursion.energy(state.displacement, state.increment))
