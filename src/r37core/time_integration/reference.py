@@ -37,7 +37,7 @@ class ReferenceEngine:
         """Go on at the pace of this number."""
         recursion = self._paces.recursion[number]
         blade = (RealMotion if self.problem.complex_modes is None else CoupledMotion)(self.problem, recursion)
-        self.motion: Motion = blade if self.problem.ring is None else MotionWithCasing(blade, self.problem)
+        self.motion: Motion = blade if self.problem.ring is None else MotionWithCasing(blade, self.problem, recursion)
         self.clearance = self._paces.clearance[number]
 
     def _turn(self, n: int) -> None:

@@ -175,11 +175,11 @@ class MotionWithCasing:
     are those of the modes at rest, then of the casing's.
     """
 
-    def __init__(self, blade: RealMotion | CoupledMotion, problem: Problem):
+    def __init__(self, blade: RealMotion | CoupledMotion, problem: Problem, recursion: Recursion):
         assert problem.ring is not None
         self._blade, self._problem, self._ring = blade, problem, problem.ring
         self._stepped = len(problem.frequencies)
-        self._casing = problem.recursion[self._stepped :]
+        self._casing = recursion[self._stepped :]
         at_rest = len(problem.modes)
         self.response = np.zeros((at_rest + len(self._casing.keep),) * 2)
         self.response[:at_rest, :at_rest] = blade.response
