@@ -18,9 +18,9 @@ def draw_casing_map(maps: xr.Dataset, title: str) -> Figure:
 
     In decibels below the largest level of the whole map.
     """
-    maps = maps.dropna("speed", how="all", subset=["casing_energy"]).dropna(
-        "casing_mode", how="all", subset=["casing_frequency"]
-    )
+    # neither speeds that diverged, nor modes of other scenes or too fast for the samples
+    maps = maps.dropna("speed", how="all", subset=["casing_energy"])
+    maps = maps.dropna("casing_mode", how="all", subset=["casing_energy"])
     figure, panels = plt.subplots(2, 2, figsize=(style.PAGE, 4.4), sharex=True, height_ratios=[3.0, 1.0])
     figure.suptitle(f"waves round the casing: {title}")
     speed, diameters = maps["speed"].values, maps["casing_nodal_diameter"].values
