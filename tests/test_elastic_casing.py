@@ -23,6 +23,7 @@ from r37core.run_ups.march import March
 from r37core.run_ups.schedule import RunUp
 from r37core.time_integration import step_limit
 from r37core.time_integration.casing_waves import casing_waves
+from r37core.time_integration.clearance import NoRoomError
 from r37core.time_integration.integrators import CENTRAL_DIFFERENCE, EXACT_MODAL
 from r37core.time_integration.problem import Problem
 from r37core.time_integration.simulate import Simulation
@@ -268,6 +269,15 @@ def test_a_run_up_with_an_elastic_casing_keeps_its_balance(engine):
     assert abs(missing) < 1e-9 * (abs(totals["work"]) + totals["loss"])
 
 
+@pytest.mark.parametrize("radius", [0.1, 0.251, 0.51, 255.0])
+def test_a_ring_far_from_the_tip_is_refused(radius):
+    scene = ELASTIC_SCENES["direct"]
+    near, far = (replace(scene, casing=replace(scene.casing, ring_radius=one)) for one in (0.255, radius))
+    Problem(random_model(8), 3000.0, near, CHOICE)
+    with pytest.raises(NoRoomError, match=rf"casing\.ring\.radius_m .*found {radius:g} m round a tip at 0\.252 m; allowed"):
+        Problem(random_model(8), 3000.0, far, CHOICE)
+
+
 def test_exact_gap_is_refused():
     with pytest.raises(ValueError, match="an elastic casing needs the linear gap"):
         Problem(random_model(8), 3000.0, replace(ELASTIC_SCENES["direct"], exact_gap=True), CHOICE)
@@ -416,6 +426,7 @@ def test_the_lowest_critical_speed_is_that_of_a_beam_on_a_foundation():
 def test_a_ring_of_the_configuration():
     free = checked_scene({"casing": {"clearance_m": 3e-4, "ring": RING}}).casing.ring
     assert [mode.nodal_diameter for mode in free] == [0, *range(2, 21)]
+    assert checked_scene({"casing": {"clearance_m": 3e-4, "ring": RING}}).casing.ring_radius == 0.255
     held = RING | {
         "radial_foundation_n_m2": 1e7,
         "tangential_foundation_n_m2": 1e6,

@@ -54,7 +54,9 @@ class ClearanceSection(Section):
 class RingSection(Section):
     """A casing that gives way: a thin ring of one material on an elastic foundation, its flanges."""
 
-    radius_m: float = Field(ge=1e-3, le=100, description="of the ring's middle line")
+    radius_m: float = Field(
+        ge=1e-3, le=100, description="of the ring's middle line; at least the tip's, at most a quarter more"
+    )
     thickness_m: float = Field(ge=1e-6, le=10, description="radial; at most a fifth of the radius")
     width_m: float = Field(ge=1e-6, le=100, description="axial")
     elastic_modulus_pa: float = Field(ge=1e3, le=1e15, description="of the ring's material")
@@ -135,13 +137,14 @@ class CasingSection(Section):
     def casing(self) -> Casing:
         """The casing as the simulations take it."""
         modes = in_si(Ring, self.ring).modes() if self.ring else tuple(one.mode() for one in self.ring_modes or ())
+        elastic = {"ring": modes, "ring_radius": self.ring.radius_m if self.ring else None}
         if self.clearance is None:
-            return in_si(Casing, self, ring=modes)
+            return in_si(Casing, self, **elastic)
         table = si_fields(self.clearance.casing_growth or ())
         return in_si(
             Casing,
             self,
-            ring=modes,
+            **elastic,
             clearance=self.clearance.cold_m,
             centrifugal=self.clearance.centrifugal,
             growth_speeds=table.get("speeds", ()),

@@ -27,7 +27,8 @@ class Casing:
     `centrifugal`, the blade's static displacement is taken off; `growth` (m) of the casing is added, given at
     `growth_speeds` (rad/s), ascending, and linear between them. The lobes stay as they are.
 
-    `ring`: modes of a casing that gives way to the contact forces; without them it is rigid.
+    `ring`: modes of a casing that gives way to the contact forces; without them it is rigid. `ring_radius` (m): of the ring
+    that they are of, None where they are given.
     """
 
     clearance: float
@@ -40,6 +41,7 @@ class Casing:
     growth_speeds: tuple[float, ...] = ()
     growth: tuple[float, ...] = ()
     ring: tuple[RingMode, ...] = ()
+    ring_radius: float | None = None
 
     def shape(self, theta: np.ndarray) -> np.ndarray:
         """f(theta), between 0 and 1, for angles in rad."""

@@ -8,6 +8,9 @@ from r37core.contact.casing import approach
 from r37core.contact.scene import Scene
 from r37core.rom.contact_model import ContactModel
 
+LARGEST_RING = 1.25
+"""Radius of a casing's middle line over that of the tip."""
+
 
 class NoRoomError(ValueError):
     """A tip that reaches the casing before anything vibrates."""
@@ -46,6 +49,17 @@ def check_room(model: ContactModel, scene: Scene, speeds: np.ndarray) -> None:
         f"from the leading edge on, is {lacking:.3g} m inside of the casing before anything vibrates; allowed: a cold_m of "
         f"at least {scene.casing.clearance + lacking:.6g} m for this speed, {lining}, a casing_growth larger by as much, or "
         "lower speeds (speeds, run_ups, and structure.maximum_speed_rad_s)"
+    )
+
+
+def check_ring(model: ContactModel, scene: Scene) -> None:
+    """NoRoomError for an elastic casing whose radius is not about that of the tip: most likely another unit, or a diameter."""
+    ring, tip = scene.casing.ring_radius, float(model.radius.max())
+    if ring is None or tip <= ring <= LARGEST_RING * tip:
+        return
+    raise NoRoomError(
+        f"casing.ring.radius_m of the scene (scenes.yaml): found {ring:g} m round a tip at {tip:.4g} m; "
+        f"allowed: {tip:.4g} to {LARGEST_RING * tip:.4g} m"
     )
 
 

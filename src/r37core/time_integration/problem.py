@@ -15,7 +15,7 @@ from r37core.contact.scene import Scene
 from r37core.rom.contact_model import ContactModel
 from r37core.rom.rotation import BucklingError
 
-from .clearance import check_room, clearances
+from .clearance import check_ring, check_room, clearances
 from .gyroscopic import LARGEST_TURN, ComplexModes, complex_modes, complex_recursion
 from .integration_choice import LARGEST_TABLE, IntegrationChoice
 from .integrators import CENTRAL_DIFFERENCE, EXACT_MODAL, Recursion, increments, joined, recursion
@@ -51,7 +51,8 @@ class Problem:
 
     Raises UnstableStepError for a step at or above the stability limit 2/omega_max of central differences, or that of nodes
     pressed on the lining's bars; LongRevolutionError for a revolution of too many steps; NoRoomError for a tip inside of the
-    casing; ValueError for a Coriolis matrix with central differences, and an elastic casing with the exact gap.
+    casing, and for a ring far from it; ValueError for a Coriolis matrix with central differences, and an elastic casing with
+    the exact gap.
     """
 
     model: ContactModel
@@ -65,6 +66,7 @@ class Problem:
         if self.scene.casing.ring and self.scene.exact_gap:
             raise ValueError(NO_EXACT_GAP)
         self._check_length()
+        check_ring(self.model, self.scene)
         check_room(self.model, self.scene, np.array([self.speed]))
         check_step(self)
 
