@@ -398,6 +398,9 @@ def test_campbell_diagram_shows_each_casing_once():
     labels = one.axes[0].get_legend_handles_labels()[1]
     assert {"casing, forward", "casing, backward"} <= set(labels)
     assert len(one.axes[0].lines) == len(two.axes[0].lines)
+    other = to_plain((RingMode(7, 2.0 * np.pi * 800.0, 1.0, 0.0),))
+    labels = draw_campbell(campbell, "Ref", {"a": modes, "b": other}).axes[0].get_legend_handles_labels()[1]
+    assert {"casing of a, forward", "casing of b, backward"} <= set(labels)
     diamonds = [line for line in one.axes[0].lines if line.get_marker() == "D"]
     assert len(diamonds) == 3
     plt.close("all")

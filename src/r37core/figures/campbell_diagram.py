@@ -72,24 +72,33 @@ def draw_campbell_overview(campbell: xr.Dataset) -> Figure:
     return figure
 
 
+_OF_CASINGS = ("#8C510A", "#762A83", "#01665E")
+
+
 def _draw_casings(axes: Axes, campbell: xr.Dataset, casings: Mapping[str, Any]) -> None:
     """Waves of elastic casings, those that scenes share once, and where named modes of the blade meet them."""
-    if not casings:
-        return
-    different = dict.fromkeys(from_plain(tuple[RingMode, ...], modes) for modes in casings.values())
+    scenes: dict[tuple[RingMode, ...], list[str]] = {}
+    for scene, modes in casings.items():
+        scenes.setdefault(from_plain(tuple[RingMode, ...], modes), []).append(scene)
+    for number, (ring, names) in enumerate(scenes.items()):
+        whose = "casing" if len(scenes) == 1 else f"casing of {', '.join(names)}"
+        _draw_casing(axes, campbell, ring, whose, _OF_CASINGS[number % len(_OF_CASINGS)])
+
+
+def _draw_casing(axes: Axes, campbell: xr.Dataset, ring: tuple[RingMode, ...], whose: str, colour: str) -> None:
     speeds, highest = campbell["speed"].values, axes.get_ylim()[1]
-    legend = {"forward": "casing, forward", "backward": "casing, backward"}
-    for mode in (mode for modes in different for mode in modes):
-        for wave in waves_of(mode):
-            seen = np.abs(seen_from_rotor(mode, wave, speeds))
-            if seen.min() > highest:
-                continue
-            dashes = (4.0, 2.0) if wave == "forward" else (1.0, 1.5)
-            label = legend.pop(wave, "_")
-            axes.plot(speeds, seen, color="#8C510A", linewidth=0.5, dashes=dashes, zorder=1, label=label)
-            for name in NAMED_MODES:
-                for place in coincidences(campbell["frequency"].sel(mode=name), mode, wave):
-                    axes.plot(*place, "D", color="#8C510A", markersize=2.5, markerfacecolor="white", zorder=4)
+    dashes = {"forward": (4.0, 2.0), "backward": (1.0, 1.5)}
+    unnamed = set(dashes)
+    for mode, wave in ((mode, wave) for mode in ring for wave in waves_of(mode)):
+        seen = np.abs(seen_from_rotor(mode, wave, speeds))
+        if seen.min() > highest:
+            continue
+        label = f"{whose}, {wave}" if wave in unnamed else "_"
+        unnamed.discard(wave)
+        axes.plot(speeds, seen, color=colour, linewidth=0.5, dashes=dashes[wave], zorder=1, label=label)
+        for name in NAMED_MODES:
+            for place in coincidences(campbell["frequency"].sel(mode=name), mode, wave):
+                axes.plot(*place, "D", color=colour, markersize=2.5, markerfacecolor="white", zorder=4)
 
 
 def _draw_engine_orders(axes: Axes, orders: np.ndarray, speed: np.ndarray, highest: float) -> None:

@@ -8,7 +8,7 @@ CAPTIONS = {
         "colour, with its crossings with engine orders (grey) as dots. Right: change of the clearance at the leading edge, "
         "normal to the casing, over the tangential displacement. The blade swings freely in its first bending (1B) or "
         "first torsion mode (1T); below zero the gap closes. With an elastic casing: its waves as seen from the rotor "
-        "(brown), and where a named mode meets one (diamonds)."
+        "(thin), and where a named mode meets one (diamonds)."
     ),
     "campbell_overview": (
         "Frequencies of the first bending (1B), first torsion (1T) and second bending mode (2B) of all blades over speed, "
