@@ -89,7 +89,7 @@ def _draw_casing(axes: Axes, campbell: xr.Dataset, ring: tuple[RingMode, ...], w
     speeds, highest = campbell["speed"].values, axes.get_ylim()[1]
     dashes = {"forward": (4.0, 2.0), "backward": (1.0, 1.5)}
     unnamed = set(dashes)
-    for mode, wave in ((mode, wave) for mode in ring for wave in waves_of(mode)):
+    for mode, wave in [(one, wave) for one in ring for wave in waves_of(one)]:
         seen = np.abs(seen_from_rotor(mode, wave, speeds))
         if seen.min() > highest:
             continue
