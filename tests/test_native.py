@@ -183,4 +183,5 @@ def test_a_parameter_of_the_lining_reaches_the_law():
 
 
 def test_kinds_are_told_apart():
-    assert len({repr((layout_of(88, 8, 6), Kind(*flags))) for flags in ([True] * 9, [False] * 9)}) == 2
+    kinds = [Kind(*[flag] * len(Kind._fields)) for flag in (True, False)]
+    assert len({repr((layout_of(88, 8, 6, pairs), kind)) for kind in kinds for pairs in (0, 21)}) == 4
