@@ -4,16 +4,15 @@ from job import run
 
 from r37core.contact.ring import RingMode
 from r37core.dataset_file import read_dataset
-from r37core.io import atomic_write
 from r37core.plain import from_plain
 from r37core.results.casing_coincidence import coincidence_table
+from r37core.results.table_file import write_table
 
 
 def main(snakemake):
     casings = from_plain(dict[str, tuple[RingMode, ...]], snakemake.params.casings)
     table = coincidence_table(read_dataset(snakemake.input.campbell), casings)
-    with atomic_write(snakemake.output[0]) as partial:
-        table.to_csv(partial, index=False, float_format="%.8g")
+    write_table(table, snakemake.output[0], digits=8)
 
 
 run(snakemake, main)

@@ -3,9 +3,9 @@
 from job import run
 
 from r37core.dataset_file import read_dataset
-from r37core.io import as_list, atomic_write
+from r37core.io import as_list
 from r37core.results.designs import design_table
-from r37core.results.table_file import read_table
+from r37core.results.table_file import read_table, write_table
 
 
 def main(snakemake):
@@ -14,8 +14,7 @@ def main(snakemake):
     files = dict(zip(params.designs, as_list(given.geometry), strict=True))
     masses = {blade: params.densities[blade] * float(read_dataset(file)["volume"]) for blade, file in files.items()}
     table = design_table(params.designs, masses, read_dataset(given.campbell), stress, read_table(given.summary), params.scenes)
-    with atomic_write(snakemake.output[0]) as partial:
-        table.to_csv(partial, index=False, float_format="%.6g")
+    write_table(table, snakemake.output[0], digits=6)
 
 
 run(snakemake, main)

@@ -3,15 +3,14 @@
 from job import run
 
 from r37core.dataset_file import read_dataset
-from r37core.io import atomic_write
+from r37core.results.table_file import write_table
 from r37core.run_ups.tables import rate_table, run_up_table
 
 
 def main(snakemake):
     runs = run_up_table(read_dataset(snakemake.input[0]))
     for table, file in ((runs, snakemake.output.runs), (rate_table(runs), snakemake.output.rates)):
-        with atomic_write(file) as partial:
-            table.to_csv(partial, index=False, float_format="%.9g")
+        write_table(table, file, digits=9)
 
 
 run(snakemake, main)

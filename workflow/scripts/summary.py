@@ -3,9 +3,9 @@
 from job import run
 
 from r37core.dataset_file import read_dataset
-from r37core.io import atomic_write
 from r37core.plain import from_plain
 from r37core.results.interactions import InteractionChoice, summarise
+from r37core.results.table_file import write_table
 from r37core.tolerances.table import read_ranges, with_ranges
 
 
@@ -16,8 +16,7 @@ def main(snakemake):
     table = summarise(datasets, from_plain(InteractionChoice, snakemake.params.choice))
     if ranges:
         table = with_ranges(table, read_ranges(ranges))
-    with atomic_write(snakemake.output[0]) as partial:
-        table.to_csv(partial, index=False)
+    write_table(table, snakemake.output[0])
 
 
 run(snakemake, main)

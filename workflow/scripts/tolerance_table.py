@@ -3,9 +3,10 @@
 from job import run
 
 from r37core.dataset_file import read_dataset
-from r37core.io import as_list, atomic_write
+from r37core.io import as_list
 from r37core.plain import from_plain
 from r37core.results.interactions import InteractionChoice, find_interactions
+from r37core.results.table_file import write_table
 from r37core.tolerances.table import range_table, ranges
 
 
@@ -29,8 +30,7 @@ def main(snakemake):
         for pair, (one, _) in zip(members, nominal, strict=True)
         for row in ranges(one, members[pair], choice, speeds[pair])
     ]
-    with atomic_write(snakemake.output[0]) as partial:
-        range_table(rows).to_csv(partial, index=False)
+    write_table(range_table(rows), snakemake.output[0])
 
 
 run(snakemake, main)

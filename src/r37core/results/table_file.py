@@ -1,4 +1,4 @@
-"""Reading the tables of a run (CSV): names stay texts, whatever a blade is called."""
+"""The tables of a run (CSV): names stay texts, whatever a blade is called."""
 
 from __future__ import annotations
 
@@ -6,9 +6,15 @@ from pathlib import Path
 
 import pandas as pd
 
-from r37core.io import readable
+from r37core.io import atomic_write, readable
 
 _NAMES = ("blade", "scene", "mode")
+
+
+def write_table(table: pd.DataFrame, file: Path | str, digits: int | None = None) -> None:
+    """Write a table without its index; numbers in full, or with so many digits."""
+    with atomic_write(file) as partial:
+        table.to_csv(partial, index=False, float_format=None if digits is None else f"%.{digits}g")
 
 
 def read_table(file: Path | str) -> pd.DataFrame:
