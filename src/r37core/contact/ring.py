@@ -86,9 +86,7 @@ def critical_speed(modes: Sequence[RingMode]) -> float:
 
 @dataclass(frozen=True, eq=False)
 class RingMotion:
-    """The modes of a casing as oscillators of unit mass: all q_c, then all q_s. Numbers have shape (2 modes,).
-
-    `nodal_diameters`, `frequencies` (rad/s), `damping_ratios`; `size` (kg^-1/2): largest displacement per coordinate.
+    """The modes of a casing as oscillators of unit mass: all q_c, then all q_s.
 
     The blade's nodes stand still in the rotor's frame, where the casing turns towards growing theta. A step turns the pair
     (q_c, q_s), its increments and nothing else: free motion and recursion are those of the frame that does not turn, with no
@@ -102,22 +100,22 @@ class RingMotion:
 
     @property
     def nodal_diameters(self) -> np.ndarray:
-        """Of each coordinate."""
-        return self._of_both([mode.nodal_diameter for mode in self.modes])
+        """Of each mode, shape (modes,)."""
+        return np.array([mode.nodal_diameter for mode in self.modes], dtype=float)
 
     @property
     def frequencies(self) -> np.ndarray:
-        """Angular, in the frame that does not turn."""
+        """Angular (rad/s), in the frame that does not turn, shape (2 modes,)."""
         return self._of_both([mode.frequency for mode in self.modes])
 
     @property
     def damping_ratios(self) -> np.ndarray:
-        """Of each coordinate."""
+        """Of each coordinate, shape (2 modes,)."""
         return self._of_both([mode.damping_ratio for mode in self.modes])
 
     @property
     def size(self) -> np.ndarray:
-        """Radial displacement of a mode per coordinate, tangential where it has no radial one."""
+        """Largest radial displacement per coordinate (kg^-1/2), tangential without a radial one, shape (2 modes,)."""
         return self._of_both([(mode.radial or mode.tangential) / np.sqrt(mode.modal_mass) for mode in self.modes])
 
     def displacement(self, theta: np.ndarray) -> np.ndarray:
@@ -125,8 +123,9 @@ class RingMotion:
 
         `theta`, shape (nodes,). Returns shape (3, nodes, 2 modes).
         """
-        radial, tangential, mass = (np.array([getattr(mode, name) for mode in self.modes]) for name in _SHAPE)
-        angles = theta[:, None] * np.array([mode.nodal_diameter for mode in self.modes])
+        shapes = np.array([(mode.radial, mode.tangential, mode.modal_mass) for mode in self.modes])
+        radial, tangential, mass = shapes.T
+        angles = theta[:, None] * self.nodal_diameters
         cosine, sine = np.cos(angles) / np.sqrt(mass), np.sin(angles) / np.sqrt(mass)
         out = np.hstack([radial * cosine, radial * sine])
         along = np.hstack([-tangential * sine, tangential * cosine])
@@ -134,9 +133,6 @@ class RingMotion:
 
     def turned(self, coordinates: np.ndarray, angle: float) -> np.ndarray:
         """Coordinates in a frame turned by `angle` (rad) towards negative theta, shape (..., 2 modes)."""
-        cosine, sine = (function(angle * self.nodal_diameters[: len(self.modes)]) for function in (np.cos, np.sin))
+        cosine, sine = (function(angle * self.nodal_diameters) for function in (np.cos, np.sin))
         first, second = np.split(coordinates, 2, axis=-1)
         return np.concatenate([cosine * first - sine * second, sine * first + cosine * second], axis=-1)
-
-
-_SHAPE = ("radial", "tangential", "modal_mass")

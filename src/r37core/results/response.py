@@ -49,8 +49,7 @@ def write_response(
                 create_variable(dataset, "casing_cone_angle", "f8", (), about)[...] = values["cone_angle"]
                 for name, one in OF_CASING.items():
                     if name in values:
-                        about = {"units": one.units, "long_name": one.long_name}
-                        create_variable(dataset, name, one.dtype, one.dims, about)[...] = values[name]
+                        create_variable(dataset, name, one.dtype, one.dims, one.attributes)[...] = values[name]
                 if recovery is not None:
                     total = recovery.have_rotation(values["snapshots"])
                     about = {"units": "1", "long_name": "1 where max_von_mises has the stress of rotation, 0: vibration alone"}
@@ -104,8 +103,7 @@ def _create(
         create_axis(dataset, name, data, {"units": units, "long_name": long_name})
     for name, about in VARIABLES.items():
         if name in values:
-            attributes = {"units": about.units, "long_name": about.long_name}
-            create_variable(dataset, name, about.dtype, ("speed", *about.dims), attributes)
+            create_variable(dataset, name, about.dtype, ("speed", *about.dims), about.attributes)
     dataset["status"].setncatts(status_flags())
     if history_speeds:
         history = {"units": "Pa", "long_name": "largest von Mises stress of each revolution"}

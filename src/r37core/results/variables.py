@@ -14,6 +14,11 @@ class Variable:
     long_name: str
     dtype: str = "f8"
 
+    @property
+    def attributes(self) -> dict[str, str]:
+        """Of the variable in a file."""
+        return {"units": self.units, "long_name": self.long_name}
+
 
 _TIP = ("tip_point",)
 

@@ -106,9 +106,7 @@ class March:
         # displacement and increment where each pace is taken, and where it is left
         begun, ended = np.zeros((2, 2, len(paces.speeds), len(state.displacement)))
         taken: list[int] = []
-        for left, place, stretch in zip(
-            reversed(range(len(segment.stretches))), paces.of_stretches, segment.stretches, strict=True
-        ):
+        for number, (place, stretch) in enumerate(zip(paces.of_stretches, segment.stretches, strict=True), start=1):
             if place not in taken[-1:]:
                 taken.append(place)
                 simulation.engine.take(place)
@@ -118,7 +116,7 @@ class March:
             ended[0, place], ended[1, place] = state.displacement, state.increment
             self.velocity = (state.increment - of_displacement[place] * state.displacement) / of_velocity[place]
             wear = 0.0 if state.wear is None else float(state.wear.max())
-            if record.diverged or not left:
+            if record.diverged or number == len(segment.stretches):
                 self._balance(simulation.paces.recursion[taken], begun[:, taken], ended[:, taken])
             yield Stage(stretch.speed, record.samples, record.snapshots, shapes, wear, record.diverged)
 

@@ -22,7 +22,7 @@ def casing_waves(
     among the samples stays NaN; so is a mode that is too fast for them.
     """
     count, modes = len(samples), len(ring.modes)
-    size, nodal_diameters, own = (part[:modes] for part in (ring.size, ring.nodal_diameters, ring.frequencies))
+    nodal_diameters, own, size = ring.nodal_diameters, ring.frequencies[:modes], ring.size[:modes]
     turn = 2.0 * np.pi * revolutions * np.arange(1, count + 1) / count
     too_fast = own / speed + nodal_diameters > 0.5 * count / revolutions
     waves = (samples[:, :modes] - 1j * samples[:, modes:]).T * np.exp(1j * np.outer(nodal_diameters, turn))
@@ -33,7 +33,7 @@ def casing_waves(
     forward, backward = (0.5 * squares[:, one].sum(axis=1) for one in (orders > 0.0, orders < 0.0))
     # Z of a mode without nodal diameters is real, or imaginary: both halves move together
     runs = nodal_diameters > 0
-    forward, backward = np.where(runs, forward, 2.0 * (forward + backward)), np.where(runs, backward, 0.0 * backward)
+    forward, backward = np.where(runs, forward, 2.0 * (forward + backward)), runs * backward
     ascending = np.argsort(orders)
     kept = ascending[np.abs(orders[ascending]) <= highest_order + nodal_diameters.max()]
     return {

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ctypes
 from collections.abc import Callable
-from functools import cache
+from functools import cache, cached_property
 from typing import Any
 
 import numpy as np
@@ -221,7 +221,7 @@ class CompiledEngine:
 
     def _lay_out_ring(self, ring: RingMotion, problem: Problem) -> None:
         lengths = jump_lengths(problem.steps_per_sample) if self._kind.jumps else np.empty(0)
-        turns = 2.0 * np.pi / problem.steps_per_revolution * ring.nodal_diameters[: len(ring.modes)]
+        turns = 2.0 * np.pi / problem.steps_per_revolution * ring.nodal_diameters
         self._put(turn_cosine=np.cos(lengths[:, None] * turns), turn_sine=np.sin(lengths[:, None] * turns))
         m, pairs = self._record[0], slice(len(ring.modes))
         m["turn_cosine"][-1, pairs], m["turn_sine"][-1, pairs] = np.cos(turns), np.sin(turns)
@@ -241,8 +241,9 @@ class CompiledEngine:
             m["casing"][name] = number
         kept = None if before is None else before._tables
         self._tables = kept if kept is not None and kept.fits(problem) else _CasingTables(problem, self._layout.nodes)
-        m["casing_shape"], m["nearest_casing"] = self._tables.shape.ctypes.data, self._tables.nearest.ctypes.data
+        m["casing_shape"] = self._tables.shape.ctypes.data
         if self._kind.jumps:
+            m["nearest_casing"] = self._tables.nearest.ctypes.data
             lengths = jump_lengths(problem.steps_per_sample)
             m["lengths"] = NEVER
             self._put(lengths=lengths)
@@ -283,13 +284,17 @@ class CompiledEngine:
 
 
 class _CasingTables:
-    """f(theta) of the casing at every step of a revolution, and the nearest of each stretch; see nearest_casing."""
+    """f(theta) of the casing at every step of a revolution, for whole vectors of nodes."""
 
     def __init__(self, problem: Problem, nodes: int):
         shape = problem.scene.casing.shape(problem.theta(np.arange(problem.steps_per_revolution)[:, None]))
-        self.shape = aligned_copy(shape, nodes)
-        self.nearest = aligned_copy(nearest_casing(shape, problem.steps_per_sample), nodes)
-        self._of = problem
+        self.shape, self._of = aligned_copy(shape, nodes), problem
+
+    @cached_property
+    def nearest(self) -> np.ndarray:
+        """The nearest of each stretch, for jumps; see nearest_casing."""
+        nearest = nearest_casing(self.shape, self._of.steps_per_sample)
+        return aligned_copy(nearest, self.shape.shape[1])
 
     def fits(self, problem: Problem) -> bool:
         """Whether they are those of this problem, too."""

@@ -295,7 +295,7 @@ class Problem:
         if self.ring is None:
             return outputs
         of_ring = np.zeros((len(self.ring.size), outputs.shape[1]))
-        of_ring[:, len(self.frequencies) :][:, : len(of_ring)] = np.diag(self.ring.size)
+        np.fill_diagonal(of_ring[:, len(self.frequencies) :], self.ring.size)
         return np.concatenate([outputs, of_ring])
 
     @cached_property

@@ -186,22 +186,22 @@ class MotionWithCasing:
         self.response[at_rest:, at_rest:] = np.diag(self._casing.inverse)
         self._at_rest = at_rest
 
+    def _of_blade(self, state: SimulationState) -> SimulationState:
+        """The state of the blade's modes alone: what is written into it is written into the whole."""
+        return replace(state, displacement=state.displacement[: self._stepped], increment=state.increment[: self._stepped])
+
     def _turned(self, casing: np.ndarray, step: int) -> np.ndarray:
         return self._ring.turned(casing, 2.0 * np.pi * step / self._problem.steps_per_revolution)
 
     def read(self, state: SimulationState) -> tuple:
         """From a state, which is in the rotor's frame."""
-        step, kept = state.samples * self._problem.steps_per_sample, slice(self._stepped)
-        of_blade = replace(state, displacement=state.displacement[kept], increment=state.increment[kept])
+        step = state.samples * self._problem.steps_per_sample
         both = np.array([state.displacement[self._stepped :], state.increment[self._stepped :]])
-        return self._blade.read(of_blade), self._turned(both, -step), step
+        return self._blade.read(self._of_blade(state)), self._turned(both, -step), step
 
     def write(self, motion: tuple, state: SimulationState) -> None:
         """Put it back into the state."""
-        kept = slice(self._stepped)
-        of_blade = replace(state, displacement=state.displacement[kept], increment=state.increment[kept])
-        self._blade.write(motion[0], of_blade)
-        state.displacement[kept], state.increment[kept] = of_blade.displacement, of_blade.increment
+        self._blade.write(motion[0], self._of_blade(state))
         state.displacement[self._stepped :], state.increment[self._stepped :] = self._turned(*motion[1:])
 
     def numbers(self, motion: tuple) -> np.ndarray:
