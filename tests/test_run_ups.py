@@ -15,6 +15,7 @@ from scipy.special import wofz
 from r37core.figures.run_up_curves import draw_rates, draw_run_ups
 from r37core.io import InputFileError
 from r37core.rom.rotation import BucklingError
+from r37core.run_ups import march as march_module
 from r37core.run_ups import schedule as schedule_module
 from r37core.run_ups.choice import Crossing, RunUpChoice, RunUpError
 from r37core.run_ups.dataset import write_run_ups
@@ -83,18 +84,36 @@ def test_a_change_that_ends_where_it_began_hardly_differs_from_the_run_at_that_s
 
 
 @pytest.mark.slow
+@pytest.mark.parametrize(("ends", "segments", "stretches"), [((5000.0, 6000.0), 6, 1), ((1600.0, 1650.0), 2, 10)])
 @pytest.mark.parametrize("scene", [NARROW, replace(ABRADABLE, lining=None)], ids=["abradable", "direct"])
-def test_compiled_run_up_is_that_of_the_reference(contact, scene):
+def test_compiled_run_up_is_that_of_the_reference(contact, scene, ends, segments, stretches):
     choice = replace(LONG, time_step=3.2e-6 if scene.lining else 8e-7)
-    run_up = RunUp(5000.0, 6000.0, 1.3, 1, 0, worn=False)
+    run_up = RunUp(*ends, 1.3, 1, 0, worn=False)
     ours, theirs = (March(contact, scene, replace(choice, engine=engine), run_up) for engine in ("compiled", "reference"))
     found, expected = samples_of(ours), samples_of(theirs)
-    assert len(ours.segments) > 5
+    assert len(ours.segments) >= segments
+    assert max(len(segment.stretches) for segment in ours.segments) >= stretches
     np.testing.assert_allclose(found, expected, rtol=0, atol=1e-10 * np.abs(expected).max())
     for name in ("work", "loss"):
         assert ours.state.totals[name] == pytest.approx(float(theirs.state.totals[name]), rel=1e-8)
     assert ours.stiffness_work == pytest.approx(theirs.stiffness_work, rel=1e-8)
     assert ours.stiffness_work != 0.0
+
+
+def test_it_does_not_matter_how_many_stretches_the_engine_does_at_once(contact, monkeypatch):
+    found = []
+    for revolutions in (64, 1):
+        monkeypatch.setattr(march_module, "_AT_ONCE", revolutions)
+        march = March(contact, NARROW, LONG, RunUp(1600.0, 1650.0, 5.3, 1, 1, worn=False))
+        stages = list(march.stages())
+        found.append({name: np.concatenate([getattr(one, name) for one in stages]) for name in ("samples", "speeds", "wear")})
+    assert len(stages) > len(march.segments)
+    one, other = found
+    np.testing.assert_allclose(one["samples"], other["samples"], rtol=0, atol=1e-10 * np.abs(one["samples"]).max())
+    np.testing.assert_array_equal(one["speeds"], other["speeds"])
+    np.testing.assert_allclose(one["wear"], other["wear"], rtol=1e-8)
+    assert np.all(np.diff(one["wear"]) >= 0.0)
+    assert one["wear"][-1] > 0.0
 
 
 @pytest.mark.parametrize("scene", [NARROW, replace(ABRADABLE, lining=None)], ids=["abradable", "direct"])
@@ -118,10 +137,9 @@ def test_the_stiffness_works_half_of_its_change_times_the_squared_displacement(i
         march = March(model, replace(FREE, damping_ratio=0.0), choice, RunUp(1000.0, 1200.0, 5.0, 1, 0, worn=False))
         march.state.displacement[:] = 1e-3
         march.energy = 0.5 * 3000.0**2 * 1e-6 + 0.5 * 2.0 * 1000.0**2 * 1e-6
-        first, work, speed, displacement = march.energy, 0.0, 1000.0, 1e-3
-        for stage in march.stages():
-            work += (stage.speed**2 - speed**2) * displacement**2
-            speed, displacement = stage.speed, stage.samples[-1, 0]
+        first, stages = march.energy, list(march.stages())
+        speeds, samples = (np.concatenate([getattr(stage, of) for stage in stages]) for of in ("speeds", "samples"))
+        work = np.sum(np.diff(speeds**2, prepend=1000.0**2) * np.append(1e-3, samples[:-1, 0]) ** 2)
         errors.append(abs(march.energy - first - work) / abs(work))
     assert errors[0] < 1e-3
     assert errors[1] < 0.3 * errors[0]

@@ -255,6 +255,26 @@ def numbers_at(typingctx, address):
 
 
 @intrinsic
+def integers_at(typingctx, address):
+    """The same of integers."""
+
+    def build(context, builder, sig, args):
+        return builder.inttoptr(args[0], context.get_value_type(sig.return_type))
+
+    return types.CPointer(types.int64)(address), build
+
+
+@intrinsic
+def numbers_of(typingctx, record):
+    """The doubles that a record begins with."""
+
+    def build(context, builder, sig, args):
+        return builder.bitcast(args[0], context.get_value_type(sig.return_type))
+
+    return types.CPointer(types.float64)(record), build
+
+
+@intrinsic
 def pointed_at(typingctx, pointer):
     """The record that a pointer points at, not a copy of it."""
 

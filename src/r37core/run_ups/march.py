@@ -19,23 +19,29 @@ from r37core.time_integration.integration_choice import IntegrationChoice
 from r37core.time_integration.integrators import CENTRAL_DIFFERENCE, Recursion
 from r37core.time_integration.problem import Problem, stable_problem
 from r37core.time_integration.simulate import Simulation
+from r37core.time_integration.state import Course
 from r37core.time_integration.step_limit import UnstableStepError
 
 from .schedule import RunUp, Segment, schedule
 
+_AT_ONCE = 64
+"""Revolutions that the engine does in one call."""
+
 
 @dataclass(frozen=True)
 class Stage:
-    """What a stretch at one `speed` (rad/s) leaves behind: `samples` and `snapshots` as a simulation records them.
+    """What some stretches leave behind: `samples` and `snapshots` as a simulation records them; `diverged`.
 
-    `shapes`, shape (modes at rest, numbers): of the numbers of a snapshot; `wear` (m): the largest so far; `diverged`.
+    `speeds` (rad/s), shape (samples,); `wear` (m), shape (samples,): the largest by the end of a sample's stretch; `shapes`,
+    shape (modes at rest, numbers): of the numbers of a snapshot; `snapshot_speeds` (rad/s), shape (snapshots,).
     """
 
-    speed: float
+    speeds: np.ndarray
     samples: np.ndarray
+    wear: np.ndarray
     snapshots: np.ndarray
+    snapshot_speeds: np.ndarray
     shapes: np.ndarray
-    wear: float
     diverged: bool
 
 
@@ -101,30 +107,41 @@ class March:
                     return
 
     def _stages_of(self, simulation: Simulation, segment: Segment) -> Iterator[Stage]:
-        state, shapes, paces = self.state, simulation.problem.state_shapes, segment.paces
-        of_displacement, of_velocity = simulation.problem.increments(paces.speeds)
-        # displacement and increment where each pace is taken, and where it is left
-        begun, ended = np.zeros((2, 2, len(paces.speeds), len(state.displacement)))
-        taken: list[int] = []
-        for number, (place, stretch) in enumerate(zip(paces.of_stretches, segment.stretches, strict=True), start=1):
-            if place not in taken[-1:]:
-                taken.append(place)
-                simulation.engine.take(place)
-                state.increment[:] = of_displacement[place] * state.displacement + of_velocity[place] * self.velocity
-                begun[0, place], begun[1, place] = state.displacement, state.increment
-            record = simulation.advance_samples(state, stretch.samples)
-            ended[0, place], ended[1, place] = state.displacement, state.increment
-            self.velocity = (state.increment - of_displacement[place] * state.displacement) / of_velocity[place]
-            wear = 0.0 if state.wear is None else float(state.wear.max())
-            if record.diverged or number == len(segment.stretches):
-                self._balance(simulation.paces.recursion[taken], begun[:, taken], ended[:, taken])
-            yield Stage(stretch.speed, record.samples, record.snapshots, shapes, wear, record.diverged)
+        state, problem, paces = self.state, simulation.problem, simulation.paces
+        assert paces.increments is not None
+        by_displacement, by_velocity = paces.increments
+        taken: int | None = None
+        for stretches in segment.at_once(_AT_ONCE * self._choice.samples_per_revolution):
+            places, lasting = segment.paces.of_stretches[stretches], segment.lasting[stretches]
+            course = Course(places, lasting, len(state.displacement))
+            if places[0] != taken:
+                taken = places[0]
+                simulation.engine.take(taken)
+                state.increment[:] = by_displacement[taken] * state.displacement + by_velocity[taken] * self.velocity
+            first = state.samples
+            record = simulation.advance_samples(state, int(lasting.sum()), course)
+            lasted = np.diff(np.cumsum(lasting).clip(max=len(record.samples)), prepend=0)
+            reached = np.count_nonzero(lasted)
+            taken = places[reached - 1]
+            self.velocity = (state.increment - by_displacement[taken] * state.displacement) / by_velocity[taken]
+            self._balance(paces.recursion[places[:reached]], course.ends[:reached])
+            speeds = np.repeat(segment.paces.speeds[places], lasted)
+            instants = problem.snapshots_between(first, first + len(speeds))
+            yield Stage(
+                speeds,
+                record.samples,
+                np.repeat(course.wear, lasted),
+                record.snapshots,
+                speeds[list(instants)],
+                problem.state_shapes,
+                record.diverged,
+            )
 
-    def _balance(self, recursions: Recursion, begun: np.ndarray, ended: np.ndarray) -> None:
-        """Add up the energies of a segment; `begun`, `ended`, shape (2, paces, modes): displacement and increment."""
-        after, before = recursions.energy(*begun), np.roll(recursions.energy(*ended), 1)
-        self.energy, before[0] = float(before[0]), self.energy
-        self.stiffness_work += float(np.sum(after - before))
+    def _balance(self, recursions: Recursion, ends: np.ndarray) -> None:
+        """Add up the energies of stretches; `ends`, shape (stretches, 2, 2, modes): see Course."""
+        begun, ended = (recursions.energy(ends[:, end, 0], ends[:, end, 1]) for end in range(2))
+        self.stiffness_work += float(begun[0] - self.energy + np.sum(begun[1:] - ended[:-1]))
+        self.energy = float(ended[-1])
 
 
 _LARGEST_TURN = 3.0

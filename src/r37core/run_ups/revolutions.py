@@ -98,11 +98,10 @@ class _Revolutions:
     def add(self, stage: Stage) -> None:
         """Add a stage; the last sample of one that diverged, which may be infinite, is left out."""
         count = len(stage.samples) - stage.diverged
-        interval = 2.0 * np.pi / stage.speed / self.choice.samples_per_revolution
         self._wait(
             samples=stage.samples[:count].reshape(count, len(TIP_POINTS), len(DIRECTIONS)),
-            interval=np.full(count, interval),
-            wear=np.full(count, stage.wear),
+            interval=2.0 * np.pi / self.choice.samples_per_revolution / stage.speeds[:count],
+            wear=stage.wear[:count],
         )
         if self.recovery is not None:
             if stage.shapes is not self.shapes:
@@ -112,9 +111,10 @@ class _Revolutions:
             # of a sum of shapes the stress is no more than the sum of theirs
             bound = np.abs(stage.snapshots) @ self._stress_of_shapes
             if self.static_stress:
-                still = with_rotation(np.zeros((1, len(self._to_reduced))), self.model, stage.speed)
-                bound += self.recovery.max_von_mises(still)
-                coordinates = with_rotation(coordinates, self.model, stage.speed)
+                speeds, of_instants = np.unique(stage.snapshot_speeds, return_inverse=True)
+                still = with_rotation(np.zeros((len(speeds), len(self._to_reduced))), self.model, speeds)
+                bound += self.recovery.max_von_mises(still)[of_instants]
+                coordinates = with_rotation(coordinates, self.model, stage.snapshot_speeds)
             self._wait(coordinates=coordinates, bound=bound)
         waiting = sum(map(len, self.waiting["interval"])) // self.choice.samples_per_revolution
         if waiting >= _AT_ONCE:

@@ -7,6 +7,7 @@ time integration keeps the mean of the speeds at its ends, which passes the stre
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import pairwise
@@ -14,13 +15,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-LARGEST_LEAD = 2.5e-4
+LARGEST_LEAD = 2e-4
 """Angle (rad) by which the rotor may be elsewhere within a stretch than at its mean speed (docs/accuracy.md)."""
 
 LARGEST_STRETCH = 8
 """Revolutions."""
 
-LARGEST_STIFFENING = 0.01
+LARGEST_STIFFENING = 0.05
 """Change of the first mode's squared frequency over which the modes are held (docs/accuracy.md)."""
 
 
@@ -64,7 +65,7 @@ class PacesOfStretches(NamedTuple):
     """Different `speeds` (rad/s), shape (speeds,), and which of them each stretch has."""
 
     speeds: np.ndarray
-    of_stretches: list[int]
+    of_stretches: np.ndarray
 
 
 @dataclass(frozen=True)
@@ -78,7 +79,18 @@ class Segment:
     def paces(self) -> PacesOfStretches:
         """The speeds of the stretches."""
         speeds, of_stretches = np.unique([one.speed for one in self.stretches], return_inverse=True)
-        return PacesOfStretches(speeds, of_stretches.tolist())
+        return PacesOfStretches(speeds, of_stretches)
+
+    @cached_property
+    def lasting(self) -> np.ndarray:
+        """Samples of each stretch."""
+        return np.array([one.samples for one in self.stretches])
+
+    def at_once(self, samples: int) -> Iterator[slice]:
+        """The stretches in lots of about so many samples."""
+        lots = (np.cumsum(self.lasting) - self.lasting) // samples
+        for first, last in pairwise([*np.unique(lots, return_index=True)[1], len(lots)]):
+            yield slice(first, last)
 
 
 def schedule(run_up: RunUp, samples_per_revolution: int, squared_frequency_change: float) -> list[Segment]:

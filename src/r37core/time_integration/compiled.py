@@ -16,9 +16,9 @@ from r37core.native import Sources, cached_object, load_function
 
 from .integrators import CENTRAL_DIFFERENCE
 from .jump_plan import jump_lengths, nearest_casing
-from .layout import LINING, NEVER, NORMAL, TANGENTIAL, Kind, Layout, integration_record, layout_of
+from .layout import LINING, NEVER, NORMAL, TANGENTIAL, Kind, Layout, integration_record, layout_of, pace_record
 from .problem import Paces, Problem
-from .state import SimulationRecord, SimulationState
+from .state import Course, SimulationRecord, SimulationState
 
 SOURCES = Sources(
     "alignment.py",
@@ -33,6 +33,7 @@ SOURCES = Sources(
     "time_integration/jump_steps.py",
     "time_integration/layout.py",
     "time_integration/lined_steps.py",
+    "time_integration/pace_steps.py",
     "time_integration/program.py",
     "time_integration/ring_steps.py",
     "time_integration/steps.py",
@@ -91,13 +92,15 @@ class CompiledEngine:
             self._lay_out_lining(problem, scene.lining)
         if kind.second_order:
             self._lay_out_static_modes(problem)
-        self._paces = self._corners_of(paces)
+        self._paces = self._table_of(paces)
         self.take(0)
 
-    def take(self, number: int) -> None:
-        """Go on at the pace of this number."""
-        for corner, values in self._paces:
-            corner[...] = values[number]
+    def take(self, place: int) -> None:
+        """Go on at the pace of this place."""
+        m, size = self._record[0], self._paces.dtype.itemsize
+        self._record.view(np.uint8)[:size] = self._paces[place : place + 1].view(np.uint8)
+        m["problem"]["diagonal"][: self._nodes] = np.diagonal(m["columns"])[: self._nodes]
+        m["pace"] = place
 
     def _take_room(self, before: CompiledEngine | None) -> None:
         """Make the record, or take that of an engine before."""
@@ -108,9 +111,9 @@ class CompiledEngine:
             self._record, self._corners = aligned_zeros((1,), integration_record(self._layout)), {}
         self._address = self._record.ctypes.data
 
-    def _corners_of(self, paces: Paces) -> list[tuple[np.ndarray, np.ndarray]]:
-        """Corners of the record's fields, and what each is at every pace."""
-        recursion, coupling, plan, clearance = paces
+    def _table_of(self, paces: Paces) -> np.ndarray:
+        """The paces as they stand in the record, shape (paces,)."""
+        recursion, coupling, plan, clearance, increments = paces
         normal = coupling[:, NORMAL]
         # friction of constant direction is part of what a normal force does
         response = normal if self._constant_share is None else normal + self._constant_share * coupling[:, TANGENTIAL]
@@ -120,14 +123,21 @@ class CompiledEngine:
             of_modes["loss"] = recursion.loss
         if self._kind.coriolis:
             of_modes["inverse_keep"] = 1.0 / recursion.keep
+        if increments is not None:
+            by_displacement, by_velocity = increments
+            of_modes |= {"increment_by_displacement": by_displacement, "increment_by_velocity": by_velocity}
+            of_modes |= {"velocity_by_increment": 1.0 / by_velocity}
         if plan is not None:
             fields["slow_modes"] = plan.slow_modes
             of_modes |= {"jumps": plan.jumps}
             of_modes |= {"amplitude_by_u": plan.amplitude_rows[:, 0], "amplitude_by_d": plan.amplitude_rows[:, 1]}
         fields |= {name: self._spread(values) for name, values in of_modes.items()}
-        diagonal = self._record[0]["problem"]["diagonal"][: self._nodes]
-        found = [(self._corner(name, values.shape[1:]), values) for name, values in fields.items()]
-        return [*found, (diagonal, np.diagonal(normal, axis1=1, axis2=2))]
+        found = aligned_zeros((len(normal),), pace_record(self._layout))
+        # a node that only pads the vector must not touch
+        found["clearance"] = 1.0
+        for name, values in fields.items():
+            found[name][(slice(None), *map(slice, values.shape[1:]))] = values
+        return found
 
     def _corner(self, name: str, shape: tuple[int, ...]) -> np.ndarray:
         """The part of a field of the record that an array fills; what pads it stays as it is."""
@@ -155,22 +165,31 @@ class CompiledEngine:
         found[..., self._places] = values
         return found
 
-    def advance(self, state: SimulationState, out: SimulationRecord) -> int:
+    def advance(self, state: SimulationState, out: SimulationRecord, course: Course | None = None) -> int:
         """Do one block of steps per row of `out.samples`, from `state`, which is changed, and fill samples and snapshots.
 
-        Returns the blocks done: fewer when an output passed the limit or is NaN.
+        They are done at the paces of `course`, whose ends and wear are filled, or at the pace taken. Returns the blocks done:
+        fewer when an output passed the limit or is NaN.
         """
         m, modes, nodes = self._record[0], self._layout.modes, self._layout.nodes
+        if course is None:
+            course = Course(np.array([m["pace"]]), np.array([len(out.samples)]), len(state.displacement))
+        ends = np.empty((*course.ends.shape[:-1], modes))
         # u and, with Coriolis, d of each
         of_mode = 1 + self._kind.coriolis
         numbers, kept = of_mode * modes, of_mode * self._modes
-        snapshots = np.zeros((len(out.snapshots), numbers + (3 * nodes if self._kind.second_order else 0)))
+        snapshots = np.empty((len(out.snapshots), numbers + (3 * nodes if self._kind.second_order else 0)))
         self._put_modes(u=state.displacement, increment=state.increment)
         self._put(
             on_casing=np.packbits(state.on_casing, bitorder="little"),
             totals=state.totals,
             first_step=state.samples * m["steps_per_block"],
             blocks=len(out.samples),
+            paces=self._paces.ctypes.data,
+            places=course.places.ctypes.data,
+            lasting=course.samples.ctypes.data,
+            ends=ends.ctypes.data,
+            worn=course.wear.ctypes.data,
             wear=0 if state.wear is None else state.wear.ctypes.data,
             samples=out.samples.ctypes.data,
             snapshots=snapshots.ctypes.data,
@@ -179,6 +198,7 @@ class CompiledEngine:
             self._put(force=state.lining_force[NORMAL], friction_force=state.lining_force[TANGENTIAL:])
         done = int(self._advance(self._address))
         state.displacement[:], state.increment[:] = m["u"][self._places], m["increment"][self._places]
+        course.ends[:] = ends[..., self._places]
         state.on_casing[:] = np.unpackbits(m["on_casing"].astype(np.uint8), bitorder="little")[: self._nodes]
         state.totals[()] = m["totals"]
         of_modes = snapshots[:, :numbers].reshape(len(snapshots), of_mode, modes)[:, :, self._places]
@@ -192,8 +212,8 @@ class CompiledEngine:
 
     def _lay_out(self, problem: Problem) -> None:
         m = self._record[0]
-        # a node that only pads the vector must neither touch, nor sit on the axis, nor cancel a pivot
-        m["clearance"] = m["radius"] = m["towards"] = m["problem"]["diagonal"] = 1.0
+        # a node that only pads the vector must neither sit on the axis nor cancel a pivot
+        m["radius"] = m["towards"] = m["problem"]["diagonal"] = 1.0
         self._put_modes(
             displacement_operator=problem.displacement_operator,
             push_operator=problem.displacement_operator[NORMAL],

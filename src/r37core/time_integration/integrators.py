@@ -27,7 +27,7 @@ class Recursion:
     inverse: np.ndarray
     lost: np.ndarray
 
-    def __getitem__(self, row: int | slice | list[int] | None) -> Recursion:
+    def __getitem__(self, row: int | slice | np.ndarray | None) -> Recursion:
         """One or some of several recursions, whose arrays have shape (recursions, modes), or some modes of one.
 
         None: one as several.

@@ -114,32 +114,52 @@ def complementarity_record(nodes: int) -> np.dtype:
     )
 
 
+def _pace_fields(layout: Layout) -> list[Field]:
+    modes, nodes = layout.modes, layout.nodes
+    return [
+        # of the recursion: see time_integration.steps; energy lost per step and squared central difference; 1/keep
+        *_arrays("keep pull inverse loss inverse_keep", modes),
+        # increment of a free mode per displacement and per velocity, and one over the latter
+        *_arrays("increment_by_displacement increment_by_velocity velocity_by_increment", modes),
+        # normal displacement of the last node per force in the three directions on the one before
+        *_arrays("coupling", 3, nodes, nodes),
+        # opening of the last node's gap per unit multiplier of the one before: with friction, and as the problem has it
+        *_arrays("response columns", nodes, nodes),
+        *_arrays("clearance", nodes),  # of the round casing (m)
+        # jumps over free flight: see time_integration.jump_plan
+        *_arrays("jumps", STRIDES, 8, modes),
+        *_arrays("amplitude_by_u amplitude_by_d", modes),
+        *_arrays("slow_modes", STRIDES, kind=np.int64),
+    ]
+
+
+@cache
+def pace_record(layout: Layout) -> np.dtype:
+    """What of a time integration changes with the speed while its modes are held: the beginning of its record."""
+    return aligned_record(_pace_fields(layout))
+
+
 @cache
 def integration_record(layout: Layout) -> np.dtype:
-    """The record of a time integration: its state, its constants, room to work in, and its totals."""
+    """The record of a time integration: its pace, its state, its constants, room to work in, and its totals."""
     modes, nodes, outputs, pairs = layout
     groups = nodes // padded(1)
     return aligned_record(
         [
+            *_pace_fields(layout),
             # displacement u_n; its increments u_n - u_{n-1} and u_{n-1} - u_{n-2}; forces on the modes, and those pushed before
             *_arrays("u increment last_increment push pushed", modes),
-            # of the recursion: see time_integration.steps; energy lost per step and squared central difference
-            *_arrays("keep pull inverse loss", modes),
             # displacement of the nodes per mode, and what a unit normal force does to the modes, with constant friction
             *_arrays("displacement_operator", 3, nodes, modes),
             *_arrays("push_operator", nodes, modes),
             *_arrays("outputs", 1, padded(outputs), modes),
             *_arrays("sample", padded(outputs)),
             # with Coriolis the same per increment; the size of displacement_operator per amplitude that turns; increment of the
-            # last increment, had there been no force; 1/keep; forces on the modes' increments
+            # last increment, had there been no force; forces on the modes' increments
             *_arrays("increment_operator size_operator", 3, nodes, modes),
             *_arrays("increment_push_operator", nodes, modes),
             *_arrays("increment_outputs", 1, padded(outputs), modes),
-            *_arrays("last_second_difference inverse_keep increment_push", modes),
-            # normal displacement of the last node per force in the three directions on the one before
-            *_arrays("coupling", 3, nodes, nodes),
-            # opening of the last node's gap per unit multiplier of the one before: with friction, and as the problem has it
-            *_arrays("response columns", nodes, nodes),
+            *_arrays("last_second_difference increment_push", modes),
             *_arrays("friction_share", 2, nodes),  # tangential and meridional force per normal force
             *_arrays("force", nodes),
             *_arrays("friction_force", 2, nodes),
@@ -152,28 +172,28 @@ def integration_record(layout: Layout) -> np.dtype:
             *_arrays("force_outputs", 1, padded(outputs), 3 * nodes),
             *_arrays("rotation", nodes),  # signed sliding in a step by the rotation (m)
             *_arrays("bar_position", nodes),  # angle at step 0, in bars
-            *_arrays("clearance", nodes),  # of the round casing (m)
             *_arrays("radius theta shift", nodes),  # m; angle at step 0 and what vibration adds to it (rad)
             ("problem", complementarity_record(nodes), ()),
             *_arrays("beyond on_casing", groups, kind=np.int64),
             # by how much pairs of the casing's modes turn in a jump and, in the last row, in a step
             *_arrays("turn_cosine turn_sine", STRIDES + 1, pairs),
-            # jumps over free flight: see time_integration.jump_plan
-            *_arrays("jumps", STRIDES, 8, modes),
-            *_arrays("amplitude_by_u amplitude_by_d amplitude", modes),
+            # of jumps: amplitudes of the modes, and how far they bring the nodes
+            *_arrays("amplitude", modes),
             *_arrays("reach", STRIDES, nodes),
             *_arrays("across towards", nodes),
             *_arrays("decay", STRIDES),
-            *_arrays("lengths slow_modes reach_known", STRIDES, kind=np.int64),
+            *_arrays("lengths reach_known", STRIDES, kind=np.int64),
             ("lining", LINING, ()),
             ("casing", CASING, ()),
             ("totals", TOTALS, ()),
             *_numbers("limit friction"),
             *_numbers("number_of_outputs nodes rings steps_per_revolution steps_per_block", kind=np.int64),
             *_numbers("samples_before_snapshots samples_per_snapshot", kind=np.int64),
-            # of one call: where it begins, and how many blocks of steps it asks for
-            *_numbers("first_step blocks", kind=np.int64),
+            # of one call: where it begins, how many blocks of steps it asks for, and the pace it is at
+            *_numbers("first_step blocks pace", kind=np.int64),
             # addresses of arrays whose sizes are known only then: f(theta) at every step, and the largest of each stretch
             *_numbers("casing_shape nearest_casing wear samples snapshots", kind=np.int64),
+            # all paces; pace and blocks of each stretch; motion at its ends, and largest wear by then
+            *_numbers("paces places lasting ends worn", kind=np.int64),
         ]
     )

@@ -32,12 +32,16 @@ class LongRevolutionError(ValueError):
 
 
 class Paces(NamedTuple):
-    """What of a problem changes with the speed while its modes are held: all with a first axis of speeds."""
+    """What of a problem changes with the speed while its modes are held: all with a first axis of speeds.
+
+    `increments`: per displacement and per velocity, each of shape (speeds, modes), see integrators; None of a single speed.
+    """
 
     recursion: Recursion
     coupling: np.ndarray
     jumps: JumpPlan | None
     clearance: np.ndarray
+    increments: tuple[np.ndarray, np.ndarray] | None
 
 
 @dataclass(frozen=True, eq=False)
@@ -335,7 +339,7 @@ class Problem:
     def own_pace(self) -> Paces:
         """Of the problem's own speed alone."""
         several = self.recursion[None]
-        return Paces(several, self.coupling[None], self._jumps(several), self.clearance[None])
+        return Paces(several, self.coupling[None], self._jumps(several), self.clearance[None], None)
 
     def _jumps(self, recursion: Recursion) -> JumpPlan | None:
         if not self.choice.jumps:
@@ -349,13 +353,11 @@ class Problem:
         A mode's squared frequency is its stiffness at the speed, phi^T K(Omega) phi; the stiffness between modes is left out.
         Raises BucklingError where it is not positive.
         """
-        several = recursion(self.choice.integrator, *self._motion_at(speeds))
+        motion = self._motion_at(speeds)
+        several = recursion(self.choice.integrator, *motion)
         rooms = clearances(self.model, self.scene, speeds)
-        return Paces(several, self._coupling(several.inverse), self._jumps(several), rooms)
-
-    def increments(self, speeds: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Increments per displacement and per velocity at `speeds`, each of shape (speeds, modes); see integrators."""
-        return increments(self.choice.integrator, *self._motion_at(speeds))
+        shares = increments(self.choice.integrator, *motion)
+        return Paces(several, self._coupling(several.inverse), self._jumps(several), rooms, shares)
 
     @cached_property
     def _stiffening(self) -> np.ndarray:
@@ -429,6 +431,12 @@ class Problem:
         """How many snapshots the first `samples` of the run have."""
         every = self.samples_per_snapshot
         return max(samples - self.samples_before_snapshots, 0) // every if every else 0
+
+    def snapshots_between(self, first: int, last: int) -> range:
+        """The samples from number `first` of the run on, up to `last`, that have a snapshot, counted from the former."""
+        every, before = self.samples_per_snapshot, self.samples_before_snapshots - first
+        number = self.snapshots_after(first)
+        return range(before + (number + 1) * every - 1, last - first, every) if every else range(0)
 
     def _check_length(self) -> None:
         table = 8 * self.steps_per_revolution * padded(len(self.model.theta))

@@ -10,27 +10,34 @@ from r37core.lanes import OPTIONS, inlined, pointed_at, spread, sum_of_lanes
 from r37core.native import object_code
 
 from .jump_steps import bound_amplitudes, choose_jump, jump_ahead
-from .layout import COARSE, STRIDES, Kind, Layout, integration_record
+from .layout import COARSE, STRIDES, Kind, Layout, integration_record, pace_record
 from .lined_steps import meet_lining, push_lining, release_lining, resume_lining
+from .pace_steps import begin_stretch, end_stretch
 from .ring_steps import turn_jump, turn_step
 from .steps import leave_casing, measure_exact_gaps, measure_gaps, meet, predict, record
 
 
 @inlined
-def _integrate(m, kind):
-    """Do the blocks of steps asked for; returns how many were done, fewer when an output passed the limit or is NaN."""
+def _integrate(m, kind, pace_numbers):
+    """Do the blocks of steps asked for; returns how many were done, fewer when an output passed the limit or is NaN.
+
+    `pace_numbers`: how many numbers a pace has.
+    """
     at_once = np.isinf(m.casing.rise)
     decay = 0.0 if at_once else np.exp(-m.casing.rise)
     coarse_per_block = (m.steps_per_block + COARSE - 1) // COARSE
     beyond, bounded, first_stride = False, False, 1
     # with a lining of second order: whether there may be forces, and whether it has pressed in this step
     follows = pushed = False
-    done = kept = 0
+    done = kept = stretch = until = 0
     while done < m.blocks:
+        begins = done == until
+        if begins:
+            until += begin_stretch(m, stretch, pace_numbers)
         start = m.first_step + done * m.steps_per_block
         place = start % m.steps_per_revolution
         remaining = 0.0 if at_once else np.exp(-m.casing.rise * start)
-        if place == 0 or done == 0:
+        if place == 0 or begins:
             # so that a run stopped after a revolution goes on with the same bits
             beyond, bounded, first_stride = False, False, 1
             if kind.second_order:
@@ -92,6 +99,9 @@ def _integrate(m, kind):
         within = record(m, done, kept if taken else -1, kind)
         kept += taken
         done += 1
+        if done == until or not within:
+            end_stretch(m, stretch)
+            stretch += 1
         if not within:
             break
     return done
@@ -99,10 +109,11 @@ def _integrate(m, kind):
 
 def compile_integration(layout: Layout, kind: Kind) -> bytes:
     """Object code of `advance(record)`: a function of the record's address that returns the blocks of steps done."""
+    pace_numbers = pace_record(layout).itemsize // 8
     signature = types.int64(types.CPointer(numba.from_dtype(integration_record(layout))))
 
     @numba.cfunc(signature, **OPTIONS)
     def advance(record):
-        return _integrate(pointed_at(record), kind)
+        return _integrate(pointed_at(record), kind, pace_numbers)
 
     return object_code(advance.inspect_llvm(), advance.native_name, "advance")

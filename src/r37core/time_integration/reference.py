@@ -18,7 +18,7 @@ from r37core.contact.scene import Lining
 
 from .problem import Paces, Problem
 from .reference_motion import CoupledMotion, Motion, MotionWithCasing, RealMotion
-from .state import SimulationRecord, SimulationState
+from .state import Course, SimulationRecord, SimulationState
 
 
 class ReferenceEngine:
@@ -33,12 +33,12 @@ class ReferenceEngine:
         self.static_force = np.zeros((3, len(problem.tip.radius)))
         self.take(0)
 
-    def take(self, number: int) -> None:
-        """Go on at the pace of this number."""
-        recursion = self._paces.recursion[number]
+    def take(self, place: int) -> None:
+        """Go on at the pace of this place."""
+        self._place, recursion = place, self._paces.recursion[place]
         blade = (RealMotion if self.problem.complex_modes is None else CoupledMotion)(self.problem, recursion)
         self.motion: Motion = blade if self.problem.ring is None else MotionWithCasing(blade, self.problem, recursion)
-        self.clearance = self._paces.clearance[number]
+        self.clearance = self._paces.clearance[place]
 
     def _turn(self, n: int) -> None:
         """Take the rows of the nodes where they are at t_n: of the blade's modes at rest, and of an elastic casing's."""
@@ -48,10 +48,37 @@ class ReferenceEngine:
             self.rows = np.concatenate([self._blade_rows, of_casing], axis=-1)
         self.normal, self.tangential, self.meridional = self.rows
 
-    def advance(self, state: SimulationState, out: SimulationRecord) -> int:
+    def advance(self, state: SimulationState, out: SimulationRecord, course: Course | None = None) -> int:
         """Do the steps of every row of `out.samples`, as the compiled engine does; returns the rows done."""
+        if course is None:
+            course = Course(np.array([self._place]), np.array([len(out.samples)]), len(state.displacement))
+        first, done = state.samples, 0
+        for stretch, (place, samples) in enumerate(zip(course.places, course.samples, strict=True)):
+            self._go_over(state, place)
+            course.ends[stretch, 0] = state.displacement, state.increment
+            kept = self.problem.snapshots_after(first + done) - self.problem.snapshots_after(first)
+            part = SimulationRecord(out.samples[done : done + samples], out.snapshots[kept:])
+            reached, bounded = self._stretch(state, part, first + done)
+            done += reached
+            course.ends[stretch, 1] = state.displacement, state.increment
+            course.wear[stretch] = 0.0 if state.wear is None else state.wear.max()
+            if not bounded:
+                break
+        return done
+
+    def _go_over(self, state: SimulationState, place: int) -> None:
+        """Take a pace; displacement and velocity go over to it."""
+        if place == self._place:
+            return
+        assert self._paces.increments is not None
+        by_displacement, by_velocity = self._paces.increments
+        velocity = (state.increment - by_displacement[self._place] * state.displacement) / by_velocity[self._place]
+        self.take(place)
+        state.increment[:] = by_displacement[place] * state.displacement + by_velocity[place] * velocity
+
+    def _stretch(self, state: SimulationState, out: SimulationRecord, first: int) -> tuple[int, bool]:
+        """Go on after the `first` samples at one pace; returns the rows done, and whether they are within the limit."""
         problem, motion = self.problem, self.motion.read(state)
-        first = state.samples
         done, kept, bounded = 0, 0, True
         step = self._second_order_step if problem.second_order else self._step
         self.static_force = state.lining_force.copy()
@@ -68,7 +95,7 @@ class ReferenceEngine:
                 out.snapshots[kept] = numbers
                 kept += 1
         self.motion.write(motion, state)
-        return done
+        return done, bounded
 
     def _step(self, before: Any, n: int, state: SimulationState) -> Any:
         """The motion at t_n from that at t_{n-1}; changes wear, totals and the nodes on the casing."""

@@ -14,7 +14,7 @@ from .compiled import CompiledEngine
 from .integration_choice import IntegrationChoice
 from .problem import stable_problem
 from .reference import ReferenceEngine
-from .state import SimulationRecord, SimulationState
+from .state import Course, SimulationRecord, SimulationState
 
 TIP_POINTS, DIRECTIONS = ("leading_edge", "trailing_edge"), ("normal", "radial", "tangential")
 """What the samples are of: every direction at the first tip point, then at the second."""
@@ -58,8 +58,8 @@ class Simulation:
         """Go on by `revolutions` from `state`, which is changed."""
         return self.advance_samples(state, revolutions * self.problem.choice.samples_per_revolution)
 
-    def advance_samples(self, state: SimulationState, samples: int) -> SimulationRecord:
-        """The same by a number of samples."""
+    def advance_samples(self, state: SimulationState, samples: int, course: Course | None = None) -> SimulationRecord:
+        """The same by a number of samples; at the paces of `course`, which has as many."""
         problem = self.problem
         first, asked = state.samples, samples
 
@@ -67,8 +67,8 @@ class Simulation:
             return problem.snapshots_after(first + samples) - problem.snapshots_after(first)
 
         outputs, numbers = problem.output_operator.shape
-        out = SimulationRecord(np.zeros((asked, outputs)), np.zeros((snapshots(asked), numbers)))
-        done = self.engine.advance(state, out)
+        out = SimulationRecord(np.empty((asked, outputs)), np.empty((snapshots(asked), numbers)))
+        done = self.engine.advance(state, out, course)
         state.samples += asked
         diverged = done < asked or not (np.abs(out.samples[done - 1]) < problem.scene.divergence_limit).all()
         of_tip = len(TIP_POINTS) * len(DIRECTIONS)

@@ -101,10 +101,13 @@ def _whole(samples: np.ndarray, asked: int, diverged: bool) -> np.ndarray:
     return np.concatenate([samples[:-1], np.full((missing, *samples.shape[1:]), np.nan)])
 
 
-def with_rotation(coordinates: np.ndarray, model: ContactModel, speed: float) -> np.ndarray:
-    """Coordinates of the vibration, shape (instants, coordinates), and after them the amplitudes of rotation's shapes."""
-    amplitudes_of_shapes = rotation_amplitudes(model.rotation_stiffening, speed)
-    return np.hstack([coordinates, np.tile(amplitudes_of_shapes, (len(coordinates), 1))])
+def with_rotation(coordinates: np.ndarray, model: ContactModel, speeds: float | np.ndarray) -> np.ndarray:
+    """Coordinates of the vibration, shape (instants, coordinates), and after them the amplitudes of rotation's shapes.
+
+    `speeds` (rad/s): one of all, or that of each instant.
+    """
+    amplitudes = rotation_amplitudes(model.rotation_stiffening, speeds)
+    return np.hstack([coordinates, np.broadcast_to(amplitudes, (len(coordinates), amplitudes.shape[-1]))])
 
 
 def _spectrum(displacement: np.ndarray, revolutions: int, highest_order: int) -> dict[str, np.ndarray]:

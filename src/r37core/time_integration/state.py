@@ -27,6 +27,19 @@ class SimulationState:
     totals: np.ndarray = field(default_factory=lambda: np.zeros((), TOTALS))
 
 
+class Course:
+    """Stretches one after another at several paces: what an engine is to do, and what it leaves of each.
+
+    `places`, `samples`, shape (stretches,): the pace of each stretch and how many samples it lasts. Filled by the engine:
+    `ends`, shape (stretches, 2, 2, modes), displacement and increment as a stretch begins and as it ends; `wear` (m), shape
+    (stretches,), the largest by its end.
+    """
+
+    def __init__(self, places: np.ndarray, samples: np.ndarray, modes: int):
+        self.places, self.samples = (np.ascontiguousarray(part, dtype=np.int64) for part in (places, samples))
+        self.ends, self.wear = np.empty((len(places), 2, 2, modes)), np.zeros(len(places))
+
+
 @dataclass(frozen=True)
 class SimulationRecord:
     """What a stretch of revolutions leaves behind.
