@@ -51,8 +51,8 @@ class March:
     `energy` (J): of the vibration; `stiffness_work` (J): what the change of the stiffness with the speed has brought to it.
     Both are those of the last segment's end. `wear` (m), shape (rings, bars): of a lining that is worn at the beginning.
 
-    Raises what Problem raises, of the steps at the lowest speed, which are the longest; BucklingError for the highest speed;
-    ValueError for a model with a Coriolis matrix: complex modes turn into each other as the speed changes.
+    Raises what Problem raises at either end, with the steps of the lower speed, which are the longest; ValueError for a model
+    with a Coriolis matrix: complex modes turn into each other as the speed changes.
     """
 
     def __init__(
@@ -61,12 +61,12 @@ class March:
         if model.coriolis is not None:
             raise ValueError("run-ups do not carry the Coriolis force")
         low, high = sorted((run_up.start, run_up.stop))
-        # between two speeds with a stable position there are only such
-        model.modes_at(high)
         check_room(model, scene, np.array([low, *scene.casing.growth_speeds, high]).clip(low, high))
         coarsest = told_problem(model, low, scene, choice)
         self._model, self._scene = model, scene
         self._choice = replace(coarsest.choice, shorten=False, steps_per_sample=coarsest.steps_per_sample)
+        # between two speeds with a stable position there are only such
+        self._of_ends = {high: self._problem(high), low: coarsest}
         stiffening = model.stiffness_per_square[0, 0] / model.squared_frequencies[0]
         self.segments = schedule(run_up, choice.samples_per_revolution, float(stiffening))
         self._segment: Segment | None = None
@@ -81,10 +81,13 @@ class March:
     def _of(self, segment: Segment) -> Simulation:
         """The simulation of a segment, in the room of that of the segment before."""
         if self._simulation is None or segment is not self._segment:
-            speeds, before = segment.paces.speeds, self._simulation
-            self._simulation = Simulation(self._model, segment.speed, self._scene, self._choice, speeds, before)
+            problem = self._of_ends.get(segment.speed) or self._problem(segment.speed)
+            self._simulation = Simulation.at_speeds(problem, segment.paces.speeds, self._simulation)
             self._segment = segment
         return self._simulation
+
+    def _problem(self, speed: float) -> Problem:
+        return Problem(self._model, speed, self._scene, self._choice)
 
     def stages(self) -> Iterator[Stage]:
         """Do all stretches; ends with a stage that says so when the run diverges."""

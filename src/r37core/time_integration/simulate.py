@@ -12,7 +12,7 @@ from r37core.rom.contact_model import ContactModel
 from .clearance import cut
 from .compiled import CompiledEngine
 from .integration_choice import IntegrationChoice
-from .problem import stable_problem
+from .problem import Paces, Problem, stable_problem
 from .reference import ReferenceEngine
 from .state import Course, SimulationRecord, SimulationState
 
@@ -25,24 +25,27 @@ _ENGINES: dict[str, type[CompiledEngine] | type[ReferenceEngine]] = {"compiled":
 class Simulation:
     """The time integration of one blade at one speed in one scene: its `problem`, and the `engine` that advances a state.
 
-    At `speeds` (rad/s), shape (speeds,), the engine may go in the modes of `speed`, from the first of them on; without them it
-    goes at `speed`. `before`: a simulation that is done, of the same scene and choice, of whose engine is kept what fits.
     Raises what Problem raises, of the step that `choice` leaves.
     """
 
-    def __init__(
-        self,
-        model: ContactModel,
-        speed: float,
-        scene: Scene,
-        choice: IntegrationChoice,
-        speeds: np.ndarray | None = None,
-        before: Simulation | None = None,
-    ):
-        self.problem = stable_problem(model, speed, scene, choice)
-        self.paces = self.problem.own_pace if speeds is None else self.problem.paces(speeds)
+    def __init__(self, model: ContactModel, speed: float, scene: Scene, choice: IntegrationChoice):
+        problem = stable_problem(model, speed, scene, choice)
+        self._take(problem, problem.own_pace, None)
+
+    @classmethod
+    def at_speeds(cls, problem: Problem, speeds: np.ndarray, before: Simulation | None) -> Simulation:
+        """One whose engine goes at several `speeds` (rad/s), shape (speeds,), in the modes of the problem's, from the first on.
+
+        `before`: a simulation that is done, of the same scene and choice, of whose engine is kept what fits.
+        """
+        simulation = cls.__new__(cls)
+        simulation._take(problem, problem.paces(speeds), None if before is None else before.engine)
+        return simulation
+
+    def _take(self, problem: Problem, paces: Paces, before: Any) -> None:
+        self.problem, self.paces = problem, paces
         # of one choice, so of one class
-        self.engine: Any = _ENGINES[choice.engine](self.problem, self.paces, None if before is None else before.engine)
+        self.engine: Any = _ENGINES[problem.choice.engine](problem, paces, before)
 
     def start(self) -> SimulationState:
         """The blade at rest in an unworn lining, or in one that it has cut its way into."""
