@@ -45,7 +45,7 @@ VARIANTS = {
     "twice the revolutions before": {"before": 400},
     "lining worn by the same run-up": {"worn": True},
 }
-TRIED = ((2e-6, 1e-2), (2e-6, 5e-2), (2e-6, 1e-1), (2e-4, 5e-2), (2e-4, 1e-1), (1e-3, 5e-2), (4e-3, 5e-2))
+TRIED = ((2e-6, 1e-2), (2e-6, 5e-2), (2e-6, 1e-1), (2e-4, 5e-2), (1e-3, 5e-2), (4e-3, 5e-2))
 
 
 def rates_table():
@@ -65,7 +65,9 @@ def rates_table():
         for direction in ("up", "down"):
             going = of_blade["direction"] == direction
             for rate in SHOWN_RATES:
-                row[f"{direction} at {rate}"] = f"{float(share[going & (of_blade['rate_rad_s2'] == rate)].max()):.2f}"
+                # whole samples make rates that are nearly those asked for
+                near = np.isclose(of_blade["rate_rad_s2"], rate, rtol=1e-3)
+                row[f"{direction} at {rate}"] = f"{float(share[going & near].max()):.2f}"
             found = rates[(rates["blade"] == blade) & (rates["direction"] == direction)].iloc[0]
             row[direction] = float(found["rate_at_yield_rad_s2"])
         rows.append(row)
