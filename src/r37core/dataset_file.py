@@ -39,10 +39,13 @@ def write_dataset(dataset: xr.Dataset, file: Path | str, provenance: Mapping[str
         dataset.to_netcdf(partial, engine="netcdf4", encoding=encoding)
 
 
-def read_dataset(file: Path | str) -> xr.Dataset:
-    """Read a netCDF file into memory; InputFileError when it cannot be read."""
+def read_dataset(file: Path | str, part: Mapping[str, object] | None = None) -> xr.Dataset:
+    """Read a netCDF file into memory; InputFileError when it cannot be read.
+
+    `part`: labels of dimensions, as far as the file has these, at which alone it is read.
+    """
     with readable(file), xr.open_dataset(file, engine="netcdf4") as dataset:
-        return dataset.load()
+        return dataset.sel({name: label for name, label in (part or {}).items() if name in dataset.dims}).load()
 
 
 def recipe_of(inputs: Iterable[Path | str], *made_of: object) -> str:

@@ -13,8 +13,7 @@ def read(file, wildcards):
     """A table, or the part of a dataset that is of the figure's blade and scene."""
     if file.endswith(".csv"):
         return read_table(file)
-    dataset = read_dataset(file)
-    return dataset.sel({name: wildcards[name] for name in ("blade", "scene") if name in wildcards and name in dataset.dims})
+    return read_dataset(file, {name: wildcards[name] for name in ("blade", "scene") if name in wildcards})
 
 
 def main(snakemake):

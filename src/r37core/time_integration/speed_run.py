@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
+from numpy.fft import rfft  # NumPy imports it when it is used, which would be in each of a server's jobs
 
 from r37core.contact.scene import Scene
 from r37core.rom.contact_model import ContactModel
@@ -119,7 +120,7 @@ def _spectrum(displacement: np.ndarray, revolutions: int, highest_order: int) ->
 
 def amplitudes(values: np.ndarray) -> np.ndarray:
     """Amplitudes of the Fourier series of real values, along the last axis; the first is the mean's size."""
-    found = 2.0 * np.abs(np.fft.rfft(values)) / values.shape[-1]
+    found = 2.0 * np.abs(rfft(values)) / values.shape[-1]
     found[..., 0] /= 2.0
     return found
 
