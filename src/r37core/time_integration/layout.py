@@ -31,8 +31,12 @@ NEVER = 2**60
 """More steps than there are: the length of a jump that is not to be had."""
 
 
+FEWEST_MODES = 32
+"""Of a blade in a layout. Each layout compiles for half a minute, so a small blade takes that of a larger one."""
+
+
 class Layout(NamedTuple):
-    """Numbers of modes and nodes, both rounded up to whole vectors, and of outputs.
+    """Numbers of modes, nodes and outputs, all rounded up to whole vectors.
 
     `pairs`: of the modes, pairs of an elastic casing, whole vectors too; the first of each pair come after the blade's modes,
     then the second.
@@ -68,7 +72,8 @@ class Kind(NamedTuple):
 
 def layout_of(blade_modes: int, nodes: int, outputs: int, pairs: int = 0) -> Layout:
     """The layout that holds so many."""
-    return Layout(padded(blade_modes) + 2 * padded(pairs), padded(nodes), outputs, padded(pairs))
+    modes = max(padded(blade_modes), FEWEST_MODES)
+    return Layout(modes + 2 * padded(pairs), padded(nodes), padded(outputs), padded(pairs))
 
 
 def _numbers(names: str, kind: type = np.float64) -> list[Field]:
@@ -152,13 +157,13 @@ def integration_record(layout: Layout) -> np.dtype:
             # displacement of the nodes per mode, and what a unit normal force does to the modes, with constant friction
             *_arrays("displacement_operator", 3, nodes, modes),
             *_arrays("push_operator", nodes, modes),
-            *_arrays("outputs", 1, padded(outputs), modes),
-            *_arrays("sample", padded(outputs)),
+            *_arrays("outputs", 1, outputs, modes),
+            *_arrays("sample", outputs),
             # with Coriolis the same per increment; the size of displacement_operator per amplitude that turns; increment of the
             # last increment, had there been no force; forces on the modes' increments
             *_arrays("increment_operator size_operator", 3, nodes, modes),
             *_arrays("increment_push_operator", nodes, modes),
-            *_arrays("increment_outputs", 1, padded(outputs), modes),
+            *_arrays("increment_outputs", 1, outputs, modes),
             *_arrays("last_second_difference increment_push", modes),
             *_arrays("friction_share", 2, nodes),  # tangential and meridional force per normal force
             *_arrays("force", nodes),
@@ -169,7 +174,7 @@ def integration_record(layout: Layout) -> np.dtype:
             *_arrays("own_flexibility", 3, nodes),
             *_arrays("settled", nodes),
             *_arrays("static_force", 3 * nodes),
-            *_arrays("force_outputs", 1, padded(outputs), 3 * nodes),
+            *_arrays("force_outputs", 1, outputs, 3 * nodes),
             *_arrays("rotation", nodes),  # signed sliding in a step by the rotation (m)
             *_arrays("bar_position", nodes),  # angle at step 0, in bars
             *_arrays("radius theta shift", nodes),  # m; angle at step 0 and what vibration adds to it (rad)
