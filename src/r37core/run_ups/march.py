@@ -111,6 +111,7 @@ class March:
 
     def _stages_of(self, simulation: Simulation, segment: Segment) -> Iterator[Stage]:
         state, problem, paces = self.state, simulation.problem, simulation.paces
+        shapes = problem.state_shapes
         assert paces.increments is not None
         by_displacement, by_velocity = paces.increments
         taken: int | None = None
@@ -136,7 +137,7 @@ class March:
                 np.repeat(course.wear, lasted),
                 record.snapshots,
                 speeds[list(instants)],
-                problem.state_shapes,
+                shapes,
                 record.diverged,
             )
 
