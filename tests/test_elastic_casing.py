@@ -269,6 +269,18 @@ def test_a_run_up_with_an_elastic_casing_keeps_its_balance(engine):
     assert abs(missing) < 1e-9 * (abs(totals["work"]) + totals["loss"])
 
 
+@pytest.mark.parametrize("name", ["abradable", "direct"])
+def test_a_run_up_of_many_stretches_is_that_of_the_reference(name):
+    """Where the casing is in the rotor's frame goes on from stretch to stretch."""
+    choice, found = replace(CHOICE, revolutions=3, time_step=5e-7, samples_per_revolution=31), []
+    for engine in ("compiled", "reference"):
+        run_up = RunUp(3000.0, 3300.0, 1.3, before=0, after=0, worn=False)
+        march = March(random_model(8), ELASTIC_SCENES[name], replace(choice, engine=engine), run_up)
+        found.append(np.concatenate([stage.samples for stage in march.stages()]))
+    assert max(len(segment.stretches) for segment in march.segments) > 10
+    np.testing.assert_allclose(found[0], found[1], rtol=0, atol=1e-10 * np.abs(found[1]).max())
+
+
 @pytest.mark.parametrize("radius", [0.1, 0.251, 0.51, 255.0])
 def test_a_ring_far_from_the_tip_is_refused(radius):
     scene = ELASTIC_SCENES["direct"]

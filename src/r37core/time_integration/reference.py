@@ -52,19 +52,19 @@ class ReferenceEngine:
         """Do the steps of every row of `out.samples`, as the compiled engine does; returns the rows done."""
         if course is None:
             course = Course(np.array([self._place]), np.array([len(out.samples)]), len(state.displacement))
-        first, done = state.samples, 0
+        first, snapshots_before = state.samples, self.problem.snapshots_after(state.samples)
         for stretch, (place, samples) in enumerate(zip(course.places, course.samples, strict=True)):
             self._go_over(state, place)
             course.ends[stretch, 0] = state.displacement, state.increment
-            kept = self.problem.snapshots_after(first + done) - self.problem.snapshots_after(first)
+            done, kept = state.samples - first, self.problem.snapshots_after(state.samples) - snapshots_before
             part = SimulationRecord(out.samples[done : done + samples], out.snapshots[kept:])
-            reached, bounded = self._stretch(state, part, first + done)
-            done += reached
+            reached, bounded = self._stretch(state, part)
+            state.samples += reached
             course.ends[stretch, 1] = state.displacement, state.increment
             course.wear[stretch] = 0.0 if state.wear is None else state.wear.max()
             if not bounded:
                 break
-        return done
+        return state.samples - first
 
     def _go_over(self, state: SimulationState, place: int) -> None:
         """Take a pace; displacement and velocity go over to it."""
@@ -76,9 +76,9 @@ class ReferenceEngine:
         self.take(place)
         state.increment[:] = by_displacement[place] * state.displacement + by_velocity[place] * velocity
 
-    def _stretch(self, state: SimulationState, out: SimulationRecord, first: int) -> tuple[int, bool]:
-        """Go on after the `first` samples at one pace; returns the rows done, and whether they are within the limit."""
-        problem, motion = self.problem, self.motion.read(state)
+    def _stretch(self, state: SimulationState, out: SimulationRecord) -> tuple[int, bool]:
+        """Go on at one pace; returns the rows done, and whether they are within the limit."""
+        problem, motion, first = self.problem, self.motion.read(state), state.samples
         done, kept, bounded = 0, 0, True
         step = self._second_order_step if problem.second_order else self._step
         self.static_force = state.lining_force.copy()

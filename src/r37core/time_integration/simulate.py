@@ -72,7 +72,7 @@ class Simulation:
         outputs, numbers = problem.output_operator.shape
         out = SimulationRecord(np.empty((asked, outputs)), np.empty((snapshots(asked), numbers)))
         done = self.engine.advance(state, out, course)
-        state.samples += asked
+        state.samples = first + asked
         diverged = done < asked or not (np.abs(out.samples[done - 1]) < problem.scene.divergence_limit).all()
         of_tip = len(TIP_POINTS) * len(DIRECTIONS)
         casing = None if problem.ring is None else out.samples[:done, of_tip:]
