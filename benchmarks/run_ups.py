@@ -45,7 +45,7 @@ VARIANTS = {
     "twice the revolutions before": {"before": 400},
     "lining worn by the same run-up": {"worn": True},
 }
-TRIED = ((2e-6, 1e-2), (2e-6, 5e-2), (2e-6, 1e-1), (2e-4, 5e-2), (1e-3, 5e-2), (4e-3, 5e-2))
+TRIED = ((2e-6, 1e-2), (2e-6, 5e-2), (2e-4, 5e-2), (1e-3, 5e-2), (4e-3, 5e-2))
 
 
 def rates_table():

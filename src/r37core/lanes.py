@@ -244,24 +244,19 @@ def sum_of_lanes(typingctx, value):
     return types.float64(value), build
 
 
-@intrinsic
-def numbers_at(typingctx, address):
-    """The doubles that begin at an address, which is an integer of a record."""
+def _elements_at(kind: types.Type) -> Callable:
+    @intrinsic
+    def elements_at(typingctx, address):
+        def build(context, builder, sig, args):
+            return builder.inttoptr(args[0], context.get_value_type(sig.return_type))
 
-    def build(context, builder, sig, args):
-        return builder.inttoptr(args[0], context.get_value_type(sig.return_type))
+        return types.CPointer(kind)(address), build
 
-    return types.CPointer(types.float64)(address), build
+    return elements_at
 
 
-@intrinsic
-def integers_at(typingctx, address):
-    """The same of integers."""
-
-    def build(context, builder, sig, args):
-        return builder.inttoptr(args[0], context.get_value_type(sig.return_type))
-
-    return types.CPointer(types.int64)(address), build
+numbers_at, integers_at = _elements_at(types.float64), _elements_at(types.int64)
+"""The doubles, or integers, that begin at an address, which is an integer of a record."""
 
 
 @intrinsic

@@ -49,7 +49,7 @@ class March:
     """A run-up as it goes: the `state` of the time integration, and the `velocity` of the modes, shape (modes,).
 
     `energy` (J): of the vibration; `stiffness_work` (J): what the change of the stiffness with the speed has brought to it.
-    Both are those of the last segment's end. `wear` (m), shape (rings, bars): of a lining that is worn at the beginning.
+    Both are those of the last stage's end. `wear` (m), shape (rings, bars): of a lining that is worn at the beginning.
 
     Raises what Problem raises at either end, with the steps of the lower speed, which are the longest; ValueError for a model
     with a Coriolis matrix: complex modes turn into each other as the speed changes.
@@ -112,22 +112,17 @@ class March:
     def _stages_of(self, simulation: Simulation, segment: Segment) -> Iterator[Stage]:
         state, problem, paces = self.state, simulation.problem, simulation.paces
         shapes = problem.state_shapes
-        assert paces.increments is not None
-        by_displacement, by_velocity = paces.increments
-        taken: int | None = None
+        increments, begun = paces.increments, segment.paces.of_stretches[0]
+        assert increments is not None
+        simulation.engine.take(begun)
+        state.increment[:] = increments.increment(begun, state.displacement, self.velocity)
         for stretches in segment.at_once(_AT_ONCE * self._choice.samples_per_revolution):
             places, lasting = segment.paces.of_stretches[stretches], segment.lasting[stretches]
-            course = Course(places, lasting, len(state.displacement))
-            if places[0] != taken:
-                taken = places[0]
-                simulation.engine.take(taken)
-                state.increment[:] = by_displacement[taken] * state.displacement + by_velocity[taken] * self.velocity
-            first = state.samples
-            record = simulation.advance_samples(state, int(lasting.sum()), course)
+            course, first = Course(places, lasting, len(state.displacement)), state.samples
+            record = simulation.follow(state, course)
             lasted = np.diff(np.cumsum(lasting).clip(max=len(record.samples)), prepend=0)
             reached = np.count_nonzero(lasted)
-            taken = places[reached - 1]
-            self.velocity = (state.increment - by_displacement[taken] * state.displacement) / by_velocity[taken]
+            self.velocity = increments.velocity(places[reached - 1], state.displacement, state.increment)
             self._balance(paces.recursion[places[:reached]], course.ends[:reached])
             speeds = np.repeat(segment.paces.speeds[places], lasted)
             instants = problem.snapshots_between(first, first + len(speeds))

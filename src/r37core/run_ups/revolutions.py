@@ -20,7 +20,7 @@ from .march import March, Stage
 from .schedule import RunUp
 
 _AT_ONCE, _INSTANTS_AT_ONCE = 32, 256
-"""Revolutions whose samples, and instants whose stresses, are in memory together."""
+"""Revolutions that wait at most before they are reduced, beside those of a stage; instants whose stresses are in memory."""
 
 _SPECTRA = [DIRECTIONS.index("normal"), DIRECTIONS.index("tangential")]
 

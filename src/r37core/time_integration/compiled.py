@@ -124,9 +124,9 @@ class CompiledEngine:
         if self._kind.coriolis:
             of_modes["inverse_keep"] = 1.0 / recursion.keep
         if increments is not None:
-            by_displacement, by_velocity = increments
-            of_modes |= {"increment_by_displacement": by_displacement, "increment_by_velocity": by_velocity}
-            of_modes |= {"velocity_by_increment": 1.0 / by_velocity}
+            of_modes["increment_by_displacement"] = increments.by_displacement
+            of_modes["increment_by_velocity"] = increments.by_velocity
+            of_modes["velocity_by_increment"] = 1.0 / increments.by_velocity
         if plan is not None:
             fields["slow_modes"] = plan.slow_modes
             of_modes |= {"jumps": plan.jumps}
@@ -165,15 +165,13 @@ class CompiledEngine:
         found[..., self._places] = values
         return found
 
-    def advance(self, state: SimulationState, out: SimulationRecord, course: Course | None = None) -> int:
+    def advance(self, state: SimulationState, out: SimulationRecord, course: Course) -> int:
         """Do one block of steps per row of `out.samples`, from `state`, which is changed, and fill samples and snapshots.
 
-        They are done at the paces of `course`, whose ends and wear are filled, or at the pace taken. Returns the blocks done:
-        fewer when an output passed the limit or is NaN.
+        They are done at the paces of `course`, whose ends and wear are filled. Returns the blocks done: fewer when an output
+        passed the limit or is NaN.
         """
         m, modes, nodes = self._record[0], self._layout.modes, self._layout.nodes
-        if course is None:
-            course = Course(np.array([m["pace"]]), np.array([len(out.samples)]), len(state.displacement))
         ends = np.empty((*course.ends.shape[:-1], modes))
         # u and, with Coriolis, d of each
         of_mode = 1 + self._kind.coriolis

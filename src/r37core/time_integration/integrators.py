@@ -98,20 +98,36 @@ def recursion(
     return of[integrator](frequencies, damping_ratio, step)
 
 
+@dataclass(frozen=True)
+class Increments:
+    """Increment u_n - u_{n-1} of free modes per displacement u_n and per velocity at t_n, in the shape of a recursion."""
+
+    by_displacement: np.ndarray
+    by_velocity: np.ndarray
+
+    def increment(self, row: int, displacement: np.ndarray, velocity: np.ndarray) -> np.ndarray:
+        """That of one of several recursions."""
+        return self.by_displacement[row] * displacement + self.by_velocity[row] * velocity
+
+    def velocity(self, row: int, displacement: np.ndarray, increment: np.ndarray) -> np.ndarray:
+        """What the modes then have."""
+        return (increment - self.by_displacement[row] * displacement) / self.by_velocity[row]
+
+
 def increments(
     integrator: str, frequencies: np.ndarray, damping_ratio: float | np.ndarray, step: float | np.ndarray
-) -> tuple[np.ndarray, np.ndarray]:
-    """Increment u_n - u_{n-1} of a free mode per displacement u_n and per velocity at t_n, in the shape of a recursion.
+) -> Increments:
+    """Increments of the modes of a recursion.
 
     With exact_modal the closed form taken a step back; with central differences from v_n = (u_{n+1} - u_{n-1})/(2h) and the
     recursion. Of modes that turn by less than half a turn in a step.
     """
     if integrator == CENTRAL_DIFFERENCE:
         of = central_difference(frequencies, damping_ratio, step)
-        return of.pull / (1.0 + of.keep), 2.0 * step / (1.0 + of.keep)
+        return Increments(of.pull / (1.0 + of.keep), 2.0 * step / (1.0 + of.keep))
     decay, damped = damping_ratio * frequencies * step, frequencies * np.sqrt(1.0 - damping_ratio**2)
     grown, sine = np.exp(decay), np.sin(damped * step)
     # 1 - e^decay (cos - xi omega/omega_d sin), without the cancellation of small steps
     backwards = 2.0 * np.sin(0.5 * damped * step) ** 2 - np.expm1(decay) * np.cos(damped * step)
     backwards += grown * sine * damping_ratio * frequencies / damped
-    return backwards, grown * sine / damped
+    return Increments(backwards, grown * sine / damped)

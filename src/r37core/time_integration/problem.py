@@ -18,7 +18,7 @@ from r37core.rom.rotation import BucklingError
 from .clearance import check_ring, check_room, clearances
 from .gyroscopic import LARGEST_TURN, ComplexModes, complex_modes, complex_recursion
 from .integration_choice import LARGEST_TABLE, IntegrationChoice
-from .integrators import CENTRAL_DIFFERENCE, EXACT_MODAL, Recursion, increments, joined, recursion
+from .integrators import CENTRAL_DIFFERENCE, EXACT_MODAL, Increments, Recursion, increments, joined, recursion
 from .jump_plan import JumpPlan, plan_jumps
 from .step_limit import UnstableStepError, check_step
 
@@ -34,14 +34,14 @@ class LongRevolutionError(ValueError):
 class Paces(NamedTuple):
     """What of a problem changes with the speed while its modes are held: all with a first axis of speeds.
 
-    `increments`: per displacement and per velocity, each of shape (speeds, modes), see integrators; None of a single speed.
+    `increments`: None of a single speed.
     """
 
     recursion: Recursion
     coupling: np.ndarray
     jumps: JumpPlan | None
     clearance: np.ndarray
-    increments: tuple[np.ndarray, np.ndarray] | None
+    increments: Increments | None
 
 
 @dataclass(frozen=True, eq=False)
@@ -355,9 +355,8 @@ class Problem:
         """
         motion = self._motion_at(speeds)
         several = recursion(self.choice.integrator, *motion)
-        rooms = clearances(self.model, self.scene, speeds)
-        shares = increments(self.choice.integrator, *motion)
-        return Paces(several, self._coupling(several.inverse), self._jumps(several), rooms, shares)
+        rooms, of_modes = clearances(self.model, self.scene, speeds), increments(self.choice.integrator, *motion)
+        return Paces(several, self._coupling(several.inverse), self._jumps(several), rooms, of_modes)
 
     @cached_property
     def _stiffening(self) -> np.ndarray:

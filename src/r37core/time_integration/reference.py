@@ -48,10 +48,8 @@ class ReferenceEngine:
             self.rows = np.concatenate([self._blade_rows, of_casing], axis=-1)
         self.normal, self.tangential, self.meridional = self.rows
 
-    def advance(self, state: SimulationState, out: SimulationRecord, course: Course | None = None) -> int:
+    def advance(self, state: SimulationState, out: SimulationRecord, course: Course) -> int:
         """Do the steps of every row of `out.samples`, as the compiled engine does; returns the rows done."""
-        if course is None:
-            course = Course(np.array([self._place]), np.array([len(out.samples)]), len(state.displacement))
         first, snapshots_before = state.samples, self.problem.snapshots_after(state.samples)
         for stretch, (place, samples) in enumerate(zip(course.places, course.samples, strict=True)):
             self._go_over(state, place)
@@ -70,11 +68,11 @@ class ReferenceEngine:
         """Take a pace; displacement and velocity go over to it."""
         if place == self._place:
             return
-        assert self._paces.increments is not None
-        by_displacement, by_velocity = self._paces.increments
-        velocity = (state.increment - by_displacement[self._place] * state.displacement) / by_velocity[self._place]
+        increments = self._paces.increments
+        assert increments is not None
+        velocity = increments.velocity(self._place, state.displacement, state.increment)
         self.take(place)
-        state.increment[:] = by_displacement[place] * state.displacement + by_velocity[place] * velocity
+        state.increment[:] = increments.increment(place, state.displacement, velocity)
 
     def _stretch(self, state: SimulationState, out: SimulationRecord) -> tuple[int, bool]:
         """Go on at one pace; returns the rows done, and whether they are within the limit."""

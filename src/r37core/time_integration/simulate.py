@@ -61,10 +61,14 @@ class Simulation:
         """Go on by `revolutions` from `state`, which is changed."""
         return self.advance_samples(state, revolutions * self.problem.choice.samples_per_revolution)
 
-    def advance_samples(self, state: SimulationState, samples: int, course: Course | None = None) -> SimulationRecord:
-        """The same by a number of samples; at the paces of `course`, which has as many."""
+    def advance_samples(self, state: SimulationState, samples: int) -> SimulationRecord:
+        """The same by a number of samples."""
+        return self.follow(state, Course(np.zeros(1), np.array([samples]), len(state.displacement)))
+
+    def follow(self, state: SimulationState, course: Course) -> SimulationRecord:
+        """The same along a course."""
         problem = self.problem
-        first, asked = state.samples, samples
+        first, asked = state.samples, int(course.samples.sum())
 
         def snapshots(samples: int) -> int:
             return problem.snapshots_after(first + samples) - problem.snapshots_after(first)
