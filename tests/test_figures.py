@@ -191,7 +191,7 @@ def test_spectral_map_has_every_speed_on_its_own_scale(datasets):
     """Beside the peak, a thousandth of its motion is as bright; how much it is stands above."""
     spectra = datasets["spectrum"].sel(blade="Ref", scene="abradable")
     figure = maps.draw_spectral_map(spectra, datasets["campbell"].sel(blade="Ref"), "Ref, abradable")
-    strip, picture = figure.axes[0], figure.axes[2].collections[0]
+    strip, picture = figure.axes[0], figure.axes[2].images[0]
     shown = np.asarray(picture.get_array())
     np.testing.assert_allclose(shown[1:].max(axis=0), 0.0, atol=1e-12)
     assert picture.get_clim() == (-60.0, 0.0)

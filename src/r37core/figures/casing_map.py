@@ -9,6 +9,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from . import style
+from .cells import draw_cells
 
 _DECIBELS = 60.0
 
@@ -31,13 +32,12 @@ def draw_casing_map(maps: xr.Dataset, title: str) -> Figure:
         panels[0, 0].text(0.5, 0.5, said, ha="center", transform=panels[0, 0].transAxes)
         return figure
     every = np.arange(diameters.min(), diameters.max() + 1.0)
-    cells = _edges(speed), np.append(every - 0.5, every[-1] + 0.5)
     for axes, (wave, level) in zip(panels[0], levels.items(), strict=True):
         # several modes of one nodal diameter add up; without any the row stays empty
         of_diameter = np.array([np.sqrt(np.sum(level[diameters == one] ** 2, axis=0)) for one in every])
         decibels = 20.0 * np.log10(np.maximum(of_diameter / largest, 1e-30))
         decibels[~np.isin(every, diameters)] = np.nan
-        picture = axes.pcolormesh(*cells, decibels, vmin=-_DECIBELS, vmax=0.0, cmap="magma", rasterized=True)
+        picture = draw_cells(axes, speed, every, decibels, vmin=-_DECIBELS, vmax=0.0, cmap="magma")
         axes.set_title(f"{wave}: {'with' if wave == 'forward' else 'against'} the rotor")
         axes.yaxis.set_major_locator(MaxNLocator(integer=True))
         axes.grid(False)
@@ -51,11 +51,3 @@ def draw_casing_map(maps: xr.Dataset, title: str) -> Figure:
     panels[1, 1].semilogy(speed, np.maximum(total, 1e-12), look)
     panels[1, 1].set(xlabel="speed (rad/s)", ylabel="rms (mm)")
     return figure
-
-
-def _edges(speed: np.ndarray) -> np.ndarray:
-    """Edges of cells about ascending speeds, half-way between them; a single one has a cell of 1 rad/s."""
-    if len(speed) == 1:
-        return np.array([speed[0] - 0.5, speed[0] + 0.5])
-    between = 0.5 * (speed[1:] + speed[:-1])
-    return np.concatenate([[2.0 * speed[0] - between[0]], between, [2.0 * speed[-1] - between[-1]]])

@@ -8,8 +8,8 @@ import matplotlib.pyplot as plt
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
-from matplotlib.collections import QuadMesh
 from matplotlib.figure import Figure
+from matplotlib.image import AxesImage
 from matplotlib.ticker import MaxNLocator
 
 from r37core.rom.naming import NAMED_MODES
@@ -17,6 +17,7 @@ from r37core.rom.naming import NAMED_MODES
 from . import style
 from .bins import largest_of_bins
 from .casing_map import draw_casing_map
+from .cells import draw_cells
 
 _DECIBELS = 60.0
 _MOST_BINS = 400
@@ -53,7 +54,7 @@ def draw_spectral_map(maps: xr.Dataset, campbell: xr.Dataset, title: str) -> Fig
     return figure
 
 
-def _draw_spectrum(strip: Axes, axes: Axes, amplitude: xr.DataArray, campbell: xr.Dataset) -> QuadMesh | None:
+def _draw_spectrum(strip: Axes, axes: Axes, amplitude: xr.DataArray, campbell: xr.Dataset) -> AxesImage | None:
     if not amplitude.sizes["speed"]:
         axes.text(0.5, 0.5, "every run diverged", ha="center", transform=axes.transAxes)
         strip.set_axis_off()
@@ -66,7 +67,7 @@ def _draw_spectrum(strip: Axes, axes: Axes, amplitude: xr.DataArray, campbell: x
     decibels = 20.0 * np.log10(np.maximum(values / largest[:, None], 1e-30))
     strip.semilogy(speed, largest, linewidth=0.8)
     style.rpm_axis(strip, most_ticks=6)
-    picture = axes.pcolormesh(speed, order, decibels.T, vmin=-_DECIBELS, vmax=0.0, cmap="magma", rasterized=True)
+    picture = draw_cells(axes, speed, order, decibels.T, vmin=-_DECIBELS, vmax=0.0, cmap="magma")
     for mode in NAMED_MODES:
         frequency = campbell["frequency"].sel(mode=mode)
         turning = frequency["speed"].values[1:]
@@ -89,9 +90,8 @@ def draw_wear_map(maps: xr.Dataset, campbell: xr.Dataset, title: str) -> Figure:
     """Wear over speed and angle of one blade and scene; ticks mark the crossings of 1B with engine orders."""
     wear = maps["wear"].dropna("speed", how="all")
     figure, axes = plt.subplots(figsize=(style.COLUMN * 1.4, 3.4))
-    picture = axes.pcolormesh(
-        wear["speed"], np.degrees(wear["angle"]), 1e3 * wear.transpose("angle", "speed").values, cmap="viridis", rasterized=True
-    )
+    degrees, millimetres = np.degrees(wear["angle"].values), 1e3 * wear.transpose("angle", "speed").values
+    picture = draw_cells(axes, wear["speed"].values, degrees, millimetres, cmap="viridis")
     figure.colorbar(picture, ax=axes, label="wear (mm)")
     low, high = axes.get_xlim()
     for order, speed in campbell["crossing_speed"].sel(mode="1B").to_series().dropna().items():

@@ -13,6 +13,7 @@ from r37core.signals.orders import order_tracks, spectrogram, strongest_orders
 from r37core.units import RPM
 
 from . import style
+from .cells import draw_cells
 
 _DECADES = 4.0
 _TRACKS = 5
@@ -38,7 +39,7 @@ def draw_spectrograms(signals: xr.Dataset, title: str) -> Figure:
             shown = np.maximum(amplitudes[low], 1e-30)
             top = max(float(shown[1:].max()), 1e-29)
             norm = LogNorm(top / 10**_DECADES, top)
-            picture = axes.pcolormesh(revolutions, orders[low], shown, norm=norm, cmap="magma", rasterized=True)
+            picture = draw_cells(axes, revolutions, orders[low], shown, norm=norm, cmap="magma")
             figure.colorbar(picture, ax=axes, label=unit)
             axes.grid(False)
             if row == 0:

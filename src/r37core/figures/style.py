@@ -16,6 +16,8 @@ import matplotlib.pyplot as plt
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.backends.backend_pdf import FigureCanvasPdf
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 from matplotlib.ticker import MaxNLocator
@@ -134,7 +136,7 @@ _RPM = (lambda speed: np.multiply(speed, RPM), lambda turns: np.divide(turns, RP
 def picture_figure(picture: Path | str) -> Figure:
     """A figure across the page that shows a picture as it is, so that what was rendered can be had as a PDF, too."""
     pixels = plt.imread(picture)
-    figure = plt.figure(figsize=(PAGE, PAGE * pixels.shape[0] / pixels.shape[1]))
+    figure = plt.figure(figsize=(PAGE, PAGE * pixels.shape[0] / pixels.shape[1]), layout="none")
     axes = figure.add_axes((0.0, 0.0, 1.0, 1.0))
     axes.imshow(pixels, interpolation="none")
     axes.set_axis_off()
@@ -144,14 +146,18 @@ def picture_figure(picture: Path | str) -> Figure:
 def save(
     figure: Figure, files: Path | str | Sequence[Path | str], caption: str | None = None, dots_per_inch: float | None = None
 ) -> None:
-    """Write the figure, one file or several, with its caption as a description, atomically, and close it.
+    """Write the figure, one PNG or PDF or several, with its caption as a description, atomically, and close it.
 
-    The same data give the same bytes.
+    The same data give the same bytes. Not by Figure.savefig, which lays the figure out anew for each file and draws it twice.
     """
+    figure.set_dpi(dots_per_inch or plt.rcParams["savefig.dpi"])
+    figure.draw_without_rendering()
+    figure.set_layout_engine("none")
     for file in [files] if isinstance(files, str | Path) else files:
-        pdf = Path(file).suffix == ".pdf"
-        about = {"Subject": caption, "Creator": None, "Producer": None, "CreationDate": None} if pdf else {"Software": None}
         with atomic_write(file) as partial:
-            metadata = about if pdf else {**about, "Description": caption}
-            figure.savefig(partial, dpi=dots_per_inch or plt.rcParams["savefig.dpi"], metadata=metadata)
+            if Path(file).suffix == ".pdf":
+                about = {"Subject": caption, "Creator": None, "Producer": None, "CreationDate": None}
+                FigureCanvasPdf(figure).print_pdf(partial, metadata=about)
+            else:
+                FigureCanvasAgg(figure).print_png(partial, metadata={"Software": None, "Description": caption})
     plt.close(figure)

@@ -14,6 +14,7 @@ from matplotlib.figure import Figure
 
 from r37core.figures import style
 from r37core.figures.campbell_diagram import draw_campbell
+from r37core.figures.cells import draw_cells
 from r37core.figures.maps import draw_spectral_map
 from r37core.published import BLADES, INTERACTIONS, REFERENCE, VARIANTS, WIDTH_ABOVE_YIELD
 from r37core.results.measures import history_of, peak_of, width_above_yield
@@ -104,14 +105,14 @@ def draw_wear(response: xr.Dataset) -> Figure:
     figure, panels = plt.subplots(1, 2, figsize=(style.PAGE, 3.2), sharex=True)
     worn = response["wear"].dropna("speed", how="all")
     values = 1e3 * worn.transpose("angle", "speed").values
-    picture = panels[0].pcolormesh(worn["speed"], np.degrees(worn["angle"]), values, cmap="viridis", rasterized=True)
+    picture = draw_cells(panels[0], worn["speed"].values, np.degrees(worn["angle"].values), values, cmap="viridis")
     figure.colorbar(picture, ax=panels[0], location="bottom", aspect=35, label="wear (mm)")
     panels[0].set_ylabel("angle round the casing (degrees)")
     content = response["wear_harmonic"].dropna("speed", how="all")
     values = np.maximum(1e3 * content.transpose("lobes", "speed").values, 1e-12)
     top = max(float(values[1:].max()), 1e-9)
     norm = LogNorm(top / 10**_DECADES, top)
-    picture = panels[1].pcolormesh(content["speed"], content["lobes"], values, norm=norm, cmap="magma", rasterized=True)
+    picture = draw_cells(panels[1], content["speed"].values, content["lobes"].values, values, norm=norm, cmap="magma")
     figure.colorbar(picture, ax=panels[1], location="bottom", aspect=35, label="amplitude of the wear's lobes (mm)")
     panels[1].set(ylabel="lobes", ylim=(0.5, 12.5))
     for axes in panels:
@@ -130,9 +131,7 @@ def draw_variant_spectra(responses: Mapping[str, xr.Dataset], campbells: Mapping
         amplitude = shown[blade].dropna("speed", how="all")
         values = np.maximum(amplitude.transpose("engine_order", "speed").values, 1e-12)
         norm = LogNorm(top / 10**_DECADES, top)
-        picture = axes.pcolormesh(
-            amplitude["speed"], amplitude["engine_order"], values, norm=norm, cmap="magma", rasterized=True
-        )
+        picture = draw_cells(axes, amplitude["speed"].values, amplitude["engine_order"].values, values, norm=norm, cmap="magma")
         frequency = campbells[blade]["frequency"].sel(mode="1B").isel(speed=slice(1, None))
         axes.plot(frequency["speed"], 2.0 * np.pi * frequency / frequency["speed"], "--", color="white", linewidth=0.7)
         axes.set(xlim=(float(amplitude["speed"].min()), float(amplitude["speed"].max())), ylim=(0.0, 12.0))
