@@ -269,6 +269,14 @@ def test_the_share_is_kept_and_the_largest_goes_first():
     assert all(1600.0 <= speed <= 1740.0 for speed in added)
 
 
+@pytest.mark.parametrize(("left", "next_round"), [(50, 25), (20, 16), (10, 10), (0, 0), (-5, 0)])
+def test_a_round_takes_half_of_what_is_left_or_the_last_sixteen(left, next_round):
+    """Each round makes Snakemake plan again, so none is asked for a speed or two."""
+    rows = {speed: [0, 1.0 + number % 2, 1.0, 0.1] for number, speed in enumerate(PLAN.certain)}
+    share = (len(PLAN.certain) + left + 0.5) / 1251
+    assert len(next_speeds(GRID, known_of(rows), replace(CHOICE, largest_share=share))) == next_round
+
+
 def test_diverged_and_missing_numbers_are_no_peaks():
     rows = {speed: [int(RunStatus.DIVERGED), np.nan, np.nan, np.nan] for speed in PLAN.certain}
     assert next_speeds(GRID, known_of(rows), CHOICE) == []

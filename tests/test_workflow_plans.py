@@ -99,9 +99,29 @@ def test_a_round_reads_what_the_one_before_asked_for(refining):
 def test_what_a_round_is_told_is_what_it_takes(refining):
     """Plain values, of which a job makes the plan and the choice again."""
     assert from_plain(SpeedPlan, json.loads(json.dumps(refining.refined_plan(REF)))) == refining.speed_plan(REF)
-    choice = from_plain(RefinementChoice, json.loads(json.dumps(refining.refinement_choice)))
+    choice = from_plain(RefinementChoice, json.loads(json.dumps(refining.refinement_choice(REF))))
     assert [window.mode for window in choice.windows] == ["1B", "1T"]
     assert choice.prominence == 0.1
+
+
+def test_without_a_lining_a_round_has_a_share_of_its_own_and_no_windows(root):
+    """The response scatters there; both can be asked for all the same."""
+    run = {**REFINED, "blades": ["Ref"]}
+    direct, lined = (of(blade="Ref", scene=scene) for scene in ("direct", "abradable"))
+    settings = read_settings(root, command_line_document(run))
+    sweep = Sweep(settings)
+    assert (sweep.refinement_choice(direct)["windows"], sweep.refinement_choice(direct)["largest_share"]) == ([], 0.125)
+    assert sweep.refinement_choice(direct)["change"] == sweep.refinement_choice(lined)["change"]
+    assert settings.most_runs("Ref", "direct") < settings.most_runs("Ref", "abradable")
+    window = {"mode": "1B", "highest_engine_order": 3, "first": 0.0, "last": 0.1, "step_rad_s": 5.0}
+    chosen = {"refinement": {"direct": {"windows": [window], "largest_share": 0.9}}}
+    sweep = Sweep(read_settings(root, command_line_document(run | chosen)))
+    assert [one["highest_engine_order"] for one in sweep.refinement_choice(direct)["windows"]] == [3]
+    assert sweep.refinement_choice(direct)["largest_share"] == 0.9
+    assert sweep.refinement_choice(lined) == Sweep(settings).refinement_choice(lined)
+    window["highest_engine_order"] = 30
+    with pytest.raises(ConfigError, match=r"refinement\.direct\.windows\.0\.highest_engine_order: found 30; allowed"):
+        read_settings(root, command_line_document(run | chosen))
 
 
 @pytest.mark.parametrize("content", ["{}", '{"new": 3}', '{"new": ["x"]}', "{"])

@@ -16,6 +16,9 @@ from r37core.time_integration.status import RunStatus
 CURVES = ("rms_normal", "rms_tangential", "stress")
 """What is looked at over speed: rms (m) of the leading edge in two directions, largest stress as a share of yield."""
 
+LEAST_OF_A_ROUND = 16
+"""Speeds that a round may ask for where so many are left: each round makes Snakemake plan the whole run again."""
+
 
 @dataclass(frozen=True)
 class Window:
@@ -113,7 +116,8 @@ def next_speeds(grid: RefinedRange, members: Sequence[KnownSpeeds], choice: Refi
     worth = np.mean([_worth(one.curves[:, on_grid], one.status[on_grid], _scale(one), choice) for one in members], axis=0)
     open_intervals = np.flatnonzero((np.diff(places) > 1) & (worth > 0.0))
     # the largest first; half of the room, so that later rounds can follow what this one finds
-    chosen = sorted(open_intervals, key=lambda i: (-worth[i], i))[: max(-(-room // 2), 0)]
+    most = max(-(-room // 2), min(room, LEAST_OF_A_ROUND), 0)
+    chosen = sorted(open_intervals, key=lambda i: (-worth[i], i))[:most]
     return [grid.speed(int(places[i] + places[i + 1]) // 2) for i in sorted(chosen)]
 
 

@@ -95,6 +95,13 @@ class WindowSection(Section):
         return self
 
 
+class DirectRefinementSection(Section):
+    """What is else in scenes without lining, whose response scatters from speed to speed."""
+
+    windows: list[WindowSection] = Field(default=[], description="the same in scenes without lining")
+    largest_share: float = Field(default=0.125, gt=0, le=1, description="the same in scenes without lining")
+
+
 class RefinementSection(Section):
     """Where ranges with `refine_to` get more speeds."""
 
@@ -127,6 +134,7 @@ class RefinementSection(Section):
     largest_share: float = Field(
         default=0.2, gt=0, le=1, description="of the finest grid that is run at most; where the response is largest goes first"
     )
+    direct: DirectRefinementSection = DirectRefinementSection()
 
 
 def _numbers_of_part(part: str) -> tuple[int, int]:

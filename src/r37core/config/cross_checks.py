@@ -117,13 +117,15 @@ def simulations_can_be_planned(settings: Settings) -> None:
 def windows_have_crossings(settings: Settings) -> None:
     """No window lies above crossings that the Campbell diagram does not have."""
     highest = settings.campbell.highest_engine_order
-    for number, window in enumerate(settings.refinement.windows):
-        if window.highest_engine_order > highest and any(plan.refined for plan in settings.speed_plans.values()):
-            raise settings.documents.config.refusal(
-                ("refinement", "windows", number, "highest_engine_order"),
-                f"{window.highest_engine_order}",
-                f"at most campbell.highest_engine_order ({highest})",
-            )
+    given = settings.config.refinement
+    for place, windows in {("refinement",): given.windows, ("refinement", "direct"): given.direct.windows}.items():
+        for number, window in enumerate(windows):
+            if window.highest_engine_order > highest and any(plan.refined for plan in settings.speed_plans.values()):
+                raise settings.documents.config.refusal(
+                    (*place, "windows", number, "highest_engine_order"),
+                    f"{window.highest_engine_order}",
+                    f"at most campbell.highest_engine_order ({highest})",
+                )
 
 
 def history_speeds_are_run(settings: Settings) -> None:

@@ -87,10 +87,14 @@ class Settings:
         """What counts as an interaction."""
         return self.config.interactions
 
-    @property
-    def refinement(self) -> RefinementSection:
-        """Where ranges with `refine_to` get more speeds."""
-        return self.config.refinement
+    def refinement(self, scene: str) -> RefinementSection:
+        """Where ranges with `refine_to` get more speeds; in a scene without lining with windows and share of its own."""
+        given = self.config.refinement
+        return given if self.scenes[scene].scene.lining else given.model_copy(update=dict(given.direct))
+
+    def most_runs(self, blade: str, scene: str) -> int:
+        """Simulations of a blade and scene, at most where speeds are adaptive."""
+        return self.speed_plans[blade, scene].at_most(self.refinement(scene).largest_share)
 
     @property
     def studies(self) -> StudiesSection:
@@ -232,10 +236,10 @@ class Settings:
                 "Campbell diagrams are made for speeds up to that; raise it to what is run"
             )
         said += self.remarks_on_casings
-        refining = [plan for plan in self.speed_plans.values() if plan.refined]
+        refining = {place: plan for place, plan in self.speed_plans.items() if plan.refined}
         if refining:
-            certain = sum(len(plan.certain) for plan in refining)
-            most = sum(plan.at_most(self.refinement.largest_share) for plan in refining)
+            certain = sum(len(plan.certain) for plan in refining.values())
+            most = sum(self.most_runs(*place) for place in refining)
             said.append(
                 f"adaptive speed sampling: {certain} simulations and those of the windows first, about {most} at most; "
                 "they are planned round by round, so a dry run shows none of those to come"

@@ -87,12 +87,9 @@ class Sweep:
         names = [Path(file).stem for file in as_list(input.speeds)]
         return [float(name.removeprefix("speed_")) for name in names if name.startswith("speed_")]
 
-    @property
-    def refinement_choice(self) -> dict[str, Any]:
-        """What makes an interval of speeds worth halving, as fields of RefinementChoice."""
-        given = self.settings.refinement
-        windows = [si_fields(window) for window in given.windows]
-        return {**si_fields(given), "windows": windows, "prominence": self.settings.interactions.prominence}
+    def refinement_choice(self, wildcards: Any) -> dict[str, Any]:
+        """What makes an interval of speeds of a scene worth halving, as fields of RefinementChoice."""
+        return refinement_choice(self.settings, wildcards.scene)
 
     def task(self, wildcards: Any) -> str:
         """What one simulation does, as JSON text."""
@@ -134,8 +131,7 @@ class Sweep:
     @property
     def most_runs(self) -> int:
         """Simulations of the whole sweep, at most where speeds are adaptive."""
-        share = self.settings.refinement.largest_share
-        return sum(plan.at_most(share) for plan in self.settings.speed_plans.values())
+        return sum(self.settings.most_runs(*place) for place in self.settings.speed_plans)
 
     @property
     def kept(self) -> dict[str, int]:
@@ -215,3 +211,11 @@ def _asked_by(file: str, _time: int) -> list[float]:
 
 def _drawn(with_stress: bool) -> dict[str, str]:
     return {kind: f"<results>/{kind}.nc" for kind in ("campbell", "rms", *(["stress"] if with_stress else []))}
+
+
+def refinement_choice(settings: Settings, scene: str) -> dict[str, Any]:
+    """What makes an interval of speeds of a scene worth halving, as fields of RefinementChoice."""
+    given = settings.refinement(scene)
+    windows = [si_fields(window) for window in given.windows]
+    rest = si_fields((key, value) for key, value in given if key not in {"windows", "direct"})
+    return {**rest, "windows": windows, "prominence": settings.interactions.prominence}

@@ -170,10 +170,9 @@ class Tolerances:
             for name, model in zip(names, models, strict=True)
         ]
 
-    @property
-    def refinement_choice(self) -> dict[str, Any]:
+    def refinement_choice(self, wildcards: Any) -> dict[str, Any]:
         """As of the sweep, with the share of the grid that all members may be run at."""
-        return self.sweep.refinement_choice | {"largest_share": self.sweep.settings.config.tolerances.largest_share}
+        return self.sweep.refinement_choice(wildcards) | {"largest_share": self.sweep.settings.config.tolerances.largest_share}
 
     @property
     def files(self) -> paths.Wildcards:

@@ -45,9 +45,9 @@ def outputs(settings: Settings) -> dict[str, str]:
 
 def values(settings: Settings) -> dict[str, Any]:
     """How many runs each blade and scene has, as a rule at most with adaptive speeds, and where they are run."""
-    section, share = settings.studies.estimate, settings.refinement.largest_share
+    section = settings.studies.estimate
     return {
-        "runs": {f"{blade}__{scene}": plan.at_most(share) for (blade, scene), plan in settings.speed_plans.items()},
+        "runs": {"__".join(place): settings.most_runs(*place) for place in settings.speed_plans},
         "workflow_s_per_job": section.workflow_s_per_job,
         "cores": section.cores,
         "fidelity": settings.fidelity_name,

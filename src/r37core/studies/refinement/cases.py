@@ -6,7 +6,7 @@ from dataclasses import replace
 from typing import Any
 
 from r37core.config import ConfigError, Settings, plain
-from r37core.plans.sweep_plan import Sweep
+from r37core.plans.sweep_plan import refinement_choice
 from r37core.tolerances.sample import is_of_sample
 
 from ..case import Case
@@ -76,7 +76,7 @@ def values(settings: Settings) -> dict[str, Any]:
         "members": adaptive_members(settings),
         "plans": {name: settings.speed_plans[place] for name, place in adaptive(settings).items()},
         "steps": plain_steps(settings),
-        "choice": Sweep(settings).refinement_choice,
+        "choices": {name: refinement_choice(settings, scene) for name, (_, scene) in adaptive(settings).items()},
         "interactions": plain(settings.interactions),
     }
 

@@ -72,13 +72,14 @@ class Outcome:
 
 def report(responses: Mapping[str, xr.Dataset], files: Any, values: Mapping[str, Any]) -> dict[str, str]:
     """Each way to choose speeds against every speed of the grids."""
-    choice, interactions = from_plain(RefinementChoice, values["choice"]), from_plain(InteractionChoice, values["interactions"])
+    interactions = from_plain(InteractionChoice, values["interactions"])
     diagrams = read_dataset(files.campbell)
     ways: dict[str, dict[tuple[str, str], Outcome]] = {"adaptive": {}}
     every = {}
     for name, (blade, scene) in values["places"].items():
         response = ran(responses[name], name)
         campbell, plan = diagrams.sel(blade=blade), from_plain(SpeedPlan, values["plans"][name])
+        choice = from_plain(RefinementChoice, values["choices"][name])
         cases = values["members"].get(name, {})
         members = {member: above_yield(ran(responses[case], case), campbell, interactions) for member, case in cases.items()}
         every[blade, scene] = response.sizes["speed"]
