@@ -20,11 +20,12 @@ from numba.core import cgutils
 from numba.extending import intrinsic, lower_builtin, models, register_model, type_callable
 
 from .alignment import LANES
+from .known_arguments import KnowingCompiler
 
 OPTIONS: dict[str, Any] = {"fastmath": {"reassoc", "contract", "nsz", "arcp"}, "error_model": "numpy"}
 """Sums may be reordered and contracted; NaN and infinity keep their meaning, and a division by zero is no error."""
 
-inlined = njit(**OPTIONS, forceinline=True)
+inlined = njit(**OPTIONS, forceinline=True, pipeline_class=KnowingCompiler)
 """Compiles a function into those that call it: what a flag given as a constant leaves unused is then not in the program."""
 
 _FAST = tuple(sorted(OPTIONS["fastmath"]))

@@ -23,6 +23,7 @@ from .state import Course, SimulationRecord, SimulationState
 SOURCES = Sources(
     "alignment.py",
     "kept.py",
+    "known_arguments.py",
     "lanes.py",
     "native.py",
     "contact/casing.py",

@@ -6,6 +6,7 @@ import numba
 import numpy as np
 from numba import types
 
+from r37core.known_arguments import known
 from r37core.lanes import OPTIONS, inlined, pointed_at, spread, sum_of_lanes
 from r37core.native import object_code
 
@@ -15,6 +16,8 @@ from .lined_steps import meet_lining, push_lining, release_lining, resume_lining
 from .pace_steps import begin_stretch, end_stretch
 from .ring_steps import turn_jump, turn_step
 from .steps import leave_casing, measure_exact_gaps, measure_gaps, meet, predict, record
+
+known(Kind)
 
 
 @inlined
@@ -26,10 +29,12 @@ def _integrate(m, kind, pace_numbers):
     at_once = np.isinf(m.casing.rise)
     decay = 0.0 if at_once else np.exp(-m.casing.rise)
     coarse_per_block = (m.steps_per_block + COARSE - 1) // COARSE
-    beyond, bounded, first_stride = False, False, 1
+    # any integers for numba: what it gives a plain 0 or 1 to is compiled for just that, too
+    zero, one = int(np.int64(0)), int(np.int64(1))
+    beyond, bounded, first_stride = False, False, one
     # with a lining of second order: whether there may be forces, and whether it has pressed in this step
     follows = pushed = False
-    done = kept = stretch = until = 0
+    done = kept = stretch = until = zero
     while done < m.blocks:
         begins = done == until
         if begins:
@@ -39,7 +44,7 @@ def _integrate(m, kind, pace_numbers):
         remaining = 0.0 if at_once else np.exp(-m.casing.rise * start)
         if place == 0 or begins:
             # so that a run stopped after a revolution goes on with the same bits
-            beyond, bounded, first_stride = False, False, 1
+            beyond, bounded, first_stride = False, False, one
             if kind.second_order:
                 follows = resume_lining(m)
         work = lost = spread(0.0)
