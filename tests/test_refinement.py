@@ -25,7 +25,7 @@ from r37core.config import ConfigError, load_settings
 from r37core.io import InputFileError
 from r37core.plain import from_plain, to_plain
 from r37core.speeds import RefinedRange, SpeedError, SpeedPlan, exact_text, plan_speeds
-from r37core.studies.refinement.report import above_yield, compare, plain_grid, refinement_table, replay
+from r37core.studies.refinement.report import above_yield, compare, errors_between, plain_grid, refinement_table, replay
 from r37core.time_integration.speed_file import write_speed
 from r37core.time_integration.status import RunStatus
 from r37core.yaml_file import load_yaml
@@ -401,3 +401,18 @@ def test_a_round_of_a_blade_without_stress(root, tmp_path, monkeypatch):
     status, normal, _, stress = read_round(tmp_path / "round_1.json").measured[900.0]
     assert (status, normal) == (0, 1e-4)
     assert np.isnan(stress)
+
+
+def test_errors_between_the_speeds_that_are_run():
+    """Of a response with one spike: a line over it misses the spike, and nothing else."""
+    response = spiked()
+    for name in ("rms_normal", "max_von_mises"):
+        response[name][:] = 1.0
+        response[name].loc[{"speed": 1000.0}] = 3.0
+    share = 2.0 / (1251 + 2)
+    assert errors_between(response, [750.0, 999.0, 1001.0, 2000.0]) == pytest.approx((share, share, 2.0 / 3.0))
+    assert errors_between(response, [750.0, 999.0, 1000.0, 1001.0, 2000.0]) == (0.0, 0.0, 0.0)
+    diverged = response.copy(deep=True)
+    diverged["max_von_mises"].loc[{"speed": 1000.0}] = np.nan
+    assert errors_between(diverged, [750.0, 2000.0])[1:] == (0.0, 0.0)
+    assert np.isnan(errors_between(response.drop_vars("max_von_mises"), [750.0, 2000.0])[1:]).all()

@@ -32,7 +32,7 @@ NEVER = 2**60
 
 
 FEWEST_MODES = 32
-"""Of a blade in a layout. Each layout compiles for half a minute, so a small blade takes that of a larger one."""
+"""Of a blade in a layout. Each layout compiles for a quarter of a minute, so a small blade takes that of a larger one."""
 
 
 class Layout(NamedTuple):

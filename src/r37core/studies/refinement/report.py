@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -62,12 +62,16 @@ class Comparison:
 
 @dataclass(frozen=True)
 class Outcome:
-    """One way to choose speeds of one blade and scene: runs of its first round, of all, and the interactions above yield."""
+    """One way to choose speeds of one blade and scene: runs of its first round, of all, and the interactions above yield.
+
+    `errors`: of a line drawn through its speeds, see `errors_between`.
+    """
 
     first: int
     runs: int
     rounds: int
     interactions: list[Comparison]
+    errors: tuple[float, ...] = ()
 
 
 def report(responses: Mapping[str, xr.Dataset], files: Any, values: Mapping[str, Any]) -> dict[str, str]:
@@ -135,7 +139,27 @@ def compare(
     wanted, got = (above_yield(part, campbell, interactions) for part in (response, response.sel(speed=run)))
     shares = shares_of_members(wanted, members, interactions) if members else [math.nan] * len(wanted)
     compared = [_held_against(row, got, share) for row, share in zip(wanted, shares, strict=True)]
-    return Outcome(len(speeds[0]), len(run), len(speeds), compared)
+    return Outcome(len(speeds[0]), len(run), len(speeds), compared, errors_between(response, run))
+
+
+def errors_between(response: xr.Dataset, run: Sequence[float]) -> tuple[float, float, float]:
+    """What straight lines between the speeds `run` (rad/s) miss of every speed of the grid that has numbers.
+
+    Mean errors of the leading edge's rms and of the largest stress, as shares of their means, then the share of the largest
+    stress that is not seen; NaN without stress.
+    """
+    rms = leading_edge(response)["rms_normal"].values
+    stress = response["max_von_mises"].values if "max_von_mises" in response else np.full_like(rms, np.nan)
+    speed = response["speed"].values
+    errors: list[float] = []
+    for curve in (rms, stress):
+        finite = np.isfinite(curve)
+        known = finite & np.isin(speed, run)
+        if not known.any():
+            return errors[0] if errors else math.nan, math.nan, math.nan
+        missed = np.abs(np.interp(speed[finite], speed[known], curve[known]) - curve[finite])
+        errors.append(float(np.mean(missed) / np.mean(curve[finite])))
+    return errors[0], errors[1], float(1.0 - np.max(curve[known]) / np.max(curve[finite]))
 
 
 def above_yield(response: xr.Dataset, campbell: xr.Dataset, interactions: InteractionChoice) -> list[Interaction]:
@@ -182,7 +206,23 @@ def refinement_table(outcomes: Mapping[str, Mapping[tuple[str, str], Outcome]], 
     return (
         f"Interactions above yield that are found at all, and with peak and width within {TOLERANCE:g} rad/s; runs of each way "
         f"to choose speeds. Robust: at least half of the members show it.\n\n"
-        f"{markdown_table(['blade', 'scene', 'whole grid', *outcomes], rows)}\n{_of_missed(missed)}"
+        f"{markdown_table(['blade', 'scene', 'whole grid', *outcomes], rows)}\n"
+        f"{_of_errors(outcomes, scenes)}\n{_of_missed(missed)}"
+    )
+
+
+def _of_errors(outcomes: Mapping[str, Mapping[tuple[str, str], Outcome]], scenes: Iterable[str]) -> str:
+    """Means over the blades."""
+    rows = []
+    for scene in scenes:
+        for way, of_places in outcomes.items():
+            errors = np.mean([one.errors for place, one in of_places.items() if place[1] == scene], axis=0)
+            rows.append([scene, way, *(f"{100 * error:.1f}%" for error in errors)])
+    head = ["scene", "speeds", "rms", "largest stress", "largest stress of all"]
+    return (
+        "Straight lines between the speeds that are run, means over the blades: error of the leading edge's normal rms and of "
+        "the largest stress, over all speeds and as a share of the mean; what is not seen of the largest stress of all.\n\n"
+        f"{markdown_table(head, rows)}"
     )
 
 
