@@ -202,3 +202,25 @@ def test_a_folder_without_sockets_has_no_server(tmp_path, monkeypatch):
     monkeypatch.setenv(job_server.ADDRESS, "of another run")
     job_server.start(tmp_path / "job.py", Path(sys.executable))
     assert job_server.ADDRESS not in os.environ
+
+
+def test_what_jobs_have_in_common_is_loaded_in_the_server(root, tmp_path, starter, monkeypatch):
+    """Before each job, with its arguments; a failure there is not the job's."""
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("PYTHONPATH", str(root / "src"))
+    monkeypatch.setenv(job_server.ADDRESS, "")
+    Path(".snakemake").mkdir()
+    script = tmp_path / "job.py"
+    script.write_text(
+        "import sys\n"
+        "def make_ready(what):\n    sys.ready = [*getattr(sys, 'ready', []), what]\n    int(what)\n"
+        "if __name__ == '__main__':\n    print(sys.ready)\n"
+    )
+    assert job_server.start(script, Path(sys.executable))
+    server = job_server._KEPT.pop()
+    wait_for(Path(os.environ[job_server.ADDRESS]))
+    command = [sys.executable, "-S", "-E", starter, str(script)]
+    said = [subprocess.run([*command, what], capture_output=True, text=True, timeout=20).stdout for what in ("1", "one", "2")]
+    assert said == ["['1']\n", "['1', 'one']\n", "['1', 'one', '2']\n"]
+    server.stdin.close()
+    server.wait(20)

@@ -19,11 +19,23 @@ from r37core.time_integration.speed_run import run_speed
 
 # for the jobs that a server forks from here
 this_processor()
+MADE_READY = set()
+
+
+def make_ready(model, speed, output, log, task, about):
+    """Load what all jobs of a model and task have in common, once, for the server that forks them."""
+    if (model, task) not in MADE_READY and "only_prepare" not in task:
+        MADE_READY.add((model, task))
+        Simulation(read_contact_model(model), float(speed), *scene_and_choice(json.loads(task)))
+
+
+def scene_and_choice(task):
+    return from_plain(Scene, task["scene"]), from_plain(IntegrationChoice, task["choice"])
 
 
 def main(model, speed, output, task, about):
     task = json.loads(task)
-    scene, choice = from_plain(Scene, task["scene"]), from_plain(IntegrationChoice, task["choice"])
+    scene, choice = scene_and_choice(task)
     contact_model = read_contact_model(model)
     if task.get("only_prepare"):
         Simulation(contact_model, float(speed), scene, choice)

@@ -23,7 +23,7 @@ import sys
 import tempfile
 import threading
 import traceback
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import NamedTuple, NoReturn
 
@@ -70,6 +70,7 @@ def serve(address: Path, script: str) -> None:
                     if not _is_ours(job.arguments[0], Path(script).parent):
                         continue
                     imported.add(job.arguments[0])
+                    imported.make_ready(job.arguments)
                     if os.fork() == 0:
                         listener.close()
                         _answer(connection, job)
@@ -87,10 +88,14 @@ class _Job(NamedTuple):
 
 
 class _Imported:
-    """What the server has imported. Of `main`, a script, all is run once that stands outside its main part."""
+    """What the server has imported. Of `main`, a script, all is run once that stands outside its main part.
+
+    A function `make_ready` there gets the arguments of each of its jobs, before the job.
+    """
 
     def __init__(self, main: str):
         self._main, self._known = main, set[str]()
+        self._make_ready: Callable[..., None] | None = None
 
     def add(self, script: str) -> None:
         """Import what a script imports, as far as that is found; what is not is the job's own affair."""
@@ -101,11 +106,21 @@ class _Imported:
         signal.signal(signal.SIGCHLD, signal.SIG_DFL)
         for name in sorted(new):
             with contextlib.suppress(Exception):
-                runpy.run_path(name) if name == self._main else importlib.import_module(name)
+                if name == self._main:
+                    self._make_ready = runpy.run_path(name).get("make_ready")
+                else:
+                    importlib.import_module(name)
         signal.signal(signal.SIGCHLD, signal.SIG_IGN)
         # what is imported is no garbage: no job needs to look through it, and its memory stays shared
         gc.freeze()
         self._known |= new
+
+    def make_ready(self, arguments: list[str]) -> None:
+        """Let `main`, if it says how, load what a job of it has in common with others; what fails is the job's own affair."""
+        if arguments[0] == self._main and self._make_ready:
+            with contextlib.suppress(Exception):
+                self._make_ready(*arguments[1:])
+            gc.freeze()
 
 
 def _is_ours(script: str, folder: Path) -> bool:
