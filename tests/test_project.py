@@ -25,6 +25,7 @@ LAYERS = [
     "plain",
     "dataset_file",
     "alignment",
+    "known_arguments",
     "lanes",
     "kept",
     "native",

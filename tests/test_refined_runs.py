@@ -145,6 +145,9 @@ _REFINEMENT = """
 refinement:
   windows: [{ mode: 1B, highest_engine_order: 8, first: 0.02, last: 0.03, step_rad_s: 40 }]
   largest_share: 0.9
+  direct:
+    windows: [{ mode: 1B, highest_engine_order: 8, first: 0.02, last: 0.03, step_rad_s: 40 }]
+    largest_share: 0.9
 """
 
 
