@@ -41,25 +41,38 @@ def starter(root, tmp_path):
 
 
 @pytest.fixture
-def start(root, tmp_path, starter, monkeypatch):
-    """Starts a job of the script, as the rule does; `start.server` is the process of the server."""
+def serve(root, tmp_path, monkeypatch):
+    """Starts a server whose first script is a text; returns the script's file and the server's process."""
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("PYTHONPATH", str(root / "src"))
     monkeypatch.setenv(job_server.ADDRESS, "")
     Path(".snakemake").mkdir()
-    Path("job.py").write_text(SCRIPT)
-    job_server.start(tmp_path / "job.py", Path(sys.executable))
-    server = job_server._KEPT.pop()
-    wait_for(Path(os.environ[job_server.ADDRESS]))
+    script, servers = tmp_path / "job.py", []
+
+    def one(text):
+        script.write_text(text)
+        assert job_server.start(script, Path(sys.executable))
+        servers.append(job_server._KEPT.pop())
+        wait_for(Path(os.environ[job_server.ADDRESS]))
+        return script, servers[-1]
+
+    yield one
+    for server in servers:
+        server.stdin.close()
+        server.wait(20)
+
+
+@pytest.fixture
+def start(serve, starter):
+    """Starts a job of the script, as the rule does; `start.server` is the process of the server."""
+    _, server = serve(SCRIPT)
 
     def one(*arguments, out="out", **options):
         command = [sys.executable, "-S", "-E", starter, "job.py", out, *arguments]
         return subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, **options)
 
     one.server = server
-    yield one
-    server.stdin.close()
-    server.wait(20)
+    return one
 
 
 def wait_for(path, there=True):
@@ -204,23 +217,13 @@ def test_a_folder_without_sockets_has_no_server(tmp_path, monkeypatch):
     assert job_server.ADDRESS not in os.environ
 
 
-def test_what_jobs_have_in_common_is_loaded_in_the_server(root, tmp_path, starter, monkeypatch):
+def test_what_jobs_have_in_common_is_loaded_in_the_server(serve, starter):
     """Before each job, with its arguments; a failure there is not the job's."""
-    monkeypatch.chdir(tmp_path)
-    monkeypatch.setenv("PYTHONPATH", str(root / "src"))
-    monkeypatch.setenv(job_server.ADDRESS, "")
-    Path(".snakemake").mkdir()
-    script = tmp_path / "job.py"
-    script.write_text(
+    script, _ = serve(
         "import sys\n"
         "def make_ready(what):\n    sys.ready = [*getattr(sys, 'ready', []), what]\n    int(what)\n"
         "if __name__ == '__main__':\n    print(sys.ready)\n"
     )
-    assert job_server.start(script, Path(sys.executable))
-    server = job_server._KEPT.pop()
-    wait_for(Path(os.environ[job_server.ADDRESS]))
     command = [sys.executable, "-S", "-E", starter, str(script)]
     said = [subprocess.run([*command, what], capture_output=True, text=True, timeout=20).stdout for what in ("1", "one", "2")]
     assert said == ["['1']\n", "['1', 'one']\n", "['1', 'one', '2']\n"]
-    server.stdin.close()
-    server.wait(20)

@@ -116,11 +116,12 @@ def simulations_can_be_planned(settings: Settings) -> None:
 
 def windows_have_crossings(settings: Settings) -> None:
     """No window lies above crossings that the Campbell diagram does not have."""
-    highest = settings.campbell.highest_engine_order
-    given = settings.config.refinement
+    if not any(plan.refined for plan in settings.speed_plans.values()):
+        return
+    highest, given = settings.campbell.highest_engine_order, settings.config.refinement
     for place, windows in {("refinement",): given.windows, ("refinement", "direct"): given.direct.windows}.items():
         for number, window in enumerate(windows):
-            if window.highest_engine_order > highest and any(plan.refined for plan in settings.speed_plans.values()):
+            if window.highest_engine_order > highest:
                 raise settings.documents.config.refusal(
                     (*place, "windows", number, "highest_engine_order"),
                     f"{window.highest_engine_order}",

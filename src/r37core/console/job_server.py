@@ -120,7 +120,6 @@ class _Imported:
         if arguments[0] == self._main and self._make_ready:
             with contextlib.suppress(Exception):
                 self._make_ready(*arguments[1:])
-            gc.freeze()
 
 
 def _is_ours(script: str, folder: Path) -> bool:

@@ -15,10 +15,10 @@ def draw_cells(axes: Axes, across: np.ndarray, upward: np.ndarray, values: np.nd
     `look`: what Axes.pcolorfast takes for colours.
     """
     # of middles that are not evenly spaced an AxesImage, too
-    return cast(AxesImage, axes.pcolorfast(edges(across), edges(upward), values, **look))
+    return cast(AxesImage, axes.pcolorfast(_edges(across), _edges(upward), values, **look))
 
 
-def edges(middles: np.ndarray) -> np.ndarray:
+def _edges(middles: np.ndarray) -> np.ndarray:
     """Edges of cells about ascending middles, half-way between them; a single one has a cell of length 1."""
     middles = np.asarray(middles, dtype=float)
     if len(middles) == 1:

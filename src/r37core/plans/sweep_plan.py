@@ -89,7 +89,10 @@ class Sweep:
 
     def refinement_choice(self, wildcards: Any) -> dict[str, Any]:
         """What makes an interval of speeds of a scene worth halving, as fields of RefinementChoice."""
-        return refinement_choice(self.settings, wildcards.scene)
+        given = self.settings.refinement(wildcards.scene)
+        windows = [si_fields(window) for window in given.windows]
+        rest = si_fields((key, value) for key, value in given if key not in {"windows", "direct"})
+        return {**rest, "windows": windows, "prominence": self.settings.interactions.prominence}
 
     def task(self, wildcards: Any) -> str:
         """What one simulation does, as JSON text."""
@@ -211,11 +214,3 @@ def _asked_by(file: str, _time: int) -> list[float]:
 
 def _drawn(with_stress: bool) -> dict[str, str]:
     return {kind: f"<results>/{kind}.nc" for kind in ("campbell", "rms", *(["stress"] if with_stress else []))}
-
-
-def refinement_choice(settings: Settings, scene: str) -> dict[str, Any]:
-    """What makes an interval of speeds of a scene worth halving, as fields of RefinementChoice."""
-    given = settings.refinement(scene)
-    windows = [si_fields(window) for window in given.windows]
-    rest = si_fields((key, value) for key, value in given if key not in {"windows", "direct"})
-    return {**rest, "windows": windows, "prominence": settings.interactions.prominence}

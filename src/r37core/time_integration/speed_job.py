@@ -7,7 +7,7 @@ from typing import Any
 
 from r37core.contact.scene import Scene
 from r37core.plain import from_plain
-from r37core.rom.contact_model import read_contact_model
+from r37core.rom.contact_model import ContactModel, read_contact_model
 
 from .integration_choice import IntegrationChoice
 from .simulate import Simulation
@@ -24,22 +24,25 @@ def run_job(model: str, speed: str, output: str, task: str, about: str) -> None:
     Raises InputFileError, and what Problem raises.
     """
     wanted = json.loads(task)
-    scene, choice = _scene_and_choice(wanted)
-    contact_model = read_contact_model(model)
+    given = _given(model, speed, wanted)
     if wanted.get("only_prepare"):
-        Simulation(contact_model, float(speed), scene, choice)
-        return
-    result = run_speed(contact_model, float(speed), scene, choice, wanted["results"], **wanted["kept"])
-    write_speed(result, output, json.loads(about))
+        Simulation(*given)
+    else:
+        write_speed(run_speed(*given, wanted["results"], **wanted["kept"]), output, json.loads(about))
 
 
 def make_ready(model: str, speed: str, output: str, log: str, task: str, about: str) -> None:
     """Load what all jobs of a model and task have in common, once, for a server that forks them. Raises what the job would."""
+    if (model, task) in _READY:
+        return
+    _READY.add((model, task))
     wanted = json.loads(task)
-    if (model, task) not in _READY and not wanted.get("only_prepare"):
-        _READY.add((model, task))
-        Simulation(read_contact_model(model), float(speed), *_scene_and_choice(wanted))
+    # what is to be compiled is not compiled here, where all other jobs would wait
+    if not wanted.get("only_prepare"):
+        Simulation(*_given(model, speed, wanted))
 
 
-def _scene_and_choice(wanted: dict[str, Any]) -> tuple[Scene, IntegrationChoice]:
-    return from_plain(Scene, wanted["scene"]), from_plain(IntegrationChoice, wanted["choice"])
+def _given(model: str, speed: str, wanted: dict[str, Any]) -> tuple[ContactModel, float, Scene, IntegrationChoice]:
+    """What a simulation is made of."""
+    scene, choice = from_plain(Scene, wanted["scene"]), from_plain(IntegrationChoice, wanted["choice"])
+    return read_contact_model(model), float(speed), scene, choice

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from types import SimpleNamespace
 from typing import Any
 
 from r37core.config import ConfigError, Settings, plain
-from r37core.plans.sweep_plan import refinement_choice
+from r37core.plans.sweep_plan import Sweep
 from r37core.tolerances.sample import is_of_sample
 
 from ..case import Case
@@ -71,12 +72,13 @@ def outputs(settings: Settings) -> dict[str, str]:
 
 def values(settings: Settings) -> dict[str, Any]:
     """Plans of the speeds, steps of the plain grids, and what a sweep refines by."""
+    sweep, places = Sweep(settings), adaptive(settings)
     return {
-        "places": adaptive(settings),
+        "places": places,
         "members": adaptive_members(settings),
-        "plans": {name: settings.speed_plans[place] for name, place in adaptive(settings).items()},
+        "plans": {name: settings.speed_plans[place] for name, place in places.items()},
         "steps": plain_steps(settings),
-        "choices": {name: refinement_choice(settings, scene) for name, (_, scene) in adaptive(settings).items()},
+        "choices": {name: sweep.refinement_choice(SimpleNamespace(scene=scene)) for name, (_, scene) in places.items()},
         "interactions": plain(settings.interactions),
     }
 

@@ -71,7 +71,7 @@ class Outcome:
     runs: int
     rounds: int
     interactions: list[Comparison]
-    errors: tuple[float, ...] = ()
+    errors: tuple[float, float, float]
 
 
 def report(responses: Mapping[str, xr.Dataset], files: Any, values: Mapping[str, Any]) -> dict[str, str]:
@@ -151,15 +151,19 @@ def errors_between(response: xr.Dataset, run: Sequence[float]) -> tuple[float, f
     rms = leading_edge(response)["rms_normal"].values
     stress = response["max_von_mises"].values if "max_von_mises" in response else np.full_like(rms, np.nan)
     speed = response["speed"].values
-    errors: list[float] = []
-    for curve in (rms, stress):
-        finite = np.isfinite(curve)
-        known = finite & np.isin(speed, run)
-        if not known.any():
-            return errors[0] if errors else math.nan, math.nan, math.nan
-        missed = np.abs(np.interp(speed[finite], speed[known], curve[known]) - curve[finite])
-        errors.append(float(np.mean(missed) / np.mean(curve[finite])))
-    return errors[0], errors[1], float(1.0 - np.max(curve[known]) / np.max(curve[finite]))
+    (of_rms, _), (of_stress, unseen) = (_missed(speed, curve, run) for curve in (rms, stress))
+    return of_rms, of_stress, unseen
+
+
+def _missed(speed: np.ndarray, curve: np.ndarray, run: Sequence[float]) -> tuple[float, float]:
+    """Mean error of a curve's lines, and the share of its top above them; NaN where it has no numbers at the speeds `run`."""
+    finite = np.isfinite(curve)
+    known = finite & np.isin(speed, run)
+    if not known.any():
+        return math.nan, math.nan
+    lines = np.interp(speed[finite], speed[known], curve[known])
+    error = np.mean(np.abs(lines - curve[finite])) / np.mean(curve[finite])
+    return float(error), float(1.0 - np.max(curve[known]) / np.max(curve[finite]))
 
 
 def above_yield(response: xr.Dataset, campbell: xr.Dataset, interactions: InteractionChoice) -> list[Interaction]:
