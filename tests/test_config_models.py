@@ -97,7 +97,7 @@ def test_settings_can_be_given_as_a_dictionary(config_copy):
 def test_simulations_do_not_import_the_models(root):
     script = (root / "workflow/scripts/simulate.py").read_text()
     imports = "\n".join(line for line in script.splitlines() if line.startswith("from r37core"))
-    assert "run_speed" in imports
+    assert "run_job" in imports
     code = f"import sys\n{imports}\nprint(sorted({{'pydantic', 'yaml', 'netCDF4', 'xarray'}} & set(sys.modules)))"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout.strip() == "[]"
