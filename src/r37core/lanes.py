@@ -25,7 +25,8 @@ from .known_arguments import KnowingCompiler
 OPTIONS: dict[str, Any] = {"fastmath": {"reassoc", "contract", "nsz", "arcp"}, "error_model": "numpy"}
 """Sums may be reordered and contracted; NaN and infinity keep their meaning, and a division by zero is no error."""
 
-inlined = njit(**OPTIONS, forceinline=True, pipeline_class=KnowingCompiler)
+# wrappers for Python and C would be optimised and emitted, too, a quarter of all work, and nothing calls them
+inlined = njit(**OPTIONS, forceinline=True, no_cpython_wrapper=True, no_cfunc_wrapper=True, pipeline_class=KnowingCompiler)
 """Compiles a function into those that call it: what a flag given as a constant leaves unused is then not in the program."""
 
 _FAST = tuple(sorted(OPTIONS["fastmath"]))
