@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from scipy.optimize import brentq, root
+import scipy
 
 from .cone import Cone, ConstantRatePath
 
@@ -199,7 +199,7 @@ class Profile:
             return np.array([along, across]) / scale
 
         guess = np.array([0.0, (m - start.m) / (scale * np.cos(start.kappa))])
-        solution = root(miss, guess, tol=1e-14)
+        solution = scipy.optimize.root(miss, guess, tol=1e-14)
         path, end = path_of(solution.x), float(solution.x[1] * scale)
         if np.max(np.abs(miss(solution.x))) > 1e-10 or not abs(path.angle(end)) < _QUARTER_TURN:
             name = "suction" if side == SUCTION else "pressure"
@@ -221,7 +221,7 @@ class Profile:
         guess = -ahead(0.0)
         margin = 0.2 * abs(guess) + p.maximum_thickness
         try:
-            return float(brentq(ahead, guess - margin, guess + margin, xtol=1e-15))
+            return float(scipy.optimize.brentq(ahead, guess - margin, guess + margin, xtol=1e-15))
         except ValueError:
             name = "suction" if side == SUCTION else "pressure"
             raise BladeShapeError(

@@ -10,8 +10,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.interpolate import CubicSpline, make_interp_spline
-from scipy.optimize import root
+import scipy
 
 from .profile import BladeShapeError, Profile, area_and_centroid
 
@@ -40,7 +39,7 @@ class SpanLoft:
     """
 
     def __init__(self, spans: np.ndarray):
-        self._spline = CubicSpline(spans, np.eye(len(spans)), bc_type="not-a-knot", extrapolate=True)
+        self._spline = scipy.interpolate.CubicSpline(spans, np.eye(len(spans)), bc_type="not-a-knot", extrapolate=True)
         self._slope = self._spline.derivative()
 
     def weights(self, span: np.ndarray) -> np.ndarray:
@@ -115,7 +114,7 @@ def _moves_of_sections(profiles: Sequence[Profile], start: Placement) -> Placeme
 
     # "move by minus the offset found" has a unit Jacobian to first order; hybrid Powell starts there and, unlike the
     # plain iteration, also settles where the sections' extrapolated ends couple neighbouring profiles strongly
-    solution = root(offsets, np.zeros(2 * len(profiles)), tol=1e-12)
+    solution = scipy.optimize.root(offsets, np.zeros(2 * len(profiles)), tol=1e-12)
     residual = np.abs(offsets(solution.x))
     if not np.max(residual) < _TOLERANCE:
         worst = profiles[int(np.argmax(residual)) % len(profiles)]
@@ -164,7 +163,7 @@ def sweep_and_lean(spans: np.ndarray, table: np.ndarray) -> Placement:
     downstream; lean is positive in the direction of rotation, which is towards negative theta.
     """
     order = min(3, len(table) - 1)
-    spline = make_interp_spline(table[:, 0], table[:, 1:], k=order)
+    spline = scipy.interpolate.make_interp_spline(table[:, 0], table[:, 1:], k=order)
     sweep, lean = spline(spans).T
     return Placement(sweep, -lean)
 

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
-from scipy.special import ndtri
+import scipy
 
 MEMBER_NAME = r"\d+(?:b|f\d+)?"
 """Pattern of a member's name."""
@@ -40,7 +40,7 @@ class Tolerance:
         if self.kind == "uniform":
             found = nominal + (2.0 * share - 1.0) * width
         elif self.kind == "normal":
-            found = nominal + float(ndtri(share)) * width
+            found = nominal + float(scipy.special.ndtri(share)) * width
         elif self.kind == "between":
             found = first + share * (self.numbers[1] - first)
         else:
@@ -71,10 +71,7 @@ def places(numbers: int, members: int, seed: int) -> dict[str, tuple[float, ...]
     Those that sensitivity indices need beside them follow: 0b, an independent second sample, and 0f1, the first sample with
     the first number of the second one. Source: Saltelli et al. (2010), Comput. Phys. Commun. 181, 259-270.
     """
-    # half a second to import, and no run without tolerances needs it
-    from scipy.stats import qmc
-
-    both = qmc.Sobol(2 * numbers, rng=seed).random_base2(round(math.log2(members)))
+    both = scipy.stats.qmc.Sobol(2 * numbers, rng=seed).random_base2(round(math.log2(members)))
     # a normal distribution has no value at 0
     both = both.clip(2.0**-40, 1.0 - 2.0**-40)
     first, second = both[:, :numbers], both[:, numbers:]
