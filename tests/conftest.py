@@ -151,7 +151,7 @@ def contact(model):
 def compiled(root, tmp_path_factory):
     """The programs of the small sweep, with and without energies, made in this process.
 
-    After the first one, another of the same layout takes a tenth of its time; in jobs, each takes as long as the first.
+    After the first one, another of the same layout takes half of its time or less; in jobs, each takes as long as the first.
     """
     from workflow_runs import copy_project
 

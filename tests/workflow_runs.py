@@ -8,8 +8,10 @@ import sys
 import venv
 from pathlib import Path
 
+import warm_snakemake
+
 SNAKEMAKE = str(Path(sys.executable).with_name("snakemake"))
-LONGEST = 1800.0
+LONGEST = 1800
 """Of one command (s): ten times what a sweep takes, for the machine may be busy."""
 
 
@@ -75,11 +77,9 @@ def source(folder):
 def snakemake(folder, *arguments, check=True):
     environment = {key: value for key, value in os.environ.items() if not key.startswith("SNAKEMAKE")}
     environment |= {"PYTHONPATH": str(source(folder)), "R37_FULL_LOG": "1"}
-    done = subprocess.run(
-        [SNAKEMAKE, *arguments], cwd=folder, env=environment, capture_output=True, text=True, timeout=LONGEST, check=False
-    )
-    assert not check or done.returncode == 0, done.stdout + done.stderr
-    return done.stdout + done.stderr
+    status, text = warm_snakemake.run(folder, arguments, environment, LONGEST)
+    assert not check or status == 0, text
+    return text
 
 
 def planned(folder, *arguments):
