@@ -90,11 +90,15 @@ def test_figures_print_on_a_page_with_letters_to_read(datasets):
         plt.close(figure)
 
 
-def test_a_map_of_runs_that_all_diverged_says_so(datasets):
-    of = {kind: datasets[kind].sel(blade="Ref") for kind in ("campbell", "spectrum")}
-    figure = maps.draw_spectral_map(np.nan * of["spectrum"].sel(scene="abradable"), of["campbell"], "Ref, abradable")
+@pytest.mark.parametrize(
+    "draw, kind, panels",
+    [(maps.draw_spectral_map, "spectrum", 2), (maps.draw_wear_map, "wear", 1), (waterfall.draw_waterfall, "spectrum", 2)],
+)
+def test_a_map_of_runs_that_all_diverged_says_so(datasets, draw, kind, panels):
+    of_scene = datasets[kind].sel(blade="Ref", scene="abradable")
+    figure = draw(np.nan * of_scene, datasets["campbell"].sel(blade="Ref"), "Ref, abradable")
     figure.canvas.draw()
-    assert [text.get_text() for axes in figure.axes for text in axes.texts] == ["every run diverged"] * 2
+    assert [text.get_text() for axes in figure.axes for text in axes.texts] == ["every run diverged"] * panels
     plt.close(figure)
 
 

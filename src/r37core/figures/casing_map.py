@@ -28,8 +28,7 @@ def draw_casing_map(maps: xr.Dataset, title: str) -> Figure:
     levels = {wave: maps[f"casing_rms_{wave}"].transpose("casing_mode", "speed").values for wave in ("forward", "backward")}
     largest = max((float(level.max()) for level in levels.values() if level.size), default=0.0)
     if not largest > 0.0:
-        said = "the casing is at rest" if len(speed) else "every run diverged"
-        panels[0, 0].text(0.5, 0.5, said, ha="center", transform=panels[0, 0].transAxes)
+        style.say(panels[0, 0], "the casing is at rest" if len(speed) else style.ALL_DIVERGED)
         return figure
     every = np.arange(diameters.min(), diameters.max() + 1.0)
     for axes, (wave, level) in zip(panels[0], levels.items(), strict=True):

@@ -56,7 +56,7 @@ def draw_spectral_map(maps: xr.Dataset, campbell: xr.Dataset, title: str) -> Fig
 
 def _draw_spectrum(strip: Axes, axes: Axes, amplitude: xr.DataArray, campbell: xr.Dataset) -> AxesImage | None:
     if not amplitude.sizes["speed"]:
-        axes.text(0.5, 0.5, "every run diverged", ha="center", transform=axes.transAxes)
+        style.say(axes, style.ALL_DIVERGED)
         strip.set_axis_off()
         return None
     speed = amplitude["speed"].values
@@ -90,15 +90,22 @@ def draw_wear_map(maps: xr.Dataset, campbell: xr.Dataset, title: str) -> Figure:
     """Wear over speed and angle of one blade and scene; ticks mark the crossings of 1B with engine orders."""
     wear = maps["wear"].dropna("speed", how="all")
     figure, axes = plt.subplots(figsize=(style.COLUMN * 1.4, 3.4))
+    if wear.sizes["speed"]:
+        _draw_wear(axes, wear, campbell)
+    else:
+        style.say(axes, style.ALL_DIVERGED)
+    axes.set(xlabel="speed (rad/s)", ylabel="angle round the casing (degrees)", title=f"wear: {title}")
+    style.rpm_axis(axes)
+    axes.grid(False)
+    return figure
+
+
+def _draw_wear(axes: Axes, wear: xr.DataArray, campbell: xr.Dataset) -> None:
     degrees, millimetres = np.degrees(wear["angle"].values), 1e3 * wear.transpose("angle", "speed").values
     picture = draw_cells(axes, wear["speed"].values, degrees, millimetres, cmap="viridis")
-    figure.colorbar(picture, ax=axes, label="wear (mm)")
+    axes.figure.colorbar(picture, ax=axes, label="wear (mm)")
     low, high = axes.get_xlim()
     for order, speed in campbell["crossing_speed"].sel(mode="1B").to_series().dropna().items():
         if low <= speed <= high:
             axes.axvline(speed, color="white", linewidth=0.7, linestyle=":")
             _write_on_dark(axes, f"1B/{order}", (speed - low) / (high - low), 352.0, ha="left", va="top")
-    axes.set(xlabel="speed (rad/s)", ylabel="angle round the casing (degrees)", title=f"wear: {title}")
-    style.rpm_axis(axes)
-    axes.grid(False)
-    return figure

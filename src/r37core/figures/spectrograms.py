@@ -34,7 +34,7 @@ def draw_spectrograms(signals: xr.Dataset, title: str) -> Figure:
             )
             low = orders <= _HIGHEST_ORDER
             if not len(revolutions):
-                _say(axes, "too short")
+                style.say(axes, "too short")
                 continue
             shown = np.maximum(amplitudes[low], 1e-30)
             top = max(float(shown[1:].max()), 1e-29)
@@ -144,12 +144,8 @@ def _label(signals: xr.Dataset, panels: np.ndarray, vertical: str | None) -> Non
         axes.set_xlabel("revolution")
 
 
-def _say(axes: Axes, text: str) -> None:
-    axes.text(0.5, 0.5, text, ha="center", va="center", transform=axes.transAxes)
-
-
 def _nothing(title: str) -> Figure:
     figure, axes = plt.subplots(figsize=(4.0, 1.5))
-    _say(axes, f"{title}: no interaction, no signals")
+    style.say(axes, f"{title}: no interaction, no signals")
     axes.set_axis_off()
     return figure

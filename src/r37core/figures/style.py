@@ -118,6 +118,14 @@ def legend_entries(panels: Iterable[Axes]) -> tuple[list[Any], list[str]]:
     return list(entries.values()), list(entries)
 
 
+ALL_DIVERGED = "every run diverged"
+
+
+def say(axes: Axes, text: str) -> None:
+    """Write into the middle of a panel why it is empty."""
+    axes.text(0.5, 0.5, text, ha="center", va="center", transform=axes.transAxes)
+
+
 def rpm_axis(axes: Axes, most_ticks: int = 9) -> None:
     """A second axis above one of speeds in rad/s, in revolutions per minute."""
     above = axes.secondary_xaxis("top", functions=_RPM)

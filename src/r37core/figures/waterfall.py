@@ -35,6 +35,8 @@ def draw_waterfall(maps: xr.Dataset, campbell: xr.Dataset, title: str) -> Figure
     for axes, (name, direction) in zip(panels, DIRECTIONS.items(), strict=True):
         if rows:
             _draw(axes, kept[name], rows, campbell, highest, top)
+        else:
+            style.say(axes, style.ALL_DIVERGED)
         axes.set(xlabel="frequency (Hz)", xlim=(0.0, highest))
         axes.set_title(f"leading edge, {direction}", pad=14)
         axes.grid(False)
