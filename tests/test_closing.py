@@ -2,7 +2,9 @@
 
 import os
 
+import numpy as np
 import pytest
+import xarray as xr
 
 from r37core.console.closing import closing_lines
 
@@ -36,6 +38,13 @@ def test_found_where_and_how_long(tmp_path):
 )
 def test_lengths_of_time(tmp_path, seconds, text):
     assert closing_lines(written(tmp_path), 0.0, seconds)[2] == f"took {text}"
+
+
+def test_runs_that_diverged_are_counted(tmp_path):
+    """No interaction is found where none was completed."""
+    for status, said in (([0, 0, 2], ""), ([1, 1, 2], "; 2 of 2 runs diverged"), ([0, 1, 0], "; 1 of 3 runs diverged")):
+        xr.Dataset({"status": ("speed", np.array(status, "i1"))}).to_netcdf(tmp_path / "rms.nc")
+        assert closing_lines(written(tmp_path), 0.0, 1.0)[0] == f"found no interaction{said}"
 
 
 def test_nothing_found_and_nothing_new(tmp_path):

@@ -6,10 +6,11 @@ import csv
 from pathlib import Path
 
 from r37core.results.interaction_title import interaction_title
+from r37core.time_integration.status import RunStatus
 
 
 def closing_lines(results: Path, began: float, ended: float) -> list[str]:
-    """Three lines on the interactions in the folder `results`; none if the list is older than the run's start.
+    """Three lines on what the folder `results` has: interactions, runs that diverged; none if it is older than the run's start.
 
     `began` and `ended`: times in s, as file times are.
     """
@@ -18,7 +19,8 @@ def closing_lines(results: Path, began: float, ended: float) -> list[str]:
         return []
     with open(summary, newline="", encoding="utf-8") as stream:
         rows = list(csv.DictReader(stream))
-    return [_found(rows), f"look at {results}/explorer.html (any browser), {summary}, {results}/figures/", _took(ended - began)]
+    where = f"look at {results}/explorer.html (any browser), {summary}, {results}/figures/"
+    return [_found(rows) + _diverged(results / "rms.nc"), where, _took(ended - began)]
 
 
 def _found(rows: list[dict[str, str]]) -> str:
@@ -34,6 +36,21 @@ def _found(rows: list[dict[str, str]]) -> str:
             f"at {float(worst['max_von_mises_speed_rad_s']):.6g} rad/s ({title})"
         )
     return text
+
+
+def _diverged(file: Path) -> str:
+    """How many runs diverged; nothing where none did."""
+    # not at every start of Snakemake
+    import netCDF4
+
+    try:
+        with netCDF4.Dataset(file) as rms:
+            status = rms["status"][:]
+    except OSError:
+        # not there, or no dataset, which who reads it is told
+        return ""
+    diverged, runs = (status == RunStatus.DIVERGED).sum(), (status != RunStatus.NOT_RUN).sum()
+    return f"; {diverged} of {runs} runs diverged" if diverged else ""
 
 
 def _took(seconds: float) -> str:
