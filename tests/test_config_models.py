@@ -101,3 +101,11 @@ def test_simulations_do_not_import_the_models(root):
     code = f"import sys\n{imports}\nprint(sorted({{'pydantic', 'yaml', 'netCDF4', 'xarray'}} & set(sys.modules)))"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout.strip() == "[]"
+
+
+def test_a_plan_imports_no_optimiser():
+    """It takes half a second at every start of Snakemake, and a plan builds no blade."""
+    of_plans = "r37core.config, r37core.plans.sweep_plan"
+    code = f"import sys, {of_plans}\nprint({{'scipy.optimize', 'scipy.interpolate'}} & set(sys.modules))"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == "set()"
