@@ -259,7 +259,7 @@ def test_error_on_an_elastic_bar_falls_with_the_square_of_the_step(radius):
         problem, state = simulation.problem, simulation.start()
         # the lining's force at the start, against the rotation, of whose kick only the second half comes after it
         force = stiffness * (casing.clearance - casing.lobe(model.theta, np.zeros(1), 1.0)[0]) * np.array([1.0, -0.4, 0.0])
-        state.lining_force[:, 0] = force
+        state.contact_force[:, 0] = force
         by_u, by_d = (np.einsum("dki,d->i", one, force) for one in (problem.displacement_operator, problem.increment_operator))
         state.displacement[:], state.increment[:] = 0.5 * problem.recursion.inverse * np.array([by_d, -by_u])
         record = simulation.advance(state, 1)
@@ -282,7 +282,7 @@ def resting(simulation, force):
     inverse = problem.recursion.inverse
     state.displacement[:] = inverse * by_u / problem.recursion.pull + inverse * by_d
     state.increment[:] = inverse * by_d
-    state.lining_force[:, 0] = force
+    state.contact_force[:, 0] = force
     return state
 
 

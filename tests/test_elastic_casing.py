@@ -229,7 +229,7 @@ def test_error_on_an_elastic_bar_falls_with_the_square_of_the_step():
         simulation = Simulation(model, speed, scene, replace(CHOICE, time_step=step, samples_per_revolution=50))
         problem, state = simulation.problem, simulation.start()
         pressed = -stiffness * scene.casing.clearance * (1.0 - 0.2 * scene.casing.shape(np.zeros(1))[0])
-        state.lining_force[:, 0] = force = pressed * np.array([-1.0, coefficient, 0.0])
+        state.contact_force[:, 0] = force = pressed * np.array([-1.0, coefficient, 0.0])
         # u(-h) of what moves off from rest under this force
         state.increment[:] = -0.5 * problem.recursion.inverse * np.einsum("dki,d->i", problem.displacement_operator, force)
         record = simulation.advance(state, 1)

@@ -93,7 +93,7 @@ def test_the_limit_of_the_lining_is_where_pressed_nodes_become_unstable(monkeypa
     simulation = Simulation(model, speed, scene, choice)
     state = simulation.start()
     state.displacement[:] = rest * (1.0 + 1e-9)
-    state.lining_force[0] = -force
+    state.contact_force[0] = -force
     away = np.abs(simulation.advance(state, 1).samples[:, 0] / rest - 1.0)
     assert (away.max() > 1e-2) == (share > 1.0)
     assert share > 1.0 or away.max() < 1e-7
@@ -159,7 +159,7 @@ def test_a_split_run_with_static_modes_is_the_whole_run(contact):
         joined = np.concatenate([getattr(part, name) for part in parts])
         np.testing.assert_array_equal(joined, getattr(whole, name))
     np.testing.assert_array_equal(state.wear, whole_state.wear)
-    np.testing.assert_array_equal(state.lining_force, whole_state.lining_force)
+    np.testing.assert_array_equal(state.contact_force, whole_state.contact_force)
 
 
 @pytest.mark.slow

@@ -10,7 +10,6 @@ from integration_cases import ABRADABLE, AT_ONCE, DIRECT, LINING, assert_same_to
 from r37core.contact.casing import casing_axes
 from r37core.rom.contact_model import read_contact_model, write_contact_model
 from r37core.rom.reduced_model import contact_model
-from r37core.time_integration import step_limit
 from r37core.time_integration.integrators import CENTRAL_DIFFERENCE, EXACT_MODAL
 from r37core.time_integration.problem import Problem, UnstableStepError
 from r37core.time_integration.simulate import Simulation
@@ -85,29 +84,21 @@ SCENES = {
 }
 
 
-STEPPED = {"central_difference": (CENTRAL_DIFFERENCE, 1e-7), "exact_modal": (EXACT_MODAL, 1e-7)}
-STATIC = {"static_modes": (EXACT_MODAL, 8e-7)}
+STEPPED = {"central_difference": (CENTRAL_DIFFERENCE, 1e-7, 1), "exact_modal": (EXACT_MODAL, 8e-7, 2)}
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(
-    ("name", "way"),
-    [
-        *((name, way) for name in SCENES for way in STEPPED),
-        *((name, way) for name in SCENES if SCENES[name].lining for way in STATIC),
-    ],
-)
-def test_compiled_time_integration_is_the_reference(contact, name, way, monkeypatch):
+@pytest.mark.parametrize("name", SCENES)
+@pytest.mark.parametrize("way", STEPPED)
+def test_compiled_time_integration_is_the_reference(contact, name, way):
     """A turn of 10,000 steps, or two of long ones, of the compiled engine against the one with dense matrices, to 1e-10."""
-    # the engines agree on bars so wide, too, that a sweep would take shorter steps
-    monkeypatch.setattr(step_limit, "_LARGEST_LAG", 1.0)
-    (integrator, step), scene, speed = {**STEPPED, **STATIC}[way], SCENES[name], 6000.0
-    choice = IntegrationChoice(step, 2 if way in STATIC else 1, 62, integrator=integrator, energy=True)
+    (integrator, step, revolutions), scene, speed = STEPPED[way], SCENES[name], 6000.0
+    choice = IntegrationChoice(step, revolutions, 62, integrator=integrator, energy=True)
     states = []
     for engine in ENGINES:
         simulation = Simulation(contact, speed, scene, replace(choice, engine=engine))
-        assert way in STATIC or simulation.problem.steps_per_revolution > 10_000
-        assert (len(simulation.problem.frequencies) < len(contact.squared_frequencies)) == (way in STATIC)
+        stepped, of_model = len(simulation.problem.frequencies), len(contact.squared_frequencies)
+        assert (stepped < of_model) == (integrator == EXACT_MODAL)
         state = simulation.start()
         if name == "free":
             state.displacement[:] = 1e-5 / (1 + np.arange(len(simulation.problem.frequencies)))

@@ -48,7 +48,7 @@ class Stage:
 class March:
     """A run-up as it goes: the `state` of the time integration, and the `velocity` of the modes, shape (modes,).
 
-    `energy` (J): of the vibration; `stiffness_work` (J): what the change of the stiffness with the speed has brought to it.
+    `energy` (J): of the stepped modes; `stiffness_work` (J): what the change of the stiffness with the speed has brought to it.
     Both are those of the last stage's end. `wear` (m), shape (rings, bars): of a lining that is worn at the beginning.
 
     Raises what Problem raises at either end, with the steps of the lower speed, which are the longest; ValueError for a model
@@ -88,6 +88,20 @@ class March:
 
     def _problem(self, speed: float) -> Problem:
         return Problem(self._model, speed, self._scene, self._choice)
+
+    @property
+    def whole_energy(self) -> float:
+        """Energy (J) of the vibration, that of the static modes in it."""
+        return self.energy + self._static_energy
+
+    @property
+    def work(self) -> float:
+        """Work (J) of the contact forces since the start: on the stepped modes, and all that the static ones hold."""
+        return float(self.state.totals["work"]) + self._static_energy
+
+    @property
+    def _static_energy(self) -> float:
+        return 0.0 if self._simulation is None else self._simulation.problem.static_energy(self.state.contact_force)
 
     def stages(self) -> Iterator[Stage]:
         """Do all stretches; ends with a stage that says so when the run diverges."""

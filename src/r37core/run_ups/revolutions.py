@@ -62,7 +62,7 @@ def record_run_up(
     if "wear" not in results:
         del found["max_wear"]
     if "energy" in results:
-        found |= energy_balance(march.state, march.energy, march.stiffness_work)
+        found |= energy_balance(march.work, float(march.state.totals["loss"]), march.whole_energy, march.stiffness_work)
         found["stiffness_work"] = np.array(march.stiffness_work)
     return found
 

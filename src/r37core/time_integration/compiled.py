@@ -29,11 +29,12 @@ SOURCES = Sources(
     "contact/casing.py",
     "contact/complementarity.py",
     "contact/laws.py",
+    "contact/node_sweeps.py",
     "contact/ring.py",
     "contact/scene.py",
+    "time_integration/contact_steps.py",
     "time_integration/jump_steps.py",
     "time_integration/layout.py",
-    "time_integration/lined_steps.py",
     "time_integration/pace_steps.py",
     "time_integration/program.py",
     "time_integration/ring_steps.py",
@@ -67,7 +68,6 @@ class CompiledEngine:
         self._kind = kind = Kind(
             published=choice.integrator == CENTRAL_DIFFERENCE,
             lined=scene.lining is not None,
-            second_order=problem.second_order,
             vector_friction=scene.friction is not None and scene.friction.vector,
             coupled=scene.friction is None or scene.friction.coupled,
             exact_gap=scene.exact_gap,
@@ -91,7 +91,7 @@ class CompiledEngine:
             self._lay_out_friction(problem, scene.friction)
         if scene.lining is not None:
             self._lay_out_lining(problem, scene.lining)
-        if kind.second_order:
+        if not kind.published:
             self._lay_out_static_modes(problem)
         self._paces = self._table_of(paces)
         self.take(0)
@@ -115,10 +115,12 @@ class CompiledEngine:
     def _table_of(self, paces: Paces) -> np.ndarray:
         """The paces as they stand in the record, shape (paces,)."""
         recursion, coupling, plan, clearance, increments = paces
-        normal = coupling[:, NORMAL]
-        # friction of constant direction is part of what a normal force does
-        response = normal if self._constant_share is None else normal + self._constant_share * coupling[:, TANGENTIAL]
-        fields = {"clearance": clearance, "coupling": coupling, "columns": normal, "response": response}
+        fields = {"clearance": clearance}
+        if coupling is not None:
+            normal = coupling[:, NORMAL]
+            # friction of constant direction is part of what a normal force does
+            response = normal if self._constant_share is None else normal + self._constant_share * coupling[:, TANGENTIAL]
+            fields |= {"coupling": coupling, "columns": normal, "response": response}
         of_modes = {"keep": recursion.keep, "pull": recursion.pull, "inverse": recursion.inverse}
         if self._kind.energy:
             of_modes["loss"] = recursion.loss
@@ -133,7 +135,7 @@ class CompiledEngine:
             of_modes |= {"jumps": plan.jumps}
             of_modes |= {"amplitude_by_u": plan.amplitude_rows[:, 0], "amplitude_by_d": plan.amplitude_rows[:, 1]}
         fields |= {name: self._spread(values) for name, values in of_modes.items()}
-        found = aligned_zeros((len(normal),), pace_record(self._layout))
+        found = aligned_zeros((len(clearance),), pace_record(self._layout))
         # a node that only pads the vector must not touch
         found["clearance"] = 1.0
         for name, values in fields.items():
@@ -177,7 +179,7 @@ class CompiledEngine:
         # u and, with Coriolis, d of each
         of_mode = 1 + self._kind.coriolis
         numbers, kept = of_mode * modes, of_mode * self._modes
-        snapshots = np.empty((len(out.snapshots), numbers + (3 * nodes if self._kind.second_order else 0)))
+        snapshots = np.empty((len(out.snapshots), numbers + (0 if self._kind.published else 3 * nodes)))
         self._put_modes(u=state.displacement, increment=state.increment)
         self._put(
             on_casing=np.packbits(state.on_casing, bitorder="little"),
@@ -193,8 +195,8 @@ class CompiledEngine:
             samples=out.samples.ctypes.data,
             snapshots=snapshots.ctypes.data,
         )
-        if self._kind.second_order:
-            self._put(force=state.lining_force[NORMAL], friction_force=state.lining_force[TANGENTIAL:])
+        if not self._kind.published:
+            self._put(force=state.contact_force[NORMAL], friction_force=state.contact_force[TANGENTIAL:])
         done = int(self._advance(self._address))
         state.displacement[:], state.increment[:] = m["u"][self._places], m["increment"][self._places]
         course.ends[:] = ends[..., self._places]
@@ -202,9 +204,9 @@ class CompiledEngine:
         state.totals[()] = m["totals"]
         of_modes = snapshots[:, :numbers].reshape(len(snapshots), of_mode, modes)[:, :, self._places]
         out.snapshots[:, :kept] = of_modes.reshape(len(snapshots), kept)
-        if self._kind.second_order:
-            state.lining_force[NORMAL] = m["force"][: self._nodes]
-            state.lining_force[TANGENTIAL:] = m["friction_force"][:, : self._nodes]
+        if not self._kind.published:
+            state.contact_force[NORMAL] = m["force"][: self._nodes]
+            state.contact_force[TANGENTIAL:] = m["friction_force"][:, : self._nodes]
             forces = snapshots[:, numbers:].reshape(-1, 3, nodes)[:, :, : self._nodes]
             out.snapshots[:, kept:] = forces.reshape(len(snapshots), 3 * self._nodes)
         return done
@@ -290,16 +292,10 @@ class CompiledEngine:
         self._put(bar_position=problem.tip.theta / (2.0 * np.pi) * problem.bars)
 
     def _lay_out_static_modes(self, problem: Problem) -> None:
-        flexibility = problem.residual_flexibility
-        own = np.diagonal(flexibility, axis1=1, axis2=2)
         force_outputs = problem.output_operator[:, -3 * self._nodes :].reshape(-1, 3, self._nodes)
         padded_forces = np.zeros((*force_outputs.shape[:2], self._layout.nodes))
         padded_forces[:, :, : self._nodes] = force_outputs
-        self._put(
-            own_flexibility=own,
-            others_flexibility=flexibility - own[:, :, None] * np.eye(self._nodes),
-            force_outputs=padded_forces.reshape(1, len(force_outputs), -1),
-        )
+        self._put(flexibility=problem.contact_flexibility, force_outputs=padded_forces.reshape(1, len(force_outputs), -1))
 
 
 class _CasingTables:

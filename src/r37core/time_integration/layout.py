@@ -51,8 +51,8 @@ class Layout(NamedTuple):
 class Kind(NamedTuple):
     """What a time integration has; what it lacks is not in the program.
 
-    `published`: the integrator is central_difference. `second_order`: the lining presses with its force at t_n; see
-    r37core.time_integration.lined_steps. `vector_friction`: along the real sliding velocity; friction of constant direction
+    `published`: the integrator is central_difference, whose forces correct the prediction; else they are those at t_n, see
+    r37core.time_integration.contact_steps. `vector_friction`: along the real sliding velocity; friction of constant direction
     is in the push rows and responses. `coupled`: friction is part of the complementarity problem. `exact_gap`, `energy`,
     `jumps`: see Scene and IntegrationChoice. `coriolis`: modes are complex; see r37core.time_integration.gyroscopic. `ring`:
     the casing has modes; see r37core.time_integration.ring_steps.
@@ -60,7 +60,6 @@ class Kind(NamedTuple):
 
     published: bool
     lined: bool
-    second_order: bool
     vector_friction: bool
     coupled: bool
     exact_gap: bool
@@ -119,6 +118,21 @@ def complementarity_record(nodes: int) -> np.dtype:
     )
 
 
+def contact_record(nodes: int) -> np.dtype:
+    """The record of the contact problem at t_n of `nodes` nodes, whole vectors of them; see contact.node_sweeps."""
+    groups = padded(nodes) // padded(1)
+    return aligned_record(
+        [
+            # gaps (m) with the forces found; normal forces (N); wear (m) of the bars before the step and after it
+            *_arrays("opened pressure wear worn", nodes),
+            *_arrays("columns", nodes, nodes),  # opening of the last node's gap per force on the one before (m/N)
+            *_arrays("listed bar", nodes, kind=np.int64),
+            # nodes whose bar was looked at; that are listed; that reach the casing behind their bar
+            *_arrays("asked found closed", groups, kind=np.int64),
+        ]
+    )
+
+
 def _pace_fields(layout: Layout) -> list[Field]:
     modes, nodes = layout.modes, layout.nodes
     return [
@@ -152,8 +166,8 @@ def integration_record(layout: Layout) -> np.dtype:
     return aligned_record(
         [
             *_pace_fields(layout),
-            # displacement u_n; its increments u_n - u_{n-1} and u_{n-1} - u_{n-2}; forces on the modes, and those pushed before
-            *_arrays("u increment last_increment push pushed", modes),
+            # displacement u_n; its increments u_n - u_{n-1} and u_{n-1} - u_{n-2}; forces on the modes
+            *_arrays("u increment last_increment push", modes),
             # displacement of the nodes per mode, and what a unit normal force does to the modes, with constant friction
             *_arrays("displacement_operator", 3, nodes, modes),
             *_arrays("push_operator", nodes, modes),
@@ -168,13 +182,12 @@ def integration_record(layout: Layout) -> np.dtype:
             *_arrays("friction_share", 2, nodes),  # tangential and meridional force per normal force
             *_arrays("force", nodes),
             *_arrays("friction_force", 2, nodes),
-            # of a lining of second order: normal displacement of the last node by the static modes per force on the one before,
-            # without and with its own; opening of gaps by them; all forces that they follow; their part of the samples
-            *_arrays("others_flexibility", 3, nodes, nodes),
-            *_arrays("own_flexibility", 3, nodes),
-            *_arrays("settled", nodes),
+            # of forces at t_n: normal displacement of the last node by the static modes per force on the one before; all forces
+            # at a sample, and the static modes' part of it; the contact problem
+            *_arrays("flexibility", 3, nodes, nodes),
             *_arrays("static_force", 3 * nodes),
             *_arrays("force_outputs", 1, outputs, 3 * nodes),
+            ("contact", contact_record(nodes), ()),
             *_arrays("rotation", nodes),  # signed sliding in a step by the rotation (m)
             *_arrays("bar_position", nodes),  # angle at step 0, in bars
             *_arrays("radius theta shift", nodes),  # m; angle at step 0 and what vibration adds to it (rad)

@@ -20,6 +20,7 @@ from .gyroscopic import LARGEST_TURN, ComplexModes, complex_modes, complex_recur
 from .integration_choice import LARGEST_TABLE, IntegrationChoice
 from .integrators import CENTRAL_DIFFERENCE, EXACT_MODAL, Increments, Recursion, increments, joined, recursion
 from .jump_plan import JumpPlan, plan_jumps
+from .static_modes import stepped_modes
 from .step_limit import UnstableStepError, check_step
 
 NO_CORIOLIS = "central differences do not carry the Coriolis force; use the integrator exact_modal"
@@ -34,11 +35,11 @@ class LongRevolutionError(ValueError):
 class Paces(NamedTuple):
     """What of a problem changes with the speed while its modes are held: all with a first axis of speeds.
 
-    `increments`: None of a single speed.
+    `coupling`: of central differences alone. `increments`: None of a single speed.
     """
 
     recursion: Recursion
-    coupling: np.ndarray
+    coupling: np.ndarray | None
     jumps: JumpPlan | None
     clearance: np.ndarray
     increments: Increments | None
@@ -48,15 +49,15 @@ class Paces(NamedTuple):
 class Problem:
     """A blade's `model` at one `speed` (rad/s) in one `scene`, stepped as `choice` says, and what follows from these four.
 
-    With the integrator exact_modal a lining presses with its force at t_n (`second_order`), and modes faster than
-    `choice.static_above` per step follow it statically: they are none of `frequencies` and `modes`. Everywhere else all modes
-    are stepped. A model with a Coriolis matrix has its stepped modes coupled by it (`complex_modes`). The modes of an elastic
+    With the integrator exact_modal the contact forces are those at t_n (`second_order`), and modes faster than
+    `choice.static_above` per step follow them statically: they are none of `frequencies` and `modes`; see
+    r37core.time_integration.static_modes. With central differences all modes are stepped. A model with a Coriolis matrix has its stepped modes coupled by it (`complex_modes`). The modes of an elastic
     casing follow those of the blade wherever "all modes" are meant: the recursion, the operators, a snapshot.
 
-    Raises UnstableStepError for a step at or above the stability limit 2/omega_max of central differences, or that of nodes
-    pressed on the lining's bars; LongRevolutionError for a revolution of too many steps; NoRoomError for a tip inside of the
-    casing, and for a ring far from it; ValueError for a Coriolis matrix with central differences, and an elastic casing with
-    the exact gap.
+    Raises UnstableStepError for a step at or above the stability limit 2/omega_max of central differences, or that of pressed
+    nodes; TooFewStaticModesError where the contact forces would not be unique; LongRevolutionError for a revolution of too
+    many steps; NoRoomError for a tip inside of the casing, and for a ring far from it; ValueError for a Coriolis matrix with
+    central differences, and an elastic casing with the exact gap.
     """
 
     model: ContactModel
@@ -76,8 +77,8 @@ class Problem:
 
     @property
     def second_order(self) -> bool:
-        """Whether the lining presses with its force at t_n, and not, as published, that of the prediction a step early."""
-        return self.scene.lining is not None and self.choice.integrator == EXACT_MODAL
+        """Whether the contact forces are those at t_n, and not, as published, those that correct the prediction of t_n+1."""
+        return self.choice.integrator == EXACT_MODAL
 
     @property
     def frequencies(self) -> np.ndarray:
@@ -118,14 +119,18 @@ class Problem:
 
     @cached_property
     def _stepped(self) -> int:
-        """How many modes are stepped, of all that are kept: the same at every speed, and whole vectors, which cost no more."""
+        """How many modes are stepped, of all that are kept: the same at every speed."""
         kept = len(self._kept_modes[0])
         if not self.second_order:
             return kept
-        angles = np.sqrt(self.model.squared_frequencies) * self.choice.time_step / self.choice.static_above
-        slow, at_most = (int(np.count_nonzero(angles <= largest)) for largest in (1.0, 2.0))
-        # at least one: a blade of static modes alone would not vibrate
-        return max(min(padded(slow), at_most, kept), 1)
+        friction, choice = self.scene.friction, self.choice
+        return stepped_modes(
+            np.sqrt(self.model.squared_frequencies[:kept]),
+            casing_axes(self.model.displacement_operator[..., :kept], self.cone_angle),
+            friction.coefficient if friction is not None and friction.coupled else 0.0,
+            choice.time_step,
+            choice.static_above,
+        )
 
     @cached_property
     def _kept_modes(self) -> tuple[np.ndarray, np.ndarray]:
@@ -255,20 +260,34 @@ class Problem:
         return found
 
     @cached_property
+    def _static_modes(self) -> tuple[np.ndarray, np.ndarray]:
+        """Frequencies (rad/s) and shapes of the modes that are not stepped."""
+        frequencies, modes = self._kept_modes
+        return frequencies[self._stepped :], modes[:, self._stepped :]
+
+    @cached_property
     def static_shapes(self) -> np.ndarray:
         """Displacement that follows forces on the contact nodes at once, shape (modes at rest, 3 nodes).
 
-        That of the modes that are not stepped, their residual flexibility, of forces in the directions of
-        `displacement_operator`: sum of phi phi^T/omega^2 over those modes (Craig and Kurdila, Fundamentals of Structural
-        Dynamics, section 17.4). With Coriolis also half of the kick by which a force at t_n acts on the stepped modes. No
-        column where the forces are not those at t_n.
+        That of the modes that are not stepped, of forces in the directions of `displacement_operator`: see static_modes. With
+        Coriolis also half of the kick by which a force at t_n acts on the stepped modes. No column where the forces are not
+        those at t_n.
         """
         if not self.second_order:
             return np.empty((len(self.modes), 0))
-        frequencies, modes = (part[..., self._stepped :] for part in self._kept_modes)
+        frequencies, modes = self._static_modes
         rows = (self.operator_at_rest @ modes).reshape(3 * len(self.tip.radius), len(frequencies))
         residual = (modes / frequencies**2) @ rows.T
         return residual if self.complex_modes is None else residual + self._half_kick
+
+    def static_energy(self, forces: np.ndarray) -> float:
+        """Elastic energy (J) of the static modes under `forces` (N) on the nodes, shape (3, nodes).
+
+        It is all the work that the forces have done on them: what follows at once is elastic.
+        """
+        frequencies, modes = self._static_modes
+        of_modes = np.einsum("dk,dkm->m", forces, self.operator_at_rest @ modes) / frequencies
+        return 0.5 * float(of_modes @ of_modes)
 
     @property
     def _half_kick(self) -> np.ndarray:
@@ -303,10 +322,10 @@ class Problem:
         return np.concatenate([outputs, of_ring])
 
     @cached_property
-    def residual_flexibility(self) -> np.ndarray:
+    def contact_flexibility(self) -> np.ndarray:
         """Normal displacement (m/N) of the last node by `static_shapes` per force on the first, along each direction.
 
-        Shape (3, nodes, nodes).
+        Shape (3, nodes, nodes). That of the static modes; with Coriolis half of a kick in it, which is skew-symmetric.
         """
         nodes = len(self.tip.radius)
         if not self.static_shapes.size:
@@ -319,27 +338,19 @@ class Problem:
 
         Shape (3, nodes, nodes).
         """
-        coupling = self._coupling(self.recursion.inverse)
-        if self.complex_modes is not None:
-            of = self.recursion
-            normal, normal_increment = self.displacement_operator[0], self.increment_operator[0]
-            by_increment = self.increment_operator * (of.inverse / of.keep)
-            # c pull b/keep on both coordinates, less c b/keep on u, and c a on d
-            coupling += (by_increment * of.pull) @ (normal + normal_increment).T - by_increment @ normal.T
-            coupling += (self.displacement_operator * of.inverse) @ normal_increment.T
-        return coupling
+        return self._coupling(self.recursion.inverse)
 
     def _coupling(self, inverse: np.ndarray) -> np.ndarray:
         """`coupling` of the recursion's `inverse`, shape (..., modes); shape (..., 3, nodes, nodes)."""
         normal = self.displacement_operator[0]
-        stepped = np.stack([(rows * inverse[..., None, :]) @ normal.T for rows in self.displacement_operator], axis=-3)
-        return stepped + self.residual_flexibility
+        return np.stack([(rows * inverse[..., None, :]) @ normal.T for rows in self.displacement_operator], axis=-3)
 
     @property
     def own_pace(self) -> Paces:
         """Of the problem's own speed alone."""
         several = self.recursion[None]
-        return Paces(several, self.coupling[None], self._jumps(several), self.clearance[None], None)
+        coupling = None if self.second_order else self.coupling[None]
+        return Paces(several, coupling, self._jumps(several), self.clearance[None], None)
 
     def _jumps(self, recursion: Recursion) -> JumpPlan | None:
         if not self.choice.jumps:
@@ -356,7 +367,8 @@ class Problem:
         motion = self._motion_at(speeds)
         several = recursion(self.choice.integrator, *motion)
         rooms, of_modes = clearances(self.model, self.scene, speeds), increments(self.choice.integrator, *motion)
-        return Paces(several, self._coupling(several.inverse), self._jumps(several), rooms, of_modes)
+        coupling = None if self.second_order else self._coupling(several.inverse)
+        return Paces(several, coupling, self._jumps(several), rooms, of_modes)
 
     @cached_property
     def _stiffening(self) -> np.ndarray:

@@ -10,12 +10,12 @@ from r37core.known_arguments import known
 from r37core.lanes import OPTIONS, inlined, pointed_at, spread, sum_of_lanes
 from r37core.native import object_code
 
+from .contact_steps import press_contact, push_contact, release_contact
 from .jump_steps import bound_amplitudes, choose_jump, jump_ahead
 from .layout import COARSE, STRIDES, Kind, Layout, integration_record, pace_record
-from .lined_steps import meet_lining, push_lining, release_lining, resume_lining
 from .pace_steps import begin_stretch, end_stretch
 from .ring_steps import turn_jump, turn_step
-from .steps import leave_casing, measure_exact_gaps, measure_gaps, meet, predict, record
+from .steps import leave_casing, list_pressed, measure_exact_gaps, measure_gaps, meet, predict, record
 
 known(Kind)
 
@@ -32,8 +32,8 @@ def _integrate(m, kind, pace_numbers):
     # any integers for numba: what it gives a plain 0 or 1 to is compiled for just that, too
     zero, one = int(np.int64(0)), int(np.int64(1))
     beyond, bounded, first_stride = False, False, one
-    # with a lining of second order: whether there may be forces, and whether it has pressed in this step
-    follows = pushed = False
+    # whether there are forces at t_n, which the next step follows
+    follows = False
     done = kept = stretch = until = zero
     while done < m.blocks:
         begins = done == until
@@ -45,8 +45,8 @@ def _integrate(m, kind, pace_numbers):
         if place == 0 or begins:
             # so that a run stopped after a revolution goes on with the same bits
             beyond, bounded, first_stride = False, False, one
-            if kind.second_order:
-                follows = resume_lining(m)
+            if not kind.published:
+                follows = list_pressed(m) > 0
         work = lost = spread(0.0)
         position = 0
         while position < m.steps_per_block:
@@ -72,27 +72,24 @@ def _integrate(m, kind, pace_numbers):
             lost = predict(m, kind.energy, lost, kind.coriolis)
             here = place + position if place + position < m.steps_per_revolution else 0
             lobes = m.casing.amplitude * (1.0 - remaining)
-            if kind.second_order:
-                pushed, work, lost = push_lining(m, kind, work, lost) if follows else (False, work, lost)
+            if not kind.published and follows:
+                work, lost = push_contact(m, kind, work, lost)
+                bounded = False
             if kind.ring:
-                turn_step(m, kind.second_order)
+                turn_step(m)
             # not a function of its own: sums are reordered by how they are inlined, and the published scheme keeps its bits
             if kind.exact_gap:
-                beyond = measure_exact_gaps(m, here, lobes, kind.second_order, kind.coriolis)
+                beyond = measure_exact_gaps(m, here, lobes, kind.coriolis)
             else:
-                beyond = measure_gaps(m, here, lobes, kind.second_order, kind.coriolis)
-            if kind.second_order:
-                if beyond:
-                    work, lost = meet_lining(m, here, lobes, kind, pushed, work, lost)
-                    follows, bounded = True, False
-                elif follows:
-                    release_lining(m, pushed)
-                    follows = bounded = False
-                else:
-                    leave_casing(m)
-            elif beyond:
+                beyond = measure_gaps(m, here, lobes, kind.coriolis)
+            if kind.published and beyond:
                 work, lost = meet(m, here, kind, work, lost)
                 bounded = False
+            elif beyond:
+                follows = press_contact(m, here, kind)
+            elif not kind.published and follows:
+                release_contact(m)
+                follows = False
             else:
                 leave_casing(m)
         m.totals.work += 0.5 * sum_of_lanes(work)

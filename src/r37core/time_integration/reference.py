@@ -2,8 +2,8 @@
 
 Equations after section 5 of the benchmark, in the coordinates of the modes at rest, where the mass is the identity:
 u* = A u_n + B u_{n-1} without contact, u_{n+1} = u* + C F with it (reference_motion). Work per step is of the order of modes
-squared. A lining of second order, and the static modes with it: see r37core.time_integration.lined_steps. An elastic casing is
-followed in the frame that does not turn.
+squared. Forces at t_n, and the static modes with them: see r37core.time_integration.contact_steps. An elastic casing is followed
+in the frame that does not turn.
 """
 
 from __future__ import annotations
@@ -13,12 +13,13 @@ from typing import Any
 import numpy as np
 
 from r37core.contact.casing import casing_axes
-from r37core.contact.laws import series_modulus
 from r37core.contact.scene import Lining
 
 from .problem import Paces, Problem
 from .reference_motion import CoupledMotion, Motion, MotionWithCasing, RealMotion
 from .state import Course, SimulationRecord, SimulationState
+
+_MOST_SWEEPS = 200
 
 
 class ReferenceEngine:
@@ -28,9 +29,7 @@ class ReferenceEngine:
         self.problem, self._paces = problem, paces
         self._blade_rows = problem.operator_at_rest @ problem.modes @ problem.modes.T
         self._turn(0)
-        self.flexibility = problem.residual_flexibility
-        # what all forces (N) on the nodes do to the static modes
-        self.static_force = np.zeros((3, len(problem.tip.radius)))
+        self.flexibility = problem.contact_flexibility
         self.take(0)
 
     def take(self, place: int) -> None:
@@ -79,12 +78,11 @@ class ReferenceEngine:
         problem, motion, first = self.problem, self.motion.read(state), state.samples
         done, kept, bounded = 0, 0, True
         step = self._second_order_step if problem.second_order else self._step
-        self.static_force = state.lining_force.copy()
         self._turn(first * problem.steps_per_sample)
         while done < len(out.samples) and bounded:
             for n in range(1, problem.steps_per_sample + 1):
                 motion = step(motion, (first + done) * problem.steps_per_sample + n, state)
-            static = self.static_force.ravel() if problem.second_order else np.empty(0)
+            static = state.contact_force.ravel() if problem.second_order else np.empty(0)
             numbers = np.concatenate([self.motion.numbers(motion), static])
             out.samples[done] = problem.output_operator @ numbers
             bounded = bool(np.all(np.abs(out.samples[done]) < problem.scene.divergence_limit))
@@ -105,59 +103,41 @@ class ReferenceEngine:
         force = np.zeros(self.rows.shape[-1])
         pressure = np.zeros(len(gap))
         if lining is not None and state.wear is not None:
-            modulus = np.full(len(gap), lining.elastic_modulus)
-            pressure = self._press_lining(gap, theta, lining, state.wear, modulus)
+            pressure = self._press_lining(gap, theta, lining, state.wear)
             force = self._modal(pressure * directions)
             # the casing lies behind the lining; what is left to it after the lining's forces
             gap = gap + lining.thickness - self.normal @ self.motion.response @ force
         multipliers = self._press_casing(gap, directions)
         force = force + self._modal(multipliers * directions)
         after = self.motion.pushed(predicted, force)
-        self._add_up(state, self.motion.work_and_loss(before, after, force), pressure + multipliers, multipliers)
+        self._add_up(state, self.motion.work_and_loss(before, after, force), pressure + multipliers, multipliers > 0.0)
         return after
 
     def _second_order_step(self, before: Any, n: int, state: SimulationState) -> Any:
-        """The same with the lining's force at t_{n-1}, which the state has, and that at t_n, for the next step."""
-        lining = self.problem.scene.lining
-        assert lining is not None and state.wear is not None
-        force = self._modal(state.lining_force)
+        """The same with the forces at t_{n-1}, which the state has, and those at t_n, for the next step."""
+        force = self._modal(state.contact_force)
         after, slid = self.motion.pushed(self.motion.flown(before), force), self.motion.slid(before)
         self._turn(n)
-        own = np.diagonal(self.flexibility, axis1=1, axis2=2)
-        settled = self._settled(state.lining_force) - np.sum(own * state.lining_force, axis=0)
         gap, theta = self.gap(self.motion.displacement(after), n)
-        directions = self._directions(slid)
-        multipliers = self._press_casing(gap - settled + lining.thickness, directions)
-        casing_force = multipliers * directions
-        if multipliers.any():
-            force = force + self._modal(casing_force)
-            after = self.motion.pushed(after, self._modal(casing_force))
-            gap, theta = self.gap(self.motion.displacement(after), n)
-            settled = settled + self._settled(casing_force)
-        # the lining's is of t_{n-1}, the casing's of t_n
-        normal_force = np.maximum(-state.lining_force[0], multipliers)
-        self._add_up(state, self.motion.work_and_loss(before, after, force), normal_force, multipliers)
         directions = self._directions(1.5 * self.motion.slid(after) - 0.5 * slid)
-        flexibility = np.maximum(-np.sum(directions * own, axis=0), 0.0)
-        modulus = series_modulus(lining.elastic_modulus, self.problem.bar_stiffness, flexibility)
-        pressure = self._press_lining(gap - settled, theta, lining, state.wear, modulus)
-        state.lining_force[:] = pressure * directions
-        self.static_force = state.lining_force + casing_force
+        pressure, touching = self._press_nodes(gap, theta, directions, state.wear)
+        self._add_up(state, self.motion.work_and_loss(before, after, force), -state.contact_force[0], touching)
+        state.contact_force[:] = pressure * directions
         return after
 
     def _add_up(
-        self, state: SimulationState, work_and_loss: tuple[float, float], normal_force: np.ndarray, multipliers: np.ndarray
+        self, state: SimulationState, work_and_loss: tuple[float, float], normal_force: np.ndarray, on_casing: np.ndarray
     ) -> None:
-        """Totals of a step."""
+        """Totals of a step, pushed by a `normal_force` (N) on each node; `on_casing`: which of them touch the casing."""
         totals = state.totals
         totals["steps"] += 1
         totals["steps_in_contact"] += np.any(normal_force > 0.0)
-        totals["casing_hits"] += np.sum((multipliers > 0.0) & (state.on_casing == 0.0))
+        totals["casing_hits"] += np.sum(on_casing & ~state.on_casing)
         totals["largest_force"] = max(totals["largest_force"], normal_force.max())
         work, loss = work_and_loss
         totals["work"] += work
         totals["loss"] += loss
-        state.on_casing[:] = multipliers > 0.0
+        state.on_casing[:] = on_casing
 
     def gap(self, u: np.ndarray, n: int) -> tuple[np.ndarray, np.ndarray]:
         """Distance (m) of every node from casing or lining, and the angle (rad) at which it meets it."""
@@ -195,30 +175,72 @@ class ReferenceEngine:
         """Modal forces of forces (N) on the nodes, shape (3, nodes, ...)."""
         return np.einsum("dk...,dki->...i", forces, self.rows)
 
-    def _settled(self, forces: np.ndarray) -> np.ndarray:
-        """Normal displacement (m) of the nodes by the static modes under forces (N) on them, shape (3, nodes)."""
-        return np.einsum("dk,dkg->g", forces, self.flexibility)
+    def _press_nodes(
+        self, gap: np.ndarray, theta: np.ndarray, directions: np.ndarray, wear: np.ndarray | None
+    ) -> tuple[np.ndarray, np.ndarray]:
+        """Normal forces (N) of the contact problem at t_n and the nodes that touch the casing, shape (nodes,); wears the bars.
 
-    def _press_lining(
-        self, gap: np.ndarray, theta: np.ndarray, lining: Lining, wear: np.ndarray, modulus: np.ndarray
-    ) -> np.ndarray:
-        """Normal forces (N) of the bars of elastic `modulus` (Pa) that the nodes press, shape (nodes,); wears the bars.
+        Node by node the force that its law says while the others keep theirs, until none changes by more than round-off.
+        """
+        lining, friction, nodes = self.problem.scene.lining, self.problem.scene.friction, range(len(gap))
+        if friction is not None and not friction.coupled:
+            directions = directions * [[1.0], [0.0], [0.0]]
+        opening = -np.einsum("dk,dkg->gk", directions, self.flexibility)
+        bars = [] if wear is None else [self._bar(theta[k], k, wear) for k in nodes]
+        worn = [] if wear is None else [wear[bar] for bar in bars]
+        pressure, touching = np.zeros(len(gap)), np.zeros(len(gap), dtype=bool)
+        for _ in range(_MOST_SWEEPS):
+            before = pressure.copy()
+            for k in nodes:
+                own, penetration = opening[k, k], opening[k, k] * pressure[k] - gap[k] - opening[k] @ pressure
+                if lining is None or wear is None:
+                    pressure[k] = max(penetration, 0.0) / own
+                    touching[k] = pressure[k] > 0.0
+                else:
+                    pressure[k], worn[k], touching[k] = self._press_bar_and_casing(penetration, own, wear[bars[k]], lining)
+            if not np.any(np.abs(pressure - before) > 1e-14 * pressure.max()):
+                break
+        if wear is not None:
+            for bar, new in zip(bars, worn, strict=True):
+                wear[bar] = max(wear[bar], new)
+        return pressure, touching
+
+    def _press_bar_and_casing(self, penetration: float, own: float, wear: float, lining: Lining) -> tuple[float, float, bool]:
+        """Force (N) on a node of flexibility `own` (m/N), new wear (m), and whether it touches the casing behind the bar."""
+        stiffness = self.problem.bar_stiffness
+        force, worn = self._press_bar(penetration, wear, lining, lining.elastic_modulus / (1.0 + stiffness * own))
+        if penetration - own * force > lining.thickness:
+            _, worn = self._press_bar(lining.thickness, wear, lining, lining.elastic_modulus)
+            return (penetration - lining.thickness) / own, worn, True
+        return force, worn, False
+
+    def _bar(self, theta: float, node: int, wear: np.ndarray) -> tuple[int, int]:
+        """Ring and number of the bar that a node at an angle (rad) meets."""
+        lining, bars = self.problem.scene.lining, wear.shape[1]
+        assert lining is not None
+        return 0 if lining.shared_ring else node, int(np.floor(theta / (2.0 * np.pi) * bars)) % bars
+
+    def _press_bar(self, penetration: float, wear: float, lining: Lining, modulus: float) -> tuple[float, float]:
+        """Normal force (N) and new wear (m) of a bar of elastic `modulus` (Pa) that is pressed to a `penetration` (m).
 
         Return mapping with linear hardening: trial stress E (strain - plastic strain), yield stress plus K times the plastic
         strain; beyond it the plastic strain grows by the excess over E + K (Simo and Hughes, box 1.4).
         """
+        strain, plastic = penetration / lining.thickness, wear / lining.thickness
+        if strain <= plastic:
+            return 0.0, wear
+        excess = modulus * (strain - plastic) - lining.yield_stress - lining.plastic_modulus * plastic
+        if excess > 0.0:
+            # a bar worn through is gone
+            plastic = min(plastic + excess / (modulus + lining.plastic_modulus), 1.0)
+        return max(modulus * (strain - plastic), 0.0) * self.problem.bar_area, plastic * lining.thickness
+
+    def _press_lining(self, gap: np.ndarray, theta: np.ndarray, lining: Lining, wear: np.ndarray) -> np.ndarray:
+        """Normal forces (N) of the bars that the nodes of a prediction press, shape (nodes,); wears the bars."""
         force = np.zeros(len(gap))
-        for k in np.flatnonzero(gap < 0.0):
-            bar = int(np.floor(theta[k] / (2.0 * np.pi) * wear.shape[1])) % wear.shape[1]
-            ring = 0 if lining.shared_ring else k
-            strain, plastic = -gap[k] / lining.thickness, wear[ring, bar] / lining.thickness
-            if strain > plastic:
-                excess = modulus[k] * (strain - plastic) - lining.yield_stress - lining.plastic_modulus * plastic
-                if excess > 0.0:
-                    # a bar worn through is gone
-                    plastic = min(plastic + excess / (modulus[k] + lining.plastic_modulus), 1.0)
-                wear[ring, bar] = plastic * lining.thickness
-                force[k] = max(modulus[k] * (strain - plastic), 0.0) * self.problem.bar_area
+        for k in map(int, np.flatnonzero(gap < 0.0)):
+            bar = self._bar(theta[k], k, wear)
+            force[k], wear[bar] = self._press_bar(-gap[k], wear[bar], lining, lining.elastic_modulus)
         return force
 
     def _press_casing(self, gap: np.ndarray, directions: np.ndarray) -> np.ndarray:
@@ -230,8 +252,7 @@ class ReferenceEngine:
             directions = directions * [[1.0], [0.0], [0.0]]
         # of each node's unit multiplier, along the last axis
         forces = directions[:, :, None] * np.eye(len(gap))
-        static = np.einsum("dkj,dkg->gj", forces, self.flexibility)
-        return complementary(-self.normal @ self.motion.response @ self._modal(forces).T - static, gap)
+        return complementary(-self.normal @ self.motion.response @ self._modal(forces).T, gap)
 
 
 def complementary(matrix: np.ndarray, gap: np.ndarray) -> np.ndarray:

@@ -28,13 +28,11 @@ def turn(m, row, amplitudes):
 
 
 @inlined
-def turn_step(m, pushed):
-    """All that a step has left of its pairs; `pushed`: also the forces on them, which others may follow in this step."""
+def turn_step(m):
+    """What a step has left of its pairs."""
     turn(m, SINGLE, m.u)
     turn(m, SINGLE, m.increment)
     turn(m, SINGLE, m.last_increment)
-    if pushed:
-        turn(m, SINGLE, m.push)
 
 
 @inlined

@@ -83,5 +83,10 @@ class Simulation:
         return SimulationRecord(out.samples[:done, :of_tip], out.snapshots[: snapshots(done)], bool(diverged), casing)
 
     def energy(self, state: SimulationState) -> float:
-        """Energy (J) of the vibration; see Recursion."""
-        return float(self.problem.recursion.energy(state.displacement, state.increment))
+        """Energy (J) of the vibration, that of the static modes in it; see Recursion."""
+        stepped = float(self.problem.recursion.energy(state.displacement, state.increment))
+        return stepped + self.problem.static_energy(state.contact_force)
+
+    def work(self, state: SimulationState) -> float:
+        """Work (J) of the contact forces since the start: on the stepped modes, and all that the static ones hold."""
+        return float(state.totals["work"]) + self.problem.static_energy(state.contact_force)

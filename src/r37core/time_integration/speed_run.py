@@ -85,7 +85,7 @@ def run_speed(
         assert scene.lining is not None
         kept |= _wear(state, min(wear_angles, scene.lining.bars))
     if "energy" in results:
-        kept |= energy_balance(state, simulation.energy(state))
+        kept |= energy_balance(simulation.work(state), float(totals["loss"]), simulation.energy(state))
     if "casing" in results:
         ring = simulation.problem.ring
         assert ring is not None and record.casing is not None
@@ -138,12 +138,11 @@ def _wear(state: SimulationState, angles: int) -> dict[str, np.ndarray]:
     }
 
 
-def energy_balance(state: SimulationState, change: float, stiffness_work: float = 0.0) -> dict[str, np.ndarray]:
+def energy_balance(work: float, loss: float, change: float, stiffness_work: float = 0.0) -> dict[str, np.ndarray]:
     """Work of the contact forces, loss to damping, change of energy, and what does not close (all J).
 
     `stiffness_work`: what a changing speed brings to the vibration.
     """
-    work, loss = state.totals["work"], state.totals["loss"]
     return {
         "contact_work": np.array(work),
         "damping_loss": np.array(loss),

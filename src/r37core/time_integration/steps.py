@@ -15,7 +15,7 @@ import numpy as np
 
 from r37core.alignment import LANES
 from r37core.contact.complementarity import list_nodes, solve_complementarity
-from r37core.contact.laws import displaced_position, friction_direction, lobe_shape, return_mapping, series_modulus
+from r37core.contact.laws import displaced_position, friction_direction, lobe_shape, return_mapping
 from r37core.lanes import bits_of, flag_at, inlined, load, numbers_at, spread, store, sum_of_lanes, sums_of_lanes
 
 from .layout import MERIDIONAL, NORMAL, TANGENTIAL
@@ -24,7 +24,6 @@ _friction_direction = inlined(friction_direction)
 _return_mapping = inlined(return_mapping)
 _displaced_position = inlined(displaced_position)
 _lobe_shape = inlined(lobe_shape)
-_series_modulus = inlined(series_modulus)
 
 
 @inlined
@@ -80,15 +79,13 @@ def predict(m, energy, lost, coriolis):
 
 
 @inlined
-def measure_gaps(m, place, lobes, settles, coriolis):
+def measure_gaps(m, place, lobes, coriolis):
     """Linear gaps: clearance, less the lobes at the undeformed angle, less the normal displacement. Whether any is passed."""
     shape = numbers_at(m.casing_shape)
     any_beyond = 0
     for g in range(0, len(m.force), LANES):
         normal = displaced(m, NORMAL, g, coriolis)
         gap = load(m.clearance, g) - lobes * load(shape, place * len(m.force) + g) - normal
-        if settles:
-            gap += load(m.settled, g)
         store(m.problem.gap, g, gap)
         beyond = bits_of(gap < 0.0)
         m.beyond[g // LANES] = beyond
@@ -97,7 +94,7 @@ def measure_gaps(m, place, lobes, settles, coriolis):
 
 
 @inlined
-def measure_exact_gaps(m, place, lobes, settles, coriolis):
+def measure_exact_gaps(m, place, lobes, coriolis):
     """Gaps between the displaced nodes and the lobed cone: see r37core.contact.casing. Whether any is passed."""
     turned = place * (2.0 * np.pi / m.steps_per_revolution)
     any_beyond = False
@@ -114,8 +111,6 @@ def measure_exact_gaps(m, place, lobes, settles, coriolis):
         )
         shape = _lobe_shape(m.theta[k] - turned + m.shift[k], casing.period, casing.width)
         p.gap[k] = m.clearance[k] - lobes * shape - position
-        if settles:
-            p.gap[k] += m.settled[k]
         if p.gap[k] < 0.0:
             m.beyond[k // LANES] |= 1 << (k % LANES)
             any_beyond = True
@@ -131,15 +126,15 @@ def set_friction(m, g, tangential, meridional):
 
 
 @inlined
-def set_friction_of_listed(m, count, centred, coriolis):
-    """Vector friction on the listed nodes: more costly for each than `set_friction_of_all`, but they are few.
+def set_friction_of_listed(m, listed, count, centred, coriolis):
+    """Vector friction on `listed` nodes: more costly for each than `set_friction_of_all`, but they are few.
 
     `centred`: against the sliding at t_n, extrapolated from the last two increments, else in the last step.
     """
     for g in range(0, len(m.force), LANES):
         tangential = meridional = spread(0.0)
         for j in range(count):
-            k = m.problem.listed[j]
+            k = listed[j]
             if g <= k < g + LANES:
                 t = r = spread(0.0)
                 for i in range(0, len(m.u), LANES):
@@ -161,14 +156,11 @@ def set_friction_of_listed(m, count, centred, coriolis):
 
 
 @inlined
-def set_friction_of_all(m, coriolis):
+def set_friction_of_all(m):
     """Vector friction on all nodes, and the gaps' response with it."""
     for g in range(0, len(m.force), LANES):
         tangential = along(m.displacement_operator, TANGENTIAL, m.last_increment, g, len(m.u))
         meridional = along(m.displacement_operator, MERIDIONAL, m.last_increment, g, len(m.u))
-        if coriolis:
-            tangential += along(m.increment_operator, TANGENTIAL, m.last_second_difference, g, len(m.u))
-            meridional += along(m.increment_operator, MERIDIONAL, m.last_second_difference, g, len(m.u))
         set_friction(m, g, tangential, meridional)
     for k in range(m.nodes):
         for g in range(0, len(m.force), LANES):
@@ -190,7 +182,7 @@ def press_bars(m, place, kind):
     turned = place * lining.bars / m.steps_per_revolution
     count = list_nodes(m.beyond, p.listed)
     if kind.vector_friction:
-        set_friction_of_listed(m, count, kind.second_order, kind.coriolis)
+        set_friction_of_listed(m, p.listed, count, False, False)
     for j in range(count):
         k = p.listed[j]
         position = m.bar_position[k] - turned
@@ -204,13 +196,7 @@ def press_bars(m, place, kind):
                 bar -= bars
         if m.rings > 1:
             bar += k * bars
-        modulus = lining.elastic_modulus
-        if kind.second_order:
-            # the bar in series with the node's static modes
-            own = m.own_flexibility[NORMAL, k] + m.own_flexibility[TANGENTIAL, k] * m.friction_share[0, k]
-            own += m.own_flexibility[MERIDIONAL, k] * m.friction_share[1, k]
-            modulus = _series_modulus(modulus, modulus * lining.area / lining.thickness, max(own, 0.0))
-        stress, wear[bar] = _return_mapping(-p.gap[k], wear[bar], modulus, lining)
+        stress, wear[bar] = _return_mapping(-p.gap[k], wear[bar], lining.elastic_modulus, lining)
         m.force[k] = -stress * lining.area
     return count
 
@@ -240,7 +226,7 @@ def press_casing(m, kind):
     p = m.problem
     if kind.vector_friction:
         # the others' reaction may bring any of them to the casing
-        set_friction_of_all(m, kind.coriolis)
+        set_friction_of_all(m)
     guessed = 0
     for g in range(len(m.on_casing)):
         p.touching[g] = m.on_casing[g]
@@ -393,10 +379,10 @@ def leave_casing(m):
 def record(m, block, row, kind):
     """Samples and, unless `row` is -1, a snapshot at the end of a block; returns whether the outputs are within the limit."""
     snapshots, modes = numbers_at(m.snapshots), len(m.u)
-    bounded = sample_as_published(m, block) if kind.published else sample(m, block, kind.second_order, kind.coriolis)
+    bounded = sample_as_published(m, block) if kind.published else sample(m, block, kind.coriolis)
     if row >= 0:
         numbers = 2 * modes if kind.coriolis else modes
-        width = numbers + (len(m.static_force) if kind.second_order else 0)
+        width = numbers + (0 if kind.published else len(m.static_force))
         for i in range(modes):
             snapshots[row * width + i] = m.u[i]
             if kind.coriolis:
@@ -407,16 +393,19 @@ def record(m, block, row, kind):
 
 
 @inlined
-def sample(m, block, settles, coriolis):
-    """The outputs, with those of the static modes where it `settles`; returns whether they are within the limit."""
-    samples, outputs = numbers_at(m.samples), m.number_of_outputs
+def sample(m, block, coriolis):
+    """The outputs, with those of the static modes; returns whether they are within the limit."""
+    samples, outputs, nodes = numbers_at(m.samples), m.number_of_outputs, len(m.force)
+    for g in range(0, nodes, LANES):
+        store(m.static_force, g, load(m.force, g))
+        store(m.static_force, nodes + g, load(m.friction_force, (0, g)))
+        store(m.static_force, 2 * nodes + g, load(m.friction_force, (1, g)))
     beyond = 0
     for g in range(0, len(m.sample), LANES):
         total = along(m.outputs, 0, m.u, g, len(m.u))
         if coriolis:
             total += along(m.increment_outputs, 0, m.increment, g, len(m.u))
-        if settles:
-            total += along(m.force_outputs, 0, m.static_force, g, len(m.static_force))
+        total += along(m.force_outputs, 0, m.static_force, g, len(m.static_force))
         store(m.sample, g, total)
         # written so that NaN fails as well
         beyond |= ~bits_of(np.abs(total) < m.limit) & ((1 << LANES) - 1)

@@ -1,0 +1,139 @@
+"""A step of exact_modal in contact, compiled: the contact forces at t_n are a static law of the displacement at t_n.
+
+u_{n+1} = a u_n + b u_{n-1} + c F_n, F_n from the gaps at u_n: the leapfrog of Stoermer and Verlet for modes between forces
+(Hairer, Lubich and Wanner, Geometric Numerical Integration, sections I.1.4 and XIII.2). The modes that are not stepped follow the
+forces at once by their residual flexibility, so that forces and gaps at t_n are one small problem of all nodes
+(r37core.contact.node_sweeps): bars, the casing behind them, or the bare casing, with friction against the sliding at t_n.
+Source of the static modes: Monjaraz Tec, Gross and Krack, Mech. Syst. Signal Process. 165 (2022) 108303, the massless boundary.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from r37core.alignment import LANES
+from r37core.contact.node_sweeps import sweep_nodes
+from r37core.lanes import bits_of, first_bit, inlined, load, numbers_at, store
+
+from .layout import MERIDIONAL, NORMAL, TANGENTIAL
+from .steps import leave_casing, list_pressed, push_blade, set_friction_of_listed
+
+
+@inlined
+def push_contact(m, kind, work, lost):
+    """Push the blade with the forces at t_n; adds the work, doubled, and the energy lost."""
+    pressed, work, lost = push_blade(m, list_pressed(m), kind, work, lost)
+    m.totals.steps_in_contact += pressed
+    return work, lost
+
+
+@inlined
+def press_contact(m, place, kind):
+    """The contact forces at u_n from the gaps there, and the wear; returns whether there are any."""
+    c = m.contact
+    for g in range(0, len(c.opened), LANES):
+        store(c.opened, g, load(m.problem.gap, g))
+        store(c.pressure, g, 0.0)
+        c.asked[g // LANES] = c.found[g // LANES] = c.closed[g // LANES] = 0
+    count, largest_gap, violation = int(np.int64(0)), 0.0, 0.0
+    for k in range(m.nodes):
+        largest_gap = max(largest_gap, abs(m.problem.gap[k]))
+    while True:
+        joined = list_beyond(m, count, place, kind)
+        if joined == count:
+            break
+        if kind.vector_friction:
+            set_friction_of_listed(m, c.listed, joined, True, kind.coriolis)
+        for j in range(count, joined):
+            set_column(m, c.listed[j], kind)
+        count = joined
+        violation = sweep_nodes(c, count, largest_gap, m.lining, kind.lined)
+    m.totals.worst_complementarity = max(m.totals.worst_complementarity, violation)
+    if kind.lined:
+        wear = numbers_at(m.wear)
+        for j in range(count):
+            k = c.listed[j]
+            wear[c.bar[k]] = max(wear[c.bar[k]], c.worn[k])
+    return keep_forces(m, kind)
+
+
+@inlined
+def release_contact(m):
+    """No node is pressed any more."""
+    leave_casing(m)
+    for g in range(0, len(m.force), LANES):
+        store(m.force, g, 0.0)
+        store(m.friction_force, (0, g), 0.0)
+        store(m.friction_force, (1, g), 0.0)
+
+
+@inlined
+def list_beyond(m, count, place, kind):
+    """Add to the `count` listed nodes those that now pass the casing, or what is left of their bar; returns how many there are."""
+    c = m.contact
+    for g in range(0, len(c.opened), LANES):
+        bits = bits_of(load(c.opened, g) < 0.0) & ~c.found[g // LANES]
+        while bits:
+            bit = bits & -bits
+            bits &= bits - 1
+            k = g + first_bit(bit)
+            if kind.lined:
+                if c.asked[g // LANES] & bit == 0:
+                    c.asked[g // LANES] |= bit
+                    c.bar[k] = bar_at(m, k, place, kind)
+                    c.wear[k] = numbers_at(m.wear)[c.bar[k]]
+                if not c.opened[k] + c.wear[k] < 0.0:
+                    continue
+            c.found[g // LANES] |= bit
+            c.listed[count] = k
+            count += 1
+    return count
+
+
+@inlined
+def bar_at(m, k, place, kind):
+    """Number of the bar that a node is at."""
+    bars = int(m.lining.bars)
+    position = m.bar_position[k] - place * m.lining.bars / m.steps_per_revolution
+    if kind.exact_gap:
+        position += m.shift[k] * (m.lining.bars / (2.0 * np.pi))
+    bar = int(np.floor(position))
+    while bar < 0:
+        bar += bars
+    if kind.exact_gap:
+        while bar >= bars:
+            bar -= bars
+    return bar + k * bars if m.rings > 1 else bar
+
+
+@inlined
+def set_column(m, k, kind):
+    """What a normal force on a node, with the friction that it brings, opens the gaps by at once."""
+    c = m.contact
+    for g in range(0, len(c.opened), LANES):
+        column = load(m.flexibility, (NORMAL, k, g))
+        if kind.coupled:
+            column += load(m.flexibility, (TANGENTIAL, k, g)) * m.friction_share[0, k]
+            column += load(m.flexibility, (MERIDIONAL, k, g)) * m.friction_share[1, k]
+        store(c.columns, (k, g), column)
+
+
+@inlined
+def keep_forces(m, kind):
+    """Make the normal forces found those on the nodes, with their friction; returns whether there are any."""
+    c = m.contact
+    any_pressed = 0
+    for g in range(0, len(c.opened), LANES):
+        pressure = load(c.pressure, g)
+        store(m.force, g, 0.0 - pressure)
+        store(m.friction_force, (0, g), (0.0 - pressure) * load(m.friction_share, (0, g)))
+        store(m.friction_force, (1, g), (0.0 - pressure) * load(m.friction_share, (1, g)))
+        pressed = bits_of(pressure > 0.0)
+        any_pressed |= pressed
+        touching = c.closed[g // LANES] if kind.lined else pressed
+        onsets = touching & ~m.on_casing[g // LANES]
+        m.on_casing[g // LANES] = touching
+        while onsets:
+            m.totals.casing_hits += 1.0
+            onsets &= onsets - 1
+    return any_pressed != 0

@@ -1,0 +1,111 @@
+"""Which modes follow the contact forces statically: those too fast for the step, and so many that the forces are unique.
+
+The contact forces at an instant follow from the residual flexibility R of the static modes alone. With friction p_k of a node
+opens the gap of node i by G_ik = -R_ik d_k, d_k being the directions of its force. Every principal minor of G is positive, so that
+forces and gaps are unique (Cottle, Pang and Stone, The Linear Complementarity Problem, theorem 3.3.7), if its symmetric part is
+positive definite. Strong friction makes it indefinite (Painleve's paradox: Genot and Brogliato, Eur. J. Mech. A 18 (1999)
+653-677); so do static modes that are too few to move every contact node by itself.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+
+import numpy as np
+
+from r37core.alignment import LANES, padded
+
+from .step_limit import UnstableStepError
+
+SMALLEST_DEFINITENESS = 0.2
+"""Of G: a sweep over the nodes then leaves at most half of the error, most often some hundredths."""
+
+_ANGLES = np.linspace(0.0, 2.0 * np.pi, 16, endpoint=False)
+"""Directions of friction that are tried (rad)."""
+
+_LARGEST_TURN = 2.0
+"""Of a stepped mode in a step (rad), relative to what static_above says."""
+
+
+class TooFewStaticModesError(ValueError):
+    """A model whose contact forces are not unique, whichever modes are static."""
+
+
+def residual_flexibility(frequencies: np.ndarray, rows: np.ndarray) -> np.ndarray:
+    """Normal displacement (m/N) of the last node per force on the first, along each direction, by static modes.
+
+    Sum of phi phi^T/omega^2 over the modes of `frequencies` (rad/s) (Craig and Kurdila, Fundamentals of Structural Dynamics,
+    section 17.4); `rows`, shape (3, nodes, modes): displacement of the nodes. Returns shape (3, nodes, nodes).
+    """
+    static = rows / frequencies
+    return static @ static[0].T
+
+
+def definiteness(flexibility: np.ndarray, coefficient: float) -> float:
+    """Smallest eigenvalue of the symmetric part of G, scaled to a unit normal flexibility of each node.
+
+    The least over directions of friction that all nodes share. `flexibility` as of residual_flexibility; `coefficient` of
+    friction. Not positive where the normal flexibility of a node is zero.
+    """
+    normal, tangential, meridional = flexibility
+    own = np.diag(normal)
+    if not np.all(own > 0.0):
+        return 0.0
+    cosine, sine = (coefficient * function(_ANGLES)[:, None, None] for function in (np.cos, np.sin))
+    opening = (normal - cosine * tangential - sine * meridional) / np.sqrt(np.outer(own, own))
+    return float(np.linalg.eigvalsh(0.5 * (opening + opening.swapaxes(1, 2)))[:, 0].min())
+
+
+def stepped_modes(frequencies: np.ndarray, rows: np.ndarray, coefficient: float, step: float, static_above: float) -> int:
+    """How many of the modes are stepped, in whole vectors where there are more than one, which cost no more.
+
+    Those that turn by less than `static_above` in a `step` (s), as far as the others make the contact forces unique at a
+    `coefficient` of friction: else some more, or fewer. `frequencies` (rad/s) at rest, ascending, and `rows`, shape (3, nodes,
+    modes), of all modes. Raises UnstableStepError and TooFewStaticModesError.
+    """
+    modes = len(frequencies)
+
+    def is_unique(stepped: int, friction: float = coefficient) -> bool:
+        flexibility = residual_flexibility(frequencies[stepped:], rows[..., stepped:])
+        return definiteness(flexibility, friction) > SMALLEST_DEFINITENESS
+
+    turns = frequencies * step / static_above
+    slow, at_most = (int(np.count_nonzero(turns <= largest)) for largest in (1.0, _LARGEST_TURN))
+    # at least one: a blade of static modes alone would not vibrate
+    wanted = max(min(padded(slow), at_most), 1)
+    counts = sorted({wanted, *range(1, LANES), *range(LANES, modes, LANES)})
+    more = (count for count in counts if wanted <= count <= max(at_most, 1))
+    fewer = (count for count in reversed(counts) if count < wanted)
+    too_fast = (count for count in counts if count > max(at_most, 1))
+    for found in (more, fewer):
+        if (stepped := _first(found, is_unique)) is not None:
+            return stepped
+    if (stepped := _first(too_fast, is_unique)) is not None:
+        fastest = float(frequencies[stepped - 1])
+        limit = _LARGEST_TURN * static_above / fastest
+        raise UnstableStepError(
+            f"time_step_s: {step:.6g} s, not below {limit:.6g} s: with a coefficient of friction of {coefficient:g} modes up to "
+            f"{fastest / 2e3 / np.pi:.1f} kHz must be stepped, for unique contact forces; use a smaller one, or less friction",
+            limit,
+        )
+    raise TooFewStaticModesError(_remedy(counts, is_unique, coefficient, modes, rows.shape[1]))
+
+
+def _first(counts: Iterable[int], fits: Callable[[int], bool]) -> int | None:
+    return next((count for count in counts if fits(count)), None)
+
+
+def _remedy(counts: list[int], is_unique: Callable[[int, float], bool], coefficient: float, modes: int, nodes: int) -> str:
+    bears, fails = 0.0, coefficient
+    if not any(is_unique(count, bears) for count in counts):
+        return (
+            f"the reduced model has {modes} modes for {nodes} contact nodes, too few for unique contact forces at t_n; allowed: "
+            "fewer contact nodes (structure.boundary.nodes), more modes, or the integrator central_difference"
+        )
+    for _ in range(10):
+        middle = 0.5 * (bears + fails)
+        bears, fails = (middle, fails) if any(is_unique(count, middle) for count in counts) else (bears, middle)
+    return (
+        f"friction.coefficient of the scene (scenes.yaml): found {coefficient:g}, at which this blade's contact forces are not "
+        f"unique (Painleve's paradox); allowed: up to about {bears:.2g}, or the integrator central_difference"
+    )
