@@ -59,6 +59,27 @@ def series_modulus(elastic_modulus: float, stiffness: float, flexibility: Any) -
     return elastic_modulus / (1.0 + stiffness * flexibility)
 
 
+def lines_of_bar(elastic_modulus: Any, lining: Any) -> tuple[Any, Any, Any]:
+    """The force of return_mapping as two lines: stiffness (N/m) of the elastic one, offset (N) and stiffness (N/m) of the plastic.
+
+    The bar pressed to x, worn by w before, has the force max(0, min(elastic (x - w), offset + plastic x)), until it is worn
+    through: elastic E A/e, offset and plastic E/(E + K) A times the yield stress and K/e, with the area A and the thickness e.
+    `elastic_modulus` E (Pa), of the bar or in series; `lining`: as of return_mapping, with the `area` (m2) of a bar.
+    """
+    share = elastic_modulus / (elastic_modulus + lining.plastic_modulus) * lining.area
+    elastic = elastic_modulus * lining.area / lining.thickness
+    return elastic, share * lining.yield_stress, share * lining.plastic_modulus / lining.thickness
+
+
+def worn(penetration: Any, wear: Any, lining: Any) -> Any:
+    """Wear (m) of a bar that was worn by `wear` (m) and is pressed to `penetration` (m), at most its thickness.
+
+    What return_mapping says, without its force: (E x - e yield stress)/(E + plastic modulus), if that is more than before.
+    """
+    yielding = lining.elastic_modulus * penetration - lining.thickness * lining.yield_stress
+    return np.maximum(wear, yielding / (lining.elastic_modulus + lining.plastic_modulus))
+
+
 def friction_direction(tangential: Any, meridional: Any) -> tuple[Any, Any]:
     """Unit vectors of the friction forces on nodes, opposite to their sliding over the casing; zero where nothing slides.
 

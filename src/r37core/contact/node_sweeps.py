@@ -1,77 +1,95 @@
 """The contact problem at one instant, compiled into the time integration: forces and gaps of all nodes, each by its own law.
 
-A problem `c` is a contact_record of r37core.time_integration.layout. Forces p open the gaps g to g + G p, G being what the static
-modes do, `columns[j, i]` the opening of gap i per force on node j. A node at the bare casing keeps g + G p >= 0, p >= 0 and one
-of them zero; one on a lining has the force of its bar, with the casing behind it. Node after node gets the force that its own law
-says while the others keep theirs: the projected Gauss-Seidel method (Cottle, Pang and Stone, The Linear Complementarity Problem,
-section 5.2). G is nearly diagonal, so that a sweep leaves some hundredths of the error.
-
-Nodes are lanes. Sets of nodes are bits, eight nodes to an integer.
+A problem `c` is a contact_record of r37core.time_integration.layout; nodes are lanes, and a set of nodes is a bit for each, eight
+to an integer. Forces p open the gaps g to g + G p, G being what the static modes do. A node at the bare casing keeps g + G p >= 0,
+p >= 0 and one of them zero; one on a lining has the force of its bar, with the casing behind it. In a sweep eight nodes at once
+get the forces that their laws say while the others keep theirs: the projected Jacobi method (Cottle, Pang and Stone, The Linear
+Complementarity Problem, section 5.2). G is nearly diagonal, so that a sweep leaves about a tenth of the error.
 """
 
 from __future__ import annotations
 
+import numpy as np
+
 from r37core.alignment import LANES
-from r37core.lanes import inlined, load, store
+from r37core.lanes import bits_of, flag_at, flags_of, inlined, load, spread, store
 
-from .laws import return_mapping, series_modulus
+from .laws import lines_of_bar, series_modulus, worn
 
-_return_mapping, _series_modulus = inlined(return_mapping), inlined(series_modulus)
+_lines_of_bar, _series_modulus, _worn = inlined(lines_of_bar), inlined(series_modulus), inlined(worn)
 
 SWEEPS = 200
-TOLERANCE = 1e-14
-"""Largest change of a gap in the last sweep, relative to the largest gap."""
+TOLERANCE = 1e-12
+"""Largest change of a penetration in the last sweep, relative to the largest gap."""
 
 
 @inlined
-def bar_force(penetration, flexibility, wear, lining):
-    """Normal force (N) of a bar on a node, new wear (m) of the bar, and whether the node reaches the casing behind it.
-
-    `penetration` (m): of the bar's first position, had the node no force of its own; each newton takes `flexibility` (m/N),
-    more than 0, of it. The node ends where its flexibility in series with the bar puts it, or at the casing, which gives what
-    the bar does not.
-    """
-    modulus = _series_modulus(lining.elastic_modulus, lining.elastic_modulus * lining.area / lining.thickness, flexibility)
-    stress, worn = _return_mapping(penetration, wear, modulus, lining)
-    force = stress * lining.area
-    beyond = penetration - lining.thickness
-    reaches = flexibility * force < beyond
-    if reaches:
-        force = beyond / flexibility
-        _, worn = _return_mapping(lining.thickness, wear, lining.elastic_modulus, lining)
-    return force, worn, reaches
-
-
-@inlined
-def set_force(c, k, lining, lined):
-    """Give a node the force of its law while the others keep theirs; returns by how much that changes its gap (m)."""
-    before, own = c.pressure[k], c.columns[k, k]
-    penetration = own * before - c.opened[k]
-    if lined:
-        after, c.worn[k], reaches = bar_force(penetration, own, c.wear[k], lining)
-        bit = 1 << (k % LANES)
-        c.closed[k // LANES] = c.closed[k // LANES] | bit if reaches else c.closed[k // LANES] & ~bit
-    else:
-        after = max(penetration, 0.0) / own
-    change = after - before
-    c.pressure[k] = after
-    for g in range(0, len(c.opened), LANES):
-        store(c.opened, g, load(c.opened, g) + load(c.columns, (k, g)) * change)
-    return abs(change) * own
-
-
-@inlined
-def sweep_nodes(c, count, largest_gap, lining, lined):
-    """Set the forces of the listed nodes, from those they have; returns the last sweep's largest change if it is too large.
-
-    Relative to `largest_gap` (m).
-    """
-    largest = 0.0
-    for _ in range(SWEEPS):
-        largest = 0.0
+def set_laws(c, count, lining, lined):
+    """The laws of the listed nodes, from what their own forces do, `columns`, and the wear of their bars."""
+    for g in range(0, len(c.gap), LANES):
+        own = spread(1.0)
         for j in range(count):
-            largest = max(largest, set_force(c, c.listed[j], lining, lined))
-        # written so that NaN ends it
-        if count == 1 or not largest > TOLERANCE * largest_gap:
-            return 0.0
-    return largest / largest_gap
+            k = c.listed[j]
+            own = np.where(flag_at(k - g), load(c.columns, (k, g)), own)
+        store(c.own, g, own)
+        store(c.stiffness, g, 1.0 / own)
+        if lined:
+            bar = lining.elastic_modulus * lining.area / lining.thickness
+            elastic, offset, plastic = _lines_of_bar(_series_modulus(lining.elastic_modulus, bar, own), lining)
+            store(c.elastic, g, elastic)
+            store(c.offset, g, offset)
+            store(c.plastic, g, plastic)
+
+
+@inlined
+def forces_of_laws(c, g, penetration, thickness, lined):
+    """Normal forces (N) on the eight nodes from g on, which would penetrate so much (m), had they none: of bar or casing."""
+    if lined:
+        elastic = load(c.elastic, g) * (penetration - load(c.wear, g))
+        plastic = load(c.offset, g) + load(c.plastic, g) * penetration
+        of_bar = np.where(elastic < plastic, elastic, plastic)
+        force = np.maximum(of_bar, (penetration - thickness) * load(c.stiffness, g))
+    else:
+        force = penetration * load(c.stiffness, g)
+    # written so that NaN stays
+    return np.where(flags_of(c.found[g // LANES]), np.where(force < 0.0, 0.0, force), 0.0)
+
+
+@inlined
+def open_gaps(c, g, count):
+    """The gaps of the eight nodes from g on with the forces on the listed nodes (m)."""
+    opened = load(c.gap, g)
+    for j in range(count):
+        k = c.listed[j]
+        opened += load(c.columns, (k, g)) * c.pressure[k]
+    return opened
+
+
+@inlined
+def sweep_nodes(c, count, largest_gap, thickness, lined):
+    """Set the forces on the listed nodes, from those they have; whether they changed too much in the last sweep.
+
+    `largest_gap` (m): what TOLERANCE is relative to; `thickness` (m): of the lining.
+    """
+    change = TOLERANCE * largest_gap
+    changed = 0
+    for _ in range(SWEEPS):
+        changed = 0
+        for g in range(0, len(c.gap), LANES):
+            opened, before, own = open_gaps(c, g, count), load(c.pressure, g), load(c.own, g)
+            after = forces_of_laws(c, g, own * before - opened, thickness, lined)
+            store(c.opened, g, opened)
+            store(c.pressure, g, after)
+            changed |= bits_of(np.abs(after - before) * own > change)
+        if changed == 0:
+            break
+    return changed != 0
+
+
+@inlined
+def wear_bars(c, g, lining):
+    """Wear of the bars of the eight nodes from g on under the forces found; which of the nodes reach the casing behind them."""
+    penetration, thickness = 0.0 - load(c.opened, g), lining.thickness
+    reaches = bits_of(penetration > thickness * (1.0 - 1e-9)) & c.found[g // LANES]
+    store(c.wear, g, _worn(np.where(penetration < thickness, penetration, thickness), load(c.wear, g), lining))
+    return reaches

@@ -12,7 +12,7 @@ from __future__ import annotations
 import numpy as np
 
 from r37core.alignment import LANES
-from r37core.contact.node_sweeps import sweep_nodes
+from r37core.contact.node_sweeps import TOLERANCE, set_laws, sweep_nodes, wear_bars
 from r37core.lanes import bits_of, first_bit, inlined, load, numbers_at, store
 
 from .layout import MERIDIONAL, NORMAL, TANGENTIAL
@@ -30,14 +30,17 @@ def push_contact(m, kind, work, lost):
 @inlined
 def press_contact(m, place, kind):
     """The contact forces at u_n from the gaps there, and the wear; returns whether there are any."""
-    c = m.contact
-    for g in range(0, len(c.opened), LANES):
-        store(c.opened, g, load(m.problem.gap, g))
+    c, thickness = m.contact, m.lining.thickness
+    largest_gap, wrong = 0.0, False
+    for g in range(0, len(c.gap), LANES):
+        gap = load(m.problem.gap, g)
+        store(c.gap, g, gap)
+        store(c.opened, g, gap)
         store(c.pressure, g, 0.0)
-        c.asked[g // LANES] = c.found[g // LANES] = c.closed[g // LANES] = 0
-    count, largest_gap, violation = int(np.int64(0)), 0.0, 0.0
+        c.found[g // LANES] = 0
     for k in range(m.nodes):
-        largest_gap = max(largest_gap, abs(m.problem.gap[k]))
+        largest_gap = max(largest_gap, abs(c.gap[k]))
+    count = int(np.int64(0))
     while True:
         joined = list_beyond(m, count, place, kind)
         if joined == count:
@@ -47,14 +50,13 @@ def press_contact(m, place, kind):
         for j in range(count, joined):
             set_column(m, c.listed[j], kind)
         count = joined
-        violation = sweep_nodes(c, count, largest_gap, m.lining, kind.lined)
-    m.totals.worst_complementarity = max(m.totals.worst_complementarity, violation)
-    if kind.lined:
-        wear = numbers_at(m.wear)
-        for j in range(count):
-            k = c.listed[j]
-            wear[c.bar[k]] = max(wear[c.bar[k]], c.worn[k])
-    return keep_forces(m, kind)
+        set_laws(c, count, m.lining, kind.lined)
+        wrong = sweep_nodes(c, count, largest_gap, thickness, kind.lined)
+    if count == 0:
+        release_contact(m)
+        return False
+    m.totals.worst_complementarity = max(m.totals.worst_complementarity, TOLERANCE * wrong)
+    return keep_forces(m, count, kind)
 
 
 @inlined
@@ -69,19 +71,18 @@ def release_contact(m):
 
 @inlined
 def list_beyond(m, count, place, kind):
-    """Add to the `count` listed nodes those that now pass the casing, or what is left of their bar; returns how many there are."""
+    """List more nodes that pass the casing, or what is left of their bar, after `count` of them; returns how many there are."""
     c = m.contact
-    for g in range(0, len(c.opened), LANES):
+    for g in range(0, len(c.gap), LANES):
         bits = bits_of(load(c.opened, g) < 0.0) & ~c.found[g // LANES]
         while bits:
             bit = bits & -bits
             bits &= bits - 1
             k = g + first_bit(bit)
             if kind.lined:
-                if c.asked[g // LANES] & bit == 0:
-                    c.asked[g // LANES] |= bit
-                    c.bar[k] = bar_at(m, k, place, kind)
-                    c.wear[k] = numbers_at(m.wear)[c.bar[k]]
+                c.bar[k] = bar_at(m, k, place, kind)
+                c.wear[k] = numbers_at(m.wear)[c.bar[k]]
+                # it may be clear of what is left of its bar
                 if not c.opened[k] + c.wear[k] < 0.0:
                     continue
             c.found[g // LANES] |= bit
@@ -110,7 +111,7 @@ def bar_at(m, k, place, kind):
 def set_column(m, k, kind):
     """What a normal force on a node, with the friction that it brings, opens the gaps by at once."""
     c = m.contact
-    for g in range(0, len(c.opened), LANES):
+    for g in range(0, len(c.gap), LANES):
         column = load(m.flexibility, (NORMAL, k, g))
         if kind.coupled:
             column += load(m.flexibility, (TANGENTIAL, k, g)) * m.friction_share[0, k]
@@ -119,21 +120,26 @@ def set_column(m, k, kind):
 
 
 @inlined
-def keep_forces(m, kind):
-    """Make the normal forces found those on the nodes, with their friction; returns whether there are any."""
+def keep_forces(m, count, kind):
+    """Make the normal forces found those on the nodes, with their friction, and wear the bars; whether there are any."""
     c = m.contact
     any_pressed = 0
-    for g in range(0, len(c.opened), LANES):
-        pressure = load(c.pressure, g)
-        store(m.force, g, 0.0 - pressure)
-        store(m.friction_force, (0, g), (0.0 - pressure) * load(m.friction_share, (0, g)))
-        store(m.friction_force, (1, g), (0.0 - pressure) * load(m.friction_share, (1, g)))
-        pressed = bits_of(pressure > 0.0)
+    for g in range(0, len(c.gap), LANES):
+        normal = 0.0 - load(c.pressure, g)
+        store(m.force, g, normal)
+        store(m.friction_force, (0, g), normal * load(m.friction_share, (0, g)))
+        store(m.friction_force, (1, g), normal * load(m.friction_share, (1, g)))
+        pressed = bits_of(normal < 0.0)
         any_pressed |= pressed
-        touching = c.closed[g // LANES] if kind.lined else pressed
+        touching = wear_bars(c, g, m.lining) if kind.lined else pressed
         onsets = touching & ~m.on_casing[g // LANES]
         m.on_casing[g // LANES] = touching
         while onsets:
             m.totals.casing_hits += 1.0
             onsets &= onsets - 1
+    if kind.lined:
+        wear = numbers_at(m.wear)
+        for j in range(count):
+            k = c.listed[j]
+            wear[c.bar[k]] = max(wear[c.bar[k]], c.wear[k])
     return any_pressed != 0

@@ -120,15 +120,18 @@ def complementarity_record(nodes: int) -> np.dtype:
 
 def contact_record(nodes: int) -> np.dtype:
     """The record of the contact problem at t_n of `nodes` nodes, whole vectors of them; see contact.node_sweeps."""
-    groups = padded(nodes) // padded(1)
     return aligned_record(
         [
-            # gaps (m) with the forces found; normal forces (N); wear (m) of the bars before the step and after it
-            *_arrays("opened pressure wear worn", nodes),
-            *_arrays("columns", nodes, nodes),  # opening of the last node's gap per force on the one before (m/N)
+            # gaps (m) without forces and with those found, and these (N)
+            *_arrays("gap opened pressure", nodes),
+            # the laws of the listed nodes: own flexibility (m/N) and one over it; wear (m) of the bar; lines of
+            # the bar's law in series with the node
+            *_arrays("own stiffness wear elastic offset plastic", nodes),
+            # opening of the last node's gap per force on the one before (m/N)
+            *_arrays("columns", nodes, nodes),
+            # numbers of the listed nodes; the bar of each node
             *_arrays("listed bar", nodes, kind=np.int64),
-            # nodes whose bar was looked at; that are listed; that reach the casing behind their bar
-            *_arrays("asked found closed", groups, kind=np.int64),
+            *_arrays("found", padded(nodes) // padded(1), kind=np.int64),  # set of the listed nodes
         ]
     )
 
