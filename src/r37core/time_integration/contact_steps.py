@@ -13,7 +13,7 @@ import numpy as np
 
 from r37core.alignment import LANES
 from r37core.contact.node_sweeps import TOLERANCE, set_laws, sweep_nodes, wear_bars
-from r37core.lanes import bits_of, first_bit, inlined, load, numbers_at, store
+from r37core.lanes import bits_of, first_bit, flags_of, inlined, load, numbers_at, store
 
 from .layout import MERIDIONAL, NORMAL, TANGENTIAL
 from .steps import leave_casing, list_pressed, push_blade, set_friction_of_listed
@@ -36,7 +36,6 @@ def press_contact(m, place, kind):
         gap = load(m.problem.gap, g)
         store(c.gap, g, gap)
         store(c.opened, g, gap)
-        store(c.pressure, g, 0.0)
         c.found[g // LANES] = 0
     for k in range(m.nodes):
         largest_gap = max(largest_gap, abs(c.gap[k]))
@@ -49,6 +48,9 @@ def press_contact(m, place, kind):
             set_friction_of_listed(m, c.listed, joined, True, kind.coriolis)
         for j in range(count, joined):
             set_column(m, c.listed[j], kind)
+        for g in range(0, len(c.gap), LANES):
+            # from the forces a step ago
+            store(c.pressure, g, np.where(flags_of(c.found[g // LANES]), 0.0 - load(m.force, g), 0.0))
         count = joined
         set_laws(c, count, m.lining, kind.lined)
         wrong = sweep_nodes(c, count, largest_gap, thickness, kind.lined)
