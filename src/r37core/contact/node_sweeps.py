@@ -67,23 +67,27 @@ def open_gaps(c, g, count):
 
 @inlined
 def sweep_nodes(c, count, largest_gap, thickness, lined):
-    """Set the forces on the listed nodes, from those they have; whether they changed too much in the last sweep.
+    """Set the forces on the listed nodes, from those they have; returns the last change if it is still too large.
 
-    `largest_gap` (m): what TOLERANCE is relative to; `thickness` (m): of the lining.
+    It is relative to `largest_gap` (m). `thickness` (m): of the lining.
     """
-    change = TOLERANCE * largest_gap
-    changed = 0
+    allowed = TOLERANCE * largest_gap
     for _ in range(SWEEPS):
         changed = 0
         for g in range(0, len(c.gap), LANES):
             opened, before, own = open_gaps(c, g, count), load(c.pressure, g), load(c.own, g)
             after = forces_of_laws(c, g, own * before - opened, thickness, lined)
+            change = np.abs(after - before) * own
             store(c.opened, g, opened)
             store(c.pressure, g, after)
-            changed |= bits_of(np.abs(after - before) * own > change)
+            store(c.change, g, change)
+            changed |= bits_of(change > allowed)
         if changed == 0:
-            break
-    return changed != 0
+            return 0.0
+    largest = 0.0
+    for j in range(count):
+        largest = max(largest, c.change[c.listed[j]])
+    return largest / largest_gap
 
 
 @inlined

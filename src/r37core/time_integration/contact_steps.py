@@ -12,7 +12,7 @@ from __future__ import annotations
 import numpy as np
 
 from r37core.alignment import LANES
-from r37core.contact.node_sweeps import TOLERANCE, set_laws, sweep_nodes, wear_bars
+from r37core.contact.node_sweeps import set_laws, sweep_nodes, wear_bars
 from r37core.lanes import bits_of, first_bit, flags_of, inlined, load, numbers_at, store
 
 from .layout import MERIDIONAL, NORMAL, TANGENTIAL
@@ -31,7 +31,7 @@ def push_contact(m, kind, work, lost):
 def press_contact(m, place, kind):
     """The contact forces at u_n from the gaps there, and the wear; returns whether there are any."""
     c, thickness = m.contact, m.lining.thickness
-    largest_gap, wrong = 0.0, False
+    largest_gap, violation = 0.0, 0.0
     for g in range(0, len(c.gap), LANES):
         gap = load(m.problem.gap, g)
         store(c.gap, g, gap)
@@ -53,11 +53,11 @@ def press_contact(m, place, kind):
             store(c.pressure, g, np.where(flags_of(c.found[g // LANES]), 0.0 - load(m.force, g), 0.0))
         count = joined
         set_laws(c, count, m.lining, kind.lined)
-        wrong = sweep_nodes(c, count, largest_gap, thickness, kind.lined)
+        violation = sweep_nodes(c, count, largest_gap, thickness, kind.lined)
     if count == 0:
         release_contact(m)
         return False
-    m.totals.worst_complementarity = max(m.totals.worst_complementarity, TOLERANCE * wrong)
+    m.totals.worst_complementarity = max(m.totals.worst_complementarity, violation)
     return keep_forces(m, count, kind)
 
 

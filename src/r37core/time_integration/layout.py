@@ -122,8 +122,8 @@ def contact_record(nodes: int) -> np.dtype:
     """The record of the contact problem at t_n of `nodes` nodes, whole vectors of them; see contact.node_sweeps."""
     return aligned_record(
         [
-            # gaps (m) without forces and with those found, and these (N)
-            *_arrays("gap opened pressure", nodes),
+            # gaps (m) without forces and with those found, and these (N); what the last sweep changed (m)
+            *_arrays("gap opened pressure change", nodes),
             # the laws of the listed nodes: own flexibility (m/N) and one over it; wear (m) of the bar; lines of
             # the bar's law in series with the node
             *_arrays("own stiffness wear elastic offset plastic", nodes),

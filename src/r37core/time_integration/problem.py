@@ -456,7 +456,7 @@ class Problem:
             raise LongRevolutionError(
                 f"speeds: at {self.speed:g} rad/s a revolution has {steps}, "
                 f"and the casing's shape at each would take {table / 2**30:.1f} GiB; use a higher speed, a longer step, or a "
-                "softer lining, for which it is shortened"
+                "less friction, for which it is shortened"
             )
 
 
@@ -471,5 +471,4 @@ def stable_problem(model: ContactModel, speed: float, scene: Scene, choice: Inte
         except UnstableStepError as error:
             if not choice.shorten:
                 raise
-            # half of it: at the limit a stiff bar is stable, but its rebound is anything
-            choice = replace(choice, time_step=0.5 * error.limit)
+            choice = replace(choice, time_step=error.shortened)

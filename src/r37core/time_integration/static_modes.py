@@ -85,8 +85,9 @@ def stepped_modes(frequencies: np.ndarray, rows: np.ndarray, coefficient: float,
         limit = _LARGEST_TURN * static_above / fastest
         raise UnstableStepError(
             f"time_step_s: {step:.6g} s, not below {limit:.6g} s: with a coefficient of friction of {coefficient:g} modes up to "
-            f"{fastest / 2e3 / np.pi:.1f} kHz must be stepped, for unique contact forces; use a smaller one, or less friction",
+            f"{fastest / 2e3 / np.pi:.1f} kHz must be stepped, so that the contact forces are unique; use a smaller one",
             limit,
+            limit * (1.0 - 1e-9),
         )
     raise TooFewStaticModesError(_remedy(counts, is_unique, coefficient, modes, rows.shape[1]))
 

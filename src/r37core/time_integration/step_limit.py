@@ -15,11 +15,14 @@ _OF_BLADE = "this reduced model", "raise basis_tolerance to drop the highest mod
 
 
 class UnstableStepError(ValueError):
-    """A time step beyond a stability limit; `limit` (s), about what the problem bears."""
+    """A time step beyond a limit; `limit` (s), about what the problem bears, and `shortened` (s), what to take in its place.
 
-    def __init__(self, message: str, limit: float):
+    That is half of the limit unless it is given: just below a limit of stability a motion is stable, but its rebound is anything.
+    """
+
+    def __init__(self, message: str, limit: float, shortened: float | None = None):
         super().__init__(message)
-        self.limit = limit
+        self.limit, self.shortened = limit, 0.5 * limit if shortened is None else shortened
 
 
 def check_step(problem: Problem) -> None:

@@ -1,0 +1,162 @@
+"""What modes and steps of the contact forces at t_n cost in accuracy, on seven blades: tables of docs/accuracy_tables.md.
+
+Run: make all_blades; python benchmarks/contact_accuracy.py (about half an hour on two cores); make docs. Each blade has speeds over
+the whole range and on the tops of its branches, which come from the sweep's results. Runs differ by the step alone, with the modes
+that follow from it; beside them stand central differences, in which the contact nodes have mass, and friction 0.1% larger.
+"""
+
+import os
+import sys
+from concurrent.futures import ProcessPoolExecutor
+from dataclasses import replace
+from pathlib import Path
+
+os.environ["OPENBLAS_NUM_THREADS"] = "1"
+
+import numpy as np
+import xarray as xr
+
+from r37core.config import read_settings
+from r37core.io import write_text
+from r37core.results.stress_recovery import StressRecovery
+from r37core.rom.contact_model import read_contact_model
+from r37core.rom.rom_file import read_reduced_model
+from r37core.studies.tables import markdown_table
+from r37core.time_integration.integrators import CENTRAL_DIFFERENCE, EXACT_MODAL
+from r37core.time_integration.problem import stable_problem
+from r37core.time_integration.speed_run import run_speed
+
+ROOT = Path(__file__).parent.parent
+STUDIES = ROOT / "results/studies"
+SCENES = {"direct": 8e-7, "abradable": 8e-7}
+"""Scenes, and the finest step (s) of forces at t_n in them."""
+
+STEPS = (9.6e-6, 6.4e-6, 4.8e-6, 4e-6, 3.2e-6, 2.4e-6, 1.6e-6)
+FINEST, NUDGED, MASS, COARSE_MASS = "finest", "friction + 0.1%", "central differences 1e-7", "central differences 2e-7"
+SPREAD = np.round(np.linspace(773.0, 1987.0, 16))
+STRESS_REVOLUTIONS = 20
+QUANTITIES = ("rms_normal", "rms_tangential", "stress")
+KEPT = {"spectrum_highest_order": 1, "wear_angles": 8}
+SETTLED = 0.03
+"""Largest difference, from the finest run, of the run with more friction, and of those with mass from each other."""
+
+
+def ways(scene):
+    """The runs of a scene: step (s), integrator, and by how much friction is larger."""
+    found = {f"{step:g}": (step, EXACT_MODAL, 0.0) for step in STEPS}
+    found |= {FINEST: (SCENES[scene], EXACT_MODAL, 0.0), NUDGED: (SCENES[scene], EXACT_MODAL, 1e-3)}
+    return found | {MASS: (1e-7, CENTRAL_DIFFERENCE, 0.0), COARSE_MASS: (2e-7, CENTRAL_DIFFERENCE, 0.0)}
+
+
+def speeds_of(blade, scene, sweep):
+    """Speeds over the whole range and, of the four steepest drops of the sweep's rms, the last one before and one 6 rad/s below."""
+    curve = np.hypot(*(sweep[name].sel(blade=blade, scene=scene, tip_point="leading_edge") for name in QUANTITIES[:2]))
+    curve = curve.dropna("speed")
+    values, speeds = curve.values, curve.speed.values
+    lost = values[:-1] - values[1:]
+    tops = speeds[np.sort(np.argsort(lost)[::-1][:4])]
+    return np.unique(np.concatenate([SPREAD, tops, tops - 6.0]).clip(750.0, 2000.0))
+
+
+def measured(task):
+    """Numbers of all ways at the speeds of a blade and scene, shape (ways, speeds, quantities), and the modes stepped by each."""
+    blade, scene, speeds = task
+    settings = read_settings(ROOT)
+    tip_line = settings.scenes[scene].tip_line
+    model = read_contact_model(ROOT / f"results/{blade}/contact_{tip_line}.npz")
+    recovery = StressRecovery(read_reduced_model(ROOT / f"results/{blade}/rom_{tip_line}.nc"), settings.blades[blade].material)
+    values, modes = [], []
+    for step, integrator, more in ways(scene).values():
+        of = settings.scenes[scene].scene
+        of = replace(of, friction=replace(of.friction, coefficient=of.friction.coefficient * (1.0 + more)))
+        row = []
+        for speed in speeds:
+            choice = settings.integration_choice(blade, scene, speed)
+            choice = replace(
+                choice, time_step=step, integrator=integrator, snapshot_revolutions=STRESS_REVOLUTIONS, energy=False
+            )
+            run = run_speed(model, float(speed), of, choice, ("stress",), **KEPT)
+            instants = run["snapshots"].reshape(STRESS_REVOLUTIONS, -1, run["snapshots"].shape[-1]) if len(run["snapshots"]) else []
+            largest = [recovery.max_von_mises(revolution).max() for revolution in instants]
+            row.append([*run["rms"][0, [0, 2]], np.median(largest) if largest else np.nan])
+        values.append(row)
+        modes.append(len(stable_problem(model, float(speeds[-1]), of, choice).frequencies))
+        print(blade, scene, step, integrator, more, flush=True)
+    return np.array(values), np.array(modes)
+
+
+def dataset(tasks, results):
+    """All of it, with missing speeds as NaN."""
+    longest = max(len(speeds) for *_, speeds in tasks)
+    scenes, blades = list(SCENES), list(dict.fromkeys(blade for blade, *_ in tasks))
+    names = list(ways(scenes[0]))
+    shape = (len(scenes), len(blades), len(names), longest, len(QUANTITIES))
+    values, modes, speeds_of_all = np.full(shape, np.nan), np.zeros(shape[:3], dtype=int), np.full((shape[0], shape[1], longest), np.nan)
+    for (blade, scene, speeds), (value, counts) in zip(tasks, results, strict=True):
+        at = scenes.index(scene), blades.index(blade)
+        values[at][:, : len(speeds)], modes[at], speeds_of_all[at][: len(speeds)] = value, counts, speeds
+    return xr.Dataset(
+        {
+            "value": (("scene", "blade", "way", "number", "quantity"), values),
+            "modes": (("scene", "blade", "way"), modes),
+            "speed": (("scene", "blade", "number"), speeds_of_all),
+        },
+        {"scene": scenes, "blade": blades, "way": names, "quantity": list(QUANTITIES)},
+    )
+
+
+def differences(found, scene, way, of):
+    """Relative difference of a way from another at each speed: of rms, normal and tangential together, and of stress."""
+    one, other = (found.value.sel(scene=scene, way=name) for name in (way, of))
+    rms, base = (np.hypot(*(values.sel(quantity=name) for name in QUANTITIES[:2])) for values in (one, other))
+    return rms / base - 1.0, one.sel(quantity="stress") / other.sel(quantity="stress") - 1.0
+
+
+def settled(found, scene):
+    """Where 0.1% of friction and, in direct contact, the published scheme's own step change little."""
+    nudged, _ = differences(found, scene, NUDGED, FINEST)
+    mass, _ = differences(found, scene, COARSE_MASS, MASS)
+    return (np.abs(nudged) < SETTLED) & ((np.abs(mass) < SETTLED) if scene == "direct" else True)
+
+
+def errors_table(found, scene, of, quantity):
+    """Errors of every way against one of them, mean and largest in percent, at the settled speeds of each blade."""
+    mask, rows = settled(found, scene), []
+    compared = [way for way in found.way.values if way not in (of, COARSE_MASS)]
+    for blade in [*found.blade.values, "all"]:
+        cells = []
+        for way in compared:
+            error = np.abs(differences(found, scene, way, of)[quantity].where(mask))
+            error = error if blade == "all" else error.sel(blade=blade)
+            cells.append(f"{100 * float(error.mean()):.1f} ({100 * float(error.max()):.1f})")
+        count = int((mask if blade == "all" else mask.sel(blade=blade)).sum())
+        rows.append([blade, f"{count}", *cells])
+    modes = found.modes.sel(scene=scene)
+    heads = [f"{way} s, {int(modes.sel(way=way).max())} modes" if way[0].isdigit() else way for way in compared]
+    return markdown_table(["blade", "speeds", *heads], rows)
+
+
+def text(found):
+    """The tables of docs/accuracy_tables.md."""
+    parts = []
+    for scene in SCENES:
+        for quantity, name in enumerate(("rms", "stress")):
+            for of in (FINEST, MASS):
+                against = "the finest step of forces at t_n" if of == FINEST else "central differences at 1e-7 s"
+                parts.append(f"`{scene}`, error of {name} against {against}, %: mean (largest)\n\n{errors_table(found, scene, of, quantity)}")
+    return "\n".join(parts)
+
+
+def main():
+    settings = read_settings(ROOT)
+    with xr.open_dataset(ROOT / "results/rms.nc") as sweep:
+        tasks = [(blade, scene, speeds_of(blade, scene, sweep)) for scene in SCENES for blade in settings.blades]
+    with ProcessPoolExecutor(int(sys.argv[1]) if len(sys.argv) > 1 else 2) as pool:
+        found = dataset(tasks, list(pool.map(measured, tasks)))
+    STUDIES.mkdir(parents=True, exist_ok=True)
+    found.to_netcdf(STUDIES / "contact_accuracy.nc")
+    write_text(text(found), STUDIES / "contact_accuracy.md")
+
+
+if __name__ == "__main__":
+    main()
