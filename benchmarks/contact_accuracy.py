@@ -1,8 +1,8 @@
 """What modes and steps of the contact forces at t_n cost in accuracy, on seven blades: tables of docs/accuracy_tables.md.
 
-Run: make all_blades; python benchmarks/contact_accuracy.py (about half an hour on two cores); make docs. Each blade has speeds over
-the whole range and on the tops of its branches, which come from the sweep's results. Runs differ by the step alone, with the modes
-that follow from it; beside them stand central differences, in which the contact nodes have mass, and friction 0.1% larger.
+Run: make all_blades; python benchmarks/contact_accuracy.py (half an hour on two cores); make docs. Each blade has speeds over
+the whole range and on the tops of its branches, which come from the sweep's results. Runs differ by the step, with the modes that
+follow from it; beside them stand central differences, in which the contact nodes have mass, and friction 0.1% larger.
 """
 
 import os
@@ -49,7 +49,7 @@ def ways(scene):
 
 
 def speeds_of(blade, scene, sweep):
-    """Speeds over the whole range and, of the four steepest drops of the sweep's rms, the last one before and one 6 rad/s below."""
+    """Speeds over the range and, of the four steepest drops of the sweep's rms, the last one before and one 6 rad/s below."""
     curve = np.hypot(*(sweep[name].sel(blade=blade, scene=scene, tip_point="leading_edge") for name in QUANTITIES[:2]))
     curve = curve.dropna("speed")
     values, speeds = curve.values, curve.speed.values
@@ -59,7 +59,7 @@ def speeds_of(blade, scene, sweep):
 
 
 def measured(task):
-    """Numbers of all ways at the speeds of a blade and scene, shape (ways, speeds, quantities), and the modes stepped by each."""
+    """Numbers of all ways at the speeds of a blade and scene, shape (ways, speeds, quantities); how many modes each steps."""
     blade, scene, speeds = task
     settings = read_settings(ROOT)
     tip_line = settings.scenes[scene].tip_line
@@ -76,9 +76,8 @@ def measured(task):
                 choice, time_step=step, integrator=integrator, snapshot_revolutions=STRESS_REVOLUTIONS, energy=False
             )
             run = run_speed(model, float(speed), of, choice, ("stress",), **KEPT)
-            instants = run["snapshots"].reshape(STRESS_REVOLUTIONS, -1, run["snapshots"].shape[-1]) if len(run["snapshots"]) else []
-            largest = [recovery.max_von_mises(revolution).max() for revolution in instants]
-            row.append([*run["rms"][0, [0, 2]], np.median(largest) if largest else np.nan])
+            stress = recovery.max_von_mises(run["snapshots"]).reshape(-1, choice.snapshots_per_revolution).max(axis=1)
+            row.append([*run["rms"][0, [0, 2]], np.median(stress) if run["status"] == 0 else np.nan])
         values.append(row)
         modes.append(len(stable_problem(model, float(speeds[-1]), of, choice).frequencies))
         print(blade, scene, step, integrator, more, flush=True)
@@ -91,7 +90,11 @@ def dataset(tasks, results):
     scenes, blades = list(SCENES), list(dict.fromkeys(blade for blade, *_ in tasks))
     names = list(ways(scenes[0]))
     shape = (len(scenes), len(blades), len(names), longest, len(QUANTITIES))
-    values, modes, speeds_of_all = np.full(shape, np.nan), np.zeros(shape[:3], dtype=int), np.full((shape[0], shape[1], longest), np.nan)
+    values, modes, speeds_of_all = (
+        np.full(shape, np.nan),
+        np.zeros(shape[:3], dtype=int),
+        np.full((*shape[:2], longest), np.nan),
+    )
     for (blade, scene, speeds), (value, counts) in zip(tasks, results, strict=True):
         at = scenes.index(scene), blades.index(blade)
         values[at][:, : len(speeds)], modes[at], speeds_of_all[at][: len(speeds)] = value, counts, speeds
@@ -143,7 +146,8 @@ def text(found):
         for quantity, name in enumerate(("rms", "stress")):
             for of in (FINEST, MASS):
                 against = "the finest step of forces at t_n" if of == FINEST else "central differences at 1e-7 s"
-                parts.append(f"`{scene}`, error of {name} against {against}, %: mean (largest)\n\n{errors_table(found, scene, of, quantity)}")
+                table = errors_table(found, scene, of, quantity)
+                parts.append(f"`{scene}`, error of {name} against {against}, %: mean (largest)\n\n{table}")
     return "\n".join(parts)
 
 

@@ -60,7 +60,7 @@ def series_modulus(elastic_modulus: float, stiffness: float, flexibility: Any) -
 
 
 def lines_of_bar(elastic_modulus: Any, lining: Any) -> tuple[Any, Any, Any]:
-    """The force of return_mapping as two lines: stiffness (N/m) of the elastic one, offset (N) and stiffness (N/m) of the plastic.
+    """The force of return_mapping as two lines: stiffness (N/m) of the elastic, offset (N) and stiffness of the plastic one.
 
     The bar pressed to x, worn by w before, has the force max(0, min(elastic (x - w), offset + plastic x)), until it is worn
     through: elastic E A/e, offset and plastic E/(E + K) A times the yield stress and K/e, with the area A and the thickness e.

@@ -1,10 +1,10 @@
 """A step of exact_modal in contact, compiled: the contact forces at t_n are a static law of the displacement at t_n.
 
 u_{n+1} = a u_n + b u_{n-1} + c F_n, F_n from the gaps at u_n: the leapfrog of Stoermer and Verlet for modes between forces
-(Hairer, Lubich and Wanner, Geometric Numerical Integration, sections I.1.4 and XIII.2). The modes that are not stepped follow the
-forces at once by their residual flexibility, so that forces and gaps at t_n are one small problem of all nodes
-(r37core.contact.node_sweeps): bars, the casing behind them, or the bare casing, with friction against the sliding at t_n.
-Source of the static modes: Monjaraz Tec, Gross and Krack, Mech. Syst. Signal Process. 165 (2022) 108303, the massless boundary.
+(Hairer, Lubich and Wanner, Geometric Numerical Integration, sections I.1.4 and XIII.2). The modes that are not stepped follow
+the forces at once by their residual flexibility, so that forces and gaps at t_n are one small problem of all nodes
+(r37core.contact.node_sweeps): bars, the casing behind them, or the bare casing, with friction against the sliding at t_n. It is
+the massless boundary of Monjaraz-Tec, Gross and Krack, Computers & Structures 260 (2022), with exact modal steps.
 """
 
 from __future__ import annotations

@@ -51,7 +51,9 @@ class Problem:
 
     With the integrator exact_modal the contact forces are those at t_n (`second_order`), and modes faster than
     `choice.static_above` per step follow them statically: they are none of `frequencies` and `modes`; see
-    r37core.time_integration.static_modes. With central differences all modes are stepped. A model with a Coriolis matrix has its stepped modes coupled by it (`complex_modes`). The modes of an elastic
+    r37core.time_integration.static_modes. With central differences all modes are stepped.
+
+    A model with a Coriolis matrix has its stepped modes coupled by it (`complex_modes`). The modes of an elastic
     casing follow those of the blade wherever "all modes" are meant: the recursion, the operators, a snapshot.
 
     Raises UnstableStepError for a step at or above the stability limit 2/omega_max of central differences, or that of pressed
@@ -455,8 +457,7 @@ class Problem:
             steps = f"{self.steps_per_revolution} steps of {self.time_step:.3g} s"
             raise LongRevolutionError(
                 f"speeds: at {self.speed:g} rad/s a revolution has {steps}, "
-                f"and the casing's shape at each would take {table / 2**30:.1f} GiB; use a higher speed, a longer step, or a "
-                "less friction, for which it is shortened"
+                f"and the casing's shape at each would take {table / 2**30:.1f} GiB; use a higher speed or a longer step"
             )
 
 

@@ -2,8 +2,8 @@
 
 Equations after section 5 of the benchmark, in the coordinates of the modes at rest, where the mass is the identity:
 u* = A u_n + B u_{n-1} without contact, u_{n+1} = u* + C F with it (reference_motion). Work per step is of the order of modes
-squared. Forces at t_n, and the static modes with them: see r37core.time_integration.contact_steps. An elastic casing is followed
-in the frame that does not turn.
+squared. Forces at t_n, and the static modes with them: r37core.time_integration.contact_steps. An elastic casing is followed in
+the frame that does not turn.
 """
 
 from __future__ import annotations

@@ -1,10 +1,10 @@
 """Which modes follow the contact forces statically: those too fast for the step, and so many that the forces are unique.
 
-The contact forces at an instant follow from the residual flexibility R of the static modes alone. With friction p_k of a node
-opens the gap of node i by G_ik = -R_ik d_k, d_k being the directions of its force. Every principal minor of G is positive, so that
-forces and gaps are unique (Cottle, Pang and Stone, The Linear Complementarity Problem, theorem 3.3.7), if its symmetric part is
-positive definite. Strong friction makes it indefinite (Painleve's paradox: Genot and Brogliato, Eur. J. Mech. A 18 (1999)
-653-677); so do static modes that are too few to move every contact node by itself.
+The contact forces at an instant follow from the residual flexibility R of the static modes alone. With friction a normal force
+on node k opens the gap of node i by G_ik = -R_ik d_k, d_k being the directions of its force. If the symmetric part of G is
+positive definite, every principal minor of G is positive, and forces and gaps are unique (Cottle, Pang and Stone, The Linear
+Complementarity Problem, theorems 3.1.6 and 3.3.7). Strong friction makes it indefinite (Painleve's paradox: Genot and
+Brogliato, Eur. J. Mech. A 18 (1999) 653-677); so do static modes that are too few to move every contact node by itself.
 """
 
 from __future__ import annotations
@@ -84,8 +84,8 @@ def stepped_modes(frequencies: np.ndarray, rows: np.ndarray, coefficient: float,
         fastest = float(frequencies[stepped - 1])
         limit = _LARGEST_TURN * static_above / fastest
         raise UnstableStepError(
-            f"time_step_s: {step:.6g} s, not below {limit:.6g} s: with a coefficient of friction of {coefficient:g} modes up to "
-            f"{fastest / 2e3 / np.pi:.1f} kHz must be stepped, so that the contact forces are unique; use a smaller one",
+            f"time_step_s: {step:.6g} s, not below {limit:.6g} s: for unique contact forces with a coefficient of friction of "
+            f"{coefficient:g} modes up to {fastest / 2e3 / np.pi:.1f} kHz must be stepped; use a smaller one",
             limit,
             limit * (1.0 - 1e-9),
         )
@@ -100,8 +100,8 @@ def _remedy(counts: list[int], is_unique: Callable[[int, float], bool], coeffici
     bears, fails = 0.0, coefficient
     if not any(is_unique(count, bears) for count in counts):
         return (
-            f"the reduced model has {modes} modes for {nodes} contact nodes, too few for unique contact forces at t_n; allowed: "
-            "fewer contact nodes (structure.boundary.nodes), more modes, or the integrator central_difference"
+            f"the reduced model has {modes} modes for {nodes} contact nodes, too few for unique contact forces; allowed: fewer "
+            "contact nodes (structure.boundary.nodes), more modes, or the integrator central_difference"
         )
     for _ in range(10):
         middle = 0.5 * (bears + fails)

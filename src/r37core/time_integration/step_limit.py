@@ -17,7 +17,7 @@ _OF_BLADE = "this reduced model", "raise basis_tolerance to drop the highest mod
 class UnstableStepError(ValueError):
     """A time step beyond a limit; `limit` (s), about what the problem bears, and `shortened` (s), what to take in its place.
 
-    That is half of the limit unless it is given: just below a limit of stability a motion is stable, but its rebound is anything.
+    That is half of the limit unless it is given: just below a limit of stability a motion is bounded, but wrong.
     """
 
     def __init__(self, message: str, limit: float, shortened: float | None = None):
