@@ -45,7 +45,7 @@ def edited_configuration():
 
 
 LONGEST = ("workflow", "coriolis", "studies", "refined_runs", "slurm", "your_blade", "reruns", "clearance", "run_ups")
-LONGEST += ("time_integration", "lined_steps")
+LONGEST += ("time_integration", "contact_steps")
 """Files that take minutes. The first two need different programs, so that no two workers compile the same one at once."""
 
 

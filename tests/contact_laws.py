@@ -5,10 +5,10 @@ from dataclasses import fields
 import numpy as np
 from numba import njit
 
-from r37core.alignment import aligned_record, aligned_zeros, padded
-from r37core.contact import complementarity, laws
+from r37core.alignment import LANES, aligned_record, aligned_zeros, padded
+from r37core.contact import complementarity, laws, node_sweeps
 from r37core.lanes import OPTIONS, inlined, load, store
-from r37core.time_integration.layout import LINING, complementarity_record
+from r37core.time_integration.layout import LINING, complementarity_record, contact_record
 
 _return_mapping, _friction_direction = inlined(laws.return_mapping), inlined(laws.friction_direction)
 
@@ -31,12 +31,31 @@ def _complement(room):
     return complementarity.solve_complementarity(room[0].problem, room[0].columns)
 
 
-def return_mapping(penetration, wear, bar):
-    """Stress and new wear of a bar with the numbers of a lining."""
+@njit(**OPTIONS)
+def _sweep(room, count, largest_gap, lined):
+    m = room[0]
+    node_sweeps.set_laws(m.contact, count, m.lining, lined)
+    return node_sweeps.sweep_nodes(m.contact, count, largest_gap, m.lining.thickness, lined)
+
+
+@njit(**OPTIONS)
+def _wear(room, groups):
+    m = room[0]
+    for group in range(len(groups)):
+        groups[group] = node_sweeps.wear_bars(m.contact, group * LANES, m.lining)
+
+
+def _numbers_of(bar):
+    """The numbers of a lining, as the compiled time integration has them."""
     law = np.zeros(1, LINING)
     for field in fields(bar):
         law[field.name] = getattr(bar, field.name) or 0.0
-    return _press(penetration, wear, law)
+    return law
+
+
+def return_mapping(penetration, wear, bar):
+    """Stress and new wear of a bar with the numbers of a lining."""
+    return _press(penetration, wear, _numbers_of(bar))
 
 
 def friction_direction(tangential, meridional):
@@ -62,3 +81,30 @@ def solve_complementarity(matrix, gap, guess=None):
     p["touching"] = np.packbits(np.pad(guess, (0, nodes - count)), bitorder="little")
     violation = _complement(room)
     return p["multiplier"][:count].copy(), violation
+
+
+def press_nodes(matrix, gap, bar=None, area=0.0, wear=0.0, start=0.0):
+    """The contact problem at one instant, of nodes at the bare casing, or on bars of an `area` (m2) worn by `wear` (m).
+
+    `matrix` (m/N): opening of the first index's gap per force on the second; `start` (N): forces that the sweeps begin with.
+    Returns forces (N), how far they are from settled, and, of bars, their wear (m) and which nodes reach the casing behind.
+    """
+    count, nodes = len(gap), padded(len(gap))
+    room = aligned_zeros((1,), aligned_record([("contact", contact_record(nodes), ()), ("lining", LINING, ())]))
+    c = room[0]["contact"]
+    c["gap"][:count], c["opened"][:count], c["pressure"][:count], c["wear"][:count] = gap, gap, start, wear
+    c["columns"][:count, :count] = np.transpose(matrix)
+    c["listed"][:count] = np.arange(count)
+    listed = np.arange(nodes) < count
+    c["found"] = np.packbits(listed, bitorder="little")
+    if bar is not None:
+        room["lining"], room[0]["lining"]["area"] = _numbers_of(bar), area
+    change = _sweep(room, count, np.abs(gap).max(), bar is not None)
+    pressure = c["pressure"].copy()
+    assert not pressure[count:].any()
+    if bar is None:
+        return pressure[:count], change
+    touching = np.zeros(nodes // LANES, dtype=np.int64)
+    _wear(room, touching)
+    reaching = np.unpackbits(touching.astype(np.uint8), bitorder="little").astype(bool)
+    return pressure[:count], change, c["wear"][:count].copy(), reaching[:count]

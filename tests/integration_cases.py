@@ -1,4 +1,6 @@
-"""Scenes and a model that the tests of the time integration share."""
+"""Scenes and models that the tests of the time integration share."""
+
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -47,6 +49,30 @@ def random_model(nodes):
         tip_displacement_operator=generator.standard_normal((3, 2, modes)),
         to_reduced=np.eye(modes),
         **held(nodes),
+    )
+
+
+def with_static_modes(model, flexibility, frequency=1e8):
+    """The model with three modes more for each contact node, which move it alone, one in each direction.
+
+    They are faster (rad/s) than any step follows, and so displace the node at once by its `flexibility` (m/N) times the force
+    on it. The tip and the reduced coordinates have none of that: samples and stress show the modes that the model had.
+    """
+    directions, nodes, _ = model.displacement_operator.shape
+    more = directions * nodes
+    rows = frequency * np.sqrt(flexibility) * np.eye(more).reshape(directions, nodes, more)
+
+    def last_axis(array):
+        return np.pad(array, [(0, 0)] * (array.ndim - 1) + [(0, more)])
+
+    return replace(
+        model,
+        squared_frequencies=np.append(model.squared_frequencies, np.full(more, frequency**2)),
+        stiffness_per_square=np.pad(model.stiffness_per_square, (0, more)),
+        displacement_operator=np.concatenate([model.displacement_operator, rows], axis=-1),
+        tip_displacement_operator=last_axis(model.tip_displacement_operator),
+        to_reduced=last_axis(model.to_reduced),
+        coriolis=None if model.coriolis is None else np.pad(model.coriolis, (0, more)),
     )
 
 

@@ -1,0 +1,416 @@
+"""Contact forces at t_n and the static modes that hold the nodes: order, energy, work, stability, and what long steps keep."""
+
+from dataclasses import replace
+from itertools import combinations
+
+import numpy as np
+import pytest
+from defaults import Casing, Friction, IntegrationChoice, Lining, Scene
+from integration_cases import (
+    ABRADABLE,
+    DIRECT,
+    LINING,
+    assert_same_totals_and_wear,
+    oscillator,
+    random_model,
+    with_static_modes,
+)
+from scipy.integrate import solve_ivp
+
+from r37core.time_integration import problem as problem_module
+from r37core.time_integration.integrators import EXACT_MODAL
+from r37core.time_integration.problem import Problem, UnstableStepError, stable_problem
+from r37core.time_integration.simulate import Simulation
+from r37core.time_integration.speed_run import run_speed
+from r37core.time_integration.step_limit import pressed_ratio
+
+NARROW = replace(ABRADABLE, lining=replace(LINING, bar_width=1e-3))
+THIN = replace(NARROW, lining=Lining(1e-4, 1e8, 5e7, 1e5, bar_width=0.03))
+"""With the casing behind it in reach."""
+
+LONG = IntegrationChoice(3.2e-6, 2, 62, integrator=EXACT_MODAL, energy=True)
+ELASTIC = Lining(5e-3, 20e9, 5e9, 1e30, bar_area=1e-6)
+"""Bars that never yield."""
+
+
+def times(simulation, record):
+    problem = simulation.problem
+    return (1 + np.arange(len(record.samples))) * problem.steps_per_sample * problem.time_step
+
+
+def order_of(errors, steps):
+    """Power of the step with which errors fall: those of single steps scatter with where in a step a contact begins."""
+    return np.polyfit(np.log(steps), np.log(errors), 1)[0]
+
+
+@pytest.mark.parametrize("flexibility", [1e-10, 2e-7])
+def test_error_of_a_mode_on_an_elastic_bar_falls_with_the_square_of_the_step(flexibility):
+    """Lobes press the bar against one damped mode, through the static one; exact: SciPy's DOP853 on two springs in series."""
+    frequency, ratio, speed = 3000.0, 0.02, 1000.0
+    casing = Casing(1e-4, lobes=2, amplitude=2.0, rise_fraction=0.0)
+    scene = Scene(casing, ELASTIC, damping_ratio=ratio, divergence_limit=1.0)
+    model = with_static_modes(oscillator(frequency), flexibility)
+    stiffness = 1.0 / (ELASTIC.thickness / ELASTIC.elastic_modulus / ELASTIC.bar_area + flexibility)
+
+    def motion(time, state):
+        shape = casing.shape(np.array([model.theta[0] - speed * time]))[0]
+        pressed = max(0.0, state[0] - casing.clearance * (1.0 - casing.amplitude * shape))
+        return state[1], -2 * ratio * frequency * state[1] - frequency**2 * state[0] - stiffness * pressed
+
+    errors, steps = [], []
+    for step in 1.6e-5 * 0.5 ** np.arange(0.0, 3.1, 0.25):
+        simulation = Simulation(model, speed, scene, replace(LONG, time_step=step, revolutions=3, samples_per_revolution=50))
+        record = simulation.advance(simulation.start(), 3)
+        time = times(simulation, record)
+        found = solve_ivp(motion, (0.0, time[-1]), [0.0, 0.0], "DOP853", time, rtol=1e-11, atol=1e-15, max_step=2e-5)
+        errors.append(np.abs(record.samples[:, 0] - found.y[0]).max() / np.abs(found.y[0]).max())
+        steps.append(simulation.problem.time_step)
+    assert errors[0] < 1e-3
+    assert 1.8 < order_of(errors, steps) < 2.3, errors
+
+
+FREQUENCY, START, STOP = 5000.0, -1e-3, 0.5e-3
+GIVES_WAY = np.geomspace(5e-9, 1e-7, 8)
+"""Flexibilities (m/N) of a static mode."""
+
+
+def bouncing(step, flexibility, revolutions, **others):
+    """A mass that swings on its spring from START into a rigid stop, which a static mode of this flexibility meets first."""
+    model = with_static_modes(oscillator(FREQUENCY), flexibility)
+    scene = Scene(Casing(STOP, lobes=0), damping_ratio=0.0)
+    choice = replace(LONG, time_step=step, revolutions=revolutions, samples_per_revolution=50, **others)
+    simulation = Simulation(model, 1000.0, scene, choice)
+    state = simulation.start()
+    state.displacement[:] = START
+    # u(-h) of what moves off from rest
+    state.increment[:] = 0.5 * simulation.problem.recursion.pull * START
+    return simulation, state
+
+
+def bounces(time, flexibility):
+    """Its displacement: free at the frequency w, in contact on a spring 1/R more about another rest, and so on for ever."""
+    in_contact = np.sqrt(FREQUENCY**2 + 1.0 / flexibility)
+    rest = STOP / flexibility / in_contact**2
+    hit = np.arccos(STOP / START) / FREQUENCY
+    velocity = -START * FREQUENCY * np.sin(FREQUENCY * hit)
+    turns = hit + np.arctan2(velocity / in_contact, STOP - rest) / in_contact
+    # from the farthest point to the deepest and back the same way
+    since = turns - np.abs(time % (2.0 * turns) - turns)
+    angle = in_contact * (since - hit)
+    pressed = rest + (STOP - rest) * np.cos(angle) + velocity / in_contact * np.sin(angle)
+    return np.where(since < hit, START * np.cos(FREQUENCY * since), pressed)
+
+
+def test_a_mass_bounces_off_a_rigid_stop_as_in_closed_form():
+    errors, steps = [], []
+    for step in (8e-6, 4e-6, 2e-6, 1e-6):
+        of_step = []
+        for flexibility in GIVES_WAY:
+            simulation, state = bouncing(step, flexibility, 2)
+            record = simulation.advance(state, 2)
+            exact = bounces(times(simulation, record), flexibility)
+            # beyond the stop by what the static mode gives way
+            assert exact.max() > 1.2 * STOP
+            assert state.totals["casing_hits"] >= 8
+            of_step.append(np.abs(record.samples[:, 0] - exact).max() / abs(START))
+        errors.append(np.mean(of_step))
+        steps.append(simulation.problem.time_step)
+    assert errors[0] < 1e-2
+    assert 1.8 < order_of(errors, steps) < 2.3, errors
+    simulation, state = bouncing(steps[0], GIVES_WAY[-1], 2, engine="reference")
+    reference = simulation.advance(state, 2).samples[:, 0]
+    simulation, state = bouncing(steps[0], GIVES_WAY[-1], 2)
+    np.testing.assert_allclose(simulation.advance(state, 2).samples[:, 0], reference, rtol=0, atol=1e-10 * abs(START))
+
+
+def test_bounces_off_a_rigid_stop_lose_no_energy():
+    """The stop does no work on all modes together: what is missing between contacts falls with the square of the step.
+
+    The static mode holds a part of the energy in contact, and gives it all back.
+    """
+    start, missing, steps = 0.5 * (FREQUENCY * START) ** 2, [], []
+    for step in (8e-6, 4e-6, 2e-6, 1e-6):
+        of_step = []
+        for flexibility in GIVES_WAY:
+            simulation, state = bouncing(step, flexibility, 20)
+            free, held, first = [], 0.0, simulation.energy(state) / start
+            for _ in range(20 * 50):
+                simulation.advance_samples(state, 1)
+                held = max(held, simulation.problem.static_energy(state.contact_force) / start)
+                gained = simulation.work(state) / start
+                assert abs(simulation.energy(state) / start - first - gained) < 1e-11
+                if not state.contact_force.any():
+                    free.append(abs(gained))
+            assert held > 0.1
+            # eighty bounces later it is no more
+            early, late = np.array_split(free, 2)
+            assert late.max() < 1.5 * early.max() + 1e-12
+            of_step.append(np.max(free))
+        missing.append(np.mean(of_step))
+        steps.append(simulation.problem.time_step)
+    assert missing[0] < 1e-2
+    assert 1.8 < order_of(missing, steps) < 2.3, missing
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("scene", [NARROW, THIN, DIRECT], ids=["abradable", "thin", "direct"])
+def test_work_of_the_contact_forces_is_that_of_forces_times_paths(contact, scene):
+    """Counted in every step: trapezoids of the forces over the nodes' whole displacement, that of the static modes in it.
+
+    What is left is half of the last force's work on the last step of the stepped modes, which it pushes in the next one, too.
+    """
+    every, steps_at_once = 2000, 10
+    choice = replace(LONG, time_step=2e-6, samples_per_revolution=every, snapshots_per_revolution=every)
+    choice = replace(choice, snapshot_revolutions=choice.revolutions, engine="reference")
+    simulation = Simulation(contact, 1600.0, scene, choice)
+    problem, state = simulation.problem, simulation.start()
+    assert problem.steps_per_sample == 1
+    rows = problem.operator_at_rest.reshape(3 * len(contact.theta), -1) @ problem.state_shapes
+    stepped = len(problem.frequencies)
+    before, counted, found = np.zeros(rows.shape[1]), 0.0, []
+    for _ in range(every // steps_at_once):
+        for snapshot in simulation.advance_samples(state, steps_at_once).snapshots:
+            path, force = snapshot - before, snapshot[stepped:]
+            counted += 0.5 * (force + before[stepped:]) @ rows @ path
+            before = snapshot
+        left = 0.5 * force @ rows[:, :stepped] @ path[:stepped]
+        found.append((counted - left, simulation.work(state), left))
+    counted, work, left = np.array(found).T
+    largest = np.abs(work).max()
+    assert state.totals["steps"] == every
+    # as often as not it ends in contact
+    assert np.abs(left).max() > 1e-3 * largest and np.count_nonzero(left) > 20
+    np.testing.assert_allclose(counted, work, rtol=0, atol=1e-10 * largest)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    "scene",
+    [
+        NARROW,
+        replace(NARROW, lining=replace(NARROW.lining, shared_ring=True)),
+        replace(NARROW, friction=replace(NARROW.friction, vector=False)),
+        replace(NARROW, exact_gap=True),
+        THIN,
+        DIRECT,
+        replace(DIRECT, friction=replace(DIRECT.friction, vector=False)),
+        replace(DIRECT, friction=replace(DIRECT.friction, coupled=False)),
+        replace(DIRECT, exact_gap=True),
+    ],
+    ids=["abradable", "shared", "constant", "exact", "thin", "direct", "direct_constant", "direct_after", "direct_exact"],
+)
+def test_energy_balance_closes_with_static_modes(contact, scene):
+    simulation = Simulation(contact, 1600.0, scene, replace(LONG, revolutions=4))
+    assert len(simulation.problem.frequencies) < len(contact.squared_frequencies)
+    state, held = simulation.start(), []
+    for _ in range(4 * 62):
+        simulation.advance_samples(state, 1)
+        work, loss = simulation.work(state), state.totals["loss"]
+        held.append(work - state.totals["work"])
+        assert abs(simulation.energy(state) - work + loss) <= 1e-10 * (np.abs(state.totals["work"]) + max(held) + loss)
+    assert loss > 0.0
+    # while the blade is pressed the static modes hold some of the work
+    assert max(held) > 1e-4 * abs(work)
+    assert (state.totals["casing_hits"] > 0) == (scene.lining is None or scene.lining.thickness < 1e-3)
+
+
+def pressed_oscillator(share, scene):
+    """A mode that a casing too tight for it holds by a static mode, started beside its rest; `share`: of the limit's stiffness.
+
+    The casing is lobed with one lobe that is the same all round: a round one would leave no room at the start.
+    """
+    frequency, penetration, speed = 2e4, 1e-3, 1000.0
+    choice = replace(LONG, time_step=2e-5, samples_per_revolution=314)
+    scene = replace(scene, casing=Casing(1e-3, lobes=1, amplitude=2.0, width=1e6, rise_fraction=0.0), divergence_limit=1e300)
+    free = Problem(with_static_modes(oscillator(frequency), 1.0), speed, scene, choice)
+    keep, pull, inverse = (float(part[0]) for part in (free.recursion.keep, free.recursion.pull, free.recursion.inverse))
+    flexibility = inverse / (share * 2.0 * (1.0 + keep) - pull)
+    # of a bar that is worn through the thickness is left
+    force = (penetration - (scene.lining.thickness if scene.lining else 0.0)) / (flexibility + 1.0 / frequency**2)
+    return with_static_modes(oscillator(frequency), flexibility), speed, scene, choice, force, -force / frequency**2
+
+
+BARE, WORN = Scene(DIRECT.casing), Scene(DIRECT.casing, Lining(1e-5, 1e6, 1e5, 1e3, bar_area=1e-9))
+
+
+@pytest.mark.parametrize("scene", [BARE, WORN], ids=["bare", "worn"])
+@pytest.mark.parametrize("share", [0.97, 1.03])
+def test_the_limit_is_where_nodes_on_the_casing_become_unstable(monkeypatch, share, scene):
+    model, speed, scene, choice, force, rest = pressed_oscillator(share, scene)
+    if share > 1.0:
+        with pytest.raises(UnstableStepError, match="limit for nodes pressed on the casing"):
+            Problem(model, speed, scene, choice)
+        monkeypatch.setattr(problem_module, "check_step", lambda problem: None)
+    simulation = Simulation(model, speed, scene, choice)
+    assert pressed_ratio(simulation.problem) == pytest.approx(share, rel=1e-9)
+    state = simulation.start()
+    state.displacement[:] = rest * (1.0 + 1e-9)
+    state.contact_force[0] = -force
+    away = np.abs(simulation.advance(state, 1).samples[:, 0] / rest - 1.0)
+    assert (away.max() > 1e-2) == (share > 1.0)
+    assert share > 1.0 or away.max() < 1e-7
+
+
+@pytest.mark.parametrize("scene", [BARE, WORN], ids=["bare", "worn"])
+def test_nodes_held_stiffly_shorten_a_level_s_step_but_not_one_that_is_asked_for(scene):
+    model, speed, scene, choice, _, _ = pressed_oscillator(4.0, scene)
+    with pytest.raises(UnstableStepError, match=r"time_step_s: 2e-05 s .* limit for nodes pressed on the casing"):
+        stable_problem(model, speed, scene, choice)
+    shortened = stable_problem(model, speed, scene, replace(choice, shorten=True))
+    assert shortened.time_step < 0.6 * choice.time_step
+    # not more than it must be
+    with pytest.raises(UnstableStepError):
+        Problem(model, speed, scene, replace(choice, time_step=4.0 * shortened.time_step))
+
+
+def test_bars_of_any_stiffness_bear_the_step_of_the_casing():
+    """Bars of 1e15 Pa are the casing itself: the same step, and work that stays what it is on a soft lining."""
+    model, choice = with_static_modes(random_model(8), 1e-9), replace(LONG, time_step=6.7e-7, revolutions=20)
+    steps, works = [], []
+    for modulus in (2e10, 1e15):
+        elastic = replace(NARROW.lining, elastic_modulus=modulus, yield_stress=1e30)
+        scene = replace(NARROW, lining=elastic, friction=Friction(0.0))
+        run = run_speed(model, 1600.0, scene, choice, ("energy",), spectrum_highest_order=5, wear_angles=60)
+        assert run["status"] == 0
+        steps.append(float(run["time_step"]))
+        works.append(float(run["contact_work"]))
+    assert steps[0] == steps[1] > 6e-7
+    assert 0.0 < works[1] < 100.0
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("modulus", [2e10, 1e12, 1e14, np.inf])
+@pytest.mark.parametrize("number", [None, 8])
+def test_no_few_nodes_that_stay_pressed_grow(contact, number, modulus):
+    """Eigenvalues of a step of displacement and increment at the steps taken, without friction; the stiffest is the casing."""
+    scene = replace(NARROW, lining=replace(NARROW.lining, elastic_modulus=min(modulus, 1e14)), friction=Friction(0.0))
+    model = with_static_modes(random_model(number), 1e-9) if number else contact
+    for step in (6.4e-6, 3.2e-6, 1.6e-6, 8e-7):
+        problem = stable_problem(model, 1600.0, scene, replace(LONG, time_step=step, shorten=True))
+        for count in (2, 3, 8):
+            for nodes in combinations(range(8), count):
+                growth = _growth(problem, list(nodes), problem.bar_stiffness if modulus < np.inf else np.inf)
+                assert growth < 1e-6, (step, problem.time_step, nodes)
+
+
+def _growth(problem, nodes, bar):
+    """Factor, less one, by which the fastest growing motion with `nodes` on bars of a stiffness (N/m) grows in a revolution.
+
+    The forces are -K N u_n with K = (1/bar + R)^-1 of the nodes pressed, on the displacement at the same instant.
+    """
+    normal, recursion = problem.displacement_operator[0, nodes], problem.recursion
+    held = np.linalg.inv(np.eye(len(nodes)) / bar + problem.contact_flexibility[0][np.ix_(nodes, nodes)])
+    pushed = -recursion.inverse[:, None] * (normal.T @ held @ normal)
+    # of the force at u_n, which acts on the step to u_{n+1}
+    increment = np.hstack([pushed - np.diag(recursion.pull), np.diag(recursion.keep)])
+    step = np.vstack([increment, increment])
+    modes = len(recursion.keep)
+    step[:modes, :modes] += np.eye(modes)
+    return np.abs(np.linalg.eigvals(step)).max() ** problem.steps_per_revolution - 1.0
+
+
+EVERY = replace(LONG, snapshots_per_revolution=62, snapshot_revolutions=2)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("scene", [NARROW, DIRECT], ids=["abradable", "direct"])
+def test_a_split_run_with_static_modes_is_the_whole_run(contact, scene):
+    """Stopped after a revolution it goes on with the same bits, and in the middle of contact, too."""
+    simulation = Simulation(contact, 1600.0, scene, EVERY)
+    whole_state, state = simulation.start(), simulation.start()
+    whole = simulation.advance(whole_state, 2)
+    parts = [simulation.advance(state, 1), simulation.advance(state, 1)]
+    for name in ("samples", "snapshots"):
+        joined = np.concatenate([getattr(part, name) for part in parts])
+        np.testing.assert_array_equal(joined, getattr(whole, name))
+    if scene.lining:
+        np.testing.assert_array_equal(state.wear, whole_state.wear)
+    np.testing.assert_array_equal(state.contact_force, whole_state.contact_force)
+    np.testing.assert_array_equal(state.totals, whole_state.totals)
+    state, pressed = simulation.start(), 0
+    for row in range(2 * 62):
+        found = simulation.advance_samples(state, 1).samples[0]
+        pressed += bool(state.contact_force.any())
+        np.testing.assert_allclose(found, whole.samples[row], rtol=0, atol=1e-12 * np.abs(whole.samples).max())
+    assert pressed > 5
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("scene", [NARROW, DIRECT], ids=["abradable", "direct"])
+def test_samples_and_snapshots_have_the_share_of_the_static_modes(contact, scene):
+    """The samples are the snapshots' shapes at the tip, of which some percent are static when the blade is first pressed."""
+    simulation = Simulation(contact, 1600.0, scene, EVERY)
+    record = simulation.advance(simulation.start(), 2)
+    radial = contact.tip_displacement_operator[0, 0] @ simulation.problem.state_shapes
+    largest = np.abs(record.samples[:, 1]).max()
+    np.testing.assert_allclose(record.snapshots @ radial, record.samples[:, 1], rtol=0, atol=1e-12 * largest)
+    stepped = len(simulation.problem.frequencies)
+    static = np.abs(record.snapshots[:, stepped:] @ radial[stepped:]).max()
+    assert 1e-3 * largest < static < (0.1 if scene.lining else 0.2) * largest
+
+
+@pytest.mark.slow
+def test_no_node_is_beyond_the_casing_and_none_is_pulled(contact):
+    """At every sample of direct contact, with the static modes' share, whatever the stepped modes alone would do."""
+    simulation = Simulation(contact, 1600.0, DIRECT, EVERY)
+    problem, state = simulation.problem, simulation.start()
+    stepped, nodes = len(problem.frequencies), len(contact.theta)
+    snapshots = simulation.advance(state, 2).snapshots
+    normal = problem.operator_at_rest[0] @ problem.state_shapes
+    step = problem.steps_per_sample * (1 + np.arange(len(snapshots)))
+    room = problem.clearance - np.array([DIRECT.casing.lobe(problem.theta(n), np.zeros(1), 1.0) for n in step])
+    gap, force = room - snapshots @ normal.T, -snapshots[:, stepped : stepped + nodes]
+    largest = np.abs(snapshots @ normal.T).max()
+    assert force.min() >= 0.0 and np.count_nonzero(force) > 5
+    assert gap.min() > -1e-10 * largest
+    np.testing.assert_allclose(gap[force > 0.0], 0.0, atol=1e-10 * largest)
+    alone = room - snapshots[:, :stepped] @ normal[:, :stepped].T
+    assert alone.min() < -1e-3 * largest
+
+
+@pytest.mark.slow
+def test_long_steps_keep_motion_stress_and_wear(contact):
+    """Eight times the step, half of the modes static, a bar in ten met by a step."""
+    found = [
+        run_speed(
+            contact,
+            1600.0,
+            NARROW,
+            replace(LONG, time_step=step, revolutions=20, samples_per_revolution=496, snapshots_per_revolution=62),
+            ("spectrum", "wear", "energy"),
+            spectrum_highest_order=10,
+            wear_angles=1000,
+        )
+        for step in (4e-7, 3.2e-6)
+    ]
+    fine, coarse = found
+    assert coarse["time_step"] > 6 * fine["time_step"]
+    assert coarse["wear"].shape == fine["wear"].shape == (1000,)
+    for name, within in (("rms", 2e-3), ("peak", 5e-3), ("amplitude", 2e-3), ("wear_harmonic", 1e-2), ("max_wear", 1e-2)):
+        scale = np.abs(fine[name]).max()
+        np.testing.assert_allclose(coarse[name], fine[name], rtol=0, atol=within * scale, err_msg=name)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["worn", "direct"])
+def test_static_modes_let_go_of_the_casing(contact, name):
+    """The casing alone, or behind bars without a force from the start: when the blade leaves it, static modes keep nothing."""
+    lining = replace(NARROW.lining, thickness=1e-5, elastic_modulus=20e6, plastic_modulus=5e6)
+    scene = replace(NARROW, lining=lining) if name == "worn" else DIRECT
+    choice, found = replace(EVERY, time_step=8e-7, samples_per_revolution=248, snapshots_per_revolution=248), []
+    for engine in ("compiled", "reference"):
+        simulation = Simulation(contact, 6000.0, scene, replace(choice, engine=engine))
+        state = simulation.start()
+        if scene.lining:
+            state.wear[:] = lining.thickness
+        found.append((state, simulation.advance(state, 2)))
+    (ours, record), (theirs, plain) = found
+    assert ours.totals["casing_hits"] > 0
+    assert_same_totals_and_wear(ours, theirs)
+    for kind in ("samples", "snapshots"):
+        largest = np.abs(getattr(plain, kind)).max()
+        np.testing.assert_allclose(getattr(record, kind), getattr(plain, kind), rtol=0, atol=1e-10 * largest)
+    stepped = len(simulation.problem.frequencies)
+    pressed = np.any(plain.snapshots[:, stepped:] != 0.0, axis=1)
+    assert 10 < np.count_nonzero(pressed) < 0.9 * len(pressed)
+    np.testing.assert_array_equal(np.any(record.snapshots[:, stepped:] != 0.0, axis=1), pressed)
