@@ -69,15 +69,15 @@ def test_error_of_a_mode_on_an_elastic_bar_falls_with_the_square_of_the_step(fle
     assert 1.8 < order_of(errors, steps) < 2.3, errors
 
 
-FREQUENCY, START, STOP = 5000.0, -1e-3, 0.5e-3
-GIVES_WAY = np.geomspace(5e-9, 1e-7, 8)
-"""Flexibilities (m/N) of a static mode."""
+FREQUENCY, START = 5000.0, -1e-3
+STOPS = np.random.default_rng(1).uniform([0.2e-3, 1e-8], [0.6e-3, 1e-7], (20, 2))
+"""Places (m) of a rigid stop, and flexibilities (m/N) of what meets it: errors of many tell their order."""
 
 
-def bouncing(step, flexibility, revolutions, **others):
+def bouncing(step, stop, flexibility, revolutions, **others):
     """A mass that swings on its spring from START into a rigid stop, which a static mode of this flexibility meets first."""
     model = with_static_modes(oscillator(FREQUENCY), flexibility)
-    scene = Scene(Casing(STOP, lobes=0), damping_ratio=0.0)
+    scene = Scene(Casing(stop, lobes=0), damping_ratio=0.0)
     choice = replace(LONG, time_step=step, revolutions=revolutions, samples_per_revolution=50, **others)
     simulation = Simulation(model, 1000.0, scene, choice)
     state = simulation.start()
@@ -87,17 +87,17 @@ def bouncing(step, flexibility, revolutions, **others):
     return simulation, state
 
 
-def bounces(time, flexibility):
+def bounces(time, stop, flexibility):
     """Its displacement: free at the frequency w, in contact on a spring 1/R more about another rest, and so on for ever."""
     in_contact = np.sqrt(FREQUENCY**2 + 1.0 / flexibility)
-    rest = STOP / flexibility / in_contact**2
-    hit = np.arccos(STOP / START) / FREQUENCY
+    rest = stop / flexibility / in_contact**2
+    hit = np.arccos(stop / START) / FREQUENCY
     velocity = -START * FREQUENCY * np.sin(FREQUENCY * hit)
-    turns = hit + np.arctan2(velocity / in_contact, STOP - rest) / in_contact
+    turns = hit + np.arctan2(velocity / in_contact, stop - rest) / in_contact
     # from the farthest point to the deepest and back the same way
     since = turns - np.abs(time % (2.0 * turns) - turns)
     angle = in_contact * (since - hit)
-    pressed = rest + (STOP - rest) * np.cos(angle) + velocity / in_contact * np.sin(angle)
+    pressed = rest + (stop - rest) * np.cos(angle) + velocity / in_contact * np.sin(angle)
     return np.where(since < hit, START * np.cos(FREQUENCY * since), pressed)
 
 
@@ -105,50 +105,53 @@ def test_a_mass_bounces_off_a_rigid_stop_as_in_closed_form():
     errors, steps = [], []
     for step in (8e-6, 4e-6, 2e-6, 1e-6):
         of_step = []
-        for flexibility in GIVES_WAY:
-            simulation, state = bouncing(step, flexibility, 2)
+        for stop, flexibility in STOPS:
+            simulation, state = bouncing(step, stop, flexibility, 2)
             record = simulation.advance(state, 2)
-            exact = bounces(times(simulation, record), flexibility)
+            exact = bounces(times(simulation, record), stop, flexibility)
             # beyond the stop by what the static mode gives way
-            assert exact.max() > 1.2 * STOP
+            assert exact.max() > 1.2 * stop
             assert state.totals["casing_hits"] >= 8
             of_step.append(np.abs(record.samples[:, 0] - exact).max() / abs(START))
         errors.append(np.mean(of_step))
         steps.append(simulation.problem.time_step)
     assert errors[0] < 1e-2
     assert 1.8 < order_of(errors, steps) < 2.3, errors
-    simulation, state = bouncing(steps[0], GIVES_WAY[-1], 2, engine="reference")
-    reference = simulation.advance(state, 2).samples[:, 0]
-    simulation, state = bouncing(steps[0], GIVES_WAY[-1], 2)
-    np.testing.assert_allclose(simulation.advance(state, 2).samples[:, 0], reference, rtol=0, atol=1e-10 * abs(START))
+    found = []
+    for engine in ("compiled", "reference"):
+        simulation, state = bouncing(8e-6, *STOPS[0], 2, engine=engine)
+        found.append(simulation.advance(state, 2).samples)
+    np.testing.assert_allclose(*found, rtol=0, atol=1e-10 * abs(START))
 
 
 def test_bounces_off_a_rigid_stop_lose_no_energy():
     """The stop does no work on all modes together: what is missing between contacts falls with the square of the step.
 
-    The static mode holds a part of the energy in contact, and gives it all back.
+    The static mode holds a part of the energy in contact and gives it all back: a thousand bounces later no more is missing.
     """
     start, missing, steps = 0.5 * (FREQUENCY * START) ** 2, [], []
     for step in (8e-6, 4e-6, 2e-6, 1e-6):
         of_step = []
-        for flexibility in GIVES_WAY:
-            simulation, state = bouncing(step, flexibility, 20)
+        for stop, flexibility in STOPS:
+            simulation, state = bouncing(step, stop, flexibility, 200)
             free, held, first = [], 0.0, simulation.energy(state) / start
-            for _ in range(20 * 50):
-                simulation.advance_samples(state, 1)
+            for _ in range(1000 if step == 8e-6 else 100):
+                simulation.advance_samples(state, 10)
                 held = max(held, simulation.problem.static_energy(state.contact_force) / start)
                 gained = simulation.work(state) / start
                 assert abs(simulation.energy(state) / start - first - gained) < 1e-11
                 if not state.contact_force.any():
                     free.append(abs(gained))
-            assert held > 0.1
-            # eighty bounces later it is no more
-            early, late = np.array_split(free, 2)
-            assert late.max() < 1.5 * early.max() + 1e-12
+            assert held > 0.05
+            if step == 8e-6:
+                assert state.totals["casing_hits"] > 1000
+                early, late = np.array_split(free, 2)
+                assert late.max() < 1.1 * early.max()
             of_step.append(np.max(free))
-        missing.append(np.mean(of_step))
+        # some bounces are in step with the steps: these are not to tell the order
+        missing.append(np.exp(np.mean(np.log(of_step))))
         steps.append(simulation.problem.time_step)
-    assert missing[0] < 1e-2
+    assert missing[0] < 1e-3
     assert 1.8 < order_of(missing, steps) < 2.3, missing
 
 
