@@ -4,10 +4,11 @@ import itertools
 
 import numpy as np
 import pytest
-from contact_laws import friction_direction, return_mapping, solve_complementarity
+from contact_laws import friction_direction, press_nodes, return_mapping, solve_complementarity
 from defaults import Casing, Lining
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from scipy.optimize import brentq
 
 from r37core.contact import laws
 from r37core.contact.casing import casing_axes
@@ -173,3 +174,134 @@ def test_a_guess_does_not_change_the_answer(seed, n):
     guessed, violation = solve_complementarity(matrix, gap, generator.random(n) < 0.5)
     assert violation == 0.0
     np.testing.assert_allclose(guessed, plain, rtol=1e-7, atol=1e-9)
+
+
+def opening_of_nodes(generator, n, friction=0.2):
+    """How static modes open the gaps of n nodes per normal force on each, with its friction: nearly diagonal columns."""
+    size = generator.uniform(0.5, 2.0, n)
+    factor = generator.standard_normal((n, 3 * n + 3)) / np.sqrt(3 * n + 3)
+    along = factor + 0.2 * generator.standard_normal(factor.shape) / np.sqrt(3 * n + 3)
+    normal, tangential = (np.eye(n) + 0.3 / n**0.5 * (rows @ factor.T - np.eye(n)) for rows in (factor, along))
+    # friction of each node along its own sliding, so that a column is one node's
+    matrix = normal + friction * (tangential - np.eye(n)) * generator.uniform(-1.0, 1.0, n)
+    return matrix * np.sqrt(np.outer(size, size)) * 1e-8
+
+
+@settings(max_examples=200)
+@given(st.integers(0, 2**31 - 1), st.integers(1, 6))
+def test_forces_of_nodes_at_the_casing_against_brute_force(seed, n):
+    generator = np.random.default_rng(seed)
+    matrix, gap = opening_of_nodes(generator, n), 1e-5 * generator.standard_normal(n)
+    expected, largest = brute_force(matrix, gap), np.abs(gap).max()
+    # from rest, from anything, from the answer
+    for start in (0.0, generator.uniform(0.0, 1e3, n), expected):
+        forces, change = press_nodes(matrix, gap, start=start)
+        assert change == 0.0
+        np.testing.assert_allclose(np.diag(matrix) * forces, np.diag(matrix) * expected, rtol=0, atol=1e-10 * largest)
+
+
+def test_forces_of_more_nodes_than_a_vector_holds():
+    generator = np.random.default_rng(5)
+    for _ in range(20):
+        matrix, gap = opening_of_nodes(generator, 19), 1e-5 * generator.standard_normal(19)
+        forces, change = press_nodes(matrix, gap)
+        opened, largest = gap + matrix @ forces, np.abs(gap).max()
+        assert change == 0.0
+        assert np.all(forces >= 0.0) and np.count_nonzero(forces) > 3
+        assert np.all(opened >= -1e-11 * largest)
+        assert np.abs(opened * np.diag(matrix) * forces).max() < 1e-11 * largest**2
+
+
+def test_forces_that_do_not_settle_say_so():
+    """Two nodes that push each other more than themselves, both pressed in: every sweep makes it worse."""
+    _, change = press_nodes(np.array([[1.0, 1.1], [1.1, 1.0]]), np.array([-1.0, -1.0]))
+    assert change > 0.1
+
+
+LAW = {
+    "elastic": st.floats(1e6, 1e12),
+    "plastic": st.floats(0.0, 1e12),
+    "yield_stress": st.floats(0.0, 1e9),
+    "flexibility": st.floats(0.0, 1e-6),
+    "pushes": st.lists(st.floats(-1e-3, 4.9e-3), min_size=1, max_size=10),
+}
+AREA = 1e-6
+
+
+class Bar:
+    """A lining's numbers with the area (m2) of a bar, as the compiled time integration has them."""
+
+    def __init__(self, lining):
+        self.__dict__ = {**vars(lining), "area": AREA}
+
+
+@given(**LAW)
+def test_lines_of_a_bar_are_its_return_mapping_in_series(elastic, plastic, yield_stress, flexibility, pushes):
+    """Pushed again and again, with a flexibility behind it, never worn through."""
+    bar, wear = Bar(Lining(5e-3, elastic, plastic, yield_stress, bar_width=1e-3)), 0.0
+    series = laws.series_modulus(elastic, elastic * AREA / bar.thickness, flexibility)
+    line, offset, slope = laws.lines_of_bar(series, bar)
+    for push in pushes:
+        stress, expected = laws.return_mapping(push, wear, series, bar)
+        scale = line * bar.thickness
+        force = max(0.0, min(line * (push - wear), offset + slope * push))
+        assert force == pytest.approx(stress * AREA, rel=1e-12, abs=1e-14 * scale)
+        # the flexibility takes its part of the push
+        worn = laws.worn(push - flexibility * force, wear, bar)
+        # a difference of strains that the series divides by what is left to the bar
+        assert worn == pytest.approx(expected, rel=1e-9, abs=1e-13 * bar.thickness)
+        assert worn >= wear
+        wear = float(worn)
+
+
+DEEP = st.lists(st.floats(-1e-3, 3e-2).map(lambda push: round(push, 9)), min_size=1, max_size=10)
+
+
+@settings(max_examples=200)
+@given(**LAW | {"flexibility": st.floats(1e-10, 1e-6), "pushes": DEEP})
+def test_a_bar_and_the_casing_behind_it_against_a_root(elastic, plastic, yield_stress, flexibility, pushes):
+    """The force p on a node pushed to x: that of the bar at x - R p, and more if it reaches the casing; wear as far as that."""
+    lining, wear = Lining(5e-3, elastic, plastic, yield_stress, bar_width=1e-3), 0.0
+    for push in pushes:
+
+        def missing(force, push=push, wear=wear):
+            return force - AREA * laws.return_mapping(push - flexibility * force, wear, elastic, lining)[0]
+
+        largest = abs(push) / flexibility
+        on_bar = brentq(missing, 0.0, largest, xtol=1e-14 * largest) if push > wear else 0.0
+        behind, expected = push - flexibility * on_bar - lining.thickness, max(on_bar, (push - lining.thickness) / flexibility)
+        worn = laws.return_mapping(min(push - flexibility * expected, lining.thickness), wear, elastic, lining)[1]
+        forces, change, new, touching = press_nodes([[flexibility]], [-push], lining, AREA, wear)
+        assert change == 0.0
+        assert forces[0] == pytest.approx(expected, rel=0, abs=1e-11 * largest)
+        assert new[0] == pytest.approx(worn, rel=0, abs=1e-9 * lining.thickness)
+        if abs(behind) > 1e-8 * lining.thickness:
+            assert touching[0] == (behind > 0.0)
+        wear = float(new[0])
+
+
+@settings(max_examples=100)
+@given(st.integers(0, 2**31 - 1), st.integers(1, 19))
+def test_bars_and_casing_of_several_nodes_each_have_the_force_of_their_law(seed, n):
+    """Bars that were worn before, softer and stiffer than what holds the nodes; some reach the casing."""
+    generator = np.random.default_rng(seed)
+    matrix, gap = opening_of_nodes(generator, n), 1e-4 * generator.standard_normal(n)
+    modulus = 10.0 ** generator.uniform(8, 14)
+    lining = Lining(5e-5, modulus, 0.3 * modulus, 1e-3 * modulus, bar_width=1e-3)
+    wear = generator.uniform(0.0, 4e-5, n)
+    forces, change, new, touching = press_nodes(matrix, gap, lining, AREA, wear)
+    assert change == 0.0
+    depth = -(gap + matrix @ forces)
+    largest = np.abs(gap).max()
+    assert np.all(depth <= lining.thickness + 1e-10 * largest)
+    for k in range(n):
+        of_bar, worn = laws.return_mapping(min(depth[k], lining.thickness), wear[k], modulus, lining)
+        own = np.diag(matrix)[k]
+        if touching[k]:
+            assert depth[k] == pytest.approx(lining.thickness, rel=0, abs=1e-8 * lining.thickness)
+            assert forces[k] >= of_bar * AREA - 1e-8 * largest * min(1.0 / own, modulus * AREA / lining.thickness)
+        else:
+            # as far as the force moves bar or node
+            compliance = own + lining.thickness / modulus / AREA
+            assert abs(forces[k] - of_bar * AREA) * own * lining.thickness / modulus / AREA / compliance < 1e-10 * largest
+        assert new[k] == pytest.approx(worn, rel=0, abs=1e-8 * lining.thickness)
