@@ -108,5 +108,5 @@ def _remedy(counts: list[int], is_unique: Callable[[int, float], bool], coeffici
         bears, fails = (middle, fails) if any(is_unique(count, middle) for count in counts) else (bears, middle)
     return (
         f"friction.coefficient of the scene (scenes.yaml): found {coefficient:g}, at which this blade's contact forces are not "
-        f"unique (Painleve's paradox); allowed: up to about {bears:.2g}, or the integrator central_difference"
+        f"unique (Painleve's paradox); allowed: up to about {0.995 * bears:.3g}, or the integrator central_difference"
     )
