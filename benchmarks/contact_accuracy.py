@@ -1,8 +1,8 @@
 """What modes and steps of the contact forces at t_n cost in accuracy, on seven blades: tables of docs/accuracy_tables.md.
 
 Run: make all_blades; python benchmarks/contact_accuracy.py (half an hour on two cores); make docs. Each blade has speeds over
-the whole range and on the tops of its branches, which come from the sweep's results. Runs differ by the step, with the modes that
-follow from it; beside them stand central differences, in which the contact nodes have mass, and friction 0.1% larger.
+the whole range and on the tops of its branches, which come from the sweep's results. Runs differ by the step, with the modes
+that follow from it; beside them stand central differences, in which the contact nodes have mass, and friction 0.1% larger.
 """
 
 import os
@@ -17,9 +17,13 @@ import numpy as np
 import xarray as xr
 
 from r37core.config import read_settings
+from r37core.fem.matrices import assemble
 from r37core.io import write_text
+from r37core.mesh.generate import generate_mesh
 from r37core.results.stress_recovery import StressRecovery
 from r37core.rom.contact_model import read_contact_model
+from r37core.rom.reduce import reduce_blade
+from r37core.rom.reduced_model import contact_model
 from r37core.rom.rom_file import read_reduced_model
 from r37core.studies.tables import markdown_table
 from r37core.time_integration.integrators import CENTRAL_DIFFERENCE, EXACT_MODAL
@@ -140,6 +144,38 @@ def errors_table(found, scene, of, quantity):
     return markdown_table(["blade", "speeds", *heads], rows)
 
 
+def summary_table(found, scene):
+    """Of all blades: error of every way in rms, against both yardsticks, and in stress; the blade with the worst mean."""
+    mask = xr.DataArray(settled(found, scene), {"blade": found.blade}, ("blade", "number"))
+    rows = []
+    for way in found.way.values:
+        if way == COARSE_MASS:
+            continue
+        cells, worst = [], ""
+        for of, quantity in ((FINEST, 0), (MASS, 0), (FINEST, 1)):
+            if of == way:
+                cells.append("")
+                continue
+            error = 100.0 * np.abs(differences(found, scene, way, of)[quantity].where(mask))
+            cells.append(f"{float(error.mean()):.1f}, {float(error.median()):.1f}, {float(error.max()):.1f}")
+            worst = worst or f"{error.mean('number').idxmax('blade').item()} {float(error.mean('number').max()):.1f}"
+        modes = found.modes.sel(scene=scene, way=way)
+        rows.append([f"{way} s" if way[0].isdigit() else way, f"{int(modes.min())} to {int(modes.max())}", *cells, worst])
+    head = ["step", "modes", "rms against the finest step", "against central differences", "stress against the finest step"]
+    return markdown_table([*head, "worst blade"], rows)
+
+
+def summary(found):
+    """The tables of docs/accuracy.md."""
+    parts = [f"`{scene}`: errors in %, mean, median and largest.\n\n{summary_table(found, scene)}" for scene in SCENES]
+    counts = [int(settled(found, scene).sum()) for scene in SCENES]
+    runs = [int(found.speed.sel(scene=scene).count()) for scene in SCENES]
+    settled_of = " and ".join(
+        f"{count} of {run} with `{scene}`" for count, run, scene in zip(counts, runs, SCENES, strict=True)
+    )
+    return "\n".join([*parts, f"Speeds that count, because the motion is settled: {settled_of}.\n"])
+
+
 def text(found):
     """The tables of docs/accuracy_tables.md."""
     parts = []
@@ -152,15 +188,55 @@ def text(found):
     return "\n".join(parts)
 
 
+MESHES = {5000: 21, 20000: 42, 40000: 56}
+"""Nodes, and wedges along the tip, as of the levels."""
+
+BLADES_OF_MESHES = ("Ref", "S100")
+MESH_STEPS = (6.4e-6, 3.2e-6, 1.6e-6, 8e-7)
+
+
+def of_mesh(task):
+    """How far forces at t_n are from central differences on a mesh of a blade: mean and median of rms, and modes, by step."""
+    blade, nodes = task
+    settings = read_settings(ROOT)
+    chosen, scene = settings.blades[blade], settings.scenes["direct"]
+    mesh = generate_mesh(chosen.definition.build(round_edges=True), nodes=nodes, layers=1, tip_elements=MESHES[nodes])
+    reduced = reduce_blade(mesh, assemble(mesh, chosen.material), settings.reduction_choice())
+    model, choice = contact_model(reduced, scene.tip_line), settings.integration_choice(blade, "direct", 0.0)
+    choice = replace(choice, snapshot_revolutions=0, energy=False)
+
+    def rms(step, integrator):
+        choices = replace(choice, time_step=step, integrator=integrator)
+        runs = [run_speed(model, float(speed), scene.scene, choices, (), **KEPT) for speed in SPREAD]
+        return np.array([np.hypot(*run["rms"][0, [0, 2]]) for run in runs])
+
+    mass, coarser, found = rms(1e-7, CENTRAL_DIFFERENCE), rms(2e-7, CENTRAL_DIFFERENCE), []
+    of_settled = np.abs(coarser / mass - 1.0) < SETTLED
+    for step in MESH_STEPS:
+        modes = len(stable_problem(model, SPREAD[0], scene.scene, replace(choice, time_step=step)).frequencies)
+        error = 100.0 * np.abs(rms(step, EXACT_MODAL) / mass - 1.0)[of_settled]
+        found.append(f"{error.mean():.1f}, {np.median(error):.1f} ({modes} modes)")
+    return [blade, f"{nodes}", f"{of_settled.sum()}", *found]
+
+
+def write_meshes(pool):
+    """Whether the two formulations come together with more modes and finer meshes."""
+    rows = list(pool.map(of_mesh, [(blade, nodes) for blade in BLADES_OF_MESHES for nodes in MESHES]))
+    head = ["blade", "nodes of the mesh", "speeds", *(f"{step:g} s" for step in MESH_STEPS)]
+    write_text(markdown_table(head, rows), STUDIES / "contact_meshes.md")
+
+
 def main():
     settings = read_settings(ROOT)
     with xr.open_dataset(ROOT / "results/rms.nc") as sweep:
         tasks = [(blade, scene, speeds_of(blade, scene, sweep)) for scene in SCENES for blade in settings.blades]
     with ProcessPoolExecutor(int(sys.argv[1]) if len(sys.argv) > 1 else 2) as pool:
+        STUDIES.mkdir(parents=True, exist_ok=True)
+        write_meshes(pool)
         found = dataset(tasks, list(pool.map(measured, tasks)))
-    STUDIES.mkdir(parents=True, exist_ok=True)
     found.to_netcdf(STUDIES / "contact_accuracy.nc")
     write_text(text(found), STUDIES / "contact_accuracy.md")
+    write_text(summary(found), STUDIES / "contact_accuracy_summary.md")
 
 
 if __name__ == "__main__":

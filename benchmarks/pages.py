@@ -19,8 +19,14 @@ TABLES = {
         "levels": "levels.md",
         "growth": "growth.md",
         "run_ups": "run_up_accuracy.md",
+        "contact": "contact_accuracy_summary.md",
     },
-    "accuracy_tables": {"refinement": "refinement.md", "tradeoff": "tradeoff.md"},
+    "accuracy_tables": {
+        "contact": "contact_accuracy.md",
+        "meshes": "contact_meshes.md",
+        "refinement": "refinement.md",
+        "tradeoff": "tradeoff.md",
+    },
     "coriolis": {name: f"coriolis_{name}.md" for name in ("frequencies", "peaks", "direct", "cost")},
     "elastic_casing": {
         name: f"elastic_casing_{name}.md" for name in ("rings", "peaks", "direct", "diameters", "coincidences", "cost")
