@@ -116,14 +116,17 @@ def test_free_motion_has_the_frequencies_of_the_campbell_diagram(reduced, couple
     campbell, without = (model.modes(speed, 8)[0] for model in (reduced, replace(reduced, coriolis=None)))
     assert np.abs(campbell / without - 1.0).max() > 1e-4
     simulation = Simulation(coupled_blade, speed, FREE, CHOICE)
-    for mode, frequency in enumerate(campbell):
+    stepped = simulation.problem.complex_modes.frequencies[:8]
+    # static modes are not coupled, but they are fast
+    np.testing.assert_allclose(stepped, campbell, rtol=1e-6)
+    for mode, frequency in enumerate(stepped):
         state = simulation.start()
         state.displacement[mode] = state.increment[mode] = 1e-6
         record = simulation.advance(state, 1)
         samples, turn = record.samples, 2.0 * np.cos(frequency * times(simulation, record)[0])
         missing = samples[2:] + samples[:-2] - turn * samples[1:-1]
         assert np.abs(missing).max() < 1e-8 * np.abs(samples).max(), mode
-    # with more static modes, which the Coriolis force does not reach
+    # with more static modes
     lined = Problem(coupled_blade, speed, NARROW, replace(CHOICE, time_step=6.4e-6))
     assert len(lined.frequencies) < len(coupled_blade.squared_frequencies)
     np.testing.assert_allclose(lined.complex_modes.frequencies[:8], campbell, rtol=1e-5)
@@ -152,19 +155,25 @@ SCENES = {
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("step", [2e-7, 1.2e-6])
-@pytest.mark.parametrize("name", SCENES)
-def test_compiled_time_integration_is_the_reference(name, step):
-    """Against the dense exponential of displacement and velocity; at the long step most modes are static."""
+@pytest.mark.parametrize(
+    ("name", "step", "static_above"),
+    [
+        *((name, step, 1.0) for name in SCENES for step in (2e-7, 1.2e-6)),
+        *((name, 1.2e-6, 2.5) for name in ("direct", "abradable")),
+    ],
+)
+def test_compiled_time_integration_is_the_reference(name, step, static_above):
+    """Against the dense exponential of displacement and velocity; at the long step most modes are static, or too fast to couple."""
     model, scene = coupled_model(), SCENES[name]
-    choice = replace(CHOICE, time_step=step, snapshots_per_revolution=62, snapshot_revolutions=1)
+    choice = replace(CHOICE, time_step=step, static_above=static_above, snapshots_per_revolution=62, snapshot_revolutions=1)
     found = []
     for engine in ("compiled", "reference"):
         simulation = Simulation(model, 6000.0, scene, replace(choice, engine=engine))
         state = simulation.start()
         found.append((state, simulation.advance(state, 1)))
     problem, ((ours, record), (theirs, plain)) = simulation.problem, found
-    assert len(problem.frequencies) == (24 if step < 1e-6 else 8)
+    assert len(problem.frequencies) == (24 if step < 1e-6 else 8 if static_above == 1.0 else 16)
+    assert (problem.frequencies[-1] * step > LARGEST_TURN) == (static_above > 2.0)
     assert problem.complex_modes.shapes.imag.any()
     assert ours.totals["steps_in_contact"] > 100 and ours.totals["steps_jumped"] > 100
     for name in ("samples", "snapshots"):

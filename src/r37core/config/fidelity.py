@@ -69,7 +69,7 @@ class TimeIntegration(Section):
     speed_step_rad_s: Speed = Field(description="step of the speed ranges that give none")
     integrator: Literal["central_difference", "exact_modal"] = Field(
         default="central_difference",
-        description="exact_modal follows every mode without error between contacts, with any step that the lining bears",
+        description="exact_modal follows modes without error between contacts, fast ones statically, with forces at t_n",
     )
     engine: Literal["compiled", "reference"] = Field(default="compiled", description="reference: plain NumPy, for short runs")
     highest_frequency_hz: Annotated[float, Field(gt=0, le=1e12)] | LeftOut = Field(

@@ -38,7 +38,7 @@ class Parameters(Section):
         default=None, description="exact modal step (s)"
     )
     static_above: Parameter[Annotated[float, Field(gt=0, le=1e9)]] | LeftOut = Field(
-        default=None, description="modes with omega h above it follow statically in a lined scene"
+        default=None, description="modes with omega h above it follow statically, with exact_modal"
     )
     revolutions: Parameter[Annotated[int, Field(ge=2, le=20000)]] | LeftOut = Field(default=None, description="length of a run")
     mesh_nodes: Parameter[Annotated[int, Field(ge=500, le=500_000)]] | LeftOut = Field(
