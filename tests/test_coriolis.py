@@ -159,11 +159,11 @@ SCENES = {
     ("name", "step", "static_above"),
     [
         *((name, step, 1.0) for name in SCENES for step in (2e-7, 1.2e-6)),
-        *((name, 1.2e-6, 2.5) for name in ("direct", "abradable")),
+        *((name, 8.1e-7, 2.5) for name in ("direct", "abradable")),
     ],
 )
 def test_compiled_time_integration_is_the_reference(name, step, static_above):
-    """Against the dense exponential of displacement and velocity; at the long step most modes are static, or too fast to couple."""
+    """Against the dense exponential of displacement and velocity; in long steps modes are static, or too fast to couple."""
     model, scene = coupled_model(), SCENES[name]
     choice = replace(CHOICE, time_step=step, static_above=static_above, snapshots_per_revolution=62, snapshot_revolutions=1)
     found = []
@@ -172,7 +172,7 @@ def test_compiled_time_integration_is_the_reference(name, step, static_above):
         state = simulation.start()
         found.append((state, simulation.advance(state, 1)))
     problem, ((ours, record), (theirs, plain)) = simulation.problem, found
-    assert len(problem.frequencies) == (24 if step < 1e-6 else 8 if static_above == 1.0 else 16)
+    assert len(problem.frequencies) == (24 if step < 1e-6 else 8)
     assert (problem.frequencies[-1] * step > LARGEST_TURN) == (static_above > 2.0)
     assert problem.complex_modes.shapes.imag.any()
     assert ours.totals["steps_in_contact"] > 100 and ours.totals["steps_jumped"] > 100

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import xarray as xr
 from defaults import Casing, Friction, IntegrationChoice, Lining, Scene
-from integration_cases import ABRADABLE, DIRECT, assert_same_totals_and_wear, oscillator, random_model
+from integration_cases import ABRADABLE, DIRECT, assert_same_totals_and_wear, oscillator, random_model, with_static_modes
 from scipy.integrate import solve_ivp
 from test_coriolis import SCENES, coupled_model
 
@@ -37,6 +37,11 @@ STEEL = Ring(0.255, 0.002, 0.05, 2.1e11, 7850.0, 0.002, 1e7, 1e6, 11)
 
 ELASTIC = Lining(5e-3, 20e9, 5e9, 1e30, bar_area=1e-6)
 """Bars that never yield."""
+
+
+def random_blade():
+    """Eight nodes, held by static modes."""
+    return with_static_modes(random_model(8), 1e-9)
 
 
 def with_ring(scene, modes):
@@ -92,10 +97,9 @@ def test_a_rigid_translation_has_the_mass_of_the_ring_and_of_its_foundation_the_
         *((name, 1.2e-6, True) for name in ("direct", "abradable_constant", "thin_lining")),
     ],
 )
-def test_compiled_time_integration_is_the_reference(name, step, coriolis, monkeypatch):
+def test_compiled_time_integration_is_the_reference(name, step, coriolis):
     """In the rotor's frame by pairs that turn, and in the frame that does not turn with nodes that go round."""
-    monkeypatch.setattr(step_limit, "_LARGEST_LAG", 1.0)
-    model = coupled_model() if coriolis else random_model(8)
+    model = coupled_model() if coriolis else random_blade()
     choice = replace(CHOICE, time_step=step, snapshots_per_revolution=62, snapshot_revolutions=1)
     found = []
     for engine in ("compiled", "reference"):
@@ -103,8 +107,8 @@ def test_compiled_time_integration_is_the_reference(name, step, coriolis, monkey
         state = simulation.start()
         # stopped in the middle of a revolution
         records = [simulation.advance_samples(state, count) for count in (25, 37)]
-        found.append((state, records, simulation.energy(state)))
-    (ours, parts, energy), (theirs, plain, _) = found
+        found.append((state, records, simulation.energy(state), simulation.work(state)))
+    (ours, parts, energy, work), (theirs, plain, *_) = found
     for part, expected in zip(parts, plain, strict=True):
         for kind in ("samples", "snapshots", "casing"):
             largest = np.abs(getattr(expected, kind)).max()
@@ -113,8 +117,9 @@ def test_compiled_time_integration_is_the_reference(name, step, coriolis, monkey
         largest = np.abs(getattr(theirs, kind)).max()
         np.testing.assert_allclose(getattr(ours, kind), getattr(theirs, kind), rtol=0, atol=1e-9 * largest)
     assert ours.totals["steps_in_contact"] > 100 and ours.totals["steps_jumped"] > 100
-    assert_same_totals_and_wear(ours, theirs)
-    work, loss = ours.totals["work"], ours.totals["loss"]
+    # forces settle to a share of the gap, here many times the lining
+    assert_same_totals_and_wear(ours, theirs, within=1e-9)
+    loss = ours.totals["loss"]
     assert abs(energy - work + loss) < 1e-10 * (abs(work) + loss)
 
 
@@ -136,14 +141,15 @@ def test_published_scheme_carries_the_casing(name):
 def test_a_casing_of_great_mass_is_rigid(name, coriolis):
     samples, heavy = [], [replace(mode, modal_mass=1e15) for mode in STEEL.modes()]
     for scene in (SCENES[name], with_ring(SCENES[name], heavy)):
-        simulation = Simulation(coupled_model() if coriolis else random_model(8), 3000.0, scene, CHOICE)
+        simulation = Simulation(coupled_model() if coriolis else random_blade(), 3000.0, scene, CHOICE)
         samples.append(simulation.advance(simulation.start(), 1).samples)
     np.testing.assert_allclose(samples[1], samples[0], rtol=0, atol=1e-10 * np.abs(samples[0]).max())
 
 
 def test_nodes_are_coupled_by_the_difference_of_their_angles():
     model = replace(random_model(8), theta=np.linspace(0.3, -0.4, 8))
-    rigid, elastic = (Problem(model, 3000.0, scene, CHOICE) for scene in (DIRECT, ELASTIC_SCENES["direct"]))
+    choice = replace(CHOICE, integrator=CENTRAL_DIFFERENCE)
+    rigid, elastic = (Problem(model, 3000.0, scene, choice) for scene in (DIRECT, ELASTIC_SCENES["direct"]))
     added = elastic.coupling - rigid.coupling
     normal = added[0]
     assert normal.min() < 0.0 < normal.diagonal().min()
@@ -162,13 +168,15 @@ PRESSED = Scene(Casing(-1e-4, lobes=0, rise_fraction=0.0), ELASTIC, damping_rati
 @pytest.mark.parametrize("speed", [600.0, 1200.0, 1350.0, 1500.0, 2000.0])
 def test_a_load_that_runs_round_the_ring(speed):
     """Steady in the rotor's frame: zeta (omega^2 - n^2 Omega^2 + 2 i xi omega n Omega) = f, at critical speeds, too."""
-    model, scene = replace(oscillator(2e4), theta=np.array([0.7])), with_ring(PRESSED, MOVING)
+    flexibility = 2e-7
+    model = with_static_modes(replace(oscillator(2e4), theta=np.array([0.7])), flexibility)
+    scene = with_ring(PRESSED, MOVING)
     simulation = Simulation(model, speed, scene, replace(CHOICE, time_step=1e-6, revolutions=40))
     record = simulation.advance(simulation.start(), 40)
     n, frequency, mass, ratio, *_ = np.array([list(vars(mode).values()) for mode in MOVING]).T
     force_to_wave = np.exp(-1j * n * 0.7) / mass / (frequency**2 - (n * speed) ** 2 + 2j * ratio * frequency * n * speed)
     given_way = np.sum(force_to_wave * np.exp(1j * n * 0.7)).real
-    force = 1e-4 / (1.0 / simulation.problem.bar_stiffness + given_way + 1.0 / 2e4**2)
+    force = 1e-4 / (1.0 / simulation.problem.bar_stiffness + flexibility + given_way + 1.0 / 2e4**2)
     # phase by phase: cosines, then sines
     expected = np.concatenate([(force * force_to_wave).real, -(force * force_to_wave).imag])
     np.testing.assert_allclose(record.casing[-1], expected, rtol=0, atol=2e-4 * np.abs(expected).max())
@@ -181,7 +189,7 @@ def test_free_waves_keep_their_frequency_and_their_sense(jumps):
     speed, modes = 1300.0, (RingMode(3, 4 * 1300.0, 1.0, 0.0, 1.0, 1.0 / 3.0), RingMode(0, 3 * 1300.0, 1.0, 0.0))
     scene = with_ring(Scene(Casing(1.0, lobes=0), damping_ratio=0.0, divergence_limit=10.0), modes)
     choice = replace(CHOICE, time_step=2e-5, revolutions=40, jumps=jumps)
-    simulation = Simulation(oscillator(5000.0), speed, scene, choice)
+    simulation = Simulation(with_static_modes(oscillator(5000.0), 1e-9), speed, scene, choice)
     state, step = simulation.start(), simulation.problem.time_step
     # q_c = cos(omega t), q_s = -sin(omega t): Z = e^(i omega t); and the ring breathes
     state.displacement[1:] = [1e-3, 1e-3, 0.0, 0.0]
@@ -209,8 +217,8 @@ def test_error_on_an_elastic_bar_falls_with_the_square_of_the_step():
         replace(PRESSED, friction=Friction(coefficient), casing=Casing(-1e-4, lobes=2, amplitude=0.2, rise_fraction=0.0)),
         MOVING,
     )
-    model = replace(oscillator(frequency), displacement_operator=np.array([[[1.0]], [[0.3]], [[0.2]]]))
-    stiffness = ELASTIC.elastic_modulus * ELASTIC.bar_area / ELASTIC.thickness
+    model, flexibility = replace(oscillator(frequency), displacement_operator=np.array([[[1.0]], [[0.3]], [[0.2]]])), 1e-7
+    stiffness = 1.0 / (ELASTIC.thickness / ELASTIC.elastic_modulus / ELASTIC.bar_area + flexibility)
     ring = RingMotion(MOVING)
     own, ratios = (np.concatenate([[one], of]) for one, of in ((frequency, ring.frequencies), (0.05, ring.damping_ratios)))
 
@@ -226,7 +234,9 @@ def test_error_on_an_elastic_bar_falls_with_the_square_of_the_step():
 
     errors, steps = [], []
     for step in (1.6e-5, 8e-6, 4e-6, 2e-6):
-        simulation = Simulation(model, speed, scene, replace(CHOICE, time_step=step, samples_per_revolution=50))
+        simulation = Simulation(
+            with_static_modes(model, flexibility), speed, scene, replace(CHOICE, time_step=step, samples_per_revolution=50)
+        )
         problem, state = simulation.problem, simulation.start()
         pressed = -stiffness * scene.casing.clearance * (1.0 - 0.2 * scene.casing.shape(np.zeros(1))[0])
         state.contact_force[:, 0] = force = pressed * np.array([-1.0, coefficient, 0.0])
@@ -248,7 +258,7 @@ def test_error_on_an_elastic_bar_falls_with_the_square_of_the_step():
 
 
 def test_a_run_up_of_no_rate_is_the_run_at_constant_speed():
-    choice, scene, model = replace(CHOICE, revolutions=3), ELASTIC_SCENES["abradable"], random_model(8)
+    choice, scene, model = replace(CHOICE, revolutions=3), ELASTIC_SCENES["abradable"], random_blade()
     simulation = Simulation(model, 3000.0, scene, choice)
     state = simulation.start()
     record = simulation.advance(state, 3)
@@ -260,13 +270,13 @@ def test_a_run_up_of_no_rate_is_the_run_at_constant_speed():
 @pytest.mark.parametrize("engine", ["compiled", "reference"])
 def test_a_run_up_with_an_elastic_casing_keeps_its_balance(engine):
     choice = replace(CHOICE, revolutions=6, time_step=1e-6, engine=engine)
-    march = March(random_model(8), ELASTIC_SCENES["abradable"], choice, RunUp(3000.0, 3100.0, 2, before=0, after=0, worn=False))
+    march = March(random_blade(), ELASTIC_SCENES["abradable"], choice, RunUp(3000.0, 3100.0, 2, before=0, after=0, worn=False))
     for _ in march.stages():
         pass
-    totals = march.state.totals
-    missing = march.energy - march.stiffness_work - totals["work"] + totals["loss"]
-    assert totals["work"] != 0.0
-    assert abs(missing) < 1e-9 * (abs(totals["work"]) + totals["loss"])
+    work, loss = march.work, march.state.totals["loss"]
+    missing = march.whole_energy - march.stiffness_work - work + loss
+    assert work != 0.0
+    assert abs(missing) < 1e-9 * (abs(work) + loss)
 
 
 @pytest.mark.parametrize("name", ["abradable", "direct"])
@@ -275,7 +285,7 @@ def test_a_run_up_of_many_stretches_is_that_of_the_reference(name):
     choice, found = replace(CHOICE, revolutions=3, time_step=5e-7, samples_per_revolution=31), []
     for engine in ("compiled", "reference"):
         run_up = RunUp(3000.0, 3300.0, 1.3, before=0, after=0, worn=False)
-        march = March(random_model(8), ELASTIC_SCENES[name], replace(choice, engine=engine), run_up)
+        march = March(random_blade(), ELASTIC_SCENES[name], replace(choice, engine=engine), run_up)
         found.append(np.concatenate([stage.samples for stage in march.stages()]))
     assert max(len(segment.stretches) for segment in march.segments) > 10
     np.testing.assert_allclose(found[0], found[1], rtol=0, atol=1e-10 * np.abs(found[1]).max())
@@ -285,9 +295,9 @@ def test_a_run_up_of_many_stretches_is_that_of_the_reference(name):
 def test_a_ring_far_from_the_tip_is_refused(radius):
     scene = ELASTIC_SCENES["direct"]
     near, far = (replace(scene, casing=replace(scene.casing, ring_radius=one)) for one in (0.255, radius))
-    Problem(random_model(8), 3000.0, near, CHOICE)
+    Problem(random_blade(), 3000.0, near, CHOICE)
     with pytest.raises(NoRoomError, match=rf"casing\.ring\.radius_m .*found {radius:g} m round a tip at 0\.252 m; allowed"):
-        Problem(random_model(8), 3000.0, far, CHOICE)
+        Problem(random_blade(), 3000.0, far, CHOICE)
 
 
 def test_exact_gap_is_refused():
@@ -315,7 +325,7 @@ def waves(tmp_path_factory):
             chosen = replace(scene, divergence_limit=limit)
             results = ["casing"] if scene.casing.ring else []
             choice = replace(CHOICE, revolutions=4)
-            run = run_speed(random_model(8), speed, chosen, choice, results, spectrum_highest_order=20, wear_angles=8)
+            run = run_speed(random_blade(), speed, chosen, choice, results, spectrum_highest_order=20, wear_angles=8)
             files.append(folder / f"{name}_{speed:g}.npz")
             write_speed(run, files[-1], {})
         responses["Ref", name] = folder / f"{name}.nc"

@@ -8,7 +8,7 @@ import pandas as pd
 import pytest
 import xarray as xr
 from defaults import Casing, IntegrationChoice, Lining, Scene
-from integration_cases import ABRADABLE, LINING, oscillator
+from integration_cases import ABRADABLE, LINING, oscillator, with_static_modes
 from scipy.integrate import solve_ivp
 from scipy.special import wofz
 
@@ -120,16 +120,18 @@ def test_energy_closes_with_the_work_of_the_changing_stiffness(contact, scene):
     choice = replace(LONG, time_step=3.2e-6 if scene.lining else 8e-7)
     march = March(contact, scene, choice, RunUp(1500.0, 1900.0, 3.2, 1, 0, worn=False))
     samples_of(march)
-    work, loss = march.state.totals["work"], march.state.totals["loss"]
+    work, loss = march.work, march.state.totals["loss"]
     assert loss > 0.0
     assert abs(march.stiffness_work) > 1e-6 * abs(work)
-    assert abs(march.energy - work + loss - march.stiffness_work) < 1e-10 * (abs(work) + loss)
+    assert abs(march.whole_energy - work + loss - march.stiffness_work) < 1e-10 * (abs(work) + loss)
 
 
 @pytest.mark.parametrize("integrator", ["exact_modal", "central_difference"])
 def test_the_stiffness_works_half_of_its_change_times_the_squared_displacement(integrator):
     """One mode whose stiffness grows with the squared speed; exact: the sum of u^2 dk/2 where the speed changes."""
     model = replace(oscillator(3000.0), stiffness_per_square=np.array([[2.0]]))
+    if integrator == EXACT_MODAL:
+        model = with_static_modes(model, 1e-9)
     errors = []
     for step in (4e-6, 2e-6):
         choice = replace(LONG, time_step=step, integrator=integrator, samples_per_revolution=124)

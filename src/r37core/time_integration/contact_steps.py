@@ -16,7 +16,7 @@ from r37core.contact.node_sweeps import set_laws, sweep_nodes, wear_bars
 from r37core.lanes import bits_of, first_bit, flags_of, inlined, load, numbers_at, store
 
 from .layout import MERIDIONAL, NORMAL, TANGENTIAL
-from .steps import leave_casing, list_pressed, push_blade, set_friction_of_listed
+from .steps import bar_at, leave_casing, list_pressed, push_blade, set_friction_of_listed
 
 
 @inlined
@@ -82,7 +82,7 @@ def list_beyond(m, count, place, kind):
             bits &= bits - 1
             k = g + first_bit(bit)
             if kind.lined:
-                c.bar[k] = bar_at(m, k, place, kind)
+                c.bar[k] = bar_at(m, k, place, kind.exact_gap)
                 c.wear[k] = numbers_at(m.wear)[c.bar[k]]
                 # it may be clear of what is left of its bar
                 if not c.opened[k] + c.wear[k] < 0.0:
@@ -91,22 +91,6 @@ def list_beyond(m, count, place, kind):
             c.listed[count] = k
             count += 1
     return count
-
-
-@inlined
-def bar_at(m, k, place, kind):
-    """Number of the bar that a node is at."""
-    bars = int(m.lining.bars)
-    position = m.bar_position[k] - place * m.lining.bars / m.steps_per_revolution
-    if kind.exact_gap:
-        position += m.shift[k] * (m.lining.bars / (2.0 * np.pi))
-    bar = int(np.floor(position))
-    while bar < 0:
-        bar += bars
-    if kind.exact_gap:
-        while bar >= bars:
-            bar -= bars
-    return bar + k * bars if m.rings > 1 else bar
 
 
 @inlined

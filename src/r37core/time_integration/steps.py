@@ -175,27 +175,33 @@ def response_with_friction(m, k, g):
 
 
 @inlined
+def bar_at(m, k, place, exact_gap):
+    """The number of the bar that a node is at, counted over all rings."""
+    bars = int(m.lining.bars)
+    position = m.bar_position[k] - place * m.lining.bars / m.steps_per_revolution
+    if exact_gap:
+        position += m.shift[k] * (m.lining.bars / (2.0 * np.pi))
+    bar = int(np.floor(position))
+    while bar < 0:
+        bar += bars
+    if exact_gap:
+        while bar >= bars:
+            bar -= bars
+    if m.rings > 1:
+        bar += k * bars
+    return bar
+
+
+@inlined
 def press_bars(m, place, kind):
     """Normal forces of the bars that the nodes press; wears them. Returns how many nodes are listed as pressing."""
     p, lining, wear = m.problem, m.lining, numbers_at(m.wear)
-    bars = int(lining.bars)
-    turned = place * lining.bars / m.steps_per_revolution
     count = list_nodes(m.beyond, p.listed)
     if kind.vector_friction:
         set_friction_of_listed(m, p.listed, count, False, False)
     for j in range(count):
         k = p.listed[j]
-        position = m.bar_position[k] - turned
-        if kind.exact_gap:
-            position += m.shift[k] * (lining.bars / (2.0 * np.pi))
-        bar = int(np.floor(position))
-        while bar < 0:
-            bar += bars
-        if kind.exact_gap:
-            while bar >= bars:
-                bar -= bars
-        if m.rings > 1:
-            bar += k * bars
+        bar = bar_at(m, k, place, kind.exact_gap)
         stress, wear[bar] = _return_mapping(-p.gap[k], wear[bar], lining.elastic_modulus, lining)
         m.force[k] = -stress * lining.area
     return count
