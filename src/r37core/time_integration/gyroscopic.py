@@ -19,8 +19,8 @@ from .integrators import Recursion
 
 LARGEST_TURN = 2.0
 """Of a mode in a step (rad), up to which the Coriolis force acts on it. Faster ones, which a large static_above leaves, keep
-their real shapes: towards half a turn in a step two real numbers no longer tell a complex amplitude. The coupling, of up to 2 Omega,
-adds to a turn less than 4 pi by the steps of a revolution."""
+their real shapes: towards half a turn in a step two real numbers no longer tell a complex amplitude. The coupling, of up to
+2 Omega, adds to a turn less than 4 pi by the steps of a revolution."""
 
 
 @dataclass(frozen=True)
