@@ -12,6 +12,7 @@ from integration_cases import ABRADABLE, LINING, oscillator, with_static_modes
 from scipy.integrate import solve_ivp
 from scipy.special import wofz
 
+from r37core.contact.ring import RingMode
 from r37core.figures.run_up_curves import draw_rates, draw_run_ups
 from r37core.io import InputFileError
 from r37core.rom.rotation import BucklingError
@@ -24,6 +25,7 @@ from r37core.run_ups.revolutions import record_run_up
 from r37core.run_ups.schedule import RunUp, schedule
 from r37core.run_ups.tables import rate_table, run_up_table
 from r37core.time_integration.integrators import EXACT_MODAL
+from r37core.time_integration.problem import Problem, stable_problem
 from r37core.time_integration.simulate import Simulation
 from r37core.time_integration.speed_file import write_speed
 from r37core.time_integration.step_limit import UnstableStepError
@@ -158,6 +160,7 @@ def test_free_motion_is_that_of_the_whole_stiffness_at_every_speed(monkeypatch):
         tip_displacement_operator=generator.standard_normal((3, 2, 8)),
         to_reduced=np.eye(8),
     )
+    blade = with_static_modes(model, 1e-9, frequency=1e7)
     rate, first = (stop**2 - start**2) / (4.0 * np.pi * revolutions), 1e-4 * generator.standard_normal(8)
 
     def motion(time, state):
@@ -170,12 +173,12 @@ def test_free_motion_is_that_of_the_whole_stiffness_at_every_speed(monkeypatch):
     for lead, stiffening in ((2.5e-4, 0.01), (1e-5, 0.001)):
         monkeypatch.setattr(schedule_module, "LARGEST_LEAD", lead)
         monkeypatch.setattr(schedule_module, "LARGEST_STIFFENING", stiffening)
-        march = March(model, replace(FREE, damping_ratio=0.0), choice, RunUp(start, stop, revolutions, 1, 0, worn=False))
+        march = March(blade, replace(FREE, damping_ratio=0.0), choice, RunUp(start, stop, revolutions, 1, 0, worn=False))
         march.segments = march.segments[1:]
-        modes = Simulation(model, march.segments[0].speed, FREE, choice).problem.modes
+        modes = Simulation(blade, march.segments[0].speed, FREE, choice).problem.modes[:8]
         march.state.displacement[:] = modes.T @ first
         samples_of(march)
-        modes = Simulation(model, march.segments[-1].speed, FREE, choice).problem.modes
+        modes = Simulation(blade, march.segments[-1].speed, FREE, choice).problem.modes[:8]
         errors.append(np.abs(modes @ march.state.displacement - exact).max() / np.abs(exact).max())
     assert errors[0] < 0.05
     assert errors[1] < 0.1 * errors[0]
@@ -197,8 +200,10 @@ def test_without_contact_a_run_up_and_its_run_down_give_back_what_was_there(cont
     assert np.abs(up.state.displacement - started[0]).max() > 1e-6
     down.state.displacement, down.velocity = up.state.displacement, -up.velocity
     samples_of(down)
-    np.testing.assert_allclose(down.state.displacement, started[0], rtol=0, atol=1e-9 * largest)
-    np.testing.assert_allclose(-down.velocity, started[1], rtol=0, atol=1e-7)
+    # what the speed turns into static modes is lost
+    within = 1e-9 if integrator == "central_difference" else 1e-8
+    np.testing.assert_allclose(down.state.displacement, started[0], rtol=0, atol=within * largest)
+    np.testing.assert_allclose(-down.velocity, started[1], rtol=0, atol=1e2 * within)
 
 
 def test_a_swept_oscillator_follows_the_closed_form(monkeypatch):
@@ -210,7 +215,7 @@ def test_a_swept_oscillator_follows_the_closed_form(monkeypatch):
     frequency, ratio, start, rate, revolutions, per_revolution = 4000.0, 0.004, 1900.0, 1500.0, 60.0, 62
     casing = Casing(1e-5, lobes=2, width=1.0, amplitude=20.0, rise_fraction=0.0)
     lining = Lining(5e-3, 20e9, 5e9, 1e30, bar_area=4e-14)
-    bar, model = lining.elastic_modulus * lining.bar_area / lining.thickness, oscillator(frequency)
+    bar, model = lining.elastic_modulus * lining.bar_area / lining.thickness, with_static_modes(oscillator(frequency), 1e-9)
     natural = np.sqrt(frequency**2 + bar)
     run_up = RunUp(start, float(np.sqrt(start**2 + 4.0 * np.pi * rate * revolutions)), revolutions, 250, 0, worn=False)
     angle = 2.0 * np.pi * np.arange(1, revolutions * per_revolution + 1) / per_revolution
@@ -276,9 +281,12 @@ def recorded(model, scene, choice, run_up, results=("spectrum", "wear", "energy"
 
 
 def test_modes_that_pass_the_highest_frequency_come_and_go(contact):
-    """The first mode stiffens beyond it on the way."""
-    first = contact.modes_at(1650.0)[0][1] / 2.0 / np.pi
-    choice = replace(LONG, highest_frequency=first)
+    """One of the static modes stiffens beyond it on the way."""
+    last = contact.modes_at(1650.0)[0][85] / 2.0 / np.pi
+    choice = replace(LONG, highest_frequency=last)
+    low, high = (Problem(contact, speed, NARROW, choice) for speed in (1500.0, 1800.0))
+    assert len(low.frequencies) == len(high.frequencies)
+    assert low.contact_flexibility[0].trace() > 1.001 * high.contact_flexibility[0].trace()
     found = recorded(contact, NARROW, choice, RunUp(1500.0, 1800.0, 3.0, 1, 0, worn=False))
     assert found["status"] == 0
     assert abs(found["energy_residual"]) < 1e-10 * (abs(found["contact_work"]) + found["damping_loss"])
@@ -307,11 +315,14 @@ def test_a_lining_worn_by_the_same_run_up(contact):
 
 
 def test_steps_are_so_short_that_every_mode_tells_its_velocity(contact):
+    """Those of the blade always do; an elastic casing's may be faster."""
     choice = replace(LONG, time_step=1.6e-6, shorten=True)
     scene = replace(ABRADABLE, lining=None)
+    assert told_problem(contact, 1600.0, scene, choice).time_step == stable_problem(contact, 1600.0, scene, choice).time_step
+    scene = replace(scene, casing=replace(scene.casing, ring=(RingMode(2, 2.8e6, 1e3, 0.0),)))
     problem = told_problem(contact, 1600.0, scene, choice)
-    assert 2.5 < problem.frequencies[-1] * problem.time_step < 3.0
-    with pytest.raises(UnstableStepError, match=r"time_step_s: 1\.6e-06 s; allowed in run-ups: below 1\.04\d+e-06 s"):
+    assert 2.5 < problem.highest_frequency * problem.time_step < 3.0
+    with pytest.raises(UnstableStepError, match=r"time_step_s: 1\.6e-06 s; allowed in run-ups: below 1\.07\d+e-06 s"):
         told_problem(contact, 1600.0, scene, replace(choice, shorten=False))
 
 
