@@ -41,7 +41,7 @@ Runs = Mapping[str, xr.Dataset]
 
 PEAK_WITHIN, CAMPBELL_WITHIN, DIRECT_WITHIN = 0.006, 0.003, 0.01
 _COUNTED_WITHIN = 0.2
-"""Of numbers of revolutions and of a width, which the paper gives roughly or for a chaotic motion."""
+"""Of numbers of revolutions and of a width, which the paper gives roughly, and which 0.1% of friction moves."""
 
 _AT = INTERACTIONS[0].peak
 _MAIN = INTERACTIONS[0].name

@@ -24,7 +24,7 @@ CONVERGING = {"rms_normal": "m", "rms_tangential": "m", "high_von_mises": "Pa"}
 """Name -> unit of what levels are judged by: rms of the leading edge, and the stress that a tenth of the instants exceed."""
 
 MAXIMA = {"peak_normal": "m", "max_von_mises": "Pa"}
-"""Largest values of a run, in chaotic motion as much chance as convergence."""
+"""Largest values of a run, which 0.1% of friction moves as much as a level does."""
 
 QUANTITIES = {**CONVERGING, **MAXIMA, "max_wear": "m"}
 """What is compared of every run, name -> unit; stresses over the last revolution, the wear at the end."""
