@@ -226,12 +226,77 @@ def write_meshes(pool):
     write_text(markdown_table(head, rows), STUDIES / "contact_meshes.md")
 
 
+FAR = [
+    (blade, speed, "direct", what, changes)
+    for blade, speed in (("Ref", 1340.0), ("S100", 1590.0), ("CS50", 1100.0))
+    for what, changes in (
+        ("as shipped", {}),
+        ("friction 0.5", {"friction": 0.5}),
+        ("damping ratio 1e-6", {"damping": 1e-6}),
+        ("damping ratio 0.05", {"damping": 0.05}),
+    )
+]
+FAR += [
+    ("Ref", speed, "abradable", f"lining {stiffer} times as stiff", {"stiffer": stiffer})
+    for speed in (1300.0, 1500.0, 1690.0)
+    for stiffer in (1, 50, 2500)
+]
+"""Blade, speed (rad/s), scene, what is extreme, and the number."""
+
+
+def far_scene(scene, friction=None, damping=None, stiffer=1):
+    """A scene with some numbers changed."""
+    if friction is not None:
+        scene = replace(scene, friction=replace(scene.friction, coefficient=friction))
+    if damping is not None:
+        scene = replace(scene, damping_ratio=damping)
+    if scene.lining is None:
+        return scene
+    moduli = {name: stiffer * getattr(scene.lining, name) for name in ("elastic_modulus", "plastic_modulus")}
+    return replace(scene, lining=replace(scene.lining, **moduli))
+
+
+def of_extreme(task):
+    """A row: rms of the leading edge's whole motion (mm) at each step, and the modes stepped."""
+    blade, speed, name, what, changes = task
+    settings = read_settings(ROOT)
+    model, scene = (
+        read_contact_model(ROOT / f"results/{blade}/contact_{settings.scenes[name].tip_line}.npz"),
+        far_scene(settings.scenes[name].scene, **changes),
+    )
+    choice = replace(settings.integration_choice(blade, name, speed), snapshot_revolutions=0, energy=False)
+    cells = []
+    for step, integrator in (
+        *((step, EXACT_MODAL) for step in (6.4e-6, 4.8e-6, 3.2e-6, 1.6e-6, 8e-7)),
+        (1e-7, CENTRAL_DIFFERENCE),
+    ):
+        asked = replace(choice, time_step=step, integrator=integrator)
+        try:
+            run = run_speed(model, speed, scene, asked, (), **KEPT)
+            modes = len(stable_problem(model, speed, scene, asked).frequencies)
+        except ValueError:
+            cells.append("refused")
+            continue
+        rms = 1e3 * np.hypot(*run["rms"][0, [0, 2]])
+        cells.append(f"{rms:.3f} ({modes})" if run["status"] == 0 else f"diverges ({modes})")
+    return [blade, f"{speed:g}", f"`{name}`", what, *cells]
+
+
+def write_extremes(pool):
+    """Strong friction, little damping, stiff linings."""
+    head = ["blade", "rad/s", "scene", "what", *(f"{step} s" for step in ("6.4e-6", "4.8e-6", "3.2e-6", "1.6e-6", "8e-7"))]
+    write_text(
+        markdown_table([*head, "central differences 1e-7 s"], list(pool.map(of_extreme, FAR))), STUDIES / "contact_extremes.md"
+    )
+
+
 def main():
     settings = read_settings(ROOT)
     with xr.open_dataset(ROOT / "results/rms.nc") as sweep:
         tasks = [(blade, scene, speeds_of(blade, scene, sweep)) for scene in SCENES for blade in settings.blades]
     with ProcessPoolExecutor(int(sys.argv[1]) if len(sys.argv) > 1 else 2) as pool:
         STUDIES.mkdir(parents=True, exist_ok=True)
+        write_extremes(pool)
         write_meshes(pool)
         found = dataset(tasks, list(pool.map(measured, tasks)))
     found.to_netcdf(STUDIES / "contact_accuracy.nc")

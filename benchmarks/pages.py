@@ -24,6 +24,7 @@ TABLES = {
     "accuracy_tables": {
         "contact": "contact_accuracy.md",
         "meshes": "contact_meshes.md",
+        "extremes": "contact_extremes.md",
         "refinement": "refinement.md",
         "tradeoff": "tradeoff.md",
     },
