@@ -177,4 +177,4 @@ def test_nlstep_on_a_light_touch():
     )
     ours = march(stiff, scene, 8000, EXACT_MODAL, static_above=0.3)[0][:HALF]
     found = run_nlstep(blade_of(stiff, SPEED, scene, np.inf), len(SLOW), 160, SAMPLES, HALF)[0]
-    assert error(found, ours) < 0.1
+    assert error(found, ours) < 0.01
