@@ -5,10 +5,11 @@ Continuous in time: nothing here knows of a step. In the modes of the speed, of 
 
     q'' = -omega^2 q - 2 xi omega q' - N^T P - T^T f_t - M^T f_m,
 
-with rows N, T and M of the contact nodes along the casing's normal, tangent and meridian, normal forces P and friction f.
+with rows N, T and M of the contact nodes along the casing's normal, tangent and meridian, normal forces P and friction f. Modes
+that are static follow these forces at once, and the nodes have no mass: `static_contact`.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.integrate import solve_ivp
@@ -20,7 +21,9 @@ class Blade:
 
     `frequencies` (rad/s), shape (modes,); `rows`, shape (3 nodes, modes): normal, then tangential, then meridional
     displacement of the nodes; `edge`, shape (modes,): normal displacement of the tip's leading edge; `theta` (rad), `radius`
-    (m), shape (nodes,); `duration` (s): of the run of which the casing rises in a share.
+    (m), shape (nodes,); `duration` (s): of the run of which the casing rises in a share. `flexibility` (m/N), shape (3 nodes,
+    3 nodes), and `edge_flexibility`, shape (3 nodes,): displacements by static modes per force, in the order of `rows`; None
+    without them.
     """
 
     frequencies: np.ndarray
@@ -31,6 +34,8 @@ class Blade:
     speed: float
     scene: object
     duration: float
+    flexibility: np.ndarray | None = None
+    edge_flexibility: np.ndarray | None = None
 
     @property
     def nodes(self):
@@ -91,6 +96,43 @@ def blade_of(model, speed, scene, duration, highest_frequency=np.inf):
     rows = np.vstack([cosine * radial - sine * axial, tangential, sine * radial + cosine * axial])
     edge = cosine * edge_radial - sine * edge_axial
     return Blade(np.sqrt(squares), rows, edge, model.theta, model.radius, speed, scene, duration)
+
+
+def with_static_modes(blade, kept):
+    """The blade whose modes from number `kept` on follow the contact forces at once."""
+    static = blade.rows[:, kept:] / blade.frequencies[kept:]
+    of_edge = (blade.edge[kept:] / blade.frequencies[kept:]) @ static.T
+    moving = {"frequencies": blade.frequencies[:kept], "rows": blade.rows[:, :kept], "edge": blade.edge[:kept]}
+    return replace(blade, **moving, flexibility=static @ static.T, edge_flexibility=of_edge)
+
+
+def static_contact(blade, times, stiffness, method="DOP853", **tolerances):
+    """Leading edge's normal displacement (m) with static modes, on bars of `stiffness` (N/m) or, if infinite, the casing."""
+
+    def pressure(time, state):
+        depth = blade.penetration(time, state)[0]
+        pressed = depth > 0.0
+        if not pressed.any():
+            return np.zeros(blade.nodes)
+        velocity = np.split(state, 2)[1]
+        # penetration that a unit pressure on each node, with its friction, takes from the others, and the bars' own
+        units = np.array([blade.push(velocity, unit) for unit in np.eye(blade.nodes)]).T
+        taken = blade.flexibility[: blade.nodes] @ units + np.eye(blade.nodes) / stiffness
+        while True:
+            found = np.zeros(blade.nodes)
+            found[pressed] = np.linalg.solve(taken[np.ix_(pressed, pressed)], depth[pressed])
+            wrong = np.where(pressed, found < 0.0, depth - taken @ found > 1e-15)
+            if not wrong.any():
+                return found
+            first = int(np.argmax(wrong))
+            pressed[first] = not pressed[first]
+
+    def rate(time, state):
+        return blade.motion(state, pressure(time, state))
+
+    states = _solved(blade, rate, times, method, tolerances)
+    forces = [blade.push(np.split(state, 2)[1], pressure(time, state)) for time, state in zip(times, states.T, strict=True)]
+    return _edge(blade, states) - np.array(forces) @ blade.edge_flexibility
 
 
 def without_yield(blade, times, method="DOP853", **tolerances):

@@ -15,7 +15,15 @@ from pathlib import Path
 os.environ["OPENBLAS_NUM_THREADS"] = "1"
 
 import numpy as np
-from equations_of_motion import against_spring, blade_of, with_wear, without_yield
+from equations_of_motion import (
+    against_spring,
+    bar_stiffness,
+    blade_of,
+    static_contact,
+    with_static_modes,
+    with_wear,
+    without_yield,
+)
 from massless_boundary import run_nlstep
 
 from r37core.config import read_settings
@@ -75,7 +83,8 @@ def error(found, exact):
 
 
 def from_itself(coarse, fine):
-    return f"The march at 1e-7 s differs by {100.0 * error(coarse, fine):.2f}% from itself at twice the step."
+    share = 100.0 * error(coarse, fine)
+    return f"The march with central differences at 1e-7 s differs by {share:.2f}% from itself at twice the step."
 
 
 def with_orders(steps, errors):
@@ -84,23 +93,48 @@ def with_orders(steps, errors):
     return [[f"{one:.1e}", of] for one, of in zip(errors, ["", *(f"{order:.1f}" for order in orders)], strict=True)]
 
 
+MOVING_ABOVE = 6.4e-6
+"""One over the angular frequency (s/rad) up to which modes move in comparisons with solve_ivp: as of `standard`."""
+
+
+def orders(model, settings, scene, steps, exact, integrator, **choice):
+    """Cells of the errors of runs at several steps, and of their order."""
+    runs = [march(model, settings, scene, step, REVOLUTIONS, integrator=integrator, **choice)[:2] for step in steps]
+    return with_orders([step for _, step in runs], [error(found, exact) for found, _ in runs])
+
+
+def at_t_n(model, settings, scene, steps):
+    """The same with forces at t_n, against solve_ivp with the same static modes; their largest difference from each other."""
+    blade, times = blade_of(model, SPEED, scene, np.inf), sample_times(SPEED, REVOLUTIONS * SAMPLES)
+    found = []
+    choice = replace(settings.integration_choice("Ref", "direct", SPEED), integrator=EXACT_MODAL, time_step=MOVING_ABOVE)
+    blade = with_static_modes(blade, len(Problem(model, SPEED, scene, choice).frequencies))
+    stiffness = np.inf if scene.lining is None else bar_stiffness(blade)
+    exact, checked = (static_contact(blade, times, stiffness, method, **EXACT) for method in ("DOP853", "LSODA"))
+    for step in steps:
+        moving = {"integrator": EXACT_MODAL, "static_above": step / MOVING_ABOVE}
+        found.append(march(model, settings, scene, step, REVOLUTIONS, **moving)[:2])
+    cells = with_orders([step for _, step in found], [error(samples, exact) for samples, _ in found])
+    return cells, error(checked, exact)
+
+
 def elastic(model, settings):
     """Bars that never yield."""
     scene = scene_of(settings, "abradable")
     scene = replace(scene, lining=replace(scene.lining, yield_stress=1e30))
-    blade, times = blade_of(model, SPEED, scene, np.inf, HIGHEST_FREQUENCY), sample_times(SPEED, REVOLUTIONS * SAMPLES)
-    exact = without_yield(blade, times, **EXACT)
     steps = 6.4e-6 * 0.5 ** np.arange(7)
-    columns = []
-    for integrator, first in ((EXACT_MODAL, 0), (CENTRAL_DIFFERENCE, 3)):
-        choice = {"integrator": integrator, "highest_frequency": HIGHEST_FREQUENCY}
-        runs = [march(model, settings, scene, step, REVOLUTIONS, **choice)[:2] for step in steps[first:]]
-        cells = with_orders([step for _, step in runs], [error(found, exact) for found, _ in runs])
-        columns.append([["", ""]] * first + cells)
-    rows = [[f"{step:.1e}", *one, *other] for step, one, other in zip(steps, *columns, strict=True)]
-    checked = error(without_yield(blade, times, "LSODA", rtol=1e-9, atol=1e-14), exact)
-    head = ["largest step (s)", "`exact_modal`: error", "order", "`central_difference`: error", "order"]
-    return f"{markdown_table(head, rows)}\nDOP853 and LSODA, two methods of solve_ivp, differ by {checked:.0e}.\n"
+    ours, checked = at_t_n(model, settings, scene, steps)
+    bare, checked_bare = at_t_n(model, settings, scene_of(settings, "direct", amplitude=LIGHT_RUB), steps)
+    exact = without_yield(
+        blade_of(model, SPEED, scene, np.inf, HIGHEST_FREQUENCY), sample_times(SPEED, REVOLUTIONS * SAMPLES), **EXACT
+    )
+    published = [["", ""]] * 3 + orders(
+        model, settings, scene, steps[3:], exact, CENTRAL_DIFFERENCE, highest_frequency=HIGHEST_FREQUENCY
+    )
+    rows = [[f"{step:.1e}", *one, *other, *last] for step, one, other, last in zip(steps, ours, bare, published, strict=True)]
+    head = ["largest step (s)", "`exact_modal` on bars: error", "order", "in direct contact: error", "order"]
+    said = f"DOP853 and LSODA, two methods of solve_ivp, differ by {checked:.0e} on bars, {checked_bare:.0e} in direct contact."
+    return f"{markdown_table([*head, '`central_difference` on bars: error', 'order'], rows)}\n{said}\n"
 
 
 def worn(model, settings):
@@ -130,12 +164,11 @@ def worn(model, settings):
 
 
 def direct(model, settings):
-    """Direct contact, the casing replaced by springs: with dashpots, so that a node does not bounce, and without."""
+    """Direct contact of nodes with mass, the casing replaced by springs: with dashpots, which stop a node, and without."""
     scene, half = scene_of(settings, "direct", amplitude=LIGHT_RUB), SAMPLES // 2
     blade, times = blade_of(model, SPEED, scene, np.inf, HIGHEST_FREQUENCY), sample_times(SPEED, half)
-    ours, coarse = (
-        march(model, settings, scene, step, 1, highest_frequency=HIGHEST_FREQUENCY)[0][:half] for step in (1e-7, 2e-7)
-    )
+    choice = {"highest_frequency": HIGHEST_FREQUENCY, "integrator": CENTRAL_DIFFERENCE}
+    ours, coarse = (march(model, settings, scene, step, 1, **choice)[0][:half] for step in (1e-7, 2e-7))
     stiffnesses, tolerances = (1e7, 1e8, 1e9, 1e10, 1e11), {"rtol": 1e-6, "atol": 1e-12}
     without, damped = ([against_spring(blade, times, k, ratio, **tolerances) for k in stiffnesses] for ratio in (0.0, 2.0))
     rows = [
@@ -159,19 +192,21 @@ def share_at(history, ours):
 
 
 def histories(model, settings):
-    """NLstep and the march on the first light touch, with more and more modes that have mass in NLstep, and shorter steps."""
+    """NLstep and the march on the first light touch, with more and more modes that have mass in both."""
     scene, half = scene_of(settings, "direct", amplitude=LIGHT_RUB), SAMPLES // 2
     blade, rows = blade_of(model, SPEED, scene, np.inf), []
-    ours, coarse = (march(model, settings, scene, step, 1)[0][:half] for step in (1e-7, 2e-7))
-    for kept in (15, 30, 45, 60):
+    for moving_above in (9.6e-6, 6.4e-6, 3.2e-6, 2.4e-6):
+        choice = {"integrator": EXACT_MODAL, "static_above": 2e-7 / moving_above}
+        asked = replace(settings.integration_choice("Ref", "direct", SPEED), time_step=2e-7, **choice)
+        kept = len(Problem(model, SPEED, scene, asked).frequencies)
+        ours = march(model, settings, scene, 2e-7, 1, **choice)[0][:half]
         cells = [str(kept), f"{blade.frequencies[kept - 1] / 2e3 / np.pi:.0f}"]
         for parts in (50, 100):
             found = run_nlstep(blade, kept, parts, SAMPLES, half)[0]
             cells.append(f"{100.0 * error(found, ours):.2f}%")
         rows.append(cells)
     steps = [f"difference at {2.0 * np.pi / SPEED / SAMPLES / parts:.1e} s" for parts in (50, 100)]
-    head = ["modes with mass in NLstep", "up to (kHz)", *steps]
-    return f"{markdown_table(head, rows)}\n{from_itself(coarse, ours)}\n"
+    return markdown_table(["modes with mass", "up to (kHz)", *steps], rows)
 
 
 RMS_REVOLUTIONS = 20
