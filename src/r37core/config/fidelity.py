@@ -73,7 +73,8 @@ class TimeIntegration(Section):
     )
     engine: Literal["compiled", "reference"] = Field(default="compiled", description="reference: plain NumPy, for short runs")
     highest_frequency_hz: Annotated[float, Field(gt=0, le=1e12)] | LeftOut = Field(
-        default=None, description="faster modes are left out of the time integration; all are kept without it"
+        default=None,
+        description="faster modes are not stepped: with exact_modal they follow statically, else they are left out",
     )
     stress_instants: int = Field(default=62, ge=1, le=10000, description="stress evaluations per revolution")
     samples_per_stress_instant: int = Field(default=8, ge=1, le=10000, description="samples of the tip motion between them")

@@ -14,9 +14,9 @@ class IntegrationChoice:
 
     `snapshots_per_revolution` states are kept in each of the last `snapshot_revolutions`; `energy`: whether the loss to
     damping is added up; `jumps`: whether free flight is jumped over or stepped through; `highest_frequency` (Hz): faster
-    modes are left out; `static_above`: with exact_modal, modes with a larger product of angular frequency and step
-    follow the contact forces statically; `shorten`: whether an unstable step is shortened, or refused;
-    `steps_per_sample`: given where a run keeps them over many speeds; `integrator`: one of
+    modes are not stepped; `static_above`: nor are, with exact_modal, modes with a larger product of angular frequency and step,
+    and all that are not stepped follow the contact forces statically; `shorten`: whether an unstable step is shortened, or
+    refused; `steps_per_sample`: given where a run keeps them over many speeds; `integrator`: one of
     r37core.time_integration.integrators; `engine`: the compiled time integration, or the plain one of
     r37core.time_integration.reference.
     """

@@ -85,7 +85,7 @@ class Problem:
     @property
     def frequencies(self) -> np.ndarray:
         """Of the blade's modes that are stepped (rad/s), ascending, without the Coriolis force."""
-        return self._kept_modes[0][: self._stepped]
+        return self._modes_of_speed[0][: self._stepped]
 
     @property
     def highest_frequency(self) -> float:
@@ -101,7 +101,7 @@ class Problem:
     @cached_property
     def modes(self) -> np.ndarray:
         """Those that are stepped, of the speed, shape (modes at rest, modes)."""
-        return np.ascontiguousarray(self._kept_modes[1][:, : self._stepped])
+        return np.ascontiguousarray(self._modes_of_speed[1][:, : self._stepped])
 
     @cached_property
     def gyroscopic_coupling(self) -> np.ndarray | None:
@@ -121,30 +121,29 @@ class Problem:
 
     @cached_property
     def _stepped(self) -> int:
-        """How many modes are stepped, of all that are kept: the same at every speed."""
-        kept = len(self._kept_modes[0])
+        """How many modes are stepped: with central differences all up to the highest frequency, else see static_modes."""
+        frequencies, _ = self._modes_of_speed
+        below = int(np.count_nonzero(frequencies <= 2.0 * np.pi * self.choice.highest_frequency))
+        if below == 0:
+            raise ValueError(
+                f"highest_frequency_hz: found {self.choice.highest_frequency:g}; allowed: more than the first mode's, "
+                f"{frequencies[0] / 2.0 / np.pi:.6g} Hz at {self.speed:g} rad/s"
+            )
         if not self.second_order:
-            return kept
-        friction, choice = self.scene.friction, self.choice
+            return below
+        friction = self.scene.friction
         return stepped_modes(
-            np.sqrt(self.model.squared_frequencies[:kept]),
-            casing_axes(self.model.displacement_operator[..., :kept], self.cone_angle),
+            np.sqrt(self.model.squared_frequencies),
+            casing_axes(self.model.displacement_operator, self.cone_angle),
             friction.coefficient if friction is not None and friction.coupled else 0.0,
-            choice.time_step,
-            choice.static_above,
+            self.choice.time_step,
+            self.choice.static_above,
+            below,
         )
 
     @cached_property
-    def _kept_modes(self) -> tuple[np.ndarray, np.ndarray]:
-        frequencies, modes = self.model.modes_at(self.speed)
-        highest = self.choice.highest_frequency
-        kept = frequencies <= 2.0 * np.pi * highest
-        if not kept.any():
-            raise ValueError(
-                f"highest_frequency_hz: found {highest:g}; allowed: more than the first mode's, "
-                f"{frequencies[0] / 2.0 / np.pi:.6g} Hz at {self.speed:g} rad/s"
-            )
-        return frequencies[kept], np.ascontiguousarray(modes[:, kept])
+    def _modes_of_speed(self) -> tuple[np.ndarray, np.ndarray]:
+        return self.model.modes_at(self.speed)
 
     @cached_property
     def steps_per_sample(self) -> int:
@@ -264,7 +263,7 @@ class Problem:
     @cached_property
     def _static_modes(self) -> tuple[np.ndarray, np.ndarray]:
         """Frequencies (rad/s) and shapes of the modes that are not stepped."""
-        frequencies, modes = self._kept_modes
+        frequencies, modes = self._modes_of_speed
         return frequencies[self._stepped :], modes[:, self._stepped :]
 
     @cached_property

@@ -56,12 +56,14 @@ def definiteness(flexibility: np.ndarray, coefficient: float) -> float:
     return float(np.linalg.eigvalsh(0.5 * (opening + opening.swapaxes(1, 2)))[:, 0].min())
 
 
-def stepped_modes(frequencies: np.ndarray, rows: np.ndarray, coefficient: float, step: float, static_above: float) -> int:
+def stepped_modes(
+    frequencies: np.ndarray, rows: np.ndarray, coefficient: float, step: float, static_above: float, most: int
+) -> int:
     """How many of the modes are stepped, in whole vectors where there are more than one, which cost no more.
 
-    Those that turn by less than `static_above` in a `step` (s), as far as the others make the contact forces unique at a
-    `coefficient` of friction: else some more, or fewer. `frequencies` (rad/s) at rest, ascending, and `rows`, shape (3, nodes,
-    modes), of all modes. Raises UnstableStepError and TooFewStaticModesError.
+    Those that turn by less than `static_above` in a `step` (s), at most `most` of them, as far as the others make the contact
+    forces unique at a `coefficient` of friction: else some more, or fewer. `frequencies` (rad/s) at rest, ascending, and
+    `rows`, shape (3, nodes, modes), of all modes. Raises UnstableStepError and TooFewStaticModesError.
     """
     modes = len(frequencies)
 
@@ -72,7 +74,7 @@ def stepped_modes(frequencies: np.ndarray, rows: np.ndarray, coefficient: float,
     turns = frequencies * step / static_above
     slow, at_most = (int(np.count_nonzero(turns <= largest)) for largest in (1.0, _LARGEST_TURN))
     # at least one: a blade of static modes alone would not vibrate
-    wanted = max(min(padded(slow), at_most), 1)
+    wanted = max(min(padded(slow), at_most, most), 1)
     counts = sorted({wanted, *range(1, LANES), *range(LANES, modes, LANES)})
     more = (count for count in counts if wanted <= count <= max(at_most, 1))
     fewer = (count for count in reversed(counts) if count < wanted)
