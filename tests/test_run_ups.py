@@ -281,12 +281,11 @@ def recorded(model, scene, choice, run_up, results=("spectrum", "wear", "energy"
 
 
 def test_modes_that_pass_the_highest_frequency_come_and_go(contact):
-    """One of the static modes passes it on the way."""
-    last = contact.modes_at(1650.0)[0][85] / 2.0 / np.pi
-    choice = replace(LONG, highest_frequency=last)
+    """The second mode stiffens beyond it on the way, and follows statically from there on."""
+    second = contact.modes_at(1650.0)[0][1] / 2.0 / np.pi
+    choice = replace(LONG, highest_frequency=second)
     low, high = (Problem(contact, speed, NARROW, choice) for speed in (1500.0, 1800.0))
-    assert len(low.frequencies) == len(high.frequencies)
-    assert abs(low.contact_flexibility[0].trace() / high.contact_flexibility[0].trace() - 1.0) > 1e-3
+    assert (len(low.frequencies), len(high.frequencies)) == (2, 1)
     found = recorded(contact, NARROW, choice, RunUp(1500.0, 1800.0, 3.0, 1, 0, worn=False))
     assert found["status"] == 0
     assert abs(found["energy_residual"]) < 1e-10 * (abs(found["contact_work"]) + found["damping_loss"])
