@@ -120,7 +120,7 @@ def peaks_table(settings, models):
 
 
 def direct_table(settings, models):
-    """Direct contact about the crossing of 1B with order 4: means over the speeds, which single chaotic runs do not move."""
+    """Direct contact about the crossing of 1B with order 4: means over the speeds, which little moves less than single runs."""
     rows = []
     for blade, pair in models.items():
         speeds = DIRECT_SHARES * crossing(pair[0][0], 4)

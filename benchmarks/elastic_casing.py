@@ -130,7 +130,7 @@ def peaks_table(pool):
 
 
 def direct_table(pool):
-    """Direct contact about 1B with order 4: means over the speeds, which single chaotic runs do not move."""
+    """Direct contact about 1B with order 4: means over the speeds, which little moves less than single runs."""
     rows, orders = [], {one.blade: one for one in INTERACTIONS if one.engine_order == 4}
     for blade, one in orders.items():
         cells = [blade, f"{DIRECT_SHARES[0] * one.peak:.0f} to {DIRECT_SHARES[-1] * one.peak:.0f}"]
