@@ -80,9 +80,10 @@ def test_definiteness_by_hand():
 def test_static_modes_are_those_that_the_step_does_not_follow(contact):
     """As far as whole vectors of modes are stepped, and the forces bear it; none turns by more than twice what is static."""
     frequencies, counts = np.sqrt(contact.squared_frequencies), []
+    most = len(frequencies)
     rows = casing_axes(contact.displacement_operator, contact.tip_cone_angle)
     for step in (1e-8, 3.2e-6, 6.4e-6, 1.28e-5):
-        counts.append(stepped_modes(frequencies, rows, 0.15, step, 1.0))
+        counts.append(stepped_modes(frequencies, rows, 0.15, step, 1.0, most))
         assert counts[-1] % 8 == 0
         assert frequencies[counts[-1] - 1] * step <= 2.0
         assert len(problem_of(contact, 0.15, step).frequencies) == counts[-1]
@@ -92,7 +93,9 @@ def test_static_modes_are_those_that_the_step_does_not_follow(contact):
     of_rest = residual_flexibility(frequencies[counts[0] :], rows[..., counts[0] :])
     assert definiteness(of_rest, 0.15) > SMALLEST_DEFINITENESS
     # twice as fast a mode is stepped where that is asked for
-    assert stepped_modes(frequencies, rows, 0.15, 6.4e-6, 2.0) == counts[1]
+    assert stepped_modes(frequencies, rows, 0.15, 6.4e-6, 2.0, most) == counts[1]
+    # and fewer where that is
+    assert stepped_modes(frequencies, rows, 0.15, 3.2e-6, 1.0, 5) == 5
 
 
 def test_strong_friction_steps_more_modes_or_shortens_the_step(contact):
@@ -130,12 +133,12 @@ def test_the_coefficient_that_is_said_to_be_allowed_is(seed):
     rows = np.concatenate([generator.standard_normal((3, nodes, 8)), 1e8 * 1e-4 * rows], axis=-1)
     frequencies = np.concatenate([np.linspace(1e4, 1e5, 8), np.full(nodes, 1e8)])
     with pytest.raises(TooFewStaticModesError, match=r"allowed: up to about \S+, or") as error:
-        stepped_modes(frequencies, rows, 5.0, 1e-6, 1.0)
+        stepped_modes(frequencies, rows, 5.0, 1e-6, 1.0, 11)
     allowed = float(re.search(r"up to about (\S+), or", str(error.value))[1])
-    assert stepped_modes(frequencies, rows, allowed, 1e-6, 1.0) <= 8
+    assert stepped_modes(frequencies, rows, allowed, 1e-6, 1.0, 11) <= 8
     # and not much less than could be
     with pytest.raises(TooFewStaticModesError):
-        stepped_modes(frequencies, rows, 1.05 * allowed, 1e-6, 1.0)
+        stepped_modes(frequencies, rows, 1.05 * allowed, 1e-6, 1.0, 11)
 
 
 @pytest.mark.parametrize("model", [oscillator(6000.0), random_model(8)], ids=["one", "random"])
