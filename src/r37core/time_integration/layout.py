@@ -132,6 +132,7 @@ def contact_record(nodes: int) -> np.dtype:
             # numbers of the listed nodes; the bar of each node
             *_arrays("listed bar", nodes, kind=np.int64),
             *_arrays("found", padded(nodes) // padded(1), kind=np.int64),  # set of the listed nodes
+            *_numbers("relaxation"),
         ]
     )
 

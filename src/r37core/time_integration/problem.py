@@ -131,15 +131,20 @@ class Problem:
             )
         if not self.second_order:
             return below
-        friction = self.scene.friction
         return stepped_modes(
             np.sqrt(self.model.squared_frequencies),
             casing_axes(self.model.displacement_operator, self.cone_angle),
-            friction.coefficient if friction is not None and friction.coupled else 0.0,
+            self.coupled_friction,
             self.choice.time_step,
             self.choice.static_above,
             below,
         )
+
+    @property
+    def coupled_friction(self) -> float:
+        """Coefficient of the friction that is part of the contact problem."""
+        friction = self.scene.friction
+        return friction.coefficient if friction is not None and friction.coupled else 0.0
 
     @cached_property
     def _modes_of_speed(self) -> tuple[np.ndarray, np.ndarray]:

@@ -18,7 +18,10 @@ from r37core.alignment import LANES, padded
 from .step_limit import UnstableStepError
 
 SMALLEST_DEFINITENESS = 0.2
-"""Of G: a sweep over the nodes then leaves at most half of the error, most often some hundredths."""
+"""Of G, so that the sweeps over the nodes settle soon."""
+
+LARGEST_EIGENVALUE = 1.6
+"""Of D^-1 G, up to which nodes take the whole change in a sweep; sweeps diverge from 2 on."""
 
 _ANGLES = np.linspace(0.0, 2.0 * np.pi, 16, endpoint=False)
 """Directions of friction that are tried (rad)."""
@@ -47,13 +50,29 @@ def definiteness(flexibility: np.ndarray, coefficient: float) -> float:
     The least over directions of friction that all nodes share. `flexibility` as of residual_flexibility; `coefficient` of
     friction. Not positive where the normal flexibility of a node is zero.
     """
-    normal, tangential, meridional = flexibility
-    own = np.diag(normal)
+    own = np.diag(flexibility[0])
     if not np.all(own > 0.0):
         return 0.0
-    cosine, sine = (coefficient * function(_ANGLES)[:, None, None] for function in (np.cos, np.sin))
-    opening = (normal - cosine * tangential - sine * meridional) / np.sqrt(np.outer(own, own))
+    opening = _opening(flexibility, coefficient) / np.sqrt(np.outer(own, own))
     return float(np.linalg.eigvalsh(0.5 * (opening + opening.swapaxes(1, 2)))[:, 0].min())
+
+
+def relaxation(flexibility: np.ndarray, coefficient: float) -> float:
+    """Share of the change to its law's force that a node takes in a sweep over all nodes at once, so that sweeps settle.
+
+    A sweep multiplies errors by I - r D^-1 G, D the diagonal of G: r is 1 unless an eigenvalue of D^-1 G exceeds
+    LARGEST_EIGENVALUE, as where static modes move many nodes together. Arguments as of definiteness.
+    """
+    opening = _opening(flexibility, coefficient).swapaxes(1, 2)
+    scaled = opening / np.diagonal(opening, axis1=1, axis2=2)[:, :, None]
+    return float(min(1.0, LARGEST_EIGENVALUE / np.abs(np.linalg.eigvals(scaled)).max()))
+
+
+def _opening(flexibility: np.ndarray, coefficient: float) -> np.ndarray:
+    """Opening of the last node's gap per normal force on the one before, for each of _ANGLES."""
+    normal, tangential, meridional = flexibility
+    cosine, sine = (coefficient * function(_ANGLES)[:, None, None] for function in (np.cos, np.sin))
+    return normal - cosine * tangential - sine * meridional
 
 
 def stepped_modes(
