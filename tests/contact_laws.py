@@ -36,7 +36,7 @@ def _complement(room):
 def _sweep(room, count, largest_gap, lined):
     m = room[0]
     node_sweeps.set_laws(m.contact, count, m.lining, lined)
-    return node_sweeps.sweep_nodes(m.contact, count, largest_gap, m.lining.thickness, lined)
+    return node_sweeps.sweep_nodes(m.contact, count, largest_gap, m.lining.thickness, lined, True)
 
 
 @njit(**OPTIONS)

@@ -69,10 +69,10 @@ def open_gaps(c, g, count):
 
 
 @inlined
-def sweep_nodes(c, count, largest_gap, thickness, lined):
+def sweep_nodes(c, count, largest_gap, thickness, lined, relaxed):
     """Set the forces on the listed nodes, from those they have; returns the last change if it is still too large.
 
-    It is relative to `largest_gap` (m). `thickness` (m): of the lining.
+    It is relative to `largest_gap` (m). `thickness` (m): of the lining; `relaxed`: whether nodes take a share of the change.
     """
     allowed = TOLERANCE * largest_gap
     for _ in range(SWEEPS):
@@ -80,7 +80,8 @@ def sweep_nodes(c, count, largest_gap, thickness, lined):
         for g in range(0, len(c.gap), LANES):
             opened, before, own = open_gaps(c, g, count), load(c.pressure, g), load(c.own, g)
             after = forces_of_laws(c, g, own * before - opened, thickness, lined)
-            after = before + c.relaxation * (after - before)
+            if relaxed:
+                after = before + c.relaxation * (after - before)
             # written so that NaN stays
             after = np.where(flags_of(c.found[g // LANES]), np.where(after < 0.0, 0.0, after), 0.0)
             change = np.abs(after - before) * own

@@ -30,6 +30,7 @@ VARIABLES = {
         for kind, measure in (("rms", "rms of the"), ("peak", "largest"))
         for direction, note in (("normal", " (along the casing's normal)"), ("radial", ""), ("tangential", ""))
     },
+    "time_step": Variable((), "s", "step of the time integration that was taken"),
     "clearance": Variable(("contact_node",), "m", "clearance of the round casing at the contact nodes, leading edge first"),
     "share_of_time_in_contact": Variable((), "1", "share of the steps with a contact force"),
     "largest_normal_force": Variable((), "N", "largest normal force on a tip node"),
@@ -70,6 +71,7 @@ OF_CASING = {
 DATASETS = {
     "rms": (
         "casing_cone_angle",
+        "time_step",
         "clearance",
         "rms_normal",
         "rms_radial",

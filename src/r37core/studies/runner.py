@@ -30,7 +30,6 @@ from .case import Case, SweptPeak
 from .costs import Stopwatch, peak_memory
 
 BESIDE = {
-    "time_step": about("s", "step of the time integration"),
     "cpu_s": about("s", "CPU time of the time integration"),
     "wall_s": about("s", "wall time of the time integration"),
     "file_cpu_s": about("s", "CPU time of writing the run's file"),
@@ -140,7 +139,6 @@ class _Runs:
             write_speed(run, file, {})
         self.files[speed] = file
         self.beside[speed] = {
-            "time_step": float(run["time_step"]),
             "cpu_s": integration.cpu,
             "wall_s": integration.wall,
             "file_cpu_s": writing.cpu,

@@ -19,7 +19,6 @@ from .jump_plan import jump_lengths, nearest_casing
 from .layout import LINING, NEVER, NORMAL, TANGENTIAL, Kind, Layout, integration_record, layout_of, pace_record
 from .problem import Paces, Problem
 from .state import Course, SimulationRecord, SimulationState
-from .static_modes import relaxation
 
 SOURCES = Sources(
     "alignment.py",
@@ -76,6 +75,7 @@ class CompiledEngine:
             jumps=paces.jumps is not None,
             coriolis=problem.complex_modes is not None,
             ring=problem.ring is not None,
+            relaxed=problem.relaxation < 1.0,
         )
         self._advance = _program(self._layout, kind)
         self._constant_share: np.ndarray | None = None
@@ -293,7 +293,7 @@ class CompiledEngine:
         self._put(bar_position=problem.tip.theta / (2.0 * np.pi) * problem.bars)
 
     def _lay_out_static_modes(self, problem: Problem) -> None:
-        self._record[0]["contact"]["relaxation"] = relaxation(problem.contact_flexibility, problem.coupled_friction)
+        self._record[0]["contact"]["relaxation"] = problem.relaxation
         force_outputs = problem.output_operator[:, -3 * self._nodes :].reshape(-1, 3, self._nodes)
         padded_forces = np.zeros((*force_outputs.shape[:2], self._layout.nodes))
         padded_forces[:, :, : self._nodes] = force_outputs

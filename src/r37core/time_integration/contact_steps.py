@@ -53,7 +53,7 @@ def press_contact(m, place, kind):
             store(c.pressure, g, np.where(flags_of(c.found[g // LANES]), 0.0 - load(m.force, g), 0.0))
         count = joined
         set_laws(c, count, m.lining, kind.lined)
-        violation = sweep_nodes(c, count, largest_gap, thickness, kind.lined)
+        violation = sweep_nodes(c, count, largest_gap, thickness, kind.lined, kind.relaxed)
     if count == 0:
         release_contact(m)
         return False

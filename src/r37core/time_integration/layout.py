@@ -55,7 +55,7 @@ class Kind(NamedTuple):
     r37core.time_integration.contact_steps. `vector_friction`: along the real sliding velocity; friction of constant direction
     is in the push rows and responses. `coupled`: friction is part of the complementarity problem. `exact_gap`, `energy`,
     `jumps`: see Scene and IntegrationChoice. `coriolis`: modes are complex; see r37core.time_integration.gyroscopic. `ring`:
-    the casing has modes; see r37core.time_integration.ring_steps.
+    the casing has modes; see r37core.time_integration.ring_steps. `relaxed`: see Problem.relaxation.
     """
 
     published: bool
@@ -67,6 +67,7 @@ class Kind(NamedTuple):
     jumps: bool
     coriolis: bool
     ring: bool
+    relaxed: bool
 
 
 def layout_of(blade_modes: int, nodes: int, outputs: int, pairs: int = 0) -> Layout:

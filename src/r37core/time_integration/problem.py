@@ -20,7 +20,7 @@ from .gyroscopic import LARGEST_TURN, ComplexModes, complex_modes, complex_recur
 from .integration_choice import LARGEST_TABLE, IntegrationChoice
 from .integrators import CENTRAL_DIFFERENCE, EXACT_MODAL, Increments, Recursion, increments, joined, recursion
 from .jump_plan import JumpPlan, plan_jumps
-from .static_modes import stepped_modes
+from .static_modes import relaxation, residual_flexibility, stepped_modes
 from .step_limit import UnstableStepError, check_step
 
 NO_CORIOLIS = "central differences do not carry the Coriolis force; use the integrator exact_modal"
@@ -131,14 +131,23 @@ class Problem:
             )
         if not self.second_order:
             return below
-        return stepped_modes(
-            np.sqrt(self.model.squared_frequencies),
-            casing_axes(self.model.displacement_operator, self.cone_angle),
-            self.coupled_friction,
-            self.choice.time_step,
-            self.choice.static_above,
-            below,
-        )
+        frequencies, rows = self._at_rest
+        choice = self.choice
+        return stepped_modes(frequencies, rows, self.coupled_friction, choice.time_step, choice.static_above, below)
+
+    @cached_property
+    def relaxation(self) -> float:
+        """Of the sweeps over the nodes, the same at every speed: see static_modes.relaxation; 1 with central differences."""
+        if not self.second_order:
+            return 1.0
+        frequencies, rows = self._at_rest
+        flexibility = residual_flexibility(frequencies[self._stepped :], rows[..., self._stepped :])
+        return relaxation(flexibility, self.coupled_friction)
+
+    @property
+    def _at_rest(self) -> tuple[np.ndarray, np.ndarray]:
+        """Frequencies (rad/s) of all modes at rest, and the contact nodes' displacement by them, shape (3, nodes, modes)."""
+        return np.sqrt(self.model.squared_frequencies), casing_axes(self.model.displacement_operator, self.cone_angle)
 
     @property
     def coupled_friction(self) -> float:
