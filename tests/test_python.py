@@ -378,7 +378,7 @@ def test_the_command_refuses_in_one_line(root, capsys):
         assert told.startswith("r37: --output: found ") and told.count("\n") == 1
     assert main(["check", "missing.yaml"]) == 1
     assert main(["check", config]) == 0
-    assert "level: standard\nsimulations: 896 to about 2842\ntheir CPU time: about 7.11 minutes" in capsys.readouterr().out
+    assert "level: standard\nsimulations: 896 to about 2842\ntheir CPU time: about 85.3 s" in capsys.readouterr().out
 
 
 @pytest.mark.slow

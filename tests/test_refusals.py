@@ -157,8 +157,8 @@ CONFIG_REFUSALS = [
     ),
     (
         "speeds_for: []",
-        "run_ups: { a: { from_rad_s: 0.1, to_rad_s: 0.11, revolutions: 1 } }",
-        r"run_ups\.a: found 0\.1 rad/s, a revolution of",
+        "run_ups: { a: { from_rad_s: 0.02, to_rad_s: 0.022, revolutions: 1 } }",
+        r"run_ups\.a: found 0\.02 rad/s, a revolution of",
     ),
     (
         "speeds_for: []",
@@ -166,7 +166,7 @@ CONFIG_REFUSALS = [
         r"run_ups\.A: found 'A' beside 'a'",
     ),
     ("shapes: { modes: 6 }", "shapes: { modes: 0 }", r"shapes\.modes: found 0; allowed: integer, at least 1, at most 30"),
-    ("speeds_for: []", "signals: { speeds_rad_s: [0.1] }", r"signals\.speeds_rad_s: found 0\.1 rad/s, a revolution of"),
+    ("speeds_for: []", "signals: { speeds_rad_s: [0.02] }", r"signals\.speeds_rad_s: found 0\.02 rad/s, a revolution of"),
     (
         "speeds_for: []",
         "speeds_for: [{ blades: [Reff], speeds: [900] }]",
@@ -239,7 +239,7 @@ CONFIG_REFUSALS = [
     (
         "speeds_for: []",
         "speeds_for: [{ scenes: [direct], speeds: [0.01] }]",
-        r"speeds: found 0\.01 rad/s, a revolution of 7\.85e\+08 steps .*; allowed: speeds from 0\.468 rad/s",
+        r"speeds: found 0\.01 rad/s, a revolution of 1\.31e\+08 steps .*; allowed: speeds from 0\.078 rad/s",
     ),
     ("start: 750, ", "start: 0, ", r"speeds\.0\.start: found 0; allowed: number, at least 0\.001"),
     (
