@@ -187,7 +187,9 @@ class _Runs:
                 words = about("Pa", "largest von Mises stress at each instant of the last revolution")
                 stress = create_variable(dataset, "max_von_mises_of_instant", "f8", ("speed", "instant"), words)
                 for row, speed in enumerate(speeds):
-                    stress[row] = self.recovery.of_last_revolution(read_speed(self.files[speed]), instants)
+                    of_run = self.recovery.of_last_revolution(read_speed(self.files[speed]), instants)
+                    # a run that diverged has none
+                    stress[row] = of_run if len(of_run) else np.nan
             dataset.setncatts({"reduction_cpu_s": reducing.cpu, "peak_memory_bytes": peak_memory()})
             # text where write_response puts text alone
             dataset.setncatts({name: value for name, value in attributes.items() if isinstance(value, float)})
