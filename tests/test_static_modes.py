@@ -99,7 +99,7 @@ def test_static_modes_are_those_that_the_step_does_not_follow(contact):
 
 
 def test_strong_friction_steps_more_modes_or_shortens_the_step(contact):
-    weak, strong = (len(problem_of(contact, coefficient, 3.2e-6).frequencies) for coefficient in (0.15, 0.8))
+    weak, strong = (len(problem_of(contact, coefficient, 2.9e-6).frequencies) for coefficient in (0.15, 0.8))
     assert strong > weak
     with pytest.raises(
         UnstableStepError, match=r"time_step_s: 6\.4e-06 s, not below (\S+) s: .*friction of 0\.5 modes up to"
@@ -107,8 +107,8 @@ def test_strong_friction_steps_more_modes_or_shortens_the_step(contact):
         problem_of(contact, 0.5, 6.4e-6)
     limit = float(re.search(r"not below (\S+) s", str(error.value))[1])
     shortened = stable_problem(contact, 1600.0, with_friction(0.5), replace(CHOICE, time_step=6.4e-6, shorten=True))
-    # not more than it must be
-    assert 0.95 * limit < shortened.time_step <= limit * (1.0 + 1e-5)
+    # not more than it must be: to half of what pressed nodes bear, where that is less
+    assert 0.4 * limit < shortened.time_step <= limit * (1.0 + 1e-5)
     assert definiteness(shortened.contact_flexibility, 0.5) > SMALLEST_DEFINITENESS
 
 

@@ -11,6 +11,9 @@ from .integrators import CENTRAL_DIFFERENCE
 if TYPE_CHECKING:
     from .problem import Problem
 
+WITH_FRICTION = 0.7
+"""Largest ratio of pressed nodes with friction, which feeds motions near the limit: at 0.88 runs diverged, at 0.84 none did."""
+
 _OF_BLADE = "this reduced model", "raise basis_tolerance to drop the highest modes"
 
 
@@ -32,7 +35,7 @@ def check_step(problem: Problem) -> None:
     if choice.integrator == CENTRAL_DIFFERENCE:
         _check_published_step(problem, given)
         return
-    ratio = pressed_ratio(problem)
+    ratio = pressed_ratio(problem) / (WITH_FRICTION if problem.scene.friction is not None else 1.0)
     if not ratio < 1.0:
         limit = step / np.sqrt(ratio)
         raise UnstableStepError(
