@@ -9,6 +9,8 @@ import os
 import sys
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import replace
+from functools import reduce
+from operator import and_
 from pathlib import Path
 
 os.environ["OPENBLAS_NUM_THREADS"] = "1"
@@ -123,13 +125,12 @@ def differences(found, scene, way, of):
 def settled(found, scene):
     """Where neither 0.1% of friction nor the step of the finest runs changes much."""
     pairs = [(NUDGED, FINEST), (SECOND, FINEST), *([(COARSE_MASS, MASS)] if scene == "direct" else [])]
-    largest = [np.abs(differences(found, scene, *pair)[0]) < SETTLED for pair in pairs]
-    return np.logical_and.reduce(largest)
+    return reduce(and_, [np.abs(differences(found, scene, *pair)[0]) < SETTLED for pair in pairs])
 
 
 def errors_table(found, scene, of, quantity):
     """Errors of every way against one of them, mean and largest in percent, at the settled speeds of each blade."""
-    mask, rows = xr.DataArray(settled(found, scene), {"blade": found.blade}, ("blade", "number")), []
+    mask, rows = settled(found, scene), []
     compared = [way for way in found.way.values if way not in (of, COARSE_MASS)]
     for blade in [*found.blade.values, "all"]:
         cells = []
@@ -146,8 +147,7 @@ def errors_table(found, scene, of, quantity):
 
 def summary_table(found, scene):
     """Of all blades: error of every way in rms, against both yardsticks, and in stress; the blade with the worst mean."""
-    mask = xr.DataArray(settled(found, scene), {"blade": found.blade}, ("blade", "number"))
-    rows = []
+    mask, rows = settled(found, scene), []
     for way in found.way.values:
         if way == COARSE_MASS:
             continue

@@ -19,6 +19,7 @@ from r37core.time_integration.integration_choice import IntegrationChoice
 from r37core.time_integration.integrators import CENTRAL_DIFFERENCE, Recursion
 from r37core.time_integration.problem import Problem, stable_problem
 from r37core.time_integration.simulate import Simulation
+from r37core.time_integration.speed_run import energy_balance
 from r37core.time_integration.state import Course
 from r37core.time_integration.step_limit import UnstableStepError
 
@@ -89,19 +90,12 @@ class March:
     def _problem(self, speed: float) -> Problem:
         return Problem(self._model, speed, self._scene, self._choice)
 
-    @property
-    def whole_energy(self) -> float:
-        """Energy (J) of the vibration, that of the static modes in it."""
-        return self.energy + self._static_energy
-
-    @property
-    def work(self) -> float:
-        """Work (J) of the contact forces since the start: on the stepped modes, and all that the static ones hold."""
-        return float(self.state.totals["work"]) + self._static_energy
-
-    @property
-    def _static_energy(self) -> float:
-        return 0.0 if self._simulation is None else self._simulation.problem.static_energy(self.state.contact_force)
+    def balance(self) -> dict[str, np.ndarray]:
+        """Work, loss and energy (J) of all stages together: see energy_balance."""
+        assert self._simulation is not None
+        held = self._simulation.problem.static_energy(self.state.contact_force)
+        loss = float(self.state.totals["loss"])
+        return energy_balance(self._simulation.work(self.state), loss, self.energy + held, self.stiffness_work)
 
     def stages(self) -> Iterator[Stage]:
         """Do all stretches; ends with a stage that says so when the run diverges."""

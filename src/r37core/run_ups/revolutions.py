@@ -13,7 +13,7 @@ from r37core.results.stress_recovery import StressRecovery
 from r37core.rom.contact_model import ContactModel
 from r37core.time_integration.integration_choice import IntegrationChoice
 from r37core.time_integration.simulate import DIRECTIONS, TIP_POINTS
-from r37core.time_integration.speed_run import amplitudes, energy_balance, with_rotation
+from r37core.time_integration.speed_run import amplitudes, with_rotation
 from r37core.time_integration.status import RunStatus
 
 from .march import March, Stage
@@ -62,7 +62,7 @@ def record_run_up(
     if "wear" not in results:
         del found["max_wear"]
     if "energy" in results:
-        found |= energy_balance(march.work, float(march.state.totals["loss"]), march.whole_energy, march.stiffness_work)
+        found |= march.balance()
         found["stiffness_work"] = np.array(march.stiffness_work)
     return found
 

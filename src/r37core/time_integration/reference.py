@@ -171,6 +171,11 @@ class ReferenceEngine:
         share = -friction.coefficient / np.hypot(along, across)
         return np.array([towards_axis, share * along, share * across])
 
+    def _solved_for(self, directions: np.ndarray) -> np.ndarray:
+        """The part of the directions that the normal forces are solved with: all of it, or without friction added after."""
+        friction = self.problem.scene.friction
+        return directions if friction is None or friction.coupled else directions * [[1.0], [0.0], [0.0]]
+
     def _modal(self, forces: np.ndarray) -> np.ndarray:
         """Modal forces of forces (N) on the nodes, shape (3, nodes, ...)."""
         return np.einsum("dk...,dki->...i", forces, self.rows)
@@ -182,10 +187,8 @@ class ReferenceEngine:
 
         Node by node the force that its law says while the others keep theirs, until none changes by more than round-off.
         """
-        lining, friction, nodes = self.problem.scene.lining, self.problem.scene.friction, range(len(gap))
-        if friction is not None and not friction.coupled:
-            directions = directions * [[1.0], [0.0], [0.0]]
-        opening = -np.einsum("dk,dkg->gk", directions, self.flexibility)
+        lining, nodes = self.problem.scene.lining, range(len(gap))
+        opening = -np.einsum("dk,dkg->gk", self._solved_for(directions), self.flexibility)
         bars = [] if wear is None else [self._bar(theta[k], k, wear) for k in nodes]
         worn = [] if wear is None else [wear[bar] for bar in bars]
         pressure, touching = np.zeros(len(gap)), np.zeros(len(gap), dtype=bool)
@@ -247,11 +250,8 @@ class ReferenceEngine:
         """Multipliers (N), shape (nodes,), that leave no node beyond the casing."""
         if not np.any(gap < 0.0):
             return np.zeros(len(gap))
-        friction = self.problem.scene.friction
-        if friction is not None and not friction.coupled:
-            directions = directions * [[1.0], [0.0], [0.0]]
         # of each node's unit multiplier, along the last axis
-        forces = directions[:, :, None] * np.eye(len(gap))
+        forces = self._solved_for(directions)[:, :, None] * np.eye(len(gap))
         return complementary(-self.normal @ self.motion.response @ self._modal(forces).T, gap)
 
 
