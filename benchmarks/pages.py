@@ -41,7 +41,7 @@ TABLES = {
         **{f"other_{name}": f"other_programs_{name}.md" for name in ("elastic", "worn", "direct", "histories", "rms")},
     },
     "validation_tables": {"validation": "validation.md", "ranges": "validation_ranges.md"},
-    "speed": {"estimate": "estimate.md"},
+    "speed": {"estimate": "estimate.md", "march_cost": "march_cost.md"},
 }
 SUMMARIES = {
     "stability": {"stability": "stability.md"},
