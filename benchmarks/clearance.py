@@ -80,7 +80,7 @@ def growth_table(settings):
             "stress of rotation / yield": f"{stress / material.yield_stress:.2f}",
         }
         if shutil.which("ccx"):
-            nodes = reduced.contact_nodes("pressure_edge")
+            nodes = reduced.contact_nodes
             displacement = nodes.cylindrical(in_calculix(blade, material, speed)[nodes.nodes]).T
             theirs = approach(contact.radius, displacement, contact.tip_cone_angle)
             row["with large displacements (CalculiX)"] = ends(theirs)

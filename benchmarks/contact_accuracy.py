@@ -201,7 +201,7 @@ def of_mesh(task):
     settings = read_settings(ROOT)
     chosen, scene = settings.blades[blade], settings.scenes["direct"]
     mesh = generate_mesh(chosen.definition.build(round_edges=True), nodes=nodes, layers=1, tip_elements=MESHES[nodes])
-    reduced = reduce_blade(mesh, assemble(mesh, chosen.material), settings.reduction_choice())
+    reduced = reduce_blade(mesh, assemble(mesh, chosen.material), settings.reduction_choice(blade))
     model, choice = contact_model(reduced, scene.tip_line), settings.integration_choice(blade, "direct", 0.0)
     choice = replace(choice, snapshot_revolutions=0, energy=False)
 

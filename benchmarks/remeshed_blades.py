@@ -63,7 +63,7 @@ def frequencies_of(matrices):
 
 def peak_of(name, mesh, matrices, settings):
     """Speed (rad/s) and rms (m) of the peak of 1B/4."""
-    model = reduce_blade(mesh, matrices, settings.reduction_choice(blade=name))
+    model = reduce_blade(mesh, matrices, settings.reduction_choice(name))
     crossing = campbell_diagram(model, np.linspace(0.0, 2000.0, 41), 3).crossing_speeds(np.array([ORDER]))[0, 0]
     contact = contact_model(model, settings.structure.boundary.tip_line)
     chosen = settings.scenes["abradable"]

@@ -36,7 +36,7 @@ CASES = [
 def main():
     settings = read_settings(ROOT)
     reference = settings.blades["Ref"]
-    choice = settings.reduction_choice()
+    choice = settings.reduction_choice("Ref")
     print("| edges | nodes | layers | first six frequencies at rest (Hz) | 1B crossings with 7, 6, 5, 4 (rad/s) | off by | s |")
     print("|---|---|---|---|---|---|---|")
     for edges, nodes, layers, tip_elements in CASES:

@@ -130,7 +130,7 @@ def matrices(mesh, steel):
 
 @pytest.fixture(scope="session")
 def choice(settings):
-    return settings.reduction_choice()
+    return settings.reduction_choice("Ref")
 
 
 @pytest.fixture(scope="session")
@@ -167,7 +167,7 @@ def compiled(root, tmp_path_factory):
     settings = read_settings(folder)
     level, blade = settings.fidelity.mesh, settings.blades["Ref"]
     mesh = generate_mesh(blade.definition.build(round_edges=True), level.nodes, level.layers, level.tip_elements)
-    reduced = reduce_blade(mesh, assemble(mesh, blade.material), settings.reduction_choice())
+    reduced = reduce_blade(mesh, assemble(mesh, blade.material), settings.reduction_choice("Ref"))
     model = contact_model(reduced, "pressure_edge")
     for name, scene in settings.scenes.items():
         choice = settings.integration_choice("Ref", name, 1150.0)

@@ -24,10 +24,10 @@ def defaults_of(section) -> dict[str, Any]:
 
 def _with_defaults(kind: type, section, **others: Any) -> Callable[..., Any]:
     names = [field.name for field in fields(kind)]
-    found = {name: value for name, value in defaults_of(section).items() if name in names}
+    found = {name: value for name, value in defaults_of(section).items() if name in names} | others
 
     def made(*values: Any, **named: Any) -> Any:
-        return kind(**others | found | dict(zip(names, values, strict=False)) | named)
+        return kind(**found | dict(zip(names, values, strict=False)) | named)
 
     return made
 
@@ -38,7 +38,7 @@ Friction = _with_defaults(scene.Friction, FrictionSection)
 Scene = _with_defaults(scene.Scene, SceneEntry, lining=None, friction=None)
 IntegrationChoice = _with_defaults(integration_choice.IntegrationChoice, TimeIntegration)
 InteractionChoice = _with_defaults(interactions.InteractionChoice, Interactions)
-BoundaryChoice = _with_defaults(reduction_choice.BoundaryChoice, Boundary)
+BoundaryChoice = _with_defaults(reduction_choice.BoundaryChoice, Boundary, contact="points")
 Orientation = _with_defaults(orientation.Orientation, MeshEntry)
 MeshSource = _with_defaults(source.MeshSource, MeshEntry)
 MatricesSource = _with_defaults(source.MatricesSource, MeshEntry, mass_unit="kg", stiffness_unit="N/m")

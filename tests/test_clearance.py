@@ -90,7 +90,7 @@ def test_shapes_of_a_few_speeds_give_the_displacement_at_any(mesh, matrices, cho
 def test_nodes_are_where_rotation_holds_them(model, tmp_path):
     """Radius, angle, directions and distance from the cone of the displaced nodes themselves."""
     speed, contact = 1730.0, contact_model(model, "pressure_edge")
-    nodes = model.contact_nodes("pressure_edge")
+    nodes = model.contact_nodes
     x, y, z = (nodes.points + nodes.rotation_shapes @ rotation_amplitudes(model.rotation_stiffening, speed)).T
     write_contact_model(contact, tmp_path / "contact.npz")
     spun = read_contact_model(tmp_path / "contact.npz").spun(speed)

@@ -95,9 +95,9 @@ def test_config_refusals(project, changes, message):
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("X: {base: Nope}", r"blades\.yaml:22: X\.base: found 'Nope'; allowed: another blade"),
-        ("X: {base: Y}\nY: {base: X}", r"blades\.yaml:23: Y\.base: found 'X'; allowed: another blade"),
-        ("X: {}", r"blades\.yaml:22: X: found neither profiles nor base"),
+        ("X: {base: Nope}", r"blades\.yaml:25: X\.base: found 'Nope'; allowed: another blade"),
+        ("X: {base: Y}\nY: {base: X}", r"blades\.yaml:26: Y\.base: found 'X'; allowed: another blade"),
+        ("X: {}", r"blades\.yaml:25: X: found neither profiles nor base"),
         ("X: {base: Ref, chordwise_sweep_deg: 5, stacking_table: t.csv}", r"X: found stacking_table and chordwise_sweep_deg"),
         ("X: {base: Ref, sweep: 5}", r"X: found unknown key sweep; allowed keys: profiles, base"),
         ("X: {base: Ref, chordwise_sweep_deg: 80}", r"X\.chordwise_sweep_deg: found 80; allowed: .*less than 60"),

@@ -34,7 +34,7 @@ def whole(mesh, matrices, choice):
 @pytest.fixture(scope="module")
 def directory(mesh, matrices, model, tmp_path_factory):
     folder = tmp_path_factory.mktemp("matrices")
-    write_full_matrices(matrices, mesh, model.boundary_nodes, (0.0, 1000.0, 2000.0), folder, spin_softening=False)
+    write_full_matrices(matrices, mesh, model.contact_nodes.nodes, (0.0, 1000.0, 2000.0), folder, spin_softening=False)
     return folder
 
 
@@ -125,7 +125,7 @@ def test_full_matrices_come_back(directory, model, choice):
 
 
 def test_reduced_matrices_come_back(model, choice, tmp_path):
-    write_reduced_matrices(model, "pressure_edge", (0.0, 1000.0, 2000.0), tmp_path)
+    write_reduced_matrices(model, (0.0, 1000.0, 2000.0), tmp_path)
     again = import_matrices(MatricesSource(str(tmp_path), OURS), choice)
     np.testing.assert_allclose(again.mass, model.mass, atol=1e-12 * np.abs(model.mass).max())
     np.testing.assert_allclose(again.modes(1400.0, 12)[0], model.modes(1400.0, 12)[0], rtol=1e-8)
@@ -134,13 +134,12 @@ def test_reduced_matrices_come_back(model, choice, tmp_path):
 def test_reduced_matrices_in_other_axes(model, choice, tmp_path):
     """Rotor axis along -y, blade along z, mm, .npz: taken as they are, and turned."""
     turn = np.array([[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])  # file's axes in rows of ours
-    nodes = len(model.boundary_nodes)
+    nodes = len(model.contact_nodes.nodes)
     whole = np.eye(model.size)
     whole[: 3 * nodes, : 3 * nodes] = np.kron(np.eye(nodes), turn)
     for name, matrix in {"M": model.mass, **{f"K_{s:g}": model.stiffness_at(s) for s in (0.0, 800.0, 1600.0)}}.items():
         np.savez(tmp_path / f"{name}.npz", whole.T @ matrix @ whole)
-    line = model.tip_lines["pressure_edge"]
-    points = line.points[[int(np.flatnonzero(line.nodes == node)[0]) for node in model.boundary_nodes]]
+    points = model.contact_nodes.points
     rows = np.arange(3 * nodes).reshape(-1, 3)
     header = "x,y,z,dof_x,dof_y,dof_z"
     np.savetxt(tmp_path / "boundary.csv", np.hstack([1e3 * points @ turn, rows]), delimiter=",", header=header, comments="")
@@ -156,7 +155,7 @@ def test_reduced_matrices_in_other_axes(model, choice, tmp_path):
 
 def test_units_of_matrices(model, choice, tmp_path):
     """Tonnes and N/mm, as programs in millimetres have them."""
-    write_reduced_matrices(model, "pressure_edge", (0.0, 1000.0, 2000.0), tmp_path)
+    write_reduced_matrices(model, (0.0, 1000.0, 2000.0), tmp_path)
     again = import_matrices(MatricesSource(str(tmp_path), OURS, "t", "N/mm"), choice)
     np.testing.assert_allclose(again.mass, 1e3 * model.mass, atol=1e-9 * np.abs(model.mass).max())
     np.testing.assert_allclose(
@@ -316,7 +315,7 @@ def test_unsuitable_tables_are_refused(choice, tmp_path, table, message):
     ],
 )
 def test_contact_nodes_of_another_size_or_order_are_refused(model, choice, tmp_path, change, key, message):
-    write_reduced_matrices(model, "pressure_edge", (0.0, 1000.0, 2000.0), tmp_path)
+    write_reduced_matrices(model, (0.0, 1000.0, 2000.0), tmp_path)
     table = pd.read_csv(tmp_path / "boundary.csv")
     table[["x", "y", "z"]] = change(table[["x", "y", "z"]].to_numpy())
     table.to_csv(tmp_path / "boundary.csv", index=False)

@@ -145,7 +145,7 @@ def test_blades_of_other_programs(root, config, tmp_path, monkeypatch):
     runpy.run_path("draw.py")
     settings = read_settings(config.parent.parent)
     model = read_reduced_model(StructureFiles(settings, "Ref").reduced_model("pressure_edge"))
-    write_reduced_matrices(model, "pressure_edge", [0.0, 1000.0, 2000.0], tmp_path / "matrices")
+    write_reduced_matrices(model, [0.0, 1000.0, 2000.0], tmp_path / "matrices")
     entry = {"matrices": "matrices", "mass_unit": "kg", "stiffness_unit": "N/m", "length_unit": "m", "rotation": "negative"}
     frame = {"rotor_axis": [0, 0, 1], "radial": [1, 0, 0]}
     mesh = re.search(r"```yaml\n(.*?)```", page, re.DOTALL)[1]

@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import scipy.linalg as la
+import scipy.sparse as sp
 from defaults import BoundaryChoice
 
 from r37core.fem.solver import lowest_modes
@@ -20,6 +21,12 @@ SPEEDS = [0.0, 450.0, 1000.0, 1630.0, 2000.0]
 def full_frequencies(matrices, speed, count=10):
     stiffness = matrices.stiffness() + speed**2 * matrices.geometric_stiffness()
     return np.sqrt(lowest_modes(stiffness, matrices.mass(), count)[0])
+
+
+def boundary_rows(matrices, model):
+    """Contact nodes' displacements from all of them: a 1 in each row."""
+    dofs = (3 * np.searchsorted(matrices.free_nodes, model.contact_nodes.nodes)[:, None] + np.arange(3)).ravel()
+    return sp.csr_array((np.ones(len(dofs)), (np.arange(len(dofs)), dofs)), shape=(len(dofs), matrices.mass().shape[0]))
 
 
 @pytest.fixture(scope="module")
@@ -55,7 +62,7 @@ def test_stiffness_has_no_fourth_power_of_speed(model):
 
 def test_boundary_coordinates_are_the_displacements(mesh, model):
     line = model.tip_lines["pressure_edge"]
-    for i, node in enumerate(model.boundary_nodes):
+    for i, node in enumerate(model.contact_nodes.nodes):
         row = int(np.flatnonzero(line.nodes == node)[0])
         np.testing.assert_allclose(line.basis[row], np.eye(3, model.size, 3 * i), atol=1e-12)
 
@@ -64,7 +71,7 @@ def test_static_response_to_a_tip_load_is_exact(mesh, matrices, model):
     from r37core.fem.matrices import static_displacement
 
     load = np.zeros_like(mesh.points)
-    load[model.boundary_nodes[2]] = [10.0, -40.0, 25.0]
+    load[model.contact_nodes.nodes[2]] = [10.0, -40.0, 25.0]
     exact = static_displacement(matrices, load)
     force = np.zeros(model.size)
     force[6:9] = [10.0, -40.0, 25.0]
@@ -78,15 +85,17 @@ def test_static_response_to_a_tip_load_is_exact(mesh, matrices, model):
 
 @pytest.mark.slow
 def test_order_and_scale_of_columns_do_not_matter(matrices, mesh, model, choice):
-    dofs = (3 * np.searchsorted(matrices.free_nodes, model.boundary_nodes)[:, None] + np.arange(3)).ravel()
+    boundary = boundary_rows(matrices, model)
     stiffness, geometric, mass = matrices.stiffness(), matrices.geometric_stiffness(), matrices.mass()
-    sets = [constraint_and_fixed_modes((stiffness + speed**2 * geometric).tocsr(), mass, dofs, 10) for speed in choice.speeds]
+    sets = [
+        constraint_and_fixed_modes((stiffness + speed**2 * geometric).tocsr(), mass, boundary, 10) for speed in choice.speeds
+    ]
     columns = np.hstack([part for pair in sets for part in pair])
     generator = np.random.default_rng(5)
     shuffled = columns[:, generator.permutation(102)] * 10.0 ** generator.uniform(-6.0, 6.0, 102)
 
     def frequencies(some_columns):
-        vectors = combine_columns(sets[0][0], some_columns, mass, dofs, choice.basis_tolerance).vectors
+        vectors = combine_columns(sets[0][0], some_columns, mass, boundary, choice.basis_tolerance).vectors
         reduced = vectors.T @ (stiffness @ vectors) + 1500.0**2 * (vectors.T @ (geometric @ vectors))
         return np.sqrt(la.eigh(reduced, vectors.T @ (mass @ vectors), eigvals_only=True)[:10])
 
@@ -94,11 +103,11 @@ def test_order_and_scale_of_columns_do_not_matter(matrices, mesh, model, choice)
 
 
 def test_dependent_columns_are_dropped(matrices, model, choice):
-    dofs = (3 * np.searchsorted(matrices.free_nodes, model.boundary_nodes)[:, None] + np.arange(3)).ravel()
+    boundary = boundary_rows(matrices, model)
     mass = matrices.mass()
-    constraint, fixed = constraint_and_fixed_modes(matrices.stiffness(), mass, dofs, 10)
+    constraint, fixed = constraint_and_fixed_modes(matrices.stiffness(), mass, boundary, 10)
     twice = np.hstack([constraint, fixed, 3.0 * constraint, fixed])
-    basis = combine_columns(constraint, twice, mass, dofs, 1e-8)
+    basis = combine_columns(constraint, twice, mass, boundary, 1e-8)
     assert len(basis.singular_values) == 68
     assert basis.vectors.shape[1] == 34
 
@@ -136,7 +145,7 @@ def test_file_holds_the_model(model, tmp_path):
     file = tmp_path / "rom.nc"
     write_reduced_model(model, file, {"blade": "Ref"})
     again = read_reduced_model(file)
-    for name in ("stiffness", "mass", "geometric_stiffness", "shape_products", "boundary_chord"):
+    for name in ("stiffness", "mass", "geometric_stiffness", "shape_products", "contact_chord"):
         np.testing.assert_array_equal(getattr(again, name), getattr(model, name))
     np.testing.assert_array_equal(again.stress_elements["wedge15"], model.stress_elements["wedge15"])
     for line in model.tip_lines:

@@ -116,8 +116,8 @@ def test_a_flat_plate_at_an_angle_tells_the_rotation(plate):
 
 
 def test_matrices(model, settings, tmp_path):
-    write_reduced_matrices(model, "pressure_edge", (0.0, 1000.0, 2000.0), tmp_path)
-    choice = settings.reduction_choice()
+    write_reduced_matrices(model, (0.0, 1000.0, 2000.0), tmp_path)
+    choice = settings.reduction_choice("Ref")
     wrong = MatricesSource(str(tmp_path), Orientation("m", (0, 0, 1), (1, 0, 0), "positive"))
     with pytest.raises(ImportRefused, match=rf"boundary\.csv: found the tip's {ANGLES}") as refusal:
         import_matrices(wrong, choice)

@@ -141,7 +141,7 @@ def test_the_coefficient_that_is_said_to_be_allowed_is(seed):
         stepped_modes(frequencies, rows, 1.05 * allowed, 1e-6, 1.0, 11)
 
 
-@pytest.mark.parametrize("model", [oscillator(6000.0), random_model(8)], ids=["one", "random"])
+@pytest.mark.parametrize("model", [oscillator(6000.0), random_model(16)], ids=["one", "random"])
 @pytest.mark.parametrize("scene", [DIRECT, ABRADABLE], ids=["direct", "abradable"])
 def test_models_of_too_few_modes_are_refused(model, scene):
     modes, nodes = len(model.squared_frequencies), len(model.theta)

@@ -345,7 +345,7 @@ def test_contact_model(model, contact, tmp_path):
 def test_the_tip_is_the_line_wherever_its_contact_nodes_lie(model, contact):
     """Without corners among them, the tip's ends and cone stay those of the line."""
     line = model.tip_lines["pressure_edge"]
-    inner = contact_model(replace(model, boundary_nodes=line.nodes[2:-2:3]), "pressure_edge")
+    inner = contact_model(replace(model, contact_nodes=line.select(list(range(2, len(line.nodes) - 2, 3)))), "pressure_edge")
     assert inner.displacement_operator.shape[1] == len(line.nodes[2:-2:3])
     np.testing.assert_array_equal(inner.tip_displacement_operator, contact.tip_displacement_operator)
     assert inner.tip_cone_angle == contact.tip_cone_angle

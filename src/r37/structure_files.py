@@ -53,7 +53,7 @@ class StructureFiles:
     def _reduced(self, tip_line: str) -> tuple[Path, object]:
         """The reduced model, and what it is made of."""
         blade = self.settings.blades[self.name]
-        choice = self.settings.reduction_choice(tip_line, self.name)
+        choice = self.settings.reduction_choice(self.name, tip_line)
         if isinstance(blade.definition, MatricesSource):
             return self._from_matrices(blade.definition, choice)
         elastic = blade.elastic.material

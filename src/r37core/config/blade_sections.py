@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Annotated
+from typing import Annotated, Literal
 
 from pydantic import Field, model_validator
 
@@ -11,6 +11,12 @@ from r37core.rom.reduction_choice import EVERYWHERE, StressSubmesh
 
 from .section import LeftOut, Section, refused
 from .si_fields import si_fields
+
+Contact = Literal["points", "patches", "area_patches"]
+CONTACT_IN_WORDS = (
+    "what contact acts on: points (mesh nodes, as published; direct contact then has no limit in the mesh), patches of the tip "
+    "line, or area_patches of the tip's whole face"
+)
 
 Coordinate = Annotated[float, Field(ge=-100, le=100)]
 Layers = Annotated[int, Field(ge=0, le=20)]

@@ -21,7 +21,7 @@ from r37core.rom.reduction_choice import StressSubmesh
 from r37core.speeds import spaced
 from r37core.text_file import TextFileError
 
-from .blade_sections import MaterialSection, stress_region
+from .blade_sections import CONTACT_IN_WORDS, Contact, MaterialSection, stress_region
 from .document import ConfigError, Document
 from .imported_entry import MatricesEntry, MeshEntry
 from .section import FileName, LeftOut, Name, Section, Unique, check_names, refused
@@ -95,6 +95,7 @@ class BladeEntry(Section):
         default=None, description="share of the table's sweep that is kept, its own or that of its base"
     )
     lean_percent: Annotated[float, Field(ge=-1000, le=1000)] | LeftOut = Field(default=None, description="share of the lean")
+    contact: Contact = Field(default="patches", description=f"{CONTACT_IN_WORDS}; not taken from the base")
     sense_check: bool = Field(default=True, description="refuse a table of which the trailing edge would lead in the rotation")
     material: MaterialSection = MaterialSection()
     vary: Annotated[dict[str, Varied], Field(min_length=1)] | LeftOut = Field(
@@ -154,10 +155,11 @@ class Blades(RootModel):
 
 @dataclass(frozen=True)
 class BladeSettings:
-    """One blade: what gives its shape, its material (none for matrices) and, for a mesh, its own region of stress."""
+    """One blade: what gives its shape, its material (none for matrices), what contact acts on, a mesh's region of stress."""
 
     definition: BladeDefinition | MeshSource | MatricesSource
     material: fem_material.Material | None
+    contact: str
     stress_submesh: StressSubmesh | None = None
 
     @property
@@ -177,7 +179,7 @@ def blade_settings(name: str, entries: Mapping[str, Any], root: Path, document: 
     if isinstance(entry, MatricesEntry):
         if len(chain) > 1:
             raise document.refusal((chain[1], "base"), f"'{first}', a blade of matrices", "a blade with profiles or a mesh")
-        return BladeSettings(_source(entry, first, root, document), None)
+        return BladeSettings(_source(entry, first, root, document), None, entry.contact)
     material = _material(chain, entries, document)
     if isinstance(entry, MeshEntry):
         for link in chain[1:]:
@@ -190,7 +192,9 @@ def blade_settings(name: str, entries: Mapping[str, Any], root: Path, document: 
             material.check_units()
         except ValueError as error:
             raise document.error((name, "material"), str(error)) from None
-        return BladeSettings(_source(entry, first, root, document), material, stress_region(entry.stress_submesh))
+        return BladeSettings(
+            _source(entry, first, root, document), material, entries[name].contact, stress_region(entry.stress_submesh)
+        )
     shift: dict[str, Any] = {}
     for link in chain:
         for key in SHIFTS:
@@ -200,7 +204,7 @@ def blade_settings(name: str, entries: Mapping[str, Any], root: Path, document: 
     table = entry.profiles
     sense_check = all(entries[link].sense_check for link in chain)
     profiles = _table(table, name, (first, "profiles"), document, lambda: _profiles(root / table, sense_check))
-    return BladeSettings(BladeDefinition(name, tuple(profiles), **shift), material)
+    return BladeSettings(BladeDefinition(name, tuple(profiles), **shift), material, entries[name].contact)
 
 
 def _profiles(file: Path, sense_check: bool) -> list[ProfileParameters]:

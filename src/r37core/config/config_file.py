@@ -9,7 +9,7 @@ from pydantic import AfterValidator, Field, model_validator
 
 from r37core.rom.reduction_choice import BoundaryChoice, ReductionChoice, StressSubmesh
 
-from .blade_sections import Submesh, stress_region
+from .blade_sections import CONTACT_IN_WORDS, Contact, Submesh, stress_region
 from .fidelity import Reduction
 from .output_sections import ExportSection, ShapeSection, SignalSection
 from .run_up_section import RunUpEntry
@@ -24,6 +24,9 @@ from .tolerance_section import ToleranceSection
 class Boundary(Section):
     """The contact nodes, kept as physical coordinates of the reduced model."""
 
+    contact: Contact | LeftOut = Field(
+        default=None, description=f"{CONTACT_IN_WORDS}, for all blades; left out: as each blade says"
+    )
     tip_line: TipLine = Field(default="pressure_edge", description="line of the tip on which they lie")
     nodes: int = Field(default=8, ge=1, le=200, description="how many, evenly spaced")
     corners: bool = Field(default=True, description="whether leading and trailing corner are among them")
@@ -41,17 +44,22 @@ class StructureSection(Section):
     recover_whole_blade: bool = Field(default=False, description="keep the basis on every node (a large file)")
 
     def reduction(
-        self, size: Reduction, tip_line: str | None = None, stress_submesh: StressSubmesh | None = None
+        self, size: Reduction, contact: str, tip_line: str | None = None, stress_submesh: StressSubmesh | None = None
     ) -> ReductionChoice:
         """The reduced model of a level's size, with contact nodes on `tip_line` or on that of the section `boundary`.
 
-        Stress is recovered on `stress_submesh`, or where the section of this name says. Its basis is computed at rest, at half
-        the maximum speed and at the maximum speed.
+        `contact`: what a blade's contact acts on, where the section leaves it open. Stress is recovered on `stress_submesh`, or
+        where the section of this name says. Its basis is computed at rest, at half the maximum speed and at the maximum speed.
         """
         return in_si(
             ReductionChoice,
             self,
-            boundary=in_si(BoundaryChoice, self.boundary, tip_line=tip_line or self.boundary.tip_line),
+            boundary=in_si(
+                BoundaryChoice,
+                self.boundary,
+                tip_line=tip_line or self.boundary.tip_line,
+                contact=self.boundary.contact or contact,
+            ),
             speeds=(0.0, 0.5 * self.maximum_speed_rad_s, self.maximum_speed_rad_s),
             stress_submesh=stress_submesh or stress_region(self.stress_submesh),
             **si_fields(size),

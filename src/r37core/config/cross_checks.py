@@ -8,9 +8,12 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable
 
+import numpy as np
+
 from r37core.alignment import padded
 from r37core.blade.definition import BladeDefinition
 from r37core.exchange.importing.source import MatricesSource
+from r37core.rom.reduction_choice import AREA_PATCHES, POINTS, BoundaryError, check_patches
 from r37core.run_ups.choice import RunUpError, check_highest
 from r37core.time_integration.integration_choice import LARGEST_TABLE
 from r37core.time_integration.integrators import EXACT_MODAL
@@ -260,6 +263,29 @@ def matrices_hold_their_terms(settings: Settings) -> None:
             )
 
 
+def tips_have_room_for_patches(settings: Settings) -> None:
+    """Patches are no finer than the tip's mesh, as far as it is known before it is made, and matrices have no face."""
+    mesh, document = settings.fidelity.mesh, settings.documents.config
+    for name, blade in settings.blades.items():
+        for tip_line in dict.fromkeys(scene.tip_line for scene in settings.scenes.values()):
+            boundary = settings.reduction_choice(name, tip_line).boundary
+            if boundary.contact == AREA_PATCHES and isinstance(blade.definition, MatricesSource):
+                raise document.refusal(
+                    ("structure", "boundary", "contact"),
+                    f"{AREA_PATCHES} with the blade '{name}', given by matrices, which say nothing of the tip's face",
+                    "points, or patches of the nodes in its boundary.csv",
+                )
+            if boundary.contact == POINTS or not isinstance(blade.definition, BladeDefinition):
+                continue
+            # between two layers, or on a face, the edges of elements have nodes in their middle; inside a layer there are none
+            inside = tip_line == "camber" and mesh.layers % 2
+            nodes = mesh.tip_elements + 1 if inside else 2 * mesh.tip_elements + 1
+            try:
+                check_patches(boundary, np.linspace(0.0, 1.0, nodes))
+            except BoundaryError as error:
+                raise document.error(("structure", "boundary", "nodes"), f"blade '{name}': {error}") from None
+
+
 def coriolis_can_be_carried(settings: Settings) -> None:
     """The Coriolis force is wanted with the integrator that carries it, and of runs at constant speed."""
     if not settings.structure.coriolis:
@@ -321,6 +347,7 @@ CHECKS: tuple[Callable[[Settings], None], ...] = (
     run_ups_can_be_done,
     members_can_be_drawn,
     matrices_hold_their_terms,
+    tips_have_room_for_patches,
     coriolis_can_be_carried,
     clearances_reach_all_speeds,
     families_have_shapes,

@@ -11,7 +11,7 @@ from r37core.exchange.importing.source import MatricesSource, MeshSource, digest
 from r37core.exchange.importing.where import Where
 from r37core.exchange.orientation import Orientation
 
-from .blade_sections import ImportedSubmesh, MaterialSection
+from .blade_sections import CONTACT_IN_WORDS, Contact, ImportedSubmesh, MaterialSection
 from .section import FileName, LeftOut, Section, refused
 from .si_fields import in_si
 
@@ -104,6 +104,7 @@ class MeshEntry(Oriented):
     end_check: bool = Field(
         default=True, description="refuse a root or tip with side faces, or without a part of the blade's end"
     )
+    contact: Contact = Field(default="patches", description=f"{CONTACT_IN_WORDS}; not taken from the base")
     stress_submesh: ImportedSubmesh = ImportedSubmesh()
 
     def source(self, root: Path) -> MeshSource:
@@ -125,6 +126,10 @@ class MatricesEntry(Oriented):
     matrices: FileName = Field(description="folder with M and K_<speed> at three speeds (.mtx or .npz), and boundary.csv")
     mass_unit: Literal["kg", "g", "t"] = Field(description="of M")
     stiffness_unit: Literal["N/m", "N/mm"] = Field(description="of the K_<speed>")
+    contact: Literal["points", "patches"] = Field(
+        default="points",
+        description="points: the nodes of boundary.csv; patches: made of them, when it has all of the tip line",
+    )
 
     def source(self, root: Path) -> MatricesSource:
         """What to import, from the folder `root`; ImportRefused where files are missing."""

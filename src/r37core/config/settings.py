@@ -276,16 +276,13 @@ class Settings:
         """Short hash of all that a blade's structural results depend on."""
         material = self.blades[blade].material
         elastic = material and replace(material, yield_stress=0.0)
-        choice = self.reduction_choice(blade=blade)
+        choice = self.reduction_choice(blade)
         return _short_hash(self.shape_hash(blade), elastic, plain(self.fidelity.mesh), choice)
 
-    def reduction_choice(self, tip_line: str | None = None, blade: str | None = None) -> ReductionChoice:
-        """What the reduced model is made of, with contact nodes on `tip_line` or on that of config.yaml.
-
-        `blade`: whose region of stress counts, where it has one of its own.
-        """
-        submesh = self.blades[blade].stress_submesh if blade else None
-        return self.structure.reduction(self.fidelity.reduction, tip_line, submesh)
+    def reduction_choice(self, blade: str, tip_line: str | None = None) -> ReductionChoice:
+        """What a blade's reduced model is made of, with contact nodes on `tip_line` or on that of config.yaml."""
+        own = self.blades[blade]
+        return self.structure.reduction(self.fidelity.reduction, own.contact, tip_line, own.stress_submesh)
 
     def results_of(self, blade: str, scene: str) -> tuple[str, ...]:
         """What is wanted of a scene, as far as the blade can give it: matrices have no stress, nor shapes."""

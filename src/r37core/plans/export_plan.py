@@ -60,7 +60,7 @@ class Exports:
 
     def reduction(self, wildcards: Any) -> dict[str, Any]:
         """What the model of the whole blade is made of: the sweep's, recovered everywhere."""
-        choice = self.imported.settings.reduction_choice(wildcards.tip_line, wildcards.blade)
+        choice = self.imported.settings.reduction_choice(wildcards.blade, wildcards.tip_line)
         return to_plain(replace(choice, recover_whole_blade=True))
 
     def orientation(self, wildcards: Any) -> Any:

@@ -31,10 +31,9 @@ class Structure:
         """Material of a blade with a mesh, as if it never yielded."""
         return to_plain(self.settings.blades[wildcards.blade].elastic.material)
 
-    @property
-    def base_reduction(self) -> dict[str, Any]:
-        """What reduced models are made of, with contact nodes as config.yaml has them."""
-        return to_plain(self.settings.reduction_choice())
+    def base_reduction(self, wildcards: Any) -> dict[str, Any]:
+        """What a blade's reduced model is made of, with contact nodes as config.yaml has them."""
+        return to_plain(self.settings.reduction_choice(wildcards.blade))
 
     def made_before(self, wildcards: Any) -> Attributes:
         """Of a run with a name, where the reduced model lies in the results without one; that it is there re-runs nothing."""
@@ -45,4 +44,4 @@ class Structure:
 
     def reduction(self, wildcards: Any) -> dict[str, Any]:
         """What the reduced model is made of, with contact nodes on the line that the wildcard names."""
-        return to_plain(self.settings.reduction_choice(wildcards.tip_line, wildcards.blade))
+        return to_plain(self.settings.reduction_choice(wildcards.blade, wildcards.tip_line))

@@ -20,9 +20,9 @@ from .reduction_choice import ReductionChoice
 
 @dataclass(frozen=True)
 class MultiSpeedBasis:
-    """A reduction basis whose first coordinates are the boundary displacements themselves.
+    """A reduction basis whose first coordinates are those of the boundary, displacements or weighted means of them.
 
-    `vectors`, shape (dofs, boundary dofs + internal): constraint modes at rest, then internal vectors that vanish on the
+    `vectors`, shape (dofs, boundary coordinates + internal): constraint modes at rest, then internal vectors that vanish on the
     boundary and are mass-orthonormal. `singular_values`: of the columns computed over all speeds, one for each, normalised.
     """
 
@@ -33,13 +33,14 @@ class MultiSpeedBasis:
 def multi_speed_basis(
     stiffness_at: Callable[[float], sp.csr_array],
     mass: sp.csr_array,
-    boundary_dofs: np.ndarray,
+    boundary: sp.csr_array,
     choice: ReductionChoice,
     solve_at_rest: Solve | None = None,
     load: np.ndarray | None = None,
 ) -> tuple[MultiSpeedBasis, np.ndarray]:
     """Constraint modes and fixed-interface modes at each of the choice's speeds, combined into one basis.
 
+    `boundary`, shape (boundary coordinates, dofs): each row gives one of them from the displacements, by a 1 or by weights.
     `stiffness_at` gives the stiffness at a speed (rad/s); `solve_at_rest` solves with that at rest, where the caller has its
     factors. The first speed's constraint modes stay as they are, so that static responses to boundary loads at that speed
     are exact. Also, from the same factors, the displacements (m) under a `load` (N), shape (dofs, speeds); none without it.
@@ -49,48 +50,53 @@ def multi_speed_basis(
     for number, speed in enumerate(choice.speeds):
         stiffness = stiffness_at(speed)
         solve = solve_at_rest if solve_at_rest and not speed else factorise(stiffness)
-        columns += constraint_and_fixed_modes(stiffness, mass, boundary_dofs, choice.fixed_interface_modes, solve)
+        columns += constraint_and_fixed_modes(stiffness, mass, boundary, choice.fixed_interface_modes, solve)
         if load is not None:
             displaced[:, number] = solve(load)
-    return combine_columns(columns[0], np.hstack(columns), mass, boundary_dofs, choice.basis_tolerance), displaced
+    return combine_columns(columns[0], np.hstack(columns), mass, boundary, choice.basis_tolerance), displaced
 
 
 def combine_columns(
-    constraint_modes: np.ndarray, columns: np.ndarray, mass: sp.csr_array, boundary_dofs: np.ndarray, tolerance: float
+    constraint_modes: np.ndarray, columns: np.ndarray, mass: sp.csr_array, boundary: sp.csr_array, tolerance: float
 ) -> MultiSpeedBasis:
     """Basis spanning `columns`, shape (dofs, columns): `constraint_modes` as they are, then internal vectors.
 
     Columns with singular values below `tolerance` times the largest are dropped as numerically dependent. Neither the order
     nor the scale of the columns matters.
     """
-    internal, singular_values = _internal_vectors(columns, mass, boundary_dofs, tolerance)
+    internal, singular_values = _internal_vectors(columns, mass, boundary, tolerance)
     return MultiSpeedBasis(np.hstack([constraint_modes, internal]), singular_values)
 
 
 def constraint_and_fixed_modes(
-    stiffness: sp.csr_array, mass: sp.csr_array, boundary_dofs: np.ndarray, count: int, solve: Solve | None = None
+    stiffness: sp.csr_array, mass: sp.csr_array, boundary: sp.csr_array, count: int, solve: Solve | None = None
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Constraint modes, shape (dofs, boundary dofs), and `count` fixed-interface modes, shape (dofs, count).
+    """Constraint modes, shape (dofs, boundary coordinates), and `count` fixed-interface modes, shape (dofs, count).
 
-    Both come from factors of the whole stiffness, `solve` if the caller has them: forces on the boundary b that bring it back
-    to zero hold it. With F the displacements by unit forces there, Psi = F F_b^-1 and u_held = u - Psi u_b.
+    Both come from factors of the whole stiffness, `solve` if the caller has them: forces on the boundary u_b = B u that bring
+    it back to zero hold it. With F = K^-1 B^T the displacements by unit forces there, Psi = F (B F)^-1 and
+    u_held = u - Psi B u. Where u_b are weighted means the forces are spread by the same weights.
     """
     solve = solve or factorise(stiffness)
-    forces = np.zeros((mass.shape[0], len(boundary_dofs)))
-    forces[boundary_dofs] = np.eye(len(boundary_dofs))
-    flexibility = solve(forces)
-    constraint = la.solve(flexibility[boundary_dofs].T, flexibility.T).T
-    constraint[boundary_dofs] = np.eye(len(boundary_dofs))
+    flexibility = solve(boundary.T.toarray())
+    constraint = la.solve((boundary @ flexibility).T, flexibility.T).T
+    alone = _alone(boundary)
+    constraint[alone] = boundary[:, alone].toarray().T
 
     def solve_held(load: np.ndarray) -> np.ndarray:
         displacement = solve(load)
-        return displacement - constraint @ displacement[boundary_dofs]
+        return displacement - constraint @ (boundary @ displacement)
 
     return constraint, lowest_modes(stiffness, mass, count, solve_held)[1]
 
 
+def _alone(boundary: sp.csr_array) -> np.ndarray:
+    """Degrees of freedom that are a boundary coordinate by themselves, which round-off has no part in."""
+    return boundary.indices[boundary.indptr[:-1][np.diff(boundary.indptr) == 1]]
+
+
 def _internal_vectors(
-    columns: np.ndarray, mass: sp.csr_array, boundary_dofs: np.ndarray, tolerance: float
+    columns: np.ndarray, mass: sp.csr_array, boundary: sp.csr_array, tolerance: float
 ) -> tuple[np.ndarray, np.ndarray]:
     """Mass-orthonormal vectors that vanish on the boundary and, with the constraint modes, span the columns.
 
@@ -102,7 +108,7 @@ def _internal_vectors(
     weighted /= np.linalg.norm(weighted, axis=0)
     left, singular_values, _ = la.svd(weighted, full_matrices=False)
     kept = left[:, singular_values > tolerance * singular_values[0]] / weight
-    free = kept @ la.null_space(kept[boundary_dofs])
-    free[boundary_dofs] = 0.0
+    free = kept @ la.null_space(boundary @ kept)
+    free[_alone(boundary)] = 0.0
     factor = la.cholesky(free.T @ (mass @ free), lower=True)
     return la.solve_triangular(factor, free.T, lower=True).T, singular_values

@@ -8,10 +8,11 @@ import scipy.sparse as sp
 from r37core.fem.matrices import StructuralMatrices
 from r37core.mesh.blade_mesh import TIP_LINES, BladeMesh
 
+from .contact_weights import contact_weights, mean_places
 from .craig_bampton import multi_speed_basis
 from .naming import ideal_shapes
 from .reduced_model import RecoveryNodes, ReducedModel
-from .reduction_choice import ReductionChoice, boundary_nodes
+from .reduction_choice import ReductionChoice
 from .rotation import shapes_of_rotation
 
 
@@ -23,11 +24,11 @@ def reduce_blade(mesh: BladeMesh, matrices: StructuralMatrices, choice: Reductio
     stiffness, geometric, mass = matrices.stiffness(), matrices.geometric_stiffness(), matrices.mass()
     softening = matrices.spin_softening() if choice.spin_softening else None
     per_square = geometric if softening is None else geometric + softening
-    nodes = boundary_nodes(mesh, choice.boundary)
-    boundary_dofs = (3 * np.searchsorted(matrices.free_nodes, nodes)[:, None] + np.arange(3)).ravel()
+    weights = contact_weights(mesh, choice.boundary)
+    boundary = sp.csr_array(sp.kron(weights[:, matrices.free_nodes], sp.eye_array(3)))
     load = matrices.centrifugal_load[matrices.free_nodes].ravel()
     basis, displaced = multi_speed_basis(
-        lambda speed: sp.csr_array(stiffness + speed**2 * per_square), mass, boundary_dofs, choice, matrices.solve_at_rest, load
+        lambda speed: sp.csr_array(stiffness + speed**2 * per_square), mass, boundary, choice, matrices.solve_at_rest, load
     )
     vectors = basis.vectors
     rotation_shapes, rotation_stiffening = shapes_of_rotation(stiffness, per_square, displaced, load)
@@ -43,7 +44,9 @@ def reduce_blade(mesh: BladeMesh, matrices: StructuralMatrices, choice: Reductio
     def recovery(of: np.ndarray) -> RecoveryNodes:
         return RecoveryNodes(of, mesh.points[of], whole[of], rotated[of])
 
-    stress_blocks = choice.stress_submesh.elements(mesh, nodes)
+    line = mesh.node_set(TIP_LINES[choice.boundary.tip_line])
+    chord = weights @ mesh.parameters[:, 0]
+    stress_blocks = choice.stress_submesh.elements(mesh, np.unique(weights.indices))
     stress_nodes = np.unique(np.concatenate([np.empty(0, int), *(nodes.ravel() for nodes in stress_blocks.values())]))
     shapes = {name: shape[matrices.free_nodes].ravel() for name, shape in ideal_shapes(mesh).items()}
     mass_times_vectors, at_rest = mass @ vectors, projected(stiffness, vectors)
@@ -53,8 +56,14 @@ def reduce_blade(mesh: BladeMesh, matrices: StructuralMatrices, choice: Reductio
         mass=_symmetric(vectors.T @ mass_times_vectors),
         spin_softening=None if softening is None else projected(softening, vectors),
         coriolis=vectors.T @ (matrices.coriolis() @ vectors) if choice.coriolis else None,
-        boundary_nodes=nodes,
-        boundary_chord=mesh.parameters[nodes, 0],
+        contact=choice.boundary.contact,
+        contact_nodes=RecoveryNodes(
+            line[np.abs(mesh.parameters[line, 0] - chord[:, None]).argmin(axis=1)],
+            mean_places(mesh.points, weights),
+            mean_fields(weights, whole),
+            mean_fields(weights, rotated),
+        ),
+        contact_chord=chord,
         tip_lines={line: recovery(mesh.node_set(name)) for line, name in TIP_LINES.items()},
         stress_submesh=recovery(stress_nodes),
         stress_elements={name: np.searchsorted(stress_nodes, nodes) for name, nodes in stress_blocks.items()},
@@ -68,6 +77,11 @@ def reduce_blade(mesh: BladeMesh, matrices: StructuralMatrices, choice: Reductio
         rotation_stiffening=rotation_stiffening,
         quadratic_residual=_quadratic_residual(stiffness, per_square, vectors, at_rest, max(choice.speeds)),
     )
+
+
+def mean_fields(weights: sp.csr_array, fields: np.ndarray) -> np.ndarray:
+    """Fields at the contact nodes, shape (contact nodes, 3, columns), from those at all nodes, shape (nodes, 3, columns)."""
+    return (weights @ fields.reshape(len(fields), -1)).reshape(-1, *fields.shape[1:])
 
 
 def projected(matrix: sp.csr_array, vectors: np.ndarray) -> np.ndarray:

@@ -58,11 +58,12 @@ class RecoveryNodes:
 
 @dataclass(frozen=True)
 class ReducedModel:
-    """Reduced matrices and recovery data; coordinates 0 to 3 n_b - 1 are the boundary displacements (x y z per node).
+    """Reduced matrices and recovery data; coordinates 0 to 3 n_c - 1 are the contact nodes' displacements (x y z of each).
 
     `stiffness` (N/m), `geometric_stiffness` (per Omega^2), `mass` (kg), and, only when asked for, `spin_softening`
-    (per Omega^2) and `coriolis` (per Omega): each of shape (coordinates, coordinates). `boundary_nodes`: mesh numbers;
-    `boundary_chord`: their chord fractions. `tip_lines`: recovery along each tip line; `stress_submesh` with
+    (per Omega^2) and `coriolis` (per Omega): each of shape (coordinates, coordinates). `contact`: what contact acts
+    on (see r37core.rom.contact_weights); `contact_nodes`: mean displacements there, with the number of the nearest node of the
+    tip line; `contact_chord`: their chord fractions. `tip_lines`: recovery along each tip line; `stress_submesh` with
     `stress_elements`, element type -> shape (elements, nodes of the type), indexing its nodes, and `stress_region`, what it is
     in words; `whole_blade` only on request.
     `shape_names`, `shape_products`, shape (shapes, coordinates), and `shape_norms`: mass products of the basis with the
@@ -77,8 +78,9 @@ class ReducedModel:
     mass: np.ndarray
     spin_softening: np.ndarray | None
     coriolis: np.ndarray | None
-    boundary_nodes: np.ndarray
-    boundary_chord: np.ndarray
+    contact: str
+    contact_nodes: RecoveryNodes
+    contact_chord: np.ndarray
     tip_lines: dict[str, RecoveryNodes]
     stress_submesh: RecoveryNodes
     stress_elements: dict[str, np.ndarray]
@@ -106,11 +108,6 @@ class ReducedModel:
     def stiffness_per_square(self) -> np.ndarray:
         """Change of the stiffness per squared speed: K1, with spin softening if the model has it."""
         return self.geometric_stiffness + (0.0 if self.spin_softening is None else self.spin_softening)
-
-    def contact_nodes(self, tip_line: str) -> RecoveryNodes:
-        """The boundary nodes, which lie on `tip_line`, in their own order."""
-        line = self.tip_lines[tip_line]
-        return line.select([int(np.flatnonzero(line.nodes == node)[0]) for node in self.boundary_nodes])
 
     def stiffness_at(self, speed: float) -> np.ndarray:
         """Stiffness (N/m) at `speed` (rad/s): K0 + Omega^2 K1."""
@@ -155,11 +152,11 @@ def _gyroscopic_modes(
 
 
 def contact_model(model: ReducedModel, tip_line: str) -> ContactModel:
-    """The contact model of a reduced model whose boundary nodes lie on `tip_line`."""
+    """The contact model of a reduced model whose contact nodes lie on `tip_line`."""
     frequencies, modes = model.modes(0.0)
     per_square = modes.T @ model.stiffness_per_square @ modes
     coriolis = None if model.coriolis is None else modes.T @ model.coriolis @ modes
-    line, nodes = model.tip_lines[tip_line], model.contact_nodes(tip_line)
+    line, nodes = model.tip_lines[tip_line], model.contact_nodes
     ends = line.select([0, -1])
     return ContactModel(
         squared_frequencies=frequencies**2,

@@ -13,23 +13,33 @@ class BoundaryError(ValueError):
     """Boundary nodes that the mesh does not have."""
 
 
+POINTS, PATCHES, AREA_PATCHES = CONTACTS = ("points", "patches", "area_patches")
+"""What contact acts on: nodes of the mesh, patches of the tip line, or patches of the tip's whole face."""
+
+
 @dataclass(frozen=True)
 class BoundaryChoice:
     """Where the contact nodes lie: the tip line (a key of TIP_LINES), how many, and whether the corners are among them.
 
-    With corners, node i of n lies at i/(n-1) of the chord; without, at (i + 1/2)/n.
+    With corners, node i of n lies at i/(n-1) of the chord; without, at (i + 1/2)/n. `contact`: one of CONTACTS; see
+    r37core.rom.contact_weights.
     """
 
     tip_line: str
     nodes: int
     corners: bool
+    contact: str
 
     @property
     def chord_positions(self) -> np.ndarray:
         """Wanted fractions of the chord, from the leading to the trailing edge."""
-        if self.corners and self.nodes > 1:
-            return np.linspace(0.0, 1.0, self.nodes)
-        return (np.arange(self.nodes) + 0.5) / self.nodes
+        return self.positions(self.nodes)
+
+    def positions(self, count: int) -> np.ndarray:
+        """The same of another number of contact nodes."""
+        if self.corners and count > 1:
+            return np.linspace(0.0, 1.0, count)
+        return (np.arange(count) + 0.5) / count
 
 
 def boundary_nodes(mesh: BladeMesh, choice: BoundaryChoice) -> np.ndarray:
@@ -48,6 +58,28 @@ def boundary_nodes(mesh: BladeMesh, choice: BoundaryChoice) -> np.ndarray:
             "layers, or an even one with nodes at mid-thickness) in the fidelity level; of an imported mesh, refine the tip"
         )
     return line[nearest]
+
+
+def check_patches(choice: BoundaryChoice, chord: np.ndarray) -> None:
+    """BoundaryError unless a tip line, nodes at fractions `chord` of it, has a node between any two neighbouring patches."""
+    if _resolves(choice, choice.nodes, chord):
+        return
+    most = max((count for count in range(1, choice.nodes) if _resolves(choice, count, chord)), default=0)
+    allowed = f"at most {most}" if most else "none"
+    raise BoundaryError(
+        f"found {choice.nodes} contact patches on the {len(chord)} mesh nodes of the tip line '{choice.tip_line}'; allowed: "
+        f"{allowed} (structure.boundary.nodes), because between two patches there must be a node; or a finer tip (tip_elements "
+        "of the fidelity level, or the mesh itself), or structure.boundary.contact: points"
+    )
+
+
+def _resolves(choice: BoundaryChoice, count: int, chord: np.ndarray) -> bool:
+    """Whether the line has two nodes for each patch, one of them between it and the next."""
+    positions = choice.positions(count)
+    following = np.searchsorted(positions, chord)
+    at_one = np.isclose(chord[:, None], positions).any(axis=1)
+    between = np.unique(following[~at_one & (following > 0) & (following < count)])
+    return len(chord) >= max(2 * count - 1, 2) and len(between) == count - 1
 
 
 @dataclass(frozen=True)

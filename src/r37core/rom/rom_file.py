@@ -32,14 +32,13 @@ def write_reduced_model(model: ReducedModel, file: Path | str, provenance: Mappi
         if matrix is not None:
             data[name] = (("row", "column"), matrix, {"units": units, "long_name": long_name})
     node_groups = {f"tip_{line}": nodes for line, nodes in model.tip_lines.items()}
-    node_groups["stress"] = model.stress_submesh
+    node_groups |= {"contact": model.contact_nodes, "stress": model.stress_submesh}
     if model.whole_blade is not None:
         node_groups["blade"] = model.whole_blade
     for group, recovery in node_groups.items():
         data |= _recovery_variables(group, recovery)
     data |= {
-        "boundary_nodes": ("boundary_node", model.boundary_nodes, about("1", "mesh numbers of the boundary nodes")),
-        "boundary_chord": ("boundary_node", model.boundary_chord, about("1", "chord fraction of the boundary nodes")),
+        "contact_chord": ("contact_node", model.contact_chord, about("1", "chord fraction of the contact nodes")),
         "shape_products": (("shape", "column"), model.shape_products, about("kg1/2", "mass product with ideal shapes")),
         "shape_norms": ("shape", model.shape_norms, about("kg1/2", "mass norm of the ideal shapes")),
         "rotation_stiffening": (
@@ -59,6 +58,7 @@ def write_reduced_model(model: ReducedModel, file: Path | str, provenance: Mappi
         "quadratic_residual": model.quadratic_residual,
         "tip_line_names": list(model.tip_lines),
         "stress_region": model.stress_region,
+        "contact": model.contact,
     }
     dataset = xr.Dataset(data, coords={"shape": list(model.shape_names)}, attrs=attributes)
     write_dataset(dataset, file, provenance)
@@ -71,8 +71,9 @@ def read_reduced_model(file: Path | str) -> ReducedModel:
         matrices: dict[str, Any] = {name: dataset[name].values if name in dataset else None for name in _MATRICES}
         return ReducedModel(
             **matrices,
-            boundary_nodes=dataset["boundary_nodes"].values,
-            boundary_chord=dataset["boundary_chord"].values,
+            contact=str(dataset.attrs["contact"]),
+            contact_nodes=_recovery(dataset, "contact"),
+            contact_chord=dataset["contact_chord"].values,
             tip_lines={line: _recovery(dataset, f"tip_{line}") for line in np.atleast_1d(dataset.tip_line_names)},
             stress_submesh=_recovery(dataset, "stress"),
             stress_elements={

@@ -21,7 +21,7 @@ from .integration_choice import LARGEST_TABLE, IntegrationChoice
 from .integrators import CENTRAL_DIFFERENCE, EXACT_MODAL, Increments, Recursion, increments, joined, recursion
 from .jump_plan import JumpPlan, plan_jumps
 from .static_modes import relaxation, residual_flexibility, stepped_modes
-from .step_limit import UnstableStepError, check_step
+from .step_limit import UnstableStepError, check_step, largest_pressed_ratio, ratio_of_pressed_nodes
 
 NO_CORIOLIS = "central differences do not carry the Coriolis force; use the integrator exact_modal"
 NO_EXACT_GAP = "an elastic casing needs the linear gap: the exact one is that of a casing which keeps its shape"
@@ -133,7 +133,15 @@ class Problem:
             return below
         frequencies, rows = self._at_rest
         choice = self.choice
-        return stepped_modes(frequencies, rows, self.coupled_friction, choice.time_step, choice.static_above, below)
+
+        def is_stable(stepped: int) -> bool:
+            of = recursion(choice.integrator, frequencies[:stepped], self.scene.damping_ratio, choice.time_step)
+            flexibility = residual_flexibility(frequencies[stepped:], rows[..., stepped:])[0]
+            ratio = ratio_of_pressed_nodes(of, rows[0, :, :stepped], flexibility)
+            return ratio < largest_pressed_ratio(self.scene)
+
+        step, above = choice.time_step, choice.static_above
+        return stepped_modes(frequencies, rows, self.coupled_friction, step, above, below, is_stable)
 
     @cached_property
     def relaxation(self) -> float:

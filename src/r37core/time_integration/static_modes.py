@@ -9,7 +9,7 @@ Brogliato, Eur. J. Mech. A 18 (1999) 653-677); so do static modes that are too f
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 
 import numpy as np
 
@@ -17,8 +17,12 @@ from r37core.alignment import LANES, padded
 
 from .step_limit import UnstableStepError
 
-SMALLEST_DEFINITENESS = 0.2
-"""Of G, so that the sweeps over the nodes settle soon."""
+SMALLEST_DEFINITENESS = 0.05
+"""Of G, so that the sweeps over the nodes settle."""
+
+SHARE_WITH_FRICTION = 0.2
+"""What friction has to leave of the definiteness without it. That is 0.9 of nodes of the mesh, and 0.1 to 0.4 of patches, whose
+neighbours static modes move together."""
 
 LARGEST_EIGENVALUE = 1.6
 """Of D^-1 G, up to which nodes take the whole change in a sweep; sweeps diverge from 2 on."""
@@ -76,32 +80,45 @@ def _opening(flexibility: np.ndarray, coefficient: float) -> np.ndarray:
 
 
 def stepped_modes(
-    frequencies: np.ndarray, rows: np.ndarray, coefficient: float, step: float, static_above: float, most: int
+    frequencies: np.ndarray,
+    rows: np.ndarray,
+    coefficient: float,
+    step: float,
+    static_above: float,
+    most: int,
+    is_stable: Callable[[int], bool] = lambda stepped: True,
 ) -> int:
     """How many of the modes are stepped, in whole vectors where there are more than one, which cost no more.
 
     Those that turn by less than `static_above` in a `step` (s), at most `most` of them, as far as the others make the contact
-    forces unique at a `coefficient` of friction: else some more, or fewer. `frequencies` (rad/s) at rest, ascending, and
+    forces unique at a `coefficient` of friction, and pressed nodes are stable with them (`is_stable`, where that can be): else
+    some more, or fewer. `frequencies` (rad/s) at rest, ascending, and
     `rows`, shape (3, nodes, modes), of all modes. Raises UnstableStepError and TooFewStaticModesError.
     """
     modes = len(frequencies)
 
     def is_unique(stepped: int, friction: float = coefficient) -> bool:
         flexibility = residual_flexibility(frequencies[stepped:], rows[..., stepped:])
-        return definiteness(flexibility, friction) > SMALLEST_DEFINITENESS
+        least = max(SMALLEST_DEFINITENESS, SHARE_WITH_FRICTION * definiteness(flexibility, 0.0))
+        return definiteness(flexibility, friction) > least
 
     turns = frequencies * step / static_above
     slow, at_most = (int(np.count_nonzero(turns <= largest)) for largest in (1.0, _LARGEST_TURN))
     # at least one: a blade of static modes alone would not vibrate
     wanted = max(min(padded(slow), at_most, most), 1)
     counts = sorted({wanted, *range(1, LANES), *range(LANES, modes, LANES)})
-    more = (count for count in counts if wanted <= count <= max(at_most, 1))
-    fewer = (count for count in reversed(counts) if count < wanted)
-    too_fast = (count for count in counts if count > max(at_most, 1))
-    for found in (more, fewer):
-        if (stepped := _first(found, is_unique)) is not None:
+    more = [count for count in counts if wanted <= count <= max(at_most, 1)]
+    fewer = [count for count in reversed(counts) if count < wanted]
+    too_fast = [count for count in counts if count > max(at_most, 1)]
+    unstable = None
+    for stepped in filter(is_unique, (*more, *fewer)):
+        if is_stable(stepped):
             return stepped
-    if (stepped := _first(too_fast, is_unique)) is not None:
+        unstable = unstable or stepped
+    if unstable is not None:
+        # the step is refused or shortened
+        return unstable
+    for stepped in filter(is_unique, too_fast):
         fastest = float(frequencies[stepped - 1])
         limit = _LARGEST_TURN * static_above / fastest
         raise UnstableStepError(
@@ -111,10 +128,6 @@ def stepped_modes(
             limit * (1.0 - 1e-9),
         )
     raise TooFewStaticModesError(_remedy(counts, is_unique, coefficient, modes, rows.shape[1]))
-
-
-def _first(counts: Iterable[int], fits: Callable[[int], bool]) -> int | None:
-    return next((count for count in counts if fits(count)), None)
 
 
 def _remedy(counts: list[int], is_unique: Callable[[int, float], bool], coefficient: float, modes: int, nodes: int) -> str:

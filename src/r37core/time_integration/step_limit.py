@@ -6,7 +6,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .integrators import CENTRAL_DIFFERENCE
+from r37core.contact.scene import Scene
+
+from .integrators import CENTRAL_DIFFERENCE, Recursion
 
 if TYPE_CHECKING:
     from .problem import Problem
@@ -35,7 +37,7 @@ def check_step(problem: Problem) -> None:
     if choice.integrator == CENTRAL_DIFFERENCE:
         _check_published_step(problem, given)
         return
-    ratio = pressed_ratio(problem) / (WITH_FRICTION if problem.scene.friction is not None else 1.0)
+    ratio = pressed_ratio(problem) / largest_pressed_ratio(problem.scene)
     if not ratio < 1.0:
         limit = step / np.sqrt(ratio)
         raise UnstableStepError(
@@ -75,22 +77,34 @@ def predicted_ratio(problem: Problem) -> float:
     return problem.bar_stiffness * float(np.linalg.eigvalsh(problem.coupling[0])[-1]) * 0.75
 
 
+def largest_pressed_ratio(scene: Scene) -> float:
+    """Up to which pressed nodes are stable in a scene."""
+    return 1.0 if scene.friction is None else WITH_FRICTION
+
+
 def pressed_ratio(problem: Problem) -> float:
+    """How near the limit a step of the problem is in which all nodes are pressed on the casing: see ratio_of_pressed_nodes.
+
+    A coupled mode counts as two, with the real and the imaginary part of its shape: the limit is where a motion changes its
+    sign in every step, and there the two are not coupled.
+    """
+    of, normal, flexibility = problem.recursion, problem.displacement_operator[0], problem.contact_flexibility[0]
+    if problem.complex_operator is not None:
+        normal = np.hstack([problem.complex_operator[0].real, problem.complex_operator[0].imag])
+        of = Recursion(*(np.tile(part, 2) for part in (of.keep, of.pull, of.inverse, of.lost)))
+    return ratio_of_pressed_nodes(of, normal, flexibility)
+
+
+def ratio_of_pressed_nodes(recursion: Recursion, normal: np.ndarray, flexibility: np.ndarray) -> float:
     """How near the limit a step is in which all nodes are pressed on the casing, with the force of t_n; unstable from 1 on.
 
-    The static modes hold a pressed node by a stiffness, R^-1 of all of them, and any lining in front of the casing is softer.
+    `normal`: the nodes' normal displacement by stepped modes, shape (nodes, modes); `flexibility` (m/N): by static ones. The
+    static modes hold a pressed node by a stiffness, R^-1 of all of them, and any lining in front of the casing is softer.
     The stepped modes follow u_{n+1} = (1 + k - M) u_n - k u_{n-1}, with k = keep and M = pull + C^(1/2) N^T R^-1 N C^(1/2),
     C = inverse, N the nodes' normal displacement and R the symmetric part of their residual flexibility. M is symmetric and
     positive, so for an eigenvector x both roots of lambda^2 - (1 + k_x - m_x) lambda + k_x lie inside the unit circle if
     m_x < 2 (1 + k_x), k_x and m_x being means over x.
-    A coupled mode counts as two, with the real and the imaginary part of its shape: the limit is where a motion changes its
-    sign in every step, and there the two are not coupled.
     """
-    recursion, normal, flexibility = problem.recursion, problem.displacement_operator[0], problem.contact_flexibility[0]
-    inverse, pull = recursion.inverse, recursion.pull
-    if problem.complex_operator is not None:
-        normal = np.hstack([problem.complex_operator[0].real, problem.complex_operator[0].imag])
-        inverse, pull = np.tile(inverse, 2), np.tile(pull, 2)
-    pressed = normal * np.sqrt(inverse)
-    matrix = np.diag(pull) + pressed.T @ np.linalg.solve(0.5 * (flexibility + flexibility.T), pressed)
+    pressed = normal * np.sqrt(recursion.inverse)
+    matrix = np.diag(recursion.pull) + pressed.T @ np.linalg.solve(0.5 * (flexibility + flexibility.T), pressed)
     return float(np.linalg.eigvalsh(matrix)[-1]) / (2.0 * (1.0 + float(recursion.keep.min())))

@@ -15,25 +15,34 @@ from r37core.fem.matrices import StructuralMatrices
 from r37core.io import atomic_write
 from r37core.mesh.blade_mesh import BladeMesh
 from r37core.rom.reduced_model import ReducedModel
+from r37core.rom.reduction_choice import POINTS
 from r37core.speeds import exact_text
 
 
-def write_reduced_matrices(model: ReducedModel, tip_line: str, speeds: Sequence[float], folder: Path) -> None:
-    """Write the reduced M and K_<speed> at `speeds` (rad/s) with boundary.csv; contact nodes on `tip_line` come first."""
+def write_reduced_matrices(model: ReducedModel, speeds: Sequence[float], folder: Path) -> None:
+    """Write the reduced M and K_<speed> at `speeds` (rad/s) with boundary.csv; contact nodes come first.
+
+    Of patches the rows of boundary.csv are mean displacements, at the patches' places.
+    """
     content = {"M": model.mass} | {f"K_{exact_text(speed)}": model.stiffness_at(speed) for speed in speeds}
-    points = model.contact_nodes(tip_line).points
+    points = model.contact_nodes.points
     _write(content, points, np.arange(3 * len(points)).reshape(-1, 3), folder)
+
+
+def boundary_nodes(model: ReducedModel, tip_line: str) -> np.ndarray:
+    """Mesh nodes that boundary.csv of the full matrices names: the contact nodes, of patches all nodes of `tip_line`."""
+    return (model.contact_nodes if model.contact == POINTS else model.tip_lines[tip_line]).nodes
 
 
 def write_full_matrices(
     matrices: StructuralMatrices,
     mesh: BladeMesh,
-    boundary_nodes: np.ndarray,
+    nodes: np.ndarray,
     speeds: Sequence[float],
     folder: Path,
     spin_softening: bool,
 ) -> None:
-    """Write the full M and K_<speed> at `speeds` (rad/s) with boundary.csv.
+    """Write the full M and K_<speed> at `speeds` (rad/s) with boundary.csv, which names the mesh's `nodes`.
 
     Rows are x y z of the unclamped nodes, in m and the blade's frame; with geometric stiffness and, where asked for, spin
     softening.
@@ -42,8 +51,8 @@ def write_full_matrices(
     if spin_softening:
         per_square = sp.csr_array(per_square + matrices.spin_softening())
     content = {"M": matrices.mass()} | {f"K_{exact_text(speed)}": stiffness + speed**2 * per_square for speed in speeds}
-    rows = 3 * np.searchsorted(matrices.free_nodes, boundary_nodes)[:, None] + np.arange(3)
-    _write(content, mesh.points[boundary_nodes], rows, folder)
+    rows = 3 * np.searchsorted(matrices.free_nodes, nodes)[:, None] + np.arange(3)
+    _write(content, mesh.points[nodes], rows, folder)
 
 
 def _write(content: Mapping[str, np.ndarray | sp.csr_array], points: np.ndarray, rows: np.ndarray, folder: Path) -> None:

@@ -2,7 +2,8 @@
 
 `M.mtx` and `K_<speed>.mtx` at rest and at two speeds in rad/s, full or already reduced, the root clamped; Matrix Market or .npz
 (of SciPy's sparse matrices, or of one array). `boundary.csv`: the contact nodes from the leading to the trailing edge, with
-columns x, y, z (file's unit and axes) and dof_x, dof_y, dof_z: rows of the matrices, from 0.
+columns x, y, z (file's unit and axes) and dof_x, dof_y, dof_z: rows of the matrices, from 0. For contact on patches the table
+has the nodes of the tip line, from which the patches are made.
 """
 
 from __future__ import annotations
@@ -19,11 +20,12 @@ import scipy.sparse as sp
 
 from r37core.exchange.refusal import ImportRefused, blamed
 from r37core.fem.solver import Solve, factorise
-from r37core.rom.craig_bampton import multi_speed_basis
+from r37core.rom.contact_weights import mean_places, weights_along
+from r37core.rom.craig_bampton import combine_columns, constraint_and_fixed_modes, multi_speed_basis
 from r37core.rom.naming import NAMED_MODES
-from r37core.rom.reduce import projected
+from r37core.rom.reduce import mean_fields, projected
 from r37core.rom.reduced_model import RecoveryNodes, ReducedModel
-from r37core.rom.reduction_choice import ReductionChoice
+from r37core.rom.reduction_choice import AREA_PATCHES, POINTS, BoundaryChoice, BoundaryError, ReductionChoice
 
 from .matrix_file import read_matrix
 from .source import MASS_UNITS, STIFFNESS_UNITS, MatricesSource, matrix_files
@@ -59,8 +61,9 @@ class _Given:
 
 
 def import_matrices(source: MatricesSource, choice: ReductionChoice, folder: Path | str = ".") -> ReducedModel:
-    """The reduced model of the matrices: as they are if small, else reduced as `choice` says (its boundary is the table's).
+    """The reduced model of the matrices: as they are if small, else reduced as `choice` says.
 
+    With contact on points the contact nodes are those of the table; patches, as many as `choice` says, are made of them.
     Raises ImportRefused for files that do not fit together, matrices that are not symmetric, and a stiffness that is not
     linear in the squared speed. Spin softening and Coriolis terms must be in the matrices already: they are not added.
     """
@@ -71,10 +74,18 @@ def import_matrices(source: MatricesSource, choice: ReductionChoice, folder: Pat
 
 
 def _reduced(given: _Given, choice: ReductionChoice) -> ReducedModel:
-    boundary = np.arange(3 * len(given.points))
-    if given.mass.shape[0] <= len(boundary) + _REDUCED_UP_TO:
-        vectors = np.eye(given.mass.shape[0])
-        tolerance, singular = 0.0, np.ones(vectors.shape[1])
+    chord = _fractions(given.points)
+    weights = _contact_weights(given.points, chord, choice.boundary)
+    rows = given.mass.shape[0]
+    boundary = sp.csr_array(sp.kron(weights, sp.eye_array(3)))
+    boundary.resize((boundary.shape[0], rows))
+    if rows <= 3 * len(given.points) + _REDUCED_UP_TO:
+        vectors = np.eye(rows)
+        if choice.boundary.contact != POINTS:
+            # other coordinates for the same motions
+            constraint, _ = constraint_and_fixed_modes(given.stiffness, given.mass, boundary, 0, given.solve_at_rest)
+            vectors = combine_columns(constraint, vectors, given.mass, boundary, 0.0).vectors
+        tolerance, singular = 0.0, np.ones(rows)
     else:
         basis, _ = multi_speed_basis(
             lambda speed: sp.csr_array(given.stiffness + speed**2 * given.per_square),
@@ -89,16 +100,23 @@ def _reduced(given: _Given, choice: ReductionChoice) -> ReducedModel:
     shapes = _ideal_shapes(given)
     nodes = np.arange(len(given.points))
     size = vectors.shape[1]
-    line = RecoveryNodes(nodes, given.points, vectors[boundary].reshape(-1, 3, size), np.empty((len(nodes), 3, 0)))
+    fields, no_rotation = vectors[: 3 * len(nodes)].reshape(-1, 3, size), np.empty((len(nodes), 3, 0))
+    contact_chord = weights @ chord
     return ReducedModel(
         stiffness=stiffness,
         geometric_stiffness=projected(given.per_square, vectors),
         mass=mass,
         spin_softening=None,
         coriolis=None,
-        boundary_nodes=nodes,
-        boundary_chord=_fractions(given.points),
-        tip_lines={choice.boundary.tip_line: line},
+        contact=choice.boundary.contact,
+        contact_nodes=RecoveryNodes(
+            np.abs(chord - contact_chord[:, None]).argmin(axis=1),
+            mean_places(given.points, weights),
+            mean_fields(weights, fields),
+            no_rotation[: len(contact_chord)],
+        ),
+        contact_chord=contact_chord,
+        tip_lines={choice.boundary.tip_line: RecoveryNodes(nodes, given.points, fields, no_rotation)},
         stress_submesh=RecoveryNodes(np.empty(0, dtype=int), np.empty((0, 3)), np.empty((0, 3, size)), np.empty((0, 3, 0))),
         stress_elements={},
         stress_region="none",
@@ -111,6 +129,22 @@ def _reduced(given: _Given, choice: ReductionChoice) -> ReducedModel:
         rotation_stiffening=np.empty(0),
         quadratic_residual=given.residual,
     )
+
+
+def _contact_weights(points: np.ndarray, chord: np.ndarray, choice: BoundaryChoice) -> sp.csr_array:
+    """Weights of the table's nodes in the contact nodes' displacements; ImportRefused where it has too few for patches."""
+    if choice.contact == POINTS:
+        return sp.csr_array(sp.eye_array(len(points)))
+    if choice.contact == AREA_PATCHES:
+        raise ImportRefused(
+            "found contact: area_patches with matrices, which say nothing of the tip's face; allowed: points, or patches "
+            "of the nodes in boundary.csv",
+            "contact",
+        )
+    try:
+        return weights_along(points, chord, choice)
+    except BoundaryError as error:
+        raise ImportRefused(f"boundary.csv: {error}", "contact") from None
 
 
 def _check_positive(mass: np.ndarray, stiffness: np.ndarray) -> None:

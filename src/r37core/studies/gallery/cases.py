@@ -132,7 +132,7 @@ def values(settings: Settings) -> dict[str, Any]:
     _check(settings)
     return {
         "scenes": scenes_of(settings),
-        "submesh": settings.reduction_choice(blade=REFERENCE).stress_submesh,
+        "submesh": settings.reduction_choice(REFERENCE).stress_submesh,
         "fidelity": settings.fidelity_name,
     }
 

@@ -1,0 +1,83 @@
+"""What a contact node is: a node of the mesh, or a patch of the tip, whose displacement is a weighted mean.
+
+A force on one node is a point load, whose displacement has no limit as the mesh is refined. On a patch k the displacement is
+
+    u_k = integral of N_k u / integral of N_k = sum over nodes j of w_kj u_j,
+
+with N_k a hat along the tip, 1 at the patch's position and 0 at those of its neighbours, and u the elements' own displacement
+field. Forces act by the transposed weights, so that they do the work f_k u_k and no energy is made. The hats add up to one: the
+patches share the tip without gap or overlap. Sources: the consistent loads of Zienkiewicz and Taylor, The Finite Element
+Method; weighted means as in mortar contact, B. I. Wohlmuth, SIAM J. Numer. Anal. 38 (2000) 989.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import scipy.sparse as sp
+
+from r37core.fem.traces import Trace, chain_trace, edge_traces, face_traces
+from r37core.mesh.blade_mesh import TIP_LINES, BladeMesh
+
+from .reduction_choice import AREA_PATCHES, POINTS, BoundaryChoice, boundary_nodes, check_patches
+
+
+def contact_weights(mesh: BladeMesh, choice: BoundaryChoice) -> sp.csr_array:
+    """Weights w_kj of the mesh's nodes in each contact node's displacement, shape (contact nodes, nodes); rows add up to one.
+
+    Raises BoundaryError when the tip line has too few nodes.
+    """
+    if choice.contact == POINTS:
+        nodes = boundary_nodes(mesh, choice)
+        return sp.csr_array((np.ones(len(nodes)), (np.arange(len(nodes)), nodes)), shape=(len(nodes), len(mesh.points)))
+    line, chord = mesh.node_set(TIP_LINES[choice.tip_line]), mesh.parameters[:, 0]
+    check_patches(choice, chord[line])
+    if choice.contact == AREA_PATCHES:
+        members = np.zeros(len(mesh.points), dtype=bool)
+        members[mesh.node_set("tip")] = True
+        return _means(choice, chord, face_traces(mesh.points, mesh.blocks, members))
+    return _means(choice, chord, _line_traces(mesh, line))
+
+
+def weights_along(points: np.ndarray, chord: np.ndarray, choice: BoundaryChoice) -> sp.csr_array:
+    """Weights of nodes on a line, whose elements are not known: linear between neighbours; shape (contact nodes, nodes).
+
+    `points` (m), shape (nodes, 3), and fractions `chord` of the line's length. Raises BoundaryError for too few nodes.
+    """
+    check_patches(choice, chord)
+    numbers = np.arange(len(points))
+    return _means(choice, chord, [chain_trace(points, np.stack([numbers[:-1], numbers[1:]], axis=1))])
+
+
+def mean_places(points: np.ndarray, weights: sp.csr_array) -> np.ndarray:
+    """Where the contact nodes are (m), shape (contact nodes, 3): the weighted means of radius, angle and axial position.
+
+    So a patch on a cone lies on that cone.
+    """
+    alone = np.diff(weights.indptr) == 1
+    radius, theta = np.hypot(points[:, 0], points[:, 1]), np.arctan2(points[:, 1], points[:, 0])
+    radius, theta, axial = weights @ radius, weights @ theta, weights @ points[:, 2]
+    places = np.stack([radius * np.cos(theta), radius * np.sin(theta), axial], axis=1)
+    # a single node is where it is, to the bit
+    places[alone] = points[weights.indices[weights.indptr[:-1][alone]]]
+    return places
+
+
+def _line_traces(mesh: BladeMesh, line: np.ndarray) -> list[Trace]:
+    """Edges of the elements along the line; where the elements have none there, as inside a face, straight pieces."""
+    members = np.zeros(len(mesh.points), dtype=bool)
+    members[line] = True
+    traces = edge_traces(mesh.points, mesh.blocks, members)
+    covered = sum((trace.values.shape[1] - 1) * len(trace.nodes) for trace in traces)
+    return traces if covered == len(line) - 1 else [chain_trace(mesh.points, np.stack([line[:-1], line[1:]], axis=1))]
+
+
+def _means(choice: BoundaryChoice, chord: np.ndarray, traces: list[Trace]) -> sp.csr_array:
+    """Weights of hats along the chord, from integrals over edges or faces; `chord`: of every node."""
+    positions = choice.chord_positions
+    total = np.zeros((choice.nodes, len(chord)))
+    for trace in traces:
+        at = chord[trace.nodes] @ trace.values.T
+        for row, unit in zip(total, np.eye(choice.nodes), strict=True):
+            shares = (np.interp(at, positions, unit) * trace.measures) @ trace.values
+            np.add.at(row, trace.nodes, shares)
+    return sp.csr_array(total / total.sum(axis=1, keepdims=True))

@@ -1,0 +1,330 @@
+"""Patches of the tip in place of mesh nodes: weights, closed forms, and models with all nodes of the edge kept."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import scipy.linalg as la
+from box_mesh import box_mesh
+from defaults import BoundaryChoice, IntegrationChoice, MatricesSource
+from integration_cases import ABRADABLE, DIRECT
+
+from r37core.config import ConfigError, command_line_document, read_settings
+from r37core.exchange.exporting.matrices_out import boundary_nodes, write_full_matrices, write_reduced_matrices
+from r37core.exchange.importing.matrices_in import import_matrices
+from r37core.exchange.orientation import OURS
+from r37core.exchange.refusal import ImportRefused
+from r37core.fem.material import Material
+from r37core.fem.matrices import assemble
+from r37core.fem.traces import edge_traces, face_traces
+from r37core.rom.contact_weights import contact_weights, mean_places, weights_along
+from r37core.rom.reduce import mean_fields, reduce_blade
+from r37core.rom.reduced_model import contact_model
+from r37core.rom.reduction_choice import BoundaryError
+from r37core.rom.rom_file import read_reduced_model, write_reduced_model
+from r37core.time_integration.integrators import EXACT_MODAL
+from r37core.time_integration.simulate import Simulation
+
+PATCHES = BoundaryChoice("pressure_edge", 4, True, "patches")
+KINDS = ("patches", "area_patches")
+STEEL = Material(2.1e11, 7800.0, 0.3, 1e9)
+BEAM = Material(2.1e11, 7800.0, 0.0, 1e9)
+"""A clamped beam's own: another Poisson's ratio holds its root."""
+
+
+def bar(count=12, element="hexahedron20", height=0.012, across=2):
+    """A bar whose tip is a rectangle: chord along y (30 mm), thickness along z."""
+    return box_mesh(0.1, 0.03, height, (8, count, across), origin=(0.2, -0.015, -0.5 * height), element=element)
+
+
+@pytest.fixture(scope="module")
+def patched(mesh, matrices, choice):
+    """The reference blade on a coarse mesh, on five patches."""
+    return reduce_blade(mesh, matrices, replace(choice, boundary=replace(PATCHES, nodes=5)))
+
+
+def reduced_bar(mesh, boundary, choice, material=STEEL):
+    return reduce_blade(mesh, assemble(mesh, material), replace(choice, boundary=boundary, speeds=(0.0,)))
+
+
+@pytest.mark.parametrize("contact", KINDS)
+@pytest.mark.parametrize("tip_line", ["pressure_edge", "camber", "suction_edge"])
+@pytest.mark.parametrize(("count", "corners"), [(1, True), (2, True), (5, True), (5, False)])
+def test_weights_are_means(mesh, contact, tip_line, count, corners):
+    weights = contact_weights(mesh, BoundaryChoice(tip_line, count, corners, contact))
+    assert weights.shape == (count, len(mesh.points))
+    np.testing.assert_allclose(weights.sum(axis=1), 1.0, atol=1e-14)
+    chord, span, thickness = (weights @ mesh.parameters).T
+    assert np.all(np.diff(chord) > 0.0)
+    np.testing.assert_allclose(span, 1.0)
+    if contact == "patches":
+        np.testing.assert_allclose(thickness, {"pressure_edge": -1.0, "camber": 0.0, "suction_edge": 1.0}[tip_line], atol=1e-12)
+
+
+@pytest.mark.parametrize("element", ["hexahedron20", "hexahedron", "wedge15", "wedge", "tetra10", "tetra"])
+@pytest.mark.parametrize("contact", KINDS)
+def test_hats_on_a_straight_tip(element, contact):
+    """Mean places are those of hats: inside at their positions, of the half ones at a third of their width."""
+    weights = contact_weights(bar(element=element), replace(PATCHES, contact=contact))
+    places = weights @ bar(element=element).parameters[:, 0]
+    np.testing.assert_allclose(places, [1 / 9, 1 / 3, 2 / 3, 8 / 9], atol=1e-12)
+    without_corners = contact_weights(bar(element=element), replace(PATCHES, corners=False, contact=contact))
+    # at the ends half a hat and a piece of one height: (1/8 * 1/16 + 1/8 * (1/8 + 1/12)) / (1/4) of the chord
+    np.testing.assert_allclose(
+        (without_corners @ bar(element=element).parameters[:, 0])[[0, 1]],
+        [(0.125 / 16 + 0.125 * 5 / 24) / 0.25, 0.375],
+        atol=2e-4,
+    )
+
+
+@pytest.mark.parametrize("element", ["hexahedron20", "wedge15", "tetra10"])
+def test_loads_are_consistent(element):
+    """A uniform load is shared as the elements' shape functions say: 1/6, 4/6, 1/6 of an edge's, and the area is the tip's."""
+    mesh = bar(4, element)
+    members = np.zeros(len(mesh.points), dtype=bool)
+    members[mesh.node_set("tip_pressure_edge")] = True
+    (trace,) = edge_traces(mesh.points, mesh.blocks, members)
+    assert len(trace.nodes) == 4
+    np.testing.assert_allclose(trace.measures @ trace.values, np.tile(0.0075 * np.array([1.0, 1.0, 4.0]) / 6.0, (4, 1)))
+    members[mesh.node_set("tip")] = True
+    area = sum(trace.measures.sum() for trace in face_traces(mesh.points, mesh.blocks, members))
+    assert area == pytest.approx(0.03 * 0.012)
+
+
+@pytest.mark.parametrize("contact", KINDS)
+def test_rigid_motion_and_moments(mesh, contact):
+    """A patch moves as the mean of its nodes does, and its force has the same resultant and no moment about that mean."""
+    weights = contact_weights(mesh, replace(PATCHES, contact=contact))
+    shift, turn = np.array([1e-3, 2e-3, -3e-3]), np.array([0.4, -0.2, 0.3])
+    moved = mean_fields(weights, (shift + np.cross(turn, mesh.points))[:, :, None])[:, :, 0]
+    means = weights @ mesh.points
+    np.testing.assert_allclose(moved, shift + np.cross(turn, means), atol=1e-15)
+    # where the patch is said to be, on the cone of the tip, lies within the sagitta of its width
+    assert np.linalg.norm(mean_places(mesh.points, weights) - means, axis=1).max() < 1e-4
+    force = np.array([10.0, -40.0, 25.0])
+    forces = weights.toarray()[:, :, None] * force
+    np.testing.assert_allclose(forces.sum(axis=1), np.tile(force, (4, 1)), rtol=1e-13)
+    moments = np.cross(mesh.points[None] - means[:, None], forces).sum(axis=1)
+    assert np.abs(moments).max() < 1e-14 * np.linalg.norm(force)
+
+
+def test_places_lie_on_the_cone_of_the_tip(patched):
+    line = patched.tip_lines["pressure_edge"].points
+    radius, axial = (np.hypot(*patched.contact_nodes.points[:, :2].T), patched.contact_nodes.points[:, 2])
+    on_line = np.interp(axial, line[:, 2], np.hypot(*line[:, :2].T))
+    np.testing.assert_allclose(radius, on_line, atol=1e-8)
+
+
+def test_coordinates_are_the_means(patched):
+    """The reduced model is as small as with nodes, and its first coordinates are the patches' displacements."""
+    assert patched.contact == "patches"
+    assert patched.columns == 3 * (5 * 3 + 10)
+    expected = np.eye(15, patched.size).reshape(5, 3, -1)
+    np.testing.assert_allclose(patched.contact_nodes.basis, expected, atol=1e-10)
+
+
+def test_static_response_to_patches_is_exact_and_reciprocal(mesh, matrices, patched):
+    """Displacements of patches under forces on patches, against the full model; the matrix is symmetric."""
+    weights = contact_weights(mesh, replace(PATCHES, nodes=5))[:, matrices.free_nodes]
+    spread = np.kron(weights.toarray(), np.eye(3))
+    exact = spread @ matrices.solve_at_rest(np.ascontiguousarray(spread.T))
+    reduced = la.inv(patched.stiffness)[:15, :15]
+    np.testing.assert_allclose(exact, exact.T, atol=1e-12 * np.abs(exact).max())
+    np.testing.assert_allclose(reduced, exact, atol=1e-9 * np.abs(exact).max())
+
+
+def test_against_a_model_with_all_nodes_of_the_edge(mesh, matrices, choice, patched):
+    """The same means of a model that keeps every node: frequencies, static and dynamic flexibility of the patches."""
+    line = mesh.node_set("tip_pressure_edge")
+    every = reduce_blade(mesh, matrices, replace(choice, boundary=BoundaryChoice("pressure_edge", len(line), True)))
+    np.testing.assert_array_equal(every.contact_nodes.nodes, line)
+    weights = contact_weights(mesh, replace(PATCHES, nodes=5))[:, line]
+    rows = mean_fields(weights, every.contact_nodes.basis).reshape(15, -1)
+    np.testing.assert_allclose(patched.modes(1500.0, 10)[0], every.modes(1500.0, 10)[0], rtol=3e-4)
+    for speed, frequency in ((0.0, 0.0), (1500.0, 0.0), (1500.0, 2e4), (2000.0, 6e4)):
+        dynamic = every.stiffness_at(speed) - frequency**2 * every.mass
+        of_every = rows @ la.solve(dynamic, rows.T)
+        of_patches = la.inv(patched.stiffness_at(speed) - frequency**2 * patched.mass)[:15, :15]
+        np.testing.assert_allclose(of_patches, of_every, atol=2e-3 * np.abs(of_every).max())
+
+
+def test_a_beam_of_one_patch_bends_as_a_beam(choice):
+    """One patch over the whole tip: the deflection of Timoshenko's cantilever, F L^3/(3 E I) + F L/(kappa G A)."""
+    mesh = bar(4, height=0.012)
+    boundary = BoundaryChoice("pressure_edge", 1, True, "area_patches")
+    found = la.inv(reduced_bar(mesh, boundary, choice, BEAM).stiffness)[2, 2]
+    area, inertia = 0.03 * 0.012, 0.03 * 0.012**3 / 12.0
+    beam = 0.1**3 / (3.0 * 2.1e11 * inertia) + 0.1 / (5.0 / 6.0 * 2.1e11 / 2.0 * area)
+    assert found == pytest.approx(beam, rel=0.005)
+
+
+def test_patches_have_a_limit_in_the_mesh_and_points_have_none(choice):
+    """Flexibility of a corner beyond that of the whole bar, on meshes twice and four times as fine along and across the tip."""
+    own = {"points": [], "area_patches": []}
+    for count, across in ((8, 2), (16, 4), (32, 8)):
+        mesh = bar(count, height=0.012, across=across)
+        for contact, values in own.items():
+            flexibility = la.inv(reduced_bar(mesh, replace(PATCHES, contact=contact), choice).stiffness)
+            whole = la.inv(reduced_bar(mesh, BoundaryChoice("pressure_edge", 1, True, "area_patches"), choice).stiffness)
+            values.append(flexibility[0, 0] - whole[0, 0])
+    points, patches = (np.array(values) for values in own.values())
+    assert np.all(points[1:] > 1.15 * points[:-1])
+    np.testing.assert_allclose(patches[1:] / patches[-1], 1.0, atol=0.01)
+
+
+@pytest.mark.parametrize("scene", [ABRADABLE, DIRECT], ids=["abradable", "direct"])
+def test_no_energy_is_made(patched, scene):
+    """Forces on patches, coupled through the mesh between them: the balance closes, in either engine, and both agree."""
+    model, choice = (
+        contact_model(patched, "pressure_edge"),
+        IntegrationChoice(3.2e-6, 3, 62, integrator=EXACT_MODAL, energy=True),
+    )
+    samples = []
+    for engine in ("compiled", "reference"):
+        simulation = Simulation(model, 1600.0, scene, replace(choice, engine=engine))
+        state = simulation.start()
+        samples.append(simulation.advance_samples(state, 3 * 62).samples)
+        work, loss = simulation.work(state), state.totals["loss"]
+        assert loss > 0.0
+        assert abs(simulation.energy(state) - work + loss) <= 1e-9 * (np.abs(work) + loss)
+    np.testing.assert_allclose(samples[0], samples[1], atol=1e-7 * np.abs(samples[1]).max())
+
+
+def test_the_file_holds_them(patched, tmp_path):
+    write_reduced_model(patched, tmp_path / "rom.nc")
+    again = read_reduced_model(tmp_path / "rom.nc")
+    assert again.contact == "patches"
+    np.testing.assert_array_equal(again.contact_chord, patched.contact_chord)
+    np.testing.assert_array_equal(again.contact_nodes.points, patched.contact_nodes.points)
+    np.testing.assert_array_equal(again.contact_nodes.basis, patched.contact_nodes.basis)
+
+
+def test_the_stress_region_leaves_out_every_element_that_contact_acts_on(mesh, matrices, choice):
+    everywhere = replace(choice.stress_submesh, maximum_x=np.inf, minimum_z=-np.inf, maximum_z=np.inf, excluded_layers=1)
+    model = reduce_blade(mesh, matrices, replace(choice, boundary=PATCHES, stress_submesh=everywhere))
+    assert not set(model.stress_submesh.nodes) & set(mesh.node_set("tip_pressure_edge"))
+
+
+SPEEDS = (0.0, 1000.0, 2000.0)
+
+
+@pytest.fixture(scope="module")
+def directory(mesh, matrices, patched, tmp_path_factory):
+    """Full matrices of the blade on patches, with all nodes of its edge in boundary.csv."""
+    folder = tmp_path_factory.mktemp("matrices")
+    nodes = boundary_nodes(patched, "pressure_edge")
+    np.testing.assert_array_equal(nodes, mesh.node_set("tip_pressure_edge"))
+    write_full_matrices(matrices, mesh, nodes, SPEEDS, folder, spin_softening=False)
+    return folder
+
+
+def test_patches_of_full_matrices(directory, patched, choice):
+    """Nodes on the line, and no elements: hats of straight pieces, on a coarse mesh within a percent of the elements' own."""
+    again = import_matrices(MatricesSource(str(directory), OURS), replace(choice, boundary=replace(PATCHES, nodes=5)))
+    assert again.columns == patched.columns
+    np.testing.assert_allclose(again.modes(1000.0, 8)[0], patched.modes(1000.0, 8)[0], rtol=1e-4)
+    found, ours = (la.inv(model.stiffness)[:15, :15] for model in (again, patched))
+    np.testing.assert_allclose(found, ours, atol=0.02 * np.abs(ours).max())
+    np.testing.assert_allclose(again.contact_chord, patched.contact_chord, atol=0.02)
+
+
+def test_patches_of_reduced_matrices_keep_every_motion(mesh, matrices, choice, tmp_path):
+    """A small model on all nodes of the edge, taken with other coordinates: its modes are the same, its patches means."""
+    line = mesh.node_set("tip_pressure_edge")
+    every = reduce_blade(mesh, matrices, replace(choice, boundary=BoundaryChoice("pressure_edge", len(line), True)))
+    write_reduced_matrices(every, SPEEDS, tmp_path)
+    again = import_matrices(MatricesSource(str(tmp_path), OURS), replace(choice, boundary=PATCHES))
+    assert again.size == every.size
+    np.testing.assert_allclose(again.modes(1500.0)[0][:40], every.modes(1500.0)[0][:40], rtol=1e-7)
+    weights = weights_along(every.contact_nodes.points, again.tip_lines["pressure_edge"].nodes / (len(line) - 1), PATCHES)
+    rows = mean_fields(weights, every.contact_nodes.basis).reshape(12, -1)
+    np.testing.assert_allclose(again.contact_nodes.basis.reshape(12, -1)[:, :12], np.eye(12), atol=1e-8)
+    flexibility = rows @ la.solve(every.stiffness, rows.T)
+    np.testing.assert_allclose(la.inv(again.stiffness)[:12, :12], flexibility, atol=2e-3 * np.abs(flexibility).max())
+
+
+@pytest.mark.parametrize(
+    ("count", "message"),
+    [
+        (
+            16,
+            r"found 16 contact patches on the 29 mesh nodes of the tip line 'pressure_edge'; allowed: at most 15 "
+            r"\(structure\.boundary\.nodes\), because between two patches there must be a node",
+        ),
+        (200, "found 200 contact patches .* allowed: at most 15"),
+    ],
+)
+@pytest.mark.parametrize("contact", KINDS)
+def test_more_patches_than_the_edge_has_nodes_for(mesh, contact, count, message):
+    with pytest.raises(BoundaryError, match=message):
+        contact_weights(mesh, replace(PATCHES, nodes=count, contact=contact))
+
+
+def test_matrices_without_the_nodes_for_patches(mesh, matrices, model, directory, choice, tmp_path):
+    write_reduced_matrices(model, SPEEDS, tmp_path)
+    source = MatricesSource(str(tmp_path), OURS)
+    with pytest.raises(
+        ImportRefused,
+        match=r"boundary\.csv: found 8 contact patches on the 8 mesh nodes .* allowed: at most 4",
+    ) as told:
+        import_matrices(source, replace(choice, boundary=replace(PATCHES, nodes=8)))
+    assert told.value.key == "contact"
+    with pytest.raises(ImportRefused, match="area_patches with matrices, which say nothing of the tip's face"):
+        import_matrices(source, replace(choice, boundary=replace(PATCHES, contact="area_patches")))
+
+
+BLADES = """
+Mine: { base: S100, chordwise_sweep_deg: 5 }
+Kept: { base: Ref, contact: points, chordwise_sweep_deg: 5 }
+Sweep: { base: Ref, vary: { chordwise_sweep_deg: [5, 10] } }
+"""
+
+
+def chosen(folder, **changes):
+    """What contact acts on, by blade."""
+    settings = read_settings(folder, command_line_document(changes))
+    return {name: settings.reduction_choice(name).boundary.contact for name in settings.blades}
+
+
+@pytest.fixture
+def with_blades(config_copy):
+    with open(config_copy / "config/blades.yaml", "a") as stream:
+        stream.write(BLADES)
+    return config_copy
+
+
+def test_the_benchmark_has_points_and_every_other_blade_patches(with_blades):
+    found = chosen(with_blades)
+    own = {"Mine": "patches", "Kept": "points", "Sweep_5": "patches", "Sweep_10": "patches"}
+    assert found == dict.fromkeys(("Ref", "L50", "L100", "S50", "S100", "CS50", "CS100"), "points") | own
+    assert set(chosen(with_blades, structure={"boundary": {"contact": "area_patches"}}).values()) == {"area_patches"}
+    settings = read_settings(with_blades)
+    assert settings.structure_hash("Mine") != read_settings(
+        with_blades, command_line_document({"structure": {"boundary": {"contact": "points"}}})
+    ).structure_hash("Mine")
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"structure": {"boundary": {"nodes": 60}}, "blades": ["Mine"]}, r"nodes: blade 'Mine': found 60 .* at most 43 \("),
+        (
+            {"structure": {"boundary": {"nodes": 44, "contact": "patches"}}},
+            r"blade 'Ref': found 44 contact patches on the 85 mesh",
+        ),
+        (
+            {"structure": {"boundary": {"nodes": 23, "contact": "area_patches", "tip_line": "camber"}}},
+            r"found 23 contact patches on the 43 mesh nodes of the tip line 'camber'; allowed: at most 22",
+        ),
+        (
+            {"structure": {"boundary": {"contact": "mortar"}}},
+            r"contact: found 'mortar'; allowed: one of points, patches, area_p",
+        ),
+    ],
+)
+def test_what_is_refused_before_anything_is_made(with_blades, changes, message):
+    with pytest.raises(ConfigError, match=message) as refusal:
+        read_settings(with_blades, command_line_document(changes))
+    assert "\n" not in str(refusal.value)
+    # as many as there is room for
+    read_settings(with_blades, command_line_document({"structure": {"boundary": {"nodes": 43, "contact": "patches"}}}))
