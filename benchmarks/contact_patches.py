@@ -1,11 +1,13 @@
-"""Whether contact has a limit in mesh and contact nodes, on seven blades: tables and figure of docs/accuracy.md.
+"""Whether contact has a limit in mesh and contact nodes: sweeps of seven blades, on points and on patches.
 
 Run: python benchmarks/contact_patches.py [cores] (three hours on two cores; what is made is kept, in
-results/studies/contact_patches); make docs. Each model has a sweep of every scene, so that both the settled speeds and the
-places where branches end are seen.
+results/studies/contact_patches), then contact_patches_tables.py. Each model has a sweep of every scene, so that both the
+settled speeds and the places where branches end are seen.
 """
 
 import os
+import sys
+from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
@@ -18,6 +20,7 @@ from r37core.config import read_settings
 from r37core.fem.matrices import assemble
 from r37core.io import atomic_write
 from r37core.mesh.generate import generate_mesh
+from r37core.published import INTERACTIONS
 from r37core.rom.contact_model import read_contact_model, write_contact_model
 from r37core.rom.reduce import reduce_blade
 from r37core.rom.reduced_model import contact_model
@@ -31,11 +34,17 @@ FOLDER = ROOT / "results/studies/contact_patches"
 TIP_ELEMENTS = {5000: 21, 10000: 28, 20000: 42, 40000: 56, 80000: 84}
 BLADES = ("Ref", "L50", "L100", "S50", "S100", "CS50", "CS100")
 SCENES = ("direct", "abradable")
-GRID, COARSE = np.arange(750.0, 2000.5, 5.0), np.arange(760.0, 2000.5, 20.0)
+GRIDS = {"all": np.arange(750.0, 2000.5, 5.0), "coarse": np.arange(760.0, 2000.5, 20.0), "fine": np.arange(750.0, 2000.5)}
+"""Speeds (rad/s). Beside them: those about the published peaks of a blade."""
+
+ABOUT_PEAK = (0.97, 1.05)
 KEPT = {"spectrum_highest_order": 1, "wear_angles": 8}
 KINDS = (POINTS, PATCHES, AREA_PATCHES)
 FINEST_MESH, STANDARD, COUNTS, MODES = 80000, 20000, (4, 15, 29), (3, 20, 40)
 STEPS = (9.6e-6, 6.4e-6, 3.2e-6, 1.6e-6, 8e-7)
+STIFFER = (3, 10, 30, 100, 300)
+"""How many times as stiff as the shipped lining."""
+
 LAYERED = ((20000, 2), (40000, 3))
 """Meshes with two and three layers of elements through the thickness, of two blades."""
 
@@ -59,24 +68,56 @@ class Model:
 
 @dataclass(frozen=True)
 class Way:
-    """How a model is run: scene, step (s; 0: the level's), integrator, and by how much friction is larger."""
+    """How a model is run: scene, step (s; 0: the level's), integrator, speeds, and what is different.
+
+    `friction`: by how much it is larger; `stiffer`: how many times the lining's moduli; `wide`: bars as wide as the patches.
+    """
 
     scene: str = "direct"
     step: float = 0.0
     integrator: str = EXACT_MODAL
     friction: float = 0.0
+    grid: str = "all"
+    stiffer: int = 1
+    wide: bool = False
 
-    @property
-    def speeds(self):
-        """All of the grid, or fewer where the step is short."""
-        return COARSE if self.step else GRID
+    def speeds(self, blade):
+        """Ascending (rad/s)."""
+        if self.grid != "peaks":
+            return GRIDS[self.grid]
+        peaks = [one.peak for one in INTERACTIONS if one.blade == blade]
+        return np.unique(np.concatenate([np.arange(round(ABOUT_PEAK[0] * p), ABOUT_PEAK[1] * p) for p in peaks]))
 
     def file(self, model):
         """Where a model's sweep in this way is kept."""
-        return FOLDER / f"{model.file.stem}_{self.scene}_{self.step:g}_{self.integrator}_{self.friction:g}.npy"
+        parts = [model.file.stem, self.scene, f"{self.step:g}", self.integrator, f"{self.friction:g}"]
+        parts += [self.grid] * (self.grid not in ("all", "coarse")) + [f"stiffer_{self.stiffer}"] * (self.stiffer > 1)
+        return FOLDER / ("_".join([*parts, *["wide"] * self.wide]) + ".npy")
+
+    def of_scene(self, model, contact):
+        """The scene in which it is run."""
+        scene = settings().scenes[self.scene].scene
+        scene = replace(scene, friction=replace(scene.friction, coefficient=scene.friction.coefficient * (1.0 + self.friction)))
+        if scene.lining is None:
+            return scene
+        lining = replace(
+            scene.lining,
+            elastic_modulus=self.stiffer * scene.lining.elastic_modulus,
+            plastic_modulus=self.stiffer * scene.lining.plastic_modulus,
+        )
+        if self.wide:
+            lining = replace(lining, bar_width=tip_length(model.blade) / len(contact.radius))
+        return replace(scene, lining=lining)
 
 
-MASS, NUDGED = Way(step=1e-7, integrator=CENTRAL_DIFFERENCE), Way(friction=1e-3)
+MASS, NUDGED = Way(step=1e-7, integrator=CENTRAL_DIFFERENCE, grid="coarse"), Way(friction=1e-3)
+
+
+@cache
+def tip_length(blade):
+    """Length of a blade's tip along the casing's meridian (m), from its corners."""
+    corners = read_contact_model(Model(blade).file)
+    return abs(float(np.ptp(corners.radius) / np.sin(corners.tip_cone_angle)))
 
 
 @cache
@@ -105,10 +146,28 @@ def ways_of(model):
     ways = [Way(scene) for scene in SCENES]
     if model in (Model(model.blade, contact=kind) for kind in KINDS[:2]):
         ways += [NUDGED, replace(NUDGED, scene="abradable")]
-    if model == Model(model.blade, contact=PATCHES):
-        ways += [Way(step=step) for step in STEPS] + [MASS]
-    if model.blade == "S100" and model in (Model("S100", nodes, kind) for nodes in (5000, FINEST_MESH) for kind in KINDS[:2]):
-        ways += [MASS, Way(step=STEPS[-1])]
+    blade, eight = model.blade, model.count == 8 and model.layers == 1 and model.modes == 10 and model.contact in KINDS[:2]
+    if model == Model(blade, contact=PATCHES):
+        ways += [Way(step=step, grid="coarse") for step in STEPS]
+    if blade == "S100" and eight and model.nodes in (5000, FINEST_MESH):
+        ways += [MASS, Way(step=STEPS[-1], grid="coarse")]
+    # steps of the levels on their own meshes
+    if eight and model.nodes == 5000:
+        ways += [Way(step=6.4e-6, grid="coarse")]
+    if eight and model.nodes == 40000:
+        ways += [Way(step=2.4e-6, grid="coarse"), Way("abradable", 3.2e-6, grid="coarse")]
+    if eight and (model.nodes == STANDARD or (blade == "Ref" and model.nodes == FINEST_MESH)):
+        ways += [Way(grid="fine")]
+    if model == Model("Ref", contact=PATCHES, count=15):
+        ways += [Way(grid="fine")]
+    if eight and model.nodes in (STANDARD, FINEST_MESH):
+        ways += [Way("abradable", grid="coarse", stiffer=stiffer) for stiffer in STIFFER]
+    if eight and model.nodes == STANDARD:
+        ways += [Way("abradable", grid="coarse", stiffer=stiffer, friction=NUDGED.friction) for stiffer in STIFFER]
+    if eight and model.nodes == STANDARD:
+        ways += [Way("abradable", grid="peaks"), MASS, replace(MASS, scene="abradable")]
+    if model.contact == PATCHES and model.nodes == STANDARD and model.modes == 10 and model.layers == 1 and model.count < 29:
+        ways += [Way("abradable", grid="peaks", wide=True)]
     return ways
 
 
@@ -138,10 +197,9 @@ def sweep(model, way):
     """rms of the leading edge (m), shape (speeds, 2): normal and tangential, of a model run in one way; kept in a file."""
     file = way.file(model)
     if not file.exists():
-        contact, scene = read_contact_model(model.file), settings().scenes[way.scene].scene
-        scene = replace(scene, friction=replace(scene.friction, coefficient=scene.friction.coefficient * (1.0 + way.friction)))
-        found = []
-        for speed in way.speeds:
+        contact, found = read_contact_model(model.file), []
+        scene = way.of_scene(model, contact)
+        for speed in way.speeds(model.blade):
             choice = settings().integration_choice(model.blade, way.scene, speed)
             choice = replace(choice, integrator=way.integrator, snapshot_revolutions=0, energy=False)
             try:
@@ -160,8 +218,20 @@ def sweep(model, way):
 
 
 def all_of(models):
-    """Make the models of a lot and their sweeps."""
-    build(models)
-    for model in models:
+    """Make the models of a lot, those that are wanted, and their sweeps."""
+    wanted = [model for model in models if not all(way.file(model).exists() for way in ways_of(model))]
+    build(wanted)
+    for model in wanted:
         for way in ways_of(model):
             sweep(model, way)
+
+
+def main():
+    FOLDER.mkdir(parents=True, exist_ok=True)
+    lots = sorted((lot for blade in BLADES for lot in models_of(blade)), key=lambda lot: -lot[0].nodes)
+    with ProcessPoolExecutor(int(sys.argv[1]) if len(sys.argv) > 1 else 2) as pool:
+        list(pool.map(all_of, lots))
+
+
+if __name__ == "__main__":
+    main()

@@ -33,6 +33,11 @@ def test_found_where_and_how_long(tmp_path):
     assert "(1B/7)" in closing_lines(written(tmp_path, ROWS[0]), 400.0, 500.0)[0]
 
 
+def test_what_there_is_to_remark_stands_before_where_to_look(tmp_path):
+    lines = closing_lines(written(tmp_path, *ROWS), 400.0, 500.0, ["contact acts on points"])
+    assert len(lines) == 4 and lines[1] == "contact acts on points"
+
+
 @pytest.mark.parametrize(
     ("seconds", "text"), [(59.4, "59 s"), (60.0, "1 min 0 s"), (3600.0, "1 h 0 min"), (12_345.0, "3 h 25 min")]
 )

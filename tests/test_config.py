@@ -151,6 +151,18 @@ def test_tolerance_picks_the_cheapest_level_that_keeps_it(project):
     assert load(project, fidelity="draft", tolerance=0.02).fidelity_name == "draft"
     with pytest.raises(ConfigError, match=r"tolerance: found 0\.001; measured errors .*; accept more"):
         load(project, fidelity="auto", tolerance=0.001)
+    # direct contact on points has errors of its own
+    for name, error in (("draft", 0.5), ("standard", 0.4), ("paper", 0.3)):
+        levels[name]["measured"]["error_on_points"] = error
+    file.write_text(yaml.safe_dump(levels))
+    assert load(project, fidelity="auto", tolerance=0.4, scenes=["abradable", "direct"]).fidelity_name == "standard"
+    assert load(project, fidelity="auto", tolerance=0.1, scenes=["abradable"]).fidelity_name == "standard"
+    patches = {"boundary": {"contact": "patches"}}
+    assert load(project, fidelity="auto", tolerance=0.1, scenes=["direct"], structure=patches).fidelity_name == "standard"
+    with pytest.raises(
+        ConfigError, match=r"found 0\.1; measured errors .* draft 0\.5, .*or take structure\.boundary\.contact: pat"
+    ):
+        load(project, fidelity="auto", tolerance=0.1, scenes=["direct"])
 
 
 def test_structure_hash_follows_what_the_blade_depends_on(project):

@@ -304,6 +304,18 @@ def test_the_benchmark_has_points_and_every_other_blade_patches(with_blades):
     ).structure_hash("Mine")
 
 
+def test_direct_contact_on_points_is_told_at_the_end(with_blades):
+    def told(**changes):
+        return read_settings(with_blades, command_line_document(changes)).remarks_on_points
+
+    (remark,) = told(blades=["Ref", "S50", "Mine"])
+    assert remark.startswith("direct: contact of 2 blades acts on points, as published, and changes with every finer mesh")
+    assert "structure.boundary.contact: patches" in remark
+    assert told(blades=["Ref"])[0].startswith("direct: contact of Ref acts")
+    assert told(blades=["Ref"], scenes=["abradable"]) == told(blades=["Mine"]) == []
+    assert told(structure={"boundary": {"contact": "patches"}}) == []
+
+
 @pytest.mark.parametrize(
     ("changes", "message"),
     [

@@ -121,7 +121,7 @@ def _check(given: argparse.Namespace) -> None:
         cost = most * measured.cpu_s_per_run
         told = f"{cost:.3g} s" if cost < 120.0 else f"{cost / 60.0:.3g} minutes"
         print(f"their CPU time: about {told} at most, as measured on the reference blade")
-    for remark in settings.remarks:
+    for remark in [*settings.remarks, *settings.remarks_on_points]:
         print(remark)
 
 

@@ -37,10 +37,13 @@ class Reduction(Section):
 
 
 class Measured(Section):
-    """What `snakemake tradeoff` found, on the reference blade; for `fidelity: auto`."""
+    """What was found on the worst of seven blades (docs/accuracy.md); for `fidelity: auto`."""
 
     error: float = Field(
-        ge=0, le=1e6, description="largest relative error, over scenes, of rms, largest displacement and stress"
+        ge=0, le=1e6, description="mean relative error of rms, in lined scenes and in direct contact on patches"
+    )
+    error_on_points: Annotated[float, Field(ge=0, le=1e6)] | LeftOut = Field(
+        default=None, description="the same in direct contact on points, where a run has that"
     )
     cpu_s_per_run: float = Field(gt=0, le=1e9, description="CPU seconds of a run")
 

@@ -17,7 +17,7 @@ from r37core.contact.ring import critical_speed
 from r37core.contact.scene import Scene
 from r37core.exchange.importing.source import MatricesSource
 from r37core.plain import to_plain
-from r37core.rom.reduction_choice import ReductionChoice
+from r37core.rom.reduction_choice import POINTS, ReductionChoice
 from r37core.run_ups.choice import RunUpChoice
 from r37core.speeds import SpeedError, SpeedPlan
 from r37core.time_integration.integration_choice import IntegrationChoice
@@ -26,7 +26,7 @@ from .blades import BladeSettings, blade_settings
 from .config_file import CampbellSection, Config, Interactions, RefinementSection, StructureSection
 from .document import Document
 from .families import Designs, Family
-from .fidelity import Level, recommended_level
+from .fidelity import Level, Measured, recommended_level
 from .members import Members
 from .scenes import SceneEntry
 from .speed_section import UNITS, SpeedRule, key_of_speeds, planned
@@ -167,16 +167,29 @@ class Settings:
         if self.config.fidelity != "auto":
             return self.config.fidelity
         measured = {name: level.measured for name, level in self.levels.items() if level.measured}
-        errors = {name: one.error for name, one in measured.items()}
+        errors = {name: self._error(one) for name, one in measured.items()}
         chosen = recommended_level(errors, {name: one.cpu_s_per_run for name, one in measured.items()}, self.config.tolerance)
         if chosen is None:
             known = ", ".join(f"{name} {error:g}" for name, error in errors.items()) or "none"
             raise self.documents.config.error(
                 ("tolerance",),
                 f"found {self.config.tolerance:g}; measured errors of the levels in {self.documents.levels.name}: {known}; "
-                "accept more, or name a level under fidelity",
+                "accept more, or name a level under fidelity"
+                + (", or take structure.boundary.contact: patches" if self._direct_on_points[0] else ""),
             )
         return chosen
+
+    def _error(self, measured: Measured) -> float:
+        """What a level was found to be off by in what this run has."""
+        of_points = measured.error_on_points if self._direct_on_points[0] else None
+        return measured.error if of_points is None else of_points
+
+    @property
+    def _direct_on_points(self) -> tuple[list[str], list[str]]:
+        """Scenes without lining and blades whose contact acts on points; none of both where one is missing."""
+        scenes = [name for name in self.scene_names if self.scene_entries[name].lining is None]
+        blades = [name for name, blade in self.blades.items() if (self.structure.boundary.contact or blade.contact) == POINTS]
+        return (scenes, blades) if scenes and blades else ([], [])
 
     @property
     def fidelity(self) -> Level:
@@ -227,7 +240,7 @@ class Settings:
         said = []
         measured = self.fidelity.measured
         if self.config.fidelity == "auto" and measured is not None:
-            error, cost = 100 * measured.error, measured.cpu_s_per_run
+            error, cost = 100 * self._error(measured), measured.cpu_s_per_run
             said.append(f"fidelity auto: level {self.fidelity_name}, measured error {error:g}%, {cost:g} CPU s per run")
         fastest, highest = max(plan.every_speed()[-1] for plan in self.speed_plans.values()), self.structure.maximum_speed_rad_s
         if fastest > highest:
@@ -261,6 +274,18 @@ class Settings:
                     "casing, which may then grow without bound"
                 )
         return said
+
+    @property
+    def remarks_on_points(self) -> list[str]:
+        """What a run should say at its end of direct contact on points, which has no limit in the mesh."""
+        scenes, blades = self._direct_on_points
+        if not scenes:
+            return []
+        of = f"{len(blades)} blades" if len(blades) > 1 else blades[0]
+        return [
+            f"{', '.join(scenes)}: contact of {of} acts on points, as published, and changes with every finer mesh; for numbers "
+            "to decide from: structure.boundary.contact: patches (docs/accuracy.md#points-and-patches)"
+        ]
 
     def _fastest_of(self, scene: str) -> float:
         """The highest speed (rad/s) of a scene's simulations, and of its run-ups as far as no crossing decides it."""

@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 import csv
+from collections.abc import Iterable
 from pathlib import Path
 
 from r37core.results.interaction_title import interaction_title
 from r37core.time_integration.status import RunStatus
 
 
-def closing_lines(results: Path, began: float, ended: float) -> list[str]:
-    """Three lines on what the folder `results` has: interactions, runs that diverged; none if it is older than the run's start.
+def closing_lines(results: Path, began: float, ended: float, remarks: Iterable[str] = ()) -> list[str]:
+    """What the folder `results` has: interactions, runs that diverged, `remarks` on them, where to look, and how long it took.
 
-    `began` and `ended`: times in s, as file times are.
+    None if it is older than the run's start. `began` and `ended`: times in s, as file times are.
     """
     summary = results / "summary.csv"
     if not summary.exists() or summary.stat().st_mtime < began:
@@ -20,7 +21,7 @@ def closing_lines(results: Path, began: float, ended: float) -> list[str]:
     with open(summary, newline="", encoding="utf-8") as stream:
         rows = list(csv.DictReader(stream))
     where = f"look at {results}/explorer.html (any browser), {summary}, {results}/figures/"
-    return [_found(rows) + _diverged(results / "rms.nc"), where, _took(ended - began)]
+    return [_found(rows) + _diverged(results / "rms.nc"), *remarks, where, _took(ended - began)]
 
 
 def _found(rows: list[dict[str, str]]) -> str:

@@ -61,7 +61,8 @@ class Console:
     def succeed(self) -> None:
         """After the last job: nothing is said where there is nothing to say."""
         lock.release()
-        _say_last([*failures.taken(), *closing_lines(self.settings.results, self.began, time.time())])
+        found = closing_lines(self.settings.results, self.began, time.time(), self.settings.remarks_on_points)
+        _say_last([*failures.taken(), *found])
 
     def fail(self) -> None:
         """After a failure: what matters comes last."""

@@ -49,7 +49,13 @@ class Provenance:
 
     def _structure_of(self, blade: str) -> Attributes:
         settings = self._settings
-        return Attributes(blade=blade, fidelity=settings.fidelity_name, input_hash=settings.structure_hash(blade))
+        boundary = settings.reduction_choice(blade).boundary
+        return Attributes(
+            blade=blade,
+            fidelity=settings.fidelity_name,
+            contact=f"{boundary.contact} of {boundary.tip_line}",
+            input_hash=settings.structure_hash(blade),
+        )
 
     def _sweep_of(self, blade: str, scene: str) -> Attributes:
         chosen, steps = self._settings.scenes[scene], self._settings.fidelity.time_integration
