@@ -110,7 +110,7 @@ class Way:
         return replace(scene, lining=lining)
 
 
-MASS, NUDGED = Way(step=1e-7, integrator=CENTRAL_DIFFERENCE, grid="coarse"), Way(friction=1e-3)
+MASS, PERTURBED = Way(step=1e-7, integrator=CENTRAL_DIFFERENCE, grid="coarse"), Way(friction=1e-3)
 
 
 @cache
@@ -145,7 +145,7 @@ def ways_of(model):
     """How a model is run."""
     ways = [Way(scene) for scene in SCENES]
     if model in (Model(model.blade, contact=kind) for kind in KINDS[:2]):
-        ways += [NUDGED, replace(NUDGED, scene="abradable")]
+        ways += [PERTURBED, replace(PERTURBED, scene="abradable")]
     blade, eight = model.blade, model.count == 8 and model.layers == 1 and model.modes == 10 and model.contact in KINDS[:2]
     if model == Model(blade, contact=PATCHES):
         ways += [Way(step=step, grid="coarse") for step in STEPS]
@@ -163,7 +163,7 @@ def ways_of(model):
     if eight and model.nodes in (STANDARD, FINEST_MESH):
         ways += [Way("abradable", grid="coarse", stiffer=stiffer) for stiffer in STIFFER]
     if eight and model.nodes == STANDARD:
-        ways += [Way("abradable", grid="coarse", stiffer=stiffer, friction=NUDGED.friction) for stiffer in STIFFER]
+        ways += [Way("abradable", grid="coarse", stiffer=stiffer, friction=PERTURBED.friction) for stiffer in STIFFER]
     if eight and model.nodes == STANDARD:
         ways += [Way("abradable", grid="peaks"), MASS, replace(MASS, scene="abradable")]
     if model.contact == PATCHES and model.nodes == STANDARD and model.modes == 10 and model.layers == 1 and model.count < 29:

@@ -1,9 +1,12 @@
 """Tables and figure of docs/accuracy.md on points and patches, from the sweeps of contact_patches.py.
 
-Run: python benchmarks/contact_patches_tables.py; make docs. Errors are relative differences of rms, of the leading edge's whole
-motion, at settled speeds: those at which friction 0.1% larger changes little, and that are not beside the end of a branch.
+Run: python benchmarks/contact_patches_tables.py; make docs. The published statements on patches come from the gallery of
+config/patches.yaml, which `snakemake gallery` writes over docs/gallery.md: move that page to results/studies/contact_patches.
+Errors are relative differences of rms, of the leading edge's whole motion, at settled speeds: those at which friction 0.1% larger
+changes little, and that are not beside the end of a branch.
 """
 
+import re
 from dataclasses import replace
 
 import matplotlib.pyplot as plt
@@ -12,10 +15,11 @@ from contact_patches import (
     ABOUT_PEAK,
     BLADES,
     FINEST_MESH,
+    FOLDER,
     GRIDS,
     KINDS,
     MASS,
-    NUDGED,
+    PERTURBED,
     ROOT,
     STANDARD,
     STEPS,
@@ -49,7 +53,7 @@ def settled(model, way):
     standard = Model(model.blade, contact=model.contact if model.contact in KINDS[:2] else PATCHES)
     of = Way(way.scene, stiffer=way.stiffer, grid="coarse" if way.stiffer > 1 else "all")
     base = rms(standard, of)
-    quiet = np.abs(rms(standard, replace(of, friction=NUDGED.friction)) / base - 1.0) < SETTLED
+    quiet = np.abs(rms(standard, replace(of, friction=PERTURBED.friction)) / base - 1.0) < SETTLED
     if way.stiffer > 1:
         return on_grid(quiet, of, model.blade, False)
     steps = np.abs(np.diff(base)) / np.minimum(base[1:], base[:-1]) > STEEP
@@ -118,13 +122,13 @@ def convergence_table(scene):
 
             rows.append(row(name, f"{STEPS[-1]:g} s", None, of_step, None))
 
-    def nudged(contact):
+    def perturbed(contact):
         return lambda blade: (
-            (Model(blade, contact=contact), replace(NUDGED, scene=scene)),
+            (Model(blade, contact=contact), replace(PERTURBED, scene=scene)),
             (Model(blade, contact=contact), way),
         )
 
-    rows.append(row("friction + 0.1%", "as shipped", nudged(POINTS), nudged(PATCHES), None))
+    rows.append(row("friction + 0.1%", "as shipped", perturbed(POINTS), perturbed(PATCHES), None))
     return markdown_table(["what", "against", "points", "patches", "area patches"], rows)
 
 
@@ -249,6 +253,43 @@ def published_table():
     return markdown_table(head, rows)
 
 
+def disagreements(page):
+    """Published statements that do not agree in a page of the gallery, by their words without numbers."""
+    parts = re.findall(r"\*\*Does not agree\*\*.*?:\n\n((?:- .*\n)+)", page)
+    lines = [line[2:] for part in parts for line in part.splitlines()]
+    # what comes before the first number of its own, or the verdict in brackets
+    return {re.split(r" (?=[\d.]+(?:%| rad/s| mm| GPa| revolutions| \(pub))| \((?!pub)", line)[0]: line for line in lines}
+
+
+def statements_table():
+    """Published numbers and statements that agree with contact on points or on patches, but not on both."""
+    points, patches = (disagreements(page.read_text()) for page in (ROOT / "docs/gallery.md", FOLDER / "gallery.md"))
+    rows = [
+        [words, *(page.get(words, "agrees").removeprefix(words).strip() for page in (points, patches))]
+        for words in dict.fromkeys([*points, *patches])
+    ]
+    return markdown_table(["statement", "on points", "on patches"], [row for row in rows if row[1] != row[2]])
+
+
+def blades_table():
+    """Direct contact of the seven blades at every rad/s, on points and on patches, in rms of the whole motion (mm)."""
+    rows = []
+    for blade in BLADES:
+        points, patches = (rms(Model(blade, contact=contact), Way(grid="fine")) for contact in KINDS[:2])
+        cells = []
+        for values in (points, patches):
+            top = int(np.argmax(values))
+            cells += [
+                f"{np.median(values):.2f}",
+                f"{values[top]:.2f} at {GRIDS['fine'][top]:g}",
+                f"{drop(GRIDS['fine'], values):g}",
+            ]
+        change = 100.0 * np.abs(patches / points - 1.0)
+        rows.append([blade, *cells, f"{np.median(change):.0f}%, {np.quantile(change, 0.9):.0f}%"])
+    head = [f"{contact}: {what}" for contact in KINDS[:2] for what in ("median", "largest", "steepest drop (rad/s)")]
+    return markdown_table(["blade", *head, "change: median, 90% quantile"], rows)
+
+
 def figure():
     """Direct contact of two blades on three meshes, on points and on patches."""
     drawn, axes = plt.subplots(2, 2, figsize=(style.PAGE, 4.2), sharex=True, sharey="row")
@@ -272,6 +313,8 @@ def main():
         "stiffness": stiffness_table(),
         "peaks": peaks_table(),
         "published": published_table(),
+        "blades": blades_table(),
+        "statements": statements_table(),
     }
     for name, table in tables.items():
         write_text(table, STUDIES / f"contact_patches_{name}.md")

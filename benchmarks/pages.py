@@ -20,11 +20,16 @@ TABLES = {
         "growth": "growth.md",
         "run_ups": "run_up_accuracy.md",
         "contact": "contact_accuracy_summary.md",
+        **{
+            f"patches_{name}": f"contact_patches_{name}.md"
+            for name in ("convergence", "levels", "published", "blades", "statements", "stiffness", "peaks")
+        },
     },
     "accuracy_tables": {
         "contact": "contact_accuracy.md",
         "meshes": "contact_meshes.md",
         "extremes": "contact_extremes.md",
+        "branches": "contact_patches_branches.md",
         "refinement": "refinement.md",
         "tradeoff": "tradeoff.md",
     },
@@ -50,6 +55,7 @@ SUMMARIES = {
 """What stands on a page itself of a long table, which has a page of its own."""
 
 PICTURES = (
+    "contact_patches",
     "tradeoff_pareto",
     "growth",
     "coriolis_peaks",

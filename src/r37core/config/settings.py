@@ -283,8 +283,8 @@ class Settings:
             return []
         of = f"{len(blades)} blades" if len(blades) > 1 else blades[0]
         return [
-            f"{', '.join(scenes)}: contact of {of} acts on points, as published, and changes with every finer mesh; for numbers "
-            "to decide from: structure.boundary.contact: patches (docs/accuracy.md#points-and-patches)"
+            f"{', '.join(scenes)}: contact of {of} acts on points, as published, and changes with every finer mesh; for "
+            "numbers to decide from: structure.boundary.contact: patches (docs/accuracy.md#points-and-patches)"
         ]
 
     def _fastest_of(self, scene: str) -> float:
