@@ -10,7 +10,7 @@ from defaults import BoundaryChoice, IntegrationChoice, MatricesSource
 from integration_cases import ABRADABLE, DIRECT
 
 from r37core.config import ConfigError, command_line_document, read_settings
-from r37core.exchange.exporting.matrices_out import boundary_nodes, write_full_matrices, write_reduced_matrices
+from r37core.exchange.exporting.matrices_out import table_nodes, write_full_matrices, write_reduced_matrices
 from r37core.exchange.importing.matrices_in import import_matrices
 from r37core.exchange.orientation import OURS
 from r37core.exchange.refusal import ImportRefused
@@ -212,7 +212,7 @@ SPEEDS = (0.0, 1000.0, 2000.0)
 def directory(mesh, matrices, patched, tmp_path_factory):
     """Full matrices of the blade on patches, with all nodes of its edge in boundary.csv."""
     folder = tmp_path_factory.mktemp("matrices")
-    nodes = boundary_nodes(patched, "pressure_edge")
+    nodes = table_nodes(patched, "pressure_edge")
     np.testing.assert_array_equal(nodes, mesh.node_set("tip_pressure_edge"))
     write_full_matrices(matrices, mesh, nodes, SPEEDS, folder, spin_softening=False)
     return folder

@@ -4,7 +4,7 @@ from pathlib import Path
 
 from job import run
 
-from r37core.exchange.exporting.matrices_out import boundary_nodes, write_full_matrices, write_reduced_matrices
+from r37core.exchange.exporting.matrices_out import table_nodes, write_full_matrices, write_reduced_matrices
 from r37core.fem.material import Material
 from r37core.fem.matrices import assemble
 from r37core.mesh.mesh_files import read_vtu
@@ -18,7 +18,7 @@ def main(snakemake):
     if hasattr(given, "mesh"):
         mesh = read_vtu(given.mesh)
         matrices = assemble(mesh, from_plain(Material, params.material))
-        nodes = boundary_nodes(model, params.tip_line)
+        nodes = table_nodes(model, params.tip_line)
         write_full_matrices(matrices, mesh, nodes, speeds, folder, params.choice["spin_softening"])
     else:
         write_reduced_matrices(model, speeds, folder)

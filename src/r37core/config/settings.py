@@ -186,9 +186,10 @@ class Settings:
 
     @property
     def _direct_on_points(self) -> tuple[list[str], list[str]]:
-        """Scenes without lining and blades whose contact acts on points; none of both where one is missing."""
+        """Scenes without lining and blades whose contact acts on points of a mesh; none of both where one is missing."""
         scenes = [name for name in self.scene_names if self.scene_entries[name].lining is None]
-        blades = [name for name, blade in self.blades.items() if (self.structure.boundary.contact or blade.contact) == POINTS]
+        meshed = {name: blade for name, blade in self.blades.items() if not isinstance(blade.definition, MatricesSource)}
+        blades = [name for name, blade in meshed.items() if (self.structure.boundary.contact or blade.contact) == POINTS]
         return (scenes, blades) if scenes and blades else ([], [])
 
     @property

@@ -44,8 +44,7 @@ def reduce_blade(mesh: BladeMesh, matrices: StructuralMatrices, choice: Reductio
     def recovery(of: np.ndarray) -> RecoveryNodes:
         return RecoveryNodes(of, mesh.points[of], whole[of], rotated[of])
 
-    line = mesh.node_set(TIP_LINES[choice.boundary.tip_line])
-    chord = weights @ mesh.parameters[:, 0]
+    line, chord = mesh.node_set(TIP_LINES[choice.boundary.tip_line]), mesh.parameters[:, 0]
     stress_blocks = choice.stress_submesh.elements(mesh, np.unique(weights.indices))
     stress_nodes = np.unique(np.concatenate([np.empty(0, int), *(nodes.ravel() for nodes in stress_blocks.values())]))
     shapes = {name: shape[matrices.free_nodes].ravel() for name, shape in ideal_shapes(mesh).items()}
@@ -57,13 +56,8 @@ def reduce_blade(mesh: BladeMesh, matrices: StructuralMatrices, choice: Reductio
         spin_softening=None if softening is None else projected(softening, vectors),
         coriolis=vectors.T @ (matrices.coriolis() @ vectors) if choice.coriolis else None,
         contact=choice.boundary.contact,
-        contact_nodes=RecoveryNodes(
-            line[np.abs(mesh.parameters[line, 0] - chord[:, None]).argmin(axis=1)],
-            mean_places(mesh.points, weights),
-            mean_fields(weights, whole),
-            mean_fields(weights, rotated),
-        ),
-        contact_chord=chord,
+        contact_nodes=contact_nodes(weights, line, chord, RecoveryNodes(np.arange(len(chord)), mesh.points, whole, rotated)),
+        contact_chord=weights @ chord,
         tip_lines={line: recovery(mesh.node_set(name)) for line, name in TIP_LINES.items()},
         stress_submesh=recovery(stress_nodes),
         stress_elements={name: np.searchsorted(stress_nodes, nodes) for name, nodes in stress_blocks.items()},
@@ -77,6 +71,16 @@ def reduce_blade(mesh: BladeMesh, matrices: StructuralMatrices, choice: Reductio
         rotation_stiffening=rotation_stiffening,
         quadratic_residual=_quadratic_residual(stiffness, per_square, vectors, at_rest, max(choice.speeds)),
     )
+
+
+def contact_nodes(weights: sp.csr_array, line: np.ndarray, chord: np.ndarray, every: RecoveryNodes) -> RecoveryNodes:
+    """The contact nodes as means of `every` node, each with the number of the nearest node of the tip's `line`.
+
+    `weights`: as contact_weights has them; `chord`: fraction of the chord of every node.
+    """
+    nearest = np.abs(chord[line] - (weights @ chord)[:, None]).argmin(axis=1)
+    fields = (mean_fields(weights, of) for of in (every.basis, every.rotation_shapes))
+    return RecoveryNodes(every.nodes[line[nearest]], mean_places(every.points, weights), *fields)
 
 
 def mean_fields(weights: sp.csr_array, fields: np.ndarray) -> np.ndarray:

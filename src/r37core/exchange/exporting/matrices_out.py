@@ -29,7 +29,7 @@ def write_reduced_matrices(model: ReducedModel, speeds: Sequence[float], folder:
     _write(content, points, np.arange(3 * len(points)).reshape(-1, 3), folder)
 
 
-def boundary_nodes(model: ReducedModel, tip_line: str) -> np.ndarray:
+def table_nodes(model: ReducedModel, tip_line: str) -> np.ndarray:
     """Mesh nodes that boundary.csv of the full matrices names: the contact nodes, of patches all nodes of `tip_line`."""
     return (model.contact_nodes if model.contact == POINTS else model.tip_lines[tip_line]).nodes
 

@@ -20,10 +20,10 @@ import scipy.sparse as sp
 
 from r37core.exchange.refusal import ImportRefused, blamed
 from r37core.fem.solver import Solve, factorise
-from r37core.rom.contact_weights import mean_places, weights_along
+from r37core.rom.contact_weights import weights_along
 from r37core.rom.craig_bampton import combine_columns, constraint_and_fixed_modes, multi_speed_basis
 from r37core.rom.naming import NAMED_MODES
-from r37core.rom.reduce import mean_fields, projected
+from r37core.rom.reduce import contact_nodes, projected
 from r37core.rom.reduced_model import RecoveryNodes, ReducedModel
 from r37core.rom.reduction_choice import AREA_PATCHES, POINTS, BoundaryChoice, BoundaryError, ReductionChoice
 
@@ -100,8 +100,7 @@ def _reduced(given: _Given, choice: ReductionChoice) -> ReducedModel:
     shapes = _ideal_shapes(given)
     nodes = np.arange(len(given.points))
     size = vectors.shape[1]
-    fields, no_rotation = vectors[: 3 * len(nodes)].reshape(-1, 3, size), np.empty((len(nodes), 3, 0))
-    contact_chord = weights @ chord
+    line = RecoveryNodes(nodes, given.points, vectors[: 3 * len(nodes)].reshape(-1, 3, size), np.empty((len(nodes), 3, 0)))
     return ReducedModel(
         stiffness=stiffness,
         geometric_stiffness=projected(given.per_square, vectors),
@@ -109,14 +108,9 @@ def _reduced(given: _Given, choice: ReductionChoice) -> ReducedModel:
         spin_softening=None,
         coriolis=None,
         contact=choice.boundary.contact,
-        contact_nodes=RecoveryNodes(
-            np.abs(chord - contact_chord[:, None]).argmin(axis=1),
-            mean_places(given.points, weights),
-            mean_fields(weights, fields),
-            no_rotation[: len(contact_chord)],
-        ),
-        contact_chord=contact_chord,
-        tip_lines={choice.boundary.tip_line: RecoveryNodes(nodes, given.points, fields, no_rotation)},
+        contact_nodes=contact_nodes(weights, nodes, chord, line),
+        contact_chord=weights @ chord,
+        tip_lines={choice.boundary.tip_line: line},
         stress_submesh=RecoveryNodes(np.empty(0, dtype=int), np.empty((0, 3)), np.empty((0, 3, size)), np.empty((0, 3, 0))),
         stress_elements={},
         stress_region="none",
