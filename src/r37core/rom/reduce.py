@@ -85,7 +85,8 @@ def contact_nodes(weights: sp.csr_array, line: np.ndarray, chord: np.ndarray, ev
 
 def mean_fields(weights: sp.csr_array, fields: np.ndarray) -> np.ndarray:
     """Fields at the contact nodes, shape (contact nodes, 3, columns), from those at all nodes, shape (nodes, 3, columns)."""
-    return (weights @ fields.reshape(len(fields), -1)).reshape(-1, *fields.shape[1:])
+    nodes, axes, columns = fields.shape
+    return (weights @ fields.reshape(nodes, axes * columns)).reshape(weights.shape[0], axes, columns)
 
 
 def projected(matrix: sp.csr_array, vectors: np.ndarray) -> np.ndarray:
