@@ -148,7 +148,7 @@ def ways_of(model):
         ways += [PERTURBED, replace(PERTURBED, scene="abradable")]
     blade, eight = model.blade, model.count == 8 and model.layers == 1 and model.modes == 10 and model.contact in KINDS[:2]
     if model == Model(blade, contact=PATCHES):
-        ways += [Way(step=step, grid="coarse") for step in STEPS]
+        ways += [Way(step=step, grid="coarse") for step in STEPS] + [MASS]
     if blade == "S100" and eight and model.nodes in (5000, FINEST_MESH):
         ways += [MASS, Way(step=STEPS[-1], grid="coarse")]
     # steps of the levels on their own meshes
@@ -165,7 +165,7 @@ def ways_of(model):
     if eight and model.nodes == STANDARD:
         ways += [Way("abradable", grid="coarse", stiffer=stiffer, friction=PERTURBED.friction) for stiffer in STIFFER]
     if eight and model.nodes == STANDARD:
-        ways += [Way("abradable", grid="peaks"), MASS, replace(MASS, scene="abradable")]
+        ways += [Way("abradable", grid="peaks")]
     if model.contact == PATCHES and model.nodes == STANDARD and model.modes == 10 and model.layers == 1 and model.count < 29:
         ways += [Way("abradable", grid="peaks", wide=True)]
     return ways

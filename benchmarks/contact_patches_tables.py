@@ -137,7 +137,6 @@ def levels_table():
     levels = {
         "draft": (5000, Way(step=6.4e-6, grid="coarse"), Way("abradable")),
         "standard": (20000, Way(), Way("abradable")),
-        "paper": (20000, MASS, replace(MASS, scene="abradable")),
         "fine": (40000, Way(step=2.4e-6, grid="coarse"), Way("abradable", 3.2e-6, grid="coarse")),
     }
     rows = []

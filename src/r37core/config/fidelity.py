@@ -39,8 +39,9 @@ class Reduction(Section):
 class Measured(Section):
     """What was found on the worst of seven blades (docs/accuracy.md); for `fidelity: auto`."""
 
-    error: float = Field(
-        ge=0, le=1e6, description="mean relative error of rms, in lined scenes and in direct contact on patches"
+    error: Annotated[float, Field(ge=0, le=1e6)] | LeftOut = Field(
+        default=None,
+        description="mean relative error of rms, with lining and in direct contact on patches; left out: auto never takes it",
     )
     error_on_points: Annotated[float, Field(ge=0, le=1e6)] | LeftOut = Field(
         default=None, description="the same in direct contact on points, where a run has that"

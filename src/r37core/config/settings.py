@@ -167,7 +167,7 @@ class Settings:
         if self.config.fidelity != "auto":
             return self.config.fidelity
         measured = {name: level.measured for name, level in self.levels.items() if level.measured}
-        errors = {name: self._error(one) for name, one in measured.items()}
+        errors = {name: error for name, one in measured.items() if (error := self._error(one)) is not None}
         chosen = recommended_level(errors, {name: one.cpu_s_per_run for name, one in measured.items()}, self.config.tolerance)
         if chosen is None:
             known = ", ".join(f"{name} {error:g}" for name, error in errors.items()) or "none"
@@ -179,8 +179,8 @@ class Settings:
             )
         return chosen
 
-    def _error(self, measured: Measured) -> float:
-        """What a level was found to be off by in what this run has."""
+    def _error(self, measured: Measured) -> float | None:
+        """What a level was found to be off by in what this run has; None where that was not measured."""
         of_points = measured.error_on_points if self._direct_on_points[0] else None
         return measured.error if of_points is None else of_points
 
@@ -240,8 +240,8 @@ class Settings:
         """What a run should say before it starts."""
         said = []
         measured = self.fidelity.measured
-        if self.config.fidelity == "auto" and measured is not None:
-            error, cost = 100 * self._error(measured), measured.cpu_s_per_run
+        if self.config.fidelity == "auto" and measured is not None and (share := self._error(measured)) is not None:
+            error, cost = 100 * share, measured.cpu_s_per_run
             said.append(f"fidelity auto: level {self.fidelity_name}, measured error {error:g}%, {cost:g} CPU s per run")
         fastest, highest = max(plan.every_speed()[-1] for plan in self.speed_plans.values()), self.structure.maximum_speed_rad_s
         if fastest > highest:
