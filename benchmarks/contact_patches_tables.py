@@ -18,6 +18,7 @@ from contact_patches import (
     FOLDER,
     GRIDS,
     KINDS,
+    LAYERED,
     MASS,
     PERTURBED,
     ROOT,
@@ -30,12 +31,14 @@ from contact_patches import (
     sweep,
 )
 
+from r37core.contact.casing import casing_axes
 from r37core.figures import style
 from r37core.io import write_text
 from r37core.published import INTERACTIONS
 from r37core.rom.contact_model import read_contact_model
 from r37core.rom.reduction_choice import AREA_PATCHES, PATCHES, POINTS
 from r37core.studies.tables import markdown_table
+from r37core.time_integration.static_modes import residual_flexibility
 
 STUDIES = ROOT / "results/studies"
 
@@ -253,6 +256,30 @@ def published_table():
     return markdown_table(head, rows)
 
 
+def flexibility(model):
+    """Normal displacement (um/N) of the leading and of a middle contact node per force on it, by modes beyond the first 32."""
+    contact = read_contact_model(model.file)
+    normal = casing_axes(contact.displacement_operator, contact.tip_cone_angle)[:, :, 32:]
+    static = residual_flexibility(np.sqrt(contact.squared_frequencies[32:]), normal)[0]
+    return 1e6 * np.diag(static)[[0, 3]]
+
+
+def layers_table():
+    """Patches of the line and of the area on meshes with more layers of elements: flexibility (um/N), and rms."""
+    rows, way = [], Way()
+    for blade in ("L100", "S100"):
+        for nodes, layers in ((5000, 1), (STANDARD, 1), (FINEST_MESH, 1), *LAYERED):
+            cells = []
+            for contact in KINDS[1:]:
+                model = Model(blade, nodes, contact, layers=layers)
+                finest = Model(blade, FINEST_MESH, contact)
+                error = "" if model == finest else f"{np.median(errors((model, way), (finest, way))):.2f}%"
+                cells += ["{:.4f}, {:.4f}".format(*flexibility(model)), error]
+            rows.append([blade, f"{nodes:,}", f"{layers}", *cells])
+    head = [f"{contact}: {what}" for contact in ("patches", "area patches") for what in ("flexibility", "rms, median off")]
+    return markdown_table(["blade", "nodes", "layers", *head], rows)
+
+
 def disagreements(page):
     """Published statements that do not agree in a page of the gallery, by their words without numbers."""
     parts = re.findall(r"\*\*Does not agree\*\*.*?:\n\n((?:- .*\n)+)", page)
@@ -315,6 +342,7 @@ def main():
         "published": published_table(),
         "blades": blades_table(),
         "statements": statements_table(),
+        "layers": layers_table(),
     }
     for name, table in tables.items():
         write_text(table, STUDIES / f"contact_patches_{name}.md")
