@@ -33,7 +33,7 @@ with TemporaryDirectory() as name:
     plate = (3, gmsh.model.occ.addBox(-CHORD / 2, -THICKNESS / 2, HUB, CHORD, THICKNESS, LENGTH))
     gmsh.model.occ.rotate([plate], 0, 0, 0, 0, 0, 1, pi / 4)
     gmsh.model.occ.synchronize()
-    gmsh.option.setNumber("Mesh.MeshSizeMax", 2.5)
+    gmsh.option.setNumber("Mesh.MeshSizeMax", 1.5)  # eight patches of the tip need 15 nodes along its edge
     gmsh.option.setNumber("Mesh.ElementOrder", 2)
     gmsh.option.setNumber("Mesh.SecondOrderIncomplete", 1)  # hexahedra of 20 nodes
     gmsh.model.mesh.setTransfiniteAutomatic()

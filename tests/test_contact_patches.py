@@ -13,14 +13,13 @@ from r37core.config import ConfigError, command_line_document, read_settings
 from r37core.exchange.exporting.matrices_out import table_nodes, write_full_matrices, write_reduced_matrices
 from r37core.exchange.importing.matrices_in import import_matrices
 from r37core.exchange.orientation import OURS
-from r37core.exchange.refusal import ImportRefused
 from r37core.fem.material import Material
 from r37core.fem.matrices import assemble
 from r37core.fem.traces import edge_traces, face_traces
 from r37core.rom.contact_weights import contact_weights, mean_places, weights_along
 from r37core.rom.reduce import mean_fields, reduce_blade
 from r37core.rom.reduced_model import contact_model
-from r37core.rom.reduction_choice import BoundaryError
+from r37core.rom.reduction_choice import BoundaryError, boundary_placed
 from r37core.rom.rom_file import read_reduced_model, write_reduced_model
 from r37core.time_integration.integrators import EXACT_MODAL
 from r37core.time_integration.simulate import Simulation
@@ -249,28 +248,38 @@ def test_patches_of_reduced_matrices_keep_every_motion(mesh, matrices, choice, t
         (
             16,
             r"found 16 contact patches on the 29 mesh nodes of the tip line 'pressure_edge'; allowed: at most 15 "
-            r"\(structure\.boundary\.nodes\), because between two patches there must be a node",
+            r"\(structure\.boundary\.nodes\), because between two patches there must be a node; or contact: points, or a",
         ),
         (200, "found 200 contact patches .* allowed: at most 15"),
     ],
 )
-@pytest.mark.parametrize("contact", KINDS)
-def test_more_patches_than_the_edge_has_nodes_for(mesh, contact, count, message):
+def test_more_patches_than_the_edge_has_nodes_for(mesh, count, message):
     with pytest.raises(BoundaryError, match=message):
-        contact_weights(mesh, replace(PATCHES, nodes=count, contact=contact))
+        contact_weights(mesh, replace(PATCHES, nodes=count))
+    with pytest.raises(BoundaryError, match="on the 29 mesh nodes, one behind the other, of the tip; allowed: at most 15"):
+        contact_weights(mesh, replace(PATCHES, nodes=count, contact="area_patches"))
+
+
+def test_area_patches_do_not_ask_for_nodes_on_the_tip_line(mesh):
+    """Nor depend on it: those of the camber line are half as many as those of the edges."""
+    lines = [replace(PATCHES, nodes=12, contact="area_patches", tip_line=line) for line in ("camber", "suction_edge")]
+    one, other = (contact_weights(mesh, choice).toarray() for choice in lines)
+    np.testing.assert_array_equal(one, other)
+    with pytest.raises(BoundaryError, match="on the 15 mesh nodes of the tip line 'camber'; allowed: at most 8"):
+        contact_weights(mesh, replace(PATCHES, nodes=12, tip_line="camber"))
 
 
 def test_matrices_without_the_nodes_for_patches(mesh, matrices, model, directory, choice, tmp_path):
     write_reduced_matrices(model, SPEEDS, tmp_path)
     source = MatricesSource(str(tmp_path), OURS)
-    with pytest.raises(
-        ImportRefused,
-        match=r"boundary\.csv: found 8 contact patches on the 8 mesh nodes .* allowed: at most 4",
-    ) as told:
+    message = r"found 8 contact patches on the 8 nodes of boundary\.csv; allowed: at most 4 .* or contact: points"
+    with pytest.raises(BoundaryError, match=message):
         import_matrices(source, replace(choice, boundary=replace(PATCHES, nodes=8)))
-    assert told.value.key == "contact"
-    with pytest.raises(ImportRefused, match="area_patches with matrices, which say nothing of the tip's face"):
+    with pytest.raises(BoundaryError, match="area_patches with matrices, which say nothing of the tip's face"):
         import_matrices(source, replace(choice, boundary=replace(PATCHES, contact="area_patches")))
+    single = replace(PATCHES, nodes=1)
+    with pytest.raises(BoundaryError, match=r"on the 1 nodes .* allowed: none .* because a patch is made of two or more"):
+        weights_along(np.array([[0.25, 0.0, 0.0]]), np.array([0.5]), single)
 
 
 BLADES = """
@@ -316,6 +325,19 @@ def test_direct_contact_on_points_is_told_at_the_end(with_blades):
     assert told(structure={"boundary": {"contact": "patches"}}) == []
 
 
+def test_the_place_that_chose_is_blamed(with_blades):
+    settings = read_settings(with_blades)
+    assert settings.place_of_contact("Kept").endswith(": Kept.contact")
+    assert settings.place_of_contact("Kept").startswith("config/blades.yaml:")
+    given = read_settings(with_blades, command_line_document({"structure": {"boundary": {"contact": "patches"}}}))
+    assert given.place_of_contact("Kept") == "--config: structure.boundary.contact"
+    with (
+        pytest.raises(BoundaryError, match=r"^--config: structure\.boundary\.contact: no room"),
+        boundary_placed(given.place_of_contact("Kept")),
+    ):
+        raise BoundaryError("no room")
+
+
 @pytest.mark.parametrize(
     ("changes", "message"),
     [
@@ -325,7 +347,7 @@ def test_direct_contact_on_points_is_told_at_the_end(with_blades):
             r"blade 'Ref': found 44 contact patches on the 85 mesh",
         ),
         (
-            {"structure": {"boundary": {"nodes": 23, "contact": "area_patches", "tip_line": "camber"}}},
+            {"structure": {"boundary": {"nodes": 23, "contact": "patches", "tip_line": "camber"}}},
             r"found 23 contact patches on the 43 mesh nodes of the tip line 'camber'; allowed: at most 22",
         ),
         (

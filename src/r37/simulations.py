@@ -123,7 +123,7 @@ def _response(settings: Settings) -> xr.Dataset:
     ((blade, scene), plan), *_ = settings.speed_plans.items()
     at, sweep = SimpleNamespace(blade=blade, scene=scene), Sweep(settings)
     for remark in [*settings.remarks_on_casings, *settings.remarks_on_points]:
-        warnings.warn(remark, stacklevel=4)
+        warnings.warn(remark, stacklevel=3)
     chosen, material, structure = settings.scenes[scene], settings.blades[blade].material, StructureFiles(settings, blade)
     model = read_contact_model(structure.contact_model(chosen.tip_line))
     recovery = None

@@ -15,7 +15,7 @@ from r37core.config import Settings, plain, si_fields
 from r37core.exchange.importing.source import MatricesSource, MeshSource
 from r37core.plain import to_plain
 from r37core.plans.code import CodeHashes
-from r37core.rom.reduction_choice import ReductionChoice
+from r37core.rom.reduction_choice import ReductionChoice, boundary_placed
 
 from .structure_cache import cached_file
 
@@ -52,6 +52,10 @@ class StructureFiles:
 
     def _reduced(self, tip_line: str) -> tuple[Path, object]:
         """The reduced model, and what it is made of."""
+        with boundary_placed(self.settings.place_of_contact(self.name)):
+            return self._made_of(tip_line)
+
+    def _made_of(self, tip_line: str) -> tuple[Path, object]:
         blade = self.settings.blades[self.name]
         choice = self.settings.reduction_choice(self.name, tip_line)
         if isinstance(blade.definition, MatricesSource):

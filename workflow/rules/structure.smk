@@ -106,6 +106,7 @@ rule reduced_model:
     params:
         material=structure.elastic,
         reduction=structure.reduction,
+        contact=structure.place_of_contact,
         made_before=structure.made_before,
         provenance=made.structure,
         code=code("reduced_model"),
@@ -132,6 +133,7 @@ rule imported_matrices:
         folder=imported.folder,
         places=imported.places,
         reduction=structure.reduction,
+        contact=structure.place_of_contact,
         provenance=made.structure,
         code=code("imported_matrices"),
     script:

@@ -8,7 +8,7 @@ from r37core.fem.matrices import assemble
 from r37core.mesh.mesh_files import read_vtu
 from r37core.plain import from_plain
 from r37core.rom.reduce import reduce_blade
-from r37core.rom.reduction_choice import ReductionChoice
+from r37core.rom.reduction_choice import ReductionChoice, boundary_placed
 from r37core.rom.rom_file import write_reduced_model
 
 
@@ -22,7 +22,8 @@ def main(snakemake):
     mesh = read_vtu(snakemake.input[0])
     matrices = assemble(mesh, from_plain(Material, params.material))
     print(f"mass {matrices.total_mass:.6g} kg, {3 * len(matrices.free_nodes)} free degrees of freedom")
-    model = reduce_blade(mesh, matrices, from_plain(ReductionChoice, params.reduction))
+    with boundary_placed(params.contact["place"]):
+        model = reduce_blade(mesh, matrices, from_plain(ReductionChoice, params.reduction))
     print(f"{model.columns} columns, {model.size} independent at {model.tolerance:g}")
     write_reduced_model(model, snakemake.output[0], params.provenance | {"recipe": recipe})
 

@@ -13,7 +13,7 @@ import numpy as np
 from r37core.alignment import padded
 from r37core.blade.definition import BladeDefinition
 from r37core.exchange.importing.source import MatricesSource
-from r37core.rom.reduction_choice import AREA_PATCHES, POINTS, BoundaryError, check_patches
+from r37core.rom.reduction_choice import AREA_PATCHES, PATCHES, POINTS, BoundaryError, check_patches
 from r37core.run_ups.choice import RunUpError, check_highest
 from r37core.time_integration.integration_choice import LARGEST_TABLE
 from r37core.time_integration.integrators import EXACT_MODAL
@@ -278,12 +278,12 @@ def tips_have_room_for_patches(settings: Settings) -> None:
             if boundary.contact == POINTS or not isinstance(blade.definition, BladeDefinition):
                 continue
             # between two layers, or on a face, the edges of elements have nodes in their middle; inside a layer there are none
-            inside = tip_line == "camber" and mesh.layers % 2
+            inside = tip_line == "camber" and mesh.layers % 2 and boundary.contact == PATCHES
             nodes = mesh.tip_elements + 1 if inside else 2 * mesh.tip_elements + 1
             try:
-                check_patches(boundary, np.linspace(0.0, 1.0, nodes))
+                check_patches(boundary, np.linspace(0.0, 1.0, nodes), f"mesh nodes of the tip line '{tip_line}'")
             except BoundaryError as error:
-                raise document.error(("structure", "boundary", "nodes"), f"blade '{name}': {error}") from None
+                raise document.error(("structure", "boundary", "nodes"), f"blade '{name}': {error} (tip_elements)") from None
 
 
 def coriolis_can_be_carried(settings: Settings) -> None:

@@ -21,6 +21,7 @@ from r37core.rom.reduction_choice import POINTS, ReductionChoice
 from r37core.run_ups.choice import RunUpChoice
 from r37core.speeds import SpeedError, SpeedPlan
 from r37core.time_integration.integration_choice import IntegrationChoice
+from r37core.yaml_file import KeyPath
 
 from .blades import BladeSettings, blade_settings
 from .config_file import CampbellSection, Config, Interactions, RefinementSection, StructureSection
@@ -309,6 +310,13 @@ class Settings:
         """What a blade's reduced model is made of, with contact nodes on `tip_line` or on that of config.yaml."""
         own = self.blades[blade]
         return self.structure.reduction(self.fidelity.reduction, own.contact, tip_line, own.stress_submesh)
+
+    def place_of_contact(self, blade: str) -> str:
+        """Where stands what a blade's contact acts on, as `file:line: key`."""
+        path: KeyPath = ("structure", "boundary", "contact")
+        if self.structure.boundary.contact is not None:
+            return f"{self.documents.config.place(path)}: {'.'.join(map(str, path))}"
+        return f"{self.documents.blades.place((blade, 'contact'))}: {blade}.contact"
 
     def results_of(self, blade: str, scene: str) -> tuple[str, ...]:
         """What is wanted of a scene, as far as the blade can give it: matrices have no stress, nor shapes."""

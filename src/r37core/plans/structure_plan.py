@@ -42,6 +42,10 @@ class Structure:
         pattern = REDUCED_MODEL.replace("<results>", str(RESULTS))
         return Attributes(file=fill(pattern, blade=wildcards.blade, tip_line=wildcards.tip_line))
 
+    def place_of_contact(self, wildcards: Any) -> Attributes:
+        """Where stands what a blade's contact acts on; another line re-runs nothing."""
+        return Attributes(place=self.settings.place_of_contact(wildcards.blade))
+
     def reduction(self, wildcards: Any) -> dict[str, Any]:
         """What the reduced model is made of, with contact nodes on the line that the wildcard names."""
         return to_plain(self.settings.reduction_choice(wildcards.blade, wildcards.tip_line))

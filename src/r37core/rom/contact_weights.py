@@ -29,12 +29,13 @@ def contact_weights(mesh: BladeMesh, choice: BoundaryChoice) -> sp.csr_array:
     if choice.contact == POINTS:
         nodes = boundary_nodes(mesh, choice)
         return sp.csr_array((np.ones(len(nodes)), (np.arange(len(nodes)), nodes)), shape=(len(nodes), len(mesh.points)))
-    line, chord = mesh.node_set(TIP_LINES[choice.tip_line]), mesh.parameters[:, 0]
-    check_patches(choice, chord[line])
-    if choice.contact == AREA_PATCHES:
+    line, tip, chord = mesh.node_set(TIP_LINES[choice.tip_line]), mesh.node_set("tip"), mesh.parameters[:, 0]
+    if choice.contact == AREA_PATCHES and len(line):
+        check_patches(choice, np.unique(np.round(chord[tip], 6)), "mesh nodes, one behind the other, of the tip")
         members = np.zeros(len(mesh.points), dtype=bool)
-        members[mesh.node_set("tip")] = True
+        members[tip] = True
         return _means(choice, chord, face_traces(mesh.points, mesh.blocks, members))
+    check_patches(choice, chord[line], f"mesh nodes of the tip line '{choice.tip_line}'")
     return _means(choice, chord, _line_traces(mesh, line))
 
 
@@ -43,7 +44,7 @@ def weights_along(points: np.ndarray, chord: np.ndarray, choice: BoundaryChoice)
 
     `points` (m), shape (nodes, 3), and fractions `chord` of the line's length. Raises BoundaryError for too few nodes.
     """
-    check_patches(choice, chord)
+    check_patches(choice, chord, "nodes of boundary.csv")
     numbers = np.arange(len(points))
     return _means(choice, chord, [chain_trace(points, np.stack([numbers[:-1], numbers[1:]], axis=1))])
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 
 import numpy as np
@@ -60,21 +62,32 @@ def boundary_nodes(mesh: BladeMesh, choice: BoundaryChoice) -> np.ndarray:
     return line[nearest]
 
 
-def check_patches(choice: BoundaryChoice, chord: np.ndarray) -> None:
-    """BoundaryError unless a tip line, nodes at fractions `chord` of it, has a node between any two neighbouring patches."""
+def check_patches(choice: BoundaryChoice, chord: np.ndarray, of: str) -> None:
+    """BoundaryError unless a node lies between any two neighbouring patches.
+
+    `chord`: fractions of the chord of the nodes that patches are made `of`, in words.
+    """
     if _resolves(choice, choice.nodes, chord):
         return
     most = max((count for count in range(1, choice.nodes) if _resolves(choice, count, chord)), default=0)
-    allowed = f"at most {most}" if most else "none"
+    reason = "because between two patches there must be a node" if most else "because a patch is made of two or more"
     raise BoundaryError(
-        f"found {choice.nodes} contact patches on the {len(chord)} mesh nodes of the tip line '{choice.tip_line}'; allowed: "
-        f"{allowed} (structure.boundary.nodes), because between two patches there must be a node; or a finer tip (tip_elements "
-        "of the fidelity level, or the mesh itself), or structure.boundary.contact: points"
+        f"found {choice.nodes} contact patches on the {len(chord)} {of}; allowed: {f'at most {most}' if most else 'none'} "
+        f"(structure.boundary.nodes), {reason}; or contact: points, or a finer tip"
     )
 
 
+@contextmanager
+def boundary_placed(place: str) -> Iterator[None]:
+    """Put in front of a BoundaryError where what contact acts on is chosen, as `file:line: key`."""
+    try:
+        yield
+    except BoundaryError as error:
+        raise BoundaryError(f"{place}: {error}") from None
+
+
 def _resolves(choice: BoundaryChoice, count: int, chord: np.ndarray) -> bool:
-    """Whether the line has two nodes for each patch, one of them between it and the next."""
+    """Whether there are two nodes for each patch, one of them between it and the next."""
     positions = choice.positions(count)
     following = np.searchsorted(positions, chord)
     at_one = np.isclose(chord[:, None], positions).any(axis=1)

@@ -20,9 +20,9 @@ def blade_parameters(
     `points` (m), shape (nodes, 3), in the blade's frame; `root` and `tip`: node numbers. Span is the distance to the root
     over that to root and tip. Each section (nodes of like span) has a chord, the longest principal axis of its nodes across
     the blade's height, pointing downstream, and a normal, the shortest, from the pressure to the suction side; chord and
-    thickness are the place between the section's extremes along them. They serve the names of the modes and pictures, not the
-    mechanics. `pressure_forward`: whether the pressure side looks towards the rotation. Raises ImportRefused for a mesh with
-    too few nodes for sections.
+    thickness are the place between the section's extremes along them. They serve the names of the modes and pictures; of the
+    mechanics only the weights of area patches, along the chord. `pressure_forward`: whether the pressure side looks towards the
+    rotation. Raises ImportRefused for a mesh with too few nodes for sections.
     """
     to_root, _ = cKDTree(points[root]).query(points)
     to_tip, _ = cKDTree(points[tip]).query(points)

@@ -65,7 +65,8 @@ def import_matrices(source: MatricesSource, choice: ReductionChoice, folder: Pat
 
     With contact on points the contact nodes are those of the table; patches, as many as `choice` says, are made of them.
     Raises ImportRefused for files that do not fit together, matrices that are not symmetric, and a stiffness that is not
-    linear in the squared speed. Spin softening and Coriolis terms must be in the matrices already: they are not added.
+    linear in the squared speed; BoundaryError for patches that the table has too few nodes for. Spin softening and Coriolis
+    terms must be in the matrices already: they are not added.
     """
     with blamed("matrices"):
         files = matrix_files(source.folder, Path(folder))
@@ -126,19 +127,15 @@ def _reduced(given: _Given, choice: ReductionChoice) -> ReducedModel:
 
 
 def _contact_weights(points: np.ndarray, chord: np.ndarray, choice: BoundaryChoice) -> sp.csr_array:
-    """Weights of the table's nodes in the contact nodes' displacements; ImportRefused where it has too few for patches."""
+    """Weights of the table's nodes in the contact nodes' displacements."""
     if choice.contact == POINTS:
         return sp.csr_array(sp.eye_array(len(points)))
     if choice.contact == AREA_PATCHES:
-        raise ImportRefused(
-            "found contact: area_patches with matrices, which say nothing of the tip's face; allowed: points, or patches "
-            "of the nodes in boundary.csv",
-            "contact",
+        raise BoundaryError(
+            "found area_patches with matrices, which say nothing of the tip's face; allowed: points, or patches of the nodes "
+            "in boundary.csv"
         )
-    try:
-        return weights_along(points, chord, choice)
-    except BoundaryError as error:
-        raise ImportRefused(f"boundary.csv: {error}", "contact") from None
+    return weights_along(points, chord, choice)
 
 
 def _check_positive(mass: np.ndarray, stiffness: np.ndarray) -> None:
