@@ -17,12 +17,15 @@ from r37core.alignment import LANES, padded
 
 from .step_limit import UnstableStepError
 
+SETTLES_SOON = 0.2
+"""Definiteness of G with which the sweeps over the nodes settle soon: taken wherever some choice of modes has it."""
+
 SMALLEST_DEFINITENESS = 0.05
-"""Of G, so that the sweeps over the nodes settle."""
+"""Of G otherwise, so that the sweeps settle."""
 
 SHARE_WITH_FRICTION = 0.2
-"""What friction has to leave of the definiteness without it. That is 0.9 of nodes of the mesh, and 0.1 to 0.4 of patches, whose
-neighbours static modes move together."""
+"""And what friction has to leave of the definiteness without it. That is 0.9 of nodes of the mesh, and 0.1 to 0.4 of patches,
+whose neighbours static modes move together: the closer they are, the less."""
 
 LARGEST_EIGENVALUE = 1.6
 """Of D^-1 G, up to which nodes take the whole change in a sweep; sweeps diverge from 2 on."""
@@ -97,8 +100,14 @@ def stepped_modes(
     """
     modes = len(frequencies)
 
+    def of_static(stepped: int) -> np.ndarray:
+        return residual_flexibility(frequencies[stepped:], rows[..., stepped:])
+
+    def settles_soon(stepped: int) -> bool:
+        return definiteness(of_static(stepped), coefficient) > SETTLES_SOON
+
     def is_unique(stepped: int, friction: float = coefficient) -> bool:
-        flexibility = residual_flexibility(frequencies[stepped:], rows[..., stepped:])
+        flexibility = of_static(stepped)
         least = max(SMALLEST_DEFINITENESS, SHARE_WITH_FRICTION * definiteness(flexibility, 0.0))
         return definiteness(flexibility, friction) > least
 
@@ -111,10 +120,11 @@ def stepped_modes(
     fewer = [count for count in reversed(counts) if count < wanted]
     too_fast = [count for count in counts if count > max(at_most, 1)]
     unstable = None
-    for stepped in filter(is_unique, (*more, *fewer)):
-        if is_stable(stepped):
-            return stepped
-        unstable = unstable or stepped
+    for is_enough in (settles_soon, is_unique):
+        for stepped in filter(is_enough, (*more, *fewer)):
+            if is_stable(stepped):
+                return stepped
+            unstable = unstable or stepped
     if unstable is not None:
         # the step is refused or shortened
         return unstable
