@@ -73,7 +73,7 @@ from r37core.rom.reduce import reduce_blade
 
 level = settings.fidelity
 mesh = generate_mesh(blade, nodes=level.mesh.nodes, layers=level.mesh.layers, tip_elements=level.mesh.tip_elements)
-model = reduce_blade(mesh, assemble(mesh, reference.material), settings.reduction_choice())
+model = reduce_blade(mesh, assemble(mesh, reference.material), settings.reduction_choice("Ref"))
 print(f"{mesh.points.shape[0]} nodes, {model.size} coordinates")
 
 with TemporaryDirectory() as folder:
