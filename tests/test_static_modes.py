@@ -190,3 +190,27 @@ def test_forces_settle_where_static_modes_move_all_nodes_together(shared):
         assert state.totals["steps_in_contact"] > 0.1 * state.totals["steps"]
         assert state.totals["worst_complementarity"] == 0.0
     np.testing.assert_allclose(*found, rtol=0, atol=1e-6 * np.abs(found[1]).max())
+
+
+def close_patches(smallest, slow=16):
+    """Frequencies and rows of modes, of which the static ones move four nodes mostly together: `smallest` eigenvalue."""
+    nodes = 4
+    flexibility = smallest * np.eye(nodes) + (1.0 - smallest)
+    static = np.stack([np.linalg.cholesky(flexibility), np.zeros((nodes, nodes)), np.zeros((nodes, nodes))])
+    rows = np.concatenate([1e-3 * np.ones((3, nodes, slow)), 1e4 * static], axis=-1)
+    return np.concatenate([np.linspace(1e4, 1e5, slow), np.full(nodes, 1e8)]), rows
+
+
+def test_nodes_that_static_modes_move_together_need_less_definiteness():
+    """Patches close to each other: forces are unique, though sweeps take longer; below a twentieth modes are too few."""
+    for smallest in (0.5, 0.1):
+        assert stepped_modes(*close_patches(smallest), 0.0, 1e-5, 1.0, 20) == 16
+    with pytest.raises(TooFewStaticModesError):
+        stepped_modes(*close_patches(0.04), 0.0, 1e-5, 1.0, 20)
+
+
+def test_fewer_modes_are_stepped_where_pressed_nodes_would_be_unstable():
+    frequencies, rows = close_patches(0.5)
+    assert stepped_modes(frequencies, rows, 0.0, 1e-5, 1.0, 20, lambda stepped: stepped <= 8) == 8
+    # where none is stable it is for the step to be shorter
+    assert stepped_modes(frequencies, rows, 0.0, 1e-5, 1.0, 20, lambda stepped: False) == 16
