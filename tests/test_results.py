@@ -232,10 +232,11 @@ def test_every_blade_and_scene_has_its_own_slab(sweep, tmp_path):
             stress_history_speeds=(),
             stress_instants=31,
             yield_stress=1.0,
-            provenance={"numerics": "20000 nodes"},
+            provenance={"numerics": "20000 nodes", "contact": "points" if key[0] == "A" else "patches"},
         )
     write_sweep_dataset("rms", files, tmp_path / "rms.nc", {})
     with xr.open_dataset(tmp_path / "rms.nc") as dataset:
+        assert dataset.attrs["contact"] == "points: A; patches: B"
         np.testing.assert_array_equal(dataset["speed"], [900.0, 950.0, 951.0, 952.0, 953.0])
         for (blade, scene), factor in factors.items():
             slab = dataset["rms_normal"].sel(blade=blade, scene=scene)

@@ -49,11 +49,10 @@ class Provenance:
 
     def _structure_of(self, blade: str) -> Attributes:
         settings = self._settings
-        boundary = settings.reduction_choice(blade).boundary
         return Attributes(
             blade=blade,
             fidelity=settings.fidelity_name,
-            contact=f"{boundary.contact} of {boundary.tip_line}",
+            contact=settings.reduction_choice(blade).boundary.contact,
             input_hash=settings.structure_hash(blade),
         )
 

@@ -39,8 +39,9 @@ def write_sweep_dataset(
     """Join one kind of result (a key of DATASETS) of the responses, keyed by (blade, scene), into (blade, scene, speed, ...).
 
     Speeds are the union; where a blade and scene was not run at one, floats are NaN and `status` says not_run. One
-    response's slab is in memory at a time. Raises InputFileError for a response that cannot be read, and for two of different
-    `numerics` (attribute of a response): mesh, integrator and step of a fidelity level.
+    response's slab is in memory at a time. The attribute `contact` says what contact of which blade acts on. Raises
+    InputFileError for a response that cannot be read, and for two of different `numerics` (attribute of a response): mesh,
+    integrator and step of a fidelity level.
     """
     blades = list(dict.fromkeys(blade for blade, _ in responses))
     scenes = list(dict.fromkeys(scene for _, scene in responses))
@@ -50,9 +51,12 @@ def write_sweep_dataset(
         axes = _axes(responses)
         for name, labels in (("blade", blades), ("scene", scenes), ("tip_point", TIP_POINTS)):
             create_labels(target, name, labels)
+        contacts: dict[str, dict[str, None]] = {}
         for (blade, scene), source in responses.items():
             with readable(source), netCDF4.Dataset(source) as response:
+                contacts.setdefault(getattr(response, "contact", "unknown"), {})[blade] = None
                 _copy(response, target, kind, (blades.index(blade), scenes.index(scene)), axes)
+        target.setncattr("contact", "; ".join(f"{contact}: {', '.join(of)}" for contact, of in contacts.items()))
 
 
 def response_of(datasets: Mapping[str, xr.Dataset], blade: str, scene: str) -> xr.Dataset:
