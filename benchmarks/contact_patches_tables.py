@@ -135,6 +135,24 @@ def convergence_table(scene):
     return markdown_table(["what", "against", "points", "patches", "area patches"], rows)
 
 
+def worst_table():
+    """Direct contact at 20,000 nodes against the finest mesh, at the worst speeds of each blade, settled and not."""
+    rows, way, speeds = [], Way(), GRIDS["all"]
+    for blade in BLADES:
+        cells = []
+        for contact in KINDS[:2]:
+            model, mask = Model(blade, contact=contact), settled(Model(blade, contact=contact), way)
+            error = 100.0 * np.abs(rms(model, way) / rms(Model(blade, FINEST_MESH, contact), way) - 1.0)
+            top = int(np.argmax(np.where(mask, error, 0.0)))
+            cells += [
+                f"{mask.sum()}: {error[mask].mean():.1f}, {error[top]:.0f} at {speeds[top]:g}",
+                f"{(~mask).sum()}: {np.median(error[~mask]):.1f}, {error[~mask].max():.0f}",
+            ]
+        rows.append([blade, *cells])
+    head = [f"{contact}, {what}" for contact in KINDS[:2] for what in ("settled: mean, largest", "others: median, largest")]
+    return markdown_table(["blade", *head], rows)
+
+
 def levels_table():
     """How far each level is from the finest mesh, by blade: mean and 90% quantile at settled speeds, in percent."""
     levels = {
@@ -335,6 +353,7 @@ def figure():
 def main():
     tables = {
         "convergence": "\n".join(f"`{scene}`\n\n{convergence_table(scene)}" for scene in ("direct", "abradable")),
+        "worst": worst_table(),
         "levels": levels_table(),
         "branches": branches_table(),
         "stiffness": stiffness_table(),

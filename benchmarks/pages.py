@@ -22,7 +22,7 @@ TABLES = {
         "contact": "contact_accuracy_summary.md",
         **{
             f"patches_{name}": f"contact_patches_{name}.md"
-            for name in ("convergence", "levels", "published", "blades", "statements", "layers", "stiffness", "peaks")
+            for name in ("convergence", "worst", "levels", "published", "blades", "statements", "layers", "stiffness", "peaks")
         },
     },
     "accuracy_tables": {

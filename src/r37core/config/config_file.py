@@ -48,18 +48,13 @@ class StructureSection(Section):
     ) -> ReductionChoice:
         """The reduced model of a level's size, with contact nodes on `tip_line` or on that of the section `boundary`.
 
-        `contact`: what a blade's contact acts on, where the section leaves it open. Stress is recovered on `stress_submesh`, or
-        where the section of this name says. Its basis is computed at rest, at half the maximum speed and at the maximum speed.
+        `contact`: what contact acts on. Stress is recovered on `stress_submesh`, or where the section of this name says. Its
+        basis is computed at rest, at half the maximum speed and at the maximum speed.
         """
         return in_si(
             ReductionChoice,
             self,
-            boundary=in_si(
-                BoundaryChoice,
-                self.boundary,
-                tip_line=tip_line or self.boundary.tip_line,
-                contact=self.boundary.contact or contact,
-            ),
+            boundary=in_si(BoundaryChoice, self.boundary, tip_line=tip_line or self.boundary.tip_line, contact=contact),
             speeds=(0.0, 0.5 * self.maximum_speed_rad_s, self.maximum_speed_rad_s),
             stress_submesh=stress_submesh or stress_region(self.stress_submesh),
             **si_fields(size),

@@ -189,8 +189,8 @@ class Settings:
     def _direct_on_points(self) -> tuple[list[str], list[str]]:
         """Scenes without lining and blades whose contact acts on points of a mesh; none of both where one is missing."""
         scenes = [name for name in self.scene_names if self.scene_entries[name].lining is None]
-        meshed = {name: blade for name, blade in self.blades.items() if not isinstance(blade.definition, MatricesSource)}
-        blades = [name for name, blade in meshed.items() if (self.structure.boundary.contact or blade.contact) == POINTS]
+        meshed = [name for name, blade in self.blades.items() if not isinstance(blade.definition, MatricesSource)]
+        blades = [name for name in meshed if self.contact_of(name) == POINTS]
         return (scenes, blades) if scenes and blades else ([], [])
 
     @property
@@ -308,8 +308,12 @@ class Settings:
 
     def reduction_choice(self, blade: str, tip_line: str | None = None) -> ReductionChoice:
         """What a blade's reduced model is made of, with contact nodes on `tip_line` or on that of config.yaml."""
-        own = self.blades[blade]
-        return self.structure.reduction(self.fidelity.reduction, own.contact, tip_line, own.stress_submesh)
+        submesh = self.blades[blade].stress_submesh
+        return self.structure.reduction(self.fidelity.reduction, self.contact_of(blade), tip_line, submesh)
+
+    def contact_of(self, blade: str) -> str:
+        """What a blade's contact acts on: as config.yaml says for all of them, else as its own entry does."""
+        return self.structure.boundary.contact or self.blades[blade].contact
 
     def place_of_contact(self, blade: str) -> str:
         """Where stands what a blade's contact acts on, as `file:line: key`."""

@@ -52,7 +52,7 @@ class Provenance:
         return Attributes(
             blade=blade,
             fidelity=settings.fidelity_name,
-            contact=settings.reduction_choice(blade).boundary.contact,
+            contact=settings.contact_of(blade),
             input_hash=settings.structure_hash(blade),
         )
 

@@ -45,7 +45,7 @@ def reduce_blade(mesh: BladeMesh, matrices: StructuralMatrices, choice: Reductio
         return RecoveryNodes(of, mesh.points[of], whole[of], rotated[of])
 
     line, chord = mesh.node_set(TIP_LINES[choice.boundary.tip_line]), mesh.parameters[:, 0]
-    stress_blocks = choice.stress_submesh.elements(mesh, np.unique(weights.indices))
+    stress_blocks = choice.stress_submesh.elements(mesh, weights.indices)
     stress_nodes = np.unique(np.concatenate([np.empty(0, int), *(nodes.ravel() for nodes in stress_blocks.values())]))
     shapes = {name: shape[matrices.free_nodes].ravel() for name, shape in ideal_shapes(mesh).items()}
     mass_times_vectors, at_rest = mass @ vectors, projected(stiffness, vectors)

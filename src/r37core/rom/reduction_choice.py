@@ -15,7 +15,7 @@ class BoundaryError(ValueError):
     """Boundary nodes that the mesh does not have."""
 
 
-POINTS, PATCHES, AREA_PATCHES = CONTACTS = ("points", "patches", "area_patches")
+POINTS, PATCHES, AREA_PATCHES = "points", "patches", "area_patches"
 """What contact acts on: nodes of the mesh, patches of the tip line, or patches of the tip's whole face."""
 
 
@@ -23,8 +23,8 @@ POINTS, PATCHES, AREA_PATCHES = CONTACTS = ("points", "patches", "area_patches")
 class BoundaryChoice:
     """Where the contact nodes lie: the tip line (a key of TIP_LINES), how many, and whether the corners are among them.
 
-    With corners, node i of n lies at i/(n-1) of the chord; without, at (i + 1/2)/n. `contact`: one of CONTACTS; see
-    r37core.rom.contact_weights.
+    With corners, node i of n lies at i/(n-1) of the chord; without, at (i + 1/2)/n. `contact`: POINTS, PATCHES or
+    AREA_PATCHES; see r37core.rom.contact_weights.
     """
 
     tip_line: str
