@@ -35,7 +35,6 @@ def test_the_version_is_the_one_that_the_console_was_written_for(root):
         (types.OutputSettings, "dryrun"),
         (types.OutputSettings, "verbose"),
         (types.DAGSettings, "targets"),
-        (types.ExecutionSettings, "lock"),
         (types.DeploymentSettings, "deployment_method"),
     ],
 )

@@ -1,7 +1,6 @@
 """What a user sees when something goes wrong: one clear line, and a way on."""
 
 import dataclasses
-import json
 import os
 import shutil
 import signal
@@ -93,26 +92,28 @@ def test_too_little_memory_is_said_as_such(folder, capsys):
 
 
 def test_the_lock_of_a_killed_run_is_lifted(folder):
-    locks = folder / ".snakemake/locks"
+    locks, records = folder / ".snakemake/locks", folder / ".snakemake/r37_running"
     locks.mkdir()
-    assert lock.lift_stale() == []
     (locks / "0.input.lock").write_text("x")
-    assert lock.lift_stale() == []  # nobody said whose it is
-    lock.claim()
-    assert lock.lift_stale() == []  # this process, alive
+    assert lock.enter() == []  # nobody said whose it is
+    (mine,) = records.iterdir()
+    pid, _, host = mine.name.split("_", 2)
+    assert lock.enter() == []  # this process, alive
+    for other in (f"{os.getppid()}", f"{pid}_1_elsewhere", "x", "_1_" + host):
+        (records / other).touch()
+        assert lock.enter() == []  # another machine, which cannot be asked, or none of ours
+        (records / other).unlink()
+    living = lock._identity(os.getppid())
+    (records / living).touch()
+    (records / f"{pid}_1_{host}").touch()
+    assert lock.enter() == []  # one that lives
     assert locks.exists()
-    holder = folder / ".snakemake/r37_running.json"
-    mine = json.loads(holder.read_text())
-    holder.write_text(json.dumps(mine | {"host": "elsewhere", "began": "1"}))
-    assert lock.lift_stale() == []  # another machine, which cannot be asked
-    for odd in ("[]", "{}", '{"pid": null}', "{"):
-        holder.write_text(odd)
-        assert lock.lift_stale() == []  # cut short, or not ours
-        lock.release()
-    holder.write_text(json.dumps(mine | {"began": "1"}))
-    assert "was killed" in lock.lift_stale()[0]
+    (records / living).unlink()
+    assert "was killed" in lock.enter()[0]
     assert not locks.exists()
-    assert not holder.exists()
+    assert [*records.iterdir()] == [mine]
+    lock.release()
+    assert not any(records.iterdir())
 
 
 def test_another_trees_package_is_refused(root, tmp_path):
@@ -298,7 +299,8 @@ def test_environments_of_conda_are_refused_before_one_is_made(root, tmp_path):
 
 
 @pytest.mark.slow
-def test_a_killed_run_goes_on_with_the_same_command(root, tmp_path):
+@pytest.mark.parametrize("wait", [0.0, 1.0])
+def test_a_killed_run_goes_on_with_the_same_command(root, tmp_path, wait):
     copy_stubbed(root, tmp_path)
     slow = tmp_path / "workflow/scripts/geometry.py"
     slow.write_text("import time\ntime.sleep(30)\n" + slow.read_text())
@@ -306,10 +308,10 @@ def test_a_killed_run_goes_on_with_the_same_command(root, tmp_path):
     command = [SNAKEMAKE, "results/Ref/geometry.nc", "--cores", "1"]
     first = subprocess.Popen(command, cwd=tmp_path, env=environment, stderr=subprocess.DEVNULL, start_new_session=True)
     for _ in range(600):
-        if (tmp_path / ".snakemake/r37_running.json").exists():
+        if any((tmp_path / ".snakemake/locks").glob("*")):
             break
-        time.sleep(0.2)
-    time.sleep(1.0)
+        time.sleep(0.01)
+    time.sleep(wait)
     os.killpg(first.pid, signal.SIGKILL)
     first.wait()
     slow.write_text(slow.read_text().replace("time.sleep(30)", ""))

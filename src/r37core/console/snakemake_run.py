@@ -49,8 +49,6 @@ class Console:
         with _refused(self.refusal):
             check_part(self.settings, self.workflow.dag_settings.targets)
             check_asked(self.settings, self.workflow.dag_settings.targets)
-        if self.workflow.execution_settings.lock:
-            lock.claim()
         # Snakemake keeps to a number of jobs per second by timers, one more for every job that ends while others wait: a
         # quarter of a core in the default sweep. The limit is for the queues of clusters
         if self.workflow.local_exec:
@@ -92,7 +90,8 @@ def begin(workflow: Any, logger: logging.Logger, refusal: Refusal, root: Path, v
         settings = settings_of_run(
             Path(workflow.basedir), given.configfiles, given.config, above, only_given=given.replace_workflow_config
         )
-    for line in [*lock.lift_stale(), *settings.remarks, *replaced_level(settings)]:
+    lifted = lock.enter() if workflow.is_main_process else []
+    for line in [*lifted, *settings.remarks, *replaced_level(settings)]:
         logger.info(line)
     if not (os.environ.get("R37_FULL_LOG") or output.dryrun or output.verbose):
         quieten(logger.handlers, Progress(Sweep(settings).most_runs + settings.most_of_members))
