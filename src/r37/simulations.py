@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import tempfile
 import warnings
 from collections.abc import Iterable, Sequence
@@ -19,9 +18,8 @@ from r37core.io import FILE_ATTRIBUTES
 from r37core.plans.provenance import Provenance
 from r37core.plans.sweep_plan import Sweep
 from r37core.results.response import write_response
-from r37core.results.stress_recovery import StressRecovery
 from r37core.rom.contact_model import read_contact_model
-from r37core.rom.rom_file import read_reduced_model
+from r37core.stress.operator import read_stress_operator
 from r37core.time_integration.speed_file import write_speed
 from r37core.time_integration.speed_run import OF_RUNS, run_speed
 
@@ -124,26 +122,22 @@ def _response(settings: Settings) -> xr.Dataset:
     at, sweep = SimpleNamespace(blade=blade, scene=scene), Sweep(settings)
     for remark in [*settings.remarks_on_casings, *settings.remarks_on_points]:
         warnings.warn(remark, stacklevel=3)
-    chosen, material, structure = settings.scenes[scene], settings.blades[blade].material, StructureFiles(settings, blade)
+    chosen, structure = settings.scenes[scene], StructureFiles(settings, blade)
     model = read_contact_model(structure.contact_model(chosen.tip_line))
-    recovery = None
-    if sweep.with_stress(at) and material is not None:
-        recovery = StressRecovery(read_reduced_model(structure.reduced_model(chosen.tip_line)), material)
+    stress = read_stress_operator(structure.stress_operator(chosen.tip_line)) if sweep.with_stress(at) else None
     results = [result for result in sweep.results(at) if result in OF_RUNS]
     with tempfile.TemporaryDirectory() as folder:
         files = [Path(folder, f"{number}.npz") for number in range(len(plan.certain))]
         for speed, file in zip(plan.certain, files, strict=True):
             choice = settings.integration_choice(blade, scene, speed)
-            write_speed(run_speed(model, speed, chosen.scene, choice, results, **sweep.kept), file, {})
+            write_speed(run_speed(model, speed, chosen.scene, choice, results, **sweep.kept, stress=stress), file, {})
         response = Path(folder, "response.nc")
         write_response(
             files,
             plan.certain,
             response,
-            recovery,
             stress_history_speeds=sweep.stress_history_speeds(at),
-            stress_instants=settings.fidelity.time_integration.stress_instants,
-            yield_stress=material.yield_stress if material else math.inf,
+            yield_stress=sweep.yield_stress(at),
             provenance=Provenance(settings).sweep(at),
         )
         return read_dataset(response)

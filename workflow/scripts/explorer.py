@@ -12,7 +12,7 @@ from r37core.results.table_file import read_table
 
 def main(snakemake):
     files = dict(snakemake.input.items())
-    interactions = read_table(files.pop("summary"))
+    interactions, _ranking = (read_table(files.pop(name)) for name in ("summary", "ranking"))
     datasets = {kind: read_dataset(file) for kind, file in files.items()}
     params, file = snakemake.params, Path(snakemake.output[0])
     in_report = {blade: str(snakemake.report_href(file.parent / f"shapes/{blade}.html")) for blade, _ in params.shapes}
