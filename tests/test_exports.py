@@ -179,7 +179,7 @@ def test_the_reduced_coriolis_matrix(turning, choice, tmp_path):
 
 
 def test_the_full_coriolis_matrix(mesh, matrices, turning, choice, tmp_path):
-    """The mass that moves across the axis, at right angles to its velocity; in a few real modes the Campbell diagram's shifts."""
+    """The mass that moves across the axis, at right angles to its velocity; its shifts of the frequencies."""
     speed, nodes = 2000.0, turning.contact_nodes.nodes
     write_full_matrices(matrices, mesh, nodes, (0.0, 1000.0, speed), tmp_path, spin_softening=False, coriolis=True)
     mass, stiffness, coriolis = (sp.csr_array(scipy.io.mmread(tmp_path / f"{name}.mtx")) for name in ("M", "K_2000", "G"))

@@ -12,6 +12,7 @@ from r37core.rom.contact_model import ContactModel
 from r37core.rom.rotation import rotation_amplitudes
 
 from .casing_waves import casing_waves
+from .initial_motion import InitialMotion
 from .integration_choice import IntegrationChoice
 from .simulate import DIRECTIONS, TIP_POINTS, Simulation
 from .state import SimulationState
@@ -34,6 +35,7 @@ def run_speed(
     *,
     spectrum_highest_order: int,
     wear_angles: int,
+    motion: InitialMotion | None = None,
 ) -> dict[str, np.ndarray]:
     """Simulate one speed (rad/s) and keep what is asked for in `results` (OF_RUNS).
 
@@ -42,11 +44,14 @@ def run_speed(
     (revolutions, 2, 3), and contact statistics. `clearance` (m), shape (nodes,): where it changes with the speed. `amplitude`,
     shape (2, orders): spectrum of the leading edge's normal and tangential motion. `snapshots`: the reduced coordinates of the
     vibration and, with static_stress, the amplitudes of rotation's shapes. `casing_...`: see casing_waves. A diverged run has
-    NaN where a number would need the rest of the run.
-    Raises what Problem raises.
+    NaN where a number would need the rest of the run. With `motion` the blade starts in it and not at rest:
+    `initial_energy_left_out`, see InitialMotion, and of the energies `initial_energy` (J).
+    Raises what Problem raises, and InitialMotionError.
     """
     simulation = Simulation(model, speed, scene, choice)
-    state = simulation.start()
+    left_out = None if motion is None else motion.left_out(simulation.problem)
+    state = simulation.start(motion)
+    begun = simulation.energy(state)
     record = simulation.advance(state, choice.revolutions)
     per_revolution = choice.samples_per_revolution
     asked = choice.revolutions * per_revolution
@@ -71,6 +76,8 @@ def run_speed(
         "casing_hits": np.array(totals["casing_hits"]),
         "worst_complementarity": np.array(totals["worst_complementarity"]),
     }
+    if left_out is not None:
+        kept["initial_energy_left_out"] = np.array(left_out)
     if scene.casing.changes_with_speed:
         kept["clearance"] = simulation.problem.clearance
     if "spectrum" in results:
@@ -85,7 +92,9 @@ def run_speed(
         assert scene.lining is not None
         kept |= _wear(state, min(wear_angles, scene.lining.bars))
     if "energy" in results:
-        kept |= energy_balance(simulation.work(state), float(totals["loss"]), simulation.energy(state))
+        kept |= energy_balance(simulation.work(state), float(totals["loss"]), simulation.energy(state) - begun)
+        if motion is not None:
+            kept["initial_energy"] = np.array(begun)
     if "casing" in results:
         ring = simulation.problem.ring
         assert ring is not None and record.casing is not None

@@ -1,4 +1,4 @@
-"""A blade's matrices as Matrix Market, in the layout that matrices_in reads, and the Coriolis matrix, which it does not read."""
+"""A blade's matrices as Matrix Market, in the layout that matrices_in reads, and the Coriolis matrix, which it does not."""
 
 from __future__ import annotations
 
@@ -62,10 +62,13 @@ def write_full_matrices(
     _write(content, matrices.coriolis() if coriolis else None, mesh.points[nodes], rows, folder)
 
 
-_Matrix = np.ndarray | sp.csr_array
-
-
-def _write(content: Mapping[str, _Matrix], coriolis: _Matrix | None, points: np.ndarray, rows: np.ndarray, folder: Path) -> None:
+def _write(
+    content: Mapping[str, np.ndarray | sp.csr_array],
+    coriolis: np.ndarray | sp.csr_array | None,
+    points: np.ndarray,
+    rows: np.ndarray,
+    folder: Path,
+) -> None:
     folder.mkdir(parents=True, exist_ok=True)
     for name, matrix in content.items():
         with atomic_write(folder / f"{name}.mtx") as partial:
