@@ -74,16 +74,22 @@ def simulate(
 
 
 def reduced_model(
-    blade: BladeChoice | str, scene: SceneChoice | str, *, fidelity: str | None = None, config: Path | str | None = None
+    blade: BladeChoice | str,
+    scene: SceneChoice | str | None = None,
+    *,
+    fidelity: str | None = None,
+    config: Path | str | None = None,
 ) -> xr.Dataset:
     """The reduced model of a blade with the contact nodes of a scene, as rom.nc of a run: `mass`, `stiffness` and others.
 
-    Arguments and errors as of `sweep`.
+    Without a scene the contact nodes are those of structure.boundary. Other arguments and errors as of `sweep`.
     """
     settings = _settings("r37.reduced_model", blade, scene, config, _level(fidelity))
-    (name,), (chosen,) = settings.blade_names, settings.scenes.values()
+    (name,) = settings.blade_names
+    chosen = [settings.structure.boundary] if scene is None else settings.scenes.values()
+    (tip_line,) = {one.tip_line for one in chosen}
     made = Provenance(settings).structure(SimpleNamespace(blade=name))
-    model = read_dataset(StructureFiles(settings, name).reduced_model(chosen.tip_line))
+    model = read_dataset(StructureFiles(settings, name).reduced_model(tip_line))
     return model.assign_attrs(FILE_ATTRIBUTES | dict(made))
 
 

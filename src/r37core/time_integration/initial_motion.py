@@ -76,7 +76,7 @@ class InitialMotion:
             force = model.squared_frequencies * displacement + problem.speed**2 * (model.stiffness_per_square @ displacement)
             return float(velocity @ velocity + displacement @ force)
 
-        with np.errstate(over="ignore"):
+        with np.errstate(over="ignore", invalid="ignore"):
             total = energy(whole)
         if not np.isfinite(total):
             raise InitialMotionError("initial_displacement, initial_velocity: found an energy without bound; allowed: less")
