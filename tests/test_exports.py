@@ -8,7 +8,10 @@ import numpy as np
 import pandas as pd
 import pytest
 import pyvista
+import scipy.io
+import scipy.linalg as la
 import scipy.sparse as sp
+import scipy.sparse.linalg as spl
 from defaults import MatricesSource, Orientation
 
 from r37core.exchange.exporting.fields import Target, WorstInstant, worst_instants, write_modes, write_stress
@@ -128,6 +131,82 @@ def test_reduced_matrices_come_back(model, choice, tmp_path):
     again = import_matrices(MatricesSource(str(tmp_path), OURS), choice)
     np.testing.assert_allclose(again.mass, model.mass, atol=1e-12 * np.abs(model.mass).max())
     np.testing.assert_allclose(again.modes(1400.0, 12)[0], model.modes(1400.0, 12)[0], rtol=1e-8)
+
+
+@pytest.fixture(scope="module")
+def turning(mesh, matrices, choice):
+    """The reduced model with the Coriolis force."""
+    return reduce_blade(mesh, matrices, replace(choice, coriolis=True))
+
+
+def gyroscopic(mass, stiffness, coriolis, count):
+    """Angular frequencies and shapes of M x'' + G x' + K x = 0, of the plain eigenproblem of (x, x')."""
+    size, inverse = len(mass), np.linalg.inv(mass)
+    system = np.block([[np.zeros((size, size)), np.eye(size)], [-inverse @ stiffness, -inverse @ coriolis]])
+    values, vectors = la.eig(system)
+    rising = np.flatnonzero(values.imag > 0.0)
+    order = rising[np.argsort(values.imag[rising])][:count]
+    return values.imag[order], vectors[:size, order]
+
+
+def test_the_reduced_coriolis_matrix(turning, choice, tmp_path):
+    """From the files alone: the frequencies of the Campbell diagram, and motions that turn about the same way."""
+    speed = 2000.0
+    write_reduced_matrices(turning, (0.0, 1000.0, speed), tmp_path)
+    mass, stiffness, coriolis = (scipy.io.mmread(tmp_path / f"{name}.mtx") for name in ("M", "K_2000", "G"))
+    np.testing.assert_array_equal(coriolis, -coriolis.T)
+    frequencies, shapes = gyroscopic(mass, stiffness, speed * coriolis, 8)
+    diagram = campbell_diagram(turning, np.array([speed]), 6).frequencies.ravel()
+    plain = campbell_diagram(replace(turning, coriolis=None), np.array([speed]), 6).frequencies.ravel()
+    assert np.abs(plain / diagram - 1.0).max() > 1e-4
+    np.testing.assert_allclose(np.sort(2 * np.pi * diagram), np.sort(frequencies)[:6], rtol=1e-8)
+    # frequencies are those of -G, too; the shapes are then the conjugate ones
+    _, expected = turning.modes(speed, 8)
+    found, conjugate = (
+        np.abs(np.sum(expected.conj() * (mass @ one), axis=0)) / np.sqrt(np.sum((one.conj() * (mass @ one)).real, axis=0))
+        for one in (shapes, shapes.conj())
+    )
+    np.testing.assert_allclose(found, 1.0, rtol=1e-6)
+    assert conjugate.min() < 0.999
+    header = (tmp_path / "G.mtx").read_text().splitlines()[:2]
+    assert header[0] == "%%MatrixMarket matrix array real skew-symmetric"
+    assert "in kg, that is N s/m per rad/s: M x'' + Omega G x' + K(Omega) x = f, for Omega > 0" in header[1]
+    # the matrices come back, without it
+    again = import_matrices(MatricesSource(str(tmp_path), OURS), choice)
+    assert again.coriolis is None
+    np.testing.assert_allclose(again.modes(1400.0, 12)[0], replace(turning, coriolis=None).modes(1400.0, 12)[0], rtol=1e-8)
+
+
+def test_the_full_coriolis_matrix(mesh, matrices, turning, choice, tmp_path):
+    """The mass that moves across the axis, at right angles to its velocity; its shifts of the frequencies."""
+    speed, nodes = 2000.0, turning.contact_nodes.nodes
+    write_full_matrices(matrices, mesh, nodes, (0.0, 1000.0, speed), tmp_path, spin_softening=False, coriolis=True)
+    mass, stiffness, coriolis = (sp.csr_array(scipy.io.mmread(tmp_path / f"{name}.mtx")) for name in ("M", "K_2000", "G"))
+    # 2 Omega x velocity, Omega along -z
+    across = sp.kron(sp.eye_array(mass.shape[0] // 3), np.array([[0.0, 2.0, 0.0], [-2.0, 0.0, 0.0], [0.0, 0.0, 0.0]]))
+    assert abs(coriolis - mass @ across).max() <= 1e-15 * abs(coriolis).max()
+    assert abs(coriolis + coriolis.T).max() == 0.0
+    squares, modes = spl.eigsh(stiffness, 40, mass, sigma=0.0)
+    frequencies, _ = gyroscopic(
+        *(modes.T @ (matrix @ modes) for matrix in (mass, stiffness)), speed * modes.T @ (coriolis @ modes), 6
+    )
+    # either basis is off by half of what the force shifts them by, and leaves a tenth of the shift out
+    shift, expected = (
+        coupled / plain - 1.0
+        for coupled, plain in (
+            (frequencies, np.sqrt(np.sort(squares)[:6])),
+            (turning.modes(speed, 6)[0], replace(turning, coriolis=None).modes(speed, 6)[0]),
+        )
+    )
+    assert np.abs(expected).max() > 1e-4
+    np.testing.assert_allclose(shift, expected, rtol=0, atol=0.1 * np.abs(expected).max())
+    assert import_matrices(MatricesSource(str(tmp_path), OURS), choice).size == turning.size
+
+
+def test_without_the_coriolis_force_there_is_no_file_of_it(model, tmp_path, directory):
+    write_reduced_matrices(model, (0.0, 1000.0, 2000.0), tmp_path)
+    for folder in (tmp_path, directory):
+        assert {file.name for file in folder.iterdir()} == {"M.mtx", "K_0.mtx", "K_1000.mtx", "K_2000.mtx", "boundary.csv"}
 
 
 def test_reduced_matrices_in_other_axes(model, choice, tmp_path):

@@ -14,6 +14,7 @@ from r37core.stress.operator import StressOperator
 from r37core.stress.revolutions import largest_of_revolutions
 
 from .casing_waves import casing_waves
+from .initial_motion import InitialMotion
 from .integration_choice import IntegrationChoice
 from .simulate import DIRECTIONS, TIP_POINTS, Simulation
 from .state import SimulationRecord, SimulationState
@@ -37,6 +38,7 @@ def run_speed(
     spectrum_highest_order: int,
     wear_angles: int,
     stress: StressOperator | None = None,
+    motion: InitialMotion | None = None,
 ) -> dict[str, np.ndarray]:
     """Simulate one speed (rad/s) and keep what is asked for in `results` (OF_RUNS).
 
@@ -48,10 +50,13 @@ def run_speed(
     rotation's shapes. With a `stress` operator: `max_von_mises` (Pa) in the last revolution, `revolution_von_mises` (Pa), the
     largest of each of the last `choice.snapshot_revolutions`, `stress_region` and `static_stress`, 1 where rotation's is in
     them. `casing_...`: see casing_waves. A diverged run has NaN where a number would need the rest of the run.
-    Raises what Problem raises.
+    With `motion` the blade starts in it and not at rest: `initial_energy_left_out`, see InitialMotion, and of the energies
+    `initial_energy` (J). Raises what Problem raises, and InitialMotionError.
     """
     simulation = Simulation(model, speed, scene, choice)
-    state = simulation.start()
+    left_out = None if motion is None else motion.left_out(simulation.problem)
+    state = simulation.start(motion)
+    begun = simulation.energy(state)
     record = simulation.advance(state, choice.revolutions)
     per_revolution = choice.samples_per_revolution
     asked = choice.revolutions * per_revolution
@@ -77,6 +82,8 @@ def run_speed(
         "casing_hits": np.array(totals["casing_hits"]),
         "worst_complementarity": np.array(totals["worst_complementarity"]),
     }
+    if left_out is not None:
+        kept["initial_energy_left_out"] = np.array(left_out)
     if scene.casing.changes_with_speed:
         kept["clearance"] = simulation.problem.clearance
     if "spectrum" in results:
@@ -87,7 +94,9 @@ def run_speed(
         assert scene.lining is not None
         kept |= _wear(state, min(wear_angles, scene.lining.bars))
     if "energy" in results:
-        kept |= energy_balance(simulation.work(state), float(totals["loss"]), simulation.energy(state))
+        kept |= energy_balance(simulation.work(state), float(totals["loss"]), simulation.energy(state) - begun)
+        if motion is not None:
+            kept["initial_energy"] = np.array(begun)
     if "casing" in results:
         ring = simulation.problem.ring
         assert ring is not None and record.casing is not None
