@@ -136,7 +136,7 @@ class _Runs:
         # compiled before it is timed
         Simulation(self.model, speed, self.scene, choice)
         with integration:
-            run = run_speed(self.model, speed, self.scene, choice, case.results, **case.kept, stress=self.recovery)
+            run = run_speed(self.model, speed, self.scene, choice, case.results, motion=None, stress=self.recovery, **case.kept)
         with writing:
             write_speed(run, file, {})
         self.files[speed] = file
