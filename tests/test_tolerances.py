@@ -23,8 +23,10 @@ from r37core.results.measures import largest_stress, ratio_to_yield, speeds_abov
 from r37core.speeds import RefinedRange
 from r37core.time_integration.status import RunStatus
 from r37core.tolerances.dataset import MemberRun, tolerances_dataset
+from r37core.tolerances.ranking import ranking
 from r37core.tolerances.sample import Tolerance, is_of_sample, number_of, places
 from r37core.tolerances.sensitivity import sobol_indices
+from r37core.tolerances.shares import CONFIDENCE, share_ends
 from r37core.tolerances.table import range_table, ranges, read_ranges, with_ranges
 
 
@@ -129,6 +131,90 @@ def test_a_number_that_a_scene_does_not_have_has_no_index():
 def test_where_nothing_spreads_there_is_no_index():
     found = sobol_indices(measured(lambda x: 1.0, 1, 16), [0], 1)
     assert np.isnan(found.index).all() and found.members == 0
+
+
+def drawn(function, numbers, members, seed=0):
+    """Values of a plain sample and what a function makes of them."""
+    values = np.array([place for name, place in places(numbers, members, seed).items() if is_of_sample(name)])
+    return values, function(*values.T)
+
+
+def jumping(x, y, z):
+    """Falls with x, in jumps, and rises with y; z is not in it."""
+    return np.exp(np.floor(-8.0 * x) + 2.0 * y)
+
+
+def test_the_ranking_is_of_ranks_and_has_signs():
+    found = ranking(*drawn(jumping, 3, 128))
+    assert found.coefficient[0] < -0.9 and 0.1 < found.coefficient[1] < 0.3
+    assert found.known.tolist() == [True, True, False]
+    low, high = found.places
+    np.testing.assert_array_equal(low, [1.0, 2.0, np.nan])
+    np.testing.assert_array_equal(high, [1.0, 2.0, np.nan])
+    assert found.members == 128 and 0.9 < found.explained < 1.0
+    # any monotonous change of the measure is the same to it
+    values, measure = drawn(jumping, 3, 128)
+    np.testing.assert_array_equal(ranking(values, np.log(measure)).coefficient, found.coefficient)
+
+
+def test_what_few_members_do_not_tell_apart_shares_its_places():
+    def alike(x, y, z):
+        return x + 0.95 * y + 1e-3 * z
+
+    few, many = (ranking(*drawn(alike, 3, members)) for members in (16, 1024))
+    np.testing.assert_array_equal(np.array(few.places)[:, :2], [[1.0, 1.0], [2.0, 2.0]])
+    assert not few.known[2]
+    np.testing.assert_array_equal(np.array(many.places)[:, :2], [[1.0, 2.0], [1.0, 2.0]])
+
+
+def test_what_is_told_apart_does_not_depend_on_the_direction_of_a_number():
+    random = np.random.default_rng(0)
+    for _ in range(50):
+        values = random.random((24, 3)) @ [[1.0, 0.8, 0.0], [0.0, 1.0, 0.0], [0.0, 0.5, 1.0]]
+        measure = values @ [1.0, 0.5, 0.5] + random.random(24)
+        np.testing.assert_array_equal(ranking(values * [1.0, -1.0, 1.0], measure).above, ranking(values, measure).above)
+
+
+def test_places_by_total_index():
+    few, many = (sobol_indices(measured(lambda x, y, z: x + 0.8 * y, 3, members), range(3), 3) for members in (8, 512))
+    np.testing.assert_array_equal(few.places, [[1.0, 1.0, 3.0], [2.0, 2.0, 3.0]])
+    np.testing.assert_array_equal(many.places, [[1.0, 2.0, 3.0], [1.0, 2.0, 3.0]])
+    gap = sobol_indices(measured(lambda x, y, z: x + 0.8 * y, 3, 8), [0, 2], 3)
+    np.testing.assert_array_equal(gap.places, [[1.0, np.nan, 2.0], [1.0, np.nan, 2.0]])
+
+
+def test_intervals_of_a_ranking_miss_as_seldom_as_said():
+    def noisy(x, y, z, noise):
+        return 2.0 * x + y + noise
+
+    random, missed, wrong = np.random.default_rng(0), [], []
+    whole = random.random((100_000, 4))
+    truth = ranking(whole[:, :3], noisy(*whole.T)).coefficient
+    for _ in range(400):
+        values = random.random((24, 4))
+        found = ranking(values[:, :3], noisy(*values.T))
+        missed.append((found.low > truth) | (found.high < truth))
+        wrong.append(found.above[1, 0] | found.above[2, 0] | found.above[2, 1])
+    assert 0.02 < np.mean(missed) < 0.08
+    assert np.mean(wrong) < 0.03
+
+
+@pytest.mark.parametrize("members", [2, 4])
+def test_too_few_members_rank_nothing(members):
+    found = ranking(*drawn(jumping, 3, members))
+    assert np.isnan(found.coefficient).all() and np.isnan(found.places).all() and not found.above.any()
+
+
+def test_a_ranking_leaves_out_what_does_not_vary_and_members_without_the_measure():
+    values, measure = drawn(jumping, 3, 64)
+    beside = np.column_stack([values, np.full(64, np.nan), np.full(64, 0.15)])
+    np.testing.assert_array_equal(ranking(beside, measure).coefficient[:3], ranking(values, measure).coefficient)
+    assert np.isnan(ranking(beside, measure).coefficient[3:]).all()
+    assert np.isnan(ranking(values, np.zeros(64)).coefficient).all()
+    gone = measure.copy()
+    gone[:5] = np.nan
+    assert ranking(values, gone).members == 59
+    np.testing.assert_array_equal(ranking(values, gone).coefficient, ranking(values[5:], measure[5:]).coefficient)
 
 
 def settings_of(root, content, **more):
@@ -346,6 +432,27 @@ def test_the_dataset_of_members(tmp_path):
     assert not any(str(name).startswith("sobol") for name in found)
 
 
+def test_the_chance_of_passing_yield_has_an_interval(tmp_path):
+    runs = [member_run(tmp_path, str(row), 1700.0 if row % 2 else 1760.0) for row in range(16)]
+    found = tolerances_dataset(runs, NUMBERS).sel(blade="Ref", scene="abradable")
+    names = ("probability_above_yield_low", "probability_above_yield", "probability_above_yield_high")
+
+    def at(speed):
+        return [round(float(found[name].sel(speed=speed)), 3) for name in names]
+
+    # Clopper and Pearson's of 8 and of 0 of 16
+    assert at(1750.0) == [0.247, 0.5, 0.753]
+    assert at(1600.0) == [0.0, 0.0, 0.206]
+
+
+@pytest.mark.parametrize("chance", [0.02, 0.5, 0.93])
+def test_the_interval_of_a_chance_misses_it_as_seldom_as_said(chance):
+    counts = np.random.default_rng(0).binomial(16, chance, 20000)
+    low, high = share_ends(counts, 16)
+    assert np.mean((low > chance) | (high < chance)) <= 1.0 - CONFIDENCE
+    assert low[counts == 0].sum() == 0.0 and np.all(high[counts == 16] == 1.0)
+
+
 def test_a_member_that_diverges_is_one_recorded_member(tmp_path):
     runs = [member_run(tmp_path, str(row), 1700.0, diverged=[1710.0] if row == 3 else ()) for row in range(4)]
     found = tolerances_dataset(runs, NUMBERS).sel(blade="Ref", scene="abradable")
@@ -358,15 +465,20 @@ def test_a_member_that_diverges_is_one_recorded_member(tmp_path):
 
 def test_the_peak_s_spread_comes_from_the_number_that_moves_it(tmp_path):
     runs = [
-        member_run(tmp_path, name, 5.0 * round((1700.0 + 60.0 * place[1]) / 5.0)) for name, place in places(2, 8, 0).items()
+        replace(member_run(tmp_path, name, 5.0 * round((1700.0 + 60.0 * place[1]) / 5.0)), values=place)
+        for name, place in places(2, 8, 0).items()
     ]
     found = tolerances_dataset(runs, NUMBERS).sel(blade="Ref", scene="abradable", measure="peak_speed")
     assert found["member"].values.tolist() == list(range(8))
     assert found["sobol_members"] == 8
     np.testing.assert_allclose(found["sobol_total"], [0.0, 1.0], atol=0.4)
     assert found["sobol_total"][0] == 0.0
+    for name in ("rank", "sobol"):
+        assert found[f"{name}_place_low"][1] == found[f"{name}_place_high"][1] == 1.0
+    assert found["rank_coefficient_low"][1] > 0.0 and found["rank_members"] == 8
+    assert np.isnan(found["rank_place_low"][0]) and found["sobol_place_low"][0] == 2.0
     figure = draw_tolerances(tolerances_dataset(runs, NUMBERS).sel(blade="Ref", scene="abradable"), branch(1700.0), "Ref")
-    assert len(figure.subfigs) == 2
+    assert len(figure.subfigs) == 3
     plt.close(figure)
 
 
