@@ -27,7 +27,7 @@ from r37core.tolerances.ranking import ranking
 from r37core.tolerances.sample import Tolerance, is_of_sample, number_of, places
 from r37core.tolerances.sensitivity import sobol_indices
 from r37core.tolerances.shares import CONFIDENCE, share_ends
-from r37core.tolerances.table import range_table, ranges, read_ranges, with_ranges
+from r37core.tolerances.table import ENDS, as_ranges_bear, range_table, ranges, read_ranges, with_ranges
 
 
 def test_more_members_change_none_that_are_there():
@@ -539,6 +539,20 @@ def test_the_summary_has_the_ranges_beside_the_nominal_run(tmp_path):
     assert len(joined) == len(summary)
     assert joined["share_of_members"].fillna(-1.0).tolist() == [0.0, 1.0, -1.0, -1.0]
     assert joined["peak_speed_rad_s_median"].dropna().tolist() == [1710.0]
+
+
+def test_a_range_has_the_digits_that_it_bears():
+    row = {"peak_speed_rad_s": 1729.0, "max_von_mises_pa": 1.407e10, "drop": 0.123456}
+    ends = {"peak_speed_rad_s": (1710.0, 1726.0, 1754.0), "max_von_mises_pa": (2.02e9, 8.64e9, 1.408e10)}
+    row |= {f"{name}_{end}": value for name, of in ends.items() for end, value in zip(ENDS, of, strict=True)}
+    bare = dict.fromkeys(row) | {"peak_speed_rad_s": 1640.4, "max_von_mises_pa": 3.5612e9}
+    shown, other = as_ranges_bear(pd.DataFrame([row, bare]).astype(float)).to_dict("records")
+    # the nominal peak is a run that can be opened
+    assert [shown[f"peak_speed_rad_s{end}"] for end in ("", "_low", "_median", "_high")] == [1729.0, 1710.0, 1730.0, 1750.0]
+    assert [shown[f"max_von_mises_pa{end}"] for end in ("", "_low", "_median", "_high")] == [1.4e10, 2e9, 9e9, 1.4e10]
+    assert shown["drop"] == 0.123456 and (other["max_von_mises_pa"], other["peak_speed_rad_s"]) == (3.5612e9, 1640.4)
+    without = pd.DataFrame([{"peak_speed_rad_s": 1729.0}])
+    pd.testing.assert_frame_equal(as_ranges_bear(without), without)
 
 
 def test_leftovers_are_members_that_are_not_drawn_any_more(root, tmp_path):

@@ -7,6 +7,7 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from r37core.results.interaction_title import interaction_title
+from r37core.rounding import rounded_to
 from r37core.time_integration.status import RunStatus
 
 
@@ -33,10 +34,21 @@ def _found(rows: list[dict[str, str]]) -> str:
         worst = max(above, key=lambda row: float(row["max_von_mises_pa"] or 0.0))
         title = interaction_title(worst["mode"], worst["engine_order"])
         text += (
-            f"; the largest stress {1e-9 * float(worst['max_von_mises_pa']):.2f} GPa, {worst['blade']} in {worst['scene']} "
+            f"; the largest stress {_stress(worst)}, {worst['blade']} in {worst['scene']} "
             f"at {float(worst['max_von_mises_speed_rad_s']):.6g} rad/s ({title})"
         )
     return text
+
+
+def _stress(row: dict[str, str]) -> str:
+    """The largest stress, with tolerances only as many digits as its range bears, and that beside it."""
+    stress = 1e-9 * float(row["max_von_mises_pa"])
+    ends = [row.get(f"max_von_mises_pa_{end}") for end in ("low", "high")]
+    if not all(ends):
+        return f"{stress:.2f} GPa"
+    low, high = (1e-9 * float(end or 0.0) for end in ends)
+    nominal, low_text, high_text = (rounded_to(value, high - low) for value in (stress, low, high))
+    return f"{nominal} GPa ({low_text} to {high_text} in nine tenths of the members)"
 
 
 def _diverged(file: Path) -> str:
