@@ -176,11 +176,12 @@ def test_what_is_told_apart_does_not_depend_on_the_direction_of_a_number():
 
 
 def test_places_by_total_index():
-    few, many = (sobol_indices(measured(lambda x, y, z: x + 0.8 * y, 3, members), range(3), 3) for members in (8, 512))
+    few, many = (sobol_indices(measured(lambda x, y, z: x + 0.9 * y, 3, members), range(3), 3) for members in (32, 2048))
     np.testing.assert_array_equal(few.places, [[1.0, 1.0, 3.0], [2.0, 2.0, 3.0]])
     np.testing.assert_array_equal(many.places, [[1.0, 2.0, 3.0], [1.0, 2.0, 3.0]])
-    gap = sobol_indices(measured(lambda x, y, z: x + 0.8 * y, 3, 8), [0, 2], 3)
+    gap = sobol_indices(measured(lambda x, y, z: x + 0.9 * y, 3, 32), [0, 2], 3)
     np.testing.assert_array_equal(gap.places, [[1.0, np.nan, 2.0], [1.0, np.nan, 2.0]])
+    assert np.isnan(sobol_indices(measured(lambda x, y: x, 2, 16), [0, 1], 2).places).all()
 
 
 def test_intervals_of_a_ranking_miss_as_seldom_as_said():
@@ -277,6 +278,31 @@ def test_the_tolerances_of_the_page_and_of_the_file_are_accepted(root):
     assert len(settings_of(root, asked["tolerances"]).members.all["S100", "abradable"]) == 32
     with open(root / "config/tolerances.yaml") as stream:
         assert len(settings_of(root, {}, **yaml.safe_load(stream)).members.all["Ref", "abradable"]) == 32
+
+
+@pytest.mark.parametrize(
+    ("members", "sensitivity", "said"),
+    [
+        (16, False, ["16 members do not rank the numbers; 32 name the first, 128 tell most apart"]),
+        (64, False, ["64 members name the first of the numbers at best; 128 tell most apart"]),
+        (128, True, []),
+        (
+            16,
+            True,
+            [
+                "16 members do not rank the numbers; 32 name the first",
+                "Sobol indices of 16 members do not rank the numbers; those of 32 do",
+            ],
+        ),
+    ],
+)
+def test_a_run_says_when_its_members_rank_nothing(root, members, sensitivity, said):
+    numbers = {"friction.coefficient": {"uniform_percent": 5.0}, "damping_ratio": {"uniform_percent": 5.0}}
+    given = {"members": members, "sensitivity": sensitivity, "blades": ["Ref"], "of_scenes": numbers}
+    remarks = [one for one in settings_of(root, given).remarks if "rank" in one or "name the first" in one]
+    assert len(remarks) == len(said) and all(f"tolerances: {text}" in one for text, one in zip(said, remarks, strict=True))
+    alone = {**given, "of_scenes": {"damping_ratio": numbers["damping_ratio"]}}
+    assert not any("rank" in one for one in settings_of(root, alone).remarks if "Sobol" not in one)
 
 
 def test_without_numbers_there_are_no_members(settings):
@@ -453,6 +479,14 @@ def test_the_interval_of_a_chance_misses_it_as_seldom_as_said(chance):
     assert low[counts == 0].sum() == 0.0 and np.all(high[counts == 16] == 1.0)
 
 
+def test_the_page_has_the_intervals_of_a_chance(root):
+    page = (root / "docs/tolerances.md").read_text()
+    low, high = (100 * end for end in share_ends(np.array(8), 16))
+    assert f"between {low:.0f} and {high:.0f}%" in page
+    none_of_32, none_of_16 = (f"{100 * share_ends(np.array(0), members)[1]:.0f}" for members in (32, 16))
+    assert f"{none_of_32}% with 32 members and {none_of_16}% with 16" in page
+
+
 def test_a_member_that_diverges_is_one_recorded_member(tmp_path):
     runs = [member_run(tmp_path, str(row), 1700.0, diverged=[1710.0] if row == 3 else ()) for row in range(4)]
     found = tolerances_dataset(runs, NUMBERS).sel(blade="Ref", scene="abradable")
@@ -473,10 +507,10 @@ def test_the_peak_s_spread_comes_from_the_number_that_moves_it(tmp_path):
     assert found["sobol_members"] == 8
     np.testing.assert_allclose(found["sobol_total"], [0.0, 1.0], atol=0.4)
     assert found["sobol_total"][0] == 0.0
-    for name in ("rank", "sobol"):
-        assert found[f"{name}_place_low"][1] == found[f"{name}_place_high"][1] == 1.0
+    assert found["rank_place_low"][1] == found["rank_place_high"][1] == 1.0 and np.isnan(found["rank_place_low"][0])
     assert found["rank_coefficient_low"][1] > 0.0 and found["rank_members"] == 8
-    assert np.isnan(found["rank_place_low"][0]) and found["sobol_place_low"][0] == 2.0
+    # so few have indices, and no place by them
+    assert found["sobol_place_low"].isnull().all()
     figure = draw_tolerances(tolerances_dataset(runs, NUMBERS).sel(blade="Ref", scene="abradable"), branch(1700.0), "Ref")
     assert len(figure.subfigs) == 3
     plt.close(figure)

@@ -45,7 +45,7 @@ def draw_tolerances(tolerances: xr.Dataset, nominal: xr.Dataset, title: str) -> 
     style.rpm_axis(panels[0])
     if "max_von_mises" in curves:
         style.yield_lines(panels[curves.index("max_von_mises")], {"": float(tolerances["yield_stress"].median())}, named=True)
-    above.legend(*style.legend_entries(panels), loc="outside lower center", ncols=5)
+    above.legend(*style.legend_entries(panels), loc="outside lower center", ncols=4)
     above.suptitle(f"tolerances: {title}, {tolerances.sizes['member']} members")
     for part, size in zip(below, sizes, strict=True):
         axes, (place, label, title) = part.subplots(1, 1), _SIZES[size]

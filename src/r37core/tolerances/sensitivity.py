@@ -11,6 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .fewest import SOBOL_RANKS
 from .ranking import places_of
 from .sample import is_of_sample, together
 from .shares import CONFIDENCE
@@ -42,8 +43,9 @@ class Sensitivity:
 
     @property
     def places(self) -> tuple[np.ndarray, np.ndarray]:
-        """Between which places of the ranking by total index each number is; NaN for one without an index."""
-        return places_of(self.above, np.isfinite(self.index[list(ORDERS).index("total")]))
+        """Between which places of the ranking by total index each number is; NaN without an index, and of few members."""
+        low, high = places_of(self.above, np.isfinite(self.index[list(ORDERS).index("total")]))
+        return (low, high) if self.members >= SOBOL_RANKS else (np.full_like(low, np.nan), np.full_like(high, np.nan))
 
 
 def sobol_indices(measure: Mapping[str, float], numbers: Sequence[int], count: int) -> Sensitivity:
