@@ -14,6 +14,7 @@ import xarray as xr
 from r37core.published import INTERACTIONS
 from r37core.results.variables import VARIABLES
 from r37core.time_integration.status import RunStatus
+from r37core.tolerances.table import as_ranges_bear
 
 CURVES = (
     ("rms", "rms_normal", "mm", 1e3),
@@ -48,7 +49,7 @@ def explorer_contents(
     `shapes_in_report`: where that is in the archive of the report, by blade.
     Curves have every speed; maps are thinned, each cell the largest value of what it stands for.
     """
-    rms, campbell = datasets["rms"], datasets["campbell"]
+    rms, campbell, shown = datasets["rms"], datasets["campbell"], as_ranges_bear(interactions)
     blades, scenes = [str(name) for name in rms["blade"].values], [str(name) for name in rms["scene"].values]
     return {
         "about": {name: str(rms.attrs[name]) for name in ("r37core_version", "fidelity") if name in rms.attrs},
@@ -65,7 +66,7 @@ def explorer_contents(
         "history": _history(datasets.get("stress"), rms),
         "spectrum": _spectrum(datasets.get("spectrum"), rms),
         "wear": _wear(datasets.get("wear"), rms),
-        "interactions": interactions.astype(object).where(interactions.notna(), None).to_dict("records"),
+        "interactions": shown.astype(object).where(shown.notna(), None).to_dict("records"),
         "shapes": [list(pair) for pair in shapes],
         "shapes_in_report": dict(shapes_in_report or {}),
         "published": [asdict(one) for one in INTERACTIONS if one.blade in blades],
