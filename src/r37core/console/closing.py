@@ -70,7 +70,8 @@ def _ranked(file: Path) -> list[str]:
         best, worst = of_scene[0], of_scene[-1]
         if best["blade"] != worst["blade"]:
             said.append(
-                f"{scene}: {best['blade']} is the best ({_length(best)}), {worst['blade']} the worst ({_length(worst)}; {file})"
+                f"{scene}: {best['blade']} is above yield at the fewest speeds ({_length(best)}), {worst['blade']} at the most "
+                f"({_length(worst)}); {file}"
             )
     gap = max((_number(row, "largest_gap_rad_s") for row in rows), default=0.0)
     if gap > 0.0:
@@ -81,7 +82,7 @@ def _ranked(file: Path) -> list[str]:
 def _length(row: dict[str, str]) -> str:
     """Length above yield, with as many digits as its scatter bears."""
     length, scatter = _number(row, "length_certain_rad_s"), _number(row, "length_certain_scatter_rad_s")
-    return f"{rounded_to(length, scatter) if scatter > 0.0 else f'{length:.0f}'} rad/s certainly above yield"
+    return f"{rounded_to(length, scatter) if scatter > 0.0 else f'{length:.0f}'} rad/s"
 
 
 def _diverged(file: Path) -> str:

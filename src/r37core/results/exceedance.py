@@ -90,7 +90,7 @@ class Exceedance:
         return float(np.std([sum(one.length for one in ranges) for ranges in self._ranges_drawn[share]]))
 
     def scatter_of_border(self, share: float, border: float, *, begins: bool) -> float:
-        """How far (rad/s) the `border` (rad/s) of a range that begins, or ends, there is moved by chance, in two of three cases.
+        """How far (rad/s) chance moves the `border` (rad/s) of a range that begins, or ends, there, in two of three cases.
 
         NaN where there is no chance, and where the range itself is not there in one of three cases.
         """
