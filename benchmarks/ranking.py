@@ -19,13 +19,13 @@ import numpy as np
 import xarray as xr
 
 from r37core.adaptive.criterion import RefinementChoice
-from r37core.config import read_settings
+from r37core.config import read_settings, settings_of_run
 from r37core.dataset_file import read_dataset
 from r37core.io import write_text
 from r37core.plain import from_plain
 from r37core.plans.sweep_plan import Sweep
 from r37core.results.exceedance import CERTAIN, POSSIBLE, exceedance_of
-from r37core.results.ranking import ranking_table, robustness
+from r37core.results.ranking import chance_to_be_better, ranking_table, robustness
 from r37core.rom.contact_model import read_contact_model
 from r37core.stress.operator import read_stress_operator
 from r37core.stress.statistic import stress_statistic
@@ -40,26 +40,36 @@ SCENES = {"lined": "abradable", "direct": "direct"}
 FIRST, LAST = 750.0, 2000.0
 KEPT = {"spectrum_highest_order": 1, "wear_angles": 1}
 GRIDS = (5, 10, 20)
+RANKING = Path("config/ranking.yaml")
 
 
 @dataclass(frozen=True)
 class Way:
-    """Runs of all blades in a scene, every `step` (rad/s); `friction`: factor of the coefficient; `patches` or points."""
+    """Runs of all blades in a scene, every `step` (rad/s), on `patches` or points.
+
+    `friction`: factor of the coefficient; `member`: of the sample of config/ranking.yaml, by name.
+    """
 
     scene: str
     step: float = 1.0
     friction: float = 1.0
     patches: bool = False
+    member: str = ""
 
     @property
     def name(self):
         """Part of a file's name."""
-        return f"{self.scene}_{'patches' if self.patches else 'points'}_{self.friction:g}_{self.step:g}"
+        return f"{self.scene}_{'patches' if self.patches else 'points'}_{self.friction:g}_{self.step:g}{self.member}"
 
 
 LINED, DIRECT = (Way(scene) for scene in SCENES.values())
 PERTURBED, PATCHED = replace(DIRECT, friction=1.001), replace(DIRECT, patches=True, step=5.0)
-WAYS = (DIRECT, LINED, PERTURBED, PATCHED)
+MEMBERS = tuple(
+    Way(scene, step, patches=True, member=f"_{number}")
+    for scene, step in ((SCENES["direct"], 5.0), (SCENES["lined"], 2.0))
+    for number in range(8)
+)
+WAYS = (DIRECT, LINED, PERTURBED, PATCHED, *MEMBERS)
 
 
 def run(task):
@@ -68,12 +78,15 @@ def run(task):
     file = FOLDER / f"{blade}_{way.name}.npz"
     if file.exists():
         return
-    settings = read_settings(ROOT)
+    settings = settings_of_run(ROOT, [Path("config/config.yaml"), *([RANKING] if way.member else [])], {}, {})
     of = ROOT / "results/runs/patches" if way.patches else ROOT / "results"
     model = read_contact_model(of / blade / "contact_pressure_edge.npz")
     stress = read_stress_operator(of / blade / "stress_pressure_edge.npz")
-    scene = settings.scenes[way.scene].scene
-    scene = replace(scene, friction=replace(scene.friction, coefficient=way.friction * scene.friction.coefficient))
+    if way.member:
+        scene = settings.members.all[blade, way.scene][way.member.strip("_")].scene
+    else:
+        scene = settings.scenes[way.scene].scene
+        scene = replace(scene, friction=replace(scene.friction, coefficient=way.friction * scene.friction.coefficient))
     speeds, found = np.arange(FIRST, LAST + 0.5, way.step), []
     for speed in speeds:
         choice = settings.integration_choice(blade, way.scene, float(speed))
@@ -178,6 +191,18 @@ def ranking(ways):
     return markdown_table(head, rows)
 
 
+def chances(scene):
+    """Chance (%) that the blade of a row is better than that of a column, and the range of its certain length (rad/s)."""
+    ways = [way for way in MEMBERS if way.scene == scene]
+    found = {blade: {way.member: robustness(response(blade, way)) for way in ways} for blade in BLADES}
+    rows = []
+    for blade in BLADES:
+        certain = [one["length_certain_rad_s"] for one in found[blade].values()]
+        better = ["" if other == blade else f"{100 * chance_to_be_better(found[blade], found[other]):.0f}" for other in BLADES]
+        rows.append([blade, f"{min(certain):.0f} to {max(certain):.0f}", *better])
+    return markdown_table(["blade", "certain (rad/s)", *(f"better than {blade} (%)" for blade in BLADES)], rows)
+
+
 def main():
     """Run what is not there, and write the tables."""
     tasks = [(blade, way) for way in WAYS for blade in BLADES]
@@ -189,6 +214,8 @@ def main():
     write_text(statistic_table(), studies / "ranking_statistic.md")
     scenes = {"lined": LINED, "direct, points": DIRECT, "direct, patches": PATCHED}
     write_text(ranking(scenes), studies / "ranking.md")
+    for name, scene in SCENES.items():
+        write_text(chances(scene), studies / f"ranking_chances_{name}.md")
 
 
 if __name__ == "__main__":

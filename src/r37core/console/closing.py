@@ -43,8 +43,8 @@ def _found(rows: list[dict[str, str]]) -> str:
 
 
 def _number(row: dict[str, str], column: str) -> float:
-    """0 for an empty cell."""
-    return float(row[column] or 0.0)
+    """0 for a cell that is empty or not there."""
+    return float(row.get(column) or 0.0)
 
 
 def _stress(row: dict[str, str]) -> str:
