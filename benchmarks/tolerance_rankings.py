@@ -29,7 +29,7 @@ from r37core.rounding import rounded_to
 from r37core.studies.tables import markdown_table
 from r37core.time_integration.speed_run import run_speed
 from r37core.tolerances.dataset import INDEXED, QUANTILES
-from r37core.tolerances.ranking import ranking
+from r37core.tolerances.number_ranks import ranking
 from r37core.tolerances.sample import together
 from r37core.tolerances.sensitivity import sobol_indices
 from r37core.tolerances.shares import CONFIDENCE

@@ -142,9 +142,12 @@ def compared():
         },
         coords={"blade": ["F_1", "F_2"], "mode": ["1B", "1T"], "speed": [0.0, 2000.0]},
     )
+    over = ("blade", "scene", "speed")
     stress = xr.Dataset(
         {
-            "max_von_mises": (("blade", "scene", "speed"), [[[1e9, 3e9, np.nan]], [[1e9, 1e9, 1e9]]]),
+            "max_von_mises": (over, [[[1e9, 3e9, np.nan]], [[1e9, 1e9, 1e9]]]),
+            "max_von_mises_median": (over, [[[1e9, 3e9, np.nan]], [[1e9, 1e9, 1e9]]]),
+            "share_above_yield": (over, [[[0.0, 1.0, np.nan]], [[0.0, 0.0, 0.0]]]),
             "yield_stress": (("blade", "scene"), [[2e9], [2e9]]),
             "status": (("blade", "scene", "speed"), [[[0, 0, RunStatus.NOT_RUN]], [[0, 0, 0]]]),
         },
@@ -154,8 +157,15 @@ def compared():
         [("F_1", "lined", "1B", 1e-3, 30.0), ("F_1", "lined", "1B", 5e-3, 50.0), ("F_1", "lined", np.nan, 9e-3, np.nan)],
         columns=["blade", "scene", "mode", "peak_rms_tangential_m", "shift_rad_s"],
     )
+    motion = ((*over, "tip_point"), np.full((2, 2, 3, 2), 1e-3))
+    rms = xr.Dataset(
+        {"rms_normal": motion, "rms_tangential": motion, "status": (over, np.zeros((2, 2, 3)))},
+        coords={**stress.coords, "scene": ["lined", "bare"], "tip_point": ["leading_edge", "trailing_edge"]},
+    )
+    rms["status"][0, :, 2] = RunStatus.NOT_RUN
     designs = {"F_1": {"sweep_percent": 1.0}, "F_2": {"sweep_percent": 2.0}}
-    return design_table(designs, {"F_1": 0.2, "F_2": 0.3}, campbell, stress, interactions, ["lined", "bare"])
+    datasets = {"campbell": campbell, "rms": rms, "stress": stress}
+    return design_table(designs, {"F_1": 0.2, "F_2": 0.3}, datasets, interactions, ["lined", "bare"])
 
 
 def test_designs_are_compared(compared):
@@ -164,12 +174,12 @@ def test_designs_are_compared(compared):
     one = rows.loc["F_1", "lined"]
     assert (one["mass_kg"], one["frequency_1b_hz"], one["frequency_1t_hz"]) == (0.2, 800.0, 2500.0)
     assert one["clearance_loss_1b_m"] == 3e-4
-    assert (one["length_above_yield_rad_s"], one["first_yield_rad_s"], one["largest_stress_pa"]) == (5.0, 905.0, 3e9)
+    assert (one["length_certain_rad_s"], one["first_certain_rad_s"], one["largest_stress_pa"]) == (5.0, 905.0, 3e9)
     # of the two peaks of 1B the one with the larger motion
     assert one["shift_1b_rad_s"] == 50.0
     other = rows.loc["F_2", "lined"]
-    assert other["length_above_yield_rad_s"] == 0.0
-    assert np.isnan(other["first_yield_rad_s"])
+    assert other["length_certain_rad_s"] == other["length_possible_rad_s"] == 0.0
+    assert np.isnan(other["first_certain_rad_s"])
     assert np.isnan(other["shift_1b_rad_s"])
     assert np.isnan(rows.loc["F_1", "bare"]["largest_stress_pa"])
 

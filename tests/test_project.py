@@ -40,6 +40,7 @@ LAYERS = [
     "fem",
     "rom",
     "contact",
+    "stress",
     "time_integration",
     "results",
     "run_ups",

@@ -23,7 +23,7 @@ from r37core.results.measures import largest_stress, ratio_to_yield, speeds_abov
 from r37core.speeds import RefinedRange
 from r37core.time_integration.status import RunStatus
 from r37core.tolerances.dataset import MemberRun, tolerances_dataset
-from r37core.tolerances.ranking import ranking
+from r37core.tolerances.number_ranks import ranking
 from r37core.tolerances.sample import Tolerance, is_of_sample, number_of, places
 from r37core.tolerances.sensitivity import sobol_indices
 from r37core.tolerances.shares import CONFIDENCE, share_ends

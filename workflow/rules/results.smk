@@ -96,9 +96,9 @@ rule ranking:
         **needs.of("summary"),
     params:
         runs=sweep.runs_with("rms"),
-        code=code("ranking"),
+        code=code("rank_blades"),
     script:
-        "../scripts/ranking.py"
+        "../scripts/rank_blades.py"
 
 
 rule coincidences:

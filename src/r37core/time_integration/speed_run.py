@@ -10,8 +10,8 @@ from numpy.fft import rfft  # NumPy imports it when it is used, which would be i
 from r37core.contact.scene import Scene
 from r37core.rom.contact_model import ContactModel
 from r37core.rom.rotation import rotation_amplitudes
+from r37core.stress.of_revolutions import largest_of_revolutions
 from r37core.stress.operator import StressOperator
-from r37core.stress.revolutions import largest_of_revolutions
 
 from .casing_waves import casing_waves
 from .initial_motion import InitialMotion

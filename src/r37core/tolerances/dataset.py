@@ -18,7 +18,7 @@ from r37core.results.variables import VARIABLES
 from r37core.time_integration.status import RunStatus
 from r37core.units import RPM
 
-from .ranking import ranking
+from .number_ranks import ranking
 from .sample import is_of_sample, number_of
 from .sensitivity import ORDERS, sobol_indices
 from .shares import CONFIDENCE, share_ends

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .fewest import SOBOL_RANKS
-from .ranking import places_of
+from .number_ranks import places_of
 from .sample import is_of_sample, together
 from .shares import CONFIDENCE
 
