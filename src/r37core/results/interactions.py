@@ -47,17 +47,13 @@ class InteractionChoice:
 
 @dataclass(frozen=True)
 class Interaction:
-    """One row of summary.csv; units are part of the names.
+    """One row of summary.csv; units are part of the names, and glossary.INTERACTIONS says what each field is.
 
-    `direction` in which the rms has its peak: normal, tangential or both. What is named peak is at the peak speed, what
-    is named max the largest within the interaction. `drop`: share of the motion lost within measures.DROP_WITHIN above
-    the peak. `first_yield_speed_rad_s`: first speed of the interaction above yield, NaN where none is.
-    `width_above_yield_rad_s`: from the first to the last speed of the interaction above yield; `share_above_yield`: how
-    much of it is. An interaction reaches, on both sides, to the lowest motion before the neighbouring peak, or to where
-    the motion stays below QUIET of its own peak for more than DROP_WITHIN: single speeds in between do not end it, for
-    near the end of a branch the motion is chaotic. `mode` is empty and the Campbell speed NaN for a peak that no
-    crossing of a named mode explains; NaN is also what a scene does not compute, and the drop of a motion that only
-    rises. `status` is diverged where any run of the interaction did.
+    What is named peak is at the peak speed, what is named max the largest within the interaction. An interaction reaches,
+    on both sides, to the lowest motion before the neighbouring peak, or to where the motion stays below QUIET of its own
+    peak for more than DROP_WITHIN: single speeds in between do not end it, for near the end of a branch the motion is
+    chaotic. `mode` is empty and the Campbell speed NaN for a peak that no crossing of a named mode explains; NaN is also
+    what a scene does not compute.
     """
 
     mode: str
