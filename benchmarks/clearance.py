@@ -21,9 +21,9 @@ from r37core.io import write_text
 from r37core.mesh.mesh_files import read_vtu
 from r37core.results import measures
 from r37core.results.datasets import response_of
-from r37core.results.stress_recovery import StressRecovery
 from r37core.rom.contact_model import read_contact_model
 from r37core.rom.rom_file import read_reduced_model
+from r37core.stress.recovery import stress_operator
 from r37core.studies.tables import markdown_table
 from r37core.time_integration.clearance import growth
 from r37core.time_integration.speed_run import with_rotation
@@ -71,7 +71,7 @@ def growth_table(settings):
         ours = growth(contact, np.array([speed]), contact.tip_cone_angle)[0]
         reduced = read_reduced_model(RESULTS / blade / "rom_pressure_edge.nc")
         still = with_rotation(np.zeros((1, reduced.size)), contact, speed)
-        stress = StressRecovery(reduced, material).max_von_mises(still)[0]
+        stress = stress_operator(reduced, material).max_von_mises(still)[0]
         row = {
             "blade": blade,
             "crossing (rad/s)": f"{speed:.0f}",

@@ -1,6 +1,6 @@
 """Whether the tests notice small changes of the code: a sample of mutations by cosmic-ray, and the score.
 
-Run: make mutants [MUTANTS='--each 20 results/stress_recovery.py']. A mutation is an operator, number, comparison or the like
+Run: make mutants [MUTANTS='--each 20 stress/revolutions.py']. A mutation is an operator, number, comparison or the like
 changed at one place; it is killed when a test of its module fails. The sample is drawn with a fixed seed, so that it can be
 repeated.
 """
@@ -30,7 +30,10 @@ TESTS = {
     "results/datasets.py": "test_results.py",
     "results/interactions.py": "test_results.py",
     "results/response.py": "test_results.py",
-    "results/stress_recovery.py": "test_results.py",
+    "stress/operator.py": "test_results.py",
+    "stress/recovery.py": "test_results.py",
+    "stress/revolutions.py": "test_stress.py",
+    "stress/statistic.py": "test_stress.py",
     "rom/reduced_model.py": "test_rom.py test_time_integration.py",
     "rom/craig_bampton.py": "test_rom.py",
     "speeds.py": "test_results.py test_config.py",

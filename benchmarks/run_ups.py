@@ -13,13 +13,13 @@ from r37core.config import read_settings
 from r37core.config.document import read_document
 from r37core.dataset_file import read_dataset
 from r37core.io import write_text
-from r37core.results.stress_recovery import StressRecovery
 from r37core.rom.contact_model import read_contact_model
 from r37core.rom.rom_file import read_reduced_model
 from r37core.run_ups import schedule
 from r37core.run_ups.choice import RunUpChoice
 from r37core.run_ups.revolutions import record_run_up
 from r37core.run_ups.tables import safe_rates
+from r37core.stress.recovery import stress_operator
 from r37core.studies.tables import markdown_table
 from r37core.time_integration.integrators import CENTRAL_DIFFERENCE
 
@@ -101,7 +101,7 @@ def accuracy_table():
         schedule.LARGEST_LEAD, schedule.LARGEST_STIFFENING = lead, stiffening
         asked = RunUpChoice(0.98 * speed, 1.012 * speed, None, rate, None, choice.revolutions, 0, worn=False)
         run_up = asked.run_up(choice.samples_per_revolution)
-        found = record_run_up(model, scene.scene, choice, run_up, (), highest_order=20, recovery=None, yield_stress=np.inf)
+        found = record_run_up(model, scene.scene, choice, run_up, (), highest_order=20, stress=None, yield_stress=np.inf)
         return found["rms"][choice.revolutions :, 0, [0, 2]]
 
     for rate in ACCURACY_RATES:
@@ -132,13 +132,13 @@ def needed_rate(blade, settings, campbell, changes):
         choice = replace(choice, time_step=1e-7, integrator=CENTRAL_DIFFERENCE, shorten=False)
     if "constant" in changes:
         scene = replace(scene, friction=replace(scene.friction, vector=False))
-    recovery = StressRecovery(read_reduced_model(RESULTS / blade / "rom_pressure_edge.nc"), material)
+    recovery = stress_operator(read_reduced_model(RESULTS / blade / "rom_pressure_edge.nc"), material)
     model = read_contact_model(RESULTS / blade / "contact_pressure_edge.npz")
     rows = []
     for rate in RATES:
         run_up = replace(asked, rate=rate).of_blade(choice.samples_per_revolution, campbell.sel(blade=blade), VARIED)
         found = record_run_up(
-            model, scene, choice, run_up, (), highest_order=20, recovery=recovery, yield_stress=material.yield_stress
+            model, scene, choice, run_up, (), highest_order=20, stress=recovery, yield_stress=material.yield_stress
         )
         stress = float(found["max_von_mises"][asked.before :].max())
         rows.append({"rate_rad_s2": rate, "max_von_mises_pa": stress, "status": "completed"})

@@ -16,9 +16,9 @@ from r37core.exchange.exporting.fields import displacement_of
 from r37core.fem.material import Material
 from r37core.fem.matrices import assemble
 from r37core.fem.solver import factorise
-from r37core.fem.stress import nodal_stress, von_mises
+from r37core.fem.stress import nodal_stress
+from r37core.fem.von_mises import von_mises
 from r37core.results.response import write_response
-from r37core.results.stress_recovery import StressRecovery
 from r37core.rom.contact_model import read_contact_model, write_contact_model
 from r37core.rom.reduce import reduce_blade
 from r37core.rom.reduced_model import contact_model
@@ -27,6 +27,7 @@ from r37core.run_ups import revolutions
 from r37core.run_ups.march import March
 from r37core.run_ups.revolutions import record_run_up
 from r37core.run_ups.schedule import RunUp
+from r37core.stress.recovery import stress_operator
 from r37core.time_integration.clearance import NoRoomError, check_room, clearances, growth
 from r37core.time_integration.problem import Problem
 from r37core.time_integration.simulate import Simulation
@@ -272,7 +273,7 @@ def test_stress_is_that_of_both_displacements_together(whole, mesh, steel):
         name: run_speed(contact, speed, growing(NARROW), choice, results, spectrum_highest_order=5, wear_angles=60)
         for name, results in (("total", ["stress", "static_stress"]), ("vibration", ["stress"]))
     }
-    recovery = StressRecovery(whole, steel)
+    recovery = stress_operator(whole, steel)
     found = recovery.max_von_mises(kept["total"]["snapshots"])
     vibration = recovery.max_von_mises(kept["vibration"]["snapshots"])
     still = whole.stress_submesh.rotation_shapes @ rotation_amplitudes(whole.rotation_stiffening, speed)
@@ -294,18 +295,16 @@ def test_responses_have_the_clearance_and_the_stress_of_rotation(whole, steel, t
     """A blade that touches nothing has the stress of rotation, in its response and in every revolution of a run-up."""
     contact, scene = contact_model(whole, "pressure_edge"), growing(Scene(Casing(1e-3, lobes=0)))
     choice = replace(SHORT, time_step=1e-6, snapshots_per_revolution=31, snapshot_revolutions=1)
-    results, speeds, recovery = ["stress", "static_stress"], (1000.0, 1500.0), StressRecovery(whole, steel)
+    results, speeds, recovery = ["stress", "static_stress"], (1000.0, 1500.0), stress_operator(whole, steel)
     files = [tmp_path / f"{speed:g}.npz" for speed in speeds]
     for speed, file in zip(speeds, files, strict=True):
-        kept = run_speed(contact, speed, scene, choice, results, spectrum_highest_order=5, wear_angles=60)
+        kept = run_speed(contact, speed, scene, choice, results, spectrum_highest_order=5, wear_angles=60, stress=recovery)
         write_speed(kept, file, {})
     write_response(
         files,
         speeds,
         tmp_path / "response.nc",
-        recovery,
         stress_history_speeds=(),
-        stress_instants=31,
         yield_stress=1e9,
         provenance={},
     )
@@ -319,7 +318,7 @@ def test_responses_have_the_clearance_and_the_stress_of_rotation(whole, steel, t
         tensors = nodal_stress(whole.stress_elements, whole.stress_submesh.points, alone[:, :, None], steel)
         assert found == pytest.approx(von_mises(tensors).max(), rel=1e-6)
     run_up, choice = RunUp(1000.0, 1500.0, 5.0, 1, 1, worn=False), replace(choice, revolutions=1)
-    kept = record_run_up(contact, scene, choice, run_up, results, highest_order=5, recovery=recovery, yield_stress=1e9)
+    kept = record_run_up(contact, scene, choice, run_up, results, highest_order=5, stress=recovery, yield_stress=1e9)
     np.testing.assert_allclose(kept["max_von_mises"][[0, -1]], largest, rtol=1e-6)
     assert np.all(np.diff(kept["max_von_mises"]) >= 0.0)
 
@@ -329,7 +328,7 @@ def test_a_run_up_leaves_no_instant_out_that_has_the_largest_stress(whole, steel
     contact, run_up = contact_model(whole, "pressure_edge"), RunUp(1490.0, 1500.0, 1.0, 2, 0, worn=False)
     choice = replace(SHORT, time_step=3.2e-6, revolutions=2, snapshots_per_revolution=31, snapshot_revolutions=2)
     found = []
-    recovery, shipped = StressRecovery(whole, steel), revolutions.largest_stress
+    recovery, shipped = stress_operator(whole, steel), revolutions.largest_stress
 
     def of_all(_recovery, coordinates, _bound):
         return np.array([recovery.max_von_mises(one).max() for one in coordinates])
@@ -343,7 +342,7 @@ def test_a_run_up_leaves_no_instant_out_that_has_the_largest_stress(whole, steel
             run_up,
             ["stress", "static_stress"],
             highest_order=5,
-            recovery=recovery,
+            stress=recovery,
             yield_stress=1e9,
         )
         found.append(kept["max_von_mises"])

@@ -16,7 +16,8 @@ from r37core.explorer import write_page
 from r37core.explorer.contents import explorer_contents
 from r37core.plans.sweep_plan import Sweep
 from r37core.results import glossary
-from r37core.results.interactions import COLUMNS
+from r37core.results.interaction import COLUMNS
+from r37core.results.ranking import ROBUSTNESS
 from r37core.tolerances.table import RANGES
 
 RANKING = pd.DataFrame(
@@ -76,6 +77,7 @@ def column(page, name):
 def test_every_column_has_words(root):
     """One glossary for the page, its tooltips and docs/results.md: `python -m r37core.results.glossary` renews that."""
     named = [*COLUMNS, *RANGES, "share_of_members", "robust"]
+    assert [name for name in ROBUSTNESS if not glossary.word(name, glossary.RANKING)] == []
     assert [name for name in named if not glossary.word(name, glossary.INTERACTIONS)] == []
     text = (root / "docs/results.md").read_text()
     assert glossary.table() in text

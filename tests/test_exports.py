@@ -8,7 +8,10 @@ import numpy as np
 import pandas as pd
 import pytest
 import pyvista
+import scipy.io
+import scipy.linalg as la
 import scipy.sparse as sp
+import scipy.sparse.linalg as spl
 from defaults import MatricesSource, Orientation
 
 from r37core.exchange.exporting.fields import Target, WorstInstant, worst_instants, write_modes, write_stress
@@ -17,9 +20,9 @@ from r37core.exchange.importing.matrices_in import import_matrices
 from r37core.exchange.importing.matrix_file import read_matrix
 from r37core.exchange.refusal import ImportRefused
 from r37core.results.campbell import campbell_diagram
-from r37core.results.stress_recovery import StressRecovery
 from r37core.rom.reduce import reduce_blade
 from r37core.rom.reduced_model import contact_model
+from r37core.stress.recovery import stress_operator
 from r37core.time_integration.speed_file import write_speed
 
 OURS = Orientation("m", (0, 0, 1), (1, 0, 0), "negative")
@@ -53,28 +56,27 @@ def test_modes(whole, mesh, tmp_path):
 def instant(whole, steel, tmp_path):
     """The worst of three runs, of which the second diverged."""
     shapes = whole.modes(0.0, 3)[1].T * 1e-4
-    recovery, speeds = StressRecovery(whole, steel), (900.0, 1000.0, 1200.0)
+    recovery, speeds = stress_operator(whole, steel), (900.0, 1000.0, 1200.0)
     for speed, scale in zip(speeds, (1.0, 9.0, 2.0), strict=True):
         write_speed({"status": np.array(int(speed == 1000.0)), "snapshots": scale * shapes}, tmp_path / f"{speed}.npz", {})
     files = [tmp_path / f"{speed}.npz" for speed in speeds]
-    assert list(worst_instants(files, speeds, recovery, only_worst=False, per_revolution=3)) == [900.0, 1200.0]
-    assert worst_instants(files[1:2], speeds[1:2], recovery, only_worst=True, per_revolution=3) == {}
-    found = worst_instants(files, speeds, recovery, only_worst=True, per_revolution=3)
+    assert list(worst_instants(files, speeds, recovery, only_worst=False)) == [900.0, 1200.0]
+    assert worst_instants(files[1:2], speeds[1:2], recovery, only_worst=True) == {}
+    found = worst_instants(files, speeds, recovery, only_worst=True)
     assert list(found) == [1200.0]
     assert found[1200.0].largest == pytest.approx(2 * recovery.max_von_mises(shapes).max())
     return found
 
 
-def test_the_worst_instant_is_one_of_the_last_revolution(whole, steel, tmp_path):
-    """A run whose history is kept has snapshots of all revolutions."""
-    shapes = whole.modes(0.0, 4)[1].T * [[9e-4], [2e-4], [1e-4], [3e-4]]
+def test_the_worst_instant_is_one_of_the_snapshots(whole, steel, tmp_path):
+    shapes = whole.modes(0.0, 2)[1].T * [[1e-4], [3e-4]]
     write_speed({"status": np.array(0), "snapshots": shapes}, tmp_path / "run.npz", {})
-    recovery = StressRecovery(whole, steel)
-    found = worst_instants([tmp_path / "run.npz"], [900.0], recovery, only_worst=True, per_revolution=2)[900.0]
-    last = recovery.max_von_mises(shapes[2:])
+    recovery = stress_operator(whole, steel)
+    found = worst_instants([tmp_path / "run.npz"], [900.0], recovery, only_worst=True)[900.0]
+    last = recovery.max_von_mises(shapes)
     assert (found.number, found.largest) == (np.argmax(last), last.max())
-    np.testing.assert_array_equal(found.revolution, shapes[2:])
-    np.testing.assert_array_equal(found.coordinates, shapes[2 + found.number])
+    np.testing.assert_array_equal(found.revolution, shapes)
+    np.testing.assert_array_equal(found.coordinates, shapes[found.number])
 
 
 def test_stress_of_the_worst_instant(whole, mesh, steel, instant, tmp_path):
@@ -129,6 +131,82 @@ def test_reduced_matrices_come_back(model, choice, tmp_path):
     again = import_matrices(MatricesSource(str(tmp_path), OURS), choice)
     np.testing.assert_allclose(again.mass, model.mass, atol=1e-12 * np.abs(model.mass).max())
     np.testing.assert_allclose(again.modes(1400.0, 12)[0], model.modes(1400.0, 12)[0], rtol=1e-8)
+
+
+@pytest.fixture(scope="module")
+def turning(mesh, matrices, choice):
+    """The reduced model with the Coriolis force."""
+    return reduce_blade(mesh, matrices, replace(choice, coriolis=True))
+
+
+def gyroscopic(mass, stiffness, coriolis, count):
+    """Angular frequencies and shapes of M x'' + G x' + K x = 0, of the plain eigenproblem of (x, x')."""
+    size, inverse = len(mass), np.linalg.inv(mass)
+    system = np.block([[np.zeros((size, size)), np.eye(size)], [-inverse @ stiffness, -inverse @ coriolis]])
+    values, vectors = la.eig(system)
+    rising = np.flatnonzero(values.imag > 0.0)
+    order = rising[np.argsort(values.imag[rising])][:count]
+    return values.imag[order], vectors[:size, order]
+
+
+def test_the_reduced_coriolis_matrix(turning, choice, tmp_path):
+    """From the files alone: the frequencies of the Campbell diagram, and motions that turn about the same way."""
+    speed = 2000.0
+    write_reduced_matrices(turning, (0.0, 1000.0, speed), tmp_path)
+    mass, stiffness, coriolis = (scipy.io.mmread(tmp_path / f"{name}.mtx") for name in ("M", "K_2000", "G"))
+    np.testing.assert_array_equal(coriolis, -coriolis.T)
+    frequencies, shapes = gyroscopic(mass, stiffness, speed * coriolis, 8)
+    diagram = campbell_diagram(turning, np.array([speed]), 6).frequencies.ravel()
+    plain = campbell_diagram(replace(turning, coriolis=None), np.array([speed]), 6).frequencies.ravel()
+    assert np.abs(plain / diagram - 1.0).max() > 1e-4
+    np.testing.assert_allclose(np.sort(2 * np.pi * diagram), np.sort(frequencies)[:6], rtol=1e-8)
+    # frequencies are those of -G, too; the shapes are then the conjugate ones
+    _, expected = turning.modes(speed, 8)
+    found, conjugate = (
+        np.abs(np.sum(expected.conj() * (mass @ one), axis=0)) / np.sqrt(np.sum((one.conj() * (mass @ one)).real, axis=0))
+        for one in (shapes, shapes.conj())
+    )
+    np.testing.assert_allclose(found, 1.0, rtol=1e-6)
+    assert conjugate.min() < 0.999
+    header = (tmp_path / "G.mtx").read_text().splitlines()[:2]
+    assert header[0] == "%%MatrixMarket matrix array real skew-symmetric"
+    assert "in kg, that is N s/m per rad/s: M x'' + Omega G x' + K(Omega) x = f, for Omega > 0" in header[1]
+    # the matrices come back, without it
+    again = import_matrices(MatricesSource(str(tmp_path), OURS), choice)
+    assert again.coriolis is None
+    np.testing.assert_allclose(again.modes(1400.0, 12)[0], replace(turning, coriolis=None).modes(1400.0, 12)[0], rtol=1e-8)
+
+
+def test_the_full_coriolis_matrix(mesh, matrices, turning, choice, tmp_path):
+    """The mass that moves across the axis, at right angles to its velocity; its shifts of the frequencies."""
+    speed, nodes = 2000.0, turning.contact_nodes.nodes
+    write_full_matrices(matrices, mesh, nodes, (0.0, 1000.0, speed), tmp_path, spin_softening=False, coriolis=True)
+    mass, stiffness, coriolis = (sp.csr_array(scipy.io.mmread(tmp_path / f"{name}.mtx")) for name in ("M", "K_2000", "G"))
+    # 2 Omega x velocity, Omega along -z
+    across = sp.kron(sp.eye_array(mass.shape[0] // 3), np.array([[0.0, 2.0, 0.0], [-2.0, 0.0, 0.0], [0.0, 0.0, 0.0]]))
+    assert abs(coriolis - mass @ across).max() <= 1e-15 * abs(coriolis).max()
+    assert abs(coriolis + coriolis.T).max() == 0.0
+    squares, modes = spl.eigsh(stiffness, 40, mass, sigma=0.0)
+    frequencies, _ = gyroscopic(
+        *(modes.T @ (matrix @ modes) for matrix in (mass, stiffness)), speed * modes.T @ (coriolis @ modes), 6
+    )
+    # either basis is off by half of what the force shifts them by, and leaves a tenth of the shift out
+    shift, expected = (
+        coupled / plain - 1.0
+        for coupled, plain in (
+            (frequencies, np.sqrt(np.sort(squares)[:6])),
+            (turning.modes(speed, 6)[0], replace(turning, coriolis=None).modes(speed, 6)[0]),
+        )
+    )
+    assert np.abs(expected).max() > 1e-4
+    np.testing.assert_allclose(shift, expected, rtol=0, atol=0.1 * np.abs(expected).max())
+    assert import_matrices(MatricesSource(str(tmp_path), OURS), choice).size == turning.size
+
+
+def test_without_the_coriolis_force_there_is_no_file_of_it(model, tmp_path, directory):
+    write_reduced_matrices(model, (0.0, 1000.0, 2000.0), tmp_path)
+    for folder in (tmp_path, directory):
+        assert {file.name for file in folder.iterdir()} == {"M.mtx", "K_0.mtx", "K_1000.mtx", "K_2000.mtx", "boundary.csv"}
 
 
 def test_reduced_matrices_in_other_axes(model, choice, tmp_path):

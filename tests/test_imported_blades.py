@@ -149,10 +149,13 @@ def test_matrices_are_no_base(settings_with):
         settings_with(MATRICES, {"Other": {"base": "Fan"}}, blades=("Other",))
 
 
-@pytest.mark.parametrize("key", ["spin_softening", "coriolis"])
-def test_terms_of_rotation_cannot_be_added_to_matrices(settings_with, key):
+@pytest.mark.parametrize(
+    ("key", "remedy"),
+    [("spin_softening", "put the term into its K_<speed>"), ("coriolis", "a Coriolis matrix of another program is not read")],
+)
+def test_terms_of_rotation_cannot_be_added_to_matrices(settings_with, key, remedy):
     with pytest.raises(
-        ConfigError, match=rf"structure\.{key}: found true with the blade 'Fan', given by matrices; allowed: false"
+        ConfigError, match=rf"structure\.{key}: found true with the blade 'Fan', given by matrices; allowed: false; {remedy}"
     ):
         settings_with(MATRICES, config={f"{key}: false": f"{key}: true"})
 

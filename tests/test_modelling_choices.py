@@ -14,7 +14,7 @@ from r37core.fem.material import Material
 from r37core.figures import style
 from r37core.published import BLADES, INTERACTIONS
 from r37core.results import measures
-from r37core.results.stress_recovery import StressRecovery
+from r37core.stress.operator import StressOperator
 from r37core.studies import runner
 from r37core.studies.case import Case
 from r37core.studies.checks import Check, claim, score, validation_table
@@ -206,23 +206,12 @@ def test_every_choice_is_varied_on_all_blades():
     assert grid(10.0, -3.0, 4.0, 2.0) == (8.0, 10.0, 12.0, 14.0)
 
 
-class Recovery(StressRecovery):
-    """Stands for the stress: of each instant what the snapshots say."""
-
-    def __init__(self):
-        self.region = "airfoil"
-
-    def have_rotation(self, snapshots):
-        return False
-
-    def max_von_mises(self, snapshots):
-        return snapshots[:, 0]
+STRESS = StressOperator(np.empty((6, 1, 1)), 1, "airfoil")
 
 
 def fake_run(model, speed, scene, choice, results, **kept):
     """Stands for the time integration: above yield from 995 to 1010 rad/s, the largest motion at 1010."""
     level = float(995.0 < speed <= 1010.0)
-    instants = choice.snapshot_revolutions * choice.snapshots_per_revolution
     return {
         "status": np.array(0),
         "time_step": np.array(choice.time_step),
@@ -230,7 +219,10 @@ def fake_run(model, speed, scene, choice, results, **kept):
         "rms": np.full((2, 3), level * speed),
         "peak": np.zeros((2, 3)),
         "revolution_maxima": np.zeros((choice.revolutions, 2, 3)),
-        "snapshots": np.full((instants, 1), 2.0 * level * YIELD),
+        "max_von_mises": np.array(2.0 * level * YIELD),
+        "revolution_von_mises": np.full(choice.snapshot_revolutions, 2.0 * level * YIELD),
+        "stress_region": np.array("airfoil"),
+        "static_stress": np.array(0),
     }
 
 
@@ -241,8 +233,8 @@ def test_a_window_is_followed_to_where_the_stress_is_below_yield(tmp_path, monke
     choice = IntegrationChoice(1e-7, 3, 62, snapshots_per_revolution=31)
     still = Case("Ref", "pressure_edge", Scene(Casing(1e-4)), choice, (1000.0, 1003.0, 1006.0),
                  ("stress",), steel, {}, history_speeds=(1003.0,))  # fmt: skip
-    run_case(still, None, Recovery(), tmp_path / "still.nc")
-    run_case(replace(still, follow=True), None, Recovery(), tmp_path / "found.nc")
+    run_case(still, None, STRESS, tmp_path / "still.nc")
+    run_case(replace(still, follow=True), None, STRESS, tmp_path / "found.nc")
     found = runs_of({"a/Ref_4": read_dataset(tmp_path / "found.nc")})["a"]["Ref_4"]
     assert list(found["speed"].values) == [994.0, 997.0, 1000.0, 1003.0, 1006.0, 1009.0, 1012.0]
     # the largest motion is at 1009

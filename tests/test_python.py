@@ -16,6 +16,7 @@ import numpy as np
 import pytest
 import xarray as xr
 import yaml
+from scipy.linalg import eigh
 from workflow_runs import copy_project, snakemake
 
 import r37
@@ -159,6 +160,38 @@ def test_blades_of_other_programs(root, config, tmp_path, monkeypatch):
     np.testing.assert_allclose(ours["rms_normal"], shipped["rms_normal"], rtol=1e-6)
 
 
+@pytest.mark.slow
+def test_free_flight_from_outside(config):
+    """The first mode of the reduced model, given a velocity far from the casing: v/omega_d exp(-xi omega t) sin omega_d t."""
+    speed, ratio = 1150.0, 0.005
+    far = r37.scene("abradable", config=config, damping_ratio=ratio, **{"casing.clearance_m": 0.09, "casing.lobes": 0})
+    model = r37.reduced_model("Ref", far, config=config)
+    assert model.attrs["blade"] == "Ref"
+    xr.testing.assert_identical(r37.reduced_model("Ref", config=config), model)
+    stiffness = model["stiffness"].values + speed**2 * model["geometric_stiffness"].values
+    squares, shapes = eigh(stiffness, model["mass"].values)
+    frequency, shape = np.sqrt(squares[0]), 0.1 * shapes[:, 0]
+    response = r37.simulate("Ref", far, speed, config=config, results=["energy"], initial_velocity=shape)
+    assert response.attrs["initial_state"] == "in motion" and "initial_displacement" not in response.attrs
+    np.testing.assert_array_equal(response.attrs["initial_velocity"], shape)
+    assert response["initial_energy"].item() == pytest.approx(0.5 * 0.1**2, rel=1e-3)
+    assert response["initial_energy_left_out"].item() < 1e-12
+    assert abs(response["energy_residual"].item()) < 1e-9 * response["initial_energy"].item()
+    # the leading edge along the casing's normal, over the last half of eight revolutions
+    points, basis = (model[f"tip_pressure_edge_{part}"].values for part in ("points", "basis"))
+    slope = np.diff(np.hypot(points[[0, -1], 0], points[[0, -1], 1])) / np.diff(points[[0, -1], 2])
+    radial = points[0] * [1.0, 1.0, 0.0] / np.hypot(*points[0, :2])
+    normal = (radial - slope * [0.0, 0.0, 1.0]) / np.hypot(1.0, slope)
+    per_revolution = read_settings(config.parent.parent).fidelity.time_integration.samples_per_revolution
+    samples = len(response["revolution"]) * per_revolution
+    time = 2.0 * np.pi / speed / per_revolution * (1 + np.arange(samples))
+    damped = frequency * np.sqrt(1.0 - ratio**2)
+    swing = (normal @ basis[0] @ shape) / damped * np.exp(-ratio * frequency * time) * np.sin(damped * time)
+    rms = np.sqrt(np.mean(swing[samples // 2 :] ** 2))
+    assert response["rms_normal"].sel(tip_point="leading_edge").item() == pytest.approx(rms, rel=1e-6)
+    assert "initial_state" not in r37.simulate("Ref", far, speed, config=config, results=[]).attrs
+
+
 BAD = {
     "an unknown blade": (lambda config: r37.campbell("Ref2", config=config), r"blade: found 'Ref2'; allowed: Ref, L50, L100"),
     "an unknown scene": (
@@ -198,6 +231,10 @@ BAD = {
     "a result that is not": (
         lambda config: r37.simulate("Ref", "direct", 9, results=["wear"], config=config),
         "results: found wear",
+    ),
+    "a motion that is not finite": (
+        lambda config: r37.simulate("Ref", "direct", 9, config=config, initial_velocity=[0.0, np.nan]),
+        "initial_velocity: found nan at place 1, counted from 0; allowed: finite numbers",
     ),
     "no configuration": (lambda _: r37.campbell("Ref", config="missing.yaml"), "config: found missing.yaml"),
     "no file of blades": (lambda _: r37.blade("Ref", file="missing.yaml"), "file: found missing.yaml"),

@@ -1,5 +1,6 @@
 """Adaptive speed sampling: what a range asks for, where a round looks next, and what comes of it."""
 
+import math
 import runpy
 from dataclasses import replace
 from itertools import pairwise
@@ -333,12 +334,10 @@ def test_a_round_s_file_says_what_it_was(tmp_path):
 
 
 def test_what_a_run_gives():
-    run = {"status": np.array(0), "rms": np.arange(6.0).reshape(2, 3), "snapshots": np.ones((4, 2))}
-    recovery = type("Recovery", (), {"of_last_revolution": lambda self, run, instants: np.arange(instants) + 3.0})()
-    assert measure(run, recovery, 2, 8.0)[0] == 0
-    assert measure(run, recovery, 2, 8.0)[3] == 0.5
-    assert np.isnan(measure(run, None, 2, 8.0)[3])
-    assert np.isnan(measure(run | {"status": np.array(1)}, recovery, 2, 8.0)[3])
+    run = {"status": np.array(0), "rms": np.arange(6.0).reshape(2, 3), "max_von_mises": np.array(4.0)}
+    assert measure(run, 8.0) == [0, 0.0, 2.0, 0.5]
+    assert np.isnan(measure({name: value for name, value in run.items() if name != "max_von_mises"}, 8.0)[3])
+    assert np.isnan(measure(run | {"status": np.array(1), "max_von_mises": np.array(np.nan)}, 8.0)[3])
 
 
 def test_choice_survives_the_way_to_a_job():
@@ -387,14 +386,14 @@ def test_a_round_of_a_blade_without_stress(root, tmp_path, monkeypatch):
     """A blade given by matrices has no material: its rounds go by rms and status alone."""
     write_round(Round((900.0,)), tmp_path / "round_0.json")
     write_speed({"status": np.array(0), "rms": np.full((2, 3), 1e-4)}, tmp_path / "speed_900.npz", {})
-    params = {"plan": to_plain(SpeedPlan((900.0,))), "choice": to_plain(CHOICE), "stress_instants": 1}
+    params = {"plan": to_plain(SpeedPlan((900.0,))), "choice": to_plain(CHOICE)}
     job = SimpleNamespace(
         rule="refine",
         log=[str(tmp_path / "refine.log")],
         wildcards=_Wildcards(round="1"),
         input=SimpleNamespace(before=tmp_path / "round_0.json", speeds=str(tmp_path / "speed_900.npz")),
         output=[str(tmp_path / "round_1.json")],
-        params=SimpleNamespace(**params, members=[{"material": None, "rom": 0}]),
+        params=SimpleNamespace(**params, yields=[math.inf]),
     )
     monkeypatch.syspath_prepend(root / "workflow/scripts")
     runpy.run_path(str(root / "workflow/scripts/refine.py"), {"snakemake": job})

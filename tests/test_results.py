@@ -15,9 +15,9 @@ from r37core.io import InputFileError
 from r37core.results.datasets import write_sweep_dataset
 from r37core.results.netcdf import create_axis, create_variable
 from r37core.results.response import write_response
-from r37core.results.stress_recovery import StressRecovery
 from r37core.rom.reduced_model import RecoveryNodes, contact_model
 from r37core.speeds import SpeedError, plan_speeds
+from r37core.stress.recovery import stress_operator
 from r37core.time_integration.speed_file import read_speed, write_speed
 from r37core.time_integration.speed_run import run_speed
 
@@ -47,7 +47,7 @@ def test_stress_of_simple_states():
         kappa, nu = 1e-2, 0.3
         return kappa * np.stack([x * z, -nu * y * z, -0.5 * (x**2 + nu * (z**2 - y**2))], axis=1)
 
-    recovery = StressRecovery(box_model(tension, shear, bending), MATERIAL)
+    recovery = stress_operator(box_model(tension, shear, bending), MATERIAL)
     levels = recovery.max_von_mises(np.eye(3))
     assert levels[0] == pytest.approx(180e6, rel=1e-9)
     assert levels[1] == pytest.approx(np.sqrt(3.0) * 180e9 / 2.6 * 1e-3, rel=1e-9)
@@ -58,7 +58,7 @@ def test_stress_of_simple_states():
 def test_a_node_has_the_mean_stress_of_its_elements():
     """Tension on one side of a plane between elements: on it, the stress is shared by how many elements are on either side."""
     box = box_model(lambda p: 1e-3 * np.maximum(p - [1.0 / 3.0, 0.0, 0.0], 0.0) * [1.0, 0.0, 0.0])
-    along = StressRecovery(box, Material(180e9, 8000.0, 0.0, 1.38e9)).operator[0, :, 0]
+    along = stress_operator(box, Material(180e9, 8000.0, 0.0, 1.38e9)).operator[0, :, 0]
     elements, points = box.stress_elements["wedge15"], box.stress_submesh.points
     strained = points[elements].mean(axis=1)[:, 0] > 1.0 / 3.0
     means = set()
@@ -73,7 +73,7 @@ def test_empty_submesh_is_refused():
     model = box_model(lambda p: p)
     model.stress_elements = {}
     with pytest.raises(ValueError, match=r"structure\.stress_submesh"):
-        StressRecovery(model, MATERIAL)
+        stress_operator(model, MATERIAL)
 
 
 SPEEDS = (900.0, 1200.0, 1600.0)
@@ -87,17 +87,17 @@ def sweep(model, tmp_path_factory):
     contact = contact_model(model, "pressure_edge")
     casing = Casing(0.356e-3, rise_fraction=0.5)
     abradable = Scene(casing, Lining(5e-3, 20e9, 5e9, 1.5, bar_width=0.03), Friction(0.15))
-    recovery = StressRecovery(model, MATERIAL)
+    recovery = stress_operator(model, MATERIAL)
     files = {}
     for name, lined in (("abradable", abradable), ("direct", Scene(casing, None, Friction(0.15)))):
         sources = []
         for speed in SPEEDS if lined.lining else SPEEDS[1:]:
             limit = 1e-7 if name == "direct" and speed == SPEEDS[-1] else 0.05
             scene = Scene(lined.casing, lined.lining, lined.friction, divergence_limit=limit)
-            history = 4 if speed == 1200.0 else 1
+            history = 4 if speed == 1200.0 else 2
             choice = IntegrationChoice(2e-7, 4, 62, snapshots_per_revolution=31, snapshot_revolutions=history, energy=True)
             wanted = [kind for kind in RESULTS if kind != "wear" or lined.lining]
-            kept = run_speed(contact, speed, scene, choice, wanted, spectrum_highest_order=10, wear_angles=60)
+            kept = run_speed(contact, speed, scene, choice, wanted, spectrum_highest_order=10, wear_angles=60, stress=recovery)
             sources.append(folder / f"{name}_{speed:g}.npz")
             write_speed(kept, sources[-1], {})
         file = folder / f"{name}.nc"
@@ -106,9 +106,7 @@ def sweep(model, tmp_path_factory):
             sources,
             speeds,
             file,
-            recovery,
             stress_history_speeds=(1200.0,),
-            stress_instants=31,
             yield_stress=1.0,
             provenance={"blade": "Ref", "scene": name},
         )
@@ -228,9 +226,7 @@ def test_every_blade_and_scene_has_its_own_slab(sweep, tmp_path):
             places,
             speeds,
             files[key],
-            None,
             stress_history_speeds=(),
-            stress_instants=31,
             yield_stress=1.0,
             provenance={"numerics": "20000 nodes", "contact": "points" if key[0] == "A" else "patches"},
         )
@@ -256,9 +252,7 @@ def test_responses_of_two_levels_do_not_mix(sweep, tmp_path):
             [source / "abradable_900.npz"],
             (900.0,),
             files[blade, "abradable"],
-            None,
             stress_history_speeds=(),
-            stress_instants=31,
             yield_stress=1.0,
             provenance={"numerics": numerics},
         )
@@ -276,9 +270,7 @@ def test_unreadable_speed_is_named(sweep, model):
             [broken],
             (900.0,),
             folder / "never.nc",
-            None,
             stress_history_speeds=(),
-            stress_instants=31,
             yield_stress=1.0,
             provenance={},
         )

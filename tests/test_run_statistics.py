@@ -7,6 +7,7 @@ import pytest
 from defaults import Casing, IntegrationChoice, Scene
 from integration_cases import DIRECT, LINING, oscillator
 
+from r37core.time_integration.initial_motion import InitialMotion
 from r37core.time_integration.problem import Problem, UnstableStepError
 from r37core.time_integration.simulate import Simulation
 from r37core.time_integration.speed_run import run_speed
@@ -17,16 +18,8 @@ FREE = Scene(Casing(1.0, lobes=0), damping_ratio=0.0)
 SPEED = 1000.0
 
 
-def swinging(monkeypatch, amplitude):
-    """Every run starts with this displacement (m) of its mode."""
-    start = Simulation.start
-
-    def displaced(simulation):
-        state = start(simulation)
-        state.displacement[:] = amplitude
-        return state
-
-    monkeypatch.setattr(Simulation, "start", displaced)
+SWINGING = InitialMotion.given([1e-4], None)
+"""Displacement (m) of the one mode as its run starts."""
 
 
 def with_tip(normal, tangential):
@@ -37,9 +30,8 @@ def with_tip(normal, tangential):
     return replace(model, tip_displacement_operator=operator)
 
 
-def test_statistics_of_a_free_oscillation(monkeypatch):
+def test_statistics_of_a_free_oscillation():
     """Ten periods a revolution of 0.1 mm: rms amplitude/sqrt(2) in metres and one line of the spectrum, at both edges."""
-    swinging(monkeypatch, 1e-4)
     choice = IntegrationChoice(1e-7, 6, 620)
     kept = run_speed(
         with_tip([1.0, 3.0], [0.5, 2.0]),
@@ -49,6 +41,7 @@ def test_statistics_of_a_free_oscillation(monkeypatch):
         ("spectrum",),
         spectrum_highest_order=31,
         wear_angles=10,
+        motion=SWINGING,
     )
     expected = 1e-4 * np.array([[1.0, 1.0, 0.5], [3.0, 3.0, 2.0]])
     np.testing.assert_allclose(kept["rms"], expected / np.sqrt(2.0), rtol=1e-4)
@@ -81,9 +74,8 @@ def test_contact_statistics_counted_step_by_step():
 
 
 @pytest.mark.parametrize("edge", [0, 1])
-def test_either_edge_of_the_tip_can_diverge(monkeypatch, edge):
+def test_either_edge_of_the_tip_can_diverge(edge):
     """The limit is on what any output moves, at the leading edge as at the trailing edge."""
-    swinging(monkeypatch, 1e-4)
     moves = [0.0, 0.0]
     moves[edge] = 5.0
     choice = IntegrationChoice(1e-7, 4, 62)
@@ -96,6 +88,7 @@ def test_either_edge_of_the_tip_can_diverge(monkeypatch, edge):
             (),
             spectrum_highest_order=10,
             wear_angles=10,
+            motion=SWINGING,
         )
         assert kept["status"] == status
 

@@ -278,7 +278,7 @@ def _integral(slope, curvature, time):
 
 
 def recorded(model, scene, choice, run_up, results=("spectrum", "wear", "energy")):
-    return record_run_up(model, scene, choice, run_up, results, highest_order=8, recovery=None, yield_stress=1e9)
+    return record_run_up(model, scene, choice, run_up, results, highest_order=8, stress=None, yield_stress=1e9)
 
 
 def test_modes_that_pass_the_highest_frequency_come_and_go(contact):

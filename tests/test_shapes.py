@@ -16,12 +16,12 @@ from r37core.exchange.exporting.fields import WorstInstant, displacement_of, mod
 from r37core.explorer import write_page
 from r37core.figures.style import save
 from r37core.io import read_json, write_json
-from r37core.results.stress_recovery import StressRecovery
 from r37core.rom.reduce import reduce_blade
 from r37core.shapes import INDEX, PARTS, shapes_contents
 from r37core.shapes.gltf import MovingSurface, write_glb
 from r37core.shapes.moving import LARGEST_SHOWN, write_mode_shapes, write_worst_shapes
 from r37core.shapes.stills import draw_shapes
+from r37core.stress.recovery import stress_operator
 
 
 @pytest.fixture(scope="module")
@@ -131,7 +131,7 @@ def instant(whole, steel):
     angle = 2.0 * np.pi * np.arange(62) / 62
     shapes = whole.modes(0.0, 2)[1].T
     revolution = 2e-4 * (np.outer(np.sin(3 * angle), shapes[0]) + 0.2 * np.outer(np.cos(2 * angle), shapes[1]))
-    stress = StressRecovery(whole, steel).max_von_mises(revolution)
+    stress = stress_operator(whole, steel).max_von_mises(revolution)
     number = int(np.argmax(stress))
     return WorstInstant(revolution[number], float(stress[number]), revolution, number)
 

@@ -21,7 +21,7 @@ from r37core.config.study_sections import Parameters
 from r37core.dataset_file import read_dataset, write_dataset
 from r37core.plain import from_plain, to_plain
 from r37core.results.measures import first_contact
-from r37core.results.stress_recovery import StressRecovery
+from r37core.stress.recovery import stress_operator
 from r37core.studies import runner
 from r37core.studies.case import MODEL_NAME, Case, ModelChoice, changed, model_of_name
 from r37core.studies.estimate.cases import sample
@@ -204,7 +204,7 @@ def test_a_run_that_diverged_has_no_stress_at_instants(contact, model, steel, tm
     choice = IntegrationChoice(2e-7, 4, 62, snapshots_per_revolution=62)
     diverging = replace(DIRECT, divergence_limit=1e-6)
     case = replace(case_of(choice, diverging), results=("stress", "instants"), material=steel)
-    run_case(case, contact, StressRecovery(model, steel), tmp_path / "case.nc")
+    run_case(case, contact, stress_operator(model, steel), tmp_path / "case.nc")
     found = read_dataset(tmp_path / "case.nc")
     assert found["status"].values.all() and found["max_von_mises_of_instant"].isnull().all()
 

@@ -160,13 +160,13 @@ def test_estimate_of_speeds_that_refine_themselves_is_their_share(refining):
 def test_models_of_a_scene(chosen):
     sweep = Sweep(chosen)
     assert sweep.contact_model(REF) == "<results>/Ref/contact_pressure_edge.npz"
-    assert sweep.recovery(L50) == {"rom": "<results>/L50/rom_pressure_edge.nc"}
+    assert sweep.stress_operator(L50) == ["<results>/L50/stress_pressure_edge.npz"]
 
 
 def test_a_scene_without_stress_needs_no_basis(chosen):
     plain = chosen.scene_entries["direct"].model_copy(update={"results": ["spectrum"]})
     sweep = Sweep(replace(chosen, scene_entries=chosen.scene_entries | {"direct": plain}))
-    assert sweep.recovery(L50) == {}
+    assert sweep.stress_operator(L50) == []
     assert sweep.runs(of(kind="stress")) == [("Ref", "abradable"), ("L50", "abradable")]
 
 

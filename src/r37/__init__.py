@@ -14,7 +14,7 @@ from r37core.io import InputFileError
 from .choices import BladeChoice, SceneChoice, blade, blades, scene
 from .plots import plot_campbell, plot_response
 from .run_results import RunResults, open_results
-from .simulations import campbell, simulate, sweep
+from .simulations import campbell, reduced_model, simulate, sweep
 from .study_folder import SNAKEFILE, init
 
 __all__ = [
@@ -32,6 +32,7 @@ __all__ = [
     "open_results",
     "plot_campbell",
     "plot_response",
+    "reduced_model",
     "scene",
     "simulate",
     "sweep",

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import tempfile
 import warnings
 from collections.abc import Iterable, Sequence
@@ -12,6 +11,7 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
+from numpy.typing import ArrayLike
 
 from r37core.config import ConfigError, Settings
 from r37core.dataset_file import read_dataset
@@ -19,9 +19,9 @@ from r37core.io import FILE_ATTRIBUTES
 from r37core.plans.provenance import Provenance
 from r37core.plans.sweep_plan import Sweep
 from r37core.results.response import write_response
-from r37core.results.stress_recovery import StressRecovery
 from r37core.rom.contact_model import read_contact_model
-from r37core.rom.rom_file import read_reduced_model
+from r37core.stress.operator import read_stress_operator
+from r37core.time_integration.initial_motion import InitialMotion, InitialMotionError
 from r37core.time_integration.speed_file import write_speed
 from r37core.time_integration.speed_run import OF_RUNS, run_speed
 
@@ -51,13 +51,44 @@ def simulate(
     fidelity: str | None = None,
     results: Sequence[str] | None = None,
     config: Path | str | None = None,
+    initial_displacement: ArrayLike | None = None,
+    initial_velocity: ArrayLike | None = None,
 ) -> xr.Dataset:
     """The response of a blade in a scene at one speed (rad/s): what `sweep` gives of it, without the dimension speed.
 
-    Arguments and errors as of `sweep`.
+    The blade starts at rest, or with a displacement and a velocity (per s) in the coordinates of the reduced model, shape
+    (coordinates,): those of `reduced_model`. What of them lies in modes that are not stepped is left out; the dataset has its
+    share of the energy, and the attribute initial_state. Other arguments and errors as of `sweep`; ConfigError also for a
+    displacement that reaches into casing or lining.
     """
     asked = {"speeds": _numbers([speed]), **_level(fidelity)}
-    return _response(_settings("r37.simulate", blade, scene, config, asked, results)).isel(speed=0)
+    settings = _settings("r37.simulate", blade, scene, config, asked, results)
+    try:
+        motion = InitialMotion.given(initial_displacement, initial_velocity)
+        found = _response(settings, motion)
+    except InitialMotionError as error:
+        raise ConfigError(str(error)) from None
+    return found.isel(speed=0).assign_attrs({} if motion is None else motion.attributes)
+
+
+def reduced_model(
+    blade: BladeChoice | str,
+    scene: SceneChoice | str | None = None,
+    *,
+    fidelity: str | None = None,
+    config: Path | str | None = None,
+) -> xr.Dataset:
+    """The reduced model of a blade with the contact nodes of a scene, as rom.nc of a run: `mass`, `stiffness` and others.
+
+    Without a scene the contact nodes are those of structure.boundary. Other arguments and errors as of `sweep`.
+    """
+    settings = _settings("r37.reduced_model", blade, scene, config, _level(fidelity))
+    (name,) = settings.blade_names
+    chosen = [settings.structure.boundary] if scene is None else settings.scenes.values()
+    (tip_line,) = {one.tip_line for one in chosen}
+    made = Provenance(settings).structure(SimpleNamespace(blade=name))
+    model = read_dataset(StructureFiles(settings, name).reduced_model(tip_line))
+    return model.assign_attrs(FILE_ATTRIBUTES | dict(made))
 
 
 def sweep(
@@ -118,32 +149,29 @@ def _settings(
     return Configuration(base.document, blade.configuration.root).settings(asked, caller, blade.above, above)
 
 
-def _response(settings: Settings) -> xr.Dataset:
-    """The response of the one blade in the one scene of the settings, at their speeds."""
+def _response(settings: Settings, motion: InitialMotion | None = None) -> xr.Dataset:
+    """The response of the one blade in the one scene of the settings, at their speeds, from rest or in `motion`."""
     ((blade, scene), plan), *_ = settings.speed_plans.items()
     at, sweep = SimpleNamespace(blade=blade, scene=scene), Sweep(settings)
     for remark in [*settings.remarks_on_casings, *settings.remarks_on_points]:
         warnings.warn(remark, stacklevel=3)
-    chosen, material, structure = settings.scenes[scene], settings.blades[blade].material, StructureFiles(settings, blade)
+    chosen, structure = settings.scenes[scene], StructureFiles(settings, blade)
     model = read_contact_model(structure.contact_model(chosen.tip_line))
-    recovery = None
-    if sweep.with_stress(at) and material is not None:
-        recovery = StressRecovery(read_reduced_model(structure.reduced_model(chosen.tip_line)), material)
+    stress = read_stress_operator(structure.stress_operator(chosen.tip_line)) if sweep.with_stress(at) else None
     results = [result for result in sweep.results(at) if result in OF_RUNS]
     with tempfile.TemporaryDirectory() as folder:
         files = [Path(folder, f"{number}.npz") for number in range(len(plan.certain))]
         for speed, file in zip(plan.certain, files, strict=True):
             choice = settings.integration_choice(blade, scene, speed)
-            write_speed(run_speed(model, speed, chosen.scene, choice, results, **sweep.kept), file, {})
+            run = run_speed(model, speed, chosen.scene, choice, results, **sweep.kept, stress=stress, motion=motion)
+            write_speed(run, file, {})
         response = Path(folder, "response.nc")
         write_response(
             files,
             plan.certain,
             response,
-            recovery,
             stress_history_speeds=sweep.stress_history_speeds(at),
-            stress_instants=settings.fidelity.time_integration.stress_instants,
-            yield_stress=material.yield_stress if material else math.inf,
+            yield_stress=sweep.yield_stress(at),
             provenance=Provenance(settings).sweep(at),
         )
         return read_dataset(response)

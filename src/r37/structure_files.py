@@ -38,6 +38,13 @@ class StructureFiles:
         rom, made_of = self._reduced(tip_line)
         return _made("contact.npz", [made_of, tip_line], lambda file: _steps().contact(file, rom, tip_line))
 
+    def stress_operator(self, tip_line: str) -> Path:
+        """The stress per motion of a blade with a mesh (.npz). Raises what making it raises."""
+        rom, made_of = self._reduced(tip_line)
+        elastic = self.settings.blades[self.name].elastic.material
+        assert elastic is not None
+        return _made("stress.npz", made_of, lambda file: _steps().stress(file, rom, elastic))
+
     def campbell(self) -> Path:
         """The Campbell diagram (.nc), without provenance. Raises what making it raises."""
         structure = self.settings.structure

@@ -25,6 +25,8 @@ from r37core.rom.reduce import reduce_blade
 from r37core.rom.reduced_model import contact_model
 from r37core.rom.reduction_choice import ReductionChoice
 from r37core.rom.rom_file import read_reduced_model, write_reduced_model
+from r37core.stress.operator import write_stress_operator
+from r37core.stress.recovery import stress_operator
 
 
 def geometry(file: Path, definition: BladeDefinition, edges: str) -> None:
@@ -68,6 +70,11 @@ def imported_matrices(
 def contact(file: Path, rom_file: Path, tip_line: str) -> None:
     """Prepare a reduced blade for simulations with contact on this line."""
     write_contact_model(contact_model(read_reduced_model(rom_file), tip_line), file)
+
+
+def stress(file: Path, rom_file: Path, elastic: Material) -> None:
+    """Prepare the stress of a reduced blade. Raises ValueError where its region has no elements."""
+    write_stress_operator(stress_operator(read_reduced_model(rom_file), elastic), file)
 
 
 def campbell(file: Path, rom_file: Path, maximum_speed: float, tip_line: str, numbers: Mapping[str, Any]) -> None:

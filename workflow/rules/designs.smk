@@ -6,7 +6,7 @@ families = Families(settings)
 
 rule designs:
     input:
-        **{kind: datasets[kind] for kind in sweep.kinds if kind == "stress"},
+        **{kind: datasets[kind] for kind in sweep.kinds if kind in ("rms", "stress")},
         campbell=rules.campbell_of_all.output[0],
         summary=rules.summary.output[0],
         geometry=expand(rules.geometry.output, blade=families.designs),

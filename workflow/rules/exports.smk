@@ -81,7 +81,6 @@ rule exported_stress:
         choice=exported.choice,
         speeds=sweep.speeds,
         only_worst=exported.only_worst,
-        stress_instants=settings.fidelity.time_integration.stress_instants,
         material=structure.elastic,
         orientation=exported.orientation,
         code=code("exported_stress"),

@@ -113,6 +113,17 @@ use rule figure as comparison_figure with:
         ),
 
 
+use rule figure as ranking_figure with:
+    input:
+        ranking=rules.ranking.output[0],
+    output:
+        **pictures("ranking", TOGETHER, EVERY_SCENE, "ranking"),
+    log:
+        "<logs>/figures/ranking.log",
+    params:
+        **drawing(code, "ranking_bars.draw_ranking", "ranking"),
+
+
 use rule figure as clearance_figure with:
     input:
         rms=expand(rules.sweep_dataset.output, kind="rms")[0],

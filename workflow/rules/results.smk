@@ -79,6 +79,28 @@ rule summary:
         "../scripts/summary.py"
 
 
+rule ranking:
+    input:
+        **{kind: datasets[kind] for kind in sweep.kinds if kind in ("rms", "stress")},
+        **({"tolerances": "<results>/tolerances.nc"} if settings.members.pairs else {}),
+    output:
+        report(
+            "<results>/ranking.csv",
+            **shown(TEXTS / "ranking.rst", TOGETHER, EVERY_SCENE, figure="ranking"),
+        ),
+    log:
+        "<logs>/ranking.log",
+    conda:
+        ENVIRONMENT
+    resources:
+        **needs.of("summary"),
+    params:
+        runs=sweep.runs_with("rms"),
+        code=code("ranking"),
+    script:
+        "../scripts/ranking.py"
+
+
 rule coincidences:
     input:
         campbell=rules.campbell_of_all.output[0],
@@ -106,6 +128,7 @@ rule explorer:
         **({"tolerances": "<results>/tolerances.nc"} if settings.members.pairs else {}),
         campbell=rules.campbell_of_all.output[0],
         summary=rules.summary.output[0],
+        ranking=rules.ranking.output[0],
     output:
         report(
             "<results>/explorer.html",

@@ -20,7 +20,7 @@ rule run_up:
         run_up=run_ups.run_up,
         results=run_ups.results,
         highest_order=settings.fidelity.time_integration.spectrum_highest_order,
-        material=structure.material,
+        yield_stress=sweep.yield_stress,
         provenance=made.sweep,
         code=code("run_up"),
     script:

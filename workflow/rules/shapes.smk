@@ -35,7 +35,6 @@ rule worst_shapes:
     params:
         speeds=sweep.speeds,
         interactions=plain(settings.interactions),
-        stress_instants=settings.fidelity.time_integration.stress_instants,
         material=structure.elastic,
         code=code("worst_shapes"),
     script:

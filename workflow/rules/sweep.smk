@@ -19,9 +19,28 @@ rule contact_model:
         "../scripts/contact_model.py"
 
 
+rule stress_operator:
+    input:
+        rules.reduced_model.output,
+    output:
+        paths.STRESS_OPERATOR,
+    log:
+        "<logs>/{blade}/stress_operator_{tip_line}.log",
+    priority: 2
+    conda:
+        ENVIRONMENT
+    resources:
+        **needs.of("contact_model"),
+    params:
+        material=structure.elastic,
+        code=code("stress_operator"),
+    script:
+        "../scripts/stress_operator.py"
+
+
 rule prepare_time_integration:
     input:
-        sweep.contact_model,
+        sweep.models,
     output:
         touch(paths.INTEGRATION_STAMP),
     log:
@@ -54,7 +73,7 @@ served = {
 rule simulate:
     input:
         prepared=rules.prepare_time_integration.output,
-        model=sweep.contact_model,
+        models=sweep.models,
     output:
         paths.SPEED,
     log:
@@ -70,7 +89,7 @@ rule simulate:
         about=made.sweep,
     # not `script:`, whose preamble imports Snakemake into each of thousands of jobs
     shell:
-        "{params.python:q} -S -E {params.start:q} {params.script:q} {input.model:q} {wildcards.speed:q} {output:q} {log:q} {params.task:q} {params.about:q}"
+        "{params.python:q} -S -E {params.start:q} {params.script:q} {wildcards.speed:q} {output:q} {log:q} {params.task:q} {params.about:q} {input.models:q}"
 
 
 # adaptive speed sampling: each round asks for some more, from what those before it gave, until one asks for none
@@ -92,8 +111,7 @@ checkpoint refine:
     params:
         plan=sweep.refined_plan,
         choice=sweep.refinement_choice,
-        members=sweep.members_of_round,
-        stress_instants=settings.fidelity.time_integration.stress_instants,
+        yields=sweep.yields_of_round,
         code=code("refine"),
     script:
         "../scripts/refine.py"
@@ -101,7 +119,6 @@ checkpoint refine:
 
 rule response:
     input:
-        unpack(sweep.recovery),
         speeds=sweep.speed_files,
     output:
         paths.RESPONSE,
@@ -114,10 +131,8 @@ rule response:
         **needs.of("response"),
     params:
         speeds=sweep.speeds,
-        stress=sweep.with_stress,
         stress_history_speeds=sweep.stress_history_speeds,
-        stress_instants=settings.fidelity.time_integration.stress_instants,
-        material=structure.material,
+        yield_stress=sweep.yield_stress,
         provenance=made.sweep,
         code=code("response"),
     script:

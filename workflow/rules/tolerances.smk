@@ -52,6 +52,18 @@ use rule contact_model as member_contact_model with:
         "<logs>/tolerances/models/{blade}/{member}/contact_model_{tip_line}.log",
 
 
+use rule stress_operator as member_stress_operator with:
+    input:
+        rules.member_model.output,
+    output:
+        of_member(paths.STRESS_OPERATOR),
+    log:
+        "<logs>/tolerances/models/{blade}/{member}/stress_operator_{tip_line}.log",
+    params:
+        material=tolerances.elastic,
+        code=code("stress_operator"),
+
+
 use rule campbell_of_blade as member_campbell with:
     input:
         expand(rules.member_model.output, tip_line=settings.structure.boundary.tip_line, allow_missing=True),
@@ -65,7 +77,7 @@ use rule campbell_of_blade as member_campbell with:
 rule prepare_member:
     input:
         prepared=rules.prepare_time_integration.output,
-        model=tolerances.contact_model,
+        models=tolerances.models,
     output:
         touch(paths.MEMBER_STAMP),
     log:
@@ -81,13 +93,13 @@ rule prepare_member:
         about=tolerances.about_run,
         speed=settings.structure.maximum_speed_rad_s,
     shell:
-        "{params.python:q} -S -E {params.start:q} {params.script:q} {input.model:q} {params.speed:q} {output:q} {log:q} {params.task:q} {params.about:q}"
+        "{params.python:q} -S -E {params.start:q} {params.script:q} {params.speed:q} {output:q} {log:q} {params.task:q} {params.about:q} {input.models:q}"
 
 
 use rule simulate as simulate_member with:
     input:
         prepared=rules.prepare_member.output,
-        model=tolerances.contact_model,
+        models=tolerances.models,
     output:
         paths.MEMBER_SPEED,
     log:
@@ -116,8 +128,7 @@ checkpoint refine_members:
     params:
         plan=sweep.refined_plan,
         choice=tolerances.refinement_choice,
-        members=tolerances.members_of_round,
-        stress_instants=settings.fidelity.time_integration.stress_instants,
+        yields=tolerances.yields_of_round,
         code=code("refine"),
     script:
         "../scripts/refine.py"
@@ -125,7 +136,6 @@ checkpoint refine_members:
 
 use rule response as member_response with:
     input:
-        unpack(tolerances.recovery),
         speeds=tolerances.speed_files,
     output:
         paths.MEMBER_RESPONSE,
@@ -133,10 +143,8 @@ use rule response as member_response with:
         "<logs>/tolerances/{blade}/{scene}/{member}/response.log",
     params:
         speeds=sweep.speeds,
-        stress=sweep.with_stress,
         stress_history_speeds=(),
-        stress_instants=settings.fidelity.time_integration.stress_instants,
-        material=tolerances.material,
+        yield_stress=tolerances.yield_stress,
         provenance=tolerances.about_run,
         code=code("response"),
 

@@ -1,4 +1,4 @@
-"""Compare the designs of families. Inputs: campbell, summary, stress, geometry. Params: designs, densities, ... Output: CSV."""
+"""Compare the designs of families. Inputs: datasets, summary, geometry. Params: designs, densities, scenes. Output: CSV."""
 
 from job import run
 
@@ -9,11 +9,12 @@ from r37core.results.table_file import read_table, write_table
 
 
 def main(snakemake):
-    params, given = snakemake.params, snakemake.input
-    stress = read_dataset(given.stress) if given.get("stress") else None
-    files = dict(zip(params.designs, as_list(given.geometry), strict=True))
+    params, given = snakemake.params, dict(snakemake.input.items())
+    summary, shapes = read_table(given.pop("summary")), as_list(given.pop("geometry"))
+    files = dict(zip(params.designs, shapes, strict=True))
     masses = {blade: params.densities[blade] * float(read_dataset(file)["volume"]) for blade, file in files.items()}
-    table = design_table(params.designs, masses, read_dataset(given.campbell), stress, read_table(given.summary), params.scenes)
+    datasets = {kind: read_dataset(file) for kind, file in given.items()}
+    table = design_table(params.designs, masses, datasets, summary, params.scenes)
     write_table(table, snakemake.output[0], digits=6)
 
 

@@ -1,4 +1,4 @@
-"""One page to look at all results. Inputs: datasets, summary and, if there, tolerances, ranking. Output: HTML.
+"""One page to look at all results. Inputs: datasets, summary, ranking and, if there, tolerances. Output: HTML.
 
 Params: title, shapes, benchmark_scenes.
 """
@@ -15,8 +15,7 @@ from r37core.results.table_file import read_table
 
 def main(snakemake):
     files = dict(snakemake.input.items())
-    interactions = read_table(files.pop("summary"))
-    ranking = read_table(files.pop("ranking")) if "ranking" in files else None
+    interactions, ranking = (read_table(files.pop(name)) for name in ("summary", "ranking"))
     datasets = {kind: read_dataset(file) for kind, file in files.items()}
     params, file = snakemake.params, Path(snakemake.output[0])
     in_report = {blade: str(snakemake.report_href(file.parent / f"shapes/{blade}.html")) for blade, _ in params.shapes}

@@ -19,7 +19,8 @@ def main(snakemake):
         mesh = read_vtu(given.mesh)
         matrices = assemble(mesh, from_plain(Material, params.material))
         nodes = table_nodes(model, params.tip_line)
-        write_full_matrices(matrices, mesh, nodes, speeds, folder, params.choice["spin_softening"])
+        with_coriolis = model.coriolis is not None
+        write_full_matrices(matrices, mesh, nodes, speeds, folder, params.choice["spin_softening"], with_coriolis)
     else:
         write_reduced_matrices(model, speeds, folder)
 

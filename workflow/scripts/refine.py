@@ -1,4 +1,4 @@
-"""Ask for the next speeds. Inputs: campbell, or before, speeds, rom. Params: plan, members, ... Output: round_*.json."""
+"""Ask for the next speeds. Inputs: campbell, or before and speeds. Params: plan, choice, yields. Output: round_*.json."""
 
 from job import run
 
@@ -16,8 +16,8 @@ def main(snakemake):
     if snakemake.wildcards.round == "0":
         asked = first_round(plan, read_dataset(given.campbell), choice)
     else:
-        before, models = read_round(given.before), as_list(getattr(given, "rom", []))
-        gave = measure_members(params.members, before.new, as_list(given.speeds), models, params.stress_instants)
+        before = read_round(given.before)
+        gave = measure_members(params.yields, before.new, as_list(given.speeds))
         asked = round_after(before, gave, plan, choice)
     write_round(asked, snakemake.output[0])
 

@@ -1,4 +1,4 @@
-"""Simulate one blade at one speed in one scene. Arguments: contact model, speed, output, log, task, about. Output: speed_*.npz.
+"""Simulate one blade at one speed in one scene. Arguments: speed, output, log, task, about, models. Output: speed_*.npz.
 
 Started by start.py, without Snakemake's own preamble; task and attributes of the file, in JSON, are made in r37core.plans. The
 server that forks these jobs calls `make_ready` (r37core.console.job_server).
@@ -17,6 +17,6 @@ this_processor()
 
 
 if __name__ == "__main__":
-    model, speed, output, log, task, about = sys.argv[1:]
+    speed, output, log, task, about, *models = sys.argv[1:]
     with reported("simulate", log, f"speed {speed}, "):
-        run_job(model, speed, output, task, about)
+        run_job(speed, output, task, about, *models)

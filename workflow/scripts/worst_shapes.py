@@ -12,9 +12,9 @@ from r37core.io import as_list
 from r37core.mesh.mesh_files import read_vtu
 from r37core.plain import from_plain
 from r37core.results.interactions import InteractionChoice, find_interactions, titles
-from r37core.results.stress_recovery import StressRecovery
 from r37core.rom.rom_file import read_reduced_model
 from r37core.shapes.moving import write_worst_shapes
+from r37core.stress.recovery import stress_operator
 
 
 def main(snakemake):
@@ -25,8 +25,7 @@ def main(snakemake):
     choice = from_plain(InteractionChoice, params.interactions)
     found = titles(find_interactions(response, read_dataset(given.campbell), choice))
     files = {speed: file for speed, file in zip(params.speeds, as_list(given.speeds), strict=True) if speed in found}
-    recovery = StressRecovery(model, material)
-    instants = worst_instants(files.values(), list(files), recovery, False, params.stress_instants)
+    instants = worst_instants(files.values(), list(files), stress_operator(model, material), False)
     named = {speed: f"{found[speed]}, {snakemake.wildcards.scene}" for speed in instants}
     write_worst_shapes(read_vtu(given.mesh), model, material, instants, named, Path(snakemake.output[0]))
 

@@ -5,19 +5,12 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import cache
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import xarray as xr
 
-from r37core.fem.material import Material
 from r37core.io import read_json, readable, write_json
-from r37core.plain import from_plain
-from r37core.results.measures import largest_of_run
-from r37core.results.stress_recovery import StressRecovery
-from r37core.rom.rom_file import read_reduced_model
 from r37core.speeds import SpeedPlan
 from r37core.time_integration.simulate import DIRECTIONS, TIP_POINTS
 from r37core.time_integration.speed_file import read_speed
@@ -51,44 +44,25 @@ def round_after(before: Round, gave: Mapping[float, Sequence[float]], plan: Spee
     return Round(tuple(sorted(new)), measured)
 
 
-def measure_members(
-    members: Sequence[Mapping[str, Any]],
-    speeds: Sequence[float],
-    files: Iterable[Path | str],
-    models: Sequence[Path | str],
-    stress_instants: int,
-) -> dict[float, list[float]]:
+def measure_members(yields: Sequence[float], speeds: Sequence[float], files: Iterable[Path | str]) -> dict[float, list[float]]:
     """Of each speed (rad/s) status and CURVES of one member after the other, as Round has them; one blade alone is one member.
 
-    `members`: plain `material` of each, and the place of its reduced model, `rom`, among the `models`, none without stress;
-    `files`: member by member those of all speeds. Raises InputFileError for a file that cannot be read.
+    `yields`: yield stress (Pa) of each; `files`: member by member those of all speeds. Raises InputFileError for a file that
+    cannot be read.
     """
-
-    @cache
-    def recovery_of(rom: int, material: Material) -> StressRecovery:
-        return StressRecovery(read_reduced_model(models[rom]), material)
-
     gave: dict[float, list[float]] = {speed: [] for speed in speeds}
     every = iter(files)
-    for member in members:
-        material = from_plain(Material | None, member["material"])  # type: ignore[arg-type]
-        recovery = recovery_of(member["rom"], material) if models and material else None
-        yield_stress = material.yield_stress if material else math.inf
+    for yield_stress in yields:
         for speed in speeds:
-            gave[speed] += measure(read_speed(next(every)), recovery, stress_instants, yield_stress)
+            gave[speed] += measure(read_speed(next(every)), yield_stress)
     return gave
 
 
-def measure(
-    run: Mapping[str, np.ndarray], recovery: StressRecovery | None, stress_instants: int, yield_stress: float
-) -> list[float]:
-    """Status and CURVES of one run; NaN without a recovery, and of a diverged run."""
+def measure(run: Mapping[str, np.ndarray], yield_stress: float) -> list[float]:
+    """Status and CURVES of one run; NaN for a stress that is not wanted, and of a diverged run."""
     rms = run["rms"][TIP_POINTS.index("leading_edge")]
-    stress = math.nan
-    if recovery is not None:
-        instants = recovery.of_last_revolution(run, stress_instants)
-        stress = largest_of_run(run, instants, stress_instants) / yield_stress
-    return [int(run["status"]), *(float(rms[DIRECTIONS.index(name)]) for name in ("normal", "tangential")), float(stress)]
+    stress = float(run["max_von_mises"]) / yield_stress if "max_von_mises" in run else math.nan
+    return [int(run["status"]), *(float(rms[DIRECTIONS.index(name)]) for name in ("normal", "tangential")), stress]
 
 
 def write_round(one: Round, file: Path | str) -> None:

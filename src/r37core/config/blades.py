@@ -163,6 +163,11 @@ class BladeSettings:
     stress_submesh: StressSubmesh | None = None
 
     @property
+    def yield_stress(self) -> float:
+        """Of its material (Pa); infinite where that is not known."""
+        return math.inf if self.material is None else self.material.yield_stress
+
+    @property
     def elastic(self) -> BladeSettings:
         """The same as if it never yielded: a new yield stress asks for no new model."""
         return self if self.material is None else replace(self, material=replace(self.material, yield_stress=math.inf))

@@ -254,12 +254,14 @@ def members_can_be_drawn(settings: Settings) -> None:
 def matrices_hold_their_terms(settings: Settings) -> None:
     """No term of rotation is wanted that cannot be added to matrices of another program."""
     given = [name for name, blade in settings.blades.items() if isinstance(blade.definition, MatricesSource)]
-    for key in ("spin_softening", "coriolis"):
+    remedies = {
+        "spin_softening": "put the term into its K_<speed>",
+        "coriolis": "a Coriolis matrix of another program is not read",
+    }
+    for key, remedy in remedies.items():
         if given and getattr(settings.structure, key):
             raise settings.documents.config.refusal(
-                ("structure", key),
-                f"true with the blade '{given[0]}', given by matrices",
-                "false; put the term into its K_<speed>",
+                ("structure", key), f"true with the blade '{given[0]}', given by matrices", f"false; {remedy}"
             )
 
 

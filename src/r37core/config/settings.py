@@ -366,11 +366,11 @@ class Settings:
         everything = self.fidelity.time_integration.choice(chosen.scene.lining is not None)
         stress = "stress" in self.results_of(blade, scene)
         history = speed in chosen.stress_history_speeds
+        choice = replace(everything, revolutions=chosen.revolutions)
         return replace(
-            everything,
-            revolutions=chosen.revolutions,
-            snapshots_per_revolution=everything.snapshots_per_revolution if stress else 0,
-            snapshot_revolutions=(chosen.revolutions if history else 1) if stress else 0,
+            choice,
+            snapshots_per_revolution=choice.snapshots_per_revolution if stress else 0,
+            snapshot_revolutions=(choice.revolutions if history else choice.revolutions_in_statistic) if stress else 0,
             energy="energy" in chosen.results,
         )
 

@@ -27,16 +27,22 @@ def closing_lines(results: Path, began: float, ended: float, remarks: Iterable[s
 def _found(rows: list[dict[str, str]]) -> str:
     if not rows:
         return "found no interaction"
-    above = [row for row in rows if float(row["width_above_yield_rad_s"] or 0.0) > 0.0]
+    above = [row for row in rows if _number(row, "width_above_yield_rad_s") > 0.0 or _number(row, "certain_length_rad_s") > 0.0]
     text = f"found {len(rows)} interaction{'s' * (len(rows) > 1)}, {len(above)} of them above yield"
     if above:
-        worst = max(above, key=lambda row: float(row["max_von_mises_pa"] or 0.0))
-        title = interaction_title(worst["mode"], worst["engine_order"])
-        text += (
-            f"; the largest stress {1e-9 * float(worst['max_von_mises_pa']):.2f} GPa, {worst['blade']} in {worst['scene']} "
-            f"at {float(worst['max_von_mises_speed_rad_s']):.6g} rad/s ({title})"
-        )
+        worst = max(above, key=lambda row: _number(row, "max_von_mises_pa"))
+        if (largest := _number(worst, "max_von_mises_pa")) > 0.0:
+            title = interaction_title(worst["mode"], worst["engine_order"])
+            text += (
+                f"; the largest stress {1e-9 * largest:.2f} GPa, {worst['blade']} in {worst['scene']} "
+                f"at {float(worst['max_von_mises_speed_rad_s']):.6g} rad/s ({title})"
+            )
     return text
+
+
+def _number(row: dict[str, str], column: str) -> float:
+    """0 for an empty cell."""
+    return float(row[column] or 0.0)
 
 
 def _diverged(file: Path) -> str:

@@ -70,6 +70,7 @@ def _planned(settings: Settings) -> dict[str, paths.Wildcards]:
         **targets(sweep, Signals(imported, sweep)),
         **Exports(imported, sweep).targets,
         paths.CONTACT_MODEL: models,
+        paths.STRESS_OPERATOR: models,
         paths.REDUCED_MODEL: models,
     }
 

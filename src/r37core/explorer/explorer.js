@@ -419,9 +419,8 @@
     return [link];
   }
 
-  const outside = ({ blade, scene, max_von_mises_pa: stress }) => aboveYield(
-    1e-6 * stress, data.blades.indexOf(blade), data.scenes.indexOf(scene),
-  );
+  const STRESSES = ["max_von_mises_pa", "median_von_mises_pa"];
+  const outside = (row, name) => aboveYield(1e-6 * row[name], data.blades.indexOf(row.blade), data.scenes.indexOf(row.scene));
   // a cell of a table: in the unit that its head has
   function valueText(row, { name, unit, factor: toUnit }) {
     const value = row[name] ?? "";
@@ -429,13 +428,13 @@
     return digits(value * (unit === "rad/s" ? factor() : toUnit), name.includes("speed") ? 5 : 4);
   }
   const page = {
-    state, set, valueText, mark: (row, { name }) => (name === "max_von_mises_pa" && outside(row) ? " *" : ""),
+    state, set, valueText, mark: (row, { name }) => (STRESSES.includes(name) && outside(row, name) ? " *" : ""),
     link: data.shapes.length ? shapeLink : null,
   };
 
   function drawTable() {
     const rows = drawInteractions(data, page);
-    document.getElementById("note").textContent = rows.some(outside) ? `* ${OUTSIDE}, a flag and no prediction` : "";
+    document.getElementById("note").textContent = rows.some((row) => STRESSES.some((name) => outside(row, name))) ? `* ${OUTSIDE}, a flag and no prediction` : "";
   }
 
   // the stress of the chosen interaction, which is not that of its peak speed alone

@@ -6,9 +6,7 @@ import numpy as np
 
 from .assembly import Blocks, typed_blocks
 from .material import Material
-
-COMPONENTS = ((0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (2, 0))
-"""Order of the components of a stress: xx yy zz xy yz zx."""
+from .von_mises import COMPONENTS
 
 
 def stress_at(gradients: np.ndarray, displacement: np.ndarray, material: Material) -> np.ndarray:
@@ -42,10 +40,3 @@ def nodal_stress(blocks: Blocks, points: np.ndarray, displacement: np.ndarray, m
                 weights = of_field[:, :, a, b].ravel()
                 stress[component, :, j] += np.bincount(members, weights=weights, minlength=len(points))
     return stress / np.maximum(count, 1.0)[:, None]
-
-
-def von_mises(stress: np.ndarray) -> np.ndarray:
-    """Von Mises stress (Pa), shape (...), of components in the order of COMPONENTS, shape (6, ...)."""
-    xx, yy, zz, xy, yz, zx = stress
-    normal = (xx - yy) ** 2 + (yy - zz) ** 2 + (zz - xx) ** 2
-    return np.sqrt(0.5 * normal + 3.0 * (xy**2 + yz**2 + zx**2))

@@ -65,9 +65,15 @@ CAPTIONS = {
         "nominal run (dashed). Then the share of the members above yield. Last, Sobol indices of what varies: total (bars, "
         "with nine tenths of bootstrap samples) and first order (dashes)."
     ),
+    "ranking": (
+        "Which blade? Length of the speeds above yield of every blade, scene by scene, in the order of the first scene. Dark: "
+        "certainly, at least half of the revolutions of the last half of a run exceed yield; light: possibly, a twentieth of "
+        "them do. Lines: standard deviation by chance, in direct contact; with tolerances: the range that nine tenths of the "
+        "members lie in."
+    ),
     "designs": (
         "Family {family}: what each design is and how robust, over what varies. Frequencies, largest loss of clearance as "
-        "the tip swings along free modes, speeds above yield, largest stress, and where interactions lie."
+        "the tip swings along free modes, where interactions lie, speeds certainly and possibly above yield, largest stress."
     ),
     "mode_shapes": (
         "The first modes of blade {blade} at rest, each moved by its shape from the blade as it is (black outline). The "

@@ -14,20 +14,32 @@ from r37core.results.designs import MEASURES
 
 from . import style
 
+_DRAWN = (
+    "mass_kg",
+    "frequency_1b_hz",
+    "frequency_1t_hz",
+    "clearance_loss_1b_m",
+    "clearance_loss_1t_m",
+    "shift_1b_rad_s",
+    "length_certain_rad_s",
+    "length_possible_rad_s",
+    "largest_stress_pa",
+)
+
 _UNITS = {"(m)": ("(mm)", 1e3), "(Pa)": ("(GPa)", 1e-9)}
 """Unit of a measure -> the one it is drawn in, and its factor."""
 
 
 def draw_designs(title: str, table: pd.DataFrame, varied: Sequence[str], blades: Sequence[str] | None = None) -> Figure:
-    """Every measure of one family, a line or points per scene: over the one key that varies, or over the designs by name.
+    """What a family is chosen by, a line or points per scene: over the one key that varies, or over the designs by name.
 
     `blades`: those of the table that are drawn, or all.
     """
     if blades is not None:
         table = table[table["blade"].isin(blades)]
     figure, grid = plt.subplots(3, 3, figsize=(style.PAGE, 6.4), sharex=True)
-    for axes, (column, label) in zip(grid.flat, MEASURES.items(), strict=True):
-        quantity, _, unit = label.rpartition(" ")
+    for axes, column in zip(grid.flat, _DRAWN, strict=True):
+        quantity, _, unit = MEASURES[column].rpartition(" ")
         unit, scale = _UNITS.get(unit, (unit, 1.0))
         for scene, rows in table.groupby("scene", sort=False):
             _draw(axes, rows.assign(**{column: scale * rows[column]}), column, varied, str(scene))

@@ -39,9 +39,11 @@ class RunUps:
         return [(*pair, name) for pair, named in self.sweep.settings.run_ups.items() for name in named]
 
     def inputs(self, wildcards: Any) -> dict[str, str]:
-        """What a run-up starts from, with the reduced model where its stress is wanted."""
+        """What a run-up starts from, with the stress operator where its stress is wanted."""
         prepared = paths.fill(paths.INTEGRATION_STAMP, blade=wildcards.blade, scene=wildcards.scene)
-        found = {"prepared": prepared, "model": self.sweep.contact_model(wildcards)} | self.sweep.recovery(wildcards)
+        found = {"prepared": prepared, "model": self.sweep.contact_model(wildcards)}
+        if self.sweep.with_stress(wildcards):
+            (found["stress"],) = self.sweep.stress_operator(wildcards)
         if self._choice(wildcards).crossing:
             found["campbell"] = paths.fill(paths.CAMPBELL, blade=wildcards.blade)
         return found

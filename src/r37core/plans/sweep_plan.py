@@ -41,6 +41,16 @@ class Sweep:
         """What the simulations of a blade and scene start from."""
         return paths.fill(paths.CONTACT_MODEL, blade=wildcards.blade, tip_line=self._scene(wildcards).tip_line)
 
+    def models(self, wildcards: Any) -> list[str]:
+        """What the simulations of a blade and scene start from, and the operator of the stress, where that is wanted."""
+        return [self.contact_model(wildcards), *self.stress_operator(wildcards)]
+
+    def stress_operator(self, wildcards: Any) -> list[str]:
+        """The stress of a blade per motion, for a scene whose stress is wanted."""
+        tip_line = self._scene(wildcards).tip_line
+        wanted = self.with_stress(wildcards)
+        return [paths.fill(paths.STRESS_OPERATOR, blade=wildcards.blade, tip_line=tip_line)] if wanted else []
+
     def speed_files(self, wildcards: Any) -> list[str]:
         """The simulations of one blade and scene, by ascending speed: of all rounds, where its speeds are adaptive."""
         return self._files_of(wildcards, speeds_of_rounds(self.speed_plan(wildcards), partial(self._asked, wildcards)))
@@ -52,28 +62,24 @@ class Sweep:
             return {"campbell": paths.fill(paths.CAMPBELL, blade=wildcards.blade)}
         before = {"blade": wildcards.blade, "scene": wildcards.scene, "round": number - 1}
         new = self._asked(wildcards, number - 1)
-        return {"before": paths.fill(paths.ROUND, **before), "speeds": self._files_of(wildcards, new)} | self.recovery(
-            wildcards
-        )
+        return {"before": paths.fill(paths.ROUND, **before), "speeds": self._files_of(wildcards, new)}
 
     def _asked(self, wildcards: Any, number: int) -> list[float]:
         """Speeds (rad/s) that a round asked for."""
         assert self.round_file is not None
         return asked_by(self.round_file(blade=wildcards.blade, scene=wildcards.scene, round=number))
 
-    def members_of_round(self, wildcards: Any) -> list[dict[str, Any]]:
-        """Whose runs a round looks at, as `measure_members` takes them: one blade, and its reduced model."""
-        return [{"material": to_plain(self.settings.blades[wildcards.blade].material), "rom": 0}]
+    def yield_stress(self, wildcards: Any) -> float:
+        """Of a blade (Pa)."""
+        return self.settings.blades[wildcards.blade].yield_stress
+
+    def yields_of_round(self, wildcards: Any) -> list[float]:
+        """Yield stress (Pa) of those whose runs a round looks at: one blade."""
+        return [self.yield_stress(wildcards)]
 
     def _files_of(self, wildcards: Any, speeds: Sequence[float]) -> list[str]:
         blade, scene = wildcards.blade, wildcards.scene
         return [paths.fill(paths.SPEED, blade=blade, scene=scene, speed=exact_text(speed)) for speed in speeds]
-
-    def recovery(self, wildcards: Any) -> dict[str, str]:
-        """The reduced model, for a scene whose stress is wanted."""
-        if not self.with_stress(wildcards):
-            return {}
-        return {"rom": paths.fill(paths.REDUCED_MODEL, blade=wildcards.blade, tip_line=self._scene(wildcards).tip_line)}
 
     def speed_plan(self, wildcards: Any) -> SpeedPlan:
         """Speeds of one blade and scene."""

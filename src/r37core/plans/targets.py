@@ -16,6 +16,7 @@ def targets(sweep: Sweep, recorded: Signals) -> dict[str, Wildcards]:
     shown, signals, spectra = (
         of_runs(runs) for runs in (sweep.runs_with("shapes"), recorded.runs, sweep.runs_with("spectrum"))
     )
+    ranked: Wildcards = [{}] if "stress" in sweep.kinds else []
     climbing = RunUps(sweep)
     climbed = of_runs(climbing.pairs)
     of_shapes = of("blade", dict.fromkeys(run["blade"] for run in shown))
@@ -26,6 +27,7 @@ def targets(sweep: Sweep, recorded: Signals) -> dict[str, Wildcards]:
         **{f"{kind}_{{blade}}__{{scene}}": of_runs(sweep.runs_with(kind)) for kind in MAPS},
         "waterfall_{blade}__{scene}": spectra,
         "comparison_{scene}": scenes,
+        "ranking": ranked,
         "clearance_{scene}": of("scene", growing),
         "designs_{family}": families,
         "spectrogram_{blade}__{scene}": signals,
@@ -39,6 +41,7 @@ def targets(sweep: Sweep, recorded: Signals) -> dict[str, Wildcards]:
     return {
         **{f"<results>/{kind}.nc": [{}] if kind in sweep.kinds else [] for kind in KINDS},
         "<results>/designs.csv": families and [{}],
+        "<results>/ranking.csv": [{}],
         "<results>/coincidences.csv": [{}] if sweep.casings else [],
         "<results>/signals.nc": signals and [{}],
         **{f"<results>/{name}": climbed and [{}] for name in ("run_ups.nc", "run_ups.csv", "run_up_rates.csv")},

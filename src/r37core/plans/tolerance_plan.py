@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from typing import Any
@@ -88,25 +88,17 @@ class Tolerances:
         """Material of a member's blade as if it never yielded."""
         return to_plain(self._blades[wildcards.blade][wildcards.member].material)
 
-    def material(self, wildcards: Any) -> dict[str, Any] | None:
-        """Material of a member's blade."""
-        return to_plain(self._member(wildcards).blade.material)
+    def yield_stress(self, wildcards: Any) -> float:
+        """Of a member's blade (Pa)."""
+        return self._member(wildcards).blade.yield_stress
 
     def _nominal(self, wildcards: Any) -> BladeSettings:
         return self.sweep.settings.blades[wildcards.blade]
 
-    def contact_model(self, wildcards: Any) -> str:
-        """What the simulations of a member start from."""
-        return self._of_tip_line(wildcards, wildcards.member, paths.CONTACT_MODEL)
-
-    def _every(self, wildcards: Any, pattern: str, members: Sequence[str]) -> list[str]:
-        """A file of each of the members' models, in their order."""
-        return [self._of_tip_line(wildcards, name, pattern) for name in members]
-
-    def recovery(self, wildcards: Any) -> dict[str, str]:
-        """The reduced model of a member, where stress is wanted."""
-        wanted = self.sweep.with_stress(wildcards)
-        return {"rom": self._of_tip_line(wildcards, wildcards.member, paths.REDUCED_MODEL)} if wanted else {}
+    def models(self, wildcards: Any) -> list[str]:
+        """What the simulations of a member start from, and the operator of the stress, where that is wanted."""
+        wanted = [paths.CONTACT_MODEL, *([paths.STRESS_OPERATOR] if self.sweep.with_stress(wildcards) else [])]
+        return [self._of_tip_line(wildcards, wildcards.member, pattern) for pattern in wanted]
 
     def _of_tip_line(self, wildcards: Any, member: str, pattern: str) -> str:
         line = self.sweep.settings.scenes[wildcards.scene].tip_line
@@ -123,8 +115,8 @@ class Tolerances:
 
     def _task(self, wildcards: Any, speed: float, **other: Any) -> str:
         choice = self.sweep.settings.integration_choice(wildcards.blade, wildcards.scene, speed)
-        # of one revolution, where the nominal run may keep all; what decides on the compiled program stays
-        choice = replace(choice, snapshot_revolutions=min(choice.snapshot_revolutions, 1))
+        # no history of the whole run, which the nominal one may keep
+        choice = replace(choice, snapshot_revolutions=min(choice.snapshot_revolutions, choice.revolutions_in_statistic))
         return json.dumps({"scene": to_plain(self._member(wildcards).scene), "choice": to_plain(choice), **other})
 
     def about_run(self, wildcards: Any) -> Attributes:
@@ -148,27 +140,20 @@ class Tolerances:
     def round_inputs(self, wildcards: Any) -> dict[str, Any]:
         """What a round looks at: the Campbell diagram, or what all members gave at the speeds of the round before it.
 
-        Their files member by member, and the reduced models in the order of the members.
+        Their files are member by member.
         """
         number, of = int(wildcards.round), {"blade": wildcards.blade, "scene": wildcards.scene}
         if number == 0:
             return {"campbell": paths.fill(paths.CAMPBELL, blade=wildcards.blade)}
         new, names = self._asked(wildcards, number - 1), self._sample(**of)
         files = [paths.fill(paths.MEMBER_SPEED, **of, member=name, speed=exact_text(speed)) for name in names for speed in new]
-        found: dict[str, Any] = {"before": paths.fill(paths.MEMBER_ROUND, **of, round=number - 1), "speeds": files}
-        if self.sweep.with_stress(wildcards):
-            found["rom"] = list(dict.fromkeys(self._every(wildcards, paths.REDUCED_MODEL, self._sample(**of))))
-        return found
+        return {"before": paths.fill(paths.MEMBER_ROUND, **of, round=number - 1), "speeds": files}
 
-    def members_of_round(self, wildcards: Any) -> list[dict[str, Any]]:
-        """Material of each member of the sample, and the place of its reduced model among the inputs of a round."""
+    def yields_of_round(self, wildcards: Any) -> list[float]:
+        """Yield stress (Pa) of each member of the sample."""
         pair = (wildcards.blade, wildcards.scene)
-        members, names = self.sweep.settings.members.all[pair], self._sample(*pair)
-        models = _places(self._every(wildcards, paths.REDUCED_MODEL, names))
-        return [
-            {"material": to_plain(members[name].blade.material), "rom": model}
-            for name, model in zip(names, models, strict=True)
-        ]
+        members = self.sweep.settings.members.all[pair]
+        return [members[name].blade.yield_stress for name in self._sample(*pair)]
 
     def refinement_choice(self, wildcards: Any) -> dict[str, Any]:
         """As of the sweep, with the share of the grid that all members may be run at."""
@@ -219,9 +204,3 @@ class Tolerances:
 def of_member(pattern: str) -> str:
     """Where a file of a blade lies for a member with a model of its own."""
     return pattern.replace("<results>/{blade}", paths.MEMBER_MODELS)
-
-
-def _places(files: Sequence[str]) -> list[int]:
-    """Of each file its place among those that differ."""
-    first = {file: place for place, file in enumerate(dict.fromkeys(files))}
-    return [first[file] for file in files]

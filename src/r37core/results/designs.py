@@ -10,7 +10,8 @@ import xarray as xr
 
 from r37core.rom.naming import FIRST_BENDING, FIRST_TORSION
 
-from .measures import largest_stress, speeds_above_yield
+from .datasets import response_of
+from .ranking import ROBUSTNESS, robustness
 
 MEASURES = {
     "mass_kg": "mass (kg)",
@@ -18,10 +19,8 @@ MEASURES = {
     "frequency_1t_hz": "1T at rest (Hz)",
     "clearance_loss_1b_m": "largest loss of clearance, 1B (m)",
     "clearance_loss_1t_m": "largest loss of clearance, 1T (m)",
-    "length_above_yield_rad_s": "speeds above yield (rad/s)",
-    "largest_stress_pa": "largest stress (Pa)",
-    "first_yield_rad_s": "first speed above yield (rad/s)",
     "shift_1b_rad_s": "shift of the strongest 1B (rad/s)",
+    **ROBUSTNESS,
 }
 """Column of designs.csv -> label of an axis; the first five do not depend on the scene."""
 
@@ -29,21 +28,21 @@ MEASURES = {
 def design_table(
     designs: Mapping[str, Mapping[str, float]],
     masses: Mapping[str, float],
-    campbell: xr.Dataset,
-    stress: xr.Dataset | None,
+    datasets: Mapping[str, xr.Dataset],
     interactions: pd.DataFrame,
     scenes: Sequence[str],
 ) -> pd.DataFrame:
     """One row for each design and scene: blade, scene, design variables, MEASURES.
 
-    `designs`: blade -> key -> value; `masses` (kg) by blade; `interactions`: summary.csv. What a scene does not compute, and
+    `designs`: blade -> key -> value; `masses` (kg) by blade; `datasets`: campbell, rms and, if there, stress; `interactions`:
+    summary.csv. What a scene does not compute, and
     what does not happen (no speed above yield, no interaction of 1B), is NaN.
     """
     rows = []
     for blade, variables in designs.items():
-        of_blade: dict[str, float] = {"mass_kg": masses[blade]} | _structure(campbell.sel(blade=blade))
+        of_blade: dict[str, float] = {"mass_kg": masses[blade]} | _structure(datasets["campbell"].sel(blade=blade))
         for scene in scenes:
-            of_scene = _robustness(blade, scene, stress, interactions)
+            of_scene = robustness(response_of(datasets, blade, scene)) | _shift(blade, scene, interactions)
             rows.append({"blade": blade, "scene": scene, **variables, **of_blade, **of_scene})
     keys = list(dict.fromkeys(key for variables in designs.values() for key in variables))
     return pd.DataFrame(rows, columns=["blade", "scene", *keys, *MEASURES])
@@ -57,16 +56,9 @@ def _structure(campbell: xr.Dataset) -> dict[str, float]:
     return found
 
 
-def _robustness(blade: str, scene: str, stress: xr.Dataset | None, interactions: pd.DataFrame) -> dict[str, float]:
-    found = dict.fromkeys(("length_above_yield_rad_s", "largest_stress_pa", "first_yield_rad_s", "shift_1b_rad_s"), np.nan)
-    if stress is not None and scene in stress["scene"].values:
-        chosen = stress.sel(blade=blade, scene=scene)
-        above = speeds_above_yield(chosen)
-        found |= {"length_above_yield_rad_s": above.length, "first_yield_rad_s": above.first}
-        found["largest_stress_pa"], _ = largest_stress(chosen)
-    bending = interactions[
-        (interactions["blade"] == blade) & (interactions["scene"] == scene) & (interactions["mode"] == FIRST_BENDING)
-    ]
-    if len(bending):
-        found["shift_1b_rad_s"] = float(bending.loc[bending["peak_rms_tangential_m"].idxmax(), "shift_rad_s"])
-    return found
+def _shift(blade: str, scene: str, interactions: pd.DataFrame) -> dict[str, float]:
+    """How far the strongest interaction of 1B lies from its crossing (rad/s); NaN without one."""
+    of_scene = interactions[(interactions["blade"] == blade) & (interactions["scene"] == scene)]
+    bending = of_scene[of_scene["mode"] == FIRST_BENDING]
+    strongest = bending["peak_rms_tangential_m"].idxmax() if len(bending) else None
+    return {"shift_1b_rad_s": np.nan if strongest is None else float(bending.loc[strongest, "shift_rad_s"])}

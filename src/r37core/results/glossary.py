@@ -11,6 +11,7 @@ from pathlib import Path
 from r37core.io import write_text
 from r37core.text_file import with_part
 
+from .exceedance import CERTAIN, POSSIBLE
 from .measures import DROP_WITHIN
 
 
@@ -25,6 +26,9 @@ class Word:
 
 
 _SPEED = "rad/s"
+_REVOLUTIONS = "revolutions in the last half of a run"
+_POSSIBLE = f"more than {POSSIBLE:.0%} of the {_REVOLUTIONS} are above yield"
+_CERTAIN = f"more than {CERTAIN:.0%} of the {_REVOLUTIONS} are above yield"
 
 INTERACTIONS = {
     "blade": Word("blade", "name of the blade in the configuration"),
@@ -83,26 +87,48 @@ INTERACTIONS = {
         "largest wear", "largest wear of the lining at any speed of the interaction; empty without a lining", "mm", 1e3
     ),
     "status": Word("status", "`completed`, or `diverged` where any run of the interaction did"),
+    "width_ever_above_yield_rad_s": Word(
+        "width ever above yield", "as the width above yield, of any revolution in the last half of the run", _SPEED
+    ),
+    "possible_from_rad_s": Word("possibly above yield from", f"speed from which {_POSSIBLE}", _SPEED),
+    "possible_to_rad_s": Word("possibly above yield to", f"speed up to which {_POSSIBLE}", _SPEED),
+    "certain_from_rad_s": Word("certainly above yield from", f"speed from which {_CERTAIN}", _SPEED),
+    "certain_to_rad_s": Word("certainly above yield to", f"speed up to which {_CERTAIN}", _SPEED),
+    "certain_length_rad_s": Word("certainly above yield", f"length of all speeds of the row at which {_CERTAIN}", _SPEED),
+    "median_von_mises_pa": Word(
+        "median stress", f"largest median over the {_REVOLUTIONS} of their von Mises stress", "MPa", 1e-6
+    ),
+    "high_von_mises_pa": Word("high stress", f"the same of what 90% of the {_REVOLUTIONS} stay below", "MPa", 1e-6),
+    "peak_motion_m": Word("rms", "rms of the leading edge at the peak speed, normal and tangential together", "mm", 1e3),
+    "fall_speed_rad_s": Word("falls at", "speed above the peak at which the motion falls below half of it", _SPEED),
+    "note": Word("note", "why columns of the row are empty"),
     "share_of_members": Word("members", "with `tolerances` alone: how many of the members show the interaction", "%", 100.0),
     "robust": Word("robust", "with `tolerances` alone: whether at least half of the members show the interaction"),
 }
 """Columns of summary.csv."""
 
 RANKING = {
-    "rank": Word("rank", "place of the blade among those of the scene; 1 is the best"),
-    "length_certain_rad_s": Word("certainly above yield", "speeds above yield, summed up, that the runs prove", _SPEED),
-    "length_possible_rad_s": Word(
-        "possibly above yield", "the same with what the runs leave open between speeds that were run", _SPEED
+    "rank": Word(
+        "rank",
+        "place of the blade in the scene: 1 is the shortest certainly above yield, then possibly, then the least stressed",
     ),
-    "largest_stress_pa": Word("largest stress", "largest von Mises stress in the last revolution over all speeds", "MPa", 1e-6),
-    "first_certain_rad_s": Word("first speed certainly above yield", "lowest speed that is above yield in a run", _SPEED),
-    "first_possible_rad_s": Word(
-        "first speed possibly above yield", "lowest speed that may be above yield, between speeds that were run", _SPEED
+    "length_certain_rad_s": Word("certainly above yield", f"length of all speeds at which {_CERTAIN}", _SPEED),
+    "length_possible_rad_s": Word("possibly above yield", f"length of all speeds at which {_POSSIBLE}", _SPEED),
+    "largest_stress_pa": Word(
+        "largest stress", f"largest median over the {_REVOLUTIONS} of their von Mises stress, of all speeds", "MPa", 1e-6
     ),
-    "widest_range_rad_s": Word("widest range above yield", "width of the widest single range of speeds above yield", _SPEED),
-    "largest_rms_m": Word("largest rms", "largest rms of the leading edge over all speeds", "mm", 1e3),
+    "first_certain_rad_s": Word("first speed certainly above yield", f"lowest speed at which {_CERTAIN}", _SPEED),
+    "first_possible_rad_s": Word("first speed possibly above yield", f"lowest speed at which {_POSSIBLE}", _SPEED),
+    "widest_range_rad_s": Word(
+        "widest range certainly above yield", f"width of the widest range of speeds at which {_CERTAIN}", _SPEED
+    ),
+    "largest_rms_m": Word(
+        "largest rms", "largest rms of the leading edge over all speeds, normal and tangential together", "mm", 1e3
+    ),
     "largest_rms_speed_rad_s": Word("speed of the largest rms", "speed at which the rms is largest", _SPEED),
     "drop": INTERACTIONS["drop"],
+    "largest_gap_rad_s": Word("largest gap", "largest distance between neighbouring speeds that were run", _SPEED),
+    "members": Word("members", "number of the members of the sample"),
 }
 """Columns of ranking.csv, a line for each blade and scene."""
 
@@ -114,12 +140,16 @@ ENDS = {"_low": "5%", "_median": "median", "_high": "95%"}
 
 
 def word(name: str, words: dict[str, Word]) -> Word | None:
-    """What a column is called: of `words`, of one of them over members, or a chance; None for any other."""
+    """What a column is called: of `words`, the scatter or members' range of one of them, or a chance; None for any other."""
     if name.startswith(CHANCE):
         other = name.removeprefix(CHANCE)
         return Word(
             f"chance to be better than {other}", f"share of the members in which the blade is better than {other}", "%", 100.0
         )
+    exact = words.get(name.replace("_scatter", ""))
+    if "_scatter" in name and exact:
+        meaning = f"standard deviation by chance of: {exact.meaning}"
+        return Word(f"{exact.title}, scatter", meaning, exact.unit, exact.factor)
     for end, title in ENDS.items():
         nominal = words.get(name.removesuffix(end))
         if name.endswith(end) and nominal:

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import asdict, dataclass, fields
+from dataclasses import asdict, dataclass
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -14,9 +15,12 @@ from scipy.signal import find_peaks
 from r37core.rom.naming import NAMED_MODES
 from r37core.time_integration.status import RunStatus
 
+from .contact_ranges import with_ranges_above_yield
 from .datasets import response_of
-from .interaction_title import interaction_title
+from .exceedance import exceedance_of, is_lined
+from .interaction import COLUMNS, Interaction, largest_columns, range_columns
 from .measures import DROP_WITHIN, drop_after, largest_stress, leading_edge, motion, speeds_above_yield, strongest_order
+from .speed_ranges import SpeedRange
 
 QUIET = 0.1
 """Share of an interaction's peak below which the motion counts as outside, if it stays there."""
@@ -46,45 +50,6 @@ class InteractionChoice:
 
 
 @dataclass(frozen=True)
-class Interaction:
-    """One row of summary.csv; units are part of the names, and glossary.INTERACTIONS says what each field is.
-
-    What is named peak is at the peak speed, what is named max the largest within the interaction. An interaction reaches,
-    on both sides, to the lowest motion before the neighbouring peak, or to where the motion stays below QUIET of its own
-    peak for more than DROP_WITHIN: single speeds in between do not end it, for near the end of a branch the motion is
-    chaotic. `mode` is empty and the Campbell speed NaN for a peak that no crossing of a named mode explains; NaN is also
-    what a scene does not compute.
-    """
-
-    mode: str
-    engine_order: int | None
-    direction: str
-    campbell_speed_rad_s: float
-    peak_speed_rad_s: float
-    shift_rad_s: float
-    peak_rms_normal_m: float
-    peak_rms_tangential_m: float
-    drop: float
-    first_yield_speed_rad_s: float
-    width_above_yield_rad_s: float
-    share_above_yield: float
-    max_von_mises_pa: float
-    max_von_mises_speed_rad_s: float
-    stress_region: str
-    max_wear_m: float
-    status: str
-
-    @property
-    def title(self) -> str:
-        """What meets there: 1B/4, or the engine order alone."""
-        return interaction_title(self.mode, self.engine_order)
-
-
-COLUMNS = ("blade", "scene", *(field.name for field in fields(Interaction)))
-"""Columns of summary.csv."""
-
-
-@dataclass(frozen=True)
 class _Peak:
     """A peak of the rms in one direction, at a `place` among the speeds, and the crossing that explains it.
 
@@ -105,13 +70,21 @@ class _Peak:
 def find_interactions(response: xr.Dataset, campbell: xr.Dataset, choice: InteractionChoice) -> list[Interaction]:
     """Interactions of one blade in one scene, by ascending speed, from its response and its Campbell diagram.
 
-    Only the named modes 1B, 1T and 2B are matched. Peaks of both directions are one interaction where they have the same
-    crossing, are neighbours, or lie on each other's tops; peaks that no crossing explains, where they have the same engine
-    order and one crossing could hold them.
+    Only the named modes 1B, 1T and 2B are matched, and only in a lined scene. Peaks of both directions are one interaction
+    where they have the same crossing, are neighbours, or lie on each other's tops; peaks that no crossing explains, where they
+    have the same engine order and one crossing could hold them. In direct contact peaks within a range of speeds that may be
+    above yield are one row with it.
     """
     response = leading_edge(response.isel(speed=np.flatnonzero(response["status"].values != RunStatus.NOT_RUN)))
     if not response.sizes["speed"]:
         return []
+    lined = is_lined(response)
+    peaks = _interactions(response, campbell if lined else None, choice)
+    return peaks if lined else with_ranges_above_yield(response, peaks)
+
+
+def _interactions(response: xr.Dataset, campbell: xr.Dataset | None, choice: InteractionChoice) -> list[Interaction]:
+    """Those of the peaks alone; without a Campbell diagram none is matched with a mode."""
     speed, level = response["speed"].values, motion(response)
     groups = _groups(
         [peak for direction in SPECTRA for peak in _peaks(response, campbell, direction, choice)], speed, level, choice
@@ -136,7 +109,7 @@ def titles(interactions: Iterable[Interaction]) -> dict[float, str]:
     return {one.peak_speed_rad_s: one.title for one in interactions}
 
 
-def _peaks(response: xr.Dataset, campbell: xr.Dataset, direction: str, choice: InteractionChoice) -> list[_Peak]:
+def _peaks(response: xr.Dataset, campbell: xr.Dataset | None, direction: str, choice: InteractionChoice) -> list[_Peak]:
     curve = response[f"rms_{direction}"].fillna(0.0).values
     largest = curve.max()
     if not largest > 0.0:
@@ -156,10 +129,12 @@ def _peaks(response: xr.Dataset, campbell: xr.Dataset, direction: str, choice: I
 
 
 def _nearest_crossing(
-    campbell: xr.Dataset, speed: float, strongest: int | None, choice: InteractionChoice
+    campbell: xr.Dataset | None, speed: float, strongest: int | None, choice: InteractionChoice
 ) -> tuple[str, int | None, float]:
     """Mode, engine order and speed of the nearest Campbell crossing in the allowed window, of the strongest order if known."""
-    candidates = []
+    candidates: list[tuple[float, str, int, float]] = []
+    if campbell is None:
+        return "", strongest, float("nan")
     for mode in NAMED_MODES:
         for order, crossing in campbell["crossing_speed"].sel(mode=mode).to_series().dropna().items():
             fits = strongest is None or order == strongest
@@ -220,8 +195,20 @@ def _interaction(reach: xr.Dataset, peak: xr.Dataset, group: list[_Peak], place:
     """The row of a group, from the response within its reach and at its `peak`, the `place` of that, and its drop."""
     first, speed = group[0], float(peak["speed"])
     directions = {one.direction for one in group if one.place == place}
-    stress, stress_speed = largest_stress(reach) if "max_von_mises" in reach else (np.nan, np.nan)
-    above = speeds_above_yield(reach) if "max_von_mises" in reach else None
+    stress: dict[str, Any] = {}
+    if "max_von_mises" in reach:
+        above, (largest, at) = speeds_above_yield(reach), largest_stress(reach)
+        stress = {
+            "first_yield_speed_rad_s": above.first,
+            "width_above_yield_rad_s": above.width,
+            "share_above_yield": above.share,
+            "max_von_mises_pa": largest,
+            "max_von_mises_speed_rad_s": at,
+        }
+    if "share_above_yield" in reach:
+        ends = SpeedRange(float(reach["speed"][0]), float(reach["speed"][-1]), cut=False)
+        stress |= range_columns(exceedance_of(reach), ends)
+        stress["width_ever_above_yield_rad_s"] = speeds_above_yield(reach, "max_von_mises_ever").width
     return Interaction(
         mode=first.mode,
         engine_order=first.engine_order,
@@ -231,15 +218,10 @@ def _interaction(reach: xr.Dataset, peak: xr.Dataset, group: list[_Peak], place:
         shift_rad_s=speed - first.crossing,
         peak_rms_normal_m=float(peak["rms_normal"]),
         peak_rms_tangential_m=float(peak["rms_tangential"]),
+        peak_motion_m=float(motion(peak.expand_dims("speed"))[0]),
         drop=drop,
-        first_yield_speed_rad_s=above.first if above else np.nan,
-        width_above_yield_rad_s=above.width if above else np.nan,
-        share_above_yield=above.share if above else np.nan,
-        max_von_mises_pa=stress,
-        max_von_mises_speed_rad_s=stress_speed,
-        stress_region=str(reach["stress_region"].item()) if "stress_region" in reach else "",
-        max_wear_m=float(reach["max_wear"].max()) if "max_wear" in reach else np.nan,
-        status=RunStatus(int(reach["status"].max())).text,
+        **stress,
+        **largest_columns(reach),
     )
 
 

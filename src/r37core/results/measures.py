@@ -15,6 +15,8 @@ import xarray as xr
 from r37core.time_integration.simulate import DIRECTIONS, TIP_POINTS
 from r37core.time_integration.status import RunStatus
 
+from .speed_ranges import ranges_above
+
 DROP_WITHIN = 24.0
 """Speeds (rad/s) above a peak over which its motion counts as dropped."""
 
@@ -130,35 +132,22 @@ def range_above_yield(speeds: np.ndarray, ratio: np.ndarray) -> YieldRange:
 
     An infinite ratio, of a run that diverged, is above yield, and so is nothing of the way to a speed below.
     """
-    above = np.flatnonzero(ratio > 1.0)
-    if not len(above):
+    ranges = ranges_above(speeds, ratio, 1.0)
+    if not ranges:
         return YieldRange(np.nan, np.nan, 0.0 if len(speeds) else np.nan, False)
-    first, last = int(above[0]), int(above[-1])
-    share = _share_above(ratio)
-    step = np.diff(speeds)
-    begin = speeds[first] - (step[first - 1] * share[first - 1] if first else 0.0)
-    end = speeds[last] + (step[last] * share[last] if last < len(step) else 0.0)
-    return YieldRange(float(begin), float(end), float(np.sum(share * step)), first == 0 or last == len(speeds) - 1)
+    length = sum(one.length for one in ranges)
+    return YieldRange(ranges[0].begin, ranges[-1].end, length, ranges[0].cut or ranges[-1].cut)
 
 
-def _share_above(ratio: np.ndarray) -> np.ndarray:
-    """Share of each interval between speeds in which the ratio is above 1, shape (speeds - 1,)."""
-    top = np.maximum(ratio[:-1], ratio[1:]) - 1.0
-    bottom = np.minimum(ratio[:-1], ratio[1:]) - 1.0
-    crosses = (top > 0.0) & (bottom < 0.0) & np.isfinite(top)
-    rise = np.where(crosses, top, 1.0) - np.where(crosses, bottom, 0.0)
-    return np.where(crosses, top / rise, np.where(bottom >= 0.0, (top > 0.0).astype(float), 0.0))
-
-
-def ratio_to_yield(response: xr.Dataset) -> xr.DataArray:
-    """Largest stress of the last revolution as a share of yield, over the speeds that were run; infinite where it diverged."""
-    ratio = response["max_von_mises"] / response["yield_stress"]
+def ratio_to_yield(response: xr.Dataset, stress: str = "max_von_mises") -> xr.DataArray:
+    """A stress, by default the last revolution's, as a share of yield, over the speeds that were run; infinite if diverged."""
+    ratio = response[stress] / response["yield_stress"]
     return ratio.where(response["status"] != RunStatus.DIVERGED, np.inf).dropna("speed")
 
 
-def speeds_above_yield(response: xr.Dataset) -> YieldRange:
-    """Where a response is above yield, over all its speeds."""
-    ratio = ratio_to_yield(response)
+def speeds_above_yield(response: xr.Dataset, stress: str = "max_von_mises") -> YieldRange:
+    """Where a stress of a response, by default the last revolution's, is above yield, over all its speeds."""
+    ratio = ratio_to_yield(response, stress)
     return range_above_yield(ratio["speed"].values, ratio.values)
 
 
@@ -177,31 +166,10 @@ def largest_stress(response: xr.Dataset) -> tuple[float, float]:
     return float(series[place]), float(series["speed"][place])
 
 
-def last_revolution(instants: np.ndarray, per_revolution: int) -> np.ndarray:
-    """Those of the last revolution, of snapshots or stresses along the first axis with so many in each revolution."""
-    return instants[-per_revolution:]
-
-
-def largest_of_run(run: Mapping[str, np.ndarray], stress: np.ndarray, per_revolution: int) -> float:
-    """Largest stress (Pa) in the last revolution of a run, from its `stress` at each instant; NaN if it diverged."""
-    return np.nan if run["status"] else float(last_revolution(stress, per_revolution).max())
-
-
 def motion_of_run(run: Mapping[str, np.ndarray]) -> float:
     """`motion` of one run (m), from the variables of its file."""
     edge = run["rms"][TIP_POINTS.index("leading_edge")]
     return float(np.nan_to_num(np.hypot(*(edge[DIRECTIONS.index(name)] for name in ("normal", "tangential")))))
-
-
-def stress_history(stress: np.ndarray, per_revolution: int, revolutions: int) -> np.ndarray:
-    """Largest `stress` (Pa) of each revolution, shape (revolutions,), with so many instants in each.
-
-    NaN from where a run diverged: its unfinished revolution is left out.
-    """
-    history = np.full(revolutions, np.nan)
-    whole = len(stress) // per_revolution
-    history[:whole] = stress[: whole * per_revolution].reshape(whole, per_revolution).max(axis=1)
-    return history
 
 
 def history_of(response: xr.Dataset, speed: float) -> np.ndarray:

@@ -9,12 +9,12 @@ import netCDF4
 import numpy as np
 
 from r37core.io import FILE_ATTRIBUTES, atomic_write
+from r37core.stress.statistic import stress_statistic
 from r37core.time_integration.simulate import DIRECTIONS, TIP_POINTS
 from r37core.time_integration.speed_file import read_speed
 
-from .measures import first_yield, largest_of_run, stress_history
+from .measures import first_yield
 from .netcdf import create_axis, create_labels, create_text, create_variable, status_flags
-from .stress_recovery import StressRecovery
 from .variables import OF_CASING, VARIABLES
 
 
@@ -22,46 +22,48 @@ def write_response(
     files: Iterable[Path | str],
     speeds: Sequence[float],
     file: Path | str,
-    recovery: StressRecovery | None,
     *,
     stress_history_speeds: Sequence[float],
-    stress_instants: int,
     yield_stress: float,
     provenance: Mapping[str, object],
 ) -> None:
     """Reduce the files of the `speeds` (rad/s, ascending), in the same order, to one file; one is in memory at a time.
 
-    `recovery`: for the stress, None when it is not wanted; speeds in `stress_history_speeds` keep the largest stress of
-    every revolution (of `stress_instants` evaluations each). Raises InputFileError for a file that cannot be read.
+    Speeds in `stress_history_speeds`, which have recorded it, keep the largest stress of every revolution. `yield_stress`: of
+    the blade's material (Pa). Raises InputFileError for a file that cannot be read.
     """
     history_speeds = [speed for speed in speeds if speed in stress_history_speeds]
     with atomic_write(file) as partial, netCDF4.Dataset(partial, "w") as dataset:
         dataset.setncatts(FILE_ATTRIBUTES | {name: str(value) for name, value in provenance.items()})
-        if recovery is not None:
-            about = {"units": "Pa", "long_name": "yield stress of the blade's material"}
-            create_variable(dataset, "yield_stress", "f8", (), about)[...] = yield_stress
-            create_text(dataset, "stress_region", (), "where max_von_mises is looked for")[...] = recovery.region
         for row, (speed, source) in enumerate(zip(speeds, files, strict=True)):
-            values = _row(read_speed(source), recovery, stress_instants)
+            values = _row(read_speed(source), yield_stress)
             if row == 0:
                 _create(dataset, speeds, values, history_speeds)
                 about = {"units": "rad", "long_name": "half angle of the casing's cone, negative where it narrows downstream"}
                 create_variable(dataset, "casing_cone_angle", "f8", (), about)[...] = values["cone_angle"]
+                if "lined" in values:
+                    about = {"units": "1", "long_name": "1 where a lining is worn, 0: the tip meets the casing itself"}
+                    create_variable(dataset, "lined", "f4", (), about)[...] = values["lined"]
                 for name, one in OF_CASING.items():
                     if name in values:
                         create_variable(dataset, name, one.dtype, one.dims, one.attributes)[...] = values[name]
-                if recovery is not None:
-                    total = recovery.have_rotation(values["snapshots"])
+                if "max_von_mises" in values:
+                    about = {"units": "Pa", "long_name": "yield stress of the blade's material"}
+                    create_variable(dataset, "yield_stress", "f8", (), about)[...] = yield_stress
+                    region = str(values["stress_region"])
+                    create_text(dataset, "stress_region", (), "where max_von_mises is looked for")[...] = region
                     about = {"units": "1", "long_name": "1 where max_von_mises has the stress of rotation, 0: vibration alone"}
-                    create_variable(dataset, "static_stress", "f4", (), about)[...] = total
+                    create_variable(dataset, "static_stress", "f4", (), about)[...] = values["static_stress"]
             for name in VARIABLES:
                 if name in values:
                     dataset[name][row] = values[name]
             if speed in history_speeds:
-                _write_history(dataset, history_speeds.index(speed), values["von_mises_history"], stress_instants, yield_stress)
+                history, row = values["revolution_von_mises"], history_speeds.index(speed)
+                dataset["max_von_mises_history"][row] = history
+                dataset["first_yield_revolution"][row] = first_yield(history, yield_stress)
 
 
-def _row(run: Mapping[str, np.ndarray], recovery: StressRecovery | None, stress_instants: int) -> dict[str, np.ndarray]:
+def _row(run: Mapping[str, np.ndarray], yield_stress: float) -> dict[str, np.ndarray]:
     """The variables of one speed, and the coordinates they need."""
     values = dict(run)
     for kind in ("rms", "peak"):
@@ -69,10 +71,9 @@ def _row(run: Mapping[str, np.ndarray], recovery: StressRecovery | None, stress_
     values["revolution_maximum"] = run["revolution_maxima"][:, :, DIRECTIONS.index("normal")]
     if "amplitude" in run:
         values["amplitude"], values["amplitude_tangential"] = run["amplitude"]
-    if recovery is not None:
-        per_instant = recovery.max_von_mises(run["snapshots"])
-        values["von_mises_history"] = per_instant
-        values["max_von_mises"] = np.array(largest_of_run(run, per_instant, stress_instants))
+    if "revolution_von_mises" in run:
+        revolutions = len(values["revolution_maximum"])
+        values |= stress_statistic(run["revolution_von_mises"][revolutions // 2 - revolutions :], yield_stress)
     return values
 
 
@@ -110,11 +111,3 @@ def _create(
         create_variable(dataset, "max_von_mises_history", "f4", ("history_speed", "revolution"), history)
         first = {"units": "1", "long_name": "first revolution whose largest stress exceeds yield"}
         create_variable(dataset, "first_yield_revolution", "f8", ("history_speed",), first)
-
-
-def _write_history(
-    dataset: netCDF4.Dataset, row: int, per_instant: np.ndarray, stress_instants: int, yield_stress: float
-) -> None:
-    history = stress_history(per_instant, stress_instants, dataset.dimensions["revolution"].size)
-    dataset["max_von_mises_history"][row] = history
-    dataset["first_yield_revolution"][row] = first_yield(history, yield_stress)

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from r37core.stress.statistic import HIGH
+
 
 @dataclass(frozen=True)
 class Variable:
@@ -21,6 +23,7 @@ class Variable:
 
 
 _TIP = ("tip_point",)
+_OF_REVOLUTIONS = "largest von Mises stress of each revolution of the last half of the run"
 
 VARIABLES = {
     "status": Variable((), "1", "how the run ended", "i1"),
@@ -38,12 +41,20 @@ VARIABLES = {
     "worst_complementarity": Variable((), "1", "largest relative violation of the contact conditions"),
     "contact_work": Variable((), "J", "work of the contact forces on the blade"),
     "damping_loss": Variable((), "J", "energy lost to damping"),
-    "energy_change": Variable((), "J", "energy of the vibration at the end"),
+    "energy_change": Variable((), "J", "energy of the vibration at the end, less that at the start"),
     "energy_residual": Variable((), "J", "energy change minus contact work plus damping loss"),
+    "initial_energy": Variable((), "J", "energy of the vibration at the start"),
+    "initial_energy_left_out": Variable((), "1", "share of the given motion's energy that lies in modes which are not stepped"),
     "revolution_maximum": Variable(("revolution", "tip_point"), "m", "largest normal displacement of each revolution", "f4"),
     "amplitude": Variable(("engine_order",), "m", "amplitude of the leading edge's normal displacement", "f4"),
     "amplitude_tangential": Variable(("engine_order",), "m", "amplitude of the leading edge's tangential displacement", "f4"),
     "max_von_mises": Variable((), "Pa", "largest von Mises stress on the submesh in the last revolution"),
+    "max_von_mises_ever": Variable((), "Pa", f"{_OF_REVOLUTIONS}: largest"),
+    "max_von_mises_median": Variable((), "Pa", f"{_OF_REVOLUTIONS}: median"),
+    "max_von_mises_high": Variable((), "Pa", f"{_OF_REVOLUTIONS}: {HIGH:.0%} of them have no larger one"),
+    "share_above_yield": Variable(
+        (), "1", "share of the revolutions of the last half of the run whose largest stress exceeds yield"
+    ),
     "wear": Variable(("angle",), "m", "wear of the lining, largest over the rings, at the end", "f4"),
     "max_wear": Variable((), "m", "largest wear of the lining at the end"),
     "wear_harmonic": Variable(("lobes",), "m", "amplitude of the wear profile's lobes"),
@@ -70,6 +81,7 @@ OF_CASING = {
 
 DATASETS = {
     "rms": (
+        "lined",
         "casing_cone_angle",
         "time_step",
         "clearance",
@@ -91,7 +103,12 @@ DATASETS = {
     ),
     "spectrum": ("amplitude", "amplitude_tangential"),
     "stress": (
+        "lined",
         "max_von_mises",
+        "max_von_mises_ever",
+        "max_von_mises_median",
+        "max_von_mises_high",
+        "share_above_yield",
         "stress_region",
         "static_stress",
         "yield_stress",

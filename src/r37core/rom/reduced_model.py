@@ -10,6 +10,9 @@ import scipy.linalg as la
 from .contact_model import ContactModel
 from .rotation import BucklingError
 
+CORIOLIS_TERM = "M x'' + Omega G x' + K(Omega) x = f, for Omega > 0 and a rotor that turns towards negative theta, about -z"
+"""Where a Coriolis matrix G per speed stands, which is written into files."""
+
 
 @dataclass(frozen=True)
 class RecoveryNodes:
@@ -61,7 +64,7 @@ class ReducedModel:
     """Reduced matrices and recovery data; coordinates 0 to 3 n_c - 1 are the contact nodes' displacements (x y z of each).
 
     `stiffness` (N/m), `geometric_stiffness` (per Omega^2), `mass` (kg), and, only when asked for, `spin_softening`
-    (per Omega^2) and `coriolis` (per Omega): each of shape (coordinates, coordinates). `contact`: what contact acts
+    (per Omega^2) and `coriolis` (see CORIOLIS_TERM): each of shape (coordinates, coordinates). `contact`: what contact acts
     on (see r37core.rom.contact_weights); `contact_nodes`: mean displacements there, with the number of the nearest node of the
     tip line; `contact_chord`: their chord fractions. `tip_lines`: recovery along each tip line; `stress_submesh` with
     `stress_elements`, element type -> shape (elements, nodes of the type), indexing its nodes, and `stress_region`, what it is

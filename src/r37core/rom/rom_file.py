@@ -12,14 +12,14 @@ import xarray as xr
 from r37core.dataset_file import about, read_dataset, write_dataset
 from r37core.io import readable
 
-from .reduced_model import RecoveryNodes, ReducedModel
+from .reduced_model import CORIOLIS_TERM, RecoveryNodes, ReducedModel
 
 _MATRICES = {
     "stiffness": ("N m-1", "reduced elastic stiffness"),
     "geometric_stiffness": ("N m-1 s2 rad-2", "reduced geometric stiffness per squared speed"),
     "mass": ("kg", "reduced mass"),
     "spin_softening": ("kg", "reduced spin softening per squared speed"),
-    "coriolis": ("kg", "reduced Coriolis matrix per speed"),
+    "coriolis": ("kg", f"reduced Coriolis matrix G per speed, skew-symmetric: {CORIOLIS_TERM}"),
 }
 _ELEMENTS = "stress_elements_"
 

@@ -9,8 +9,8 @@ from functools import partial
 import numpy as np
 
 from r37core.contact.scene import Scene
-from r37core.results.stress_recovery import StressRecovery
 from r37core.rom.contact_model import ContactModel
+from r37core.stress.operator import StressOperator
 from r37core.time_integration.integration_choice import IntegrationChoice
 from r37core.time_integration.simulate import DIRECTIONS, TIP_POINTS
 from r37core.time_integration.speed_run import amplitudes, with_rotation
@@ -33,7 +33,7 @@ def record_run_up(
     results: Sequence[str],
     *,
     highest_order: int,
-    recovery: StressRecovery | None,
+    stress: StressOperator | None,
     yield_stress: float,
 ) -> dict[str, np.ndarray]:
     """Do a run-up, and keep of every whole revolution what is asked for in `results`.
@@ -46,7 +46,7 @@ def record_run_up(
     the lining as new. Raises what March raises.
     """
     orders = highest_order if "spectrum" in results else None
-    empty = partial(_Revolutions, model, choice, orders, recovery, "static_stress" in results)
+    empty = partial(_Revolutions, model, choice, orders, stress, "static_stress" in results)
     march, found = _done(March(model, scene, choice, run_up), empty())
     if run_up.worn and not found["status"]:
         march, found = _done(March(model, scene, choice, run_up, march.state.wear), empty())
@@ -88,7 +88,7 @@ class _Revolutions:
     model: ContactModel
     choice: IntegrationChoice
     highest_order: int | None
-    recovery: StressRecovery | None
+    stress: StressOperator | None
     static_stress: bool
     waiting: dict[str, list[np.ndarray]] = field(default_factory=dict)
     kept: list[dict[str, np.ndarray]] = field(default_factory=list)
@@ -103,17 +103,17 @@ class _Revolutions:
             interval=2.0 * np.pi / self.choice.samples_per_revolution / stage.speeds[:count],
             wear=stage.wear[:count],
         )
-        if self.recovery is not None:
+        if self.stress is not None:
             if stage.shapes is not self.shapes:
                 self.shapes, self._to_reduced = stage.shapes, self.model.to_reduced @ stage.shapes
-                self._stress_of_shapes = self.recovery.max_von_mises(self._to_reduced.T)
+                self._stress_of_shapes = self.stress.max_von_mises(self._to_reduced.T)
             coordinates = stage.snapshots @ self._to_reduced.T
             # of a sum of shapes the stress is no more than the sum of theirs
             bound = np.abs(stage.snapshots) @ self._stress_of_shapes
             if self.static_stress:
                 speeds, of_instants = np.unique(stage.snapshot_speeds, return_inverse=True)
                 still = with_rotation(np.zeros((len(speeds), len(self._to_reduced))), self.model, speeds)
-                bound += self.recovery.max_von_mises(still)[of_instants]
+                bound += self.stress.max_von_mises(still)[of_instants]
                 coordinates = with_rotation(coordinates, self.model, stage.snapshot_speeds)
             self._wait(coordinates=coordinates, bound=bound)
         waiting = sum(map(len, self.waiting["interval"])) // self.choice.samples_per_revolution
@@ -151,12 +151,12 @@ class _Revolutions:
             # of the leading edge, its directions before the samples
             motion = np.moveaxis(samples[:, :, 0, _SPECTRA], 1, 2)
             kept["amplitude"] = amplitudes(motion)[..., : self.highest_order + 1].astype(np.float32)
-        if self.recovery is not None:
-            kept["max_von_mises"] = largest_stress(self.recovery, found["coordinates"], found["bound"])
+        if self.stress is not None:
+            kept["max_von_mises"] = largest_stress(self.stress, found["coordinates"], found["bound"])
         self.kept.append(kept)
 
 
-def largest_stress(recovery: StressRecovery, coordinates: np.ndarray, bound: np.ndarray) -> np.ndarray:
+def largest_stress(stress: StressOperator, coordinates: np.ndarray, bound: np.ndarray) -> np.ndarray:
     """Largest von Mises stress (Pa) of each revolution, shape (revolutions,), of the instants that may have it alone.
 
     `coordinates`, shape (revolutions, instants, coordinates); `bound` (Pa), shape (revolutions, instants): what the stress of
@@ -165,11 +165,11 @@ def largest_stress(recovery: StressRecovery, coordinates: np.ndarray, bound: np.
     if not len(bound):
         return np.empty(0)
     revolutions, first = np.arange(len(bound)), bound.argmax(axis=1)
-    largest = recovery.max_von_mises(coordinates[revolutions, first])
+    largest = stress.max_von_mises(coordinates[revolutions, first])
     rest = bound > largest[:, None]
     rest[revolutions, first] = False
     rows, instants = np.nonzero(rest)
     for part in range(0, len(rows), _INSTANTS_AT_ONCE):
         some = slice(part, part + _INSTANTS_AT_ONCE)
-        np.maximum.at(largest, rows[some], recovery.max_von_mises(coordinates[rows[some], instants[some]]))
+        np.maximum.at(largest, rows[some], stress.max_von_mises(coordinates[rows[some], instants[some]]))
     return largest

@@ -19,8 +19,8 @@ from r37core.exchange.exporting.fields import (
     write_stress,
 )
 from r37core.fem.material import Material
-from r37core.fem.stress import von_mises
 from r37core.fem.surface import outer_faces
+from r37core.fem.von_mises import von_mises
 from r37core.io import write_json
 from r37core.mesh.blade_mesh import BladeMesh
 from r37core.rom.reduced_model import ReducedModel

@@ -14,12 +14,13 @@ import xarray as xr
 
 from r37core.dataset_file import about, read_dataset, write_dataset
 from r37core.io import atomic_write, read_json
-from r37core.results.measures import largest_of_run, motion_of_run, peak_of
+from r37core.results.measures import motion_of_run, peak_of
 from r37core.results.netcdf import create_variable
 from r37core.results.response import write_response
-from r37core.results.stress_recovery import StressRecovery
 from r37core.rom.contact_model import ContactModel, read_contact_model
 from r37core.rom.rom_file import read_reduced_model
+from r37core.stress.operator import StressOperator
+from r37core.stress.recovery import stress_operator
 from r37core.time_integration.integration_choice import IntegrationChoice
 from r37core.time_integration.problem import stable_problem
 from r37core.time_integration.simulate import Simulation
@@ -63,7 +64,7 @@ def run_case_of_files(case: Case, files: Mapping[str, str], output: Path | str) 
     with recovering:
         recovery = None
         if "stress" in case.results and case.material:
-            recovery = StressRecovery(read_reduced_model(files["rom"]), case.material)
+            recovery = stress_operator(read_reduced_model(files["rom"]), case.material)
     costs = {f"model_{name}": value for name, value in (read_json(files["cost"]) if "cost" in files else {}).items()}
     run_case(case, model, recovery, output, costs | {"reading_cpu_s": reading.cpu, "recovery_cpu_s": recovering.cpu})
 
@@ -77,7 +78,7 @@ def with_swept_peak(case: Case, peak: SweptPeak, response: xr.Dataset) -> Case:
 def run_case(
     case: Case,
     model: ContactModel,
-    recovery: StressRecovery | None,
+    recovery: StressOperator | None,
     output: Path | str,
     costs: Mapping[str, float] | None = None,
 ) -> None:
@@ -99,7 +100,7 @@ def run_case(
 class _Runs:
     """The runs of one case: files in a folder, and what is kept beside them, by speed (rad/s)."""
 
-    def __init__(self, case: Case, model: ContactModel, recovery: StressRecovery | None, folder: Path):
+    def __init__(self, case: Case, model: ContactModel, recovery: StressOperator | None, folder: Path):
         assert case.scene is not None
         self.case, self.scene, self.model, self.recovery, self.folder = case, case.scene, model, recovery, folder
         self.files: dict[float, Path] = {}
@@ -116,7 +117,8 @@ class _Runs:
         case = self.case
         choice = replace(case.choice, energy="energy" in case.results)
         if "stress" in case.results:
-            choice = replace(choice, snapshot_revolutions=choice.revolutions if speed in self.histories else 1)
+            kept = choice.revolutions if speed in self.histories else choice.revolutions_in_statistic
+            choice = replace(choice, snapshot_revolutions=kept)
         else:
             choice = replace(choice, snapshots_per_revolution=0, snapshot_revolutions=0)
         if case.share_of_limit is not None:
@@ -134,7 +136,7 @@ class _Runs:
         # compiled before it is timed
         Simulation(self.model, speed, self.scene, choice)
         with integration:
-            run = run_speed(self.model, speed, self.scene, choice, case.results, **case.kept)
+            run = run_speed(self.model, speed, self.scene, choice, case.results, motion=None, stress=self.recovery, **case.kept)
         with writing:
             write_speed(run, file, {})
         self.files[speed] = file
@@ -147,15 +149,13 @@ class _Runs:
 
     def _follow(self) -> None:
         """Add speeds beyond both ends until the stress is below yield there; then keep the history of the peak."""
-        assert self.recovery is not None and self.case.material is not None
-        instants = self.case.choice.snapshots_per_revolution
+        assert self.case.material is not None
         speeds = sorted(self.files)
         step = speeds[1] - speeds[0] if len(speeds) > 1 else 1.0
         for end, towards in ((speeds[0], -step), (speeds[-1], step)):
             for number in range(_MOST_EXTRA):
                 last = read_speed(self.files[end + number * towards])
-                stress = self.recovery.of_last_revolution(last, instants)
-                if not largest_of_run(last, stress, instants) > self.case.material.yield_stress:
+                if not last["max_von_mises"] > self.case.material.yield_stress:
                     break
                 self._run(end + (number + 1) * towards)
         peak = max(self.files, key=lambda speed: motion_of_run(read_speed(self.files[speed])))
@@ -172,9 +172,7 @@ class _Runs:
                 [self.files[speed] for speed in speeds],
                 speeds,
                 partial,
-                self.recovery,
                 stress_history_speeds=sorted(self.histories) if self.recovery else (),
-                stress_instants=instants,
                 yield_stress=self.case.material.yield_stress if self.case.material else math.inf,
                 provenance=attributes,
             )
@@ -187,7 +185,7 @@ class _Runs:
                 words = about("Pa", "largest von Mises stress at each instant of the last revolution")
                 stress = create_variable(dataset, "max_von_mises_of_instant", "f8", ("speed", "instant"), words)
                 for row, speed in enumerate(speeds):
-                    of_run = self.recovery.of_last_revolution(read_speed(self.files[speed]), instants)
+                    of_run = self.recovery.max_von_mises(read_speed(self.files[speed])["snapshots"])
                     # a run that diverged has none
                     stress[row] = of_run if len(of_run) else np.nan
             dataset.setncatts({"reduction_cpu_s": reducing.cpu, "peak_memory_bytes": peak_memory()})

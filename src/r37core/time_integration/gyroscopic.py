@@ -41,6 +41,22 @@ class ComplexModes:
         by_u, by_d = (np.where(turned.any(axis=0), one, 0.0) for one in (by_u, by_d))
         return self.shapes.real - turned * by_u, -turned * by_d
 
+    def begun(
+        self, frequencies: np.ndarray, displacement: np.ndarray, velocity: np.ndarray, damping_ratio: float, step: float
+    ) -> tuple[np.ndarray, np.ndarray]:
+        """u and d of the free motion that has `displacement` and `velocity` of the real modes, shape (real modes,).
+
+        The amplitudes for which Re sum s_j zeta_j and Re sum lambda_j s_j zeta_j are these, with the damping in lambda_j.
+        `frequencies` (rad/s): of the real modes; `step` (s).
+        """
+        turn = -damping_ratio + 1j * np.sqrt(1.0 - damping_ratio**2)
+        # in w_j zeta_j, and with the rows of the displacement times W, all numbers are about one
+        rows = np.concatenate([frequencies[:, None] * self.shapes / self.frequencies, turn * self.shapes])
+        given = np.concatenate([frequencies * displacement, velocity])
+        parts = np.linalg.solve(np.hstack([rows.real, -rows.imag]), given).reshape(2, -1) / self.frequencies
+        amplitude = parts[0] + 1j * parts[1]
+        return amplitude.real, -(amplitude * np.expm1(-turn * self.frequencies * step)).real
+
 
 def complex_modes(frequencies: np.ndarray, coupling: np.ndarray) -> ComplexModes:
     """Modes of q'' + g q' + diag(frequencies^2) q = 0, with a skew-symmetric `coupling` g (rad/s), shape (modes, modes).

@@ -12,7 +12,7 @@ LARGEST_TABLE = 2**30
 class IntegrationChoice:
     """Numbers of the time integration: largest time step (s), revolutions, samples per revolution, and what is recorded.
 
-    `snapshots_per_revolution` states are kept in each of the last `snapshot_revolutions`; `energy`: whether the loss to
+    `snapshots_per_revolution` states are recorded in each of the last `snapshot_revolutions`; `energy`: whether the loss to
     damping is added up; `jumps`: whether free flight is jumped over or stepped through; `highest_frequency` (Hz): faster
     modes are not stepped; `static_above`: nor are, with exact_modal, modes with a larger product of angular frequency and step,
     and all that are not stepped follow the contact forces statically; `shorten`: whether an unstable step is shortened, or
@@ -34,3 +34,8 @@ class IntegrationChoice:
     static_above: float = 1.0
     shorten: bool = False
     steps_per_sample: int | None = None
+
+    @property
+    def revolutions_in_statistic(self) -> int:
+        """Revolutions of the last half of the run, which rms and the statistic of the stress are taken over."""
+        return self.revolutions - self.revolutions // 2

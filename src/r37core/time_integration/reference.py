@@ -15,6 +15,7 @@ import numpy as np
 from r37core.contact.casing import casing_axes
 from r37core.contact.scene import Lining
 
+from .clearance import gaps
 from .problem import Paces, Problem
 from .reference_motion import CoupledMotion, Motion, MotionWithCasing, RealMotion
 from .state import Course, SimulationRecord, SimulationState
@@ -141,18 +142,7 @@ class ReferenceEngine:
 
     def gap(self, u: np.ndarray, n: int) -> tuple[np.ndarray, np.ndarray]:
         """Distance (m) of every node from casing or lining, and the angle (rad) at which it meets it."""
-        problem = self.problem
-        theta = problem.theta(n % problem.steps_per_revolution)
-        position = self.normal @ u
-        if problem.scene.exact_gap:
-            # the displaced node's radius is sqrt((r + u_r)^2 + u_theta^2), its angle theta + atan(u_theta/(r + u_r))
-            cosine, sine = np.cos(problem.cone_angle), np.sin(problem.cone_angle)
-            radius = problem.tip.radius + cosine * (self.normal @ u) + sine * (self.meridional @ u)
-            across = self.tangential @ u
-            position = position + cosine * (np.hypot(radius, across) - radius)
-            theta = theta + np.arctan2(across, radius)
-        lobes = problem.scene.casing.lobe(theta, np.array(n * problem.time_step), problem.duration)
-        return self.clearance - lobes - position, theta
+        return gaps(self.problem, self.clearance, np.array([rows @ u for rows in self.rows]), n)
 
     def _directions(self, d: np.ndarray) -> np.ndarray:
         """Forces per unit normal force on each node, shape (3, nodes): towards the axis, with friction against the sliding.

@@ -11,6 +11,7 @@ from r37core.rom.contact_model import ContactModel
 
 from .clearance import cut
 from .compiled import CompiledEngine
+from .initial_motion import InitialMotion
 from .integration_choice import IntegrationChoice
 from .problem import Paces, Problem, stable_problem
 from .reference import ReferenceEngine
@@ -47,15 +48,21 @@ class Simulation:
         # of one choice, so of one class
         self.engine: Any = _ENGINES[problem.choice.engine](problem, paces, before)
 
-    def start(self) -> SimulationState:
-        """The blade at rest in an unworn lining, or in one that it has cut its way into."""
+    def start(self, motion: InitialMotion | None = None) -> SimulationState:
+        """The blade at rest or in `motion`, in an unworn lining, or in one that it has cut its way into.
+
+        Raises what InitialMotion.put raises.
+        """
         problem = self.problem
         directions, nodes, modes = problem.displacement_operator.shape
         wear = None if problem.scene.lining is None else np.zeros((problem.rings, problem.bars))
         if wear is not None and problem.scene.casing.changes_with_speed:
             wear += cut(problem.clearance, problem.rings)
         forces = np.zeros((directions, nodes))
-        return SimulationState(np.zeros(modes), np.zeros(modes), wear, np.zeros(nodes, dtype=bool), forces)
+        state = SimulationState(np.zeros(modes), np.zeros(modes), wear, np.zeros(nodes, dtype=bool), forces)
+        if motion is not None:
+            motion.put(problem, state)
+        return state
 
     def advance(self, state: SimulationState, revolutions: int) -> SimulationRecord:
         """Go on by `revolutions` from `state`, which is changed."""

@@ -8,6 +8,7 @@ from typing import Any
 from r37core.contact.scene import Scene
 from r37core.plain import from_plain
 from r37core.rom.contact_model import ContactModel, read_contact_model
+from r37core.stress.operator import read_stress_operator
 
 from .integration_choice import IntegrationChoice
 from .simulate import Simulation
@@ -17,8 +18,10 @@ from .speed_run import run_speed
 _READY = set[tuple[str, str]]()
 
 
-def run_job(model: str, speed: str, output: str, task: str, about: str) -> None:
+def run_job(speed: str, output: str, task: str, about: str, model: str, stress: str | None = None) -> None:
     """Simulate at a speed (rad/s) and write the file, with the attributes `about`; `task` is that of a sweep's plan.
+
+    `model`, `stress`: files of the contact model and, where stress is wanted, of its operator.
 
     With `only_prepare` in the task it compiles what the run needs, refuses what cannot be run, and writes nothing.
     Raises InputFileError, and what Problem raises.
@@ -28,10 +31,12 @@ def run_job(model: str, speed: str, output: str, task: str, about: str) -> None:
     if wanted.get("only_prepare"):
         Simulation(*given)
     else:
-        write_speed(run_speed(*given, wanted["results"], **wanted["kept"]), output, json.loads(about))
+        operator = stress and read_stress_operator(stress)
+        run = run_speed(*given, wanted["results"], **wanted["kept"], stress=operator or None)
+        write_speed(run, output, json.loads(about))
 
 
-def make_ready(model: str, speed: str, output: str, log: str, task: str, about: str) -> None:
+def make_ready(speed: str, output: str, log: str, task: str, about: str, model: str, stress: str | None = None) -> None:
     """Load what all jobs of a model and task have in common, once, for a server that forks them. Raises what the job would."""
     if (model, task) in _READY:
         return

@@ -10,11 +10,14 @@ from numpy.fft import rfft  # NumPy imports it when it is used, which would be i
 from r37core.contact.scene import Scene
 from r37core.rom.contact_model import ContactModel
 from r37core.rom.rotation import rotation_amplitudes
+from r37core.stress.operator import StressOperator
+from r37core.stress.revolutions import largest_of_revolutions
 
 from .casing_waves import casing_waves
+from .initial_motion import InitialMotion
 from .integration_choice import IntegrationChoice
 from .simulate import DIRECTIONS, TIP_POINTS, Simulation
-from .state import SimulationState
+from .state import SimulationRecord, SimulationState
 from .status import RunStatus
 
 OF_RUNS = ("spectrum", "stress", "static_stress", "wear", "energy", "casing")
@@ -34,19 +37,26 @@ def run_speed(
     *,
     spectrum_highest_order: int,
     wear_angles: int,
+    stress: StressOperator | None = None,
+    motion: InitialMotion | None = None,
 ) -> dict[str, np.ndarray]:
     """Simulate one speed (rad/s) and keep what is asked for in `results` (OF_RUNS).
 
     Always: `status`, `diverged_revolution` and `diverged_time` (NaN unless diverged), `time_step`, the casing's `cone_angle`
-    (rad), `rms` and `peak` (m) over the last half, shape (2, 3): TIP_POINTS by DIRECTIONS, `revolution_maxima` (m), shape
-    (revolutions, 2, 3), and contact statistics. `clearance` (m), shape (nodes,): where it changes with the speed. `amplitude`,
-    shape (2, orders): spectrum of the leading edge's normal and tangential motion. `snapshots`: the reduced coordinates of the
-    vibration and, with static_stress, the amplitudes of rotation's shapes. `casing_...`: see casing_waves. A diverged run has
-    NaN where a number would need the rest of the run.
-    Raises what Problem raises.
+    (rad), `lined`, 1 where there is a lining, `rms` and `peak` (m) over the last half, shape (2, 3): TIP_POINTS by DIRECTIONS,
+    `revolution_maxima` (m), shape (revolutions, 2, 3), and contact statistics. `clearance` (m), shape (nodes,): where it
+    changes with the speed. `amplitude`, shape (2, orders): spectrum of the leading edge's normal and tangential motion.
+    `snapshots`: the reduced coordinates of the vibration in the last revolution and, with static_stress, the amplitudes of
+    rotation's shapes. With a `stress` operator: `max_von_mises` (Pa) in the last revolution, `revolution_von_mises` (Pa), the
+    largest of each of the last `choice.snapshot_revolutions`, `stress_region` and `static_stress`, 1 where rotation's is in
+    them. `casing_...`: see casing_waves. A diverged run has NaN where a number would need the rest of the run.
+    With `motion` the blade starts in it and not at rest: `initial_energy_left_out`, see InitialMotion, and of the energies
+    `initial_energy` (J). Raises what Problem raises, and InitialMotionError.
     """
     simulation = Simulation(model, speed, scene, choice)
-    state = simulation.start()
+    left_out = None if motion is None else motion.left_out(simulation.problem)
+    state = simulation.start(motion)
+    begun = simulation.energy(state)
     record = simulation.advance(state, choice.revolutions)
     per_revolution = choice.samples_per_revolution
     asked = choice.revolutions * per_revolution
@@ -63,6 +73,7 @@ def run_speed(
         "diverged_time": np.array(diverged_at * 2.0 * np.pi / speed),
         "time_step": np.array(simulation.problem.time_step),
         "cone_angle": np.array(simulation.problem.cone_angle),
+        "lined": np.array(int(scene.lining is not None)),
         "rms": np.sqrt(np.mean(half**2, axis=0)),
         "peak": maxima[first:].max(axis=0),
         "revolution_maxima": maxima,
@@ -71,21 +82,21 @@ def run_speed(
         "casing_hits": np.array(totals["casing_hits"]),
         "worst_complementarity": np.array(totals["worst_complementarity"]),
     }
+    if left_out is not None:
+        kept["initial_energy_left_out"] = np.array(left_out)
     if scene.casing.changes_with_speed:
         kept["clearance"] = simulation.problem.clearance
     if "spectrum" in results:
         kept |= _spectrum(half[:, 0, _KEPT].T, len(half) // per_revolution, spectrum_highest_order)
     if "stress" in results:
-        # a stress of them differs by 1e-7 of the largest, in two thirds of the file
-        coordinates = record.snapshots @ (model.to_reduced @ simulation.problem.state_shapes).T
-        if "static_stress" in results:
-            coordinates = with_rotation(coordinates, model, speed)
-        kept["snapshots"] = coordinates.astype(np.float32)
+        kept |= _stress(simulation, record, stress, "static_stress" in results)
     if "wear" in results:
         assert scene.lining is not None
         kept |= _wear(state, min(wear_angles, scene.lining.bars))
     if "energy" in results:
-        kept |= energy_balance(simulation.work(state), float(totals["loss"]), simulation.energy(state))
+        kept |= energy_balance(simulation.work(state), float(totals["loss"]), simulation.energy(state) - begun)
+        if motion is not None:
+            kept["initial_energy"] = np.array(begun)
     if "casing" in results:
         ring = simulation.problem.ring
         assert ring is not None and record.casing is not None
@@ -100,6 +111,34 @@ def _whole(samples: np.ndarray, asked: int, diverged: bool) -> np.ndarray:
         return samples
     missing = asked - len(samples) + 1
     return np.concatenate([samples[:-1], np.full((missing, *samples.shape[1:]), np.nan)])
+
+
+def _stress(
+    simulation: Simulation, record: SimulationRecord, stress: StressOperator | None, static_stress: bool
+) -> dict[str, np.ndarray]:
+    """What is kept of the snapshots of a run: see `run_speed`."""
+    model, speed, choice = simulation.problem.model, simulation.problem.speed, simulation.problem.choice
+    shapes, per_revolution = model.to_reduced @ simulation.problem.state_shapes, choice.snapshots_per_revolution
+    coordinates = record.snapshots[-per_revolution:] @ shapes.T
+    if static_stress:
+        coordinates = with_rotation(coordinates, model, speed)
+    # a stress of them differs by 1e-7 of the largest, in two thirds of the file
+    coordinates = coordinates.astype(np.float32)
+    if stress is None:
+        return {"snapshots": coordinates}
+    whole = len(record.snapshots) // per_revolution
+    history = np.full(choice.snapshot_revolutions, np.nan, dtype=np.float32)
+    if whole:
+        rotation = rotation_amplitudes(model.rotation_stiffening, speed) if static_stress else np.empty(0)
+        states = record.snapshots[: whole * per_revolution]
+        history[:whole] = largest_of_revolutions(stress, states, shapes, rotation, per_revolution)
+    return {
+        "snapshots": coordinates,
+        "max_von_mises": np.array(np.nan if record.diverged else stress.max_von_mises(coordinates).max()),
+        "revolution_von_mises": history,
+        "stress_region": np.array(stress.region),
+        "static_stress": np.array(int(stress.have_rotation(coordinates))),
+    }
 
 
 def with_rotation(coordinates: np.ndarray, model: ContactModel, speeds: float | np.ndarray) -> np.ndarray:

@@ -13,6 +13,7 @@ from r37core.dataset_file import SPEED_RPM, about, read_dataset
 from r37core.io import readable
 from r37core.results.measures import largest_stress, leading_edge, peak_of, ratio_to_yield, speeds_above_yield
 from r37core.results.netcdf import status_flags
+from r37core.results.ranking import RANKED_BY, robustness
 from r37core.results.variables import VARIABLES
 from r37core.time_integration.status import RunStatus
 from r37core.units import RPM
@@ -30,8 +31,14 @@ MEASURES = {
     "first_yield_speed": ("rad s-1", "first speed above yield"),
     "width_above_yield": ("rad s-1", "from the first to the last speed above yield"),
     "largest_stress": ("Pa", "largest von Mises stress over all speeds"),
+    "length_certain": ("rad s-1", "length of the speeds certainly above yield"),
+    "length_possible": ("rad s-1", "length of the speeds possibly above yield"),
+    "largest_median_stress": ("Pa", "largest over all speeds of the median over the revolutions"),
 }
 """What is read off each member over all its speeds -> units, meaning; all but the first need the stress."""
+
+_RANKED = dict(zip(RANKED_BY, ("length_certain", "length_possible", "largest_median_stress"), strict=True))
+"""What blades are ranked by -> measure that it is."""
 
 INDEXED = ("peak_speed", "width_above_yield", "largest_stress")
 """Measures that have sensitivity indices."""
@@ -78,7 +85,19 @@ def _measured(response: xr.Dataset) -> dict[str, float]:
     if "max_von_mises" in response:
         above, (largest, _) = speeds_above_yield(response), largest_stress(response)
         found |= {"first_yield_speed": above.first, "width_above_yield": above.width, "largest_stress": largest}
+        found |= {_RANKED[column]: value for column, value in robustness(response).items() if column in _RANKED}
     return found
+
+
+def measures_of_members(tolerances: xr.Dataset) -> dict[tuple[str, str], dict[str, dict[str, float]]]:
+    """What blades are ranked by of each blade and scene, member by member; `tolerances`: as `tolerances_dataset` gives it."""
+    found: dict[tuple[str, str], dict[str, dict[str, float]]] = {}
+    for blade in tolerances["blade"].values.tolist():
+        for scene in tolerances["scene"].values.tolist():
+            one = tolerances[list(_RANKED.values())].sel(blade=blade, scene=scene).dropna("member", how="all")
+            rows = one.to_dataframe()[list(_RANKED.values())].set_axis(list(_RANKED), axis=1)
+            found[blade, scene] = {str(member): values for member, values in rows.to_dict("index").items()}
+    return {pair: members for pair, members in found.items() if members}
 
 
 def _kept(response: xr.Dataset, run: MemberRun, numbers: Sequence[str], values: Mapping[str, float]) -> xr.Dataset:

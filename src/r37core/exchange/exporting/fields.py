@@ -12,15 +12,15 @@ import numpy as np
 from r37core.exchange.importing.meshio_reader import quietly
 from r37core.exchange.orientation import OURS, Orientation
 from r37core.fem.material import Material
-from r37core.fem.stress import nodal_stress, von_mises
+from r37core.fem.stress import nodal_stress
+from r37core.fem.von_mises import von_mises
 from r37core.io import atomic_write, write_text
 from r37core.mesh.blade_mesh import BladeMesh
 from r37core.mesh.mesh_files import vtk_grid
 from r37core.results.campbell import name_modes
-from r37core.results.measures import last_revolution
-from r37core.results.stress_recovery import StressRecovery
 from r37core.rom.reduced_model import RecoveryNodes, ReducedModel
 from r37core.speeds import exact_text
+from r37core.stress.operator import StressOperator
 from r37core.time_integration.speed_file import read_speed
 
 _NAMED_AMONG = 8
@@ -90,11 +90,10 @@ def write_modes(mesh: BladeMesh, model: ReducedModel, speeds: Sequence[float], c
 
 
 def worst_instants(
-    files: Iterable[Path | str], speeds: Sequence[float], recovery: StressRecovery, only_worst: bool, per_revolution: int
+    files: Iterable[Path | str], speeds: Sequence[float], stress: StressOperator, only_worst: bool
 ) -> dict[float, WorstInstant]:
     """The worst instant of the last revolution at each of the `speeds` (rad/s), or the worst of all alone.
 
-    `per_revolution`: instants of a revolution in the files, which may keep more than one.
     A run that diverged has none. Raises InputFileError for a file that cannot be read.
     """
     found: dict[float, WorstInstant] = {}
@@ -102,8 +101,8 @@ def worst_instants(
         run = read_speed(file)
         if run["status"] or not len(run["snapshots"]):
             continue
-        revolution = last_revolution(run["snapshots"], per_revolution)
-        largest = recovery.max_von_mises(revolution)
+        revolution = run["snapshots"]
+        largest = stress.max_von_mises(revolution)
         instant = int(np.argmax(largest))
         found[speed] = WorstInstant(revolution[instant], float(largest[instant]), revolution, instant)
     worst = max(found, key=lambda speed: found[speed].largest, default=None)
@@ -139,7 +138,7 @@ def stress_of(mesh: BladeMesh, model: ReducedModel, material: Material, instant:
 
 
 def displacement_of(model: ReducedModel, coordinates: np.ndarray) -> np.ndarray:
-    """Displacement of all nodes (m), shape (instants, nodes, 3), for coordinates as StressRecovery takes them."""
+    """Displacement of all nodes (m), shape (instants, nodes, 3), for coordinates as StressOperator takes them."""
     return np.moveaxis(_whole(model).fields[:, :, : coordinates.shape[1]] @ coordinates.T, 2, 0)
 
 

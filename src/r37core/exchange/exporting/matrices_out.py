@@ -1,4 +1,4 @@
-"""A blade's matrices as Matrix Market, in the layout that matrices_in reads."""
+"""A blade's matrices as Matrix Market, in the layout that matrices_in reads, and the Coriolis matrix, which it does not."""
 
 from __future__ import annotations
 
@@ -14,19 +14,25 @@ from r37core.exchange.importing.matrices_in import COLUMNS
 from r37core.fem.matrices import StructuralMatrices
 from r37core.io import atomic_write
 from r37core.mesh.blade_mesh import BladeMesh
-from r37core.rom.reduced_model import ReducedModel
+from r37core.rom.reduced_model import CORIOLIS_TERM, ReducedModel
 from r37core.rom.reduction_choice import POINTS
 from r37core.speeds import exact_text
+
+CORIOLIS = "G"
+"""Name of the file of the Coriolis matrix per speed, which a model with the Coriolis force has."""
+
+_ABOUT_CORIOLIS = f" Coriolis matrix G per speed, in kg, that is N s/m per rad/s: {CORIOLIS_TERM}"
 
 
 def write_reduced_matrices(model: ReducedModel, speeds: Sequence[float], folder: Path) -> None:
     """Write the reduced M and K_<speed> at `speeds` (rad/s) with boundary.csv; contact nodes come first.
 
+    A model with a Coriolis matrix also gives G: see CORIOLIS_TERM.
     Of patches the rows of boundary.csv are mean displacements, at the patches' places.
     """
     content = {"M": model.mass} | {f"K_{exact_text(speed)}": model.stiffness_at(speed) for speed in speeds}
     points = model.contact_nodes.points
-    _write(content, points, np.arange(3 * len(points)).reshape(-1, 3), folder)
+    _write(content, model.coriolis, points, np.arange(3 * len(points)).reshape(-1, 3), folder)
 
 
 def table_nodes(model: ReducedModel, tip_line: str) -> np.ndarray:
@@ -41,25 +47,36 @@ def write_full_matrices(
     speeds: Sequence[float],
     folder: Path,
     spin_softening: bool,
+    coriolis: bool = False,
 ) -> None:
     """Write the full M and K_<speed> at `speeds` (rad/s) with boundary.csv, which names the mesh's `nodes`.
 
     Rows are x y z of the unclamped nodes, in m and the blade's frame; with geometric stiffness and, where asked for, spin
-    softening.
+    softening, and G, the Coriolis matrix per speed: see CORIOLIS_TERM.
     """
     stiffness, per_square = matrices.stiffness(), matrices.geometric_stiffness()
     if spin_softening:
         per_square = sp.csr_array(per_square + matrices.spin_softening())
     content = {"M": matrices.mass()} | {f"K_{exact_text(speed)}": stiffness + speed**2 * per_square for speed in speeds}
     rows = 3 * np.searchsorted(matrices.free_nodes, nodes)[:, None] + np.arange(3)
-    _write(content, mesh.points[nodes], rows, folder)
+    _write(content, matrices.coriolis() if coriolis else None, mesh.points[nodes], rows, folder)
 
 
-def _write(content: Mapping[str, np.ndarray | sp.csr_array], points: np.ndarray, rows: np.ndarray, folder: Path) -> None:
+def _write(
+    content: Mapping[str, np.ndarray | sp.csr_array],
+    coriolis: np.ndarray | sp.csr_array | None,
+    points: np.ndarray,
+    rows: np.ndarray,
+    folder: Path,
+) -> None:
     folder.mkdir(parents=True, exist_ok=True)
     for name, matrix in content.items():
         with atomic_write(folder / f"{name}.mtx") as partial:
             scipy.io.mmwrite(partial, 0.5 * (matrix + matrix.T), precision=17, symmetry="symmetric")
+    if coriolis is not None:
+        skew = 0.5 * (coriolis - coriolis.T)
+        with atomic_write(folder / f"{CORIOLIS}.mtx") as partial:
+            scipy.io.mmwrite(partial, skew, comment=_ABOUT_CORIOLIS, precision=17, symmetry="skew-symmetric")
     table = pd.DataFrame(np.hstack([points, rows]), columns=list(COLUMNS)).astype(dict.fromkeys(COLUMNS[3:], int))
     with atomic_write(folder / "boundary.csv") as partial:
         table.to_csv(partial, index=False)

@@ -167,14 +167,19 @@ def _missed(speed: np.ndarray, curve: np.ndarray, run: Sequence[float]) -> tuple
 
 
 def above_yield(response: xr.Dataset, campbell: xr.Dataset, interactions: InteractionChoice) -> list[Interaction]:
-    """Interactions of a response that pass yield."""
-    rows = find_interactions(response, campbell, interactions)
-    return [row for row in rows if row.width_above_yield_rad_s > 0.0]
+    """Interactions of a response that pass yield, in direct contact certainly."""
+    return [row for row in find_interactions(response, campbell, interactions) if _width(row) > 0.0]
+
+
+def _width(row: Interaction) -> float:
+    """Width above yield (rad/s): of the last revolution, in direct contact of what is certain."""
+    width = row.certain_to_rad_s - row.certain_from_rad_s if row.note else row.width_above_yield_rad_s
+    return 0.0 if math.isnan(width) else width
 
 
 def _held_against(row: Interaction, got: Sequence[Interaction], share_of_members: float) -> Comparison:
     """One interaction beside the nearest of those that were found."""
-    peak, width = row.peak_speed_rad_s, row.width_above_yield_rad_s
+    peak, width = row.peak_speed_rad_s, _width(row)
     near = [other for other in got if abs(other.peak_speed_rad_s - peak) <= max(width, TOLERANCE)]
     nearest = min(near, key=lambda other: abs(other.peak_speed_rad_s - peak), default=None)
     return Comparison(
@@ -182,9 +187,9 @@ def _held_against(row: Interaction, got: Sequence[Interaction], share_of_members
         engine_order=row.engine_order,
         peak=peak,
         width=width,
-        stress=row.max_von_mises_pa,
+        stress=row.median_von_mises_pa if row.note else row.max_von_mises_pa,
         found_peak=nearest.peak_speed_rad_s if nearest else math.nan,
-        found_width=nearest.width_above_yield_rad_s if nearest else math.nan,
+        found_width=_width(nearest) if nearest else math.nan,
         share_of_members=share_of_members,
     )
 

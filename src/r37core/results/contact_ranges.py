@@ -1,0 +1,116 @@
+"""Rows of direct contact: ranges of speed that may be above yield, and what else is loud."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from .exceedance import HALF_WIDTH, POSSIBLE, exceedance_of
+from .interaction import Interaction, largest_columns, range_columns
+from .measures import DROP_WITHIN, drop_after, motion, ratio_to_yield, strongest_order
+from .speed_ranges import SpeedRange, joined, ranges_above
+
+NOTE = "direct contact: matches with modes and the stress of one revolution are chance"
+
+_HALF, _FEWEST = 0.5, 5
+_OF_NORMAL = 1.4826 / np.sqrt(1.5)
+"""Standard deviation per median distance of a value from the line between its neighbours, of normal scatter."""
+
+
+def with_ranges_above_yield(response: xr.Dataset, peaks: Sequence[Interaction]) -> list[Interaction]:
+    """Rows by ascending speed: every range that may be above yield, and of the `peaks` those that lie in none of them.
+
+    A range is where the smoothed share of the revolutions above yield is above POSSIBLE, where a speed's own share is, or where
+    its last revolution is above yield; so no such speed is in no row. `response`: of the leading edge.
+    """
+    ranges = _ranges(response)
+    rows = [_row(response, one) for one in ranges]
+    alone = [one for one in peaks if not any(of.begin <= one.peak_speed_rad_s <= of.end for of in ranges)]
+    for one in alone:
+        at = one.peak_speed_rad_s
+        rows.append(replace(_row(response, SpeedRange(at, at, cut=False), peak_alone=True), direction=one.direction))
+    return sorted(rows, key=lambda one: one.peak_speed_rad_s)
+
+
+def _ranges(response: xr.Dataset) -> list[SpeedRange]:
+    if "share_above_yield" not in response:
+        return []
+    exceedance, ratio = exceedance_of(response), ratio_to_yield(response)
+    own = ranges_above(exceedance.speeds, exceedance.shares, POSSIBLE)
+    return joined([*exceedance.ranges(POSSIBLE), *own, *ranges_above(ratio["speed"].values, ratio.values, 1.0)])
+
+
+def _row(response: xr.Dataset, within: SpeedRange, *, peak_alone: bool = False) -> Interaction:
+    """The row of a range, or of a peak that lies in none: then the range is its speed."""
+    speeds, level = response["speed"].values, motion(response)
+    inside = np.flatnonzero((speeds >= within.begin) & (speeds <= within.end))
+    at = int(np.argmax(level[inside]))
+    place = int(inside[at])
+    peak, reach = response.isel(speed=place), response.isel(speed=inside)
+    largest = [name for name in ("normal", "tangential") if np.argmax(response[f"rms_{name}"].fillna(0.0).values[inside]) == at]
+    order = round(strongest_order(peak["amplitude"])) if "amplitude" in peak else None
+    return Interaction(
+        mode="",
+        engine_order=order,
+        direction=largest[0] if len(largest) == 1 else "both",
+        campbell_speed_rad_s=np.nan,
+        peak_speed_rad_s=float(peak["speed"]),
+        shift_rad_s=np.nan,
+        peak_rms_normal_m=float(peak["rms_normal"]),
+        peak_rms_tangential_m=float(peak["rms_tangential"]),
+        drop=drop_after(response, place),
+        note=NOTE,
+        **_range_columns(response, within, peak_alone),
+        **largest_columns(reach),
+        **_motion_columns(response, float(peak["speed"])),
+    )
+
+
+def _range_columns(response: xr.Dataset, within: SpeedRange, peak_alone: bool) -> dict[str, Any]:
+    """Borders of the row itself, which may be those of single speeds, and of what is certain in it; none without stress."""
+    if "share_above_yield" not in response:
+        return {}
+    columns = range_columns(exceedance_of(response), within)
+    return columns if peak_alone else columns | {"possible_from_rad_s": within.begin, "possible_to_rad_s": within.end}
+
+
+def _motion_columns(response: xr.Dataset, peak_speed: float) -> dict[str, Any]:
+    """Motion at a peak with its scatter, and where it falls below half of that above the peak."""
+    speeds, level = response["speed"].values, motion(response)
+    place = int(np.searchsorted(speeds, peak_speed))
+    fall, scatter = _fall(speeds, level, place)
+    return {
+        "peak_motion_m": float(level[place]),
+        "peak_motion_scatter_m": _scatter(speeds, level, place),
+        "fall_speed_rad_s": fall,
+        "fall_speed_scatter_rad_s": scatter,
+    }
+
+
+def _scatter(speeds: np.ndarray, level: np.ndarray, place: int) -> float:
+    """Standard deviation of the motion about the line between its neighbours, at the speeds nearest to a place; NaN for few."""
+    if len(speeds) < 3:
+        return np.nan
+    share = (speeds[1:-1] - speeds[:-2]) / (speeds[2:] - speeds[:-2])
+    off = np.abs(level[1:-1] - (1.0 - share) * level[:-2] - share * level[2:])
+    distance = np.abs(speeds[1:-1] - speeds[place])
+    near = distance <= max(HALF_WIDTH, np.sort(distance)[min(_FEWEST, len(distance)) - 1])
+    return float(_OF_NORMAL * np.median(off[near]))
+
+
+def _fall(speeds: np.ndarray, level: np.ndarray, place: int) -> tuple[float, float]:
+    """Speed (rad/s) above a peak from which on the motion is below half of the peak's, and half of where it is so by turns."""
+    loud = level[place:] >= _HALF * level[place]
+    quiet = np.flatnonzero(~loud)
+    if not len(quiet):
+        return np.nan, np.nan
+    first, last = int(quiet[0]), int(quiet[0])
+    again = np.flatnonzero(loud & (speeds[place:] <= speeds[place + first] + DROP_WITHIN))
+    last = max(last, int(again[-1]) + 1) if again[-1] > first else last
+    low = float(speeds[place + first - 1])
+    high = float(speeds[min(place + last, len(speeds) - 1)])
+    return 0.5 * (low + high), 0.5 * (high - low)

@@ -1,0 +1,111 @@
+"""Where over speed a blade exceeds yield, from the share of a run's revolutions that does.
+
+In direct contact one revolution's largest stress scatters by a tenth, from revolution to revolution and from speed to speed, so
+that a speed is above yield or below it by chance. The share of a hundred revolutions, smoothed over neighbouring speeds, has
+borders that can be found again. A lined blade repeats itself: its shares are taken as they are.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+import xarray as xr
+
+from r37core.time_integration.status import RunStatus
+
+from .speed_ranges import SpeedRange, ranges_above
+
+CERTAIN, POSSIBLE = 0.5, 0.05
+"""A speed is certainly, and possibly, above yield where a larger share of the revolutions is."""
+
+HALF_WIDTH = 10.0
+"""Distance (rad/s) at which a neighbour's share has no weight any more; its weight falls in a straight line to there."""
+
+_INTERVALS = 1.5
+"""The same, in intervals between speeds, where these are farther apart."""
+
+_DRAWS, _SEED = 200, 0
+
+
+@dataclass(frozen=True)
+class Exceedance:
+    """`shares` of the revolutions above yield at ascending `speeds` (rad/s), both of shape (speeds,).
+
+    `chance`: whether they scatter, as in direct contact; else they are taken as they are.
+    """
+
+    speeds: np.ndarray
+    shares: np.ndarray
+    chance: bool
+
+    @cached_property
+    def weights(self) -> np.ndarray:
+        """Weight of each speed's share in the smoothed one of each speed, shape (speeds, speeds); the sum of a row is 1.
+
+        A straight line falls from 1 at the speed itself to 0 at HALF_WIDTH, or farther off where speeds are few; each speed
+        counts for the length of the range that is nearest to it.
+        """
+        if not self.chance or len(self.speeds) < 2:
+            return np.eye(len(self.speeds))
+        steps = np.diff(self.speeds)
+        before, after = np.concatenate([steps[:1], steps]), np.concatenate([steps, steps[-1:]])
+        reach = np.maximum(HALF_WIDTH, _INTERVALS * np.maximum(before, after))
+        distance = np.abs(self.speeds[:, None] - self.speeds)
+        weights = np.maximum(0.0, 1.0 - distance / reach[:, None]) * np.gradient(self.speeds)
+        return weights / weights.sum(axis=1, keepdims=True)
+
+    @property
+    def smoothed(self) -> np.ndarray:
+        """The shares, each the mean of its neighbours', shape (speeds,)."""
+        return self.weights @ self.shares
+
+    def ranges(self, share: float) -> list[SpeedRange]:
+        """Where the smoothed share is above `share`; between speeds it is a straight line."""
+        return ranges_above(self.speeds, self.smoothed, share)
+
+    def length(self, share: float) -> float:
+        """Of all these ranges together (rad/s)."""
+        return float(sum(one.length for one in self.ranges(share)))
+
+    @cached_property
+    def _drawn(self) -> np.ndarray:
+        """Smoothed shares as chance could have had them, shape (draws, speeds); the same every time.
+
+        Each speed's share is one of its neighbours', drawn by the weights.
+        """
+        random, places = np.random.default_rng(_SEED), np.arange(len(self.speeds))
+        chosen = np.array([random.choice(places, _DRAWS, p=row) for row in self.weights])
+        return (self.weights @ self.shares[chosen]).T
+
+    @cached_property
+    def _ranges_drawn(self) -> dict[float, list[list[SpeedRange]]]:
+        return {share: [ranges_above(self.speeds, one, share) for one in self._drawn] for share in (CERTAIN, POSSIBLE)}
+
+    def scatter_of_length(self, share: float) -> float:
+        """Standard deviation of `length` (rad/s) by chance; NaN where there is none."""
+        if not self.chance:
+            return np.nan
+        return float(np.std([sum(one.length for one in ranges) for ranges in self._ranges_drawn[share]]))
+
+    def scatter_of_border(self, share: float, border: float, *, begins: bool) -> float:
+        """Standard deviation (rad/s) by chance of the `border` (rad/s) of a range that begins, or ends, there; NaN for none."""
+        if not self.chance:
+            return np.nan
+        nearest = []
+        for ranges in self._ranges_drawn[share]:
+            borders = [one.begin if begins else one.end for one in ranges]
+            nearest += [min(borders, key=lambda other: abs(other - border))] if borders else []
+        return float(np.sqrt(np.mean(np.square(np.array(nearest) - border)))) if nearest else np.nan
+
+
+def exceedance_of(response: xr.Dataset) -> Exceedance:
+    """That of a response with its stress; a run that diverged is above yield in all revolutions."""
+    share = response["share_above_yield"].where(response["status"] != RunStatus.DIVERGED, 1.0).dropna("speed")
+    return Exceedance(share["speed"].values, share.values, not is_lined(response))
+
+
+def is_lined(response: xr.Dataset) -> bool:
+    """Whether a lining is worn, and the tip does not meet the casing itself."""
+    return bool(response["lined"]) if "lined" in response else True

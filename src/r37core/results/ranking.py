@@ -1,0 +1,110 @@
+"""ranking.csv: how robust each blade is in each scene, and the chance that one is better than another."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+import pandas as pd
+import xarray as xr
+
+from r37core.time_integration.status import RunStatus
+
+from .exceedance import CERTAIN, POSSIBLE, exceedance_of
+from .measures import drop_after, motion, peak_of
+
+ROBUSTNESS = {
+    "length_certain_rad_s": "speeds certainly above yield (rad/s)",
+    "length_certain_scatter_rad_s": "its standard deviation by chance (rad/s)",
+    "length_possible_rad_s": "speeds possibly above yield (rad/s)",
+    "length_possible_scatter_rad_s": "its standard deviation by chance (rad/s)",
+    "largest_stress_pa": "largest median stress (Pa)",
+    "first_certain_rad_s": "first speed certainly above yield (rad/s)",
+    "first_possible_rad_s": "first speed possibly above yield (rad/s)",
+    "widest_range_rad_s": "widest range certainly above yield (rad/s)",
+    "largest_rms_m": "largest rms of the motion (m)",
+    "largest_rms_speed_rad_s": "speed of the largest rms (rad/s)",
+    "drop": "share of the motion lost above that speed",
+    "largest_gap_rad_s": "largest distance between speeds that were run (rad/s)",
+}
+"""What is read off a response, the same for blades, designs and members -> words for a head or an axis."""
+
+RANKED_BY = ("length_certain_rad_s", "length_possible_rad_s", "largest_stress_pa")
+"""Less of the first is better, of the next where that is the same."""
+
+ENDS = {"low": 0.05, "high": 0.95}
+"""Quantiles of the members that a range goes from and to."""
+
+
+def robustness(response: xr.Dataset) -> dict[str, float]:
+    """ROBUSTNESS of one blade in one scene; NaN for what is not computed, and for a first speed that there is not."""
+    response = response.isel(speed=np.flatnonzero(response["status"].values != RunStatus.NOT_RUN))
+    found = dict.fromkeys(ROBUSTNESS, np.nan)
+    if not response.sizes["speed"]:
+        return found
+    peak, speeds = peak_of(response), response["speed"].values
+    found["largest_rms_m"], found["largest_rms_speed_rad_s"] = float(motion(response).max()), float(peak["speed"])
+    found["drop"] = drop_after(response)
+    found["largest_gap_rad_s"] = float(np.diff(speeds).max(initial=0.0))
+    if "share_above_yield" in response:
+        exceedance = exceedance_of(response)
+        for name, share in (("certain", CERTAIN), ("possible", POSSIBLE)):
+            ranges = exceedance.ranges(share)
+            found[f"length_{name}_rad_s"] = exceedance.length(share)
+            found[f"length_{name}_scatter_rad_s"] = exceedance.scatter_of_length(share)
+            found[f"first_{name}_rad_s"] = ranges[0].begin if ranges else np.nan
+        found["widest_range_rad_s"] = max((one.length for one in exceedance.ranges(CERTAIN)), default=0.0)
+        found["largest_stress_pa"] = float(response["max_von_mises_median"].max())
+    return found
+
+
+def ranking_table(
+    found: Mapping[tuple[str, str], Mapping[str, float]],
+    members: Mapping[tuple[str, str], Mapping[str, Mapping[str, float]]] | None = None,
+) -> pd.DataFrame:
+    """One row for each blade and scene, scene by scene with the best blade first; equal ones have the same rank.
+
+    `found`: blade and scene -> its `robustness`; `members`: the same of each member of a sample, by name, for the ranges under
+    tolerances (`_low`, `_high`: ENDS of the members) and the chance to be better than each other blade: the share of the
+    members that both blades have, which have the same values of the scene's numbers, in which it is; equal ones count half.
+    """
+    table = pd.DataFrame([{"blade": blade, "scene": scene, **values} for (blade, scene), values in found.items()])
+    keys = table[list(RANKED_BY)].fillna(np.inf).apply(tuple, axis=1)
+    ranks = [
+        1 + sum(other < key for other in keys[table["scene"] == scene]) for key, scene in zip(keys, table["scene"], strict=True)
+    ]
+    table.insert(2, "rank", ranks)
+    if members:
+        table = pd.concat([table, pd.DataFrame([_under_tolerances(pair, members) for pair in found])], axis=1)
+    scenes = list(dict.fromkeys(table["scene"]))
+    return table.sort_values(
+        ["scene", "rank"], key=lambda column: column.map(scenes.index) if column.name == "scene" else column
+    )
+
+
+def _under_tolerances(
+    pair: tuple[str, str], members: Mapping[tuple[str, str], Mapping[str, Mapping[str, float]]]
+) -> dict[str, float]:
+    blade, scene = pair
+    own = members.get(pair, {})
+    row: dict[str, float] = {"members": len(own)}
+    for name in RANKED_BY:
+        values = [one[name] for one in own.values()]
+        for end, quantile in ENDS.items():
+            row[f"{name}_{end}"] = float(np.quantile(values, quantile, method="inverted_cdf")) if values else np.nan
+    for other in dict.fromkeys(name for name, of in members if of == scene):
+        if other != blade:
+            row[f"chance_better_than_{other}"] = chance_to_be_better(own, members[other, scene])
+    return row
+
+
+def chance_to_be_better(own: Mapping[str, Mapping[str, float]], others: Mapping[str, Mapping[str, float]]) -> float:
+    """Share of the common members, by name, in which `own` are better by RANKED_BY; equal ones count half; NaN without any."""
+
+    def key(one: Mapping[str, float]) -> tuple[float, ...]:
+        return tuple(np.inf if np.isnan(one[name]) else one[name] for name in RANKED_BY)
+
+    wins = [
+        0.5 * ((key(own[name]) < key(others[name])) + (key(own[name]) <= key(others[name]))) for name in own if name in others
+    ]
+    return float(np.mean(wins)) if wins else np.nan

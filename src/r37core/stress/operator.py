@@ -1,0 +1,50 @@
+"""Stress on the submesh from reduced coordinates. Light: the simulation jobs import it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from r37core.fem.von_mises import von_mises
+from r37core.io import atomic_write, readable
+
+
+@dataclass(frozen=True)
+class StressOperator:
+    """Stress at the nodes of the stress submesh: of the vibration, and of rotation where the coordinates have it.
+
+    `operator`, shape (6, nodes, coordinates + shapes): components xx yy zz xy yz zx (Pa) per unit of each reduced coordinate,
+    then of each amplitude of rotation's shapes. `coordinates`: how many of the former. `region`: the submesh in words.
+    """
+
+    operator: np.ndarray
+    coordinates: int
+    region: str
+
+    def have_rotation(self, coordinates: np.ndarray) -> bool:
+        """Whether the coordinates, shape (instants, coordinates), have the amplitudes of rotation's shapes."""
+        return coordinates.shape[1] > self.coordinates
+
+    def max_von_mises(self, coordinates: np.ndarray) -> np.ndarray:
+        """Largest von Mises stress (Pa) over the submesh, shape (instants,).
+
+        `coordinates`, shape (instants, coordinates), of the vibration alone, or with the amplitudes of rotation's shapes after
+        them: then it is the stress of both together.
+        """
+        operator = self.operator[:, :, : coordinates.shape[1]]
+        stress = np.einsum("cnj,tj->ctn", operator, coordinates, optimize=True)
+        return von_mises(stress).max(axis=1)
+
+
+def write_stress_operator(stress: StressOperator, file: Path | str) -> None:
+    """Write it as .npz."""
+    with atomic_write(file) as partial:
+        np.savez(partial, operator=stress.operator, coordinates=stress.coordinates, region=stress.region)
+
+
+def read_stress_operator(file: Path | str) -> StressOperator:
+    """What `write_stress_operator` wrote. InputFileError when it cannot be read."""
+    with readable(file), np.load(file) as stored:
+        return StressOperator(stored["operator"], int(stored["coordinates"]), str(stored["region"]))

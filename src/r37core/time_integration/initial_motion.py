@@ -1,0 +1,137 @@
+"""A run that starts in motion: displacement and velocity of the reduced model as a state of the time integration."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from r37core.rom.contact_model import ContactModel
+
+from .clearance import gaps
+from .integrators import increments
+from .state import SimulationState
+
+if TYPE_CHECKING:
+    from .problem import Problem
+
+_TOUCHING = 1e-12
+"""Depth (m) up to which a node lies on the casing or lining, and not in it."""
+
+
+class InitialMotionError(ValueError):
+    """A displacement or velocity that a run cannot start with."""
+
+
+@dataclass(frozen=True, eq=False)
+class InitialMotion:
+    """Displacement and velocity of a blade as its run starts, in the coordinates of the reduced model.
+
+    `displacement`, whose first numbers are those of the contact nodes in m (see ReducedModel), and `velocity`, the same per
+    second, shape (coordinates,); None for none. They are those of the vibration, about the position where rotation holds the
+    blade. Raises InitialMotionError for what is no list of finite numbers.
+    """
+
+    displacement: np.ndarray | None
+    velocity: np.ndarray | None
+
+    @classmethod
+    def given(cls, displacement: ArrayLike | None, velocity: ArrayLike | None) -> InitialMotion | None:
+        """The motion that a caller asks for; None where neither is given."""
+        if displacement is None and velocity is None:
+            return None
+        return cls(_numbers("displacement", displacement), _numbers("velocity", velocity))
+
+    @property
+    def attributes(self) -> dict[str, str | np.ndarray]:
+        """What a dataset says of it; nothing of a blade at rest."""
+        parts = {"initial_displacement": self.displacement, "initial_velocity": self.velocity}
+        found = {name: part for name, part in parts.items() if part is not None and part.any()}
+        return {"initial_state": "in motion", **found} if found else {}
+
+    def at_rest(self, model: ContactModel) -> np.ndarray:
+        """Displacement and velocity in the modes at rest, shape (2, modes); InitialMotionError if the model has others."""
+        size = len(model.to_reduced)
+        given = np.zeros((2, size))
+        for row, name in enumerate(("displacement", "velocity")):
+            part = getattr(self, name)
+            if part is None:
+                continue
+            if len(part) != size:
+                raise InitialMotionError(
+                    f"initial_{name}: found {len(part)} numbers; allowed: {size}, one for each coordinate of the reduced model"
+                )
+            given[row] = part
+        return np.linalg.lstsq(model.to_reduced, given.T, rcond=None)[0].T
+
+    def left_out(self, problem: Problem) -> float:
+        """Share of its energy that a run leaves out, for it lies in modes that are not stepped."""
+        whole, model = self.at_rest(problem.model), problem.model
+        rest = whole - (whole @ problem.modes) @ problem.modes.T
+
+        def energy(motion: np.ndarray) -> float:
+            displacement, velocity = motion
+            force = model.squared_frequencies * displacement + problem.speed**2 * (model.stiffness_per_square @ displacement)
+            return float(velocity @ velocity + displacement @ force)
+
+        with np.errstate(over="ignore", invalid="ignore"):
+            total = energy(whole)
+        if not np.isfinite(total):
+            raise InitialMotionError("initial_displacement, initial_velocity: found an energy without bound; allowed: less")
+        return energy(rest) / total if total > 0.0 else 0.0
+
+    def put(self, problem: Problem, state: SimulationState) -> None:
+        """Into a state at rest, as far as the modes are stepped.
+
+        The increment u_0 - u_{-1} is that of free motion through displacement and velocity, in closed form with exact_modal;
+        with central differences the velocity is (u_1 - u_{-1})/(2h). Static modes follow contact forces, and there are none.
+        Raises InitialMotionError for a displacement that does not fit, and for one that reaches into casing or lining.
+        """
+        displacement, velocity = self.at_rest(problem.model) @ problem.modes
+        if self.displacement is not None:
+            _check_room(problem, displacement, state)
+        blade = slice(len(displacement))
+        ratio, step = problem.scene.damping_ratio, problem.time_step
+        if problem.complex_modes is not None:
+            u, d = problem.complex_modes.begun(problem.frequencies, displacement, velocity, ratio, step)
+        else:
+            of = increments(problem.choice.integrator, problem.frequencies, ratio, step)
+            u, d = displacement, of.by_displacement * displacement + of.by_velocity * velocity
+        state.displacement[blade], state.increment[blade] = u, d
+
+
+def _numbers(name: str, values: ArrayLike | None) -> np.ndarray | None:
+    if values is None:
+        return None
+    allowed = "allowed: finite numbers in a row, one for each coordinate of the reduced model"
+    try:
+        found = np.asarray(values)
+    except ValueError:
+        raise InitialMotionError(f"initial_{name}: found rows of different lengths; {allowed}") from None
+    if found.ndim != 1:
+        raise InitialMotionError(f"initial_{name}: found an array of shape {found.shape}; {allowed}")
+    if found.dtype.kind not in "iuf":
+        raise InitialMotionError(f"initial_{name}: found entries of kind {found.dtype.name}; {allowed}")
+    wrong = np.flatnonzero(~np.isfinite(found))
+    if len(wrong):
+        raise InitialMotionError(f"initial_{name}: found {found[wrong[0]]} at place {wrong[0]}, counted from 0; {allowed}")
+    return found.astype(float)
+
+
+def _check_room(problem: Problem, displacement: np.ndarray, state: SimulationState) -> None:
+    """InitialMotionError where a `displacement` of the stepped modes brings a node into casing or lining.
+
+    The contact forces of the first instant would be missing.
+    """
+    nodes = np.array([rows @ (problem.modes @ displacement) for rows in problem.operator_at_rest])
+    room, _ = gaps(problem, problem.clearance, nodes, 0)
+    if state.wear is not None:
+        room = room + state.wear[:, 0]
+    node = int(room.argmin())
+    if room[node] < -_TOUCHING:
+        raise InitialMotionError(
+            f"initial_displacement: contact node {node + 1} of {len(room)}, from the leading edge on, would start "
+            f"{-room[node]:.3g} m inside of the casing or lining; allowed: a displacement that reaches neither"
+        )

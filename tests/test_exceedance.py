@@ -1,0 +1,201 @@
+"""Where a blade exceeds yield: smoothed shares, ranges, their scatter, rows of direct contact, and the ranking."""
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from r37core.figures.ranking_bars import draw_ranking
+from r37core.results.contact_ranges import with_ranges_above_yield
+from r37core.results.exceedance import CERTAIN, POSSIBLE, Exceedance, exceedance_of
+from r37core.results.interactions import InteractionChoice, find_interactions
+from r37core.results.ranking import ROBUSTNESS, chance_to_be_better, ranking_table, robustness
+from r37core.results.speed_ranges import SpeedRange, joined, ranges_above
+from r37core.time_integration.status import RunStatus
+
+CHOICE = InteractionChoice(prominence=0.1, below=0.02, above=0.06)
+
+
+def drawn(chance, speeds, revolutions=100, seed=0):
+    """Shares of so many revolutions above yield, where each is so with a known chance."""
+    return np.random.default_rng(seed).binomial(revolutions, chance) / revolutions + 0.0 * speeds
+
+
+def rising(speeds):
+    """The chance of yield rises from 0 at 1000 to 1 at 1100 rad/s and falls back at 1300."""
+    return np.clip((speeds - 1000.0) / 100.0, 0.0, 1.0) * (speeds < 1300.0)
+
+
+def test_ranges_are_of_straight_lines():
+    speeds = np.array([0.0, 10.0, 20.0, 30.0, 40.0])
+    assert ranges_above(speeds, np.array([0.0, 1.0, 0.0, 0.0, 1.0]), 0.5) == [
+        SpeedRange(5.0, 15.0, cut=False), SpeedRange(35.0, 40.0, cut=True),
+    ]  # fmt: skip
+    assert ranges_above(speeds, np.full(5, 0.5), 0.5) == []
+    both = [SpeedRange(5.0, 9.0, cut=False), SpeedRange(0.0, 6.0, cut=True), SpeedRange(9.5, 10.0, cut=False)]
+    assert joined(both) == [SpeedRange(0.0, 9.0, cut=True), SpeedRange(9.5, 10.0, cut=False)]
+
+
+@pytest.mark.parametrize("step", [1.0, 5.0, 10.0])
+def test_borders_are_found_again_within_their_scatter(step):
+    """A known chance over speed: borders of a half and of a twentieth, and the length, of samples of 100 revolutions."""
+    speeds = np.arange(900.0, 1400.1, step)
+    for seed in range(4):
+        found = Exceedance(speeds, drawn(rising(speeds), speeds, seed=seed), chance=True)
+        (certain,), (possible,) = found.ranges(CERTAIN), found.ranges(POSSIBLE)
+        scatter = found.scatter_of_border(CERTAIN, certain.begin, begins=True)
+        assert abs(certain.begin - 1050.0) < max(4.0 * scatter, 2.0)
+        assert 0.0 < scatter < 3.0 + 1.5 * step
+        assert certain.end == pytest.approx(1300.0, abs=2.0 + 0.75 * step)
+        assert 990.0 < possible.begin < 1005.0 + 4.0
+        assert found.length(CERTAIN) == pytest.approx(certain.length)
+        assert 0.0 < found.scatter_of_length(CERTAIN) < 3.0 + 2.0 * step
+
+
+def test_shares_count_for_the_length_that_is_nearest_to_them():
+    """Ten speeds close together are not ten times one far off: the smoothed share is a mean over speed."""
+    speeds = np.concatenate([[1000.0], 1005.0 + 0.1 * np.arange(10), [1011.0]])
+    shares = np.concatenate([[0.0], np.ones(10), [0.0]])
+    smoothed = Exceedance(speeds, shares, chance=True).smoothed
+    assert 0.15 < smoothed[0] < 0.45
+    np.testing.assert_allclose(Exceedance(speeds, np.full(12, 0.3), chance=True).smoothed, 0.3)
+
+
+def test_a_lined_blade_s_shares_are_taken_as_they_are():
+    speeds = np.array([900.0, 901.0, 902.0, 903.0])
+    found = Exceedance(speeds, np.array([0.0, 1.0, 1.0, 0.0]), chance=False)
+    assert found.ranges(CERTAIN) == [SpeedRange(900.5, 902.5, cut=False)]
+    assert np.isnan(found.scatter_of_length(CERTAIN))
+    assert np.isnan(found.scatter_of_border(CERTAIN, 900.5, begins=True))
+
+
+def response(speeds, shares, motion, *, lined=0, last=None, status=None):
+    shares = np.asarray(shares)
+    of_speed = {
+        "status": np.zeros(len(speeds), int) if status is None else status,
+        "rms_normal": np.asarray(motion, float),
+        "rms_tangential": np.asarray(motion, float),
+        "share_above_yield": shares,
+        "max_von_mises_median": 1e9 * (0.5 + shares),
+        "max_von_mises_high": 1.1e9 * (0.5 + shares),
+        "max_von_mises_ever": 1.2e9 * (0.5 + shares),
+        "max_von_mises": 1e9 * (0.5 + shares) if last is None else np.asarray(last),
+    }
+    content = {name: ("speed", values) for name, values in of_speed.items()}
+    return xr.Dataset(content | {"yield_stress": 1e9, "lined": float(lined)}, {"speed": speeds})
+
+
+def test_a_row_of_direct_contact_is_a_range_and_has_no_mode():
+    speeds = np.arange(900.0, 1401.0, 5.0)
+    motion = 1e-3 * (1.0 + rising(speeds))
+    found = find_interactions(response(speeds, drawn(rising(speeds), speeds), motion), None, CHOICE)
+    (row,) = [one for one in found if one.certain_length_rad_s > 0.0]
+    assert row.mode == ""
+    assert np.isnan(row.campbell_speed_rad_s)
+    assert np.isnan(row.width_above_yield_rad_s)
+    assert np.isnan(row.max_von_mises_pa)
+    assert "direct contact" in row.note
+    assert row.certain_from_rad_s == pytest.approx(1050.0, abs=8.0)
+    assert row.certain_to_rad_s == pytest.approx(1300.0, abs=5.0)
+    assert row.possible_from_rad_s < row.certain_from_rad_s < row.certain_to_rad_s < row.possible_to_rad_s
+    assert row.median_von_mises_pa == pytest.approx(1.5e9)
+    assert row.peak_motion_m == pytest.approx(np.sqrt(2.0) * 2e-3)
+    # the motion is halved, and no less, where the range ends
+    assert np.isnan(row.fall_speed_rad_s)
+
+
+def test_no_speed_above_yield_is_outside_of_a_row():
+    """One speed alone whose share is high, and one whose last revolution alone is above yield."""
+    speeds = np.arange(900.0, 1401.0, 1.0)
+    shares = drawn(rising(speeds), speeds)
+    shares[20], last = 0.09, 1e9 * (0.5 + shares)
+    last[40] = 1.1e9
+    rows = with_ranges_above_yield(response(speeds, shares, np.ones(len(speeds)), last=last), [])
+    for speed in speeds[(shares > POSSIBLE) | (last > 1e9)]:
+        assert any(row.possible_from_rad_s <= speed <= row.possible_to_rad_s for row in rows), speed
+    assert [row.certain_length_rad_s > 0.0 for row in rows] == [False, False, True]
+    assert np.isnan(rows[0].possible_from_scatter_rad_s)
+
+
+def test_the_fall_of_a_branch_and_its_scatter():
+    """Above the peak two speeds alternate before the motion stays down."""
+    speeds = np.arange(1000.0, 1101.0, 2.0)
+    motion = np.where(speeds <= 1050.0, speeds / 1050.0, 0.3)
+    motion[speeds == 1054.0] = 0.9
+    (row,) = with_ranges_above_yield(response(speeds, np.where(speeds < 1060.0, 1.0, 0.0), motion), [])
+    assert (row.fall_speed_rad_s, row.fall_speed_scatter_rad_s) == (1053.0, 3.0)
+    assert 0.0 < row.peak_motion_scatter_m < 0.3
+
+
+def test_a_lined_row_has_both_widths():
+    """The last revolution is above yield at three speeds, some revolution of the last half at five."""
+    speeds = np.arange(1000.0, 1011.0)
+    ever = np.isin(speeds, [1003.0, 1004.0, 1005.0, 1006.0, 1007.0])
+    last = np.isin(speeds, [1004.0, 1005.0, 1006.0])
+    lined = response(
+        speeds, np.where(last, 1.0, np.where(ever, 0.2, 0.0)), 1e-3 * np.exp(-(((speeds - 1005.0) / 2.0) ** 2)), lined=1
+    )
+    lined["max_von_mises"][:], lined["max_von_mises_ever"][:] = np.where(last, 2e9, 0.0), np.where(ever, 2e9, 0.0)
+    campbell = xr.Dataset(
+        {"crossing_speed": (("mode", "engine_order"), [[990.0], [np.nan], [np.nan]])},
+        {"mode": ["1B", "1T", "2B"], "engine_order": [4]},
+    )
+    (row,) = find_interactions(lined, campbell, CHOICE)
+    assert (row.mode, row.engine_order, row.note) == ("1B", 4, "")
+    assert (row.width_above_yield_rad_s, row.width_ever_above_yield_rad_s) == (3.0, 5.0)
+    assert row.certain_length_rad_s == pytest.approx(2.0 + 2.0 * 0.5 / 0.8)
+
+
+def test_robustness_counts_diverged_runs_as_above_yield():
+    speeds = np.arange(900.0, 1001.0, 10.0)
+    status = np.where(speeds == 950.0, RunStatus.DIVERGED, RunStatus.COMPLETED)
+    shares = np.where(status == RunStatus.DIVERGED, np.nan, 0.0)
+    one = response(speeds, shares, np.ones(len(speeds)), lined=1, status=status)
+    assert exceedance_of(one).shares.max() == 1.0
+    found = robustness(one)
+    assert found["length_certain_rad_s"] == 10.0
+    assert found["largest_gap_rad_s"] == 10.0
+    assert set(found) == set(ROBUSTNESS)
+
+
+def of(certain, possible=0.0, stress=1e9):
+    values = {"length_certain_rad_s": certain, "length_possible_rad_s": possible, "largest_stress_pa": stress}
+    return dict.fromkeys(ROBUSTNESS, np.nan) | values
+
+
+def test_the_ranking_goes_scene_by_scene_with_ties_by_what_is_possible():
+    found = {
+        ("A", "x"): of(5.0),
+        ("B", "x"): of(1.0, 9.0),
+        ("C", "x"): of(1.0, 2.0),
+        ("A", "y"): of(0.0),
+        ("B", "y"): of(np.nan),
+    }
+    table = ranking_table(found)
+    assert list(zip(table["scene"], table["blade"], table["rank"], strict=True)) == [
+        ("x", "C", 1), ("x", "B", 2), ("x", "A", 3), ("y", "A", 1), ("y", "B", 2),
+    ]  # fmt: skip
+
+
+def test_the_chance_to_be_better_is_of_common_members():
+    members = {
+        ("A", "x"): {"0": of(1.0), "1": of(2.0), "2": of(3.0), "3": of(9.0)},
+        ("B", "x"): {"0": of(2.0), "1": of(1.0), "2": of(3.0), "9": of(0.0)},
+    }
+    a, b = members["A", "x"], members["B", "x"]
+    assert chance_to_be_better(a, b) == chance_to_be_better(b, a) == 0.5
+    assert np.isnan(chance_to_be_better(a, {"9": of(0.0)}))
+    table = ranking_table({pair: of(2.0) for pair in members}, members).set_index("blade")
+    assert table.loc["A", "chance_better_than_B"] == 0.5
+    assert np.isnan(table.loc["A", "chance_better_than_A"])
+    assert (table.loc["A", "length_certain_rad_s_low"], table.loc["A", "length_certain_rad_s_high"]) == (1.0, 9.0)
+    assert table.loc["A", "members"] == 4
+
+
+def test_the_ranking_is_drawn_in_the_order_of_the_first_scene():
+    found = {
+        (blade, scene): of(*values) for scene in ("x", "y") for blade, values in {"A": (5.0, 7.0), "B": (1.0, 9.0)}.items()
+    }
+    figure = draw_ranking(ranking_table(found))
+    assert [axes.get_title() for axes in figure.axes] == ["x", "y"]
+    assert [label.get_text() for label in figure.axes[0].get_yticklabels()] == ["B", "A"]
+    assert sorted(bar.get_width() for bar in figure.axes[0].patches) == [1.0, 5.0, 7.0, 9.0]

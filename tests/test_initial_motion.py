@@ -1,0 +1,298 @@
+"""Runs that start in motion: free flight against closed forms, energy, what is not stepped, and what is refused."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from defaults import Casing, IntegrationChoice, Scene
+from integration_cases import ABRADABLE, DIRECT, LINING, oscillator, with_static_modes
+from scipy.linalg import expm
+
+from r37core.contact.ring import RingMode
+from r37core.rom.reduce import reduce_blade
+from r37core.rom.reduced_model import contact_model
+from r37core.time_integration.initial_motion import InitialMotion, InitialMotionError
+from r37core.time_integration.integrators import CENTRAL_DIFFERENCE, EXACT_MODAL, INTEGRATORS
+from r37core.time_integration.simulate import Simulation
+from r37core.time_integration.speed_run import run_speed
+
+SPEED = 1000.0
+FAR = Scene(Casing(1.0, lobes=0), damping_ratio=0.02, divergence_limit=10.0)
+"""A casing that nothing reaches."""
+
+NARROW = replace(ABRADABLE, lining=replace(LINING, bar_width=1e-3))
+KEPT = {"spectrum_highest_order": 5, "wear_angles": 60}
+ENGINES = ("compiled", "reference")
+
+
+def choice(integrator, step=2e-7, revolutions=1, engine="compiled", **others):
+    return IntegrationChoice(step, revolutions, 50, integrator=integrator, engine=engine, energy=True, **others)
+
+
+def motion(displacement=None, velocity=None):
+    return InitialMotion.given(displacement, velocity)
+
+
+def times(problem, count):
+    return (1 + np.arange(count)) * problem.steps_per_sample * problem.time_step
+
+
+def flown(model, scene, chosen, start, speed=SPEED):
+    """Simulation, its state, and samples and snapshots of all revolutions from `start` on."""
+    simulation = Simulation(model, speed, scene, chosen)
+    state = simulation.start(start)
+    return simulation, state, simulation.advance(state, chosen.revolutions)
+
+
+def decay(time, frequency, ratio, displacement, velocity):
+    """exp(-xi omega t) (u cos omega_d t + (v + xi omega u)/omega_d sin omega_d t)."""
+    damped = frequency * np.sqrt(1.0 - ratio**2)
+    swing = displacement * np.cos(damped * time)
+    swing += (velocity + ratio * frequency * displacement) / damped * np.sin(damped * time)
+    return np.exp(-ratio * frequency * time) * swing
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+@pytest.mark.parametrize(("displacement", "velocity"), [(1e-3, None), (None, 5.0), (1e-3, -5.0)])
+def test_one_mode_without_error(engine, displacement, velocity):
+    """At steps of a third of a radian, jumped over and not."""
+    frequency, ratio = 6000.0, FAR.damping_ratio
+    given = motion(*(None if part is None else [part] for part in (displacement, velocity)))
+    model = with_static_modes(oscillator(frequency), 1e-9)
+    simulation, state, record = flown(model, FAR, choice(EXACT_MODAL, 5e-5, 3, engine), given)
+    exact = decay(times(simulation.problem, 150), frequency, ratio, displacement or 0.0, velocity or 0.0)
+    np.testing.assert_allclose(record.samples[:, 0], exact, rtol=0, atol=1e-12 * np.abs(exact).max())
+    assert state.totals["steps_in_contact"] == 0
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+@pytest.mark.parametrize(("displacement", "velocity"), [(1e-3, 0.0), (0.0, 5.0), (1e-3, -5.0)])
+def test_central_differences_start_to_second_order(engine, displacement, velocity):
+    """Halving the step takes three quarters of the error; a start of first order would leave half of it."""
+    frequency, ratio, errors = 6000.0, 0.1, []
+    for steps in (32, 64, 128):
+        chosen = choice(CENTRAL_DIFFERENCE, engine=engine, steps_per_sample=steps)
+        scene, given = replace(FAR, damping_ratio=ratio), motion([displacement], [velocity])
+        simulation, _, record = flown(oscillator(frequency), scene, chosen, given)
+        exact = decay(times(simulation.problem, 50), frequency, ratio, displacement, velocity)
+        errors.append(np.abs(record.samples[:, 0] - exact).max() / np.abs(exact).max())
+    assert errors[0] < 1e-3
+    np.testing.assert_allclose(errors[:2], 4.0 * np.array(errors[1:]), rtol=0.01)
+
+
+@pytest.mark.parametrize("integrator", INTEGRATORS)
+def test_energy_decays_as_the_mode_does(integrator):
+    """It falls from sample to sample, by exp(-2 xi omega t) over the run, and by what is counted as lost."""
+    frequency, ratio, start = 6000.0, 0.002, motion([1e-3], [-5.0])
+    scene, model = replace(FAR, damping_ratio=ratio), oscillator(frequency)
+    model = with_static_modes(model, 1e-9) if integrator == EXACT_MODAL else model
+    simulation = Simulation(model, SPEED, scene, choice(integrator, 1e-6, 3))
+    state = simulation.start(start)
+    energies = [simulation.energy(state)]
+    assert energies[0] == pytest.approx(0.5 * (25.0 + (1e-3 * frequency) ** 2), rel=1e-2)
+    for _ in range(150):
+        simulation.advance_samples(state, 1)
+        energies.append(simulation.energy(state))
+    assert np.all(np.diff(energies) < 0.0)
+    # the phase counts for a part of the loss of one period
+    assert energies[-1] / energies[0] == pytest.approx(np.exp(-2.0 * ratio * frequency * 6.0 * np.pi / SPEED), rel=5e-3)
+    assert energies[0] - energies[-1] == pytest.approx(state.totals["loss"], rel=1e-10)
+
+
+def slow_part(reduced, speed, modes, generator):
+    """Displacement and velocity in reduced coordinates, of random amplitudes of the first modes at a speed."""
+    _, shapes = reduced.modes(speed, modes)
+    return shapes @ (1e-5 * generator.standard_normal(modes)), shapes @ generator.standard_normal(modes)
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+@pytest.mark.parametrize(("integrator", "within"), [(EXACT_MODAL, 1e-9), (CENTRAL_DIFFERENCE, 1e-4)])
+def test_free_flight_of_a_blade_is_that_of_its_matrices(model, contact, integrator, within, engine):
+    """Reduced coordinates at every sample, by the exponential of the first modes of the reduced matrices."""
+    speed, modes, scene = 1600.0, 6, replace(FAR, damping_ratio=0.02)
+    start = slow_part(model, speed, modes, np.random.default_rng(1))
+    chosen = choice(integrator, 2e-7, 1, engine, snapshots_per_revolution=50, snapshot_revolutions=1)
+    given = motion(*start)
+    simulation, _, record = flown(contact, scene, chosen, given, speed)
+    frequencies, shapes = model.modes(speed, modes)
+    stiffness, damping = np.diag(frequencies**2), np.diag(2.0 * scene.damping_ratio * frequencies)
+    system = np.block([[np.zeros((modes, modes)), np.eye(modes)], [-stiffness, -damping]])
+    step = expm(times(simulation.problem, 1)[0] * system)
+    now, expected = np.concatenate([shapes.T @ model.mass @ part for part in start]), []
+    for _ in range(50):
+        now = step @ now
+        expected.append(shapes @ now[:modes])
+    found = record.snapshots @ (contact.to_reduced @ simulation.problem.state_shapes).T
+    np.testing.assert_allclose(found, expected, rtol=0, atol=within * np.abs(expected).max())
+    assert given.left_out(simulation.problem) < 1e-12
+
+
+def test_what_is_not_stepped_is_left_out(model, contact):
+    """A fast mode does not move, and its share of the energy is told; a slow one beside it moves as it does alone."""
+    speed, chosen = 1600.0, choice(EXACT_MODAL, 6.4e-6)
+    frequencies, shapes = model.modes(speed)
+    slow, fast = 1e-5 * shapes[:, 0], 1e-5 * frequencies[0] / frequencies[-1] * shapes[:, -1]
+    runs = {}
+    for name, displacement in {"slow": slow, "fast": fast, "both": slow + fast}.items():
+        given = motion(displacement)
+        simulation, state, record = flown(contact, FAR, chosen, given, speed)
+        runs[name] = record.samples, given.left_out(simulation.problem), simulation.energy(state)
+    assert len(simulation.problem.frequencies) < len(frequencies)
+    scale = np.abs(runs["slow"][0]).max()
+    np.testing.assert_allclose(runs["fast"][0], 0.0, rtol=0, atol=1e-9 * scale)
+    np.testing.assert_allclose(runs["both"][0], runs["slow"][0], rtol=0, atol=1e-9 * scale)
+    assert [share for _, share, _ in runs.values()] == pytest.approx([0.0, 1.0, 0.5], abs=1e-9)
+    # the energy that a velocity has is told, too
+    velocity = motion(None, frequencies[0] * slow + frequencies[-1] * np.sqrt(3.0) * fast)
+    assert velocity.left_out(simulation.problem) == pytest.approx(0.75, abs=1e-9)
+
+
+@pytest.fixture(scope="module")
+def coupled(mesh, matrices, choice):
+    """The reduced model with the Coriolis force."""
+    return reduce_blade(mesh, matrices, replace(choice, coriolis=True))
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+def test_free_flight_with_the_coriolis_force(coupled, engine):
+    """Without damping the exponential of the reduced matrices, of all coordinates; steps in which fast modes do not move."""
+    speed, scene, modes = 1600.0, replace(FAR, damping_ratio=0.0), 4
+    model = contact_model(coupled, "pressure_edge")
+    start = slow_part(replace(coupled, coriolis=None), speed, modes, np.random.default_rng(2))
+    chosen = choice(EXACT_MODAL, 2e-7, 1, engine, snapshots_per_revolution=50, snapshot_revolutions=1)
+    simulation, _, record = flown(model, scene, chosen, motion(*start), speed)
+    problem = simulation.problem
+    # of the modes that are stepped: the others' part of the force is left out
+    reduced = model.to_reduced @ problem.modes
+    coupling = speed * reduced.T @ coupled.coriolis @ reduced
+    size = len(problem.frequencies)
+    system = np.block([[np.zeros((size, size)), np.eye(size)], [-np.diag(problem.frequencies**2), -coupling]])
+    step = expm(times(problem, 1)[0] * system)
+    now, expected = np.concatenate([reduced.T @ coupled.mass @ part for part in start]), []
+    for _ in range(50):
+        now = step @ now
+        expected.append(reduced @ now[:size])
+    found = record.snapshots @ (model.to_reduced @ problem.state_shapes).T
+    np.testing.assert_allclose(found, expected, rtol=0, atol=1e-8 * np.abs(expected).max())
+
+
+def test_with_the_coriolis_force_displacement_and_velocity_are_those_of_damped_modes(coupled):
+    """A weaker and weaker force: the run without it. A strong damping, which displacement and velocity see."""
+    speed, scene, samples = 1600.0, replace(FAR, damping_ratio=0.2), []
+    start = slow_part(replace(coupled, coriolis=None), speed, 4, np.random.default_rng(3))
+    for coriolis in (None, 1e-12 * coupled.coriolis):
+        model = contact_model(replace(coupled, coriolis=coriolis), "pressure_edge")
+        samples.append(flown(model, scene, choice(EXACT_MODAL, 2e-7), motion(*start), speed)[2].samples)
+    np.testing.assert_allclose(samples[1], samples[0], rtol=0, atol=1e-9 * np.abs(samples[0]).max())
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+def test_an_elastic_casing_starts_at_rest(engine):
+    """The blade flies as beside a rigid one, and nothing moves the casing."""
+    ring = (RingMode(2, 4000.0, 1.0, 0.01), RingMode(3, 9000.0, 1.0, 0.01))
+    model, samples = with_static_modes(oscillator(6000.0), 1e-9), []
+    for scene in (FAR, replace(FAR, casing=replace(FAR.casing, ring=ring))):
+        _, state, record = flown(model, scene, choice(EXACT_MODAL, 2e-6, 1, engine), motion([1e-3], [2.0]))
+        samples.append(record.samples)
+    assert record.casing.shape == (50, 4) and not record.casing.any() and not state.displacement[1:].any()
+    np.testing.assert_allclose(*samples, rtol=0, atol=1e-14)
+
+
+@pytest.mark.parametrize("integrator", INTEGRATORS)
+@pytest.mark.parametrize("scene", [NARROW, DIRECT], ids=["abradable", "direct"])
+def test_energy_balance_has_the_energy_of_the_start(model, contact, scene, integrator):
+    speed, frequencies = 1600.0, model.modes(1600.0, 1)[0]
+    # towards the casing, fast enough to reach it
+    shape = model.modes(speed, 1)[1][:, 0]
+    normal = contact.displacement_operator[0] @ np.linalg.solve(contact.to_reduced, shape)
+    velocity = 3.0 * scene.casing.clearance * frequencies[0] / normal[np.abs(normal).argmax()] * shape
+    # lobes grow, so that the casing is far as the run starts
+    growing = replace(scene, casing=replace(scene.casing, lobes=0))
+    given = motion(None, velocity)
+    run = run_speed(contact, speed, growing, choice(integrator, 2e-7, 3), ("energy",), **KEPT, motion=given)
+    assert run["share_of_time_in_contact"] > 0.0 and run["initial_energy_left_out"] < 1e-12
+    mass_norm = velocity @ model.mass @ velocity
+    assert run["initial_energy"] == pytest.approx(0.5 * mass_norm, rel=1e-3)
+    assert run["energy_change"] < 0.0
+    assert abs(run["energy_residual"]) < 1e-9 * run["initial_energy"]
+    at_rest = run_speed(contact, speed, growing, choice(integrator, 2e-7, 3), ("energy",), **KEPT)
+    assert at_rest["share_of_time_in_contact"] == 0.0 and "initial_energy" not in at_rest
+
+
+@pytest.mark.parametrize("integrator", INTEGRATORS)
+@pytest.mark.parametrize("scene", [NARROW, DIRECT], ids=["abradable", "direct"])
+def test_a_start_in_no_motion_is_the_start_at_rest(contact, scene, integrator):
+    """To the last bit."""
+    zeros, chosen = np.zeros(len(contact.to_reduced)), choice(integrator, 2e-7, 2)
+    runs = [run_speed(contact, 1600.0, scene, chosen, ("energy",), **KEPT, motion=one) for one in (None, motion(zeros, zeros))]
+    assert set(runs[1]) - set(runs[0]) == {"initial_energy", "initial_energy_left_out"}
+    for name, value in runs[0].items():
+        np.testing.assert_array_equal(runs[1][name], value)
+    assert motion(zeros, zeros).attributes == {}
+    assert runs[0]["share_of_time_in_contact"] > 0.0
+
+
+def test_what_a_dataset_says_of_it():
+    said = motion(None, [0.0, 2.0]).attributes
+    assert said["initial_state"] == "in motion" and "initial_displacement" not in said
+    np.testing.assert_array_equal(said["initial_velocity"], [0.0, 2.0])
+    assert motion() is None
+
+
+@pytest.mark.parametrize(
+    ("displacement", "velocity", "message"),
+    [
+        (1e-3, None, r"initial_displacement: found an array of shape \(\); allowed: finite numbers in a row"),
+        (None, [[1.0]], r"initial_velocity: found an array of shape \(1, 1\); allowed: finite numbers in a row"),
+        ([[1.0], [1.0, 2.0]], None, "initial_displacement: found rows of different lengths; allowed"),
+        ([1.0j], None, "initial_displacement: found entries of kind complex128; allowed"),
+        (None, ["fast"], "initial_velocity: found entries of kind str128; allowed"),
+        (None, [True], "initial_velocity: found entries of kind bool; allowed"),
+        ([0.0, np.nan], None, "initial_displacement: found nan at place 1, counted from 0; allowed"),
+        (None, [-np.inf], "initial_velocity: found -inf at place 0, counted from 0; allowed"),
+    ],
+)
+def test_what_is_no_motion_is_refused(displacement, velocity, message):
+    with pytest.raises(InitialMotionError, match=f"^{message}") as refusal:
+        motion(displacement, velocity)
+    assert "\n" not in str(refusal.value)
+
+
+def test_a_motion_of_another_model_is_refused(contact):
+    simulation = Simulation(contact, SPEED, FAR, choice(EXACT_MODAL))
+    size = len(contact.to_reduced)
+    with pytest.raises(InitialMotionError, match=rf"^initial_velocity: found 3 numbers; allowed: {size}, one for each coord"):
+        simulation.start(motion(np.zeros(size), np.zeros(3)))
+    with pytest.raises(InitialMotionError, match=r"^initial_displacement, initial_velocity: found an energy .*; allowed: less"):
+        motion(None, np.full(size, 1e200)).left_out(simulation.problem)
+
+
+@pytest.mark.parametrize("exact_gap", [False, True])
+@pytest.mark.parametrize("scene", [NARROW, DIRECT], ids=["abradable", "direct"])
+@pytest.mark.parametrize("engine", ENGINES)
+def test_a_start_inside_of_the_casing_is_refused(scene, engine, exact_gap):
+    """One node, whose room is the clearance less the lobe above it."""
+    model, chosen = with_static_modes(oscillator(6000.0), 1e-9), choice(EXACT_MODAL, 2e-6, engine=engine)
+    simulation = Simulation(model, SPEED, replace(scene, exact_gap=exact_gap), chosen)
+    problem = simulation.problem
+    room = scene.casing.clearance - scene.casing.lobe(problem.theta(0), 0.0, 1.0)[0]
+    assert 0.0 < room < scene.casing.clearance
+    state = simulation.start(motion([room]))
+    assert state.displacement[0] == room
+    with pytest.raises(
+        InitialMotionError,
+        match=r"^initial_displacement: contact node 1 of 1, .*, would start 1e-06 m inside of the casing or lining; allowed: a",
+    ):
+        simulation.start(motion([room + 1e-6]))
+    # on the other side there is room
+    simulation.start(motion([-10.0 * room]))
+
+
+def test_a_start_in_the_groove_that_the_tip_has_cut_is_allowed():
+    """A casing that comes nearer than the tip: the lining is worn so deep, and there is no room beyond."""
+    casing = replace(NARROW.casing, clearance=-1e-4, lobes=0, growth_speeds=(0.0, 2e3), growth=(0.0, 0.0))
+    model = with_static_modes(oscillator(6000.0), 1e-9)
+    simulation = Simulation(model, SPEED, replace(NARROW, casing=casing), choice(EXACT_MODAL, 2e-6))
+    assert simulation.start(motion([0.0])).wear.min() == pytest.approx(1e-4)
+    with pytest.raises(InitialMotionError, match="would start 2e-06 m inside"):
+        simulation.start(motion([2e-6]))
