@@ -13,7 +13,7 @@ import xarray as xr
 from r37core.results.variables import VARIABLES
 from r37core.time_integration.status import RunStatus
 
-from .tables import interaction_table, published_peaks, ranking_table
+from .page_tables import interaction_table, published_peaks, ranking_rows
 
 CURVES = (
     ("rms", "rms_normal"),
@@ -70,7 +70,7 @@ def explorer_contents(
         "spectrum": _spectrum(datasets.get("spectrum"), rms),
         "wear": _wear(datasets.get("wear"), rms),
         **interaction_table(interactions, benchmark_scenes),
-        **ranking_table(ranking),
+        **ranking_rows(ranking),
         "shapes": [list(pair) for pair in shapes],
         "shapes_in_report": dict(shapes_in_report or {}),
         "published": published_peaks(blades, [scene for scene in scenes if scene in benchmark_scenes]),

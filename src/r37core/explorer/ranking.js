@@ -19,7 +19,7 @@ const drawRanking = (() => {
     return data.blades.filter((blade) => data.ranking.some((row) => row.blade === blade)).sort((one, other) => place(one) - place(other));
   }
 
-  // from the left end to a value, with the range of the members on it; `longest` of all scenes fills the line
+  // from the left end to a value, with the range of the members on it; the `longest` of the scene fills the line
   function bar(row, name, longest) {
     const share = (value) => `${(100 * value) / longest}%`;
     const line = element("span", "bar");
@@ -39,8 +39,9 @@ const drawRanking = (() => {
   function tableOfBars(data, { set, valueText }) {
     const bars = barsOf(data);
     const ranked = data.ranking_columns.some(({ name }) => name === "rank");
-    const ends = bars.flatMap(({ name }) => data.ranking.flatMap((row) => [row[name], row[`${name}_high`]])).filter(Number.isFinite);
-    const longest = Math.max(...ends, Number.MIN_VALUE);
+    // scenes differ by an order of magnitude: each has its own scale
+    const longest = (scene) => Math.max(Number.MIN_VALUE, ...data.ranking.filter((row) => row.scene === scene)
+      .flatMap((row) => bars.flatMap(({ name }) => [row[name], row[`${name}_high`]])).filter(Number.isFinite));
     const table = document.createElement("table");
     table.createTHead().insertRow().append(...["blade", ...scenesOf(data)].map((text) => heading("col", text)));
     const body = table.createTBody();
@@ -59,7 +60,7 @@ const drawRanking = (() => {
         if (!row) return;
         if (ranked) cell.append(element("span", "rank", `${row.rank ?? ""}`));
         const lines = element("span", "bars");
-        lines.append(...bars.map(({ name }) => bar(row, name, longest)));
+        lines.append(...bars.map(({ name }) => bar(row, name, longest(scene))));
         cell.append(lines, element("span", "numbers", bars.map((column) => valueText(row, column) || "none").join(" / ")));
       });
     });

@@ -74,14 +74,12 @@ INTERACTIONS = {
         100.0,
     ),
     "max_von_mises_pa": Word(
-        "largest stress",
+        "largest stress, last revolution",
         "largest von Mises stress in the last revolution at any speed of the interaction, which need not be the peak speed",
         "MPa",
         1e-6,
     ),
-    "max_von_mises_speed_rad_s": Word(
-        "speed of the largest stress", "speed of the interaction at which the stress is largest", _SPEED
-    ),
+    "max_von_mises_speed_rad_s": Word("at speed", "speed of the interaction at which the stress is largest", _SPEED),
     "stress_region": Word("stress region", "where on the blade the stress is looked for, as in `stress.nc`"),
     "max_wear_m": Word(
         "largest wear", "largest wear of the lining at any speed of the interaction; empty without a lining", "mm", 1e3
@@ -115,7 +113,7 @@ RANKING = {
     "length_certain_rad_s": Word("certainly above yield", f"length of all speeds at which {_CERTAIN}", _SPEED),
     "length_possible_rad_s": Word("possibly above yield", f"length of all speeds at which {_POSSIBLE}", _SPEED),
     "largest_stress_pa": Word(
-        "largest stress", f"largest median over the {_REVOLUTIONS} of their von Mises stress, of all speeds", "MPa", 1e-6
+        "largest median stress", f"largest median over the {_REVOLUTIONS} of their von Mises stress, of all speeds", "MPa", 1e-6
     ),
     "first_certain_rad_s": Word("first speed certainly above yield", f"lowest speed at which {_CERTAIN}", _SPEED),
     "first_possible_rad_s": Word("first speed possibly above yield", f"lowest speed at which {_POSSIBLE}", _SPEED),

@@ -82,7 +82,7 @@ def interaction_table(interactions: pd.DataFrame, benchmark_scenes: Sequence[str
     return {"interactions": table.to_dict("records"), "columns": _columns([one for one in COLUMNS if one in table], WORDS)}
 
 
-def ranking_table(ranking: pd.DataFrame | None) -> dict[str, object]:
+def ranking_rows(ranking: pd.DataFrame | None) -> dict[str, object]:
     """`ranking`, its rows or None, and `ranking_columns`, those of them that the glossary knows."""
     if ranking is None or ranking.empty:
         return {"ranking": None, "ranking_columns": []}
