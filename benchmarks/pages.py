@@ -39,7 +39,7 @@ TABLES = {
     },
     "run_ups": {name: f"{name}.md" for name in ("run_up_rates", "run_up_variants", "run_up_cost")},
     "clearance": {"clearance_growth": "clearance_growth.md", "clearance_effect": "clearance_effect.md"},
-    "tolerances": {name: f"{name}.md" for name in ("tolerance_ranges", "tolerance_sensitivity", "tolerance_members")},
+    "tolerances": {f"tolerance_{name}": f"tolerance_{name}.md" for name in ("ranges", "sensitivity", "rankings", "members")},
     "stability_tables": {"stability": "stability.md"},
     "validation": {
         "modelling_choices": "modelling_choices.md",
@@ -70,7 +70,7 @@ FIGURES = {
     "casing_Ref": ROOT / "results/figures/casing_Ref__elastic_abradable.png",
     "campbell_elastic_casing": ROOT / "results/figures/campbell_Ref.png",
     "run_up_rates": ROOT / "results/figures/run_up_rates_abradable.png",
-    "tolerances_Ref": ROOT / "results/runs/sensitivity/figures/tolerances_Ref__abradable.png",
+    "tolerances_Ref": ROOT / "results/runs/members/figures/tolerances_Ref__abradable.png",
     "run_ups_Ref": ROOT / "results/figures/run_ups_Ref__abradable.png",
 }
 

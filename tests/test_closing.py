@@ -33,6 +33,26 @@ def test_found_where_and_how_long(tmp_path):
     assert "(1B/7)" in closing_lines(written(tmp_path, ROWS[0]), 400.0, 500.0)[0]
 
 
+def test_a_stress_with_a_range_has_the_digits_that_it_bears(tmp_path):
+    columns = HEAD.strip() + ",max_von_mises_pa_low,max_von_mises_pa_median,max_von_mises_pa_high\n"
+    for ends, said in ((",2.02e9,8.6e9,1.41e10", "9 GPa (2 to 14 in nine tenths of the members)"), (",,,", "8.56 GPa")):
+        (tmp_path / "summary.csv").write_text(columns + ROWS[0].strip() + ends + "\n")
+        os.utime(tmp_path / "summary.csv", (1000.0, 1000.0))
+        assert f"the largest stress {said}, Ref" in closing_lines(tmp_path, 400.0, 500.0)[0]
+
+
+def test_best_and_worst_blade_are_named_and_what_may_be_missed(tmp_path):
+    head = "blade,scene,length_certain_rad_s,length_certain_scatter_rad_s,largest_gap_rad_s\n"
+    rows = ("S100,lined,13.2,,20\n", "Ref,lined,70.6,,20\n", "Ref,direct,47.1,7.6,10\n", "S100,direct,854.2,21.1,10\n")
+    (tmp_path / "ranking.csv").write_text(head + "".join(rows))
+    lined, direct, missed = closing_lines(written(tmp_path, *ROWS), 400.0, 500.0)[1:4]
+    assert lined.startswith("lined: S100 is above yield at the fewest speeds (13 rad/s), Ref at the most (71 rad/s); ")
+    assert direct.startswith("direct: Ref is above yield at the fewest speeds (47 rad/s), S100 at the most (854 rad/s); ")
+    assert missed == "speeds lie up to 20 rad/s apart: a narrower interaction between them may be missed"
+    (tmp_path / "ranking.csv").write_text(head + rows[0])
+    assert len(closing_lines(written(tmp_path, *ROWS), 400.0, 500.0)) == 4
+
+
 def test_what_there_is_to_remark_stands_before_where_to_look(tmp_path):
     lines = closing_lines(written(tmp_path, *ROWS), 400.0, 500.0, ["contact acts on points"])
     assert len(lines) == 4 and lines[1] == "contact acts on points"

@@ -32,6 +32,7 @@ LAYERS = [
     "text_file",
     "yaml_file",
     "units",
+    "rounding",
     "speeds",
     "published",
     "blade",

@@ -23,9 +23,11 @@ from r37core.results.measures import largest_stress, ratio_to_yield, speeds_abov
 from r37core.speeds import RefinedRange
 from r37core.time_integration.status import RunStatus
 from r37core.tolerances.dataset import MemberRun, tolerances_dataset
+from r37core.tolerances.ranking import ranking
 from r37core.tolerances.sample import Tolerance, is_of_sample, number_of, places
 from r37core.tolerances.sensitivity import sobol_indices
-from r37core.tolerances.table import range_table, ranges, read_ranges, with_ranges
+from r37core.tolerances.shares import CONFIDENCE, share_ends
+from r37core.tolerances.table import ENDS, as_ranges_bear, range_table, ranges, read_ranges, with_ranges
 
 
 def test_more_members_change_none_that_are_there():
@@ -131,6 +133,91 @@ def test_where_nothing_spreads_there_is_no_index():
     assert np.isnan(found.index).all() and found.members == 0
 
 
+def drawn(function, numbers, members, seed=0):
+    """Values of a plain sample and what a function makes of them."""
+    values = np.array([place for name, place in places(numbers, members, seed).items() if is_of_sample(name)])
+    return values, function(*values.T)
+
+
+def jumping(x, y, z):
+    """Falls with x, in jumps, and rises with y; z is not in it."""
+    return np.exp(np.floor(-8.0 * x) + 2.0 * y)
+
+
+def test_the_ranking_is_of_ranks_and_has_signs():
+    found = ranking(*drawn(jumping, 3, 128))
+    assert found.coefficient[0] < -0.9 and 0.1 < found.coefficient[1] < 0.3
+    assert found.known.tolist() == [True, True, False]
+    low, high = found.places
+    np.testing.assert_array_equal(low, [1.0, 2.0, np.nan])
+    np.testing.assert_array_equal(high, [1.0, 2.0, np.nan])
+    assert found.members == 128 and 0.9 < found.explained < 1.0
+    # any monotonous change of the measure is the same to it
+    values, measure = drawn(jumping, 3, 128)
+    np.testing.assert_array_equal(ranking(values, np.log(measure)).coefficient, found.coefficient)
+
+
+def test_what_few_members_do_not_tell_apart_shares_its_places():
+    def alike(x, y, z):
+        return x + 0.95 * y + 1e-3 * z
+
+    few, many = (ranking(*drawn(alike, 3, members)) for members in (16, 1024))
+    np.testing.assert_array_equal(np.array(few.places)[:, :2], [[1.0, 1.0], [2.0, 2.0]])
+    assert not few.known[2]
+    np.testing.assert_array_equal(np.array(many.places)[:, :2], [[1.0, 2.0], [1.0, 2.0]])
+
+
+def test_what_is_told_apart_does_not_depend_on_the_direction_of_a_number():
+    random = np.random.default_rng(0)
+    for _ in range(50):
+        values = random.random((24, 3)) @ [[1.0, 0.8, 0.0], [0.0, 1.0, 0.0], [0.0, 0.5, 1.0]]
+        measure = values @ [1.0, 0.5, 0.5] + random.random(24)
+        np.testing.assert_array_equal(ranking(values * [1.0, -1.0, 1.0], measure).above, ranking(values, measure).above)
+
+
+def test_places_by_total_index():
+    few, many = (sobol_indices(measured(lambda x, y, z: x + 0.9 * y, 3, members), range(3), 3) for members in (32, 2048))
+    np.testing.assert_array_equal(few.places, [[1.0, 1.0, 3.0], [2.0, 2.0, 3.0]])
+    np.testing.assert_array_equal(many.places, [[1.0, 2.0, 3.0], [1.0, 2.0, 3.0]])
+    gap = sobol_indices(measured(lambda x, y, z: x + 0.9 * y, 3, 32), [0, 2], 3)
+    np.testing.assert_array_equal(gap.places, [[1.0, np.nan, 2.0], [1.0, np.nan, 2.0]])
+    assert np.isnan(sobol_indices(measured(lambda x, y: x, 2, 16), [0, 1], 2).places).all()
+
+
+def test_intervals_of_a_ranking_miss_as_seldom_as_said():
+    def noisy(x, y, z, noise):
+        return 2.0 * x + y + noise
+
+    random, missed, wrong = np.random.default_rng(0), [], []
+    whole = random.random((100_000, 4))
+    truth = ranking(whole[:, :3], noisy(*whole.T)).coefficient
+    for _ in range(400):
+        values = random.random((24, 4))
+        found = ranking(values[:, :3], noisy(*values.T))
+        missed.append((found.low > truth) | (found.high < truth))
+        wrong.append(found.above[1, 0] | found.above[2, 0] | found.above[2, 1])
+    assert 0.02 < np.mean(missed) < 0.08
+    assert np.mean(wrong) < 0.03
+
+
+@pytest.mark.parametrize("members", [2, 4])
+def test_too_few_members_rank_nothing(members):
+    found = ranking(*drawn(jumping, 3, members))
+    assert np.isnan(found.coefficient).all() and np.isnan(found.places).all() and not found.above.any()
+
+
+def test_a_ranking_leaves_out_what_does_not_vary_and_members_without_the_measure():
+    values, measure = drawn(jumping, 3, 64)
+    beside = np.column_stack([values, np.full(64, np.nan), np.full(64, 0.15)])
+    np.testing.assert_array_equal(ranking(beside, measure).coefficient[:3], ranking(values, measure).coefficient)
+    assert np.isnan(ranking(beside, measure).coefficient[3:]).all()
+    assert np.isnan(ranking(values, np.zeros(64)).coefficient).all()
+    gone = measure.copy()
+    gone[:5] = np.nan
+    assert ranking(values, gone).members == 59
+    np.testing.assert_array_equal(ranking(values, gone).coefficient, ranking(values[5:], measure[5:]).coefficient)
+
+
 def settings_of(root, content, **more):
     return read_settings(
         root,
@@ -191,6 +278,31 @@ def test_the_tolerances_of_the_page_and_of_the_file_are_accepted(root):
     assert len(settings_of(root, asked["tolerances"]).members.all["S100", "abradable"]) == 32
     with open(root / "config/tolerances.yaml") as stream:
         assert len(settings_of(root, {}, **yaml.safe_load(stream)).members.all["Ref", "abradable"]) == 32
+
+
+@pytest.mark.parametrize(
+    ("members", "sensitivity", "said"),
+    [
+        (16, False, ["16 members do not rank the numbers; 32 name the first, 128 tell most apart"]),
+        (64, False, ["64 members name the first of the numbers at best; 128 tell most apart"]),
+        (128, True, []),
+        (
+            16,
+            True,
+            [
+                "16 members do not rank the numbers; 32 name the first",
+                "Sobol indices of 16 members do not rank the numbers; those of 32 do",
+            ],
+        ),
+    ],
+)
+def test_a_run_says_when_its_members_rank_nothing(root, members, sensitivity, said):
+    numbers = {"friction.coefficient": {"uniform_percent": 5.0}, "damping_ratio": {"uniform_percent": 5.0}}
+    given = {"members": members, "sensitivity": sensitivity, "blades": ["Ref"], "of_scenes": numbers}
+    remarks = [one for one in settings_of(root, given).remarks if "rank" in one or "name the first" in one]
+    assert len(remarks) == len(said) and all(f"tolerances: {text}" in one for text, one in zip(said, remarks, strict=True))
+    alone = {**given, "of_scenes": {"damping_ratio": numbers["damping_ratio"]}}
+    assert not any("rank" in one for one in settings_of(root, alone).remarks if "Sobol" not in one)
 
 
 def test_without_numbers_there_are_no_members(settings):
@@ -346,6 +458,35 @@ def test_the_dataset_of_members(tmp_path):
     assert not any(str(name).startswith("sobol") for name in found)
 
 
+def test_the_chance_of_passing_yield_has_an_interval(tmp_path):
+    runs = [member_run(tmp_path, str(row), 1700.0 if row % 2 else 1760.0) for row in range(16)]
+    found = tolerances_dataset(runs, NUMBERS).sel(blade="Ref", scene="abradable")
+    names = ("probability_above_yield_low", "probability_above_yield", "probability_above_yield_high")
+
+    def at(speed):
+        return [round(float(found[name].sel(speed=speed)), 3) for name in names]
+
+    # Clopper and Pearson's of 8 and of 0 of 16
+    assert at(1750.0) == [0.247, 0.5, 0.753]
+    assert at(1600.0) == [0.0, 0.0, 0.206]
+
+
+@pytest.mark.parametrize("chance", [0.02, 0.5, 0.93])
+def test_the_interval_of_a_chance_misses_it_as_seldom_as_said(chance):
+    counts = np.random.default_rng(0).binomial(16, chance, 20000)
+    low, high = share_ends(counts, 16)
+    assert np.mean((low > chance) | (high < chance)) <= 1.0 - CONFIDENCE
+    assert low[counts == 0].sum() == 0.0 and np.all(high[counts == 16] == 1.0)
+
+
+def test_the_page_has_the_intervals_of_a_chance(root):
+    page = (root / "docs/tolerances.md").read_text()
+    low, high = (100 * end for end in share_ends(np.array(8), 16))
+    assert f"between {low:.0f} and {high:.0f}%" in page
+    none_of_32, none_of_16 = (f"{100 * share_ends(np.array(0), members)[1]:.0f}" for members in (32, 16))
+    assert f"{none_of_32}% with 32 members and {none_of_16}% with 16" in page
+
+
 def test_a_member_that_diverges_is_one_recorded_member(tmp_path):
     runs = [member_run(tmp_path, str(row), 1700.0, diverged=[1710.0] if row == 3 else ()) for row in range(4)]
     found = tolerances_dataset(runs, NUMBERS).sel(blade="Ref", scene="abradable")
@@ -358,15 +499,20 @@ def test_a_member_that_diverges_is_one_recorded_member(tmp_path):
 
 def test_the_peak_s_spread_comes_from_the_number_that_moves_it(tmp_path):
     runs = [
-        member_run(tmp_path, name, 5.0 * round((1700.0 + 60.0 * place[1]) / 5.0)) for name, place in places(2, 8, 0).items()
+        replace(member_run(tmp_path, name, 5.0 * round((1700.0 + 60.0 * place[1]) / 5.0)), values=place)
+        for name, place in places(2, 8, 0).items()
     ]
     found = tolerances_dataset(runs, NUMBERS).sel(blade="Ref", scene="abradable", measure="peak_speed")
     assert found["member"].values.tolist() == list(range(8))
     assert found["sobol_members"] == 8
     np.testing.assert_allclose(found["sobol_total"], [0.0, 1.0], atol=0.4)
     assert found["sobol_total"][0] == 0.0
+    assert found["rank_place_low"][1] == found["rank_place_high"][1] == 1.0 and np.isnan(found["rank_place_low"][0])
+    assert found["rank_coefficient_low"][1] > 0.0 and found["rank_members"] == 8
+    # so few have indices, and no place by them
+    assert found["sobol_place_low"].isnull().all()
     figure = draw_tolerances(tolerances_dataset(runs, NUMBERS).sel(blade="Ref", scene="abradable"), branch(1700.0), "Ref")
-    assert len(figure.subfigs) == 2
+    assert len(figure.subfigs) == 3
     plt.close(figure)
 
 
@@ -427,6 +573,20 @@ def test_the_summary_has_the_ranges_beside_the_nominal_run(tmp_path):
     assert len(joined) == len(summary)
     assert joined["share_of_members"].fillna(-1.0).tolist() == [0.0, 1.0, -1.0, -1.0]
     assert joined["peak_speed_rad_s_median"].dropna().tolist() == [1710.0]
+
+
+def test_a_range_has_the_digits_that_it_bears():
+    row = {"peak_speed_rad_s": 1729.0, "max_von_mises_pa": 1.407e10, "drop": 0.123456}
+    ends = {"peak_speed_rad_s": (1710.0, 1726.0, 1754.0), "max_von_mises_pa": (2.02e9, 8.64e9, 1.408e10)}
+    row |= {f"{name}_{end}": value for name, of in ends.items() for end, value in zip(ENDS, of, strict=True)}
+    bare = dict.fromkeys(row) | {"peak_speed_rad_s": 1640.4, "max_von_mises_pa": 3.5612e9}
+    shown, other = as_ranges_bear(pd.DataFrame([row, bare]).astype(float)).to_dict("records")
+    # the nominal peak is a run that can be opened
+    assert [shown[f"peak_speed_rad_s{end}"] for end in ("", "_low", "_median", "_high")] == [1729.0, 1710.0, 1730.0, 1750.0]
+    assert [shown[f"max_von_mises_pa{end}"] for end in ("", "_low", "_median", "_high")] == [1.4e10, 2e9, 9e9, 1.4e10]
+    assert shown["drop"] == 0.123456 and (other["max_von_mises_pa"], other["peak_speed_rad_s"]) == (3.5612e9, 1640.4)
+    without = pd.DataFrame([{"peak_speed_rad_s": 1729.0}])
+    pd.testing.assert_frame_equal(as_ranges_bear(without), without)
 
 
 def test_leftovers_are_members_that_are_not_drawn_any_more(root, tmp_path):

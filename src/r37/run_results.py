@@ -42,6 +42,11 @@ class RunResults(Mapping[str, xr.Dataset]):
         """summary.csv: one row per interaction. Raises InputFileError where it cannot be read."""
         return read_table(self.folder / "summary.csv")
 
+    @cached_property
+    def ranking(self) -> pd.DataFrame:
+        """ranking.csv: one row per blade and scene, the best blade first. Raises InputFileError where it cannot be read."""
+        return read_table(self.folder / "ranking.csv")
+
     def response(self, blade: str, scene: str) -> xr.Dataset:
         """response.nc of one blade in one scene, as `r37.sweep` gives it. Raises InputFileError where it cannot be read."""
         return read_dataset(self.folder / blade / scene / "response.nc")

@@ -21,6 +21,7 @@ from r37core.rom.reduction_choice import POINTS, ReductionChoice
 from r37core.run_ups.choice import RunUpChoice
 from r37core.speeds import SpeedError, SpeedPlan
 from r37core.time_integration.integration_choice import IntegrationChoice
+from r37core.tolerances.fewest import remarks_on_rankings
 from r37core.yaml_file import KeyPath
 
 from .blades import BladeSettings, blade_settings
@@ -262,6 +263,7 @@ class Settings:
         if self.members.pairs:
             members, drawn = self.most_of_members, self.config.tolerances.members
             said.append(f"tolerances: {drawn} members, {members} simulations of theirs at most, beside those of the sweep")
+            said += remarks_on_rankings(drawn, len(self.members.numbers), self.config.tolerances.sensitivity)
         return said
 
     @property

@@ -7,6 +7,7 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from r37core.results.interaction_title import interaction_title
+from r37core.rounding import rounded_to
 from r37core.time_integration.status import RunStatus
 
 
@@ -21,7 +22,8 @@ def closing_lines(results: Path, began: float, ended: float, remarks: Iterable[s
     with open(summary, newline="", encoding="utf-8") as stream:
         rows = list(csv.DictReader(stream))
     where = f"look at {results}/explorer.html (any browser), {summary}, {results}/figures/"
-    return [_found(rows) + _diverged(results / "rms.nc"), *remarks, where, _took(ended - began)]
+    ranked = _ranked(results / "ranking.csv")
+    return [_found(rows) + _diverged(results / "rms.nc"), *ranked, *remarks, where, _took(ended - began)]
 
 
 def _found(rows: list[dict[str, str]]) -> str:
@@ -31,18 +33,56 @@ def _found(rows: list[dict[str, str]]) -> str:
     text = f"found {len(rows)} interaction{'s' * (len(rows) > 1)}, {len(above)} of them above yield"
     if above:
         worst = max(above, key=lambda row: _number(row, "max_von_mises_pa"))
-        if (largest := _number(worst, "max_von_mises_pa")) > 0.0:
+        if _number(worst, "max_von_mises_pa") > 0.0:
             title = interaction_title(worst["mode"], worst["engine_order"])
             text += (
-                f"; the largest stress {1e-9 * largest:.2f} GPa, {worst['blade']} in {worst['scene']} "
+                f"; the largest stress {_stress(worst)}, {worst['blade']} in {worst['scene']} "
                 f"at {float(worst['max_von_mises_speed_rad_s']):.6g} rad/s ({title})"
             )
     return text
 
 
 def _number(row: dict[str, str], column: str) -> float:
-    """0 for an empty cell."""
-    return float(row[column] or 0.0)
+    """0 for a cell that is empty or not there."""
+    return float(row.get(column) or 0.0)
+
+
+def _stress(row: dict[str, str]) -> str:
+    """The largest stress, with tolerances only as many digits as its range bears, and that beside it."""
+    stress = 1e-9 * float(row["max_von_mises_pa"])
+    ends = [row.get(f"max_von_mises_pa_{end}") for end in ("low", "high")]
+    if not all(ends):
+        return f"{stress:.2f} GPa"
+    low, high = (1e-9 * float(end or 0.0) for end in ends)
+    nominal, low_text, high_text = (rounded_to(value, high - low) for value in (stress, low, high))
+    return f"{nominal} GPa ({low_text} to {high_text} in nine tenths of the members)"
+
+
+def _ranked(file: Path) -> list[str]:
+    """Best and worst blade of each scene, and what may have been missed between speeds; nothing where stress is in none."""
+    if not file.exists():
+        return []
+    with open(file, newline="", encoding="utf-8") as stream:
+        rows = [row for row in csv.DictReader(stream) if row["length_certain_rad_s"]]
+    said = []
+    for scene in dict.fromkeys(row["scene"] for row in rows):
+        of_scene = [row for row in rows if row["scene"] == scene]
+        best, worst = of_scene[0], of_scene[-1]
+        if best["blade"] != worst["blade"]:
+            said.append(
+                f"{scene}: {best['blade']} is above yield at the fewest speeds ({_length(best)}), {worst['blade']} at the most "
+                f"({_length(worst)}); {file}"
+            )
+    gap = max((_number(row, "largest_gap_rad_s") for row in rows), default=0.0)
+    if gap > 0.0:
+        said.append(f"speeds lie up to {gap:g} rad/s apart: a narrower interaction between them may be missed")
+    return said
+
+
+def _length(row: dict[str, str]) -> str:
+    """Length above yield, with as many digits as its scatter bears."""
+    length, scatter = _number(row, "length_certain_rad_s"), _number(row, "length_certain_scatter_rad_s")
+    return f"{rounded_to(length, scatter) if scatter > 0.0 else f'{length:.0f}'} rad/s"
 
 
 def _diverged(file: Path) -> str:

@@ -12,6 +12,7 @@ import xarray as xr
 
 from r37core.results.variables import VARIABLES
 from r37core.time_integration.status import RunStatus
+from r37core.tolerances.table import as_ranges_bear
 
 from .page_tables import interaction_table, published_peaks, ranking_rows
 
@@ -69,7 +70,7 @@ def explorer_contents(
         "history": _history(datasets.get("stress"), rms),
         "spectrum": _spectrum(datasets.get("spectrum"), rms),
         "wear": _wear(datasets.get("wear"), rms),
-        **interaction_table(interactions, benchmark_scenes),
+        **interaction_table(as_ranges_bear(interactions), benchmark_scenes),
         **ranking_rows(ranking),
         "shapes": [list(pair) for pair in shapes],
         "shapes_in_report": dict(shapes_in_report or {}),

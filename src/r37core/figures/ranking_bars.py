@@ -37,9 +37,11 @@ def _draw(axes: Axes, rows: pd.DataFrame) -> None:
     axes.barh(places, rows[_POSSIBLE], 0.76, color="C0", alpha=0.35, label="possibly")
     axes.barh(places, rows[_CERTAIN], 0.44, color="C0", label="certainly")
     low, high, meaning = _range(rows)
-    axes.errorbar(
-        rows[_CERTAIN], places, xerr=[low, high], fmt="none", ecolor="0.15", elinewidth=1.0, capsize=2.5, label=meaning
-    )
+    if np.isfinite(low).any():
+        axes.errorbar(
+            rows[_CERTAIN], places, xerr=[low, high], fmt="none", ecolor="0.15", elinewidth=1.0, capsize=2.5, label=meaning
+        )
+    high = np.nan_to_num(high)
     largest = np.nanmax([1.0, *rows[_POSSIBLE], *(rows[_CERTAIN] + high)])
     for place, above, (_, row) in zip(places, high, rows.iterrows(), strict=True):
         if np.isfinite(row[_CERTAIN]):
@@ -49,9 +51,9 @@ def _draw(axes: Axes, rows: pd.DataFrame) -> None:
 
 
 def _range(rows: pd.DataFrame) -> tuple[np.ndarray, np.ndarray, str]:
-    """How far the certain length may lie below and above (rad/s), shape (blades,) each, and by what."""
+    """How far the certain length may lie below and above (rad/s), shape (blades,) each, NaN if unknown, and by what."""
     if f"{_CERTAIN}_low" in rows and rows[f"{_CERTAIN}_low"].notna().any():
         low, high = rows[_CERTAIN] - rows[f"{_CERTAIN}_low"], rows[f"{_CERTAIN}_high"] - rows[_CERTAIN]
-        return low.clip(lower=0.0).fillna(0.0).values, high.clip(lower=0.0).fillna(0.0).values, "nine tenths of the members"
-    scatter = rows["length_certain_scatter_rad_s"].fillna(0.0).values
+        return low.clip(lower=0.0).values, high.clip(lower=0.0).values, "nine tenths of the members"
+    scatter = rows["length_certain_scatter_rad_s"].values
     return scatter, scatter, "standard deviation by chance"

@@ -11,22 +11,29 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from r37core.results.measures import leading_edge
+from r37core.tolerances.shares import CONFIDENCE
 
 from . import style
 
 _CHANCE = "probability_above_yield"
 _MEASURES = {"peak_speed": "peak speed", "width_above_yield": "width above yield", "largest_stress": "largest stress"}
 
+_SIZES = {
+    "rank_coefficient": ("rank_place", "rank coefficient", "what each number moves"),
+    "sobol_total": ("sobol_place", "Sobol index", "share of the variance, alone and with others"),
+}
+"""Size of a number's part in the spread -> its place in the ranking, label of the axis, title of the panel."""
+
 
 def draw_tolerances(tolerances: xr.Dataset, nominal: xr.Dataset, title: str) -> Figure:
-    """Band and median of rms and stress over speed with the nominal run, probability of passing yield, Sobol indices."""
+    """Band and median of rms and stress over speed with the nominal run, chance of passing yield, where the spread is from."""
     curves = [
         name for name in style.CURVES if f"{name}_quantile" in tolerances and tolerances[f"{name}_quantile"].notnull().any()
     ]
     chance = [_CHANCE] if _CHANCE in tolerances and tolerances[_CHANCE].notnull().any() else []
-    indices = "sobol_total" in tolerances and bool(tolerances["sobol_total"].notnull().any())
+    sizes = [size for size in _SIZES if size in tolerances and tolerances[size].notnull().any()]
     rows = len(curves) + len(chance)
-    heights = [1.75 * rows + 0.6, *([1.7] if indices else [])]
+    heights = [1.75 * rows + 0.6, *[1.7] * len(sizes)]
     figure = plt.figure(figsize=(style.PAGE, sum(heights)))
     above, *below = figure.subfigures(len(heights), 1, squeeze=False, height_ratios=heights)[:, 0]
     panels = above.subplots(rows, 1, sharex=True, squeeze=False)[:, 0]
@@ -38,10 +45,13 @@ def draw_tolerances(tolerances: xr.Dataset, nominal: xr.Dataset, title: str) -> 
     style.rpm_axis(panels[0])
     if "max_von_mises" in curves:
         style.yield_lines(panels[curves.index("max_von_mises")], {"": float(tolerances["yield_stress"].median())}, named=True)
-    above.legend(*style.legend_entries(panels), loc="outside lower center", ncols=5)
+    above.legend(*style.legend_entries(panels), loc="outside lower center", ncols=4)
     above.suptitle(f"tolerances: {title}, {tolerances.sizes['member']} members")
-    for part in below:
-        _indices(part.subplots(1, 1), tolerances)
+    for part, size in zip(below, sizes, strict=True):
+        axes, (place, label, title) = part.subplots(1, 1), _SIZES[size]
+        _numbers(axes, tolerances, size, place)
+        axes.set_ylabel(label)
+        axes.set_title(f"{title}, {CONFIDENCE:.0%} interval; above: place in the ranking, pale: any")
     return figure
 
 
@@ -64,31 +74,42 @@ def _band(axes: Axes, tolerances: xr.Dataset, nominal: xr.Dataset, name: str) ->
 
 
 def _probability(axes: Axes, tolerances: xr.Dataset) -> None:
-    chance = tolerances[_CHANCE].dropna("speed")
-    axes.fill_between(chance["speed"], 100.0 * chance, color=style.COLOURS[1], alpha=0.4, linewidth=0)
-    axes.plot(chance["speed"], 100.0 * chance, color=style.COLOURS[1])
+    share, low, high = (100.0 * tolerances[f"{_CHANCE}{end}"].dropna("speed") for end in ("", "_low", "_high"))
+    sure = f"{CONFIDENCE:.0%} interval of the chance"
+    axes.fill_between(share["speed"], low, high, color=style.COLOURS[1], alpha=0.25, linewidth=0, label=sure)
+    axes.plot(share["speed"], share, color=style.COLOURS[1], label="share of the members")
     axes.axhline(50.0, color="0.5", linewidth=0.6, linestyle=":")
     axes.set_ylim(0.0, 102.0)
-    axes.set_ylabel("members above yield (%)")
+    axes.set_ylabel("above yield (%)")
 
 
-def _indices(axes: Axes, tolerances: xr.Dataset) -> None:
-    """Bars of the total index, with the first-order one as a dot in them."""
+def _numbers(axes: Axes, tolerances: xr.Dataset, size: str, place: str) -> None:
+    """Size of each number's part in the spread with its interval, and its place in the ranking above; pale: no place known."""
     numbers = tolerances["number"].values
     width = 0.8 / len(_MEASURES)
-    for place, (measure, label) in enumerate(_MEASURES.items()):
-        at = np.arange(len(numbers)) + (place - 0.5 * (len(_MEASURES) - 1)) * width
-        of = tolerances.sel(measure=measure)
-        total = of["sobol_total"].values
-        ends = np.abs(np.array([of["sobol_total_low"].values, of["sobol_total_high"].values]) - total)
-        look: dict[str, Any] = {"color": style.COLOURS[place], "alpha": 0.7}
-        axes.bar(at, total, 0.9 * width, label=label, yerr=ends, error_kw={"linewidth": 0.6, "ecolor": "0.3"}, **look)
-        axes.plot(at, of["sobol_first"].values, "k_", markersize=6)
+    low, high = (tolerances[f"{place}_{end}"] for end in ("low", "high"))
+    # a number that may have any place has none
+    known = low.notnull() & (high - low + 1 < tolerances[size].notnull().sum("number"))
+    for row, (measure, label) in enumerate(_MEASURES.items()):
+        at = np.arange(len(numbers)) + (row - 0.5 * (len(_MEASURES) - 1)) * width
+        bottom, value, top = (tolerances[f"{size}{end}"].sel(measure=measure).values for end in ("_low", "", "_high"))
+        clear = known.sel(measure=measure).values
+        look: dict[str, Any] = {"color": style.COLOURS[row], "error_kw": {"linewidth": 0.6, "ecolor": "0.3"}}
+        for chosen, alpha in ((clear, 0.7), (~clear, 0.15)):
+            ends = np.abs(np.array([bottom, top]) - value)[:, chosen]
+            axes.bar(
+                at[chosen], value[chosen], 0.9 * width, yerr=ends, alpha=alpha, label=label if chosen is clear else None, **look
+            )
+        for x, height, first, last in zip(
+            at[clear], top[clear], *(of.sel(measure=measure).values[clear] for of in (low, high)), strict=True
+        ):
+            text = f"{first:.0f}" if first == last else f"{first:.0f}-{last:.0f}"
+            axes.annotate(text, (x, max(height, 0.0)), (0, 1), textcoords="offset points", ha="center", fontsize=5)
+    axes.axhline(0.0, color="0.3", linewidth=0.5)
     axes.set_xticks(np.arange(len(numbers)), [str(number).replace(".", "\n") for number in numbers], fontsize=6)
     # numbers whose indices are not known have their room, too
     axes.set_xlim(-0.5, len(numbers) - 0.5)
     # room for the legend
-    axes.set_ylim(0.0, 1.25 * axes.get_ylim()[1])
-    axes.set_ylabel("Sobol index")
-    axes.set_title("share of the variance: total (bar, with nine tenths of bootstrap samples), alone (dash)")
+    bottom_end, top_end = axes.get_ylim()
+    axes.set_ylim(bottom_end, top_end + 0.25 * (top_end - bottom_end))
     axes.legend(loc="upper right", ncols=3)

@@ -90,14 +90,18 @@ class Exceedance:
         return float(np.std([sum(one.length for one in ranges) for ranges in self._ranges_drawn[share]]))
 
     def scatter_of_border(self, share: float, border: float, *, begins: bool) -> float:
-        """Standard deviation (rad/s) by chance of the `border` (rad/s) of a range that begins, or ends, there; NaN for none."""
+        """How far (rad/s) chance moves the `border` (rad/s) of a range that begins, or ends, there, in two of three cases.
+
+        NaN where there is no chance, and where the range itself is not there in one of three cases.
+        """
         if not self.chance:
             return np.nan
-        nearest = []
+        off = []
         for ranges in self._ranges_drawn[share]:
-            borders = [one.begin if begins else one.end for one in ranges]
-            nearest += [min(borders, key=lambda other: abs(other - border))] if borders else []
-        return float(np.sqrt(np.mean(np.square(np.array(nearest) - border)))) if nearest else np.nan
+            borders = np.array([one.begin if begins else one.end for one in ranges])
+            off.append(np.abs(borders - border).min(initial=np.inf))
+        scatter = float(np.quantile(off, 2.0 / 3.0))
+        return scatter if np.isfinite(scatter) else np.nan
 
 
 def exceedance_of(response: xr.Dataset) -> Exceedance:

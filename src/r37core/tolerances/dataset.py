@@ -18,8 +18,10 @@ from r37core.results.variables import VARIABLES
 from r37core.time_integration.status import RunStatus
 from r37core.units import RPM
 
+from .ranking import ranking
 from .sample import is_of_sample, number_of
-from .sensitivity import CONFIDENCE, ORDERS, sobol_indices
+from .sensitivity import ORDERS, sobol_indices
+from .shares import CONFIDENCE, share_ends
 
 QUANTILES = (0.05, 0.5, 0.95)
 """Ends and middle of the range that nine tenths of the members lie in."""
@@ -41,7 +43,7 @@ _RANKED = dict(zip(RANKED_BY, ("length_certain", "length_possible", "largest_med
 """What blades are ranked by -> measure that it is."""
 
 INDEXED = ("peak_speed", "width_above_yield", "largest_stress")
-"""Measures that have sensitivity indices."""
+"""Measures for which the numbers are ranked."""
 
 
 @dataclass(frozen=True)
@@ -129,13 +131,39 @@ def _of_pair(
         quantiles = spread.quantile(QUANTILES, "member", method="inverted_cdf").where(~diverged.all("member"))
         sample[f"{name}_quantile"] = quantiles.assign_attrs(about(units, f"quantiles over the members: {meaning}"))
     if "max_von_mises" in sample:
-        share = (ratio_to_yield(sample) > 1.0).mean("member")
-        sample["probability_above_yield"] = share.assign_attrs(
-            about("1", "share of the members above yield, diverged ones among them")
-        )
-    for name, index in _sensitivities(measured, numbers).items():
+        for name, chance in _chances(ratio_to_yield(sample) > 1.0).items():
+            sample[name] = chance
+    for name, index in (_rankings(sample) | _sensitivities(measured, numbers)).items():
         sample[name] = index
     return sample.expand_dims(blade=[pair[0]], scene=[pair[1]])
+
+
+def _chances(above: xr.DataArray) -> dict[str, xr.DataArray]:
+    """The chance of passing yield at each speed, and the ends of its interval; `above`: whether a member does, at a speed."""
+    name, meaning = "probability_above_yield", "share of the members above yield, diverged ones among them"
+    count = above.sum("member")
+    low, high = share_ends(count.values, above.sizes["member"])
+    ends = f"end of what that share says of all that could be drawn, {CONFIDENCE:.0%} sure"
+    return {
+        name: above.mean("member").assign_attrs(about("1", meaning)),
+        f"{name}_low": count.copy(data=low).assign_attrs(about("1", f"lower {ends}")),
+        f"{name}_high": count.copy(data=high).assign_attrs(about("1", f"upper {ends}")),
+    }
+
+
+def _rankings(sample: xr.Dataset) -> dict[str, xr.DataArray]:
+    """Rank coefficients of INDEXED and the places that they give, from the sample alone."""
+    values = sample["value"].transpose("member", "number").values
+    found = [ranking(values, sample[name].values) for name in INDEXED]
+    sure = f"{CONFIDENCE:.0%} sure"
+    return {
+        "rank_coefficient": _index([one.coefficient for one in found], "standardized rank coefficient"),
+        "rank_coefficient_low": _index([one.low for one in found], f"lower end of the rank coefficient, {sure}"),
+        "rank_coefficient_high": _index([one.high for one in found], f"upper end of the rank coefficient, {sure}"),
+        **_places("rank", [one.places for one in found], "rank coefficients, of numbers that have one beyond zero"),
+        "rank_explained": _of_measures([one.explained for one in found], "share of the ranks' variance that they explain"),
+        "rank_members": _of_measures([one.members for one in found], "members that the coefficients are made of"),
+    }
 
 
 def _sensitivities(measured: Mapping[str, Mapping[str, float]], numbers: Sequence[str]) -> dict[str, xr.DataArray]:
@@ -149,9 +177,22 @@ def _sensitivities(measured: Mapping[str, Mapping[str, float]], numbers: Sequenc
         indices[f"sobol_{order}"] = _index([one.index[place] for one in found], f"{meaning} (Sobol)")
         indices[f"sobol_{order}_low"] = _index([one.low[place] for one in found], f"lower end of {ends}: {meaning}")
         indices[f"sobol_{order}_high"] = _index([one.high[place] for one in found], f"upper end of {ends}: {meaning}")
-    counted = xr.DataArray([one.members for one in found], {"measure": list(INDEXED)}, "measure")
-    indices["sobol_members"] = counted.assign_attrs(about("1", "members that the indices are made of"))
+    indices |= _places("sobol", [one.places for one in found], "total indices")
+    indices["sobol_members"] = _of_measures([one.members for one in found], "members that the indices are made of")
     return indices
+
+
+def _places(name: str, ends: Sequence[tuple[np.ndarray, np.ndarray]], of: str) -> dict[str, xr.DataArray]:
+    """Between which places each number is."""
+    low, high = zip(*ends, strict=True)
+    return {
+        f"{name}_place_low": _index(low, f"first place that the number may have by {of}"),
+        f"{name}_place_high": _index(high, f"last place that the number may have by {of}"),
+    }
+
+
+def _of_measures(values: Sequence[float], meaning: str) -> xr.DataArray:
+    return xr.DataArray(list(values), {"measure": list(INDEXED)}, "measure", attrs=about("1", meaning))
 
 
 def _index(rows: Sequence[np.ndarray], meaning: str) -> xr.DataArray:

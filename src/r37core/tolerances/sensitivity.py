@@ -1,4 +1,4 @@
-"""Sobol indices: which number a measure's spread comes from.
+"""Sobol indices: which number a measure's spread comes from, alone and together with others.
 
 They are SciPy's, which the project has anyway, with the estimators of Saltelli et al. (2010); SALib has the same ones, and more
 ways to sample, for one more dependency.
@@ -11,10 +11,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .fewest import SOBOL_RANKS
+from .ranking import places_of
 from .sample import is_of_sample, together
-
-CONFIDENCE = 0.9
-"""Share of resampled members whose index lies between `low` and `high`."""
+from .shares import CONFIDENCE
 
 _FEWEST, _RESAMPLES, _BOOTSTRAP_SEED = 4, 500, 0
 """Members, below which no index is given; bootstrap samples, which are the same every time."""
@@ -31,13 +31,21 @@ ORDERS = {
 class Sensitivity:
     """Indices of one measure, shape (ORDERS, numbers); NaN for a number that was not varied, and where nothing spreads.
 
-    `low` and `high`: between which CONFIDENCE of the bootstrap samples lie. `members`: how many counted.
+    `low` and `high`: between which CONFIDENCE of the bootstrap samples lie. `above`, shape (numbers, numbers): whether one's
+    total index is told apart as larger than another's, as it is in so many of them. `members`: how many counted.
     """
 
     index: np.ndarray
     low: np.ndarray
     high: np.ndarray
+    above: np.ndarray
     members: int
+
+    @property
+    def places(self) -> tuple[np.ndarray, np.ndarray]:
+        """Between which places of the ranking by total index each number is; NaN without an index, and of few members."""
+        low, high = places_of(self.above, np.isfinite(self.index[list(ORDERS).index("total")]))
+        return (low, high) if self.members >= SOBOL_RANKS else (np.full_like(low, np.nan), np.full_like(high, np.nan))
 
 
 def sobol_indices(measure: Mapping[str, float], numbers: Sequence[int], count: int) -> Sensitivity:
@@ -56,7 +64,7 @@ def sobol_indices(measure: Mapping[str, float], numbers: Sequence[int], count: i
     table = table[:, :members]
     nothing = np.full((2, count), np.nan)
     if members < _FEWEST or np.ptp(table[:2]) == 0.0:
-        return Sensitivity(nothing, nothing, nothing, 0)
+        return Sensitivity(nothing, nothing, nothing, np.zeros((count, count), dtype=bool), 0)
 
     def indices(chosen: np.ndarray) -> np.ndarray:
         f_a, f_b, *mixed = table[:, chosen]
@@ -73,11 +81,15 @@ def sobol_indices(measure: Mapping[str, float], numbers: Sequence[int], count: i
         confidence_level=CONFIDENCE,
         method="percentile",
         rng=_BOOTSTRAP_SEED,
-    ).confidence_interval
+    )
+    ends, totals = drawn.confidence_interval, drawn.bootstrap_distribution[list(ORDERS).index("total")]
+    above = np.zeros((count, count), dtype=bool)
+    # both ends of an interval of the difference
+    above[np.ix_(numbers, numbers)] = (totals[:, None] > totals).mean(axis=-1) >= 0.5 + 0.5 * CONFIDENCE
 
     def placed(values: np.ndarray) -> np.ndarray:
         found = nothing.copy()
         found[:, list(numbers)] = values
         return found
 
-    return Sensitivity(placed(indices(np.arange(members))), placed(drawn.low), placed(drawn.high), members)
+    return Sensitivity(placed(indices(np.arange(members))), placed(ends.low), placed(ends.high), above, members)

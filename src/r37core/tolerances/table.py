@@ -12,6 +12,7 @@ import pandas as pd
 from r37core.io import readable
 from r37core.results.interactions import Interaction, InteractionChoice
 from r37core.results.table_file import read_table
+from r37core.rounding import rounded_to
 
 from .dataset import QUANTILES
 
@@ -126,6 +127,20 @@ def read_ranges(file: Path | str) -> pd.DataFrame:
         kinds = {"engine_order": "Int64", "robust": bool, **dict.fromkeys([*RANGED, *RANGES], float)}
         # what no crossing explains has no mode
         return table.fillna({"mode": ""}).astype(kinds)
+
+
+def as_ranges_bear(summary: pd.DataFrame) -> pd.DataFrame:
+    """The summary with as many digits of what has a range as its width bears, but for the nominal peaks, which are runs."""
+    found = summary.copy()
+    for one in RANGED:
+        columns = [name for name in (one, *(f"{one}_{end}" for end in ENDS)) if name in found and name != "peak_speed_rad_s"]
+        if f"{one}_low" in columns:
+            rows = found[f"{one}_low"].notna() & found[f"{one}_high"].notna()
+            spread = found.loc[rows, f"{one}_high"] - found.loc[rows, f"{one}_low"]
+            for name in columns:
+                values = zip(found.loc[rows, name], spread, strict=True)
+                found.loc[rows, name] = [float(rounded_to(value, width) or np.nan) for value, width in values]
+    return found
 
 
 def with_ranges(summary: pd.DataFrame, table: pd.DataFrame) -> pd.DataFrame:

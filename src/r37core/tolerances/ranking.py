@@ -1,0 +1,83 @@
+"""Which numbers move a measure most, from the sample alone: a straight line through ranks.
+
+Why not Sobol indices, the correlation of ranks or PAWN: docs/tolerances.md#how-many-members has what each tells apart.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from .shares import CONFIDENCE
+
+_FREE, _ROUND_OFF = 4, 1e-9
+"""Members more than coefficients, below which nothing is said of how sure these are; of coefficients that fit exactly."""
+
+
+@dataclass(frozen=True)
+class Ranking:
+    """Standardized rank coefficients of one measure, each array of shape (numbers,); NaN for a number that does not vary.
+
+    `coefficient`: from -1 to 1; by how many places of all members the measure rises as the number does. `low` and `high`: its
+    interval, CONFIDENCE sure. `above`, shape (numbers, numbers): whether one's size is told apart as larger than another's.
+    `explained`: share of the ranks' variance that the coefficients explain together. `members`: how many counted; with too
+    few there are no coefficients.
+    """
+
+    coefficient: np.ndarray
+    low: np.ndarray
+    high: np.ndarray
+    above: np.ndarray
+    explained: float
+    members: int
+
+    @property
+    def known(self) -> np.ndarray:
+        """Whether a number moves the measure at all: zero is not in its interval."""
+        return self.low * self.high > 0.0
+
+    @property
+    def places(self) -> tuple[np.ndarray, np.ndarray]:
+        """Between which places of the ranking by size each number is; NaN for those that are not known."""
+        low, high = places_of(self.above, np.isfinite(self.coefficient))
+        return np.where(self.known, low, np.nan), np.where(self.known, high, np.nan)
+
+
+def places_of(above: np.ndarray, varied: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """First and last place that each number may have, from what is told apart; NaN for those that are not `varied`."""
+    low, high = 1.0 + above.sum(axis=0), float(varied.sum()) - above.sum(axis=1)
+    return np.where(varied, low, np.nan), np.where(varied, high, np.nan)
+
+
+def ranking(values: np.ndarray, measure: np.ndarray) -> Ranking:
+    """Of the numbers' `values`, shape (members, numbers), NaN where there is none, and a `measure`, shape (members,).
+
+    Ranks of the measure are fitted by least squares to those of all numbers at once, so that what one brings does not blur
+    another, as it does in a correlation. Two numbers are told apart where the interval of the difference of their sizes does
+    not hold zero. Members without the measure are left out.
+    Source: Iman and Conover, Technometrics 21 (1979) 499-509; intervals are those of least squares.
+    """
+    from scipy import stats
+
+    rows = np.isfinite(measure)
+    values, measure = values[rows], measure[rows]
+    members, numbers = values.shape
+    # what a scene does not have is NaN, which is not above 0
+    varied = np.array([members > 0 and np.ptp(column) > 0.0 for column in values.T])
+    coefficient, low, high = np.full((3, numbers), np.nan)
+    above, free = np.zeros((numbers, numbers), dtype=bool), members - 1 - int(varied.sum())
+    if free < _FREE or not varied.any() or np.ptp(measure) == 0.0:
+        return Ranking(coefficient, low, high, above, np.nan, members)
+    x, y = (stats.zscore(stats.rankdata(of, axis=0)) for of in (values[:, varied], measure))
+    inverse = np.linalg.pinv(x.T @ x)
+    found = inverse @ x.T @ y
+    rest = float(np.sum((y - x @ found) ** 2))
+    covariance, sure = rest / free * inverse, stats.t.ppf(0.5 + 0.5 * CONFIDENCE, free)
+    half = sure * np.sqrt(np.diag(covariance))
+    coefficient[varied], low[varied], high[varied] = found, found - half, found + half
+    # of the difference of two sizes
+    signed = covariance * np.outer(np.sign(found), np.sign(found))
+    spread = np.sqrt(np.maximum(np.diag(signed)[:, None] + np.diag(signed) - 2.0 * signed, 0.0))
+    above[np.ix_(varied, varied)] = np.abs(found)[:, None] - np.abs(found) > np.maximum(sure * spread, _ROUND_OFF)
+    return Ranking(coefficient, low, high, above, 1.0 - rest / members, members)
