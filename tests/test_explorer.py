@@ -3,13 +3,13 @@
 import base64
 import gzip
 import os
-from contextlib import contextmanager
 
 import numpy as np
 import pandas as pd
 import pytest
 import xarray as xr
 from browser import opened
+from explorer_cases import BLADES, SCENES, SPEEDS, beside, interaction_rows, sweep
 from workflow_runs import copy_project, planned
 
 from r37core.explorer import write_page
@@ -17,71 +17,15 @@ from r37core.explorer.contents import explorer_contents, joined, order_bins, pac
 from r37core.results.table_file import read_table
 from r37core.time_integration.status import RunStatus
 
-SPEEDS = np.array([900.0, 1000.25, 1100.0, 1200.0, 1300.0])
-BLADES, SCENES = ["Ref", "L<50>"], ["abradable", "direct"]
-
 
 @pytest.fixture(scope="module")
 def datasets():
-    """Two blades in two scenes: one run has diverged, one was not asked for; only Ref in the lining has a history."""
-    generator = np.random.default_rng(2)
-    axes = {"blade": BLADES, "scene": SCENES, "speed": SPEEDS}
-    status = np.zeros((2, 2, 5), dtype="i1")
-    status[0, 1, 3], status[1, 0, 0] = RunStatus.DIVERGED, RunStatus.NOT_RUN
-    missing = status > 0
-
-    def over(*more):
-        values = generator.uniform(1e-4, 1e-3, (2, 2, 5, *more))
-        values[missing] = np.nan
-        return values
-
-    dims = ("blade", "scene", "speed")
-    tip = {"tip_point": ["leading_edge", "trailing_edge"]}
-    names = ("rms_normal", "rms_tangential", "peak_normal")
-    rms = {name: ((*dims, "tip_point"), over(2)) for name in names}
-    rms |= {"status": (dims, status), "share_of_time_in_contact": (dims, over())}
-    history = np.full((2, 2, 1, 4), np.nan)
-    history[0, 0, 0] = 1e8 * np.arange(1, 5)
-    stress = {
-        "max_von_mises": (dims, 1e12 * over()),
-        "yield_stress": (dims[:2], np.full((2, 2), 1.38e9)),
-        "stress_region": (dims[:2], np.array([["x < 0.197 m"] * 2, ["whole blade", ""]], dtype=object)),
-        "max_von_mises_history": ((*dims[:2], "history_speed", "revolution"), history),
-    }
-    orders = np.arange(0.0, 4.001, 0.01)
-    modes = {"blade": BLADES, "mode": ["1B", "1T"], "speed": np.linspace(0.0, 2000.0, 5), "engine_order": [1, 2, 3]}
-    campbell = {
-        "frequency": (("blade", "mode", "speed"), generator.uniform(500.0, 3000.0, (2, 2, 5))),
-        "crossing_speed": (("blade", "mode", "engine_order"), np.array([[[np.nan, 1500.0, 800.0]] * 2] * 2)),
-    }
-    return {
-        "rms": xr.Dataset(rms, axes | tip, {"fidelity": "draft"}),
-        "campbell": xr.Dataset(campbell, modes),
-        "stress": xr.Dataset(stress, axes | {"history_speed": [1000.25], "revolution": np.arange(1, 5)}),
-        "spectrum": xr.Dataset({"amplitude": ((*dims, "engine_order"), over(len(orders)))}, axes | {"engine_order": orders}),
-        # only one scene has a lining
-        "wear": xr.Dataset(
-            {
-                "wear": ((*dims, "angle"), over(360)[:, :1]),
-                "max_wear": (dims, over()[:, :1]),
-            },
-            axes | {"scene": ["abradable"], "angle": np.radians(np.arange(360))},
-        ),
-    }
+    return sweep()
 
 
 @pytest.fixture(scope="module")
 def interactions():
-    row = {
-        "blade": "Ref",
-        "scene": "abradable",
-        "mode": "1B",
-        "engine_order": 4,
-        "peak_speed_rad_s": 1200.0,
-        "status": "completed",
-    }
-    other = row | {"scene": "direct", "mode": None, "engine_order": 2, "peak_speed_rad_s": 1000.25, "max_von_mises_pa": np.nan}
-    return pd.DataFrame([row, other])
+    return interaction_rows()
 
 
 MEMBERS = 66
@@ -153,7 +97,7 @@ def test_thinning_keeps_the_largest():
 
 
 def test_contents_are_those_of_the_datasets(datasets, interactions):
-    contents = explorer_contents(datasets, interactions)
+    contents = explorer_contents(datasets, interactions, benchmark_scenes=["abradable"])
     curves = {curve["name"]: curve for curve in contents["curves"]}
     rms = datasets["rms"]["rms_normal"].sel(tip_point="leading_edge")
     np.testing.assert_allclose(unpacked(curves["rms_normal"]["values"]), 1e3 * rms, rtol=1e-6)
@@ -166,7 +110,7 @@ def test_contents_are_those_of_the_datasets(datasets, interactions):
     np.testing.assert_array_equal(unpacked(contents["speeds"]), SPEEDS)
     largest = datasets["spectrum"]["amplitude"].sel(engine_order=slice(1.95, 2.045)).max("engine_order")
     np.testing.assert_allclose(unpacked(contents["spectrum"]["values"])[..., 20], 1e3 * largest, rtol=1e-4)
-    assert [one["engine_order"] for one in contents["published"]] == [4, 5, 6, 7]
+    assert [one["interaction"] for one in contents["published"]] == ["1B/4", "1B/5", "1B/6", "1B/7"]
     assert contents["interactions"][1]["mode"] is None
 
 
@@ -223,7 +167,8 @@ def page(request, datasets, interactions, tolerances, ranged, tmp_path_factory):
     file = tmp_path_factory.mktemp("explorer") / "explorer.html"
     members = getattr(request, "param", "") == "members"
     given = (datasets | {"tolerances": tolerances}, ranged) if members else (datasets, interactions)
-    write_page(explorer_contents(*given, [("Ref", "abradable")]), "r37 <trial>", file)
+    contents = explorer_contents(*given, [("Ref", "abradable")], benchmark_scenes=["abradable"])
+    write_page(contents, "r37 <trial>", file)
     with opened(file, viewport={"width": 1500, "height": 1400}) as page:
         page.wait_for_selector("html[data-ready]", timeout=60_000)
         yield page
@@ -271,6 +216,10 @@ def test_the_page_loads_without_an_error(page):
     assert page.problems == []
     assert page.title() == "r37 <trial>"
     assert page.locator(".js-plotly-plot").count() == 5
+    assert page.is_visible("#stress")
+    assert page.locator("#interactions tbody tr").count() == 1
+    assert page.is_hidden("#ranking")
+    page.check("#every")
     assert page.locator("#interactions tbody tr").count() == 2
     links = page.locator("#interactions a")
     assert [link.get_attribute("href") for link in links.all()] == ["shapes/Ref.html#scene=abradable&speed=1200"]
@@ -312,7 +261,8 @@ def test_choices_change_what_is_drawn(page, datasets):
     assert [one["name"] for one in traces(page, "response")] == BLADES
     assert page.locator("#wear .js-plotly-plot, #wear.js-plotly-plot").count() == 1
     page.select_option("#scene", "direct")
-    assert page.inner_text("section.folded:has(#wear)") == "Wear: not computed for L<50> in direct."
+    assert page.is_hidden("section:has(> #wear)")
+    assert page.inner_text("#missing").startswith("Not computed for L<50> in direct: Wear, Stress of every revolution.")
     page.select_option("#scene", "abradable")
     assert page.locator("#wear.js-plotly-plot").count() == 1
     # drawn anew, it is still listened to
@@ -331,17 +281,6 @@ def test_it_opens_at_the_strongest_interaction(page, datasets, interactions, tmp
         assert other.text_content("#now").startswith(f"L<50>, abradable, {speed}")
 
 
-@contextmanager
-def beside(page, contents, file, size=(1500, 1400), place="", **more):
-    """Another page in the browser of a page."""
-    write_page(contents, "r37", file)
-    other = page.context.browser.new_page(viewport={"width": size[0], "height": size[1]}, **more)
-    other.goto(file.as_uri() + place)
-    other.wait_for_selector("html[data-ready]", timeout=60_000)
-    yield other
-    other.close()
-
-
 @pytest.mark.slow
 @pytest.mark.parametrize("width", [390, 1400])
 def test_it_fits_the_screen(page, datasets, tolerances, ranged, tmp_path, width):
@@ -356,11 +295,15 @@ def test_it_fits_the_screen(page, datasets, tolerances, ranged, tmp_path, width)
             assert buttons["x"] + buttons["width"] <= width, name
             titles = {button.get_attribute("data-title") for button in other.locator(f"#{name} .modebar-btn").all()}
             assert titles == {"Download plot as a PNG", "Zoom", "Pan", "Reset axes"}
-        folded = other.locator("section.folded")
-        assert folded.count() == 0
+        assert other.locator("main > section:visible").count() == 6
         other.select_option("#scene", "direct")
-        assert folded.locator("h2").all_text_contents() == ["Wear", "Stress of every revolution"]
-        assert all(one.bounding_box()["height"] < 100 for one in folded.all())
+        assert other.locator("main > section:visible h2").all_text_contents()[-1] == "Spectrum"
+        # what is there takes the room of what is not
+        plot, main = (other.locator(place).first for place in ("#spectrum .main-svg", "main"))
+        other.wait_for_function(
+            "place => document.querySelector(place).clientWidth > 0.9 * innerWidth", arg="#spectrum .main-svg"
+        )
+        assert plot.bounding_box()["width"] > 0.9 * main.bounding_box()["width"]
 
 
 @pytest.mark.slow
@@ -408,17 +351,19 @@ def test_stress_above_yield_is_marked_as_outside_the_linear_model(page, datasets
     outside = "above yield: outside the linear model"
     with beside(page, contents, tmp_path / "explorer.html", place="#speed=1000.25") as other:
         stress = 1e-6 * float(datasets["stress"]["max_von_mises"].sel(blade="Ref", scene="abradable", speed=1000.25))
-        assert other.text_content("#now").endswith(f"completed, stress of {stress:.5g} MPa {outside}")
+        assert other.text_content("#now").endswith(f"completed, stress at this speed {stress:.5g} MPa, {outside}")
         other.select_option("#quantity", "max_von_mises")
         assert other.text_content("#now").endswith(f"{stress:.5g} MPa, completed, {outside}")
         shapes = other.evaluate("document.getElementById('response').layout.shapes")
         across = [(one["name"], one["y0"]) for one in shapes if one["x1"] == 1]
         assert across == [("outside the linear model", 1), ("yield stress", 1)]
         rows = [line.locator("td").all_text_contents() for line in other.locator("#interactions tbody tr").all()]
-        assert ["500 *" in row for row in rows] == [True, False]
+        assert ["500 *" in row for row in rows] == [True]
         assert outside in other.text_content("#note")
         other.select_option("#scene", "direct")
         assert "yield" not in other.text_content("#now")
+        assert "500" in other.locator("#interactions tbody tr td").all_text_contents()
+        assert other.text_content("#note") == ""
 
 
 @pytest.mark.slow
@@ -442,7 +387,8 @@ def test_a_diverged_run_is_marked(page):
 
 @pytest.mark.slow
 def test_table_keys_and_clicks_move_the_speed(page):
-    choose(page, blade="L<50>".replace("<", "%3C").replace(">", "%3E"), scene="direct", speed="900", unit="rad/s", all="false")
+    lower = "L<50>".replace("<", "%3C").replace(">", "%3E")
+    choose(page, blade=lower, scene="direct", speed="900", unit="rad/s", all="false", every="true")
     page.click("#interactions tbody tr:nth-child(1)")
     assert page.text_content("#now").startswith("Ref, abradable, 1200 rad/s, 11459 rpm")
     assert "chosen" in page.get_attribute("#interactions tbody tr:nth-child(1)", "class")
@@ -554,11 +500,13 @@ def test_the_legend_hides_a_curve_with_its_band(page):
 @pytest.mark.slow
 @with_members
 def test_table_has_the_range_of_the_peak(page):
+    choose(page, blade="Ref", scene="abradable", quantity="rms_normal", speed="900", unit="rad/s", all="false", every="true")
     titles = page.locator("#interactions th").all_text_contents()
-    at = titles.index("5%")
-    assert titles[at - 1 : at + 4] == ["peak (rad/s)", "5%", "median", "95%", "members (%)"]
+    at = titles.index("peak speed, 5% (rad/s)")
+    ranges = [f"peak speed, {end} (rad/s)" for end in ("5%", "median", "95%")]
+    assert titles[at - 1 : at + 4] == ["peak speed (rad/s)", *ranges, "members (%)"]
     rows = [line.locator("td").all_text_contents() for line in page.locator("#interactions tbody tr").all()]
-    assert rows[0][at : at + 4] == ["1150", "1200.5", "1210", "75"]
+    assert rows[0][at : at + 4] == ["1150", "1200", "1210", "75"]
     assert rows[1][at : at + 4] == [""] * 4
 
 

@@ -143,6 +143,7 @@ rule explorer:
     params:
         title=f"r37 {settings.config.run.name or ''}".strip(),
         shapes=sweep.runs_with("shapes"),
+        benchmark_scenes=sweep.benchmark_scenes,
         parts=parts_hash(),
         code=code("explorer"),
     script:

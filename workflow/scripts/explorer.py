@@ -1,4 +1,7 @@
-"""One page to look at all results. Inputs: datasets, if there tolerances, summary. Params: title, shapes. Output: HTML."""
+"""One page to look at all results. Inputs: datasets, summary, ranking and, if there, tolerances. Output: HTML.
+
+Params: title, shapes, benchmark_scenes.
+"""
 
 from pathlib import Path
 
@@ -12,11 +15,12 @@ from r37core.results.table_file import read_table
 
 def main(snakemake):
     files = dict(snakemake.input.items())
-    interactions, _ranking = (read_table(files.pop(name)) for name in ("summary", "ranking"))
+    interactions, ranking = (read_table(files.pop(name)) for name in ("summary", "ranking"))
     datasets = {kind: read_dataset(file) for kind, file in files.items()}
     params, file = snakemake.params, Path(snakemake.output[0])
     in_report = {blade: str(snakemake.report_href(file.parent / f"shapes/{blade}.html")) for blade, _ in params.shapes}
-    write_page(explorer_contents(datasets, interactions, params.shapes, in_report), params.title, file)
+    contents = explorer_contents(datasets, interactions, params.shapes, in_report, params.benchmark_scenes, ranking)
+    write_page(contents, params.title, file)
 
 
 run(snakemake, main)

@@ -10,8 +10,11 @@ from r37core.io import atomic_write
 
 FOLDER = Path(__file__).parent
 
-PARTS = tuple(FOLDER / name for name in ("explorer.html", "explorer.css", "explorer.js"))
-"""What the page is put together from, beside its data and plotly: page, style, program."""
+PARTS = tuple(
+    FOLDER / name
+    for name in ("explorer.html", "explorer.css", "theme.js", "words.js", "ranking.js", "interactions.js", "explorer.js")
+)
+"""What the page is put together from, beside its data and plotly: page, style, and its program in the order it runs."""
 
 
 def parts_hash(parts: Sequence[Path] = PARTS) -> str:
@@ -20,11 +23,11 @@ def parts_hash(parts: Sequence[Path] = PARTS) -> str:
 
 
 def write_page(contents: object, title: str, file: Path | str, parts: Sequence[Path] = PARTS) -> None:
-    """Write the page made of `parts` (page, style, program) and its contents, by default the explorer, atomically."""
+    """Write the page made of `parts` (page, style, programs) and its contents, by default the explorer, atomically."""
     # heavy, and rules import this module for its parts
     from plotly.offline import get_plotlyjs
 
-    page, style, program = (part.read_text(encoding="utf-8") for part in parts)
+    page, style, *programs = (part.read_text(encoding="utf-8") for part in parts)
     # "<" would end the script that carries the data, if a name had it
     data = json.dumps(contents, allow_nan=False).replace("<", "\\u003c")
     for mark, text in (
@@ -32,7 +35,7 @@ def write_page(contents: object, title: str, file: Path | str, parts: Sequence[P
         ("style", style),
         ("plotly", get_plotlyjs()),
         ("data", data),
-        ("program", program),
+        ("program", "\n".join(programs)),
     ):
         page = page.replace(f"<!-- {mark} -->", text)
     with atomic_write(file) as partial:

@@ -5,26 +5,29 @@ from __future__ import annotations
 import base64
 import gzip
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import asdict
 
 import numpy as np
 import pandas as pd
 import xarray as xr
 
-from r37core.published import INTERACTIONS
 from r37core.results.variables import VARIABLES
 from r37core.time_integration.status import RunStatus
 from r37core.tolerances.table import as_ranges_bear
 
+from .page_tables import interaction_table, published_peaks, ranking_rows
+
 CURVES = (
-    ("rms", "rms_normal", "mm", 1e3),
-    ("rms", "rms_tangential", "mm", 1e3),
-    ("rms", "peak_normal", "mm", 1e3),
-    ("stress", "max_von_mises", "MPa", 1e-6),
-    ("wear", "max_wear", "mm", 1e3),
-    ("rms", "share_of_time_in_contact", "1", 1.0),
+    ("rms", "rms_normal"),
+    ("rms", "rms_tangential"),
+    ("rms", "peak_normal"),
+    ("stress", "max_von_mises"),
+    ("wear", "max_wear"),
+    ("rms", "share_of_time_in_contact"),
 )
-"""Dataset, variable, unit shown, and factor from SI to it; of the leading edge where a variable has tip points."""
+"""Dataset and variable; of the leading edge where a variable has tip points."""
+
+SHOWN = {"m": ("mm", 1e3), "Pa": ("MPa", 1e-6)}
+"""SI unit of a variable -> unit it is shown in, and factor to it; others are shown as they are."""
 
 MOST_SPEEDS = 400
 """Speeds of a map; beyond it neighbours are joined by their maximum. Curves keep every speed."""
@@ -42,14 +45,17 @@ def explorer_contents(
     interactions: pd.DataFrame,
     shapes: Iterable[Sequence[str]] = (),
     shapes_in_report: Mapping[str, str] | None = None,
+    benchmark_scenes: Sequence[str] = (),
+    ranking: pd.DataFrame | None = None,
 ) -> dict[str, object]:
     """All that the page needs. `datasets`: campbell, rms and, where computed, spectrum, stress, wear and tolerances.
 
     `shapes`: pairs of blade and scene whose interactions are shown in shapes/<blade>.html beside the page;
-    `shapes_in_report`: where that is in the archive of the report, by blade.
+    `shapes_in_report`: where that is in the archive of the report, by blade. `benchmark_scenes`: scenes that the published
+    peaks are of. `ranking`: the blades of each scene compared, as ranking.csv has them.
     Curves have every speed; maps are thinned, each cell the largest value of what it stands for.
     """
-    rms, campbell, shown = datasets["rms"], datasets["campbell"], as_ranges_bear(interactions)
+    rms, campbell = datasets["rms"], datasets["campbell"]
     blades, scenes = [str(name) for name in rms["blade"].values], [str(name) for name in rms["scene"].values]
     return {
         "about": {name: str(rms.attrs[name]) for name in ("r37core_version", "fidelity") if name in rms.attrs},
@@ -58,18 +64,17 @@ def explorer_contents(
         "speeds": packed(rms["speed"].values, 64),
         "status": packed(rms["status"].values),
         "campbell": _campbell(campbell.sel(blade=blades)),
-        "curves": [
-            _curve(_like(datasets[kind], rms), name, unit, factor) for kind, name, unit, factor in CURVES if kind in datasets
-        ],
+        "curves": [_curve(_like(datasets[kind], rms)[name]) for kind, name in CURVES if kind in datasets],
         "yield_stress": _yield_stress(datasets.get("stress"), rms),
         "stress_region": _stress_region(datasets.get("stress"), blades),
         "history": _history(datasets.get("stress"), rms),
         "spectrum": _spectrum(datasets.get("spectrum"), rms),
         "wear": _wear(datasets.get("wear"), rms),
-        "interactions": shown.astype(object).where(shown.notna(), None).to_dict("records"),
+        **interaction_table(as_ranges_bear(interactions), benchmark_scenes),
+        **ranking_rows(ranking),
         "shapes": [list(pair) for pair in shapes],
         "shapes_in_report": dict(shapes_in_report or {}),
-        "published": [asdict(one) for one in INTERACTIONS if one.blade in blades],
+        "published": published_peaks(blades, [scene for scene in scenes if scene in benchmark_scenes]),
         **({"tolerances": _tolerances(datasets["tolerances"])} if "tolerances" in datasets else {}),
     }
 
@@ -91,9 +96,16 @@ def _campbell(campbell: xr.Dataset) -> dict[str, object]:
     }
 
 
-def _curve(dataset: xr.Dataset, name: str, unit: str, factor: float) -> dict[str, object]:
-    values = dataset[name].transpose("blade", "scene", "speed").values
-    return {"name": name, "label": VARIABLES[name].long_name, "unit": unit, "values": packed(factor * values)}
+def _described(values: xr.DataArray) -> tuple[dict[str, object], float]:
+    """Name, label and shown unit of a variable, from its attributes, and the factor from SI to that unit."""
+    attributes = VARIABLES[str(values.name)].attributes | values.attrs
+    unit, factor = SHOWN.get(attributes["units"], (attributes["units"], 1.0))
+    return {"name": values.name, "label": attributes["long_name"], "unit": unit}, factor
+
+
+def _curve(variable: xr.DataArray) -> dict[str, object]:
+    about, factor = _described(variable)
+    return about | {"values": packed(factor * variable.transpose("blade", "scene", "speed").values)}
 
 
 def _yield_stress(stress: xr.Dataset | None, rms: xr.Dataset) -> dict[str, object] | None:
@@ -123,10 +135,13 @@ def _history(stress: xr.Dataset | None, rms: xr.Dataset) -> dict[str, object] | 
     }
 
 
-def _map(values: np.ndarray, across: np.ndarray, speeds: np.ndarray, other: np.ndarray) -> dict[str, object]:
-    """A map of values (blade, scene, speed, other), the last axis joined at `across`, the speeds if they are many."""
+def _map(variable: xr.DataArray, over: str, across: np.ndarray, other: np.ndarray) -> dict[str, object]:
+    """A map of a variable over speed and another axis, that one joined at `across`, the speeds if they are many."""
+    about, factor = _described(variable)
+    values = factor * variable.transpose("blade", "scene", "speed", over).values
+    speeds = variable["speed"].values
     along = stretches(len(speeds), MOST_SPEEDS)
-    return {
+    return about | {
         "speeds": packed(speeds[along], 64),
         "other": packed(other),
         "values": packed(rounded(joined(joined(values, 3, across), 2, along))),
@@ -138,8 +153,7 @@ def _spectrum(spectrum: xr.Dataset | None, rms: xr.Dataset) -> dict[str, object]
     if spectrum is None:
         return None
     starts = order_bins(spectrum["engine_order"].values)
-    values = _like(spectrum, rms)["amplitude"].transpose("blade", "scene", "speed", "engine_order").values
-    return _map(1e3 * values, starts, rms["speed"].values, ORDERS_PER_STEP * np.arange(len(starts)))
+    return _map(_like(spectrum, rms)["amplitude"], "engine_order", starts, ORDERS_PER_STEP * np.arange(len(starts)))
 
 
 def _wear(wear: xr.Dataset | None, rms: xr.Dataset) -> dict[str, object] | None:
@@ -147,8 +161,7 @@ def _wear(wear: xr.Dataset | None, rms: xr.Dataset) -> dict[str, object] | None:
     if wear is None:
         return None
     starts = stretches(wear.sizes["angle"], MOST_ANGLES)
-    values = _like(wear, rms)["wear"].transpose("blade", "scene", "speed", "angle").values
-    return _map(1e3 * values, starts, rms["speed"].values, np.degrees(wear["angle"].values[starts]))
+    return _map(_like(wear, rms)["wear"], "angle", starts, np.degrees(wear["angle"].values[starts]))
 
 
 def _tolerances(tolerances: xr.Dataset) -> dict[str, object]:
@@ -160,16 +173,13 @@ def _tolerances(tolerances: xr.Dataset) -> dict[str, object]:
         "members": members.values.tolist(),
         "numbers": tolerances["member"].values[:MOST_MEMBERS].tolist(),
         "speeds": packed(tolerances["speed"].values, 64),
-        "curves": {
-            name: _spread(tolerances, members["pair"], name, factor)
-            for _, name, _, factor in CURVES
-            if f"{name}_quantile" in tolerances
-        },
+        "curves": {name: _spread(tolerances, members["pair"], name) for _, name in CURVES if f"{name}_quantile" in tolerances},
     }
 
 
-def _spread(tolerances: xr.Dataset, pairs: xr.DataArray, name: str, factor: float) -> dict[str, object]:
+def _spread(tolerances: xr.Dataset, pairs: xr.DataArray, name: str) -> dict[str, object]:
     """Band (pair, quantile, speed) and members (pair, member, speed) of a curve; infinite: diverged, NaN: not run."""
+    factor = _described(tolerances[name])[1]
     kept = tolerances.isel(member=slice(MOST_MEMBERS))
     members = kept[name].where(kept["status"] != RunStatus.DIVERGED, np.inf)
     band = tolerances[f"{name}_quantile"].where((tolerances["status"] != RunStatus.DIVERGED).any("member"), np.inf)

@@ -1,4 +1,3 @@
-"use strict";
 (async () => {
   const data = JSON.parse(document.getElementById("data").textContent);
   // Okabe and Ito's colours, told apart with any colour vision; further blades repeat them with another marker
@@ -13,7 +12,7 @@
   const PLOTS = ["campbell", "response", "spectrum", "wear", "stress"];
   // plotly's own choice has a button that uploads; explorer.css puts the bar beside the heading
   const OPTIONS = {
-    responsive: true, displaylogo: false, displayModeBar: true, modeBarButtons: [["toImage", "zoom2d", "pan2d", "resetScale2d"]],
+    displaylogo: false, displayModeBar: true, modeBarButtons: [["toImage", "zoom2d", "pan2d", "resetScale2d"]],
   };
   // a finger that drags over a plot scrolls the page
   const DRAG = window.matchMedia("(pointer: coarse)").matches ? false : "zoom";
@@ -28,12 +27,15 @@
     const buffer = await new Response(whole).arrayBuffer();
     const values = array.bits === 64 ? new Float64Array(buffer) : new Float32Array(buffer);
     const { shape } = array;
-    // the last axis at the given places of those before it
+    // the axes after the given places of the first ones; asked for at every point of a curve, so each is made once
+    const rows = new Map();
     const row = (...place) => {
       let at = 0;
       place.forEach((index, axis) => { at = at * shape[axis] + index; });
       const length = shape.slice(place.length).reduce((product, size) => product * size, 1);
-      return Array.from(values.subarray(at * length, (at + 1) * length));
+      const key = `${at},${length}`;
+      if (!rows.has(key)) rows.set(key, Array.from(values.subarray(at * length, (at + 1) * length)));
+      return rows.get(key);
     };
     return { shape, values: Array.from(values), row };
   }
@@ -46,7 +48,7 @@
   const crossing = await unpack(campbell.crossing);
   const curves = await Promise.all(data.curves.map(async (curve) => ({ ...curve, values: await unpack(curve.values) })));
   const unpackMap = async (map) => map && {
-    speeds: (await unpack(map.speeds)).values, other: (await unpack(map.other)).values, values: await unpack(map.values),
+    ...map, speeds: (await unpack(map.speeds)).values, other: (await unpack(map.other)).values, values: await unpack(map.values),
   };
   const maps = { spectrum: await unpackMap(data.spectrum), wear: await unpackMap(data.wear) };
   const yieldStress = data.yield_stress && await unpack(data.yield_stress);
@@ -63,8 +65,8 @@
   const tolerances = data.tolerances && await unpackTolerances(data.tolerances);
 
   // and what they are where the address does not say
-  const SWITCHES = { all: false, ...(tolerances && { band: true, members: false }) };
-  const state = { blade: data.blades[0], scene: data.scenes[0], quantity: curves[0].name, speed: speeds[0], unit: "rad/s", ...SWITCHES };
+  const SWITCHES = { all: false, every: false, ...(tolerances && { band: true, members: false }) };
+  const state = { blade: data.blades[0], scene: data.scenes[0], quantity: curves[0].name, speed: speeds[0], unit: "rad/s", sort: "", ...SWITCHES };
 
   const bladeIndex = () => data.blades.indexOf(state.blade);
   const sceneIndex = () => data.scenes.indexOf(state.scene);
@@ -75,8 +77,17 @@
   const quantityText = (value, unit) => (unit === "1" ? digits(value) : `${digits(value)} ${unit}`);
   const speedText = (speed) => `${digits(speed)} rad/s, ${digits(speed * RPM)} rpm`;
   const ran = (blade, scene) => speeds.map((_, at) => at).filter((at) => status.row(blade, scene)[at] !== 2);
-  const axis = (title, more = {}) => ({ title: { text: title }, zeroline: false, ...more });
+  const axis = (title, more = {}) => ({ ...theme.axis(), title: { text: title }, zeroline: false, ...more });
   const speedAxis = () => axis(`speed (${state.unit})`, { range: shown([speeds[0], speeds[speeds.length - 1]]) });
+
+  // a quantity's long name with its unit; on an axis in lines that are short enough for it
+  const labelText = ({ label, unit }) => (unit === "1" ? label : `${label} (${unit})`);
+  const broken = (text) => text.replace(/(.{1,36})(?: |$)/g, "$1<br>").slice(0, -"<br>".length);
+  // black is not seen in the dark
+  const colourOf = (number) => {
+    const colour = COLOURS[number % COLOURS.length];
+    return colour === "#000000" && theme.dark() ? theme.colour("text") : colour;
+  };
 
   const modeText = (mode) => (/^\d+$/.test(mode) ? `mode ${mode}` : mode);
 
@@ -88,7 +99,7 @@
     const curve = curves.find((one) => one.name === "max_von_mises");
     const stress = curve?.values.row(blade, scene)[at];
     if (!aboveYield(stress, blade, scene)) return "";
-    return curve === shownCurve ? `<br>${OUTSIDE}` : `<br>stress of ${digits(stress)} MPa ${OUTSIDE}`;
+    return curve === shownCurve ? `<br>${OUTSIDE}` : `<br>stress at this speed ${digits(stress)} MPa, ${OUTSIDE}`;
   }
 
   // name of a curve -> what one of its points says
@@ -102,9 +113,9 @@
   function layout(x, y, more = {}) {
     const cursor = state.speed * factor();
     return {
-      margin: { l: 60, r: 15, t: 10, b: 45 }, hovermode: "closest", dragmode: DRAG, xaxis: x, yaxis: y, showlegend: true,
+      ...theme.layout(), margin: { l: 60, r: 15, t: 10, b: 45 }, hovermode: "closest", dragmode: DRAG, xaxis: x, yaxis: y, showlegend: true,
       legend: { orientation: "h", y: 1.02, yanchor: "bottom", font: { size: 11 } }, uirevision: state.unit,
-      shapes: [{ type: "line", x0: cursor, x1: cursor, yref: "paper", y0: 0, y1: 1, line: { color: "#444", width: 1, dash: "dot" } }],
+      shapes: [{ type: "line", x0: cursor, x1: cursor, yref: "paper", y0: 0, y1: 1, line: { color: theme.colour("muted"), width: 1, dash: "dot" }}],
       ...more,
     };
   }
@@ -128,11 +139,11 @@
     const top = 1.05 * traces.flatMap(({ y }) => y).filter(Number.isFinite).reduce((most, value) => Math.max(most, value), lowest);
     plan.yaxis.range = [0, top];
     plan.shapes.push({
-      ...across, type: "rect", y0: lowest, y1: top, line: { width: 0 }, fillcolor: "#B00020", opacity: 0.1, name: "outside the linear model",
+      ...across, type: "rect", y0: lowest, y1: top, line: { width: 0 }, fillcolor: theme.colour("warning"), opacity: 0.12, name: "outside the linear model",
     });
     [...bladesOf].forEach(([limit, names], number) => {
       plan.shapes.push({
-        ...across, type: "line", y0: limit, y1: limit, line: { color: "#444", width: 1.5, dash: "dash" }, name: "yield stress",
+        ...across, type: "line", y0: limit, y1: limit, line: { color: theme.colour("muted"), width: 1.5, dash: "dash" }, name: "yield stress",
         showlegend: number === 0,
       });
       if (bladesOf.size > 1) {
@@ -143,40 +154,59 @@
     });
   }
 
-  // where the paper has the peaks of the blade
+  // where the paper has the peaks of the blade, in the scene that they are of
   function markPublished(plan) {
-    data.published.filter((one) => one.blade === state.blade).forEach((one, number) => {
-      const x = one.peak * factor();
+    const here = data.published.filter((one) => one.blade === state.blade && one.scene === state.scene);
+    here.forEach((one, number) => {
+      const x = one.speed * factor();
       plan.shapes.push({
-        type: "line", x0: x, x1: x, yref: "paper", y0: 0, y1: 1, line: { color: "#777", width: 1, dash: "longdash" }, layer: "below",
-        name: "published peak", showlegend: number === 0,
+        type: "line", x0: x, x1: x, yref: "paper", y0: 0, y1: 1, layer: "below", name: `published peak, ${one.scene}`, showlegend: number === 0,
+        line: { color: theme.colour("muted"), width: 1, dash: "longdash" },
       });
       (plan.annotations ||= []).push({
-        x, y: 1, yref: "paper", yanchor: "bottom", showarrow: false, font: { size: 10 }, text: `1B/${one.engine_order}`,
+        x, y: 1, yref: "paper", yanchor: "bottom", showarrow: false, font: { size: 10 }, text: one.interaction,
       });
       // above the names
       plan.legend.y = 1.08;
     });
   }
 
-  // `empty`: what the folded panel says without traces; `clicks`: whether a click goes to the speed under it
-  function draw(name, traces, plan, { empty = `not computed for ${state.blade} in ${state.scene}.`, clicks = true } = {}) {
+  // panels that have nothing to show are hidden, and named in one line below the others
+  const missing = new Set();
+  const fitted = new ResizeObserver((entries) => entries.forEach(({ target }) => {
+    if (!target.clientWidth || target.dataset.width === String(target.clientWidth)) return;
+    target.dataset.width = target.clientWidth;
+    Plotly.Plots.resize(target);
+  }));
+
+  // `clicks`: whether a click goes to the speed under it
+  function draw(name, traces, plan, clicks = true) {
     const place = document.getElementById(name);
-    place.parentElement.classList.toggle("folded", traces.length === 0);
+    place.parentElement.hidden = traces.length === 0;
     if (traces.length === 0) {
-      if (place.classList.contains("js-plotly-plot")) {
-        Plotly.purge(place);
-        delete place.dataset.listens;
-      }
-      place.textContent = `: ${empty}`;
+      missing.add(name);
+      fitted.unobserve(place);
+      if (place.classList.contains("js-plotly-plot")) Plotly.purge(place);
+      delete place.dataset.listens;
       return;
     }
-    if (!place.classList.contains("js-plotly-plot")) place.innerHTML = "";
+    missing.delete(name);
+    place.dataset.width = place.clientWidth;
     Plotly.react(place, traces, plan, OPTIONS);
+    fitted.observe(place);
     if (clicks && !place.dataset.listens) {
       place.dataset.listens = "yes";
       place.on("plotly_click", (event) => { const { x } = event.points[0]; set({ speed: x / factor() }); });
     }
+  }
+
+  function drawMissing() {
+    const titles = PLOTS.filter((name) => missing.has(name))
+      .map((name) => document.getElementById(name).parentElement.querySelector("h2").textContent);
+    const history = missing.has("stress")
+      ? " For the stress of every revolution name speeds in the scene's stress_history_speeds_rad_s." : "";
+    document.getElementById("missing").textContent = titles.length
+      ? `Not computed for ${state.blade} in ${state.scene}: ${titles.join(", ")}.${history}` : "";
   }
 
   function drawCampbell() {
@@ -184,7 +214,7 @@
     const top = Math.max(...frequency.row(blade, Math.min(5, campbell.modes.length - 1)).filter(Number.isFinite)) * 1.05;
     const last = campbellSpeeds[campbellSpeeds.length - 1];
     const orders = {
-      x: [], y: [], text: [], mode: "lines", line: { color: "#bbb", width: 1 }, hoverinfo: "text", showlegend: false,
+      x: [], y: [], text: [], mode: "lines", line: { color: theme.colour("lines"), width: 1 }, hoverinfo: "text", showlegend: false,
     };
     campbell.orders.forEach((order) => {
       orders.x.push(...shown([0, last]), null);
@@ -201,7 +231,7 @@
   function modeTraces(blade, number) {
     const mode = campbell.modes[number];
     const look = { name: modeText(mode), legendgroup: mode, hoverinfo: "text" };
-    const color = COLOURS[number % COLOURS.length];
+    const color = colourOf(number);
     const values = frequency.row(blade, number);
     const found = { ...look, x: [], y: [], text: [], mode: "markers", marker: { color, size: 6 }, showlegend: false };
     crossing.row(blade, number).forEach((speed, at) => {
@@ -297,7 +327,7 @@
       if (!places.some((at) => Number.isFinite(values[at]))) return;
       const rank = state.all ? blade : number;
       const name = state.all ? data.blades[blade] : data.scenes[number];
-      const colour = COLOURS[rank % COLOURS.length];
+      const colour = colourOf(rank);
       // a click on the legend hides a curve with its band and members, and for plotly each stays itself when others come and go
       const together = { legendgroup: name, uid: `curve-${rank}` };
       below.push(...spreadTraces(curve, blade, number, { ...together, colour }));
@@ -317,7 +347,7 @@
         });
       }
     }));
-    const plan = layout(speedAxis(), axis(state.quantity.replaceAll("_", " ") + (curve.unit === "1" ? "" : ` (${curve.unit})`)));
+    const plan = layout(speedAxis(), axis(broken(labelText(curve)), { automargin: true, title: { text: broken(labelText(curve)), font: { size: 12 } } }));
     markPublished(plan);
     if (state.quantity === "max_von_mises" && yieldStress) markStress(plan, [...below, ...traces], blades, scene);
     draw("response", [...below, ...traces], plan);
@@ -369,29 +399,14 @@
         const near = Math.abs(speed - state.speed) < 1e-6 * speed;
         traces.push({
           x: values.map((_, at) => at + 1), y: values, name: `${digits(speed)} rad/s`, mode: "lines", hoverinfo: "text",
-          line: { color: COLOURS[number % COLOURS.length], width: near ? 3 : 1.2, dash: DASHES[Math.floor(number / 7) % 4] },
+          line: { color: colourOf(number), width: near ? 3 : 1.2, dash: DASHES[Math.floor(number / 7) % 4] },
           text: values.map((value, at) => `${speedText(speed)}<br>revolution ${at + 1}<br>${digits(value)} MPa`),
         });
       });
     }
     if (traces.length) markStress(plan, traces, [here[0]], here[1]);
-    const empty = `none for ${state.blade} in ${state.scene}: name speeds in the scene's stress_history_speeds_rad_s.`
-      + " The quantity max_von_mises has the stress over speed.";
-    draw("stress", traces, plan, { empty, clicks: false });
+    draw("stress", traces, plan, false);
   }
-
-  // of the members, where there are some
-  const RANGE_COLUMNS = [
-    ["peak_speed_rad_s_low", "5%"], ["peak_speed_rad_s_median", "median"], ["peak_speed_rad_s_high", "95%"],
-    ["share_of_members", "members (%)", 100],
-  ].filter(([name]) => data.interactions.some((row) => name in row));
-  const COLUMNS = [
-    ["blade", "blade"], ["scene", "scene"], ["mode", "mode"], ["engine_order", "order"], ["campbell_speed_rad_s", "Campbell (rad/s)"],
-    ["direction", "direction"], ["peak_speed_rad_s", "peak (rad/s)"], ...RANGE_COLUMNS, ["published", "published"], ["shift_rad_s", "shift"], ["peak_rms_normal_m", "rms (mm)", 1e3],
-    ["drop", "drop"], ["width_above_yield_rad_s", "above yield (rad/s)"], ["share_above_yield", "share of it"],
-    ["max_von_mises_pa", "stress (MPa)", 1e-6],
-    ["max_wear_m", "wear (mm)", 1e3], ["status", "status"],
-  ];
 
   // to the worst instant of an interaction, in the page of its blade, where that was made
   function shapeLink({ blade, scene, peak_speed_rad_s: speed, status: ended }) {
@@ -404,60 +419,83 @@
     return [link];
   }
 
+  const STRESSES = ["max_von_mises_pa", "median_von_mises_pa"];
+  const outside = (row, name) => aboveYield(1e-6 * row[name], data.blades.indexOf(row.blade), data.scenes.indexOf(row.scene));
+  // a cell of a table: in the unit that its head has
+  function valueText(row, { name, unit, factor: toUnit }) {
+    const value = row[name] ?? "";
+    if (typeof value !== "number") return String(value);
+    return digits(value * (unit === "rad/s" ? factor() : toUnit), name.includes("speed") ? 5 : 4);
+  }
+  const page = {
+    state, set, valueText, mark: (row, { name }) => (STRESSES.includes(name) && outside(row, name) ? " *" : ""),
+    link: data.shapes.length ? shapeLink : null,
+  };
+
   function drawTable() {
-    const place = document.getElementById("interactions");
-    if (data.interactions.length === 0) { place.innerHTML = '<p class="empty">None found.</p>'; return; }
-    const outside = ({ blade, scene, max_von_mises_pa: stress }) => aboveYield(
-      1e-6 * stress, data.blades.indexOf(blade), data.scenes.indexOf(scene),
-    );
-    const cell = (row, [name, , scale]) => {
-      const value = row[name];
-      if (value === null || value === undefined) return "";
-      const text = typeof value === "number" ? digits(scale ? value * scale : value, name.includes("speed") ? 5 : 4) : value;
-      return name === "max_von_mises_pa" && outside(row) ? `${text} *` : text;
-    };
-    const table = document.createElement("table");
-    const titles = [...COLUMNS.map(([, title]) => title), ...(data.shapes.length ? ["shape"] : [])];
-    table.innerHTML = `<thead><tr>${titles.map((title) => `<th scope="col">${title}</th>`).join("")}</tr></thead>`;
-    const body = table.createTBody();
-    data.interactions.forEach((row) => {
-      const known = data.published.find((one) => one.blade === row.blade && row.mode === "1B" && one.engine_order === row.engine_order);
-      const line = body.insertRow();
-      line.tabIndex = 0;
-      line.classList.toggle("chosen", row.blade === state.blade && row.scene === state.scene && row.peak_speed_rad_s === state.speed);
-      COLUMNS.forEach((column) => { line.insertCell().textContent = cell({ ...row, published: known ? known.peak : null }, column); });
-      if (data.shapes.length) line.insertCell().append(...shapeLink(row));
-      const go = () => set({ blade: row.blade, scene: row.scene, speed: row.peak_speed_rad_s });
-      line.addEventListener("click", go);
-      line.addEventListener("keydown", (event) => { if (event.key === "Enter") go(); });
-    });
-    place.replaceChildren(table);
-    document.getElementById("note").textContent = data.interactions.some(outside) ? `* ${OUTSIDE}, a flag and no prediction` : "";
-    // the chosen interaction, else the first of the chosen blade
-    const ofBlade = data.interactions.findIndex((row) => row.blade === state.blade);
-    const chosen = table.querySelector(".chosen") ?? table.tBodies[0].rows[ofBlade];
-    const above = chosen ? chosen.offsetTop - place.scrollTop : 0;
-    if (above < 0 || above + 2 * chosen?.offsetHeight > place.clientHeight) place.scrollTop = chosen.offsetTop - place.clientHeight / 2;
+    const rows = drawInteractions(data, page);
+    document.getElementById("note").textContent = rows.some((row) => STRESSES.some((name) => outside(row, name))) ? `* ${OUTSIDE}, a flag and no prediction` : "";
   }
 
-  function drawAll() {
-    drawCampbell();
-    drawResponse();
-    drawMap("spectrum", {
-      title: "engine order", unit: "dB below the largest at that speed", say: sayAmplitude, colorscale: MAGMA, scaled: decibels,
-    });
-    drawMap("wear", { title: "angle (degrees)", unit: "mm", say: sayWear, colorscale: "Viridis" });
-    drawStress();
-    drawTable();
+  // the stress of the chosen interaction, which is not that of its peak speed alone
+  function interactionText() {
+    const chosen = data.interactions.find(
+      (row) => row.blade === state.blade && row.scene === state.scene && row.peak_speed_rad_s === state.speed,
+    );
+    const { max_von_mises_pa: stress, max_von_mises_speed_rad_s: speed } = chosen ?? {};
+    if (!Number.isFinite(stress) || !Number.isFinite(speed) || speed === state.speed) return "";
+    return `; interaction ${chosen.interaction}: largest stress ${digits(1e-6 * stress)} MPa at ${speedText(speed)}`;
+  }
+
+  function drawNow() {
     const curve = curves.find((one) => one.name === state.quantity);
-    const at = nearest(state.speed);
-    document.getElementById("now").textContent = pointText(curve, bladeIndex(), sceneIndex(), at).replaceAll("<br>", ", ");
+    const text = pointText(curve, bladeIndex(), sceneIndex(), nearest(state.speed)).replaceAll("<br>", ", ");
+    document.getElementById("now").textContent = text + interactionText();
     for (const name of ["blade", "scene", "quantity", "unit"]) document.getElementById(name).value = state[name];
     document.getElementById("speed").value = digits(state.speed * factor());
     for (const name of Object.keys(SWITCHES)) document.getElementById(name).checked = state[name];
     for (const name of ["band", "members"]) document.getElementById(name).disabled = !tolerances?.curves[state.quantity];
-    const words = new URLSearchParams(Object.entries(state).map(([name, value]) => [name, String(value)]));
-    window.history.replaceState(null, "", `#${words}`);
+    const told = new URLSearchParams(Object.entries(state).map(([name, value]) => [name, String(value)]));
+    window.history.replaceState(null, "", `#${told}`);
+  }
+
+  // a plot, and what of the state it shows beside the cursor
+  const DRAWINGS = {
+    campbell: [drawCampbell, ["blade", "unit"]],
+    response: [drawResponse, ["blade", "scene", "quantity", "unit", "all", "band", "members"]],
+    spectrum: [() => drawMap("spectrum", {
+      title: "engine order", unit: "dB below the largest at that speed", say: sayAmplitude, colorscale: MAGMA, scaled: decibels,
+    }), ["blade", "scene", "unit"]],
+    wear: [() => drawMap("wear", { title: "angle (degrees)", unit: maps.wear && broken(labelText(maps.wear)), say: sayWear, colorscale: "Viridis" }),
+      ["blade", "scene", "unit"]],
+    stress: [drawStress, ["blade", "scene", "speed"]],
+  };
+  const drawn = {};
+
+  // plotly draws all anew where it is told of another place, and the line alone where only its opacity is asked for
+  function moveCursor(name) {
+    const [cursor] = (!missing.has(name) && document.getElementById(name).layout.shapes) || [];
+    const x = state.speed * factor();
+    if (!cursor || cursor.x0 === x) return;
+    Object.assign(cursor, { x0: x, x1: x });
+    Plotly.relayout(name, { "shapes[0].opacity": 1 });
+  }
+
+  // only what is another: a step in speed moves the cursors
+  function drawAll() {
+    for (const [name, [drawIt, of]] of Object.entries(DRAWINGS)) {
+      const wanted = JSON.stringify([theme.dark(), ...of.map((one) => state[one])]);
+      if (drawn[name] === wanted) {
+        moveCursor(name);
+      } else {
+        drawn[name] = wanted;
+        drawIt();
+      }
+    }
+    drawMissing();
+    drawRanking(data, page);
+    drawTable();
+    drawNow();
   }
 
   // the speed that ran nearest to a wanted one
@@ -483,14 +521,16 @@
     b: () => set({ blade: next(data.blades, state.blade, 1) }), B: () => set({ blade: next(data.blades, state.blade, -1) }),
     s: () => set({ scene: next(data.scenes, state.scene, 1) }), u: () => set({ unit: state.unit === "rpm" ? "rad/s" : "rpm" }),
     q: () => set({ quantity: next(curves.map((one) => one.name), state.quantity, 1) }), a: () => set({ all: !state.all }),
+    i: () => set({ every: !state.every }),
     ...(tolerances && { t: () => set({ band: !state.band }), m: () => set({ members: !state.members }) }),
   };
 
   function listen() {
-    const options = { blade: data.blades, scene: data.scenes, quantity: curves.map((one) => one.name) };
-    for (const [name, values] of Object.entries(options)) {
-      document.getElementById(name).replaceChildren(...values.map((value) => new Option(value)));
-    }
+    const same = (names) => names.map((name) => new Option(name));
+    const options = {
+      blade: same(data.blades), scene: same(data.scenes), quantity: curves.map((one) => new Option(labelText(one), one.name)),
+    };
+    for (const [name, values] of Object.entries(options)) document.getElementById(name).replaceChildren(...values);
     for (const name of ["blade", "scene", "quantity", "unit"]) {
       document.getElementById(name).addEventListener("change", (event) => set({ [name]: event.target.value }));
     }
@@ -508,6 +548,7 @@
       if (KEYS[event.key] && !typing && !event.ctrlKey && !event.metaKey && !event.altKey) { event.preventDefault(); KEYS[event.key](); }
     });
     window.addEventListener("hashchange", () => set(fromAddress()));
+    theme.onChange(drawAll);
   }
 
   // the interaction with the largest stress, or motion where there is no stress: what the page opens at
@@ -522,14 +563,15 @@
 
   // what the address asks for, as far as the data have it
   function fromAddress() {
-    const words = Object.fromEntries(new URLSearchParams(window.location.hash.slice(1)));
+    const told = Object.fromEntries(new URLSearchParams(window.location.hash.slice(1)));
     const wanted = {};
-    if (data.blades.includes(words.blade)) wanted.blade = words.blade;
-    if (data.scenes.includes(words.scene)) wanted.scene = words.scene;
-    if (curves.some((one) => one.name === words.quantity)) wanted.quantity = words.quantity;
-    if (["rad/s", "rpm"].includes(words.unit)) wanted.unit = words.unit;
-    if (Number.isFinite(Number.parseFloat(words.speed))) wanted.speed = Number.parseFloat(words.speed);
-    for (const [name, usual] of Object.entries(SWITCHES)) wanted[name] = name in words ? words[name] === "true" : usual;
+    if (data.blades.includes(told.blade)) wanted.blade = told.blade;
+    if (data.scenes.includes(told.scene)) wanted.scene = told.scene;
+    if (curves.some((one) => one.name === told.quantity)) wanted.quantity = told.quantity;
+    if (["rad/s", "rpm"].includes(told.unit)) wanted.unit = told.unit;
+    if (Number.isFinite(Number.parseFloat(told.speed))) wanted.speed = Number.parseFloat(told.speed);
+    if (told.sort === "" || data.columns.some(({ name }) => name === told.sort?.replace(/^-/, ""))) wanted.sort = told.sort;
+    for (const [name, usual] of Object.entries(SWITCHES)) wanted[name] = name in told ? told[name] === "true" : usual;
     return wanted;
   }
 

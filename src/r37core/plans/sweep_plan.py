@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from r37core.config import Settings, si_fields
+from r37core.contact.benchmark import is_lined_benchmark
 from r37core.io import as_list, read_json, readable
 from r37core.plain import to_plain
 from r37core.speeds import SpeedPlan, exact_text
@@ -180,6 +181,11 @@ class Sweep:
         """Modes of the casing of each scene whose casing gives way, as plain values."""
         rings = {name: chosen.scene.casing.ring for name, chosen in self.settings.scenes.items()}
         return {name: to_plain(ring) for name, ring in rings.items() if ring}
+
+    @property
+    def benchmark_scenes(self) -> list[str]:
+        """Names of the scenes that are the benchmark's lined one: of these alone there are published peaks."""
+        return [name for name, chosen in self.settings.scenes.items() if is_lined_benchmark(chosen.scene)]
 
     def scenes_with(self, kind: str, blade: str) -> list[str]:
         """Scenes of a blade that have this kind of result."""

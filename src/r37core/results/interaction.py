@@ -23,22 +23,12 @@ class Interaction:
     contact_ranges), for a peak's crossing and one revolution's stress are chance there, and their columns are empty. `note`
     says why columns are.
 
-    `direction` in which the rms has its peak: normal, tangential or both. What is named peak is at the peak speed, what
-    is named max the largest within the interaction. `drop`: share of the motion lost within measures.DROP_WITHIN above
-    the peak. `first_yield_speed_rad_s`: first speed of the interaction above yield, NaN where none is.
-    `width_above_yield_rad_s`: from the first to the last speed of the interaction above yield; `share_above_yield`: how
-    much of it is. An interaction reaches, on both sides, to the lowest motion before the neighbouring peak, or to where
-    the motion stays below QUIET of its own peak for more than DROP_WITHIN: single speeds in between do not end it, for
-    near the end of a branch the motion is chaotic. `mode` is empty and the Campbell speed NaN for a peak that no
-    crossing of a named mode explains; NaN is also what a scene does not compute, and the drop of a motion that only
-    rises. `status` is diverged where any run of the interaction did.
-
-    What follows is of all revolutions in the last half of a run, and what ends in scatter the standard deviation by chance
-    of what stands before it (results.exceedance). `width_ever_above_yield_rad_s`: as width_above_yield, of any of these
-    revolutions. `possible_from_rad_s` and so on: speeds at which a twentieth, and a half, of them begin and end to be above
-    yield; `certain_length_rad_s` of all between that are. `median_von_mises_pa`, `high_von_mises_pa`: largest of the median
-    and the 90% quantile. `peak_motion_m`: rms in both directions together; `fall_speed_rad_s`: where it falls below
-    half of that above the peak.
+    glossary.INTERACTIONS says what each field is. What is named peak is at the peak speed, what is named max the largest
+    within the interaction. An interaction reaches, on both sides, to the lowest motion before the neighbouring peak, or to
+    where the motion stays below QUIET of its own peak for more than measures.DROP_WITHIN: single speeds in between do not
+    end it, for near the end of a branch the motion is chaotic. `mode` is empty and the Campbell speed NaN for a peak that no
+    crossing of a named mode explains; NaN is also what a scene does not compute. What ends in scatter is the standard
+    deviation by chance of what stands before it (results.exceedance).
     """
 
     mode: str

@@ -1,4 +1,3 @@
-"use strict";
 (() => {
   const { shapes, explorer_in_report: explorer } = JSON.parse(document.getElementById("data").textContent);
   // the archive of Snakemake's report has each page in a folder of its own, and no files beside it
@@ -59,9 +58,9 @@
     };
     const pad = 0.12 * (Math.max(...shape.points[0]) - Math.min(...shape.points[0]));
     const range = (axis) => [Math.min(...shape.points[axis]) - pad, Math.max(...shape.points[axis]) + pad];
-    const axis = (name, number) => ({ title: { text: name }, range: range(number), showspikes: false });
+    const axis = (name, number) => ({ ...theme.axis(), title: { text: name }, range: range(number), showspikes: false });
     const layout = {
-      margin: { l: 0, r: 0, t: 0, b: 0 }, uirevision: "blade",
+      ...theme.layout(), margin: { l: 0, r: 0, t: 0, b: 0 }, uirevision: "blade",
       scene: {
         xaxis: axis("x", 0), yaxis: axis("y", 1), zaxis: axis("z", 2), aspectmode: "data", uirevision: "blade",
         camera: { up: { x: 1, y: 0, z: 0 }, eye: { x: 0.6, y: -1.5, z: -0.5 } },
@@ -131,6 +130,7 @@
     if (KEYS[event.key] && !typing && !event.ctrlKey && !event.metaKey && !event.altKey) { event.preventDefault(); KEYS[event.key](); }
   });
   window.addEventListener("hashchange", () => choose(wanted()));
+  theme.onChange(() => draw().then(place));
   if (IN_REPORT) document.getElementById("explorer").href = encodeURI(explorer);
   play(state.playing);
   choose(wanted()).then(() => { document.documentElement.dataset.ready = "yes"; window.requestAnimationFrame(tick); });

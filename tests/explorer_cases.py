@@ -1,0 +1,86 @@
+"""What tests of the explorer show: a made-up sweep, its interactions, and pages beside one that is open."""
+
+from contextlib import contextmanager
+
+import numpy as np
+import pandas as pd
+import xarray as xr
+
+from r37core.explorer import write_page
+from r37core.time_integration.status import RunStatus
+
+SPEEDS = np.array([900.0, 1000.25, 1100.0, 1200.0, 1300.0])
+BLADES, SCENES = ["Ref", "L<50>"], ["abradable", "direct"]
+
+
+def sweep():
+    """Two blades in two scenes: one run has diverged, one was not asked for; only Ref in the lining has a history."""
+    generator = np.random.default_rng(2)
+    axes = {"blade": BLADES, "scene": SCENES, "speed": SPEEDS}
+    status = np.zeros((2, 2, 5), dtype="i1")
+    status[0, 1, 3], status[1, 0, 0] = RunStatus.DIVERGED, RunStatus.NOT_RUN
+    missing = status > 0
+
+    def over(*more):
+        values = generator.uniform(1e-4, 1e-3, (2, 2, 5, *more))
+        values[missing] = np.nan
+        return values
+
+    dims = ("blade", "scene", "speed")
+    tip = {"tip_point": ["leading_edge", "trailing_edge"]}
+    names = ("rms_normal", "rms_tangential", "peak_normal")
+    rms = {name: ((*dims, "tip_point"), over(2)) for name in names}
+    rms |= {"status": (dims, status), "share_of_time_in_contact": (dims, over())}
+    history = np.full((2, 2, 1, 4), np.nan)
+    history[0, 0, 0] = 1e8 * np.arange(1, 5)
+    stress = {
+        "max_von_mises": (dims, 1e12 * over()),
+        "yield_stress": (dims[:2], np.full((2, 2), 1.38e9)),
+        "stress_region": (dims[:2], np.array([["x < 0.197 m"] * 2, ["whole blade", ""]], dtype=object)),
+        "max_von_mises_history": ((*dims[:2], "history_speed", "revolution"), history),
+    }
+    orders = np.arange(0.0, 4.001, 0.01)
+    modes = {"blade": BLADES, "mode": ["1B", "1T"], "speed": np.linspace(0.0, 2000.0, 5), "engine_order": [1, 2, 3]}
+    campbell = {
+        "frequency": (("blade", "mode", "speed"), generator.uniform(500.0, 3000.0, (2, 2, 5))),
+        "crossing_speed": (("blade", "mode", "engine_order"), np.array([[[np.nan, 1500.0, 800.0]] * 2] * 2)),
+    }
+    return {
+        "rms": xr.Dataset(rms, axes | tip, {"fidelity": "draft"}),
+        "campbell": xr.Dataset(campbell, modes),
+        "stress": xr.Dataset(stress, axes | {"history_speed": [1000.25], "revolution": np.arange(1, 5)}),
+        "spectrum": xr.Dataset({"amplitude": ((*dims, "engine_order"), over(len(orders)))}, axes | {"engine_order": orders}),
+        # only one scene has a lining
+        "wear": xr.Dataset(
+            {
+                "wear": ((*dims, "angle"), over(360)[:, :1]),
+                "max_wear": (dims, over()[:, :1]),
+            },
+            axes | {"scene": ["abradable"], "angle": np.radians(np.arange(360))},
+        ),
+    }
+
+
+def interaction_rows():
+    """One explained by a crossing, in the lining, and one that none explains."""
+    row = {
+        "blade": "Ref",
+        "scene": "abradable",
+        "mode": "1B",
+        "engine_order": 4,
+        "peak_speed_rad_s": 1200.0,
+        "status": "completed",
+    }
+    other = row | {"scene": "direct", "mode": None, "engine_order": 2, "peak_speed_rad_s": 1000.25, "max_von_mises_pa": np.nan}
+    return pd.DataFrame([row, other])
+
+
+@contextmanager
+def beside(page, contents, file, size=(1500, 1400), place="", **more):
+    """Another page in the browser of a page."""
+    write_page(contents, "r37", file)
+    other = page.context.browser.new_page(viewport={"width": size[0], "height": size[1]}, **more)
+    other.goto(file.as_uri() + place)
+    other.wait_for_selector("html[data-ready]", timeout=60_000)
+    yield other
+    other.close()

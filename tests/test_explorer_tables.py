@@ -1,0 +1,282 @@
+"""The explorer's tables: interactions of what is chosen, their words, and which blade is the best; and light and dark."""
+
+from dataclasses import replace
+
+import numpy as np
+import pandas as pd
+import pytest
+import yaml
+from browser import opened
+from explorer_cases import beside, interaction_rows, sweep
+
+from r37core.config import read_settings
+from r37core.config.scenes import Scenes
+from r37core.contact.benchmark import LINED, is_lined_benchmark
+from r37core.explorer import write_page
+from r37core.explorer.contents import explorer_contents
+from r37core.plans.sweep_plan import Sweep
+from r37core.results import glossary
+from r37core.results.interaction import COLUMNS
+from r37core.results.ranking import ROBUSTNESS
+from r37core.tolerances.table import RANGES
+
+RANKING = pd.DataFrame(
+    [
+        # blade, scene, rank, certain, possible, low, high, stress, chance
+        ("Ref", "abradable", 2, 30.0, 60.0, 20.0, 45.0, 9e9, np.nan),
+        ("L<50>", "abradable", 1, 10.0, 20.0, 5.0, 12.0, 4e9, 0.75),
+        ("Ref", "direct", 1, 0.0, 100.0, np.nan, np.nan, 2e9, np.nan),
+        ("L<50>", "direct", 2, 50.0, 55.0, np.nan, np.nan, 3e9, 0.25),
+    ],
+    columns=[
+        "blade",
+        "scene",
+        "rank",
+        "length_certain_rad_s",
+        "length_possible_rad_s",
+        "length_certain_rad_s_low",
+        "length_certain_rad_s_high",
+        "largest_stress_pa",
+        "chance_better_than_Ref",
+    ],
+)
+
+
+@pytest.fixture(scope="module")
+def rows():
+    """Of Ref in the lining the benchmark's 1B/4, one whose largest stress is not at its peak, another; two elsewhere."""
+    first = interaction_rows().iloc[0].to_dict() | {"drop": 0.5, "max_von_mises_speed_rad_s": 1200.0, "max_von_mises_pa": 5e8}
+    other = first | {"mode": "1T", "engine_order": 12, "peak_speed_rad_s": 1000.25, "drop": np.nan, "max_von_mises_pa": 14e9}
+    third = first | {"mode": "1T", "engine_order": 9, "peak_speed_rad_s": 1300.0, "drop": 0.9}
+    direct = first | {"scene": "direct", "peak_speed_rad_s": 1100.0}
+    return pd.DataFrame([first, other, third, direct, first | {"blade": "L<50>"}])
+
+
+@pytest.fixture(scope="module")
+def page(rows, tmp_path_factory):
+    file = tmp_path_factory.mktemp("explorer") / "explorer.html"
+    write_page(explorer_contents(sweep(), rows, benchmark_scenes=["abradable"], ranking=RANKING), "r37", file)
+    with opened(file, viewport={"width": 1400, "height": 1000}) as page:
+        page.wait_for_selector("html[data-ready]", timeout=60_000)
+        yield page
+        assert page.problems == []
+
+
+@pytest.fixture
+def at_ref(page):
+    """The page with Ref in the lining, at a speed of no interaction."""
+    page.evaluate("location.hash = 'blade=Ref&scene=abradable&quantity=rms_normal&speed=900&unit=rad/s&sort='")
+    page.wait_for_function("document.getElementById('now').textContent.startsWith('Ref, abradable, 900 rad/s')")
+    return page
+
+
+def column(page, name):
+    return page.locator(f"#interactions tbody td.{name}").all_text_contents()
+
+
+def test_every_column_has_words(root):
+    """One glossary for the page, its tooltips and docs/results.md: `python -m r37core.results.glossary` renews that."""
+    named = [*COLUMNS, *RANGES, "share_of_members", "robust"]
+    assert [name for name in ROBUSTNESS if not glossary.word(name, glossary.RANKING)] == []
+    assert [name for name in named if not glossary.word(name, glossary.INTERACTIONS)] == []
+    text = (root / "docs/results.md").read_text()
+    assert glossary.table() in text
+    assert glossary.word("length_certain_rad_s_low", glossary.RANKING).title == "certainly above yield, 5%"
+    assert glossary.word("chance_better_than_L50", glossary.RANKING).title == "chance to be better than L50"
+    assert glossary.word("never_heard_of", glossary.RANKING) is None
+
+
+def test_the_benchmark_is_told_by_its_physics(root):
+    entries = Scenes.model_validate(yaml.safe_load((root / "config/scenes.yaml").read_text())).root
+    scenes = {name: entry.scene() for name, entry in entries.items()}
+    assert len(scenes) > 5
+    assert [name for name, scene in scenes.items() if is_lined_benchmark(scene)] == ["abradable"]
+    assert Sweep(read_settings(root)).benchmark_scenes == ["abradable"]
+    assert not is_lined_benchmark(replace(LINED, damping_ratio=1e-3))
+    assert is_lined_benchmark(replace(LINED, divergence_limit=0.05))
+
+
+def test_published_peaks_are_those_of_the_benchmark_alone(rows):
+    contents = explorer_contents(sweep(), rows, benchmark_scenes=["abradable"])
+    assert {(one["blade"], one["scene"]) for one in contents["published"]} == {("Ref", "abradable")}
+    assert [row["published_peak_speed_rad_s"] for row in contents["interactions"]] == [1717.0, None, None, None, None]
+    without = explorer_contents(sweep(), rows)
+    assert without["published"] == []
+    assert "published_peak_speed_rad_s" not in [one["name"] for one in without["columns"]]
+
+
+def test_contents_have_the_ranking(rows):
+    contents = explorer_contents(sweep(), rows, ranking=RANKING.assign(unheard_of=1.0))
+    assert contents["ranking"][0]["length_certain_rad_s"] == 30.0
+    assert contents["ranking"][2]["length_certain_rad_s_low"] is None
+    assert "unheard_of" not in [one["name"] for one in contents["ranking_columns"]]
+    assert explorer_contents(sweep(), rows)["ranking"] is None
+
+
+@pytest.mark.slow
+def test_published_peaks_are_drawn_in_the_scene_they_are_of(at_ref):
+    names = "[...document.getElementById('response').layout.shapes].map(one => one.name).filter(Boolean)"
+    assert at_ref.evaluate(names) == ["published peak, abradable"] * 4
+    assert column(at_ref, "published_peak_speed_rad_s") == ["1717", "", ""]
+    at_ref.select_option("#scene", "direct")
+    assert at_ref.evaluate(names) == []
+    assert at_ref.locator("#interactions td.published_peak_speed_rad_s:visible").count() == 0
+
+
+@pytest.mark.slow
+def test_the_table_has_the_rows_of_what_is_chosen(at_ref):
+    assert column(at_ref, "interaction") == ["1B/4", "1T/12", "1T/9"]
+    assert at_ref.text_content("#shown") == "3 of Ref in abradable"
+    at_ref.check("#all")
+    assert column(at_ref, "blade") == ["Ref"] * 3 + ["L<50>"]
+    at_ref.check("#every")
+    assert len(column(at_ref, "blade")) == 5
+    assert "every=true" in at_ref.url
+    at_ref.uncheck("#every")
+    at_ref.uncheck("#all")
+    at_ref.select_option("#blade", "L<50>")
+    at_ref.select_option("#scene", "direct")
+    assert at_ref.text_content("#shown") == "none of L<50> in direct"
+    assert at_ref.is_hidden("#interactions table")
+
+
+@pytest.mark.slow
+def test_a_click_on_a_head_sorts_and_says_what_it_is(at_ref):
+    """And Enter does; what has no number stays last."""
+    head = at_ref.locator("#interactions th.drop")
+    lost = head.locator("button")
+    assert lost.text_content() == "lost above the peak (%)"
+    assert lost.get_attribute("title").startswith("lost above the peak: share of the motion that is lost within 24 rad/s")
+    lost.click()
+    assert column(at_ref, "drop") == ["50", "90", ""]
+    assert head.get_attribute("aria-sort") == "ascending"
+    assert at_ref.locator("section:has(#interactions) .meaning").text_content() == lost.get_attribute("title")
+    lost.press("Enter")
+    assert column(at_ref, "drop") == ["90", "50", ""]
+    assert head.get_attribute("aria-sort") == "descending"
+    assert "sort=-drop" in at_ref.url
+    lost.press("Enter")
+    assert column(at_ref, "drop") == ["50", "", "90"]
+    at_ref.locator("#interactions th.interaction button").click()
+    assert column(at_ref, "interaction") == ["1B/4", "1T/9", "1T/12"]
+
+
+@pytest.mark.slow
+def test_the_two_stresses_have_their_names(at_ref, rows):
+    at_ref.click("#interactions tbody tr:has-text('1T/12')")
+    now = at_ref.text_content("#now")
+    assert now.startswith("Ref, abradable, 1000.3 rad/s")
+    assert now.endswith("; interaction 1T/12: largest stress 14000 MPa at 1200 rad/s, 11459 rpm")
+    assert "largest stress, last revolution (MPa)" in at_ref.locator("#interactions th").all_text_contents()
+    at_ref.click("#interactions tbody tr:has-text('1B/4')")
+    assert "interaction" not in at_ref.text_content("#now")
+
+
+@pytest.mark.slow
+def test_quantities_have_long_names_and_speeds_the_chosen_unit(at_ref):
+    options = at_ref.locator("#quantity option").all_text_contents()
+    assert "largest von Mises stress on the submesh in the last revolution (MPa)" in options
+    assert "share of the steps with a contact force" in options
+    at_ref.select_option("#unit", "rpm")
+    assert "peak speed (rpm)" in at_ref.locator("#interactions th").all_text_contents()
+    assert column(at_ref, "peak_speed_rad_s")[0] == "11459"
+    assert "certainly above yield (rpm)" in at_ref.text_content("#keys")
+
+
+@pytest.mark.slow
+def test_a_step_in_speed_moves_the_cursors(at_ref):
+    """Without drawing the plots anew."""
+    places = (
+        "['campbell', 'response', 'spectrum', 'wear'].map(name => "
+        "[...document.querySelectorAll(`#${name} .shapelayer path`)].map(path => path.getAttribute('d')))"
+    )
+    before = at_ref.evaluate(places)
+    at_ref.locator("h1").click()
+    at_ref.keyboard.press("ArrowRight")
+    at_ref.wait_for_function(f"before => {places}.every((of, at) => `${{of}}` !== `${{before[at]}}`)", arg=before)
+
+
+@pytest.mark.slow
+def test_which_blade(at_ref):
+    """By rank in the first scene; the lengths of the bars are those of the table, and a click goes to a blade and scene."""
+    assert at_ref.locator("#bars tbody th").all_text_contents() == ["L<50>", "Ref"]
+    lines = at_ref.locator("#bars tbody tr").nth(1)
+    assert lines.locator(".rank").all_text_contents() == ["2", "1"]
+    assert lines.locator(".numbers").all_text_contents() == ["30 / 60", "0 / 100"]
+    line, certain, possible, range_ = (
+        lines.locator(f"td:nth-of-type(1) .{name}").first.bounding_box() for name in ("bar", "certain", "possible", "range")
+    )
+    assert certain["width"] == pytest.approx(0.5 * line["width"], rel=0.02)
+    assert possible["width"] == pytest.approx(1.0 * line["width"], rel=0.02)
+    assert range_["x"] - line["x"] == pytest.approx(20 / 60 * line["width"], rel=0.02)
+    assert range_["width"] == pytest.approx(25 / 60 * line["width"], rel=0.02)
+    at_ref.click("#numbers-of")
+    numbers = [line.locator("th, td").all_text_contents() for line in at_ref.locator("#numbers tbody tr").all()]
+    assert ["largest median stress (MPa)", "9000", "2000"] in numbers
+    at_ref.locator("#bars tbody tr").nth(0).locator("td").nth(1).click()
+    assert at_ref.text_content("#now").startswith("L<50>, direct")
+    assert at_ref.text_content("#numbers-of") == "All numbers of L<50>"
+    numbers = [line.locator("th, td").all_text_contents() for line in at_ref.locator("#numbers tbody tr").all()]
+    assert ["chance to be better than Ref (%)", "75", "25"] in numbers
+    at_ref.locator("#bars button", has_text="Ref").press("Enter")
+    assert at_ref.text_content("#now").startswith("Ref, direct")
+    assert at_ref.locator("#bars tr.chosen td.here").count() == 1
+
+
+@pytest.mark.slow
+def test_a_ranking_without_some_columns(page, rows, tmp_path):
+    short = RANKING[["blade", "scene", "length_possible_rad_s"]]
+    with beside(page, explorer_contents(sweep(), rows, ranking=short), tmp_path / "explorer.html") as other:
+        assert other.locator("#bars .certain, #bars .rank").count() == 0
+        assert other.locator("#bars .possible").count() == 4
+        assert other.locator("#keys button").all_text_contents() == ["possibly above yield (rad/s)"]
+
+
+@pytest.mark.slow
+def test_a_finger_finds_all(page, rows, tmp_path):
+    """On a phone: nothing runs over the side, controls have room, a tap says what a column is, tables scroll in their box."""
+    contents = explorer_contents(sweep(), rows, benchmark_scenes=["abradable"], ranking=RANKING)
+    phone = {"is_mobile": True, "has_touch": True}
+    with beside(page, contents, tmp_path / "explorer.html", (390, 844), "#scene=abradable", **phone) as other:
+        assert other.evaluate("document.documentElement.scrollWidth") == 390
+        wanted = "#controls label:visible, #interactions th:visible button, #bars tbody th button, section > label, summary"
+        sizes = [one.bounding_box()["height"] for one in other.locator(wanted).all()]
+        assert len(sizes) > 10
+        assert min(sizes) >= 44
+        assert other.evaluate("(box => box.scrollWidth > box.clientWidth)(document.getElementById('interactions'))")
+        button = other.locator("#interactions th.drop button")
+        button.tap()
+        assert other.locator("section:has(#interactions) .meaning").text_content() == button.get_attribute("title")
+        first = other.locator("#interactions tbody tr:first-child td.interaction")
+        assert first.bounding_box()["x"] < 20
+        bars, numbers = (
+            other.locator(f"#bars tbody tr:first-child td:nth-of-type(1) .{name}").bounding_box()
+            for name in ("bars", "numbers")
+        )
+        assert bars["y"] + bars["height"] <= numbers["y"] + 1
+
+
+def brightness(colour):
+    """Relative luminance of rgb(...), 0 to 1."""
+    values = [int(value) / 255 for value in colour.removeprefix("rgb(").rstrip(")").split(",")[:3]]
+    linear = [value / 12.92 if value <= 0.04045 else ((value + 0.055) / 1.055) ** 2.4 for value in values]
+    return float(np.dot([0.2126, 0.7152, 0.0722], linear))
+
+
+@pytest.mark.slow
+def test_it_is_dark_where_that_is_preferred(page, rows, tmp_path):
+    """Page and plots, with contrast; and changes with the preference."""
+    contents = explorer_contents(sweep(), rows, ranking=RANKING)
+    with beside(page, contents, tmp_path / "explorer.html", color_scheme="dark") as other:
+        styles = "[...document.querySelectorAll(place)].map(one => getComputedStyle(one)[name])"
+
+        def of(place, name):
+            return [brightness(one) for one in other.evaluate(f"([place, name]) => {styles}", [place, name])]
+
+        backgrounds = of("html, header, thead th, .main-svg:first-child", "backgroundColor")
+        texts = of("#now, thead th, .word", "color") + of(".plot .xtick text, .plot .ytick text, .plot .g-ytitle text", "fill")
+        assert len(texts) > 20
+        assert (min(texts) + 0.05) / (max(backgrounds) + 0.05) > 4.5
+        other.emulate_media(color_scheme="light")
+        other.wait_for_function("document.getElementById('campbell').layout.paper_bgcolor === '#ffffff'")
+        assert min(of("html, .main-svg:first-child", "backgroundColor")) == pytest.approx(1.0)
