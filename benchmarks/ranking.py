@@ -66,7 +66,7 @@ LINED, DIRECT = (Way(scene) for scene in SCENES.values())
 PERTURBED, PATCHED = replace(DIRECT, friction=1.001), replace(DIRECT, patches=True, step=5.0)
 MEMBERS = tuple(
     Way(scene, step, patches=True, member=f"_{number}")
-    for scene, step in ((SCENES["direct"], 5.0), (SCENES["lined"], 2.0))
+    for scene, step in ((SCENES["direct"], 10.0), (SCENES["lined"], 4.0))
     for number in range(8)
 )
 WAYS = (DIRECT, LINED, PERTURBED, PATCHED, *MEMBERS)

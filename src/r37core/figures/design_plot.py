@@ -26,9 +26,6 @@ _DRAWN = (
     "largest_stress_pa",
 )
 
-_UNITS = {"(m)": ("(mm)", 1e3), "(Pa)": ("(GPa)", 1e-9)}
-"""Unit of a measure -> the one it is drawn in, and its factor."""
-
 
 def draw_designs(title: str, table: pd.DataFrame, varied: Sequence[str], blades: Sequence[str] | None = None) -> Figure:
     """What a family is chosen by, a line or points per scene: over the one key that varies, or over the designs by name.
@@ -39,11 +36,10 @@ def draw_designs(title: str, table: pd.DataFrame, varied: Sequence[str], blades:
         table = table[table["blade"].isin(blades)]
     figure, grid = plt.subplots(3, 3, figsize=(style.PAGE, 6.4), sharex=True)
     for axes, column in zip(grid.flat, _DRAWN, strict=True):
-        quantity, _, unit = MEASURES[column].rpartition(" ")
-        unit, scale = _UNITS.get(unit, (unit, 1.0))
+        word = MEASURES[column]
         for scene, rows in table.groupby("scene", sort=False):
-            _draw(axes, rows.assign(**{column: scale * rows[column]}), column, varied, str(scene))
-        axes.set_ylabel(f"{quantity} {unit}")
+            _draw(axes, rows.assign(**{column: word.factor * rows[column]}), column, varied, str(scene))
+        axes.set_ylabel(f"{word.title} ({word.unit})")
     # what does not depend on the scene is the same line twice
     figure.legend(*style.legend_entries([grid.flat[5]]), loc="outside lower center", ncols=4)
     for axes in grid[-1]:

@@ -11,18 +11,19 @@ import xarray as xr
 from r37core.rom.naming import FIRST_BENDING, FIRST_TORSION
 
 from .datasets import response_of
+from .glossary import RANKING, Word, word
 from .ranking import ROBUSTNESS, robustness
 
 MEASURES = {
-    "mass_kg": "mass (kg)",
-    "frequency_1b_hz": "1B at rest (Hz)",
-    "frequency_1t_hz": "1T at rest (Hz)",
-    "clearance_loss_1b_m": "largest loss of clearance, 1B (m)",
-    "clearance_loss_1t_m": "largest loss of clearance, 1T (m)",
-    "shift_1b_rad_s": "shift of the strongest 1B (rad/s)",
-    **ROBUSTNESS,
+    "mass_kg": Word("mass", "of the blade", "kg"),
+    "frequency_1b_hz": Word("1B at rest", "frequency of the first bending mode", "Hz"),
+    "frequency_1t_hz": Word("1T at rest", "frequency of the first torsion mode", "Hz"),
+    "clearance_loss_1b_m": Word("loss of clearance, 1B", "largest as the tip swings along the free mode", "mm", 1e3),
+    "clearance_loss_1t_m": Word("loss of clearance, 1T", "largest as the tip swings along the free mode", "mm", 1e3),
+    "shift_1b_rad_s": Word("shift of 1B", "peak less crossing of the strongest interaction of 1B", "rad/s"),
+    **{name: found for name in ROBUSTNESS if (found := word(name, RANKING))},
 }
-"""Column of designs.csv -> label of an axis; the first five do not depend on the scene."""
+"""Columns of designs.csv in words; the first five do not depend on the scene."""
 
 
 def design_table(

@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -125,7 +126,11 @@ RANKING = {
     ),
     "largest_rms_speed_rad_s": Word("speed of the largest rms", "speed at which the rms is largest", _SPEED),
     "drop": INTERACTIONS["drop"],
-    "largest_gap_rad_s": Word("largest gap", "largest distance between neighbouring speeds that were run", _SPEED),
+    "largest_gap_rad_s": Word(
+        "largest gap",
+        "largest distance between neighbouring speeds that were run: a narrower interaction between them may be missed",
+        _SPEED,
+    ),
     "members": Word("members", "number of the members of the sample"),
 }
 """Columns of ranking.csv, a line for each blade and scene."""
@@ -156,15 +161,22 @@ def word(name: str, words: dict[str, Word]) -> Word | None:
     return words.get(name)
 
 
-def table() -> str:
-    """The columns of summary.csv as a table of Markdown."""
-    lines = [f"| `{name}` | {one.meaning} |" for name, one in INTERACTIONS.items()]
+def table(words: Mapping[str, Word]) -> str:
+    """Columns as a table of Markdown."""
+    lines = [f"| `{name}` | {one.meaning} |" for name, one in words.items()]
     return "\n".join(["| column | what it is |", "|---|---|", *lines])
+
+
+PARTS = {"columns": INTERACTIONS, "ranking_columns": RANKING}
+"""Parts of docs/results.md, and what stands there."""
 
 
 def main(file: Path = Path("docs/results.md")) -> None:
     """Renew the page."""
-    write_text(with_part(file.read_text(encoding="utf-8"), "columns", table()), file)
+    text = file.read_text(encoding="utf-8")
+    for part, words in PARTS.items():
+        text = with_part(text, part, table(words))
+    write_text(text, file)
 
 
 if __name__ == "__main__":

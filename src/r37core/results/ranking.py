@@ -13,21 +13,21 @@ from r37core.time_integration.status import RunStatus
 from .exceedance import CERTAIN, POSSIBLE, exceedance_of
 from .measures import drop_after, motion, peak_of
 
-ROBUSTNESS = {
-    "length_certain_rad_s": "speeds certainly above yield (rad/s)",
-    "length_certain_scatter_rad_s": "its standard deviation by chance (rad/s)",
-    "length_possible_rad_s": "speeds possibly above yield (rad/s)",
-    "length_possible_scatter_rad_s": "its standard deviation by chance (rad/s)",
-    "largest_stress_pa": "largest median stress (Pa)",
-    "first_certain_rad_s": "first speed certainly above yield (rad/s)",
-    "first_possible_rad_s": "first speed possibly above yield (rad/s)",
-    "widest_range_rad_s": "widest range certainly above yield (rad/s)",
-    "largest_rms_m": "largest rms of the motion (m)",
-    "largest_rms_speed_rad_s": "speed of the largest rms (rad/s)",
-    "drop": "share of the motion lost above that speed",
-    "largest_gap_rad_s": "largest distance between speeds that were run (rad/s)",
-}
-"""What is read off a response, the same for blades, designs and members -> words for a head or an axis."""
+ROBUSTNESS = (
+    "length_certain_rad_s",
+    "length_certain_scatter_rad_s",
+    "length_possible_rad_s",
+    "length_possible_scatter_rad_s",
+    "largest_stress_pa",
+    "first_certain_rad_s",
+    "first_possible_rad_s",
+    "widest_range_rad_s",
+    "largest_rms_m",
+    "largest_rms_speed_rad_s",
+    "drop",
+    "largest_gap_rad_s",
+)
+"""What is read off a response, the same for blades, designs and members; in words: glossary.RANKING."""
 
 RANKED_BY = ("length_certain_rad_s", "length_possible_rad_s", "largest_stress_pa")
 """Less of the first is better, of the next where that is the same."""
