@@ -8,7 +8,7 @@ from r37core.figures.ranking_bars import draw_ranking
 from r37core.results.contact_ranges import with_ranges_above_yield
 from r37core.results.exceedance import CERTAIN, POSSIBLE, Exceedance, exceedance_of
 from r37core.results.interactions import InteractionChoice, find_interactions
-from r37core.results.ranking import ROBUSTNESS, chance_to_be_better, ranking_table, robustness
+from r37core.results.ranking import ROBUSTNESS, as_scatter_bears, chance_to_be_better, ranking_table, robustness
 from r37core.results.speed_ranges import SpeedRange, joined, ranges_above
 from r37core.time_integration.status import RunStatus
 
@@ -174,6 +174,11 @@ def test_the_ranking_goes_scene_by_scene_with_ties_by_what_is_possible():
     assert list(zip(table["scene"], table["blade"], table["rank"], strict=True)) == [
         ("x", "C", 1), ("x", "B", 2), ("x", "A", 3), ("y", "A", 1), ("y", "B", 2),
     ]  # fmt: skip
+
+
+def test_lengths_have_the_digits_that_their_scatter_bears():
+    table = ranking_table({("A", "x"): of(854.189) | {"length_certain_scatter_rad_s": 21.1}, ("A", "y"): of(13.1602)})
+    assert as_scatter_bears(table)["length_certain_rad_s"].tolist() == [850.0, 13.2]
 
 
 def test_the_chance_to_be_better_is_of_common_members():

@@ -11,6 +11,7 @@ from r37core.published import INTERACTIONS
 from r37core.results import glossary
 from r37core.results.glossary import Word
 from r37core.results.interaction_title import interaction_title
+from r37core.results.ranking import as_scatter_bears
 
 MODE = "1B"
 """Of which the interactions are that the benchmark publishes."""
@@ -86,6 +87,7 @@ def ranking_rows(ranking: pd.DataFrame | None) -> dict[str, object]:
     """`ranking`, its rows or None, and `ranking_columns`, those of them that the glossary knows."""
     if ranking is None or ranking.empty:
         return {"ranking": None, "ranking_columns": []}
+    ranking = as_scatter_bears(ranking)
     rows = ranking.astype(object).where(ranking.notna(), None).to_dict("records")
     return {"ranking": rows, "ranking_columns": _columns(ranking.columns, glossary.RANKING)}
 

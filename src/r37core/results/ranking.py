@@ -8,6 +8,7 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 
+from r37core.rounding import rounded_to
 from r37core.time_integration.status import RunStatus
 
 from .exceedance import CERTAIN, POSSIBLE, exceedance_of
@@ -34,6 +35,10 @@ RANKED_BY = ("length_certain_rad_s", "length_possible_rad_s", "largest_stress_pa
 
 ENDS = {"low": 0.05, "high": 0.95}
 """Quantiles of the members that a range goes from and to."""
+
+
+_STEP = 1.0
+"""What lengths (rad/s) are told apart by where nothing scatters: the distance of the closest speeds."""
 
 
 def robustness(response: xr.Dataset) -> dict[str, float]:
@@ -80,6 +85,18 @@ def ranking_table(
     return table.sort_values(
         ["scene", "rank"], key=lambda column: column.map(scenes.index) if column.name == "scene" else column
     )
+
+
+def as_scatter_bears(table: pd.DataFrame) -> pd.DataFrame:
+    """The table with lengths of as many digits as the range of the members bears, or the scatter, or a step of 1 rad/s."""
+    found = table.copy()
+    for name in (f"length_{kind}_rad_s" for kind in ("certain", "possible") if f"length_{kind}_rad_s" in table):
+        scatter = table.get(name.replace("_rad_s", "_scatter_rad_s"), table[name] * np.nan)
+        spread = (2.0 * scatter).fillna(_STEP)
+        if f"{name}_low" in table:
+            spread = (table[f"{name}_high"] - table[f"{name}_low"]).fillna(spread)
+        found[name] = [float(rounded_to(*one) or np.nan) for one in zip(table[name], spread, strict=True)]
+    return found
 
 
 def _under_tolerances(
