@@ -8,6 +8,7 @@ and the same with `--configfile config/config.yaml config/patches.yaml` for thos
 
 import os
 import sys
+import time
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -40,6 +41,7 @@ SCENES = {"lined": "abradable", "direct": "direct"}
 FIRST, LAST = 750.0, 2000.0
 KEPT = {"spectrum_highest_order": 1, "wear_angles": 1}
 GRIDS = (5, 10, 20)
+_REPEATED = 7
 RANKING = Path("config/ranking.yaml")
 
 
@@ -203,12 +205,39 @@ def chances(scene):
     return markdown_table(["blade", "certain (rad/s)", *(f"better than {blade} (%)" for blade in BLADES)], rows)
 
 
+def cost_table():
+    """CPU time (ms, least of several) of a run without its stress, with that of the last revolution alone, and as it is."""
+    settings, rows = read_settings(ROOT), []
+    for name, scene in SCENES.items():
+        for blade in ("Ref", "S100", "CS50"):
+            model = read_contact_model(ROOT / f"results/{blade}/contact_pressure_edge.npz")
+            stress = read_stress_operator(ROOT / f"results/{blade}/stress_pressure_edge.npz")
+            spent = np.full((3, _REPEATED), np.inf)
+            for repeat in range(_REPEATED):
+                for place, (revolutions, operator) in enumerate(((0, None), (1, stress), (None, stress))):
+                    begun = 0.0
+                    for speed in (900.0, 1340.0, 1700.0):
+                        choice = settings.integration_choice(blade, scene, speed)
+                        if revolutions is not None:
+                            choice = replace(choice, snapshot_revolutions=revolutions)
+                        results = ["stress"] if operator else []
+                        before = time.process_time()
+                        run_speed(model, speed, settings.scenes[scene].scene, choice, results, **KEPT, stress=operator)
+                        begun += time.process_time() - before
+                    spent[place, repeat] = begun / 3.0
+            without, last, now = 1e3 * spent.min(axis=1)
+            rows.append([name, blade, f"{without:.1f}", f"{last:.1f}", f"{now:.1f}", f"{now / last:.2f}"])
+    head = ["scene", "blade", "without stress", "of the last revolution", "of the last half", "ratio of the last two"]
+    return markdown_table(head, rows)
+
+
 def main():
     """Run what is not there, and write the tables."""
     tasks = [(blade, way) for way in WAYS for blade in BLADES]
     with ProcessPoolExecutor(int(sys.argv[1]) if len(sys.argv) > 1 else 1) as pool:
         list(pool.map(run, tasks))
     studies = FOLDER.parent
+    write_text(cost_table(), studies / "ranking_cost.md")
     write_text(length_table(DIRECT, {"friction + 0.1%": PERTURBED, "patches, every 5": PATCHED}), studies / "ranking_direct.md")
     write_text(length_table(LINED, {}), studies / "ranking_lined.md")
     write_text(statistic_table(), studies / "ranking_statistic.md")
