@@ -469,7 +469,8 @@ RING = {"radius_m": 0.255, "thickness_m": 0.002, "width_m": 0.05, "elastic_modul
     [
         (1800.0, None),
         (1820.0, "; the simulation does not show those of 26 to 30 nodal diameters: casing.ring.highest_nodal_diameter is 20"),
-        (2000.0, "; the simulation does not show those of 21 to 38 nodal diameters: casing.ring.highest_nodal_diameter is 20"),
+        # those of 19 and 20 are overtaken, too, and shown
+        (2100.0, "; the simulation does not show those of 21 to 41 nodal diameters: casing.ring.highest_nodal_diameter is 20"),
     ],
 )
 def test_a_run_above_a_critical_speed_says_so(root, speed, ending):
@@ -524,6 +525,7 @@ def test_no_shorter_wave_is_met(ring, speed, frequency):
         if mode.nodal_diameter and mode.frequency - mode.nodal_diameter * speed <= frequency
     ]
     bound = shortest_met(ring, speed, frequency)
+    assert slowest_wave(ring)[0] <= shortest_met(ring, slowest_wave(ring)[1])
     assert max(met, default=0) <= bound
     # and not many more are looked at than there are
     if speed >= 2000.0 and ring.radial_foundation == 0.0:
