@@ -1,8 +1,8 @@
 """What a casing that gives way changes for the seven blades, and what it costs: tables of docs/elastic_casing.md.
 
 Run: snakemake campbell; python benchmarks/elastic_casing.py (a quarter of an hour on two idle cores), or with names of TABLES
-after it for those alone, and `step=6` for a coarser grid; python benchmarks/elastic_casing_waves.py; make docs. The scenes are
-elastic_abradable and elastic_direct of config/scenes.yaml, with rings of several thicknesses, and without.
+after it for those alone, and `span=30` for narrower windows; python benchmarks/elastic_casing_waves.py; make docs. The scenes
+are elastic_abradable and elastic_direct of config/scenes.yaml, with rings of several thicknesses, and without.
 """
 
 import os
@@ -54,12 +54,12 @@ GRID, ROUNDS = np.arange(800.0, 2000.0, 100.0), 3
 
 
 def main(words):
-    """Words of the command line: names of TABLES, and step=... (rad/s)."""
-    steps = [float(word.removeprefix("step=")) for word in words if word.startswith("step=")]
-    names, step = [word for word in words if word in TABLES], steps[0] if steps else STEP
+    """Words of the command line: names of TABLES, and span=... (rad/s) about the published peaks."""
+    spans = [float(word.removeprefix("span=")) for word in words if word.startswith("span=")]
+    names, span = [word for word in words if word in TABLES], spans[0] if spans else SPAN
     with ProcessPoolExecutor(2) as pool:
         for name in names or TABLES:
-            write_text(TABLES[name](pool, step), STUDIES / f"elastic_casing_{name}.md")
+            write_text(TABLES[name](pool, span), STUDIES / f"elastic_casing_{name}.md")
 
 
 @cache
@@ -110,9 +110,9 @@ def march(blade, speed, choice, scene):
     return *found["rms"][0, [0, 2]], np.sqrt(waves)
 
 
-def about(one, step):
+def about(one, span):
     """Speeds (rad/s) about a published interaction."""
-    return round(one.peak) + np.arange(-SPAN, SPAN + 0.5 * step, step)
+    return round(one.peak) + np.arange(-span, span + 0.5 * STEP, STEP)
 
 
 def clear_peak(speeds, rms):
@@ -138,13 +138,13 @@ def peak_cell(speeds, rms):
     return said + " at the end" * at_end + f" ({diverged} diverge)" * (diverged > 0)
 
 
-def peaks_table(pool, step):
+def peaks_table(pool, span):
     """Peaks of the ten published interactions; draws those of order 4, too."""
     rows = []
     figure, panels = plt.subplots(1, 7, figsize=(PAGE, 1.9), sharey=True)
     axes_of = iter(panels)
     for one in INTERACTIONS:
-        speeds = about(one, step)
+        speeds = about(one, span)
         cells = [f"{one.blade} 1B/{one.engine_order}", f"{one.peak:g}"]
         axes = next(axes_of) if one.engine_order == 4 else None
         for casing in CASINGS:
@@ -162,7 +162,7 @@ def peaks_table(pool, step):
     figure.legend(*panels[0].get_legend_handles_labels(), loc="outside upper center", ncols=len(CASINGS))
     (STUDIES / "figures").mkdir(parents=True, exist_ok=True)
     figure.savefig(STUDIES / "figures/elastic_casing_peaks.png")
-    said = f"Level `{settings().fidelity_name}`, every {step:g} rad/s within {SPAN:g} of the published peak."
+    said = f"Level `{settings().fidelity_name}`, every {STEP:g} rad/s within {span:g} of the published peak."
     return f"{markdown_table(['interaction', 'published (rad/s)', *map(name_of, CASINGS)], rows)}\n{said}\n"
 
 
@@ -188,10 +188,10 @@ def direct_table(pool, _):
     return markdown_table(["blade", "speeds (rad/s)", *map(name_of, CASINGS)], rows)
 
 
-def diameters_table(pool, step):
+def diameters_table(pool, span):
     """Peak of Ref 1B/4 with modes up to some nodal diameters."""
     one, rows = INTERACTIONS[0], []
-    speeds = about(one, step)
+    speeds = about(one, span)
     for casing in CASINGS[1:4]:
         cells = [name_of(casing)]
         for diameters in DIAMETERS:
@@ -201,7 +201,8 @@ def diameters_table(pool, step):
             cells.append(peak_cell(speeds, rms))
         rows.append(cells)
         print(cells, flush=True)
-    return markdown_table(["ring", *(f"up to {number}" for number in DIAMETERS)], rows)
+    said = f"Level `{settings().fidelity_name}`, every {STEP:g} rad/s within {span:g} of the published peak."
+    return f"{markdown_table(['ring', *(f'up to {number}' for number in DIAMETERS)], rows)}\n{said}\n"
 
 
 def cost_table(*_):
