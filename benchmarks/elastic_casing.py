@@ -1,10 +1,12 @@
 """What a casing that gives way changes for the seven blades, and what it costs: tables of docs/elastic_casing.md.
 
-Run: snakemake campbell; python benchmarks/elastic_casing.py (a quarter of an hour on two cores); make docs. The scenes are
-elastic_abradable and elastic_direct of config/scenes.yaml, with rings of several thicknesses, and without.
+Run: snakemake campbell; python benchmarks/elastic_casing.py (a quarter of an hour on two idle cores), or with names of TABLES
+after it for those alone, and `span=30` for narrower windows; python benchmarks/elastic_casing_waves.py; make docs. The scenes
+are elastic_abradable and elastic_direct of config/scenes.yaml, with rings of several thicknesses, and without.
 """
 
 import os
+import sys
 import time
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import replace
@@ -17,12 +19,11 @@ import numpy as np
 
 from r37core.config import command_line_document, read_settings
 from r37core.config.si_fields import in_si
-from r37core.contact.ring import Ring, critical_speed
-from r37core.dataset_file import read_dataset
+from r37core.contact.elastic_casing import ElasticCasing
+from r37core.contact.ring import Ring
 from r37core.figures.style import PAGE, plt
 from r37core.io import write_text
 from r37core.published import INTERACTIONS
-from r37core.results.casing_coincidence import coincidence_table
 from r37core.rom.reduced_model import contact_model
 from r37core.rom.rom_file import read_reduced_model
 from r37core.studies.tables import markdown_table
@@ -39,27 +40,26 @@ CASINGS = (None, *((thickness, foundation) for foundation in (STIFF, SOFT) for t
 """Thickness of the ring (m) and its flanges; None is rigid."""
 
 KEPT = {"spectrum_highest_order": 20, "wear_angles": 8}
-ABOUT = np.arange(-60.0, 61.0, 2.0)
-"""Speeds, in rad/s, about a published peak."""
+SPAN, STEP = 60.0, 2.0
+"""Speeds, in rad/s, about a published peak, and from one to the next."""
 
 DIRECT_SHARES = np.linspace(0.98, 1.06, 9)
 """Of the published peak of 1B with order 4."""
 
-NEAR = (1600.0, 1800.0)
-"""Speeds (rad/s) about the interaction of Ref's 1B with order 4."""
+BESIDE = 10.0
+"""Speeds, in rad/s, on either side of a peak of which none may diverge."""
 
 DIAMETERS = (5, 10, 15, 20, 40)
 GRID, ROUNDS = np.arange(800.0, 2000.0, 100.0), 3
 
 
-def main():
+def main(words):
+    """Words of the command line: names of TABLES, and span=... (rad/s) about the published peaks."""
+    spans = [float(word.removeprefix("span=")) for word in words if word.startswith("span=")]
+    names, span = [word for word in words if word in TABLES], spans[0] if spans else SPAN
     with ProcessPoolExecutor(2) as pool:
-        write_text(peaks_table(pool), STUDIES / "elastic_casing_peaks.md")
-        write_text(direct_table(pool), STUDIES / "elastic_casing_direct.md")
-        write_text(diameters_table(pool), STUDIES / "elastic_casing_diameters.md")
-    write_text(rings_table(), STUDIES / "elastic_casing_rings.md")
-    write_text(meeting_table(), STUDIES / "elastic_casing_coincidences.md")
-    write_text(cost_table(), STUDIES / "elastic_casing_cost.md")
+        for name in names or TABLES:
+            write_text(TABLES[name](pool, span), STUDIES / f"elastic_casing_{name}.md")
 
 
 @cache
@@ -73,14 +73,18 @@ def contact(blade):
     return contact_model(model, settings().structure.boundary.tip_line)
 
 
-def ring_of(casing, diameters=20):
-    """Modes of the shipped ring with another thickness and other flanges; none of a rigid casing."""
-    if casing is None:
-        return ()
+def casing_of(casing, diameters=20):
+    """The shipped ring with another thickness and other flanges, and modes up to some nodal diameters."""
     thickness, stiffness = casing
     shipped = in_si(Ring, settings().scene_entries[LINED].casing.ring)
     other = {"thickness": thickness, "radial_foundation": stiffness, "tangential_foundation": stiffness}
-    return replace(shipped, **other, highest_nodal_diameter=diameters).modes()
+    ring = replace(shipped, **other, highest_nodal_diameter=diameters)
+    return ElasticCasing(ring.modes(), ring)
+
+
+def ring_of(casing, diameters=20):
+    """Modes of `casing_of`; none of a rigid casing."""
+    return () if casing is None else casing_of(casing, diameters).modes
 
 
 def with_casing(name, ring):
@@ -95,30 +99,62 @@ def name_of(casing):
 def run(task):
     """Rms (m) of the leading edge, normal and tangential, and of all waves round the casing (m)."""
     blade, name, speed, ring = task
-    choice = replace(settings().integration_choice(blade, name, speed), energy=False, snapshot_revolutions=0)
-    found = run_speed(contact(blade), float(speed), with_casing(name, ring), choice, ["casing"] if ring else [], **KEPT)
+    return march(blade, speed, settings().integration_choice(blade, name, speed), with_casing(name, ring))
+
+
+def march(blade, speed, choice, scene):
+    """What `run` returns, of a scene with or without a ring."""
+    ring, choice = scene.casing.ring, replace(choice, energy=False, snapshot_revolutions=0)
+    found = run_speed(contact(blade), float(speed), scene, choice, ["casing"] if ring else [], **KEPT)
     waves = np.sum(found["casing_rms_forward"] ** 2 + found["casing_rms_backward"] ** 2) if ring else 0.0
     return *found["rms"][0, [0, 2]], np.sqrt(waves)
 
 
-def peaks_table(pool):
-    """Peaks of the ten published interactions, every 2 rad/s about them; draws those of order 4, too."""
+def about(one, span):
+    """Speeds (rad/s) about a published interaction."""
+    return round(one.peak) + np.arange(-span, span + 0.5 * STEP, STEP)
+
+
+def clear_peak(speeds, rms):
+    """Index of the largest rms over ascending speeds; None where it is no peak, for runs beside it diverge (NaN).
+
+    Beside it: as far as BESIDE on either side, and further down to half its power.
+    """
+    if np.isnan(rms).all():
+        return None
+    peak = int(np.nanargmax(rms))
+    near = np.abs(speeds - speeds[peak]) <= BESIDE
+    low = np.flatnonzero(rms < rms[peak] / np.sqrt(2.0))
+    first, last = low[low < peak].max(initial=-1), low[low > peak].min(initial=len(rms))
+    near[first + 1 : last] = True
+    return None if np.isnan(rms[near]).any() else peak
+
+
+def peak_cell(speeds, rms):
+    """Speed (rad/s) and height (mm) of the peak, where there is one, and how many runs diverge."""
+    peak, diverged = clear_peak(speeds, rms), int(np.isnan(rms).sum())
+    said = "no peak" if peak is None else f"{speeds[peak]:.0f}, {1e3 * rms[peak]:.2f}"
+    at_end = peak in (0, len(speeds) - 1)
+    return said + " at the end" * at_end + f" ({diverged} diverge)" * (diverged > 0)
+
+
+def peaks_table(pool, span):
+    """Peaks of the ten published interactions; draws those of order 4, too."""
     rows = []
     figure, panels = plt.subplots(1, 7, figsize=(PAGE, 1.9), sharey=True)
     axes_of = iter(panels)
     for one in INTERACTIONS:
-        speeds = round(one.peak) + ABOUT
+        speeds = about(one, span)
         cells = [f"{one.blade} 1B/{one.engine_order}", f"{one.peak:g}"]
         axes = next(axes_of) if one.engine_order == 4 else None
         for casing in CASINGS:
             ring = ring_of(casing)
             found = np.array(list(pool.map(run, [(one.blade, LINED, v, ring) for v in speeds], chunksize=8)))
             rms = np.hypot(*found.T[:2])
-            peak, diverged = int(np.nanargmax(rms)), int(np.isnan(rms).sum())
-            notes = [" at the end"] * (peak in (0, len(speeds) - 1)) + [f" ({diverged} diverge)"] * (diverged > 0)
-            cells.append(f"{speeds[peak]:.0f}, {1e3 * rms[peak]:.2f}{''.join(notes)}")
+            cells.append(peak_cell(speeds, rms))
             if axes:
-                axes.plot(speeds, 1e3 * rms, label=name_of(casing), linewidth=0.8)
+                (line,) = axes.plot(speeds, 1e3 * rms, label=name_of(casing), linewidth=0.8)
+                mark_diverged(axes, speeds, rms, CASINGS.index(casing), line.get_color())
                 axes.set(title=one.blade, xlabel="rad/s")
         rows.append(cells)
         print(cells, flush=True)
@@ -126,11 +162,18 @@ def peaks_table(pool):
     figure.legend(*panels[0].get_legend_handles_labels(), loc="outside upper center", ncols=len(CASINGS))
     (STUDIES / "figures").mkdir(parents=True, exist_ok=True)
     figure.savefig(STUDIES / "figures/elastic_casing_peaks.png")
-    return markdown_table(["interaction", "published (rad/s)", *map(name_of, CASINGS)], rows)
+    said = f"Level `{settings().fidelity_name}`, every {STEP:g} rad/s within {span:g} of the published peak."
+    return f"{markdown_table(['interaction', 'published (rad/s)', *map(name_of, CASINGS)], rows)}\n{said}\n"
 
 
-def direct_table(pool):
-    """Direct contact about 1B with order 4: means over the speeds, which little moves less than single runs."""
+def mark_diverged(axes, speeds, rms, row, colour):
+    """Dots below the curves at speeds of runs that diverge, a row of them for each casing."""
+    at = speeds[np.isnan(rms)]
+    axes.plot(at, np.full(len(at), -0.6 * row), ".", color=colour, markersize=1.5)
+
+
+def direct_table(pool, _):
+    """Direct contact about 1B with order 4: means over the speeds, which move less than single runs."""
     rows, orders = [], {one.blade: one for one in INTERACTIONS if one.engine_order == 4}
     for blade, one in orders.items():
         cells = [blade, f"{DIRECT_SHARES[0] * one.peak:.0f} to {DIRECT_SHARES[-1] * one.peak:.0f}"]
@@ -145,50 +188,24 @@ def direct_table(pool):
     return markdown_table(["blade", "speeds (rad/s)", *map(name_of, CASINGS)], rows)
 
 
-def diameters_table(pool):
+def diameters_table(pool, span):
     """Peak of Ref 1B/4 with modes up to some nodal diameters."""
     one, rows = INTERACTIONS[0], []
-    speeds = round(one.peak) + ABOUT
+    speeds = about(one, span)
     for casing in CASINGS[1:4]:
         cells = [name_of(casing)]
         for diameters in DIAMETERS:
             ring = ring_of(casing, diameters)
             found = np.array(list(pool.map(run, [(one.blade, LINED, v, ring) for v in speeds], chunksize=8)))
             rms = np.hypot(*found.T[:2])
-            cells.append(f"{speeds[np.nanargmax(rms)]:.0f}, {1e3 * np.nanmax(rms):.2f} ({np.isnan(rms).sum()} diverge)")
+            cells.append(peak_cell(speeds, rms))
         rows.append(cells)
         print(cells, flush=True)
-    return markdown_table(["ring", *(f"up to {number}" for number in DIAMETERS)], rows)
+    said = f"Level `{settings().fidelity_name}`, every {STEP:g} rad/s within {span:g} of the published peak."
+    return f"{markdown_table(['ring', *(f'up to {number}' for number in DIAMETERS)], rows)}\n{said}\n"
 
 
-def rings_table():
-    """Frequencies of the rings, and how far a force pushes the wall out."""
-    rows = []
-    for casing in CASINGS[1:]:
-        modes = [mode for mode in ring_of(casing) if mode.radial]
-        given_way = sum(1.0 / mode.modal_mass / mode.frequency**2 for mode in modes)
-        of = {mode.nodal_diameter: mode.frequency / 2.0 / np.pi for mode in modes}
-        critical = critical_speed(ring_of(casing))
-        cells = [name_of(casing), *(f"{of[n]:.0f}" for n in (0, 1, 2, 4, 8, 20)), f"{1e6 * given_way:.3f}", f"{critical:.0f}"]
-        rows.append(cells)
-    heads = [f"n = {n} (Hz)" for n in (0, 1, 2, 4, 8, 20)]
-    return markdown_table(["casing", *heads, "static, at the force (um/N)", "lowest critical speed (rad/s)"], rows)
-
-
-def meeting_table():
-    """Coincidences of Ref's 1B with each ring near its interaction with order 4."""
-    campbell = read_dataset(ROOT / "results/campbell.nc")
-    rings = {name_of(casing): ring_of(casing) for casing in CASINGS[1:]}
-    table = coincidence_table(campbell.sel(blade=["Ref"]), rings)
-    near = table[(table["mode"] == "1B") & table["speed_rad_s"].between(*NEAR)]
-    rows = [
-        [row.scene, str(row.nodal_diameter), row.wave, f"{row.speed_rad_s:.0f}", f"{row.frequency_hz:.0f}"]
-        for row in near.itertuples()
-    ]
-    return markdown_table(["ring", "nodal diameters", "wave", "speed (rad/s)", "in the rotor's frame (Hz)"], rows)
-
-
-def cost_table():
+def cost_table(*_):
     """Ratio of CPU times of the march, the reference blade, one after the other in one process."""
     rows = []
     for name in (LINED, DIRECT):
@@ -214,5 +231,7 @@ def timed(name, ring, speed):
     return times[1] / times[0]
 
 
+TABLES = {"peaks": peaks_table, "direct": direct_table, "diameters": diameters_table, "cost": cost_table}
+
 if __name__ == "__main__":
-    main()
+    main(sys.argv[1:])

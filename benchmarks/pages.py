@@ -35,7 +35,19 @@ TABLES = {
     },
     "coriolis": {name: f"coriolis_{name}.md" for name in ("frequencies", "peaks", "direct", "cost")},
     "elastic_casing": {
-        name: f"elastic_casing_{name}.md" for name in ("rings", "peaks", "direct", "diameters", "coincidences", "cost")
+        name: f"elastic_casing_{name}.md"
+        for name in (
+            "rings",
+            "flexibility",
+            "peaks",
+            "direct",
+            "diameters",
+            "coincidences",
+            "causes",
+            "growth",
+            "overtaken",
+            "cost",
+        )
     },
     "run_ups": {name: f"{name}.md" for name in ("run_up_rates", "run_up_variants", "run_up_cost")},
     "clearance": {"clearance_growth": "clearance_growth.md", "clearance_effect": "clearance_effect.md"},
@@ -64,11 +76,14 @@ PICTURES = (
     *(f"validation_{name}" for name in ("reference", "blades", "stress", "histories", "spectrum_lined", "spectrum_direct")),
 )
 
+ELASTIC = ROOT / "results/runs/elastic_casing"
+"""The run of config/elastic_casing.yaml: pictures of other configurations have the same names, and show other things."""
+
 FIGURES = {
     "response_Ref": ROOT / "results/figures/response_Ref.png",
     "clearance_growing_abradable": ROOT / "results/figures/clearance_growing_abradable.png",
-    "casing_Ref": ROOT / "results/figures/casing_Ref__elastic_abradable.png",
-    "campbell_elastic_casing": ROOT / "results/figures/campbell_Ref.png",
+    "casing_Ref": ELASTIC / "figures/casing_Ref__elastic_abradable.png",
+    "campbell_elastic_casing": ELASTIC / "figures/campbell_Ref.png",
     "run_up_rates": ROOT / "results/figures/run_up_rates_abradable.png",
     "tolerances_Ref": ROOT / "results/runs/members/figures/tolerances_Ref__abradable.png",
     "run_ups_Ref": ROOT / "results/figures/run_ups_Ref__abradable.png",

@@ -130,6 +130,14 @@ def test_pages_and_tables_of_the_studies_have_their_places(root):
             assert [name for name in names if f"<!-- {name} -->\n" not in text] == [], page
 
 
+def test_pictures_of_elastic_casings_are_those_of_their_configuration(root):
+    """A Campbell diagram of any other run has the same name, and no casing or another one."""
+    settings = read_settings(root, command_line_document(safe_load((root / "config/elastic_casing.yaml").read_text())))
+    figures = runpy.run_path(str(root / "benchmarks/pages.py"))["FIGURES"]
+    for name, file in (("campbell_elastic_casing", "campbell_Ref.png"), ("casing_Ref", "casing_Ref__elastic_abradable.png")):
+        assert figures[name].relative_to(root) == settings.results / "figures" / file
+
+
 @pytest.mark.slow
 def test_rule_graph_is_that_of_the_workflow(root):
     """`make docs` renews it."""

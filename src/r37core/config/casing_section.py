@@ -9,10 +9,14 @@ from typing import Annotated, Literal
 from pydantic import Field, model_validator
 
 from r37core.contact.casing import Casing
+from r37core.contact.elastic_casing import ElasticCasing
 from r37core.contact.ring import Ring, RingMode
 
 from .section import LeftOut, Section, refused
 from .si_fields import in_si, si_fields
+
+MOST_NODAL_DIAMETERS = 100
+"""Of a ring's modes in a simulation."""
 
 
 class GrowthSection(Section):
@@ -68,7 +72,13 @@ class RingSection(Section):
     tangential_foundation_n_m2: float = Field(
         default=0.0, ge=0, le=1e15, description="tangential stiffness per length of circumference; without it no ring turns"
     )
-    highest_nodal_diameter: int = Field(default=20, ge=2, le=100, description="modes of more nodal diameters are left out")
+    highest_nodal_diameter: int = Field(
+        default=20,
+        ge=2,
+        le=MOST_NODAL_DIAMETERS,
+        description="modes of more nodal diameters are left out; `r37 check` says what that leaves out: of the give under a "
+        "force, and of waves that the rotor overtakes",
+    )
 
     @model_validator(mode="after")
     def _thin(self) -> RingSection:
@@ -134,10 +144,16 @@ class CasingSection(Section):
         """Whether the casing gives way."""
         return self.ring is not None or self.ring_modes is not None
 
+    def elastic_casing(self) -> ElasticCasing:
+        """What gives way, with the waves that simulations leave out; without modes where the casing is rigid."""
+        if self.ring is None:
+            return ElasticCasing(tuple(one.mode() for one in self.ring_modes or ()))
+        ring = in_si(Ring, self.ring)
+        return ElasticCasing(ring.modes(), ring)
+
     def casing(self) -> Casing:
         """The casing as the simulations take it."""
-        modes = in_si(Ring, self.ring).modes() if self.ring else tuple(one.mode() for one in self.ring_modes or ())
-        elastic = {"ring": modes, "ring_radius": self.ring.radius_m if self.ring else None}
+        elastic = {"ring": self.elastic_casing().modes, "ring_radius": self.ring.radius_m if self.ring else None}
         if self.clearance is None:
             return in_si(Casing, self, **elastic)
         table = si_fields(self.clearance.casing_growth or ())

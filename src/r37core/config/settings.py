@@ -13,7 +13,7 @@ from typing import Any
 
 from pydantic import BaseModel
 
-from r37core.contact.ring import critical_speed
+from r37core.contact.elastic_casing import ElasticCasing
 from r37core.contact.scene import Scene
 from r37core.exchange.importing.source import MatricesSource
 from r37core.plain import to_plain
@@ -24,6 +24,7 @@ from r37core.time_integration.integration_choice import IntegrationChoice
 from r37core.tolerances.fewest import remarks_on_rankings
 from r37core.yaml_file import KeyPath
 
+from . import casing_remarks
 from .blades import BladeSettings, blade_settings
 from .config_file import CampbellSection, Config, Interactions, RefinementSection, StructureSection
 from .document import Document
@@ -252,6 +253,7 @@ class Settings:
                 "Campbell diagrams are made for speeds up to that; raise it to what is run"
             )
         said += self.remarks_on_casings
+        said += casing_remarks.of_left_out_modes(self.elastic_casings)
         refining = {place: plan for place, plan in self.speed_plans.items() if plan.refined}
         if refining:
             certain = sum(len(plan.certain) for plan in refining.values())
@@ -267,17 +269,16 @@ class Settings:
         return said
 
     @property
+    def elastic_casings(self) -> dict[str, ElasticCasing]:
+        """Of each scene to run whose casing gives way."""
+        entries = {name: self.scene_entries[name].casing for name in self.scene_names}
+        return {name: casing.elastic_casing() for name, casing in entries.items() if casing.elastic}
+
+    @property
     def remarks_on_casings(self) -> list[str]:
         """What a run should say of casings that the rotor overtakes."""
-        said = []
-        for name, chosen in self.scenes.items():
-            critical, fastest = critical_speed(chosen.scene.casing.ring), self._fastest_of(name)
-            if critical < fastest:
-                said.append(
-                    f"scene {name}: speeds up to {fastest:g} rad/s; above {critical:.4g} the rotor overtakes waves of the "
-                    "casing, which may then grow without bound"
-                )
-        return said
+        said = (casing_remarks.of_speeds(name, one, self._fastest_of(name)) for name, one in self.elastic_casings.items())
+        return [one for one in said if one]
 
     @property
     def remarks_on_points(self) -> list[str]:

@@ -50,6 +50,16 @@ class Ring:
     tangential_foundation: float
     highest_nodal_diameter: int
 
+    @property
+    def mass(self) -> float:
+        """Per length of circumference (kg/m): rho A."""
+        return self.density * self.width * self.thickness
+
+    @property
+    def bending(self) -> float:
+        """Stiffness against bending as that of a foundation (N/m2): E I/R^4."""
+        return self.elastic_modulus * self.width * self.thickness**3 / 12.0 / self.radius**4
+
     def modes(self) -> tuple[RingMode, ...]:
         """Breathing, turning where a foundation holds it, and bending with 1, 2, ... nodal diameters.
 
@@ -58,15 +68,13 @@ class Ring:
         Source: Timoshenko, Vibration Problems in Engineering, vibration of circular rings in their plane. A ring without a
         foundation has no mode of one nodal diameter: nothing holds it.
         """
-        mass = self.density * self.width * self.thickness
-        bending = self.elastic_modulus * self.width * self.thickness**3 / 12.0 / self.radius**4
+        mass, round_mass = self.mass, 2.0 * np.pi * self.radius * self.mass
         stretching = self.elastic_modulus * self.width * self.thickness / self.radius**2
-        round_mass = 2.0 * np.pi * self.radius * mass
         found = [self._mode(0, (stretching + self.radial_foundation) / mass, round_mass, 1.0, 0.0)]
         if self.tangential_foundation > 0.0:
             found.append(self._mode(0, self.tangential_foundation / mass, round_mass, 0.0, 1.0))
         for n in range(1, self.highest_nodal_diameter + 1):
-            square = bending * n**2 * (n**2 - 1.0) ** 2 + self.radial_foundation * n**2 + self.tangential_foundation
+            square = self.bending * n**2 * (n**2 - 1.0) ** 2 + self.radial_foundation * n**2 + self.tangential_foundation
             if square > 0.0:
                 square /= mass * (n**2 + 1.0)
                 found.append(self._mode(n, square, 0.5 * round_mass * (1.0 + 1.0 / n**2), 1.0, 1.0 / n))

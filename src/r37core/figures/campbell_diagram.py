@@ -11,9 +11,9 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from r37core.contact.ring import RingMode
+from r37core.contact.elastic_casing import ElasticCasing
 from r37core.plain import from_plain
-from r37core.results.casing_coincidence import coincidences, seen_from_rotor, waves_of
+from r37core.results.casing_coincidence import coincidences, modes_met, seen_from_rotor, waves_of
 from r37core.rom.naming import NAMED_MODES, mode_label
 
 from . import style
@@ -24,7 +24,7 @@ _ROOM = 0.07
 def draw_campbell(campbell: xr.Dataset, title: str, casings: Mapping[str, Any] | None = None) -> Figure:
     """One blade: frequencies over speed with engine orders and crossings, and the dynamic clearance of 1B and 1T.
 
-    `casings`: modes of elastic casings by scene, as plain values; their waves are seen from the rotor.
+    `casings`: elastic ones by scene, as plain values; their waves are seen from the rotor, paler where simulations have none.
     """
     figure, (left, right) = plt.subplots(1, 2, figsize=(style.PAGE, 3.6), width_ratios=[1.7, 1.0])
     speed = campbell["speed"].values
@@ -72,33 +72,47 @@ def draw_campbell_overview(campbell: xr.Dataset) -> Figure:
     return figure
 
 
+_PALE = 0.4
+"""Waves that no simulation has."""
+
 _OF_CASINGS = ("#8C510A", "#762A83", "#01665E")
 
 
 def _draw_casings(axes: Axes, campbell: xr.Dataset, casings: Mapping[str, Any]) -> None:
     """Waves of elastic casings, those that scenes share once, and where named modes of the blade meet them."""
-    scenes: dict[tuple[RingMode, ...], list[str]] = {}
-    for scene, modes in casings.items():
-        scenes.setdefault(from_plain(tuple[RingMode, ...], modes), []).append(scene)
-    for number, (ring, names) in enumerate(scenes.items()):
+    scenes: dict[ElasticCasing, list[str]] = {}
+    for scene, casing in casings.items():
+        scenes.setdefault(from_plain(ElasticCasing, casing), []).append(scene)
+    for number, (one, names) in enumerate(scenes.items()):
         whose = "casing" if len(scenes) == 1 else f"casing of {', '.join(names)}"
-        _draw_casing(axes, campbell, ring, whose, _OF_CASINGS[number % len(_OF_CASINGS)])
+        _draw_casing(axes, campbell, one, whose, _OF_CASINGS[number % len(_OF_CASINGS)])
 
 
-def _draw_casing(axes: Axes, campbell: xr.Dataset, ring: tuple[RingMode, ...], whose: str, colour: str) -> None:
+def _draw_casing(axes: Axes, campbell: xr.Dataset, casing: ElasticCasing, whose: str, colour: str) -> None:
     speeds, highest = campbell["speed"].values, axes.get_ylim()[1]
     dashes = {"forward": (4.0, 2.0), "backward": (1.0, 1.5)}
-    unnamed = set(dashes)
-    for mode, wave in [(one, wave) for one in ring for wave in waves_of(one)]:
+    named: set[str] = set()
+    for mode, wave in [(one, wave) for one in modes_met(casing, campbell) for wave in waves_of(one)]:
         seen = np.abs(seen_from_rotor(mode, wave, speeds))
         if seen.min() > highest:
             continue
-        label = f"{whose}, {wave}" if wave in unnamed else "_"
-        unnamed.discard(wave)
-        axes.plot(speeds, seen, color=colour, linewidth=0.5, dashes=dashes[wave], zorder=1, label=label)
+        simulated = mode in casing.modes
+        label = f"{whose}, {wave}" if simulated else f"{whose}, not simulated"
+        axes.plot(
+            speeds,
+            seen,
+            color=colour,
+            linewidth=0.5,
+            dashes=dashes[wave],
+            zorder=1,
+            alpha=1.0 if simulated else _PALE,
+            label="_" if label in named else label,
+        )
+        named.add(label)
         for name in NAMED_MODES:
             for place in coincidences(campbell["frequency"].sel(mode=name), mode, wave):
-                axes.plot(*place, "D", color=colour, markersize=2.5, markerfacecolor="white", zorder=4)
+                alpha = 1.0 if simulated else _PALE
+                axes.plot(*place, "D", color=colour, markersize=2.5, markerfacecolor="white", zorder=4, alpha=alpha)
 
 
 def _draw_engine_orders(axes: Axes, orders: np.ndarray, speed: np.ndarray, highest: float) -> None:

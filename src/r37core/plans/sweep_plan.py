@@ -178,9 +178,8 @@ class Sweep:
 
     @property
     def casings(self) -> dict[str, Any]:
-        """Modes of the casing of each scene whose casing gives way, as plain values."""
-        rings = {name: chosen.scene.casing.ring for name, chosen in self.settings.scenes.items()}
-        return {name: to_plain(ring) for name, ring in rings.items() if ring}
+        """The casing of each scene whose casing gives way, as plain values."""
+        return {name: to_plain(one) for name, one in self.settings.elastic_casings.items()}
 
     @property
     def benchmark_scenes(self) -> list[str]:

@@ -7,20 +7,21 @@ Wave Speed Coincidence, PhD thesis, Imperial College London, 1997; Legrand et al
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 
 import numpy as np
 import pandas as pd
 import xarray as xr
 from scipy.interpolate import CubicSpline
 
+from r37core.contact.elastic_casing import ElasticCasing
 from r37core.contact.ring import RingMode
 from r37core.rom.naming import NAMED_MODES
 
 WAVES = {"forward": -1.0, "backward": 1.0}
 """Sense of a wave -> sign with which the rotation adds to its frequency."""
 
-COLUMNS = ("scene", "blade", "mode", "nodal_diameter", "wave", "speed_rad_s", "frequency_hz")
+COLUMNS = ("scene", "blade", "mode", "nodal_diameter", "wave", "speed_rad_s", "frequency_hz", "simulated")
 
 
 def seen_from_rotor(mode: RingMode, wave: str, speeds: np.ndarray) -> np.ndarray:
@@ -33,14 +34,23 @@ def waves_of(mode: RingMode) -> tuple[str, ...]:
     return tuple(WAVES) if mode.nodal_diameter else ("forward",)
 
 
-def coincidence_table(campbell: xr.Dataset, casings: Mapping[str, Sequence[RingMode]]) -> pd.DataFrame:
-    """All coincidences of the named modes of every blade with the casing of each scene: one row each, by ascending speed."""
+def modes_met(casing: ElasticCasing, campbell: xr.Dataset) -> tuple[RingMode, ...]:
+    """Modes of a casing that named modes of the blades can meet, in simulations or not: see ElasticCasing.modes_met."""
+    highest = 2.0 * np.pi * float(campbell["frequency"].sel(mode=list(NAMED_MODES)).max())
+    return casing.modes_met(float(campbell["speed"].max()), highest)
+
+
+def coincidence_table(campbell: xr.Dataset, casings: Mapping[str, ElasticCasing]) -> pd.DataFrame:
+    """All coincidences of the named modes of every blade with the casing of each scene: one row each, by ascending speed.
+
+    `simulated`: yes, or no where the scene's simulations leave the mode of the casing out, and so do not show it.
+    """
     rows = [
-        (scene, str(blade), name, mode.nodal_diameter, wave, speed, frequency)
-        for scene, modes in casings.items()
+        (scene, str(blade), name, mode.nodal_diameter, wave, speed, frequency, "yes" if mode in casing.modes else "no")
+        for scene, casing in casings.items()
         for blade in campbell["blade"].values
         for name in NAMED_MODES
-        for mode in modes
+        for mode in modes_met(casing, campbell)
         for wave in waves_of(mode)
         for speed, frequency in coincidences(campbell["frequency"].sel(blade=blade, mode=name), mode, wave)
     ]

@@ -1,0 +1,53 @@
+"""What a run says of elastic casings before it starts: of waves that the rotor overtakes, and of modes that are left out."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from r37core.contact.elastic_casing import ElasticCasing, flexibility, flexibility_of, nodal_diameters_for
+from r37core.contact.ring import Ring
+
+from .casing_section import MOST_NODAL_DIAMETERS
+
+ENOUGH = 0.95
+"""Share of the give under a force from which on nothing is said, and for which nodal diameters are named."""
+
+_KEY = "casing.ring.highest_nodal_diameter"
+
+
+def of_speeds(scene: str, casing: ElasticCasing, fastest: float) -> str:
+    """Of a scene with speeds up to `fastest` (rad/s) above the casing's lowest critical speed; nothing below it."""
+    if fastest <= casing.critical_speed:
+        return ""
+    said = (
+        f"scene {scene}: speeds up to {fastest:g} rad/s; above {casing.critical_speed:.4g} the rotor overtakes waves of the "
+        "casing, which may then grow without bound"
+    )
+    unseen = [mode.nodal_diameter for mode in casing.overtaken(fastest) if mode not in casing.modes]
+    if casing.ring is None or not unseen:
+        return said
+    kept = casing.ring.highest_nodal_diameter
+    return f"{said}; the simulation does not show those of {unseen[0]} to {unseen[-1]} nodal diameters: {_KEY} is {kept}"
+
+
+def of_left_out_modes(casings: Mapping[str, ElasticCasing]) -> list[str]:
+    """Of rings that give way less under a force than they would with all modes, those that scenes share once."""
+    scenes: dict[Ring, list[str]] = {}
+    for name, casing in casings.items():
+        if casing.ring is not None:
+            scenes.setdefault(casing.ring, []).append(name)
+    return [_of_left_out_modes(", ".join(names), ring) for ring, names in scenes.items() if _share(ring) < ENOUGH]
+
+
+def _share(ring: Ring) -> float:
+    return flexibility_of(ring.modes()) / flexibility(ring)
+
+
+def _of_left_out_modes(scenes: str, ring: Ring) -> str:
+    number = nodal_diameters_for(ring, ENOUGH, MOST_NODAL_DIAMETERS)
+    needed = f"{number} have {ENOUGH:.0%}" if number else f"not even {MOST_NODAL_DIAMETERS} have {ENOUGH:.0%}"
+    kept, whole = 1e6 * flexibility_of(ring.modes()), 1e6 * flexibility(ring)
+    return (
+        f"scene {scenes}: the modes up to {_KEY} {ring.highest_nodal_diameter} give way {kept:.3g} um/N at a force that rests, "
+        f"{_share(ring):.0%} of what the whole ring does, {whole:.3g}; {needed}"
+    )
