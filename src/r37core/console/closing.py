@@ -68,7 +68,7 @@ def _ranked(file: Path) -> list[str]:
     for scene in dict.fromkeys(row["scene"] for row in rows):
         of_scene = [row for row in rows if row["scene"] == scene]
         best, worst = of_scene[0], of_scene[-1]
-        if best["blade"] != worst["blade"]:
+        if _number(worst, "length_certain_rad_s") > _number(best, "length_certain_rad_s"):
             said.append(
                 f"{scene}: {best['blade']} is above yield at the fewest speeds ({_length(best)}), {worst['blade']} at the most "
                 f"({_length(worst)}); {file}"

@@ -75,10 +75,9 @@ def ranking_table(
     """
     table = pd.DataFrame([{"blade": blade, "scene": scene, **values} for (blade, scene), values in found.items()])
     keys = table[list(RANKED_BY)].fillna(np.inf).apply(tuple, axis=1)
-    ranks = [
-        1 + sum(other < key for other in keys[table["scene"] == scene]) for key, scene in zip(keys, table["scene"], strict=True)
-    ]
-    table.insert(2, "rank", ranks)
+    ranks = [1 + sum(other < key for other in keys[table["scene"] == of]) for key, of in zip(keys, table["scene"], strict=True)]
+    # without stress there is nothing to rank by
+    table.insert(2, "rank", pd.Series(ranks, dtype="Int64").where(table[RANKED_BY[0]].notna()))
     if members:
         table = pd.concat([table, pd.DataFrame([_under_tolerances(pair, members) for pair in found])], axis=1)
     scenes = list(dict.fromkeys(table["scene"]))
