@@ -8,7 +8,7 @@ _STUB = """
 import sys
 from pathlib import Path
 
-for file in snakemake.output if "snakemake" in globals() else sys.argv[3:4]:
+for file in snakemake.output if "snakemake" in globals() else sys.argv[2:3]:
     path = Path(file)
     if not path.suffix:  # a folder
         path.mkdir()

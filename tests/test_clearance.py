@@ -17,7 +17,6 @@ from r37core.fem.material import Material
 from r37core.fem.matrices import assemble
 from r37core.fem.solver import factorise
 from r37core.fem.stress import nodal_stress
-from r37core.fem.von_mises import von_mises
 from r37core.results.response import write_response
 from r37core.rom.contact_model import read_contact_model, write_contact_model
 from r37core.rom.reduce import reduce_blade
@@ -28,6 +27,7 @@ from r37core.run_ups.march import March
 from r37core.run_ups.revolutions import record_run_up
 from r37core.run_ups.schedule import RunUp
 from r37core.stress.recovery import stress_operator
+from r37core.stress.von_mises import von_mises
 from r37core.time_integration.clearance import NoRoomError, check_room, clearances, growth
 from r37core.time_integration.problem import Problem
 from r37core.time_integration.simulate import Simulation

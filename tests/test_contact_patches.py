@@ -213,7 +213,7 @@ def directory(mesh, matrices, patched, tmp_path_factory):
     folder = tmp_path_factory.mktemp("matrices")
     nodes = table_nodes(patched, "pressure_edge")
     np.testing.assert_array_equal(nodes, mesh.node_set("tip_pressure_edge"))
-    write_full_matrices(matrices, mesh, nodes, SPEEDS, folder, spin_softening=False)
+    write_full_matrices(matrices, mesh, nodes, SPEEDS, folder, spin_softening=False, coriolis=False)
     return folder
 
 

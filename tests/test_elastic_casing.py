@@ -348,8 +348,8 @@ def waves(tmp_path_factory):
             files.append(folder / f"{name}_{speed:g}.npz")
             write_speed(run, files[-1], {})
         responses["Ref", name] = folder / f"{name}.nc"
-        of_stress = {"stress_history_speeds": (), "stress_instants": 31, "yield_stress": 1.0}
-        write_response(files, (3000.0, 3300.0), responses["Ref", name], None, **of_stress, provenance={"numerics": "one"})
+        of_stress = {"stress_history_speeds": (), "yield_stress": 1.0}
+        write_response(files, (3000.0, 3300.0), responses["Ref", name], **of_stress, provenance={"numerics": "one"})
     write_sweep_dataset("casing", responses, folder / "casing.nc", {})
     with xr.open_dataset(folder / "casing.nc") as dataset:
         return dataset.load()

@@ -37,7 +37,9 @@ def whole(mesh, matrices, choice):
 @pytest.fixture(scope="module")
 def directory(mesh, matrices, model, tmp_path_factory):
     folder = tmp_path_factory.mktemp("matrices")
-    write_full_matrices(matrices, mesh, model.contact_nodes.nodes, (0.0, 1000.0, 2000.0), folder, spin_softening=False)
+    write_full_matrices(
+        matrices, mesh, model.contact_nodes.nodes, (0.0, 1000.0, 2000.0), folder, spin_softening=False, coriolis=False
+    )
     return folder
 
 

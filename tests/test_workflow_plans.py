@@ -92,7 +92,6 @@ def test_a_round_reads_what_the_one_before_asked_for(refining):
     assert refining.round_inputs(of(blade="Ref", scene="abradable", round="2")) == {
         "before": "<results>/Ref/abradable/round_1.json",
         "speeds": ["<results>/Ref/abradable/speed_925.npz"],
-        "rom": "<results>/Ref/rom_pressure_edge.nc",
     }
 
 
@@ -355,7 +354,7 @@ def test_run_ups_are_planned_like_speeds(root):
     ]
     climb = of(blade="L50", scene="abradable", run_up="climb")
     down = of(blade="Ref", scene="direct", run_up="down")
-    assert set(planned.inputs(climb)) == {"prepared", "model", "rom"}
+    assert set(planned.inputs(climb)) == {"prepared", "model", "stress"}
     assert planned.inputs(down)["campbell"] == "<results>/Ref/campbell.nc"
     found = from_plain(RunUpChoice, planned.run_up(climb)).of_blade(496, None, "climb")
     assert (found.start, found.stop) == pytest.approx((300.0 * math.pi, 400.0 * math.pi))

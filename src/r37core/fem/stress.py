@@ -6,7 +6,9 @@ import numpy as np
 
 from .assembly import Blocks, typed_blocks
 from .material import Material
-from .von_mises import COMPONENTS
+
+COMPONENTS = ((0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (2, 0))
+"""Order of the components of a stress: xx yy zz xy yz zx."""
 
 
 def stress_at(gradients: np.ndarray, displacement: np.ndarray, material: Material) -> np.ndarray:

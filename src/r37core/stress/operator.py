@@ -7,8 +7,8 @@ from pathlib import Path
 
 import numpy as np
 
-from r37core.fem.von_mises import von_mises
 from r37core.io import atomic_write, readable
+from r37core.stress.von_mises import von_mises
 
 
 @dataclass(frozen=True)

@@ -47,7 +47,7 @@ def write_full_matrices(
     speeds: Sequence[float],
     folder: Path,
     spin_softening: bool,
-    coriolis: bool = False,
+    coriolis: bool,
 ) -> None:
     """Write the full M and K_<speed> at `speeds` (rad/s) with boundary.csv, which names the mesh's `nodes`.
 
