@@ -1,6 +1,6 @@
 """What a casing that gives way changes for the seven blades, and what it costs: tables of docs/elastic_casing.md.
 
-Run: snakemake campbell; python benchmarks/elastic_casing.py (a quarter of an hour on two cores); make docs. The scenes are
+Run: make claims ONLY=elastic_casing (a quarter of an hour on two cores). The scenes are
 elastic_abradable and elastic_direct of config/scenes.yaml, with rings of several thicknesses, and without.
 """
 

@@ -1,6 +1,6 @@
 """Tables of docs/tolerances.md, from finished results of config/tolerances.yaml.
 
-Run where these lie: python benchmarks/tolerances.py; then make docs. The sensitivity of one blade is that of a run named
+Run: make claims ONLY=tolerances. The sensitivity of one blade is that of a run named
 `sensitivity`, the price of few members that of a run named `members`, of one blade with many members:
 
     snakemake tolerances --configfile config/config.yaml config/tolerances.yaml --config tolerances='{members: 16}'
