@@ -130,9 +130,7 @@ def simulate(speed, whole_run=False):
 
 run, stress = simulate(1600.0)
 normal, _, tangential = run["rms"][0]
-print(
-    f"1600 rad/s: rms {1e3 * normal:.3f} mm to the casing, {1e3 * tangential:.3f} mm tangential, {1e-9 * stress[-1]:.3f} GPa"
-)
+print(f"1600 rad/s: rms {1e3 * normal:.3f} mm to the casing, {1e3 * tangential:.3f} mm tangential, {1e-9 * stress[-1]:.3f} GPa")
 
 # %% [markdown]
 # ## All speeds, then a closer look

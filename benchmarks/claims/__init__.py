@@ -1,4 +1,4 @@
-"""What README and docs/ show of computations: what makes each table and picture, whether it is older than that, making it again.
+"""What makes each table and picture of README and docs/, whether it is older than that, and making it again.
 
 `make claims` lists what is older and makes it again; `make claims ONLY=growth.png` one table, picture or group of them. A claim
 is up to date when the hash that its file carries is the present one (hashes.py). registry.py has them all, docs/older.json

@@ -46,9 +46,9 @@ class Claim:
     """Outputs that one list of shell commands makes.
 
     `code`: scripts of benchmarks/ (with what they import there) and files of src/; `configuration`: `file` or
-    `file:dotted.key`; `numbers`: fixed runs of docs/fingerprint.json that stand for the engine. `minutes` on two cores, None where not measured.
-    `by_hand`: why there is no command, and what to do. `checked_by`: a test that makes the output anew and compares it, so that
-    it needs no hash.
+    `file:dotted.key`; `numbers`: fixed runs of docs/fingerprint.json that stand for the engine.
+    `minutes` on two cores, None where not measured. `by_hand`: what to do, where there is no command. `checked_by`: a test that
+    makes the output anew and compares it, so that it needs no hash.
     """
 
     name: str

@@ -95,7 +95,8 @@ def moved(known: Numbers, now: Numbers) -> list[str]:
         name
         for name in {*known, *now}
         if known.get(name, {}).keys() != now.get(name, {}).keys()
-        or any(abs(now[name][key] - value) > WITHIN * abs(value) for key, value in known[name].items())
+        # of NaN no comparison is true
+        or not all(abs(now[name][key] - value) <= WITHIN * abs(value) for key, value in known[name].items())
     )
 
 
