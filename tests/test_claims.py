@@ -1,6 +1,5 @@
 """No committed table or picture is older than what makes it, unless its page says so."""
 
-import ast
 import json
 import re
 import shutil
@@ -101,8 +100,8 @@ def test_a_moved_number_is_told():
 
     known = {"lined": {"rms (m)": 1.0, "wear (m)": 2.0}, "direct": {"rms (m)": 3.0}}
     assert moved(known, known) == []
-    assert moved(known, {**known, "lined": {"rms (m)": 1.0 + 1e-9, "wear (m)": 2.0}}) == []
-    assert moved(known, {**known, "lined": {"rms (m)": 1.0 + 1e-5, "wear (m)": 2.0}}) == ["lined"]
+    assert moved(known, {**known, "lined": {"rms (m)": 1.0 + 1e-6, "wear (m)": 2.0}}) == []
+    assert moved(known, {**known, "lined": {"rms (m)": 1.0 + 1e-4, "wear (m)": 2.0}}) == ["lined"]
     assert moved(known, {**known, "ring": {"rms (m)": 1.0}}) == ["ring"]
     assert moved(known, {"direct": {"rms (m)": np.nan}}) == ["direct", "lined"]
 
@@ -270,11 +269,17 @@ def test_readme_has_the_count_and_the_largest_differences(root):
 def test_differences_are_the_largest_in_order():
     from claims.texts import differences
 
-    table = "\n".join(
-        ["7 of 12 published numbers and statements agree.", "", "| what | published | ours | error |", "|---|---|---|---|"]
-        + ["| a | yes | no (2) | **differs** |", "| b | 4 mm | 5.0012 | **25%** |", "| c | 2 | 4 | **100%** |"]
-        + ["| d | 3 rad/s | 3.001 | 0.03% |", "| e | 10 | 8 | **20%** |", "| f | 10 | 9 | **10%** |"]
-    )
+    table = """7 of 12 published numbers and statements agree.
+
+| what | published | ours | error |
+|---|---|---|---|
+| a | yes | no (2) | **differs** |
+| b | 4 mm | 5.0012 | **25%** |
+| c | 2 | 4 | **100%** |
+| d | 3 rad/s | 3.001 | 0.03% |
+| e | 10 | 8 | **20%** |
+| f | 10 | 9 | **10%** |
+"""
     expected = ["At `paper` 7 of 12 published numbers and statements agree. Furthest off:", ""]
     assert differences(table).splitlines() == [
         *expected,
@@ -314,20 +319,10 @@ def test_scripts_of_the_benchmarks_are_those_of_a_claim_or_say_why_not(root):
     from claims.hashes import code_files
     from claims.registry import CLAIMS
 
-    tools = {
-        "prose.py",
-        "mutants.py",
-        "structure_accuracy.py",
-        "contact_patches.py",
-        "integration_speed.py",
-        "plain_integration.py",
-    }
+    tools = {"prose.py", "mutants.py", "structure_accuracy.py", "contact_patches.py"}
+    compared = {"integration_speed.py", "plain_integration.py"}
     named = {file.name for claim in CLAIMS for one in claim.outputs for file in code_files(claim, one, ROOT)}
     named |= {word for claim in CLAIMS for word in re.findall(r"benchmarks/(\w+\.py)", claim.by_hand)}
     scripts = {file.name for file in (root / "benchmarks").glob("*.py")}
-    assert scripts - named <= tools
-    for file in (root / "benchmarks").glob("*.py"):
-        writes = [
-            node for node in ast.walk(ast.parse(file.read_text())) if isinstance(node, ast.Name) and node.id == "with_part"
-        ]
-        assert not writes, file.name
+    assert scripts - named <= tools | compared
+    assert [name for name in scripts if "with_part" in (root / "benchmarks" / name).read_text()] == []
