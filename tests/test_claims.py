@@ -230,6 +230,21 @@ def test_a_result_that_a_script_did_not_renew_is_not_taken(copy):
     assert part_of((copy / "docs/cluster.md").read_text(), "resources") != "old\n"
 
 
+def test_rearranged_code_renews_hashes_but_not_of_what_is_older(copy):
+    from claims.__main__ import keep, named
+    from claims.older import read_older
+
+    before = read_older(copy)
+    edited(copy / "benchmarks/coriolis.py", "FREQUENCIES", "SHOWN")
+    forget_code()
+    (claim,) = named("coriolis")
+    assert len(stale_in(copy)) == 4
+    keep(claim, copy)
+    assert stale_in(copy) == set()
+    assert read_older(copy) == before
+    assert "docs/coriolis.md#cost" in before
+
+
 def test_names_of_claims():
     from claims.__main__ import named
 

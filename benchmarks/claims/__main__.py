@@ -55,7 +55,7 @@ def make(claim: Claim, cores: str, root: Path) -> None:
 
     The hashes are those from before: what is changed meanwhile makes the output old.
     """
-    hashes = {one.place: present_hash(claim, one, root) for one in claim.outputs if not claim.checked_by}
+    hashes = present_hashes(claim, root)
     began = time.time()
     for command in claim.commands:
         words = command.replace("{snakemake}", f"{{python}} -m snakemake --cores {cores}").replace("{python}", sys.executable)
@@ -68,6 +68,19 @@ def make(claim: Claim, cores: str, root: Path) -> None:
         if not (root / made).exists() or (by_script and (root / made).stat().st_mtime < began - 1.0):
             raise ValueError(f"{claim.name}: its commands did not write {made}")
     take(claim, hashes, root)
+
+
+def present_hashes(claim: Claim, root: Path) -> dict[str, str]:
+    """Place -> the present hash, of outputs that carry one."""
+    return {one.place: present_hash(claim, one, root) for one in claim.outputs if not claim.checked_by}
+
+
+def keep(claim: Claim, root: Path) -> None:
+    """Renew the hashes of what is there; what is known to be older stays so."""
+    older, hashes = read_older(root), present_hashes(claim, root)
+    for one in claim.outputs:
+        if one.place in hashes.keys() - older.keys():
+            write_stamp(one, hashes[one.place], root)
 
 
 def take(claim: Claim, hashes: dict[str, str], root: Path) -> None:
@@ -90,8 +103,11 @@ def main() -> None:
     parser.add_argument("only", nargs="*", help="names; without, all that are older")
     parser.add_argument("--list", action="store_true", help="make nothing")
     parser.add_argument("--taken", action="store_true", help="the results are there, made by this code: run no command")
+    parser.add_argument("--same", action="store_true", help="code was rearranged, the results are the same: renew only the hashes")
     parser.add_argument("--cores", default="2")
     asked = parser.parse_args()
+    if (asked.taken or asked.same) and not asked.only:
+        parser.error("TAKEN and SAME need ONLY=name: whoever asks for them vouches for these")
     try:
         _make_all(asked)
     except (ValueError, subprocess.CalledProcessError) as error:
@@ -113,8 +129,10 @@ def _make_all(asked: argparse.Namespace) -> None:
     if asked.list:
         return
     for claim, _ in todo:
-        if asked.taken:
-            take(claim, {one.place: present_hash(claim, one, ROOT) for one in claim.outputs if not claim.checked_by}, ROOT)
+        if asked.same:
+            keep(claim, ROOT)
+        elif asked.taken:
+            take(claim, present_hashes(claim, ROOT), ROOT)
         elif claim.commands:
             make(claim, asked.cores, ROOT)
 
