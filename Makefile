@@ -9,7 +9,7 @@ LOCK := envs/lock.txt
 
 PIP_INSTALL := $(BIN)/python -m pip install --quiet --disable-pip-version-check --constraint $(LOCK)
 
-.PHONY: all_blades campbell report test test-fast test-slurm mutants lint bench docs site tutorial setup lock clean clean-results
+.PHONY: all_blades campbell report test test-fast test-slurm mutants lint bench claims fingerprint site tutorial setup lock clean clean-results
 
 all_blades campbell: $(VENV)/.ready
 	$(BIN)/python -m snakemake $@ --cores $(CORES) $(if $(FIDELITY),--config fidelity=$(FIDELITY))
@@ -50,10 +50,15 @@ bench: $(VENV)/.ready
 	$(BIN)/python -m snakemake results/Ref/contact_pressure_edge.npz --cores $(CORES) $(if $(FIDELITY),--config fidelity=$(FIDELITY))
 	$(BIN)/python benchmarks/integration_speed.py $(BENCH)
 
-# all studies, at their default size about half an hour on two cores, and their tables into the pages of docs/
-docs: $(VENV)/.ready
-	$(BIN)/python -m snakemake tradeoff stability modelling_choices validation_ranges --cores $(CORES)
-	$(BIN)/python benchmarks/pages.py
+# tables and pictures of README and docs/ that are older than what makes them: lists them with their minutes and makes them again, which
+# may take hours; LIST=yes only lists, ONLY='growth.png accuracy.md' makes these, TAKEN=yes takes results that were just made by hand, SAME=yes renews
+# the hashes alone, where code was rearranged and the results are the same
+claims: $(VENV)/.ready
+	PYTHONPATH=benchmarks $(BIN)/python -m claims $(ONLY) --cores $(CORES) $(if $(LIST),--list) $(if $(TAKEN),--taken) $(if $(SAME),--same)
+
+# the numbers that stand for the engine in the hashes of the claims, after a change of them
+fingerprint: $(VENV)/.ready
+	PYTHONPATH=benchmarks $(BIN)/python -m claims.numbers
 
 # the documentation as a site that opens from the disk: site/index.html; a warning is an error
 site: $(VENV)/.docs

@@ -1,7 +1,7 @@
 """Tables of docs/clearance.md, from finished results of config/clearance.yaml.
 
-Run where these lie: python benchmarks/clearance.py; then make docs. With CalculiX (ccx) on the path the growth is compared
-with its static solution under large displacements, about a minute for each blade.
+Run: make claims ONLY=clearance. With CalculiX (ccx) on the path the growth is compared with its static solution under large
+displacements, about a minute for each blade.
 """
 
 import shutil

@@ -1,6 +1,6 @@
 """What modes and steps of the contact forces at t_n cost in accuracy, on seven blades: tables of docs/accuracy_tables.md.
 
-Run: make all_blades; python benchmarks/contact_accuracy.py (half an hour on two cores); make docs. Each blade has speeds over
+Run: make claims ONLY=contact_accuracy (half an hour on two cores, after the default sweep). Each blade has speeds over
 the whole range and on the tops of its branches, which come from the sweep's results. Runs differ by the step, with the modes
 that follow from it; beside them stand central differences, in which the contact nodes have mass, and friction 0.1% larger.
 """

@@ -1,7 +1,7 @@
 """Tables and figure of docs/accuracy.md on points and patches, from the sweeps of contact_patches.py.
 
-Run: python benchmarks/contact_patches_tables.py; make docs. The published statements on patches come from the gallery of
-config/patches.yaml, which `snakemake gallery` writes over docs/gallery.md: move that page to results/studies/contact_patches.
+Run: make claims ONLY=contact_patches. The published statements on patches come from the gallery of config/patches.yaml, which
+`snakemake gallery` writes over docs/gallery.md, and which is moved to results/studies/contact_patches.
 Errors are relative differences of rms, of the leading edge's whole motion, at settled speeds: those at which friction 0.1%
 larger changes little, and that are not beside the end of a branch.
 """

@@ -1,7 +1,7 @@
 """What the Coriolis force changes for the seven blades, and what it costs: tables and picture of docs/coriolis.md.
 
-Run: snakemake campbell, with structure.coriolis: true in config/config.yaml; python benchmarks/coriolis.py (about ten minutes);
-make docs. Everything is run with the force and without, from the same reduced models.
+Run: make claims ONLY=coriolis (about ten minutes), which makes the reduced models with structure.coriolis: true. Everything is
+run with the force and without, from the same reduced models.
 """
 
 import os

@@ -1,8 +1,8 @@
 """What a casing that gives way changes for the seven blades, and what it costs: tables of docs/elastic_casing.md.
 
-Run: snakemake campbell; python benchmarks/elastic_casing.py (a quarter of an hour on two idle cores), or with names of TABLES
-after it for those alone, and `span=30` for narrower windows; python benchmarks/elastic_casing_waves.py; make docs. The scenes
-are elastic_abradable and elastic_direct of config/scenes.yaml, with rings of several thicknesses, and without.
+Run: make claims ONLY=elastic_casing (a quarter of an hour on two idle cores). With names of TABLES after it for those alone, and
+`span=30` for narrower windows. The scenes are elastic_abradable and elastic_direct of config/scenes.yaml, with rings of
+several thicknesses, and without.
 """
 
 import os

@@ -12,12 +12,12 @@ from pathlib import Path
 import felupe
 import numpy as np
 import skfem
-from pages import fill
 from skfem.models.elasticity import lame_parameters, linear_elasticity
 
 from r37core.fem.assembly import NodePattern, assemble_mass, assemble_stiffness, block_matrix
 from r37core.fem.elements import ELEMENTS
 from r37core.fem.material import Material
+from r37core.io import write_text
 
 ROOT = Path(__file__).parent.parent
 sys.path.insert(0, str(ROOT / "tests"))
@@ -96,7 +96,7 @@ def main():
                 f"{begin} {spent:.2f} | {abs(trace / reference[1] - 1.0):.0e} | {abs(total / reference[2] - 1.0):.0e} |"
             )
             print(lines[-1], flush=True)
-    fill(ROOT / "docs" / "structure.md", "element_libraries", "\n".join(lines))
+    write_text("\n".join(lines) + "\n", ROOT / "results/studies/element_libraries.md")
 
 
 if __name__ == "__main__":

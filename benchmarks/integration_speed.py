@@ -1,14 +1,13 @@
 """How fast the time integration is, against plain ways to write it: ratios inside one run, on the reference blade.
 
-Run: make bench   (builds the reduced model first; about three minutes). Writes integration_speed.json beside this file and
-the tables of docs/speed.md. Fails if results of the ways differ by more than round-off.
+Run: make bench   (builds the reduced model first; about three minutes). Writes integration_speed.json beside this file and the
+tables of docs/speed.md into results/studies. Fails if results of the ways differ by more than round-off.
 """
 
 import copy
 import json
 import os
 import platform
-import sys
 import time
 from dataclasses import replace
 from pathlib import Path
@@ -16,10 +15,10 @@ from pathlib import Path
 os.environ["OPENBLAS_NUM_THREADS"] = "1"
 
 import numpy as np
-from pages import fill
 from plain_integration import PlainProblem
 
 from r37core.config import checked_scene
+from r37core.io import write_text
 from r37core.rom.contact_model import read_contact_model
 from r37core.time_integration.integration_choice import IntegrationChoice
 from r37core.time_integration.integrators import CENTRAL_DIFFERENCE
@@ -70,8 +69,7 @@ def main():
     (Path(__file__).parent / "integration_speed.json").write_text(json.dumps(report, indent=1) + "\n", encoding="utf-8")
     text = tables(report)
     print(text)
-    if "--docs" in sys.argv:
-        fill(ROOT / "docs/speed.md", "integration_speed", text)
+    write_text(text + "\n", ROOT / "results/studies/integration_speed.md")
 
 
 def settled(model, scene, speed, jumps):

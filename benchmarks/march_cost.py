@@ -1,7 +1,7 @@
 """CPU of the time integration alone, of this checkout and another one in turns: a table of docs/speed.md.
 
-Run: make all_blades; python benchmarks/march_cost.py FOLDER, another checkout in which make setup was done; make docs. Both
-take the reduced models of this checkout, and each the steps of its own level.
+Run: make all_blades; python benchmarks/march_cost.py FOLDER, another checkout in which make setup was done; then make claims
+ONLY=march_cost TAKEN=yes. Both take the reduced models of this checkout, and each the steps of its own level.
 """
 
 import json

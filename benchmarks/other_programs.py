@@ -1,7 +1,7 @@
 """The march against SciPy's solve_ivp and against NLstep: tables of docs/validation.md, section "Other programs".
 
-Run: snakemake results/Ref/contact_pressure_edge.npz; python benchmarks/other_programs.py [elastic worn direct histories rms];
-make docs. The last two need GNU Octave and NLSTEP=/path/to/NLstep. Ten minutes in all.
+Run: make claims ONLY=other_programs, or python benchmarks/other_programs.py [elastic worn direct histories rms]. The last two
+need GNU Octave and NLSTEP=/path/to/NLstep: then make claims ONLY=nlstep TAKEN=yes. Ten minutes in all.
 Cases that `rms` has a row of are not run again.
 """
 

@@ -23,7 +23,7 @@ FORBIDDEN = {
 """Pattern of a word or a phrase -> what to write instead."""
 
 _LEFT_OUT = (
-    re.compile(r"<!-- \w+ -->\n.*?<!-- end -->", re.DOTALL),  # generated
+    re.compile(r"<!-- \w+(?: made-with:\w+)? -->\n.*?<!-- end -->", re.DOTALL),  # generated
     re.compile(r"^ *```.*?^ *```", re.DOTALL | re.MULTILINE),
     re.compile(r"^\$\$.*?^\$\$|\\\[.*?\\\]", re.DOTALL | re.MULTILINE),
     re.compile(r"^( {4}.*\n)+(?=\n|\Z)", re.MULTILINE),  # indented code

@@ -18,7 +18,6 @@ os.environ["OPENBLAS_NUM_THREADS"] = "1"
 
 import numpy as np
 from mesh_step import mesh_step
-from pages import fill
 
 from r37core.config import read_settings
 from r37core.config.imported_entry import MeshEntry
@@ -26,7 +25,7 @@ from r37core.exchange.exporting.step import write_step
 from r37core.exchange.importing.import_mesh import import_mesh
 from r37core.fem.matrices import assemble
 from r37core.fem.solver import lowest_modes
-from r37core.io import read_json, write_json
+from r37core.io import read_json, write_json, write_text
 from r37core.mesh.generate import generate_mesh
 from r37core.results.campbell import campbell_diagram
 from r37core.rom.reduce import reduce_blade
@@ -126,7 +125,7 @@ def main():
     for name in asked or settings.blades:
         measure(name, settings, "--frequencies" not in sys.argv, found)
         print(table(found, [name]), flush=True)
-    fill(ROOT / "docs" / "your_blade.md", "remeshed", table(found, settings.blades))
+    write_text(table(found, settings.blades) + "\n", KEPT.with_suffix(".md"))
 
 
 if __name__ == "__main__":

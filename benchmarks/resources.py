@@ -14,7 +14,6 @@ from collections import defaultdict
 from pathlib import Path
 
 import psutil
-from pages import fill
 
 from r37core.config import read_settings
 from r37core.config.document import command_line_document
@@ -94,4 +93,4 @@ if __name__ == "__main__":
     found = measure()
     lines = [f"{rule},{size},{memory},{time}" for rule in sorted(found) for size, (memory, time) in sorted(found[rule].items())]
     write_text("\n".join(["rule,size,memory_mb,time_s", *lines, ""]), MEASURED)
-    fill(ROOT / "docs" / "cluster.md", "resources", table(read_measured()))
+    write_text(table(read_measured()) + "\n", ROOT / "results/studies/resources.md")

@@ -1,6 +1,6 @@
 """What the march of a run-up costs beside that of a run at constant speed: table of docs/run_ups.md.
 
-Run: snakemake campbell; python benchmarks/run_up_cost.py (under a minute); make docs. CPU times, in turns in one process.
+Run: make claims ONLY=run_up_cost (under a minute). CPU times, in turns in one process.
 """
 
 import os

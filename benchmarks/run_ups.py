@@ -1,6 +1,6 @@
 """Tables of docs/run_ups.md and docs/accuracy.md, from finished results of the default sweep and of config/run_ups.yaml.
 
-Run where these lie: python benchmarks/run_ups.py; then make docs.
+Run: make claims ONLY=run_ups.
 """
 
 from dataclasses import replace

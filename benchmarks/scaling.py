@@ -11,9 +11,8 @@ import time
 from pathlib import Path
 
 import psutil
-from pages import fill
 
-from r37core.io import read_json, write_json
+from r37core.io import read_json, write_json, write_text
 
 ROOT = Path(__file__).parent.parent
 sys.path.insert(0, str(ROOT / "tests"))
@@ -164,4 +163,4 @@ if __name__ == "__main__":
     KEPT.parent.mkdir(parents=True, exist_ok=True)
     write_json(kept, KEPT)
     if kept.keys() >= measures.keys():
-        fill(ROOT / "docs" / "cluster.md", "scaling", table(read_json(KEPT)))
+        write_text(table(read_json(KEPT)) + "\n", KEPT.with_suffix(".md"))

@@ -1,7 +1,6 @@
 """Ranges of docs/tolerances.md, from finished results of config/tolerances.yaml.
 
-Run where these lie: python benchmarks/tolerances.py; then make docs. The page's other tables are those of
-tolerance_rankings.py, its picture is of the second run.
+Run: make claims ONLY=tolerances. The page's other tables are those of tolerance_rankings.py, its picture is of the second run.
 
     snakemake tolerances --configfile config/config.yaml config/tolerances.yaml --config tolerances='{members: 16}'
     snakemake tolerances --configfile config/config.yaml config/tolerances.yaml --config run='{name: members}' blades='[Ref]'

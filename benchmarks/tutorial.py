@@ -1,4 +1,4 @@
-"""Runs docs/tutorial.py as a notebook and writes docs/tutorial.ipynb, with its results. Run: make tutorial."""
+"""Runs docs/tutorial.py as a notebook and writes docs/tutorial.ipynb, with its results. Run: make claims ONLY=tutorial."""
 
 from pathlib import Path
 

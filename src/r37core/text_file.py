@@ -37,8 +37,29 @@ def read_text(file: Path) -> str:
     return text
 
 
-def with_part(text: str, name: str, part: str) -> str:
-    """The text with another part between its markers <!-- name --> and <!-- end -->; ValueError where these are missing."""
-    before, rest = text.split(f"<!-- {name} -->\n", 1)
-    after = rest.split("<!-- end -->", 1)[1]
-    return f"{before}<!-- {name} -->\n{part.rstrip()}\n<!-- end -->{after}"
+def with_part(text: str, name: str, part: str, made_with: str | None = None) -> str:
+    """The text with another part between its markers <!-- name --> and <!-- end -->; ValueError where these are missing.
+
+    `made_with`: a hash for the first marker, <!-- name made-with:hash -->; without, the marker stays as it is.
+    """
+    found = _markers(text, name)
+    opening = found[1] if made_with is None else f"<!-- {name} made-with:{made_with} -->"
+    return f"{text[: found.start()]}{opening}\n{part.rstrip()}\n<!-- end -->{text[found.end() :]}"
+
+
+def part_of(text: str, name: str) -> str:
+    """What stands between the markers of this name; ValueError where these are missing."""
+    return _markers(text, name)["part"]
+
+
+def made_with_of(text: str, name: str) -> str | None:
+    """The hash in the first marker of this name, None where it has none; ValueError where the markers are missing."""
+    return _markers(text, name)["made_with"]
+
+
+def _markers(text: str, name: str) -> re.Match[str]:
+    pattern = rf"(<!-- {re.escape(name)}(?: made-with:(?P<made_with>\w+))? -->)\n(?P<part>.*?)<!-- end -->"
+    found = re.search(pattern, text, re.DOTALL)
+    if found is None:
+        raise ValueError(f"there is no part between <!-- {name} --> and <!-- end -->")
+    return found
