@@ -87,6 +87,7 @@ def test_pages_say_what_is_older(root, older):
     assert all(len(why.split()) <= 24 and not why.endswith(".") for why in older.values())
 
 
+@pytest.mark.slow
 def test_fixed_runs_have_the_numbers_of_the_fingerprint(root):
     from claims.hashes import NUMBERS
     from claims.numbers import measured, moved

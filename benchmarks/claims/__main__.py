@@ -103,7 +103,7 @@ def main() -> None:
     parser.add_argument("only", nargs="*", help="names; without, all that are older")
     parser.add_argument("--list", action="store_true", help="make nothing")
     parser.add_argument("--taken", action="store_true", help="the results are there, made by this code: run no command")
-    parser.add_argument("--same", action="store_true", help="code was rearranged, the results are the same: renew only the hashes")
+    parser.add_argument("--same", action="store_true", help="code was rearranged, results are the same: renew only the hashes")
     parser.add_argument("--cores", default="2")
     asked = parser.parse_args()
     if (asked.taken or asked.same) and not asked.only:
