@@ -1,6 +1,6 @@
-"""Families of swept and leaned designs in both scenes: table and picture of docs/blades.md. Run: python benchmarks/designs.py.
+"""Families of swept and leaned designs in both scenes: table and picture of docs/blades.md. Run: make claims ONLY=designs.
 
-It runs the workflow, at draft with adaptive speeds, into results/runs/designs (about ten minutes); then: make docs.
+It runs the workflow, at draft with adaptive speeds, into results/runs/designs (about ten minutes).
 """
 
 import shutil

@@ -1,4 +1,4 @@
-"""How sure the ranking of the blades is: docs/which_blade.md. Run: python benchmarks/ranking.py [PROCESSES]; make docs.
+"""How sure the ranking of the blades is: docs/which_blade.md. Run: make claims ONLY=ranking; the script takes PROCESSES.
 
 Every 1 rad/s on points and every 5 rad/s on patches, of all seven blades: kept in results/studies/ranking, and not run again
 while they are there. Reduced models are made first by

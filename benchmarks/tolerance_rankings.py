@@ -1,7 +1,7 @@
 """How many members rank the numbers of tolerances, and give a range: parts of a large study beside the whole of it.
 
 Run: python benchmarks/tolerance_rankings.py (a quarter of an hour on one core; what is made is kept, in
-results/studies/tolerance_rankings), then make docs. The reference blade at `draft`, lined, with config/tolerances.yaml, about
+results/studies/tolerance_rankings). The reference blade at `draft`, lined, with config/tolerances.yaml, about
 1B/4. The outcomes are of several seeds, so that samples beside each other are independent.
 """
 

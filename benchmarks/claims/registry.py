@@ -361,7 +361,8 @@ CLAIMS = (
         ),
         (
             _MAKE,
-            "{snakemake} " + _MODELS.replace("{folder}", "results/runs/patches")
+            "{snakemake} "
+            + _MODELS.replace("{folder}", "results/runs/patches")
             + " --configfile config/config.yaml config/patches.yaml",
             "{python} benchmarks/ranking.py 2",
         ),

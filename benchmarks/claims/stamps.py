@@ -21,6 +21,8 @@ _OF_PAGE = re.compile(r"<!-- made-with:(\w+) -->\n\Z")
 def read_stamp(output: Output, root: Path) -> str | None:
     """The hash that an output was made with, None where it carries none."""
     file = root / output.page
+    if not file.exists():
+        return None
     if file.suffix == ".png":
         with Image.open(file) as image:
             return image.text.get(KEY)
