@@ -78,6 +78,12 @@ CLAIMS = (
         checked_by="tests/test_configuration_page.py",
     ),
     Claim(
+        "words",
+        tuple(Output(f"docs/results.md#{name}", None) for name in ("columns", "ranking_columns")),
+        ("{python} -m r37core.results.glossary",),
+        checked_by="tests/test_explorer_tables.py",
+    ),
+    Claim(
         "refusal",
         (Output("docs/your_blade.md#refusal", None),),
         by_hand="copy the message that tests/test_your_blade.py gets",
