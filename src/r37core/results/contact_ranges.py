@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from .exceedance import HALF_WIDTH, POSSIBLE, exceedance_of
+from .exceedance import HALF_WIDTH, POSSIBLE, Exceedance, exceedance_of
 from .interaction import Interaction, largest_columns, range_columns
 from .measures import DROP_WITHIN, drop_after, motion, ratio_to_yield, strongest_order
 from .speed_ranges import SpeedRange, joined, ranges_above
@@ -27,24 +27,26 @@ def with_ranges_above_yield(response: xr.Dataset, peaks: Sequence[Interaction]) 
     A range is where the smoothed share of the revolutions above yield is above POSSIBLE, where a speed's own share is, or where
     its last revolution is above yield; so no such speed is in no row. `response`: of the leading edge.
     """
-    ranges = _ranges(response)
-    rows = [_row(response, one) for one in ranges]
+    exceedance = exceedance_of(response) if "share_above_yield" in response else None
+    ranges = _ranges(response, exceedance)
+    rows = [_row(response, exceedance, one) for one in ranges]
     alone = [one for one in peaks if not any(of.begin <= one.peak_speed_rad_s <= of.end for of in ranges)]
     for one in alone:
         at = one.peak_speed_rad_s
-        rows.append(replace(_row(response, SpeedRange(at, at, cut=False), peak_alone=True), direction=one.direction))
+        row = _row(response, exceedance, SpeedRange(at, at, cut=False), peak_alone=True)
+        rows.append(replace(row, direction=one.direction))
     return sorted(rows, key=lambda one: one.peak_speed_rad_s)
 
 
-def _ranges(response: xr.Dataset) -> list[SpeedRange]:
-    if "share_above_yield" not in response:
+def _ranges(response: xr.Dataset, exceedance: Exceedance | None) -> list[SpeedRange]:
+    if exceedance is None:
         return []
-    exceedance, ratio = exceedance_of(response), ratio_to_yield(response)
+    ratio = ratio_to_yield(response)
     own = ranges_above(exceedance.speeds, exceedance.shares, POSSIBLE)
     return joined([*exceedance.ranges(POSSIBLE), *own, *ranges_above(ratio["speed"].values, ratio.values, 1.0)])
 
 
-def _row(response: xr.Dataset, within: SpeedRange, *, peak_alone: bool = False) -> Interaction:
+def _row(response: xr.Dataset, exceedance: Exceedance | None, within: SpeedRange, *, peak_alone: bool = False) -> Interaction:
     """The row of a range, or of a peak that lies in none: then the range is its speed."""
     speeds, level = response["speed"].values, motion(response)
     inside = np.flatnonzero((speeds >= within.begin) & (speeds <= within.end))
@@ -64,17 +66,17 @@ def _row(response: xr.Dataset, within: SpeedRange, *, peak_alone: bool = False) 
         peak_rms_tangential_m=float(peak["rms_tangential"]),
         drop=drop_after(response, place),
         note=NOTE,
-        **_range_columns(response, within, peak_alone),
+        **_range_columns(exceedance, within, peak_alone),
         **largest_columns(reach),
         **_motion_columns(response, float(peak["speed"])),
     )
 
 
-def _range_columns(response: xr.Dataset, within: SpeedRange, peak_alone: bool) -> dict[str, Any]:
+def _range_columns(exceedance: Exceedance | None, within: SpeedRange, peak_alone: bool) -> dict[str, Any]:
     """Borders of the row itself, which may be those of single speeds, and of what is certain in it; none without stress."""
-    if "share_above_yield" not in response:
+    if exceedance is None:
         return {}
-    columns = range_columns(exceedance_of(response), within)
+    columns = range_columns(exceedance, within)
     return columns if peak_alone else columns | {"possible_from_rad_s": within.begin, "possible_to_rad_s": within.end}
 
 
