@@ -179,7 +179,7 @@ def ranking(ways):
         first = "" if np.isnan(one["first_certain_rad_s"]) else f"{one['first_certain_rad_s']:.0f}"
         certain = f"{certain:.0f}" + ("" if np.isnan(scatter) else f" ± {max(scatter, 1.0):.0f}")
         rows.append([one["scene"], str(one["rank"]), one["blade"], certain, f"{possible:.0f}", first,
-                     f"{1e-9 * one['largest_stress_pa']:.2f}", f"{1e3 * one['largest_rms_m']:.2f}"])  # fmt: skip
+                     f"{1e-9 * one['largest_median_stress_pa']:.2f}", f"{1e3 * one['largest_rms_m']:.2f}"])  # fmt: skip
     head = [
         "scene",
         "rank",

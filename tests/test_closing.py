@@ -42,13 +42,17 @@ def test_a_stress_with_a_range_has_the_digits_that_it_bears(tmp_path):
 
 
 def test_best_and_worst_blade_are_named_and_what_may_be_missed(tmp_path):
-    head = "blade,scene,length_certain_rad_s,length_certain_scatter_rad_s,largest_gap_rad_s\n"
-    rows = ("S100,lined,13.2,,20\n", "Ref,lined,70.6,,20\n", "Ref,direct,47.1,7.6,10\n", "S100,direct,854.2,21.1,10\n")
+    head = "blade,scene,rank,length_certain_rad_s,length_certain_scatter_rad_s,largest_gap_rad_s\n"
+    rows = ("S100,lined,1,13.2,,20\n", "Ref,lined,2,70.6,,20\n", "Ref,direct,1,47.1,7.6,10\n", "S100,direct,2,854.2,21.1,10\n")
     (tmp_path / "ranking.csv").write_text(head + "".join(rows))
     lined, direct, missed = closing_lines(written(tmp_path, *ROWS), 400.0, 500.0)[1:4]
     assert lined.startswith("lined: S100 is above yield at the fewest speeds (13 rad/s), Ref at the most (71 rad/s); ")
     assert direct.startswith("direct: Ref is above yield at the fewest speeds (47 rad/s), S100 at the most (854 rad/s); ")
     assert missed == "speeds lie up to 20 rad/s apart: a narrower interaction between them may be missed"
+    # within their scatter no blade is better; equal ones share their place
+    (tmp_path / "ranking.csv").write_text(head + "A,x,1,40,6,0\nB,x,2,45,6,0\nA,y,1,0,,0\nB,y,1,0,,0\nC,y,3,9,,0\n")
+    (said,) = closing_lines(written(tmp_path, *ROWS), 400.0, 500.0)[1:-2]
+    assert said.startswith("y: A and B are above yield at the fewest speeds (0 rad/s), C at the most (9 rad/s); ")
     (tmp_path / "ranking.csv").write_text(head + rows[0])
     assert len(closing_lines(written(tmp_path, *ROWS), 400.0, 500.0)) == 4
 

@@ -36,7 +36,7 @@ RANKING = pd.DataFrame(
         "length_possible_rad_s",
         "length_certain_rad_s_low",
         "length_certain_rad_s_high",
-        "largest_stress_pa",
+        "largest_median_stress_pa",
         "chance_better_than_Ref",
     ],
 )

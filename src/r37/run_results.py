@@ -11,6 +11,7 @@ import xarray as xr
 
 from r37core.dataset_file import read_dataset
 from r37core.io import InputFileError
+from r37core.results.ranking import read_ranking
 from r37core.results.table_file import read_table
 
 
@@ -45,7 +46,7 @@ class RunResults(Mapping[str, xr.Dataset]):
     @cached_property
     def ranking(self) -> pd.DataFrame:
         """ranking.csv: one row per blade and scene, the best blade first. Raises InputFileError where it cannot be read."""
-        return read_table(self.folder / "ranking.csv")
+        return read_ranking(self.folder / "ranking.csv")
 
     def response(self, blade: str, scene: str) -> xr.Dataset:
         """response.nc of one blade in one scene, as `r37.sweep` gives it. Raises InputFileError where it cannot be read."""

@@ -29,7 +29,7 @@ def closing_lines(results: Path, began: float, ended: float, remarks: Iterable[s
 def _found(rows: list[dict[str, str]]) -> str:
     if not rows:
         return "found no interaction"
-    above = [row for row in rows if _number(row, "width_above_yield_rad_s") > 0.0 or _number(row, "certain_length_rad_s") > 0.0]
+    above = [row for row in rows if _number(row, "width_above_yield_rad_s") > 0.0 or row.get("certain_from_rad_s")]
     text = f"found {len(rows)} interaction{'s' * (len(rows) > 1)}, {len(above)} of them above yield"
     if above:
         worst = max(above, key=lambda row: _number(row, "max_von_mises_pa"))
@@ -68,10 +68,13 @@ def _ranked(file: Path) -> list[str]:
     for scene in dict.fromkeys(row["scene"] for row in rows):
         of_scene = [row for row in rows if row["scene"] == scene]
         best, worst = of_scene[0], of_scene[-1]
-        if _number(worst, "length_certain_rad_s") > _number(best, "length_certain_rad_s"):
+        names = [row["blade"] for row in of_scene if row["rank"] == best["rank"]]
+        apart = _number(worst, "length_certain_rad_s") - _number(best, "length_certain_rad_s")
+        if apart > sum(_number(row, "length_certain_scatter_rad_s") for row in (best, worst)):
+            verb = "is" if len(names) == 1 else "are"
             said.append(
-                f"{scene}: {best['blade']} is above yield at the fewest speeds ({_length(best)}), {worst['blade']} at the most "
-                f"({_length(worst)}); {file}"
+                f"{scene}: {' and '.join(names)} {verb} above yield at the fewest speeds ({_length(best)}), "
+                f"{worst['blade']} at the most ({_length(worst)}); {file}"
             )
     gap = max((_number(row, "largest_gap_rad_s") for row in rows), default=0.0)
     if gap > 0.0:

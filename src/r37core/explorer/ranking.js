@@ -61,7 +61,7 @@ const drawRanking = (() => {
         if (ranked) cell.append(element("span", "rank", `${row.rank ?? ""}`));
         const lines = element("span", "bars");
         lines.append(...bars.map(({ name }) => bar(row, name, longest(scene))));
-        cell.append(lines, element("span", "numbers", bars.map((column) => valueText(row, column) || "none").join(" / ")));
+        cell.append(lines, element("span", "numbers", bars.map((column) => valueText(row, column) || "no stress").join(" / ")));
       });
     });
     return table;

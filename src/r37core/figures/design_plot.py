@@ -23,7 +23,7 @@ _DRAWN = (
     "shift_1b_rad_s",
     "length_certain_rad_s",
     "length_possible_rad_s",
-    "largest_stress_pa",
+    "largest_median_stress_pa",
 )
 
 

@@ -15,6 +15,7 @@ from .measures import DROP_WITHIN, drop_after, motion, ratio_to_yield, strongest
 from .speed_ranges import SpeedRange, joined, ranges_above
 
 NOTE = "direct contact: matches with modes and the stress of one revolution are chance"
+NO_PEAK = "above yield without a peak of the motion: nothing to match with a mode"
 
 _HALF, _FEWEST = 0.5, 5
 _OF_NORMAL = 1.4826 / np.sqrt(1.5)
@@ -27,7 +28,7 @@ def with_ranges_above_yield(response: xr.Dataset, peaks: Sequence[Interaction]) 
     A range is where the smoothed share of the revolutions above yield is above POSSIBLE, where a speed's own share is, or where
     its last revolution is above yield; so no such speed is in no row. `response`: of the leading edge.
     """
-    exceedance = exceedance_of(response) if "share_above_yield" in response else None
+    exceedance = exceedance_of(response) if "share_of_revolutions_above_yield" in response else None
     ranges = _ranges(response, exceedance)
     rows = [_row(response, exceedance, one) for one in ranges]
     alone = [one for one in peaks if not any(of.begin <= one.peak_speed_rad_s <= of.end for of in ranges)]
@@ -38,6 +39,19 @@ def with_ranges_above_yield(response: xr.Dataset, peaks: Sequence[Interaction]) 
     return sorted(rows, key=lambda one: one.peak_speed_rad_s)
 
 
+def ranges_without_peak(response: xr.Dataset, rows: Sequence[Interaction]) -> list[Interaction]:
+    """Of a lined scene: rows of the ranges above yield that no interaction among the `rows` reaches into."""
+    if "share_of_revolutions_above_yield" not in response:
+        return []
+    exceedance = exceedance_of(response)
+    alone = [
+        one
+        for one in _ranges(response, exceedance)
+        if not any(row.possible_from_rad_s <= one.end and row.possible_to_rad_s >= one.begin for row in rows)
+    ]
+    return [_row(response, exceedance, one, note=NO_PEAK) for one in alone]
+
+
 def _ranges(response: xr.Dataset, exceedance: Exceedance | None) -> list[SpeedRange]:
     if exceedance is None:
         return []
@@ -46,7 +60,9 @@ def _ranges(response: xr.Dataset, exceedance: Exceedance | None) -> list[SpeedRa
     return joined([*exceedance.ranges(POSSIBLE), *own, *ranges_above(ratio["speed"].values, ratio.values, 1.0)])
 
 
-def _row(response: xr.Dataset, exceedance: Exceedance | None, within: SpeedRange, *, peak_alone: bool = False) -> Interaction:
+def _row(
+    response: xr.Dataset, exceedance: Exceedance | None, within: SpeedRange, *, peak_alone: bool = False, note: str = NOTE
+) -> Interaction:
     """The row of a range, or of a peak that lies in none: then the range is its speed."""
     speeds, level = response["speed"].values, motion(response)
     inside = np.flatnonzero((speeds >= within.begin) & (speeds <= within.end))
@@ -54,7 +70,8 @@ def _row(response: xr.Dataset, exceedance: Exceedance | None, within: SpeedRange
     place = int(inside[at])
     peak, reach = response.isel(speed=place), response.isel(speed=inside)
     largest = [name for name in ("normal", "tangential") if np.argmax(response[f"rms_{name}"].fillna(0.0).values[inside]) == at]
-    order = round(strongest_order(peak["amplitude"])) if "amplitude" in peak else None
+    ended = bool(np.isfinite(peak["rms_normal"]))
+    order = round(strongest_order(peak["amplitude"])) if ended and "amplitude" in peak else None
     return Interaction(
         mode="",
         engine_order=order,
@@ -65,10 +82,10 @@ def _row(response: xr.Dataset, exceedance: Exceedance | None, within: SpeedRange
         peak_rms_normal_m=float(peak["rms_normal"]),
         peak_rms_tangential_m=float(peak["rms_tangential"]),
         drop=drop_after(response, place),
-        note=NOTE,
+        note=note,
         **_range_columns(exceedance, within, peak_alone),
         **largest_columns(reach),
-        **_motion_columns(response, float(peak["speed"])),
+        **(_motion_columns(response, float(peak["speed"])) if ended else {}),
     )
 
 

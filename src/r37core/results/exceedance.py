@@ -53,7 +53,8 @@ class Exceedance:
         before, after = np.concatenate([steps[:1], steps]), np.concatenate([steps, steps[-1:]])
         reach = np.maximum(HALF_WIDTH, _INTERVALS * np.maximum(before, after))
         distance = np.abs(self.speeds[:, None] - self.speeds)
-        weights = np.maximum(0.0, 1.0 - distance / reach[:, None]) * np.gradient(self.speeds)
+        nearest = 0.5 * (np.concatenate([[0.0], steps]) + np.concatenate([steps, [0.0]]))
+        weights = np.maximum(0.0, 1.0 - distance / reach[:, None]) * nearest
         return weights / weights.sum(axis=1, keepdims=True)
 
     @property
@@ -89,24 +90,27 @@ class Exceedance:
             return np.nan
         return float(np.std([sum(one.length for one in ranges) for ranges in self._ranges_drawn[share]]))
 
-    def scatter_of_border(self, share: float, border: float, *, begins: bool) -> float:
-        """How far (rad/s) chance moves the `border` (rad/s) of a range that begins, or ends, there, in two of three cases.
+    def scatter_of_border(self, share: float, of: SpeedRange, *, begins: bool) -> float:
+        """How far (rad/s) chance moves the begin, or the end, of a range, in two of three cases.
 
-        NaN where there is no chance, and where the range itself is not there in one of three cases.
+        NaN where there is no chance, where the speeds begin or end there, and where the range itself is not there, or somewhere
+        else, in one of three cases.
         """
-        if not self.chance:
+        border = of.begin if begins else of.end
+        if not self.chance or border in (self.speeds[0], self.speeds[-1]):
             return np.nan
         off = []
         for ranges in self._ranges_drawn[share]:
-            borders = np.array([one.begin if begins else one.end for one in ranges])
-            off.append(np.abs(borders - border).min(initial=np.inf))
+            same = [one for one in ranges if one.begin <= of.end and one.end >= of.begin]
+            found = (same[0].begin if begins else same[-1].end) if same else np.inf
+            off.append(abs(found - border))
         scatter = float(np.quantile(off, 2.0 / 3.0))
         return scatter if np.isfinite(scatter) else np.nan
 
 
 def exceedance_of(response: xr.Dataset) -> Exceedance:
     """That of a response with its stress; a run that diverged is above yield in all revolutions."""
-    share = response["share_above_yield"].where(response["status"] != RunStatus.DIVERGED, 1.0).dropna("speed")
+    share = response["share_of_revolutions_above_yield"].where(response["status"] != RunStatus.DIVERGED, 1.0).dropna("speed")
     return Exceedance(share["speed"].values, share.values, not is_lined(response))
 
 

@@ -109,11 +109,11 @@ INTERACTIONS = {
 RANKING = {
     "rank": Word(
         "rank",
-        "place of the blade in the scene: 1 is the shortest certainly above yield, then possibly, then the least stressed",
+        "place in the scene: by the length certainly above yield, then possibly, then fewer diverged runs, then less stress",
     ),
     "length_certain_rad_s": Word("certainly above yield", f"length of all speeds at which {_CERTAIN}", _SPEED),
     "length_possible_rad_s": Word("possibly above yield", f"length of all speeds at which {_POSSIBLE}", _SPEED),
-    "largest_stress_pa": Word(
+    "largest_median_stress_pa": Word(
         "largest median stress", f"largest median over the {_REVOLUTIONS} of their von Mises stress, of all speeds", "MPa", 1e-6
     ),
     "first_certain_rad_s": Word("first speed certainly above yield", f"lowest speed at which {_CERTAIN}", _SPEED),
@@ -131,6 +131,7 @@ RANKING = {
         "largest distance between neighbouring speeds that were run: a narrower interaction between them may be missed",
         _SPEED,
     ),
+    "diverged_runs": Word("diverged", "runs that diverged; they count as above yield in all revolutions"),
     "members": Word("members", "number of the members of the sample"),
 }
 """Columns of ranking.csv, a line for each blade and scene."""

@@ -86,8 +86,8 @@ def range_columns(exceedance: Exceedance, within: SpeedRange) -> dict[str, Any]:
         if ranges:
             begin, end = max(ranges[0].begin, within.begin), min(ranges[-1].end, within.end)
             found[f"{name}_from_rad_s"], found[f"{name}_to_rad_s"] = begin, end
-            found[f"{name}_from_scatter_rad_s"] = exceedance.scatter_of_border(share, begin, begins=True)
-            found[f"{name}_to_scatter_rad_s"] = exceedance.scatter_of_border(share, end, begins=False)
+            found[f"{name}_from_scatter_rad_s"] = exceedance.scatter_of_border(share, ranges[0], begins=True)
+            found[f"{name}_to_scatter_rad_s"] = exceedance.scatter_of_border(share, ranges[-1], begins=False)
     return found
 
 

@@ -15,7 +15,7 @@ from scipy.signal import find_peaks
 from r37core.rom.naming import NAMED_MODES
 from r37core.time_integration.status import RunStatus
 
-from .contact_ranges import with_ranges_above_yield
+from .contact_ranges import ranges_without_peak, with_ranges_above_yield
 from .datasets import response_of
 from .exceedance import exceedance_of, is_lined
 from .interaction import COLUMNS, Interaction, largest_columns, range_columns
@@ -80,7 +80,9 @@ def find_interactions(response: xr.Dataset, campbell: xr.Dataset, choice: Intera
         return []
     lined = is_lined(response)
     peaks = _interactions(response, campbell if lined else None, choice)
-    return peaks if lined else with_ranges_above_yield(response, peaks)
+    if lined:
+        return sorted([*peaks, *ranges_without_peak(response, peaks)], key=lambda one: one.peak_speed_rad_s)
+    return with_ranges_above_yield(response, peaks)
 
 
 def _interactions(response: xr.Dataset, campbell: xr.Dataset | None, choice: InteractionChoice) -> list[Interaction]:
@@ -205,7 +207,7 @@ def _interaction(reach: xr.Dataset, peak: xr.Dataset, group: list[_Peak], place:
             "max_von_mises_pa": largest,
             "max_von_mises_speed_rad_s": at,
         }
-    if "share_above_yield" in reach:
+    if "share_of_revolutions_above_yield" in reach:
         ends = SpeedRange(float(reach["speed"][0]), float(reach["speed"][-1]), cut=False)
         stress |= range_columns(exceedance_of(reach), ends)
         stress["width_ever_above_yield_rad_s"] = speeds_above_yield(reach, "max_von_mises_ever").width

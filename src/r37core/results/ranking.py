@@ -3,23 +3,26 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from pathlib import Path
 
 import numpy as np
 import pandas as pd
 import xarray as xr
 
+from r37core.io import readable
 from r37core.rounding import rounded_to
 from r37core.time_integration.status import RunStatus
 
 from .exceedance import CERTAIN, POSSIBLE, exceedance_of
 from .measures import drop_after, motion, peak_of
+from .table_file import read_table
 
 ROBUSTNESS = (
     "length_certain_rad_s",
     "length_certain_scatter_rad_s",
     "length_possible_rad_s",
     "length_possible_scatter_rad_s",
-    "largest_stress_pa",
+    "largest_median_stress_pa",
     "first_certain_rad_s",
     "first_possible_rad_s",
     "widest_range_rad_s",
@@ -27,10 +30,11 @@ ROBUSTNESS = (
     "largest_rms_speed_rad_s",
     "drop",
     "largest_gap_rad_s",
+    "diverged_runs",
 )
 """What is read off a response, the same for blades, designs and members; in words: glossary.RANKING."""
 
-RANKED_BY = ("length_certain_rad_s", "length_possible_rad_s", "largest_stress_pa")
+RANKED_BY = ("length_certain_rad_s", "length_possible_rad_s", "diverged_runs", "largest_median_stress_pa")
 """Less of the first is better, of the next where that is the same."""
 
 ENDS = {"low": 0.05, "high": 0.95}
@@ -48,10 +52,13 @@ def robustness(response: xr.Dataset) -> dict[str, float]:
     if not response.sizes["speed"]:
         return found
     peak, speeds = peak_of(response), response["speed"].values
-    found["largest_rms_m"], found["largest_rms_speed_rad_s"] = float(motion(response).max()), float(peak["speed"])
-    found["drop"] = drop_after(response)
+    ended = response["status"].values == RunStatus.COMPLETED
+    if ended.any():
+        found["largest_rms_m"], found["largest_rms_speed_rad_s"] = float(motion(response).max()), float(peak["speed"])
+        found["drop"] = drop_after(response)
+    found["diverged_runs"] = float(np.count_nonzero(~ended))
     found["largest_gap_rad_s"] = float(np.diff(speeds).max(initial=0.0))
-    if "share_above_yield" in response:
+    if "share_of_revolutions_above_yield" in response:
         exceedance = exceedance_of(response)
         for name, share in (("certain", CERTAIN), ("possible", POSSIBLE)):
             ranges = exceedance.ranges(share)
@@ -59,7 +66,7 @@ def robustness(response: xr.Dataset) -> dict[str, float]:
             found[f"length_{name}_scatter_rad_s"] = exceedance.scatter_of_length(share)
             found[f"first_{name}_rad_s"] = ranges[0].begin if ranges else np.nan
         found["widest_range_rad_s"] = max((one.length for one in exceedance.ranges(CERTAIN)), default=0.0)
-        found["largest_stress_pa"] = float(response["max_von_mises_median"].max())
+        found["largest_median_stress_pa"] = float(response["max_von_mises_median"].max())
     return found
 
 
@@ -84,6 +91,18 @@ def ranking_table(
     return table.sort_values(
         ["scene", "rank"], key=lambda column: column.map(scenes.index) if column.name == "scene" else column
     )
+
+
+def read_ranking(file: Path | str) -> pd.DataFrame:
+    """ranking.csv. Raises InputFileError where it cannot be read, or a column is missing or has no numbers."""
+    table = read_table(file)
+    with readable(file):
+        missing = [name for name in ("blade", "scene", "rank", *ROBUSTNESS) if name not in table]
+        if missing:
+            raise ValueError(f"without the columns {', '.join(missing)}")
+        return table.astype(dict.fromkeys([name for name in table if name not in ("blade", "scene")], float)).astype(
+            {"rank": "Int64"}
+        )
 
 
 def as_scatter_bears(table: pd.DataFrame) -> pd.DataFrame:

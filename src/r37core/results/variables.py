@@ -52,7 +52,7 @@ VARIABLES = {
     "max_von_mises_ever": Variable((), "Pa", f"{_OF_REVOLUTIONS}: largest"),
     "max_von_mises_median": Variable((), "Pa", f"{_OF_REVOLUTIONS}: median"),
     "max_von_mises_high": Variable((), "Pa", f"{_OF_REVOLUTIONS}: {HIGH:.0%} of them have no larger one"),
-    "share_above_yield": Variable(
+    "share_of_revolutions_above_yield": Variable(
         (), "1", "share of the revolutions of the last half of the run whose largest stress exceeds yield"
     ),
     "wear": Variable(("angle",), "m", "wear of the lining, largest over the rings, at the end", "f4"),
@@ -108,7 +108,7 @@ DATASETS = {
         "max_von_mises_ever",
         "max_von_mises_median",
         "max_von_mises_high",
-        "share_above_yield",
+        "share_of_revolutions_above_yield",
         "stress_region",
         "static_stress",
         "yield_stress",

@@ -19,5 +19,5 @@ def stress_statistic(of_revolutions: np.ndarray, yield_stress: float) -> dict[st
         "max_von_mises_ever": np.array(ever),
         "max_von_mises_median": np.array(median),
         "max_von_mises_high": np.array(high),
-        "share_above_yield": np.array(np.mean(of_revolutions > yield_stress) if ended else np.nan),
+        "share_of_revolutions_above_yield": np.array(np.mean(of_revolutions > yield_stress) if ended else np.nan),
     }

@@ -35,11 +35,12 @@ MEASURES = {
     "largest_stress": ("Pa", "largest von Mises stress over all speeds"),
     "length_certain": ("rad s-1", "length of the speeds certainly above yield"),
     "length_possible": ("rad s-1", "length of the speeds possibly above yield"),
+    "diverged_runs": ("1", "runs that diverged"),
     "largest_median_stress": ("Pa", "largest over all speeds of the median over the revolutions"),
 }
 """What is read off each member over all its speeds -> units, meaning; all but the first need the stress."""
 
-_RANKED = dict(zip(RANKED_BY, ("length_certain", "length_possible", "largest_median_stress"), strict=True))
+_RANKED = dict(zip(RANKED_BY, ("length_certain", "length_possible", "diverged_runs", "largest_median_stress"), strict=True))
 """What blades are ranked by -> measure that it is."""
 
 INDEXED = ("peak_speed", "width_above_yield", "largest_stress")
