@@ -59,7 +59,7 @@ def config(study):
 @pytest.fixture(scope="module")
 def finished(study, compiled):
     """The same, run by the workflow."""
-    snakemake(study, "results/campbell.nc", "results/rms.nc", "results/summary.csv", "--cores", "1")
+    snakemake(study, "results/campbell.nc", "results/rms.nc", "results/summary.csv", "results/ranking.csv", "--cores", "1")
     return study
 
 

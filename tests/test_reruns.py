@@ -14,7 +14,7 @@ BLADES, SCENES, SPEEDS = ("Ref", "CS100"), ("abradable", "direct"), ("750", "115
 
 # what follows any change of a simulation
 DATASETS = {"configuration", "sweep_dataset", "summary", "explorer", "response_figure", "response_overview", "map_figure"}
-DATASETS |= {"waterfall_figure", "comparison_figure"}
+DATASETS |= {"waterfall_figure", "comparison_figure", "ranking", "ranking_figure"}
 STRUCTURE = {"geometry", "mesh", "abaqus_deck", "reduced_model", "campbell_of_blade", "campbell_figure"}
 OF_ALL_BLADES = {"campbell_of_all", "campbell_overview", "blade_shapes_figure"}
 
@@ -47,7 +47,7 @@ def test_maps_are_of_the_runs_that_have_their_kind(finished):
     }
     others = {f"waterfall_{blade}__{scene}" for blade in BLADES for scene in SCENES}
     others |= {f"{kind}_{blade}" for kind in ("campbell", "response") for blade in BLADES}
-    others |= {"campbell", "response", "blades", *(f"comparison_{scene}" for scene in SCENES)}
+    others |= {"campbell", "response", "blades", "ranking", *(f"comparison_{scene}" for scene in SCENES)}
     drawn = {file.name for file in (finished / "results/figures").iterdir()}
     assert drawn == {f"{name}.{suffix}" for name in maps | others for suffix in ("png", "pdf")}
 
@@ -98,7 +98,7 @@ def test_an_added_blade_runs_its_own_jobs(project):
         stream.write("\nEighth: { base: Ref, chordwise_sweep_deg: 7.5 }\n")
     jobs = planned_outputs(project)
     assert jobs.pop("simulate") == runs(blades=["Eighth"])
-    for rule in STRUCTURE | {"response", "prepare_time_integration", "contact_model"}:
+    for rule in STRUCTURE | {"response", "prepare_time_integration", "contact_model", "stress_operator"}:
         assert all("Eighth" in file for file in jobs.pop(rule)), rule
     assert set(jobs) == DATASETS | OF_ALL_BLADES
 

@@ -258,8 +258,9 @@ def test_only_what_a_scene_requires(project):
     config = project / "config/config.yaml"
     config.write_text(config.read_text().replace("  - { start: 750, stop: 1600 }", "  - 900").replace("[Ref, CS100]", "[Ref]"))
     text = snakemake(project, "all_blades", "--cores", "2", "--dry-run")
-    inputs = dict(re.findall(r"rule response:\n    input: (.*)\n    output: results/Ref/(\w+)/response.nc", text))
-    assert sorted(scene for given, scene in inputs.items() if "rom_" in given) == ["direct"]
+    inputs = dict(re.findall(r"rule simulate:\n    input: (.*)\n    output: results/Ref/(\w+)/speed_900.npz", text))
+    assert sorted(inputs.values()) == ["abradable", "direct"]
+    assert [scene for given, scene in inputs.items() if "stress_" in given] == ["direct"]
     counts = dict(re.findall(r"^(\w+) +(\d+)$", text, re.MULTILINE))
     assert counts["simulate"] == "2"
     assert counts["prepare_time_integration"] == "2"
