@@ -56,7 +56,7 @@ _EXPLORER = tuple(
     for name in ("explorer.html", "explorer.css", "theme.js", "words.js", "ranking.js", "interactions.js", "explorer.js")
 )
 _RINGS = ("rings", "flexibility", "peaks", "direct", "diameters", "coincidences", "causes", "growth", "overtaken", "cost")
-_RANKING = ("", "_statistic", "_direct", "_lined", "_cost", "_chances_direct", "_chances_lined")
+_RANKING = ("", "_statistic", "_direct", "_lined", "_missed", "_cost", "_chances_direct", "_chances_lined")
 _MODELS = " ".join(
     f"{{folder}}/{blade}/{file}_pressure_edge.npz"
     for blade in ("Ref", "L50", "L100", "S50", "S100", "CS50", "CS100")
@@ -249,7 +249,12 @@ CLAIMS = (
             Output("docs/accuracy_tables.md#branches", f"{STUDIES}/contact_patches_branches.md"),
             picture("contact_patches", f"{STUDIES}/figures/contact_patches.png"),
         ),
-        ("{python} benchmarks/contact_patches.py", *_GALLERY_OF_PATCHES, "{python} benchmarks/contact_patches_tables.py"),
+        (
+            f"rm -rf {STUDIES}/contact_patches",
+            "{python} benchmarks/contact_patches.py",
+            *_GALLERY_OF_PATCHES,
+            "{python} benchmarks/contact_patches_tables.py",
+        ),
         minutes=220,
         code=("benchmarks/contact_patches_tables.py",),
         configuration=(*_BENCHMARK, "config/patches.yaml"),
@@ -353,7 +358,7 @@ CLAIMS = (
     Claim(
         "tolerance_rankings",
         tables("tolerances", "", ("tolerance_sensitivity", "tolerance_rankings", "tolerance_members")),
-        ("{python} benchmarks/tolerance_rankings.py",),
+        (f"rm -rf {STUDIES}/tolerance_rankings", "{python} benchmarks/tolerance_rankings.py"),
         minutes=20,
         code=("benchmarks/tolerance_rankings.py",),
         configuration=(*_BENCHMARK, *_levels("draft"), "config/tolerances.yaml"),
@@ -370,7 +375,7 @@ CLAIMS = (
             "{snakemake} "
             + _MODELS.replace("{folder}", "results/runs/patches")
             + " --configfile config/config.yaml config/patches.yaml",
-            "{python} benchmarks/ranking.py 2",
+            f"rm -rf {STUDIES}/ranking && {{python}} benchmarks/ranking.py 2",
         ),
         minutes=50,
         code=("benchmarks/ranking.py",),

@@ -68,9 +68,9 @@ CAPTIONS = {
     ),
     "ranking": (
         "Which blade? Length of the speeds above yield of every blade, scene by scene, in the order of the first scene. Dark: "
-        "certainly, at least half of the revolutions of the last half of a run exceed yield; light: possibly, a twentieth of "
-        "them do. Lines: standard deviation by chance, in direct contact; with tolerances: the range that nine tenths of the "
-        "members lie in."
+        "certainly, more than half of the revolutions of the last half of a run exceed yield; light: possibly, more than a "
+        "twentieth of them do. Lines: standard deviation by chance, in direct contact; with tolerances: the range that nine "
+        "tenths of the members lie in."
     ),
     "designs": (
         "Family {family}: what each design is and how robust, over what varies. Frequencies, largest loss of clearance as "

@@ -10,7 +10,7 @@ import numpy as np
 import xarray as xr
 
 from .exceedance import HALF_WIDTH, POSSIBLE, Exceedance, exceedance_of
-from .interaction import Interaction, largest_columns, range_columns
+from .interaction import Interaction, largest_columns, peak_columns, range_columns
 from .measures import DROP_WITHIN, drop_after, motion, ratio_to_yield, strongest_order
 from .speed_ranges import SpeedRange, joined, ranges_above
 
@@ -77,15 +77,13 @@ def _row(
         engine_order=order,
         direction=largest[0] if len(largest) == 1 else "both",
         campbell_speed_rad_s=np.nan,
-        peak_speed_rad_s=float(peak["speed"]),
         shift_rad_s=np.nan,
-        peak_rms_normal_m=float(peak["rms_normal"]),
-        peak_rms_tangential_m=float(peak["rms_tangential"]),
         drop=drop_after(response, place),
         note=note,
+        **peak_columns(peak),
         **_range_columns(exceedance, within, peak_alone),
         **largest_columns(reach),
-        **(_motion_columns(response, float(peak["speed"])) if ended else {}),
+        **(_motion_columns(speeds, level, place) if ended else {}),
     )
 
 
@@ -97,13 +95,10 @@ def _range_columns(exceedance: Exceedance | None, within: SpeedRange, peak_alone
     return columns if peak_alone else columns | {"possible_from_rad_s": within.begin, "possible_to_rad_s": within.end}
 
 
-def _motion_columns(response: xr.Dataset, peak_speed: float) -> dict[str, Any]:
-    """Motion at a peak with its scatter, and where it falls below half of that above the peak."""
-    speeds, level = response["speed"].values, motion(response)
-    place = int(np.searchsorted(speeds, peak_speed))
+def _motion_columns(speeds: np.ndarray, level: np.ndarray, place: int) -> dict[str, Any]:
+    """Scatter of the motion at a peak, and where it falls below half of that above the peak."""
     fall, scatter = _fall(speeds, level, place)
     return {
-        "peak_motion_m": float(level[place]),
         "peak_motion_scatter_m": _scatter(speeds, level, place),
         "fall_speed_rad_s": fall,
         "fall_speed_scatter_rad_s": scatter,

@@ -1,8 +1,8 @@
 """Where over speed a blade exceeds yield, from the share of a run's revolutions that does.
 
-In direct contact one revolution's largest stress scatters by a tenth, from revolution to revolution and from speed to speed, so
-that a speed is above yield or below it by chance. The share of a hundred revolutions, smoothed over neighbouring speeds, has
-borders that can be found again. A lined blade repeats itself: its shares are taken as they are.
+In direct contact one revolution's largest stress scatters by a tenth on most blades, from revolution to revolution and from
+speed to speed, so that a speed is above yield or below it by chance. The share of a hundred revolutions, smoothed over
+neighbouring speeds, has borders that can be found again. A lined blade repeats itself: its shares are taken as they are.
 """
 
 from __future__ import annotations
@@ -57,7 +57,7 @@ class Exceedance:
         weights = np.maximum(0.0, 1.0 - distance / reach[:, None]) * nearest
         return weights / weights.sum(axis=1, keepdims=True)
 
-    @property
+    @cached_property
     def smoothed(self) -> np.ndarray:
         """The shares, each the mean of its neighbours', shape (speeds,)."""
         return self.weights @ self.shares

@@ -12,6 +12,7 @@ from pathlib import Path
 from r37core.io import write_text
 from r37core.text_file import with_part
 
+from . import member_ends
 from .exceedance import CERTAIN, POSSIBLE
 from .measures import DROP_WITHIN
 
@@ -139,7 +140,7 @@ RANKING = {
 CHANCE = "chance_better_than_"
 """Begin of columns of ranking.csv that compare a blade with another one, whose name follows."""
 
-ENDS = {"_low": "5%", "_median": "median", "_high": "95%"}
+ENDS = {f"_{end}": "median" if quantile == 0.5 else f"{quantile:.0%}" for end, quantile in member_ends.ENDS.items()}
 """Ends of columns with the quantiles over the members of a sample, and how they are called."""
 
 

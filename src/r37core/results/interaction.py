@@ -91,6 +91,17 @@ def range_columns(exceedance: Exceedance, within: SpeedRange) -> dict[str, Any]:
     return found
 
 
+def peak_columns(peak: xr.Dataset) -> dict[str, Any]:
+    """What a row says of the response at its peak speed."""
+    normal, tangential = float(peak["rms_normal"]), float(peak["rms_tangential"])
+    return {
+        "peak_speed_rad_s": float(peak["speed"]),
+        "peak_rms_normal_m": normal,
+        "peak_rms_tangential_m": tangential,
+        "peak_motion_m": float(np.hypot(normal, tangential)),
+    }
+
+
 def largest_columns(reach: xr.Dataset) -> dict[str, Any]:
     """The largest of everything within the `reach` of a row that has one, and how its runs ended."""
     found: dict[str, Any] = {"status": RunStatus(int(reach["status"].max())).text, "stress_region": ""}

@@ -18,7 +18,7 @@ from r37core.time_integration.status import RunStatus
 from .contact_ranges import ranges_without_peak, with_ranges_above_yield
 from .datasets import response_of
 from .exceedance import exceedance_of, is_lined
-from .interaction import COLUMNS, Interaction, largest_columns, range_columns
+from .interaction import COLUMNS, Interaction, largest_columns, peak_columns, range_columns
 from .measures import DROP_WITHIN, drop_after, largest_stress, leading_edge, motion, speeds_above_yield, strongest_order
 from .speed_ranges import SpeedRange
 
@@ -195,7 +195,7 @@ def _strongest(group: list[_Peak], level: np.ndarray) -> int:
 
 def _interaction(reach: xr.Dataset, peak: xr.Dataset, group: list[_Peak], place: int, drop: float) -> Interaction:
     """The row of a group, from the response within its reach and at its `peak`, the `place` of that, and its drop."""
-    first, speed = group[0], float(peak["speed"])
+    first = group[0]
     directions = {one.direction for one in group if one.place == place}
     stress: dict[str, Any] = {}
     if "max_von_mises" in reach:
@@ -216,12 +216,9 @@ def _interaction(reach: xr.Dataset, peak: xr.Dataset, group: list[_Peak], place:
         engine_order=first.engine_order,
         direction="both" if len(directions) == len(SPECTRA) else min(directions),
         campbell_speed_rad_s=first.crossing,
-        peak_speed_rad_s=speed,
-        shift_rad_s=speed - first.crossing,
-        peak_rms_normal_m=float(peak["rms_normal"]),
-        peak_rms_tangential_m=float(peak["rms_tangential"]),
-        peak_motion_m=float(motion(peak.expand_dims("speed"))[0]),
+        shift_rad_s=float(peak["speed"]) - first.crossing,
         drop=drop,
+        **peak_columns(peak),
         **stress,
         **largest_columns(reach),
     )

@@ -15,6 +15,7 @@ from r37core.time_integration.status import RunStatus
 
 from .exceedance import CERTAIN, POSSIBLE, exceedance_of
 from .measures import drop_after, motion, peak_of
+from .member_ends import ENDS
 from .table_file import read_table
 
 ROBUSTNESS = (
@@ -37,16 +38,18 @@ ROBUSTNESS = (
 RANKED_BY = ("length_certain_rad_s", "length_possible_rad_s", "diverged_runs", "largest_median_stress_pa")
 """Less of the first is better, of the next where that is the same."""
 
-ENDS = {"low": 0.05, "high": 0.95}
-"""Quantiles of the members that a range goes from and to."""
-
-
 _STEP = 1.0
 """What lengths (rad/s) are told apart by where nothing scatters: the distance of the closest speeds."""
 
+_RANGE = ("low", "high")
+"""Ends of the members' range that stand in the table."""
 
-def robustness(response: xr.Dataset) -> dict[str, float]:
-    """ROBUSTNESS of one blade in one scene; NaN for what is not computed, and for a first speed that there is not."""
+
+def robustness(response: xr.Dataset, *, with_scatter: bool = True) -> dict[str, float]:
+    """ROBUSTNESS of one blade in one scene; NaN for what is not computed, and for a first speed that there is not.
+
+    `with_scatter`: whether chance is drawn, which takes longer than all else and which members have no use for.
+    """
     response = response.isel(speed=np.flatnonzero(response["status"].values != RunStatus.NOT_RUN))
     found = dict.fromkeys(ROBUSTNESS, np.nan)
     if not response.sizes["speed"]:
@@ -63,7 +66,8 @@ def robustness(response: xr.Dataset) -> dict[str, float]:
         for name, share in (("certain", CERTAIN), ("possible", POSSIBLE)):
             ranges = exceedance.ranges(share)
             found[f"length_{name}_rad_s"] = exceedance.length(share)
-            found[f"length_{name}_scatter_rad_s"] = exceedance.scatter_of_length(share)
+            if with_scatter:
+                found[f"length_{name}_scatter_rad_s"] = exceedance.scatter_of_length(share)
             found[f"first_{name}_rad_s"] = ranges[0].begin if ranges else np.nan
         found["widest_range_rad_s"] = max((one.length for one in exceedance.ranges(CERTAIN)), default=0.0)
         found["largest_median_stress_pa"] = float(response["max_von_mises_median"].max())
@@ -77,7 +81,7 @@ def ranking_table(
     """One row for each blade and scene, scene by scene with the best blade first; equal ones have the same rank.
 
     `found`: blade and scene -> its `robustness`; `members`: the same of each member of a sample, by name, for the ranges under
-    tolerances (`_low`, `_high`: ENDS of the members) and the chance to be better than each other blade: the share of the
+    tolerances (`_low`, `_high`: member_ends.ENDS) and the chance to be better than each other blade: the share of the
     members that both blades have, which have the same values of the scene's numbers, in which it is; equal ones count half.
     """
     table = pd.DataFrame([{"blade": blade, "scene": scene, **values} for (blade, scene), values in found.items()])
@@ -125,8 +129,8 @@ def _under_tolerances(
     row: dict[str, float] = {"members": len(own)}
     for name in RANKED_BY:
         values = [one[name] for one in own.values()]
-        for end, quantile in ENDS.items():
-            row[f"{name}_{end}"] = float(np.quantile(values, quantile, method="inverted_cdf")) if values else np.nan
+        for end in _RANGE:
+            row[f"{name}_{end}"] = float(np.quantile(values, ENDS[end], method="inverted_cdf")) if values else np.nan
     for other in dict.fromkeys(name for name, of in members if of == scene):
         if other != blade:
             row[f"chance_better_than_{other}"] = chance_to_be_better(own, members[other, scene])

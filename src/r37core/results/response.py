@@ -58,9 +58,9 @@ def write_response(
                 if name in values:
                     dataset[name][row] = values[name]
             if speed in history_speeds:
-                history, row = values["revolution_von_mises"], history_speeds.index(speed)
-                dataset["max_von_mises_history"][row] = history
-                dataset["first_yield_revolution"][row] = first_yield(history, yield_stress)
+                history, place = values["revolution_von_mises"], history_speeds.index(speed)
+                dataset["max_von_mises_history"][place] = history
+                dataset["first_yield_revolution"][place] = first_yield(history, yield_stress)
 
 
 def _row(run: Mapping[str, np.ndarray], yield_stress: float) -> dict[str, np.ndarray]:

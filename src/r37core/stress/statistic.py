@@ -1,4 +1,4 @@
-"""The stress of a run as a statistic of its revolutions: in direct contact one scatters by a tenth, this by some percent."""
+"""The stress of a run as a statistic of its revolutions: one scatters by a tenth on most blades in direct contact."""
 
 from __future__ import annotations
 

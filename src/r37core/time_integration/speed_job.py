@@ -31,8 +31,8 @@ def run_job(speed: str, output: str, task: str, about: str, model: str, stress: 
     if wanted.get("only_prepare"):
         Simulation(*given)
     else:
-        operator = stress and read_stress_operator(stress)
-        run = run_speed(*given, wanted["results"], **wanted["kept"], stress=operator or None)
+        operator = read_stress_operator(stress) if stress else None
+        run = run_speed(*given, wanted["results"], **wanted["kept"], stress=operator)
         write_speed(run, output, json.loads(about))
 
 

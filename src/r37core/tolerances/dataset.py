@@ -12,6 +12,7 @@ import xarray as xr
 from r37core.dataset_file import SPEED_RPM, about, read_dataset
 from r37core.io import readable
 from r37core.results.measures import largest_stress, leading_edge, peak_of, ratio_to_yield, speeds_above_yield
+from r37core.results.member_ends import ENDS
 from r37core.results.netcdf import status_flags
 from r37core.results.ranking import RANKED_BY, robustness
 from r37core.results.variables import VARIABLES
@@ -23,7 +24,7 @@ from .sample import is_of_sample, number_of
 from .sensitivity import ORDERS, sobol_indices
 from .shares import CONFIDENCE, share_ends
 
-QUANTILES = (0.05, 0.5, 0.95)
+QUANTILES = tuple(ENDS.values())
 """Ends and middle of the range that nine tenths of the members lie in."""
 
 _CURVES = ("rms_normal", "rms_tangential", "max_von_mises")
@@ -88,7 +89,8 @@ def _measured(response: xr.Dataset) -> dict[str, float]:
     if "max_von_mises" in response:
         above, (largest, _) = speeds_above_yield(response), largest_stress(response)
         found |= {"first_yield_speed": above.first, "width_above_yield": above.width, "largest_stress": largest}
-        found |= {_RANKED[column]: value for column, value in robustness(response).items() if column in _RANKED}
+        ranked = robustness(response, with_scatter=False)
+        found |= {measure: ranked[column] for column, measure in _RANKED.items()}
     return found
 
 

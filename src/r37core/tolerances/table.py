@@ -11,16 +11,12 @@ import pandas as pd
 
 from r37core.io import readable
 from r37core.results.interactions import Interaction, InteractionChoice
+from r37core.results.member_ends import ENDS
 from r37core.results.table_file import read_table
 from r37core.rounding import rounded_to
 
-from .dataset import QUANTILES
-
 RANGED = ("peak_speed_rad_s", "width_above_yield_rad_s", "first_yield_speed_rad_s", "max_von_mises_pa")
 """Columns of summary.csv that have a range."""
-
-ENDS = ("low", "median", "high")
-"""Ends of columns with the quantiles of the members that show the interaction."""
 
 RANGES = tuple(f"{name}_{end}" for name in RANGED for end in ENDS)
 
@@ -106,7 +102,7 @@ def _row(one: _Found, members: int) -> dict[str, object]:
     for name in RANGED:
         values = np.array([getattr(member, name) for member in one.members.values()], float)
         values = values[np.isfinite(values)]
-        quantiles = np.quantile(values, QUANTILES, method="inverted_cdf") if len(values) else [np.nan] * len(ENDS)
+        quantiles = np.quantile(values, list(ENDS.values()), method="inverted_cdf") if len(values) else [np.nan] * len(ENDS)
         row[name] = getattr(one.nominal, name) if one.nominal else np.nan
         row |= {f"{name}_{end}": float(value) for end, value in zip(ENDS, quantiles, strict=True)}
     return row
