@@ -8,4 +8,4 @@ from .captions import CAPTIONS
 from .checks import families_have_shapes
 from .plan import targets
 
-DESIGNS = Wing(name="designs", checks=(families_have_shapes,), targets=targets, captions=CAPTIONS)
+WING = Wing(name="designs", checks=(families_have_shapes,), targets=targets, captions=CAPTIONS)

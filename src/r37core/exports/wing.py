@@ -8,7 +8,7 @@ from .checks import exported_speeds_are_run
 from .plan import targets
 from .section import ExportSection
 
-EXPORTS = Wing(
+WING = Wing(
     name="exports",
     section=(ExportSection, ExportSection()),
     checks=(exported_speeds_are_run,),

@@ -2,12 +2,18 @@
 
 from __future__ import annotations
 
-from r37core.designs.wing import DESIGNS
-from r37core.exports.wing import EXPORTS
-from r37core.plans.wing import Wing
-from r37core.run_ups.wing import RUN_UPS
-from r37core.shapes.wing import SHAPES
-from r37core.signals.wing import SIGNALS
+from importlib import import_module
 
-WINGS: tuple[Wing, ...] = (EXPORTS, SHAPES, SIGNALS, RUN_UPS, DESIGNS)
+from r37core.plans.wing import Wing
+
+_FOLDERS = (
+    "exports",
+    "shapes",
+    "signals",
+    "run_ups",
+    "designs",
+)
 """In the order of their sections in docs/configuration.md."""
+
+WINGS: tuple[Wing, ...] = tuple(import_module(f"r37core.{folder}.wing").WING for folder in _FOLDERS)
+"""All of them."""

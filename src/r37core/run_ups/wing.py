@@ -9,7 +9,7 @@ from .checks import no_coriolis, run_ups_can_be_done, slowest_speeds_fit_in_memo
 from .plan import remarks, simulated, targets
 from .section import RUN_UP_SECTION
 
-RUN_UPS = Wing(
+WING = Wing(
     name="run_ups",
     section=RUN_UP_SECTION,
     checks=(run_ups_can_be_done, slowest_speeds_fit_in_memory, no_coriolis),

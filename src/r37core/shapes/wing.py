@@ -8,4 +8,4 @@ from .captions import CAPTIONS
 from .plan import targets
 from .section import ShapeSection
 
-SHAPES = Wing(name="shapes", section=(ShapeSection, ShapeSection()), targets=targets, captions=CAPTIONS)
+WING = Wing(name="shapes", section=(ShapeSection, ShapeSection()), targets=targets, captions=CAPTIONS)

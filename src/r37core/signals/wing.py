@@ -9,7 +9,7 @@ from .checks import signals_have_runs
 from .plan import simulated, targets
 from .section import SignalSection
 
-SIGNALS = Wing(
+WING = Wing(
     name="signals",
     section=(SignalSection, SignalSection()),
     checks=(signals_have_runs,),
