@@ -4,28 +4,24 @@ from r37core.plans.family_plan import Families
 families = Families(settings)
 
 
-rule designs:
+use rule step as designs with:
     input:
         **{kind: datasets[kind] for kind in sweep.kinds if kind in ("rms", "stress")},
         campbell=rules.campbell_of_all.output[0],
         summary=rules.summary.output[0],
         geometry=expand(rules.geometry.output, blade=families.designs),
     output:
-        report(
+        table=report(
             "<results>/designs.csv",
             **shown(TEXTS / "designs.rst", "Families", EVERY_SCENE, figure="table of designs"),
         ),
     log:
         "<logs>/designs.log",
-    conda:
-        ENVIRONMENT
     params:
+        **step("results.steps.designs"),
         designs=families.designs,
         densities=families.densities,
         scenes=list(settings.scenes),
-        code=code("designs"),
-    script:
-        "../scripts/designs.py"
 
 
 use rule figure as design_figure with:

@@ -1,20 +1,20 @@
 # Run-ups and run-downs: the speed changes while the blade rubs; each is a run of its own.
 
 
-rule run_up:
+use rule step as run_up with:
     input:
         unpack(run_ups.inputs),
     output:
-        paths.RUN_UP,
+        run_up=paths.RUN_UP,
     log:
         "<logs>/{blade}/{scene}/run_up_{run_up}.log",
     wildcard_constraints:
         run_up="|".join(run_ups.names) or "none",
-    conda:
-        ENVIRONMENT
     resources:
         **needs.of("run_up"),
     params:
+        **step("run_ups.steps.record"),
+        name="{run_up}",
         scene=sweep.plain_scene,
         choice=run_ups.choice,
         run_up=run_ups.run_up,
@@ -22,33 +22,26 @@ rule run_up:
         highest_order=settings.fidelity.time_integration.spectrum_highest_order,
         yield_stress=sweep.yield_stress,
         provenance=made.sweep,
-        code=code("run_up"),
-    script:
-        "../scripts/run_up.py"
 
 
-rule run_ups_dataset:
+use rule step as run_ups_dataset with:
     input:
-        paths.filled({paths.RUN_UP: run_ups.files}),
+        run_ups=paths.filled({paths.RUN_UP: run_ups.files}),
     output:
-        "<results>/run_ups.nc",
+        dataset="<results>/run_ups.nc",
     log:
         "<logs>/run_ups_dataset.log",
-    conda:
-        ENVIRONMENT
     resources:
         **needs.of("run_ups_dataset"),
     params:
+        **step("run_ups.steps.join"),
         runs=run_ups.runs,
         fidelity=settings.fidelity_name,
-        code=code("run_ups_dataset"),
-    script:
-        "../scripts/run_ups_dataset.py"
 
 
-rule run_up_tables:
+use rule step as run_up_tables with:
     input:
-        rules.run_ups_dataset.output[0],
+        dataset=rules.run_ups_dataset.output.dataset,
     output:
         runs=report(
             "<results>/run_ups.csv",
@@ -57,12 +50,8 @@ rule run_up_tables:
         rates="<results>/run_up_rates.csv",
     log:
         "<logs>/run_up_tables.log",
-    conda:
-        ENVIRONMENT
     params:
-        code=code("run_up_tables"),
-    script:
-        "../scripts/run_up_tables.py"
+        **step("run_ups.steps.tables"),
 
 
 use rule figure as run_up_figure with:

@@ -29,5 +29,12 @@ def drawing(code: CodeHashes, function: str, figure: str | None = None, **argume
 
     `arguments`: what the function takes beside the datasets; `figure`: the kind that the caption is of, as in `captioned`.
     """
-    module = function.partition(".")[0]
-    return {"draw": function, "code": code("figure", f"{__package__}.{module}"), "caption": captioned(figure), **arguments}
+    module = f"figures.{function.partition('.')[0]}"
+    step = code.step("figures.steps.draw", module)
+    return {**step, "draw": f"{__package__}.{function}", "of": _of, "caption": captioned(figure), **arguments}
+
+
+def _of(wildcards: Any) -> dict[str, str]:
+    """What a figure is of, as its title says it and as datasets have it."""
+    values = dict(wildcards.items())
+    return {name: values[name] for name in ("family", "blade", "scene") if name in values}
