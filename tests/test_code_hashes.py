@@ -11,9 +11,9 @@ from importlib import import_module
 import pytest
 
 from r37core import kept
-from r37core.figures.reporting import drawing
 from r37core.plans import code as code_module
 from r37core.plans.code import CodeHashes, fingerprint
+from r37core.product.reporting import drawing
 
 SCRIPT = "from job import run\nfrom r37core.a import f\n"
 
@@ -158,11 +158,11 @@ def rules(root):
     for block in re.split(r"^(?=rule |checkpoint |use rule )", text, flags=re.MULTILINE)[1:]:
         rule = re.match(r"(?:rule|checkpoint|use rule \w+ as) (\w+)", block)[1]
         steps = re.findall(r'\*\*step\("([\w.]+)"\)', block)
-        drawn = re.findall(r'drawing\(\s*code,\s*"(\w+)\.\w+"', block)
+        drawn = re.findall(r'drawing\(\s*code,\s*"([\w.]+)\.\w+"', block)
         needed = re.match(r"use rule (step|figure) as|(?:(?!\nfor )[\s\S])*scripts/step\.py", block) is not None
         assert len(steps) + len(drawn) == (needed and rule not in ("step", "figure")), rule
         if drawn:
-            found[rule] = ("step", "r37core.figures.steps.draw", f"r37core.figures.{drawn[0]}")
+            found[rule] = ("step", "r37core.figures.steps.draw", f"r37core.{drawn[0]}")
         elif steps:
             found[rule] = ("step", f"r37core.{steps[0]}")
     return found | {"simulate": ("simulate",)}
@@ -179,7 +179,7 @@ def test_every_rule_of_a_step_names_one_that_is_there(rules):
 def test_a_figure_s_parameters_have_the_code_of_its_module(root):
     code = CodeHashes(root / "src", root / "workflow/scripts")
     step = "r37core.figures.steps.draw"
-    assert drawing(code, "maps.draw_map")["code"] == code("step", step, "r37core.figures.maps") != code("step", step)
+    assert drawing(code, "figures.maps.draw_map")["code"] == code("step", step, "r37core.figures.maps") != code("step", step)
     names = {file.name for file in code.closure("step", step, "r37core.figures.maps")}
     assert "maps.py" in names
     assert not {"waterfall.py", "comparison.py", "response_curves.py", "blade_shapes.py"} & names
@@ -230,7 +230,7 @@ def modules_used(function):
         "r37core.product.steps.summary",
         "r37core.studies.steps.report",
         "r37core.run_ups.steps.record",
-        "r37core.exchange.exporting.steps.stress",
+        "r37core.exports.steps.stress",
     ],
 )
 def test_the_closure_has_all_that_python_loads(root, name):

@@ -1,11 +1,14 @@
 # Run-ups and run-downs: the speed changes while the blade rubs; each is a run of its own.
+from r37core.run_ups.plan import RUN_UP, RunUps
+
+run_ups = RunUps(sweep)
 
 
 use rule step as run_up with:
     input:
         unpack(run_ups.inputs),
     output:
-        run_up=paths.RUN_UP,
+        run_up=RUN_UP,
     log:
         "<logs>/{blade}/{scene}/run_up_{run_up}.log",
     wildcard_constraints:
@@ -26,7 +29,7 @@ use rule step as run_up with:
 
 use rule step as run_ups_dataset with:
     input:
-        run_ups=paths.filled({paths.RUN_UP: run_ups.files}),
+        run_ups=paths.filled({RUN_UP: run_ups.files}),
     output:
         dataset="<results>/run_ups.nc",
     log:
@@ -45,7 +48,7 @@ use rule step as run_up_tables with:
     output:
         runs=report(
             "<results>/run_ups.csv",
-            **shown(TEXTS / "run_ups.rst", TOGETHER, EVERY_SCENE, figure="run-ups"),
+            **shown(PACKAGE / "run_ups/report.rst", TOGETHER, EVERY_SCENE, figure="run-ups"),
         ),
         rates="<results>/run_up_rates.csv",
     log:
@@ -62,7 +65,7 @@ use rule figure as run_up_figure with:
     log:
         "<logs>/figures/run_ups_{blade}__{scene}.log",
     params:
-        **drawing(code, "run_up_curves.draw_run_ups", "run_ups", blade="{blade}", scene="{scene}"),
+        **drawing(code, "run_ups.figures.draw_run_ups", "run_ups", blade="{blade}", scene="{scene}"),
 
 
 use rule figure as run_up_rates_figure with:
@@ -73,10 +76,4 @@ use rule figure as run_up_rates_figure with:
     log:
         "<logs>/figures/run_up_rates_{scene}.log",
     params:
-        **drawing(code, "run_up_curves.draw_rates", "run_up_rates", scene="{scene}"),
-
-
-# the run-ups alone, without the sweep
-rule run_ups:
-    input:
-        paths.filled({name: wildcards for name, wildcards in targets(sweep, recorded).items() if "run_up" in name}),
+        **drawing(code, "run_ups.figures.draw_rates", "run_up_rates", scene="{scene}"),

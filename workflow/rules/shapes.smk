@@ -1,29 +1,32 @@
 # Shapes to look at: modes, and the worst instant of each interaction, for scenes with `shapes` among their results.
 from r37core.shapes import PARTS as SHAPE_PARTS
+from r37core.shapes.plan import MODE_SHAPES, WORST_SHAPES, Shapes
+
+shown_shapes = Shapes(sweep)
 
 
 use rule step as mode_shapes with:
     input:
         mesh=rules.mesh.output.vtu,
-        model=exported.model,
+        model=structure.whole_blade_model,
     output:
-        folder=directory("<results>/shapes/{blade}/modes"),
+        folder=directory(MODE_SHAPES),
     log:
         "<logs>/shapes/{blade}_modes.log",
     params:
         **step("shapes.steps.modes"),
-        modes=settings.config.shapes.modes,
+        modes=shown_shapes.modes,
 
 
 use rule step as worst_shapes with:
     input:
         mesh=rules.mesh.output.vtu,
-        model=exported.model,
+        model=structure.whole_blade_model,
         campbell=rules.campbell_of_blade.output[0],
         response=rules.response.output[0],
         speeds=sweep.speed_files,
     output:
-        folder=directory(paths.WORST_SHAPES),
+        folder=directory(WORST_SHAPES),
     log:
         "<logs>/shapes/{blade}_{scene}.log",
     params:
@@ -37,18 +40,18 @@ use rule step as worst_shapes with:
 use rule step as shapes_page with:
     input:
         modes=rules.mode_shapes.output.folder,
-        worst=sweep.worst_shapes,
+        worst=shown_shapes.worst_shapes,
     output:
         page=report(
             "<results>/shapes/{blade}.html",
-            **shown(TEXTS / "shapes.rst", "{blade}", EVERY_SCENE, figure="moving shapes"),
+            **shown(PACKAGE / "shapes/report.rst", "{blade}", EVERY_SCENE, figure="moving shapes"),
         ),
     log:
         "<logs>/shapes/{blade}_page.log",
     params:
         **step("shapes.steps.page"),
         blade="{blade}",
-        scenes=lambda wildcards: sweep.scenes_with("shapes", wildcards.blade),
+        scenes=shown_shapes.scenes,
         parts=parts_hash(SHAPE_PARTS),
 
 

@@ -1,5 +1,5 @@
 # Time signals of chosen speeds, each a run of its own: edges of the tip, strain gauges, tip timing.
-from r37core.plans.signal_plan import Signals
+from r37core.signals.plan import SIGNALS_OF_RUN, Signals
 
 recorded = Signals(imported, sweep)
 
@@ -8,7 +8,7 @@ use rule step as signals_of_run with:
     input:
         unpack(recorded.inputs),
     output:
-        signals="<results>/{blade}/{scene}/signals.nc",
+        signals=SIGNALS_OF_RUN,
     log:
         "<logs>/{blade}/{scene}/signals.log",
     params:
@@ -24,7 +24,7 @@ use rule step as signals_of_run with:
         provenance=made.sweep,
 
 
-use rule step as signals with:
+use rule step as signals_dataset with:
     input:
         signals=paths.filled({rules.signals_of_run.output[0]: paths.of_runs(recorded.runs)}),
     output:
@@ -45,7 +45,7 @@ use rule figure as spectrogram_figure with:
     log:
         "<logs>/figures/spectrogram_{blade}__{scene}.log",
     params:
-        **drawing(code, "spectrograms.draw_spectrograms", "spectrogram"),
+        **drawing(code, "signals.figures.draw_spectrograms", "spectrogram"),
 
 
 use rule figure as orders_figure with:
@@ -56,4 +56,4 @@ use rule figure as orders_figure with:
     log:
         "<logs>/figures/orders_{blade}__{scene}.log",
     params:
-        **drawing(code, "spectrograms.draw_orders", "orders"),
+        **drawing(code, "signals.figures.draw_orders", "orders"),

@@ -95,6 +95,17 @@ use rule step as reduced_model with:
         provenance=made.structure,
 
 
+# recovered on every node, for who asks for shapes, gauges or files for other programs
+use rule reduced_model as whole_blade_model with:
+    output:
+        rom=temp(paths.WHOLE_BLADE_MODEL),
+    log:
+        "<logs>/{blade}/whole_blade_model_{tip_line}.log",
+    priority: 0
+    params:
+        reduction=structure.whole_blade_reduction,
+
+
 use rule step as imported_matrices with:
     input:
         imported.files,

@@ -13,10 +13,9 @@ from r37core.rom.rom_file import read_reduced_model
 from .campbell_dataset import campbell_dataset
 from .casing_coincidence import coincidence_table
 from .datasets import write_sweep_dataset
-from .designs import design_table
 from .gather import gather_blades
 from .response import write_response
-from .table_file import read_table, write_table
+from .table_file import write_table
 
 
 def campbell_of_blade(input: Any, output: Any, params: Any) -> None:
@@ -59,16 +58,3 @@ def coincidences(input: Any, output: Any, params: Any) -> None:
     """Where modes of blades meet waves of a casing. Input: campbell. Params: casings. Output: table (csv)."""
     casings = from_plain(dict[str, ElasticCasing], params.casings)
     write_table(coincidence_table(read_dataset(input.campbell), casings), output.table, digits=8)
-
-
-def designs(input: Any, output: Any, params: Any) -> None:
-    """Compare the designs of families. Output: table (csv).
-
-    Inputs: datasets by kind, summary, geometry of each design. Params: designs, densities, scenes.
-    """
-    given = dict(input.items())
-    summary, shapes = read_table(given.pop("summary")), as_list(given.pop("geometry"))
-    files = dict(zip(params.designs, shapes, strict=True))
-    masses = {blade: params.densities[blade] * float(read_dataset(file)["volume"]) for blade, file in files.items()}
-    datasets = {kind: read_dataset(file) for kind, file in given.items()}
-    write_table(design_table(params.designs, masses, datasets, summary, params.scenes), output.table, digits=6)

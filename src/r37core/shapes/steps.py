@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from r37core.dataset_file import read_dataset
-from r37core.exchange.exporting.fields import worst_instants
+from r37core.exchange.fields import worst_instants
 from r37core.explorer import write_page
 from r37core.fem.material import Material
 from r37core.figures.style import save

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from r37core.exchange.exporting.write_mesh import write_mesh
 from r37core.exchange.refusal import placed
+from r37core.exchange.write_mesh import write_mesh
 from r37core.mesh.mesh_files import write_vtu
 from r37core.plain import from_plain
 from r37core.rom.reduction_choice import ReductionChoice, boundary_placed

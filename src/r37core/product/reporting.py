@@ -25,13 +25,12 @@ def captioned(figure: str | None = None) -> Callable[[Any], str]:
 
 
 def drawing(code: CodeHashes, function: str, figure: str | None = None, **arguments: Any) -> dict[str, Any]:
-    """Parameters of a rule of figures: the `function` of r37core.figures, as `module.function`, and its code alone.
+    """Parameters of a rule of figures: the `function` of r37core, as `folder.module.function`, and its code alone.
 
     `arguments`: what the function takes beside the datasets; `figure`: the kind that the caption is of, as in `captioned`.
     """
-    module = f"figures.{function.partition('.')[0]}"
-    step = code.step("figures.steps.draw", module)
-    return {**step, "draw": f"{__package__}.{function}", "of": _of, "caption": captioned(figure), **arguments}
+    step = code.step("figures.steps.draw", function.rpartition(".")[0])
+    return {**step, "draw": f"r37core.{function}", "of": _of, "caption": captioned(figure), **arguments}
 
 
 def _of(wildcards: Any) -> dict[str, str]:
