@@ -10,6 +10,7 @@ from r37core.console.snakemake_run import begin
 from r37core.explorer import parts_hash
 from r37core.plans import paths
 from r37core.plans.code import CodeHashes
+from r37core.plans.extent import extent_of
 from r37core.plans.import_plan import Imported
 from r37core.plans.provenance import Provenance
 from r37core.plans.resources import Needs
@@ -35,7 +36,7 @@ structure = Structure(settings)
 imported = Imported(settings)
 sweep = Sweep(settings, lambda **wildcards: checkpoints.refine.get(**wildcards).output[0])
 tolerances = Tolerances(sweep, made, lambda **wildcards: checkpoints.refine_members.get(**wildcards).output[0])
-needs = Needs(settings, sweep.most_runs)
+needs = Needs(settings, extent_of(settings).most)
 
 
 def pictures(name, category, subcategory, figure):
