@@ -18,7 +18,7 @@ from r37core.plans.run_up_plan import RunUps
 from r37core.plans.structure_plan import Structure
 from r37core.plans.sweep_plan import MAPS, Sweep
 from r37core.plans.targets import targets
-from r37core.plans.tolerance_plan import Tolerances, of_member
+from r37core.plans.tolerance_plan import FOLDER, Tolerances
 
 ROOT = Path(workflow.current_basedir).parent.parent
 ENVIRONMENT = ROOT / "envs" / "r37.yaml"
@@ -28,12 +28,13 @@ TEXTS = ROOT / "workflow" / "report"
 console = begin(workflow, logger, WorkflowError, ROOT, config)
 settings = console.settings
 code = CodeHashes(console.source, SCRIPTS)
-made = Provenance(settings)
-structure = Structure(settings)
+tolerances = Tolerances(settings)
+samples = {FOLDER: tolerances.samples}
+made = Provenance(settings, samples)
+structure = Structure(settings, samples)
 imported = Imported(settings)
-sweep = Sweep(settings, lambda **wildcards: checkpoints.refine.get(**wildcards).output[0])
+sweep = Sweep(settings, lambda **wildcards: checkpoints.refine.get(**wildcards).output[0], samples)
 run_ups = RunUps(sweep)
-tolerances = Tolerances(sweep, made, lambda **wildcards: checkpoints.refine_members.get(**wildcards).output[0])
 needs = Needs(settings, sweep.most_runs)
 
 
@@ -63,5 +64,6 @@ onerror:
 wildcard_constraints:
     blade="|".join(settings.blades),
     scene="|".join(settings.scenes),
+    member=sweep.samples.pattern,
     tip_line="pressure_edge|camber|suction_edge",
     speed=r"[0-9.]+",

@@ -6,7 +6,7 @@ exported = Exports(imported, sweep)
 
 rule exported_mesh:
     input:
-        rules.mesh.output.vtu,
+        paths.nominal(paths.MESH),
     output:
         paths.EXPORTED_MESH,
     log:
@@ -25,7 +25,7 @@ rule exported_mesh:
 
 rule exported_surface:
     input:
-        rules.geometry.output,
+        paths.nominal(paths.GEOMETRY),
     output:
         paths.EXPORTED_SURFACE,
     log:
@@ -50,7 +50,7 @@ use rule reduced_model as whole_blade_model with:
 
 rule exported_modes:
     input:
-        mesh=rules.mesh.output.vtu,
+        mesh=paths.nominal(paths.MESH),
         model=exported.model,
     output:
         directory(paths.EXPORTED_MODES),
@@ -68,7 +68,7 @@ rule exported_modes:
 
 rule exported_stress:
     input:
-        mesh=rules.mesh.output.vtu,
+        mesh=paths.nominal(paths.MESH),
         model=exported.model,
         speeds=exported.speed_files,
     output:

@@ -4,7 +4,7 @@ from r37core.shapes import PARTS as SHAPE_PARTS
 
 rule mode_shapes:
     input:
-        mesh=rules.mesh.output.vtu,
+        mesh=paths.nominal(paths.MESH),
         model=exported.model,
     output:
         directory("<results>/shapes/{blade}/modes"),
@@ -21,10 +21,10 @@ rule mode_shapes:
 
 rule worst_shapes:
     input:
-        mesh=rules.mesh.output.vtu,
+        mesh=paths.nominal(paths.MESH),
         model=exported.model,
-        campbell=rules.campbell_of_blade.output[0],
-        response=rules.response.output[0],
+        campbell=paths.nominal(paths.CAMPBELL),
+        response=paths.nominal(paths.RESPONSE),
         speeds=sweep.speed_files,
     output:
         directory(paths.WORST_SHAPES),

@@ -1,12 +1,13 @@
 # Blade shape -> mesh -> reduced model -> Campbell diagram, for each blade. A blade of another program comes in as
-# a mesh (imported_mesh) or as matrices (imported_matrices) and takes the same way from there.
+# a mesh (imported_mesh) or as matrices (imported_matrices) and takes the same way from there. A member of a sample whose blade
+# is another one has a model of its own, by the same rules.
 
 
 rule geometry:
     output:
         paths.GEOMETRY,
     log:
-        "<logs>/{blade}/geometry.log",
+        "<logs>/{member}{blade}/geometry.log",
     wildcard_constraints:
         blade=imported.profiles,
     # an impossible shape should stop the run before any long work
@@ -28,10 +29,10 @@ rule mesh:
     input:
         rules.geometry.output,
     output:
-        msh="<results>/{blade}/mesh.msh",
+        msh="<results>/{member}{blade}/mesh.msh",
         vtu=paths.MESH,
     log:
-        "<logs>/{blade}/mesh.log",
+        "<logs>/{member}{blade}/mesh.log",
     wildcard_constraints:
         blade=imported.profiles,
     # a mesh or model that fails should do so before the first simulation
@@ -51,7 +52,8 @@ rule imported_mesh:
     input:
         imported.files,
     output:
-        **rules.mesh.output,
+        msh=paths.nominal(rules.mesh.output.msh),
+        vtu=paths.nominal(paths.MESH),
     log:
         "<logs>/{blade}/mesh.log",
     wildcard_constraints:
@@ -73,7 +75,7 @@ rule imported_mesh:
 
 rule abaqus_deck:
     input:
-        rules.mesh.output.vtu,
+        paths.nominal(paths.MESH),
     output:
         "<results>/{blade}/mesh.inp",
     log:
@@ -91,11 +93,11 @@ rule abaqus_deck:
 
 rule reduced_model:
     input:
-        rules.mesh.output.vtu,
+        structure.mesh,
     output:
         paths.REDUCED_MODEL,
     log:
-        "<logs>/{blade}/reduced_model_{tip_line}.log",
+        "<logs>/{member}{blade}/reduced_model_{tip_line}.log",
     wildcard_constraints:
         blade=f"{imported.profiles}|{imported.meshes}",
     priority: 2
@@ -118,7 +120,7 @@ rule imported_matrices:
     input:
         imported.files,
     output:
-        rules.reduced_model.output,
+        paths.nominal(paths.REDUCED_MODEL),
     log:
         "<logs>/{blade}/reduced_model_{tip_line}.log",
     wildcard_constraints:
@@ -146,7 +148,7 @@ rule campbell_of_blade:
     output:
         paths.CAMPBELL,
     log:
-        "<logs>/{blade}/campbell.log",
+        "<logs>/{member}{blade}/campbell.log",
     conda:
         ENVIRONMENT
     resources:
@@ -163,7 +165,7 @@ rule campbell_of_blade:
 
 rule campbell_of_all:
     input:
-        expand(rules.campbell_of_blade.output, blade=settings.blades),
+        expand(paths.nominal(paths.CAMPBELL), blade=settings.blades),
     output:
         "<results>/campbell.nc",
     log:

@@ -7,7 +7,7 @@ studies = Studies(settings)
 
 rule study_model:
     input:
-        paths.GEOMETRY,
+        paths.nominal(paths.GEOMETRY),
     output:
         rom=paths.STUDY_MODEL.replace("{file}", "rom.nc"),
         contact=paths.STUDY_MODEL.replace("{file}", "contact.npz"),

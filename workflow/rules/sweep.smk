@@ -1,4 +1,5 @@
-# Reduced model -> one simulation per blade, scene and speed -> all speeds of a blade and scene.
+# Reduced model -> one simulation per blade, scene and speed -> all speeds of a blade and scene. So for the nominal sweep, where the
+# wildcard `member` is empty, and for each member of a sample beside it.
 
 
 rule contact_model:
@@ -7,7 +8,7 @@ rule contact_model:
     output:
         paths.CONTACT_MODEL,
     log:
-        "<logs>/{blade}/contact_model_{tip_line}.log",
+        "<logs>/{member}{blade}/contact_model_{tip_line}.log",
     priority: 2
     conda:
         ENVIRONMENT
@@ -25,7 +26,7 @@ rule stress_operator:
     output:
         paths.STRESS_OPERATOR,
     log:
-        "<logs>/{blade}/stress_operator_{tip_line}.log",
+        "<logs>/{member}{blade}/stress_operator_{tip_line}.log",
     priority: 2
     conda:
         ENVIRONMENT
@@ -40,11 +41,12 @@ rule stress_operator:
 
 rule prepare_time_integration:
     input:
-        sweep.models,
+        models=sweep.models,
+        nominal=sweep.nominal_stamp,
     output:
         touch(paths.INTEGRATION_STAMP),
     log:
-        "<logs>/{blade}/{scene}/prepare_time_integration.log",
+        "<logs>/{member}{blade}/{scene}/prepare_time_integration.log",
     # the sweep's jobs find the time integration compiled; one message before the sweep instead of one from each of its jobs. Nothing here
     # may depend on which speeds are run: more speeds would renew the stamp, and with it run all of them again
     priority: 15
@@ -77,7 +79,7 @@ rule simulate:
     output:
         paths.SPEED,
     log:
-        "<logs>/{blade}/{scene}/speed_{speed}.log",
+        "<logs>/{member}{blade}/{scene}/speed_{speed}.log",
     priority: sweep.priority
     conda:
         ENVIRONMENT
@@ -92,14 +94,15 @@ rule simulate:
         "{params.python:q} -S -E {params.start:q} {params.script:q} {wildcards.speed:q} {output:q} {log:q} {params.task:q} {params.about:q} {input.models:q}"
 
 
-# adaptive speed sampling: each round asks for some more, from what those before it gave, until one asks for none
+# adaptive speed sampling: each round asks for some more, from what those before it gave, until one asks for none. All members of a
+# sample are run at the same speeds, where they are worth it on average
 checkpoint refine:
     input:
         unpack(sweep.round_inputs),
     output:
         paths.ROUND,
     log:
-        "<logs>/{blade}/{scene}/round_{round}.log",
+        "<logs>/{member}{blade}/{scene}/round_{round}.log",
     wildcard_constraints:
         round=r"\d+",
     # before the next blade's simulations, which would leave this one's waiting
@@ -123,7 +126,7 @@ rule response:
     output:
         paths.RESPONSE,
     log:
-        "<logs>/{blade}/{scene}/response.log",
+        "<logs>/{member}{blade}/{scene}/response.log",
     priority: 5
     conda:
         ENVIRONMENT
