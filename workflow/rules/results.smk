@@ -27,7 +27,7 @@ rule responses:
         expand(paths.nominal(paths.CAMPBELL), blade=settings.blades),
         paths.filled({paths.RESPONSE: paths.of_runs(sweep.runs_with("rms"))}),
         sweep.first_rounds,
-        paths.filled({paths.RUN_UP: run_ups.files}),
+        simulated(sweep),
         tolerances.responses,
         tolerances.first_rounds,
 

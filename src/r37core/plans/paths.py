@@ -16,17 +16,10 @@ CONTACT_MODEL = "<results>/{member}{blade}/contact_{tip_line}.npz"
 STRESS_OPERATOR = "<results>/{member}{blade}/stress_{tip_line}.npz"
 CAMPBELL = "<results>/{member}{blade}/campbell.nc"
 INTEGRATION_STAMP = "<results>/{member}{blade}/{scene}/time_integration.stamp"
-RUN_UP = "<results>/{blade}/{scene}/run_up_{run_up}.npz"
 ROUND = "<results>/{member}{blade}/{scene}/round_{round}.json"
 SPEED = "<results>/{member}{blade}/{scene}/speed_{speed}.npz"
 RESPONSE = "<results>/{member}{blade}/{scene}/response.nc"
-EXPORTED_MESH = "<results>/exports/{blade}/mesh.{format}"
-EXPORTED_SURFACE = "<results>/exports/{blade}/surface.step"
-EXPORTED_MODES = "<results>/exports/{blade}/modes"
-EXPORTED_STRESS = "<results>/exports/{blade}/stress_{scene}"
-EXPORTED_MATRICES = "<results>/exports/{blade}/matrices"
-WORST_SHAPES = "<results>/shapes/{blade}/stress_{scene}"
-WHOLE_BLADE_MODEL = "<results>/exports/{blade}/rom_{tip_line}.nc"
+WHOLE_BLADE_MODEL = "<results>/{blade}/whole_blade_{tip_line}.nc"
 STUDY_CASE = "<results>/studies/{study}/{case}.nc"
 STUDY_MODEL = "<results>/studies/models/{blade}/{model}/{file}"
 
@@ -58,3 +51,8 @@ def of_runs(runs: Iterable[tuple[str, str]]) -> Wildcards:
 def filled(patterns: dict[str, Wildcards]) -> list[str]:
     """The files that patterns and their wildcards stand for."""
     return [fill(pattern, **wildcards) for pattern, several in patterns.items() for wildcards in several]
+
+
+def pictures(name: str, wildcards: Wildcards) -> dict[str, Wildcards]:
+    """A figure in both of its formats."""
+    return {f"<results>/figures/{name}.{suffix}": wildcards for suffix in ("png", "pdf")}

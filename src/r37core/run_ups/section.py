@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
-from pydantic import Field, model_validator
+from pydantic import AfterValidator, Field, model_validator
 
-from r37core.run_ups.choice import LONGEST, SHORTEST, Crossing, RunUpChoice
+from r37core.config import si_fields
+from r37core.config.section import AllOrNames, LeftOut, Name, Rpm, Section, Speed, check_names, refused
 
-from .section import AllOrNames, LeftOut, Rpm, Section, Speed, refused
-from .si_fields import si_fields
+from .choice import LONGEST, SHORTEST, Crossing, RunUpChoice
 
 _START, _STOP = ("from_rad_s", "from_rpm"), ("to_rad_s", "to_rpm")
 _LENGTH = ("rate_rad_s2", "rate_rpm_s", "revolutions")
@@ -80,3 +80,15 @@ class RunUpEntry(Section):
             after=self.revolutions_after,
             worn=self.lining == "worn",
         )
+
+
+def _names_differ(entries: dict[str, RunUpEntry]) -> dict[str, RunUpEntry]:
+    check_names(entries)
+    return entries
+
+
+RUN_UP_SECTION: tuple[Any, Any] = (
+    Annotated[dict[Name, RunUpEntry], AfterValidator(_names_differ)],
+    Field(default={}, description="run-ups and run-downs by name"),
+)
+"""Type and default of the section."""
