@@ -2,49 +2,41 @@
 # are made by the rules of the sweep.
 
 
-rule tolerances_dataset:
+use rule step as tolerances_dataset with:
     input:
         responses=tolerances.responses,
         rounds=tolerances.first_rounds,
     output:
-        "<results>/tolerances.nc",
+        dataset="<results>/tolerances.nc",
     log:
         "<logs>/tolerances_dataset.log",
-    conda:
-        ENVIRONMENT
     resources:
         **needs.of("tolerances_dataset"),
     params:
+        **step("tolerances.steps.join"),
         members=tolerances.runs,
         numbers=tolerances.numbers,
         values=tolerances.values,
         fidelity=settings.fidelity_name,
-        code=code("tolerances_dataset"),
-    script:
-        "../scripts/tolerances_dataset.py"
 
 
-rule tolerance_table:
+use rule step as tolerance_table with:
     input:
         **tolerances.nominal,
         responses=tolerances.responses_of_sample,
         campbells=tolerances.campbells_of_sample,
         rounds=tolerances.first_rounds,
     output:
-        report(
+        table=report(
             "<results>/tolerances.csv",
             **shown(TEXTS / "tolerances.rst", TOGETHER, EVERY_SCENE, figure="tolerances"),
         ),
     log:
         "<logs>/tolerance_table.log",
-    conda:
-        ENVIRONMENT
     params:
+        **step("tolerances.steps.table"),
         members=tolerances.runs_of_sample,
         choice=plain(settings.interactions),
-        code=code("tolerance_table"),
-    script:
-        "../scripts/tolerance_table.py"
 
 
 use rule figure as tolerance_figure with:
