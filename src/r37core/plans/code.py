@@ -25,6 +25,7 @@ class CodeHashes:
     def __init__(self, source: Path, scripts: Path, packages: Collection[str] = (PACKAGE,)):
         self._source, self._scripts, self._packages = source, scripts, packages
         self._version_file = source / PACKAGE / "__init__.py"
+        self._parts = cache(self._parts_of)
 
     def __call__(self, *names: str) -> str:
         """Short hash of what has these names, as `step`, `r37core.fem.steps` or `r37core.fem.steps.mesh`, and its imports."""
@@ -46,7 +47,7 @@ class CodeHashes:
         """The files of what has these names and of all that they import, directly or not, sorted."""
         return sorted({file for file, _ in self._parts(*names)})
 
-    def _parts(self, *names: str) -> list[tuple[Path, str]]:
+    def _parts_of(self, *names: str) -> list[tuple[Path, str]]:
         """Files, each with the name of the function that alone counts, or "" for the whole, sorted."""
         found: set[tuple[Path, str]] = set()
         waiting = [part for name in names for part in self._named(name)]
