@@ -37,7 +37,10 @@ class CodeHashes:
         return digest.hexdigest()[:16]
 
     def closure(self, script: str, *modules: str) -> list[Path]:
-        """The files of the script and `modules` and of all that they import, directly or not, sorted."""
+        """The files of the script and `modules` and of all that they import, directly or not, sorted.
+
+        The package's come first, wherever it lies: a hash is of code and not of places.
+        """
         found: set[Path] = set()
         waiting = [self._scripts / f"{script}.py"]
         waiting += [file for name in modules for file in self._files(name)]
@@ -46,7 +49,7 @@ class CodeHashes:
             if file not in found:
                 found.add(file)
                 waiting += [imported for name in imported_names(file) for imported in self._files(name)]
-        return sorted(found - {self._version_file})
+        return sorted(found - {self._version_file}, key=lambda file: (file.is_relative_to(self._scripts), file))
 
     def _files(self, name: str) -> tuple[Path, ...]:
         counts = name.partition(".")[0] in self._packages
