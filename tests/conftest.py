@@ -98,7 +98,7 @@ def elsewhere(tmp_path_factory):
 
 @pytest.fixture(scope="session")
 def settings(root):
-    from r37core.config import read_settings
+    from r37core.product.reading import read_settings
 
     return read_settings(root)
 

@@ -6,9 +6,9 @@ from dataclasses import replace
 
 from workflow_runs import copy_finished, copy_project, snakemake
 
-from r37core.config import read_settings
 from r37core.fem.matrices import assemble
 from r37core.mesh.generate import generate_mesh
+from r37core.product.reading import read_settings
 from r37core.rom.reduce import reduce_blade
 from r37core.rom.reduced_model import contact_model
 from r37core.time_integration.simulate import Simulation

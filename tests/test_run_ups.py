@@ -13,13 +13,13 @@ from scipy.integrate import solve_ivp
 from scipy.special import wofz
 
 from r37core.contact.ring import RingMode
-from r37core.figures.run_up_curves import draw_rates, draw_run_ups
 from r37core.io import InputFileError
 from r37core.rom.rotation import BucklingError
 from r37core.run_ups import march as march_module
 from r37core.run_ups import schedule as schedule_module
 from r37core.run_ups.choice import Crossing, RunUpChoice, RunUpError
 from r37core.run_ups.dataset import write_run_ups
+from r37core.run_ups.figures import draw_rates, draw_run_ups
 from r37core.run_ups.march import March, told_problem
 from r37core.run_ups.revolutions import record_run_up
 from r37core.run_ups.schedule import RunUp, schedule
@@ -328,7 +328,7 @@ def test_steps_are_so_short_that_every_mode_tells_its_velocity(contact):
 
 def test_a_blade_that_buckles_on_the_way_is_refused_at_once(contact):
     soft = replace(contact, stiffness_per_square=-contact.stiffness_per_square)
-    with pytest.raises(BucklingError, match=r"no stable position at 6000 rad/s.*run_ups"):
+    with pytest.raises(BucklingError, match=r"no stable position at 6000 rad/s.*run-ups"):
         March(soft, NARROW, LONG, RunUp(1500.0, 6000.0, 200.0, 4, 0, worn=False))
 
 

@@ -7,11 +7,12 @@ import re
 import pytest
 from defaults import defaults_of
 
-from r37core.config import schemas, si_fields
+from r37core.config import si_fields
 from r37core.config.casing_section import CasingSection
 from r37core.config.section import Section
 from r37core.config.si_fields import WORDS, in_si
 from r37core.contact.casing import Casing
+from r37core.product import schemas
 from r37core.units import SUFFIXES
 
 IN_SI = {

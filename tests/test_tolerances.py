@@ -13,11 +13,12 @@ from defaults import InteractionChoice
 from test_interactions import campbell, response
 
 from r37core.adaptive.criterion import RefinementChoice, known_of, next_speeds
-from r37core.config import ConfigError, Document, read_settings
+from r37core.config import ConfigError, Document
 from r37core.console.leftovers import leftovers
 from r37core.dataset_file import write_dataset
 from r37core.figures.tolerance_curves import draw_tolerances
 from r37core.io import InputFileError
+from r37core.product.reading import read_settings
 from r37core.results.interactions import COLUMNS, find_interactions
 from r37core.results.measures import largest_stress, ratio_to_yield, speeds_above_yield
 from r37core.speeds import RefinedRange
@@ -600,8 +601,10 @@ def test_leftovers_are_members_that_are_not_drawn_any_more(root, tmp_path):
         },
     )
     folder = tmp_path / "tolerances"
-    kept = ["Ref/abradable/1/response.nc", "Ref/abradable/round_0.json", "models/Ref/0/mesh.vtu"]
-    gone = ["Ref/abradable/2", "Ref/abradable/0b", "Ref/direct", "S100", "models/Ref/0f1", "models/S100"]
+    kept = ["1/Ref/abradable/response.nc", "Ref/abradable/round_0.json", "0/Ref/mesh.vtu"]
+    gone = ["2", "0b", "0/Ref/direct", "Ref/direct", "S100", "0f1", "0/S100"]
+    # where members lay before
+    gone += ["Ref/abradable/0", "models"]
     for name in [*kept, *(f"{name}/file" for name in gone)]:
         (folder / name).parent.mkdir(parents=True, exist_ok=True)
         (folder / name).write_text("x")

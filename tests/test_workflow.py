@@ -17,8 +17,9 @@ from plans_of_snakemake import plan, planned, planned_outputs
 from stubbed_runs import edit
 from workflow_runs import copy_odd_project, run_in_odd_project, snakemake
 
-from r37core.config import ConfigError, read_settings
-from r37core.figures.captions import caption
+from r37core.config import ConfigError
+from r37core.product.captions import caption
+from r37core.product.reading import read_settings
 from r37core.yaml_file import load_yaml
 
 pytestmark = pytest.mark.slow
@@ -174,7 +175,8 @@ def test_tolerances_of_a_finished_run(root, sweep_copy):
         return ("all_blades", "--configfile", "config/config.yaml", "config/tolerances.yaml")
 
     text = snakemake(sweep_copy, *given(2), "--cores", "2")
-    assert not re.search("rule (simulate|response|member_model):", text)
+    made = set(re.findall(r"rule (?:simulate|response|reduced_model):\n +input: .*\n +output: results/(\S+)", text))
+    assert made and all(file.startswith("tolerances/") and "rom_" not in file for file in made)
     results = sweep_copy / "results"
     with xr.open_dataset(results / "tolerances.nc") as found, xr.open_dataset(results / "rms.nc") as rms:
         assert found["member"].values.tolist() == [0, 1]
@@ -193,8 +195,7 @@ def test_tolerances_of_a_finished_run(root, sweep_copy):
     run_python(re.search(r"```python\n(.*?)```", (root / "docs/tolerances.md").read_text(), re.DOTALL)[1], sweep_copy)
     assert planned(sweep_copy, *given(2)) == {}
     more = planned_outputs(sweep_copy, *given(4))
-    assert {file.split("/")[3] for file in more["simulate_member"]} == {"2", "3"}
-    assert "simulate" not in more
+    assert {tuple(file.split("/")[:2]) for file in more["simulate"]} == {("tolerances", "2"), ("tolerances", "3")}
 
 
 def test_interrupted_sweep_keeps_what_is_done(sweep_copy):

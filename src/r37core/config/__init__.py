@@ -2,7 +2,6 @@
 
 from .blades import BladeSettings
 from .document import ConfigError, Document, command_line_document, read_document
-from .reading import load_settings, read_settings, settings_of_run
 from .scenes import SceneEntry
 from .settings import SceneSettings, Settings, checked_scene, plain
 from .si_fields import si_fields
@@ -16,10 +15,7 @@ __all__ = [
     "Settings",
     "checked_scene",
     "command_line_document",
-    "load_settings",
     "plain",
     "read_document",
-    "read_settings",
-    "settings_of_run",
     "si_fields",
 ]

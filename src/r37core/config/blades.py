@@ -29,9 +29,6 @@ from .si_fields import in_si, si_fields
 
 Table = TypeVar("Table")
 
-RESERVED = ("figures", "studies", "runs", "exports", "shapes", "tolerances")
-"""Folders beside those of the blades."""
-
 LARGEST_FAMILY = 10_000
 """Designs of one entry."""
 
@@ -147,9 +144,6 @@ class Blades(RootModel):
     @model_validator(mode="after")
     def _names(self) -> Blades:
         check_names(self.root)
-        for name in self.root:
-            if name.lower() in RESERVED:
-                raise refused((name,), f"the blade '{name}'", f"another name; {', '.join(RESERVED)} are folders of the results")
         return self
 
 

@@ -1,0 +1,99 @@
+"""The plan of the time signals: of which blades and scenes, at which speeds, from what."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from r37core.config import Settings, si_fields
+from r37core.plans import paths
+from r37core.plans.import_plan import Imported
+from r37core.plans.sweep_plan import Sweep
+
+from .section import SignalSection
+
+SIGNALS_OF_RUN = "<results>/{blade}/{scene}/signals.nc"
+
+
+def section(settings: Settings) -> SignalSection:
+    """Of config.yaml."""
+    return settings.section("signals")
+
+
+@dataclass(frozen=True)
+class Signals:
+    """Plan of the signals that the configuration asks for. Methods with `wildcards` are inputs and parameters of rules."""
+
+    imported: Imported
+    sweep: Sweep
+
+    @property
+    def _given(self) -> SignalSection:
+        return section(self.sweep.settings)
+
+    @property
+    def runs(self) -> list[tuple[str, str]]:
+        """Pairs of blade and scene with signals; none without speeds."""
+        if self._given.speeds() is None:
+            return []
+        pairs = self.sweep.runs_with("signal")
+        return [(blade, scene) for blade, scene in pairs if self._given.blades == "all" or blade in self._given.blades]
+
+    def gauges(self, wildcards: Any) -> dict[str, dict[str, Any]]:
+        """Gauges of a blade as plain values; a blade given by matrices has none."""
+        given = self._given.gauges if wildcards.blade in self.imported.with_mesh else {}
+        return {name: si_fields(entry) for name, entry in given.items()}
+
+    def inputs(self, wildcards: Any) -> dict[str, str]:
+        """What signals are made from, with what gauges and the speeds of interactions need beside it."""
+        blade, scene, tip_line = wildcards.blade, wildcards.scene, self.tip_line(wildcards)
+        found = {
+            "prepared": paths.fill(paths.INTEGRATION_STAMP, blade=blade, scene=scene),
+            "model": self.sweep.contact_model(wildcards),
+            "rom": paths.fill(paths.REDUCED_MODEL, blade=blade, tip_line=tip_line),
+        }
+        if self.gauges(wildcards):
+            found |= {"mesh": paths.fill(paths.MESH, blade=blade)}
+            found |= {"whole": paths.fill(paths.WHOLE_BLADE_MODEL, blade=blade, tip_line=tip_line)}
+        if self._given.speeds() == "interactions":
+            found |= {"campbell": paths.fill(paths.CAMPBELL, blade=blade)}
+            found |= {"response": paths.fill(paths.RESPONSE, blade=blade, scene=scene)}
+        return found
+
+    @property
+    def speeds(self) -> list[float]:
+        """Speeds (rad/s) that are named, ascending; none for those of interactions."""
+        given = self._given.speeds()
+        return given if isinstance(given, list) else []
+
+    @property
+    def probes(self) -> list[float]:
+        """Angles of the probes (degrees), ascending."""
+        return sorted(map(float, self._given.probes_deg))
+
+    def revolutions(self, wildcards: Any) -> int:
+        """How many revolutions at the end are kept."""
+        return self._given.revolutions or self.sweep.settings.scenes[wildcards.scene].revolutions
+
+    def tip_line(self, wildcards: Any) -> str:
+        """The line of the contact nodes of a scene."""
+        return self.sweep.settings.scenes[wildcards.scene].tip_line
+
+
+def simulated(sweep: Sweep) -> dict[str, paths.Wildcards]:
+    """Signals of each blade and scene."""
+    return {SIGNALS_OF_RUN: paths.of_runs(_runs(sweep))}
+
+
+def targets(sweep: Sweep) -> dict[str, paths.Wildcards]:
+    """All signals in one file, and the figures."""
+    runs = paths.of_runs(_runs(sweep))
+    return {
+        "<results>/signals.nc": runs and [{}],
+        **paths.pictures("spectrogram_{blade}__{scene}", runs),
+        **paths.pictures("orders_{blade}__{scene}", runs),
+    }
+
+
+def _runs(sweep: Sweep) -> list[tuple[str, str]]:
+    return Signals(Imported(sweep.settings), sweep).runs
