@@ -10,8 +10,8 @@ from defaults import Casing, IntegrationChoice, Scene
 from integration_cases import oscillator, with_static_modes
 from scipy.optimize import brentq
 
+from r37core.config.declaring import in_si
 from r37core.config.output_sections import GaugeEntry
-from r37core.config.si_fields import in_si
 from r37core.dataset_file import read_dataset, write_dataset
 from r37core.exchange.importing.frame import blade_parameters
 from r37core.figures.spectrograms import draw_orders, draw_spectrograms

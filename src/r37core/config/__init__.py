@@ -1,6 +1,7 @@
 """Configuration: YAML files checked by models, and the settings made of them."""
 
 from .blades import BladeSettings
+from .declaring import in_si
 from .document import ConfigError, Document, command_line_document, read_document
 from .reading import load_settings, read_settings, settings_of_run
 from .scenes import SceneEntry
@@ -16,6 +17,7 @@ __all__ = [
     "Settings",
     "checked_scene",
     "command_line_document",
+    "in_si",
     "load_settings",
     "plain",
     "read_document",

@@ -21,11 +21,12 @@ from r37core.rom.reduction_choice import StressSubmesh
 from r37core.speeds import spaced
 from r37core.text_file import TextFileError
 
-from .blade_sections import CONTACT_IN_WORDS, Contact, MaterialSection, stress_region
+from .blade_sections import CONTACT_IN_WORDS, Contact, MaterialSection
+from .declaring import in_si
 from .document import ConfigError, Document
 from .imported_entry import MatricesEntry, MeshEntry
 from .section import FileName, LeftOut, Name, Section, Unique, check_names, refused
-from .si_fields import in_si, si_fields
+from .si_fields import si_fields
 
 Table = TypeVar("Table")
 
@@ -198,7 +199,7 @@ def blade_settings(name: str, entries: Mapping[str, Any], root: Path, document: 
         except ValueError as error:
             raise document.error((name, "material"), str(error)) from None
         return BladeSettings(
-            _source(entry, first, root, document), material, entries[name].contact, stress_region(entry.stress_submesh)
+            _source(entry, first, root, document), material, entries[name].contact, in_si(StressSubmesh, entry.stress_submesh)
         )
     shift: dict[str, Any] = {}
     for link in chain:
