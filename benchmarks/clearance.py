@@ -12,13 +12,13 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from r37core.config import read_settings
 from r37core.config.document import read_document
 from r37core.contact.casing import approach
 from r37core.dataset_file import read_dataset
 from r37core.fem.abaqus_deck import write_abaqus
 from r37core.io import write_text
 from r37core.mesh.mesh_files import read_vtu
+from r37core.product.reading import read_settings
 from r37core.results import measures
 from r37core.results.datasets import response_of
 from r37core.rom.contact_model import read_contact_model

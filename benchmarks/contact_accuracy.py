@@ -18,10 +18,10 @@ os.environ["OPENBLAS_NUM_THREADS"] = "1"
 import numpy as np
 import xarray as xr
 
-from r37core.config import read_settings
 from r37core.fem.matrices import assemble
 from r37core.io import write_text
 from r37core.mesh.generate import generate_mesh
+from r37core.product.reading import read_settings
 from r37core.rom.contact_model import read_contact_model
 from r37core.rom.reduce import reduce_blade
 from r37core.rom.reduced_model import contact_model

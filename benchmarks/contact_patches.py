@@ -16,10 +16,10 @@ os.environ["OPENBLAS_NUM_THREADS"] = "1"
 
 import numpy as np
 
-from r37core.config import read_settings
 from r37core.fem.matrices import assemble
 from r37core.io import atomic_write
 from r37core.mesh.generate import generate_mesh
+from r37core.product.reading import read_settings
 from r37core.published import INTERACTIONS
 from r37core.rom.contact_model import read_contact_model, write_contact_model
 from r37core.rom.reduce import reduce_blade

@@ -13,9 +13,9 @@ os.environ["OPENBLAS_NUM_THREADS"] = "1"
 
 import numpy as np
 
-from r37core.config import read_settings
 from r37core.figures.style import PAGE, plt
 from r37core.io import write_text
+from r37core.product.reading import read_settings
 from r37core.published import INTERACTIONS
 from r37core.results.campbell import campbell_diagram
 from r37core.rom.reduced_model import contact_model

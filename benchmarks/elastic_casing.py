@@ -17,12 +17,13 @@ os.environ["OPENBLAS_NUM_THREADS"] = "1"
 
 import numpy as np
 
-from r37core.config import command_line_document, read_settings
+from r37core.config import command_line_document
 from r37core.config.declaring import in_si
 from r37core.contact.elastic_casing import ElasticCasing
 from r37core.contact.ring import Ring
 from r37core.figures.style import PAGE, plt
 from r37core.io import write_text
+from r37core.product.reading import read_settings
 from r37core.published import INTERACTIONS
 from r37core.rom.reduced_model import contact_model
 from r37core.rom.rom_file import read_reduced_model

@@ -13,8 +13,8 @@ from pathlib import Path
 
 os.environ["OPENBLAS_NUM_THREADS"] = "1"
 
-from r37core.config import read_settings
 from r37core.io import write_text
+from r37core.product.reading import read_settings
 from r37core.rom.contact_model import read_contact_model
 from r37core.studies.tables import markdown_table
 from r37core.time_integration.simulate import Simulation

@@ -26,8 +26,8 @@ from equations_of_motion import (
 )
 from massless_boundary import run_nlstep
 
-from r37core.config import read_settings
 from r37core.io import write_text
+from r37core.product.reading import read_settings
 from r37core.rom.contact_model import read_contact_model
 from r37core.studies.tables import markdown_table
 from r37core.time_integration.integrators import CENTRAL_DIFFERENCE, EXACT_MODAL

@@ -20,11 +20,11 @@ import numpy as np
 import xarray as xr
 
 from r37core.adaptive.criterion import RefinementChoice
-from r37core.config import read_settings, settings_of_run
 from r37core.dataset_file import read_dataset
 from r37core.io import write_text
 from r37core.plain import from_plain
 from r37core.plans.sweep_plan import Sweep
+from r37core.product.reading import read_settings, settings_of_run
 from r37core.results.exceedance import CERTAIN, POSSIBLE, exceedance_of
 from r37core.results.measures import motion
 from r37core.results.ranking import chance_to_be_better, ranking_table, robustness

@@ -19,14 +19,14 @@ os.environ["OPENBLAS_NUM_THREADS"] = "1"
 import numpy as np
 from mesh_step import mesh_step
 
-from r37core.config import read_settings
 from r37core.config.imported_entry import MeshEntry
-from r37core.exchange.exporting.step import write_step
 from r37core.exchange.importing.import_mesh import import_mesh
+from r37core.exports.step import write_step
 from r37core.fem.matrices import assemble
 from r37core.fem.solver import lowest_modes
 from r37core.io import read_json, write_json, write_text
 from r37core.mesh.generate import generate_mesh
+from r37core.product.reading import read_settings
 from r37core.results.campbell import campbell_diagram
 from r37core.rom.reduce import reduce_blade
 from r37core.rom.reduced_model import contact_model

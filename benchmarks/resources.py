@@ -15,10 +15,10 @@ from pathlib import Path
 
 import psutil
 
-from r37core.config import read_settings
 from r37core.config.document import command_line_document
 from r37core.io import write_text
 from r37core.plans.resources import MEASURED, PER_RESPONSE, PER_SWEEP, read_measured
+from r37core.product.reading import read_settings
 
 ROOT = Path(__file__).parent.parent
 SNAKEMAKE = str(Path(sys.executable).with_name("snakemake"))

@@ -14,8 +14,8 @@ os.environ["OPENBLAS_NUM_THREADS"] = "1"
 
 import numpy as np
 
-from r37core.config import read_settings
 from r37core.io import write_text
+from r37core.product.reading import read_settings
 from r37core.rom.reduced_model import contact_model
 from r37core.rom.rom_file import read_reduced_model
 from r37core.run_ups.march import March

@@ -9,10 +9,10 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from r37core.config import read_settings
 from r37core.config.document import read_document
 from r37core.dataset_file import read_dataset
 from r37core.io import write_text
+from r37core.product.reading import read_settings
 from r37core.rom.contact_model import read_contact_model
 from r37core.rom.rom_file import read_reduced_model
 from r37core.run_ups import schedule

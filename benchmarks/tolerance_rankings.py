@@ -17,11 +17,11 @@ import numpy as np
 from r37core.results.stress_recovery import StressRecovery
 from scipy import stats
 
-from r37core.config import read_settings
 from r37core.config.document import Document, read_document
 from r37core.fem.matrices import assemble
 from r37core.io import atomic_write, write_text
 from r37core.mesh.generate import generate_mesh
+from r37core.product.reading import read_settings
 from r37core.results.measures import largest_of_run, motion_of_run, range_above_yield
 from r37core.rom.reduce import reduce_blade
 from r37core.rom.reduced_model import contact_model

@@ -29,8 +29,9 @@ import matplotlib.pyplot as plt
 import numpy as np
 from IPython.display import Image, display
 
-from r37core.config import command_line_document, plain, read_settings, si_fields
+from r37core.config import command_line_document, plain, si_fields
 from r37core.figures import style
+from r37core.product.reading import read_settings
 from r37core.units import RPM
 
 # %matplotlib inline

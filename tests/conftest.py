@@ -91,7 +91,7 @@ def elsewhere(tmp_path_factory):
 
 @pytest.fixture(scope="session")
 def settings(root):
-    from r37core.config import read_settings
+    from r37core.product.reading import read_settings
 
     return read_settings(root)
 
@@ -155,9 +155,9 @@ def compiled(root, tmp_path_factory):
     """
     from workflow_runs import copy_project
 
-    from r37core.config import read_settings
     from r37core.fem.matrices import assemble
     from r37core.mesh.generate import generate_mesh
+    from r37core.product.reading import read_settings
     from r37core.rom.reduce import reduce_blade
     from r37core.rom.reduced_model import contact_model
     from r37core.time_integration.simulate import Simulation

@@ -11,12 +11,13 @@ from box_mesh import box_mesh
 from defaults import Casing, IntegrationChoice, Scene
 from integration_cases import ABRADABLE, DIRECT, LINING, random_model, with_static_modes
 
-from r37core.config import ConfigError, checked_scene, load_settings
-from r37core.exchange.exporting.fields import displacement_of
+from r37core.config import ConfigError, checked_scene
+from r37core.exchange.fields import displacement_of
 from r37core.fem.material import Material
 from r37core.fem.matrices import assemble
 from r37core.fem.solver import factorise
 from r37core.fem.stress import nodal_stress
+from r37core.product.reading import load_settings
 from r37core.results.response import write_response
 from r37core.rom.contact_model import read_contact_model, write_contact_model
 from r37core.rom.reduce import reduce_blade

@@ -8,9 +8,9 @@ import sys
 import pytest
 
 from r37core import kept
-from r37core.figures.reporting import drawing
 from r37core.plans import code as code_module
 from r37core.plans.code import CodeHashes, fingerprint
+from r37core.product.reporting import drawing
 
 SCRIPT = "from job import run\nfrom r37core.a import f\n"
 
@@ -105,10 +105,10 @@ def rules(root):
     found = {}
     for block in re.split(r"^(?:rule|checkpoint|use rule \w+ as) ", text, flags=re.MULTILINE)[1:]:
         script = re.search(r'script(?::\s+"[./]*scripts/|=SCRIPTS / ")(\w+)\.py"', block)
-        drawn = re.search(r'drawing\(code, "(\w+)\.\w+"', block)
+        drawn = re.search(r'drawing\(code, "([\w.]+)\.\w+"', block)
         rule = re.match(r"\w+", block)[0]
         if drawn:
-            found[rule] = ("figure", f"r37core.figures.{drawn[1]}"), [("figure", f"r37core.figures.{drawn[1]}")]
+            found[rule] = ("figure", f"r37core.{drawn[1]}"), [("figure", f"r37core.{drawn[1]}")]
         elif script and rule != "figure":
             found[rule] = (script[1],), [(name,) for name in re.findall(r'code=code\("(\w+)"\)', block)]
     return found
@@ -121,7 +121,7 @@ def test_every_rule_has_the_code_of_its_script(rules):
 
 def test_a_figure_s_parameters_have_the_code_of_its_module(root):
     code = CodeHashes(root / "src", root / "workflow/scripts")
-    assert drawing(code, "maps.draw_map")["code"] == code("figure", "r37core.figures.maps") != code("figure")
+    assert drawing(code, "figures.maps.draw_map")["code"] == code("figure", "r37core.figures.maps") != code("figure")
     names = {file.name for file in code.closure("figure", "r37core.figures.maps")}
     assert "maps.py" in names
     assert not {"waterfall.py", "comparison.py", "response_curves.py"} & names

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 import yaml
 
-from r37core.config import ConfigError, load_settings, plain
+from r37core.config import ConfigError, plain
+from r37core.product.reading import load_settings
 from r37core.text_file import TextFileError
 from r37core.yaml_file import load_yaml
 

@@ -7,8 +7,9 @@ import subprocess
 import pytest
 from conftest import CHECKOUT
 
-from r37core.config import ConfigError, read_document, read_settings
-from r37core.config.reference import UNIT_OF_SUFFIX, filled, tables
+from r37core.config import ConfigError, read_document
+from r37core.product.reading import read_settings
+from r37core.product.reference import UNIT_OF_SUFFIX, filled, tables
 from r37core.units import SUFFIXES
 
 
@@ -28,7 +29,7 @@ def rows():
 
 
 def test_the_page_is_fresh(page):
-    """`python -m r37core.config.reference` renews it."""
+    """`python -m r37core.product.reference` renews it."""
     assert filled(page) == page
 
 

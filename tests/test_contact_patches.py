@@ -9,13 +9,14 @@ from box_mesh import box_mesh
 from defaults import BoundaryChoice, IntegrationChoice, MatricesSource
 from integration_cases import ABRADABLE, DIRECT
 
-from r37core.config import ConfigError, command_line_document, read_settings
-from r37core.exchange.exporting.matrices_out import table_nodes, write_full_matrices, write_reduced_matrices
+from r37core.config import ConfigError, command_line_document
 from r37core.exchange.importing.matrices_in import import_matrices
 from r37core.exchange.orientation import OURS
+from r37core.exports.matrices_out import table_nodes, write_full_matrices, write_reduced_matrices
 from r37core.fem.material import Material
 from r37core.fem.matrices import assemble
 from r37core.fem.traces import edge_traces, face_traces
+from r37core.product.reading import read_settings
 from r37core.rom.contact_weights import contact_weights, mean_places, weights_along
 from r37core.rom.reduce import mean_fields, reduce_blade
 from r37core.rom.reduced_model import contact_model

@@ -10,7 +10,8 @@ from integration_cases import ABRADABLE, DIRECT, assert_same_totals_and_wear, he
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
-from r37core.config import ConfigError, command_line_document, read_settings
+from r37core.config import ConfigError, command_line_document
+from r37core.product.reading import read_settings
 from r37core.rom.contact_model import ContactModel, read_contact_model, write_contact_model
 from r37core.rom.reduce import reduce_blade
 from r37core.rom.reduced_model import contact_model

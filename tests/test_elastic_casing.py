@@ -11,7 +11,7 @@ from integration_cases import ABRADABLE, DIRECT, assert_same_totals_and_wear, os
 from scipy.integrate import solve_ivp
 from test_coriolis import SCENES, coupled_model
 
-from r37core.config import ConfigError, checked_scene, command_line_document, read_settings
+from r37core.config import ConfigError, checked_scene, command_line_document
 from r37core.config.casing_remarks import of_left_out_modes, of_speeds
 from r37core.contact.elastic_casing import (
     ElasticCasing,
@@ -26,6 +26,7 @@ from r37core.figures.campbell_diagram import draw_campbell
 from r37core.figures.maps import draw_map
 from r37core.figures.style import plt
 from r37core.plain import to_plain
+from r37core.product.reading import read_settings
 from r37core.results.casing_coincidence import coincidence_table
 from r37core.results.datasets import write_sweep_dataset
 from r37core.results.response import write_response

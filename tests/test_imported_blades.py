@@ -8,13 +8,14 @@ import pytest
 import yaml
 from defaults import Where
 
-from r37core.config import ConfigError, read_settings
+from r37core.config import ConfigError
 from r37core.exchange.orientation import OURS
+from r37core.exports.plan import Exports
 from r37core.plain import to_plain
-from r37core.plans.export_plan import Exports
 from r37core.plans.import_plan import Imported
 from r37core.plans.paths import filled
 from r37core.plans.sweep_plan import Sweep
+from r37core.product.reading import read_settings
 from r37core.studies.plan import blade_of
 
 MATERIAL = {"youngs_modulus_pa": 115e9, "density_kg_m3": 4430.0, "poissons_ratio": 0.32, "yield_stress_pa": 9e8}

@@ -24,9 +24,9 @@ from r37 import structure_cache, structure_files, structure_steps
 from r37.command import main
 from r37.structure_cache import cached_file
 from r37.structure_files import StructureFiles
-from r37core.config import read_settings
 from r37core.dataset_file import read_dataset
-from r37core.exchange.exporting.matrices_out import write_reduced_matrices
+from r37core.exports.matrices_out import write_reduced_matrices
+from r37core.product.reading import read_settings
 from r37core.rom.rom_file import read_reduced_model
 
 SPEEDS = [750.0, 1150.0, 1550.0]

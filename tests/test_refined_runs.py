@@ -16,8 +16,8 @@ import xarray as xr
 from stubbed_runs import copy_stubbed, planned_outputs, refine, simulated
 from workflow_runs import SNAKEMAKE, copy_project, snakemake
 
-from r37core.config import read_settings
 from r37core.console.leftovers import leftovers
+from r37core.product.reading import read_settings
 from r37core.time_integration.status import RunStatus
 
 BLADES, SCENES = ("Ref", "CS100"), ("abradable", "direct")

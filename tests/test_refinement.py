@@ -22,9 +22,10 @@ from r37core.adaptive.criterion import (
     window_speeds,
 )
 from r37core.adaptive.rounds import Round, first_round, measure, read_round, round_after, write_round
-from r37core.config import ConfigError, load_settings
+from r37core.config import ConfigError
 from r37core.io import InputFileError
 from r37core.plain import from_plain, to_plain
+from r37core.product.reading import load_settings
 from r37core.speeds import RefinedRange, SpeedError, SpeedPlan, exact_text, plan_speeds
 from r37core.studies.refinement.report import above_yield, compare, errors_between, plain_grid, refinement_table, replay
 from r37core.time_integration.speed_file import write_speed

@@ -15,12 +15,13 @@ from defaults import Casing, IntegrationChoice, Scene
 from stubbed_runs import copy_stubbed, planned_outputs
 from workflow_runs import SNAKEMAKE, copy_project, snakemake
 
-from r37core.config import ConfigError, command_line_document, read_settings
+from r37core.config import ConfigError, command_line_document
 from r37core.console import failures, lock
 from r37core.console.leftovers import leftovers
 from r37core.dataset_file import about, read_dataset, write_dataset
 from r37core.io import InputFileError, write_json
 from r37core.plans.run import replaced_level, source_folder
+from r37core.product.reading import read_settings
 from r37core.results.campbell_dataset import campbell_dataset
 from r37core.results.netcdf import create_axis, create_variable
 from r37core.rom.rotation import BucklingError

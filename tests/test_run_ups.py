@@ -13,13 +13,13 @@ from scipy.integrate import solve_ivp
 from scipy.special import wofz
 
 from r37core.contact.ring import RingMode
-from r37core.figures.run_up_curves import draw_rates, draw_run_ups
 from r37core.io import InputFileError
 from r37core.rom.rotation import BucklingError
 from r37core.run_ups import march as march_module
 from r37core.run_ups import schedule as schedule_module
 from r37core.run_ups.choice import Crossing, RunUpChoice, RunUpError
 from r37core.run_ups.dataset import write_run_ups
+from r37core.run_ups.figures import draw_rates, draw_run_ups
 from r37core.run_ups.march import March, told_problem
 from r37core.run_ups.revolutions import record_run_up
 from r37core.run_ups.schedule import RunUp, schedule

@@ -12,7 +12,7 @@ from box_mesh import box_mesh
 from browser import SOFTWARE_GRAPHICS, opened
 from vtkmodules.vtkIOGeometry import vtkGLTFReader
 
-from r37core.exchange.exporting.fields import WorstInstant, displacement_of, mode_shapes
+from r37core.exchange.fields import WorstInstant, displacement_of, mode_shapes
 from r37core.explorer import write_page
 from r37core.figures.style import save
 from r37core.io import read_json, write_json

@@ -8,9 +8,10 @@ import xarray as xr
 from stubbed_runs import edit
 from workflow_runs import copy_project, snakemake
 
-from r37core.config import command_line_document, read_settings
+from r37core.config import command_line_document
 from r37core.dataset_file import read_dataset, recipe_of, taken_over, write_dataset
 from r37core.plans.structure_plan import Structure
+from r37core.product.reading import read_settings
 
 
 def test_a_recipe_is_of_contents_and_values(tmp_path):

@@ -15,11 +15,12 @@ from defaults import IntegrationChoice
 from integration_cases import ABRADABLE, DIRECT, random_model, with_static_modes
 from workflow_runs import snakemake
 
-from r37core.config import ConfigError, command_line_document, read_settings
+from r37core.config import ConfigError, command_line_document
 from r37core.config.fidelity import recommended_level
 from r37core.config.study_sections import Parameters
 from r37core.dataset_file import read_dataset, write_dataset
 from r37core.plain import from_plain, to_plain
+from r37core.product.reading import read_settings
 from r37core.results.measures import first_contact
 from r37core.stress.recovery import stress_operator
 from r37core.studies import runner

@@ -13,11 +13,12 @@ from defaults import InteractionChoice
 from test_interactions import campbell, response
 
 from r37core.adaptive.criterion import RefinementChoice, known_of, next_speeds
-from r37core.config import ConfigError, Document, read_settings
+from r37core.config import ConfigError, Document
 from r37core.console.leftovers import leftovers
 from r37core.dataset_file import write_dataset
 from r37core.figures.tolerance_curves import draw_tolerances
 from r37core.io import InputFileError
+from r37core.product.reading import read_settings
 from r37core.results.interactions import COLUMNS, find_interactions
 from r37core.results.measures import largest_stress, ratio_to_yield, speeds_above_yield
 from r37core.speeds import RefinedRange

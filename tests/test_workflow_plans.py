@@ -8,19 +8,18 @@ from types import SimpleNamespace
 import pytest
 
 from r37core.adaptive.criterion import RefinementChoice
-from r37core.config import ConfigError, command_line_document, read_settings
+from r37core.config import ConfigError, command_line_document
 from r37core.contact.scene import Scene
 from r37core.io import InputFileError
 from r37core.plain import from_plain
-from r37core.plans.import_plan import Imported
 from r37core.plans.paths import filled
 from r37core.plans.provenance import Provenance
-from r37core.plans.run_up_plan import RunUps
-from r37core.plans.signal_plan import Signals
 from r37core.plans.structure_plan import Structure
 from r37core.plans.sweep_plan import Sweep, asked_by
-from r37core.plans.targets import targets
+from r37core.product.reading import read_settings
+from r37core.product.targets import targets
 from r37core.run_ups.choice import RunUpChoice
+from r37core.run_ups.plan import RunUps
 from r37core.speeds import SpeedPlan
 from r37core.studies.estimate import cases as estimate
 from r37core.studies.modelling_choices import cases as modelling_choices
@@ -323,7 +322,7 @@ def test_targets_are_what_the_configuration_asks_for(config_copy):
     def asked(**sections):
         settings = read_settings(config_copy, command_line_document(few | sections))
         sweep = Sweep(settings)
-        return {file.removeprefix("<results>/") for file in filled(targets(sweep, Signals(Imported(settings), sweep)))}
+        return {file.removeprefix("<results>/") for file in filled(targets(sweep))}
 
     without = asked()
     assert {"rms.nc", "stress.nc", "spectrum.nc", "shapes/Ref.html", "figures/shapes_Ref__direct.png"} <= without
@@ -362,6 +361,6 @@ def test_run_ups_are_planned_like_speeds(root):
     assert found.before == planned.choice(climb)["revolutions"] == 200
     # stress in every revolution, the first ones too
     assert planned.choice(down)["revolutions"] == planned.choice(down)["snapshot_revolutions"] == 30
-    wanted = targets(Sweep(settings), Signals(Imported(settings), Sweep(settings)))
+    wanted = targets(Sweep(settings))
     assert {"<results>/run_ups.nc", "<results>/figures/run_ups_Ref__direct.png"} <= set(filled(wanted))
     assert "<results>/figures/run_ups_Ref__abradable.png" not in filled(wanted)

@@ -12,10 +12,11 @@ from pathlib import Path
 
 import numpy as np
 
-from r37core.config import command_line_document, read_settings
+from r37core.config import command_line_document
 from r37core.fem.matrices import assemble
 from r37core.io import read_json, write_json
 from r37core.mesh.generate import generate_mesh
+from r37core.product.reading import read_settings
 from r37core.rom.contact_model import ContactModel
 from r37core.rom.reduce import reduce_blade
 from r37core.rom.reduced_model import ReducedModel, contact_model

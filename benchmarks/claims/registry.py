@@ -74,7 +74,7 @@ CLAIMS = (
     Claim(
         "configuration",
         tuple(Output(f"docs/configuration.md#{name}", None) for name in ("config", "blades", "scenes", "fidelity")),
-        ("{python} -m r37core.config.reference",),
+        ("{python} -m r37core.product.reference",),
         checked_by="tests/test_configuration_page.py",
     ),
     Claim(

@@ -11,10 +11,12 @@ from pathlib import Path
 import pandas as pd
 import xarray as xr
 
-from r37core.config import ConfigError, load_settings
+from r37core.config import ConfigError
 from r37core.dataset_file import write_dataset
 from r37core.io import InputFileError
 from r37core.plans.sweep_plan import Sweep
+from r37core.product.reading import load_settings
+from r37core.product.remarks import remarks
 from r37core.time_integration.status import RunStatus
 
 from .call_configuration import read_configuration
@@ -121,7 +123,7 @@ def _check(given: argparse.Namespace) -> None:
         cost = most * measured.cpu_s_per_run
         told = f"{cost:.3g} s" if cost < 120.0 else f"{cost / 60.0:.3g} minutes"
         print(f"their CPU time: about {told} at most, as measured on the reference blade")
-    for remark in [*settings.remarks, *settings.remarks_on_points]:
+    for remark in [*remarks(settings), *settings.remarks_on_points]:
         print(remark)
 
 

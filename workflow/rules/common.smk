@@ -8,17 +8,16 @@ from r37core.config import plain, si_fields
 from r37core.console.interpreter import PYTHON
 from r37core.console.snakemake_run import begin
 from r37core.explorer import parts_hash
-from r37core.figures.reporting import EVERY_SCENE, TOGETHER, captioned, drawing, shown
 from r37core.plans import paths
 from r37core.plans.code import CodeHashes
 from r37core.plans.import_plan import Imported
 from r37core.plans.provenance import Provenance
 from r37core.plans.resources import Needs
-from r37core.plans.run_up_plan import RunUps
 from r37core.plans.structure_plan import Structure
 from r37core.plans.sweep_plan import MAPS, Sweep
-from r37core.plans.targets import targets
 from r37core.plans.tolerance_plan import Tolerances, of_member
+from r37core.product.reporting import EVERY_SCENE, TOGETHER, captioned, drawing, shown
+from r37core.product.targets import files_of, simulated, targets
 
 ROOT = Path(workflow.current_basedir).parent.parent
 ENVIRONMENT = ROOT / "envs" / "r37.yaml"
@@ -27,12 +26,12 @@ TEXTS = ROOT / "workflow" / "report"
 
 console = begin(workflow, logger, WorkflowError, ROOT, config)
 settings = console.settings
+PACKAGE = console.source / "r37core"
 code = CodeHashes(console.source, SCRIPTS)
 made = Provenance(settings)
 structure = Structure(settings)
 imported = Imported(settings)
 sweep = Sweep(settings, lambda **wildcards: checkpoints.refine.get(**wildcards).output[0])
-run_ups = RunUps(sweep)
 tolerances = Tolerances(sweep, made, lambda **wildcards: checkpoints.refine_members.get(**wildcards).output[0])
 needs = Needs(settings, sweep.most_runs)
 

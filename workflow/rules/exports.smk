@@ -1,5 +1,12 @@
 # Results for other programs: mesh, surface, modes, worst stress, matrices. Not part of all_blades: snakemake exports
-from r37core.plans.export_plan import Exports
+from r37core.exports.plan import (
+    EXPORTED_MATRICES,
+    EXPORTED_MESH,
+    EXPORTED_MODES,
+    EXPORTED_STRESS,
+    EXPORTED_SURFACE,
+    Exports,
+)
 
 exported = Exports(imported, sweep)
 
@@ -8,7 +15,7 @@ rule exported_mesh:
     input:
         rules.mesh.output.vtu,
     output:
-        paths.EXPORTED_MESH,
+        EXPORTED_MESH,
     log:
         "<logs>/exports/{blade}_mesh_{format}.log",
     wildcard_constraints:
@@ -27,7 +34,7 @@ rule exported_surface:
     input:
         rules.geometry.output,
     output:
-        paths.EXPORTED_SURFACE,
+        EXPORTED_SURFACE,
     log:
         "<logs>/exports/{blade}_surface.log",
     conda:
@@ -38,22 +45,12 @@ rule exported_surface:
         "../scripts/exported_surface.py"
 
 
-use rule reduced_model as whole_blade_model with:
-    output:
-        temp(paths.WHOLE_BLADE_MODEL),
-    log:
-        "<logs>/exports/{blade}_model_{tip_line}.log",
-    priority: 0
-    params:
-        reduction=exported.reduction,
-
-
 rule exported_modes:
     input:
         mesh=rules.mesh.output.vtu,
-        model=exported.model,
+        model=structure.whole_blade_model,
     output:
-        directory(paths.EXPORTED_MODES),
+        directory(EXPORTED_MODES),
     log:
         "<logs>/exports/{blade}_modes.log",
     conda:
@@ -69,10 +66,10 @@ rule exported_modes:
 rule exported_stress:
     input:
         mesh=rules.mesh.output.vtu,
-        model=exported.model,
+        model=structure.whole_blade_model,
         speeds=exported.speed_files,
     output:
-        directory(paths.EXPORTED_STRESS),
+        directory(EXPORTED_STRESS),
     log:
         "<logs>/exports/{blade}_stress_{scene}.log",
     conda:
@@ -92,7 +89,7 @@ rule exported_matrices:
     input:
         unpack(exported.matrix_files),
     output:
-        directory(paths.EXPORTED_MATRICES),
+        directory(EXPORTED_MATRICES),
     log:
         "<logs>/exports/{blade}_matrices.log",
     conda:
@@ -104,8 +101,3 @@ rule exported_matrices:
         code=code("exported_matrices"),
     script:
         "../scripts/exported_matrices.py"
-
-
-rule exports:
-    input:
-        paths.filled(exported.targets),

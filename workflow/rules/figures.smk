@@ -22,7 +22,7 @@ use rule figure as campbell_figure with:
     resources:
         **needs.of("campbell_figure"),
     params:
-        **drawing(code, "campbell_diagram.draw_campbell", "campbell", casings=sweep.casings),
+        **drawing(code, "figures.campbell_diagram.draw_campbell", "campbell", casings=sweep.casings),
 
 
 use rule figure as campbell_overview with:
@@ -35,7 +35,7 @@ use rule figure as campbell_overview with:
     resources:
         **needs.of("campbell_overview"),
     params:
-        **drawing(code, "campbell_diagram.draw_campbell_overview", "campbell_overview"),
+        **drawing(code, "figures.campbell_diagram.draw_campbell_overview", "campbell_overview"),
 
 
 use rule figure as response_figure with:
@@ -48,7 +48,7 @@ use rule figure as response_figure with:
     resources:
         **needs.of("response_figure"),
     params:
-        **drawing(code, "response_curves.draw_response", "response"),
+        **drawing(code, "figures.response_curves.draw_response", "response"),
 
 
 use rule figure as response_overview with:
@@ -61,7 +61,7 @@ use rule figure as response_overview with:
     resources:
         **needs.of("response_overview"),
     params:
-        **drawing(code, "response_curves.draw_response_overview", "response_overview"),
+        **drawing(code, "figures.response_curves.draw_response_overview", "response_overview"),
 
 
 use rule figure as map_figure with:
@@ -77,7 +77,7 @@ use rule figure as map_figure with:
     resources:
         **needs.of("map_figure"),
     params:
-        **drawing(code, "maps.draw_map"),
+        **drawing(code, "figures.maps.draw_map"),
 
 
 use rule figure as waterfall_figure with:
@@ -91,7 +91,7 @@ use rule figure as waterfall_figure with:
     resources:
         **needs.of("map_figure"),
     params:
-        **drawing(code, "waterfall.draw_waterfall", "waterfall"),
+        **drawing(code, "figures.waterfall.draw_waterfall", "waterfall"),
 
 
 use rule figure as comparison_figure with:
@@ -106,7 +106,7 @@ use rule figure as comparison_figure with:
     params:
         **drawing(
             code,
-            "comparison.draw_comparison",
+            "figures.comparison.draw_comparison",
             "comparison",
             below=settings.interactions.below,
             above=settings.interactions.above,
@@ -121,7 +121,7 @@ use rule figure as ranking_figure with:
     log:
         "<logs>/figures/ranking.log",
     params:
-        **drawing(code, "ranking_bars.draw_ranking", "ranking"),
+        **drawing(code, "figures.ranking_bars.draw_ranking", "ranking"),
 
 
 use rule figure as clearance_figure with:
@@ -134,7 +134,7 @@ use rule figure as clearance_figure with:
     resources:
         **needs.of("response_overview"),
     params:
-        **drawing(code, "clearance_curves.draw_clearance", "clearance"),
+        **drawing(code, "figures.clearance_curves.draw_clearance", "clearance"),
 
 
 rule blade_shapes_figure:

@@ -27,7 +27,8 @@ rule responses:
         expand(rules.campbell_of_blade.output, blade=settings.blades),
         paths.filled({rules.response.output[0]: paths.of_runs(sweep.runs_with("rms"))}),
         sweep.first_rounds,
-        paths.filled({paths.RUN_UP: run_ups.files, paths.MEMBER_RESPONSE: tolerances.files}),
+        simulated(sweep),
+        paths.filled({paths.MEMBER_RESPONSE: tolerances.files}),
         tolerances.first_rounds,
 
 

@@ -1,11 +1,14 @@
 # Run-ups and run-downs: the speed changes while the blade rubs; each is a run of its own.
+from r37core.run_ups.plan import RUN_UP, RunUps
+
+run_ups = RunUps(sweep)
 
 
 rule run_up:
     input:
         unpack(run_ups.inputs),
     output:
-        paths.RUN_UP,
+        RUN_UP,
     log:
         "<logs>/{blade}/{scene}/run_up_{run_up}.log",
     wildcard_constraints:
@@ -29,7 +32,7 @@ rule run_up:
 
 rule run_ups_dataset:
     input:
-        paths.filled({paths.RUN_UP: run_ups.files}),
+        paths.filled({RUN_UP: run_ups.files}),
     output:
         "<results>/run_ups.nc",
     log:
@@ -52,7 +55,7 @@ rule run_up_tables:
     output:
         runs=report(
             "<results>/run_ups.csv",
-            **shown(TEXTS / "run_ups.rst", TOGETHER, EVERY_SCENE, figure="run-ups"),
+            **shown(PACKAGE / "run_ups/report.rst", TOGETHER, EVERY_SCENE, figure="run-ups"),
         ),
         rates="<results>/run_up_rates.csv",
     log:
@@ -73,7 +76,7 @@ use rule figure as run_up_figure with:
     log:
         "<logs>/figures/run_ups_{blade}__{scene}.log",
     params:
-        **drawing(code, "run_up_curves.draw_run_ups", "run_ups", blade="{blade}", scene="{scene}"),
+        **drawing(code, "run_ups.figures.draw_run_ups", "run_ups", blade="{blade}", scene="{scene}"),
 
 
 use rule figure as run_up_rates_figure with:
@@ -84,10 +87,4 @@ use rule figure as run_up_rates_figure with:
     log:
         "<logs>/figures/run_up_rates_{scene}.log",
     params:
-        **drawing(code, "run_up_curves.draw_rates", "run_up_rates", scene="{scene}"),
-
-
-# the run-ups alone, without the sweep
-rule run_ups:
-    input:
-        paths.filled({name: wildcards for name, wildcards in targets(sweep, recorded).items() if "run_up" in name}),
+        **drawing(code, "run_ups.figures.draw_rates", "run_up_rates", scene="{scene}"),

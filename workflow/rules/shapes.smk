@@ -1,19 +1,22 @@
 # Shapes to look at: modes, and the worst instant of each interaction, for scenes with `shapes` among their results.
 from r37core.shapes import PARTS as SHAPE_PARTS
+from r37core.shapes.plan import MODE_SHAPES, WORST_SHAPES, Shapes
+
+shown_shapes = Shapes(sweep)
 
 
 rule mode_shapes:
     input:
         mesh=rules.mesh.output.vtu,
-        model=exported.model,
+        model=structure.whole_blade_model,
     output:
-        directory("<results>/shapes/{blade}/modes"),
+        directory(MODE_SHAPES),
     log:
         "<logs>/shapes/{blade}_modes.log",
     conda:
         ENVIRONMENT
     params:
-        modes=settings.config.shapes.modes,
+        modes=shown_shapes.modes,
         code=code("mode_shapes"),
     script:
         "../scripts/mode_shapes.py"
@@ -22,12 +25,12 @@ rule mode_shapes:
 rule worst_shapes:
     input:
         mesh=rules.mesh.output.vtu,
-        model=exported.model,
+        model=structure.whole_blade_model,
         campbell=rules.campbell_of_blade.output[0],
         response=rules.response.output[0],
         speeds=sweep.speed_files,
     output:
-        directory(paths.WORST_SHAPES),
+        directory(WORST_SHAPES),
     log:
         "<logs>/shapes/{blade}_{scene}.log",
     conda:
@@ -44,18 +47,18 @@ rule worst_shapes:
 rule shapes_page:
     input:
         rules.mode_shapes.output,
-        sweep.worst_shapes,
+        shown_shapes.worst_shapes,
     output:
         report(
             "<results>/shapes/{blade}.html",
-            **shown(TEXTS / "shapes.rst", "{blade}", EVERY_SCENE, figure="moving shapes"),
+            **shown(PACKAGE / "shapes/report.rst", "{blade}", EVERY_SCENE, figure="moving shapes"),
         ),
     log:
         "<logs>/shapes/{blade}_page.log",
     conda:
         ENVIRONMENT
     params:
-        scenes=lambda wildcards: sweep.scenes_with("shapes", wildcards.blade),
+        scenes=shown_shapes.scenes,
         parts=parts_hash(SHAPE_PARTS),
         code=code("shapes_page"),
     script:

@@ -1,5 +1,5 @@
 # Time signals of chosen speeds, each a run of its own: edges of the tip, strain gauges, tip timing.
-from r37core.plans.signal_plan import Signals
+from r37core.signals.plan import SIGNALS_OF_RUN, Signals
 
 recorded = Signals(imported, sweep)
 
@@ -8,7 +8,7 @@ rule signals_of_run:
     input:
         unpack(recorded.inputs),
     output:
-        "<results>/{blade}/{scene}/signals.nc",
+        SIGNALS_OF_RUN,
     log:
         "<logs>/{blade}/{scene}/signals.log",
     conda:
@@ -28,7 +28,7 @@ rule signals_of_run:
         "../scripts/signals_of_run.py"
 
 
-rule signals:
+rule signals_dataset:
     input:
         paths.filled({rules.signals_of_run.output[0]: paths.of_runs(recorded.runs)}),
     output:
@@ -53,7 +53,7 @@ use rule figure as spectrogram_figure with:
     log:
         "<logs>/figures/spectrogram_{blade}__{scene}.log",
     params:
-        **drawing(code, "spectrograms.draw_spectrograms", "spectrogram"),
+        **drawing(code, "signals.figures.draw_spectrograms", "spectrogram"),
 
 
 use rule figure as orders_figure with:
@@ -64,4 +64,4 @@ use rule figure as orders_figure with:
     log:
         "<logs>/figures/orders_{blade}__{scene}.log",
     params:
-        **drawing(code, "spectrograms.draw_orders", "orders"),
+        **drawing(code, "signals.figures.draw_orders", "orders"),

@@ -114,6 +114,17 @@ rule reduced_model:
         "../scripts/reduced_model.py"
 
 
+# recovered on every node, for who asks for shapes, gauges or files for other programs
+use rule reduced_model as whole_blade_model with:
+    output:
+        temp(paths.WHOLE_BLADE_MODEL),
+    log:
+        "<logs>/{blade}/whole_blade_model_{tip_line}.log",
+    priority: 0
+    params:
+        reduction=structure.whole_blade_reduction,
+
+
 rule imported_matrices:
     input:
         imported.files,

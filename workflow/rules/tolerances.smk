@@ -203,10 +203,10 @@ use rule figure as tolerance_figure with:
     log:
         "<logs>/figures/tolerances_{blade}__{scene}.log",
     params:
-        **drawing(code, "tolerance_curves.draw_tolerances", "tolerances"),
+        **drawing(code, "figures.tolerance_curves.draw_tolerances", "tolerances"),
 
 
 # the members alone, with the nominal runs beside them
 rule tolerances:
     input:
-        paths.filled({name: wildcards for name, wildcards in targets(sweep, recorded).items() if "tolerances" in name}),
+        paths.filled({name: wildcards for name, wildcards in targets(sweep).items() if "tolerances" in name}),

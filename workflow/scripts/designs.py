@@ -3,8 +3,8 @@
 from job import run
 
 from r37core.dataset_file import read_dataset
+from r37core.designs.table import design_table
 from r37core.io import as_list
-from r37core.results.designs import design_table
 from r37core.results.table_file import read_table, write_table
 
 

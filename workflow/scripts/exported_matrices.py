@@ -4,7 +4,7 @@ from pathlib import Path
 
 from job import run
 
-from r37core.exchange.exporting.matrices_out import table_nodes, write_full_matrices, write_reduced_matrices
+from r37core.exports.matrices_out import table_nodes, write_full_matrices, write_reduced_matrices
 from r37core.fem.material import Material
 from r37core.fem.matrices import assemble
 from r37core.mesh.mesh_files import read_vtu

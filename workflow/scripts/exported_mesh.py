@@ -2,8 +2,8 @@
 
 from job import run
 
-from r37core.exchange.exporting.write_mesh import write_mesh
 from r37core.exchange.orientation import Orientation
+from r37core.exchange.write_mesh import write_mesh
 from r37core.fem.abaqus_deck import write_abaqus
 from r37core.fem.material import Material
 from r37core.mesh.mesh_files import read_vtu

@@ -4,7 +4,7 @@ from pathlib import Path
 
 from job import run
 
-from r37core.exchange.exporting.fields import Target, write_modes
+from r37core.exchange.fields import Target, write_modes
 from r37core.exchange.orientation import Orientation
 from r37core.mesh.mesh_files import read_vtu
 from r37core.plain import from_plain

@@ -4,7 +4,7 @@ from pathlib import Path
 
 from job import run
 
-from r37core.exchange.exporting.fields import Target, worst_instants, write_stress
+from r37core.exchange.fields import Target, worst_instants, write_stress
 from r37core.exchange.orientation import Orientation
 from r37core.fem.material import Material
 from r37core.io import as_list

@@ -3,7 +3,7 @@
 from job import run
 
 from r37core.blade.geometry_file import read_geometry
-from r37core.exchange.exporting.step import write_step
+from r37core.exports.step import write_step
 
 
 def main(snakemake):

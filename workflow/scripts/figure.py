@@ -23,8 +23,8 @@ def main(snakemake):
     named = [wildcards[name] for name in ("family", "blade", "scene") if name in wildcards]
     if named:
         arguments["title"] = ", ".join(named)
-    module, function = draw.split(".")
-    figure = getattr(import_module(f"r37core.figures.{module}"), function)(**arguments)
+    module, _, function = draw.rpartition(".")
+    figure = getattr(import_module(f"r37core.{module}"), function)(**arguments)
     save(figure, snakemake.output, caption)
 
 

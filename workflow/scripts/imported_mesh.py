@@ -4,10 +4,10 @@ import sys
 
 from job import run, warnings_told
 
-from r37core.exchange.exporting.write_mesh import write_mesh
 from r37core.exchange.importing.import_mesh import import_mesh, told_size
 from r37core.exchange.importing.source import MeshSource
 from r37core.exchange.refusal import placed
+from r37core.exchange.write_mesh import write_mesh
 from r37core.mesh.mesh_files import write_vtu
 from r37core.plain import from_plain
 

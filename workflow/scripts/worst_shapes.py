@@ -6,7 +6,7 @@ from pathlib import Path
 from job import run
 
 from r37core.dataset_file import read_dataset
-from r37core.exchange.exporting.fields import worst_instants
+from r37core.exchange.fields import worst_instants
 from r37core.fem.material import Material
 from r37core.io import as_list
 from r37core.mesh.mesh_files import read_vtu

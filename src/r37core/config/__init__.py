@@ -3,7 +3,6 @@
 from .blades import BladeSettings
 from .declaring import in_si
 from .document import ConfigError, Document, command_line_document, read_document
-from .reading import load_settings, read_settings, settings_of_run
 from .scenes import SceneEntry
 from .settings import SceneSettings, Settings, checked_scene, plain
 from .si_fields import si_fields
@@ -18,10 +17,7 @@ __all__ = [
     "checked_scene",
     "command_line_document",
     "in_si",
-    "load_settings",
     "plain",
     "read_document",
-    "read_settings",
-    "settings_of_run",
     "si_fields",
 ]

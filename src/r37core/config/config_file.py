@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Mapping
 from typing import Annotated, Any, Literal
 
-from pydantic import AfterValidator, Field, model_validator
+from pydantic import AfterValidator, Field, create_model, model_validator
 
 from r37core.adaptive.refinement_choice import RefinementChoice, Window
 from r37core.results.interaction_choice import InteractionChoice
@@ -14,9 +15,7 @@ from r37core.rom.reduction_choice import BoundaryChoice, ReductionChoice, Stress
 from .blade_sections import CONTACT_IN_WORDS, Contact, Submesh
 from .declaring import DECLARED, declared_by, in_si
 from .fidelity import Reduction
-from .output_sections import ExportSection, ShapeSection, SignalSection
-from .run_up_section import RunUpEntry
-from .section import AllOrNames, FileName, LeftOut, Name, Section, Speed, check_names, refused
+from .section import AllOrNames, FileName, LeftOut, Name, Section, Speed, refused
 from .speed_section import RpmList, SpeedList, SpeedRange, SpeedRule, refuse_both_units
 from .study_sections import StudiesSection
 from .tolerance_section import ToleranceSection
@@ -155,11 +154,6 @@ class Run(Section):
         return names[first:last]
 
 
-def _names_differ(entries: dict[str, RunUpEntry]) -> dict[str, RunUpEntry]:
-    check_names(entries)
-    return entries
-
-
 class Config(Section):
     """config.yaml, what to run."""
 
@@ -193,12 +187,6 @@ class Config(Section):
     run: Run = Run()
     studies: StudiesSection = StudiesSection()
     campbell: CampbellSection = CampbellSection()
-    exports: ExportSection = ExportSection()
-    shapes: ShapeSection = ShapeSection()
-    signals: SignalSection = SignalSection()
-    run_ups: Annotated[dict[Name, RunUpEntry], AfterValidator(_names_differ)] = Field(
-        default={}, description="run-ups and run-downs by name"
-    )
     tolerances: ToleranceSection = ToleranceSection()
 
     @model_validator(mode="after")
@@ -206,3 +194,8 @@ class Config(Section):
         if self.speeds_rpm is not None and "speeds" in self.model_fields_set:
             refuse_both_units("speeds", "speeds_rpm")
         return self
+
+
+def with_sections(sections: Mapping[str, tuple[Any, Any]]) -> type[Config]:
+    """config.yaml with more sections: name -> type and default, as `create_model` takes them."""
+    return create_model("Config", __base__=Config, __doc__=Config.__doc__, **sections)  # type: ignore[call-overload]

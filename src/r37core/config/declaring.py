@@ -46,11 +46,13 @@ def in_si(kind: type[T], section: Section, **parts: Any) -> T:
     """The dataclass `kind` of what a section gives it, in SI units, and of `parts` that are made otherwise.
 
     A field has the value of a key that it declares or, without a declaration, of one that is called like it. What is left out
-    has the dataclass's default.
+    has the dataclass's default, or is None.
     """
-    found = {}
+    found: dict[str, Any] = {}
     for field in fields(kind):  # type: ignore[arg-type]
         keys = [one for one in declared_keys(kind) if one.field == field.name]  # type: ignore[arg-type]
+        if keys and keys[0].default is MISSING and NoneType in get_args(keys[0].kind):
+            found[field.name] = None
         for name, key in [(one.name, one.key) for one in keys] or [(field.name, Key(""))]:
             value = getattr(section, name, None)
             if value is not None and value != key.none:

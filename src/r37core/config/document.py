@@ -17,6 +17,9 @@ from .messages import explain_all, on_one_line
 Model = TypeVar("Model", bound=BaseModel)
 Result = TypeVar("Result")
 
+_MOST_TOLD = 20
+"""Refusals of one message."""
+
 
 class ConfigError(ValueError):
     """The message names the file, the line where there is one, the key, what was found and what is allowed.
@@ -28,8 +31,8 @@ class ConfigError(ValueError):
 class Refusals:
     """What is wrong with a configuration, from checks that do not wait for each other: a user is told all at once."""
 
-    def __init__(self) -> None:
-        self._lines: dict[str, None] = {}
+    def __init__(self, *told: str) -> None:
+        self._lines = dict.fromkeys(told)
 
     def of(self, check: Callable[..., Result], *arguments: Any) -> Result | None:
         """What a check gives; None where it refuses, which it may do for the reason of one before it."""
@@ -40,9 +43,10 @@ class Refusals:
             return None
 
     def tell(self) -> None:
-        """ConfigError with all of them, each once, if there are any."""
+        """ConfigError with all of them, each once and not too many, if there are any."""
         if self._lines:
-            raise ConfigError("\n".join(self._lines))
+            lines, more = list(self._lines)[:_MOST_TOLD], len(self._lines) - _MOST_TOLD
+            raise ConfigError("\n".join([*lines, *([f"and {more} more"] if more > 0 else [])]))
 
 
 @dataclass(frozen=True)
@@ -75,8 +79,9 @@ class Document:
         try:
             return model.model_validate(self.content)
         except ValidationError as error:
-            refusals = [str(self.error(path, text, key)) for path, key, text in explain_all(error, self.content, model)]
-            raise ConfigError("\n".join(refusals)) from None
+            said = explain_all(error, self.content, model)
+        Refusals(*(str(self.error(path, text, key)) for path, key, text in said)).tell()
+        raise AssertionError("a model refuses for a reason")
 
     def overlaid(self, above: Document) -> Document:
         """This document with the values of another one on top: mappings are joined, all else is replaced."""

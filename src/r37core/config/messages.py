@@ -51,9 +51,7 @@ def _path(error: Mapping[str, Any], content: Any) -> KeyPath:
     return within + tuple(error.get("ctx", {}).get("at", ()))
 
 
-def _explained(
-    error: Mapping[str, Any], path: KeyPath, content: Any, model: type[BaseModel]
-) -> tuple[KeyPath, KeyPath, str]:
+def _explained(error: Mapping[str, Any], path: KeyPath, content: Any, model: type[BaseModel]) -> tuple[KeyPath, KeyPath, str]:
     schema, variants, context = _schema(model), frozenset(map(str, error["loc"])), error.get("ctx", {})
     if error["type"] == "refused":
         return path, path, f"found {on_one_line(context['found'])}; allowed: {context['allowed']}"

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from itertools import product
 from pathlib import Path
 from typing import Any
 
@@ -18,17 +17,16 @@ from r37core.contact.scene import Scene
 from r37core.exchange.importing.source import MatricesSource
 from r37core.plain import to_plain
 from r37core.rom.reduction_choice import POINTS, ReductionChoice
-from r37core.run_ups.choice import RunUpChoice
 from r37core.speeds import SpeedError, SpeedPlan
 from r37core.time_integration.integration_choice import IntegrationChoice
 from r37core.tolerances.fewest import remarks_on_rankings
 from r37core.yaml_file import KeyPath
 
 from . import casing_remarks
-from .blades import BladeSettings, blade_settings
+from .blades import BladeSettings, all_blades
 from .config_file import CampbellSection, Config, Interactions, RefinementSection, StructureSection
 from .document import Document
-from .families import Designs, Family
+from .families import Designs
 from .fidelity import Level, Measured, recommended_level
 from .members import Members
 from .scenes import SceneEntry
@@ -59,6 +57,13 @@ class Documents:
     levels: Document
     scenes: Document
 
+    def known(self, path: KeyPath, names: Iterable[str], entries: Iterable[str], file: Document) -> None:
+        """ConfigError for a name, at `path` of config.yaml, that is none of the `entries` of `file`."""
+        allowed = list(entries)
+        for name in names:
+            if name not in allowed:
+                raise self.config.refusal(path, f"'{name}'", f"{', '.join(allowed)} ({file.name})")
+
 
 @dataclass(frozen=True)
 class Settings:
@@ -85,6 +90,10 @@ class Settings:
         """The Campbell diagram."""
         return self.config.campbell
 
+    def section(self, wing: str) -> Any:
+        """The section of config.yaml that a wing has brought, of the type that this says."""
+        return getattr(self.config, wing)
+
     @property
     def interactions(self) -> Interactions:
         """What counts as an interaction."""
@@ -106,10 +115,15 @@ class Settings:
 
     @cached_property
     def chosen_blades(self) -> list[str]:
-        """Names of the blades that config.yaml chooses; that of a family is all of its designs."""
-        if self.config.blades == "all":
-            return list(self.designs.entries)
-        return self.designs_of(self.config.blades)
+        """Names of the blades that config.yaml chooses; that of a family is all of its designs.
+
+        Raises ConfigError for a name that is not in the file.
+        """
+        designs, chosen = self.designs, self.config.blades
+        if chosen == "all":
+            return list(designs.entries)
+        self.documents.known(("blades",), chosen, [*designs.entries, *designs.families], self.documents.blades)
+        return self.designs_of(chosen)
 
     def designs_of(self, names: Sequence[str]) -> list[str]:
         """Each of the blades, and of the families' designs, once."""
@@ -119,19 +133,17 @@ class Settings:
 
     @cached_property
     def blade_names(self) -> list[str]:
-        """Those of them that are in this run's part."""
-        return self.config.run.of_part(self.chosen_blades)
+        """Those of them that are in this run's part. Raises ConfigError where that has none."""
+        names, number = self.config.run.of_part(self.chosen_blades), len(self.chosen_blades)
+        if not names:
+            found = f"{self.config.run.part} of {number} blades"
+            raise self.documents.config.refusal(("run", "part"), found, f"at most {number} parts")
+        return names
 
     @cached_property
     def blades(self) -> dict[str, BladeSettings]:
         """Blades to run. Raises ConfigError for tables or files that cannot be read, and shapes that are impossible."""
-        document = self.documents.blades
-        return {name: blade_settings(name, self.designs.entries, self.root, document) for name in self.blade_names}
-
-    @cached_property
-    def families(self) -> dict[str, Family]:
-        """Families of which some designs are run."""
-        return {name: one for name, one in self.designs.families.items() if set(one.designs) & set(self.blade_names)}
+        return all_blades(self.blade_names, self.designs.entries, self.root, self.documents.blades)
 
     @cached_property
     def places(self) -> dict[str, dict[str, str]]:
@@ -147,8 +159,11 @@ class Settings:
 
     @cached_property
     def scene_names(self) -> list[str]:
-        """Names of the scenes to run."""
-        return list(self.scene_entries) if self.config.scenes == "all" else list(self.config.scenes)
+        """Names of the scenes to run. Raises ConfigError for a name that is not in the file."""
+        if self.config.scenes == "all":
+            return list(self.scene_entries)
+        self.documents.known(("scenes",), self.config.scenes, self.scene_entries, self.documents.scenes)
+        return list(self.config.scenes)
 
     @cached_property
     def scenes(self) -> dict[str, SceneSettings]:
@@ -166,8 +181,12 @@ class Settings:
 
     @cached_property
     def fidelity_name(self) -> str:
-        """The level that is named, or for `auto` the cheapest one whose measured error is within the tolerance."""
+        """The level that is named, or for `auto` the cheapest one whose measured error is within the tolerance.
+
+        Raises ConfigError for a name that is not in the file, and where no level is within the tolerance.
+        """
         if self.config.fidelity != "auto":
+            self.documents.known(("fidelity",), [self.config.fidelity], self.levels, self.documents.levels)
             return self.config.fidelity
         measured = {name: level.measured for name, level in self.levels.items() if level.measured}
         errors = {name: error for name, one in measured.items() if (error := self._error(one)) is not None}
@@ -277,7 +296,7 @@ class Settings:
     @property
     def remarks_on_casings(self) -> list[str]:
         """What a run should say of casings that the rotor overtakes."""
-        said = (casing_remarks.of_speeds(name, one, self._fastest_of(name)) for name, one in self.elastic_casings.items())
+        said = (casing_remarks.of_speeds(name, one, self.fastest_of(name)) for name, one in self.elastic_casings.items())
         return [one for one in said if one]
 
     @property
@@ -292,11 +311,9 @@ class Settings:
             "numbers to decide from: structure.boundary.contact: patches (docs/accuracy.md#points-and-patches)"
         ]
 
-    def _fastest_of(self, scene: str) -> float:
-        """The highest speed (rad/s) of a scene's simulations, and of its run-ups as far as no crossing decides it."""
-        swept = [plan.every_speed()[-1] for (_, one), plan in self.speed_plans.items() if one == scene]
-        climbs = [climb for (_, one), found in self.run_ups.items() if one == scene for climb in found.values()]
-        return max(*swept, *(max(climb.start, climb.stop) for climb in climbs if climb.crossing is None), 0.0)
+    def fastest_of(self, scene: str) -> float:
+        """The highest speed (rad/s) of a scene's simulations in the sweep."""
+        return max(plan.every_speed()[-1] for (_, name), plan in self.speed_plans.items() if name == scene)
 
     def shape_hash(self, blade: str) -> str:
         """Short hash of all that a blade's geometry depends on."""
@@ -341,27 +358,6 @@ class Settings:
         """Simulations of all members, at most where speeds are adaptive."""
         share, plans = self.config.tolerances.largest_share, self.speed_plans
         return sum(len(members) * plans[pair].at_most(share) for pair, members in self.members.all.items())
-
-    @cached_property
-    def run_ups(self) -> dict[tuple[str, str], dict[str, RunUpChoice]]:
-        """Run-ups of each blade and scene, by name."""
-        found: dict[tuple[str, str], dict[str, RunUpChoice]] = {
-            (blade, scene): {} for blade in self.blade_names for scene in self.scene_names
-        }
-        for name, entry in self.config.run_ups.items():
-            blades = self.blade_names if entry.blades == "all" else self.designs_of(entry.blades)
-            scenes = self.scene_names if entry.scenes == "all" else entry.scenes
-            choices = {scene: entry.choice(self.scenes[scene].revolutions) for scene in scenes if scene in self.scenes}
-            for blade, (scene, choice) in product(blades, choices.items()):
-                if (blade, scene) in found:
-                    found[blade, scene][name] = choice
-        return found
-
-    def run_up_choice(self, blade: str, scene: str, name: str) -> IntegrationChoice:
-        """Numbers of the time integration of a run-up: those of the sweep, with stress in every revolution."""
-        choice = self.integration_choice(blade, scene, 0.0)
-        before = self.run_ups[blade, scene][name].before
-        return replace(choice, revolutions=before, snapshot_revolutions=before if choice.snapshots_per_revolution else 0)
 
     def integration_choice(self, blade: str, scene: str, speed: float) -> IntegrationChoice:
         """Numbers of the time integration at one speed of a blade and scene, with only what its results need."""

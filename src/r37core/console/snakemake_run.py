@@ -18,9 +18,11 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from r37core.config import ConfigError, Settings, settings_of_run
-from r37core.plans.run import check_asked, check_part, replaced_level, source_folder
+from r37core.config import ConfigError, Settings
+from r37core.plans.run import check_part, replaced_level, source_folder
 from r37core.plans.sweep_plan import Sweep
+from r37core.product.reading import settings_of_run
+from r37core.product.remarks import check_asked, remarks
 
 from . import failures, interpreter, job_server, lock
 from .closing import closing_lines
@@ -91,7 +93,7 @@ def begin(workflow: Any, logger: logging.Logger, refusal: Refusal, root: Path, v
             Path(workflow.basedir), given.configfiles, given.config, above, only_given=given.replace_workflow_config
         )
     lifted = lock.enter() if workflow.is_main_process else []
-    for line in [*lifted, *settings.remarks, *replaced_level(settings)]:
+    for line in [*lifted, *remarks(settings), *replaced_level(settings)]:
         logger.info(line)
     if not (os.environ.get("R37_FULL_LOG") or output.dryrun or output.verbose):
         quieten(logger.handlers, Progress(Sweep(settings).most_runs + settings.most_of_members))

@@ -72,35 +72,6 @@ CAPTIONS = {
         "twentieth of them do. Lines: standard deviation by chance, in direct contact; with tolerances: the range that nine "
         "tenths of the members lie in."
     ),
-    "designs": (
-        "Family {family}: what each design is and how robust, over what varies. Frequencies, largest loss of clearance as "
-        "the tip swings along free modes, where interactions lie, speeds certainly and possibly above yield, largest stress."
-    ),
-    "mode_shapes": (
-        "The first modes of blade {blade} at rest, each moved by its shape from the blade as it is (black outline). The "
-        "colour is the displacement as a share of its largest. The page of the blade's shapes moves them."
-    ),
-    "worst_shapes": (
-        "Blade {blade} in scene {scene} at the worst instant of each interaction, displaced as the title says (black "
-        "outline: as it is). Colours are the von Mises stress, each on a scale of its own."
-    ),
-    "spectrogram": (
-        "Blade {blade} in scene {scene}: engine orders of the leading edge's motion and of strain gauges over the revolutions "
-        "since the start, at each speed; Hann windows of eight revolutions."
-    ),
-    "orders": (
-        "Blade {blade} in scene {scene}: amplitude of the strongest whole engine orders over the revolutions since the "
-        "start, at each speed. Beside them, where there are probes: the leading edge's displacement that tip timing tells."
-    ),
-    "run_ups": (
-        "Blade {blade} in scene {scene}, run up (solid) and down (dashed) at several rates. Of every revolution over its "
-        "mean speed: rms of the leading edge's motion normal to the casing and tangential, largest von Mises stress, and "
-        "largest wear so far. Dashed line: yield stress; above it (tinted) the blade is outside the linear model."
-    ),
-    "run_up_rates": (
-        "Largest von Mises stress of every run-up (left) and run-down (right) in scene {scene} against its rate, for every "
-        "blade. Tinted: above yield."
-    ),
     "modes": (
         "The first three modes of blade {blade} at rest: first bending (1B), first torsion (1T) and second bending (2B). "
         "Each is moved by its shape from the blade at rest (lines); the colour is the size of the displacement."
@@ -148,8 +119,3 @@ CAPTIONS = {
         "every blade."
     ),
 }
-
-
-def caption(figure: str, **names: str) -> str:
-    """The caption of a kind of figure, with the names (blade, scene, family) of the one at hand."""
-    return CAPTIONS[figure].format(**names)

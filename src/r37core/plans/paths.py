@@ -15,17 +15,10 @@ CONTACT_MODEL = "<results>/{blade}/contact_{tip_line}.npz"
 STRESS_OPERATOR = "<results>/{blade}/stress_{tip_line}.npz"
 CAMPBELL = "<results>/{blade}/campbell.nc"
 INTEGRATION_STAMP = "<results>/{blade}/{scene}/time_integration.stamp"
-RUN_UP = "<results>/{blade}/{scene}/run_up_{run_up}.npz"
 ROUND = "<results>/{blade}/{scene}/round_{round}.json"
 SPEED = "<results>/{blade}/{scene}/speed_{speed}.npz"
 RESPONSE = "<results>/{blade}/{scene}/response.nc"
-EXPORTED_MESH = "<results>/exports/{blade}/mesh.{format}"
-EXPORTED_SURFACE = "<results>/exports/{blade}/surface.step"
-EXPORTED_MODES = "<results>/exports/{blade}/modes"
-EXPORTED_STRESS = "<results>/exports/{blade}/stress_{scene}"
-EXPORTED_MATRICES = "<results>/exports/{blade}/matrices"
-WORST_SHAPES = "<results>/shapes/{blade}/stress_{scene}"
-WHOLE_BLADE_MODEL = "<results>/exports/{blade}/rom_{tip_line}.nc"
+WHOLE_BLADE_MODEL = "<results>/{blade}/whole_blade_{tip_line}.nc"
 MEMBER_MODELS = "<results>/tolerances/models/{blade}/{member}"
 MEMBER_STAMP = "<results>/tolerances/{blade}/{scene}/{member}/time_integration.stamp"
 MEMBER_ROUND = "<results>/tolerances/{blade}/{scene}/round_{round}.json"
@@ -57,3 +50,8 @@ def of_runs(runs: Iterable[tuple[str, str]]) -> Wildcards:
 def filled(patterns: dict[str, Wildcards]) -> list[str]:
     """The files that patterns and their wildcards stand for."""
     return [fill(pattern, **wildcards) for pattern, several in patterns.items() for wildcards in several]
+
+
+def pictures(name: str, wildcards: Wildcards) -> dict[str, Wildcards]:
+    """A figure in both of its formats."""
+    return {f"<results>/figures/{name}.{suffix}": wildcards for suffix in ("png", "pdf")}

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from r37core.config import Settings
 from r37core.config.settings import RESULTS
 from r37core.plain import to_plain
 
-from .paths import REDUCED_MODEL, fill
+from .paths import REDUCED_MODEL, WHOLE_BLADE_MODEL, fill
 from .provenance import Attributes
 
 
@@ -49,3 +49,14 @@ class Structure:
     def reduction(self, wildcards: Any) -> dict[str, Any]:
         """What the reduced model is made of, with contact nodes on the line that the wildcard names."""
         return to_plain(self.settings.reduction_choice(wildcards.blade, wildcards.tip_line))
+
+    def whole_blade_model(self, wildcards: Any) -> str:
+        """The model that recovers the whole blade, with the contact nodes of a scene, or else those of config.yaml."""
+        scene = getattr(wildcards, "scene", None)
+        tip_line = self.settings.scenes[scene].tip_line if scene else self.settings.structure.boundary.tip_line
+        return fill(WHOLE_BLADE_MODEL, blade=wildcards.blade, tip_line=tip_line)
+
+    def whole_blade_reduction(self, wildcards: Any) -> dict[str, Any]:
+        """What that model is made of: the sweep's, recovered everywhere."""
+        choice = self.settings.reduction_choice(wildcards.blade, wildcards.tip_line)
+        return to_plain(replace(choice, recover_whole_blade=True))

@@ -186,15 +186,6 @@ class Sweep:
         """Names of the scenes that are the benchmark's lined one: of these alone there are published peaks."""
         return [name for name, chosen in self.settings.scenes.items() if is_lined_benchmark(chosen.scene)]
 
-    def scenes_with(self, kind: str, blade: str) -> list[str]:
-        """Scenes of a blade that have this kind of result."""
-        return [scene for of, scene in self.runs_with(kind) if of == blade]
-
-    def worst_shapes(self, wildcards: Any) -> list[str]:
-        """The shapes of interactions of a blade, in each of its scenes that asks for them."""
-        scenes = self.scenes_with("shapes", wildcards.blade)
-        return [paths.fill(paths.WORST_SHAPES, blade=wildcards.blade, scene=scene) for scene in scenes]
-
     def response_pictured(self, wildcards: Any) -> dict[str, str]:
         """Datasets that a blade's response is drawn from."""
         return _drawn(with_stress=any(blade == wildcards.blade for blade, _ in self.runs_with("stress")))

@@ -53,7 +53,7 @@ def check_room(model: ContactModel, scene: Scene, speeds: np.ndarray) -> None:
         f"casing.clearance of the scene (scenes.yaml): at {speeds[row]:g} rad/s contact node {node + 1} of {room.shape[1]}, "
         f"from the leading edge on, is {lacking:.3g} m inside of the casing before anything vibrates; allowed: a cold_m of "
         f"at least {scene.casing.clearance + lacking:.6g} m for this speed, {lining}, a casing_growth larger by as much, or "
-        "lower speeds (speeds, run_ups, and structure.maximum_speed_rad_s)"
+        "lower speeds (speeds, those of run-ups, and structure.maximum_speed_rad_s)"
     )
 
 

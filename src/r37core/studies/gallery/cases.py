@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from r37core.config import ConfigError, Settings
+from r37core.exports.plan import EXPORTED_MODES
 from r37core.plans import paths
 from r37core.published import BLADES, DIRECT_PEAK, INTERACTIONS, QUIET, REFERENCE, PublishedInteraction
 
@@ -118,7 +119,7 @@ def inputs(settings: Settings) -> dict[str, Any]:
         "campbells": [paths.fill(paths.CAMPBELL, blade=blade) for blade in BLADES],
         "geometry": paths.fill(paths.GEOMETRY, blade=REFERENCE),
         "meshes": [paths.fill(paths.MESH, blade=blade) for blade in BLADES],
-        "modes": paths.fill(paths.EXPORTED_MODES, blade=REFERENCE),
+        "modes": paths.fill(EXPORTED_MODES, blade=REFERENCE),
     }
 
 

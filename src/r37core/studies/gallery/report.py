@@ -12,9 +12,9 @@ import numpy as np
 import xarray as xr
 
 from r37core.dataset_file import read_dataset
-from r37core.figures.captions import caption
 from r37core.mesh.mesh_files import read_vtu
 from r37core.plain import from_plain
+from r37core.product.captions import caption
 from r37core.published import BLADES, INTERACTIONS, MESH_NODES, REFERENCE, PublishedInteraction
 from r37core.results.measures import peak_of, strongest_order
 from r37core.rom.reduction_choice import StressSubmesh

@@ -8,11 +8,10 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 
+from r37core.results.datasets import response_of
+from r37core.results.glossary import RANKING, Word, word
+from r37core.results.ranking import ROBUSTNESS, robustness
 from r37core.rom.naming import FIRST_BENDING, FIRST_TORSION
-
-from .datasets import response_of
-from .glossary import RANKING, Word, word
-from .ranking import ROBUSTNESS, robustness
 
 MEASURES = {
     "mass_kg": Word("mass", "of the blade", "kg"),

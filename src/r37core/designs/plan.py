@@ -6,6 +6,15 @@ from dataclasses import dataclass
 from typing import Any
 
 from r37core.config import Settings
+from r37core.config.families import Family
+from r37core.plans import paths
+from r37core.plans.sweep_plan import Sweep
+
+
+def families(settings: Settings) -> dict[str, Family]:
+    """Families of which some designs are run."""
+    run = set(settings.blade_names)
+    return {name: family for name, family in settings.designs.families.items() if set(family.designs) & run}
 
 
 @dataclass(frozen=True)
@@ -19,7 +28,7 @@ class Families:
         """Designs that are run, with the values of what varies."""
         return {
             blade: dict(zip(family.keys, family.designs[blade], strict=True))
-            for family in self.settings.families.values()
+            for family in families(self.settings).values()
             for blade in family.designs
             if blade in self.settings.blades
         }
@@ -32,8 +41,14 @@ class Families:
 
     def blades(self, wildcards: Any) -> list[str]:
         """Designs of one family that are run."""
-        return [blade for blade in self.settings.families[wildcards.family].designs if blade in self.settings.blades]
+        return [blade for blade in families(self.settings)[wildcards.family].designs if blade in self.settings.blades]
 
     def varied(self, wildcards: Any) -> list[str]:
         """What varies in one family."""
-        return list(self.settings.families[wildcards.family].keys)
+        return list(families(self.settings)[wildcards.family].keys)
+
+
+def targets(sweep: Sweep) -> dict[str, paths.Wildcards]:
+    """The table of all designs, and a figure of each family."""
+    found = paths.of("family", families(sweep.settings))
+    return {"<results>/designs.csv": found and [{}], **paths.pictures("designs_{family}", found)}

@@ -10,9 +10,9 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from r37core.results.designs import MEASURES
+from r37core.figures import style
 
-from . import style
+from .table import MEASURES
 
 _DRAWN = (
     "mass_kg",

@@ -9,11 +9,11 @@ from matplotlib.axes import Axes
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 
-from r37core.signals.orders import order_tracks, spectrogram, strongest_orders
+from r37core.figures import style
+from r37core.figures.cells import draw_cells
 from r37core.units import RPM
 
-from . import style
-from .cells import draw_cells
+from .orders import order_tracks, spectrogram, strongest_orders
 
 _DECADES = 4.0
 _TRACKS = 5

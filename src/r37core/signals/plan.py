@@ -5,11 +5,21 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-from r37core.config import si_fields
+from r37core.config import Settings, in_si
+from r37core.plain import to_plain
+from r37core.plans import paths
+from r37core.plans.import_plan import Imported
+from r37core.plans.sweep_plan import Sweep
 
-from . import paths
-from .import_plan import Imported
-from .sweep_plan import Sweep
+from .gauge import Gauge
+from .section import SignalSection
+
+SIGNALS_OF_RUN = "<results>/{blade}/{scene}/signals.nc"
+
+
+def section(settings: Settings) -> SignalSection:
+    """Of config.yaml."""
+    return settings.section("signals")
 
 
 @dataclass(frozen=True)
@@ -20,8 +30,8 @@ class Signals:
     sweep: Sweep
 
     @property
-    def _given(self) -> Any:
-        return self.sweep.settings.config.signals
+    def _given(self) -> SignalSection:
+        return section(self.sweep.settings)
 
     @property
     def runs(self) -> list[tuple[str, str]]:
@@ -34,7 +44,7 @@ class Signals:
     def gauges(self, wildcards: Any) -> dict[str, dict[str, Any]]:
         """Gauges of a blade as plain values; a blade given by matrices has none."""
         given = self._given.gauges if wildcards.blade in self.imported.with_mesh else {}
-        return {name: si_fields(entry) for name, entry in given.items()}
+        return {name: to_plain(in_si(Gauge, entry)) for name, entry in given.items()}
 
     def inputs(self, wildcards: Any) -> dict[str, str]:
         """What signals are made from, with what gauges and the speeds of interactions need beside it."""
@@ -70,3 +80,22 @@ class Signals:
     def tip_line(self, wildcards: Any) -> str:
         """The line of the contact nodes of a scene."""
         return self.sweep.settings.scenes[wildcards.scene].tip_line
+
+
+def simulated(sweep: Sweep) -> dict[str, paths.Wildcards]:
+    """Signals of each blade and scene."""
+    return {SIGNALS_OF_RUN: paths.of_runs(_runs(sweep))}
+
+
+def targets(sweep: Sweep) -> dict[str, paths.Wildcards]:
+    """All signals in one file, and the figures."""
+    runs = paths.of_runs(_runs(sweep))
+    return {
+        "<results>/signals.nc": runs and [{}],
+        **paths.pictures("spectrogram_{blade}__{scene}", runs),
+        **paths.pictures("orders_{blade}__{scene}", runs),
+    }
+
+
+def _runs(sweep: Sweep) -> list[tuple[str, str]]:
+    return Signals(Imported(sweep.settings), sweep).runs

@@ -1,4 +1,4 @@
-"""Every key of the configuration files as tables: `python -m r37core.config.reference` renews docs/configuration.md."""
+"""Every key of the configuration files as tables: `python -m r37core.product.reference` renews docs/configuration.md."""
 
 from __future__ import annotations
 
@@ -7,14 +7,14 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
+from r37core.config.messages import describe
+from r37core.config.section import NAME_PATTERN, TEXT_PATTERN
+from r37core.config.speed_section import UNITS
 from r37core.io import write_text
 from r37core.text_file import with_part
 from r37core.units import SUFFIXES
 
-from .messages import describe
 from .schemas import MODELS
-from .section import NAME_PATTERN, TEXT_PATTERN
-from .speed_section import UNITS
 
 Schema = Mapping[str, Any]
 

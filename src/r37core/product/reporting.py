@@ -25,9 +25,9 @@ def captioned(figure: str | None = None) -> Callable[[Any], str]:
 
 
 def drawing(code: CodeHashes, function: str, figure: str | None = None, **arguments: Any) -> dict[str, Any]:
-    """Parameters of a rule of figures: the `function` of r37core.figures, as `module.function`, and its code alone.
+    """Parameters of a rule of figures: the `function` of r37core, as `folder.module.function`, and its code alone.
 
     `arguments`: what the function takes beside the datasets; `figure`: the kind that the caption is of, as in `captioned`.
     """
-    module = function.partition(".")[0]
-    return {"draw": function, "code": code("figure", f"{__package__}.{module}"), "caption": captioned(figure), **arguments}
+    module = function.rpartition(".")[0]
+    return {"draw": function, "code": code("figure", f"r37core.{module}"), "caption": captioned(figure), **arguments}

@@ -2,20 +2,32 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from r37core.blade.definition import BladeDefinition
-from r37core.config import si_fields
+from r37core.config import Settings, si_fields
 from r37core.exchange.importing.source import MeshSource
 from r37core.exchange.orientation import OURS
 from r37core.plain import to_plain
+from r37core.plans import paths
+from r37core.plans.import_plan import Imported
+from r37core.plans.sweep_plan import Sweep
 from r37core.speeds import exact_text
 
-from . import paths
-from .import_plan import Imported
-from .sweep_plan import Sweep
+from .section import ExportSection
+
+EXPORTED_MESH = "<results>/exports/{blade}/mesh.{format}"
+EXPORTED_SURFACE = "<results>/exports/{blade}/surface.step"
+EXPORTED_MODES = "<results>/exports/{blade}/modes"
+EXPORTED_STRESS = "<results>/exports/{blade}/stress_{scene}"
+EXPORTED_MATRICES = "<results>/exports/{blade}/matrices"
+
+
+def section(settings: Settings) -> ExportSection:
+    """Of config.yaml."""
+    return settings.section("exports")
 
 
 @dataclass(frozen=True)
@@ -26,23 +38,10 @@ class Exports:
     sweep: Sweep
 
     @property
-    def targets(self) -> dict[str, paths.Wildcards]:
-        """Patterns of the files and folders that this run's configuration asks for, with their wildcards."""
-        settings, with_mesh = self.imported.settings, self.imported.with_mesh
-        formats = settings.config.exports.mesh_formats
-        return {
-            paths.EXPORTED_MESH: [{"blade": blade, "format": name} for blade in with_mesh for name in formats],
-            paths.EXPORTED_MODES: paths.of("blade", with_mesh),
-            paths.EXPORTED_SURFACE: paths.of("blade", self.imported.given_by(BladeDefinition)),
-            paths.EXPORTED_MATRICES: paths.of("blade", settings.blades),
-            paths.EXPORTED_STRESS: paths.of_runs(self.sweep.runs_with("stress")),
-        }
-
-    @property
     def choice(self) -> dict[str, Any]:
         """The section of config.yaml, with the speeds (rad/s) of modes and matrices."""
         settings = self.imported.settings
-        given, highest = settings.config.exports, settings.structure.maximum_speed_rad_s
+        given, highest = section(settings), settings.structure.maximum_speed_rad_s
         return {
             "formats": tuple(given.result_formats),
             "modes": given.modes,
@@ -50,18 +49,6 @@ class Exports:
             "matrix_speeds": (0.0, 0.5 * highest, highest),
             "spin_softening": settings.structure.spin_softening,
         }
-
-    def model(self, wildcards: Any) -> str:
-        """The model of the whole blade with the contact nodes of a scene, or else those of config.yaml."""
-        settings = self.imported.settings
-        scene = getattr(wildcards, "scene", None)
-        tip_line = settings.scenes[scene].tip_line if scene else settings.structure.boundary.tip_line
-        return paths.fill(paths.WHOLE_BLADE_MODEL, blade=wildcards.blade, tip_line=tip_line)
-
-    def reduction(self, wildcards: Any) -> dict[str, Any]:
-        """What the model of the whole blade is made of: the sweep's, recovered everywhere."""
-        choice = self.imported.settings.reduction_choice(wildcards.blade, wildcards.tip_line)
-        return to_plain(replace(choice, recover_whole_blade=True))
 
     def orientation(self, wildcards: Any) -> Any:
         """Axes and unit in which results are written: those of an imported mesh, or the blade's own frame."""
@@ -73,19 +60,32 @@ class Exports:
         settings = self.imported.settings
         tip_line = settings.structure.boundary.tip_line
         found = {"rom": paths.fill(paths.REDUCED_MODEL, blade=wildcards.blade, tip_line=tip_line)}
-        if settings.config.exports.full_matrices and wildcards.blade in self.imported.with_mesh:
+        if section(settings).full_matrices and wildcards.blade in self.imported.with_mesh:
             found |= {"mesh": paths.fill(paths.MESH, blade=wildcards.blade)}
         return found
 
     def only_worst(self, wildcards: Any) -> bool:
         """Whether the speed with the largest stress is written alone."""
-        return self.imported.settings.config.exports.only_worst()
+        return section(self.imported.settings).only_worst()
 
     def speed_files(self, wildcards: Any) -> list[str]:
         """The simulations among which worst instants are looked for."""
         files = self.sweep.speed_files(wildcards)
-        chosen = self.imported.settings.config.exports.stress_speeds()
+        chosen = section(self.imported.settings).stress_speeds()
         if chosen is None:
             return files
         wanted = {f"speed_{exact_text(speed)}.npz" for speed in chosen}
         return [file for file in files if Path(file).name in wanted]
+
+
+def targets(sweep: Sweep) -> dict[str, paths.Wildcards]:
+    """Files and folders that this run's configuration asks for."""
+    settings = sweep.settings
+    imported, formats = Imported(settings), section(settings).mesh_formats
+    return {
+        EXPORTED_MESH: [{"blade": blade, "format": name} for blade in imported.with_mesh for name in formats],
+        EXPORTED_MODES: paths.of("blade", imported.with_mesh),
+        EXPORTED_SURFACE: paths.of("blade", imported.given_by(BladeDefinition)),
+        EXPORTED_MATRICES: paths.of("blade", settings.blades),
+        EXPORTED_STRESS: paths.of_runs(sweep.runs_with("stress")),
+    }

@@ -1,4 +1,4 @@
-"""JSON schemas of the configuration files, for editors: `python -m r37core.config.schemas` writes them to config/schemas."""
+"""JSON schemas of the configuration files, for editors: `python -m r37core.product.schemas` writes them to config/schemas."""
 
 from __future__ import annotations
 
@@ -8,14 +8,14 @@ from typing import Any
 
 from pydantic import BaseModel
 
+from r37core.config.blades import Blades
+from r37core.config.fidelity import Levels
+from r37core.config.scenes import Scenes
 from r37core.io import write_text
 
-from .blades import Blades
-from .config_file import Config
-from .fidelity import Levels
-from .scenes import Scenes
+from .reading import CONFIG
 
-MODELS: dict[str, type[BaseModel]] = {"config": Config, "blades": Blades, "scenes": Scenes, "fidelity": Levels}
+MODELS: dict[str, type[BaseModel]] = {"config": CONFIG, "blades": Blades, "scenes": Scenes, "fidelity": Levels}
 
 
 def schemas() -> dict[str, str]:

@@ -8,10 +8,10 @@ import pandas as pd
 import xarray as xr
 from matplotlib.figure import Figure
 
-from r37core.run_ups.dataset import runs_of
-from r37core.run_ups.tables import CASE
+from r37core.figures import style
 
-from . import style
+from .dataset import runs_of
+from .tables import CASE
 
 _QUANTITIES = {**style.CURVES, "max_wear": ("largest wear (mm)", 1e3)}
 _FEW_REVOLUTIONS, _FAINT = 60, 1e-5
