@@ -1,10 +1,8 @@
 """Adaptive speed sampling: what a range asks for, where a round looks next, and what comes of it."""
 
 import math
-import runpy
 from dataclasses import replace
 from itertools import pairwise
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -22,8 +20,9 @@ from r37core.adaptive.criterion import (
     window_speeds,
 )
 from r37core.adaptive.rounds import Round, first_round, measure, read_round, round_after, write_round
+from r37core.adaptive.steps import refine as refine_step
 from r37core.config import ConfigError
-from r37core.io import InputFileError
+from r37core.io import InputFileError, Named
 from r37core.plain import from_plain, to_plain
 from r37core.product.reading import load_settings
 from r37core.speeds import RefinedRange, SpeedError, SpeedPlan, exact_text, plan_speeds
@@ -377,27 +376,13 @@ def test_study_says_what_is_robust():
     assert "| none | 33% |" in table
 
 
-class _Wildcards(dict):
-    """As Snakemake has them: a mapping whose values are attributes too."""
-
-    __getattr__ = dict.__getitem__
-
-
-def test_a_round_of_a_blade_without_stress(root, tmp_path, monkeypatch):
+def test_a_round_of_a_blade_without_stress(tmp_path):
     """A blade given by matrices has no material: its rounds go by rms and status alone."""
     write_round(Round((900.0,)), tmp_path / "round_0.json")
     write_speed({"status": np.array(0), "rms": np.full((2, 3), 1e-4)}, tmp_path / "speed_900.npz", {})
     params = {"plan": to_plain(SpeedPlan((900.0,))), "choice": to_plain(CHOICE)}
-    job = SimpleNamespace(
-        rule="refine",
-        log=[str(tmp_path / "refine.log")],
-        wildcards=_Wildcards(round="1"),
-        input=SimpleNamespace(before=tmp_path / "round_0.json", speeds=str(tmp_path / "speed_900.npz")),
-        output=[str(tmp_path / "round_1.json")],
-        params=SimpleNamespace(**params, yields=[math.inf]),
-    )
-    monkeypatch.syspath_prepend(root / "workflow/scripts")
-    runpy.run_path(str(root / "workflow/scripts/refine.py"), {"snakemake": job})
+    files = Named(before=tmp_path / "round_0.json", speeds=str(tmp_path / "speed_900.npz"))
+    refine_step(files, Named(round=tmp_path / "round_1.json"), Named(**params, yields=[math.inf]))
     status, normal, _, stress = read_round(tmp_path / "round_1.json").measured[900.0]
     assert (status, normal) == (0, 1e-4)
     assert np.isnan(stress)

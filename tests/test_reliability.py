@@ -303,7 +303,7 @@ def test_environments_of_conda_are_refused_before_one_is_made(root, tmp_path):
 @pytest.mark.parametrize("wait", [0.0, 1.0])
 def test_a_killed_run_goes_on_with_the_same_command(root, tmp_path, wait):
     copy_stubbed(root, tmp_path)
-    slow = tmp_path / "workflow/scripts/geometry.py"
+    slow = tmp_path / "workflow/scripts/step.py"
     slow.write_text("import time\ntime.sleep(30)\n" + slow.read_text())
     environment = os.environ | {"PYTHONPATH": str(tmp_path / "src")}
     command = [SNAKEMAKE, "results/Ref/geometry.nc", "--cores", "1"]

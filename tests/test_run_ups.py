@@ -328,7 +328,7 @@ def test_steps_are_so_short_that_every_mode_tells_its_velocity(contact):
 
 def test_a_blade_that_buckles_on_the_way_is_refused_at_once(contact):
     soft = replace(contact, stiffness_per_square=-contact.stiffness_per_square)
-    with pytest.raises(BucklingError, match=r"no stable position at 6000 rad/s.*run_ups"):
+    with pytest.raises(BucklingError, match=r"no stable position at 6000 rad/s.*run-ups"):
         March(soft, NARROW, LONG, RunUp(1500.0, 6000.0, 200.0, 4, 0, worn=False))
 
 

@@ -28,6 +28,8 @@ console = begin(workflow, logger, WorkflowError, ROOT, config)
 settings = console.settings
 PACKAGE = console.source / "r37core"
 code = CodeHashes(console.source, SCRIPTS)
+# parameters of a rule that runs a step: a function of r37core, and the hash of its code
+step = code.step
 made = Provenance(settings)
 structure = Structure(settings)
 imported = Imported(settings)
@@ -64,3 +66,14 @@ wildcard_constraints:
     scene="|".join(settings.scenes),
     tip_line="pressure_edge|camber|suction_edge",
     speed=r"[0-9.]+",
+
+
+# the pattern of all rules whose work is a step, never run by itself
+rule step:
+    log:
+        "<logs>/step.log",
+    # no other than what runs Snakemake; `snakemake --lint` asks for it
+    conda:
+        ENVIRONMENT
+    script:
+        "../scripts/step.py"

@@ -5,28 +5,24 @@ from r37core.designs.plan import families as families_of
 families = Families(settings)
 
 
-rule design_table:
+use rule step as design_table with:
     input:
         **{kind: datasets[kind] for kind in sweep.kinds if kind in ("rms", "stress")},
         campbell=rules.campbell_of_all.output[0],
         summary=rules.summary.output[0],
         geometry=expand(rules.geometry.output, blade=families.designs),
     output:
-        report(
+        table=report(
             "<results>/designs.csv",
             **shown(PACKAGE / "designs/report.rst", "Families", EVERY_SCENE, figure="table of designs"),
         ),
     log:
         "<logs>/designs.log",
-    conda:
-        ENVIRONMENT
     params:
+        **step("designs.steps.tabulate"),
         designs=families.designs,
         densities=families.densities,
         scenes=list(settings.scenes),
-        code=code("designs"),
-    script:
-        "../scripts/designs.py"
 
 
 use rule figure as design_figure with:

@@ -11,93 +11,74 @@ from r37core.exports.plan import (
 exported = Exports(imported, sweep)
 
 
-rule exported_mesh:
+use rule step as exported_mesh with:
     input:
-        rules.mesh.output.vtu,
+        mesh=rules.mesh.output.vtu,
     output:
-        EXPORTED_MESH,
+        mesh=EXPORTED_MESH,
     log:
         "<logs>/exports/{blade}_mesh_{format}.log",
     wildcard_constraints:
         format="msh|vtu|med|bdf|inp",
-    conda:
-        ENVIRONMENT
     params:
+        **step("exports.steps.mesh"),
+        blade="{blade}",
         material=structure.elastic,
         orientation=exported.orientation,
-        code=code("exported_mesh"),
-    script:
-        "../scripts/exported_mesh.py"
 
 
-rule exported_surface:
+use rule step as exported_surface with:
     input:
-        rules.geometry.output,
+        geometry=rules.geometry.output.geometry,
     output:
-        EXPORTED_SURFACE,
+        surface=EXPORTED_SURFACE,
     log:
         "<logs>/exports/{blade}_surface.log",
-    conda:
-        ENVIRONMENT
     params:
-        code=code("exported_surface"),
-    script:
-        "../scripts/exported_surface.py"
+        **step("exports.steps.surface"),
 
 
-rule exported_modes:
+use rule step as exported_modes with:
     input:
         mesh=rules.mesh.output.vtu,
         model=structure.whole_blade_model,
     output:
-        directory(EXPORTED_MODES),
+        folder=directory(EXPORTED_MODES),
     log:
         "<logs>/exports/{blade}_modes.log",
-    conda:
-        ENVIRONMENT
     params:
+        **step("exports.steps.modes"),
         choice=exported.choice,
         orientation=exported.orientation,
-        code=code("exported_modes"),
-    script:
-        "../scripts/exported_modes.py"
 
 
-rule exported_stress:
+use rule step as exported_stress with:
     input:
         mesh=rules.mesh.output.vtu,
         model=structure.whole_blade_model,
         speeds=exported.speed_files,
     output:
-        directory(EXPORTED_STRESS),
+        folder=directory(EXPORTED_STRESS),
     log:
         "<logs>/exports/{blade}_stress_{scene}.log",
-    conda:
-        ENVIRONMENT
     params:
+        **step("exports.steps.stress"),
         choice=exported.choice,
         speeds=sweep.speeds,
         only_worst=exported.only_worst,
         material=structure.elastic,
         orientation=exported.orientation,
-        code=code("exported_stress"),
-    script:
-        "../scripts/exported_stress.py"
 
 
-rule exported_matrices:
+use rule step as exported_matrices with:
     input:
         unpack(exported.matrix_files),
     output:
-        directory(EXPORTED_MATRICES),
+        folder=directory(EXPORTED_MATRICES),
     log:
         "<logs>/exports/{blade}_matrices.log",
-    conda:
-        ENVIRONMENT
     params:
+        **step("exports.steps.matrices"),
         choice=exported.choice,
         tip_line=settings.structure.boundary.tip_line,
         material=structure.material,
-        code=code("exported_matrices"),
-    script:
-        "../scripts/exported_matrices.py"

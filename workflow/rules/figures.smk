@@ -3,13 +3,9 @@
 
 
 # the pattern of the others, never run by itself
-rule figure:
+use rule step as figure with:
     log:
         "<logs>/figures/figure.log",
-    conda:
-        ENVIRONMENT
-    script:
-        "../scripts/figure.py"
 
 
 use rule figure as campbell_figure with:
@@ -137,23 +133,19 @@ use rule figure as clearance_figure with:
         **drawing(code, "figures.clearance_curves.draw_clearance", "clearance"),
 
 
-rule blade_shapes_figure:
+use rule step as blade_shapes_figure with:
     input:
-        expand(rules.mesh.output.vtu, blade=imported.with_mesh),
+        meshes=expand(rules.mesh.output.vtu, blade=imported.with_mesh),
     output:
         **pictures("blades", TOGETHER, EVERY_SCENE, "shapes"),
     log:
         "<logs>/figures/blades.log",
-    conda:
-        ENVIRONMENT
     resources:
         **needs.of("blade_shapes_figure"),
     params:
+        **step("figures.steps.blade_shapes"),
         blades=imported.with_mesh,
         caption=captioned("blades"),
-        code=code("blade_shapes_figure"),
-    script:
-        "../scripts/blade_shapes_figure.py"
 
 
 rule campbell:

@@ -4,20 +4,20 @@ from r37core.run_ups.plan import RUN_UP, RunUps
 run_ups = RunUps(sweep)
 
 
-rule run_up:
+use rule step as run_up with:
     input:
         unpack(run_ups.inputs),
     output:
-        RUN_UP,
+        run_up=RUN_UP,
     log:
         "<logs>/{blade}/{scene}/run_up_{run_up}.log",
     wildcard_constraints:
         run_up="|".join(run_ups.names) or "none",
-    conda:
-        ENVIRONMENT
     resources:
         **needs.of("run_up"),
     params:
+        **step("run_ups.steps.record"),
+        name="{run_up}",
         scene=sweep.plain_scene,
         choice=run_ups.choice,
         run_up=run_ups.run_up,
@@ -25,33 +25,26 @@ rule run_up:
         highest_order=settings.fidelity.time_integration.spectrum_highest_order,
         yield_stress=sweep.yield_stress,
         provenance=made.sweep,
-        code=code("run_up"),
-    script:
-        "../scripts/run_up.py"
 
 
-rule run_ups_dataset:
+use rule step as run_ups_dataset with:
     input:
-        paths.filled({RUN_UP: run_ups.files}),
+        run_ups=paths.filled({RUN_UP: run_ups.files}),
     output:
-        "<results>/run_ups.nc",
+        dataset="<results>/run_ups.nc",
     log:
         "<logs>/run_ups_dataset.log",
-    conda:
-        ENVIRONMENT
     resources:
         **needs.of("run_ups_dataset"),
     params:
+        **step("run_ups.steps.join"),
         runs=run_ups.runs,
         fidelity=settings.fidelity_name,
-        code=code("run_ups_dataset"),
-    script:
-        "../scripts/run_ups_dataset.py"
 
 
-rule run_up_tables:
+use rule step as run_up_tables with:
     input:
-        rules.run_ups_dataset.output[0],
+        dataset=rules.run_ups_dataset.output.dataset,
     output:
         runs=report(
             "<results>/run_ups.csv",
@@ -60,12 +53,8 @@ rule run_up_tables:
         rates="<results>/run_up_rates.csv",
     log:
         "<logs>/run_up_tables.log",
-    conda:
-        ENVIRONMENT
     params:
-        code=code("run_up_tables"),
-    script:
-        "../scripts/run_up_tables.py"
+        **step("run_ups.steps.tables"),
 
 
 use rule figure as run_up_figure with:

@@ -5,24 +5,20 @@ from r37core.shapes.plan import MODE_SHAPES, WORST_SHAPES, Shapes
 shown_shapes = Shapes(sweep)
 
 
-rule mode_shapes:
+use rule step as mode_shapes with:
     input:
         mesh=rules.mesh.output.vtu,
         model=structure.whole_blade_model,
     output:
-        directory(MODE_SHAPES),
+        folder=directory(MODE_SHAPES),
     log:
         "<logs>/shapes/{blade}_modes.log",
-    conda:
-        ENVIRONMENT
     params:
+        **step("shapes.steps.modes"),
         modes=shown_shapes.modes,
-        code=code("mode_shapes"),
-    script:
-        "../scripts/mode_shapes.py"
 
 
-rule worst_shapes:
+use rule step as worst_shapes with:
     input:
         mesh=rules.mesh.output.vtu,
         model=structure.whole_blade_model,
@@ -30,60 +26,50 @@ rule worst_shapes:
         response=rules.response.output[0],
         speeds=sweep.speed_files,
     output:
-        directory(WORST_SHAPES),
+        folder=directory(WORST_SHAPES),
     log:
         "<logs>/shapes/{blade}_{scene}.log",
-    conda:
-        ENVIRONMENT
     params:
+        **step("shapes.steps.worst"),
+        scene="{scene}",
         speeds=sweep.speeds,
         interactions=plain(settings.interactions),
         material=structure.elastic,
-        code=code("worst_shapes"),
-    script:
-        "../scripts/worst_shapes.py"
 
 
-rule shapes_page:
+use rule step as shapes_page with:
     input:
-        rules.mode_shapes.output,
-        shown_shapes.worst_shapes,
+        modes=rules.mode_shapes.output.folder,
+        worst=shown_shapes.worst_shapes,
     output:
-        report(
+        page=report(
             "<results>/shapes/{blade}.html",
             **shown(PACKAGE / "shapes/report.rst", "{blade}", EVERY_SCENE, figure="moving shapes"),
         ),
     log:
         "<logs>/shapes/{blade}_page.log",
-    conda:
-        ENVIRONMENT
     params:
+        **step("shapes.steps.page"),
+        blade="{blade}",
         scenes=shown_shapes.scenes,
         parts=parts_hash(SHAPE_PARTS),
-        code=code("shapes_page"),
-    script:
-        "../scripts/shapes_page.py"
 
 
-rule modes_figure:
+use rule step as modes_figure with:
     input:
-        rules.mode_shapes.output,
+        folder=rules.mode_shapes.output.folder,
     output:
         **pictures("shapes_{blade}", "{blade}", EVERY_SCENE, "first modes"),
     log:
         "<logs>/figures/shapes_{blade}.log",
-    conda:
-        ENVIRONMENT
     params:
+        **step("shapes.steps.figure"),
         caption=captioned("mode_shapes"),
-        code=code("shapes_figure"),
-    script:
-        "../scripts/shapes_figure.py"
 
 
 use rule modes_figure as worst_shapes_figure with:
     input:
-        rules.worst_shapes.output,
+        folder=rules.worst_shapes.output.folder,
     output:
         **pictures("shapes_{blade}__{scene}", "{blade}", "{scene}", "worst instants"),
     log:

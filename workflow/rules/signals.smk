@@ -4,16 +4,15 @@ from r37core.signals.plan import SIGNALS_OF_RUN, Signals
 recorded = Signals(imported, sweep)
 
 
-rule signals_of_run:
+use rule step as signals_of_run with:
     input:
         unpack(recorded.inputs),
     output:
-        SIGNALS_OF_RUN,
+        signals=SIGNALS_OF_RUN,
     log:
         "<logs>/{blade}/{scene}/signals.log",
-    conda:
-        ENVIRONMENT
     params:
+        **step("signals.steps.record"),
         scene=sweep.plain_scene,
         choice=sweep.choice_of_scene,
         speeds=recorded.speeds,
@@ -23,26 +22,19 @@ rule signals_of_run:
         probes=recorded.probes,
         tip_line=recorded.tip_line,
         provenance=made.sweep,
-        code=code("signals_of_run"),
-    script:
-        "../scripts/signals_of_run.py"
 
 
-rule signals_dataset:
+use rule step as signals_dataset with:
     input:
-        paths.filled({rules.signals_of_run.output[0]: paths.of_runs(recorded.runs)}),
+        signals=paths.filled({rules.signals_of_run.output[0]: paths.of_runs(recorded.runs)}),
     output:
-        "<results>/signals.nc",
+        dataset="<results>/signals.nc",
     log:
         "<logs>/signals.log",
-    conda:
-        ENVIRONMENT
     params:
+        **step("signals.steps.gather"),
         runs=recorded.runs,
         fidelity=settings.fidelity_name,
-        code=code("signals"),
-    script:
-        "../scripts/signals.py"
 
 
 use rule figure as spectrogram_figure with:

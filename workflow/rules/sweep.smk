@@ -1,46 +1,39 @@
 # Reduced model -> one simulation per blade, scene and speed -> all speeds of a blade and scene.
 
 
-rule contact_model:
+use rule step as contact_model with:
     input:
-        rules.reduced_model.output,
+        rom=rules.reduced_model.output.rom,
     output:
-        paths.CONTACT_MODEL,
+        contact=paths.CONTACT_MODEL,
     log:
         "<logs>/{blade}/contact_model_{tip_line}.log",
     priority: 2
-    conda:
-        ENVIRONMENT
     resources:
         **needs.of("contact_model"),
     params:
-        code=code("contact_model"),
-    script:
-        "../scripts/contact_model.py"
+        **step("rom.steps.contact_model"),
+        tip_line="{tip_line}",
 
 
-rule stress_operator:
+use rule step as stress_operator with:
     input:
-        rules.reduced_model.output,
+        rom=rules.reduced_model.output.rom,
     output:
-        paths.STRESS_OPERATOR,
+        stress=paths.STRESS_OPERATOR,
     log:
         "<logs>/{blade}/stress_operator_{tip_line}.log",
     priority: 2
-    conda:
-        ENVIRONMENT
     resources:
         **needs.of("contact_model"),
     params:
+        **step("stress.steps.stress_operator"),
         material=structure.elastic,
-        code=code("stress_operator"),
-    script:
-        "../scripts/stress_operator.py"
 
 
-rule prepare_time_integration:
+use rule step as prepare_time_integration with:
     input:
-        sweep.models,
+        models=sweep.models,
     output:
         touch(paths.INTEGRATION_STAMP),
     log:
@@ -48,17 +41,13 @@ rule prepare_time_integration:
     # the sweep's jobs find the time integration compiled; one message before the sweep instead of one from each of its jobs. Nothing here
     # may depend on which speeds are run: more speeds would renew the stamp, and with it run all of them again
     priority: 15
-    conda:
-        ENVIRONMENT
     resources:
         **needs.of("prepare_time_integration"),
     params:
+        **step("time_integration.speed_job.prepare"),
         scene=sweep.plain_scene,
         speed=settings.structure.maximum_speed_rad_s,
         choice=sweep.choice_of_scene,
-        code=code("prepare_time_integration"),
-    script:
-        "../scripts/prepare_time_integration.py"
 
 
 # of jobs that the server runs; paths and no texts: another place is no reason to run again
@@ -97,7 +86,7 @@ checkpoint refine:
     input:
         unpack(sweep.round_inputs),
     output:
-        paths.ROUND,
+        round=paths.ROUND,
     log:
         "<logs>/{blade}/{scene}/round_{round}.log",
     wildcard_constraints:
@@ -109,31 +98,27 @@ checkpoint refine:
     resources:
         **needs.of("response"),
     params:
+        **step("adaptive.steps.refine"),
         plan=sweep.refined_plan,
         choice=sweep.refinement_choice,
         yields=sweep.yields_of_round,
-        code=code("refine"),
     script:
-        "../scripts/refine.py"
+        "../scripts/step.py"
 
 
-rule response:
+use rule step as response with:
     input:
         speeds=sweep.speed_files,
     output:
-        paths.RESPONSE,
+        response=paths.RESPONSE,
     log:
         "<logs>/{blade}/{scene}/response.log",
     priority: 5
-    conda:
-        ENVIRONMENT
     resources:
         **needs.of("response"),
     params:
+        **step("results.steps.response"),
         speeds=sweep.speeds,
         stress_history_speeds=sweep.stress_history_speeds,
         yield_stress=sweep.yield_stress,
         provenance=made.sweep,
-        code=code("response"),
-    script:
-        "../scripts/response.py"

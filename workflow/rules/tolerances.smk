@@ -9,19 +9,18 @@ wildcard_constraints:
 # a member whose blade is another one has a model of its own
 use rule geometry as member_geometry with:
     output:
-        of_member(paths.GEOMETRY),
+        geometry=of_member(paths.GEOMETRY),
     log:
         "<logs>/tolerances/models/{blade}/{member}/geometry.log",
     params:
         definition=tolerances.definition,
         edges=settings.structure.edges,
         provenance=tolerances.about_model,
-        code=code("geometry"),
 
 
 use rule mesh as member_mesh with:
     input:
-        rules.member_geometry.output,
+        geometry=rules.member_geometry.output.geometry,
     output:
         msh=of_member(paths.MESH.replace(".vtu", ".msh")),
         vtu=of_member(paths.MESH),
@@ -31,44 +30,42 @@ use rule mesh as member_mesh with:
 
 use rule reduced_model as member_model with:
     input:
-        tolerances.mesh,
+        mesh=tolerances.mesh,
     output:
-        of_member(paths.REDUCED_MODEL),
+        rom=of_member(paths.REDUCED_MODEL),
     log:
         "<logs>/tolerances/models/{blade}/{member}/reduced_model_{tip_line}.log",
     params:
         material=tolerances.elastic,
         reduction=structure.reduction,
         provenance=tolerances.about_model,
-        code=code("reduced_model"),
 
 
 use rule contact_model as member_contact_model with:
     input:
-        rules.member_model.output,
+        rom=rules.member_model.output.rom,
     output:
-        of_member(paths.CONTACT_MODEL),
+        contact=of_member(paths.CONTACT_MODEL),
     log:
         "<logs>/tolerances/models/{blade}/{member}/contact_model_{tip_line}.log",
 
 
 use rule stress_operator as member_stress_operator with:
     input:
-        rules.member_model.output,
+        rom=rules.member_model.output.rom,
     output:
-        of_member(paths.STRESS_OPERATOR),
+        stress=of_member(paths.STRESS_OPERATOR),
     log:
         "<logs>/tolerances/models/{blade}/{member}/stress_operator_{tip_line}.log",
     params:
         material=tolerances.elastic,
-        code=code("stress_operator"),
 
 
 use rule campbell_of_blade as member_campbell with:
     input:
-        expand(rules.member_model.output, tip_line=settings.structure.boundary.tip_line, allow_missing=True),
+        rom=expand(rules.member_model.output, tip_line=settings.structure.boundary.tip_line, allow_missing=True)[0],
     output:
-        of_member(paths.CAMPBELL),
+        campbell=of_member(paths.CAMPBELL),
     log:
         "<logs>/tolerances/models/{blade}/{member}/campbell.log",
 
@@ -115,7 +112,7 @@ checkpoint refine_members:
     input:
         unpack(tolerances.round_inputs),
     output:
-        paths.MEMBER_ROUND,
+        round=paths.MEMBER_ROUND,
     log:
         "<logs>/tolerances/{blade}/{scene}/round_{round}.log",
     wildcard_constraints:
@@ -126,19 +123,19 @@ checkpoint refine_members:
     resources:
         **needs.of("response"),
     params:
+        **step("adaptive.steps.refine"),
         plan=sweep.refined_plan,
         choice=tolerances.refinement_choice,
         yields=tolerances.yields_of_round,
-        code=code("refine"),
     script:
-        "../scripts/refine.py"
+        "../scripts/step.py"
 
 
 use rule response as member_response with:
     input:
         speeds=tolerances.speed_files,
     output:
-        paths.MEMBER_RESPONSE,
+        response=paths.MEMBER_RESPONSE,
     log:
         "<logs>/tolerances/{blade}/{scene}/{member}/response.log",
     params:
@@ -146,52 +143,43 @@ use rule response as member_response with:
         stress_history_speeds=(),
         yield_stress=tolerances.yield_stress,
         provenance=tolerances.about_run,
-        code=code("response"),
 
 
-rule tolerances_dataset:
+use rule step as tolerances_dataset with:
     input:
         responses=paths.filled({paths.MEMBER_RESPONSE: tolerances.files}),
         rounds=tolerances.first_rounds,
     output:
-        "<results>/tolerances.nc",
+        dataset="<results>/tolerances.nc",
     log:
         "<logs>/tolerances_dataset.log",
-    conda:
-        ENVIRONMENT
     resources:
         **needs.of("tolerances_dataset"),
     params:
+        **step("tolerances.steps.join"),
         members=tolerances.files,
         numbers=tolerances.numbers,
         values=tolerances.values,
         fidelity=settings.fidelity_name,
-        code=code("tolerances_dataset"),
-    script:
-        "../scripts/tolerances_dataset.py"
 
 
-rule tolerance_table:
+use rule step as tolerance_table with:
     input:
         **tolerances.nominal,
         responses=paths.filled({paths.MEMBER_RESPONSE: tolerances.files_of_sample}),
         campbells=tolerances.campbells_of_sample,
         rounds=tolerances.first_rounds,
     output:
-        report(
+        table=report(
             "<results>/tolerances.csv",
             **shown(TEXTS / "tolerances.rst", TOGETHER, EVERY_SCENE, figure="tolerances"),
         ),
     log:
         "<logs>/tolerance_table.log",
-    conda:
-        ENVIRONMENT
     params:
+        **step("tolerances.steps.table"),
         members=tolerances.files_of_sample,
         choice=plain(settings.interactions),
-        code=code("tolerance_table"),
-    script:
-        "../scripts/tolerance_table.py"
 
 
 use rule figure as tolerance_figure with:

@@ -6,6 +6,7 @@ import json
 from typing import Any
 
 from r37core.contact.scene import Scene
+from r37core.io import as_list
 from r37core.plain import from_plain
 from r37core.rom.contact_model import ContactModel, read_contact_model
 from r37core.stress.operator import read_stress_operator
@@ -34,6 +35,16 @@ def run_job(speed: str, output: str, task: str, about: str, model: str, stress: 
         operator = read_stress_operator(stress) if stress else None
         run = run_speed(*given, wanted["results"], **wanted["kept"], stress=operator)
         write_speed(run, output, json.loads(about))
+
+
+def prepare(input: Any, output: Any, params: Any) -> None:
+    """A step of the workflow: compile the time integration; refuse a step too long. Inputs: models, that of contact first.
+
+    Params: scene, choice, speed. Raises InputFileError, and what Problem raises.
+    """
+    scene, choice = from_plain(Scene, params.scene), from_plain(IntegrationChoice, params.choice)
+    problem = Simulation(read_contact_model(as_list(input.models)[0]), params.speed, scene, choice).problem
+    print(f"{params.speed:g} rad/s: highest mode {problem.frequencies[-1]:.6g} rad/s, steps of {problem.time_step:.6g} s")
 
 
 def make_ready(speed: str, output: str, log: str, task: str, about: str, model: str, stress: str | None = None) -> None:
