@@ -282,7 +282,7 @@ class Settings:
                 "they are planned round by round, so a dry run shows none of those to come"
             )
         if self.members.pairs:
-            members, drawn = self.most_of_members, self.config.tolerances.members
+            members, drawn = sum(self.most_of_members(*pair) for pair in self.members.all), self.config.tolerances.members
             said.append(f"tolerances: {drawn} members, {members} simulations of theirs at most, beside those of the sweep")
             said += remarks_on_rankings(drawn, len(self.members.numbers), self.config.tolerances.sensitivity)
         return said
@@ -353,11 +353,10 @@ class Settings:
         """Blades and scenes with other values of what is never known exactly."""
         return Members(self)
 
-    @property
-    def most_of_members(self) -> int:
-        """Simulations of all members, at most where speeds are adaptive."""
-        share, plans = self.config.tolerances.largest_share, self.speed_plans
-        return sum(len(members) * plans[pair].at_most(share) for pair, members in self.members.all.items())
+    def most_of_members(self, blade: str, scene: str) -> int:
+        """Simulations of all members of a blade and scene, at most where speeds are adaptive."""
+        pair = blade, scene
+        return len(self.members.all.get(pair, ())) * self.speed_plans[pair].at_most(self.config.tolerances.largest_share)
 
     def integration_choice(self, blade: str, scene: str, speed: float) -> IntegrationChoice:
         """Numbers of the time integration at one speed of a blade and scene, with only what its results need."""

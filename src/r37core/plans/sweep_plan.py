@@ -161,11 +161,6 @@ class Sweep:
         return 1 - blades.index(wildcards.blade) / len(blades)
 
     @property
-    def most_runs(self) -> int:
-        """Simulations of the whole sweep, at most where speeds are adaptive."""
-        return sum(self.settings.most_runs(*place) for place in self.settings.speed_plans)
-
-    @property
     def kept(self) -> dict[str, int]:
         """How much of a run its file keeps."""
         keys = ("spectrum_highest_order", "wear_angles")
