@@ -341,7 +341,7 @@ def test_a_blade_that_buckles_on_the_way_is_refused_at_once(contact):
 
 
 def test_a_slow_change_has_few_segments_in_memory_at_once():
-    segments = schedule(RunUp(1600.0, 1600.001, 100_000.0, 1, 0, worn=False), 62, 1e-7)
+    intervals = schedule(RunUp(1600.0, 1600.001, 100_000.0, 1, 0, worn=False), 62, 1e-7)
     assert max(len(interval.segments) for interval in intervals) <= 500
 
 
