@@ -45,7 +45,6 @@ LAYERS = [
     "time_integration",
     "results",
     "adaptive",
-    "tolerances",
     "exchange",
     "config",
     "plans",

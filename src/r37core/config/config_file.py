@@ -17,7 +17,6 @@ from .section import AllOrNames, FileName, LeftOut, Name, Section, Speed, refuse
 from .si_fields import in_si, si_fields
 from .speed_section import RpmList, SpeedList, SpeedRange, SpeedRule, refuse_both_units
 from .study_sections import StudiesSection
-from .tolerance_section import ToleranceSection
 
 
 class Boundary(Section):
@@ -210,7 +209,6 @@ class Config(Section):
     run: Run = Run()
     studies: StudiesSection = StudiesSection()
     campbell: CampbellSection = CampbellSection()
-    tolerances: ToleranceSection = ToleranceSection()
 
     @model_validator(mode="after")
     def _one_unit(self) -> Config:

@@ -23,6 +23,7 @@ from r37core.plans.run import check_part, replaced_level, source_folder
 from r37core.plans.sweep_plan import Sweep
 from r37core.product.reading import settings_of_run
 from r37core.product.remarks import check_asked, remarks
+from r37core.product.sampling import beside
 
 from . import failures, interpreter, job_server, lock
 from .closing import closing_lines
@@ -95,8 +96,9 @@ def begin(workflow: Any, logger: logging.Logger, refusal: Refusal, root: Path, v
     lifted = lock.enter() if workflow.is_main_process else []
     for line in [*lifted, *remarks(settings), *replaced_level(settings)]:
         logger.info(line)
+    sweep = Sweep(settings, beside=beside(settings))
     if not (os.environ.get("R37_FULL_LOG") or output.dryrun or output.verbose):
-        quieten(logger.handlers, Progress(Sweep(settings).most_runs + settings.most_of_members))
+        quieten(logger.handlers, Progress(sweep.most_runs + sweep.most_runs_beside))
     return Console(workflow, refusal, settings, root / "workflow/scripts", source, began)
 
 

@@ -166,6 +166,12 @@ class Sweep:
         return sum(self.settings.most_runs(*place) for place in self.settings.speed_plans)
 
     @property
+    def most_runs_beside(self) -> int:
+        """Simulations of all members of samples, at most where speeds are adaptive."""
+        plans, samples = self.settings.speed_plans, [of for by_pair in self.beside.values() for of in by_pair.items()]
+        return sum(len(sample.members) * plans[pair].at_most(sample.largest_share) for pair, sample in samples)
+
+    @property
     def kept(self) -> dict[str, int]:
         """How much of a run its file keeps."""
         keys = ("spectrum_highest_order", "wear_angles")
