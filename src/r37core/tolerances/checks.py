@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from r37core.config import Settings
-from r37core.config.cross_checks import LARGEST_NUMBER_OF_SIMULATIONS, known
+from r37core.config.cross_checks import LARGEST_NUMBER_OF_SIMULATIONS, names_are_there
 
 from .members import members_of, section
 
@@ -11,9 +11,7 @@ from .members import members_of, section
 def members_can_be_drawn(settings: Settings) -> None:
     """Tolerances name blades, scenes and numbers that are there, no member is impossible, and all can be planned."""
     given, documents, path = section(settings), settings.documents, ("tolerances",)
-    blades, scenes = ([] if names == "all" else names for names in (given.blades, given.scenes))
-    known(settings, (*path, "blades"), blades, [*settings.designs.entries, *settings.designs.families], documents.blades)
-    known(settings, (*path, "scenes"), scenes, settings.scene_entries, documents.scenes)
+    names_are_there(settings, path, given)
     # the configuration that a run keeps has the empty section written out
     if given != type(given)() and not members_of(settings).numbers:
         raise documents.config.refusal(path, "no numbers", "some under of_scenes or of_blades")

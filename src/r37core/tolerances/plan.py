@@ -7,6 +7,7 @@ from functools import cached_property
 
 from r37core.config import BladeSettings, Settings
 from r37core.plans import paths
+from r37core.plans.extent import extent_of
 from r37core.plans.samples import NOMINAL, Member, Pair, Sample, Sampling, path_part
 from r37core.plans.sweep_plan import Sweep
 
@@ -159,6 +160,6 @@ def remarks(settings: Settings) -> list[str]:
     members, given = members_of(settings), section(settings)
     if not members.pairs:
         return []
-    most = Sweep(settings, beside={FOLDER: samples(settings)}).most_runs_beside
+    most = extent_of(settings, {FOLDER: samples(settings)}).members
     said = f"tolerances: {given.members} members, {most} simulations of theirs at most, beside those of the sweep"
     return [said, *remarks_on_rankings(given.members, len(members.numbers), given.sensitivity)]
