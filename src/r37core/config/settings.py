@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 from pydantic import BaseModel
 
@@ -19,7 +19,6 @@ from r37core.plain import to_plain
 from r37core.rom.reduction_choice import POINTS, ReductionChoice
 from r37core.speeds import SpeedError, SpeedPlan
 from r37core.time_integration.integration_choice import IntegrationChoice
-from r37core.tolerances.fewest import remarks_on_rankings
 from r37core.yaml_file import KeyPath
 
 from . import casing_remarks
@@ -28,10 +27,11 @@ from .config_file import CampbellSection, Config, Interactions, RefinementSectio
 from .document import Document
 from .families import Designs
 from .fidelity import Level, Measured, recommended_level
-from .members import Members
 from .scenes import SceneEntry
 from .speed_section import UNITS, SpeedRule, key_of_speeds, planned
 from .study_sections import StudiesSection
+
+T = TypeVar("T")
 
 RESULTS = Path("results")
 """Folder of the results of a run without a name."""
@@ -93,6 +93,16 @@ class Settings:
     def section(self, wing: str) -> Any:
         """The section of config.yaml that a wing has brought, of the type that this says."""
         return getattr(self.config, wing)
+
+    @cached_property
+    def _made(self) -> dict[Any, Any]:
+        return {}
+
+    def made(self, make: Callable[[Settings], T]) -> T:
+        """What `make` makes of these settings, made once: for a wing's own part of them that takes long."""
+        if make not in self._made:
+            self._made[make] = make(self)
+        return self._made[make]
 
     @property
     def interactions(self) -> Interactions:
@@ -281,10 +291,6 @@ class Settings:
                 f"adaptive speed sampling: {certain} simulations and those of the windows first, about {most} at most; "
                 "they are planned round by round, so a dry run shows none of those to come"
             )
-        if self.members.pairs:
-            members, drawn = sum(self.most_of_members(*pair) for pair in self.members.all), self.config.tolerances.members
-            said.append(f"tolerances: {drawn} members, {members} simulations of theirs at most, beside those of the sweep")
-            said += remarks_on_rankings(drawn, len(self.members.numbers), self.config.tolerances.sensitivity)
         return said
 
     @property
@@ -347,16 +353,6 @@ class Settings:
         wanted = self.scenes[scene].results
         matrices = isinstance(self.blades[blade].definition, MatricesSource)
         return tuple(result for result in wanted if not (matrices and result in ("stress", "static_stress", "shapes")))
-
-    @cached_property
-    def members(self) -> Members:
-        """Blades and scenes with other values of what is never known exactly."""
-        return Members(self)
-
-    def most_of_members(self, blade: str, scene: str) -> int:
-        """Simulations of all members of a blade and scene, at most where speeds are adaptive."""
-        pair = blade, scene
-        return len(self.members.all.get(pair, ())) * self.speed_plans[pair].at_most(self.config.tolerances.largest_share)
 
     def integration_choice(self, blade: str, scene: str, speed: float) -> IntegrationChoice:
         """Numbers of the time integration at one speed of a blade and scene, with only what its results need."""
