@@ -24,6 +24,7 @@ from r37core.product.wings import WINGS
 LAYERS = [
     "io",
     "plain",
+    "units",
     "dataset_file",
     "alignment",
     "known_arguments",
@@ -32,7 +33,6 @@ LAYERS = [
     "native",
     "text_file",
     "yaml_file",
-    "units",
     "declared",
     "rounding",
     "speeds",
