@@ -25,7 +25,9 @@ if snakemake.params.step == "r37core.adaptive.steps.refine":
     number = int(snakemake.wildcards.round)
     if number:
         before = json.loads(Path(snakemake.input.before).read_text())["new"]
-        assert [Path(file).name for file in snakemake.input.speeds] == [f"speed_{speed:g}.npz" for speed in before]
+        # of all members of a sample, one after the other
+        names = [f"speed_{speed:g}.npz" for speed in before] * len(snakemake.params.yields)
+        assert [Path(file).name for file in snakemake.input.speeds] == names
     new = [list(snakemake.params.plan["certain"]), [1149, 1150.5], []][number]
     Path(snakemake.output[0]).write_text(json.dumps({"new": new, "measured": []}))
 """

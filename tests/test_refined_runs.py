@@ -108,6 +108,36 @@ def test_speeds_of_one_scene_may_refine_themselves_alone(root, tmp_path):
     assert not list(tmp_path.glob("results/*/abradable/round_*.json"))
 
 
+@pytest.mark.slow
+def test_members_are_run_by_the_rules_of_the_sweep(project):
+    """Beside it, at speeds that all of a sample share; more of them run alone, and so does what a member's model is made of."""
+
+    def members(number):
+        return {f"tolerances/{member}/{run}" for member in range(number) for run in runs(COARSE + ADDED, blades=["Ref"])}
+
+    config = project / "config/config.yaml"
+    tolerances = (
+        "\ntolerances:\n  members: 2\n  blades: [Ref]\n  of_scenes: { friction.coefficient: { uniform_percent: 5 } }\n"
+        "  of_blades: { thickness_percent: { values: [101] } }\n"
+    )
+    config.write_text(config.read_text() + tolerances)
+    text = snakemake(project, "all_blades", "--cores", "2")
+    assert sorted(simulated(text)) == sorted(members(2))
+    # both members have the same blade, made once beside the nominal one
+    assert {str(file.relative_to(project / "results")) for file in project.glob("results/**/rom_*.nc")} == {
+        f"{folder}/rom_pressure_edge.nc" for folder in ("Ref", "CS100", "tolerances/0/Ref")
+    }
+    rounds = {f"results/tolerances/Ref/{scene}/round_{number}.json" for scene in SCENES for number in range(3)}
+    assert set(re.findall(r"checkpoint refine:\n(?:    input: .*\n)?    output: (\S+)", text)) == rounds
+    assert planned_outputs(project) == {}
+    config.write_text(config.read_text().replace("members: 2", "members: 4"))
+    assert set(simulated(snakemake(project, "all_blades", "--cores", "2"))) == members(4) - members(2)
+    assert planned_outputs(project) == {}
+    stacking = project / "config/stacking/rotor37.csv"
+    stacking.write_text(stacking.read_text().replace("CS100,100,-1.16,4.89", "CS100,100,-1.20,4.89"))
+    assert not [file for files in planned_outputs(project).values() for file in files if file.startswith("tolerances/")]
+
+
 def test_leftovers_are_what_no_round_asked_for(project, monkeypatch):
     monkeypatch.chdir(project)
     assert leftovers(project / "results", read_settings(project)) == []

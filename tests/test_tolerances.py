@@ -601,8 +601,10 @@ def test_leftovers_are_members_that_are_not_drawn_any_more(root, tmp_path):
         },
     )
     folder = tmp_path / "tolerances"
-    kept = ["Ref/abradable/1/response.nc", "Ref/abradable/round_0.json", "models/Ref/0/mesh.vtu"]
-    gone = ["Ref/abradable/2", "Ref/abradable/0b", "Ref/direct", "S100", "models/Ref/0f1", "models/S100"]
+    kept = ["1/Ref/abradable/response.nc", "Ref/abradable/round_0.json", "0/Ref/mesh.vtu"]
+    gone = ["2", "0b", "0/Ref/direct", "Ref/direct", "S100", "0f1", "0/S100"]
+    # where members lay before
+    gone += ["Ref/abradable/0", "models"]
     for name in [*kept, *(f"{name}/file" for name in gone)]:
         (folder / name).parent.mkdir(parents=True, exist_ok=True)
         (folder / name).write_text("x")

@@ -2,6 +2,7 @@
 
 import json
 import math
+import re
 from dataclasses import replace
 from types import SimpleNamespace
 
@@ -16,6 +17,7 @@ from r37core.plans.paths import filled
 from r37core.plans.provenance import Provenance
 from r37core.plans.structure_plan import Structure
 from r37core.plans.sweep_plan import Sweep, asked_by
+from r37core.plans.tolerance_plan import Tolerances
 from r37core.product.reading import read_settings
 from r37core.product.targets import targets
 from r37core.run_ups.choice import RunUpChoice
@@ -71,7 +73,8 @@ def refining(root, tmp_path):
     """A plan with adaptive speeds, with two finished rounds of the reference blade and one of the other."""
     rounds = {("Ref", 0): [900, 950, 1000], ("Ref", 1): [925], ("Ref", 2): [], ("L50", 0): [900, 950, 1000]}
 
-    def file_of_round(blade, scene, round):
+    def file_of_round(member, blade, scene, round):
+        assert member == ""
         file = tmp_path / f"{blade}_{round}.json"
         file.write_text(json.dumps({"new": rounds[blade, round], "measured": []}))
         return file
@@ -92,6 +95,96 @@ def test_a_round_reads_what_the_one_before_asked_for(refining):
         "before": "<results>/Ref/abradable/round_1.json",
         "speeds": ["<results>/Ref/abradable/speed_925.npz"],
     }
+
+
+TOLERANCES = {
+    "members": 2,
+    "sensitivity": True,
+    "blades": ["Ref"],
+    "largest_share": 0.4,
+    "of_scenes": {"lining.thickness_m": {"uniform_percent": 5.0}},
+    "of_blades": {"material.yield_stress_pa": {"values": [1.0e9]}, "thickness_percent": {"values": [100.0, 102.0]}},
+}
+
+
+@pytest.fixture
+def with_members(root, tmp_path):
+    """The same with members beside it: of the sample one has the nominal blade and one another, all yield early."""
+    settings = read_settings(root, command_line_document(REFINED | {"tolerances": TOLERANCES}))
+    (tmp_path / "round.json").write_text('{"new": [925], "measured": []}')
+
+    def file_of_round(member, blade, scene, round):
+        assert (member, blade, scene, round) == ("tolerances/", "Ref", "abradable", 1)
+        return tmp_path / "round.json"
+
+    return Tolerances(settings), file_of_round
+
+
+def test_a_member_is_run_like_the_nominal_blade(with_members):
+    """By the same plan: from the nominal model where its blade is the nominal one, with what its ranges are read off."""
+    tolerances, _ = with_members
+    settings, samples = tolerances.settings, {"tolerances": tolerances.samples}
+    sweep, structure, made = Sweep(settings, None, samples), Structure(settings, samples), Provenance(settings, samples)
+    drawn = settings.members.all["Ref", "abradable"]
+    shapes = {name: member.values[1] for name, member in drawn.items()}
+    (same, *_), (other, *_) = ([name for name in drawn if shapes[name] == percent] for percent in (100.0, 102.0))
+    task = json.loads(sweep.task(of(**vars(REF), speed="900")))
+    for name, folder in {same: "", other: f"tolerances/{other}/"}.items():
+        member = of(blade="Ref", scene="abradable", member=f"tolerances/{name}/", speed="900", tip_line="pressure_edge")
+        assert sweep.models(member) == [f"<results>/{folder}Ref/{kind}_pressure_edge.npz" for kind in ("contact", "stress")]
+        assert structure.mesh(member) == f"<results>/{folder}Ref/mesh.vtu"
+        assert sweep.yield_stress(member) == 1.0e9 != sweep.yield_stress(REF)
+        assert structure.elastic(member) == structure.elastic(REF)
+        own = json.loads(sweep.task(member))
+        assert own["results"] == ["spectrum", "stress"] and {"wear", "energy"} <= set(task["results"])
+        assert own["scene"]["lining"]["thickness"] == drawn[name].values[2] != task["scene"]["lining"]["thickness"]
+        assert own["kept"] == task["kept"]
+        about, nominal = made.sweep(member), made.sweep(REF)
+        assert about["member"] == name and "member" not in nominal
+        assert json.loads(about["scene_parameters"]) == own["scene"]
+        unlike = {key for key in nominal if about[key] != nominal[key]}
+        assert unlike == {"scene_parameters"}
+        assert sweep.nominal_stamp(member) == ["<results>/Ref/abradable/time_integration.stamp"]
+        assert sweep.stress_history_speeds(member) == ()
+    assert structure.definition(member)["name"] == f"Ref, member {other} of tolerances"
+    assert sweep.nominal_stamp(of(**vars(REF), member="")) == []
+
+
+def test_members_keep_no_history_of_the_stress(with_members):
+    settings = with_members[0].settings
+    history = settings.scene_entries["abradable"].model_copy(update={"stress_history_speeds_rad_s": [900.0]})
+    settings = replace(settings, scene_entries=settings.scene_entries | {"abradable": history})
+    sweep = Sweep(settings, None, {"tolerances": Tolerances(settings).samples})
+    kept = [
+        json.loads(sweep.task(of(**vars(REF), member=member, speed="900")))["choice"]["snapshot_revolutions"]
+        for member in ("", "tolerances/0/")
+    ]
+    assert kept == [settings.scenes["abradable"].revolutions, settings.scenes["abradable"].revolutions // 2]
+
+
+def test_a_round_of_members_reads_those_of_the_sample(with_members):
+    """One after the other; what indices need beside the sample changes no speeds."""
+    tolerances, file_of_round = with_members
+    sweep = Sweep(tolerances.settings, file_of_round, {"tolerances": tolerances.samples})
+    sample = of(blade="Ref", scene="abradable", member="tolerances/", round="2")
+    assert sweep.round_inputs(sample) == {
+        "before": "<results>/tolerances/Ref/abradable/round_1.json",
+        "speeds": [f"<results>/tolerances/{name}/Ref/abradable/speed_925.npz" for name in ("0", "1")],
+    }
+    assert sweep.yields_of_round(sample) == [1.0e9, 1.0e9]
+    assert sweep.refinement_choice(sample)["largest_share"] == 0.4 != sweep.refinement_choice(REF)["largest_share"]
+    assert len(tolerances.responses) == 2 * 2 * 5 - 2 and len(tolerances.responses_of_sample) == 2 * 2
+    assert tolerances.responses[0] == "<results>/tolerances/0/Ref/abradable/response.nc"
+
+
+@pytest.mark.parametrize(
+    ("part", "fits"),
+    [("", True), ("tolerances/", True), ("tolerances/0f1/", True), ("tolerances/0/1/", False), ("other/0/", False)],
+)
+def test_the_wildcard_of_a_member(with_members, part, fits):
+    tolerances, _ = with_members
+    pattern = Sweep(tolerances.settings, None, {"tolerances": tolerances.samples}).samples.pattern
+    assert bool(re.fullmatch(pattern, part)) == fits
 
 
 def test_what_a_round_is_told_is_what_it_takes(refining):

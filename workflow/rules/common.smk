@@ -15,7 +15,7 @@ from r37core.plans.provenance import Provenance
 from r37core.plans.resources import Needs
 from r37core.plans.structure_plan import Structure
 from r37core.plans.sweep_plan import MAPS, Sweep
-from r37core.plans.tolerance_plan import Tolerances, of_member
+from r37core.plans.tolerance_plan import FOLDER, Tolerances
 from r37core.product.reporting import EVERY_SCENE, TOGETHER, captioned, drawing, shown
 from r37core.product.targets import files_of, simulated, targets
 
@@ -30,11 +30,12 @@ PACKAGE = console.source / "r37core"
 code = CodeHashes(console.source, SCRIPTS)
 # parameters of a rule that runs a step: a function of r37core, and the hash of its code
 step = code.step
-made = Provenance(settings)
-structure = Structure(settings)
+tolerances = Tolerances(settings)
+samples = {FOLDER: tolerances.samples}
+made = Provenance(settings, samples)
+structure = Structure(settings, samples)
 imported = Imported(settings)
-sweep = Sweep(settings, lambda **wildcards: checkpoints.refine.get(**wildcards).output[0])
-tolerances = Tolerances(sweep, made, lambda **wildcards: checkpoints.refine_members.get(**wildcards).output[0])
+sweep = Sweep(settings, lambda **wildcards: checkpoints.refine.get(**wildcards).output[0], samples)
 needs = Needs(settings, sweep.most_runs)
 
 
@@ -64,6 +65,7 @@ onerror:
 wildcard_constraints:
     blade="|".join(settings.blades),
     scene="|".join(settings.scenes),
+    member=sweep.samples.pattern,
     tip_line="pressure_edge|camber|suction_edge",
     speed=r"[0-9.]+",
 

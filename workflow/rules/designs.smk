@@ -10,7 +10,7 @@ use rule step as design_table with:
         **{kind: datasets[kind] for kind in sweep.kinds if kind in ("rms", "stress")},
         campbell=rules.campbell_of_all.output[0],
         summary=rules.summary.output[0],
-        geometry=expand(rules.geometry.output, blade=families.designs),
+        geometry=expand(paths.nominal(paths.GEOMETRY), blade=families.designs),
     output:
         table=report(
             "<results>/designs.csv",

@@ -13,7 +13,7 @@ exported = Exports(imported, sweep)
 
 use rule step as exported_mesh with:
     input:
-        mesh=rules.mesh.output.vtu,
+        mesh=paths.nominal(paths.MESH),
     output:
         mesh=EXPORTED_MESH,
     log:
@@ -29,7 +29,7 @@ use rule step as exported_mesh with:
 
 use rule step as exported_surface with:
     input:
-        geometry=rules.geometry.output.geometry,
+        geometry=paths.nominal(paths.GEOMETRY),
     output:
         surface=EXPORTED_SURFACE,
     log:
@@ -40,7 +40,7 @@ use rule step as exported_surface with:
 
 use rule step as exported_modes with:
     input:
-        mesh=rules.mesh.output.vtu,
+        mesh=paths.nominal(paths.MESH),
         model=structure.whole_blade_model,
     output:
         folder=directory(EXPORTED_MODES),
@@ -54,7 +54,7 @@ use rule step as exported_modes with:
 
 use rule step as exported_stress with:
     input:
-        mesh=rules.mesh.output.vtu,
+        mesh=paths.nominal(paths.MESH),
         model=structure.whole_blade_model,
         speeds=exported.speed_files,
     output:

@@ -10,7 +10,7 @@ use rule step as figure with:
 
 use rule figure as campbell_figure with:
     input:
-        campbell=rules.campbell_of_blade.output[0],
+        campbell=paths.nominal(paths.CAMPBELL),
     output:
         **pictures("campbell_{blade}", "{blade}", EVERY_SCENE, "Campbell diagram"),
     log:
@@ -135,7 +135,7 @@ use rule figure as clearance_figure with:
 
 use rule step as blade_shapes_figure with:
     input:
-        meshes=expand(rules.mesh.output.vtu, blade=imported.with_mesh),
+        meshes=expand(paths.nominal(paths.MESH), blade=imported.with_mesh),
     output:
         **pictures("blades", TOGETHER, EVERY_SCENE, "shapes"),
     log:
@@ -151,7 +151,7 @@ use rule step as blade_shapes_figure with:
 rule campbell:
     input:
         rules.campbell_of_all.output,
-        expand([*rules.mesh.output[:1], *rules.abaqus_deck.output], blade=imported.with_mesh),
+        expand([paths.nominal(rules.mesh.output.msh), *rules.abaqus_deck.output], blade=imported.with_mesh),
         expand(rules.campbell_figure.output, blade=settings.blades),
         rules.campbell_overview.output,
         rules.blade_shapes_figure.output if imported.with_mesh else [],

@@ -20,11 +20,11 @@ use rule step as configuration with:
 # all that lies in the folders of the blades: what runs on several machines at once make (docs/cluster.md), and a rule for --batch
 rule responses:
     input:
-        expand(rules.campbell_of_blade.output, blade=settings.blades),
-        paths.filled({rules.response.output[0]: paths.of_runs(sweep.runs_with("rms"))}),
+        expand(paths.nominal(paths.CAMPBELL), blade=settings.blades),
+        paths.filled({paths.RESPONSE: paths.of_runs(sweep.runs_with("rms"))}),
         sweep.first_rounds,
         simulated(sweep),
-        paths.filled({paths.MEMBER_RESPONSE: tolerances.files}),
+        tolerances.responses,
         tolerances.first_rounds,
 
 

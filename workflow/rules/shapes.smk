@@ -7,7 +7,7 @@ shown_shapes = Shapes(sweep)
 
 use rule step as mode_shapes with:
     input:
-        mesh=rules.mesh.output.vtu,
+        mesh=paths.nominal(paths.MESH),
         model=structure.whole_blade_model,
     output:
         folder=directory(MODE_SHAPES),
@@ -20,10 +20,10 @@ use rule step as mode_shapes with:
 
 use rule step as worst_shapes with:
     input:
-        mesh=rules.mesh.output.vtu,
+        mesh=paths.nominal(paths.MESH),
         model=structure.whole_blade_model,
-        campbell=rules.campbell_of_blade.output[0],
-        response=rules.response.output[0],
+        campbell=paths.nominal(paths.CAMPBELL),
+        response=paths.nominal(paths.RESPONSE),
         speeds=sweep.speed_files,
     output:
         folder=directory(WORST_SHAPES),

@@ -1,12 +1,13 @@
 # Blade shape -> mesh -> reduced model -> Campbell diagram, for each blade. A blade of another program comes in as
-# a mesh (imported_mesh) or as matrices (imported_matrices) and takes the same way from there.
+# a mesh (imported_mesh) or as matrices (imported_matrices) and takes the same way from there. A member of a sample whose blade
+# is another one has a model of its own, by the same rules.
 
 
 use rule step as geometry with:
     output:
         geometry=paths.GEOMETRY,
     log:
-        "<logs>/{blade}/geometry.log",
+        "<logs>/{member}{blade}/geometry.log",
     wildcard_constraints:
         blade=imported.profiles,
     # an impossible shape should stop the run before any long work
@@ -24,10 +25,10 @@ use rule step as mesh with:
     input:
         geometry=rules.geometry.output.geometry,
     output:
-        msh="<results>/{blade}/mesh.msh",
+        msh="<results>/{member}{blade}/mesh.msh",
         vtu=paths.MESH,
     log:
-        "<logs>/{blade}/mesh.log",
+        "<logs>/{member}{blade}/mesh.log",
     wildcard_constraints:
         blade=imported.profiles,
     # a mesh or model that fails should do so before the first simulation
@@ -43,7 +44,8 @@ use rule step as imported_mesh with:
     input:
         imported.files,
     output:
-        **rules.mesh.output,
+        msh=paths.nominal(rules.mesh.output.msh),
+        vtu=paths.nominal(paths.MESH),
     log:
         "<logs>/{blade}/mesh.log",
     wildcard_constraints:
@@ -61,7 +63,7 @@ use rule step as imported_mesh with:
 
 use rule step as abaqus_deck with:
     input:
-        mesh=rules.mesh.output.vtu,
+        mesh=paths.nominal(paths.MESH),
     output:
         deck="<results>/{blade}/mesh.inp",
     log:
@@ -76,11 +78,11 @@ use rule step as abaqus_deck with:
 
 use rule step as reduced_model with:
     input:
-        mesh=rules.mesh.output.vtu,
+        mesh=structure.mesh,
     output:
         rom=paths.REDUCED_MODEL,
     log:
-        "<logs>/{blade}/reduced_model_{tip_line}.log",
+        "<logs>/{member}{blade}/reduced_model_{tip_line}.log",
     wildcard_constraints:
         blade=f"{imported.profiles}|{imported.meshes}",
     priority: 2
@@ -110,7 +112,7 @@ use rule step as imported_matrices with:
     input:
         imported.files,
     output:
-        **rules.reduced_model.output,
+        rom=paths.nominal(paths.REDUCED_MODEL),
     log:
         "<logs>/{blade}/reduced_model_{tip_line}.log",
     wildcard_constraints:
@@ -134,7 +136,7 @@ use rule step as campbell_of_blade with:
     output:
         campbell=paths.CAMPBELL,
     log:
-        "<logs>/{blade}/campbell.log",
+        "<logs>/{member}{blade}/campbell.log",
     resources:
         **needs.of("campbell_of_blade"),
     params:
@@ -147,7 +149,7 @@ use rule step as campbell_of_blade with:
 
 use rule step as campbell_of_all with:
     input:
-        campbells=expand(rules.campbell_of_blade.output, blade=settings.blades),
+        campbells=expand(paths.nominal(paths.CAMPBELL), blade=settings.blades),
     output:
         campbell="<results>/campbell.nc",
     log:

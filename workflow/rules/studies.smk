@@ -7,7 +7,7 @@ studies = Studies(settings)
 
 use rule step as study_model with:
     input:
-        geometry=paths.GEOMETRY,
+        geometry=paths.nominal(paths.GEOMETRY),
     output:
         rom=paths.STUDY_MODEL.replace("{file}", "rom.nc"),
         contact=paths.STUDY_MODEL.replace("{file}", "contact.npz"),

@@ -1,4 +1,5 @@
-# Reduced model -> one simulation per blade, scene and speed -> all speeds of a blade and scene.
+# Reduced model -> one simulation per blade, scene and speed -> all speeds of a blade and scene. So for the nominal sweep, where the
+# wildcard `member` is empty, and for each member of a sample beside it.
 
 
 use rule step as contact_model with:
@@ -7,7 +8,7 @@ use rule step as contact_model with:
     output:
         contact=paths.CONTACT_MODEL,
     log:
-        "<logs>/{blade}/contact_model_{tip_line}.log",
+        "<logs>/{member}{blade}/contact_model_{tip_line}.log",
     priority: 2
     resources:
         **needs.of("contact_model"),
@@ -22,7 +23,7 @@ use rule step as stress_operator with:
     output:
         stress=paths.STRESS_OPERATOR,
     log:
-        "<logs>/{blade}/stress_operator_{tip_line}.log",
+        "<logs>/{member}{blade}/stress_operator_{tip_line}.log",
     priority: 2
     resources:
         **needs.of("contact_model"),
@@ -34,10 +35,11 @@ use rule step as stress_operator with:
 use rule step as prepare_time_integration with:
     input:
         models=sweep.models,
+        nominal=sweep.nominal_stamp,
     output:
         touch(paths.INTEGRATION_STAMP),
     log:
-        "<logs>/{blade}/{scene}/prepare_time_integration.log",
+        "<logs>/{member}{blade}/{scene}/prepare_time_integration.log",
     # the sweep's jobs find the time integration compiled; one message before the sweep instead of one from each of its jobs. Nothing here
     # may depend on which speeds are run: more speeds would renew the stamp, and with it run all of them again
     priority: 15
@@ -66,7 +68,7 @@ rule simulate:
     output:
         paths.SPEED,
     log:
-        "<logs>/{blade}/{scene}/speed_{speed}.log",
+        "<logs>/{member}{blade}/{scene}/speed_{speed}.log",
     priority: sweep.priority
     conda:
         ENVIRONMENT
@@ -81,14 +83,15 @@ rule simulate:
         "{params.python:q} -S -E {params.start:q} {params.script:q} {wildcards.speed:q} {output:q} {log:q} {params.task:q} {params.about:q} {input.models:q}"
 
 
-# adaptive speed sampling: each round asks for some more, from what those before it gave, until one asks for none
+# adaptive speed sampling: each round asks for some more, from what those before it gave, until one asks for none. All members of a
+# sample are run at the same speeds, where they are worth it on average
 checkpoint refine:
     input:
         unpack(sweep.round_inputs),
     output:
         round=paths.ROUND,
     log:
-        "<logs>/{blade}/{scene}/round_{round}.log",
+        "<logs>/{member}{blade}/{scene}/round_{round}.log",
     wildcard_constraints:
         round=r"\d+",
     # before the next blade's simulations, which would leave this one's waiting
@@ -112,7 +115,7 @@ use rule step as response with:
     output:
         response=paths.RESPONSE,
     log:
-        "<logs>/{blade}/{scene}/response.log",
+        "<logs>/{member}{blade}/{scene}/response.log",
     priority: 5
     resources:
         **needs.of("response"),

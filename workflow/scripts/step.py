@@ -35,6 +35,6 @@ def run(params):
         print(shown, file=sys.__stderr__)
 
 
-about = "".join(f"{name} {value}, " for name, value in snakemake.wildcards.items())
+about = "".join(f"{name} {value}, " for name, value in snakemake.wildcards.items() if value)
 with reported(snakemake.rule, snakemake.log[0], about):
     run(snakemake.params)

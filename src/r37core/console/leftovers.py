@@ -49,7 +49,7 @@ def _dropped(results: Path, settings: Settings) -> Iterator[Path]:
     patterns = _planned(settings)
     planned = {results / file.removeprefix("<results>/") for file in paths.filled(patterns)}
     for pattern in patterns:
-        plain = pattern.removeprefix("<results>/")
+        plain = paths.nominal(pattern).removeprefix("<results>/")
         files = results.glob(re.sub(r"\{\w+\}", "*", plain))
         others = RESERVED if plain.startswith("{blade}") else ()
         yield from (file for file in files if file not in planned and file.relative_to(results).parts[0] not in others)
@@ -78,10 +78,10 @@ def _planned(settings: Settings) -> dict[str, paths.Wildcards]:
 
 
 def _of_members(folder: Path, settings: Settings) -> Iterator[Path]:
-    """Folders of members, and of models of members, that are not drawn any more."""
-    wanted = {(*pair, name) for pair, members in settings.members.all.items() for name in members}
-    models = {("models", blade, name) for blade, _, name in wanted}
-    kept = {place[:depth] for place in wanted | models for depth in (1, 2, 3)}
+    """Folders of members, and of rounds of their samples, that are not drawn any more."""
+    samples = settings.members.all
+    wanted = {*samples, *((name, *pair) for pair, members in samples.items() for name in members)}
+    kept = {place[:depth] for place in wanted for depth in (1, 2, 3)}
     for depth in (1, 2, 3):
         for one in folder.glob("*/" * depth):
             if one.relative_to(folder).parts not in kept:

@@ -26,8 +26,8 @@ QUIET_EVENTS = frozenset({"job_info", "job_started", "job_finished", "progress",
 HANDLER = "DefaultStreamHandler"
 """Name of Snakemake's handler of messages on the terminal."""
 
-_SIMULATIONS = ("simulate", "simulate_member")
-"""Rules whose jobs are counted."""
+_SIMULATION = "simulate"
+"""The rule whose jobs are counted."""
 
 _CHATTER = (
     "Select jobs to execute",
@@ -82,7 +82,7 @@ class Progress(logging.Filter):
             self._jobs[record.jobid] = (record.rule_name, blade, str(next(iter(output))))  # type: ignore[attr-defined]
         elif event == "job_finished":
             rule, blade, output = self._jobs.pop(record.job_id, ("", "", ""))  # type: ignore[attr-defined]
-            if rule in _SIMULATIONS:
+            if rule == _SIMULATION:
                 self._simulated[blade] += 1
                 self._diverged += _diverged(Path(output))
         elif event == "progress":

@@ -78,7 +78,9 @@ def values(settings: Settings) -> dict[str, Any]:
         "members": adaptive_members(settings),
         "plans": {name: settings.speed_plans[place] for name, place in places.items()},
         "steps": plain_steps(settings),
-        "choices": {name: sweep.refinement_choice(SimpleNamespace(scene=scene)) for name, (_, scene) in places.items()},
+        "choices": {
+            name: sweep.refinement_choice(SimpleNamespace(blade=blade, scene=scene)) for name, (blade, scene) in places.items()
+        },
         "interactions": plain(settings.interactions),
     }
 
