@@ -14,6 +14,7 @@ from test_interactions import campbell, response
 
 from r37core.adaptive.criterion import RefinementChoice, known_of, next_speeds
 from r37core.config import ConfigError, Document
+from r37core.config.remarks import remarks_of_spine
 from r37core.console.leftovers import leftovers
 from r37core.dataset_file import write_dataset
 from r37core.figures.tolerance_curves import draw_tolerances
@@ -300,10 +301,10 @@ def test_the_tolerances_of_the_page_and_of_the_file_are_accepted(root):
 def test_a_run_says_when_its_members_rank_nothing(root, members, sensitivity, said):
     numbers = {"friction.coefficient": {"uniform_percent": 5.0}, "damping_ratio": {"uniform_percent": 5.0}}
     given = {"members": members, "sensitivity": sensitivity, "blades": ["Ref"], "of_scenes": numbers}
-    remarks = [one for one in settings_of(root, given).remarks if "rank" in one or "name the first" in one]
+    remarks = [one for one in remarks_of_spine(settings_of(root, given)) if "rank" in one or "name the first" in one]
     assert len(remarks) == len(said) and all(f"tolerances: {text}" in one for text, one in zip(said, remarks, strict=True))
     alone = {**given, "of_scenes": {"damping_ratio": numbers["damping_ratio"]}}
-    assert not any("rank" in one for one in settings_of(root, alone).remarks if "Sobol" not in one)
+    assert not any("rank" in one for one in remarks_of_spine(settings_of(root, alone)) if "Sobol" not in one)
 
 
 def test_without_numbers_there_are_no_members(settings):

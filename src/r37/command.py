@@ -12,6 +12,7 @@ import pandas as pd
 import xarray as xr
 
 from r37core.config import ConfigError
+from r37core.config.remarks import remarks_on_points
 from r37core.dataset_file import write_dataset
 from r37core.io import InputFileError
 from r37core.plans.sweep_plan import Sweep
@@ -123,7 +124,7 @@ def _check(given: argparse.Namespace) -> None:
         cost = most * measured.cpu_s_per_run
         told = f"{cost:.3g} s" if cost < 120.0 else f"{cost / 60.0:.3g} minutes"
         print(f"their CPU time: about {told} at most, as measured on the reference blade")
-    for remark in [*remarks(settings), *settings.remarks_on_points]:
+    for remark in [*remarks(settings), *remarks_on_points(settings)]:
         print(remark)
 
 

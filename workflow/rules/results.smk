@@ -66,7 +66,7 @@ use rule step as summary with:
         **needs.of("summary"),
     params:
         **step("product.steps.summary"),
-        choice=plain(settings.interactions),
+        choice=plain(settings.config.interactions),
 
 
 use rule step as ranking with:

@@ -58,7 +58,7 @@ def studies_name_what_is_there(settings: Settings) -> None:
         if lined and settings.scene_entries[lined].lining is None:
             raise documents.config.refusal(("studies", name, "lined_scene"), f"'{lined}'", "a scene with a lining")
     if given := studies.tradeoff:
-        highest = settings.campbell.highest_engine_order
+        highest = settings.config.campbell.highest_engine_order
         if given.engine_order > highest:
             allowed = f"at most campbell.highest_engine_order ({highest})"
             raise documents.config.refusal(("studies", "tradeoff", "engine_order"), f"{given.engine_order}", allowed)
@@ -113,7 +113,7 @@ def windows_have_crossings(settings: Settings) -> None:
     """No window lies above crossings that the Campbell diagram does not have."""
     if not any(plan.refined for plan in settings.speed_plans.values()):
         return
-    highest, given = settings.campbell.highest_engine_order, settings.config.refinement
+    highest, given = settings.config.campbell.highest_engine_order, settings.config.refinement
     for place, windows in {("refinement",): given.windows, ("refinement", "direct"): given.direct.windows}.items():
         for number, window in enumerate(windows):
             if window.highest_engine_order > highest:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, TypeVar
@@ -88,6 +88,23 @@ class Document:
         places = dict(self.places)
         content = _overlay(self.content, above.content, (), places)
         return Document(self.name, content, places | dict(above.places))
+
+
+@dataclass(frozen=True)
+class Documents:
+    """The files that a message may have to point into; that of the blades has designs in place of families."""
+
+    config: Document
+    blades: Document
+    levels: Document
+    scenes: Document
+
+    def known(self, path: KeyPath, names: Iterable[str], entries: Iterable[str], file: Document) -> None:
+        """ConfigError for a name, at `path` of config.yaml, that is none of the `entries` of `file`."""
+        allowed = list(entries)
+        for name in names:
+            if name not in allowed:
+                raise self.config.refusal(path, f"'{name}'", f"{', '.join(allowed)} ({file.name})")
 
 
 def read_document(root: Path, name: str) -> Document:

@@ -56,7 +56,7 @@ class Members:
     def _chosen(self) -> tuple[list[str], list[str]]:
         """Blades and scenes that are to have members."""
         settings, given = self._settings, self._given
-        blades = settings.blade_names if given.blades == "all" else settings.designs_of(given.blades)
+        blades = settings.blade_names if given.blades == "all" else settings.designs.named(given.blades)
         return blades, settings.scene_names if given.scenes == "all" else given.scenes
 
     @cached_property
@@ -80,6 +80,12 @@ class Members:
         Raises ConfigError for a number that is not there, and for a value that is impossible.
         """
         return {pair: self._of(*pair) for pair in self.pairs}
+
+    @property
+    def most_runs(self) -> int:
+        """Simulations of all members, at most where speeds are adaptive."""
+        plans = self._settings.speed_plans
+        return sum(len(members) * plans[pair].at_most(self._given.largest_share) for pair, members in self.all.items())
 
     @cached_property
     def _places(self) -> dict[str, tuple[float, ...]]:

@@ -12,6 +12,8 @@ from typing import Any
 
 from r37core.adaptive.refinement_choice import RefinementChoice, Window
 from r37core.config import Settings, in_si
+from r37core.config.casing_remarks import elastic_casings
+from r37core.config.speed_choice import most_runs
 from r37core.contact.benchmark import is_lined_benchmark
 from r37core.io import as_list, read_json, readable
 from r37core.plain import to_plain
@@ -113,10 +115,10 @@ class Sweep:
 
     def refinement_choice(self, wildcards: Any) -> dict[str, Any]:
         """What makes an interval of speeds of a scene worth halving, as fields of RefinementChoice."""
-        given = self.settings.refinement(wildcards.scene)
+        given = self.settings.config.refinement.in_scene(self.settings.scenes[wildcards.scene].scene)
         parts = {
             "windows": tuple(in_si(Window, window) for window in given.windows),
-            "prominence": self.settings.interactions.prominence,
+            "prominence": self.settings.config.interactions.prominence,
             "largest_share": self.samples.sample(wildcards).largest_share,
         }
         return to_plain(in_si(RefinementChoice, given, **parts))
@@ -166,7 +168,7 @@ class Sweep:
     @property
     def most_runs(self) -> int:
         """Simulations of the whole sweep, at most where speeds are adaptive."""
-        return sum(self.settings.most_runs(*place) for place in self.settings.speed_plans)
+        return sum(most_runs(self.settings, *place) for place in self.settings.speed_plans)
 
     @property
     def kept(self) -> dict[str, int]:
@@ -204,7 +206,7 @@ class Sweep:
     @property
     def casings(self) -> dict[str, Any]:
         """The casing of each scene whose casing gives way, as plain values."""
-        return {name: to_plain(one) for name, one in self.settings.elastic_casings.items()}
+        return {name: to_plain(one) for name, one in elastic_casings(self.settings).items()}
 
     @property
     def benchmark_scenes(self) -> list[str]:
