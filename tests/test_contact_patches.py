@@ -20,7 +20,7 @@ from r37core.fem.matrices import assemble
 from r37core.fem.traces import edge_traces, face_traces
 from r37core.plans.provenance import structure_hash
 from r37core.product.reading import read_settings
-from r37core.rom.contact_weights import contact_weights, mean_places, weights_along
+from r37core.rom.contact_weights import contact_weights, mean_positions, weights_along
 from r37core.rom.reduce import mean_fields, reduce_blade
 from r37core.rom.reduced_model import contact_model
 from r37core.rom.reduction_choice import BoundaryError, boundary_placed
@@ -103,7 +103,7 @@ def test_rigid_motion_and_moments(mesh, contact):
     means = weights @ mesh.points
     np.testing.assert_allclose(moved, shift + np.cross(turn, means), atol=1e-15)
     # where the patch is said to be, on the cone of the tip, lies within the sagitta of its width
-    assert np.linalg.norm(mean_places(mesh.points, weights) - means, axis=1).max() < 1e-4
+    assert np.linalg.norm(mean_positions(mesh.points, weights) - means, axis=1).max() < 1e-4
     force = np.array([10.0, -40.0, 25.0])
     forces = weights.toarray()[:, :, None] * force
     np.testing.assert_allclose(forces.sum(axis=1), np.tile(force, (4, 1)), rtol=1e-13)

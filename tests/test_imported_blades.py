@@ -15,6 +15,7 @@ from r37core.exports.plan import Exports
 from r37core.plain import to_plain
 from r37core.plans.import_plan import Imported
 from r37core.plans.paths import filled
+from r37core.plans.provenance import structure_hash
 from r37core.plans.sweep_plan import Sweep
 from r37core.product.reading import read_settings
 from r37core.studies.plan import blade_of
@@ -74,7 +75,7 @@ def test_a_mesh(settings_with, config_copy):
     assert choice.boundary.contact == "patches"
     before = structure_hash(settings, "Fan")
     (config_copy / "meshes/more.inc").write_text("1, 0, 0, 1\n")
-    assert read_settings(config_copy)structure_hash(, "Fan") != before
+    assert structure_hash(read_settings(config_copy), "Fan") != before
 
 
 def test_a_mesh_with_another_material(settings_with):

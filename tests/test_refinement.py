@@ -14,9 +14,9 @@ from hypothesis import strategies as st
 from r37core.adaptive.criterion import (
     RefinementChoice,
     Window,
+    dense_ranges,
     known_of,
     next_speeds,
-    stretches,
     window_speeds,
 )
 from r37core.adaptive.rounds import Round, first_round, measure, read_round, round_after, write_round
@@ -164,7 +164,7 @@ def test_refinement_refusals(config_copy, changes, message):
 
 
 def test_windows_are_looked_at_more_closely():
-    expected = stretches(campbell([1200.0]), WINDOWS)
+    expected = dense_ranges(campbell([1200.0]), WINDOWS)
     assert [(one.low, one.high, one.step) for one in expected] == [(1200.0, 1260.0, 5.0)]
     speeds = sorted({*PLAN.certain, *window_speeds(GRID, expected)})
     for first, last in pairwise(speeds):
@@ -176,11 +176,11 @@ def test_windows_are_looked_at_more_closely():
 
 
 def test_orders_above_the_window_s_have_none():
-    assert stretches(campbell([1200.0]), (replace(WINDOWS[0], highest_engine_order=3),)) == []
+    assert dense_ranges(campbell([1200.0]), (replace(WINDOWS[0], highest_engine_order=3),)) == []
 
 
 def test_the_highest_order_of_a_window_has_one():
-    expected = stretches(campbell([1200.0, 960.0]), (replace(WINDOWS[0], highest_engine_order=4),))
+    expected = dense_ranges(campbell([1200.0, 960.0]), (replace(WINDOWS[0], highest_engine_order=4),))
     assert [one.low for one in expected] == [1200.0]
 
 
@@ -292,7 +292,7 @@ def test_speeds_off_the_grid_are_not_refined_about():
 @given(st.lists(st.floats(0.0, 1.0), min_size=101, max_size=101), st.floats(0.1, 1.0), st.integers(1, 20))
 def test_any_response_ends_in_speeds_of_the_grid_each_once(values, share, coarse):
     plan = SpeedPlan((), (RefinedRange(100.0, 0.1, coarse, 100),))
-    plan = replace(plan, certain=tuple(plan.refined[0].speed(place) for place in plan.refined[0].coarse_places()))
+    plan = replace(plan, certain=tuple(plan.refined[0].speed(place) for place in plan.refined[0].coarse_indices()))
     rows = {speed: [0, value, value**2, 2.0 * value] for speed, value in zip(plan.every_speed(), values, strict=True)}
     one = first_round(plan, campbell([]), choice := replace(CHOICE, largest_share=share))
     run = list(one.new)

@@ -20,9 +20,9 @@ def refine(input: Any, output: Any, params: Any) -> None:
     """
     plan, choice = from_plain(SpeedPlan, params.plan), from_plain(RefinementChoice, params.choice)
     if hasattr(input, "campbell"):
-        asked = first_round(plan, read_dataset(input.campbell), choice)
+        new_round = first_round(plan, read_dataset(input.campbell), choice)
     else:
         before = read_round(input.before)
-        gave = measure_members(params.yields, before.new, as_list(input.speeds))
-        asked = round_after(before, gave, plan, choice)
-    write_round(asked, output.round)
+        measured = measure_members(params.yields, before.new, as_list(input.speeds))
+        new_round = round_after(before, measured, plan, choice)
+    write_round(new_round, output.round)

@@ -21,7 +21,7 @@ from r37core.time_integration.integrators import EXACT_MODAL
 from r37core.units import RPM
 from r37core.yaml_file import KeyPath
 
-from .document import Document, Refusals
+from .document import ConfigRefusals, Document
 from .settings import Settings
 
 LARGEST_NUMBER_OF_SIMULATIONS = 200_000
@@ -33,7 +33,7 @@ def what_is_named_is_there(settings: Settings) -> None:
 
     What asks for one of them is refused for the same reason, which is told once.
     """
-    refusals = Refusals()
+    refusals = ConfigRefusals()
     for name in ("fidelity_name", "blade_names", "scene_names"):
         refusals.of(getattr, settings, name)
     refusals.tell()

@@ -18,7 +18,7 @@ Model = TypeVar("Model", bound=BaseModel)
 Result = TypeVar("Result")
 
 _MOST_TOLD = 20
-"""Refusals of one message."""
+"""ConfigRefusals of one message."""
 
 
 class ConfigError(ValueError):
@@ -28,7 +28,7 @@ class ConfigError(ValueError):
     """
 
 
-class Refusals:
+class ConfigRefusals:
     """What is wrong with a configuration, from checks that do not wait for each other: a user is told all at once."""
 
     def __init__(self, *told: str) -> None:
@@ -80,7 +80,7 @@ class Document:
             return model.model_validate(self.content)
         except ValidationError as error:
             said = explain_all(error, self.content, model)
-        Refusals(*(str(self.error(path, text, key)) for path, key, text in said)).tell()
+        ConfigRefusals(*(str(self.error(path, text, key)) for path, key, text in said)).tell()
         raise AssertionError("a model refuses for a reason")
 
     def overlaid(self, above: Document) -> Document:

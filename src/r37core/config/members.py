@@ -81,11 +81,10 @@ class Members:
         """
         return {pair: self._of(*pair) for pair in self.pairs}
 
-    @property
-    def most_runs(self) -> int:
-        """Simulations of all members, at most where speeds are adaptive."""
-        plans = self._settings.speed_plans
-        return sum(len(members) * plans[pair].at_most(self._given.largest_share) for pair, members in self.all.items())
+    def most_runs(self, blade: str, scene: str) -> int:
+        """Simulations of all members of a blade and scene, at most where speeds are adaptive."""
+        plan = self._settings.speed_plans[blade, scene]
+        return len(self.all.get((blade, scene), ())) * plan.at_most(self._given.largest_share)
 
     @cached_property
     def _places(self) -> dict[str, tuple[float, ...]]:

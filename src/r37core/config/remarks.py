@@ -36,7 +36,8 @@ def remarks_of_spine(settings: Settings) -> list[str]:
             "they are planned round by round, so a dry run shows none of those to come"
         )
     if settings.members.pairs:
-        members, drawn = settings.members.most_runs, settings.config.tolerances.members
+        members = sum(settings.members.most_runs(*pair) for pair in settings.members.all)
+        drawn = settings.config.tolerances.members
         said.append(f"tolerances: {drawn} members, {members} simulations of theirs at most, beside those of the sweep")
         said += remarks_on_rankings(drawn, len(settings.members.numbers), settings.config.tolerances.sensitivity)
     return said

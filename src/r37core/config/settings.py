@@ -20,7 +20,7 @@ from r37core.yaml_file import KeyPath
 
 from .blades import BladeSettings, all_blades
 from .config_file import Config, StructureSection
-from .document import Document, Documents, Refusals
+from .document import ConfigRefusals, Document, Documents
 from .families import Designs
 from .fidelity import Level, cheapest_level
 from .members import Members
@@ -144,7 +144,7 @@ class Settings:
         """Speeds of each blade and scene: of the first rule that fits. Raises ConfigError for speeds that clash."""
         step, document = self.fidelity.time_integration.speed_step_rad_s, self.documents.config
         sections = [(("speeds_for", number), rule) for number, rule in enumerate(self.config.speeds_for)]
-        refusals = Refusals()
+        refusals = ConfigRefusals()
         general, *special = (refusals.of(_planned, document, *one, step) for one in [((), self.config), *sections])
         refusals.tell()
         assert general

@@ -90,15 +90,15 @@ class Ring:
         """
         mass, round_mass = self.mass, 2.0 * np.pi * self.radius * self.mass
         stretching = self.elastic_modulus * self.width * self.thickness / self.radius**2
-        found = [self._mode(0, (stretching + self.radial_foundation) / mass, round_mass, 1.0, 0.0)]
+        modes = [self._mode(0, (stretching + self.radial_foundation) / mass, round_mass, 1.0, 0.0)]
         if self.tangential_foundation > 0.0:
-            found.append(self._mode(0, self.tangential_foundation / mass, round_mass, 0.0, 1.0))
+            modes.append(self._mode(0, self.tangential_foundation / mass, round_mass, 0.0, 1.0))
         for n in range(1, self.highest_nodal_diameter + 1):
             square = self.bending * n**2 * (n**2 - 1.0) ** 2 + self.radial_foundation * n**2 + self.tangential_foundation
             if square > 0.0:
                 square /= mass * (n**2 + 1.0)
-                found.append(self._mode(n, square, 0.5 * round_mass * (1.0 + 1.0 / n**2), 1.0, 1.0 / n))
-        return tuple(found)
+                modes.append(self._mode(n, square, 0.5 * round_mass * (1.0 + 1.0 / n**2), 1.0, 1.0 / n))
+        return tuple(modes)
 
     def _mode(self, nodal_diameter: int, square: float, mass: float, radial: float, tangential: float) -> RingMode:
         return RingMode(nodal_diameter, float(np.sqrt(square)), float(mass), self.damping_ratio, radial, tangential)

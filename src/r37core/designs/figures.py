@@ -56,6 +56,6 @@ def _draw(axes: Axes, rows: pd.DataFrame, column: str, keys: Sequence[str], labe
         ordered = rows.sort_values(keys[0])
         axes.plot(ordered[keys[0]], ordered[column], "o-", markersize=4, label=label)
     else:
-        places = np.arange(len(rows))
-        axes.plot(places, rows[column], "o", markersize=4, label=label)
-        axes.set_xticks(places, rows["blade"])
+        rows_of_blades = np.arange(len(rows))
+        axes.plot(rows_of_blades, rows[column], "o", markersize=4, label=label)
+        axes.set_xticks(rows_of_blades, rows["blade"])

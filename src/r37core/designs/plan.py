@@ -50,5 +50,5 @@ class Families:
 
 def targets(sweep: Sweep) -> dict[str, paths.Wildcards]:
     """The table of all designs, and a figure of each family."""
-    found = paths.of("family", families(sweep.settings))
-    return {"<results>/designs.csv": found and [{}], **paths.pictures("designs_{family}", found)}
+    wildcards = paths.of("family", families(sweep.settings))
+    return {"<results>/designs.csv": wildcards and [{}], **paths.pictures("designs_{family}", wildcards)}

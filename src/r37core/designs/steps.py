@@ -16,9 +16,9 @@ def tabulate(input: Any, output: Any, params: Any) -> None:
 
     Inputs: datasets by kind, summary, geometry of each design. Params: designs, densities, scenes.
     """
-    given = dict(input.items())
-    summary, shapes = read_table(given.pop("summary")), as_list(given.pop("geometry"))
-    files = dict(zip(params.designs, shapes, strict=True))
-    masses = {blade: params.densities[blade] * float(read_dataset(file)["volume"]) for blade, file in files.items()}
-    datasets = {kind: read_dataset(file) for kind, file in given.items()}
+    files = dict(input.items())
+    summary, shapes = read_table(files.pop("summary")), as_list(files.pop("geometry"))
+    geometries = dict(zip(params.designs, shapes, strict=True))
+    masses = {blade: params.densities[blade] * float(read_dataset(file)["volume"]) for blade, file in geometries.items()}
+    datasets = {kind: read_dataset(file) for kind, file in files.items()}
     write_table(design_table(params.designs, masses, datasets, summary, params.scenes), output.table, digits=6)

@@ -20,7 +20,7 @@ MEASURES = {
     "clearance_loss_1b_m": Word("loss of clearance, 1B", "largest as the tip swings along the free mode", "mm", 1e3),
     "clearance_loss_1t_m": Word("loss of clearance, 1T", "largest as the tip swings along the free mode", "mm", 1e3),
     "shift_1b_rad_s": Word("shift of 1B", "peak less crossing of the strongest interaction of 1B", "rad/s"),
-    **{name: found for name in ROBUSTNESS if (found := word(name, RANKING))},
+    **{name: meaning for name in ROBUSTNESS if (meaning := word(name, RANKING))},
 }
 """Columns of designs.csv in words; the first five do not depend on the scene."""
 
@@ -49,11 +49,11 @@ def design_table(
 
 
 def _structure(campbell: xr.Dataset) -> dict[str, float]:
-    found = {}
+    values = {}
     for mode in (FIRST_BENDING, FIRST_TORSION):
-        found[f"frequency_{mode.lower()}_hz"] = float(campbell["frequency"].sel(mode=mode).isel(speed=0))
-        found[f"clearance_loss_{mode.lower()}_m"] = -float(campbell["dynamic_clearance"].sel(mode=mode).min())
-    return found
+        values[f"frequency_{mode.lower()}_hz"] = float(campbell["frequency"].sel(mode=mode).isel(speed=0))
+        values[f"clearance_loss_{mode.lower()}_m"] = -float(campbell["dynamic_clearance"].sel(mode=mode).min())
+    return values
 
 
 def _shift(blade: str, scene: str, interactions: pd.DataFrame) -> dict[str, float]:

@@ -96,7 +96,7 @@ def worst_instants(
 
     A run that diverged has none. Raises InputFileError for a file that cannot be read.
     """
-    found: dict[float, WorstInstant] = {}
+    instants: dict[float, WorstInstant] = {}
     for speed, file in zip(speeds, files, strict=True):
         run = read_speed(file)
         if run["status"] or not len(run["snapshots"]):
@@ -104,9 +104,9 @@ def worst_instants(
         revolution = run["snapshots"]
         largest = stress.max_von_mises(revolution)
         instant = int(np.argmax(largest))
-        found[speed] = WorstInstant(revolution[instant], float(largest[instant]), revolution, instant)
-    worst = max(found, key=lambda speed: found[speed].largest, default=None)
-    return {worst: found[worst]} if only_worst and worst is not None else found
+        instants[speed] = WorstInstant(revolution[instant], float(largest[instant]), revolution, instant)
+    worst = max(instants, key=lambda speed: instants[speed].largest, default=None)
+    return {worst: instants[worst]} if only_worst and worst is not None else instants
 
 
 def write_stress(

@@ -63,5 +63,5 @@ def placed(places: Mapping[str, str]) -> Iterator[None]:
     try:
         yield
     except ImportRefused as error:
-        place = places.get(error.key or "")
-        raise ImportRefused(f"{place}: {error.reason}" if place else error.reason, error.key, error.fitting) from None
+        prefix = places.get(error.key or "")
+        raise ImportRefused(f"{prefix}: {error.reason}" if prefix else error.reason, error.key, error.fitting) from None

@@ -45,8 +45,8 @@ def _med(mesh: BladeMesh, file: Path) -> None:
     # MED joins all cells of a type: faces of root and tip that share one must be one block
     cells, groups = _grouped(mesh)
     joined = {kind: [i for i, (name, _) in enumerate(cells) if name == kind] for kind, _ in cells}
-    tags = [-np.concatenate([groups[i] for i in places]) for places in joined.values()]
-    blocks = [(kind, np.concatenate([cells[i][1] for i in places])) for kind, places in joined.items()]
+    tags = [-np.concatenate([groups[i] for i in positions]) for positions in joined.values()]
+    blocks = [(kind, np.concatenate([cells[i][1] for i in positions])) for kind, positions in joined.items()]
     content = meshio.Mesh(mesh.points, blocks, cell_data={"cell_tags": tags})
     content.cell_tags = {-number: [name] for name, number in GROUPS.items()}
     content.point_tags = {}
@@ -72,7 +72,7 @@ def _grouped(mesh: BladeMesh) -> tuple[list[tuple[str, np.ndarray]], list[np.nda
     surface = outer_faces(mesh.blocks)
     for name in ("root", "tip"):
         members = np.isin(np.arange(len(mesh.points)), mesh.node_set(name))
-        found = [(_FACE_TYPES[part.corners, part.quadratic], part.nodes) for part in faces_within(surface, members)]
-        cells += found
-        numbers += [GROUPS[name]] * len(found)
+        faces = [(_FACE_TYPES[part.corners, part.quadratic], part.nodes) for part in faces_within(surface, members)]
+        cells += faces
+        numbers += [GROUPS[name]] * len(faces)
     return cells, [np.full(len(nodes), number) for number, (_, nodes) in zip(numbers, cells, strict=True)]

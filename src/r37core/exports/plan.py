@@ -41,11 +41,11 @@ class Exports:
     def choice(self) -> dict[str, Any]:
         """The section of config.yaml, with the speeds (rad/s) of modes and matrices."""
         settings = self.imported.settings
-        given, highest = section(settings), settings.structure.maximum_speed_rad_s
+        exported, highest = section(settings), settings.structure.maximum_speed_rad_s
         return {
-            "formats": tuple(given.result_formats),
-            "modes": given.modes,
-            "mode_speeds": si_fields(given).get("mode_speeds", (0.0, highest)),
+            "formats": tuple(exported.result_formats),
+            "modes": exported.modes,
+            "mode_speeds": si_fields(exported).get("mode_speeds", (0.0, highest)),
             "matrix_speeds": (0.0, 0.5 * highest, highest),
             "spin_softening": settings.structure.spin_softening,
         }
@@ -59,10 +59,10 @@ class Exports:
         """What matrices are written from: the reduced model, and the mesh where full ones are wanted."""
         settings = self.imported.settings
         tip_line = settings.structure.boundary.tip_line
-        found = {"rom": paths.fill(paths.REDUCED_MODEL, blade=wildcards.blade, tip_line=tip_line)}
+        files = {"rom": paths.fill(paths.REDUCED_MODEL, blade=wildcards.blade, tip_line=tip_line)}
         if section(settings).full_matrices and wildcards.blade in self.imported.with_mesh:
-            found |= {"mesh": paths.fill(paths.MESH, blade=wildcards.blade)}
-        return found
+            files |= {"mesh": paths.fill(paths.MESH, blade=wildcards.blade)}
+        return files
 
     def only_worst(self, wildcards: Any) -> bool:
         """Whether the speed with the largest stress is written alone."""

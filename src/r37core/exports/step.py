@@ -48,26 +48,26 @@ def write_step(blade: Blade, file: Path | str) -> None:
 def _nothing_printed() -> Iterator[None]:
     """Keep OpenCASCADE's statistics, which it prints past Python and gmsh, off the screen."""
     sys.stdout.flush()
-    kept, nowhere = os.dup(1), os.open(os.devnull, os.O_WRONLY)
+    screen, nowhere = os.dup(1), os.open(os.devnull, os.O_WRONLY)
     try:
         os.dup2(nowhere, 1)
         yield
     finally:
-        os.dup2(kept, 1)
-        os.close(kept)
+        os.dup2(screen, 1)
+        os.close(screen)
         os.close(nowhere)
 
 
 def _sampled(blade: Blade) -> list[np.ndarray]:
     """Points (mm) on pressure side, suction side, both edges, root and tip, shape (u, v, 3) each."""
-    one = np.ones(1)
+    end = np.ones(1)
     grids = [
-        (_CHORD, _SPAN, -one),
-        (_CHORD, _SPAN, one),
-        (0.0 * one, _SPAN, _THICKNESS),
-        (one, _SPAN, _THICKNESS),
-        (_CHORD, 0.0 * one, _THICKNESS),
-        (_CHORD, one, _THICKNESS),
+        (_CHORD, _SPAN, -end),
+        (_CHORD, _SPAN, end),
+        (0.0 * end, _SPAN, _THICKNESS),
+        (end, _SPAN, _THICKNESS),
+        (_CHORD, 0.0 * end, _THICKNESS),
+        (_CHORD, end, _THICKNESS),
     ]
     faces = []
     for axes in grids:

@@ -48,8 +48,8 @@ def draw_tolerances(tolerances: xr.Dataset, nominal: xr.Dataset, title: str) -> 
     above.legend(*style.legend_entries(panels), loc="outside lower center", ncols=4)
     above.suptitle(f"tolerances: {title}, {tolerances.sizes['member']} members")
     for part, size in zip(below, sizes, strict=True):
-        axes, (place, label, title) = part.subplots(1, 1), _SIZES[size]
-        _numbers(axes, tolerances, size, place)
+        axes, (rank, label, title) = part.subplots(1, 1), _SIZES[size]
+        _numbers(axes, tolerances, size, rank)
         axes.set_ylabel(label)
         axes.set_title(f"{title}, {CONFIDENCE:.0%} interval; above: place in the ranking, pale: any")
     return figure
@@ -60,7 +60,7 @@ def _band(axes: Axes, tolerances: xr.Dataset, nominal: xr.Dataset, name: str) ->
     spread = scale * tolerances[f"{name}_quantile"].dropna("speed", how="all")
     # of a run that diverged there is no number; the band leaves the panel
     shown = spread.where(np.isfinite(spread))
-    low, median, high = (shown.isel(quantile=place) for place in range(3))
+    low, median, high = (shown.isel(quantile=quantile) for quantile in range(3))
     speed, top = shown["speed"], float(shown.max()) * 1.5
     axes.fill_between(
         speed, low, high.fillna(top), color=style.COLOURS[0], alpha=0.25, linewidth=0, label="nine tenths of the members"
@@ -83,11 +83,11 @@ def _probability(axes: Axes, tolerances: xr.Dataset) -> None:
     axes.set_ylabel("above yield (%)")
 
 
-def _numbers(axes: Axes, tolerances: xr.Dataset, size: str, place: str) -> None:
+def _numbers(axes: Axes, tolerances: xr.Dataset, size: str, rank: str) -> None:
     """Size of each number's part in the spread with its interval, and its place in the ranking above; pale: no place known."""
     numbers = tolerances["number"].values
     width = 0.8 / len(_MEASURES)
-    low, high = (tolerances[f"{place}_{end}"] for end in ("low", "high"))
+    low, high = (tolerances[f"{rank}_{end}"] for end in ("low", "high"))
     # a number that may have any place has none
     known = low.notnull() & (high - low + 1 < tolerances[size].notnull().sum("number"))
     for row, (measure, label) in enumerate(_MEASURES.items()):

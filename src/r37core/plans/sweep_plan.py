@@ -13,7 +13,6 @@ from typing import Any
 from r37core.adaptive.refinement_choice import RefinementChoice, Window
 from r37core.config import Settings, in_si
 from r37core.config.casing_remarks import elastic_casings
-from r37core.config.speed_choice import most_runs
 from r37core.contact.benchmark import is_lined_benchmark
 from r37core.io import as_list, read_json, readable
 from r37core.plain import to_plain
@@ -116,12 +115,9 @@ class Sweep:
     def refinement_choice(self, wildcards: Any) -> dict[str, Any]:
         """What makes an interval of speeds of a scene worth halving, as fields of RefinementChoice."""
         given = self.settings.config.refinement.in_scene(self.settings.scenes[wildcards.scene].scene)
-        parts = {
-            "windows": tuple(in_si(Window, window) for window in given.windows),
-            "prominence": self.settings.config.interactions.prominence,
-            "largest_share": self.samples.sample(wildcards).largest_share,
-        }
-        return to_plain(in_si(RefinementChoice, given, **parts))
+        windows = tuple(in_si(Window, window) for window in given.windows)
+        share, prominence = self.samples.sample(wildcards).largest_share, self.settings.config.interactions.prominence
+        return to_plain(in_si(RefinementChoice, given, windows=windows, largest_share=share, prominence=prominence))
 
     def task(self, wildcards: Any) -> str:
         """What one simulation does, as JSON text."""
@@ -164,11 +160,6 @@ class Sweep:
         """Of a blade's simulations, above 0 and up to 1: results should be complete one blade after another."""
         blades = list(self.settings.blades)
         return 1 - blades.index(wildcards.blade) / len(blades)
-
-    @property
-    def most_runs(self) -> int:
-        """Simulations of the whole sweep, at most where speeds are adaptive."""
-        return sum(most_runs(self.settings, *place) for place in self.settings.speed_plans)
 
     @property
     def kept(self) -> dict[str, int]:

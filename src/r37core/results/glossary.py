@@ -165,7 +165,7 @@ def word(name: str, words: dict[str, Word]) -> Word | None:
 
 def table(words: Mapping[str, Word]) -> str:
     """Columns as a table of Markdown."""
-    lines = [f"| `{name}` | {one.meaning} |" for name, one in words.items()]
+    lines = [f"| `{name}` | {word.meaning} |" for name, word in words.items()]
     return "\n".join(["| column | what it is |", "|---|---|", *lines])
 
 

@@ -132,9 +132,9 @@ class StressSubmesh:
             near[np.concatenate([nodes[near[nodes].any(axis=1)].ravel() for nodes in mesh.blocks.values()])] = True
         chosen = {}
         for name, nodes in mesh.blocks.items():
-            kept = qualifies[nodes].all(axis=1) & ~(near[nodes].any(axis=1) & (self.excluded_layers > 0))
-            if kept.any():
-                chosen[name] = nodes[kept]
+            inside = qualifies[nodes].all(axis=1) & ~(near[nodes].any(axis=1) & (self.excluded_layers > 0))
+            if inside.any():
+                chosen[name] = nodes[inside]
         return chosen
 
 

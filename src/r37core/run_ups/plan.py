@@ -55,7 +55,7 @@ class RunUps:
     def choices(self) -> dict[tuple[str, str], dict[str, RunUpChoice]]:
         """Run-ups of each blade and scene, by name."""
         settings = self.sweep.settings
-        found: dict[tuple[str, str], dict[str, RunUpChoice]] = {
+        by_pair: dict[tuple[str, str], dict[str, RunUpChoice]] = {
             (blade, scene): {} for blade in settings.blade_names for scene in settings.scene_names
         }
         for name, entry in entries(settings).items():
@@ -63,19 +63,19 @@ class RunUps:
             scenes = settings.scene_names if entry.scenes == "all" else entry.scenes
             choices = {scene: entry.choice(settings.scenes[scene].revolutions) for scene in scenes if scene in settings.scenes}
             for blade, (scene, choice) in product(blades, choices.items()):
-                if (blade, scene) in found:
-                    found[blade, scene][name] = choice
-        return found
+                if (blade, scene) in by_pair:
+                    by_pair[blade, scene][name] = choice
+        return by_pair
 
     def inputs(self, wildcards: Any) -> dict[str, str]:
         """What a run-up starts from, with the stress operator where its stress is wanted."""
         prepared = paths.fill(paths.INTEGRATION_STAMP, blade=wildcards.blade, scene=wildcards.scene)
-        found = {"prepared": prepared, "model": self.sweep.contact_model(wildcards)}
+        files = {"prepared": prepared, "model": self.sweep.contact_model(wildcards)}
         if self.sweep.with_stress(wildcards):
-            (found["stress"],) = self.sweep.stress_operator(wildcards)
+            (files["stress"],) = self.sweep.stress_operator(wildcards)
         if self._choice(wildcards).crossing:
-            found["campbell"] = paths.fill(paths.CAMPBELL, blade=wildcards.blade)
-        return found
+            files["campbell"] = paths.fill(paths.CAMPBELL, blade=wildcards.blade)
+        return files
 
     def run_up(self, wildcards: Any) -> dict[str, Any]:
         """Speeds and revolutions, as plain values."""
@@ -116,11 +116,11 @@ def targets(sweep: Sweep) -> dict[str, paths.Wildcards]:
 
 def remarks(settings: Settings) -> list[str]:
     """Of elastic casings that only a run-up overtakes, as far as no crossing decides its speeds."""
-    said = []
+    lines = []
     choices = RunUps(Sweep(settings)).choices
     for name, casing in casing_remarks.elastic_casings(settings).items():
-        asked = [choice for (_, scene), named in choices.items() if scene == name for choice in named.values()]
-        fastest = max((max(one.start, one.stop) for one in asked if one.crossing is None), default=0.0)
+        of_scene = [choice for (_, scene), named in choices.items() if scene == name for choice in named.values()]
+        fastest = max((max(choice.start, choice.stop) for choice in of_scene if choice.crossing is None), default=0.0)
         if fastest > fastest_of(settings, name):
-            said.append(casing_remarks.of_speeds(name, casing, fastest))
-    return [line for line in said if line]
+            lines.append(casing_remarks.of_speeds(name, casing, fastest))
+    return [line for line in lines if line]

@@ -41,10 +41,10 @@ class RunUpEntry(Section):
     @model_validator(mode="after")
     def _complete(self) -> RunUpEntry:
         for keys in ((*_START, "crossing"), (*_STOP, "crossing"), _LENGTH):
-            given = [key for key in keys if getattr(self, key) is not None]
-            if len(given) != 1:
-                at = given[1] if given else keys[0]
-                raise refused((at,), " and ".join(given) if given else "nothing", f"one of {', '.join(keys)}")
+            present = [key for key in keys if getattr(self, key) is not None]
+            if len(present) != 1:
+                at = present[1] if present else keys[0]
+                raise refused((at,), " and ".join(present) if present else "nothing", f"one of {', '.join(keys)}")
         choice = self.choice(1)
         if choice.start == choice.stop and self.revolutions is None:
             raise refused((self.key_of_length,), "a rate between equal speeds", "revolutions, for a run at constant speed")

@@ -28,12 +28,12 @@ def record(input: Any, output: Any, params: Any) -> None:
     stress = read_stress_operator(input.stress) if hasattr(input, "stress") else None
     choice = from_plain(IntegrationChoice, params.choice)
     campbell = read_dataset(input.campbell) if hasattr(input, "campbell") else None
-    asked = from_plain(RunUpChoice, params.run_up)
+    run_up = from_plain(RunUpChoice, params.run_up)
     result = record_run_up(
         read_contact_model(input.model),
         from_plain(Scene, params.scene),
         choice,
-        asked.of_blade(choice.samples_per_revolution, campbell, params.name),
+        run_up.of_blade(choice.samples_per_revolution, campbell, params.name),
         params.results,
         highest_order=params.highest_order,
         stress=stress,

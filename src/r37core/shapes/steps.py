@@ -37,10 +37,10 @@ def worst(input: Any, output: Any, params: Any) -> None:
     # the elastic material in params and the yield stress that the response was judged by
     material = replace(from_plain(Material, params.material), yield_stress=float(response["yield_stress"]))
     choice = from_plain(InteractionChoice, params.interactions)
-    found = titles(find_interactions(response, read_dataset(input.campbell), choice))
-    files = {speed: file for speed, file in zip(params.speeds, as_list(input.speeds), strict=True) if speed in found}
+    title_of = titles(find_interactions(response, read_dataset(input.campbell), choice))
+    files = {speed: file for speed, file in zip(params.speeds, as_list(input.speeds), strict=True) if speed in title_of}
     instants = worst_instants(files.values(), list(files), stress_operator(model, material), False)
-    named = {speed: f"{found[speed]}, {params.scene}" for speed in instants}
+    named = {speed: f"{title_of[speed]}, {params.scene}" for speed in instants}
     write_worst_shapes(read_vtu(input.mesh), model, material, instants, named, Path(output.folder))
 
 

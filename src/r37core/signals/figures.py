@@ -94,8 +94,8 @@ def _draw_timing(axes: Axes, run: xr.Dataset, first: bool) -> None:
 
 def _look(order: int) -> dict[str, str]:
     """Colour and dashes of an engine order, the same in every panel."""
-    repeats, place = divmod(order - 1, len(style.COLOURS))
-    return {"color": style.COLOURS[place], "linestyle": ("-", "--", ":")[repeats % 3]}
+    repeats, colour = divmod(order - 1, len(style.COLOURS))
+    return {"color": style.COLOURS[colour], "linestyle": ("-", "--", ":")[repeats % 3]}
 
 
 def _legend(axes: Axes, title: str, columns: int) -> None:
@@ -117,10 +117,10 @@ def _legend(axes: Axes, title: str, columns: int) -> None:
 def _channels(signals: xr.Dataset) -> list[tuple[str, str, xr.DataArray]]:
     """Name, unit and values in it: the leading edge's normal and tangential motion, then the gauges."""
     edge = signals.sel(tip_point="leading_edge")
-    found = [(f"{name}, leading edge", "mm", 1e3 * edge[name]) for name in ("normal", "tangential")]
+    channels = [(f"{name}, leading edge", "mm", 1e3 * edge[name]) for name in ("normal", "tangential")]
     if "strain" in signals:
-        found += [(f"gauge {name}", "µm/m", 1e6 * signals["strain"].sel(gauge=name)) for name in signals["gauge"].values]
-    return found
+        channels += [(f"gauge {name}", "µm/m", 1e6 * signals["strain"].sel(gauge=name)) for name in signals["gauge"].values]
+    return channels
 
 
 def _per_revolution(signals: xr.Dataset) -> int:

@@ -30,52 +30,52 @@ class Signals:
     sweep: Sweep
 
     @property
-    def _given(self) -> SignalSection:
+    def _section(self) -> SignalSection:
         return section(self.sweep.settings)
 
     @property
     def runs(self) -> list[tuple[str, str]]:
         """Pairs of blade and scene with signals; none without speeds."""
-        if self._given.speeds() is None:
+        if self._section.speeds() is None:
             return []
         pairs = self.sweep.runs_with("signal")
-        return [(blade, scene) for blade, scene in pairs if self._given.blades == "all" or blade in self._given.blades]
+        return [(blade, scene) for blade, scene in pairs if self._section.blades == "all" or blade in self._section.blades]
 
     def gauges(self, wildcards: Any) -> dict[str, dict[str, Any]]:
         """Gauges of a blade as plain values; a blade given by matrices has none."""
-        given = self._given.gauges if wildcards.blade in self.imported.with_mesh else {}
-        return {name: to_plain(in_si(Gauge, entry)) for name, entry in given.items()}
+        gauges = self._section.gauges if wildcards.blade in self.imported.with_mesh else {}
+        return {name: to_plain(in_si(Gauge, entry)) for name, entry in gauges.items()}
 
     def inputs(self, wildcards: Any) -> dict[str, str]:
         """What signals are made from, with what gauges and the speeds of interactions need beside it."""
         blade, scene, tip_line = wildcards.blade, wildcards.scene, self.tip_line(wildcards)
-        found = {
+        files = {
             "prepared": paths.fill(paths.INTEGRATION_STAMP, blade=blade, scene=scene),
             "model": self.sweep.contact_model(wildcards),
             "rom": paths.fill(paths.REDUCED_MODEL, blade=blade, tip_line=tip_line),
         }
         if self.gauges(wildcards):
-            found |= {"mesh": paths.fill(paths.MESH, blade=blade)}
-            found |= {"whole": paths.fill(paths.WHOLE_BLADE_MODEL, blade=blade, tip_line=tip_line)}
-        if self._given.speeds() == "interactions":
-            found |= {"campbell": paths.fill(paths.CAMPBELL, blade=blade)}
-            found |= {"response": paths.fill(paths.RESPONSE, blade=blade, scene=scene)}
-        return found
+            files |= {"mesh": paths.fill(paths.MESH, blade=blade)}
+            files |= {"whole": paths.fill(paths.WHOLE_BLADE_MODEL, blade=blade, tip_line=tip_line)}
+        if self._section.speeds() == "interactions":
+            files |= {"campbell": paths.fill(paths.CAMPBELL, blade=blade)}
+            files |= {"response": paths.fill(paths.RESPONSE, blade=blade, scene=scene)}
+        return files
 
     @property
     def speeds(self) -> list[float]:
         """Speeds (rad/s) that are named, ascending; none for those of interactions."""
-        given = self._given.speeds()
-        return given if isinstance(given, list) else []
+        speeds = self._section.speeds()
+        return speeds if isinstance(speeds, list) else []
 
     @property
     def probes(self) -> list[float]:
         """Angles of the probes (degrees), ascending."""
-        return sorted(map(float, self._given.probes_deg))
+        return sorted(map(float, self._section.probes_deg))
 
     def revolutions(self, wildcards: Any) -> int:
         """How many revolutions at the end are kept."""
-        return self._given.revolutions or self.sweep.settings.scenes[wildcards.scene].revolutions
+        return self._section.revolutions or self.sweep.settings.scenes[wildcards.scene].revolutions
 
     def tip_line(self, wildcards: Any) -> str:
         """The line of the contact nodes of a scene."""

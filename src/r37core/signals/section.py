@@ -68,5 +68,5 @@ class SignalSection(Section):
 
     def speeds(self) -> list[float] | Literal["interactions"] | None:
         """Speeds (rad/s), ascending, or the word for those of interactions; None where no signals are asked for."""
-        found = si_fields(self).get("speeds")
-        return sorted(found) if found else "interactions" if self.speeds_rad_s else None
+        speeds = si_fields(self).get("speeds")
+        return sorted(speeds) if speeds else "interactions" if self.speeds_rad_s else None

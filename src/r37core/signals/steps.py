@@ -26,7 +26,7 @@ def record(input: Any, output: Any, params: Any) -> None:
     """
     named: dict[float, str] = {}
     rows: Any = []
-    places: dict[str, Any] = {}
+    positions: dict[str, Any] = {}
     if hasattr(input, "response"):
         wanted = from_plain(InteractionChoice, params.interactions)
         named = titles(find_interactions(read_dataset(input.response), read_dataset(input.campbell), wanted))
@@ -35,14 +35,14 @@ def record(input: Any, output: Any, params: Any) -> None:
         whole = read_reduced_model(input.whole).whole_blade
         assert whole is not None
         rows = gauge_rows(mesh, whole.basis, gauges)
-        places = dict(zip(params.gauges, gauge_points(mesh, gauges), strict=True))
+        positions = dict(zip(params.gauges, gauge_points(mesh, gauges), strict=True))
     model, scene = read_contact_model(input.model), from_plain(Scene, params.scene)
     choice = from_plain(IntegrationChoice, params.choice)
     records = {
         speed: record_signals(model, speed, scene, choice, rows, params.revolutions) for speed in params.speeds or sorted(named)
     }
     tip = read_reduced_model(input.rom).tip_lines[params.tip_line]
-    write_dataset(signals_dataset(records, named, places, params.probes, tip), output.signals, params.provenance)
+    write_dataset(signals_dataset(records, named, positions, params.probes, tip), output.signals, params.provenance)
 
 
 def gather(input: Any, output: Any, params: Any) -> None:

@@ -27,15 +27,15 @@ def find_axes(mesh: RawMesh, like: Orientation) -> Orientation | None:
     """
     size = np.ptp(mesh.points, axis=0).max()
     surface = outer_faces(mesh.blocks)
-    found = [(_SIZE, like)]
+    candidates = [(_SIZE, like)]
     for axis in np.eye(3):
         radial = _nearest_direction((mesh.points.mean(axis=0) - like.axis_point) * (1.0 - axis))
         tried = replace(like, length_unit=_SIZE / size, rotor_axis=tuple(axis), radial=radial, rotation="negative")
         placed = tried.points_to_blade(mesh.points)
         hub, casing = (find_end(what, placed, surface) for what in ("root", "tip"))
         if hub is not None and casing is not None and hub.straight and casing.straight:
-            found.append((hub.rule.tolerance + casing.rule.tolerance, tried))
-    _, best = min(found, key=lambda one: one[0])
+            candidates.append((hub.rule.tolerance + casing.rule.tolerance, tried))
+    _, best = min(candidates, key=lambda candidate: candidate[0])
     if best is like:
         return None
     fitting = [

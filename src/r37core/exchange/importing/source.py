@@ -111,16 +111,16 @@ def matrix_files(name: str, root: Path) -> dict[str, Path]:
     if not os.path.isdir(folder):
         raise ImportRefused(f"there is no folder {name}", "matrices")
     files = [file for file in sorted(folder.glob("*")) if file.suffix in (".mtx", ".npz") or file.name == "boundary.csv"]
-    found = {file.stem: file for file in files}
-    speeds = [stem for stem in found if stem.startswith("K_")]
-    missing = [stem for stem in ("M", "boundary") if stem not in found]
-    if missing or len(speeds) != 3 or len(found) != len(files):
+    by_stem = {file.stem: file for file in files}
+    speeds = [stem for stem in by_stem if stem.startswith("K_")]
+    missing = [stem for stem in ("M", "boundary") if stem not in by_stem]
+    if missing or len(speeds) != 3 or len(by_stem) != len(files):
         raise ImportRefused(
             f"{name}: found {', '.join(file.name for file in files) or 'no files'}; needed: M and K_<speed> at three speeds in "
             "rad/s, one of them 0 (each .mtx or .npz), and boundary.csv",
             "matrices",
         )
-    return found
+    return by_stem
 
 
 def digest_of(files: Iterable[Path]) -> str:

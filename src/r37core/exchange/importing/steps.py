@@ -11,7 +11,7 @@ from r37core.plain import from_plain
 from r37core.rom.reduction_choice import ReductionChoice, boundary_placed
 from r37core.rom.rom_file import write_reduced_model
 
-from .import_mesh import import_mesh, told_size
+from .import_mesh import import_mesh, size_in_words
 from .matrices_in import import_matrices
 from .source import MatricesSource, MeshSource
 
@@ -28,7 +28,7 @@ def imported_mesh(input: Any, output: Any, params: Any) -> str:
     print(f"scaled Jacobian: minimum {quality.min():.3f}")
     write_mesh(mesh, output.msh)
     write_vtu(mesh, output.vtu, quality)
-    return f"{params.places['mesh']}: {told_size(mesh)}"
+    return f"{params.places['mesh']}: {size_in_words(mesh)}"
 
 
 def imported_matrices(input: Any, output: Any, params: Any) -> None:

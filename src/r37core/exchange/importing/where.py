@@ -97,9 +97,9 @@ def _with_mid_nodes(what: str, name: str, mesh: RawMesh, members: np.ndarray) ->
     middle = np.zeros(len(members), dtype=bool)
     between = np.zeros(len(members), dtype=bool)
     for kind, nodes in mesh.blocks.items():
-        for edge, place in ELEMENTS[kind].edges.items():
-            middle[nodes[:, place]] = True
-            between[nodes[members[nodes[:, list(edge)]].all(axis=1), place]] = True
+        for edge, middle_node in ELEMENTS[kind].edges.items():
+            middle[nodes[:, middle_node]] = True
+            between[nodes[members[nodes[:, list(edge)]].all(axis=1), middle_node]] = True
     if (members & middle).any() or not between.any():
         return members
     warnings.warn(

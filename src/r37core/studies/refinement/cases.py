@@ -22,7 +22,7 @@ _COMPARED = ("spectrum", "stress", "static_stress", "wear")
 
 def adaptive(settings: Settings) -> dict[str, tuple[str, str]]:
     """Blade and scene of each adaptive sweep, by the name of its case."""
-    return {"__".join(place): place for place, plan in settings.speed_plans.items() if plan.refined}
+    return {"__".join(pair): pair for pair, plan in settings.speed_plans.items() if plan.refined}
 
 
 def cases(settings: Settings) -> dict[str, Case]:
@@ -32,16 +32,16 @@ def cases(settings: Settings) -> dict[str, Case]:
     nominal = {
         name: case_of_sweep(
             settings,
-            *place,
-            speeds=tuple(settings.speed_plans[place].every_speed()),
-            results=tuple(kind for kind in settings.results_of(*place) if kind in _COMPARED),
+            *pair,
+            speeds=tuple(settings.speed_plans[pair].every_speed()),
+            results=tuple(kind for kind in settings.results_of(*pair) if kind in _COMPARED),
         )
-        for name, place in adaptive(settings).items()
+        for name, pair in adaptive(settings).items()
     }
     members = adaptive_members(settings)
     return nominal | {
-        case: replace(nominal[name], scene=settings.members.all[place][member].scene, what=f"member {member}")
-        for name, place in adaptive(settings).items()
+        case: replace(nominal[name], scene=settings.members.all[pair][member].scene, what=f"member {member}")
+        for name, pair in adaptive(settings).items()
         for member, case in members.get(name, {}).items()
     }
 
@@ -54,9 +54,9 @@ def adaptive_members(settings: Settings) -> dict[str, dict[str, str]]:
             ("tolerances", "of_blades"), ", ".join(of_blades), "of_scenes alone: the study runs the nominal models"
         )
     return {
-        name: {member: f"{name}/{member}" for member in settings.members.all[place] if is_of_sample(member)}
-        for name, place in adaptive(settings).items()
-        if place in settings.members.pairs
+        name: {member: f"{name}/{member}" for member in settings.members.all[pair] if is_of_sample(member)}
+        for name, pair in adaptive(settings).items()
+        if pair in settings.members.pairs
     }
 
 
@@ -72,14 +72,14 @@ def outputs(settings: Settings) -> dict[str, str]:
 
 def values(settings: Settings) -> dict[str, Any]:
     """Plans of the speeds, steps of the plain grids, and what a sweep refines by."""
-    sweep, places = Sweep(settings), adaptive(settings)
+    sweep, pairs = Sweep(settings), adaptive(settings)
     return {
-        "places": places,
+        "places": pairs,
         "members": adaptive_members(settings),
-        "plans": {name: settings.speed_plans[place] for name, place in places.items()},
+        "plans": {name: settings.speed_plans[pair] for name, pair in pairs.items()},
         "steps": plain_steps(settings),
         "choices": {
-            name: sweep.refinement_choice(SimpleNamespace(blade=blade, scene=scene)) for name, (blade, scene) in places.items()
+            name: sweep.refinement_choice(SimpleNamespace(blade=blade, scene=scene)) for name, (blade, scene) in pairs.items()
         },
         "interactions": plain(settings.config.interactions),
     }
@@ -87,5 +87,5 @@ def values(settings: Settings) -> dict[str, Any]:
 
 def plain_steps(settings: Settings) -> list[float]:
     """Steps (rad/s) of the plain grids that are part of the whole ones."""
-    finest = [grid.interval for place in adaptive(settings).values() for grid in settings.speed_plans[place].refined]
-    return [step for step in _STEPS if all(abs(step / one - round(step / one)) < 1e-9 and step >= one for one in finest)]
+    finest = [grid.interval for pair in adaptive(settings).values() for grid in settings.speed_plans[pair].refined]
+    return [step for step in _STEPS if all(abs(step / span - round(step / span)) < 1e-9 and step >= span for span in finest)]
