@@ -11,7 +11,7 @@ from defaults import Where
 from r37core.config import ConfigError
 from r37core.config.places import places_of
 from r37core.exchange.orientation import OURS
-from r37core.exports.plan import Exports
+from r37core.exports.plan import Exports, targets
 from r37core.plain import to_plain
 from r37core.plans.import_plan import Imported
 from r37core.plans.paths import filled
@@ -220,7 +220,7 @@ def test_plan_of_exports(three):
     imported, sweep = three
     config = sweep.settings.config.model_copy(update={"speeds": [900.0, 950.5]})
     exports = Exports(imported, replace(sweep, settings=replace(sweep.settings, config=config)))
-    files = {file.removeprefix("<results>/exports/") for file in filled(exports.targets)}
+    files = {file.removeprefix("<results>/exports/") for file in filled(targets(exports.sweep))}
     assert {"Ref/surface.step", "Ref/modes", "Fan/mesh.med", "Fan/stress_direct", "Given/matrices"} <= files
     assert not files & {"Fan/surface.step", "Given/mesh.med", "Given/modes", "Given/stress_direct"}
     fan = SimpleNamespace(blade="Fan", scene="direct", tip_line="camber")
