@@ -82,7 +82,7 @@ def values(settings: Settings) -> dict[str, Any]:
         "choices": {
             name: sweep.refinement_choice(SimpleNamespace(blade=blade, scene=scene)) for name, (blade, scene) in pairs.items()
         },
-        "interactions": plain(settings.interactions),
+        "interactions": plain(settings.config.interactions),
     }
 
 
