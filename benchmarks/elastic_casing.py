@@ -18,7 +18,7 @@ os.environ["OPENBLAS_NUM_THREADS"] = "1"
 import numpy as np
 
 from r37core.config import command_line_document
-from r37core.config.si_fields import in_si
+from r37core.config.declaring import in_si
 from r37core.contact.elastic_casing import ElasticCasing
 from r37core.contact.ring import Ring
 from r37core.figures.style import PAGE, plt

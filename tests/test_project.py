@@ -33,6 +33,7 @@ LAYERS = [
     "text_file",
     "yaml_file",
     "units",
+    "declared",
     "rounding",
     "speeds",
     "published",

@@ -10,7 +10,7 @@ from defaults import Casing, IntegrationChoice, Scene
 from integration_cases import oscillator, with_static_modes
 from scipy.optimize import brentq
 
-from r37core.config.si_fields import in_si
+from r37core.config.declaring import in_si
 from r37core.dataset_file import read_dataset, write_dataset
 from r37core.exchange.importing.frame import blade_parameters
 from r37core.figures.style import save

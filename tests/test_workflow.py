@@ -16,7 +16,7 @@ from stubbed_runs import edit, planned_outputs
 from workflow_runs import copy_odd_project, copy_project, planned, run_in_odd_project, snakemake
 
 from r37core.config import ConfigError
-from r37core.figures.captions import caption
+from r37core.product.captions import caption
 from r37core.product.reading import read_settings
 from r37core.yaml_file import load_yaml
 

@@ -10,6 +10,7 @@ from r37core.console.snakemake_run import begin
 from r37core.explorer import parts_hash
 from r37core.plans import paths
 from r37core.plans.code import CodeHashes
+from r37core.plans.extent import extent_of
 from r37core.plans.import_plan import Imported
 from r37core.plans.provenance import Provenance
 from r37core.plans.resources import Needs
@@ -36,7 +37,7 @@ made = Provenance(settings, samples)
 structure = Structure(settings, samples)
 imported = Imported(settings)
 sweep = Sweep(settings, lambda **wildcards: checkpoints.refine.get(**wildcards).output[0], samples)
-needs = Needs(settings, sweep.most_runs)
+needs = Needs(settings, extent_of(settings).most)
 
 
 def pictures(name, category, subcategory, figure):

@@ -13,45 +13,13 @@ from scipy.signal import find_peaks
 from r37core.speeds import RefinedRange
 from r37core.time_integration.status import RunStatus
 
+from .refinement_choice import RefinementChoice, Window
+
 CURVES = ("rms_normal", "rms_tangential", "stress")
 """What is looked at over speed: rms (m) of the leading edge in two directions, largest stress as a share of yield."""
 
 LEAST_OF_A_ROUND = 16
 """Speeds that a round may ask for where so many are left: each round makes Snakemake plan the whole run again."""
-
-
-@dataclass(frozen=True)
-class Window:
-    """Where an interaction is expected: from `first` to `last`, shares of the speed above the crossings of `mode`.
-
-    Its intervals are halved until none is longer than `step` (rad/s), before anything is known.
-    """
-
-    mode: str
-    highest_engine_order: int
-    first: float
-    last: float
-    step: float
-
-
-@dataclass(frozen=True)
-class RefinementChoice:
-    """What makes an interval of speeds worth halving; every number is a share.
-
-    `windows` come first. Then an interval is halved when rms or stress change by more than `change` of the larger, when
-    stress crosses yield, when the status changes, and when a peak of at least `prominence` of the largest reaches within
-    `peak` of its height in it; changes below `prominence` of the largest do not count. A change by more than `steep_change`
-    counts down to `steep_prominence`: an interaction narrower than the interval leaves no more than its foot. At most
-    `largest_share` of the grid is run, where the response is largest first.
-    """
-
-    windows: tuple[Window, ...]
-    change: float
-    peak: float
-    largest_share: float
-    prominence: float
-    steep_change: float
-    steep_prominence: float
 
 
 @dataclass(frozen=True)

@@ -1,6 +1,7 @@
 """Configuration: YAML files checked by models, and the settings made of them."""
 
 from .blades import BladeSettings
+from .declaring import in_si
 from .document import ConfigError, Document, command_line_document, read_document
 from .scenes import SceneEntry
 from .settings import SceneSettings, Settings, checked_scene, plain
@@ -15,6 +16,7 @@ __all__ = [
     "Settings",
     "checked_scene",
     "command_line_document",
+    "in_si",
     "plain",
     "read_document",
     "si_fields",

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Annotated, Any, Literal, TypeVar
@@ -21,11 +21,12 @@ from r37core.rom.reduction_choice import StressSubmesh
 from r37core.speeds import spaced
 from r37core.text_file import TextFileError
 
-from .blade_sections import CONTACT_IN_WORDS, Contact, MaterialSection, stress_region
-from .document import ConfigError, Document
+from .blade_sections import CONTACT_IN_WORDS, Contact, MaterialSection
+from .declaring import in_si
+from .document import ConfigError, Document, Refusals
 from .imported_entry import MatricesEntry, MeshEntry
 from .section import FileName, LeftOut, Name, Section, Unique, check_names, refused
-from .si_fields import in_si, si_fields
+from .si_fields import si_fields
 
 Table = TypeVar("Table")
 
@@ -167,6 +168,18 @@ class BladeSettings:
         return self if self.material is None else replace(self, material=replace(self.material, yield_stress=math.inf))
 
 
+def all_blades(names: Iterable[str], entries: Mapping[str, Any], root: Path, document: Document) -> dict[str, BladeSettings]:
+    """The blades of these names. Raises the ConfigErrors of all of them, but not of one whose base is refused before it."""
+    refusals = Refusals()
+    found: dict[str, BladeSettings | None] = {}
+    for name in names:
+        base = getattr(entries[name], "base", None)
+        known = base not in found or found[base] is not None
+        found[name] = refusals.of(blade_settings, name, entries, root, document) if known else None
+    refusals.tell()
+    return {name: blade for name, blade in found.items() if blade is not None}
+
+
 def blade_settings(name: str, entries: Mapping[str, Any], root: Path, document: Document) -> BladeSettings:
     """The blade `name` of the checked `entries` of `document`, with its tables and files (relative to `root`) read.
 
@@ -192,7 +205,7 @@ def blade_settings(name: str, entries: Mapping[str, Any], root: Path, document: 
         except ValueError as error:
             raise document.error((name, "material"), str(error)) from None
         return BladeSettings(
-            _source(entry, first, root, document), material, entries[name].contact, stress_region(entry.stress_submesh)
+            _source(entry, first, root, document), material, entries[name].contact, in_si(StressSubmesh, entry.stress_submesh)
         )
     shift: dict[str, Any] = {}
     for link in chain:
@@ -202,7 +215,7 @@ def blade_settings(name: str, entries: Mapping[str, Any], root: Path, document: 
         shift = _scaled(link, entries[link], shift, document)
     table = entry.profiles
     sense_check = all(entries[link].sense_check for link in chain)
-    profiles = _table(table, name, (first, "profiles"), document, lambda: _profiles(root / table, sense_check))
+    profiles = _table(table, first, (first, "profiles"), document, lambda: _profiles(root / table, sense_check))
     return BladeSettings(BladeDefinition(name, tuple(profiles), **shift), material, entries[name].contact)
 
 

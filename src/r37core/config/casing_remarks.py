@@ -5,9 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from r37core.contact.elastic_casing import ElasticCasing, flexibility, flexibility_of, nodal_diameters_for
-from r37core.contact.ring import Ring
-
-from .casing_section import MOST_NODAL_DIAMETERS
+from r37core.contact.ring import MOST_NODAL_DIAMETERS, Ring
 
 ENOUGH = 0.95
 """Share of the give under a force from which on nothing is said, and for which nodal diameters are named."""

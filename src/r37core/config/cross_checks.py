@@ -1,12 +1,14 @@
 """What no model of one file can check: each function compares values of several keys or files.
 
-`CHECKS` are run one after the other; each raises ConfigError with the place of the value to blame.
+Each of `CHECKS` raises ConfigError with the place of the value to blame. All of them are run: one that needs what another has
+refused meets the same refusal in `Settings`, and that is told once.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable
+from typing import Any
 
 import numpy as np
 
@@ -19,40 +21,22 @@ from r37core.time_integration.integrators import EXACT_MODAL
 from r37core.units import RPM
 from r37core.yaml_file import KeyPath
 
-from .document import Document
+from .document import Document, Refusals
 from .settings import Settings
 
 LARGEST_NUMBER_OF_SIMULATIONS = 200_000
 """Jobs that Snakemake can still plan: about 25 kB of memory and 1 ms for each."""
 
 
-def known(settings: Settings, path: KeyPath, names: Iterable[str], entries: Iterable[str], file: Document) -> None:
-    """ConfigError for a name, at `path` of config.yaml, that is none of the `entries` of `file`."""
-    allowed = list(entries)
-    for name in names:
-        if name not in allowed:
-            raise settings.documents.config.refusal(path, f"'{name}'", f"{', '.join(allowed)} ({file.name})")
+def what_is_named_is_there(settings: Settings) -> None:
+    """Level, blades and scenes that are named are in their files, and `auto` has a level within the tolerance.
 
-
-def level_is_known(settings: Settings) -> None:
-    """The level that is named is in its file; `auto` finds one within the tolerance."""
-    known(settings, ("fidelity",), [settings.fidelity_name], settings.levels, settings.documents.levels)
-
-
-def blades_are_known(settings: Settings) -> None:
-    """Blades and families that are named are in their file, and the run's part has some."""
-    chosen, designs = settings.config.blades, settings.designs
-    if chosen != "all":
-        known(settings, ("blades",), chosen, [*designs.entries, *designs.families], settings.documents.blades)
-    if not settings.blade_names:
-        number = len(settings.chosen_blades)
-        found = f"{settings.config.run.part} of {number} blades"
-        raise settings.documents.config.refusal(("run", "part"), found, f"at most {number} parts")
-
-
-def scenes_are_known(settings: Settings) -> None:
-    """Scenes that are named are in their file."""
-    known(settings, ("scenes",), settings.scene_names, settings.scene_entries, settings.documents.scenes)
+    What asks for one of them is refused for the same reason, which is told once.
+    """
+    refusals = Refusals()
+    for name in ("fidelity_name", "blade_names", "scene_names"):
+        refusals.of(getattr, settings, name)
+    refusals.tell()
 
 
 def studies_name_what_is_there(settings: Settings) -> None:
@@ -69,7 +53,7 @@ def studies_name_what_is_there(settings: Settings) -> None:
         study = getattr(studies, name)
         for key, (entries, file) in files.items():
             if given_name := getattr(study, key, None):
-                known(settings, ("studies", name, key), [given_name], entries, file)
+                settings.documents.known(("studies", name, key), [given_name], entries, file)
         lined = getattr(study, "lined_scene", None)
         if lined and settings.scene_entries[lined].lining is None:
             raise documents.config.refusal(("studies", name, "lined_scene"), f"'{lined}'", "a scene with a lining")
@@ -79,15 +63,15 @@ def studies_name_what_is_there(settings: Settings) -> None:
             allowed = f"at most campbell.highest_engine_order ({highest})"
             raise documents.config.refusal(("studies", "tradeoff", "engine_order"), f"{given.engine_order}", allowed)
         levels = given.parameters.level.values
-        known(settings, ("studies", "tradeoff", "parameters", "level"), levels, settings.levels, documents.levels)
+        settings.documents.known(("studies", "tradeoff", "parameters", "level"), levels, settings.levels, documents.levels)
         if given.scenes != "all":
-            known(settings, ("studies", "tradeoff", "scenes"), given.scenes, settings.scene_entries, documents.scenes)
+            settings.documents.known(("studies", "tradeoff", "scenes"), given.scenes, settings.scene_entries, documents.scenes)
 
 
 def stress_instants_are_samples(settings: Settings) -> None:
     """Stress instants of the trade-off are among the samples of a revolution."""
     tradeoff = settings.studies.tradeoff
-    if tradeoff is None or tradeoff.parameters.stress_instants is None:
+    if tradeoff is None or tradeoff.parameters.stress_instants is None or tradeoff.base not in settings.levels:
         return
     samples = settings.levels[tradeoff.base].time_integration.samples_per_revolution
     path = ("studies", "tradeoff", "parameters", "stress_instants", "values")
@@ -97,12 +81,21 @@ def stress_instants_are_samples(settings: Settings) -> None:
             raise settings.documents.config.refusal((*path, number), f"{instants}", allowed)
 
 
+def names_are_there(settings: Settings, path: KeyPath, section: Any) -> None:
+    """Blades, families and scenes that a section at `path` of config.yaml names, if not `all`, are in their files."""
+    designs, documents = settings.designs, settings.documents
+    if section.blades != "all":
+        documents.known((*path, "blades"), section.blades, [*designs.entries, *designs.families], documents.blades)
+    if section.scenes != "all":
+        documents.known((*path, "scenes"), section.scenes, settings.scene_entries, documents.scenes)
+
+
 def speed_rules_name_what_is_there(settings: Settings) -> None:
     """Blades and scenes with speeds of their own are in their files."""
     for number, rule in enumerate(settings.config.speeds_for):
         path, documents = ("speeds_for", number), settings.documents
-        known(settings, (*path, "blades"), rule.blades or [], settings.designs.entries, documents.blades)
-        known(settings, (*path, "scenes"), rule.scenes or [], settings.scene_entries, documents.scenes)
+        settings.documents.known((*path, "blades"), rule.blades or [], settings.designs.entries, documents.blades)
+        settings.documents.known((*path, "scenes"), rule.scenes or [], settings.scene_entries, documents.scenes)
 
 
 def simulations_can_be_planned(settings: Settings) -> None:
@@ -165,9 +158,7 @@ def revolution_fits(settings: Settings, speed: float, path: KeyPath) -> None:
 def members_can_be_drawn(settings: Settings) -> None:
     """Tolerances name blades, scenes and numbers that are there, no member is impossible, and all can be planned."""
     given, documents, path = settings.config.tolerances, settings.documents, ("tolerances",)
-    blades, scenes = ([] if names == "all" else names for names in (given.blades, given.scenes))
-    known(settings, (*path, "blades"), blades, [*settings.designs.entries, *settings.designs.families], documents.blades)
-    known(settings, (*path, "scenes"), scenes, settings.scene_entries, documents.scenes)
+    names_are_there(settings, path, given)
     # the configuration that a run keeps has the empty section written out
     if given != type(given)() and not settings.members.numbers:
         raise documents.config.refusal(path, "no numbers", "some under of_scenes or of_blades")
@@ -252,9 +243,7 @@ def clearances_reach_all_speeds(settings: Settings) -> None:
 
 
 CHECKS: tuple[Callable[[Settings], None], ...] = (
-    level_is_known,
-    blades_are_known,
-    scenes_are_known,
+    what_is_named_is_there,
     studies_name_what_is_there,
     stress_instants_are_samples,
     speed_rules_name_what_is_there,
@@ -268,4 +257,4 @@ CHECKS: tuple[Callable[[Settings], None], ...] = (
     coriolis_can_be_carried,
     clearances_reach_all_speeds,
 )
-"""In this order: those that name something come first, because the others look it up."""
+"""In the order in which refusals are told."""

@@ -1,27 +1,31 @@
-"""From config.yaml and the files it names to settings that are checked, or to one clear refusal."""
+"""From config.yaml and the files it names to settings that are checked, or to a refusal of all that is wrong."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
+
+from pydantic import RootModel
 
 from .blades import Blades
 from .config_file import Config
-from .document import ConfigError, Document, command_line_document, read_document
-from .families import with_designs
+from .document import ConfigError, Document, Refusals, command_line_document, read_document
+from .families import Designs, with_designs
 from .fidelity import Levels
 from .scenes import Scenes
 from .settings import Documents, Settings
 from .speed_section import UNITS
+
+Entry = TypeVar("Entry")
 
 CONFIG_FILE = "config/config.yaml"
 
 
 @dataclass(frozen=True)
 class Reader:
-    """Reads configurations: config.yaml is checked by `model`, and what concerns several files by `checks`, in their order."""
+    """Reads configurations: config.yaml is checked by `model`, and what concerns several files by `checks`."""
 
     model: type[Config]
     checks: tuple[Callable[[Settings], None], ...]
@@ -66,23 +70,43 @@ class Reader:
     ) -> Settings:
         """Check a configuration (the content of config.yaml) and the files it names, relative to the folder `root`.
 
-        `blades_above`, `scenes_above`: changes that lie on top of these two files. Raises ConfigError for anything wrong,
-        before any work is done.
+        `blades_above`, `scenes_above`: changes that lie on top of these two files. Raises ConfigError before any work is done,
+        with all that is wrong in the files or, where these are right by themselves, with all that is wrong with them together.
         """
         document = config if isinstance(config, Document) else Document(CONFIG_FILE, dict(config))
-        checked = document.check(self.model)
-        files = (checked.blades_file, checked.fidelity_file, checked.scenes_file)
-        blades, levels, scenes = (read_document(root, name) for name in files)
-        blades, scenes = (
-            below.overlaid(above) if above else below for below, above in ((blades, blades_above), (scenes, scenes_above))
-        )
-        level_models, scene_models = levels.check(Levels).root, scenes.check(Scenes).root
-        designs = with_designs(blades.check(Blades).root, root, blades)
-        documents = Documents(document, designs.document, levels, scenes)
-        settings = Settings(root, documents, checked, designs, level_models, scene_models)
+        refusals = Refusals()
+        checked = refusals.of(document.check, self.model)
+        files = [self._file(document, key) for key in ("blades_file", "fidelity_file", "scenes_file")]
+        designs = refusals.of(_designs, root, files[0], blades_above)
+        levels = refusals.of(_entries, root, files[1], Levels)
+        scenes = refusals.of(_entries, root, files[2], Scenes, scenes_above)
+        refusals.tell()
+        assert checked and designs and levels and scenes
+        documents = Documents(document, designs.document, levels[0], scenes[0])
+        settings = Settings(root, documents, checked, designs, levels[1], scenes[1])
         for check in self.checks:
-            check(settings)
+            refusals.of(check, settings)
+        refusals.tell()
         return settings
+
+    def _file(self, document: Document, key: str) -> str:
+        """The file that config.yaml names, also where something else there is refused."""
+        named = document.content.get(key) if isinstance(document.content, Mapping) else None
+        return named if isinstance(named, str) and named.isprintable() else self.model.model_fields[key].default
+
+
+def _entries(
+    root: Path, name: str, model: type[RootModel[dict[str, Entry]]], above: Document | None = None
+) -> tuple[Document, dict[str, Entry]]:
+    """A file with changes on top, and its checked entries. Raises ConfigError."""
+    document = read_document(root, name)
+    document = document.overlaid(above) if above else document
+    return document, document.check(model).root
+
+
+def _designs(root: Path, name: str, above: Document | None) -> Designs:
+    document, entries = _entries(root, name, Blades, above)
+    return with_designs(entries, root, document)
 
 
 def _configuration(folder: Path) -> Document:

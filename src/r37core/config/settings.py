@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
@@ -23,7 +23,7 @@ from r37core.tolerances.fewest import remarks_on_rankings
 from r37core.yaml_file import KeyPath
 
 from . import casing_remarks
-from .blades import BladeSettings, blade_settings
+from .blades import BladeSettings, all_blades
 from .config_file import CampbellSection, Config, Interactions, RefinementSection, StructureSection
 from .document import Document
 from .families import Designs
@@ -56,6 +56,13 @@ class Documents:
     blades: Document
     levels: Document
     scenes: Document
+
+    def known(self, path: KeyPath, names: Iterable[str], entries: Iterable[str], file: Document) -> None:
+        """ConfigError for a name, at `path` of config.yaml, that is none of the `entries` of `file`."""
+        allowed = list(entries)
+        for name in names:
+            if name not in allowed:
+                raise self.config.refusal(path, f"'{name}'", f"{', '.join(allowed)} ({file.name})")
 
 
 @dataclass(frozen=True)
@@ -108,10 +115,15 @@ class Settings:
 
     @cached_property
     def chosen_blades(self) -> list[str]:
-        """Names of the blades that config.yaml chooses; that of a family is all of its designs."""
-        if self.config.blades == "all":
-            return list(self.designs.entries)
-        return self.designs_of(self.config.blades)
+        """Names of the blades that config.yaml chooses; that of a family is all of its designs.
+
+        Raises ConfigError for a name that is not in the file.
+        """
+        designs, chosen = self.designs, self.config.blades
+        if chosen == "all":
+            return list(designs.entries)
+        self.documents.known(("blades",), chosen, [*designs.entries, *designs.families], self.documents.blades)
+        return self.designs_of(chosen)
 
     def designs_of(self, names: Sequence[str]) -> list[str]:
         """Each of the blades, and of the families' designs, once."""
@@ -121,14 +133,17 @@ class Settings:
 
     @cached_property
     def blade_names(self) -> list[str]:
-        """Those of them that are in this run's part."""
-        return self.config.run.of_part(self.chosen_blades)
+        """Those of them that are in this run's part. Raises ConfigError where that has none."""
+        names, number = self.config.run.of_part(self.chosen_blades), len(self.chosen_blades)
+        if not names:
+            found = f"{self.config.run.part} of {number} blades"
+            raise self.documents.config.refusal(("run", "part"), found, f"at most {number} parts")
+        return names
 
     @cached_property
     def blades(self) -> dict[str, BladeSettings]:
         """Blades to run. Raises ConfigError for tables or files that cannot be read, and shapes that are impossible."""
-        document = self.documents.blades
-        return {name: blade_settings(name, self.designs.entries, self.root, document) for name in self.blade_names}
+        return all_blades(self.blade_names, self.designs.entries, self.root, self.documents.blades)
 
     @cached_property
     def places(self) -> dict[str, dict[str, str]]:
@@ -144,8 +159,11 @@ class Settings:
 
     @cached_property
     def scene_names(self) -> list[str]:
-        """Names of the scenes to run."""
-        return list(self.scene_entries) if self.config.scenes == "all" else list(self.config.scenes)
+        """Names of the scenes to run. Raises ConfigError for a name that is not in the file."""
+        if self.config.scenes == "all":
+            return list(self.scene_entries)
+        self.documents.known(("scenes",), self.config.scenes, self.scene_entries, self.documents.scenes)
+        return list(self.config.scenes)
 
     @cached_property
     def scenes(self) -> dict[str, SceneSettings]:
@@ -163,8 +181,12 @@ class Settings:
 
     @cached_property
     def fidelity_name(self) -> str:
-        """The level that is named, or for `auto` the cheapest one whose measured error is within the tolerance."""
+        """The level that is named, or for `auto` the cheapest one whose measured error is within the tolerance.
+
+        Raises ConfigError for a name that is not in the file, and where no level is within the tolerance.
+        """
         if self.config.fidelity != "auto":
+            self.documents.known(("fidelity",), [self.config.fidelity], self.levels, self.documents.levels)
             return self.config.fidelity
         measured = {name: level.measured for name, level in self.levels.items() if level.measured}
         errors = {name: error for name, one in measured.items() if (error := self._error(one)) is not None}
@@ -260,7 +282,7 @@ class Settings:
                 "they are planned round by round, so a dry run shows none of those to come"
             )
         if self.members.pairs:
-            members, drawn = self.most_of_members, self.config.tolerances.members
+            members, drawn = sum(self.most_of_members(*pair) for pair in self.members.all), self.config.tolerances.members
             said.append(f"tolerances: {drawn} members, {members} simulations of theirs at most, beside those of the sweep")
             said += remarks_on_rankings(drawn, len(self.members.numbers), self.config.tolerances.sensitivity)
         return said
@@ -331,11 +353,10 @@ class Settings:
         """Blades and scenes with other values of what is never known exactly."""
         return Members(self)
 
-    @property
-    def most_of_members(self) -> int:
-        """Simulations of all members, at most where speeds are adaptive."""
-        share, plans = self.config.tolerances.largest_share, self.speed_plans
-        return sum(len(members) * plans[pair].at_most(share) for pair, members in self.members.all.items())
+    def most_of_members(self, blade: str, scene: str) -> int:
+        """Simulations of all members of a blade and scene, at most where speeds are adaptive."""
+        pair = blade, scene
+        return len(self.members.all.get(pair, ())) * self.speed_plans[pair].at_most(self.config.tolerances.largest_share)
 
     def integration_choice(self, blade: str, scene: str, speed: float) -> IntegrationChoice:
         """Numbers of the time integration at one speed of a blade and scene, with only what its results need."""

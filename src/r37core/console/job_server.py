@@ -31,7 +31,7 @@ from typing import NamedTuple, NoReturn
 ADDRESS = "R37_JOB_SERVER"
 """Environment variable with the socket's path, for the jobs; relative, because such a path may have a hundred letters."""
 
-_PACKAGE = __name__.partition(".")[0]
+_PACKAGE = (__package__ or "").partition(".")[0]
 
 _KEPT: list[subprocess.Popen] = []
 """A server whose handle is gone has no standard input any more."""

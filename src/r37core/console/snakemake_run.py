@@ -19,8 +19,8 @@ from pathlib import Path
 from typing import Any
 
 from r37core.config import ConfigError, Settings
+from r37core.plans.extent import extent_of
 from r37core.plans.run import check_part, replaced_level, source_folder
-from r37core.plans.sweep_plan import Sweep
 from r37core.product.reading import settings_of_run
 from r37core.product.remarks import check_asked, remarks
 
@@ -96,7 +96,7 @@ def begin(workflow: Any, logger: logging.Logger, refusal: Refusal, root: Path, v
     for line in [*lifted, *remarks(settings), *replaced_level(settings)]:
         logger.info(line)
     if not (os.environ.get("R37_FULL_LOG") or output.dryrun or output.verbose):
-        quieten(logger.handlers, Progress(Sweep(settings).most_runs + settings.most_of_members))
+        quieten(logger.handlers, Progress(extent_of(settings).at_most))
     return Console(workflow, refusal, settings, root / "workflow/scripts", source, began)
 
 

@@ -12,21 +12,27 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Annotated
 
 import numpy as np
+
+from r37core.declared import Key
+
+MOST_NODAL_DIAMETERS = 100
+"""Of a ring's modes in a simulation."""
 
 
 @dataclass(frozen=True)
 class RingMode:
     """One mode of the casing, in the frame that does not turn.
 
-    Angular `frequency` (rad/s); `modal_mass` (kg) of q_c and of q_s; `damping_ratio`; `radial` and `tangential`: its shape.
+    Angular `frequency` (rad/s); `modal_mass` of q_c and of q_s; `radial` and `tangential`: its shape.
     """
 
-    nodal_diameter: int
-    frequency: float
-    modal_mass: float
-    damping_ratio: float
+    nodal_diameter: Annotated[int, Key("waves round the circumference", ge=0, le=200)]
+    frequency: Annotated[float, Key("natural frequency, of a casing that does not turn", "_hz", ge=1e-3, le=1e7)]
+    modal_mass: Annotated[float, Key("for a radial displacement of 1 at the antinode", "_kg", ge=1e-9, le=1e9)]
+    damping_ratio: Annotated[float, Key("of this mode", ge=0, lt=1)] = 0.005
     radial: float = 1.0
     tangential: float = 0.0
 
@@ -35,20 +41,34 @@ class RingMode:
 class Ring:
     """A ring of one material on an elastic foundation.
 
-    `radius` (m) of its middle line, radial `thickness` and axial `width` (m), `elastic_modulus` (Pa), `density` (kg/m3),
-    `damping_ratio` of every mode; `radial_foundation` and `tangential_foundation` (N/m2): stiffness per length of its
-    circumference; `highest_nodal_diameter` that is kept.
+    `radial_foundation` and `tangential_foundation`: stiffness per length of its circumference.
     """
 
-    radius: float
-    thickness: float
-    width: float
-    elastic_modulus: float
-    density: float
-    damping_ratio: float
-    radial_foundation: float
-    tangential_foundation: float
-    highest_nodal_diameter: int
+    radius: Annotated[
+        float,
+        Key("of the ring's middle line; at least the tip's, at most a quarter more", "_m", ge=1e-3, le=100),
+    ]
+    thickness: Annotated[float, Key("radial; at most a fifth of the radius", "_m", ge=1e-6, le=10)]
+    width: Annotated[float, Key("axial", "_m", ge=1e-6, le=100)]
+    elastic_modulus: Annotated[float, Key("of the ring's material", "_pa", ge=1e3, le=1e15)]
+    density: Annotated[float, Key("of the ring's material", "_kg_m3", ge=1e-3, le=1e6)]
+    damping_ratio: Annotated[float, Key("of every mode of the ring", ge=0, lt=1)] = 0.005
+    radial_foundation: Annotated[
+        float, Key("radial stiffness per length of circumference; 0: a free ring", "_n_m2", ge=0, le=1e15)
+    ] = 0.0
+    tangential_foundation: Annotated[
+        float,
+        Key("tangential stiffness per length of circumference; without it no ring turns", "_n_m2", ge=0, le=1e15),
+    ] = 0.0
+    highest_nodal_diameter: Annotated[
+        int,
+        Key(
+            "modes of more nodal diameters are left out; `r37 check` says what that leaves out: of the give under a force, and "
+            "of waves that the rotor overtakes",
+            ge=2,
+            le=MOST_NODAL_DIAMETERS,
+        ),
+    ] = 20
 
     @property
     def mass(self) -> float:

@@ -10,7 +10,8 @@ from itertools import chain, count, takewhile
 from pathlib import Path
 from typing import Any
 
-from r37core.config import Settings, si_fields
+from r37core.adaptive.refinement_choice import RefinementChoice, Window
+from r37core.config import Settings, in_si
 from r37core.contact.benchmark import is_lined_benchmark
 from r37core.io import as_list, read_json, readable
 from r37core.plain import to_plain
@@ -113,10 +114,9 @@ class Sweep:
     def refinement_choice(self, wildcards: Any) -> dict[str, Any]:
         """What makes an interval of speeds of a scene worth halving, as fields of RefinementChoice."""
         given = self.settings.refinement(wildcards.scene)
-        windows = [si_fields(window) for window in given.windows]
-        rest = si_fields((key, value) for key, value in given if key not in {"windows", "direct"})
-        rest["largest_share"] = self.samples.sample(wildcards).largest_share
-        return {**rest, "windows": windows, "prominence": self.settings.interactions.prominence}
+        windows = tuple(in_si(Window, window) for window in given.windows)
+        share, prominence = self.samples.sample(wildcards).largest_share, self.settings.interactions.prominence
+        return to_plain(in_si(RefinementChoice, given, windows=windows, largest_share=share, prominence=prominence))
 
     def task(self, wildcards: Any) -> str:
         """What one simulation does, as JSON text."""
@@ -159,11 +159,6 @@ class Sweep:
         """Of a blade's simulations, above 0 and up to 1: results should be complete one blade after another."""
         blades = list(self.settings.blades)
         return 1 - blades.index(wildcards.blade) / len(blades)
-
-    @property
-    def most_runs(self) -> int:
-        """Simulations of the whole sweep, at most where speeds are adaptive."""
-        return sum(self.settings.most_runs(*place) for place in self.settings.speed_plans)
 
     @property
     def kept(self) -> dict[str, int]:

@@ -19,6 +19,7 @@ from .contact_ranges import ranges_without_peak, with_ranges_above_yield
 from .datasets import response_of
 from .exceedance import exceedance_of, is_lined
 from .interaction import COLUMNS, Interaction, largest_columns, peak_columns, range_columns
+from .interaction_choice import InteractionChoice
 from .measures import DROP_WITHIN, drop_after, largest_stress, leading_edge, motion, speeds_above_yield, strongest_order
 from .speed_ranges import SpeedRange
 
@@ -27,26 +28,6 @@ QUIET = 0.1
 
 SPECTRA = {"normal": "amplitude", "tangential": "amplitude_tangential"}
 """Directions whose peaks are looked for, and the name of their spectrum in spectrum.nc."""
-
-
-@dataclass(frozen=True)
-class InteractionChoice:
-    """What counts as an interaction.
-
-    A peak of the leading edge's normal or tangential rms must rise above its surroundings, on both sides, by `prominence` of
-    the largest one in that direction. It is matched with a crossing of the engine order that is strongest in that
-    direction's spectrum if it lies between `below` and `above` (shares of the Campbell speed) about it; without a spectrum,
-    with the nearest crossing of any order.
-    """
-
-    prominence: float
-    below: float
-    above: float
-
-    @property
-    def span(self) -> float:
-        """Largest ratio of two speeds that the crossing of one mode and order could explain."""
-        return (1.0 + self.above) / (1.0 - self.below)
 
 
 @dataclass(frozen=True)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from r37core.config import Settings
-from r37core.config.cross_checks import known, revolution_fits
+from r37core.config.cross_checks import revolution_fits
 
 from .plan import section
 
@@ -12,7 +12,7 @@ def signals_have_runs(settings: Settings) -> None:
     """Signals are wanted of blades that are there and of some scene, and are no longer than its runs."""
     wanted, documents = section(settings), settings.documents
     if wanted.blades != "all":
-        known(settings, ("signals", "blades"), wanted.blades, settings.designs.entries, documents.blades)
+        settings.documents.known(("signals", "blades"), wanted.blades, settings.designs.entries, documents.blades)
     speeds = wanted.speeds()
     if speeds is None:
         return

@@ -11,20 +11,9 @@ from r37core.fem.elements import ELEMENTS
 from r37core.fem.surface import outer_faces
 from r37core.mesh.blade_mesh import BladeMesh
 
+from .gauge import Gauge
+
 _OUTSIDE = 0.05  # of a triangle: so far beyond its sides a place still counts as in it
-
-
-@dataclass(frozen=True)
-class Gauge:
-    """A strain gauge: `chord` from 0 (leading) to 1 (trailing edge), `span` from 0 (root) to 1 (tip), on a `side`.
-
-    `side`: pressure or suction; `angle` (rad) of its grid: 0 along the span, outwards, pi/2 towards the trailing edge.
-    """
-
-    chord: float
-    span: float
-    side: str
-    angle: float
 
 
 @dataclass(frozen=True)

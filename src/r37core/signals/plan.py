@@ -5,11 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-from r37core.config import Settings, si_fields
+from r37core.config import Settings, in_si
+from r37core.plain import to_plain
 from r37core.plans import paths
 from r37core.plans.import_plan import Imported
 from r37core.plans.sweep_plan import Sweep
 
+from .gauge import Gauge
 from .section import SignalSection
 
 SIGNALS_OF_RUN = "<results>/{blade}/{scene}/signals.nc"
@@ -42,7 +44,7 @@ class Signals:
     def gauges(self, wildcards: Any) -> dict[str, dict[str, Any]]:
         """Gauges of a blade as plain values; a blade given by matrices has none."""
         gauges = self._section.gauges if wildcards.blade in self.imported.with_mesh else {}
-        return {name: si_fields(entry) for name, entry in gauges.items()}
+        return {name: to_plain(in_si(Gauge, entry)) for name, entry in gauges.items()}
 
     def inputs(self, wildcards: Any) -> dict[str, str]:
         """What signals are made from, with what gauges and the speeds of interactions need beside it."""

@@ -7,8 +7,11 @@ from typing import Annotated, Literal
 from pydantic import AfterValidator, Discriminator, Field, Tag, model_validator
 
 from r37core.config import si_fields
+from r37core.config.declaring import declared_by
 from r37core.config.section import AllOrNames, LeftOut, Name, Rpm, Section, Speed, Unique, refused
 from r37core.config.speed_section import refuse_both_units
+
+from .gauge import Gauge
 
 SignalSpeeds = Annotated[
     Annotated[Literal["interactions"], Tag("word")] | Annotated[Unique[Speed], Tag("speeds")],
@@ -24,18 +27,9 @@ def _each_probe_once(probes: list[float]) -> list[float]:
     return probes
 
 
+@declared_by(Gauge)
 class GaugeEntry(Section):
     """A strain gauge on the blade's surface."""
-
-    chord: float = Field(ge=0, le=1, description="place along the chord, from the leading (0) to the trailing edge (1)")
-    span: float = Field(ge=0, le=1, description="place along the span, from the root (0) to the tip (1)")
-    side: Literal["pressure", "suction"] = Field(description="of the blade's surface")
-    angle_deg: float = Field(
-        default=0.0,
-        ge=-180,
-        le=180,
-        description="direction in the surface: 0 along the span, 90 towards the trailing edge",
-    )
 
 
 class SignalSection(Section):
