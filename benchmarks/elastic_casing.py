@@ -1,4 +1,4 @@
-"""What a casing that gives way changes for the seven blades, and what it costs: tables of docs/elastic_casing.md.
+"""What a flexible casing changes for the seven blades, and what it costs: tables of docs/elastic_casing.md.
 
 Run: make claims ONLY=elastic_casing (a quarter of an hour on two idle cores). The script takes names of TABLES, for those
 alone, and `span=30` for narrower windows. The scenes are elastic_abradable and elastic_direct of config/scenes.yaml, with

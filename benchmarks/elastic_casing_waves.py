@@ -1,4 +1,4 @@
-"""Waves of the rings of elastic_casing.py: how far they give way, which the rotor meets and overtakes, and why those grow.
+"""Waves of the rings of elastic_casing.py: how flexible they are, which the rotor meets and overtakes, and why those grow.
 
 Run: snakemake campbell; python benchmarks/elastic_casing_waves.py (some five minutes on two cores), or with names of TABLES
 after it for those alone; or make claims ONLY=elastic_casing.

@@ -18,6 +18,10 @@ FORBIDDEN = {
     r"\brefines? (itself|themselves)\b": "adaptive speed sampling",
     r"\breadings\b|\b(the|a|one|our) reading\b": "modelling choice",
     r"\bturned (once|alone|one at a time)\b": "varied",
+    r"\bcasings? that gives? way\b": "flexible casing",
+    r"\brotor that stands still\b": "cold clearance, or at rest",
+    r"\bno longer the time\b": "too little time",
+    r"\bthe march\b|\bstretch(es)? of samples\b": "time integration, constant-speed segment",
     r"[,;] for (it|they|there|this|these|its|their|he|we|no|none|others|machines|contact|modes)\b": "because",
 }
 """Pattern of a word or a phrase -> what to write instead."""

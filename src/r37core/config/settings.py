@@ -289,7 +289,7 @@ class Settings:
 
     @property
     def elastic_casings(self) -> dict[str, ElasticCasing]:
-        """Of each scene to run whose casing gives way."""
+        """Of each scene to run with a flexible casing."""
         entries = {name: self.scene_entries[name].casing for name in self.scene_names}
         return {name: casing.elastic_casing() for name, casing in entries.items() if casing.elastic}
 

@@ -195,7 +195,7 @@ class Sweep:
 
     @property
     def casings(self) -> dict[str, Any]:
-        """The casing of each scene whose casing gives way, as plain values."""
+        """The casing of each scene with a flexible one, as plain values."""
         return {name: to_plain(one) for name, one in self.settings.elastic_casings.items()}
 
     @property

@@ -72,7 +72,7 @@ def gaps(problem: Problem, clearance: np.ndarray, displacement: np.ndarray, step
     """Distance (m) of every node from casing or lining, and the angle (rad) at which it meets it, shape (nodes,) both.
 
     `clearance` (m) of the round casing, shape (nodes,); `displacement` (m) of the nodes along its normal, tangent and meridian,
-    shape (3, nodes), relative to a casing that gives way; `step`: counted from the start of the run.
+    shape (3, nodes), relative to a flexible casing; `step`: counted from the start of the run.
     """
     theta = problem.theta(step % problem.steps_per_revolution)
     normal, across, meridional = displacement
