@@ -64,7 +64,7 @@ def simulate(
     changes = {"speeds": _numbers([speed]), **_level(fidelity)}
     settings = _settings("r37.simulate", blade, scene, config, changes, results)
     try:
-        motion = InitialMotion.given(initial_displacement, initial_velocity)
+        motion = InitialMotion.from_arrays(initial_displacement, initial_velocity)
         response = _response(settings, motion)
     except InitialMotionError as error:
         raise ConfigError(str(error)) from None

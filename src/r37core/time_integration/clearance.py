@@ -87,7 +87,7 @@ def gaps(problem: Problem, clearance: np.ndarray, displacement: np.ndarray, step
     return clearance - lobes - position, theta
 
 
-def cut(clearance: np.ndarray, rings: int) -> np.ndarray:
+def initial_wear(clearance: np.ndarray, rings: int) -> np.ndarray:
     """Wear (m) of each ring of the lining where the tip reaches into it before anything vibrates, shape (rings, 1).
 
     `clearance` (m), shape (nodes,). The speed was reached slowly, so the tip has cut its way and presses nothing.
