@@ -67,7 +67,7 @@ class InitialMotion:
         return np.linalg.lstsq(model.to_reduced, motion.T, rcond=None)[0].T
 
     def left_out(self, problem: Problem) -> float:
-        """Share of its energy that a run leaves out, for it lies in modes that are not stepped."""
+        """Share of its energy that a run leaves out, because it lies in modes that are not stepped."""
         whole, model = self.at_rest(problem.model), problem.model
         rest = whole - (whole @ problem.modes) @ problem.modes.T
 

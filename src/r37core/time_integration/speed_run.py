@@ -106,7 +106,7 @@ def run_speed(
 
 
 def _whole(samples: np.ndarray, count: int, diverged: bool) -> np.ndarray:
-    """As many samples as were asked for: after a divergence NaN, for the last one is past the limit and may be infinite."""
+    """As many samples as were asked for: NaN after a divergence, and in place of the last one, which may be infinite."""
     if not diverged:
         return samples
     missing = count - len(samples) + 1
