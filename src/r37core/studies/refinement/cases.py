@@ -18,7 +18,7 @@ _STEPS = (5.0, 8.0, 20.0)
 """Plain grids (rad/s) beside: as many runs as a fifth of every 1 rad/s, and those of two fidelity levels."""
 
 _COMPARED = ("spectrum", "stress", "static_stress", "wear")
-"""Results of a scene by which interactions are told."""
+"""Results of a scene by which interactions are matched."""
 
 
 def adaptive(settings: Settings) -> dict[str, tuple[str, str]]:
