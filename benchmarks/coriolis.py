@@ -137,11 +137,11 @@ def direct_table(settings, models):
 
 
 def cost_table(settings, pair):
-    """Ratio of CPU times of whole runs and of the march alone, the reference blade, one after the other in one process."""
+    """Ratio of CPU times of whole runs and of the time integration alone, the reference blade, in turns in one process."""
     rows = []
     for scene in (LINED, DIRECT):
         ratios = np.array([timed(settings, pair, scene, speed) for speed in GRID for _ in range(ROUNDS)])
-        for what, column in (("whole run", 0), ("march alone", 1)):
+        for what, column in (("whole run", 0), ("time integration", 1)):
             low, middle, high = np.percentile(ratios[:, column], [10, 50, 90])
             rows.append([scene, what, f"{middle:.2f}", f"{low:.2f} to {high:.2f}"])
         print(rows[-2:], flush=True)

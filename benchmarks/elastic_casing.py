@@ -100,10 +100,10 @@ def name_of(casing):
 def run(task):
     """Rms (m) of the leading edge, normal and tangential, and of all waves round the casing (m)."""
     blade, name, speed, ring = task
-    return march(blade, speed, settings().integration_choice(blade, name, speed), with_casing(name, ring))
+    return integrated(blade, speed, settings().integration_choice(blade, name, speed), with_casing(name, ring))
 
 
-def march(blade, speed, choice, scene):
+def integrated(blade, speed, choice, scene):
     """What `run` returns, of a scene with or without a ring."""
     ring, choice = scene.casing.ring, replace(choice, energy=False, snapshot_revolutions=0)
     found = run_speed(contact(blade), float(speed), scene, choice, ["casing"] if ring else [], **KEPT)
@@ -207,7 +207,7 @@ def diameters_table(pool, span):
 
 
 def cost_table(*_):
-    """Ratio of CPU times of the march, the reference blade, one after the other in one process."""
+    """Ratio of CPU times of the time integration, the reference blade, one after the other in one process."""
     rows = []
     for name in (LINED, DIRECT):
         for diameters in DIAMETERS[1::2]:
@@ -220,7 +220,7 @@ def cost_table(*_):
 
 
 def timed(name, ring, speed):
-    """CPU time of the march with the ring as a multiple of that without."""
+    """CPU time of the time integration with the ring as a multiple of that without."""
     times = []
     for modes in ((), ring):
         choice = replace(settings().integration_choice("Ref", name, speed), energy=False, snapshot_revolutions=0)

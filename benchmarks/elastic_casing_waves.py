@@ -18,7 +18,7 @@ from elastic_casing import (
     STUDIES,
     casing_of,
     contact,
-    march,
+    integrated,
     name_of,
     settings,
     with_casing,
@@ -112,7 +112,7 @@ def rms_of(task):
     """Rms (m) of Ref's leading edge, normal and tangential together; NaN where the run diverges."""
     name, speed, modes, changes = task
     scene = changed(with_casing(name, modes), **changes)
-    return np.hypot(*march("Ref", speed, settings().integration_choice("Ref", name, speed), scene)[:2])
+    return np.hypot(*integrated("Ref", speed, settings().integration_choice("Ref", name, speed), scene)[:2])
 
 
 def counted(pool, name, speeds, modes, **changes):

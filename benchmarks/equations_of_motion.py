@@ -1,4 +1,4 @@
-"""The blade against lining or casing as ordinary differential equations, a second formulation of the march: SciPy's solve_ivp.
+"""The blade against lining or casing as ordinary differential equations, written a second time: SciPy's solve_ivp.
 
 Written from docs/simulation.md (model, gap, lining, friction); of r37core it takes only the classes that hold the numbers.
 Continuous in time: nothing here knows of a step. In the modes of the speed, of unit mass,
@@ -185,7 +185,7 @@ NEAR = 1e-4
 """Nodes farther from the lining (m) than this are not asked for their bar: they cannot reach it within WATCH."""
 
 WATCH = 5e-6
-"""Longest stretch (s) over which far nodes stay far; checked at its end."""
+"""Longest time (s) over which far nodes stay far; checked at its end."""
 
 
 class WornBars:

@@ -1,4 +1,4 @@
-"""The march against SciPy's solve_ivp and against NLstep: tables of docs/validation.md, section "Other programs".
+"""The time integration against SciPy's solve_ivp and against NLstep: tables of docs/validation.md, section "Other programs".
 
 Run: make claims ONLY=other_programs, or python benchmarks/other_programs.py [elastic worn direct histories rms]. The last two
 need GNU Octave and NLSTEP=/path/to/NLstep: then make claims ONLY=nlstep TAKEN=yes. Ten minutes in all.
@@ -63,7 +63,7 @@ def scene_of(settings, name, **casing):
     return replace(scene, casing=replace(scene.casing, **{"rise_fraction": 0.0} | casing))
 
 
-def march(model, settings, scene, step, revolutions, speed=SPEED, **choice):
+def integrated(model, settings, scene, step, revolutions, speed=SPEED, **choice):
     """Samples (m) of the leading edge's normal displacement, shape (samples,), the step (s) and the state at the end."""
     name = "direct" if scene.lining is None else "abradable"
     choice = {"samples_per_revolution": SAMPLES, "energy": False, "snapshot_revolutions": 0, "shorten": False} | choice
@@ -84,7 +84,7 @@ def error(found, exact):
 
 def from_itself(coarse, fine):
     share = 100.0 * error(coarse, fine)
-    return f"The march with central differences at 1e-7 s differs by {share:.2f}% from itself at twice the step."
+    return f"Central differences at 1e-7 s differ by {share:.2f}% from themselves at twice the step."
 
 
 def with_orders(steps, errors):
@@ -99,7 +99,7 @@ MOVING_ABOVE = 6.4e-6
 
 def orders(model, settings, scene, steps, exact, integrator, **choice):
     """Cells of the errors of runs at several steps, and of their order."""
-    runs = [march(model, settings, scene, step, REVOLUTIONS, integrator=integrator, **choice)[:2] for step in steps]
+    runs = [integrated(model, settings, scene, step, REVOLUTIONS, integrator=integrator, **choice)[:2] for step in steps]
     return with_orders([step for _, step in runs], [error(found, exact) for found, _ in runs])
 
 
@@ -113,7 +113,7 @@ def at_t_n(model, settings, scene, steps):
     exact, checked = (static_contact(blade, times, stiffness, method, **EXACT) for method in ("DOP853", "LSODA"))
     for step in steps:
         moving = {"integrator": EXACT_MODAL, "static_above": step / MOVING_ABOVE}
-        found.append(march(model, settings, scene, step, REVOLUTIONS, **moving)[:2])
+        found.append(integrated(model, settings, scene, step, REVOLUTIONS, **moving)[:2])
     cells = with_orders([step for _, step in found], [error(samples, exact) for samples, _ in found])
     return cells, error(checked, exact)
 
@@ -145,7 +145,7 @@ def worn(model, settings):
     times, on_a_bar = sample_times(SPEED, SAMPLES), 2.0 * np.pi / SPEED / BARS
     exact, wear = with_wear(blade_of(model, SPEED, few, np.inf, HIGHEST_FREQUENCY), times, **EXACT)
     parts, choice = 2 ** np.arange(2, 6), {"integrator": CENTRAL_DIFFERENCE, "highest_frequency": HIGHEST_FREQUENCY}
-    runs = [march(model, settings, few, on_a_bar / part, 1, **choice) for part in parts]
+    runs = [integrated(model, settings, few, on_a_bar / part, 1, **choice) for part in parts]
     steps, columns = [step for _, step, _ in runs], []
     for errors in ([error(run[0], exact) for run in runs], [error(run[2].wear, wear) for run in runs]):
         columns.append(with_orders(steps, errors))
@@ -158,7 +158,7 @@ def direct(model, settings):
     scene, half = scene_of(settings, "direct", amplitude=LIGHT_RUB), SAMPLES // 2
     blade, times = blade_of(model, SPEED, scene, np.inf, HIGHEST_FREQUENCY), sample_times(SPEED, half)
     choice = {"highest_frequency": HIGHEST_FREQUENCY, "integrator": CENTRAL_DIFFERENCE}
-    ours, coarse = (march(model, settings, scene, step, 1, **choice)[0][:half] for step in (1e-7, 2e-7))
+    ours, coarse = (integrated(model, settings, scene, step, 1, **choice)[0][:half] for step in (1e-7, 2e-7))
     stiffnesses, tolerances = (1e7, 1e8, 1e9, 1e10, 1e11), {"rtol": 1e-6, "atol": 1e-12}
     without, damped = ([against_spring(blade, times, k, ratio, **tolerances) for k in stiffnesses] for ratio in (0.0, 2.0))
     rows = [
@@ -182,14 +182,14 @@ def share_at(history, ours):
 
 
 def histories(model, settings):
-    """NLstep and the march on the first light touch, with more and more modes that have mass in both."""
+    """NLstep and the time integration on the first light touch, with more and more modes that have mass in both."""
     scene, half = scene_of(settings, "direct", amplitude=LIGHT_RUB), SAMPLES // 2
     blade, rows = blade_of(model, SPEED, scene, np.inf), []
     for moving_above in (9.6e-6, 6.4e-6, 3.2e-6, 2.4e-6):
         choice = {"integrator": EXACT_MODAL, "static_above": 2e-7 / moving_above}
         asked = replace(settings.integration_choice("Ref", "direct", SPEED), time_step=2e-7, **choice)
         kept = len(Problem(model, SPEED, scene, asked).frequencies)
-        ours = march(model, settings, scene, 2e-7, 1, **choice)[0][:half]
+        ours = integrated(model, settings, scene, 2e-7, 1, **choice)[0][:half]
         cells = [str(kept), f"{blade.frequencies[kept - 1] / 2e3 / np.pi:.0f}"]
         for parts in (50, 100):
             found = run_nlstep(blade, kept, parts, SAMPLES, half)[0]
@@ -219,7 +219,7 @@ def rms(model, settings):
         ours = []
         for factor in PERTURBED:
             rubbed = replace(scene, friction=replace(scene.friction, coefficient=factor * scene.friction.coefficient))
-            ours.append(rms_of(march(model, settings, rubbed, step, RMS_REVOLUTIONS, speed)[0]))
+            ours.append(rms_of(integrated(model, settings, rubbed, step, RMS_REVOLUTIONS, speed)[0]))
         choice = replace(settings.integration_choice("Ref", "direct", speed), time_step=step)
         kept = len(Problem(model, speed, scene, choice).frequencies)
         samples = RMS_REVOLUTIONS * SAMPLES

@@ -1,4 +1,4 @@
-"""What the march of a run-up costs beside that of a run at constant speed: table of docs/run_ups.md.
+"""What the time integration of a run-up costs beside that of a run at constant speed: table of docs/run_ups.md.
 
 Run: make claims ONLY=run_up_cost (under a minute). CPU times, in turns in one process.
 """
@@ -18,7 +18,7 @@ from r37core.io import write_text
 from r37core.product.reading import read_settings
 from r37core.rom.reduced_model import contact_model
 from r37core.rom.rom_file import read_reduced_model
-from r37core.run_ups.march import March
+from r37core.run_ups.integration import RunUpIntegration
 from r37core.run_ups.schedule import RunUp
 from r37core.studies.tables import markdown_table
 from r37core.time_integration import compiled
@@ -33,7 +33,7 @@ BEFORE, AFTER, ROUNDS = 200, 50, 5
 
 
 class Cost(NamedTuple):
-    """CPU times (s) of a march, the start of its simulation among them, and of its compiled steps alone; its totals."""
+    """CPU times (s) of a time integration with the start of its simulation, and of its compiled steps alone; its totals."""
 
     whole: float
     steps: float
@@ -41,7 +41,7 @@ class Cost(NamedTuple):
 
     @property
     def per_step(self):
-        """CPU times per step (s): of the march, and of the compiled steps."""
+        """CPU times per step (s): of the whole, and of the compiled steps."""
         return np.array([self.whole, self.steps]) / self.totals["steps"]
 
     def share(self, name):
@@ -69,10 +69,10 @@ def row(settings, model, scene, rate):
     constant = replace(choice, revolutions=lasting)
 
     def change():
-        march = March(model, scene_of, choice, run_up)
-        for _ in march.stages():
+        integration = RunUpIntegration(model, scene_of, choice, run_up)
+        for _ in integration.stages():
             pass
-        return march.state.totals
+        return integration.state.totals
 
     def same():
         simulation = Simulation(model, 0.5 * (FROM + TO), scene_of, constant)
@@ -94,11 +94,11 @@ def row(settings, model, scene, rate):
     return cells
 
 
-def cost(march):
-    """What a march costs."""
+def cost(integrate):
+    """What a time integration costs."""
     with timed_steps() as steps:
         began = time.process_time()
-        totals = march()
+        totals = integrate()
         return Cost(time.process_time() - began, sum(steps), totals)
 
 

@@ -90,7 +90,7 @@ def rates_table():
 
 
 def accuracy_table():
-    """Error of stretches and segments of other lengths, of one blade's way up the rising branch."""
+    """Error of constant-speed segments and modal intervals of other lengths, of one blade's way up the rising branch."""
     settings = read_settings(Path())
     scene, model = settings.scenes[SCENE], read_contact_model(RESULTS / ACCURACY_BLADE / "contact_pressure_edge.npz")
     choice = settings.integration_choice(ACCURACY_BLADE, SCENE, 0.0)

@@ -10,7 +10,8 @@ import pytest
 import xarray as xr
 from browser import opened
 from explorer_cases import BLADES, SCENES, SPEEDS, beside, interaction_rows, sweep
-from workflow_runs import copy_project, planned
+from plans_of_snakemake import planned
+from workflow_runs import copy_project
 
 from r37core.explorer import write_page
 from r37core.explorer.contents import explorer_contents, joined, order_bins, packed, rounded, stretches

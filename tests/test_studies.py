@@ -13,6 +13,7 @@ import pytest
 import xarray as xr
 from defaults import IntegrationChoice
 from integration_cases import ABRADABLE, DIRECT, random_model, with_static_modes
+from plans_of_snakemake import planned
 from workflow_runs import snakemake
 
 from r37.command import main
@@ -341,7 +342,7 @@ def test_tradeoff_of_a_small_sweep(compiled, project):
 def test_studies_do_not_stand_in_the_way_of_another_blade(project):
     config = project / "config/config.yaml"
     config.write_text(config.read_text().replace("[Ref, CS100]", "[CS100]").replace("[abradable, direct]", "[direct]"))
-    assert "simulate" in snakemake(project, "all_blades", "--cores", "2", "--dry-run")
+    assert "simulate" in planned(project)
     text = snakemake(project, "modelling_choices", "--cores", "2", "--dry-run", check=False)
     assert re.search(
         r"config\.yaml: the study needs the (blade|scene) '(Ref|abradable)'; allowed in this run: (CS100|direct)", text

@@ -424,11 +424,11 @@ CLAIMS = (
     ),
     # cost
     Claim(
-        "march_cost",
-        tables("speed", "", ("march_cost",)),
-        by_hand="make all_blades; python benchmarks/march_cost.py FOLDER, a checkout of the version to compare with",
+        "integration_cost",
+        tables("speed", "", ("integration_cost",)),
+        by_hand="make all_blades; python benchmarks/integration_cost.py FOLDER, a checkout of the version to compare with",
         minutes=12,
-        code=("benchmarks/march_cost.py",),
+        code=("benchmarks/integration_cost.py",),
         configuration=_BENCHMARK,
     ),
     Claim(

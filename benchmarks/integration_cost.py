@@ -1,7 +1,7 @@
 """CPU of the time integration alone, of this checkout and another one in turns: a table of docs/speed.md.
 
-Run: make all_blades; python benchmarks/march_cost.py FOLDER, another checkout in which make setup was done; then make claims
-ONLY=march_cost TAKEN=yes. Both take the reduced models of this checkout, and each the steps of its own level.
+Run: make all_blades; python benchmarks/integration_cost.py FOLDER, another checkout in which make setup was done; then make
+claims ONLY=integration_cost TAKEN=yes. Both take the reduced models of this checkout, and each the steps of its own level.
 """
 
 import json
@@ -60,7 +60,7 @@ def main(other):
         cells = [f"{blade}, {speed:g}", f"`{scene}`", f"{1e3 * before:.1f}: {modes_before} modes, {step_before:g} s"]
         rows.append([*cells, f"{1e3 * now:.1f}: {modes} modes, {step:g} s", f"{now / before:.2f}"])
     head = ["blade, rad/s", "scene", "before (ms)", "now (ms)", "ratio"]
-    write_text(markdown_table(head, rows), ROOT / "results/studies/march_cost.md")
+    write_text(markdown_table(head, rows), ROOT / "results/studies/integration_cost.md")
 
 
 if __name__ == "__main__":
