@@ -14,7 +14,7 @@ from plans_of_snakemake import planned
 from workflow_runs import copy_project
 
 from r37core.explorer import write_page
-from r37core.explorer.contents import explorer_contents, joined, order_bins, packed, rounded, stretches
+from r37core.explorer.contents import bin_starts, explorer_contents, joined, order_bins, packed, rounded
 from r37core.results.table_file import read_table
 from r37core.time_integration.status import RunStatus
 
@@ -87,9 +87,9 @@ def test_rounding_of_maps():
 
 def test_thinning_keeps_the_largest():
     values = np.array([1.0, np.nan, 5.0, 2.0, np.nan, np.nan])
-    np.testing.assert_array_equal(joined(values, 0, stretches(6, 3)), [1.0, 5.0, np.nan])
-    assert len(stretches(1251, 400)) <= 400
-    np.testing.assert_array_equal(stretches(5, 400), np.arange(5))
+    np.testing.assert_array_equal(joined(values, 0, bin_starts(6, 3)), [1.0, 5.0, np.nan])
+    assert len(bin_starts(1251, 400)) <= 400
+    np.testing.assert_array_equal(bin_starts(5, 400), np.arange(5))
     orders = np.arange(0.0, 1.001, 0.01)
     starts = order_bins(orders)
     assert len(starts) == 11

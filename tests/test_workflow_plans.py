@@ -10,6 +10,7 @@ import pytest
 
 from r37core.adaptive.criterion import RefinementChoice
 from r37core.config import ConfigError, command_line_document
+from r37core.config.speed_choice import most_runs
 from r37core.contact.scene import Scene
 from r37core.io import InputFileError
 from r37core.plain import from_plain
@@ -204,7 +205,7 @@ def test_without_a_lining_a_round_has_a_share_of_its_own_and_no_windows(root):
     sweep = Sweep(settings)
     assert (sweep.refinement_choice(direct)["windows"], sweep.refinement_choice(direct)["largest_share"]) == ([], 0.125)
     assert sweep.refinement_choice(direct)["change"] == sweep.refinement_choice(lined)["change"]
-    assert settings.most_runs("Ref", "direct") < settings.most_runs("Ref", "abradable")
+    assert most_runs(settings, "Ref", "direct") < most_runs(settings, "Ref", "abradable")
     window = {"mode": "1B", "highest_engine_order": 3, "first": 0.0, "last": 0.1, "step_rad_s": 5.0}
     chosen = {"refinement": {"direct": {"windows": [window], "largest_share": 0.9}}}
     sweep = Sweep(read_settings(root, command_line_document(run | chosen)))

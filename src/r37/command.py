@@ -12,6 +12,7 @@ import pandas as pd
 import xarray as xr
 
 from r37core.config import ConfigError
+from r37core.config.remarks import remarks_on_points
 from r37core.dataset_file import write_dataset
 from r37core.io import InputFileError
 from r37core.plans.extent import extent_of
@@ -122,7 +123,7 @@ def _check(given: argparse.Namespace) -> None:
     if measured is not None:
         cost = extent.cpu_time(measured.cpu_s_per_run)
         print(f"their CPU time: about {cost} at most, as measured on the reference blade; of yours: snakemake estimate")
-    for remark in [*remarks(settings), *settings.remarks_on_points]:
+    for remark in [*remarks(settings), *remarks_on_points(settings)]:
         print(remark)
 
 

@@ -64,7 +64,7 @@ use rule step as summary with:
         **needs.of("summary"),
     params:
         **step("results.steps.summary"),
-        choice=plain(settings.interactions),
+        choice=plain(settings.config.interactions),
 
 
 use rule step as ranking with:

@@ -39,7 +39,7 @@ use rule step as tolerance_table with:
     params:
         **step("tolerances.steps.table"),
         members=tolerances.runs_of_sample,
-        choice=plain(settings.interactions),
+        choice=plain(settings.config.interactions),
 
 
 use rule figure as tolerance_figure with:

@@ -9,6 +9,7 @@ from typing import Annotated, Any, Literal
 from pydantic import AfterValidator, Field, create_model, model_validator
 
 from r37core.adaptive.refinement_choice import RefinementChoice, Window
+from r37core.contact.scene import Scene
 from r37core.results.interaction_choice import InteractionChoice
 from r37core.rom.reduction_choice import BoundaryChoice, ReductionChoice, StressSubmesh
 
@@ -113,6 +114,10 @@ class RefinementSection(Section):
     steep_prominence: Any = DECLARED
     largest_share: Any = DECLARED
     direct: DirectRefinementSection = DirectRefinementSection()
+
+    def in_scene(self, scene: Scene) -> RefinementSection:
+        """What counts in a scene: without lining with windows and share of its own."""
+        return self if scene.lining else self.model_copy(update=dict(self.direct))
 
 
 def _numbers_of_part(part: str) -> tuple[int, int]:

@@ -21,7 +21,7 @@ from r37core.time_integration.integrators import EXACT_MODAL
 from r37core.units import RPM
 from r37core.yaml_file import KeyPath
 
-from .document import Document, Refusals
+from .document import ConfigRefusals, Document
 from .settings import Settings
 
 LARGEST_NUMBER_OF_SIMULATIONS = 200_000
@@ -33,7 +33,7 @@ def what_is_named_is_there(settings: Settings) -> None:
 
     What asks for one of them is refused for the same reason, which is told once.
     """
-    refusals = Refusals()
+    refusals = ConfigRefusals()
     for name in ("fidelity_name", "blade_names", "scene_names"):
         refusals.of(getattr, settings, name)
     refusals.tell()
@@ -58,7 +58,7 @@ def studies_name_what_is_there(settings: Settings) -> None:
         if lined and settings.scene_entries[lined].lining is None:
             raise documents.config.refusal(("studies", name, "lined_scene"), f"'{lined}'", "a scene with a lining")
     if given := studies.tradeoff:
-        highest = settings.campbell.highest_engine_order
+        highest = settings.config.campbell.highest_engine_order
         if given.engine_order > highest:
             allowed = f"at most campbell.highest_engine_order ({highest})"
             raise documents.config.refusal(("studies", "tradeoff", "engine_order"), f"{given.engine_order}", allowed)
@@ -113,7 +113,7 @@ def windows_have_crossings(settings: Settings) -> None:
     """No window lies above crossings that the Campbell diagram does not have."""
     if not any(plan.refined for plan in settings.speed_plans.values()):
         return
-    highest, given = settings.campbell.highest_engine_order, settings.config.refinement
+    highest, given = settings.config.campbell.highest_engine_order, settings.config.refinement
     for place, windows in {("refinement",): given.windows, ("refinement", "direct"): given.direct.windows}.items():
         for number, window in enumerate(windows):
             if window.highest_engine_order > highest:

@@ -19,6 +19,7 @@ from pathlib import Path
 from typing import Any
 
 from r37core.config import ConfigError, Settings
+from r37core.config.remarks import remarks_on_points
 from r37core.plans.extent import extent_of
 from r37core.plans.run import check_part, replaced_level, source_folder
 from r37core.product.reading import settings_of_run
@@ -62,7 +63,7 @@ class Console:
     def succeed(self) -> None:
         """After the last job: nothing is said where there is nothing to say."""
         lock.release()
-        found = closing_lines(self.settings.results, self.began, time.time(), self.settings.remarks_on_points)
+        found = closing_lines(self.settings.results, self.began, time.time(), remarks_on_points(self.settings))
         _say_last([*failures.taken(), *found])
 
     def fail(self) -> None:

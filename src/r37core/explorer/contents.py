@@ -140,7 +140,7 @@ def _map(variable: xr.DataArray, over: str, across: np.ndarray, other: np.ndarra
     about, factor = _described(variable)
     values = factor * variable.transpose("blade", "scene", "speed", over).values
     speeds = variable["speed"].values
-    along = stretches(len(speeds), MOST_SPEEDS)
+    along = bin_starts(len(speeds), MOST_SPEEDS)
     return about | {
         "speeds": packed(speeds[along], 64),
         "other": packed(other),
@@ -160,7 +160,7 @@ def _wear(wear: xr.Dataset | None, rms: xr.Dataset) -> dict[str, object] | None:
     """Wear (mm) over the angle (degrees) round the casing."""
     if wear is None:
         return None
-    starts = stretches(wear.sizes["angle"], MOST_ANGLES)
+    starts = bin_starts(wear.sizes["angle"], MOST_ANGLES)
     return _map(_like(wear, rms)["wear"], "angle", starts, np.degrees(wear["angle"].values[starts]))
 
 
@@ -180,8 +180,8 @@ def _sample(sample: xr.Dataset) -> dict[str, object]:
 def _spread(sample: xr.Dataset, pairs: xr.DataArray, name: str) -> dict[str, object]:
     """Band (pair, quantile, speed) and members (pair, member, speed) of a curve; infinite: diverged, NaN: not run."""
     factor = _described(sample[name])[1]
-    kept = sample.isel(member=slice(MOST_MEMBERS))
-    members = kept[name].where(kept["status"] != RunStatus.DIVERGED, np.inf)
+    drawn = sample.isel(member=slice(MOST_MEMBERS))
+    members = drawn[name].where(drawn["status"] != RunStatus.DIVERGED, np.inf)
     band = sample[f"{name}_quantile"].where((sample["status"] != RunStatus.DIVERGED).any("member"), np.inf)
 
     def of_pairs(values: xr.DataArray, axis: str) -> dict[str, object]:
@@ -205,14 +205,14 @@ def rounded(values: np.ndarray) -> np.ndarray:
 
 
 def joined(values: np.ndarray, axis: int, starts: np.ndarray) -> np.ndarray:
-    """Largest of `values` in each stretch along an axis; `starts`: where the stretches begin. NaN where all are."""
+    """Largest of `values` in each bin along an axis; `starts`: where the bins begin. NaN where all are."""
     filled = np.where(np.isnan(values), -np.inf, values)
     largest = np.maximum.reduceat(filled, starts, axis=axis)
     return np.where(np.isneginf(largest), np.nan, largest)
 
 
-def stretches(number: int, most: int) -> np.ndarray:
-    """Where stretches of equal length begin, at most `most` of them."""
+def bin_starts(number: int, most: int) -> np.ndarray:
+    """Where bins of equal length begin, at most `most` of them."""
     length = -(-number // most)
     return np.arange(0, number, length)
 

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from r37core.config import Settings
+from r37core.config.speed_choice import most_runs
 
 from .samples import Pair, Sample
 
@@ -43,7 +44,7 @@ def extents(settings: Settings, beside: Mapping[str, Mapping[Pair, Sample]]) -> 
     return {
         pair: Extent(
             certain=len(plan.certain),
-            most=settings.most_runs(*pair),
+            most=most_runs(settings, *pair),
             members=sum(
                 len(samples[pair].members) * plan.at_most(samples[pair].largest_share)
                 for samples in beside.values()

@@ -103,7 +103,7 @@ class Samples:
         return Sample(
             members={NOMINAL: Member(settings.blades[blade], chosen.scene)},
             deciding=[NOMINAL],
-            largest_share=settings.refinement(scene).largest_share,
+            largest_share=settings.config.refinement.in_scene(chosen.scene).largest_share,
             results=results,
             history_speeds=chosen.stress_history_speeds if "stress" in results else (),
         )

@@ -58,7 +58,7 @@ class Members:
     def _chosen(self) -> tuple[list[str], list[str]]:
         """Blades and scenes that are to have members."""
         settings, given = self._settings, self._given
-        blades = settings.blade_names if given.blades == "all" else settings.designs_of(given.blades)
+        blades = settings.blade_names if given.blades == "all" else settings.designs.named(given.blades)
         return blades, settings.scene_names if given.scenes == "all" else given.scenes
 
     @cached_property
@@ -82,6 +82,11 @@ class Members:
         Raises ConfigError for a number that is not there, and for a value that is impossible.
         """
         return {pair: self._of(*pair) for pair in self.pairs}
+
+    def most_runs(self, blade: str, scene: str) -> int:
+        """Simulations of all members of a blade and scene, at most where speeds are adaptive."""
+        plan = self._settings.speed_plans[blade, scene]
+        return len(self.all.get((blade, scene), ())) * plan.at_most(self._given.largest_share)
 
     @cached_property
     def _places(self) -> dict[str, tuple[float, ...]]:

@@ -18,7 +18,7 @@ _STEPS = (5.0, 8.0, 20.0)
 """Plain grids (rad/s) beside: as many runs as a fifth of every 1 rad/s, and those of two fidelity levels."""
 
 _COMPARED = ("spectrum", "stress", "static_stress", "wear")
-"""Results of a scene by which interactions are told."""
+"""Results of a scene by which interactions are matched."""
 
 
 def adaptive(settings: Settings) -> dict[str, tuple[str, str]]:
@@ -82,7 +82,7 @@ def values(settings: Settings) -> dict[str, Any]:
         "choices": {
             name: sweep.refinement_choice(SimpleNamespace(blade=blade, scene=scene)) for name, (blade, scene) in pairs.items()
         },
-        "interactions": plain(settings.interactions),
+        "interactions": plain(settings.config.interactions),
     }
 
 
