@@ -19,6 +19,8 @@ FOLDER = "tolerances"
 """Of the members' files: the wing's name."""
 
 DATASET, TABLE = "<results>/tolerances.nc", "<results>/tolerances.csv"
+_RESPONSE = paths.RESPONSE.replace("{member}", path_part(FOLDER, "{member}"))
+_FIRST_ROUND = paths.ROUND.replace("{member}", path_part(FOLDER)).replace("{round}", "0")
 
 _KEPT = ("spectrum", "stress", "static_stress")
 """Results of a scene that its members have, too: what ranges are read off."""
@@ -82,12 +84,12 @@ class Tolerances:
     @property
     def responses(self) -> list[str]:
         """Of all members."""
-        return paths.filled({paths.RESPONSE: _placed(self.runs)})
+        return paths.filled({_RESPONSE: self.runs})
 
     @property
     def responses_of_sample(self) -> list[str]:
         """Of the members of the samples."""
-        return paths.filled({paths.RESPONSE: _placed(self.runs_of_sample)})
+        return paths.filled({_RESPONSE: self.runs_of_sample})
 
     @property
     def campbells_of_sample(self) -> list[str]:
@@ -105,11 +107,15 @@ class Tolerances:
         return {"nominal": paths.filled({paths.RESPONSE: runs}), "nominal_campbells": paths.filled({paths.CAMPBELL: blades})}
 
     @property
+    def adaptive(self) -> paths.Wildcards:
+        """Blades and scenes whose members share rounds of refinement."""
+        return paths.of_runs(pair for pair in self.pairs if self.settings.speed_plans[pair].refined)
+
+    @property
     def first_rounds(self) -> list[str]:
         """First rounds of the members and of the nominal runs beside them: as of Sweep."""
-        adaptive = paths.of_runs(pair for pair in self.pairs if self.settings.speed_plans[pair].refined)
-        members = [path_part(FOLDER), NOMINAL]
-        return paths.filled({paths.ROUND: [{**run, "member": one, "round": "0"} for one in members for run in adaptive]})
+        nominal = [{**run, "round": "0"} for run in self.adaptive]
+        return paths.filled({_FIRST_ROUND: self.adaptive, paths.ROUND: nominal})
 
     @property
     def numbers(self) -> list[str]:
@@ -123,10 +129,6 @@ class Tolerances:
         return [list(every[run["blade"], run["scene"]][run["member"]].values) for run in self.runs]
 
 
-def _placed(runs: list[dict[str, str]]) -> paths.Wildcards:
-    return [{**run, "member": path_part(FOLDER, run["member"])} for run in runs]
-
-
 def samples(settings: Settings) -> dict[Pair, Sample]:
     """Members by blade and scene."""
     return settings.made(Tolerances).samples
@@ -138,12 +140,7 @@ SAMPLING = Sampling(samples, ranges=TABLE, dataset=DATASET)
 def simulated(sweep: Sweep) -> dict[str, paths.Wildcards]:
     """The responses of the members, and first rounds where their speeds are adaptive."""
     planned = sweep.settings.made(Tolerances)
-    adaptive = [pair for pair in planned.pairs if sweep.settings.speed_plans[pair].refined]
-    member, sample = path_part(FOLDER, "{member}"), path_part(FOLDER)
-    return {
-        paths.RESPONSE.replace("{member}", member): planned.runs,
-        paths.ROUND.replace("{member}", sample).replace("{round}", "0"): paths.of_runs(adaptive),
-    }
+    return {_RESPONSE: planned.runs, _FIRST_ROUND: planned.adaptive}
 
 
 def targets(sweep: Sweep) -> dict[str, paths.Wildcards]:
