@@ -1,4 +1,4 @@
-"""A casing that gives way: closed forms of rings, the frame that does not turn, SciPy, energy, limits, files and refusals."""
+"""A flexible casing: closed forms of rings, the frame that does not turn, SciPy, energy, limits, files and refusals."""
 
 import runpy
 from dataclasses import replace

@@ -18,6 +18,7 @@ from r37core.io import InputFileError
 from r37core.plans.extent import extent_of
 from r37core.product.reading import load_settings
 from r37core.product.remarks import remarks
+from r37core.product.sampling import beside
 from r37core.time_integration.status import RunStatus
 
 from .call_configuration import read_configuration
@@ -114,7 +115,7 @@ def _check(given: argparse.Namespace) -> None:
     first, *changes = given.config or [None]
     configuration = read_configuration(first).with_changes(changes)
     settings = load_settings(configuration.document, configuration.root)
-    extent, measured = extent_of(settings), settings.fidelity.measured
+    extent, measured = extent_of(settings, beside(settings)), settings.fidelity.measured
     print(f"blades: {', '.join(settings.blade_names)}")
     print(f"scenes: {', '.join(settings.scene_names)}")
     print(f"level: {settings.fidelity_name}")

@@ -19,7 +19,6 @@ from .fidelity import Reduction
 from .section import AllOrNames, FileName, LeftOut, Name, Section, Speed, refused
 from .speed_section import RpmList, SpeedList, SpeedRange, SpeedRule, refuse_both_units
 from .study_sections import StudiesSection
-from .tolerance_section import ToleranceSection
 
 
 @declared_by(BoundaryChoice)
@@ -192,7 +191,6 @@ class Config(Section):
     run: Run = Run()
     studies: StudiesSection = StudiesSection()
     campbell: CampbellSection = CampbellSection()
-    tolerances: ToleranceSection = ToleranceSection()
 
     @model_validator(mode="after")
     def _one_unit(self) -> Config:

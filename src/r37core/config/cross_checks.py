@@ -155,25 +155,6 @@ def revolution_fits(settings: Settings, speed: float, path: KeyPath) -> None:
         )
 
 
-def members_can_be_drawn(settings: Settings) -> None:
-    """Tolerances name blades, scenes and numbers that are there, no member is impossible, and all can be planned."""
-    given, documents, path = settings.config.tolerances, settings.documents, ("tolerances",)
-    names_are_there(settings, path, given)
-    # the configuration that a run keeps has the empty section written out
-    if given != type(given)() and not settings.members.numbers:
-        raise documents.config.refusal(path, "no numbers", "some under of_scenes or of_blades")
-    members = given.members * (len(settings.members.numbers) + 2 if given.sensitivity else 1)
-    number = members * sum(len(settings.speed_plans[pair].certain) for pair in settings.members.pairs)
-    if number > LARGEST_NUMBER_OF_SIMULATIONS:
-        raise documents.config.refusal(
-            (*path, "members"),
-            f"{number} simulations of members",
-            f"at most {LARGEST_NUMBER_OF_SIMULATIONS} in one run: fewer members, speeds, blades or scenes, or no sensitivity",
-        )
-    # draws them, and refuses what is impossible
-    _ = settings.members.all
-
-
 def matrices_hold_their_terms(settings: Settings) -> None:
     """No term of rotation is wanted that cannot be added to matrices of another program."""
     given = [name for name, blade in settings.blades.items() if isinstance(blade.definition, MatricesSource)]
@@ -251,7 +232,6 @@ CHECKS: tuple[Callable[[Settings], None], ...] = (
     windows_have_crossings,
     history_speeds_are_run,
     slowest_speed_fits_in_memory,
-    members_can_be_drawn,
     matrices_hold_their_terms,
     tips_have_room_for_patches,
     coriolis_can_be_carried,

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from r37core.tolerances.fewest import remarks_on_rankings
-
 from . import casing_remarks
 from .settings import Settings
 from .speed_choice import most_runs
@@ -35,11 +33,6 @@ def remarks_of_spine(settings: Settings) -> list[str]:
             f"adaptive speed sampling: {certain} simulations and those of the windows first, about {most} at most; "
             "they are planned round by round, so a dry run shows none of those to come"
         )
-    if settings.members.pairs:
-        members = sum(settings.members.most_runs(*pair) for pair in settings.members.all)
-        drawn = settings.config.tolerances.members
-        said.append(f"tolerances: {drawn} members, {members} simulations of theirs at most, beside those of the sweep")
-        said += remarks_on_rankings(drawn, len(settings.members.numbers), settings.config.tolerances.sensitivity)
     return said
 
 

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cache, cached_property
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 from pydantic import BaseModel
 
@@ -23,10 +23,11 @@ from .config_file import Config, StructureSection
 from .document import ConfigRefusals, Document, Documents
 from .families import Designs
 from .fidelity import Level, cheapest_level
-from .members import Members
 from .scenes import SceneEntry
 from .speed_section import UNITS, SpeedRule, key_of_speeds, planned
 from .study_sections import StudiesSection
+
+T = TypeVar("T")
 
 RESULTS = Path("results")
 """Folder of the results of a run without a name."""
@@ -66,6 +67,11 @@ class Settings:
     def section(self, wing: str) -> Any:
         """The section of config.yaml that a wing has brought, of the type that this says."""
         return getattr(self.config, wing)
+
+    @cached_property
+    def made(self) -> Callable[[Callable[[Settings], Any]], Any]:
+        """Gives what a function makes of these settings, made once: for a wing's own part of them that takes long."""
+        return cache(lambda make: make(self))
 
     @property
     def studies(self) -> StudiesSection:
@@ -191,11 +197,6 @@ class Settings:
         wanted = self.scenes[scene].results
         matrices = isinstance(self.blades[blade].definition, MatricesSource)
         return tuple(result for result in wanted if not (matrices and result in ("stress", "static_stress", "shapes")))
-
-    @cached_property
-    def members(self) -> Members:
-        """Blades and scenes with other values of what is never known exactly."""
-        return Members(self)
 
     def integration_choice(self, blade: str, scene: str, speed: float) -> IntegrationChoice:
         """Numbers of the time integration at one speed of a blade and scene, with only what its results need."""

@@ -24,6 +24,7 @@ from r37core.plans.extent import extent_of
 from r37core.plans.run import check_part, replaced_level, source_folder
 from r37core.product.reading import settings_of_run
 from r37core.product.remarks import check_asked, remarks
+from r37core.product.sampling import beside
 
 from . import failures, interpreter, job_server, lock
 from .closing import closing_lines
@@ -97,7 +98,7 @@ def begin(workflow: Any, logger: logging.Logger, refusal: Refusal, root: Path, v
     for line in [*lifted, *remarks(settings), *replaced_level(settings)]:
         logger.info(line)
     if not (os.environ.get("R37_FULL_LOG") or output.dryrun or output.verbose):
-        quieten(logger.handlers, Progress(extent_of(settings).at_most))
+        quieten(logger.handlers, Progress(extent_of(settings, beside(settings)).at_most))
     return Console(workflow, refusal, settings, root / "workflow/scripts", source, began)
 
 

@@ -196,8 +196,8 @@ class Sweep:
 
     @property
     def casings(self) -> dict[str, Any]:
-        """The casing of each scene whose casing gives way, as plain values."""
-        return {name: to_plain(one) for name, one in elastic_casings(self.settings).items()}
+        """The casing of each scene with a flexible one, as plain values."""
+        return {name: to_plain(casing) for name, casing in elastic_casings(self.settings).items()}
 
     @property
     def benchmark_scenes(self) -> list[str]:
