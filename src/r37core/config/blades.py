@@ -171,13 +171,13 @@ class BladeSettings:
 def all_blades(names: Iterable[str], entries: Mapping[str, Any], root: Path, document: Document) -> dict[str, BladeSettings]:
     """The blades of these names. Raises the ConfigErrors of all of them, but not of one whose base is refused before it."""
     refusals = ConfigRefusals()
-    found: dict[str, BladeSettings | None] = {}
+    blades: dict[str, BladeSettings | None] = {}
     for name in names:
         base = getattr(entries[name], "base", None)
-        known = base not in found or found[base] is not None
-        found[name] = refusals.of(blade_settings, name, entries, root, document) if known else None
+        known = base not in blades or blades[base] is not None
+        blades[name] = refusals.of(blade_settings, name, entries, root, document) if known else None
     refusals.tell()
-    return {name: blade for name, blade in found.items() if blade is not None}
+    return {name: blade for name, blade in blades.items() if blade is not None}
 
 
 def blade_settings(name: str, entries: Mapping[str, Any], root: Path, document: Document) -> BladeSettings:

@@ -23,6 +23,7 @@ from r37core.yaml_file import KeyPath
 
 from .document import ConfigRefusals, Document
 from .settings import Settings
+from .study_sections import TradeoffSection
 
 LARGEST_NUMBER_OF_SIMULATIONS = 200_000
 """Jobs that Snakemake can still plan: about 25 kB of memory and 1 ms for each."""
@@ -41,7 +42,16 @@ def what_is_named_is_there(settings: Settings) -> None:
 
 def studies_name_what_is_there(settings: Settings) -> None:
     """Names in the section `studies`, where it is given, are in their files."""
-    studies, documents = settings.studies, settings.documents
+    refusals = ConfigRefusals()
+    for name in sorted(settings.studies.model_fields_set):
+        refusals.of(_study_names_what_is_there, settings, name)
+    if settings.studies.tradeoff:
+        refusals.of(_tradeoff_asks_for_what_is_there, settings, settings.studies.tradeoff)
+    refusals.tell()
+
+
+def _study_names_what_is_there(settings: Settings, name: str) -> None:
+    study, documents = getattr(settings.studies, name), settings.documents
     files: dict[str, tuple[Iterable[str], Document]] = {
         "base": (settings.levels, documents.levels),
         "quick": (settings.levels, documents.levels),
@@ -49,23 +59,22 @@ def studies_name_what_is_there(settings: Settings) -> None:
         "lined_scene": (settings.scene_entries, documents.scenes),
         "direct_scene": (settings.scene_entries, documents.scenes),
     }
-    for name in studies.model_fields_set:
-        study = getattr(studies, name)
-        for key, (entries, file) in files.items():
-            if given_name := getattr(study, key, None):
-                settings.documents.known(("studies", name, key), [given_name], entries, file)
-        lined = getattr(study, "lined_scene", None)
-        if lined and settings.scene_entries[lined].lining is None:
-            raise documents.config.refusal(("studies", name, "lined_scene"), f"'{lined}'", "a scene with a lining")
-    if given := studies.tradeoff:
-        highest = settings.config.campbell.highest_engine_order
-        if given.engine_order > highest:
-            allowed = f"at most campbell.highest_engine_order ({highest})"
-            raise documents.config.refusal(("studies", "tradeoff", "engine_order"), f"{given.engine_order}", allowed)
-        levels = given.parameters.level.values
-        settings.documents.known(("studies", "tradeoff", "parameters", "level"), levels, settings.levels, documents.levels)
-        if given.scenes != "all":
-            settings.documents.known(("studies", "tradeoff", "scenes"), given.scenes, settings.scene_entries, documents.scenes)
+    for key, (entries, file) in files.items():
+        if given_name := getattr(study, key, None):
+            documents.known(("studies", name, key), [given_name], entries, file)
+    lined = getattr(study, "lined_scene", None)
+    if lined and settings.scene_entries[lined].lining is None:
+        raise documents.config.refusal(("studies", name, "lined_scene"), f"'{lined}'", "a scene with a lining")
+
+
+def _tradeoff_asks_for_what_is_there(settings: Settings, given: TradeoffSection) -> None:
+    documents, path, highest = settings.documents, ("studies", "tradeoff"), settings.config.campbell.highest_engine_order
+    if given.engine_order > highest:
+        allowed = f"at most campbell.highest_engine_order ({highest})"
+        raise documents.config.refusal((*path, "engine_order"), f"{given.engine_order}", allowed)
+    documents.known((*path, "parameters", "level"), given.parameters.level.values, settings.levels, documents.levels)
+    if given.scenes != "all":
+        documents.known((*path, "scenes"), given.scenes, settings.scene_entries, documents.scenes)
 
 
 def stress_instants_are_samples(settings: Settings) -> None:
@@ -83,19 +92,23 @@ def stress_instants_are_samples(settings: Settings) -> None:
 
 def names_are_there(settings: Settings, path: KeyPath, section: Any) -> None:
     """Blades, families and scenes that a section at `path` of config.yaml names, if not `all`, are in their files."""
-    designs, documents = settings.designs, settings.documents
+    designs, documents, refusals = settings.designs, settings.documents, ConfigRefusals()
+    entries = [*designs.entries, *designs.families]
     if section.blades != "all":
-        documents.known((*path, "blades"), section.blades, [*designs.entries, *designs.families], documents.blades)
+        refusals.of(documents.known, (*path, "blades"), section.blades, entries, documents.blades)
     if section.scenes != "all":
-        documents.known((*path, "scenes"), section.scenes, settings.scene_entries, documents.scenes)
+        refusals.of(documents.known, (*path, "scenes"), section.scenes, settings.scene_entries, documents.scenes)
+    refusals.tell()
 
 
 def speed_rules_name_what_is_there(settings: Settings) -> None:
     """Blades and scenes with speeds of their own are in their files."""
+    documents, refusals = settings.documents, ConfigRefusals()
     for number, rule in enumerate(settings.config.speeds_for):
-        path, documents = ("speeds_for", number), settings.documents
-        settings.documents.known((*path, "blades"), rule.blades or [], settings.designs.entries, documents.blades)
-        settings.documents.known((*path, "scenes"), rule.scenes or [], settings.scene_entries, documents.scenes)
+        path = ("speeds_for", number)
+        refusals.of(documents.known, (*path, "blades"), rule.blades or [], settings.designs.entries, documents.blades)
+        refusals.of(documents.known, (*path, "scenes"), rule.scenes or [], settings.scene_entries, documents.scenes)
+    refusals.tell()
 
 
 def simulations_can_be_planned(settings: Settings) -> None:

@@ -35,14 +35,14 @@ def explain_all(error: ValidationError, content: Any, model: type[BaseModel]) ->
 
     Unknown keys come first: one may be why another is missing, which then is not said.
     """
-    errors = sorted(error.errors(include_url=False), key=lambda one: one["type"] != "extra_forbidden")
-    unknown = [one["loc"][:-1] for one in errors if one["type"] == "extra_forbidden"]
+    errors = sorted(error.errors(include_url=False), key=lambda part: part["type"] != "extra_forbidden")
+    unknown = [part["loc"][:-1] for part in errors if part["type"] == "extra_forbidden"]
     said: dict[KeyPath, tuple[KeyPath, KeyPath, str]] = {}
-    for one in errors:
-        path = _path(one, content)
-        of_another = one["type"] == "missing" and one["loc"][:-1] in unknown
+    for part in errors:
+        path = _path(part, content)
+        of_another = part["type"] == "missing" and part["loc"][:-1] in unknown
         if not of_another and not any(path[: len(other)] == other or other[: len(path)] == path for other in said):
-            said[path] = _explained(one, path, content, model)
+            said[path] = _explained(part, path, content, model)
     return list(said.values())
 
 

@@ -151,7 +151,7 @@ class Settings:
         step, document = self.fidelity.time_integration.speed_step_rad_s, self.documents.config
         sections = [(("speeds_for", number), rule) for number, rule in enumerate(self.config.speeds_for)]
         refusals = ConfigRefusals()
-        general, *special = (refusals.of(_planned, document, *one, step) for one in [((), self.config), *sections])
+        general, *special = (refusals.of(_planned, document, *section, step) for section in [((), self.config), *sections])
         refusals.tell()
         assert general
         return {
