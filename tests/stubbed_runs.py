@@ -2,7 +2,7 @@
 
 import re
 
-from workflow_runs import copy_project, snakemake
+from workflow_runs import copy_project
 
 # the job server, which reads the script with fewer arguments, makes nothing
 _STUB = """
@@ -42,18 +42,6 @@ def copy_stubbed(root, to):
         imports = [line for line in script.read_text().splitlines() if re.match(r"from r37core\S* import \w+(, \w+)*$", line)]
         lazy = "\n".join(["def _imports():", *(f"    {line}" for line in imports), "    return None"])
         script.write_text(f"{lazy}\n{_STUB}{_REFINE_STUB if script.name == 'step.py' else ''}")
-
-
-def planned_outputs(folder, *arguments):
-    """First output of every job that a dry run plans, by rule."""
-    text = snakemake(folder, *(arguments or ("all_blades",)), "--cores", "1", "--dry-run")
-    found = {}
-    for block in re.split(r"\n\[", text):
-        rule = re.search(r"^(?:local)?(?:rule|checkpoint) (\w+):", block, re.MULTILINE)
-        output = re.search(r"^    output: ([^\s,]+)", block, re.MULTILINE)
-        if rule and output:
-            found.setdefault(rule[1], set()).add(output[1].removeprefix("results/"))
-    return found
 
 
 def edit(project, name, old, new):

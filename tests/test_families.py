@@ -4,7 +4,8 @@ import numpy as np
 import pandas as pd
 import pytest
 import xarray as xr
-from stubbed_runs import copy_stubbed, planned_outputs
+from plans_of_snakemake import planned_outputs
+from stubbed_runs import copy_stubbed
 
 from r37core.config import ConfigError, command_line_document
 from r37core.config.families import design_name

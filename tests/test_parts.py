@@ -5,7 +5,8 @@ import subprocess
 
 import pytest
 import yaml
-from stubbed_runs import copy_stubbed, planned_outputs
+from plans_of_snakemake import planned_outputs
+from stubbed_runs import copy_stubbed
 from workflow_runs import SNAKEMAKE, snakemake
 
 from r37core.config import ConfigError

@@ -46,7 +46,6 @@ LAYERS = [
     "time_integration",
     "results",
     "adaptive",
-    "tolerances",
     "exchange",
     "config",
     "plans",

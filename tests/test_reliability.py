@@ -12,7 +12,8 @@ import numpy as np
 import pytest
 import xarray as xr
 from defaults import Casing, IntegrationChoice, Scene
-from stubbed_runs import copy_stubbed, planned_outputs
+from plans_of_snakemake import planned_outputs
+from stubbed_runs import copy_stubbed
 from workflow_runs import SNAKEMAKE, copy_project, snakemake
 
 from r37core.config import ConfigError, command_line_document

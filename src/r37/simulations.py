@@ -13,7 +13,8 @@ import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike
 
-from r37core.config import ConfigError, Settings
+from r37core.config import ConfigError, Settings, casing_remarks
+from r37core.config.remarks import remarks_on_points
 from r37core.dataset_file import read_dataset
 from r37core.io import FILE_ATTRIBUTES
 from r37core.plans.provenance import Provenance
@@ -153,7 +154,7 @@ def _response(settings: Settings, motion: InitialMotion | None = None) -> xr.Dat
     """The response of the one blade in the one scene of the settings, at their speeds, from rest or in `motion`."""
     ((blade, scene), plan), *_ = settings.speed_plans.items()
     at, sweep = SimpleNamespace(blade=blade, scene=scene), Sweep(settings)
-    for remark in [*settings.remarks_on_casings, *settings.remarks_on_points]:
+    for remark in [*casing_remarks.of_sweep(settings), *remarks_on_points(settings)]:
         warnings.warn(remark, stacklevel=3)
     chosen, structure = settings.scenes[scene], StructureFiles(settings, blade)
     model = read_contact_model(structure.contact_model(chosen.tip_line))

@@ -60,7 +60,7 @@ class StructureFiles:
             "results.steps.campbell_of_blade",
             "campbell.nc",
             {"rom": self._reduced(structure.boundary.tip_line)},
-            campbell=si_fields(self.settings.campbell),
+            campbell=si_fields(self.settings.config.campbell),
             maximum_speed=structure.maximum_speed_rad_s,
             tip_line=structure.boundary.tip_line,
         ).file

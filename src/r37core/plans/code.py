@@ -47,7 +47,10 @@ class CodeHashes:
         return sorted({file for file, _ in self._parts(*names)})
 
     def _parts(self, *names: str) -> list[tuple[Path, str]]:
-        """Files, each with the name of the function that alone counts, or "" for the whole, sorted."""
+        """Files, each with the name of the function that alone counts, or "" for the whole.
+
+        Sorted, those of the package first wherever it lies: a hash is of code and not of places.
+        """
         parts: set[tuple[Path, str]] = set()
         waiting = [part for name in names for part in self._named(name)]
         while waiting:
@@ -55,7 +58,7 @@ class CodeHashes:
             if part not in parts:
                 parts.add(part)
                 waiting += [(imported, "") for name in imported_names(*part) for imported in self._files(name)]
-        return sorted(parts - {(self._version_file, "")})
+        return sorted(parts - {(self._version_file, "")}, key=lambda part: (part[0].is_relative_to(self._scripts), part))
 
     def _named(self, name: str) -> list[tuple[Path, str]]:
         above, _, last = name.rpartition(".")
