@@ -17,7 +17,7 @@ from .messages import explain_all, on_one_line
 Model = TypeVar("Model", bound=BaseModel)
 Result = TypeVar("Result")
 
-_MOST_TOLD = 20
+_MOST_LINES = 20
 """ConfigRefusals of one message."""
 
 
@@ -31,8 +31,8 @@ class ConfigError(ValueError):
 class ConfigRefusals:
     """What is wrong with a configuration, from checks that do not wait for each other: a user is told all at once."""
 
-    def __init__(self, *told: str) -> None:
-        self._lines = dict.fromkeys(told)
+    def __init__(self, *lines: str) -> None:
+        self._lines = dict.fromkeys(lines)
 
     def of(self, check: Callable[..., Result], *arguments: Any) -> Result | None:
         """What a check gives; None where it refuses, which it may do for the reason of one before it."""
@@ -45,7 +45,7 @@ class ConfigRefusals:
     def tell(self) -> None:
         """ConfigError with all of them, each once and not too many, if there are any."""
         if self._lines:
-            lines, more = list(self._lines)[:_MOST_TOLD], len(self._lines) - _MOST_TOLD
+            lines, more = list(self._lines)[:_MOST_LINES], len(self._lines) - _MOST_LINES
             raise ConfigError("\n".join([*lines, *([f"and {more} more"] if more > 0 else [])]))
 
 
@@ -70,17 +70,17 @@ class Document:
         shown = ".".join(on_one_line(str(step)) for step in named) or "top level"
         return ConfigError(f"{self.place(path)}: {shown}: {text}")
 
-    def refusal(self, path: KeyPath, found: str, allowed: str) -> ConfigError:
+    def refusal(self, path: KeyPath, value: str, allowed: str) -> ConfigError:
         """The error of the value at `path`, with what was found and what is allowed."""
-        return self.error(path, f"found {found}; allowed: {allowed}")
+        return self.error(path, f"found {value}; allowed: {allowed}")
 
     def check(self, model: type[Model]) -> Model:
         """The content as a model; ConfigError for all that the model does not allow."""
         try:
             return model.model_validate(self.content)
         except ValidationError as error:
-            said = explain_all(error, self.content, model)
-        ConfigRefusals(*(str(self.error(path, text, key)) for path, key, text in said)).tell()
+            explained = explain_all(error, self.content, model)
+        ConfigRefusals(*(str(self.error(path, text, key)) for path, key, text in explained)).tell()
         raise AssertionError("a model refuses for a reason")
 
     def overlaid(self, above: Document) -> Document:

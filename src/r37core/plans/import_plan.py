@@ -55,11 +55,11 @@ class Imported:
         """What a blade is imported from, as seen from the current folder where that is possible."""
         source = self.settings.blades[wildcards.blade].definition
         if isinstance(source, MeshSource):
-            found = mesh_files(source.file, self.settings.root)
+            files = mesh_files(source.file, self.settings.root)
         else:
             assert isinstance(source, MatricesSource)
-            found = list(matrix_files(source.folder, self.settings.root).values())
-        return [_seen_from_here(file) for file in found]
+            files = list(matrix_files(source.folder, self.settings.root).values())
+        return [_seen_from_here(file) for file in files]
 
     def source(self, wildcards: Any) -> Any:
         """What to import."""

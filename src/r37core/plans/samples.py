@@ -111,12 +111,12 @@ class Samples:
     @cached_property
     def _blades(self) -> dict[tuple[str, str], dict[str, BladeSettings]]:
         """By folder and blade, and by name."""
-        found: dict[tuple[str, str], dict[str, BladeSettings]] = {}
+        members_of: dict[tuple[str, str], dict[str, BladeSettings]] = {}
         for folder, samples in self.beside.items():
             for (blade, _), sample in samples.items():
                 members = {name: member.blade for name, member in sample.members.items()}
-                found.setdefault((folder, blade), {}).update(members)
-        return found
+                members_of.setdefault((folder, blade), {}).update(members)
+        return members_of
 
 
 def member_of(wildcards: Any) -> str:

@@ -114,10 +114,10 @@ class Sweep:
 
     def refinement_choice(self, wildcards: Any) -> dict[str, Any]:
         """What makes an interval of speeds of a scene worth halving, as fields of RefinementChoice."""
-        given = self.settings.config.refinement.in_scene(self.settings.scenes[wildcards.scene].scene)
-        windows = tuple(in_si(Window, window) for window in given.windows)
+        refinement = self.settings.config.refinement.in_scene(self.settings.scenes[wildcards.scene].scene)
+        windows = tuple(in_si(Window, window) for window in refinement.windows)
         share, prominence = self.samples.sample(wildcards).largest_share, self.settings.config.interactions.prominence
-        return to_plain(in_si(RefinementChoice, given, windows=windows, largest_share=share, prominence=prominence))
+        return to_plain(in_si(RefinementChoice, refinement, windows=windows, largest_share=share, prominence=prominence))
 
     def task(self, wildcards: Any) -> str:
         """What one simulation does, as JSON text."""

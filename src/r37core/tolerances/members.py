@@ -46,20 +46,20 @@ class Members:
         Raises ConfigError where numbers are given and no blade and scene that is run has any of them.
         """
         settings, nominals = self._settings, self._nominals
-        found = [pair for pair, nominal in nominals.items() if any(value is not None for value in nominal)]
+        pairs = [pair for pair, nominal in nominals.items() if any(value is not None for value in nominal)]
         # a part of the blades may have none
-        if self.numbers and not found and settings.config.run.part is None:
+        if self.numbers and not pairs and settings.config.run.part is None:
             named, (blades, scenes) = ", ".join(key for _, key in self.numbers), self._chosen
             run = f"{', '.join(blades)} in {', '.join(scenes)}"
             raise self._refusal((), f"none of its numbers ({named}) in {run}", "blades and scenes that are run and have some")
-        return found
+        return pairs
 
     @property
     def _chosen(self) -> tuple[list[str], list[str]]:
         """Blades and scenes that are to have members."""
-        settings, given = self._settings, self._given
-        blades = settings.blade_names if given.blades == "all" else settings.designs.named(given.blades)
-        return blades, settings.scene_names if given.scenes == "all" else given.scenes
+        settings, entry = self._settings, self._given
+        blades = settings.blade_names if entry.blades == "all" else settings.designs.named(entry.blades)
+        return blades, settings.scene_names if entry.scenes == "all" else entry.scenes
 
     @cached_property
     def _nominals(self) -> dict[tuple[str, str], list[float | None]]:
@@ -129,8 +129,8 @@ class Members:
 
     def _member(self, name: str, blade: str, scene: str, nominal: Sequence[float | None]) -> Member:
         values = drawn(self.numbers.values(), nominal, self._places[name])
-        given = {number: value for number, value in zip(self.numbers, values, strict=True) if value is not None}
-        return Member(*self._changed(blade, scene, given, f"member {name} of {blade} in {scene}"), values)
+        changes = {number: value for number, value in zip(self.numbers, values, strict=True) if value is not None}
+        return Member(*self._changed(blade, scene, changes, f"member {name} of {blade} in {scene}"), values)
 
     def _changed(
         self, blade: str, scene: str, values: Mapping[tuple[str, str], float], who: str
@@ -152,11 +152,11 @@ class Members:
         except ImpossibleValueError as error:
             known = (section, error.key) in self.numbers
             path, text = (error.key,) if known else (), str(error) if known else f"{error.key}: {error}"
-            place = ("tolerances", section, *path)
-            raise self._settings.documents.config.error(place, f"{who}: {text}; or a narrower tolerance") from None
+            at = ("tolerances", section, *path)
+            raise self._settings.documents.config.error(at, f"{who}: {text}; or a narrower tolerance") from None
 
-    def _refusal(self, path: tuple[str, ...], found: str, allowed: str) -> ConfigError:
-        return self._settings.documents.config.refusal(("tolerances", *path), found, allowed)
+    def _refusal(self, path: tuple[str, ...], value: str, allowed: str) -> ConfigError:
+        return self._settings.documents.config.refusal(("tolerances", *path), value, allowed)
 
 
 def members_of(settings: Settings) -> Members:

@@ -60,13 +60,13 @@ class Tolerances:
     def _models(self) -> dict[str, dict[str, str]]:
         """Which member's model each member has, by blade: the first of those with the same blade, or the nominal one."""
         first: dict[str, dict[BladeSettings, str]] = {}
-        found: dict[str, dict[str, str]] = {}
+        models: dict[str, dict[str, str]] = {}
         for (blade, _), members in self._members.all.items():
             known = first.setdefault(blade, {self.settings.blades[blade].elastic: NOMINAL})
             for name, member in members.items():
-                if name not in found.setdefault(blade, {}):
-                    found[blade][name] = known.setdefault(member.blade.elastic, name)
-        return found
+                if name not in models.setdefault(blade, {}):
+                    models[blade][name] = known.setdefault(member.blade.elastic, name)
+        return models
 
     @property
     def runs(self) -> list[dict[str, str]]:
@@ -109,7 +109,7 @@ class Tolerances:
         """First rounds of the members and of the nominal runs beside them: as of Sweep."""
         adaptive = paths.of_runs(pair for pair in self.pairs if self.settings.speed_plans[pair].refined)
         members = [path_part(FOLDER), NOMINAL]
-        return paths.filled({paths.ROUND: [{**run, "member": one, "round": "0"} for one in members for run in adaptive]})
+        return paths.filled({paths.ROUND: [{**run, "member": member, "round": "0"} for member in members for run in adaptive]})
 
     @property
     def numbers(self) -> list[str]:
@@ -157,9 +157,9 @@ def targets(sweep: Sweep) -> dict[str, paths.Wildcards]:
 
 def remarks(settings: Settings) -> list[str]:
     """How many members there are, and whether these rank the numbers."""
-    members, given = members_of(settings), section(settings)
+    members, entry = members_of(settings), section(settings)
     if not members.pairs:
         return []
     most = extent_of(settings, {FOLDER: samples(settings)}).members
-    said = f"tolerances: {given.members} members, {most} simulations of theirs at most, beside those of the sweep"
-    return [said, *remarks_on_rankings(given.members, len(members.numbers), given.sensitivity)]
+    counted = f"tolerances: {entry.members} members, {most} simulations of theirs at most, beside those of the sweep"
+    return [counted, *remarks_on_rankings(entry.members, len(members.numbers), entry.sensitivity)]

@@ -33,7 +33,7 @@ def places(numbers: int, members: int, seed: int) -> dict[str, tuple[float, ...]
     pairs = [
         pair for names, sample in zip(names, [first, second, *mixed], strict=True) for pair in zip(names, sample, strict=True)
     ]
-    return {name: tuple(place.tolist()) for name, place in pairs}
+    return {name: tuple(point.tolist()) for name, point in pairs}
 
 
 def together(row: int, numbers: Iterable[int]) -> list[str]:
@@ -41,11 +41,11 @@ def together(row: int, numbers: Iterable[int]) -> list[str]:
     return [f"{row}", f"{row}b", *(f"{row}f{number + 1}" for number in numbers)]
 
 
-def drawn(spreads: Iterable[Spread], nominal: Sequence[float | None], place: Sequence[float]) -> tuple[float | None, ...]:
-    """Values of a member at its `place`; None for a number without a nominal value."""
+def drawn(spreads: Iterable[Spread], nominal: Sequence[float | None], point: Sequence[float]) -> tuple[float | None, ...]:
+    """Values of a member at its `point`; None for a number without a nominal value."""
     return tuple(
         None if value is None else spread.value(value, share)
-        for spread, value, share in zip(spreads, nominal, place, strict=True)
+        for spread, value, share in zip(spreads, nominal, point, strict=True)
     )
 
 

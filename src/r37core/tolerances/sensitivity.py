@@ -88,8 +88,8 @@ def sobol_indices(measure: Mapping[str, float], numbers: Sequence[int], count: i
     above[np.ix_(numbers, numbers)] = (totals[:, None] > totals).mean(axis=-1) >= 0.5 + 0.5 * CONFIDENCE
 
     def placed(values: np.ndarray) -> np.ndarray:
-        found = nothing.copy()
-        found[:, list(numbers)] = values
-        return found
+        whole = nothing.copy()
+        whole[:, list(numbers)] = values
+        return whole
 
     return Sensitivity(placed(indices(np.arange(members))), placed(ends.low), placed(ends.high), above, members)
