@@ -55,8 +55,8 @@ class Configuration:
         `blades_above`, `scenes_above`: changes on top of these files. Raises ConfigError.
         """
         content = {key: value for key, value in self.document.content.items() if key not in _OF_A_RUN}
-        places = {path: place for path, place in self.document.places.items() if not path or path[0] not in _OF_A_RUN}
-        document = replace(self.document, content=content, places=places).overlaid(command_line_document(keys, caller))
+        locations = {path: line for path, line in self.document.locations.items() if not path or path[0] not in _OF_A_RUN}
+        document = replace(self.document, content=content, locations=locations).overlaid(command_line_document(keys, caller))
         return _READER.load_settings(document, self.root, blades_above=blades_above, scenes_above=scenes_above)
 
 

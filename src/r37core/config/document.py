@@ -51,24 +51,24 @@ class ConfigRefusals:
 
 @dataclass(frozen=True)
 class Document:
-    """What a file says. `name`: of the file, for messages; `places`: file and line of the values, as `file:line`."""
+    """What a file says. `name`: of the file, for messages; `locations`: file and line of the values, as `file:line`."""
 
     name: str
     content: Any
-    places: Mapping[KeyPath, str] = field(default_factory=dict)
+    locations: Mapping[KeyPath, str] = field(default_factory=dict)
 
-    def place(self, path: KeyPath) -> str:
+    def location(self, path: KeyPath) -> str:
         """File and line of a value, of what holds it if it is not given, or the file alone."""
         for length in range(len(path), 0, -1):
-            if path[:length] in self.places:
-                return self.places[path[:length]]
-        return self.name if path else self.places.get((), self.name)
+            if path[:length] in self.locations:
+                return self.locations[path[:length]]
+        return self.name if path else self.locations.get((), self.name)
 
     def error(self, path: KeyPath, text: str, key: KeyPath | None = None) -> ConfigError:
         """The error of the value at `path`: place, key (where that is not the whole path) and `text`."""
         named = path if key is None else key
         shown = ".".join(on_one_line(str(step)) for step in named) or "top level"
-        return ConfigError(f"{self.place(path)}: {shown}: {text}")
+        return ConfigError(f"{self.location(path)}: {shown}: {text}")
 
     def refusal(self, path: KeyPath, value: str, allowed: str) -> ConfigError:
         """The error of the value at `path`, with what was found and what is allowed."""
@@ -85,9 +85,9 @@ class Document:
 
     def overlaid(self, above: Document) -> Document:
         """This document with the values of another one on top: mappings are joined, all else is replaced."""
-        places = dict(self.places)
-        content = _overlay(self.content, above.content, (), places)
-        return Document(self.name, content, places | dict(above.places))
+        locations = dict(self.locations)
+        content = _overlay(self.content, above.content, (), locations)
+        return Document(self.name, content, locations | dict(above.locations))
 
 
 @dataclass(frozen=True)
@@ -123,9 +123,9 @@ def read_document(root: Path, name: str) -> Document:
 def command_line_document(values: Mapping[str, Any], name: str = "--config") -> Document:
     """What a command line gives: Snakemake hands numbers inside lists and mappings on as texts."""
     content = _with_numbers(dict(values))
-    places: dict[KeyPath, str] = {}
-    _mark(content, (), name, places)
-    return Document(name, content, places)
+    locations: dict[KeyPath, str] = {}
+    _mark(content, (), name, locations)
+    return Document(name, content, locations)
 
 
 def _with_numbers(value: Any) -> Any:
@@ -136,20 +136,20 @@ def _with_numbers(value: Any) -> Any:
     return scalar(value) if isinstance(value, str) else value
 
 
-def _mark(content: Any, path: KeyPath, name: str, places: dict[KeyPath, str]) -> None:
+def _mark(content: Any, path: KeyPath, name: str, locations: dict[KeyPath, str]) -> None:
     if path:
-        places[path] = name
+        locations[path] = name
     if isinstance(content, Mapping):
         for key, value in content.items():
-            _mark(value, (*path, key), name, places)
+            _mark(value, (*path, key), name, locations)
 
 
-def _overlay(below: Any, above: Any, path: KeyPath, places: dict[KeyPath, str]) -> Any:
+def _overlay(below: Any, above: Any, path: KeyPath, locations: dict[KeyPath, str]) -> Any:
     if not (isinstance(below, Mapping) and isinstance(above, Mapping)):
-        for inside in [place for place in places if place[: len(path)] == path]:
-            del places[inside]
+        for inside in [known for known in locations if known[: len(path)] == path]:
+            del locations[inside]
         return above
     joined = dict(below)
     for key, value in above.items():
-        joined[key] = _overlay(below[key], value, (*path, key), places) if key in below else value
+        joined[key] = _overlay(below[key], value, (*path, key), locations) if key in below else value
     return joined

@@ -59,7 +59,7 @@ def with_designs(entries: Mapping[str, AnyEntry], root: Path, document: Document
     """The entries with every family replaced by its designs. Raises ConfigError, with the place in `document`."""
     made: dict[str, AnyEntry] = {}
     families: dict[str, Family] = {}
-    places = dict(document.places)
+    locations = dict(document.locations)
     for name, entry in entries.items():
         if not isinstance(entry, BladeEntry) or (entry.vary is None and entry.designs is None):
             made[name] = entry
@@ -69,14 +69,14 @@ def with_designs(entries: Mapping[str, AnyEntry], root: Path, document: Document
             if design in entries or design in made:
                 raise document.refusal((name,), f"the design '{design}'", "designs that are not named like another blade")
             made[design] = _design(name, entry, dict(zip(family.keys, values, strict=True)), design, document)
-            places |= {(design, *path[1:]): place for path, place in document.places.items() if path[:1] == (name,)}
+            locations |= {(design, *path[1:]): location for path, location in document.locations.items() if path[:1] == (name,)}
         try:
             check_names(made)
             for design in family.designs:
                 check_name(design)
         except PydanticCustomError as error:
             raise document.error((name,), str(error)) from None
-    return Designs(made, families, replace(document, places=places))
+    return Designs(made, families, replace(document, locations=locations))
 
 
 def _family(name: str, entry: BladeEntry, root: Path, document: Document) -> Family:

@@ -1,6 +1,6 @@
 """Members of a sample: how a number spreads about its nominal value, and which values each member has.
 
-Light but for `places`: the workflow imports it whether there are tolerances or not.
+Light but for `sobol_points`: the workflow imports it whether there are tolerances or not.
 """
 
 from __future__ import annotations
@@ -17,8 +17,8 @@ MEMBER_NAME = r"\d+(?:b|f\d+)?"
 """Pattern of a member's name."""
 
 
-def places(numbers: int, members: int, seed: int) -> dict[str, tuple[float, ...]]:
-    """Name of each member -> its place among the values of each number, shares above 0 and below 1.
+def sobol_points(numbers: int, members: int, seed: int) -> dict[str, tuple[float, ...]]:
+    """Name of each member -> its point: where it lies among the values of each number, shares above 0 and below 1.
 
     `members`, a power of two, are the first points of a scrambled Sobol sequence, named 0, 1, ...: more of them change none.
     Those that sensitivity indices need beside them follow: 0b, an independent second sample, and 0f1, the first sample with

@@ -80,7 +80,7 @@ def report(responses: Mapping[str, xr.Dataset], files: Any, values: Mapping[str,
     diagrams = read_dataset(files.campbell)
     ways: dict[str, dict[tuple[str, str], Outcome]] = {"adaptive": {}}
     every = {}
-    for name, (blade, scene) in values["places"].items():
+    for name, (blade, scene) in values["pairs"].items():
         response = ran(responses[name], name)
         campbell, plan = diagrams.sel(blade=blade), from_plain(SpeedPlan, values["plans"][name])
         choice = from_plain(RefinementChoice, values["choices"][name])
