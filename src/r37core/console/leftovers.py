@@ -11,7 +11,7 @@ from pathlib import Path
 
 from r37core.config import Settings
 from r37core.plans import paths
-from r37core.plans.sweep_plan import Sweep, asked_by
+from r37core.plans.sweep_plan import Sweep, speeds_of_round
 from r37core.product.reading import RESERVED, read_settings
 from r37core.product.targets import everything
 from r37core.speeds import SpeedPlan, exact_text
@@ -84,7 +84,7 @@ def _speeds(folder: Path, plan: SpeedPlan) -> list[float]:
         file = folder / f"round_{number}.json"
         if not plan.refined or not file.exists():
             break
-        new = asked_by(str(file))
+        new = speeds_of_round(str(file))
         if not new:
             return speeds
         speeds += new

@@ -15,7 +15,7 @@ from r37core.plain import to_plain
 
 from .paths import MESH, REDUCED_MODEL, WHOLE_BLADE_MODEL, fill
 from .provenance import Attributes
-from .samples import NOMINAL, Pair, Sample, Samples, member_of, place_of
+from .samples import NOMINAL, Pair, Sample, Samples, folder_and_name, member_of
 
 
 @dataclass(frozen=True)
@@ -34,7 +34,7 @@ class Structure:
 
     def definition(self, wildcards: Any) -> Any:
         """Shape of a blade."""
-        definition, (folder, name) = self._samples.blade(wildcards).definition, place_of(wildcards)
+        definition, (folder, name) = self._samples.blade(wildcards).definition, folder_and_name(wildcards)
         if folder and isinstance(definition, BladeDefinition):
             # the name is for messages
             definition = replace(definition, name=f"{wildcards.blade}, member {name} of {folder}")

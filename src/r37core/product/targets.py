@@ -14,13 +14,13 @@ def targets(sweep: Sweep) -> dict[str, Wildcards]:
     targets = _of_spine(sweep)
     for wing in WINGS:
         if not wing.on_request:
-            targets |= wing.asked(sweep)
+            targets |= wing.all_targets(sweep)
     return targets
 
 
 def everything(sweep: Sweep) -> dict[str, Wildcards]:
     """The same with what is made on request alone."""
-    return targets(sweep) | {pattern: files for wing in WINGS for pattern, files in wing.asked(sweep).items()}
+    return targets(sweep) | {pattern: files for wing in WINGS for pattern, files in wing.all_targets(sweep).items()}
 
 
 def simulated(sweep: Sweep) -> list[str]:
@@ -30,7 +30,7 @@ def simulated(sweep: Sweep) -> list[str]:
 
 def files_of(wing: Wing, sweep: Sweep) -> list[str]:
     """All files of a wing that are asked for."""
-    return filled(wing.asked(sweep))
+    return filled(wing.all_targets(sweep))
 
 
 def _of_spine(sweep: Sweep) -> dict[str, Wildcards]:
