@@ -54,7 +54,7 @@ def _path(error: Mapping[str, Any], content: Any) -> KeyPath:
 def _explained(error: Mapping[str, Any], path: KeyPath, content: Any, model: type[BaseModel]) -> tuple[KeyPath, KeyPath, str]:
     schema, variants, context = _schema(model), frozenset(map(str, error["loc"])), error.get("ctx", {})
     if error["type"] == "refused":
-        return path, path, f"found {on_one_line(context['shown'])}; allowed: {context['allowed']}"
+        return path, path, f"found {on_one_line(context['found'])}; allowed: {context['allowed']}"
     if error["type"] in ("missing", "extra_forbidden"):
         *parent, key = path
         known = _keys(_at(schema, tuple(parent), schema, variants), schema)
