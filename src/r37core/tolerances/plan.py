@@ -62,13 +62,13 @@ class Tolerances:
     def _models(self) -> dict[str, dict[str, str]]:
         """Which member's model each member has, by blade: the first of those with the same blade, or the nominal one."""
         first: dict[str, dict[BladeSettings, str]] = {}
-        found: dict[str, dict[str, str]] = {}
+        models: dict[str, dict[str, str]] = {}
         for (blade, _), members in self._members.all.items():
             known = first.setdefault(blade, {self.settings.blades[blade].elastic: NOMINAL})
             for name, member in members.items():
-                if name not in found.setdefault(blade, {}):
-                    found[blade][name] = known.setdefault(member.blade.elastic, name)
-        return found
+                if name not in models.setdefault(blade, {}):
+                    models[blade][name] = known.setdefault(member.blade.elastic, name)
+        return models
 
     @property
     def runs(self) -> list[dict[str, str]]:
@@ -154,9 +154,9 @@ def targets(sweep: Sweep) -> dict[str, paths.Wildcards]:
 
 def remarks(settings: Settings) -> list[str]:
     """How many members there are, and whether these rank the numbers."""
-    members, given = members_of(settings), section(settings)
+    members, entry = members_of(settings), section(settings)
     if not members.pairs:
         return []
     most = extent_of(settings, {FOLDER: samples(settings)}).members
-    said = f"tolerances: {given.members} members, {most} simulations of theirs at most, beside those of the sweep"
-    return [said, *remarks_on_rankings(given.members, len(members.numbers), given.sensitivity)]
+    counted = f"tolerances: {entry.members} members, {most} simulations of theirs at most, beside those of the sweep"
+    return [counted, *remarks_on_rankings(entry.members, len(members.numbers), entry.sensitivity)]
