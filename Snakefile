@@ -17,7 +17,6 @@ include: "workflow/rules/sweep.smk"
 include: "workflow/rules/results.smk"
 include: "workflow/rules/figures.smk"
 include: "workflow/rules/wings.smk"
-include: "workflow/rules/tolerances.smk"
 include: "workflow/rules/studies.smk"
 
 

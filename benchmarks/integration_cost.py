@@ -32,7 +32,7 @@ TURNS, RUNS = 3, 15
 
 def timed(checkout):
     """Modes stepped, largest step (s) and least CPU time (s) of each case, as JSON: run by the Python of the checkout."""
-    settings, found = read_settings(Path(checkout)), []
+    settings, measured = read_settings(Path(checkout)), []
     for blade, scene, speed in CASES:
         model = read_contact_model(ROOT / f"results/{blade}/contact_{settings.scenes[scene].tip_line}.npz")
         choice = settings.integration_choice(blade, scene, speed)
@@ -41,8 +41,8 @@ def timed(checkout):
             state, begun = simulation.start(), time.process_time()
             simulation.advance(state, choice.revolutions)
             taken.append(time.process_time() - begun)
-        found.append((len(simulation.problem.frequencies), choice.time_step, min(taken)))
-    return json.dumps(found)
+        measured.append((len(simulation.problem.frequencies), choice.time_step, min(taken)))
+    return json.dumps(measured)
 
 
 def of_checkout(checkout):

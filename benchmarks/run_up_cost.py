@@ -56,8 +56,8 @@ def main():
     head = ["scene", "rate (rad/s2)", "steps", "jumped: run-up, constant", "in contact: run-up, constant"]
     head += ["CPU time per step (ns)", "per step at constant speed (ns)", "ratio", "ratio of the compiled steps"]
     head += ["beside the compiled steps", "the same at constant speed", "ratio for the same motion"]
-    said = f"{FROM:g} to {TO:g} rad/s, {BEFORE} revolutions before and {AFTER} after; medians of {ROUNDS} rounds."
-    write_text(f"{markdown_table(head, rows)}\n{said}\n", ROOT / "results/studies/run_up_cost.md")
+    note = f"{FROM:g} to {TO:g} rad/s, {BEFORE} revolutions before and {AFTER} after; medians of {ROUNDS} rounds."
+    write_text(f"{markdown_table(head, rows)}\n{note}\n", ROOT / "results/studies/run_up_cost.md")
 
 
 def row(settings, model, scene, rate):
@@ -82,9 +82,11 @@ def row(settings, model, scene, rate):
 
     change(), same()
     rounds = [(cost(change), cost(same)) for _ in range(ROUNDS)]
-    changing, holding = (np.median([one[which].per_step for one in rounds], axis=0) for which in range(2))
-    ratio, of_steps = np.median([one.per_step / other.per_step for one, other in rounds], axis=0)
-    beside, beside_constant = (np.median([one[which].whole / one[which].steps - 1.0 for one in rounds]) for which in range(2))
+    changing, holding = (np.median([pair[which].per_step for pair in rounds], axis=0) for which in range(2))
+    ratio, of_steps = np.median([ours.per_step / theirs.per_step for ours, theirs in rounds], axis=0)
+    beside, beside_constant = (
+        np.median([both[which].whole / both[which].steps - 1.0 for both in rounds]) for which in range(2)
+    )
     first, second = rounds[0]
     cells = [scene, f"{rate:g}", f"{first.totals['steps']:.0f}"]
     cells += [f"{first.share(name)}, {second.share(name)}" for name in ("steps_jumped", "steps_in_contact")]

@@ -29,6 +29,7 @@ from r37core.rounding import rounded_to
 from r37core.studies.tables import markdown_table
 from r37core.time_integration.speed_run import run_speed
 from r37core.tolerances.dataset import INDEXED, QUANTILES
+from r37core.tolerances.members import members_of
 from r37core.tolerances.number_ranks import ranking
 from r37core.tolerances.sample import together
 from r37core.tolerances.sensitivity import sobol_indices
@@ -91,7 +92,7 @@ def run_all():
             continue
         settings = settings_of(seed)
         model = model or model_of(settings)
-        began, members = time.process_time(), settings.members.all[BLADE, SCENE]
+        began, members = time.process_time(), members_of(settings).all[BLADE, SCENE]
         found = [outcomes(settings, *model, member) for member in members.values()]
         with atomic_write(file) as partial, open(partial, "wb") as stream:
             np.savez(
@@ -99,7 +100,7 @@ def run_all():
                 members=list(members),
                 outcomes=found,
                 values=[member.values for member in members.values()],
-                numbers=[key for _, key in settings.members.numbers],
+                numbers=[key for _, key in members_of(settings).numbers],
             )
         print(f"seed {seed}: {len(members)} members, {time.process_time() - began:.0f} s", flush=True)
 

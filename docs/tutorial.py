@@ -98,7 +98,7 @@ campbell = campbell_dataset(
     model,
     maximum_speed=settings.structure.maximum_speed_rad_s,
     tip_line="pressure_edge",
-    **si_fields(settings.campbell),
+    **si_fields(settings.config.campbell),
 )
 draw_campbell(campbell, "Mine")
 crossings = campbell["crossing_speed"].sel(mode="1B").to_series().dropna()

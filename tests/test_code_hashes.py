@@ -227,7 +227,7 @@ def modules_used(function):
         "r37core.time_integration.speed_job.prepare",
         "r37core.results.steps.response",
         "r37core.fem.steps.mesh",
-        "r37core.product.steps.summary",
+        "r37core.results.steps.summary",
         "r37core.studies.steps.report",
         "r37core.run_ups.steps.record",
         "r37core.exports.steps.stress",

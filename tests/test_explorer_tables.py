@@ -17,8 +17,8 @@ from r37core.plans.sweep_plan import Sweep
 from r37core.product.reading import read_settings
 from r37core.results import glossary
 from r37core.results.interaction import COLUMNS
+from r37core.results.ranges import RANGES
 from r37core.results.ranking import ROBUSTNESS
-from r37core.tolerances.table import RANGES
 
 RANKING = pd.DataFrame(
     [

@@ -46,7 +46,6 @@ LAYERS = [
     "time_integration",
     "results",
     "adaptive",
-    "tolerances",
     "exchange",
     "config",
     "plans",
@@ -213,3 +212,29 @@ def test_a_wing_is_one_place(root):
             # studies take what they need of the product
             if not own and "studies" not in file.parts:
                 assert not [name for name in names if name.startswith(f"r37core.{wing.name}.")], file
+
+
+VAGUE, MOST_VAGUE = ("found", "one", "given"), 150
+"""Names that say nothing of a value, and how many of them the package had when they were last counted: not one more."""
+
+TRANSLATED = {"pace", "paces", "march", "course", "stretch", "stretches", "climb", "bench"}
+"""The field says constant-speed segment, time integration, schedule, segment, growth."""
+
+
+def names_in(file):
+    """What a file names: arguments, values, functions and classes."""
+    for node in ast.walk(ast.parse(file.read_text())):
+        if isinstance(node, ast.arg):
+            yield node.arg
+        elif isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store):
+            yield node.id
+        elif isinstance(node, ast.FunctionDef | ast.ClassDef):
+            yield node.name
+
+
+def test_values_are_called_what_they_are(root):
+    """A name is a word of the field: peaks, columns, scene in place of found, one, given."""
+    names = Counter(name for file in (root / "src").rglob("*.py") for name in names_in(file))
+    assert sum(names[name] for name in VAGUE) <= MOST_VAGUE
+    words = {word.lower() for name in names for word in re.findall(r"[A-Z]?[a-z]+", name)}
+    assert not words & TRANSLATED

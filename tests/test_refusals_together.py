@@ -4,7 +4,7 @@ import pytest
 from test_refusals import CONFIG_REFUSALS, edit
 
 from r37core.config import ConfigError, command_line_document
-from r37core.config.document import Refusals
+from r37core.config.document import ConfigRefusals
 from r37core.product.reading import read_settings
 
 
@@ -95,11 +95,11 @@ def test_not_more_is_told_than_anybody_reads(config_copy):
     def refuse(number):
         raise ConfigError(f"mistake {number}")
 
-    refusals = Refusals()
+    refusals = ConfigRefusals()
     for number in [*range(30), *range(30)]:
         refusals.of(refuse, number)
     with pytest.raises(ConfigError) as refused:
         refusals.tell()
     lines = str(refused.value).splitlines()
     assert (lines[0], lines[-1], len(lines)) == ("mistake 0", "and 10 more", 21)
-    Refusals().tell()
+    ConfigRefusals().tell()

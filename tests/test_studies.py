@@ -24,6 +24,7 @@ from r37core.dataset_file import read_dataset, write_dataset
 from r37core.plain import from_plain, to_plain
 from r37core.plans.extent import extent_of, extents
 from r37core.product.reading import read_settings
+from r37core.product.sampling import beside
 from r37core.results.measures import first_contact
 from r37core.stress.recovery import stress_operator
 from r37core.studies import runner
@@ -78,9 +79,9 @@ def test_the_estimate_and_the_check_count_the_same_simulations(root, tmp_path, c
         "tolerances: { members: 4, of_scenes: { friction.coefficient: { uniform_percent: 5 } } }\n"
     )
     settings = read_settings(root, read_document(tmp_path, "members.yaml"))
-    counted = extents(settings)
+    counted = extents(settings, beside(settings))
     assert values(settings)["runs"] == {"__".join(place): extent.at_most for place, extent in counted.items()}
-    whole = extent_of(settings)
+    whole = extent_of(settings, beside(settings))
     assert whole.at_most == whole.most + whole.members > whole.most > whole.certain
     assert main(["check", str(root / "config/config.yaml"), str(file)]) == 0
     told, cost = capsys.readouterr().out, whole.at_most * settings.fidelity.measured.cpu_s_per_run

@@ -10,6 +10,7 @@ import pytest
 
 from r37core.adaptive.criterion import RefinementChoice
 from r37core.config import ConfigError, command_line_document
+from r37core.config.speed_choice import most_runs
 from r37core.contact.scene import Scene
 from r37core.io import InputFileError
 from r37core.plain import from_plain
@@ -17,7 +18,6 @@ from r37core.plans.paths import filled
 from r37core.plans.provenance import Provenance
 from r37core.plans.structure_plan import Structure
 from r37core.plans.sweep_plan import Sweep, asked_by
-from r37core.plans.tolerance_plan import Tolerances
 from r37core.product.reading import read_settings
 from r37core.product.targets import targets
 from r37core.run_ups.choice import RunUpChoice
@@ -29,6 +29,8 @@ from r37core.studies.plan import STUDIES, Studies
 from r37core.studies.refinement import cases as refinement
 from r37core.studies.stability import cases as stability
 from r37core.studies.tradeoff import cases as tradeoff
+from r37core.tolerances.members import members_of
+from r37core.tolerances.plan import Tolerances
 
 
 @pytest.fixture(scope="module")
@@ -125,7 +127,7 @@ def test_a_member_is_run_like_the_nominal_blade(with_members):
     tolerances, _ = with_members
     settings, samples = tolerances.settings, {"tolerances": tolerances.samples}
     sweep, structure, made = Sweep(settings, None, samples), Structure(settings, samples), Provenance(settings, samples)
-    drawn = settings.members.all["Ref", "abradable"]
+    drawn = members_of(settings).all["Ref", "abradable"]
     shapes = {name: member.values[1] for name, member in drawn.items()}
     (same, *_), (other, *_) = ([name for name in drawn if shapes[name] == percent] for percent in (100.0, 102.0))
     task = json.loads(sweep.task(of(**vars(REF), speed="900")))
@@ -203,7 +205,7 @@ def test_without_a_lining_a_round_has_a_share_of_its_own_and_no_windows(root):
     sweep = Sweep(settings)
     assert (sweep.refinement_choice(direct)["windows"], sweep.refinement_choice(direct)["largest_share"]) == ([], 0.125)
     assert sweep.refinement_choice(direct)["change"] == sweep.refinement_choice(lined)["change"]
-    assert settings.most_runs("Ref", "direct") < settings.most_runs("Ref", "abradable")
+    assert most_runs(settings, "Ref", "direct") < most_runs(settings, "Ref", "abradable")
     window = {"mode": "1B", "highest_engine_order": 3, "first": 0.0, "last": 0.1, "step_rad_s": 5.0}
     chosen = {"refinement": {"direct": {"windows": [window], "largest_share": 0.9}}}
     sweep = Sweep(read_settings(root, command_line_document(run | chosen)))
@@ -236,7 +238,7 @@ def test_members_are_run_at_every_speed_too(root):
     assert list(cases) == ["Ref__abradable", "Ref__direct", "Ref__abradable/0", "Ref__abradable/1"]
     assert members == {"Ref__abradable": {"0": "Ref__abradable/0", "1": "Ref__abradable/1"}}
     nominal, member = cases["Ref__abradable"], cases["Ref__abradable/1"]
-    assert member.scene == settings.members.all["Ref", "abradable"]["1"].scene != nominal.scene
+    assert member.scene == members_of(settings).all["Ref", "abradable"]["1"].scene != nominal.scene
     assert replace(member, scene=nominal.scene, what=nominal.what) == nominal
     of_blades = {"of_blades": {"thickness_percent": {"normal": 1}}}
     settings = read_settings(root, command_line_document({**REFINED, "blades": ["Ref"], "tolerances": of_blades}))

@@ -27,7 +27,7 @@ _ALL = ("structure", "lined", "direct")
 
 def _study(name: str, *more: str) -> tuple[str, ...]:
     """Files of a study of r37core.studies that decide about its tables: what is run, and what is said."""
-    return tuple(f"src/r37core/studies/{name}/{one}.py" for one in ("cases", "report", *more))
+    return tuple(f"src/r37core/studies/{name}/{module}.py" for module in ("cases", "report", *more))
 
 
 _CHECKS = ("src/r37core/studies/checks.py", "src/r37core/published.py", "src/r37core/studies/modelling_choices/validation.py")

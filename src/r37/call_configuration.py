@@ -18,7 +18,7 @@ _PACKAGE = Path(__file__).parent
 _FOLDER = "config"
 """Of the repository and of this package, where it is a link or, once installed, a copy."""
 
-_OF_A_RUN = ("run", "speeds", "speeds_rpm", "speeds_for", "tolerances", "studies", *(wing.name for wing in WINGS))
+_OF_A_RUN = ("run", "speeds", "speeds_rpm", "speeds_for", "studies", *(wing.name for wing in WINGS))
 """Sections of config.yaml that say what a run of the workflow makes, and nothing of a single simulation."""
 
 _READER = replace(READER, checks=tuple(check for check in READER.checks if check is not history_speeds_are_run))

@@ -12,11 +12,13 @@ import pandas as pd
 import xarray as xr
 
 from r37core.config import ConfigError
+from r37core.config.remarks import remarks_on_points
 from r37core.dataset_file import write_dataset
 from r37core.io import InputFileError
 from r37core.plans.extent import extent_of
 from r37core.product.reading import load_settings
 from r37core.product.remarks import remarks
+from r37core.product.sampling import beside
 from r37core.time_integration.status import RunStatus
 
 from .call_configuration import read_configuration
@@ -113,7 +115,7 @@ def _check(given: argparse.Namespace) -> None:
     first, *changes = given.config or [None]
     configuration = read_configuration(first).with_changes(changes)
     settings = load_settings(configuration.document, configuration.root)
-    extent, measured = extent_of(settings), settings.fidelity.measured
+    extent, measured = extent_of(settings, beside(settings)), settings.fidelity.measured
     print(f"blades: {', '.join(settings.blade_names)}")
     print(f"scenes: {', '.join(settings.scene_names)}")
     print(f"level: {settings.fidelity_name}")
@@ -121,7 +123,7 @@ def _check(given: argparse.Namespace) -> None:
     if measured is not None:
         cost = extent.cpu_time(measured.cpu_s_per_run)
         print(f"their CPU time: about {cost} at most, as measured on the reference blade; of yours: snakemake estimate")
-    for remark in [*remarks(settings), *settings.remarks_on_points]:
+    for remark in [*remarks(settings), *remarks_on_points(settings)]:
         print(remark)
 
 

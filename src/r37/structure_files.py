@@ -60,7 +60,7 @@ class StructureFiles:
             "results.steps.campbell_of_blade",
             "campbell.nc",
             {"rom": self._reduced(structure.boundary.tip_line)},
-            campbell=si_fields(self.settings.campbell),
+            campbell=si_fields(self.settings.config.campbell),
             maximum_speed=structure.maximum_speed_rad_s,
             tip_line=structure.boundary.tip_line,
         ).file
@@ -93,17 +93,17 @@ class StructureFiles:
 def _made(step: str, name: str, inputs: dict[str, _Made], **params: Any) -> _Made:
     """The file called `name` that a step makes, from the cache or made now; of `params` Attributes do not count."""
     counting = {key: value for key, value in params.items() if not isinstance(value, Attributes)}
-    made_of = to_plain([_code(step), [one.made_of for one in inputs.values()], counting])
+    made_of = to_plain([_code(step), [part.made_of for part in inputs.values()], counting])
 
     def make(file: Path) -> None:
         module, function = f"{r37core.__name__}.{step}".rsplit(".", 1)
-        files = Named(**{key: one.file for key, one in inputs.items()})
+        files = Named(**{key: part.file for key, part in inputs.items()})
         with tempfile.TemporaryDirectory() as aside, contextlib.redirect_stdout(io.StringIO()):
             # a mesh is also written for Gmsh
             output = Named(**{file.stem: file, file.suffix[1:]: file, "msh": Path(aside) / "mesh.msh"})
-            given = Named(**params, code=_code(step), provenance=Attributes())
+            values = Named(**params, code=_code(step), provenance=Attributes())
             # imported here: it brings gmsh and VTK, which take seconds to load and are not needed for what is kept
-            getattr(import_module(module), function)(files, output, given)
+            getattr(import_module(module), function)(files, output, values)
 
     return _Made(cached_file(name, made_of, make), made_of)
 

@@ -16,8 +16,8 @@ from r37core.plans.provenance import Provenance
 from r37core.plans.resources import Needs
 from r37core.plans.structure_plan import Structure
 from r37core.plans.sweep_plan import MAPS, Sweep
-from r37core.plans.tolerance_plan import FOLDER, Tolerances
 from r37core.product.reporting import EVERY_SCENE, TOGETHER, captioned, drawing, shown
+from r37core.product.sampling import beside, sampling_of
 from r37core.product.targets import files_of, simulated, targets
 
 ROOT = Path(workflow.current_basedir).parent.parent
@@ -31,13 +31,13 @@ PACKAGE = console.source / "r37core"
 code = CodeHashes(console.source, SCRIPTS)
 # parameters of a rule that runs a step: a function of r37core, and the hash of its code
 step = code.step
-tolerances = Tolerances(settings)
-samples = {FOLDER: tolerances.samples}
+# members of samples that wings have run beside the sweep, and what is made of them
+samples, sampling = beside(settings), sampling_of(settings)
 made = Provenance(settings, samples)
 structure = Structure(settings, samples)
 imported = Imported(settings)
 sweep = Sweep(settings, lambda **wildcards: checkpoints.refine.get(**wildcards).output[0], samples)
-needs = Needs(settings, extent_of(settings).most)
+needs = Needs(settings, extent_of(settings, samples).most)
 
 
 def pictures(name, category, subcategory, figure):

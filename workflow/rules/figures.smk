@@ -104,8 +104,8 @@ use rule figure as comparison_figure with:
             code,
             "figures.comparison.draw_comparison",
             "comparison",
-            below=settings.interactions.below,
-            above=settings.interactions.above,
+            below=settings.config.interactions.below,
+            above=settings.config.interactions.above,
         ),
 
 

@@ -13,7 +13,7 @@ use rule step as configuration with:
     resources:
         **needs.of("configuration"),
     params:
-        **step("product.steps.configuration"),
+        **step("results.steps.configuration"),
         merged=settings.merged(),
 
 
@@ -24,8 +24,6 @@ rule responses:
         paths.filled({paths.RESPONSE: paths.of_runs(sweep.runs_with("rms"))}),
         sweep.first_rounds,
         simulated(sweep),
-        tolerances.responses,
-        tolerances.first_rounds,
 
 
 use rule step as sweep_dataset with:
@@ -53,7 +51,7 @@ datasets = {kind: expand(rules.sweep_dataset.output, kind=kind)[0] for kind in s
 use rule step as summary with:
     input:
         **datasets,
-        **({"tolerances": "<results>/tolerances.csv"} if settings.members.pairs else {}),
+        **({"ranges": sampling.ranges} if sampling else {}),
         campbell=rules.campbell_of_all.output[0],
     output:
         table=report(
@@ -65,14 +63,14 @@ use rule step as summary with:
     resources:
         **needs.of("summary"),
     params:
-        **step("product.steps.summary"),
-        choice=plain(settings.interactions),
+        **step("results.steps.summary"),
+        choice=plain(settings.config.interactions),
 
 
 use rule step as ranking with:
     input:
         **{kind: datasets[kind] for kind in sweep.kinds if kind in ("rms", "stress")},
-        **({"tolerances": "<results>/tolerances.nc"} if settings.members.pairs else {}),
+        **({"members": sampling.dataset} if sampling else {}),
     output:
         table=report(
             "<results>/ranking.csv",
@@ -83,7 +81,7 @@ use rule step as ranking with:
     resources:
         **needs.of("summary"),
     params:
-        **step("product.steps.ranking"),
+        **step("results.steps.ranking"),
         runs=sweep.runs_with("rms"),
 
 
@@ -107,7 +105,7 @@ use rule step as coincidences with:
 use rule step as explorer with:
     input:
         **datasets,
-        **({"tolerances": "<results>/tolerances.nc"} if settings.members.pairs else {}),
+        **({"members": sampling.dataset} if sampling else {}),
         campbell=rules.campbell_of_all.output[0],
         summary=rules.summary.output[0],
         ranking=rules.ranking.output[0],

@@ -33,7 +33,7 @@ use rule step as worst_shapes with:
         **step("shapes.steps.worst"),
         scene="{scene}",
         speeds=sweep.speeds,
-        interactions=plain(settings.interactions),
+        interactions=plain(settings.config.interactions),
         material=structure.elastic,
 
 

@@ -16,7 +16,7 @@ use rule step as signals_of_run with:
         scene=sweep.plain_scene,
         choice=sweep.choice_of_scene,
         speeds=recorded.speeds,
-        interactions=plain(settings.interactions),
+        interactions=plain(settings.config.interactions),
         revolutions=recorded.revolutions,
         gauges=recorded.gauges,
         probes=recorded.probes,

@@ -141,7 +141,7 @@ use rule step as campbell_of_blade with:
         **needs.of("campbell_of_blade"),
     params:
         **step("results.steps.campbell_of_blade"),
-        campbell=si_fields(settings.campbell),
+        campbell=si_fields(settings.config.campbell),
         maximum_speed=settings.structure.maximum_speed_rad_s,
         tip_line=settings.structure.boundary.tip_line,
         provenance=made.structure,

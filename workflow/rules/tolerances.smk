@@ -1,5 +1,8 @@
 # Tolerances: what is made of the members of samples, each with other values of what is never known exactly. Their models and runs
 # are made by the rules of the sweep.
+from r37core.tolerances.plan import DATASET, TABLE, Tolerances
+
+tolerances = settings.made(Tolerances)
 
 
 use rule step as tolerances_dataset with:
@@ -7,7 +10,7 @@ use rule step as tolerances_dataset with:
         responses=tolerances.responses,
         rounds=tolerances.first_rounds,
     output:
-        dataset="<results>/tolerances.nc",
+        dataset=DATASET,
     log:
         "<logs>/tolerances_dataset.log",
     resources:
@@ -28,30 +31,24 @@ use rule step as tolerance_table with:
         rounds=tolerances.first_rounds,
     output:
         table=report(
-            "<results>/tolerances.csv",
-            **shown(TEXTS / "tolerances.rst", TOGETHER, EVERY_SCENE, figure="tolerances"),
+            TABLE,
+            **shown(PACKAGE / "tolerances/report.rst", TOGETHER, EVERY_SCENE, figure="tolerances"),
         ),
     log:
         "<logs>/tolerance_table.log",
     params:
         **step("tolerances.steps.table"),
         members=tolerances.runs_of_sample,
-        choice=plain(settings.interactions),
+        choice=plain(settings.config.interactions),
 
 
 use rule figure as tolerance_figure with:
     input:
-        tolerances=rules.tolerances_dataset.output[0],
+        tolerances=DATASET,
         nominal=paths.nominal(paths.RESPONSE),
     output:
         **pictures("tolerances_{blade}__{scene}", "{blade}", "{scene}", "tolerances"),
     log:
         "<logs>/figures/tolerances_{blade}__{scene}.log",
     params:
-        **drawing(code, "figures.tolerance_curves.draw_tolerances", "tolerances"),
-
-
-# the members alone, with the nominal runs beside them
-rule tolerances:
-    input:
-        paths.filled({name: wildcards for name, wildcards in targets(sweep).items() if "tolerances" in name}),
+        **drawing(code, "tolerances.figures.draw_tolerances", "tolerances"),

@@ -23,7 +23,7 @@ from r37core.text_file import TextFileError
 
 from .blade_sections import CONTACT_IN_WORDS, Contact, MaterialSection
 from .declaring import in_si
-from .document import ConfigError, Document, Refusals
+from .document import ConfigError, ConfigRefusals, Document
 from .imported_entry import MatricesEntry, MeshEntry
 from .section import FileName, LeftOut, Name, Section, Unique, check_names, refused
 from .si_fields import si_fields
@@ -170,7 +170,7 @@ class BladeSettings:
 
 def all_blades(names: Iterable[str], entries: Mapping[str, Any], root: Path, document: Document) -> dict[str, BladeSettings]:
     """The blades of these names. Raises the ConfigErrors of all of them, but not of one whose base is refused before it."""
-    refusals = Refusals()
+    refusals = ConfigRefusals()
     found: dict[str, BladeSettings | None] = {}
     for name in names:
         base = getattr(entries[name], "base", None)

@@ -55,7 +55,7 @@ class ClearanceSection(Section):
 
 @declared_by(Ring)
 class RingSection(Section):
-    """A casing that gives way: a thin ring of one material on an elastic foundation, its flanges."""
+    """A flexible casing: a thin ring of one material on an elastic foundation, its flanges."""
 
     @model_validator(mode="after")
     def _thin(self) -> RingSection:
@@ -85,7 +85,7 @@ class RingModeSection(Section):
 
 @declared_by(Casing)
 class CasingSection(Section):
-    """Shape of the casing, and whether it gives way."""
+    """Shape of the casing, and whether it is flexible."""
 
     clearance_m: Any = DECLARED
     clearance: ClearanceSection | LeftOut = None
@@ -114,11 +114,11 @@ class CasingSection(Section):
 
     @property
     def elastic(self) -> bool:
-        """Whether the casing gives way."""
+        """Whether the casing is flexible."""
         return self.ring is not None or self.ring_modes is not None
 
     def elastic_casing(self) -> ElasticCasing:
-        """What gives way, with the waves that simulations leave out; without modes where the casing is rigid."""
+        """The flexible casing, with the waves that simulations leave out; without modes where the casing is rigid."""
         if self.ring is None:
             return ElasticCasing(tuple(one.mode() for one in self.ring_modes or ()))
         ring = in_si(Ring, self.ring)

@@ -9,6 +9,7 @@ from typing import Annotated, Any, Literal
 from pydantic import AfterValidator, Field, create_model, model_validator
 
 from r37core.adaptive.refinement_choice import RefinementChoice, Window
+from r37core.contact.scene import Scene
 from r37core.results.interaction_choice import InteractionChoice
 from r37core.rom.reduction_choice import BoundaryChoice, ReductionChoice, StressSubmesh
 
@@ -18,7 +19,6 @@ from .fidelity import Reduction
 from .section import AllOrNames, FileName, LeftOut, Name, Section, Speed, refused
 from .speed_section import RpmList, SpeedList, SpeedRange, SpeedRule, refuse_both_units
 from .study_sections import StudiesSection
-from .tolerance_section import ToleranceSection
 
 
 @declared_by(BoundaryChoice)
@@ -115,6 +115,10 @@ class RefinementSection(Section):
     largest_share: Any = DECLARED
     direct: DirectRefinementSection = DirectRefinementSection()
 
+    def in_scene(self, scene: Scene) -> RefinementSection:
+        """What counts in a scene: without lining with windows and share of its own."""
+        return self if scene.lining else self.model_copy(update=dict(self.direct))
+
 
 def _numbers_of_part(part: str) -> tuple[int, int]:
     number, parts = map(int, part.split("/"))
@@ -187,7 +191,6 @@ class Config(Section):
     run: Run = Run()
     studies: StudiesSection = StudiesSection()
     campbell: CampbellSection = CampbellSection()
-    tolerances: ToleranceSection = ToleranceSection()
 
     @model_validator(mode="after")
     def _one_unit(self) -> Config:

@@ -21,7 +21,7 @@ from r37core.time_integration.integrators import EXACT_MODAL
 from r37core.units import RPM
 from r37core.yaml_file import KeyPath
 
-from .document import Document, Refusals
+from .document import ConfigRefusals, Document
 from .settings import Settings
 
 LARGEST_NUMBER_OF_SIMULATIONS = 200_000
@@ -33,7 +33,7 @@ def what_is_named_is_there(settings: Settings) -> None:
 
     What asks for one of them is refused for the same reason, which is told once.
     """
-    refusals = Refusals()
+    refusals = ConfigRefusals()
     for name in ("fidelity_name", "blade_names", "scene_names"):
         refusals.of(getattr, settings, name)
     refusals.tell()
@@ -58,7 +58,7 @@ def studies_name_what_is_there(settings: Settings) -> None:
         if lined and settings.scene_entries[lined].lining is None:
             raise documents.config.refusal(("studies", name, "lined_scene"), f"'{lined}'", "a scene with a lining")
     if given := studies.tradeoff:
-        highest = settings.campbell.highest_engine_order
+        highest = settings.config.campbell.highest_engine_order
         if given.engine_order > highest:
             allowed = f"at most campbell.highest_engine_order ({highest})"
             raise documents.config.refusal(("studies", "tradeoff", "engine_order"), f"{given.engine_order}", allowed)
@@ -113,7 +113,7 @@ def windows_have_crossings(settings: Settings) -> None:
     """No window lies above crossings that the Campbell diagram does not have."""
     if not any(plan.refined for plan in settings.speed_plans.values()):
         return
-    highest, given = settings.campbell.highest_engine_order, settings.config.refinement
+    highest, given = settings.config.campbell.highest_engine_order, settings.config.refinement
     for place, windows in {("refinement",): given.windows, ("refinement", "direct"): given.direct.windows}.items():
         for number, window in enumerate(windows):
             if window.highest_engine_order > highest:
@@ -153,25 +153,6 @@ def revolution_fits(settings: Settings, speed: float, path: KeyPath) -> None:
             f"speeds from {speed * size / LARGEST_TABLE:.3g} rad/s with this step (the casing's shape at every step has to "
             "fit in memory)",
         )
-
-
-def members_can_be_drawn(settings: Settings) -> None:
-    """Tolerances name blades, scenes and numbers that are there, no member is impossible, and all can be planned."""
-    given, documents, path = settings.config.tolerances, settings.documents, ("tolerances",)
-    names_are_there(settings, path, given)
-    # the configuration that a run keeps has the empty section written out
-    if given != type(given)() and not settings.members.numbers:
-        raise documents.config.refusal(path, "no numbers", "some under of_scenes or of_blades")
-    members = given.members * (len(settings.members.numbers) + 2 if given.sensitivity else 1)
-    number = members * sum(len(settings.speed_plans[pair].certain) for pair in settings.members.pairs)
-    if number > LARGEST_NUMBER_OF_SIMULATIONS:
-        raise documents.config.refusal(
-            (*path, "members"),
-            f"{number} simulations of members",
-            f"at most {LARGEST_NUMBER_OF_SIMULATIONS} in one run: fewer members, speeds, blades or scenes, or no sensitivity",
-        )
-    # draws them, and refuses what is impossible
-    _ = settings.members.all
 
 
 def matrices_hold_their_terms(settings: Settings) -> None:
@@ -251,7 +232,6 @@ CHECKS: tuple[Callable[[Settings], None], ...] = (
     windows_have_crossings,
     history_speeds_are_run,
     slowest_speed_fits_in_memory,
-    members_can_be_drawn,
     matrices_hold_their_terms,
     tips_have_room_for_patches,
     coriolis_can_be_carried,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, TypeVar
@@ -18,7 +18,7 @@ Model = TypeVar("Model", bound=BaseModel)
 Result = TypeVar("Result")
 
 _MOST_TOLD = 20
-"""Refusals of one message."""
+"""ConfigRefusals of one message."""
 
 
 class ConfigError(ValueError):
@@ -28,7 +28,7 @@ class ConfigError(ValueError):
     """
 
 
-class Refusals:
+class ConfigRefusals:
     """What is wrong with a configuration, from checks that do not wait for each other: a user is told all at once."""
 
     def __init__(self, *told: str) -> None:
@@ -80,7 +80,7 @@ class Document:
             return model.model_validate(self.content)
         except ValidationError as error:
             said = explain_all(error, self.content, model)
-        Refusals(*(str(self.error(path, text, key)) for path, key, text in said)).tell()
+        ConfigRefusals(*(str(self.error(path, text, key)) for path, key, text in said)).tell()
         raise AssertionError("a model refuses for a reason")
 
     def overlaid(self, above: Document) -> Document:
@@ -88,6 +88,23 @@ class Document:
         places = dict(self.places)
         content = _overlay(self.content, above.content, (), places)
         return Document(self.name, content, places | dict(above.places))
+
+
+@dataclass(frozen=True)
+class Documents:
+    """The files that a message may have to point into; that of the blades has designs in place of families."""
+
+    config: Document
+    blades: Document
+    levels: Document
+    scenes: Document
+
+    def known(self, path: KeyPath, names: Iterable[str], entries: Iterable[str], file: Document) -> None:
+        """ConfigError for a name, at `path` of config.yaml, that is none of the `entries` of `file`."""
+        allowed = list(entries)
+        for name in names:
+            if name not in allowed:
+                raise self.config.refusal(path, f"'{name}'", f"{', '.join(allowed)} ({file.name})")
 
 
 def read_document(root: Path, name: str) -> Document:

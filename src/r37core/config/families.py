@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import copy
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import product
 from pathlib import Path
@@ -48,6 +48,11 @@ class Designs:
     entries: dict[str, AnyEntry]
     families: dict[str, Family]
     document: Document
+
+    def named(self, names: Iterable[str]) -> list[str]:
+        """Each of the blades, and of the families' designs, once."""
+        several = [list(self.families[name].designs) if name in self.families else [name] for name in names]
+        return list(dict.fromkeys(name for names in several for name in names))
 
 
 def with_designs(entries: Mapping[str, AnyEntry], root: Path, document: Document) -> Designs:

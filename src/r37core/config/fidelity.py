@@ -11,6 +11,7 @@ from r37core.rom.reduction_choice import ReductionChoice
 from r37core.time_integration.integration_choice import IntegrationChoice
 
 from .declaring import DECLARED, declared_by, in_si
+from .document import Documents
 from .section import LeftOut, Name, Section, Speed, check_names, refused
 
 _LARGEST_SIGNAL = 2**31
@@ -45,6 +46,10 @@ class Measured(Section):
         default=None, description="the same in direct contact on points, where a run has that"
     )
     cpu_s_per_run: float = Field(gt=0, le=1e9, description="CPU seconds of a run")
+
+    def error_of(self, on_points: bool) -> float | None:
+        """The error of runs with direct contact on points, or of others; None where that was not measured."""
+        return self.error_on_points if on_points and self.error_on_points is not None else self.error
 
 
 Step = Annotated[float, Field(ge=1e-12, le=1e-2)]
@@ -154,6 +159,25 @@ class Levels(RootModel[dict[Name, Level]]):
         if "auto" in self.root:
             raise refused(("auto",), "the level 'auto'", "another name; fidelity: auto picks a level")
         return self
+
+
+def cheapest_level(levels: Mapping[str, Level], tolerance: float, on_points: bool, documents: Documents) -> str:
+    """The cheapest level whose measured error is within the tolerance; `on_points`: with direct contact on points.
+
+    Raises ConfigError where there is none.
+    """
+    measured = {name: level.measured for name, level in levels.items() if level.measured}
+    errors = {name: error for name, one in measured.items() if (error := one.error_of(on_points)) is not None}
+    chosen = recommended_level(errors, {name: one.cpu_s_per_run for name, one in measured.items()}, tolerance)
+    if chosen is None:
+        known = ", ".join(f"{name} {error:g}" for name, error in errors.items()) or "none"
+        raise documents.config.error(
+            ("tolerance",),
+            f"found {tolerance:g}; measured errors of the levels in {documents.levels.name}: {known}; "
+            "accept more, or name a level under fidelity"
+            + (", or take structure.boundary.contact: patches" if on_points else ""),
+        )
+    return chosen
 
 
 def recommended_level(errors: Mapping[str, float], costs: Mapping[str, float], tolerance: float) -> str | None:

@@ -11,7 +11,7 @@ from pydantic import RootModel
 
 from .blades import Blades
 from .config_file import Config
-from .document import ConfigError, Document, Refusals, command_line_document, read_document
+from .document import ConfigError, ConfigRefusals, Document, command_line_document, read_document
 from .families import Designs, with_designs
 from .fidelity import Levels
 from .scenes import Scenes
@@ -74,7 +74,7 @@ class Reader:
         with all that is wrong in the files or, where these are right by themselves, with all that is wrong with them together.
         """
         document = config if isinstance(config, Document) else Document(CONFIG_FILE, dict(config))
-        refusals = Refusals()
+        refusals = ConfigRefusals()
         checked = refusals.of(document.check, self.model)
         files = [self._file(document, key) for key in ("blades_file", "fidelity_file", "scenes_file")]
         designs = refusals.of(_designs, root, files[0], blades_above)

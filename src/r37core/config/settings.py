@@ -2,36 +2,32 @@
 
 from __future__ import annotations
 
-import hashlib
-import json
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cache, cached_property
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 from pydantic import BaseModel
 
-from r37core.contact.elastic_casing import ElasticCasing
 from r37core.contact.scene import Scene
 from r37core.exchange.importing.source import MatricesSource
 from r37core.plain import to_plain
 from r37core.rom.reduction_choice import POINTS, ReductionChoice
 from r37core.speeds import SpeedError, SpeedPlan
 from r37core.time_integration.integration_choice import IntegrationChoice
-from r37core.tolerances.fewest import remarks_on_rankings
 from r37core.yaml_file import KeyPath
 
-from . import casing_remarks
 from .blades import BladeSettings, all_blades
-from .config_file import CampbellSection, Config, Interactions, RefinementSection, StructureSection
-from .document import Document
+from .config_file import Config, StructureSection
+from .document import ConfigRefusals, Document, Documents
 from .families import Designs
-from .fidelity import Level, Measured, recommended_level
-from .members import Members
+from .fidelity import Level, cheapest_level
 from .scenes import SceneEntry
 from .speed_section import UNITS, SpeedRule, key_of_speeds, planned
 from .study_sections import StudiesSection
+
+T = TypeVar("T")
 
 RESULTS = Path("results")
 """Folder of the results of a run without a name."""
@@ -46,23 +42,6 @@ class SceneSettings:
     revolutions: int
     results: tuple[str, ...]
     stress_history_speeds: tuple[float, ...]
-
-
-@dataclass(frozen=True)
-class Documents:
-    """The files that a message may have to point into; that of the blades has designs in place of families."""
-
-    config: Document
-    blades: Document
-    levels: Document
-    scenes: Document
-
-    def known(self, path: KeyPath, names: Iterable[str], entries: Iterable[str], file: Document) -> None:
-        """ConfigError for a name, at `path` of config.yaml, that is none of the `entries` of `file`."""
-        allowed = list(entries)
-        for name in names:
-            if name not in allowed:
-                raise self.config.refusal(path, f"'{name}'", f"{', '.join(allowed)} ({file.name})")
 
 
 @dataclass(frozen=True)
@@ -85,28 +64,14 @@ class Settings:
         """Geometry and reduced model."""
         return self.config.structure
 
-    @property
-    def campbell(self) -> CampbellSection:
-        """The Campbell diagram."""
-        return self.config.campbell
-
     def section(self, wing: str) -> Any:
         """The section of config.yaml that a wing has brought, of the type that this says."""
         return getattr(self.config, wing)
 
-    @property
-    def interactions(self) -> Interactions:
-        """What counts as an interaction."""
-        return self.config.interactions
-
-    def refinement(self, scene: str) -> RefinementSection:
-        """Where ranges with `refine_to` get more speeds; in a scene without lining with windows and share of its own."""
-        given = self.config.refinement
-        return given if self.scenes[scene].scene.lining else given.model_copy(update=dict(given.direct))
-
-    def most_runs(self, blade: str, scene: str) -> int:
-        """Simulations of a blade and scene, at most where speeds are adaptive."""
-        return self.speed_plans[blade, scene].at_most(self.refinement(scene).largest_share)
+    @cached_property
+    def made(self) -> Callable[[Callable[[Settings], Any]], Any]:
+        """Gives what a function makes of these settings, made once: for a wing's own part of them that takes long."""
+        return cache(lambda make: make(self))
 
     @property
     def studies(self) -> StudiesSection:
@@ -114,48 +79,25 @@ class Settings:
         return self.config.studies
 
     @cached_property
-    def chosen_blades(self) -> list[str]:
-        """Names of the blades that config.yaml chooses; that of a family is all of its designs.
-
-        Raises ConfigError for a name that is not in the file.
-        """
-        designs, chosen = self.designs, self.config.blades
-        if chosen == "all":
-            return list(designs.entries)
-        self.documents.known(("blades",), chosen, [*designs.entries, *designs.families], self.documents.blades)
-        return self.designs_of(chosen)
-
-    def designs_of(self, names: Sequence[str]) -> list[str]:
-        """Each of the blades, and of the families' designs, once."""
-        families = self.designs.families
-        several = [list(families[name].designs) if name in families else [name] for name in names]
-        return list(dict.fromkeys(name for names in several for name in names))
-
-    @cached_property
     def blade_names(self) -> list[str]:
-        """Those of them that are in this run's part. Raises ConfigError where that has none."""
-        names, number = self.config.run.of_part(self.chosen_blades), len(self.chosen_blades)
+        """Blades that config.yaml chooses, of a family all of its designs, as far as they are in this run's part.
+
+        Raises ConfigError for a name that is not in the file, and where the part has none.
+        """
+        chosen, designs = self.config.blades, self.designs
+        if chosen != "all":
+            self.documents.known(("blades",), chosen, [*designs.entries, *designs.families], self.documents.blades)
+        several = list(designs.entries) if chosen == "all" else designs.named(chosen)
+        names = self.config.run.of_part(several)
         if not names:
-            found = f"{self.config.run.part} of {number} blades"
-            raise self.documents.config.refusal(("run", "part"), found, f"at most {number} parts")
+            found = f"{self.config.run.part} of {len(several)} blades"
+            raise self.documents.config.refusal(("run", "part"), found, f"at most {len(several)} parts")
         return names
 
     @cached_property
     def blades(self) -> dict[str, BladeSettings]:
         """Blades to run. Raises ConfigError for tables or files that cannot be read, and shapes that are impossible."""
         return all_blades(self.blade_names, self.designs.entries, self.root, self.documents.blades)
-
-    @cached_property
-    def places(self) -> dict[str, dict[str, str]]:
-        """Blade -> key -> `file:line: blade.key`, for what is found out later."""
-        return {name: self._places(name) for name in self.blade_names}
-
-    def _places(self, blade: str) -> dict[str, str]:
-        """Where each key of a blade's entry, or of the entry that its base has it from, stands."""
-        entry = self.designs.entries[blade]
-        if base := getattr(entry, "base", None):
-            return self._places(base)
-        return {key: f"{self.documents.blades.place((blade, key))}: {blade}.{key}" for key in type(entry).model_fields}
 
     @cached_property
     def scene_names(self) -> list[str]:
@@ -168,16 +110,16 @@ class Settings:
     @cached_property
     def scenes(self) -> dict[str, SceneSettings]:
         """Scenes to run."""
-        return {name: self._scene(self.scene_entries[name]) for name in self.scene_names}
-
-    def _scene(self, entry: SceneEntry) -> SceneSettings:
-        return SceneSettings(
-            scene=entry.scene(),
-            tip_line=entry.tip_line or self.structure.boundary.tip_line,
-            revolutions=entry.revolutions or self.fidelity.time_integration.revolutions,
-            results=tuple(entry.results),
-            stress_history_speeds=entry.stress_history_speeds(),
-        )
+        return {
+            name: SceneSettings(
+                scene=entry.scene(),
+                tip_line=entry.tip_line or self.structure.boundary.tip_line,
+                revolutions=entry.revolutions or self.fidelity.time_integration.revolutions,
+                results=tuple(entry.results),
+                stress_history_speeds=entry.stress_history_speeds(),
+            )
+            for name, entry in ((name, self.scene_entries[name]) for name in self.scene_names)
+        }
 
     @cached_property
     def fidelity_name(self) -> str:
@@ -188,26 +130,10 @@ class Settings:
         if self.config.fidelity != "auto":
             self.documents.known(("fidelity",), [self.config.fidelity], self.levels, self.documents.levels)
             return self.config.fidelity
-        measured = {name: level.measured for name, level in self.levels.items() if level.measured}
-        errors = {name: error for name, one in measured.items() if (error := self._error(one)) is not None}
-        chosen = recommended_level(errors, {name: one.cpu_s_per_run for name, one in measured.items()}, self.config.tolerance)
-        if chosen is None:
-            known = ", ".join(f"{name} {error:g}" for name, error in errors.items()) or "none"
-            raise self.documents.config.error(
-                ("tolerance",),
-                f"found {self.config.tolerance:g}; measured errors of the levels in {self.documents.levels.name}: {known}; "
-                "accept more, or name a level under fidelity"
-                + (", or take structure.boundary.contact: patches" if self._direct_on_points[0] else ""),
-            )
-        return chosen
-
-    def _error(self, measured: Measured) -> float | None:
-        """What a level was found to be off by in what this run has; None where that was not measured."""
-        of_points = measured.error_on_points if self._direct_on_points[0] else None
-        return measured.error if of_points is None else of_points
+        return cheapest_level(self.levels, self.config.tolerance, bool(self.direct_on_points[0]), self.documents)
 
     @property
-    def _direct_on_points(self) -> tuple[list[str], list[str]]:
+    def direct_on_points(self) -> tuple[list[str], list[str]]:
         """Scenes without lining and blades whose contact acts on points of a mesh; none of both where one is missing."""
         scenes = [name for name in self.scene_names if self.scene_entries[name].lining is None]
         meshed = [name for name, blade in self.blades.items() if not isinstance(blade.definition, MatricesSource)]
@@ -222,19 +148,19 @@ class Settings:
     @cached_property
     def speed_plans(self) -> dict[tuple[str, str], SpeedPlan]:
         """Speeds of each blade and scene: of the first rule that fits. Raises ConfigError for speeds that clash."""
-        general = self._speed_plan(self.config, ())
-        special = [(rule, self._speed_plan(rule, ("speeds_for", n))) for n, rule in enumerate(self.config.speeds_for)]
+        step, document = self.fidelity.time_integration.speed_step_rad_s, self.documents.config
+        sections = [(("speeds_for", number), rule) for number, rule in enumerate(self.config.speeds_for)]
+        refusals = ConfigRefusals()
+        general, *special = (refusals.of(_planned, document, *one, step) for one in [((), self.config), *sections])
+        refusals.tell()
+        assert general
         return {
-            (blade, scene): next((plan for rule, plan in special if rule.fits(blade, scene)), general)
+            (blade, scene): next(
+                (plan for (_, rule), plan in zip(sections, special, strict=True) if plan and rule.fits(blade, scene)), general
+            )
             for blade in self.blade_names
             for scene in self.scene_names
         }
-
-    def _speed_plan(self, section: Config | SpeedRule, path: tuple[str | int, ...]) -> SpeedPlan:
-        try:
-            return planned(section, self.fidelity.time_integration.speed_step_rad_s)
-        except SpeedError as error:
-            raise self.documents.config.error((*path, key_of_speeds(section)), str(error)) from None
 
     @property
     def results(self) -> Path:
@@ -257,75 +183,6 @@ class Settings:
             "blades": to_plain(self.blades),
         }
 
-    @property
-    def remarks(self) -> list[str]:
-        """What a run should say before it starts."""
-        said = []
-        measured = self.fidelity.measured
-        if self.config.fidelity == "auto" and measured is not None and (share := self._error(measured)) is not None:
-            error, cost = 100 * share, measured.cpu_s_per_run
-            said.append(f"fidelity auto: level {self.fidelity_name}, measured error {error:g}%, {cost:g} CPU s per run")
-        fastest, highest = max(plan.every_speed()[-1] for plan in self.speed_plans.values()), self.structure.maximum_speed_rad_s
-        if fastest > highest:
-            said.append(
-                f"speeds: up to {fastest:g} rad/s, and structure.maximum_speed_rad_s is {highest:g}: reduced models and "
-                "Campbell diagrams are made for speeds up to that; raise it to what is run"
-            )
-        said += self.remarks_on_casings
-        said += casing_remarks.of_left_out_modes(self.elastic_casings)
-        refining = {place: plan for place, plan in self.speed_plans.items() if plan.refined}
-        if refining:
-            certain = sum(len(plan.certain) for plan in refining.values())
-            most = sum(self.most_runs(*place) for place in refining)
-            said.append(
-                f"adaptive speed sampling: {certain} simulations and those of the windows first, about {most} at most; "
-                "they are planned round by round, so a dry run shows none of those to come"
-            )
-        if self.members.pairs:
-            members, drawn = sum(self.most_of_members(*pair) for pair in self.members.all), self.config.tolerances.members
-            said.append(f"tolerances: {drawn} members, {members} simulations of theirs at most, beside those of the sweep")
-            said += remarks_on_rankings(drawn, len(self.members.numbers), self.config.tolerances.sensitivity)
-        return said
-
-    @property
-    def elastic_casings(self) -> dict[str, ElasticCasing]:
-        """Of each scene to run whose casing gives way."""
-        entries = {name: self.scene_entries[name].casing for name in self.scene_names}
-        return {name: casing.elastic_casing() for name, casing in entries.items() if casing.elastic}
-
-    @property
-    def remarks_on_casings(self) -> list[str]:
-        """What a run should say of casings that the rotor overtakes."""
-        said = (casing_remarks.of_speeds(name, one, self.fastest_of(name)) for name, one in self.elastic_casings.items())
-        return [one for one in said if one]
-
-    @property
-    def remarks_on_points(self) -> list[str]:
-        """What a run should say at its end of direct contact on points, which has no limit in the mesh."""
-        scenes, blades = self._direct_on_points
-        if not scenes:
-            return []
-        of = f"{len(blades)} blades" if len(blades) > 1 else blades[0]
-        return [
-            f"{', '.join(scenes)}: contact of {of} acts on points, as published, and changes with every finer mesh; for "
-            "numbers to decide from: structure.boundary.contact: patches (docs/accuracy.md#points-and-patches)"
-        ]
-
-    def fastest_of(self, scene: str) -> float:
-        """The highest speed (rad/s) of a scene's simulations in the sweep."""
-        return max(plan.every_speed()[-1] for (_, name), plan in self.speed_plans.items() if name == scene)
-
-    def shape_hash(self, blade: str) -> str:
-        """Short hash of all that a blade's geometry depends on."""
-        return _short_hash(self.blades[blade].definition, self.structure.edges)
-
-    def structure_hash(self, blade: str) -> str:
-        """Short hash of all that a blade's structural results depend on."""
-        material = self.blades[blade].material
-        elastic = material and replace(material, yield_stress=0.0)
-        choice = self.reduction_choice(blade)
-        return _short_hash(self.shape_hash(blade), elastic, plain(self.fidelity.mesh), choice)
-
     def reduction_choice(self, blade: str, tip_line: str | None = None) -> ReductionChoice:
         """What a blade's reduced model is made of, with contact nodes on `tip_line` or on that of config.yaml."""
         submesh = self.blades[blade].stress_submesh
@@ -335,28 +192,11 @@ class Settings:
         """What a blade's contact acts on: as config.yaml says for all of them, else as its own entry does."""
         return self.structure.boundary.contact or self.blades[blade].contact
 
-    def place_of_contact(self, blade: str) -> str:
-        """Where stands what a blade's contact acts on, as `file:line: key`."""
-        path: KeyPath = ("structure", "boundary", "contact")
-        if self.structure.boundary.contact is not None:
-            return f"{self.documents.config.place(path)}: {'.'.join(map(str, path))}"
-        return f"{self.documents.blades.place((blade, 'contact'))}: {blade}.contact"
-
     def results_of(self, blade: str, scene: str) -> tuple[str, ...]:
         """What is wanted of a scene, as far as the blade can give it: matrices have no stress, nor shapes."""
         wanted = self.scenes[scene].results
         matrices = isinstance(self.blades[blade].definition, MatricesSource)
         return tuple(result for result in wanted if not (matrices and result in ("stress", "static_stress", "shapes")))
-
-    @cached_property
-    def members(self) -> Members:
-        """Blades and scenes with other values of what is never known exactly."""
-        return Members(self)
-
-    def most_of_members(self, blade: str, scene: str) -> int:
-        """Simulations of all members of a blade and scene, at most where speeds are adaptive."""
-        pair = blade, scene
-        return len(self.members.all.get(pair, ())) * self.speed_plans[pair].at_most(self.config.tolerances.largest_share)
 
     def integration_choice(self, blade: str, scene: str, speed: float) -> IntegrationChoice:
         """Numbers of the time integration at one speed of a blade and scene, with only what its results need."""
@@ -373,6 +213,14 @@ class Settings:
         )
 
 
+def _planned(document: Document, path: KeyPath, section: Config | SpeedRule, step: float) -> SpeedPlan:
+    """The speeds of a section at `path`, whose ranges have the `step` (rad/s) where they give none. Raises ConfigError."""
+    try:
+        return planned(section, step)
+    except SpeedError as error:
+        raise document.error((*path, key_of_speeds(section)), str(error)) from None
+
+
 def plain(section: BaseModel) -> dict[str, Any]:
     """A section as a dictionary of plain values, which Snakemake can compare and a job can read without the models."""
     return section.model_dump(exclude_none=True)
@@ -381,8 +229,3 @@ def plain(section: BaseModel) -> dict[str, Any]:
 def checked_scene(entry: Mapping[str, Any]) -> Scene:
     """The scene of one entry of scenes.yaml; ConfigError where the model of scenes forbids it."""
     return Document("scenes.yaml", dict(entry)).check(SceneEntry).scene()
-
-
-def _short_hash(*parts: object) -> str:
-    """Hash of plain numbers, texts and frozen dataclasses."""
-    return hashlib.sha256(json.dumps(to_plain(parts)).encode()).hexdigest()[:16]

@@ -31,7 +31,6 @@ def _of_runs(results: Path, settings: Settings) -> Iterator[Path]:
     for folder in results.iterdir():
         if folder.is_dir() and folder.name not in (*settings.blades, *RESERVED):
             yield folder
-    yield from _of_members(results / "tolerances", settings)
     for blade in settings.blades:
         for folder in (results / blade).glob("*/"):
             if folder.is_dir() and folder.name not in settings.scenes:
@@ -55,7 +54,8 @@ def _dropped(results: Path, settings: Settings) -> Iterator[Path]:
         yield from (file for file in files if file not in planned and file.relative_to(results).parts[0] not in others)
     folders = {folder for file in planned for folder in file.parents}
     for pattern in {parent for file in patterns for parent in _own_folders(file)}:
-        yield from (folder for folder in results.glob(re.sub(r"\{\w+\}", "*", pattern)) if folder not in folders)
+        found = (folder for folder in results.glob(re.sub(r"\{\w+\}", "*", pattern)) if folder.is_dir())
+        yield from (folder for folder in found if folder not in folders)
 
 
 def _own_folders(pattern: str) -> Iterator[str]:
@@ -75,17 +75,6 @@ def _planned(settings: Settings) -> dict[str, paths.Wildcards]:
         paths.STRESS_OPERATOR: models,
         paths.REDUCED_MODEL: models,
     }
-
-
-def _of_members(folder: Path, settings: Settings) -> Iterator[Path]:
-    """Folders of members, and of rounds of their samples, that are not drawn any more."""
-    samples = settings.members.all
-    wanted = {*samples, *((name, *pair) for pair, members in samples.items() for name in members)}
-    kept = {place[:depth] for place in wanted for depth in (1, 2, 3)}
-    for depth in (1, 2, 3):
-        for one in folder.glob("*/" * depth):
-            if one.relative_to(folder).parts not in kept:
-                yield one
 
 
 def _speeds(folder: Path, plan: SpeedPlan) -> list[float]:

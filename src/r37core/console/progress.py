@@ -125,10 +125,10 @@ class Progress(logging.Filter):
 
 def quieten(handlers: Collection[logging.Handler], progress: Progress) -> bool:
     """Let `progress` stand before Snakemake's messages on the terminal; whether there was such a handler."""
-    found = [handler for handler in handlers if handler.name == HANDLER]
-    for handler in found:
+    terminal = [handler for handler in handlers if handler.name == HANDLER]
+    for handler in terminal:
         handler.addFilter(progress)
-    return bool(found)
+    return bool(terminal)
 
 
 def _diverged(file: Path) -> bool:

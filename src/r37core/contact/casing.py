@@ -28,7 +28,7 @@ class Casing:
     `centrifugal`, the blade's static displacement is taken off; `growth` (m) of the casing is added, given at
     `growth_speeds` (rad/s), ascending, and linear between them. The lobes stay as they are.
 
-    `ring`: modes of a casing that gives way to the contact forces; without them it is rigid. `ring_radius` (m): of the ring
+    `ring`: modes of a flexible casing, which the contact forces move; without them it is rigid. `ring_radius` (m): of the ring
     that they are of, None where they are given.
     """
 

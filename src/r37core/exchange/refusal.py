@@ -35,7 +35,7 @@ def blamed(key: str, file: str | None = None) -> Iterator[None]:
 
 
 class Refusals:
-    """Several refusals of one file, kept to be told together."""
+    """Several refusals of one file, collected for one message."""
 
     def __init__(self, file: str):
         self._file = file

@@ -60,17 +60,11 @@ CAPTIONS = {
         "edge) and the last one (trailing edge). It is what the casing leaves less what rotation brings the blade nearer "
         "to it, before anything vibrates."
     ),
-    "tolerances": (
-        "Tolerances of blade {blade} in scene {scene}: median of all members, the band that nine tenths lie in, and the "
-        "nominal run (dashed). Then the share of the members above yield, with the interval of the chance. Last, by how much "
-        "each number moves three measures, with intervals: rank coefficients, and where asked for Sobol's total indices. Above "
-        "the bars stands the place in the ranking; pale ones have none."
-    ),
     "ranking": (
         "Which blade? Length of the speeds above yield of every blade, scene by scene, in the order of the first scene. Dark: "
         "certainly, more than half of the revolutions of the last half of a run exceed yield; light: possibly, more than a "
-        "twentieth of them do. Lines: standard deviation by chance, in direct contact; with tolerances: the range that nine "
-        "tenths of the members lie in."
+        "twentieth of them do. Lines: standard deviation by chance, in direct contact; with members: the range that nine "
+        "tenths of them lie in."
     ),
     "modes": (
         "The first three modes of blade {blade} at rest: first bending (1B), first torsion (1T) and second bending (2B). "

@@ -37,9 +37,9 @@ class CodeHashes:
     def step(self, function: str, *modules: str) -> dict[str, str]:
         """Parameters of a rule that runs this step by the script step.py: its name, and the hash of its code.
 
-        `function`: a step of the package, as `fem.steps.mesh`; `modules` of the package that it imports by a name it is told.
+        `function`: a step of the package, as `fem.steps.mesh`; `modules` of the package that it imports by name.
         """
-        name, *others = (f"{PACKAGE}.{one}" for one in (function, *modules))
+        name, *others = (f"{PACKAGE}.{module}" for module in (function, *modules))
         return {"step": name, "code": self("step", name, *others)}
 
     def closure(self, *names: str) -> list[Path]:
@@ -51,14 +51,14 @@ class CodeHashes:
 
         Sorted, those of the package first wherever it lies: a hash is of code and not of places.
         """
-        found: set[tuple[Path, str]] = set()
+        parts: set[tuple[Path, str]] = set()
         waiting = [part for name in names for part in self._named(name)]
         while waiting:
             part = waiting.pop()
-            if part not in found:
-                found.add(part)
+            if part not in parts:
+                parts.add(part)
                 waiting += [(imported, "") for name in imported_names(*part) for imported in self._files(name)]
-        return sorted(found - {(self._version_file, "")}, key=lambda part: (part[0].is_relative_to(self._scripts), part))
+        return sorted(parts - {(self._version_file, "")}, key=lambda part: (part[0].is_relative_to(self._scripts), part))
 
     def _named(self, name: str) -> list[tuple[Path, str]]:
         above, _, last = name.rpartition(".")
@@ -99,8 +99,8 @@ class _FactsOfFiles:
     _NAME, _MOST = "code_hashes.json", 5000
 
     def __init__(self) -> None:
-        kept = read_kept(self._NAME)
-        self._known: dict[str, tuple[str, list[str]]] = json.loads(kept) if kept else {}
+        content = read_kept(self._NAME)
+        self._known: dict[str, tuple[str, list[str]]] = json.loads(content) if content else {}
         self._new = False
         self._own = Path(__file__).read_bytes()
 
@@ -139,10 +139,10 @@ def _used_by(function: str, tree: ast.Module) -> ast.Module:
     """The statements of a module that bind what its function uses, directly or not, and those that bind nothing."""
     wanted, binding = {function}, [(statement, _bound_by(statement)) for statement in tree.body]
     body: list[ast.stmt] = []
-    while more := [one for one, bound in binding if one not in body and (not bound or bound & wanted)]:
+    while more := [statement for statement, bound in binding if statement not in body and (not bound or bound & wanted)]:
         body += more
-        wanted |= {node.id for one in more for node in ast.walk(one) if isinstance(node, ast.Name)}
-    return ast.Module([one for one in tree.body if one in body], [])
+        wanted |= {node.id for statement in more for node in ast.walk(statement) if isinstance(node, ast.Name)}
+    return ast.Module([statement for statement in tree.body if statement in body], [])
 
 
 def _bound_by(statement: ast.stmt) -> set[str]:
@@ -193,12 +193,12 @@ def _parts(node: ast.AST) -> Iterator[str]:
         yield name
         values = value if isinstance(value, list) else [value]
         if name == "body" and isinstance(node, ast.Module | ast.ClassDef | ast.FunctionDef | ast.AsyncFunctionDef):
-            values = [one for one in values if not _is_text(one)]
-        for one in values:
-            if isinstance(one, ast.AST):
-                yield from _parts(one)
+            values = [part for part in values if not _is_text(part)]
+        for part in values:
+            if isinstance(part, ast.AST):
+                yield from _parts(part)
             else:
-                yield repr(one)
+                yield repr(part)
         yield "."
 
 

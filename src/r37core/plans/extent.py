@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 from r37core.config import Settings
+from r37core.config.speed_choice import most_runs
+
+from .samples import Pair, Sample
 
 
 @dataclass(frozen=True)
@@ -35,14 +39,22 @@ class Extent:
         return f"{cost:.3g} s" if cost < 120.0 else f"{cost / 60.0:.3g} minutes"
 
 
-def extents(settings: Settings) -> dict[tuple[str, str], Extent]:
-    """The extent of each blade and scene."""
+def extents(settings: Settings, beside: Mapping[str, Mapping[Pair, Sample]]) -> dict[Pair, Extent]:
+    """The extent of each blade and scene, with the samples `beside` it (see Samples)."""
     return {
-        place: Extent(len(plan.certain), settings.most_runs(*place), settings.most_of_members(*place))
-        for place, plan in settings.speed_plans.items()
+        pair: Extent(
+            certain=len(plan.certain),
+            most=most_runs(settings, *pair),
+            members=sum(
+                len(samples[pair].members) * plan.at_most(samples[pair].largest_share)
+                for samples in beside.values()
+                if pair in samples
+            ),
+        )
+        for pair, plan in settings.speed_plans.items()
     }
 
 
-def extent_of(settings: Settings) -> Extent:
+def extent_of(settings: Settings, beside: Mapping[str, Mapping[Pair, Sample]]) -> Extent:
     """The extent of a whole run."""
-    return sum(extents(settings).values(), Extent(0, 0, 0))
+    return sum(extents(settings, beside).values(), Extent(0, 0, 0))

@@ -1,7 +1,7 @@
 """Where the files lie that more than one rule speaks of, as Snakemake's patterns.
 
 `<results>` and `<logs>` are folders of the run; what stands in braces are wildcards. Two underscores separate names. `{member}`
-is empty for the nominal sweep, and `tolerances/3/` for what a member of a sample has in its place (samples.py).
+is empty for the nominal sweep, and `folder/name/` for what a member of a sample has in its place (samples.py).
 """
 
 from __future__ import annotations

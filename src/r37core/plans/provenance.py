@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import hashlib
 import json
 from collections import UserDict
 from collections.abc import Mapping
+from dataclasses import replace
 from functools import cache
 from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any
@@ -43,7 +45,7 @@ class Provenance:
     def shape(self, wildcards: Any) -> Attributes:
         """Of a blade's geometry."""
         return Attributes(
-            blade=wildcards.blade, input_hash=self._settings.shape_hash(wildcards.blade), **_member(member_of(wildcards))
+            blade=wildcards.blade, input_hash=shape_hash(self._settings, wildcards.blade), **_member(member_of(wildcards))
         )
 
     def structure(self, wildcards: Any) -> Attributes:
@@ -60,7 +62,7 @@ class Provenance:
             blade=blade,
             fidelity=settings.fidelity_name,
             contact=settings.contact_of(blade),
-            input_hash=settings.structure_hash(blade),
+            input_hash=structure_hash(settings, blade),
             **_member(member),
         )
 
@@ -83,3 +85,21 @@ def _member(member: str) -> dict[str, str]:
     """Name of a member; nothing of a nominal one."""
     _, name = place_of(SimpleNamespace(member=member))
     return {"member": name} if name else {}
+
+
+def shape_hash(settings: Settings, blade: str) -> str:
+    """Short hash of all that a blade's geometry depends on."""
+    return _short_hash(settings.blades[blade].definition, settings.structure.edges)
+
+
+def structure_hash(settings: Settings, blade: str) -> str:
+    """Short hash of all that a blade's structural results depend on."""
+    material = settings.blades[blade].material
+    elastic = material and replace(material, yield_stress=0.0)
+    mesh, choice = settings.fidelity.mesh.model_dump(exclude_none=True), settings.reduction_choice(blade)
+    return _short_hash(shape_hash(settings, blade), elastic, mesh, choice)
+
+
+def _short_hash(*parts: object) -> str:
+    """Hash of plain numbers, texts and frozen dataclasses."""
+    return hashlib.sha256(json.dumps(to_plain(parts)).encode()).hexdigest()[:16]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cache, cached_property
 from typing import TYPE_CHECKING, Any
@@ -41,6 +41,20 @@ class Sample:
     largest_share: float
     results: tuple[str, ...]
     history_speeds: tuple[float, ...] = ()
+
+
+@dataclass(frozen=True)
+class Sampling:
+    """What a wing adds whose members are runs of the sweep.
+
+    `samples`: members by blade and scene; none where the settings ask for none. What is made of them stands in the tables of
+    all blades: `ranges`, a table as of results/ranges.py, in the summary; `dataset`, with a dimension `member`, in the ranking
+    and the explorer.
+    """
+
+    samples: Callable[[Settings], Mapping[Pair, Sample]]
+    ranges: str
+    dataset: str
 
 
 @dataclass(frozen=True)
@@ -89,7 +103,7 @@ class Samples:
         return Sample(
             members={NOMINAL: Member(settings.blades[blade], chosen.scene)},
             deciding=[NOMINAL],
-            largest_share=settings.refinement(scene).largest_share,
+            largest_share=settings.config.refinement.in_scene(chosen.scene).largest_share,
             results=results,
             history_speeds=chosen.stress_history_speeds if "stress" in results else (),
         )

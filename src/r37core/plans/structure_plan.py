@@ -9,6 +9,7 @@ from typing import Any
 
 from r37core.blade.definition import BladeDefinition
 from r37core.config import Settings
+from r37core.config.places import place_of_contact
 from r37core.config.settings import RESULTS
 from r37core.plain import to_plain
 
@@ -65,7 +66,7 @@ class Structure:
 
     def place_of_contact(self, wildcards: Any) -> Attributes:
         """Where stands what a blade's contact acts on; another line re-runs nothing."""
-        return Attributes(place=self.settings.place_of_contact(wildcards.blade))
+        return Attributes(place=place_of_contact(self.settings, wildcards.blade))
 
     def reduction(self, wildcards: Any) -> dict[str, Any]:
         """What the reduced model is made of, with contact nodes on the line that the wildcard names."""

@@ -12,6 +12,7 @@ from typing import Any
 
 from r37core.adaptive.refinement_choice import RefinementChoice, Window
 from r37core.config import Settings, in_si
+from r37core.config.casing_remarks import elastic_casings
 from r37core.contact.benchmark import is_lined_benchmark
 from r37core.io import as_list, read_json, readable
 from r37core.plain import to_plain
@@ -113,9 +114,9 @@ class Sweep:
 
     def refinement_choice(self, wildcards: Any) -> dict[str, Any]:
         """What makes an interval of speeds of a scene worth halving, as fields of RefinementChoice."""
-        given = self.settings.refinement(wildcards.scene)
+        given = self.settings.config.refinement.in_scene(self.settings.scenes[wildcards.scene].scene)
         windows = tuple(in_si(Window, window) for window in given.windows)
-        share, prominence = self.samples.sample(wildcards).largest_share, self.settings.interactions.prominence
+        share, prominence = self.samples.sample(wildcards).largest_share, self.settings.config.interactions.prominence
         return to_plain(in_si(RefinementChoice, given, windows=windows, largest_share=share, prominence=prominence))
 
     def task(self, wildcards: Any) -> str:
@@ -195,8 +196,8 @@ class Sweep:
 
     @property
     def casings(self) -> dict[str, Any]:
-        """The casing of each scene whose casing gives way, as plain values."""
-        return {name: to_plain(one) for name, one in self.settings.elastic_casings.items()}
+        """The casing of each scene with a flexible one, as plain values."""
+        return {name: to_plain(casing) for name, casing in elastic_casings(self.settings).items()}
 
     @property
     def benchmark_scenes(self) -> list[str]:

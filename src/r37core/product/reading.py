@@ -12,7 +12,7 @@ from .wings import WINGS
 CONFIG: type[Config] = with_sections({wing.name: wing.section for wing in WINGS if wing.section})
 """config.yaml with the section of each wing."""
 
-RESERVED = ("figures", "studies", "runs", *(wing.name for wing in WINGS), "tolerances")
+RESERVED = ("figures", "studies", "runs", *(wing.name for wing in WINGS))
 """Folders of the results beside those of the blades."""
 
 

@@ -95,16 +95,16 @@ class _FileKeys:
         inner = list(_models(part, path, self._schema))
         again = [self._shown[name] for name, _, _ in inner if name in self._shown]
         meaning = part.get("description") or next((model.get("description", "") for _, _, model in inner), "")
-        said = [_text(meaning), *(f"keys as of `{where}`" for where in again)]
+        meanings = [_text(meaning), *(f"keys as of `{where}`" for where in again)]
         default = _default(path, part, parent, [model for _, _, model in inner])
-        cells = [f"`{path}`", default, unit, _allowed(part, self._schema), "; ".join(filter(None, said))]
+        cells = [f"`{path}`", default, unit, _allowed(part, self._schema), "; ".join(filter(None, meanings))]
         yield f"| {' | '.join(cell.replace('|', chr(92) + '|') for cell in cells)} |"
         for name, where, model in inner:
             if name in self._shown:
                 continue
             self._shown[name] = where
-            for inside, one in model["properties"].items():
-                yield from self._rows(f"{where}.{inside}", one, model, unit)
+            for inside, entry in model["properties"].items():
+                yield from self._rows(f"{where}.{inside}", entry, model, unit)
 
 
 def _models(part: Schema, path: str, schema: Schema) -> Iterator[tuple[str, str, Schema]]:
@@ -123,7 +123,7 @@ def _models(part: Schema, path: str, schema: Schema) -> Iterator[tuple[str, str,
 def _entries(part: Schema) -> Iterator[Schema]:
     """What the entries of a mapping with names of one's own may be."""
     inner = (part.get("additionalProperties"), *part.get("patternProperties", {}).values())
-    yield from (one for one in inner if isinstance(one, Mapping))
+    yield from (schema for schema in inner if isinstance(schema, Mapping))
 
 
 def _unit(key: str, part: Schema) -> str:
@@ -149,7 +149,7 @@ def _default(path: str, part: Schema, parent: Schema, models: list[Schema]) -> s
 def _flow(value: Any) -> str:
     """A value as YAML has it in one line."""
     if isinstance(value, Mapping):
-        inside = ", ".join(f"{key}: {_flow(one)}" for key, one in value.items() if one is not None)
+        inside = ", ".join(f"{key}: {_flow(part)}" for key, part in value.items() if part is not None)
         return f"{{ {inside} }}" if inside else "{}"
     if isinstance(value, list):
         return f"[{', '.join(map(_flow, value))}]"

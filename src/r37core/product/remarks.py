@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection
 
 from r37core.config import ConfigError, Settings
+from r37core.config.remarks import remarks_of_spine
 from r37core.plans.sweep_plan import Sweep
 
 from .wings import WINGS
@@ -12,7 +13,7 @@ from .wings import WINGS
 
 def remarks(settings: Settings) -> list[str]:
     """Of the spine and of all wings."""
-    return [*settings.remarks, *(line for wing in WINGS for line in wing.remarks(settings))]
+    return [*remarks_of_spine(settings), *(line for wing in WINGS for line in wing.remarks(settings))]
 
 
 def check_asked(settings: Settings, targets: Collection[str]) -> None:

@@ -45,10 +45,8 @@ def _of_spine(sweep: Sweep) -> dict[str, Wildcards]:
         "comparison_{scene}": of("scene", settings.scenes),
         "ranking": ranked,
         "clearance_{scene}": of("scene", growing),
-        "tolerances_{blade}__{scene}": of_runs(settings.members.pairs),
     }
     found: dict[str, Wildcards] = {f"<results>/{kind}.nc": [{}] if kind in sweep.kinds else [] for kind in KINDS}
-    found |= {f"<results>/{name}": [{}] if settings.members.pairs else [] for name in ("tolerances.nc", "tolerances.csv")}
     found["<results>/ranking.csv"] = [{}]
     found["<results>/coincidences.csv"] = [{}] if sweep.casings else []
     for name, wildcards in figures.items():

@@ -12,6 +12,7 @@ _FOLDERS = (
     "signals",
     "run_ups",
     "designs",
+    "tolerances",
 )
 """In the order of their sections in docs/configuration.md."""
 

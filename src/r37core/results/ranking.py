@@ -80,8 +80,8 @@ def ranking_table(
 ) -> pd.DataFrame:
     """One row for each blade and scene, scene by scene with the best blade first; equal ones have the same rank.
 
-    `measures`: blade and scene -> its `robustness`; `members`: the same of each member of a sample, by name, for ranges under
-    tolerances (`_low`, `_high`: member_ends.ENDS) and the chance to be better than each other blade: the share of the
+    `measures`: blade and scene -> its `robustness`; `members`: the same of each member of a sample, by name, for their
+    ranges (`_low`, `_high`: member_ends.ENDS) and the chance to be better than each other blade: the share of the
     members that both blades have, which have the same values of the scene's numbers, in which it is; equal ones count half.
     """
     table = pd.DataFrame([{"blade": blade, "scene": scene, **values} for (blade, scene), values in measures.items()])
@@ -90,7 +90,7 @@ def ranking_table(
     # without stress there is nothing to rank by
     table.insert(2, "rank", pd.Series(ranks, dtype="Int64").where(table[RANKED_BY[0]].notna()))
     if members:
-        table = pd.concat([table, pd.DataFrame([_under_tolerances(pair, members) for pair in measures])], axis=1)
+        table = pd.concat([table, pd.DataFrame([_of_members(pair, members) for pair in measures])], axis=1)
     scenes = list(dict.fromkeys(table["scene"]))
     return table.sort_values(
         ["scene", "rank"], key=lambda column: column.map(scenes.index) if column.name == "scene" else column
@@ -121,7 +121,7 @@ def as_scatter_bears(table: pd.DataFrame) -> pd.DataFrame:
     return rounded
 
 
-def _under_tolerances(
+def _of_members(
     pair: tuple[str, str], members: Mapping[tuple[str, str], Mapping[str, Mapping[str, float]]]
 ) -> dict[str, float]:
     blade, scene = pair

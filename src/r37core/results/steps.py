@@ -1,4 +1,4 @@
-"""Steps of the workflow (docs/architecture.md): Campbell diagrams, responses, the datasets of all blades, tables of these."""
+"""Steps of the workflow (docs/architecture.md): Campbell diagrams, responses, the datasets and tables of all blades."""
 
 from __future__ import annotations
 
@@ -6,16 +6,25 @@ from typing import Any
 
 from r37core.contact.elastic_casing import ElasticCasing
 from r37core.dataset_file import hash_of_parts, read_dataset, write_dataset
-from r37core.io import as_list
+from r37core.io import as_list, write_json
 from r37core.plain import from_plain
 from r37core.rom.rom_file import read_reduced_model
 
 from .campbell_dataset import campbell_dataset
 from .casing_coincidence import coincidence_table
-from .datasets import write_sweep_dataset
+from .datasets import response_of, write_sweep_dataset
 from .gather import gather_blades
+from .interactions import InteractionChoice, summarise
+from .members import measures_of_members
+from .ranges import read_ranges, with_ranges
+from .ranking import ranking_table, robustness
 from .response import write_response
 from .table_file import write_table
+
+
+def configuration(input: Any, output: Any, params: Any) -> None:
+    """Keep what a run is made with. Params: merged. Output: configuration (json)."""
+    write_json(params.merged, output.configuration)
 
 
 def campbell_of_blade(input: Any, output: Any, params: Any) -> None:
@@ -58,3 +67,22 @@ def coincidences(input: Any, output: Any, params: Any) -> None:
     """Where modes of blades meet waves of a casing. Input: campbell. Params: casings. Output: table (csv)."""
     casings = from_plain(dict[str, ElasticCasing], params.casings)
     write_table(coincidence_table(read_dataset(input.campbell), casings), output.table, digits=8)
+
+
+def summary(input: Any, output: Any, params: Any) -> None:
+    """List the interactions. Inputs: datasets by kind and, if there, ranges of members. Params: choice. Output: table (csv)."""
+    files = dict(input.items())
+    ranges = files.pop("ranges", None)
+    datasets = {kind: read_dataset(file) for kind, file in files.items()}
+    table = summarise(datasets, from_plain(InteractionChoice, params.choice))
+    if ranges:
+        table = with_ranges(table, read_ranges(ranges))
+    write_table(table, output.table)
+
+
+def ranking(input: Any, output: Any, params: Any) -> None:
+    """Rank the blades. Inputs: datasets by kind and, if there, members. Params: runs. Output: table (csv)."""
+    datasets = {kind: read_dataset(file) for kind, file in input.items()}
+    members = measures_of_members(datasets.pop("members")) if "members" in datasets else None
+    found = {(blade, scene): robustness(response_of(datasets, blade, scene)) for blade, scene in params.runs}
+    write_table(ranking_table(found, members), output.table, digits=6)

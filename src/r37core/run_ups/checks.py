@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from r37core.config import Settings
 from r37core.config.cross_checks import names_are_there, revolution_fits
-from r37core.config.document import Refusals
+from r37core.config.document import ConfigRefusals
 from r37core.yaml_file import KeyPath
 
 from .choice import RunUpError, check_highest
@@ -14,7 +14,7 @@ from .section import RunUpEntry
 
 def run_ups_can_be_done(settings: Settings) -> None:
     """Run-ups name blades, scenes and orders that are there, wear a lining, and change little from sample to sample."""
-    refusals = Refusals()
+    refusals = ConfigRefusals()
     for name, entry in entries(settings).items():
         refusals.of(_can_be_done, settings, name, entry)
     refusals.tell()

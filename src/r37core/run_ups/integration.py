@@ -118,26 +118,26 @@ class RunUpIntegration:
                     return
 
     def _stages_of(self, simulation: Simulation, interval: ModalInterval) -> Iterator[Stage]:
-        state, problem, paces = self.state, simulation.problem, simulation.paces
+        state, problem, constants = self.state, simulation.problem, simulation.paces
         shapes = problem.state_shapes
-        increments, begun = paces.increments, interval.distinct_speeds.of_segments[0]
+        increments, begun = constants.increments, interval.distinct_speeds.of_segments[0]
         assert increments is not None
         simulation.engine.take(begun)
         state.increment[:] = increments.increment(begun, state.displacement, self.velocity)
         for segments in interval.at_once(_AT_ONCE * self._choice.samples_per_revolution):
             speed_indices, lasting = interval.distinct_speeds.of_segments[segments], interval.lasting[segments]
-            course, first = Course(speed_indices, lasting, len(state.displacement)), state.samples
-            record = simulation.follow(state, course)
+            segments_of_call, first = Course(speed_indices, lasting, len(state.displacement)), state.samples
+            record = simulation.follow(state, segments_of_call)
             lasted = np.diff(np.cumsum(lasting).clip(max=len(record.samples)), prepend=0)
             reached = np.count_nonzero(lasted)
             self.velocity = increments.velocity(speed_indices[reached - 1], state.displacement, state.increment)
-            self._balance(paces.recursion[speed_indices[:reached]], course.ends[:reached])
+            self._balance(constants.recursion[speed_indices[:reached]], segments_of_call.ends[:reached])
             speeds = np.repeat(interval.distinct_speeds.speeds[speed_indices], lasted)
             instants = problem.snapshots_between(first, first + len(speeds))
             yield Stage(
                 speeds,
                 record.samples,
-                np.repeat(course.wear, lasted),
+                np.repeat(segments_of_call.wear, lasted),
                 record.snapshots,
                 speeds[list(instants)],
                 shapes,

@@ -8,6 +8,7 @@ from itertools import product
 from typing import Any
 
 from r37core.config import Settings, casing_remarks
+from r37core.config.speed_choice import fastest_of
 from r37core.plain import to_plain
 from r37core.plans import paths
 from r37core.plans.sweep_plan import Sweep
@@ -58,7 +59,7 @@ class RunUps:
             (blade, scene): {} for blade in settings.blade_names for scene in settings.scene_names
         }
         for name, entry in entries(settings).items():
-            blades = settings.blade_names if entry.blades == "all" else settings.designs_of(entry.blades)
+            blades = settings.blade_names if entry.blades == "all" else settings.designs.named(entry.blades)
             scenes = settings.scene_names if entry.scenes == "all" else entry.scenes
             choices = {scene: entry.choice(settings.scenes[scene].revolutions) for scene in scenes if scene in settings.scenes}
             for blade, (scene, choice) in product(blades, choices.items()):
@@ -117,9 +118,9 @@ def remarks(settings: Settings) -> list[str]:
     """Of elastic casings that only a run-up overtakes, as far as no crossing decides its speeds."""
     lines = []
     choices = RunUps(Sweep(settings)).choices
-    for name, casing in settings.elastic_casings.items():
+    for name, casing in casing_remarks.elastic_casings(settings).items():
         of_scene = [choice for (_, scene), named in choices.items() if scene == name for choice in named.values()]
         fastest = max((max(choice.start, choice.stop) for choice in of_scene if choice.crossing is None), default=0.0)
-        if fastest > settings.fastest_of(name):
+        if fastest > fastest_of(settings, name):
             lines.append(casing_remarks.of_speeds(name, casing, fastest))
     return [line for line in lines if line]

@@ -1,4 +1,4 @@
-"""The axes of a mesh of another program, told from its shape: those about which its ends are cones and its tip makes sense."""
+"""The axes of a mesh of another program, found from its shape: those about which its ends are cones and its tip makes sense."""
 
 from __future__ import annotations
 
@@ -58,7 +58,7 @@ def _turned(orientation: Orientation, sign: float, rotation: str) -> Orientation
 
 
 def _makes_sense(mesh: RawMesh, orientation: Orientation) -> bool:
-    """Whether leading edge and pressure side of the tip fit the orientation, and are told by its shape."""
+    """Whether leading edge and pressure side of the tip fit the orientation, and follow from its shape."""
     placed = orientation.to_blade(mesh)
     casing = find_end("tip", placed.points, outer_faces(placed.blocks))
     if casing is None:

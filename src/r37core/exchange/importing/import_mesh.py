@@ -61,7 +61,7 @@ def import_mesh(source: MeshSource, folder: Path | str = ".") -> tuple[BladeMesh
 
 
 def size_in_words(mesh: BladeMesh) -> str:
-    """Radii of both ends of the tip and of the root, in words, for whoever knows the blade."""
+    """Radii of both ends of the tip and of the root, as text, to be compared with the real blade."""
     radius = np.hypot(mesh.points[:, 0], mesh.points[:, 1])
     leading, trailing = (radius[mesh.node_set(f"{name}_edge")].max() for name in ("leading", "trailing"))
     root = radius[mesh.node_set("root")].mean()
@@ -91,7 +91,7 @@ def _ends(source: MeshSource, raw: RawMesh) -> tuple[np.ndarray, np.ndarray, Tip
             if caught is not None:
                 with refusals.of(what):
                     check_end(what, where, caught, end)
-        # where the rule for the tip is refused, the sense is still told of the faces that it should have caught
+        # where the rule for the tip is refused, the sense is still judged by the faces that it should have caught
         tip = casing if casing is not None and casing.straight else tip
     lines = None
     if tip is not None:

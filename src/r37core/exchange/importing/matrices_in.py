@@ -193,7 +193,7 @@ def _speed(name: str, file: Path) -> float:
 
 
 def _check_speeds(speeds: list[float], fastest: float) -> None:
-    """ImportRefused for speeds (rad/s), ascending, between which the change of the stiffness cannot be told."""
+    """ImportRefused for speeds (rad/s), ascending, that do not determine the change of the stiffness."""
     rest, middle, top = speeds
     if rest != 0.0 or not _APART[0] * top <= middle <= _APART[1] * top:
         raise ImportRefused(

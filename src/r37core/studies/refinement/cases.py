@@ -8,6 +8,7 @@ from typing import Any
 
 from r37core.config import ConfigError, Settings, plain
 from r37core.plans.sweep_plan import Sweep
+from r37core.tolerances.members import members_of, section
 from r37core.tolerances.sample import is_of_sample
 
 from ..case import Case
@@ -17,7 +18,7 @@ _STEPS = (5.0, 8.0, 20.0)
 """Plain grids (rad/s) beside: as many runs as a fifth of every 1 rad/s, and those of two fidelity levels."""
 
 _COMPARED = ("spectrum", "stress", "static_stress", "wear")
-"""Results of a scene by which interactions are told."""
+"""Results of a scene by which interactions are matched."""
 
 
 def adaptive(settings: Settings) -> dict[str, tuple[str, str]]:
@@ -40,7 +41,7 @@ def cases(settings: Settings) -> dict[str, Case]:
     }
     members = adaptive_members(settings)
     return nominal | {
-        case: replace(nominal[name], scene=settings.members.all[pair][member].scene, what=f"member {member}")
+        case: replace(nominal[name], scene=members_of(settings).all[pair][member].scene, what=f"member {member}")
         for name, pair in adaptive(settings).items()
         for member, case in members.get(name, {}).items()
     }
@@ -48,15 +49,15 @@ def cases(settings: Settings) -> dict[str, Case]:
 
 def adaptive_members(settings: Settings) -> dict[str, dict[str, str]]:
     """Cases of the members of each adaptive sweep, by its name and the member's; ConfigError where their blades differ."""
-    of_blades = settings.config.tolerances.of_blades
+    of_blades = section(settings).of_blades
     if of_blades:
         raise settings.documents.config.refusal(
             ("tolerances", "of_blades"), ", ".join(of_blades), "of_scenes alone: the study runs the nominal models"
         )
     return {
-        name: {member: f"{name}/{member}" for member in settings.members.all[pair] if is_of_sample(member)}
+        name: {member: f"{name}/{member}" for member in members_of(settings).all[pair] if is_of_sample(member)}
         for name, pair in adaptive(settings).items()
-        if pair in settings.members.pairs
+        if pair in members_of(settings).pairs
     }
 
 
@@ -81,7 +82,7 @@ def values(settings: Settings) -> dict[str, Any]:
         "choices": {
             name: sweep.refinement_choice(SimpleNamespace(blade=blade, scene=scene)) for name, (blade, scene) in pairs.items()
         },
-        "interactions": plain(settings.interactions),
+        "interactions": plain(settings.config.interactions),
     }
 
 

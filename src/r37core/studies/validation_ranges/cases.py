@@ -10,12 +10,13 @@ from dataclasses import replace
 from typing import Any
 
 from r37core.config import ConfigError, Settings
-from r37core.config.member_changes import ImpossibleValueError, changed_scene, scene_numbers
+from r37core.config.spread import Spread
 from r37core.config.study_sections import ValidationRangesSection
 from r37core.contact.scene import Scene
 from r37core.plans import paths
 from r37core.published import REFERENCE
-from r37core.tolerances.sample import Tolerance, drawn, is_of_sample, places
+from r37core.tolerances.member_changes import ImpossibleValueError, changed_scene, scene_numbers
+from r37core.tolerances.sample import drawn, is_of_sample, places
 
 from ..case import Case
 from ..modelling_choices import cases as modelling_choices
@@ -55,14 +56,14 @@ def _scenes(settings: Settings, kind: str) -> dict[str, Scene]:
     return scenes
 
 
-def _tolerances(settings: Settings) -> Mapping[str, Tolerance]:
+def _tolerances(settings: Settings) -> Mapping[str, Spread]:
     """Key of each number -> how it spreads; ConfigError for one that neither scene has."""
     known = {
         key: value
         for kind in ("lined", "direct")
         for key, value in scene_numbers(scene_entry_of(settings, scene_name(settings, kind))).items()
     }
-    tolerances = {key: entry.tolerance() for key, entry in _section(settings).of_scenes.items()}
+    tolerances = {key: entry.spread() for key, entry in _section(settings).of_scenes.items()}
     for key, tolerance in tolerances.items():
         if key not in known:
             raise _refusal(settings, key, key, f"one of {', '.join(known)}")

@@ -10,10 +10,10 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from r37core.figures import style
 from r37core.results.measures import leading_edge
-from r37core.tolerances.shares import CONFIDENCE
 
-from . import style
+from .shares import CONFIDENCE
 
 _CHANCE = "probability_above_yield"
 _MEASURES = {"peak_speed": "peak speed", "width_above_yield": "width above yield", "largest_stress": "largest stress"}

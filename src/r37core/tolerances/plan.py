@@ -6,13 +6,19 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from r37core.config import BladeSettings, Settings
-from r37core.tolerances.sample import is_of_sample
+from r37core.plans import paths
+from r37core.plans.extent import extent_of
+from r37core.plans.samples import NOMINAL, Member, Pair, Sample, Sampling, path_part
+from r37core.plans.sweep_plan import Sweep
 
-from . import paths
-from .samples import NOMINAL, Member, Pair, Sample, path_part
+from .fewest import remarks_on_rankings
+from .members import Members, members_of, section
+from .sample import is_of_sample
 
 FOLDER = "tolerances"
-"""Of the members' files."""
+"""Of the members' files: the wing's name."""
+
+DATASET, TABLE = "<results>/tolerances.nc", "<results>/tolerances.csv"
 
 _KEPT = ("spectrum", "stress", "static_stress")
 """Results of a scene that its members have, too: what ranges are read off."""
@@ -25,9 +31,13 @@ class Tolerances:
     settings: Settings
 
     @property
+    def _members(self) -> Members:
+        return members_of(self.settings)
+
+    @property
     def pairs(self) -> list[Pair]:
         """Blades and scenes with members."""
-        return self.settings.members.pairs
+        return self._members.pairs
 
     @cached_property
     def samples(self) -> dict[Pair, Sample]:
@@ -40,10 +50,10 @@ class Tolerances:
             (blade, scene): Sample(
                 members={name: Member(of.blade, of.scene, models[blade][name]) for name, of in members.items()},
                 deciding=[name for name in members if is_of_sample(name)],
-                largest_share=settings.config.tolerances.largest_share,
+                largest_share=section(settings).largest_share,
                 results=tuple(result for result in settings.results_of(blade, scene) if result in _KEPT),
             )
-            for (blade, scene), members in settings.members.all.items()
+            for (blade, scene), members in self._members.all.items()
         }
 
     @property
@@ -51,7 +61,7 @@ class Tolerances:
         """Which member's model each member has, by blade: the first of those with the same blade, or the nominal one."""
         first: dict[str, dict[BladeSettings, str]] = {}
         found: dict[str, dict[str, str]] = {}
-        for (blade, _), members in self.settings.members.all.items():
+        for (blade, _), members in self._members.all.items():
             known = first.setdefault(blade, {self.settings.blades[blade].elastic: NOMINAL})
             for name, member in members.items():
                 if name not in found.setdefault(blade, {}):
@@ -104,14 +114,52 @@ class Tolerances:
     @property
     def numbers(self) -> list[str]:
         """Keys of the numbers that vary."""
-        return [key for _, key in self.settings.members.numbers]
+        return [key for _, key in self._members.numbers]
 
     @property
     def values(self) -> list[list[float | None]]:
         """Of each of the runs, in the units of the keys."""
-        every = self.settings.members.all
+        every = self._members.all
         return [list(every[run["blade"], run["scene"]][run["member"]].values) for run in self.runs]
 
 
 def _placed(runs: list[dict[str, str]]) -> paths.Wildcards:
     return [{**run, "member": path_part(FOLDER, run["member"])} for run in runs]
+
+
+def samples(settings: Settings) -> dict[Pair, Sample]:
+    """Members by blade and scene."""
+    return settings.made(Tolerances).samples
+
+
+SAMPLING = Sampling(samples, ranges=TABLE, dataset=DATASET)
+
+
+def simulated(sweep: Sweep) -> dict[str, paths.Wildcards]:
+    """The responses of the members, and first rounds where their speeds are adaptive."""
+    planned = sweep.settings.made(Tolerances)
+    adaptive = [pair for pair in planned.pairs if sweep.settings.speed_plans[pair].refined]
+    member, sample = path_part(FOLDER, "{member}"), path_part(FOLDER)
+    return {
+        paths.RESPONSE.replace("{member}", member): planned.runs,
+        paths.ROUND.replace("{member}", sample).replace("{round}", "0"): paths.of_runs(adaptive),
+    }
+
+
+def targets(sweep: Sweep) -> dict[str, paths.Wildcards]:
+    """The dataset, the table and the figures of the members."""
+    pairs = paths.of_runs(members_of(sweep.settings).pairs)
+    return {
+        **{file: pairs and [{}] for file in (DATASET, TABLE)},
+        **paths.pictures("tolerances_{blade}__{scene}", pairs),
+    }
+
+
+def remarks(settings: Settings) -> list[str]:
+    """How many members there are, and whether these rank the numbers."""
+    members, given = members_of(settings), section(settings)
+    if not members.pairs:
+        return []
+    most = extent_of(settings, {FOLDER: samples(settings)}).members
+    said = f"tolerances: {given.members} members, {most} simulations of theirs at most, beside those of the sweep"
+    return [said, *remarks_on_rankings(given.members, len(members.numbers), given.sensitivity)]

@@ -5,18 +5,15 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, TypeVar
+from typing import TypeVar
 
+from r37core.config import BladeSettings, ConfigError, Settings
+from r37core.config.messages import on_one_line
 from r37core.contact.scene import Scene
-from r37core.tolerances.sample import drawn, is_of_sample, number_of, places
 
-from .blades import BladeSettings
-from .document import ConfigError
 from .member_changes import BLADE_KEYS, ImpossibleValueError, blade_number, changed_blade, changed_scene, scene_numbers
-from .messages import on_one_line
-
-if TYPE_CHECKING:
-    from .settings import Settings
+from .sample import drawn, is_of_sample, number_of, places
+from .section import ToleranceSection
 
 T = TypeVar("T")
 
@@ -30,12 +27,17 @@ class Member:
     values: tuple[float | None, ...]
 
 
+def section(settings: Settings) -> ToleranceSection:
+    """The section of config.yaml."""
+    return settings.section("tolerances")
+
+
 class Members:
     """The members of all blades and scenes that have tolerances. `numbers`: section and key of each -> its tolerance."""
 
     def __init__(self, settings: Settings):
-        self._settings, self._given = settings, settings.config.tolerances
-        self.numbers = self._given.tolerances
+        self._settings, self._given = settings, section(settings)
+        self.numbers = self._given.spreads
 
     @cached_property
     def pairs(self) -> list[tuple[str, str]]:
@@ -56,7 +58,7 @@ class Members:
     def _chosen(self) -> tuple[list[str], list[str]]:
         """Blades and scenes that are to have members."""
         settings, given = self._settings, self._given
-        blades = settings.blade_names if given.blades == "all" else settings.designs_of(given.blades)
+        blades = settings.blade_names if given.blades == "all" else settings.designs.named(given.blades)
         return blades, settings.scene_names if given.scenes == "all" else given.scenes
 
     @cached_property
@@ -80,6 +82,11 @@ class Members:
         Raises ConfigError for a number that is not there, and for a value that is impossible.
         """
         return {pair: self._of(*pair) for pair in self.pairs}
+
+    def most_runs(self, blade: str, scene: str) -> int:
+        """Simulations of all members of a blade and scene, at most where speeds are adaptive."""
+        plan = self._settings.speed_plans[blade, scene]
+        return len(self.all.get((blade, scene), ())) * plan.at_most(self._given.largest_share)
 
     @cached_property
     def _places(self) -> dict[str, tuple[float, ...]]:
@@ -150,3 +157,8 @@ class Members:
 
     def _refusal(self, path: tuple[str, ...], found: str, allowed: str) -> ConfigError:
         return self._settings.documents.config.refusal(("tolerances", *path), found, allowed)
+
+
+def members_of(settings: Settings) -> Members:
+    """Those that the settings ask for, drawn once."""
+    return settings.made(Members)
