@@ -83,13 +83,13 @@ def tolerances_dataset(runs: Iterable[MemberRun], numbers: Sequence[str]) -> xr.
 
 def _measured(response: xr.Dataset) -> dict[str, float]:
     """MEASURES of one member."""
-    found = {**dict.fromkeys(MEASURES, np.nan), "peak_speed": float(peak_of(response)["speed"])}
+    measures = {**dict.fromkeys(MEASURES, np.nan), "peak_speed": float(peak_of(response)["speed"])}
     if "max_von_mises" in response:
         above, (largest, _) = speeds_above_yield(response), largest_stress(response)
-        found |= {"first_yield_speed": above.first, "width_above_yield": above.width, "largest_stress": largest}
+        measures |= {"first_yield_speed": above.first, "width_above_yield": above.width, "largest_stress": largest}
         ranked = robustness(response, with_scatter=False)
-        found |= {measure: ranked[column] for column, measure in MEASURES_RANKED_BY.items()}
-    return found
+        measures |= {measure: ranked[column] for column, measure in MEASURES_RANKED_BY.items()}
+    return measures
 
 
 def _kept(response: xr.Dataset, run: MemberRun, numbers: Sequence[str], values: Mapping[str, float]) -> xr.Dataset:
@@ -144,15 +144,17 @@ def _chances(above: xr.DataArray) -> dict[str, xr.DataArray]:
 def _rankings(sample: xr.Dataset) -> dict[str, xr.DataArray]:
     """Rank coefficients of INDEXED and the places that they give, from the sample alone."""
     values = sample["value"].transpose("member", "number").values
-    found = [ranking(values, sample[name].values) for name in INDEXED]
+    rankings = [ranking(values, sample[name].values) for name in INDEXED]
     sure = f"{CONFIDENCE:.0%} sure"
     return {
-        "rank_coefficient": _index([one.coefficient for one in found], "standardized rank coefficient"),
-        "rank_coefficient_low": _index([one.low for one in found], f"lower end of the rank coefficient, {sure}"),
-        "rank_coefficient_high": _index([one.high for one in found], f"upper end of the rank coefficient, {sure}"),
-        **_places("rank", [one.places for one in found], "rank coefficients, of numbers that have one beyond zero"),
-        "rank_explained": _of_measures([one.explained for one in found], "share of the ranks' variance that they explain"),
-        "rank_members": _of_measures([one.members for one in found], "members that the coefficients are made of"),
+        "rank_coefficient": _index([measure.coefficient for measure in rankings], "standardized rank coefficient"),
+        "rank_coefficient_low": _index([measure.low for measure in rankings], f"lower end of the rank coefficient, {sure}"),
+        "rank_coefficient_high": _index([measure.high for measure in rankings], f"upper end of the rank coefficient, {sure}"),
+        **_places("rank", [measure.places for measure in rankings], "rank coefficients, of numbers that have one beyond zero"),
+        "rank_explained": _of_measures(
+            [measure.explained for measure in rankings], "share of the ranks' variance that they explain"
+        ),
+        "rank_members": _of_measures([measure.members for measure in rankings], "members that the coefficients are made of"),
     }
 
 
@@ -161,14 +163,14 @@ def _sensitivities(measured: Mapping[str, Mapping[str, float]], numbers: Sequenc
     varied = sorted({number for name in measured[INDEXED[0]] if (number := number_of(name)) is not None})
     if not varied:
         return {}
-    found = [sobol_indices(measured[name], varied, len(numbers)) for name in INDEXED]
+    sobol = [sobol_indices(measured[name], varied, len(numbers)) for name in INDEXED]
     indices, ends = {}, f"{CONFIDENCE:.0%} of bootstrap samples"
     for place, (order, meaning) in enumerate(ORDERS.items()):
-        indices[f"sobol_{order}"] = _index([one.index[place] for one in found], f"{meaning} (Sobol)")
-        indices[f"sobol_{order}_low"] = _index([one.low[place] for one in found], f"lower end of {ends}: {meaning}")
-        indices[f"sobol_{order}_high"] = _index([one.high[place] for one in found], f"upper end of {ends}: {meaning}")
-    indices |= _places("sobol", [one.places for one in found], "total indices")
-    indices["sobol_members"] = _of_measures([one.members for one in found], "members that the indices are made of")
+        indices[f"sobol_{order}"] = _index([measure.index[place] for measure in sobol], f"{meaning} (Sobol)")
+        indices[f"sobol_{order}_low"] = _index([measure.low[place] for measure in sobol], f"lower end of {ends}: {meaning}")
+        indices[f"sobol_{order}_high"] = _index([measure.high[place] for measure in sobol], f"upper end of {ends}: {meaning}")
+    indices |= _places("sobol", [measure.places for measure in sobol], "total indices")
+    indices["sobol_members"] = _of_measures([measure.members for measure in sobol], "members that the indices are made of")
     return indices
 
 
