@@ -126,12 +126,12 @@ def windows_have_crossings(settings: Settings) -> None:
     """No window lies above crossings that the Campbell diagram does not have."""
     if not any(plan.refined for plan in settings.speed_plans.values()):
         return
-    highest, given = settings.config.campbell.highest_engine_order, settings.config.refinement
-    for place, windows in {("refinement",): given.windows, ("refinement", "direct"): given.direct.windows}.items():
+    highest, refining = settings.config.campbell.highest_engine_order, settings.config.refinement
+    for path, windows in {("refinement",): refining.windows, ("refinement", "direct"): refining.direct.windows}.items():
         for number, window in enumerate(windows):
             if window.highest_engine_order > highest:
                 raise settings.documents.config.refusal(
-                    (*place, "windows", number, "highest_engine_order"),
+                    (*path, "windows", number, "highest_engine_order"),
                     f"{window.highest_engine_order}",
                     f"at most campbell.highest_engine_order ({highest})",
                 )
@@ -143,10 +143,10 @@ def history_speeds_are_run(settings: Settings) -> None:
         run = {speed for (_, scene), plan in settings.speed_plans.items() if scene == name for speed in plan.certain}
         entry = settings.scene_entries[name]
         key = "stress_history_speeds_rpm" if entry.stress_history_speeds_rpm else "stress_history_speeds_rad_s"
-        for given, speed in zip(getattr(entry, key), chosen.stress_history_speeds, strict=True):
+        for value, speed in zip(getattr(entry, key), chosen.stress_history_speeds, strict=True):
             if speed not in run:
                 allowed = "speeds that are simulated (add it to speeds or speeds_for in config.yaml)"
-                raise settings.documents.scenes.refusal((name, key), f"{given:g}", allowed)
+                raise settings.documents.scenes.refusal((name, key), f"{value:g}", allowed)
 
 
 def slowest_speed_fits_in_memory(settings: Settings) -> None:
@@ -156,7 +156,7 @@ def slowest_speed_fits_in_memory(settings: Settings) -> None:
 
 def revolution_fits(settings: Settings, speed: float, path: KeyPath) -> None:
     """ConfigError for a speed (rad/s), at `path` of config.yaml, whose revolutions have too many steps."""
-    steps, lined = settings.fidelity.time_integration, {one.scene.lining is not None for one in settings.scenes.values()}
+    steps, lined = settings.fidelity.time_integration, {each.scene.lining is not None for each in settings.scenes.values()}
     nodes, step = padded(settings.structure.boundary.nodes), min(map(steps.largest_step, lined))
     size = 8 * nodes * 2.0 * math.pi / speed / step
     if size > LARGEST_TABLE:
@@ -170,15 +170,15 @@ def revolution_fits(settings: Settings, speed: float, path: KeyPath) -> None:
 
 def matrices_hold_their_terms(settings: Settings) -> None:
     """No term of rotation is wanted that cannot be added to matrices of another program."""
-    given = [name for name, blade in settings.blades.items() if isinstance(blade.definition, MatricesSource)]
+    blades = [name for name, blade in settings.blades.items() if isinstance(blade.definition, MatricesSource)]
     remedies = {
         "spin_softening": "put the term into its K_<speed>",
         "coriolis": "a Coriolis matrix of another program is not read",
     }
     for key, remedy in remedies.items():
-        if given and getattr(settings.structure, key):
+        if blades and getattr(settings.structure, key):
             raise settings.documents.config.refusal(
-                ("structure", key), f"true with the blade '{given[0]}', given by matrices", f"false; {remedy}"
+                ("structure", key), f"true with the blade '{blades[0]}', given by matrices", f"false; {remedy}"
             )
 
 

@@ -90,8 +90,8 @@ class Settings:
         several = list(designs.entries) if chosen == "all" else designs.named(chosen)
         names = self.config.run.of_part(several)
         if not names:
-            found = f"{self.config.run.part} of {len(several)} blades"
-            raise self.documents.config.refusal(("run", "part"), found, f"at most {len(several)} parts")
+            part = f"{self.config.run.part} of {len(several)} blades"
+            raise self.documents.config.refusal(("run", "part"), part, f"at most {len(several)} parts")
         return names
 
     @cached_property
