@@ -67,7 +67,7 @@ class StructureFiles:
 
     def _reduced(self, tip_line: str) -> _Made:
         structure, wildcards = Structure(self.settings), self._wildcards(tip_line=tip_line)
-        common = {"reduction": structure.reduction(wildcards), "contact": structure.place_of_contact(wildcards)}
+        common = {"reduction": structure.reduction(wildcards), "contact": structure.location_of_contact(wildcards)}
         if isinstance(self.settings.blades[self.name].definition, MatricesSource):
             return _made("exchange.importing.steps.imported_matrices", "rom.nc", {}, **self._source(), **common)
         material, before, inputs = structure.elastic(wildcards), Attributes(file=None), {"mesh": self._mesh()}
@@ -84,7 +84,7 @@ class StructureFiles:
     def _source(self) -> dict[str, Any]:
         """Parameters of an import."""
         imported, wildcards = Imported(self.settings), self._wildcards()
-        return {"source": imported.source(wildcards), "folder": imported.folder, "places": imported.places(wildcards)}
+        return {"source": imported.source(wildcards), "folder": imported.folder, "locations": imported.locations(wildcards)}
 
     def _wildcards(self, **more: str) -> Named:
         return Named(blade=self.name, **more)

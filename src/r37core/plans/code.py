@@ -76,8 +76,8 @@ class CodeHashes:
 def module_files(name: str, roots: tuple[Path, ...]) -> tuple[Path, ...]:
     """Files of a dotted name, which may end in something that is no module: it and the packages above it."""
     parts = name.split(".")
-    places = [root.joinpath(*parts[:length]) for root in roots for length in range(1, len(parts) + 1)]
-    candidates = [file for place in places for file in (place.with_suffix(".py"), place / "__init__.py")]
+    bases = [root.joinpath(*parts[:length]) for root in roots for length in range(1, len(parts) + 1)]
+    candidates = [file for base in bases for file in (base.with_suffix(".py"), base / "__init__.py")]
     return tuple(file for file in candidates if file.exists())
 
 
