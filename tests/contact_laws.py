@@ -8,7 +8,7 @@ from numba import njit
 from r37core.alignment import LANES, aligned_record, aligned_zeros, padded
 from r37core.contact import complementarity, laws, node_sweeps
 from r37core.lanes import OPTIONS, inlined, load, store
-from r37core.time_integration.layout import LINING, complementarity_record, contact_record
+from r37core.time_integration.compiled.layout import LINING, complementarity_record, contact_record
 from r37core.time_integration.static_modes import relaxation
 
 _return_mapping, _friction_direction = inlined(laws.return_mapping), inlined(laws.friction_direction)

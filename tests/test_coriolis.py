@@ -22,7 +22,7 @@ from r37core.time_integration import step_limit
 from r37core.time_integration.gyroscopic import LARGEST_TURN
 from r37core.time_integration.integrators import CENTRAL_DIFFERENCE, EXACT_MODAL
 from r37core.time_integration.problem import Problem, UnstableStepError, stable_problem
-from r37core.time_integration.reference_motion import CoupledMotion
+from r37core.time_integration.reference.motion import CoupledMotion
 from r37core.time_integration.simulate import Simulation
 from r37core.time_integration.step_limit import pressed_ratio
 

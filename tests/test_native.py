@@ -16,8 +16,8 @@ from integration_cases import DIRECT, LINING, oscillator
 from r37core import kept, native
 from r37core.native import ObjectCodeError, Sources, cached_object, load_function, object_code
 from r37core.plain import to_plain
-from r37core.time_integration import compiled
-from r37core.time_integration.layout import Kind, integration_record, layout_of
+from r37core.time_integration.compiled import engine as compiled
+from r37core.time_integration.compiled.layout import Kind, integration_record, layout_of
 from r37core.time_integration.simulate import Simulation
 
 TWICE = """
@@ -160,7 +160,10 @@ def test_sources_of_the_compiled_code_are_all_that_it_is_compiled_from(root):
             if not isinstance(node, ast.ImportFrom) or not (node.level or (node.module or "").startswith("r37core")):
                 continue
             module = (node.module or "").removeprefix("r37core").strip(".").replace(".", "/")
-            names = [f"{folder / module if node.level else module}.py"]
+            above = core / folder
+            for _ in range(1, node.level):
+                above = above.parent
+            names = [f"{above.relative_to(core) / module if node.level else module}.py"]
             if not (core / names[0]).exists():
                 names = [f"{module}/{alias.name}.py" for alias in node.names]
             assert set(names) <= set(compiled.SOURCES.files), source

@@ -1,6 +1,6 @@
 """The contact problem at one instant, compiled into the time integration: forces and gaps of all nodes, each by its own law.
 
-A problem `c` is a contact_record of r37core.time_integration.layout; nodes are lanes, and a set of nodes is a bit for each,
+A problem `c` is a contact_record of time_integration.compiled.layout; nodes are lanes, and a set of nodes is a bit for each,
 eight to an integer. Forces p open the gaps g to g + G p, G being what the static modes do. A node at the bare casing keeps
 g + G p >= 0, p >= 0 and one of them zero; one on a lining has the force of its bar, with the casing behind it. In a sweep eight
 nodes at once get the forces that their laws say while the others keep theirs: the projected Jacobi method (Cottle, Pang and

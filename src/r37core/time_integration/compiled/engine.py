@@ -14,11 +14,12 @@ from r37core.contact.ring import RingMotion
 from r37core.contact.scene import Friction, Lining
 from r37core.native import Sources, cached_object, load_function
 
-from .integrators import CENTRAL_DIFFERENCE
-from .jump_plan import jump_lengths, nearest_casing
-from .layout import LINING, NEVER, NORMAL, TANGENTIAL, Kind, Layout, integration_record, layout_of, pace_record
-from .problem import Paces, Problem
-from .state import Course, SimulationRecord, SimulationState
+from ..integrators import CENTRAL_DIFFERENCE
+from ..jump_numbers import NEVER
+from ..jump_plan import jump_lengths, nearest_casing
+from ..problem import Paces, Problem
+from ..state import Course, SimulationRecord, SimulationState
+from .layout import LINING, NORMAL, TANGENTIAL, Kind, Layout, integration_record, layout_of, pace_record
 
 SOURCES = Sources(
     "alignment.py",
@@ -32,13 +33,15 @@ SOURCES = Sources(
     "contact/node_sweeps.py",
     "contact/ring.py",
     "contact/scene.py",
-    "time_integration/contact_steps.py",
-    "time_integration/jump_steps.py",
-    "time_integration/layout.py",
-    "time_integration/pace_steps.py",
-    "time_integration/program.py",
-    "time_integration/ring_steps.py",
-    "time_integration/steps.py",
+    "time_integration/compiled/contact_steps.py",
+    "time_integration/compiled/jump_steps.py",
+    "time_integration/compiled/layout.py",
+    "time_integration/compiled/pace_steps.py",
+    "time_integration/compiled/program.py",
+    "time_integration/compiled/ring_steps.py",
+    "time_integration/compiled/steps.py",
+    "time_integration/jump_numbers.py",
+    "time_integration/totals.py",
 )
 """What the compiled time integration is made from: a change in one of these compiles it anew."""
 
@@ -322,7 +325,7 @@ class _CasingTables:
 
 @cache
 def _program(layout: Layout, kind: Kind) -> Callable:
-    """The program of time_integration.program, compiled if it is not there yet."""
+    """The program of time_integration.compiled.program, compiled if it is not there yet."""
 
     def build() -> bytes:
         from .program import compile_integration

@@ -5,7 +5,7 @@ lining or the casing, u_{n+1} = u* + c F. It is carried in displacement u and in
 recursion without its loss of digits: d* = keep d - pull u, u* = u + d*, with keep = -b, pull = 1 - a - b, inverse = c.
 With Coriolis u is the real part of a complex amplitude, whose increment moves the nodes, too: time_integration.gyroscopic.
 
-`m` is a record of time_integration.layout; tip nodes are lanes (r37core.lanes), sets of nodes are bits, eight nodes to an
+`m` is a record of layout; tip nodes are lanes (r37core.lanes), sets of nodes are bits, eight nodes to an
 integer. Arguments that choose (`kind`, `energy`, ...) are constants where the time integration is compiled.
 """
 

@@ -10,9 +10,10 @@ from r37core.known_arguments import known
 from r37core.lanes import OPTIONS, inlined, pointed_at, spread, sum_of_lanes
 from r37core.native import object_code
 
+from ..jump_numbers import COARSE, STRIDES
 from .contact_steps import press_contact, push_contact, release_contact
 from .jump_steps import bound_amplitudes, choose_jump, jump_ahead
-from .layout import COARSE, STRIDES, Kind, Layout, integration_record, pace_record
+from .layout import Kind, Layout, integration_record, pace_record
 from .pace_steps import begin_stretch, end_stretch
 from .ring_steps import turn_jump, turn_step
 from .steps import leave_casing, list_pressed, measure_exact_gaps, measure_gaps, meet, predict, record

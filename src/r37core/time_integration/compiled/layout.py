@@ -14,22 +14,11 @@ import numpy as np
 from r37core.alignment import Field, aligned_record, padded
 from r37core.contact.scene import Lining
 
-COARSE = 8
-"""Steps between which a jump may begin; the casing's nearest position is kept for each such stretch."""
-
-STRIDES = 9
-"""Lengths of jumps: what is left of a block after whole stretches, then stretches doubled up to 1024 steps."""
-
-U_FROM_U, U_FROM_D, D_FROM_U, D_FROM_D, LOSS_UU, LOSS_UD, LOSS_DD, BEYOND = range(8)
-"""Rows of the numbers of a jump: its map of displacement u and increment d less the identity, its loss as a quadratic form,
-and how far a mode of unit amplitude gets beyond its tangent (fast modes: from zero)."""
+from ..jump_numbers import STRIDES
+from ..totals import TOTALS
 
 NORMAL, TANGENTIAL, MERIDIONAL = range(3)
 """Directions of contact: along the casing's normal, positive towards it; growing theta; along its meridian, downstream."""
-
-NEVER = 2**60
-"""More steps than there are: the length of a jump that is not to be had."""
-
 
 FEWEST_MODES = 32
 """Of a blade in a layout. Each layout compiles for a quarter of a minute, so a small blade takes that of a larger one."""
@@ -52,10 +41,10 @@ class Kind(NamedTuple):
     """What a time integration has; what it lacks is not in the program.
 
     `published`: the integrator is central_difference, whose forces correct the prediction; else they are those at t_n, see
-    r37core.time_integration.contact_steps. `vector_friction`: along the real sliding velocity; friction of constant direction
+    contact_steps. `vector_friction`: along the real sliding velocity; friction of constant direction
     is in the push rows and responses. `coupled`: friction is part of the complementarity problem. `exact_gap`, `energy`,
     `jumps`: see Scene and IntegrationChoice. `coriolis`: modes are complex; see r37core.time_integration.gyroscopic. `ring`:
-    the casing has modes; see r37core.time_integration.ring_steps. `relaxed`: see Problem.relaxation.
+    the casing has modes; see ring_steps. `relaxed`: see Problem.relaxation.
     """
 
     published: bool
@@ -83,20 +72,6 @@ def _numbers(names: str, kind: type = np.float64) -> list[Field]:
 def _arrays(names: str, *shape: int, kind: type = np.float64) -> list[Field]:
     return [(name, kind, shape) for name in names.split()]
 
-
-TOTALS = np.dtype(
-    [
-        ("steps_in_contact", np.float64),  # steps with any contact force
-        ("casing_hits", np.float64),  # onsets of direct contact
-        ("largest_force", np.float64),  # normal, on a node (N)
-        ("worst_complementarity", np.float64),  # largest relative violation
-        ("work", np.float64),  # of the contact forces (J)
-        ("loss", np.float64),  # of energy to damping (J)
-        ("steps", np.float64),
-        ("steps_jumped", np.float64),  # of them, part of a jump over free flight
-    ]
-)
-"""What is added up over a run."""
 
 LINING = aligned_record(_numbers(" ".join(field.name for field in fields(Lining)) + " area"))
 """What the law of the lining may use: every field of Lining as a number, and a bar's area (m2)."""
@@ -141,7 +116,7 @@ def contact_record(nodes: int) -> np.dtype:
 def _pace_fields(layout: Layout) -> list[Field]:
     modes, nodes = layout.modes, layout.nodes
     return [
-        # of the recursion: see time_integration.steps; energy lost per step and squared central difference; 1/keep
+        # of the recursion: see steps; energy lost per step and squared central difference; 1/keep
         *_arrays("keep pull inverse loss inverse_keep", modes),
         # increment of a free mode per displacement and per velocity, and one over the latter
         *_arrays("increment_by_displacement increment_by_velocity velocity_by_increment", modes),

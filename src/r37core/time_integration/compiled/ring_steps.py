@@ -9,7 +9,7 @@ from __future__ import annotations
 from r37core.alignment import LANES
 from r37core.lanes import inlined, load, store
 
-from .layout import STRIDES
+from ..jump_numbers import STRIDES
 
 SINGLE = STRIDES
 """Row of a single step."""

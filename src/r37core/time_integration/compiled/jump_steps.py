@@ -17,21 +17,8 @@ import numpy as np
 from r37core.alignment import LANES
 from r37core.lanes import bits_of, inlined, load, numbers_at, store
 
-from .layout import (
-    BEYOND,
-    COARSE,
-    D_FROM_D,
-    D_FROM_U,
-    LOSS_DD,
-    LOSS_UD,
-    LOSS_UU,
-    MERIDIONAL,
-    NORMAL,
-    STRIDES,
-    TANGENTIAL,
-    U_FROM_D,
-    U_FROM_U,
-)
+from ..jump_numbers import BEYOND, COARSE, D_FROM_D, D_FROM_U, LOSS_DD, LOSS_UD, LOSS_UU, STRIDES, U_FROM_D, U_FROM_U
+from .layout import MERIDIONAL, NORMAL, TANGENTIAL
 from .steps import along, second_difference
 
 ROUNDING_MARGIN = 1e-9
