@@ -125,7 +125,7 @@ def needed_rate(blade, settings, campbell, changes):
     asked = settings.run_ups[blade, SCENE][VARIED]
     asked = replace(asked, **{name: value for name, value in changes.items() if hasattr(asked, name)})
     choice = settings.run_up_choice(blade, SCENE, VARIED)
-    choice = replace(choice, revolutions=asked.before, snapshot_revolutions=asked.before, energy=False)
+    choice = replace(choice, revolutions=asked.before, snapshot_revolutions=asked.before)
     if "time_step" in changes:
         choice = replace(choice, time_step=changes["time_step"] * choice.time_step)
     if "published" in changes:

@@ -4,7 +4,6 @@ import filecmp
 import os
 import shutil
 from collections import Counter
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -149,7 +148,7 @@ def contact(model):
 
 @pytest.fixture(scope="session")
 def compiled(root, tmp_path_factory):
-    """The programs of the small sweep, with and without energies, made in this process.
+    """The programs of the small sweep, made in this process.
 
     After the first one, another of the same layout takes half of its time or less; in jobs, each takes as long as the first.
     """
@@ -170,9 +169,7 @@ def compiled(root, tmp_path_factory):
     reduced = reduce_blade(mesh, assemble(mesh, blade.material), settings.reduction_choice("Ref"))
     model = contact_model(reduced, "pressure_edge")
     for name, scene in settings.scenes.items():
-        choice = settings.integration_choice("Ref", name, 1150.0)
-        for energy in (True, False):
-            Simulation(model, 1150.0, scene.scene, replace(choice, energy=energy))
+        Simulation(model, 1150.0, scene.scene, settings.integration_choice("Ref", name, 1150.0))
 
 
 @pytest.fixture

@@ -18,63 +18,55 @@ from r37core.alignment import LANES
 from r37core.lanes import bits_of, inlined, load, numbers_at, store
 
 from ..jump_numbers import BEYOND, COARSE, D_FROM_D, D_FROM_U, LOSS_DD, LOSS_UD, LOSS_UU, STRIDES, U_FROM_D, U_FROM_U
+from .kind import CORIOLIS, EXACT_GAP
 from .layout import MERIDIONAL, NORMAL, TANGENTIAL
-from .steps import along, second_difference
+from .steps import along, mode_lanes, node_lanes, second_difference
 
 ROUNDING_MARGIN = 1e-9
 """Of the distances compared; generous beside what summing rounds."""
 
 
 @inlined
-def _size(m, direction, k, i, kind):
-    """Largest displacement of a node by a mode of unit amplitude."""
-    turns = kind.coriolis or kind.ring
-    return m.size_operator[direction, k, i] if turns else abs(m.displacement_operator[direction, k, i])
-
-
-@inlined
-def bound_amplitudes(m, kind):
+def bound_amplitudes(m):
     """|C| of each mode from displacement and increment and, for the exact gap, how far nodes can get sideways and inwards."""
-    for i in range(len(m.u)):
-        imaginary = m.amplitude_by_u[i] * m.u[i] + m.amplitude_by_d[i] * m.increment[i]
-        m.amplitude[i] = np.sqrt(m.u[i] * m.u[i] + imaginary * imaginary)
-    if kind.exact_gap:
-        for k in range(m.nodes):
-            normal = sideways = meridional = 0.0
-            for i in range(len(m.u)):
-                normal += _size(m, NORMAL, k, i, kind) * m.amplitude[i]
-                sideways += _size(m, TANGENTIAL, k, i, kind) * m.amplitude[i]
-                meridional += _size(m, MERIDIONAL, k, i, kind) * m.amplitude[i]
-            m.across[k] = sideways
-            m.towards[k] = m.radius[k] - m.casing.cosine * normal - abs(m.casing.sine) * meridional
+    for i in range(0, mode_lanes(m), LANES):
+        u, d = load(m.u, i), load(m.increment, i)
+        imaginary = load(m.pace.amplitude_by_u, i) * u + load(m.pace.amplitude_by_d, i) * d
+        store(m.flight.amplitude, i, np.sqrt(u * u + imaginary * imaginary))
+    if EXACT_GAP:
+        for g in range(0, node_lanes(m), LANES):
+            normal = along(m.size_operator, NORMAL, m.flight.amplitude, g, mode_lanes(m))
+            meridional = along(m.size_operator, MERIDIONAL, m.flight.amplitude, g, mode_lanes(m))
+            inwards = normal * m.casing.cosine + meridional * abs(m.casing.sine)
+            store(m.flight.across, g, along(m.size_operator, TANGENTIAL, m.flight.amplitude, g, mode_lanes(m)))
+            store(m.flight.towards, g, load(m.radius, g) - inwards)
     for stride in range(STRIDES):
-        m.reach_known[stride] = 0
+        m.flight.reach_known[stride] = 0
 
 
 @inlined
-def _is_clear(m, place, stride, remaining, kind):
+def _is_clear(m, place, stride, remaining):
     """Whether no node can touch anything in a jump; `remaining`: what the casing's lobes lack before it."""
-    if m.reach_known[stride] == 0:
-        for k in range(m.nodes):
-            bound = 0.0
-            for i in range(len(m.u)):
-                bound += _size(m, NORMAL, k, i, kind) * (m.amplitude[i] * m.jumps[stride, BEYOND, i])
-            m.reach[stride, k] = bound
-        m.reach_known[stride] = 1
-    casing, nodes, length = numbers_at(m.nearest_casing), len(m.force), m.lengths[stride]
-    lobes = m.casing.amplitude * (1.0 - remaining * m.decay[stride])
+    if m.flight.reach_known[stride] == 0:
+        for i in range(0, mode_lanes(m), LANES):
+            store(m.flight.beyond, i, load(m.flight.amplitude, i) * load(m.pace.jumps, (stride, BEYOND, i)))
+        for g in range(0, node_lanes(m), LANES):
+            store(m.flight.reach, (stride, g), along(m.size_operator, NORMAL, m.flight.beyond, g, mode_lanes(m)))
+        m.flight.reach_known[stride] = 1
+    casing, nodes, length = numbers_at(m.call.nearest_casing), node_lanes(m), m.flight.lengths[stride]
+    lobes = m.casing.amplitude * (1.0 - remaining * m.flight.decay[stride])
     for g in range(0, nodes, LANES):
-        velocity = along(m.displacement_operator, NORMAL, m.increment, g, m.slow_modes[stride])
-        position = along(m.displacement_operator, NORMAL, m.u, g, m.slow_modes[stride])
-        if kind.coriolis:
-            velocity += along(m.increment_operator, NORMAL, m.last_second_difference, g, m.slow_modes[stride])
-            position += along(m.increment_operator, NORMAL, m.increment, g, m.slow_modes[stride])
-        position += np.maximum(velocity, velocity * length) + load(m.reach, (stride, g))
+        velocity = along(m.displacement_operator, NORMAL, m.increment, g, m.pace.slow_modes[stride])
+        position = along(m.displacement_operator, NORMAL, m.u, g, m.pace.slow_modes[stride])
+        if CORIOLIS:
+            velocity += along(m.increment_operator, NORMAL, m.last_second_difference, g, m.pace.slow_modes[stride])
+            position += along(m.increment_operator, NORMAL, m.increment, g, m.pace.slow_modes[stride])
+        position += np.maximum(velocity, velocity * length) + load(m.flight.reach, (stride, g))
         nearest = load(casing, place + g)
         for j in range(1, (length + COARSE - 1) // COARSE):
             nearest = np.maximum(nearest, load(casing, place + j * nodes + g))
-        if kind.exact_gap:
-            across, towards = load(m.across, g), load(m.towards, g)
+        if EXACT_GAP:
+            across, towards = load(m.flight.across, g), load(m.flight.towards, g)
             position += across * across * (0.5 * m.casing.cosine) / towards
             # the greatest slope of exp(-x^2) is sqrt(2/e)
             slope = np.sqrt(2.0 / np.e) / (m.casing.width * m.casing.period)
@@ -82,7 +74,7 @@ def _is_clear(m, place, stride, remaining, kind):
             nearest = np.where(nearest < 1.0, nearest, 1.0)
             if bits_of(towards > 0.0) != (1 << LANES) - 1:
                 return False
-        clearance = load(m.clearance, g)
+        clearance = load(m.pace.clearance, g)
         gap = clearance - lobes * nearest - position
         # written so that NaN is not clear
         clear = bits_of(gap > ROUNDING_MARGIN * (np.abs(clearance) + lobes + np.abs(position)))
@@ -92,18 +84,18 @@ def _is_clear(m, place, stride, remaining, kind):
 
 
 @inlined
-def choose_jump(m, place, first_stride, left, remaining, kind):
+def choose_jump(m, place, first_stride, left, remaining):
     """Stride of the longest jump that the rest of the block and the bounds allow, -1 if there is none."""
-    if kind.coriolis:
-        for i in range(0, len(m.u), LANES):
+    if CORIOLIS:
+        for i in range(0, mode_lanes(m), LANES):
             store(m.last_second_difference, i, second_difference(m, i))
     stride = first_stride
     if left < COARSE:
         stride = 0
     else:
-        while m.lengths[stride] > left:
+        while m.flight.lengths[stride] > left:
             stride -= 1
-    while not _is_clear(m, place, stride, remaining, kind):
+    while not _is_clear(m, place, stride, remaining):
         if stride <= 1:
             return -1
         stride -= 1
@@ -111,13 +103,13 @@ def choose_jump(m, place, first_stride, left, remaining, kind):
 
 
 @inlined
-def jump_ahead(m, stride, energy, lost):
+def jump_ahead(m, stride, lost):
     """Do the steps of a jump; adds the energy they lose to damping, in lanes."""
-    for i in range(0, len(m.u), LANES):
+    jumps = m.pace.jumps
+    for i in range(0, mode_lanes(m), LANES):
         u, d = load(m.u, i), load(m.increment, i)
-        store(m.u, i, u + (load(m.jumps, (stride, U_FROM_U, i)) * u + load(m.jumps, (stride, U_FROM_D, i)) * d))
-        store(m.increment, i, d + (load(m.jumps, (stride, D_FROM_U, i)) * u + load(m.jumps, (stride, D_FROM_D, i)) * d))
-        if energy:
-            lost += (load(m.jumps, (stride, LOSS_UU, i)) * u + load(m.jumps, (stride, LOSS_UD, i)) * d) * u
-            lost += load(m.jumps, (stride, LOSS_DD, i)) * d * d
+        store(m.u, i, u + load(jumps, (stride, U_FROM_U, i)) * u + load(jumps, (stride, U_FROM_D, i)) * d)
+        store(m.increment, i, d + load(jumps, (stride, D_FROM_U, i)) * u + load(jumps, (stride, D_FROM_D, i)) * d)
+        lost += load(jumps, (stride, LOSS_DD, i)) * (d * d)
+        lost += (load(jumps, (stride, LOSS_UU, i)) * u + load(jumps, (stride, LOSS_UD, i)) * d) * u
     return lost

@@ -20,49 +20,35 @@ from ..totals import TOTALS
 NORMAL, TANGENTIAL, MERIDIONAL = range(3)
 """Directions of contact: along the casing's normal, positive towards it; growing theta; along its meridian, downstream."""
 
-FEWEST_MODES = 32
-"""Of a blade in a layout. Each layout compiles for a quarter of a minute, so a small blade takes that of a larger one."""
+FEWEST_MODES, FEWEST_NODES = 96, 8
+"""Of a capacity. A program takes seconds to make, and a step costs what is used of its record, not what there is room for."""
 
 
-class Layout(NamedTuple):
-    """Numbers of modes, nodes and outputs, all rounded up to whole vectors.
+OF_MODES, OF_NODES = range(2)
+"""Places of the numbers of vectors."""
 
-    `pairs`: of the modes, pairs of an elastic casing, whole vectors too; the first of each pair come after the blade's modes,
-    then the second.
+
+class Capacity(NamedTuple):
+    """How many modes and nodes there is room for, in whole vectors: what a program is compiled for beside its kind.
+
+    Most blades step 32 or 40 modes, with central differences up to 93. A vector of nodes is handled without loops, so more
+    nodes are another capacity: four times as many each, so that contact patches of 15 and 29 nodes share one. Modes are
+    doubled. The modes of an elastic casing count, by pairs: the first of each pair come after the blade's modes, then the
+    second, each whole vectors. Outputs are never more than modes.
     """
 
     modes: int
     nodes: int
-    outputs: int
-    pairs: int
 
 
-class Kind(NamedTuple):
-    """What a time integration has; what it lacks is not in the program.
-
-    `published`: the integrator is central_difference, whose forces correct the prediction; else they are those at t_n, see
-    contact_steps. `vector_friction`: along the real sliding velocity; friction of constant direction
-    is in the push rows and responses. `coupled`: friction is part of the complementarity problem. `exact_gap`, `energy`,
-    `jumps`: see Scene and IntegrationChoice. `coriolis`: modes are complex; see r37core.time_integration.gyroscopic. `ring`:
-    the casing has modes; see ring_steps. `relaxed`: see Problem.relaxation.
-    """
-
-    published: bool
-    lined: bool
-    vector_friction: bool
-    coupled: bool
-    exact_gap: bool
-    energy: bool
-    jumps: bool
-    coriolis: bool
-    ring: bool
-    relaxed: bool
-
-
-def layout_of(blade_modes: int, nodes: int, outputs: int, pairs: int = 0) -> Layout:
-    """The layout that holds so many."""
-    modes = max(padded(blade_modes), FEWEST_MODES)
-    return Layout(modes + 2 * padded(pairs), padded(nodes), padded(outputs), padded(pairs))
+def capacity_of(modes: int, nodes: int) -> Capacity:
+    """The smallest that has room for so many."""
+    most_modes, most_nodes = FEWEST_MODES, FEWEST_NODES
+    while most_modes < modes:
+        most_modes *= 2
+    while most_nodes < nodes:
+        most_nodes *= 4
+    return Capacity(most_modes, most_nodes)
 
 
 def _numbers(names: str, kind: type = np.float64) -> list[Field]:
@@ -90,6 +76,7 @@ def complementarity_record(nodes: int) -> np.dtype:
             *_arrays("matrix", nodes, nodes + 1),
             *_arrays("listed", nodes, kind=np.int64),
             *_arrays("touching wrong", groups, kind=np.int64),
+            *_numbers("lanes", kind=np.int64),  # that the nodes fill
         ]
     )
 
@@ -109,56 +96,90 @@ def contact_record(nodes: int) -> np.dtype:
             *_arrays("listed bar", nodes, kind=np.int64),
             *_arrays("found", padded(nodes) // padded(1), kind=np.int64),  # set of the listed nodes
             *_numbers("relaxation"),
+            *_numbers("lanes", kind=np.int64),  # that the nodes fill
         ]
     )
 
 
-def _pace_fields(layout: Layout) -> list[Field]:
-    modes, nodes = layout.modes, layout.nodes
-    return [
-        # of the recursion: see steps; energy lost per step and squared central difference; 1/keep
-        *_arrays("keep pull inverse loss inverse_keep", modes),
-        # increment of a free mode per displacement and per velocity, and one over the latter
-        *_arrays("increment_by_displacement increment_by_velocity velocity_by_increment", modes),
-        # normal displacement of the last node per force in the three directions on the one before
-        *_arrays("coupling", 3, nodes, nodes),
-        # opening of the last node's gap per unit multiplier of the one before: with friction, and as the problem has it
-        *_arrays("response columns", nodes, nodes),
-        *_arrays("clearance", nodes),  # of the round casing (m)
-        # jumps over free flight: see time_integration.jump_plan
-        *_arrays("jumps", STRIDES, 8, modes),
-        *_arrays("amplitude_by_u amplitude_by_d", modes),
-        *_arrays("slow_modes", STRIDES, kind=np.int64),
+_PACE_OF_MODES = (
+    # of the recursion: see steps; energy lost per step and squared central difference; 1/keep
+    "keep pull inverse loss inverse_keep "
+    # increment of a free mode per displacement and per velocity, and one over the latter
+    "increment_by_displacement increment_by_velocity velocity_by_increment "
+    # of jumps over free flight: see time_integration.jump_plan
+    "amplitude_by_u amplitude_by_d"
+)
+_NUMBERS_OF_A_JUMP = 8
+
+PACE_ROWS = len(_PACE_OF_MODES.split()) + STRIDES * _NUMBERS_OF_A_JUMP
+"""What a pace has of each mode: it begins with these rows, and copies them as far as there are modes."""
+
+
+@cache
+def pace_record(modes: int, nodes: int) -> np.dtype:
+    """What of a time integration changes with the speed while its modes are held, of whole vectors of modes and nodes."""
+    return aligned_record(
+        [
+            *_arrays(_PACE_OF_MODES, modes),
+            *_arrays("jumps", STRIDES, _NUMBERS_OF_A_JUMP, modes),
+            # normal displacement of the last node per force in the three directions on the one before
+            *_arrays("coupling", 3, nodes, nodes),
+            # opening of the last node's gap per unit multiplier of the one before: with friction, and as the problem has it
+            *_arrays("response columns", nodes, nodes),
+            *_arrays("clearance", nodes),  # of the round casing (m)
+            *_arrays("slow_modes", STRIDES, kind=np.int64),
+        ]
+    )
+
+
+def _flight_record(modes: int, nodes: int) -> np.dtype:
+    """Of jumps: amplitudes of the modes, and how far these get beyond in one; how far they bring the nodes; strides."""
+    return aligned_record(
+        [
+            *_arrays("amplitude beyond", modes),
+            *_arrays("reach", STRIDES, nodes),
+            *_arrays("across towards", nodes),
+            *_arrays("decay", STRIDES),
+            *_arrays("lengths reach_known", STRIDES, kind=np.int64),
+        ]
+    )
+
+
+CALL = aligned_record(
+    [
+        # where it begins, how many blocks of steps it asks for, and the pace it is at
+        *_numbers("first_step blocks pace", kind=np.int64),
+        # addresses of arrays whose sizes are known only then: f(theta) at every step, and the largest of each stretch
+        *_numbers("casing_shape nearest_casing wear samples snapshots", kind=np.int64),
+        # all paces; pace and blocks of each stretch; motion at its ends, and largest wear by then
+        *_numbers("paces places lasting ends worn", kind=np.int64),
     ]
+)
+"""One call of the program."""
 
 
 @cache
-def pace_record(layout: Layout) -> np.dtype:
-    """What of a time integration changes with the speed while its modes are held: the beginning of its record."""
-    return aligned_record(_pace_fields(layout))
-
-
-@cache
-def integration_record(layout: Layout) -> np.dtype:
+def integration_record(capacity: Capacity) -> np.dtype:
     """The record of a time integration: its pace, its state, its constants, room to work in, and its totals."""
-    modes, nodes, outputs, pairs = layout
+    modes, nodes = capacity
     groups = nodes // padded(1)
     return aligned_record(
         [
-            *_pace_fields(layout),
-            # displacement u_n; its increments u_n - u_{n-1} and u_{n-1} - u_{n-2}; forces on the modes
-            *_arrays("u increment last_increment push", modes),
-            # displacement of the nodes per mode, and what a unit normal force does to the modes, with constant friction
-            *_arrays("displacement_operator", 3, nodes, modes),
+            ("pace", pace_record(modes, nodes), ()),
+            # displacement u_n; its increments u_n - u_{n-1} and u_{n-1} - u_{n-2}; with Coriolis the increment of the last one,
+            # had there been no force
+            *_arrays("u increment last_increment last_second_difference", modes),
+            *_arrays("push increment_push", modes),  # forces on the modes and, with Coriolis, on their increments
+            # displacement of the nodes per mode, the size of it per amplitude that turns, and what a unit normal force does to
+            # the modes, with constant friction
+            *_arrays("displacement_operator size_operator", 3, nodes, modes),
             *_arrays("push_operator", nodes, modes),
-            *_arrays("outputs", 1, outputs, modes),
-            *_arrays("sample", outputs),
-            # with Coriolis the same per increment; the size of displacement_operator per amplitude that turns; increment of the
-            # last increment, had there been no force; forces on the modes' increments
-            *_arrays("increment_operator size_operator", 3, nodes, modes),
+            *_arrays("outputs", 1, modes, modes),
+            *_arrays("sample", modes),
+            # with Coriolis the same per increment
+            *_arrays("increment_operator", 3, nodes, modes),
             *_arrays("increment_push_operator", nodes, modes),
-            *_arrays("increment_outputs", 1, outputs, modes),
-            *_arrays("last_second_difference increment_push", modes),
+            *_arrays("increment_outputs", 1, modes, modes),
             *_arrays("friction_share", 2, nodes),  # tangential and meridional force per normal force
             *_arrays("force", nodes),
             *_arrays("friction_force", 2, nodes),
@@ -166,7 +187,7 @@ def integration_record(layout: Layout) -> np.dtype:
             # at a sample, and the static modes' part of it; the contact problem
             *_arrays("flexibility", 3, nodes, nodes),
             *_arrays("static_force", 3 * nodes),
-            *_arrays("force_outputs", 1, outputs, 3 * nodes),
+            *_arrays("force_outputs", 1, modes, 3 * nodes),
             ("contact", contact_record(nodes), ()),
             *_arrays("rotation", nodes),  # signed sliding in a step by the rotation (m)
             *_arrays("bar_position", nodes),  # angle at step 0, in bars
@@ -174,24 +195,18 @@ def integration_record(layout: Layout) -> np.dtype:
             ("problem", complementarity_record(nodes), ()),
             *_arrays("beyond on_casing", groups, kind=np.int64),
             # by how much pairs of the casing's modes turn in a jump and, in the last row, in a step
-            *_arrays("turn_cosine turn_sine", STRIDES + 1, pairs),
-            # of jumps: amplitudes of the modes, and how far they bring the nodes
-            *_arrays("amplitude", modes),
-            *_arrays("reach", STRIDES, nodes),
-            *_arrays("across towards", nodes),
-            *_arrays("decay", STRIDES),
-            *_arrays("lengths reach_known", STRIDES, kind=np.int64),
+            *_arrays("turn_cosine turn_sine", STRIDES + 1, modes // 2),
+            ("flight", _flight_record(modes, nodes), ()),
             ("lining", LINING, ()),
             ("casing", CASING, ()),
             ("totals", TOTALS, ()),
             *_numbers("limit friction"),
-            *_numbers("number_of_outputs nodes rings steps_per_revolution steps_per_block", kind=np.int64),
-            *_numbers("samples_before_snapshots samples_per_snapshot", kind=np.int64),
-            # of one call: where it begins, how many blocks of steps it asks for, and the pace it is at
-            *_numbers("first_step blocks pace", kind=np.int64),
-            # addresses of arrays whose sizes are known only then: f(theta) at every step, and the largest of each stretch
-            *_numbers("casing_shape nearest_casing wear samples snapshots", kind=np.int64),
-            # all paces; pace and blocks of each stretch; motion at its ends, and largest wear by then
-            *_numbers("paces places lasting ends worn", kind=np.int64),
+            # how much of the record is used: vectors of modes and of nodes; numbers
+            *_arrays("vectors", 2, kind=np.int64),
+            *_numbers("pairs number_of_outputs nodes rings", kind=np.int64),
+            # whether it jumps, and whether friction is part of the complementarity problem
+            *_numbers("jumping coupled", kind=np.int64),
+            *_numbers("steps_per_revolution steps_per_block samples_before_snapshots samples_per_snapshot", kind=np.int64),
+            ("call", CALL, ()),
         ]
     )

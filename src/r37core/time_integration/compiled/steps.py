@@ -6,7 +6,7 @@ recursion without its loss of digits: d* = keep d - pull u, u* = u + d*, with ke
 With Coriolis u is the real part of a complex amplitude, whose increment moves the nodes, too: time_integration.gyroscopic.
 
 `m` is a record of layout; tip nodes are lanes (r37core.lanes), sets of nodes are bits, eight nodes to an
-integer. Arguments that choose (`kind`, `energy`, ...) are constants where the time integration is compiled.
+integer. Names in capitals that choose are those of `kind`, constants of each program.
 """
 
 from __future__ import annotations
@@ -16,14 +16,27 @@ import numpy as np
 from r37core.alignment import LANES
 from r37core.contact.complementarity import list_nodes, solve_complementarity
 from r37core.contact.laws import displaced_position, friction_direction, lobe_shape, return_mapping
-from r37core.lanes import bits_of, flag_at, inlined, load, numbers_at, spread, store, sum_of_lanes, sums_of_lanes
+from r37core.lanes import bits_of, flag_at, inlined, lanes_of, load, numbers_at, spread, store, sum_of_lanes, sums_of_lanes
 
-from .layout import MERIDIONAL, NORMAL, TANGENTIAL
+from .kind import CORIOLIS, EXACT_GAP, LINED, PUBLISHED, VECTOR_FRICTION
+from .layout import MERIDIONAL, NORMAL, OF_MODES, OF_NODES, TANGENTIAL
 
 _friction_direction = inlined(friction_direction)
 _return_mapping = inlined(return_mapping)
 _displaced_position = inlined(displaced_position)
 _lobe_shape = inlined(lobe_shape)
+
+
+@inlined
+def mode_lanes(m):
+    """How many lanes the modes fill."""
+    return lanes_of(m.vectors, OF_MODES)
+
+
+@inlined
+def node_lanes(m):
+    """How many lanes the nodes fill; of a single vector the compiler knows it."""
+    return LANES if len(m.force) == LANES else lanes_of(m.vectors, OF_NODES)
 
 
 @inlined
@@ -44,48 +57,48 @@ def along(rows, direction, modal, g, used):
 
 
 @inlined
-def displaced(m, direction, g, coriolis):
+def displaced(m, direction, g):
     """Displacement of the eight nodes from g on, by all modes."""
-    total = along(m.displacement_operator, direction, m.u, g, len(m.u))
-    if coriolis:
-        total += along(m.increment_operator, direction, m.increment, g, len(m.u))
+    total = along(m.displacement_operator, direction, m.u, g, mode_lanes(m))
+    if CORIOLIS:
+        total += along(m.increment_operator, direction, m.increment, g, mode_lanes(m))
     return total
 
 
 @inlined
 def second_difference(m, i):
     """Increment of the increments of the eight modes from i on: d_n - d_{n-1} of the free motion through u_n, d_n."""
-    u, d, keep = load(m.u, i), load(m.increment, i), load(m.keep, i)
-    return ((keep - 1.0) * d - load(m.pull, i) * (u - d)) * load(m.inverse_keep, i)
+    u, d, keep = load(m.u, i), load(m.increment, i), load(m.pace.keep, i)
+    return ((keep - 1.0) * d - load(m.pace.pull, i) * (u - d)) * load(m.pace.inverse_keep, i)
 
 
 @inlined
-def predict(m, energy, lost, coriolis):
+def predict(m, lost):
     """The free step of every mode; returns `lost` and the energy it loses, in lanes."""
-    for i in range(0, len(m.u), LANES):
-        if coriolis:
+    for i in range(0, mode_lanes(m), LANES):
+        if CORIOLIS:
             store(m.last_second_difference, i, second_difference(m, i))
         u, last = load(m.u, i), load(m.increment, i)
-        d = load(m.keep, i) * last - load(m.pull, i) * u
+        d = load(m.pace.keep, i) * last - load(m.pace.pull, i) * u
         store(m.last_increment, i, last)
         store(m.increment, i, d)
         store(m.u, i, u + d)
-        if energy and coriolis:
-            keep, pull = load(m.keep, i), load(m.pull, i)
-            lost += load(m.loss, i) * (pull * u * (u - last) + ((1.0 - keep) * u + keep * last) * last)
-        elif energy:
-            lost += load(m.loss, i) * (d + last) * (d + last)
+        if CORIOLIS:
+            keep, pull = load(m.pace.keep, i), load(m.pace.pull, i)
+            lost += load(m.pace.loss, i) * (pull * u * (u - last) + ((1.0 - keep) * u + keep * last) * last)
+        else:
+            lost += load(m.pace.loss, i) * ((d + last) * (d + last))
     return lost
 
 
 @inlined
-def measure_gaps(m, place, lobes, coriolis):
+def measure_gaps(m, place, lobes):
     """Linear gaps: clearance, less the lobes at the undeformed angle, less the normal displacement. Whether any is passed."""
-    shape = numbers_at(m.casing_shape)
+    shape = numbers_at(m.call.casing_shape)
     any_beyond = 0
-    for g in range(0, len(m.force), LANES):
-        normal = displaced(m, NORMAL, g, coriolis)
-        gap = load(m.clearance, g) - lobes * load(shape, place * len(m.force) + g) - normal
+    for g in range(0, node_lanes(m), LANES):
+        normal = displaced(m, NORMAL, g)
+        gap = load(m.pace.clearance, g) - lobes * load(shape, place * node_lanes(m) + g) - normal
         store(m.problem.gap, g, gap)
         beyond = bits_of(gap < 0.0)
         m.beyond[g // LANES] = beyond
@@ -94,15 +107,15 @@ def measure_gaps(m, place, lobes, coriolis):
 
 
 @inlined
-def measure_exact_gaps(m, place, lobes, coriolis):
+def measure_exact_gaps(m, place, lobes):
     """Gaps between the displaced nodes and the lobed cone: see r37core.contact.casing. Whether any is passed."""
     turned = place * (2.0 * np.pi / m.steps_per_revolution)
     any_beyond = False
-    for g in range(0, len(m.force), LANES):
+    for g in range(0, node_lanes(m), LANES):
         # room that is free before contact
-        store(m.problem.multiplier, g, displaced(m, NORMAL, g, coriolis))
-        store(m.problem.answer, g, displaced(m, TANGENTIAL, g, coriolis))
-        store(m.problem.short, g, displaced(m, MERIDIONAL, g, coriolis))
+        store(m.problem.multiplier, g, displaced(m, NORMAL, g))
+        store(m.problem.answer, g, displaced(m, TANGENTIAL, g))
+        store(m.problem.short, g, displaced(m, MERIDIONAL, g))
         m.beyond[g // LANES] = 0
     for k in range(m.nodes):
         p, casing = m.problem, m.casing
@@ -110,7 +123,7 @@ def measure_exact_gaps(m, place, lobes, coriolis):
             p.multiplier[k], p.answer[k], p.short[k], m.radius[k], casing.cosine, casing.sine
         )
         shape = _lobe_shape(m.theta[k] - turned + m.shift[k], casing.period, casing.width)
-        p.gap[k] = m.clearance[k] - lobes * shape - position
+        p.gap[k] = m.pace.clearance[k] - lobes * shape - position
         if p.gap[k] < 0.0:
             m.beyond[k // LANES] |= 1 << (k % LANES)
             any_beyond = True
@@ -120,33 +133,32 @@ def measure_exact_gaps(m, place, lobes, coriolis):
 @inlined
 def set_friction(m, g, tangential, meridional):
     """Vector friction per normal force on the nodes from g on, against their sliding in the last step (m)."""
-    along_tangent, along_meridian = _friction_direction(load(m.rotation, g) + tangential, meridional)
-    store(m.friction_share, (0, g), along_tangent * (0.0 - m.friction))
-    store(m.friction_share, (1, g), along_meridian * (0.0 - m.friction))
+    # a normal force is negative
+    along_tangent, along_meridian = _friction_direction(load(m.rotation, g) + tangential, meridional, 0.0 - m.friction)
+    store(m.friction_share, (0, g), along_tangent)
+    store(m.friction_share, (1, g), along_meridian)
 
 
 @inlined
-def set_friction_of_listed(m, listed, count, centred, coriolis):
+def set_friction_of_listed(m, listed, count):
     """Vector friction on `listed` nodes: more costly for each than `set_friction_of_all`, but they are few.
 
-    `centred`: against the sliding at t_n, extrapolated from the last two increments, else in the last step.
+    With forces at t_n it is against the sliding then, extrapolated from the last two increments, else in the last step.
     """
-    for g in range(0, len(m.force), LANES):
+    for g in range(0, node_lanes(m), LANES):
         tangential = meridional = spread(0.0)
         for j in range(count):
             k = listed[j]
             if g <= k < g + LANES:
                 t = r = spread(0.0)
-                for i in range(0, len(m.u), LANES):
+                for i in range(0, mode_lanes(m), LANES):
                     last = load(m.last_increment, i)
-                    if centred:
-                        last = 1.5 * load(m.increment, i) - 0.5 * last
+                    if not PUBLISHED:
+                        last = 0.5 * (3.0 * load(m.increment, i) - last)
                     t += load(m.displacement_operator, (TANGENTIAL, k, i)) * last
                     r += load(m.displacement_operator, (MERIDIONAL, k, i)) * last
-                    if coriolis:
-                        last = load(m.last_second_difference, i)
-                        if centred:
-                            last = 1.5 * second_difference(m, i) - 0.5 * last
+                    if CORIOLIS:
+                        last = 0.5 * (3.0 * second_difference(m, i) - load(m.last_second_difference, i))
                         t += load(m.increment_operator, (TANGENTIAL, k, i)) * last
                         r += load(m.increment_operator, (MERIDIONAL, k, i)) * last
                 # put into lanes here: loading together what was stored one by one stalls the processor
@@ -158,33 +170,33 @@ def set_friction_of_listed(m, listed, count, centred, coriolis):
 @inlined
 def set_friction_of_all(m):
     """Vector friction on all nodes, and the gaps' response with it."""
-    for g in range(0, len(m.force), LANES):
-        tangential = along(m.displacement_operator, TANGENTIAL, m.last_increment, g, len(m.u))
-        meridional = along(m.displacement_operator, MERIDIONAL, m.last_increment, g, len(m.u))
+    for g in range(0, node_lanes(m), LANES):
+        tangential = along(m.displacement_operator, TANGENTIAL, m.last_increment, g, mode_lanes(m))
+        meridional = along(m.displacement_operator, MERIDIONAL, m.last_increment, g, mode_lanes(m))
         set_friction(m, g, tangential, meridional)
     for k in range(m.nodes):
-        for g in range(0, len(m.force), LANES):
-            store(m.response, (k, g), response_with_friction(m, k, g))
+        for g in range(0, node_lanes(m), LANES):
+            store(m.pace.response, (k, g), response_with_friction(m, k, g))
 
 
 @inlined
 def response_with_friction(m, k, g):
     """Opening of gaps per unit multiplier of a node, with the vector friction that comes with it."""
-    response = load(m.coupling, (NORMAL, k, g)) + load(m.coupling, (TANGENTIAL, k, g)) * m.friction_share[0, k]
-    return response + load(m.coupling, (MERIDIONAL, k, g)) * m.friction_share[1, k]
+    response = load(m.pace.coupling, (NORMAL, k, g)) + load(m.pace.coupling, (TANGENTIAL, k, g)) * m.friction_share[0, k]
+    return response + load(m.pace.coupling, (MERIDIONAL, k, g)) * m.friction_share[1, k]
 
 
 @inlined
-def bar_at(m, k, place, exact_gap):
+def bar_at(m, k, place):
     """The number of the bar that a node is at, counted over all rings."""
     bars = int(m.lining.bars)
     position = m.bar_position[k] - place * m.lining.bars / m.steps_per_revolution
-    if exact_gap:
+    if EXACT_GAP:
         position += m.shift[k] * (m.lining.bars / (2.0 * np.pi))
     bar = int(np.floor(position))
     while bar < 0:
         bar += bars
-    if exact_gap:
+    if EXACT_GAP:
         while bar >= bars:
             bar -= bars
     if m.rings > 1:
@@ -193,69 +205,68 @@ def bar_at(m, k, place, exact_gap):
 
 
 @inlined
-def press_bars(m, place, kind):
+def press_bars(m, place):
     """Normal forces of the bars that the nodes press; wears them. Returns how many nodes are listed as pressing."""
-    p, lining, wear = m.problem, m.lining, numbers_at(m.wear)
+    p, lining, wear = m.problem, m.lining, numbers_at(m.call.wear)
     count = list_nodes(m.beyond, p.listed)
-    if kind.vector_friction:
-        set_friction_of_listed(m, p.listed, count, False, False)
+    if VECTOR_FRICTION:
+        set_friction_of_listed(m, p.listed, count)
     for j in range(count):
         k = p.listed[j]
-        bar = bar_at(m, k, place, kind.exact_gap)
+        bar = bar_at(m, k, place)
         stress, wear[bar] = _return_mapping(-p.gap[k], wear[bar], lining.elastic_modulus, lining)
         m.force[k] = -stress * lining.area
     return count
 
 
 @inlined
-def press_lining(m, place, kind):
-    """Normal forces of the lining; how many nodes are listed as pressing, and whether one reaches the casing behind it."""
+def press_lining(m, place):
+    """Normal forces of the lining; returns whether a node reaches the casing behind it."""
     p, lining = m.problem, m.lining
-    count = press_bars(m, place, kind)
+    count = press_bars(m, place)
     any_closed = 0
-    for g in range(0, len(m.force), LANES):
+    for g in range(0, node_lanes(m), LANES):
         gap = load(p.gap, g) + lining.thickness
         for j in range(count):
             k = p.listed[j]
-            if kind.vector_friction:
+            if VECTOR_FRICTION:
                 gap -= response_with_friction(m, k, g) * m.force[k]
             else:
-                gap -= load(m.response, (k, g)) * m.force[k]
+                gap -= load(m.pace.response, (k, g)) * m.force[k]
         store(p.gap, g, gap)
         any_closed |= bits_of(gap < 0.0)
-    return count, any_closed != 0
+    return any_closed != 0
 
 
 @inlined
-def press_casing(m, kind):
-    """Add the Lagrange multipliers of direct contact, keep the set of touching nodes; returns how many are pressed."""
+def press_casing(m):
+    """Add the Lagrange multipliers of direct contact, keep the set of touching nodes."""
     p = m.problem
-    if kind.vector_friction:
+    if VECTOR_FRICTION:
         # the others' reaction may bring any of them to the casing
         set_friction_of_all(m)
     guessed = 0
-    for g in range(len(m.on_casing)):
+    for g in range(node_lanes(m) // LANES):
         p.touching[g] = m.on_casing[g]
         guessed |= m.on_casing[g]
     if guessed == 0:
-        for g in range(0, len(m.force), LANES):
+        for g in range(0, node_lanes(m), LANES):
             p.touching[g // LANES] = bits_of(load(p.gap, g) < 0.0)
-    violation = solve_complementarity(p, m.response if kind.coupled else m.columns)
+    violation = solve_complementarity(p, m.pace.response if m.coupled != 0 else m.pace.columns)
     m.totals.worst_complementarity = max(m.totals.worst_complementarity, violation)
-    for g in range(0, len(m.force), LANES):
+    for g in range(0, node_lanes(m), LANES):
         multiplier = load(p.multiplier, g)
         store(m.force, g, load(m.force, g) - multiplier)
         touching = bits_of(multiplier > 0.0)
         p.wrong[g // LANES] = touching & ~m.on_casing[g // LANES]
         m.on_casing[g // LANES] = touching
     m.totals.casing_hits += list_nodes(p.wrong, p.listed)
-    return list_pressed(m)
 
 
 @inlined
 def list_pressed(m):
     """List the nodes that a force presses; returns how many."""
-    for g in range(0, len(m.force), LANES):
+    for g in range(0, node_lanes(m), LANES):
         m.problem.wrong[g // LANES] = bits_of(load(m.force, g) < 0.0)
     return list_nodes(m.problem.wrong, m.problem.listed)
 
@@ -263,113 +274,108 @@ def list_pressed(m):
 @inlined
 def clear_force(m):
     """No node is pressed."""
-    for g in range(0, len(m.force), LANES):
+    for g in range(0, node_lanes(m), LANES):
         store(m.force, g, 0.0)
 
 
 @inlined
 def set_friction_force(m):
     """Friction of the forces on all nodes."""
-    for g in range(0, len(m.force), LANES):
+    for g in range(0, node_lanes(m), LANES):
         normal = load(m.force, g)
         store(m.friction_force, (0, g), normal * load(m.friction_share, (0, g)))
         store(m.friction_force, (1, g), normal * load(m.friction_share, (1, g)))
 
 
 @inlined
-def force_on_modes(rows, constant_rows, k, i, force, vector):
-    """What a node's `force`, normal, tangential and meridional, is to the eight modes from i on.
+def push_blade(m, work, lost):
+    """Correct displacement and increment for the forces; adds the work, doubled, and the energy lost.
 
-    `constant_rows` have friction of constant direction in them, for the normal force alone.
+    Returns also whether any node is pressed.
     """
-    normal, tangential, meridional = force
-    if vector:
-        push = load(rows, (NORMAL, k, i)) * normal
-        push += load(rows, (TANGENTIAL, k, i)) * tangential
-        push += load(rows, (MERIDIONAL, k, i)) * meridional
-    else:
-        push = load(constant_rows, (k, i)) * normal
-    return push
-
-
-@inlined
-def push_blade(m, count, kind, work, lost):
-    """Correct displacement and increment for the listed nodes' forces; adds the work, doubled, and the energy lost.
-
-    Returns also whether any presses.
-    """
-    pressed = False
-    for i in range(0, len(m.u), LANES):
-        store(m.push, i, 0.0)
-        if kind.coriolis:
-            store(m.increment_push, i, 0.0)
-    for j in range(count):
-        k = m.problem.listed[j]
-        normal = m.force[k]
-        if not normal < 0.0:
-            continue
-        pressed = True
-        m.totals.largest_force = max(m.totals.largest_force, -normal)
-        force = normal, m.friction_force[0, k], m.friction_force[1, k]
-        for i in range(0, len(m.u), LANES):
-            push = force_on_modes(m.displacement_operator, m.push_operator, k, i, force, kind.vector_friction)
-            store(m.push, i, load(m.push, i) + push)
-            if kind.coriolis:
-                push = force_on_modes(m.increment_operator, m.increment_push_operator, k, i, force, kind.vector_friction)
-                store(m.increment_push, i, load(m.increment_push, i) + push)
-    if not pressed:
+    p, count = m.problem, list_pressed(m)
+    if count == 0:
         return False, work, lost
-    if kind.coriolis:
-        work, lost = kick_complex_modes(m, kind.energy, work, lost)
-        return True, work, lost
-    for i in range(0, len(m.u), LANES):
-        free, push = load(m.increment, i) + load(m.last_increment, i), load(m.push, i)
-        pushed = load(m.inverse, i) * push
-        store(m.increment, i, load(m.increment, i) + pushed)
-        store(m.u, i, load(m.u, i) + pushed)
-        work += push * (free + pushed)
-        if kind.energy:
-            lost += load(m.loss, i) * pushed * (free + free + pushed)
+    for j in range(count):
+        k = p.listed[j]
+        force = m.force[k], m.friction_force[0, k], m.friction_force[1, k]
+        m.totals.largest_force = max(m.totals.largest_force, -force[0])
+        add_push(m, m.push, m.displacement_operator, m.push_operator, k, force)
+        if CORIOLIS:
+            add_push(m, m.increment_push, m.increment_operator, m.increment_push_operator, k, force)
+    for i in range(0, mode_lanes(m), LANES):
+        if CORIOLIS:
+            work, lost = kick_complex_modes(m, i, load(m.push, i), load(m.increment_push, i), work, lost)
+        else:
+            work, lost = push_modes(m, i, load(m.push, i), work, lost)
+        # the sums of the next step begin so
+        store(m.push, i, 0.0)
+        if CORIOLIS:
+            store(m.increment_push, i, 0.0)
     return True, work, lost
 
 
 @inlined
-def kick_complex_modes(m, energy, work, lost):
-    """What a kick as the step began adds to its end; adds its work, doubled, and loss. See gyroscopic.ComplexRecursion."""
-    for i in range(0, len(m.u), LANES):
-        keep, pull, inverse_keep, inverse = load(m.keep, i), load(m.pull, i), load(m.inverse_keep, i), load(m.inverse, i)
-        push, increment_push, d = load(m.push, i), load(m.increment_push, i), load(m.increment, i)
-        # twice the displacement mid-kick, its increment times keep, and q
-        before = load(m.u, i) - d
-        kicked = inverse * inverse_keep * increment_push
-        displacement = before + before - kicked
-        increment = 2.0 * (d + pull * before) + inverse * push
-        sense = 0.5 * (1.0 - keep - pull)
-        of_push = push * (increment + sense * displacement)
-        of_push -= increment_push * (sense * inverse_keep * increment + pull * displacement)
-        work += of_push
-        if energy:
-            lost += 0.5 * (1.0 - keep) * of_push
-        pushed = inverse * push + pull * kicked
-        store(m.increment, i, d + pushed)
-        store(m.u, i, before + d + pushed - kicked)
-    return work, lost
+def add_push(m, pushes, rows, constant_rows, k, force):
+    """Add what a node's `force`, normal, tangential and meridional, is to all modes.
+
+    `constant_rows` have friction of constant direction in them, for the normal force alone.
+    """
+    normal, tangential, meridional = force
+    for i in range(0, mode_lanes(m), LANES):
+        push = load(pushes, i)
+        if VECTOR_FRICTION:
+            push += load(rows, (NORMAL, k, i)) * normal
+            push += load(rows, (TANGENTIAL, k, i)) * tangential
+            push += load(rows, (MERIDIONAL, k, i)) * meridional
+        else:
+            push += load(constant_rows, (k, i)) * normal
+        store(pushes, i, push)
 
 
 @inlined
-def meet(m, place, kind, work, lost):
+def push_modes(m, i, push, work, lost):
+    """What a push adds to the eight modes from i on; adds its work, doubled, and loss."""
+    free = load(m.increment, i) + load(m.last_increment, i)
+    pushed = load(m.pace.inverse, i) * push
+    store(m.increment, i, load(m.increment, i) + pushed)
+    store(m.u, i, load(m.u, i) + pushed)
+    return work + push * (free + pushed), lost + load(m.pace.loss, i) * (pushed * (free + free + pushed))
+
+
+@inlined
+def kick_complex_modes(m, i, push, increment_push, work, lost):
+    """What a kick as the step began adds to its end; adds its work, doubled, and loss. See gyroscopic.ComplexRecursion."""
+    keep, pull = load(m.pace.keep, i), load(m.pace.pull, i)
+    inverse_keep, inverse, d = load(m.pace.inverse_keep, i), load(m.pace.inverse, i), load(m.increment, i)
+    # twice the displacement mid-kick, its increment times keep, and q
+    before = load(m.u, i) - d
+    kicked = inverse * inverse_keep * increment_push
+    displacement = before + before - kicked
+    increment = 2.0 * (d + pull * before) + inverse * push
+    sense = 0.5 * (1.0 - keep - pull)
+    of_push = push * (increment + sense * displacement)
+    of_push -= increment_push * (sense * inverse_keep * increment + pull * displacement)
+    pushed = inverse * push + pull * kicked
+    store(m.increment, i, d + pushed)
+    store(m.u, i, before + d + pushed - kicked)
+    return work + of_push, lost + 0.5 * (1.0 - keep) * of_push
+
+
+@inlined
+def meet(m, place, work, lost):
     """Everything that happens in a step in which nodes are beyond the lining or casing; adds work, doubled, and loss."""
     clear_force(m)
-    count, closed = 0, True
-    if kind.lined:
-        count, closed = press_lining(m, place, kind)
+    closed = True
+    if LINED:
+        closed = press_lining(m, place)
     if closed:
-        count = press_casing(m, kind)
+        press_casing(m)
     else:
         leave_casing(m)
-    if kind.vector_friction:
+    if VECTOR_FRICTION:
         set_friction_force(m)
-    pressed, work, lost = push_blade(m, count, kind, work, lost)
+    pressed, work, lost = push_blade(m, work, lost)
     m.totals.steps_in_contact += pressed
     return work, lost
 
@@ -377,21 +383,21 @@ def meet(m, place, kind, work, lost):
 @inlined
 def leave_casing(m):
     """No node touches the casing."""
-    for g in range(len(m.on_casing)):
+    for g in range(node_lanes(m) // LANES):
         m.on_casing[g] = 0
 
 
 @inlined
-def record(m, block, row, kind):
+def record(m, block, row):
     """Samples and, unless `row` is -1, a snapshot at the end of a block; returns whether the outputs are within the limit."""
-    snapshots, modes = numbers_at(m.snapshots), len(m.u)
-    bounded = sample_as_published(m, block) if kind.published else sample(m, block, kind.coriolis)
+    snapshots, modes, nodes = numbers_at(m.call.snapshots), mode_lanes(m), node_lanes(m)
+    bounded = sample(m, block)
     if row >= 0:
-        numbers = 2 * modes if kind.coriolis else modes
-        width = numbers + (0 if kind.published else len(m.static_force))
+        numbers = 2 * modes if CORIOLIS else modes
+        width = numbers + (0 if PUBLISHED else 3 * nodes)
         for i in range(modes):
             snapshots[row * width + i] = m.u[i]
-            if kind.coriolis:
+            if CORIOLIS:
                 snapshots[row * width + modes + i] = m.increment[i]
         for k in range(width - numbers):
             snapshots[row * width + numbers + k] = m.static_force[k]
@@ -399,36 +405,24 @@ def record(m, block, row, kind):
 
 
 @inlined
-def sample(m, block, coriolis):
+def sample(m, block):
     """The outputs, with those of the static modes; returns whether they are within the limit."""
-    samples, outputs, nodes = numbers_at(m.samples), m.number_of_outputs, len(m.force)
-    for g in range(0, nodes, LANES):
-        store(m.static_force, g, load(m.force, g))
-        store(m.static_force, nodes + g, load(m.friction_force, (0, g)))
-        store(m.static_force, 2 * nodes + g, load(m.friction_force, (1, g)))
+    samples, outputs, nodes = numbers_at(m.call.samples), m.number_of_outputs, node_lanes(m)
+    if not PUBLISHED:
+        for g in range(0, nodes, LANES):
+            store(m.static_force, g, load(m.force, g))
+            store(m.static_force, nodes + g, load(m.friction_force, (0, g)))
+            store(m.static_force, 2 * nodes + g, load(m.friction_force, (1, g)))
     beyond = 0
-    for g in range(0, len(m.sample), LANES):
-        total = along(m.outputs, 0, m.u, g, len(m.u))
-        if coriolis:
-            total += along(m.increment_outputs, 0, m.increment, g, len(m.u))
-        total += along(m.force_outputs, 0, m.static_force, g, len(m.static_force))
+    for g in range(0, outputs, LANES):
+        total = along(m.outputs, 0, m.u, g, mode_lanes(m))
+        if CORIOLIS:
+            total += along(m.increment_outputs, 0, m.increment, g, mode_lanes(m))
+        if not PUBLISHED:
+            total += along(m.force_outputs, 0, m.static_force, g, 3 * nodes)
         store(m.sample, g, total)
         # written so that NaN fails as well
         beyond |= ~bits_of(np.abs(total) < m.limit) & ((1 << LANES) - 1)
     for o in range(outputs):
         samples[block * outputs + o] = m.sample[o]
     return beyond == 0
-
-
-@inlined
-def sample_as_published(m, block):
-    """The same one after another: what was computed with the published integrator is to stay, to the last bit."""
-    samples, outputs = numbers_at(m.samples), m.number_of_outputs
-    bounded = True
-    for o in range(outputs):
-        total = 0.0
-        for i in range(len(m.u)):
-            total += m.outputs[0, o, i] * m.u[i]
-        samples[block * outputs + o] = total
-        bounded &= abs(total) < m.limit
-    return bounded
