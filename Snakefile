@@ -16,12 +16,7 @@ include: "workflow/rules/structure.smk"
 include: "workflow/rules/sweep.smk"
 include: "workflow/rules/results.smk"
 include: "workflow/rules/figures.smk"
-include: "workflow/rules/exports.smk"
-include: "workflow/rules/shapes.smk"
-include: "workflow/rules/signals.smk"
-include: "workflow/rules/run_ups.smk"
-include: "workflow/rules/tolerances.smk"
-include: "workflow/rules/designs.smk"
+include: "workflow/rules/wings.smk"
 include: "workflow/rules/studies.smk"
 
 
@@ -33,4 +28,4 @@ rule all_blades:
         rules.summary.output,
         rules.explorer.output,
         rules.response_overview.output,
-        paths.filled(targets(sweep, recorded)),
+        paths.filled(targets(sweep)),

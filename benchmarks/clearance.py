@@ -12,13 +12,13 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from r37core.config import read_settings
 from r37core.config.document import read_document
 from r37core.contact.casing import approach
 from r37core.dataset_file import read_dataset
 from r37core.fem.abaqus_deck import write_abaqus
 from r37core.io import write_text
 from r37core.mesh.mesh_files import read_vtu
+from r37core.product.reading import read_settings
 from r37core.results import measures
 from r37core.results.datasets import response_of
 from r37core.rom.contact_model import read_contact_model
@@ -42,8 +42,8 @@ def crossing_of(blade):
 
 def ends(nearer):
     """Change of the clearance (um) at the leading edge, mid-chord and the trailing edge, as text."""
-    places = np.linspace(0, len(nearer) - 1, 3)
-    return " / ".join(f"{1e6 * value:+.0f}" for value in np.interp(places, np.arange(len(nearer)), -nearer))
+    positions = np.linspace(0, len(nearer) - 1, 3)
+    return " / ".join(f"{1e6 * value:+.0f}" for value in np.interp(positions, np.arange(len(nearer)), -nearer))
 
 
 def in_calculix(blade, material, speed):
@@ -101,20 +101,20 @@ def effect_table(settings):
     rows = []
     for blade in settings.blades:
         crossing, row = crossing_of(blade), {"blade": blade}
-        found = {}
+        responses = {}
         for scene in (FIXED, GROWING, TOTAL):
             response = response_of(datasets, blade, scene)
-            found[scene] = response.sel(speed=slice((1.0 - BELOW) * crossing, (1.0 + ABOVE) * crossing))
-        peaks = {scene: measures.peak_speed(found[scene]) for scene in (FIXED, GROWING)}
+            responses[scene] = response.sel(speed=slice((1.0 - BELOW) * crossing, (1.0 + ABOVE) * crossing))
+        peaks = {scene: measures.peak_speed(responses[scene]) for scene in (FIXED, GROWING)}
         row["peak (rad/s)"] = " → ".join(f"{peak:.0f}" for peak in peaks.values())
         for name, scale, of in (
-            ("largest rms, normal (mm)", 1e3, lambda one: float(measures.leading_edge(one)["rms_normal"].max())),
+            ("largest rms, normal (mm)", 1e3, lambda run: float(measures.leading_edge(run)["rms_normal"].max())),
             ("width above yield (rad/s)", 1.0, measures.width_above_yield),
         ):
-            row[name] = " → ".join(f"{scale * of(found[scene]):.3g}" for scene in (FIXED, GROWING))
-        row["the same, with the stress of rotation"] = f"{measures.width_above_yield(found[TOTAL]):.3g}"
+            row[name] = " → ".join(f"{scale * of(responses[scene]):.3g}" for scene in (FIXED, GROWING))
+        row["the same, with the stress of rotation"] = f"{measures.width_above_yield(responses[TOTAL]):.3g}"
         chosen, rooms = settings.scenes[GROWING], [settings.scenes[FIXED].scene.casing.clearance]
-        rooms.append(found[GROWING]["clearance"].interp(speed=peaks[GROWING]).min().item())
+        rooms.append(responses[GROWING]["clearance"].interp(speed=peaks[GROWING]).min().item())
         touches = [first_touch(chosen.scene, chosen.revolutions, room) for room in rooms]
         row["first touch (revolution)"] = " → ".join(f"{touch:.1f}" for touch in touches)
         rows.append(row)
@@ -122,7 +122,7 @@ def effect_table(settings):
 
 
 if __name__ == "__main__":
-    asked = read_settings(Path(), read_document(Path(), "config/clearance.yaml"))
-    effects = effect_table(asked)
+    shipped = read_settings(Path(), read_document(Path(), "config/clearance.yaml"))
+    effects = effect_table(shipped)
     write_text(markdown_table(list(effects), effects.values.tolist()), RESULTS / "studies/clearance_effect.md")
-    write_text(growth_table(asked), RESULTS / "studies/clearance_growth.md")
+    write_text(growth_table(shipped), RESULTS / "studies/clearance_growth.md")

@@ -18,10 +18,10 @@ os.environ["OPENBLAS_NUM_THREADS"] = "1"
 import numpy as np
 import xarray as xr
 
-from r37core.config import read_settings
 from r37core.fem.matrices import assemble
 from r37core.io import write_text
 from r37core.mesh.generate import generate_mesh
+from r37core.product.reading import read_settings
 from r37core.rom.contact_model import read_contact_model
 from r37core.rom.reduce import reduce_blade
 from r37core.rom.reduced_model import contact_model
@@ -50,9 +50,9 @@ central differences differ from each other by as much, too. Elsewhere a branch e
 
 def ways(scene):
     """The runs of a scene: step (s), integrator, and by how much friction is larger."""
-    found = {f"{step:g}": (step, EXACT_MODAL, 0.0) for step in STEPS}
-    found |= {FINEST: (SCENES[scene], EXACT_MODAL, 0.0), NUDGED: (SCENES[scene], EXACT_MODAL, 1e-3)}
-    return found | {MASS: (1e-7, CENTRAL_DIFFERENCE, 0.0), COARSE_MASS: (2e-7, CENTRAL_DIFFERENCE, 0.0)}
+    ways_by_name = {f"{step:g}": (step, EXACT_MODAL, 0.0) for step in STEPS}
+    ways_by_name |= {FINEST: (SCENES[scene], EXACT_MODAL, 0.0), NUDGED: (SCENES[scene], EXACT_MODAL, 1e-3)}
+    return ways_by_name | {MASS: (1e-7, CENTRAL_DIFFERENCE, 0.0), COARSE_MASS: (2e-7, CENTRAL_DIFFERENCE, 0.0)}
 
 
 def speeds_of(blade, scene, sweep):
@@ -113,40 +113,40 @@ def dataset(tasks, results):
     )
 
 
-def differences(found, scene, way, of):
+def differences(measured_runs, scene, way, of):
     """Relative difference of a way from another at each speed: of rms, normal and tangential together, and of stress."""
-    one, other = (found.value.sel(scene=scene, way=name) for name in (way, of))
-    rms, base = (np.hypot(*(values.sel(quantity=name) for name in QUANTITIES[:2])) for values in (one, other))
-    return rms / base - 1.0, one.sel(quantity="stress") / other.sel(quantity="stress") - 1.0
+    ours, theirs = (measured_runs.value.sel(scene=scene, way=name) for name in (way, of))
+    rms, base = (np.hypot(*(values.sel(quantity=name) for name in QUANTITIES[:2])) for values in (ours, theirs))
+    return rms / base - 1.0, ours.sel(quantity="stress") / theirs.sel(quantity="stress") - 1.0
 
 
-def settled(found, scene):
+def settled(measured_runs, scene):
     """Where neither 0.1% of friction nor the step of the finest runs changes much."""
     pairs = [(NUDGED, FINEST), (SECOND, FINEST), *([(COARSE_MASS, MASS)] if scene == "direct" else [])]
-    return reduce(and_, [np.abs(differences(found, scene, *pair)[0]) < SETTLED for pair in pairs])
+    return reduce(and_, [np.abs(differences(measured_runs, scene, *pair)[0]) < SETTLED for pair in pairs])
 
 
-def errors_table(found, scene, of, quantity):
+def errors_table(measured_runs, scene, of, quantity):
     """Errors of every way against one of them, mean and largest in percent, at the settled speeds of each blade."""
-    mask, rows = settled(found, scene), []
-    compared = [way for way in found.way.values if way not in (of, COARSE_MASS)]
-    for blade in [*found.blade.values, "all"]:
+    mask, rows = settled(measured_runs, scene), []
+    compared = [way for way in measured_runs.way.values if way not in (of, COARSE_MASS)]
+    for blade in [*measured_runs.blade.values, "all"]:
         cells = []
         for way in compared:
-            error = np.abs(differences(found, scene, way, of)[quantity].where(mask))
+            error = np.abs(differences(measured_runs, scene, way, of)[quantity].where(mask))
             error = error if blade == "all" else error.sel(blade=blade)
             cells.append(f"{100 * float(error.mean()):.1f} ({100 * float(error.max()):.1f})")
         count = int((mask if blade == "all" else mask.sel(blade=blade)).sum())
         rows.append([blade, f"{count}", *cells])
-    modes = found.modes.sel(scene=scene)
+    modes = measured_runs.modes.sel(scene=scene)
     heads = [f"{way} s, {int(modes.sel(way=way).max())} modes" if way[0].isdigit() else way for way in compared]
     return markdown_table(["blade", "speeds", *heads], rows)
 
 
-def summary_table(found, scene):
+def summary_table(measured_runs, scene):
     """Of all blades: error of every way in rms, against both yardsticks, and in stress; the blade with the worst mean."""
-    mask, rows = settled(found, scene), []
-    for way in found.way.values:
+    mask, rows = settled(measured_runs, scene), []
+    for way in measured_runs.way.values:
         if way == COARSE_MASS:
             continue
         cells, worst = [], ""
@@ -154,34 +154,34 @@ def summary_table(found, scene):
             if of == way:
                 cells.append("")
                 continue
-            error = 100.0 * np.abs(differences(found, scene, way, of)[quantity].where(mask))
+            error = 100.0 * np.abs(differences(measured_runs, scene, way, of)[quantity].where(mask))
             cells.append(f"{float(error.mean()):.1f}, {float(error.median()):.1f}, {float(error.max()):.1f}")
             worst = worst or f"{error.mean('number').idxmax('blade').item()} {float(error.mean('number').max()):.1f}"
-        modes = found.modes.sel(scene=scene, way=way)
+        modes = measured_runs.modes.sel(scene=scene, way=way)
         rows.append([f"{way} s" if way[0].isdigit() else way, f"{int(modes.min())} to {int(modes.max())}", *cells, worst])
     head = ["step", "modes", "rms against the finest step", "against central differences", "stress against the finest step"]
     return markdown_table([*head, "worst blade"], rows)
 
 
-def summary(found):
+def summary(measured_runs):
     """The tables of docs/accuracy.md."""
-    parts = [f"`{scene}`: errors in %, mean, median and largest.\n\n{summary_table(found, scene)}" for scene in SCENES]
-    counts = [int(settled(found, scene).sum()) for scene in SCENES]
-    runs = [int(found.speed.sel(scene=scene).count()) for scene in SCENES]
+    parts = [f"`{scene}`: errors in %, mean, median and largest.\n\n{summary_table(measured_runs, scene)}" for scene in SCENES]
+    counts = [int(settled(measured_runs, scene).sum()) for scene in SCENES]
+    runs = [int(measured_runs.speed.sel(scene=scene).count()) for scene in SCENES]
     settled_of = " and ".join(
         f"{count} of {run} with `{scene}`" for count, run, scene in zip(counts, runs, SCENES, strict=True)
     )
     return "\n".join([*parts, f"Speeds that count, because the motion is settled: {settled_of}.\n"])
 
 
-def text(found):
+def text(measured_runs):
     """The tables of docs/accuracy_tables.md."""
     parts = []
     for scene in SCENES:
         for quantity, name in enumerate(("rms", "stress")):
             for of in (FINEST, MASS):
                 against = "the finest step of forces at t_n" if of == FINEST else "central differences at 1e-7 s"
-                table = errors_table(found, scene, of, quantity)
+                table = errors_table(measured_runs, scene, of, quantity)
                 parts.append(f"`{scene}`, error of {name} against {against}, %: mean (largest)\n\n{table}")
     return "\n".join(parts)
 
@@ -208,13 +208,13 @@ def of_mesh(task):
         runs = [run_speed(model, float(speed), scene.scene, choices, (), **KEPT) for speed in SPREAD]
         return np.array([np.hypot(*run["rms"][0, [0, 2]]) for run in runs])
 
-    mass, coarser, found = rms(1e-7, CENTRAL_DIFFERENCE), rms(2e-7, CENTRAL_DIFFERENCE), []
+    mass, coarser, cells = rms(1e-7, CENTRAL_DIFFERENCE), rms(2e-7, CENTRAL_DIFFERENCE), []
     of_settled = np.abs(coarser / mass - 1.0) < SETTLED
     for step in MESH_STEPS:
         modes = len(stable_problem(model, SPREAD[0], scene.scene, replace(choice, time_step=step)).frequencies)
         error = 100.0 * np.abs(rms(step, EXACT_MODAL) / mass - 1.0)[of_settled]
-        found.append(f"{error.mean():.1f}, {np.median(error):.1f} ({modes} modes)")
-    return [blade, f"{nodes}", f"{of_settled.sum()}", *found]
+        cells.append(f"{error.mean():.1f}, {np.median(error):.1f} ({modes} modes)")
+    return [blade, f"{nodes}", f"{of_settled.sum()}", *cells]
 
 
 def write_meshes(pool):
@@ -268,10 +268,10 @@ def of_extreme(task):
         *((step, EXACT_MODAL) for step in (6.4e-6, 4.8e-6, 3.2e-6, 1.6e-6, 8e-7)),
         (1e-7, CENTRAL_DIFFERENCE),
     ):
-        asked = replace(choice, time_step=step, integrator=integrator)
+        tried = replace(choice, time_step=step, integrator=integrator)
         try:
-            run = run_speed(model, speed, scene, asked, (), **KEPT)
-            modes = len(stable_problem(model, speed, scene, asked).frequencies)
+            run = run_speed(model, speed, scene, tried, (), **KEPT)
+            modes = len(stable_problem(model, speed, scene, tried).frequencies)
         except ValueError:
             cells.append("refused")
             continue
@@ -296,10 +296,10 @@ def main():
         STUDIES.mkdir(parents=True, exist_ok=True)
         write_extremes(pool)
         write_meshes(pool)
-        found = dataset(tasks, list(pool.map(measured, tasks)))
-    found.to_netcdf(STUDIES / "contact_accuracy.nc")
-    write_text(text(found), STUDIES / "contact_accuracy.md")
-    write_text(summary(found), STUDIES / "contact_accuracy_summary.md")
+        measured_runs = dataset(tasks, list(pool.map(measured, tasks)))
+    measured_runs.to_netcdf(STUDIES / "contact_accuracy.nc")
+    write_text(text(measured_runs), STUDIES / "contact_accuracy.md")
+    write_text(summary(measured_runs), STUDIES / "contact_accuracy_summary.md")
 
 
 if __name__ == "__main__":

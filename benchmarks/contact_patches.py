@@ -16,10 +16,10 @@ os.environ["OPENBLAS_NUM_THREADS"] = "1"
 
 import numpy as np
 
-from r37core.config import read_settings
 from r37core.fem.matrices import assemble
 from r37core.io import atomic_write
 from r37core.mesh.generate import generate_mesh
+from r37core.product.reading import read_settings
 from r37core.published import INTERACTIONS
 from r37core.rom.contact_model import read_contact_model, write_contact_model
 from r37core.rom.reduce import reduce_blade
@@ -85,7 +85,7 @@ class Way:
         """Ascending (rad/s)."""
         if self.grid != "peaks":
             return GRIDS[self.grid]
-        peaks = [one.peak for one in INTERACTIONS if one.blade == blade]
+        peaks = [row.peak for row in INTERACTIONS if row.blade == blade]
         return np.unique(np.concatenate([np.arange(round(ABOUT_PEAK[0] * p), ABOUT_PEAK[1] * p) for p in peaks]))
 
     def file(self, model):
@@ -176,13 +176,13 @@ def build(models):
     missing = [model for model in models if not model.file.exists()]
     if not missing:
         return
-    one = missing[0]
-    chosen = settings().blades[one.blade]
+    first = missing[0]
+    chosen = settings().blades[first.blade]
     # of more layers: fewer elements along the tip for as many nodes
-    along = 7 * round(TIP_ELEMENTS[one.nodes] / 7 / (1.0, 1.25, 1.5)[one.layers - 1])
-    mesh = generate_mesh(chosen.definition.build(round_edges=True), one.nodes, one.layers, along)
+    along = 7 * round(TIP_ELEMENTS[first.nodes] / 7 / (1.0, 1.25, 1.5)[first.layers - 1])
+    mesh = generate_mesh(chosen.definition.build(round_edges=True), first.nodes, first.layers, along)
     matrices = assemble(mesh, chosen.material)
-    base = settings().reduction_choice(one.blade)
+    base = settings().reduction_choice(first.blade)
     for model in missing:
         choice = replace(
             base,
@@ -197,7 +197,7 @@ def sweep(model, way):
     """rms of the leading edge (m), shape (speeds, 2): normal and tangential, of a model run in one way; kept in a file."""
     file = way.file(model)
     if not file.exists():
-        contact, found = read_contact_model(model.file), []
+        contact, rows = read_contact_model(model.file), []
         scene = way.of_scene(model, contact)
         for speed in way.speeds(model.blade):
             choice = settings().integration_choice(model.blade, way.scene, speed)
@@ -208,11 +208,11 @@ def sweep(model, way):
                 )
             except UnstableStepError:
                 # central differences on fine meshes
-                found.append([np.nan, np.nan])
+                rows.append([np.nan, np.nan])
                 continue
-            found.append(run["rms"][0, [0, 2]] if run["status"] == 0 else [np.nan, np.nan])
+            rows.append(run["rms"][0, [0, 2]] if run["status"] == 0 else [np.nan, np.nan])
         with atomic_write(file) as partial, open(partial, "wb") as stream:
-            np.save(stream, np.array(found))
+            np.save(stream, np.array(rows))
         print("ran", file.name, flush=True)
     return np.load(file)
 

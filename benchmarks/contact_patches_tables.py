@@ -70,19 +70,19 @@ def on_grid(values, way, blade, missing=np.nan):
     return whole
 
 
-def errors(one, other):
+def errors(first, second):
     """Relative differences of two (model, way) of a blade and scene at its settled speeds, in percent."""
-    values = [on_grid(rms(model, way), way, model.blade) for model, way in (one, other)]
-    error = 100.0 * np.abs(values[0] / values[1] - 1.0)[settled(*one)]
+    values = [on_grid(rms(model, way), way, model.blade) for model, way in (first, second)]
+    error = 100.0 * np.abs(values[0] / values[1] - 1.0)[settled(*first)]
     return error[np.isfinite(error)]
 
 
 def cell(pairs):
     """Mean, median and 90% quantile over all blades, and the worst mean with its blade."""
-    found = {model.blade: errors((model, way), (other, of)) for (model, way), (other, of) in pairs}
-    every = np.concatenate(list(found.values()))
-    worst = max(found, key=lambda blade: found[blade].mean())
-    return f"{every.mean():.1f}, {np.median(every):.2f}, {np.quantile(every, 0.9):.1f} ({worst} {found[worst].mean():.1f})"
+    by_blade = {model.blade: errors((model, way), (other, of)) for (model, way), (other, of) in pairs}
+    every = np.concatenate(list(by_blade.values()))
+    worst = max(by_blade, key=lambda blade: by_blade[blade].mean())
+    return f"{every.mean():.1f}, {np.median(every):.2f}, {np.quantile(every, 0.9):.1f} ({worst} {by_blade[worst].mean():.1f})"
 
 
 def convergence_table(scene):

@@ -13,9 +13,9 @@ os.environ["OPENBLAS_NUM_THREADS"] = "1"
 
 import numpy as np
 
-from r37core.config import read_settings
 from r37core.figures.style import PAGE, plt
 from r37core.io import write_text
+from r37core.product.reading import read_settings
 from r37core.published import INTERACTIONS
 from r37core.results.campbell import campbell_diagram
 from r37core.rom.reduced_model import contact_model
@@ -53,7 +53,7 @@ def main():
 def models_of(blade, settings):
     """Reduced models of a blade without the Coriolis matrix and with it, each with its contact model."""
     model = read_reduced_model(ROOT / f"results/{blade}/rom_pressure_edge.nc")
-    return [(one, contact_model(one, settings.structure.boundary.tip_line)) for one in (replace(model, coriolis=None), model)]
+    return [(rom, contact_model(rom, settings.structure.boundary.tip_line)) for rom in (replace(model, coriolis=None), model)]
 
 
 def run(settings, blade, contact, scene, speed):
@@ -95,22 +95,22 @@ def peaks_table(settings, models):
     rows = []
     figure, panels = plt.subplots(1, len(models), figsize=(PAGE, 1.9), sharey=True)
     axes_of = dict(zip(models, panels, strict=True))
-    for one in INTERACTIONS:
-        speeds = np.arange(round(one.peak) - BEFORE, round(one.peak) + AFTER + 1.0)
-        cells = [f"{one.blade} 1B/{one.engine_order}"]
-        crossings = [crossing(model, one.engine_order) for model, _ in models[one.blade]]
-        rms = [[moved(run(settings, one.blade, contact, LINED, v)) for v in speeds] for _, contact in models[one.blade]]
+    for row in INTERACTIONS:
+        speeds = np.arange(round(row.peak) - BEFORE, round(row.peak) + AFTER + 1.0)
+        cells = [f"{row.blade} 1B/{row.engine_order}"]
+        crossings = [crossing(model, row.engine_order) for model, _ in models[row.blade]]
+        rms = [[moved(run(settings, row.blade, contact, LINED, v)) for v in speeds] for _, contact in models[row.blade]]
         peaks = [int(np.argmax(values)) for values in rms]
         cells += [f"{crossings[0]:.1f}", f"{crossings[1] - crossings[0]:+.1f}", f"{speeds[peaks[0]]:.0f}"]
         cells += [f"{speeds[peaks[1]] - speeds[peaks[0]]:+.0f}", f"{1e3 * rms[0][peaks[0]]:.2f}"]
         cells += [f"{100.0 * (rms[1][peaks[1]] / rms[0][peaks[0]] - 1.0):+.1f}%"]
         rows.append(cells)
         print(cells, flush=True)
-        if one.engine_order == 4:
-            axes = axes_of[one.blade]
+        if row.engine_order == 4:
+            axes = axes_of[row.blade]
             for values, label in zip(rms, ("without", "with"), strict=True):
                 axes.plot(speeds, 1e3 * np.array(values), label=label)
-            axes.set(title=one.blade, xlabel="rad/s")
+            axes.set(title=row.blade, xlabel="rad/s")
     panels[0].set_ylabel("rms (mm)")
     panels[0].legend()
     (STUDIES / "figures").mkdir(parents=True, exist_ok=True)
@@ -125,7 +125,7 @@ def direct_table(settings, models):
     for blade, pair in models.items():
         speeds = DIRECT_SHARES * crossing(pair[0][0], 4)
         runs = [[run(settings, blade, contact, DIRECT, speed) for speed in speeds] for _, contact in pair]
-        rms = np.array([[1e3 * one["rms"][0, [0, 2]] for one in of_model] for of_model in runs])
+        rms = np.array([[1e3 * each["rms"][0, [0, 2]] for each in of_model] for of_model in runs])
         cells = [blade, f"{speeds[0]:.0f} to {speeds[-1]:.0f}"]
         for direction in range(2):
             without, with_force = rms[..., direction].mean(axis=1)
@@ -137,16 +137,16 @@ def direct_table(settings, models):
 
 
 def cost_table(settings, pair):
-    """Ratio of CPU times of whole runs and of the march alone, the reference blade, one after the other in one process."""
+    """Ratio of CPU times of whole runs and of the time integration alone, the reference blade, in turns in one process."""
     rows = []
     for scene in (LINED, DIRECT):
         ratios = np.array([timed(settings, pair, scene, speed) for speed in GRID for _ in range(ROUNDS)])
-        for what, column in (("whole run", 0), ("march alone", 1)):
+        for what, column in (("whole run", 0), ("time integration", 1)):
             low, middle, high = np.percentile(ratios[:, column], [10, 50, 90])
             rows.append([scene, what, f"{middle:.2f}", f"{low:.2f} to {high:.2f}"])
         print(rows[-2:], flush=True)
-    said = f"{len(GRID)} speeds from {GRID[0]:g} to {GRID[-1]:g} rad/s, {ROUNDS} rounds."
-    return f"{markdown_table(['scene', 'of', 'ratio of CPU times, median', '10% to 90%'], rows)}\n{said}\n"
+    note = f"{len(GRID)} speeds from {GRID[0]:g} to {GRID[-1]:g} rad/s, {ROUNDS} rounds."
+    return f"{markdown_table(['scene', 'of', 'ratio of CPU times, median', '10% to 90%'], rows)}\n{note}\n"
 
 
 def timed(settings, pair, scene, speed):

@@ -1,4 +1,4 @@
-"""What a casing that gives way changes for the seven blades, and what it costs: tables of docs/elastic_casing.md.
+"""What a flexible casing changes for the seven blades, and what it costs: tables of docs/elastic_casing.md.
 
 Run: make claims ONLY=elastic_casing (a quarter of an hour on two idle cores). The script takes names of TABLES, for those
 alone, and `span=30` for narrower windows. The scenes are elastic_abradable and elastic_direct of config/scenes.yaml, with
@@ -17,12 +17,13 @@ os.environ["OPENBLAS_NUM_THREADS"] = "1"
 
 import numpy as np
 
-from r37core.config import command_line_document, read_settings
-from r37core.config.si_fields import in_si
+from r37core.config import command_line_document
+from r37core.config.declaring import in_si
 from r37core.contact.elastic_casing import ElasticCasing
 from r37core.contact.ring import Ring
 from r37core.figures.style import PAGE, plt
 from r37core.io import write_text
+from r37core.product.reading import read_settings
 from r37core.published import INTERACTIONS
 from r37core.rom.reduced_model import contact_model
 from r37core.rom.rom_file import read_reduced_model
@@ -99,20 +100,20 @@ def name_of(casing):
 def run(task):
     """Rms (m) of the leading edge, normal and tangential, and of all waves round the casing (m)."""
     blade, name, speed, ring = task
-    return march(blade, speed, settings().integration_choice(blade, name, speed), with_casing(name, ring))
+    return integrated(blade, speed, settings().integration_choice(blade, name, speed), with_casing(name, ring))
 
 
-def march(blade, speed, choice, scene):
+def integrated(blade, speed, choice, scene):
     """What `run` returns, of a scene with or without a ring."""
     ring, choice = scene.casing.ring, replace(choice, snapshot_revolutions=0)
-    found = run_speed(contact(blade), float(speed), scene, choice, ["casing"] if ring else [], **KEPT)
-    waves = np.sum(found["casing_rms_forward"] ** 2 + found["casing_rms_backward"] ** 2) if ring else 0.0
-    return *found["rms"][0, [0, 2]], np.sqrt(waves)
+    result = run_speed(contact(blade), float(speed), scene, choice, ["casing"] if ring else [], **KEPT)
+    waves = np.sum(result["casing_rms_forward"] ** 2 + result["casing_rms_backward"] ** 2) if ring else 0.0
+    return *result["rms"][0, [0, 2]], np.sqrt(waves)
 
 
-def about(one, span):
+def about(row, span):
     """Speeds (rad/s) about a published interaction."""
-    return round(one.peak) + np.arange(-span, span + 0.5 * STEP, STEP)
+    return round(row.peak) + np.arange(-span, span + 0.5 * STEP, STEP)
 
 
 def clear_peak(speeds, rms):
@@ -133,9 +134,9 @@ def clear_peak(speeds, rms):
 def peak_cell(speeds, rms):
     """Speed (rad/s) and height (mm) of the peak, where there is one, and how many runs diverge."""
     peak, diverged = clear_peak(speeds, rms), int(np.isnan(rms).sum())
-    said = "no peak" if peak is None else f"{speeds[peak]:.0f}, {1e3 * rms[peak]:.2f}"
+    cell = "no peak" if peak is None else f"{speeds[peak]:.0f}, {1e3 * rms[peak]:.2f}"
     at_end = peak in (0, len(speeds) - 1)
-    return said + " at the end" * at_end + f" ({diverged} diverge)" * (diverged > 0)
+    return cell + " at the end" * at_end + f" ({diverged} diverge)" * (diverged > 0)
 
 
 def peaks_table(pool, span):
@@ -143,27 +144,27 @@ def peaks_table(pool, span):
     rows = []
     figure, panels = plt.subplots(1, 7, figsize=(PAGE, 1.9), sharey=True)
     axes_of = iter(panels)
-    for one in INTERACTIONS:
-        speeds = about(one, span)
-        cells = [f"{one.blade} 1B/{one.engine_order}", f"{one.peak:g}"]
-        axes = next(axes_of) if one.engine_order == 4 else None
+    for row in INTERACTIONS:
+        speeds = about(row, span)
+        cells = [f"{row.blade} 1B/{row.engine_order}", f"{row.peak:g}"]
+        axes = next(axes_of) if row.engine_order == 4 else None
         for casing in CASINGS:
             ring = ring_of(casing)
-            found = np.array(list(pool.map(run, [(one.blade, LINED, v, ring) for v in speeds], chunksize=8)))
-            rms = np.hypot(*found.T[:2])
+            runs = np.array(list(pool.map(run, [(row.blade, LINED, v, ring) for v in speeds], chunksize=8)))
+            rms = np.hypot(*runs.T[:2])
             cells.append(peak_cell(speeds, rms))
             if axes:
                 (line,) = axes.plot(speeds, 1e3 * rms, label=name_of(casing), linewidth=0.8)
                 mark_diverged(axes, speeds, rms, CASINGS.index(casing), line.get_color())
-                axes.set(title=one.blade, xlabel="rad/s")
+                axes.set(title=row.blade, xlabel="rad/s")
         rows.append(cells)
         print(cells, flush=True)
     panels[0].set_ylabel("rms (mm)")
     figure.legend(*panels[0].get_legend_handles_labels(), loc="outside upper center", ncols=len(CASINGS))
     (STUDIES / "figures").mkdir(parents=True, exist_ok=True)
     figure.savefig(STUDIES / "figures/elastic_casing_peaks.png")
-    said = f"Level `{settings().fidelity_name}`, every {STEP:g} rad/s within {span:g} of the published peak."
-    return f"{markdown_table(['interaction', 'published (rad/s)', *map(name_of, CASINGS)], rows)}\n{said}\n"
+    note = f"Level `{settings().fidelity_name}`, every {STEP:g} rad/s within {span:g} of the published peak."
+    return f"{markdown_table(['interaction', 'published (rad/s)', *map(name_of, CASINGS)], rows)}\n{note}\n"
 
 
 def mark_diverged(axes, speeds, rms, row, colour):
@@ -174,15 +175,15 @@ def mark_diverged(axes, speeds, rms, row, colour):
 
 def direct_table(pool, _):
     """Direct contact about 1B with order 4: means over the speeds, which move less than single runs."""
-    rows, orders = [], {one.blade: one for one in INTERACTIONS if one.engine_order == 4}
-    for blade, one in orders.items():
-        cells = [blade, f"{DIRECT_SHARES[0] * one.peak:.0f} to {DIRECT_SHARES[-1] * one.peak:.0f}"]
+    rows, orders = [], {row.blade: row for row in INTERACTIONS if row.engine_order == 4}
+    for blade, row in orders.items():
+        cells = [blade, f"{DIRECT_SHARES[0] * row.peak:.0f} to {DIRECT_SHARES[-1] * row.peak:.0f}"]
         for casing in CASINGS:
             ring = ring_of(casing)
-            found = np.array(list(pool.map(run, [(blade, DIRECT, v, ring) for v in DIRECT_SHARES * one.peak])))
-            diverged = int(np.isnan(found[:, 0]).sum())
-            means = " / ".join(f"{1e3 * value:.3f}" for value in np.nanmean(found, axis=0)[: 3 if ring else 2])
-            cells.append("all diverge" if diverged == len(found) else means + f" ({diverged} diverge)" * (diverged > 0))
+            runs = np.array(list(pool.map(run, [(blade, DIRECT, v, ring) for v in DIRECT_SHARES * row.peak])))
+            diverged = int(np.isnan(runs[:, 0]).sum())
+            means = " / ".join(f"{1e3 * value:.3f}" for value in np.nanmean(runs, axis=0)[: 3 if ring else 2])
+            cells.append("all diverge" if diverged == len(runs) else means + f" ({diverged} diverge)" * (diverged > 0))
         rows.append(cells)
         print(cells, flush=True)
     return markdown_table(["blade", "speeds (rad/s)", *map(name_of, CASINGS)], rows)
@@ -190,23 +191,23 @@ def direct_table(pool, _):
 
 def diameters_table(pool, span):
     """Peak of Ref 1B/4 with modes up to some nodal diameters."""
-    one, rows = INTERACTIONS[0], []
-    speeds = about(one, span)
+    row, rows = INTERACTIONS[0], []
+    speeds = about(row, span)
     for casing in CASINGS[1:4]:
         cells = [name_of(casing)]
         for diameters in DIAMETERS:
             ring = ring_of(casing, diameters)
-            found = np.array(list(pool.map(run, [(one.blade, LINED, v, ring) for v in speeds], chunksize=8)))
-            rms = np.hypot(*found.T[:2])
+            runs = np.array(list(pool.map(run, [(row.blade, LINED, v, ring) for v in speeds], chunksize=8)))
+            rms = np.hypot(*runs.T[:2])
             cells.append(peak_cell(speeds, rms))
         rows.append(cells)
         print(cells, flush=True)
-    said = f"Level `{settings().fidelity_name}`, every {STEP:g} rad/s within {span:g} of the published peak."
-    return f"{markdown_table(['ring', *(f'up to {number}' for number in DIAMETERS)], rows)}\n{said}\n"
+    note = f"Level `{settings().fidelity_name}`, every {STEP:g} rad/s within {span:g} of the published peak."
+    return f"{markdown_table(['ring', *(f'up to {number}' for number in DIAMETERS)], rows)}\n{note}\n"
 
 
 def cost_table(*_):
-    """Ratio of CPU times of the march, the reference blade, one after the other in one process."""
+    """Ratio of CPU times of the time integration, the reference blade, one after the other in one process."""
     rows = []
     for name in (LINED, DIRECT):
         for diameters in DIAMETERS[1::2]:
@@ -214,12 +215,12 @@ def cost_table(*_):
             low, middle, high = np.percentile(ratios, [10, 50, 90])
             rows.append([name, str(diameters), f"{middle:.2f}", f"{low:.2f} to {high:.2f}"])
         print(rows[-1], flush=True)
-    said = f"{len(GRID)} speeds from {GRID[0]:g} to {GRID[-1]:g} rad/s, {ROUNDS} rounds."
-    return f"{markdown_table(['scene', 'nodal diameters up to', 'ratio of CPU times, median', '10% to 90%'], rows)}\n{said}\n"
+    note = f"{len(GRID)} speeds from {GRID[0]:g} to {GRID[-1]:g} rad/s, {ROUNDS} rounds."
+    return f"{markdown_table(['scene', 'nodal diameters up to', 'ratio of CPU times, median', '10% to 90%'], rows)}\n{note}\n"
 
 
 def timed(name, ring, speed):
-    """CPU time of the march with the ring as a multiple of that without."""
+    """CPU time of the time integration with the ring as a multiple of that without."""
     times = []
     for modes in ((), ring):
         choice = replace(settings().integration_choice("Ref", name, speed), snapshot_revolutions=0)

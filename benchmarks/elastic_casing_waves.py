@@ -1,4 +1,4 @@
-"""Waves of the rings of elastic_casing.py: how far they give way, which the rotor meets and overtakes, and why those grow.
+"""Waves of the rings of elastic_casing.py: how flexible they are, which the rotor meets and overtakes, and why those grow.
 
 Run: snakemake campbell; python benchmarks/elastic_casing_waves.py (some five minutes on two cores), or with names of TABLES
 after it for those alone; or make claims ONLY=elastic_casing.
@@ -18,7 +18,7 @@ from elastic_casing import (
     STUDIES,
     casing_of,
     contact,
-    march,
+    integrated,
     name_of,
     settings,
     with_casing,
@@ -61,10 +61,10 @@ def rings_table(_):
     """Frequencies of the rings, and the waves that the rotor overtakes first."""
     rows = []
     for casing in RINGS:
-        one = casing_of(casing)
-        of = {mode.nodal_diameter: mode.frequency / 2.0 / np.pi for mode in one.modes if mode.radial}
-        number, critical = slowest_wave(one.ring)
-        overtaken = [mode.nodal_diameter for mode in one.overtaken(FASTEST)]
+        own = casing_of(casing)
+        of = {mode.nodal_diameter: mode.frequency / 2.0 / np.pi for mode in own.modes if mode.radial}
+        number, critical = slowest_wave(own.ring)
+        overtaken = [mode.nodal_diameter for mode in own.overtaken(FASTEST)]
         below = f"{overtaken[0]} to {overtaken[-1]}" if overtaken else "none"
         rows.append([name_of(casing), *(f"{of[n]:.0f}" for n in SHOWN), f"{critical:.0f}", str(number), below])
     heads = ["lowest critical speed (rad/s)", "its n", f"n overtaken at {FASTEST:g} rad/s"]
@@ -112,7 +112,7 @@ def rms_of(task):
     """Rms (m) of Ref's leading edge, normal and tangential together; NaN where the run diverges."""
     name, speed, modes, changes = task
     scene = changed(with_casing(name, modes), **changes)
-    return np.hypot(*march("Ref", speed, settings().integration_choice("Ref", name, speed), scene)[:2])
+    return np.hypot(*integrated("Ref", speed, settings().integration_choice("Ref", name, speed), scene)[:2])
 
 
 def counted(pool, name, speeds, modes, **changes):
@@ -158,9 +158,9 @@ def causes_table(pool):
             cells = [counted(pool, name, ABOUT, modes, **way).split(",")[0] for way in ways.values()]
             rows.append([name_of(casing), name, *cells])
             print(rows[-1], flush=True)
-    said = f"Ref, every {ABOUT[1] - ABOUT[0]:g} rad/s from {ABOUT[0]:g} to {ABOUT[-1]:g}, level `{settings().fidelity_name}`. "
-    said += f"Damping of the blade is {settings().scenes[LINED].scene.damping_ratio:g} as shipped, else {NO_DAMPING:g}."
-    return f"{markdown_table(['ring', 'scene', *ways], rows)}\n{said}\n"
+    note = f"Ref, every {ABOUT[1] - ABOUT[0]:g} rad/s from {ABOUT[0]:g} to {ABOUT[-1]:g}, level `{settings().fidelity_name}`. "
+    note += f"Damping of the blade is {settings().scenes[LINED].scene.damping_ratio:g} as shipped, else {NO_DAMPING:g}."
+    return f"{markdown_table(['ring', 'scene', *ways], rows)}\n{note}\n"
 
 
 def growth(casing, speed):

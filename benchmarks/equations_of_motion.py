@@ -1,4 +1,4 @@
-"""The blade against lining or casing as ordinary differential equations, a second formulation of the march: SciPy's solve_ivp.
+"""The blade against lining or casing as ordinary differential equations, written a second time: SciPy's solve_ivp.
 
 Written from docs/simulation.md (model, gap, lining, friction); of r37core it takes only the classes that hold the numbers.
 Continuous in time: nothing here knows of a step. In the modes of the speed, of unit mass,
@@ -87,8 +87,8 @@ class Blade:
 def blade_of(model, speed, scene, duration, highest_frequency=np.inf):
     """The `Blade` of a contact model (r37core.rom.contact_model) at a speed (rad/s), with its modes up to a frequency (Hz)."""
     squares, modes = np.linalg.eigh(np.diag(model.squared_frequencies) + speed**2 * model.stiffness_per_square)
-    kept = np.sqrt(squares) <= 2.0 * np.pi * highest_frequency
-    squares, modes = squares[kept], modes[:, kept]
+    below = np.sqrt(squares) <= 2.0 * np.pi * highest_frequency
+    squares, modes = squares[below], modes[:, below]
     cone = scene.casing.cone_angle if scene.casing.cone_angle is not None else model.tip_cone_angle
     cosine, sine = np.cos(cone), np.sin(cone)
     radial, tangential, axial = model.displacement_operator @ modes
@@ -98,11 +98,11 @@ def blade_of(model, speed, scene, duration, highest_frequency=np.inf):
     return Blade(np.sqrt(squares), rows, edge, model.theta, model.radius, speed, scene, duration)
 
 
-def with_static_modes(blade, kept):
-    """The blade whose modes from number `kept` on follow the contact forces at once."""
-    static = blade.rows[:, kept:] / blade.frequencies[kept:]
-    of_edge = (blade.edge[kept:] / blade.frequencies[kept:]) @ static.T
-    moving = {"frequencies": blade.frequencies[:kept], "rows": blade.rows[:, :kept], "edge": blade.edge[:kept]}
+def with_static_modes(blade, first):
+    """The blade whose modes from number `first` on follow the contact forces at once."""
+    static = blade.rows[:, first:] / blade.frequencies[first:]
+    of_edge = (blade.edge[first:] / blade.frequencies[first:]) @ static.T
+    moving = {"frequencies": blade.frequencies[:first], "rows": blade.rows[:, :first], "edge": blade.edge[:first]}
     return replace(blade, **moving, flexibility=static @ static.T, edge_flexibility=of_edge)
 
 
@@ -119,11 +119,11 @@ def static_contact(blade, times, stiffness, method="DOP853", **tolerances):
         units = np.array([blade.push(velocity, unit) for unit in np.eye(blade.nodes)]).T
         taken = blade.flexibility[: blade.nodes] @ units + np.eye(blade.nodes) / stiffness
         while True:
-            found = np.zeros(blade.nodes)
-            found[pressed] = np.linalg.solve(taken[np.ix_(pressed, pressed)], depth[pressed])
-            wrong = np.where(pressed, found < 0.0, depth - taken @ found > 1e-15)
+            forces = np.zeros(blade.nodes)
+            forces[pressed] = np.linalg.solve(taken[np.ix_(pressed, pressed)], depth[pressed])
+            wrong = np.where(pressed, forces < 0.0, depth - taken @ forces > 1e-15)
             if not wrong.any():
-                return found
+                return forces
             first = int(np.argmax(wrong))
             pressed[first] = not pressed[first]
 
@@ -185,7 +185,7 @@ NEAR = 1e-4
 """Nodes farther from the lining (m) than this are not asked for their bar: they cannot reach it within WATCH."""
 
 WATCH = 5e-6
-"""Longest stretch (s) over which far nodes stay far; checked at its end."""
+"""Longest time (s) over which far nodes stay far; checked at its end."""
 
 
 class WornBars:

@@ -65,15 +65,15 @@ def run_nlstep(blade, kept, steps_per_sample, samples_per_revolution, samples):
         "steps_per_sample": float(steps_per_sample),
     }
     with tempfile.TemporaryDirectory() as folder:
-        given, found = Path(folder) / "case.mat", Path(folder) / "found.mat"
-        savemat(given, case)
+        case_file, out = Path(folder) / "case.mat", Path(folder) / "found.mat"
+        savemat(case_file, case)
         program = Path(os.environ["NLSTEP"]).resolve()
-        call = f"addpath('{HERE / 'nlstep'}'); run_nlstep('{program}', '{given}', '{found}')"
+        call = f"addpath('{HERE / 'nlstep'}'); run_nlstep('{program}', '{case_file}', '{out}')"
         # Octave 7 may fail while it ends, with all done, and leaves a file where it is
-        said = subprocess.run(["octave-cli", "--norc", "--quiet", "--eval", call], cwd=folder, capture_output=True, text=True)
-        if not found.exists():
-            raise RuntimeError(said.stderr)
-        results = loadmat(found)
+        run = subprocess.run(["octave-cli", "--norc", "--quiet", "--eval", call], cwd=folder, capture_output=True, text=True)
+        if not out.exists():
+            raise RuntimeError(run.stderr)
+        results = loadmat(out)
     if results["not_converged"].item():
         raise RuntimeError(f"contact not solved in {results['not_converged'].item():.0f} of the steps kept")
     return -results["coordinates"][: 3 * blade.nodes : 3]

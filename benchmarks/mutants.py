@@ -66,14 +66,14 @@ def mutants_of(module: str, folder: Path, each: int, seconds: float) -> list[tup
     cosmic_ray = [str(Path(sys.executable).with_name("cosmic-ray"))]
     subprocess.run([*cosmic_ray, "init", settings, session], cwd=folder, env=environment, check=True)
     with use_db(session, WorkDB.Mode.open) as work:
-        items = sorted((one for one in work.work_items if EQUIVALENT not in one.mutations[0].operator_name), key=_place)
-        drawn = {one.job_id for one in random.Random(37).sample(items, min(each, len(items)))}
-        for one in list(work.work_items):
-            if one.job_id not in drawn:
-                work.set_result(one.job_id, WorkResult(WorkerOutcome.SKIPPED))
+        items = sorted((item for item in work.work_items if EQUIVALENT not in item.mutations[0].operator_name), key=_place)
+        drawn = {item.job_id for item in random.Random(37).sample(items, min(each, len(items)))}
+        for item in list(work.work_items):
+            if item.job_id not in drawn:
+                work.set_result(item.job_id, WorkResult(WorkerOutcome.SKIPPED))
     subprocess.run([*cosmic_ray, "exec", settings, session], cwd=folder, env=environment, check=True)
     with use_db(session, WorkDB.Mode.open) as work:
-        return [(one, result) for one, (job, result) in _joined(work) if job in drawn]
+        return [(item, result) for item, (job, result) in _joined(work) if job in drawn]
 
 
 def _place(item: WorkItem) -> tuple[object, ...]:
@@ -82,7 +82,7 @@ def _place(item: WorkItem) -> tuple[object, ...]:
 
 
 def _joined(work: WorkDB) -> list[tuple[WorkItem, tuple[str, WorkResult]]]:
-    items = {one.job_id: one for one in work.work_items}
+    items = {item.job_id: item for item in work.work_items}
     return sorted(((items[job], (job, result)) for job, result in work.results), key=lambda pair: _place(pair[0]))
 
 
@@ -91,15 +91,15 @@ def survived(result: WorkResult) -> bool:
     return result.test_outcome == TestOutcome.SURVIVED
 
 
-def score(found: dict[str, list[tuple[WorkItem, WorkResult]]]) -> str:
+def score(results: dict[str, list[tuple[WorkItem, WorkResult]]]) -> str:
     """The score of every module, and the mutations that no test noticed."""
-    number = sum(map(len, found.values()))
-    killed = number - sum(survived(result) for several in found.values() for _, result in several)
+    number = sum(map(len, results.values()))
+    killed = number - sum(survived(result) for several in results.values() for _, result in several)
     lines = [f"{killed} of {number} killed.", "", "| module | mutations | killed |", "|---|---|---|"]
-    for module, several in found.items():
+    for module, several in results.items():
         lines.append(f"| `{module}` | {len(several)} | {sum(not survived(result) for _, result in several)} |")
     lines += ["", "Survivors:", ""]
-    for module, several in found.items():
+    for module, several in results.items():
         for item, result in several:
             if survived(result):
                 removed, added = _lines_of(result.diff or "")
@@ -120,7 +120,7 @@ def main() -> None:
     parser.add_argument("--each", type=int, default=6, help="mutations of each module")
     parser.add_argument("--seconds", type=float, default=300.0, help="longest time of one test run")
     chosen = parser.parse_args()
-    found = {}
+    results = {}
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         tracked = subprocess.run(["git", "ls-files", "-z"], cwd=ROOT, capture_output=True, text=True, check=True).stdout
@@ -128,12 +128,12 @@ def main() -> None:
             (folder / file).parent.mkdir(parents=True, exist_ok=True)
             shutil.copy(ROOT / file, folder / file)
         for module in chosen.modules:
-            found[module] = mutants_of(module, folder, chosen.each, chosen.seconds)
+            results[module] = mutants_of(module, folder, chosen.each, chosen.seconds)
             print(
-                f"{module}: {sum(not survived(result) for _, result in found[module])} of {len(found[module])} killed",
+                f"{module}: {sum(not survived(result) for _, result in results[module])} of {len(results[module])} killed",
                 flush=True,
             )
-    print(score(found))
+    print(score(results))
 
 
 if __name__ == "__main__":

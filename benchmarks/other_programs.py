@@ -1,4 +1,4 @@
-"""The march against SciPy's solve_ivp and against NLstep: tables of docs/validation.md, section "Other programs".
+"""The time integration against SciPy's solve_ivp and against NLstep: tables of docs/validation.md, section "Other programs".
 
 Run: make claims ONLY=other_programs, or python benchmarks/other_programs.py [elastic worn direct histories rms]. The last two
 need GNU Octave and NLSTEP=/path/to/NLstep: then make claims ONLY=nlstep TAKEN=yes. Ten minutes in all.
@@ -26,8 +26,8 @@ from equations_of_motion import (
 )
 from massless_boundary import run_nlstep
 
-from r37core.config import read_settings
 from r37core.io import write_text
+from r37core.product.reading import read_settings
 from r37core.rom.contact_model import read_contact_model
 from r37core.studies.tables import markdown_table
 from r37core.time_integration.integrators import CENTRAL_DIFFERENCE, EXACT_MODAL
@@ -49,9 +49,9 @@ LIGHT_RUB = 1.1
 
 
 def main():
-    asked = sys.argv[1:] or ["elastic", "worn", "direct", "histories", "rms"]
+    parts = sys.argv[1:] or ["elastic", "worn", "direct", "histories", "rms"]
     model, settings = read_contact_model(ROOT / "results/Ref/contact_pressure_edge.npz"), read_settings(ROOT)
-    for name in asked:
+    for name in parts:
         made = {"elastic": elastic, "worn": worn, "direct": direct, "histories": histories, "rms": rms}[name](model, settings)
         print(made, flush=True)
         write_text(made, STUDIES / f"other_programs_{name}.md")
@@ -63,12 +63,12 @@ def scene_of(settings, name, **casing):
     return replace(scene, casing=replace(scene.casing, **{"rise_fraction": 0.0} | casing))
 
 
-def march(model, settings, scene, step, revolutions, speed=SPEED, **choice):
+def integrated(model, settings, scene, step, revolutions, speed=SPEED, **choice):
     """Samples (m) of the leading edge's normal displacement, shape (samples,), the step (s) and the state at the end."""
     name = "direct" if scene.lining is None else "abradable"
     choice = {"samples_per_revolution": SAMPLES, "energy": False, "snapshot_revolutions": 0, "shorten": False} | choice
-    asked = replace(settings.integration_choice("Ref", name, speed), time_step=step, revolutions=revolutions, **choice)
-    simulation = Simulation(model, speed, scene, asked)
+    chosen = replace(settings.integration_choice("Ref", name, speed), time_step=step, revolutions=revolutions, **choice)
+    simulation = Simulation(model, speed, scene, chosen)
     state = simulation.start()
     return simulation.advance(state, revolutions).samples[:, 0], simulation.problem.time_step, state
 
@@ -77,20 +77,20 @@ def sample_times(speed, samples):
     return (1 + np.arange(samples)) * 2.0 * np.pi / speed / SAMPLES
 
 
-def error(found, exact):
+def error(ours, exact):
     """Largest difference as a share of the largest value."""
-    return np.abs(found - exact).max() / np.abs(exact).max()
+    return np.abs(ours - exact).max() / np.abs(exact).max()
 
 
 def from_itself(coarse, fine):
     share = 100.0 * error(coarse, fine)
-    return f"The march with central differences at 1e-7 s differs by {share:.2f}% from itself at twice the step."
+    return f"Central differences at 1e-7 s differ by {share:.2f}% from themselves at twice the step."
 
 
 def with_orders(steps, errors):
     """Cells of errors, and of the power of the step with which each fell from the one before."""
     orders = np.diff(np.log(errors)) / np.diff(np.log(steps))
-    return [[f"{one:.1e}", of] for one, of in zip(errors, ["", *(f"{order:.1f}" for order in orders)], strict=True)]
+    return [[f"{value:.1e}", of] for value, of in zip(errors, ["", *(f"{order:.1f}" for order in orders)], strict=True)]
 
 
 MOVING_ABOVE = 6.4e-6
@@ -99,22 +99,22 @@ MOVING_ABOVE = 6.4e-6
 
 def orders(model, settings, scene, steps, exact, integrator, **choice):
     """Cells of the errors of runs at several steps, and of their order."""
-    runs = [march(model, settings, scene, step, REVOLUTIONS, integrator=integrator, **choice)[:2] for step in steps]
-    return with_orders([step for _, step in runs], [error(found, exact) for found, _ in runs])
+    runs = [integrated(model, settings, scene, step, REVOLUTIONS, integrator=integrator, **choice)[:2] for step in steps]
+    return with_orders([step for _, step in runs], [error(ours, exact) for ours, _ in runs])
 
 
 def at_t_n(model, settings, scene, steps):
     """The same with forces at t_n, against solve_ivp with the same static modes; their largest difference from each other."""
     blade, times = blade_of(model, SPEED, scene, np.inf), sample_times(SPEED, REVOLUTIONS * SAMPLES)
-    found = []
+    runs = []
     choice = replace(settings.integration_choice("Ref", "direct", SPEED), integrator=EXACT_MODAL, time_step=MOVING_ABOVE)
     blade = with_static_modes(blade, len(Problem(model, SPEED, scene, choice).frequencies))
     stiffness = np.inf if scene.lining is None else bar_stiffness(blade)
     exact, checked = (static_contact(blade, times, stiffness, method, **EXACT) for method in ("DOP853", "LSODA"))
     for step in steps:
         moving = {"integrator": EXACT_MODAL, "static_above": step / MOVING_ABOVE}
-        found.append(march(model, settings, scene, step, REVOLUTIONS, **moving)[:2])
-    cells = with_orders([step for _, step in found], [error(samples, exact) for samples, _ in found])
+        runs.append(integrated(model, settings, scene, step, REVOLUTIONS, **moving)[:2])
+    cells = with_orders([step for _, step in runs], [error(samples, exact) for samples, _ in runs])
     return cells, error(checked, exact)
 
 
@@ -131,10 +131,10 @@ def elastic(model, settings):
     published = [["", ""]] * 3 + orders(
         model, settings, scene, steps[3:], exact, CENTRAL_DIFFERENCE, highest_frequency=HIGHEST_FREQUENCY
     )
-    rows = [[f"{step:.1e}", *one, *other, *last] for step, one, other, last in zip(steps, ours, bare, published, strict=True)]
+    rows = [[f"{step:.1e}", *own, *other, *last] for step, own, other, last in zip(steps, ours, bare, published, strict=True)]
     head = ["largest step (s)", "`exact_modal` on bars: error", "order", "in direct contact: error", "order"]
-    said = f"DOP853 and LSODA, two methods of solve_ivp, differ by {checked:.0e} on bars, {checked_bare:.0e} in direct contact."
-    return f"{markdown_table([*head, '`central_difference` on bars: error', 'order'], rows)}\n{said}\n"
+    note = f"DOP853 and LSODA, two methods of solve_ivp, differ by {checked:.0e} on bars, {checked_bare:.0e} in direct contact."
+    return f"{markdown_table([*head, '`central_difference` on bars: error', 'order'], rows)}\n{note}\n"
 
 
 def worn(model, settings):
@@ -145,7 +145,7 @@ def worn(model, settings):
     times, on_a_bar = sample_times(SPEED, SAMPLES), 2.0 * np.pi / SPEED / BARS
     exact, wear = with_wear(blade_of(model, SPEED, few, np.inf, HIGHEST_FREQUENCY), times, **EXACT)
     parts, choice = 2 ** np.arange(2, 6), {"integrator": CENTRAL_DIFFERENCE, "highest_frequency": HIGHEST_FREQUENCY}
-    runs = [march(model, settings, few, on_a_bar / part, 1, **choice) for part in parts]
+    runs = [integrated(model, settings, few, on_a_bar / part, 1, **choice) for part in parts]
     steps, columns = [step for _, step, _ in runs], []
     for errors in ([error(run[0], exact) for run in runs], [error(run[2].wear, wear) for run in runs]):
         columns.append(with_orders(steps, errors))
@@ -158,23 +158,23 @@ def direct(model, settings):
     scene, half = scene_of(settings, "direct", amplitude=LIGHT_RUB), SAMPLES // 2
     blade, times = blade_of(model, SPEED, scene, np.inf, HIGHEST_FREQUENCY), sample_times(SPEED, half)
     choice = {"highest_frequency": HIGHEST_FREQUENCY, "integrator": CENTRAL_DIFFERENCE}
-    ours, coarse = (march(model, settings, scene, step, 1, **choice)[0][:half] for step in (1e-7, 2e-7))
+    ours, coarse = (integrated(model, settings, scene, step, 1, **choice)[0][:half] for step in (1e-7, 2e-7))
     stiffnesses, tolerances = (1e7, 1e8, 1e9, 1e10, 1e11), {"rtol": 1e-6, "atol": 1e-12}
     without, damped = ([against_spring(blade, times, k, ratio, **tolerances) for k in stiffnesses] for ratio in (0.0, 2.0))
     rows = [
-        [f"{k:.0e}", f"{100.0 * error(one, ours):.2f}%", f"{100.0 * error(other, ours):.2f}%"]
-        for k, one, other in zip(stiffnesses, without, damped, strict=True)
+        [f"{k:.0e}", f"{100.0 * error(bare, ours):.2f}%", f"{100.0 * error(damp, ours):.2f}%"]
+        for k, bare, damp in zip(stiffnesses, without, damped, strict=True)
     ]
-    rows.append(["extrapolated", *(share_at(limit(found), ours) for found in (without, damped))])
+    rows.append(["extrapolated", *(share_at(limit(run), ours) for run in (without, damped))])
     head = ["stiffness (N/m)", "springs alone: difference", "with dashpots: difference"]
     return f"{markdown_table(head, rows)}\n{from_itself(coarse, ours)}\n"
 
 
-def limit(found):
+def limit(runs):
     """Where the last three of several histories lead, if each comes nearer by the same factor; None where they do not."""
-    before, last = (np.abs(one - other).max() for one, other in zip(found[-3:-1], found[-2:], strict=True))
+    before, last = (np.abs(near - far).max() for near, far in zip(runs[-3:-1], runs[-2:], strict=True))
     factor = before / last
-    return found[-1] + (found[-1] - found[-2]) / (factor - 1.0) if factor > 1.5 else None
+    return runs[-1] + (runs[-1] - runs[-2]) / (factor - 1.0) if factor > 1.5 else None
 
 
 def share_at(history, ours):
@@ -182,18 +182,18 @@ def share_at(history, ours):
 
 
 def histories(model, settings):
-    """NLstep and the march on the first light touch, with more and more modes that have mass in both."""
+    """NLstep and the time integration on the first light touch, with more and more modes that have mass in both."""
     scene, half = scene_of(settings, "direct", amplitude=LIGHT_RUB), SAMPLES // 2
     blade, rows = blade_of(model, SPEED, scene, np.inf), []
     for moving_above in (9.6e-6, 6.4e-6, 3.2e-6, 2.4e-6):
         choice = {"integrator": EXACT_MODAL, "static_above": 2e-7 / moving_above}
-        asked = replace(settings.integration_choice("Ref", "direct", SPEED), time_step=2e-7, **choice)
-        kept = len(Problem(model, SPEED, scene, asked).frequencies)
-        ours = march(model, settings, scene, 2e-7, 1, **choice)[0][:half]
-        cells = [str(kept), f"{blade.frequencies[kept - 1] / 2e3 / np.pi:.0f}"]
+        chosen = replace(settings.integration_choice("Ref", "direct", SPEED), time_step=2e-7, **choice)
+        modes = len(Problem(model, SPEED, scene, chosen).frequencies)
+        ours = integrated(model, settings, scene, 2e-7, 1, **choice)[0][:half]
+        cells = [str(modes), f"{blade.frequencies[modes - 1] / 2e3 / np.pi:.0f}"]
         for parts in (50, 100):
-            found = run_nlstep(blade, kept, parts, SAMPLES, half)[0]
-            cells.append(f"{100.0 * error(found, ours):.2f}%")
+            theirs = run_nlstep(blade, modes, parts, SAMPLES, half)[0]
+            cells.append(f"{100.0 * error(theirs, ours):.2f}%")
         rows.append(cells)
     steps = [f"difference at {2.0 * np.pi / SPEED / SAMPLES / parts:.1e} s" for parts in (50, 100)]
     return markdown_table(["modes with mass", "up to (kHz)", *steps], rows)
@@ -219,13 +219,13 @@ def rms(model, settings):
         ours = []
         for factor in PERTURBED:
             rubbed = replace(scene, friction=replace(scene.friction, coefficient=factor * scene.friction.coefficient))
-            ours.append(rms_of(march(model, settings, rubbed, step, RMS_REVOLUTIONS, speed)[0]))
+            ours.append(rms_of(integrated(model, settings, rubbed, step, RMS_REVOLUTIONS, speed)[0]))
         choice = replace(settings.integration_choice("Ref", "direct", speed), time_step=step)
-        kept = len(Problem(model, speed, scene, choice).frequencies)
+        modes = len(Problem(model, speed, scene, choice).frequencies)
         samples = RMS_REVOLUTIONS * SAMPLES
-        found = run_nlstep(blade_of(model, speed, scene, duration), kept, parts, SAMPLES, samples)[0]
-        cells = [f"{speed:g}", str(kept), str(parts * SAMPLES), f"{1e3 * rms_of(found):.4f}", f"{1e3 * np.mean(ours):.4f}"]
-        cells += [f"{100.0 * (rms_of(found) / np.mean(ours) - 1.0):+.1f}%", f"{1e3 * min(ours):.4f} to {1e3 * max(ours):.4f}"]
+        theirs = run_nlstep(blade_of(model, speed, scene, duration), modes, parts, SAMPLES, samples)[0]
+        cells = [f"{speed:g}", str(modes), str(parts * SAMPLES), f"{1e3 * rms_of(theirs):.4f}", f"{1e3 * np.mean(ours):.4f}"]
+        cells += [f"{100.0 * (rms_of(theirs) / np.mean(ours) - 1.0):+.1f}%", f"{1e3 * min(ours):.4f} to {1e3 * max(ours):.4f}"]
         rows[name] = cells
         write_text(json.dumps(rows), file)
     head = [

@@ -18,6 +18,10 @@ FORBIDDEN = {
     r"\brefines? (itself|themselves)\b": "adaptive speed sampling",
     r"\breadings\b|\b(the|a|one|our) reading\b": "modelling choice",
     r"\bturned (once|alone|one at a time)\b": "varied",
+    r"\bcasings? that gives? way\b": "flexible casing",
+    r"\brotor that stands still\b": "cold clearance, or at rest",
+    r"\bno longer the time\b": "too little time",
+    r"\bthe march\b|\bstretch(es)? of samples\b": "time integration, constant-speed segment",
     r"[,;] for (it|they|there|this|these|its|their|he|we|no|none|others|machines|contact|modes)\b": "because",
 }
 """Pattern of a word or a phrase -> what to write instead."""
@@ -78,17 +82,17 @@ def plain(text):
 def prose(text):
     """The sentences of a page. A paragraph and an item of a list end one; so does a point before a capital, digit or code."""
     paragraphs = re.split(r"\n\s*\n", _LIST_ITEM.sub("\n\n", plain(text)))
-    sentences = [" ".join(one.split()) for paragraph in paragraphs for one in _END.split(paragraph.strip())]
+    sentences = [" ".join(part.split()) for paragraph in paragraphs for part in _END.split(paragraph.strip())]
     return Prose(tuple(sentence for sentence in sentences if words(sentence)))
 
 
 def forbidden(text):
     """What stands in a page that the project says otherwise -> what to write."""
-    found = {}
+    corrections = {}
     for pattern, better in FORBIDDEN.items():
-        for one in re.finditer(pattern, plain(text), re.IGNORECASE):
-            found[one[0]] = better
-    return found
+        for match in re.finditer(pattern, plain(text), re.IGNORECASE):
+            corrections[match[0]] = better
+    return corrections
 
 
 def pages(root=ROOT):
@@ -100,15 +104,13 @@ def pages(root=ROOT):
 def main(names):
     """Print the figures of all pages, or the longest sentences of those that are named."""
     for name, text in pages().items():
-        one = prose(text)
+        page = prose(text)
         if name in names:
-            print("\n".join(sorted((f"{len(words(s)):3} {s}" for s in one.sentences), reverse=True)[:60]))
+            print("\n".join(sorted((f"{len(words(s)):3} {s}" for s in page.sentences), reverse=True)[:60]))
         if not names or name in names:
-            mark = "" if one.is_short else "  too long"
-            said = (
-                f"{name:16} {len(one.sentences):4} sentences, {one.mean:5.1f} words, {one.share_of_long:5.1%} over {LONG}{mark}"
-            )
-            print(said, *forbidden(text))
+            mark = "" if page.is_short else "  too long"
+            length = f"{name:16} {len(page.sentences):4} sentences, {page.mean:5.1f} words,"
+            print(length, f"{page.share_of_long:5.1%} over {LONG}{mark}", *forbidden(text))
 
 
 if __name__ == "__main__":

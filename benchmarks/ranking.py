@@ -20,11 +20,11 @@ import numpy as np
 import xarray as xr
 
 from r37core.adaptive.criterion import RefinementChoice
-from r37core.config import read_settings, settings_of_run
 from r37core.dataset_file import read_dataset
 from r37core.io import write_text
 from r37core.plain import from_plain
 from r37core.plans.sweep_plan import Sweep
+from r37core.product.reading import read_settings, settings_of_run
 from r37core.results.exceedance import CERTAIN, POSSIBLE, exceedance_of
 from r37core.results.measures import motion
 from r37core.results.ranking import chance_to_be_better, ranking_table, robustness
@@ -36,6 +36,7 @@ from r37core.studies.refinement.report import replay
 from r37core.studies.tables import markdown_table
 from r37core.time_integration.simulate import Simulation
 from r37core.time_integration.speed_run import run_speed
+from r37core.tolerances.members import members_of
 
 ROOT = Path(__file__).parent.parent
 FOLDER = ROOT / "results/studies/ranking"
@@ -89,7 +90,7 @@ def run(task):
     model = read_contact_model(of / blade / "contact_pressure_edge.npz")
     stress = read_stress_operator(of / blade / "stress_pressure_edge.npz")
     if way.member:
-        scene = settings.members.all[blade, way.scene][way.member.strip("_")].scene
+        scene = members_of(settings).all[blade, way.scene][way.member.strip("_")].scene
     else:
         scene = settings.scenes[way.scene].scene
         scene = replace(scene, friction=replace(scene.friction, coefficient=way.friction * scene.friction.coefficient))

@@ -19,14 +19,14 @@ os.environ["OPENBLAS_NUM_THREADS"] = "1"
 import numpy as np
 from mesh_step import mesh_step
 
-from r37core.config import read_settings
 from r37core.config.imported_entry import MeshEntry
-from r37core.exchange.exporting.step import write_step
 from r37core.exchange.importing.import_mesh import import_mesh
+from r37core.exports.step import write_step
 from r37core.fem.matrices import assemble
 from r37core.fem.solver import lowest_modes
 from r37core.io import read_json, write_json, write_text
 from r37core.mesh.generate import generate_mesh
+from r37core.product.reading import read_settings
 from r37core.results.campbell import campbell_diagram
 from r37core.rom.reduce import reduce_blade
 from r37core.rom.reduced_model import contact_model
@@ -70,62 +70,62 @@ def peak_of(name, mesh, matrices, settings):
     rms = []
     for speed in speeds:
         choice = settings.integration_choice(name, "abradable", speed)
-        kept = {"spectrum_highest_order": 1, "wear_angles": 8}
-        rms.append(run_speed(contact, speed, chosen.scene, choice, (), **kept)["rms"][0, 0])
+        few = {"spectrum_highest_order": 1, "wear_angles": 8}
+        rms.append(run_speed(contact, speed, chosen.scene, choice, (), **few)["rms"][0, 0])
     peak = int(np.argmax(rms))
     return float(speeds[peak]), float(rms[peak])
 
 
-def measure(name, settings, with_peak, found):
-    """Measure what `found` lacks of a blade."""
-    given, level = settings.blades[name], settings.fidelity.mesh
-    blade = given.definition.build(round_edges=True)
+def measure(name, settings, with_peak, table):
+    """Measure what `table` lacks of a blade."""
+    chosen, level = settings.blades[name], settings.fidelity.mesh
+    blade = chosen.definition.build(round_edges=True)
     with tempfile.TemporaryDirectory() as folder:
         for element in (OURS, *ELEMENTS):
-            one = found.setdefault(f"{name} {element}", {})
-            if "frequencies" in one and ("peak" in one or not with_peak):
+            row = table.setdefault(f"{name} {element}", {})
+            if "frequencies" in row and ("peak" in row or not with_peak):
                 continue
             if element == OURS:
                 mesh = generate_mesh(blade, level.nodes, level.layers, level.tip_elements)
             else:
                 mesh = imported(blade, element, Path(folder))
-            matrices = assemble(mesh, given.material)
-            one |= {"nodes": len(mesh.points), "frequencies": frequencies_of(matrices)}
+            matrices = assemble(mesh, chosen.material)
+            row |= {"nodes": len(mesh.points), "frequencies": frequencies_of(matrices)}
             if with_peak:
-                one["peak"], one["rms"] = peak_of(name, mesh, matrices, settings)
-            write_json(found, KEPT)
+                row["peak"], row["rms"] = peak_of(name, mesh, matrices, settings)
+            write_json(table, KEPT)
 
 
-def table(found, blades):
+def table(measured, blades):
     """The table of what was measured; differences from our wedges."""
     lines = [
         "| blade | mesh | nodes | six frequencies at rest (Hz) | off by up to | peak of 1B/4 (rad/s) | off by | its rms (mm) |",
         "|---|---|---|---|---|---|---|---|",
     ]
     for name in blades:
-        ours = found.get(f"{name} {OURS}")
+        ours = measured.get(f"{name} {OURS}")
         for element in (OURS, *ELEMENTS):
-            one = found.get(f"{name} {element}")
-            if not one:
+            row = measured.get(f"{name} {element}")
+            if not row:
                 continue
-            cells = [name, element, str(one["nodes"]), ", ".join(f"{f:.2f}" for f in one["frequencies"])]
-            off = np.abs(np.array(one["frequencies"]) / ours["frequencies"] - 1.0).max()
+            cells = [name, element, str(row["nodes"]), ", ".join(f"{f:.2f}" for f in row["frequencies"])]
+            off = np.abs(np.array(row["frequencies"]) / ours["frequencies"] - 1.0).max()
             cells.append("" if element == OURS else f"{100.0 * off:.3f}%")
-            cells.append(f"{one['peak']:g}" if "peak" in one else "")
-            cells.append(f"{100.0 * (one['peak'] / ours['peak'] - 1.0):+.2f}%" if "peak" in one and element != OURS else "")
-            cells.append(f"{1e3 * one['rms']:.3f}" if "rms" in one else "")
+            cells.append(f"{row['peak']:g}" if "peak" in row else "")
+            cells.append(f"{100.0 * (row['peak'] / ours['peak'] - 1.0):+.2f}%" if "peak" in row and element != OURS else "")
+            cells.append(f"{1e3 * row['rms']:.3f}" if "rms" in row else "")
             lines.append(f"| {' | '.join(cells)} |")
     return "\n".join(lines)
 
 
 def main():
     settings = read_settings(ROOT)
-    asked = [word for word in sys.argv[1:] if not word.startswith("--")]
-    found = read_json(KEPT) if KEPT.exists() else {}
-    for name in asked or settings.blades:
-        measure(name, settings, "--frequencies" not in sys.argv, found)
-        print(table(found, [name]), flush=True)
-    write_text(table(found, settings.blades) + "\n", KEPT.with_suffix(".md"))
+    names = [word for word in sys.argv[1:] if not word.startswith("--")]
+    measured = read_json(KEPT) if KEPT.exists() else {}
+    for name in names or settings.blades:
+        measure(name, settings, "--frequencies" not in sys.argv, measured)
+        print(table(measured, [name]), flush=True)
+    write_text(table(measured, settings.blades) + "\n", KEPT.with_suffix(".md"))
 
 
 if __name__ == "__main__":

@@ -6,6 +6,8 @@ src/r37core/plans/resources.csv, from which the rules say what their jobs need; 
 Run: python benchmarks/resources.py   (about ten minutes; results go to results/runs/resources-<level>)
 """
 
+import ast
+import pickle
 import re
 import subprocess
 import sys
@@ -15,10 +17,10 @@ from pathlib import Path
 
 import psutil
 
-from r37core.config import read_settings
 from r37core.config.document import command_line_document
 from r37core.io import write_text
 from r37core.plans.resources import MEASURED, PER_RESPONSE, PER_SWEEP, read_measured
+from r37core.product.reading import read_settings
 
 ROOT = Path(__file__).parent.parent
 SNAKEMAKE = str(Path(sys.executable).with_name("snakemake"))
@@ -33,10 +35,16 @@ def rule_of(job):
     """Rule of a job that Snakemake has started, by the script that it or a child of it runs, and its processes."""
     processes = [job, *job.children(recursive=True)]
     for process in processes:
-        found = re.search(r"scripts/(?:tmp\w+\.)?(\w+)\.py", " ".join(process.cmdline()))
+        found = re.search(r"(\S*scripts/tmp\w+\.step\.py)|scripts/(simulate)\.py", " ".join(process.cmdline()))
         if found:
-            return found[1], processes
+            return found[2] or rule_in(Path(found[1]).read_text()), processes
     return None, processes
+
+
+def rule_in(script):
+    """Rule of the job that Snakemake wrote this copy of step.py for, from the line that it puts before it."""
+    job = re.search(r"pickle\.loads\((b.+?)\);\s*from snakemake", script)[1]
+    return pickle.loads(ast.literal_eval(job)).rule
 
 
 def watch(command):
@@ -54,7 +62,7 @@ def watch(command):
                 memory[rule] = max(memory[rule], resident / 2**20)
                 start = began.setdefault(job.pid, job.create_time())
                 seconds[rule] = max(seconds[rule], time.time() - start)
-            except psutil.NoSuchProcess:
+            except (psutil.NoSuchProcess, FileNotFoundError):
                 continue
         time.sleep(INTERVAL_S)
     if main.returncode:

@@ -1,4 +1,4 @@
-"""What the march of a run-up costs beside that of a run at constant speed: table of docs/run_ups.md.
+"""What the time integration of a run-up costs beside that of a run at constant speed: table of docs/run_ups.md.
 
 Run: make claims ONLY=run_up_cost (under a minute). CPU times, in turns in one process.
 """
@@ -14,11 +14,11 @@ os.environ["OPENBLAS_NUM_THREADS"] = "1"
 
 import numpy as np
 
-from r37core.config import read_settings
 from r37core.io import write_text
+from r37core.product.reading import read_settings
 from r37core.rom.reduced_model import contact_model
 from r37core.rom.rom_file import read_reduced_model
-from r37core.run_ups.march import March
+from r37core.run_ups.integration import RunUpIntegration
 from r37core.run_ups.schedule import RunUp
 from r37core.studies.tables import markdown_table
 from r37core.time_integration import compiled
@@ -33,7 +33,7 @@ BEFORE, AFTER, ROUNDS = 200, 50, 5
 
 
 class Cost(NamedTuple):
-    """CPU times (s) of a march, the start of its simulation among them, and of its compiled steps alone; its totals."""
+    """CPU times (s) of a time integration with the start of its simulation, and of its compiled steps alone; its totals."""
 
     whole: float
     steps: float
@@ -41,7 +41,7 @@ class Cost(NamedTuple):
 
     @property
     def per_step(self):
-        """CPU times per step (s): of the march, and of the compiled steps."""
+        """CPU times per step (s): of the whole, and of the compiled steps."""
         return np.array([self.whole, self.steps]) / self.totals["steps"]
 
     def share(self, name):
@@ -56,8 +56,8 @@ def main():
     head = ["scene", "rate (rad/s2)", "steps", "jumped: run-up, constant", "in contact: run-up, constant"]
     head += ["CPU time per step (ns)", "per step at constant speed (ns)", "ratio", "ratio of the compiled steps"]
     head += ["beside the compiled steps", "the same at constant speed", "ratio for the same motion"]
-    said = f"{FROM:g} to {TO:g} rad/s, {BEFORE} revolutions before and {AFTER} after; medians of {ROUNDS} rounds."
-    write_text(f"{markdown_table(head, rows)}\n{said}\n", ROOT / "results/studies/run_up_cost.md")
+    note = f"{FROM:g} to {TO:g} rad/s, {BEFORE} revolutions before and {AFTER} after; medians of {ROUNDS} rounds."
+    write_text(f"{markdown_table(head, rows)}\n{note}\n", ROOT / "results/studies/run_up_cost.md")
 
 
 def row(settings, model, scene, rate):
@@ -69,10 +69,10 @@ def row(settings, model, scene, rate):
     constant = replace(choice, revolutions=lasting)
 
     def change():
-        march = March(model, scene_of, choice, run_up)
-        for _ in march.stages():
+        integration = RunUpIntegration(model, scene_of, choice, run_up)
+        for _ in integration.stages():
             pass
-        return march.state.totals
+        return integration.state.totals
 
     def same():
         simulation = Simulation(model, 0.5 * (FROM + TO), scene_of, constant)
@@ -82,9 +82,11 @@ def row(settings, model, scene, rate):
 
     change(), same()
     rounds = [(cost(change), cost(same)) for _ in range(ROUNDS)]
-    changing, holding = (np.median([one[which].per_step for one in rounds], axis=0) for which in range(2))
-    ratio, of_steps = np.median([one.per_step / other.per_step for one, other in rounds], axis=0)
-    beside, beside_constant = (np.median([one[which].whole / one[which].steps - 1.0 for one in rounds]) for which in range(2))
+    changing, holding = (np.median([pair[which].per_step for pair in rounds], axis=0) for which in range(2))
+    ratio, of_steps = np.median([ours.per_step / theirs.per_step for ours, theirs in rounds], axis=0)
+    beside, beside_constant = (
+        np.median([both[which].whole / both[which].steps - 1.0 for both in rounds]) for which in range(2)
+    )
     first, second = rounds[0]
     cells = [scene, f"{rate:g}", f"{first.totals['steps']:.0f}"]
     cells += [f"{first.share(name)}, {second.share(name)}" for name in ("steps_jumped", "steps_in_contact")]
@@ -94,11 +96,11 @@ def row(settings, model, scene, rate):
     return cells
 
 
-def cost(march):
-    """What a march costs."""
+def cost(integrate):
+    """What a time integration costs."""
     with timed_steps() as steps:
         began = time.process_time()
-        totals = march()
+        totals = integrate()
         return Cost(time.process_time() - began, sum(steps), totals)
 
 

@@ -9,10 +9,10 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from r37core.config import read_settings
 from r37core.config.document import read_document
 from r37core.dataset_file import read_dataset
 from r37core.io import write_text
+from r37core.product.reading import read_settings
 from r37core.rom.contact_model import read_contact_model
 from r37core.rom.rom_file import read_reduced_model
 from r37core.run_ups import schedule
@@ -68,8 +68,8 @@ def rates_table():
                 # whole samples make rates that are nearly those asked for
                 near = np.isclose(of_blade["rate_rad_s2"], rate, rtol=1e-3)
                 row[f"{direction} at {rate}"] = f"{float(share[going & near].max()):.2f}"
-            found = rates[(rates["blade"] == blade) & (rates["direction"] == direction)].iloc[0]
-            row[direction] = float(found["rate_at_yield_rad_s2"])
+            needed = rates[(rates["blade"] == blade) & (rates["direction"] == direction)].iloc[0]
+            row[direction] = float(needed["rate_at_yield_rad_s2"])
         rows.append(row)
     table = pd.DataFrame(rows)
     correlation = table["width"].corr(table["up"].fillna(0.0), method="spearman")
@@ -82,15 +82,15 @@ def rates_table():
         ]
     widths = table.pop("width")
     table.insert(2, "width above yield at constant speed (rad/s)", [f"{width:.0f}" for width in widths])
-    said = (
+    explanation = (
         f"Columns with a rate (rad/s2): largest stress of the run-up as a share of yield. Rank correlation (Spearman) of the "
         f"width with the rate that is needed upwards: {correlation:.2f}."
     )
-    return f"{markdown_table(list(table), table.values.tolist())}\n{said}\n"
+    return f"{markdown_table(list(table), table.values.tolist())}\n{explanation}\n"
 
 
 def accuracy_table():
-    """Error of stretches and segments of other lengths, of one blade's way up the rising branch."""
+    """Error of constant-speed segments and modal intervals of other lengths, of one blade's way up the rising branch."""
     settings = read_settings(Path())
     scene, model = settings.scenes[SCENE], read_contact_model(RESULTS / ACCURACY_BLADE / "contact_pressure_edge.npz")
     choice = settings.integration_choice(ACCURACY_BLADE, SCENE, 0.0)
@@ -99,10 +99,10 @@ def accuracy_table():
 
     def rms(rate, lead, stiffening):
         schedule.LARGEST_LEAD, schedule.LARGEST_STIFFENING = lead, stiffening
-        asked = RunUpChoice(0.98 * speed, 1.012 * speed, None, rate, None, choice.revolutions, 0, worn=False)
-        run_up = asked.run_up(choice.samples_per_revolution)
-        found = record_run_up(model, scene.scene, choice, run_up, (), highest_order=20, stress=None, yield_stress=np.inf)
-        return found["rms"][choice.revolutions :, 0, [0, 2]]
+        choice_of_rate = RunUpChoice(0.98 * speed, 1.012 * speed, None, rate, None, choice.revolutions, 0, worn=False)
+        run_up = choice_of_rate.run_up(choice.samples_per_revolution)
+        result = record_run_up(model, scene.scene, choice, run_up, (), highest_order=20, stress=None, yield_stress=np.inf)
+        return result["rms"][choice.revolutions :, 0, [0, 2]]
 
     for rate in ACCURACY_RATES:
         finest = rms(rate, *FINEST)
@@ -122,10 +122,10 @@ def accuracy_table():
 def needed_rate(blade, settings, campbell, changes):
     """Rate (rad/s2) that a blade needs upwards, interpolated between RATES; text where it is none of them."""
     scene, material = settings.scenes[SCENE].scene, settings.blades[blade].material
-    asked = settings.run_ups[blade, SCENE][VARIED]
-    asked = replace(asked, **{name: value for name, value in changes.items() if hasattr(asked, name)})
+    run_up_choice = settings.run_ups[blade, SCENE][VARIED]
+    run_up_choice = replace(run_up_choice, **{name: value for name, value in changes.items() if hasattr(run_up_choice, name)})
     choice = settings.run_up_choice(blade, SCENE, VARIED)
-    choice = replace(choice, revolutions=asked.before, snapshot_revolutions=asked.before)
+    choice = replace(choice, revolutions=run_up_choice.before, snapshot_revolutions=run_up_choice.before)
     if "time_step" in changes:
         choice = replace(choice, time_step=changes["time_step"] * choice.time_step)
     if "published" in changes:
@@ -136,16 +136,16 @@ def needed_rate(blade, settings, campbell, changes):
     model = read_contact_model(RESULTS / blade / "contact_pressure_edge.npz")
     rows = []
     for rate in RATES:
-        run_up = replace(asked, rate=rate).of_blade(choice.samples_per_revolution, campbell.sel(blade=blade), VARIED)
-        found = record_run_up(
+        run_up = replace(run_up_choice, rate=rate).of_blade(choice.samples_per_revolution, campbell.sel(blade=blade), VARIED)
+        result = record_run_up(
             model, scene, choice, run_up, (), highest_order=20, stress=recovery, yield_stress=material.yield_stress
         )
-        stress = float(found["max_von_mises"][asked.before :].max())
+        stress = float(result["max_von_mises"][run_up_choice.before :].max())
         rows.append({"rate_rad_s2": rate, "max_von_mises_pa": stress, "status": "completed"})
-    found = safe_rates(pd.DataFrame(rows).assign(yield_stress_pa=material.yield_stress))
-    if np.isfinite(found["rate_at_yield_rad_s2"]):
-        return f"{found['rate_at_yield_rad_s2']:.0f}"
-    return f"below {RATES[0]:g}" if np.isfinite(found["lowest_safe_rate_rad_s2"]) else f"above {RATES[-1]:g}"
+    safe = safe_rates(pd.DataFrame(rows).assign(yield_stress_pa=material.yield_stress))
+    if np.isfinite(safe["rate_at_yield_rad_s2"]):
+        return f"{safe['rate_at_yield_rad_s2']:.0f}"
+    return f"below {RATES[0]:g}" if np.isfinite(safe["lowest_safe_rate_rad_s2"]) else f"above {RATES[-1]:g}"
 
 
 def variants_table():

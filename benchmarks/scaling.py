@@ -29,9 +29,9 @@ def run(folder, *arguments):
     """Wall time (s), CPU time of Snakemake's own process (s) and its largest memory (MB)."""
     environment = {key: value for key, value in os.environ.items() if not key.startswith("SNAKEMAKE")}
     began, cpu, memory = time.monotonic(), 0.0, 0.0
-    with open(folder / "said.txt", "w") as said:
+    with open(folder / "said.txt", "w") as out:
         process = psutil.Popen(
-            [SNAKEMAKE, *arguments], cwd=folder, env=environment | {"PYTHONPATH": str(folder / "src")}, stdout=said, stderr=said
+            [SNAKEMAKE, *arguments], cwd=folder, env=environment | {"PYTHONPATH": str(folder / "src")}, stdout=out, stderr=out
         )
         while process.poll() is None:
             try:
@@ -59,32 +59,32 @@ def of_runs(repetitions=2, number=63):
         edit(folder, "config.yaml", "fidelity: tiny", "fidelity: standard")
         speeds(folder, number)
         run(folder, "responses", "--cores", "2")
-        found = {1: [], 2: []}
+        wall = {1: [], 2: []}
         for cores in (1, 2) * repetitions:
             done = [*folder.glob("results/Ref/*/speed_*.npz"), *folder.glob("results/Ref/*/response.nc")]
             for file in done:
                 file.unlink()
-            found[cores].append(run(folder, "responses", "--cores", str(cores))["wall_s"])
+            wall[cores].append(run(folder, "responses", "--cores", str(cores))["wall_s"])
         size = {
             "simulation_bytes": sum(file.stat().st_size for file in done if file.suffix == ".npz") / (2 * number),
             "response_bytes": sum(file.stat().st_size for file in folder.glob("results/Ref/*/response.nc")) / (2 * number),
             "metadata_bytes": 4096 * len(list((folder / ".snakemake/metadata").rglob("*"))) / (2 * number),
         }
-        return {"simulations": 2 * number, "wall_s": {cores: min(times) for cores, times in found.items()}, **size}
+        return {"simulations": 2 * number, "wall_s": {cores: min(times) for cores, times in wall.items()}, **size}
 
 
 def of_feeding():
     """CPU time (s) of Snakemake's own process for each of many jobs that do next to nothing."""
-    found = {}
+    feeding = {}
     for cores, subsample, number in ((2, 100, 500), (64, 1000, 500), (64, 100, 500), (64, 100, SPEEDS)):
         with tempfile.TemporaryDirectory() as name:
             folder = idle_project(Path(name), number)
             options = ("--cores", str(cores), "--scheduler-subsample", str(subsample))
             before = run(folder, "results/Ref/contact_pressure_edge.npz", *options)["cpu_s"]
-            found[f"{2 * number:,} jobs, {cores} cores, subsample {subsample}"] = (
+            feeding[f"{2 * number:,} jobs, {cores} cores, subsample {subsample}"] = (
                 run(folder, "responses", *options)["cpu_s"] - before
             ) / (2 * number)
-    return found
+    return feeding
 
 
 def idle_project(folder, number):
@@ -118,19 +118,19 @@ def of_planning():
         return {"part": part, "start": few}
 
 
-def table(kept):
+def table(measured):
     """What was measured, and what follows for the campaign, in Markdown."""
     lines = ["| measured | |", "|---|---|"]
-    runs, feeding, planning = kept["runs"], kept["feeding"], kept["planning"]
-    one, two = runs["wall_s"]["1"], runs["wall_s"]["2"]
-    per_run = one / runs["simulations"]
+    runs, feeding, planning = measured["runs"], measured["feeding"], measured["planning"]
+    alone, both = runs["wall_s"]["1"], runs["wall_s"]["2"]
+    per_run = alone / runs["simulations"]
     campaign = BLADES * SPEEDS * SCENES
     own = feeding[f"{2 * SPEEDS:,} jobs, 64 cores, subsample 100"]
     gb = 2**30
     rows = [
         (
             f"{runs['simulations']} simulations of Ref at `standard` on one core, on two",
-            f"{one:.0f} s, {two:.0f} s: {one / two:.2f} times as fast",
+            f"{alone:.0f} s, {both:.0f} s: {alone / both:.2f} times as fast",
         ),
         *((f"Snakemake's own time per job, {how}", f"{1e3 * cost:.0f} ms") for how, cost in feeding.items()),
         ("cores that one Snakemake feeds at `standard`", f"{per_run / own:.0f}"),
@@ -156,11 +156,11 @@ def table(kept):
 
 if __name__ == "__main__":
     measures = {"runs": of_runs, "feeding": of_feeding, "planning": of_planning}
-    kept = read_json(KEPT) if KEPT.exists() else {}
+    measured = read_json(KEPT) if KEPT.exists() else {}
     for name in sys.argv[1:] or measures:
-        kept[name] = measures[name]()
-        print(name, kept[name], flush=True)
+        measured[name] = measures[name]()
+        print(name, measured[name], flush=True)
     KEPT.parent.mkdir(parents=True, exist_ok=True)
-    write_json(kept, KEPT)
-    if kept.keys() >= measures.keys():
+    write_json(measured, KEPT)
+    if measured.keys() >= measures.keys():
         write_text(table(read_json(KEPT)) + "\n", KEPT.with_suffix(".md"))

@@ -12,10 +12,10 @@ os.environ["OPENBLAS_NUM_THREADS"] = "1"
 
 import numpy as np
 
-from r37core.config import read_settings
 from r37core.fem.matrices import assemble
 from r37core.fem.solver import lowest_modes
 from r37core.mesh.generate import generate_mesh
+from r37core.product.reading import read_settings
 from r37core.results.campbell import campbell_diagram
 from r37core.rom.reduce import reduce_blade
 

@@ -17,11 +17,11 @@ import numpy as np
 from r37core.results.stress_recovery import StressRecovery
 from scipy import stats
 
-from r37core.config import read_settings
 from r37core.config.document import Document, read_document
 from r37core.fem.matrices import assemble
 from r37core.io import atomic_write, write_text
 from r37core.mesh.generate import generate_mesh
+from r37core.product.reading import read_settings
 from r37core.results.measures import largest_of_run, motion_of_run, range_above_yield
 from r37core.rom.reduce import reduce_blade
 from r37core.rom.reduced_model import contact_model
@@ -29,6 +29,7 @@ from r37core.rounding import rounded_to
 from r37core.studies.tables import markdown_table
 from r37core.time_integration.speed_run import run_speed
 from r37core.tolerances.dataset import INDEXED, QUANTILES
+from r37core.tolerances.members import members_of
 from r37core.tolerances.number_ranks import ranking
 from r37core.tolerances.sample import together
 from r37core.tolerances.sensitivity import sobol_indices
@@ -91,7 +92,7 @@ def run_all():
             continue
         settings = settings_of(seed)
         model = model or model_of(settings)
-        began, members = time.process_time(), settings.members.all[BLADE, SCENE]
+        began, members = time.process_time(), members_of(settings).all[BLADE, SCENE]
         found = [outcomes(settings, *model, member) for member in members.values()]
         with atomic_write(file) as partial, open(partial, "wb") as stream:
             np.savez(
@@ -99,7 +100,7 @@ def run_all():
                 members=list(members),
                 outcomes=found,
                 values=[member.values for member in members.values()],
-                numbers=[key for _, key in settings.members.numbers],
+                numbers=[key for _, key in members_of(settings).numbers],
             )
         print(f"seed {seed}: {len(members)} members, {time.process_time() - began:.0f} s", flush=True)
 

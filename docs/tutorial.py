@@ -29,8 +29,9 @@ import matplotlib.pyplot as plt
 import numpy as np
 from IPython.display import Image, display
 
-from r37core.config import command_line_document, plain, read_settings, si_fields
+from r37core.config import command_line_document, plain, si_fields
 from r37core.figures import style
+from r37core.product.reading import read_settings
 from r37core.units import RPM
 
 # %matplotlib inline
@@ -97,7 +98,7 @@ campbell = campbell_dataset(
     model,
     maximum_speed=settings.structure.maximum_speed_rad_s,
     tip_line="pressure_edge",
-    **si_fields(settings.campbell),
+    **si_fields(settings.config.campbell),
 )
 draw_campbell(campbell, "Mine")
 crossings = campbell["crossing_speed"].sel(mode="1B").to_series().dropna()

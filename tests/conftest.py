@@ -3,11 +3,14 @@
 import filecmp
 import os
 import shutil
+import sys
 from collections import Counter
 from pathlib import Path
 
 import pytest
 from hypothesis import settings
+
+pytest_plugins = ["cpu_of_files"]
 
 # a busy machine is no error
 settings.register_profile("no_deadline", deadline=None)
@@ -55,6 +58,11 @@ def pytest_collection_modifyitems(items):
     items.sort(key=lambda item: (rank.get(item.path.name, len(rank)), item.path not in slow))
 
 
+def pytest_sessionfinish():
+    if browser := sys.modules.get("browser"):
+        browser.close()
+
+
 def pytest_terminal_summary(terminalreporter):
     """What the skipped tests need, one line each, and whether the configuration in use is not the tests'."""
     reasons = Counter(report.longrepr[2].removeprefix("Skipped: ") for report in terminalreporter.stats.get("skipped", []))
@@ -90,7 +98,7 @@ def elsewhere(tmp_path_factory):
 
 @pytest.fixture(scope="session")
 def settings(root):
-    from r37core.config import read_settings
+    from r37core.product.reading import read_settings
 
     return read_settings(root)
 
@@ -148,28 +156,36 @@ def contact(model):
 
 @pytest.fixture(scope="session")
 def compiled(root, tmp_path_factory):
-    """The programs of the small sweep, made in this process.
+    """The programs of the small sweep, made in one process.
 
     After the first one, another of the same layout takes half of its time or less; in jobs, each takes as long as the first.
     """
-    from workflow_runs import copy_project
+    from shared_sweep import compile_programs, made_once
 
-    from r37core.config import read_settings
-    from r37core.fem.matrices import assemble
-    from r37core.mesh.generate import generate_mesh
-    from r37core.rom.reduce import reduce_blade
-    from r37core.rom.reduced_model import contact_model
-    from r37core.time_integration.simulate import Simulation
+    made_once(tmp_path_factory, "compiled", lambda folder: compile_programs(root, folder))
 
-    folder = tmp_path_factory.mktemp("compiled")
-    copy_project(root, folder)
-    settings = read_settings(folder)
-    level, blade = settings.fidelity.mesh, settings.blades["Ref"]
-    mesh = generate_mesh(blade.definition.build(round_edges=True), level.nodes, level.layers, level.tip_elements)
-    reduced = reduce_blade(mesh, assemble(mesh, blade.material), settings.reduction_choice("Ref"))
-    model = contact_model(reduced, "pressure_edge")
-    for name, scene in settings.scenes.items():
-        Simulation(model, 1150.0, scene.scene, settings.integration_choice("Ref", name, 1150.0))
+
+@pytest.fixture(scope="session")
+def small_sweep(root, compiled, tmp_path_factory):
+    """The project after the one real sweep of this test run, to be read: see `sweep_copy` and `structure_copy`."""
+    from shared_sweep import made_once, make_sweep
+
+    return made_once(tmp_path_factory, "small_sweep", lambda folder: make_sweep(root, folder))
+
+
+@pytest.fixture
+def sweep_copy(small_sweep, tmp_path):
+    from workflow_runs import copy_finished
+
+    return copy_finished(small_sweep, tmp_path / "sweep")
+
+
+@pytest.fixture
+def structure_copy(small_sweep, tmp_path):
+    """With what was made of the blades alone."""
+    from shared_sweep import copy_structure
+
+    return copy_structure(small_sweep, tmp_path / "structure")
 
 
 @pytest.fixture

@@ -2,7 +2,7 @@
 
 import re
 
-from workflow_runs import copy_project, snakemake
+from workflow_runs import copy_project
 
 # the job server, which reads the script with fewer arguments, makes nothing
 _STUB = """
@@ -20,14 +20,16 @@ for file in snakemake.output if "snakemake" in globals() else sys.argv[2:3] * (l
 # three rounds: the certain speeds, then two more next to 1150, and that is all
 _REFINE_STUB = """
 import json
-from pathlib import Path
 
-number = int(snakemake.wildcards.round)
-if number:
-    before = json.loads(Path(snakemake.input.before).read_text())["new"]
-    assert [Path(file).name for file in snakemake.input.speeds] == [f"speed_{speed:g}.npz" for speed in before]
-new = [list(snakemake.params.plan["certain"]), [1149, 1150.5], []][number]
-Path(snakemake.output[0]).write_text(json.dumps({"new": new, "measured": []}))
+if snakemake.params.step == "r37core.adaptive.steps.refine":
+    number = int(snakemake.wildcards.round)
+    if number:
+        before = json.loads(Path(snakemake.input.before).read_text())["new"]
+        # of all members of a sample, one after the other
+        names = [f"speed_{speed:g}.npz" for speed in before] * len(snakemake.params.yields)
+        assert [Path(file).name for file in snakemake.input.speeds] == names
+    new = [list(snakemake.params.plan["certain"]), [1149, 1150.5], []][number]
+    Path(snakemake.output[0]).write_text(json.dumps({"new": new, "measured": []}))
 """
 
 
@@ -35,23 +37,11 @@ def copy_stubbed(root, to):
     """A copy with the small sweep of copy_project, its scripts replaced."""
     copy_project(root, to)
     # start.py starts simulate.py
-    for script in {*(to / "workflow/scripts").glob("*.py")} - {to / "workflow/scripts/start.py"}:
+    for script in (to / "workflow/scripts/step.py", to / "workflow/scripts/simulate.py"):
         # the imports stay: they decide what code a job depends on
         imports = [line for line in script.read_text().splitlines() if re.match(r"from r37core\S* import \w+(, \w+)*$", line)]
         lazy = "\n".join(["def _imports():", *(f"    {line}" for line in imports), "    return None"])
-        script.write_text(f"{lazy}\n{_REFINE_STUB if script.name == 'refine.py' else _STUB}")
-
-
-def planned_outputs(folder, *arguments):
-    """First output of every job that a dry run plans, by rule."""
-    text = snakemake(folder, *(arguments or ("all_blades",)), "--cores", "1", "--dry-run")
-    found = {}
-    for block in re.split(r"\n\[", text):
-        rule = re.search(r"^(?:local)?(?:rule|checkpoint) (\w+):", block, re.MULTILINE)
-        output = re.search(r"^    output: ([^\s,]+)", block, re.MULTILINE)
-        if rule and output:
-            found.setdefault(rule[1], set()).add(output[1].removeprefix("results/"))
-    return found
+        script.write_text(f"{lazy}\n{_STUB}{_REFINE_STUB if script.name == 'step.py' else ''}")
 
 
 def edit(project, name, old, new):

@@ -6,9 +6,9 @@ from types import SimpleNamespace
 import matplotlib.pyplot as plt
 from PIL import Image
 
-from r37core.figures.captions import CAPTIONS, caption
-from r37core.figures.reporting import captioned
 from r37core.figures.style import save
+from r37core.product.captions import CAPTIONS, caption
+from r37core.product.reporting import captioned
 
 NAMES = {"blade": "Ref", "scene": "direct", "family": "Sweep"}
 
@@ -34,7 +34,7 @@ def test_every_figure_of_the_rules_has_a_caption_and_is_in_the_report(root):
         for rule in rules[1:] if name == "figures" else rules:
             # `pictures` puts them into the report
             assert re.search(r"output:\s+(\*\*)?pictures\(", rule), rule
-            kind = re.search(r'caption=captioned\("(\w+)"\)|drawing\(\s*code,\s*"\w+\.\w+",\s*"(\w+)"', rule)
+            kind = re.search(r'caption=captioned\("(\w+)"\)|drawing\(\s*code,\s*"[\w.]+",\s*"(\w+)"', rule)
             assert "draw_map" in rule or (kind[1] or kind[2]) in CAPTIONS, rule
     assert "report(" in (root / "workflow/rules/common.smk").read_text().split("def pictures(")[1].split("\n\n\n")[0]
 

@@ -11,19 +11,20 @@ from box_mesh import box_mesh
 from defaults import Casing, IntegrationChoice, Scene
 from integration_cases import ABRADABLE, DIRECT, LINING, random_model, with_static_modes
 
-from r37core.config import ConfigError, checked_scene, load_settings
-from r37core.exchange.exporting.fields import displacement_of
+from r37core.config import ConfigError, checked_scene
+from r37core.exchange.fields import displacement_of
 from r37core.fem.material import Material
 from r37core.fem.matrices import assemble
 from r37core.fem.solver import factorise
 from r37core.fem.stress import nodal_stress
+from r37core.product.reading import load_settings
 from r37core.results.response import write_response
 from r37core.rom.contact_model import read_contact_model, write_contact_model
 from r37core.rom.reduce import reduce_blade
 from r37core.rom.reduced_model import contact_model
 from r37core.rom.rotation import BucklingError, rotation_amplitudes, shapes_of_rotation
 from r37core.run_ups import revolutions
-from r37core.run_ups.march import March
+from r37core.run_ups.integration import RunUpIntegration
 from r37core.run_ups.revolutions import record_run_up
 from r37core.run_ups.schedule import RunUp
 from r37core.stress.recovery import stress_operator
@@ -242,19 +243,21 @@ def test_at_one_speed_a_run_up_is_the_run_at_that_speed(engine):
     model, choice = moved(3), replace(SHORT, time_step=2e-6, engine=engine)
     simulation = Simulation(model, 1000.0, growing(NARROW), choice)
     expected = simulation.advance(simulation.start(), 3).samples
-    march = March(model, growing(NARROW), choice, RunUp(1000.0, 1000.0, 1.0, 1, 1, worn=False))
-    np.testing.assert_array_equal(np.concatenate([stage.samples for stage in march.stages()]), expected)
+    integration = RunUpIntegration(model, growing(NARROW), choice, RunUp(1000.0, 1000.0, 1.0, 1, 1, worn=False))
+    np.testing.assert_array_equal(np.concatenate([stage.samples for stage in integration.stages()]), expected)
 
 
 def test_the_clearance_follows_the_speed():
     """A blade that nothing but its growth brings to the round lining begins to press it at the speed that closes the gap."""
     model = replace(random_blade(1), rotation_shapes=np.array([[[1e-10]], [[0.0]], [[0.0]]]), tip_cone_angle=0.0)
     scene = growing(NARROW, clearance=1.21e-4, lobes=0)
-    march = March(model, scene, replace(SHORT, time_step=2e-6), RunUp(1000.0, 1200.0, 20.0, 1, 1, worn=False))
-    touching = np.concatenate([stage.speeds[stage.wear > 0.0] for stage in march.stages()])
+    integration = RunUpIntegration(model, scene, replace(SHORT, time_step=2e-6), RunUp(1000.0, 1200.0, 20.0, 1, 1, worn=False))
+    touching = np.concatenate([stage.speeds[stage.wear > 0.0] for stage in integration.stages()])
     assert touching.min() == pytest.approx(1100.0, abs=2.0)
     with pytest.raises(NoRoomError, match="at 1200 rad/s"):
-        March(model, replace(scene, lining=None), replace(SHORT, time_step=2e-6), RunUp(1000.0, 1200.0, 20.0, 1, 1, worn=False))
+        RunUpIntegration(
+            model, replace(scene, lining=None), replace(SHORT, time_step=2e-6), RunUp(1000.0, 1200.0, 20.0, 1, 1, worn=False)
+        )
 
 
 # stress of rotation

@@ -1,16 +1,19 @@
 """Code hashes: what a rule's script imports and nothing else, without comments and docstrings."""
 
+import dis
 import functools
+import inspect
 import re
 import subprocess
 import sys
+from importlib import import_module
 
 import pytest
 
 from r37core import kept
-from r37core.figures.reporting import drawing
 from r37core.plans import code as code_module
 from r37core.plans.code import CodeHashes, fingerprint
+from r37core.product.reporting import drawing
 
 SCRIPT = "from job import run\nfrom r37core.a import f\n"
 
@@ -21,6 +24,7 @@ def tree(tmp_path):
     files = {
         "scripts/job.py": "import os\n",
         "scripts/one.py": SCRIPT,
+        "scripts/step.py": "import job\n",
         "src/r37core/__init__.py": "__version__ = '1'\n",
         "src/r37core/a.py": "from .b.c import g\n\n\ndef f():\n    from r37core import late\n    return late, g\n",
         "src/r37core/late.py": "import r37core.b.d as d\n",
@@ -98,72 +102,165 @@ def test_what_is_kept_of_files_may_be_lost_or_damaged(tree, tmp_path, monkeypatc
     assert hashes(tree)("one") == before
 
 
+STEPS = """
+from r37core.a import f
+from r37core.b import c, d
+import r37core.other as others
+
+LEVEL = 3
+
+
+def first(input, output, params):
+    return f(_level())
+
+
+def second(input, output, params):
+    return d.f(others.y)
+
+
+def _level():
+    return LEVEL
+"""
+
+
+@pytest.mark.parametrize(
+    ("file", "old", "new", "first", "second"),
+    [
+        ("steps.py", "f(_level())", "f(_level() + 1)", True, False),
+        ("steps.py", "LEVEL = 3", "LEVEL = 4", True, False),
+        ("steps.py", "return LEVEL", "return LEVEL + 1", True, False),
+        ("steps.py", "others.y", "others.z", False, True),
+        ("steps.py", "LEVEL = 3", "LEVEL = 3\nUNUSED = 4", False, False),
+        ("steps.py", "LEVEL = 3", "LEVEL = 3\nc.x = 4", True, True),
+        ("a.py", "return late, g", "return g", True, False),
+        ("late.py", "as d", "as e", True, False),
+        ("other.py", "y = 1", "y = 2", False, True),
+        ("b/d.py", "x = 1", "x = 2", True, True),
+        ("b/__init__.py", "", "z = 1\n", True, True),
+    ],
+)
+def test_of_a_step_only_what_it_uses_counts(tree, file, old, new, first, second):
+    (tree / "src/r37core/steps.py").write_text(STEPS)
+    before = [hashes(tree).step(f"steps.{name}") for name in ("first", "second")]
+    assert [one["step"] for one in before] == ["r37core.steps.first", "r37core.steps.second"]
+    edited = tree / "src/r37core" / file
+    assert old in edited.read_text()
+    edited.write_text(edited.read_text().replace(old, new, 1))
+    after = [hashes(tree).step(f"steps.{name}") for name in ("first", "second")]
+    assert [one != other for one, other in zip(before, after, strict=True)] == [first, second]
+
+
 @pytest.fixture(scope="module")
 def rules(root):
-    """Rule -> (script, names given to code(...)), from the rules' files; of a figure, the script and its module."""
+    """Rule -> names of its code, from the rules' files: of a figure, the step that draws and the module of its function."""
     text = "".join(file.read_text() for file in sorted((root / "workflow/rules").rglob("*.smk")))
     found = {}
-    for block in re.split(r"^(?:rule|checkpoint|use rule \w+ as) ", text, flags=re.MULTILINE)[1:]:
-        script = re.search(r'script(?::\s+"[./]*scripts/|=SCRIPTS / ")(\w+)\.py"', block)
-        drawn = re.search(r'drawing\(code, "(\w+)\.\w+"', block)
-        rule = re.match(r"\w+", block)[0]
+    for block in re.split(r"^(?=rule |checkpoint |use rule )", text, flags=re.MULTILINE)[1:]:
+        rule = re.match(r"(?:rule|checkpoint|use rule \w+ as) (\w+)", block)[1]
+        steps = re.findall(r'\*\*step\("([\w.]+)"\)', block)
+        drawn = re.findall(r'drawing\(\s*code,\s*"([\w.]+)\.\w+"', block)
+        needed = re.match(r"use rule (step|figure) as|(?:(?!\nfor )[\s\S])*scripts/step\.py", block) is not None
+        assert len(steps) + len(drawn) == (needed and rule not in ("step", "figure")), rule
         if drawn:
-            found[rule] = ("figure", f"r37core.figures.{drawn[1]}"), [("figure", f"r37core.figures.{drawn[1]}")]
-        elif script and rule != "figure":
-            found[rule] = (script[1],), [(name,) for name in re.findall(r'code=code\("(\w+)"\)', block)]
-    return found
+            found[rule] = ("step", "r37core.figures.steps.draw", f"r37core.{drawn[0]}")
+        elif steps:
+            found[rule] = ("step", f"r37core.{steps[0]}")
+    return found | {"simulate": ("simulate",)}
 
 
-def test_every_rule_has_the_code_of_its_script(rules):
+def test_every_rule_of_a_step_names_one_that_is_there(rules):
     assert len(rules) > 25
-    assert {rule: given for rule, (script, given) in rules.items() if given != [script]} == {}
+    for names in rules.values():
+        for name in names[1:2]:
+            module, function = name.rsplit(".", 1)
+            assert list(inspect.signature(getattr(import_module(module), function)).parameters) == ["input", "output", "params"]
 
 
 def test_a_figure_s_parameters_have_the_code_of_its_module(root):
     code = CodeHashes(root / "src", root / "workflow/scripts")
-    assert drawing(code, "maps.draw_map")["code"] == code("figure", "r37core.figures.maps") != code("figure")
-    names = {file.name for file in code.closure("figure", "r37core.figures.maps")}
+    step = "r37core.figures.steps.draw"
+    assert drawing(code, "figures.maps.draw_map")["code"] == code("step", step, "r37core.figures.maps") != code("step", step)
+    names = {file.name for file in code.closure("step", step, "r37core.figures.maps")}
     assert "maps.py" in names
-    assert not {"waterfall.py", "comparison.py", "response_curves.py"} & names
+    assert not {"waterfall.py", "comparison.py", "response_curves.py", "blade_shapes.py"} & names
 
 
 def test_every_rule_runs_again_for_the_modules_of_its_closure_and_no_other(root, rules, monkeypatch):
     code = CodeHashes(root / "src", root / "workflow/scripts")
     modules = [*(root / "src/r37core").rglob("*.py"), *(root / "workflow/scripts").glob("*.py")]
     modules.remove(root / "src/r37core/__init__.py")
-    scripts = {script for script, _ in rules.values()}
+    scripts = set(rules.values())
     before = {script: code(*script) for script in scripts}
     closures = {script: set(code.closure(*script)) for script in scripts}
     for edited in modules:
         monkeypatch.setattr(
-            code_module, "fingerprint", lambda file, edited=edited: b"edited" if file == edited else fingerprint(file)
+            code_module,
+            "fingerprint",
+            lambda file, function, edited=edited: b"edited" if file == edited else fingerprint(file, function),
         )
         assert {script for script in scripts if code(*script) != before[script]} == {
             script for script in scripts if edited in closures[script]
         }
 
 
-@pytest.mark.parametrize("script", ["simulate", "prepare_time_integration", "response", "mesh", "summary", "study"])
-def test_the_closure_has_all_that_python_loads(root, script):
+def modules_used(function):
+    """Modules of the package whose objects a function uses, directly or by others of its own module, from its bytecode."""
+    waiting, found, seen = [function.__code__], set(), set()
+    while waiting:
+        code = waiting.pop()
+        seen.add(code)
+        waiting += [one for one in code.co_consts if inspect.iscode(one)]
+        names = {one.argval for one in dis.get_instructions(code) if one.opname == "LOAD_GLOBAL"}
+        for value in filter(None, map(function.__globals__.get, names)):
+            module = getattr(value, "__name__" if inspect.ismodule(value) else "__module__", None) or ""
+            if module == function.__module__ and inspect.isfunction(value):
+                waiting += {value.__code__} - seen
+            elif module.startswith("r37core"):
+                found.add(module)
+    return found
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        "simulate",
+        "r37core.time_integration.speed_job.prepare",
+        "r37core.results.steps.response",
+        "r37core.fem.steps.mesh",
+        "r37core.results.steps.summary",
+        "r37core.studies.steps.report",
+        "r37core.run_ups.steps.record",
+        "r37core.exports.steps.stress",
+    ],
+)
+def test_the_closure_has_all_that_python_loads(root, name):
     # as Python names the files: `src` is a link
     core = (root / "src/r37core").resolve()
-    lines = (root / f"workflow/scripts/{script}.py").read_text().splitlines()
-    imports = "\n".join(line for line in lines if re.match(r"(from|import) r37core", line))
+    if name == "simulate":
+        lines = (root / f"workflow/scripts/{name}.py").read_text().splitlines()
+        imports = "\n".join(line for line in lines if re.match(r"(from|import) r37core", line))
+    else:
+        module, function = name.rsplit(".", 1)
+        imports = "\n".join(f"import {used}" for used in modules_used(getattr(import_module(module), function)))
     listed = "print(*(m.__file__ for n, m in sys.modules.items() if n.startswith('r37core') and m.__file__), sep='\\n')"
     done = subprocess.run(
         [sys.executable, "-c", f"import sys\n{imports}\n{listed}"], capture_output=True, text=True, check=True
     )
     loaded = set(done.stdout.split()) - {str(core / "__init__.py")}
     assert len(loaded) > 3
-    assert loaded <= {str(file) for file in CodeHashes(core.parent, root / "workflow/scripts").closure(script)}
+    assert loaded <= {str(file) for file in CodeHashes(core.parent, root / "workflow/scripts").closure(name)}
 
 
 def test_stages_do_not_share_more_than_they_need(root):
     """A new figure re-runs no simulation, a new time integration no mesh, and the models of the configuration neither."""
     code = CodeHashes(root / "src", root / "workflow/scripts")
-    used = {
-        script: {file.parent.name for file in code.closure(script)} for script in ("mesh", "simulate", "response", "study_case")
+    names = {
+        "mesh": "r37core.fem.steps.mesh",
+        "simulate": "simulate",
+        "response": "r37core.results.steps.response",
+        "study_case": "r37core.studies.steps.case",
     }
+    used = {stage: {file.parent.name for file in code.closure(name)} for stage, name in names.items()}
     assert not {"time_integration", "contact", "results", "figures", "studies", "config", "workflow"} & used["mesh"]
     assert not {"mesh", "fem", "blade", "results", "figures", "studies", "config", "workflow"} & used["simulate"]
     assert not {"figures", "studies", "config", "workflow"} & used["response"]

@@ -7,14 +7,15 @@ import sys
 
 import pytest
 
-from r37core.config import ConfigError, command_line_document, load_settings, read_document, read_settings
-from r37core.config.schemas import schemas
+from r37core.config import ConfigError, command_line_document, read_document
+from r37core.product.reading import load_settings, read_settings
+from r37core.product.schemas import schemas
 
 FILES = ("config", "blades", "scenes", "fidelity")
 
 
 def test_schemas_are_fresh(root):
-    """`python -m r37core.config.schemas` renews them."""
+    """`python -m r37core.product.schemas` renews them."""
     folder = root / "config/schemas"
     assert {file.name: file.read_text() for file in folder.iterdir()} == schemas()
 

@@ -7,8 +7,9 @@ import subprocess
 import pytest
 from conftest import CHECKOUT
 
-from r37core.config import ConfigError, read_document, read_settings
-from r37core.config.reference import UNIT_OF_SUFFIX, filled, tables
+from r37core.config import ConfigError, read_document
+from r37core.product.reading import read_settings
+from r37core.product.reference import UNIT_OF_SUFFIX, filled, tables
 from r37core.units import SUFFIXES
 
 
@@ -28,7 +29,7 @@ def rows():
 
 
 def test_the_page_is_fresh(page):
-    """`python -m r37core.config.reference` renews it."""
+    """`python -m r37core.product.reference` renews it."""
     assert filled(page) == page
 
 
@@ -76,7 +77,7 @@ def test_the_file_of_the_page_lies_on_top_of_the_shipped_one(page, config_copy):
     (config_copy / "config/my.yaml").write_text(text)
     settings = read_settings(config_copy, read_document(config_copy, "config/my.yaml"))
     assert (settings.blade_names, settings.scene_names) == (["Ref", "CS50"], ["abradable"])
-    assert (settings.campbell.modes, settings.campbell.highest_engine_order) == (12, 20)
+    assert (settings.config.campbell.modes, settings.config.campbell.highest_engine_order) == (12, 20)
     assert settings.results.parts == ("results", "runs", "my_sweep")
     (config_copy / "config/my.yaml").write_text(text.replace("modes", "moods"))
     with pytest.raises(ConfigError, match=r"^config/my\.yaml:\d: campbell: found unknown key moods"):

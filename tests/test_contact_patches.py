@@ -9,14 +9,18 @@ from box_mesh import box_mesh
 from defaults import BoundaryChoice, IntegrationChoice, MatricesSource
 from integration_cases import ABRADABLE, DIRECT
 
-from r37core.config import ConfigError, command_line_document, read_settings
-from r37core.exchange.exporting.matrices_out import table_nodes, write_full_matrices, write_reduced_matrices
+from r37core.config import ConfigError, command_line_document
+from r37core.config.places import place_of_contact
+from r37core.config.remarks import remarks_on_points
 from r37core.exchange.importing.matrices_in import import_matrices
 from r37core.exchange.orientation import OURS
+from r37core.exports.matrices_out import table_nodes, write_full_matrices, write_reduced_matrices
 from r37core.fem.material import Material
 from r37core.fem.matrices import assemble
 from r37core.fem.traces import edge_traces, face_traces
-from r37core.rom.contact_weights import contact_weights, mean_places, weights_along
+from r37core.plans.provenance import structure_hash
+from r37core.product.reading import read_settings
+from r37core.rom.contact_weights import contact_weights, mean_positions, weights_along
 from r37core.rom.reduce import mean_fields, reduce_blade
 from r37core.rom.reduced_model import contact_model
 from r37core.rom.reduction_choice import BoundaryError, boundary_placed
@@ -99,7 +103,7 @@ def test_rigid_motion_and_moments(mesh, contact):
     means = weights @ mesh.points
     np.testing.assert_allclose(moved, shift + np.cross(turn, means), atol=1e-15)
     # where the patch is said to be, on the cone of the tip, lies within the sagitta of its width
-    assert np.linalg.norm(mean_places(mesh.points, weights) - means, axis=1).max() < 1e-4
+    assert np.linalg.norm(mean_positions(mesh.points, weights) - means, axis=1).max() < 1e-4
     force = np.array([10.0, -40.0, 25.0])
     forces = weights.toarray()[:, :, None] * force
     np.testing.assert_allclose(forces.sum(axis=1), np.tile(force, (4, 1)), rtol=1e-13)
@@ -308,14 +312,13 @@ def test_the_benchmark_has_points_and_every_other_blade_patches(with_blades):
     assert found == dict.fromkeys(("Ref", "L50", "L100", "S50", "S100", "CS50", "CS100"), "points") | own
     assert set(chosen(with_blades, structure={"boundary": {"contact": "area_patches"}}).values()) == {"area_patches"}
     settings = read_settings(with_blades)
-    assert settings.structure_hash("Mine") != read_settings(
-        with_blades, command_line_document({"structure": {"boundary": {"contact": "points"}}})
-    ).structure_hash("Mine")
+    on_points = read_settings(with_blades, command_line_document({"structure": {"boundary": {"contact": "points"}}}))
+    assert structure_hash(settings, "Mine") != structure_hash(on_points, "Mine")
 
 
 def test_direct_contact_on_points_is_told_at_the_end(with_blades):
     def told(**changes):
-        return read_settings(with_blades, command_line_document(changes)).remarks_on_points
+        return remarks_on_points(read_settings(with_blades, command_line_document(changes)))
 
     (remark,) = told(blades=["Ref", "S50", "Mine"])
     assert remark.startswith("direct: contact of 2 blades acts on points, as published, and changes with every finer mesh")
@@ -327,13 +330,13 @@ def test_direct_contact_on_points_is_told_at_the_end(with_blades):
 
 def test_the_place_that_chose_is_blamed(with_blades):
     settings = read_settings(with_blades)
-    assert settings.place_of_contact("Kept").endswith(": Kept.contact")
-    assert settings.place_of_contact("Kept").startswith("config/blades.yaml:")
+    assert place_of_contact(settings, "Kept").endswith(": Kept.contact")
+    assert place_of_contact(settings, "Kept").startswith("config/blades.yaml:")
     given = read_settings(with_blades, command_line_document({"structure": {"boundary": {"contact": "patches"}}}))
-    assert given.place_of_contact("Kept") == "--config: structure.boundary.contact"
+    assert place_of_contact(given, "Kept") == "--config: structure.boundary.contact"
     with (
         pytest.raises(BoundaryError, match=r"^--config: structure\.boundary\.contact: no room"),
-        boundary_placed(given.place_of_contact("Kept")),
+        boundary_placed(place_of_contact(given, "Kept")),
     ):
         raise BoundaryError("no room")
 

@@ -10,11 +10,12 @@ from integration_cases import ABRADABLE, DIRECT, assert_same_totals_and_wear, he
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
-from r37core.config import ConfigError, command_line_document, read_settings
+from r37core.config import ConfigError, command_line_document
+from r37core.product.reading import read_settings
 from r37core.rom.contact_model import ContactModel, read_contact_model, write_contact_model
 from r37core.rom.reduce import reduce_blade
 from r37core.rom.reduced_model import contact_model
-from r37core.run_ups.march import March
+from r37core.run_ups.integration import RunUpIntegration
 from r37core.run_ups.schedule import RunUp
 from r37core.studies.plan import Studies
 from r37core.time_integration import problem as problem_module
@@ -500,7 +501,7 @@ def test_central_differences_do_not_carry_it():
 
 def test_run_ups_do_not_carry_it():
     with pytest.raises(ValueError, match="run-ups do not carry the Coriolis force"):
-        March(coupled_model(), DIRECT, CHOICE, RunUp(1000.0, 1100.0, 5.0, 0, 0, worn=False))
+        RunUpIntegration(coupled_model(), DIRECT, CHOICE, RunUp(1000.0, 1100.0, 5.0, 0, 0, worn=False))
 
 
 WITH_CORIOLIS = {"structure": {"coriolis": True}}

@@ -11,7 +11,8 @@ import pytest
 from conftest import CHECKOUT
 from yaml import safe_load
 
-from r37core.config import command_line_document, read_settings
+from r37core.config import command_line_document
+from r37core.product.reading import read_settings
 from r37core.published import INTERACTIONS
 from r37core.studies.modelling_choices.cases import CHOICES, SHIPPED, VARIED
 from r37core.text_file import part_of

@@ -1,4 +1,4 @@
-"""A casing that gives way: closed forms of rings, the frame that does not turn, SciPy, energy, limits, files and refusals."""
+"""A flexible casing: closed forms of rings, the frame that does not turn, SciPy, energy, limits, files and refusals."""
 
 import runpy
 from dataclasses import replace
@@ -11,8 +11,9 @@ from integration_cases import ABRADABLE, DIRECT, assert_same_totals_and_wear, os
 from scipy.integrate import solve_ivp
 from test_coriolis import SCENES, coupled_model
 
-from r37core.config import ConfigError, checked_scene, command_line_document, read_settings
+from r37core.config import ConfigError, checked_scene, command_line_document
 from r37core.config.casing_remarks import of_left_out_modes, of_speeds
+from r37core.config.remarks import remarks_of_spine
 from r37core.contact.elastic_casing import (
     ElasticCasing,
     flexibility,
@@ -26,10 +27,11 @@ from r37core.figures.campbell_diagram import draw_campbell
 from r37core.figures.maps import draw_map
 from r37core.figures.style import plt
 from r37core.plain import to_plain
+from r37core.product.reading import read_settings
 from r37core.results.casing_coincidence import coincidence_table
 from r37core.results.datasets import write_sweep_dataset
 from r37core.results.response import write_response
-from r37core.run_ups.march import March
+from r37core.run_ups.integration import RunUpIntegration
 from r37core.run_ups.schedule import RunUp
 from r37core.time_integration import step_limit
 from r37core.time_integration.casing_waves import casing_waves
@@ -280,33 +282,37 @@ def test_a_run_up_of_no_rate_is_the_run_at_constant_speed():
     simulation = Simulation(model, 3000.0, scene, choice)
     state = simulation.start()
     record = simulation.advance(state, 3)
-    march = March(model, scene, choice, RunUp(3000.0, 3000.0 * (1.0 + 1e-12), 3, before=0, after=0, worn=False))
-    samples = np.concatenate([stage.samples for stage in march.stages()])
+    integration = RunUpIntegration(
+        model, scene, choice, RunUp(3000.0, 3000.0 * (1.0 + 1e-12), 3, before=0, after=0, worn=False)
+    )
+    samples = np.concatenate([stage.samples for stage in integration.stages()])
     np.testing.assert_allclose(samples, record.samples, rtol=0, atol=1e-8 * np.abs(record.samples).max())
 
 
 @pytest.mark.parametrize("engine", ["compiled", "reference"])
 def test_a_run_up_with_an_elastic_casing_keeps_its_balance(engine):
     choice = replace(CHOICE, revolutions=6, time_step=1e-6, engine=engine)
-    march = March(random_blade(), ELASTIC_SCENES["abradable"], choice, RunUp(3000.0, 3100.0, 2, before=0, after=0, worn=False))
-    for _ in march.stages():
+    integration = RunUpIntegration(
+        random_blade(), ELASTIC_SCENES["abradable"], choice, RunUp(3000.0, 3100.0, 2, before=0, after=0, worn=False)
+    )
+    for _ in integration.stages():
         pass
-    balance = march.balance()
+    balance = integration.balance()
     work, loss = balance["contact_work"], balance["damping_loss"]
-    missing = balance["energy_change"] - march.stiffness_work - work + loss
+    missing = balance["energy_change"] - integration.stiffness_work - work + loss
     assert work != 0.0
     assert abs(missing) < 1e-9 * (abs(work) + loss)
 
 
 @pytest.mark.parametrize("name", ["abradable", "direct"])
-def test_a_run_up_of_many_stretches_is_that_of_the_reference(name):
+def test_a_run_up_of_many_segments_is_that_of_the_reference(name):
     """Where the casing is in the rotor's frame goes on from stretch to stretch."""
     choice, found = replace(CHOICE, revolutions=3, time_step=5e-7, samples_per_revolution=31), []
     for engine in ("compiled", "reference"):
         run_up = RunUp(3000.0, 3300.0, 1.3, before=0, after=0, worn=False)
-        march = March(random_blade(), ELASTIC_SCENES[name], replace(choice, engine=engine), run_up)
-        found.append(np.concatenate([stage.samples for stage in march.stages()]))
-    assert max(len(segment.stretches) for segment in march.segments) > 10
+        integration = RunUpIntegration(random_blade(), ELASTIC_SCENES[name], replace(choice, engine=engine), run_up)
+        found.append(np.concatenate([stage.samples for stage in integration.stages()]))
+    assert max(len(interval.segments) for interval in integration.intervals) > 10
     np.testing.assert_allclose(found[0], found[1], rtol=0, atol=1e-10 * np.abs(found[1]).max())
 
 
@@ -476,7 +482,7 @@ RING = {"radius_m": 0.255, "thickness_m": 0.002, "width_m": 0.05, "elastic_modul
 def test_a_run_above_a_critical_speed_says_so(root, speed, ending):
     """That of the shipped ring is of 28 nodal diameters, more than its simulations have."""
     changes = {"scenes": ["elastic_abradable", "abradable"], "speeds": [speed]}
-    remarks = [one for one in read_settings(root, command_line_document(changes)).remarks if "overtakes" in one]
+    remarks = [one for one in remarks_of_spine(read_settings(root, command_line_document(changes))) if "overtakes" in one]
     begins = f"scene elastic_abradable: speeds up to {speed:g} rad/s; above 1809 the rotor overtakes waves of the casing, which"
     assert remarks == ([] if ending is None else [f"{begins} may then grow without bound{ending}"])
 

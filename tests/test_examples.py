@@ -3,7 +3,7 @@
 from pathlib import Path
 
 import pytest
-from workflow_runs import copy_project
+from workflow_runs import copy_project, own_package
 
 EXAMPLES = sorted((Path(__file__).parent.parent / "examples").glob("*.py"))
 
@@ -13,6 +13,7 @@ def shipped(root, tmp_path_factory):
     """A package whose shipped configuration has a small level."""
     folder = tmp_path_factory.mktemp("shipped")
     copy_project(root, folder)
+    own_package(folder)
     return folder / "src/r37"
 
 

@@ -29,11 +29,11 @@ def rising(speeds):
 def test_ranges_are_of_straight_lines():
     speeds = np.array([0.0, 10.0, 20.0, 30.0, 40.0])
     assert ranges_above(speeds, np.array([0.0, 1.0, 0.0, 0.0, 1.0]), 0.5) == [
-        SpeedRange(5.0, 15.0, cut=False), SpeedRange(35.0, 40.0, cut=True),
+        SpeedRange(5.0, 15.0, truncated=False), SpeedRange(35.0, 40.0, truncated=True),
     ]  # fmt: skip
     assert ranges_above(speeds, np.full(5, 0.5), 0.5) == []
-    both = [SpeedRange(5.0, 9.0, cut=False), SpeedRange(0.0, 6.0, cut=True), SpeedRange(9.5, 10.0, cut=False)]
-    assert joined(both) == [SpeedRange(0.0, 9.0, cut=True), SpeedRange(9.5, 10.0, cut=False)]
+    both = [SpeedRange(5.0, 9.0, truncated=False), SpeedRange(0.0, 6.0, truncated=True), SpeedRange(9.5, 10.0, truncated=False)]
+    assert joined(both) == [SpeedRange(0.0, 9.0, truncated=True), SpeedRange(9.5, 10.0, truncated=False)]
 
 
 @pytest.mark.parametrize("step", [1.0, 5.0, 10.0])
@@ -64,7 +64,7 @@ def test_shares_count_for_the_length_that_is_nearest_to_them():
 def test_a_lined_blade_s_shares_are_taken_as_they_are():
     speeds = np.array([900.0, 901.0, 902.0, 903.0])
     found = Exceedance(speeds, np.array([0.0, 1.0, 1.0, 0.0]), chance=False)
-    assert found.ranges(CERTAIN) == [SpeedRange(900.5, 902.5, cut=False)]
+    assert found.ranges(CERTAIN) == [SpeedRange(900.5, 902.5, truncated=False)]
     assert np.isnan(found.scatter_of_length(CERTAIN))
     assert np.isnan(found.scatter_of_border(CERTAIN, found.ranges(CERTAIN)[0], begins=True))
 

@@ -11,13 +11,13 @@ from box_mesh import plate
 from defaults import MeshSource, Orientation, Where
 from scipy import constants
 
-from r37core.exchange.exporting.write_mesh import write_mesh
 from r37core.exchange.importing.abaqus_reader import read_abaqus
 from r37core.exchange.importing.import_mesh import _READERS, import_mesh
 from r37core.exchange.importing.meshio_reader import quietly
 from r37core.exchange.importing.source import MASS_UNITS, STIFFNESS_UNITS, SUFFIXES, digest_of, mesh_files
 from r37core.exchange.orientation import UNITS
 from r37core.exchange.refusal import ImportRefused, MeshWarning, placed
+from r37core.exchange.write_mesh import write_mesh
 from r37core.fem.abaqus_deck import write_abaqus
 from r37core.fem.elements import ELEMENTS
 from r37core.fem.material import Material

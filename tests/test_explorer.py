@@ -10,10 +10,11 @@ import pytest
 import xarray as xr
 from browser import opened
 from explorer_cases import BLADES, SCENES, SPEEDS, beside, interaction_rows, sweep
-from workflow_runs import copy_project, planned
+from plans_of_snakemake import planned
+from workflow_runs import copy_project
 
 from r37core.explorer import write_page
-from r37core.explorer.contents import explorer_contents, joined, order_bins, packed, rounded, stretches
+from r37core.explorer.contents import bin_starts, explorer_contents, joined, order_bins, packed, rounded
 from r37core.results.table_file import read_table
 from r37core.time_integration.status import RunStatus
 
@@ -86,9 +87,9 @@ def test_rounding_of_maps():
 
 def test_thinning_keeps_the_largest():
     values = np.array([1.0, np.nan, 5.0, 2.0, np.nan, np.nan])
-    np.testing.assert_array_equal(joined(values, 0, stretches(6, 3)), [1.0, 5.0, np.nan])
-    assert len(stretches(1251, 400)) <= 400
-    np.testing.assert_array_equal(stretches(5, 400), np.arange(5))
+    np.testing.assert_array_equal(joined(values, 0, bin_starts(6, 3)), [1.0, 5.0, np.nan])
+    assert len(bin_starts(1251, 400)) <= 400
+    np.testing.assert_array_equal(bin_starts(5, 400), np.arange(5))
     orders = np.arange(0.0, 1.001, 0.01)
     starts = order_bins(orders)
     assert len(starts) == 11
@@ -138,8 +139,8 @@ def test_what_was_not_computed_is_left_out(datasets, interactions, tmp_path):
 
 
 def test_contents_have_the_members_of_a_sample(datasets, interactions, tolerances):
-    contents = explorer_contents(datasets | {"tolerances": tolerances}, interactions)
-    found = contents.pop("tolerances")
+    contents = explorer_contents(datasets | {"members": tolerances}, interactions)
+    found = contents.pop("sample")
     assert contents == explorer_contents(datasets, interactions)
     assert found["pairs"] == [["Ref", "abradable"], ["L<50>", "abradable"]]
     assert found["members"] == [66, 66]
@@ -166,7 +167,7 @@ def page(request, datasets, interactions, tolerances, ranged, tmp_path_factory):
     """The page in headless Chromium, with members where a test asks for them; a message in its console is an error."""
     file = tmp_path_factory.mktemp("explorer") / "explorer.html"
     members = getattr(request, "param", "") == "members"
-    given = (datasets | {"tolerances": tolerances}, ranged) if members else (datasets, interactions)
+    given = (datasets | {"members": tolerances}, ranged) if members else (datasets, interactions)
     contents = explorer_contents(*given, [("Ref", "abradable")], benchmark_scenes=["abradable"])
     write_page(contents, "r37 <trial>", file)
     with opened(file, viewport={"width": 1500, "height": 1400}) as page:
@@ -285,7 +286,7 @@ def test_it_opens_at_the_strongest_interaction(page, datasets, interactions, tmp
 @pytest.mark.parametrize("width", [390, 1400])
 def test_it_fits_the_screen(page, datasets, tolerances, ranged, tmp_path, width):
     """Without scrolling sideways, and with plotly's buttons clear of what is drawn."""
-    contents = explorer_contents(datasets | {"tolerances": tolerances}, ranged, [("Ref", "abradable")])
+    contents = explorer_contents(datasets | {"members": tolerances}, ranged, [("Ref", "abradable")])
     place = "#quantity=share_of_time_in_contact&all=true"
     with beside(page, contents, tmp_path / "explorer.html", (width, 844), place) as other:
         assert other.evaluate("document.documentElement.scrollWidth") <= width

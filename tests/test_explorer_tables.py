@@ -9,16 +9,16 @@ import yaml
 from browser import opened
 from explorer_cases import beside, interaction_rows, sweep
 
-from r37core.config import read_settings
 from r37core.config.scenes import Scenes
 from r37core.contact.benchmark import LINED, is_lined_benchmark
 from r37core.explorer import write_page
 from r37core.explorer.contents import explorer_contents
 from r37core.plans.sweep_plan import Sweep
+from r37core.product.reading import read_settings
 from r37core.results import glossary
 from r37core.results.interaction import COLUMNS
+from r37core.results.ranges import RANGES
 from r37core.results.ranking import ROBUSTNESS
-from r37core.tolerances.table import RANGES
 
 RANKING = pd.DataFrame(
     [

@@ -14,11 +14,11 @@ import scipy.sparse as sp
 import scipy.sparse.linalg as spl
 from defaults import MatricesSource, Orientation
 
-from r37core.exchange.exporting.fields import Target, WorstInstant, worst_instants, write_modes, write_stress
-from r37core.exchange.exporting.matrices_out import write_full_matrices, write_reduced_matrices
+from r37core.exchange.fields import Target, WorstInstant, worst_instants, write_modes, write_stress
 from r37core.exchange.importing.matrices_in import import_matrices
 from r37core.exchange.importing.matrix_file import read_matrix
 from r37core.exchange.refusal import ImportRefused
+from r37core.exports.matrices_out import write_full_matrices, write_reduced_matrices
 from r37core.results.campbell import campbell_diagram
 from r37core.rom.reduce import reduce_blade
 from r37core.rom.reduced_model import contact_model

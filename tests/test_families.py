@@ -4,13 +4,17 @@ import numpy as np
 import pandas as pd
 import pytest
 import xarray as xr
-from stubbed_runs import copy_stubbed, planned_outputs
+from plans_of_snakemake import planned_outputs
+from stubbed_runs import copy_stubbed
 
-from r37core.config import ConfigError, command_line_document, read_settings
+from r37core.config import ConfigError, command_line_document
 from r37core.config.families import design_name
-from r37core.figures.design_plot import draw_designs
-from r37core.plans.family_plan import Families
-from r37core.results.designs import MEASURES, design_table
+from r37core.designs.figures import draw_designs
+from r37core.designs.plan import Families, families
+from r37core.designs.table import MEASURES, design_table
+from r37core.plans.sweep_plan import Sweep
+from r37core.product.reading import read_settings
+from r37core.run_ups.plan import RunUps
 from r37core.time_integration.status import RunStatus
 
 SWEEP = "Sweep:\n  base: S100\n  vary:\n    sweep_percent: { start: -50, stop: 150, step: 100 }\n"
@@ -43,7 +47,11 @@ def test_a_range_becomes_blades_with_readable_names(read):
 def test_run_ups_of_a_family_are_those_of_its_designs(read):
     run_ups = {"up": {"from_rad_s": 900, "to_rad_s": 1000, "revolutions": 50, "blades": ["Sweep"]}}
     settings = read(SWEEP, blades=["Ref", "Sweep"], run_ups=run_ups)
-    assert [name for name in settings.blades if settings.run_ups[name, "direct"]] == ["Sweep_-50", "Sweep_50", "Sweep_150"]
+    assert [name for name in settings.blades if RunUps(Sweep(settings)).choices[name, "direct"]] == [
+        "Sweep_-50",
+        "Sweep_50",
+        "Sweep_150",
+    ]
 
 
 def test_lean_is_scaled_apart_from_sweep(read):
@@ -54,7 +62,7 @@ def test_lean_is_scaled_apart_from_sweep(read):
 
 def test_a_grid_has_every_value_with_every_other(read):
     settings = read(GRID)
-    assert list(settings.families["Grid"].designs) == ["Grid_-2p5_8000", "Grid_-2p5_4500", "Grid_5_8000", "Grid_5_4500"]
+    assert list(families(settings)["Grid"].designs) == ["Grid_-2p5_8000", "Grid_-2p5_4500", "Grid_5_8000", "Grid_5_4500"]
     assert settings.blades["Grid_5_4500"].material.density == 4500.0
     assert settings.blades["Grid_5_4500"].material.youngs_modulus == 180e9
     assert settings.blades["Grid_-2p5_8000"].definition.chordwise_sweep_angle == pytest.approx(np.radians(-2.5))
@@ -75,13 +83,13 @@ def test_a_table_has_one_design_a_row(read):
     table = "blade,chordwise_sweep_deg,material.density_kg_m3\nForward,5,8000\nBack-1,-5,7.5e3\n"
     settings = read("Mine: { base: Ref, designs: config/designs.csv }\n", table, blades=["Mine", "Ref"])
     assert list(settings.blades) == ["Forward", "Back-1", "Ref"]
-    assert settings.families["Mine"].designs == {"Forward": (5.0, 8000.0), "Back-1": (-5.0, 7500.0)}
+    assert families(settings)["Mine"].designs == {"Forward": (5.0, 8000.0), "Back-1": (-5.0, 7500.0)}
     assert settings.blades["Back-1"].material.density == 7500.0
 
 
 def test_a_family_of_which_nothing_is_run_is_not_compared(read):
     settings = read(SWEEP, blades=["Ref"])
-    assert settings.families == {}
+    assert families(settings) == {}
     assert Families(settings).designs == {}
 
 
@@ -201,5 +209,5 @@ def test_a_family_s_designs_run_alone(root, tmp_path):
     blades.write_text(blades.read_text() + "\n" + SWEEP)
     jobs = planned_outputs(tmp_path)
     assert {name for file in jobs["simulate"] for name in file.split("/")[:1]} == {"Ref", "Sweep_-50", "Sweep_50", "Sweep_150"}
-    assert jobs["designs"] == {"designs.csv"}
+    assert jobs["design_table"] == {"designs.csv"}
     assert jobs["design_figure"] == {"figures/designs_Sweep.png"}

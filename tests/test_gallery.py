@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from r37core.config import ConfigError, command_line_document, read_settings
-from r37core.figures.captions import CAPTIONS
+from r37core.config import ConfigError, command_line_document
+from r37core.product.captions import CAPTIONS
+from r37core.product.reading import read_settings
 from r37core.published import BLADES, DIRECT_PEAK, INTERACTIONS, QUIET
 from r37core.studies.checks import Check, claim
 from r37core.studies.gallery.cases import COARSE, FINE, ITEMS, Item, cases, inputs, outputs, values

@@ -10,12 +10,12 @@ from box_mesh import plate
 from defaults import MeshSource, Orientation, Where
 
 from r37core.config.imported_entry import MeshEntry
-from r37core.exchange.exporting.write_mesh import write_mesh
 from r37core.exchange.importing.abaqus_reader import read_abaqus
 from r37core.exchange.importing.import_mesh import import_mesh
 from r37core.exchange.importing.source import mesh_files
 from r37core.exchange.orientation import OURS
 from r37core.exchange.refusal import ImportRefused, MeshWarning
+from r37core.exchange.write_mesh import write_mesh
 from r37core.fem.abaqus_deck import write_abaqus
 from r37core.fem.elements import ELEMENTS
 from r37core.fem.material import Material

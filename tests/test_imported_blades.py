@@ -8,13 +8,16 @@ import pytest
 import yaml
 from defaults import Where
 
-from r37core.config import ConfigError, read_settings
+from r37core.config import ConfigError
+from r37core.config.places import places_of
 from r37core.exchange.orientation import OURS
+from r37core.exports.plan import Exports, targets
 from r37core.plain import to_plain
-from r37core.plans.export_plan import Exports
 from r37core.plans.import_plan import Imported
 from r37core.plans.paths import filled
+from r37core.plans.provenance import structure_hash
 from r37core.plans.sweep_plan import Sweep
+from r37core.product.reading import read_settings
 from r37core.studies.plan import blade_of
 
 MATERIAL = {"youngs_modulus_pa": 115e9, "density_kg_m3": 4430.0, "poissons_ratio": 0.32, "yield_stress_pa": 9e8}
@@ -70,16 +73,16 @@ def test_a_mesh(settings_with, config_copy):
     choice = settings.reduction_choice("Fan")
     assert (choice.stress_submesh.maximum_x, choice.stress_submesh.excluded_layers) == (np.inf, 1)
     assert choice.boundary.contact == "patches"
-    before = settings.structure_hash("Fan")
+    before = structure_hash(settings, "Fan")
     (config_copy / "meshes/more.inc").write_text("1, 0, 0, 1\n")
-    assert read_settings(config_copy).structure_hash("Fan") != before
+    assert structure_hash(read_settings(config_copy), "Fan") != before
 
 
 def test_a_mesh_with_another_material(settings_with):
     settings = settings_with(MESH, {"Heavy": {"base": "Fan", "material": {"density_kg_m3": 4500}}}, blades=("Fan", "Heavy"))
     assert settings.blades["Heavy"].material.density == 4500.0
     assert settings.blades["Heavy"].definition == settings.blades["Fan"].definition
-    assert settings.places["Heavy"]["root"].endswith(": Fan.root")
+    assert places_of(settings, "Heavy")["root"].endswith(": Fan.root")
 
 
 @pytest.mark.parametrize(
@@ -217,7 +220,7 @@ def test_plan_of_exports(three):
     imported, sweep = three
     config = sweep.settings.config.model_copy(update={"speeds": [900.0, 950.5]})
     exports = Exports(imported, replace(sweep, settings=replace(sweep.settings, config=config)))
-    files = {file.removeprefix("<results>/exports/") for file in filled(exports.targets)}
+    files = {file.removeprefix("<results>/exports/") for file in filled(targets(exports.sweep))}
     assert {"Ref/surface.step", "Ref/modes", "Fan/mesh.med", "Fan/stress_direct", "Given/matrices"} <= files
     assert not files & {"Fan/surface.step", "Given/mesh.med", "Given/modes", "Given/stress_direct"}
     fan = SimpleNamespace(blade="Fan", scene="direct", tip_line="camber")

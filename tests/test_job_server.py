@@ -1,6 +1,7 @@
 """Jobs in a server that has imported what they need: same output and status, and by themselves without one."""
 
 import os
+import pickle
 import signal
 import socket
 import subprocess
@@ -227,3 +228,14 @@ def test_what_jobs_have_in_common_is_loaded_in_the_server(serve, starter):
     command = [sys.executable, "-S", "-E", starter, str(script)]
     said = [subprocess.run([*command, what], capture_output=True, text=True, timeout=20).stdout for what in ("1", "one", "2")]
     assert said == ["['1']\n", "['1', 'one']\n", "['1', 'one', '2']\n"]
+
+
+def test_what_a_job_s_parameters_name_is_there_before_it(start, starter, root):
+    """Of a step, whose script names no module: the line that Snakemake puts before its copy does."""
+    parameters = {"step": "r37core.blade.steps.geometry", "draw": "r37core.figures.maps.draw_map", "other": "r37core.none"}
+    line = f"import pickle; parameters = pickle.loads({pickle.dumps(parameters, protocol=4)})\n"
+    Path("copy.py").write_text(f"{line}import sys\nprint(*(name in sys.modules for name in sys.argv[1:]))\n")
+    modules = ["r37core.blade.steps", "r37core.figures.maps", "r37core.rom.steps"]
+    command = [sys.executable, "-S", "-E", starter, "copy.py", *modules]
+    job = subprocess.run(command, capture_output=True, text=True, timeout=20)
+    assert job.stdout == "True True False\n", job.stderr

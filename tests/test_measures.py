@@ -98,7 +98,7 @@ def test_lobes_and_first_contact():
 def test_the_range_above_yield_is_that_of_straight_lines(ratio, first, last, length, cut):
     found = measures.range_above_yield(100.0 + 10.0 * np.arange(len(ratio)), np.array(ratio))
     assert (found.first, found.last, found.length) == pytest.approx((first, last, length), nan_ok=True)
-    assert found.cut == cut
+    assert found.truncated == cut
     width = 0.0 if np.isnan(first) else last - first
     assert found.width == pytest.approx(width)
     assert found.share == pytest.approx(length / width if width else np.nan, nan_ok=True)

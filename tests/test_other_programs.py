@@ -1,4 +1,4 @@
-"""The march against SciPy's solve_ivp, and what another program is told of a blade: benchmarks/other_programs.py, small."""
+"""The time integration against SciPy's solve_ivp, and what others get of a blade: benchmarks/other_programs.py, small."""
 
 import os
 import sys
@@ -29,7 +29,7 @@ def benchmarks():
 
 
 FLEXIBILITY = 2e-7
-"""Of static modes (m/N), which the march has beside those of the equations of motion."""
+"""Of static modes (m/N), which the time integration has beside those of the equations of motion."""
 
 SLOW, FAST = np.linspace(6e3, 1e5, 10), np.linspace(3e6, 5e6, 14)
 """Frequencies (rad/s)."""
@@ -65,7 +65,7 @@ def in_series(scene):
     return replace(scene, lining=replace(lining, elastic_modulus=modulus))
 
 
-def march(model, scene, steps, integrator, static_above=1.0):
+def integrated(model, scene, steps, integrator, static_above=1.0):
     """Samples of the leading edge and wear after a revolution of so many steps."""
     choice = IntegrationChoice(
         TIMES[-1] / steps, 1, SAMPLES, integrator=integrator, engine="reference", static_above=static_above
@@ -92,12 +92,12 @@ def error(found, exact):
 
 
 @pytest.mark.parametrize(("integrator", "order", "largest"), [(EXACT_MODAL, 2.0, 1e-4), (CENTRAL_DIFFERENCE, 1.0, 5e-2)])
-def test_on_bars_that_do_not_yield_the_march_has_the_order_that_it_claims(model, integrator, order, largest):
+def test_on_bars_that_do_not_yield_the_integration_has_the_order_that_it_claims(model, integrator, order, largest):
     from equations_of_motion import blade_of, without_yield
 
     blade, seen = held(model, integrator)
     exact = without_yield(blade_of(model, SPEED, seen(SCENE), np.inf), TIMES, rtol=1e-9, atol=1e-14)
-    errors = [error(march(blade, SCENE, steps, integrator)[0], exact) for steps in (1000, 2000, 4000)]
+    errors = [error(integrated(blade, SCENE, steps, integrator)[0], exact) for steps in (1000, 2000, 4000)]
     assert errors[0] < largest
     assert order_of(errors) == pytest.approx(order, abs=0.35), errors
 
@@ -107,10 +107,10 @@ def test_a_casing_that_rises(model):
 
     rising = replace(SCENE, casing=replace(SCENE.casing, rise_fraction=0.5))
     exact = without_yield(blade_of(model, SPEED, in_series(rising), TIMES[-1]), TIMES, rtol=1e-9, atol=1e-14)
-    assert error(march(with_static_modes(model, FLEXIBILITY), rising, 4000, EXACT_MODAL)[0], exact) < 1e-3
+    assert error(integrated(with_static_modes(model, FLEXIBILITY), rising, 4000, EXACT_MODAL)[0], exact) < 1e-3
 
 
-def test_on_bars_that_wear_the_march_is_of_first_order(model):
+def test_on_bars_that_wear_the_integration_is_of_first_order(model):
     """In motion and wear: what a node does on a bar after its last step there goes unseen."""
     from equations_of_motion import blade_of, with_wear
 
@@ -118,7 +118,7 @@ def test_on_bars_that_wear_the_march_is_of_first_order(model):
     exact, wear = with_wear(blade_of(model, SPEED, in_series(scene), np.inf), TIMES, rtol=1e-8, atol=1e-13)
     assert np.count_nonzero(wear) > 4
     blade = with_static_modes(model, FLEXIBILITY)
-    runs = [march(blade, scene, BARS * parts, EXACT_MODAL) for parts in (25, 50, 100)]
+    runs = [integrated(blade, scene, BARS * parts, EXACT_MODAL) for parts in (25, 50, 100)]
     for which, truth in ((0, exact), (1, wear)):
         errors = [error(run[which], truth) for run in runs]
         assert errors[-1] < 1e-2
@@ -130,7 +130,7 @@ def test_springs_with_dashpots_lead_to_the_multipliers_of_direct_contact(model):
     from equations_of_motion import against_spring, blade_of
 
     scene = replace(SCENE, lining=None)
-    ours = march(model, scene, 8000, CENTRAL_DIFFERENCE)[0][:HALF]
+    ours = integrated(model, scene, 8000, CENTRAL_DIFFERENCE)[0][:HALF]
     blade = blade_of(model, SPEED, scene, np.inf)
     found = [against_spring(blade, TIMES[:HALF], k, 2.0, rtol=1e-6, atol=1e-12) for k in (1e7, 1e8, 1e9, 1e10)]
     errors = [error(one, ours) for one in found]
@@ -138,14 +138,14 @@ def test_springs_with_dashpots_lead_to_the_multipliers_of_direct_contact(model):
     assert errors[0] > 5 * errors[-1]
 
 
-def test_in_direct_contact_the_march_is_on_the_springs_of_its_static_modes(model):
+def test_in_direct_contact_the_integration_is_on_the_springs_of_its_static_modes(model):
     """Second order; nothing is lost in an impact."""
     from equations_of_motion import against_spring, blade_of
 
     scene = replace(SCENE, lining=None)
     exact = against_spring(blade_of(model, SPEED, scene, np.inf), TIMES, 1.0 / FLEXIBILITY, 0.0, rtol=1e-9, atol=1e-14)
     blade = with_static_modes(model, FLEXIBILITY)
-    errors = [error(march(blade, scene, steps, EXACT_MODAL)[0], exact) for steps in (1000, 2000, 4000)]
+    errors = [error(integrated(blade, scene, steps, EXACT_MODAL)[0], exact) for steps in (1000, 2000, 4000)]
     assert errors[0] < 1e-3
     assert order_of(errors) == pytest.approx(2.0, abs=0.35), errors
 
@@ -175,6 +175,6 @@ def test_nlstep_on_a_light_touch():
         model_of(np.concatenate([SLOW, FAST])),
         replace(SCENE, lining=None, casing=replace(SCENE.casing, amplitude=1.1)),
     )
-    ours = march(stiff, scene, 8000, EXACT_MODAL, static_above=0.3)[0][:HALF]
+    ours = integrated(stiff, scene, 8000, EXACT_MODAL, static_above=0.3)[0][:HALF]
     found = run_nlstep(blade_of(stiff, SPEED, scene, np.inf), len(SLOW), 160, SAMPLES, HALF)[0]
     assert error(found, ours) < 0.01

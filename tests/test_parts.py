@@ -5,14 +5,16 @@ import subprocess
 
 import pytest
 import yaml
-from stubbed_runs import copy_stubbed, planned_outputs
+from plans_of_snakemake import planned_outputs
+from stubbed_runs import copy_stubbed
 from workflow_runs import SNAKEMAKE, snakemake
 
-from r37core.config import ConfigError, read_settings
+from r37core.config import ConfigError
 from r37core.config.document import command_line_document
 from r37core.plans import resources
 from r37core.plans.resources import PER_RESPONSE, PER_SWEEP, Needs, estimated, read_measured
 from r37core.plans.run import check_part
+from r37core.product.reading import read_settings
 
 
 def settings_of(root, part, **changes):

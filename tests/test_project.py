@@ -19,19 +19,21 @@ from packaging.utils import canonicalize_name
 import r37
 from r37core import __version__
 from r37core.io import FILE_ATTRIBUTES
+from r37core.product.wings import WINGS
 
 LAYERS = [
     "io",
     "plain",
     "dataset_file",
     "alignment",
-    "known_arguments",
     "lanes",
+    "program_constants",
     "kept",
     "native",
     "text_file",
     "yaml_file",
     "units",
+    "declared",
     "rounding",
     "speeds",
     "published",
@@ -43,17 +45,15 @@ LAYERS = [
     "stress",
     "time_integration",
     "results",
-    "run_ups",
-    "signals",
     "adaptive",
-    "tolerances",
     "exchange",
     "config",
     "plans",
-    "console",
     "figures",
     "explorer",
-    "shapes",
+    *(wing.name for wing in WINGS),
+    "product",
+    "console",
     "studies",
 ]
 
@@ -173,7 +173,10 @@ def test_one_name_one_thing(root):
     twice = {name for name, number in classes.items() if number > 1}
     assert len(twice) < 5, twice
     files = [*modules.values(), *(root / "workflow/scripts").glob("*.py")]
-    stems = Counter(file.stem for file in files if file.name != "__init__.py" and file.parent.parent.name != "studies")
+    wings = {wing.name for wing in WINGS}
+    named_by_folder = [file for file in files if file.parent.parent.name == "studies" or file.parent.name in wings]
+    of_folders = ("__init__.py", "steps.py")
+    stems = Counter(file.stem for file in files if file.name not in of_folders and file not in named_by_folder)
     twice = {stem for stem, number in stems.items() if number > 1}
     assert len(twice) < 10, twice
 
@@ -197,3 +200,41 @@ def test_no_modules_import_each_other_in_a_circle(root):
     graph = {name: {one for one in imported(name) if one in modules and one != name} for name in modules}
     assert "r37core.contact.casing" in graph["r37core.contact.scene"]
     tuple(TopologicalSorter(graph).static_order())
+
+
+def test_a_wing_is_one_place(root):
+    """Its folder, its file of rules and its line in the registry: nothing else in the package or the workflow knows it."""
+    for wing in WINGS:
+        assert (root / f"workflow/rules/{wing.name}.smk").exists()
+        for file in [*(root / "src/r37core").rglob("*.py"), *(root / "workflow/rules").glob("*.smk"), root / "Snakefile"]:
+            own = file.parent.name == wing.name or file.name in (f"{wing.name}.smk", "wings.py")
+            names = imports_of(file) if file.suffix == ".py" else re.findall(r"^from ([\w.]+) import", file.read_text(), re.M)
+            # studies take what they need of the product
+            if not own and "studies" not in file.parts:
+                assert not [name for name in names if name.startswith(f"r37core.{wing.name}.")], file
+
+
+VAGUE, MOST_VAGUE = ("found", "one", "given"), 150
+"""Names that say nothing of a value, and how many of them the package had when they were last counted: not one more."""
+
+TRANSLATED = {"pace", "paces", "march", "course", "stretch", "stretches", "climb", "bench"}
+"""The field says constant-speed segment, time integration, schedule, segment, growth."""
+
+
+def names_in(file):
+    """What a file names: arguments, values, functions and classes."""
+    for node in ast.walk(ast.parse(file.read_text())):
+        if isinstance(node, ast.arg):
+            yield node.arg
+        elif isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store):
+            yield node.id
+        elif isinstance(node, ast.FunctionDef | ast.ClassDef):
+            yield node.name
+
+
+def test_values_are_called_what_they_are(root):
+    """A name is a word of the field: peaks, columns, scene in place of found, one, given."""
+    names = Counter(name for file in (root / "src").rglob("*.py") for name in names_in(file))
+    assert sum(names[name] for name in VAGUE) <= MOST_VAGUE
+    words = {word.lower() for name in names for word in re.findall(r"[A-Z]?[a-z]+", name)}
+    assert not words & TRANSLATED

@@ -17,16 +17,16 @@ import pytest
 import xarray as xr
 import yaml
 from scipy.linalg import eigh
-from workflow_runs import copy_project, snakemake
+from workflow_runs import copy_finished, copy_project, own_package
 
 import r37
-from r37 import structure_cache, structure_files, structure_steps
+from r37 import structure_cache, structure_files
 from r37.command import main
 from r37.structure_cache import cached_file
 from r37.structure_files import StructureFiles
-from r37core.config import read_settings
 from r37core.dataset_file import read_dataset
-from r37core.exchange.exporting.matrices_out import write_reduced_matrices
+from r37core.exports.matrices_out import write_reduced_matrices
+from r37core.product.reading import read_settings
 from r37core.rom.rom_file import read_reduced_model
 
 SPEEDS = [750.0, 1150.0, 1550.0]
@@ -42,25 +42,17 @@ def cache(tmp_path_factory):
 
 
 @pytest.fixture(scope="module")
-def study(root, tmp_path_factory):
-    """A copy of the project with a small level; its config.yaml is the one that calls name."""
+def finished(small_sweep, tmp_path_factory):
+    """A sweep of the workflow."""
+    return copy_finished(small_sweep, tmp_path_factory.mktemp("finished") / "sweep")
+
+
+@pytest.fixture(scope="module")
+def config(root, tmp_path_factory):
+    """The config.yaml that the workflow's sweep has and that calls name."""
     folder = tmp_path_factory.mktemp("study")
     copy_project(root, folder)
-    config = folder / "config/config.yaml"
-    config.write_text(config.read_text().replace("blades: [Ref, CS100] ", "blades: [Ref] "))
-    return folder
-
-
-@pytest.fixture(scope="module")
-def config(study):
-    return study / "config/config.yaml"
-
-
-@pytest.fixture(scope="module")
-def finished(study, compiled):
-    """The same, run by the workflow."""
-    snakemake(study, "results/campbell.nc", "results/rms.nc", "results/summary.csv", "results/ranking.csv", "--cores", "1")
-    return study
+    return folder / "config/config.yaml"
 
 
 @pytest.mark.slow
@@ -82,14 +74,20 @@ def test_a_campbell_diagram_is_that_of_the_workflow(finished, config):
 def test_what_is_kept_is_not_made_again(config, cache, monkeypatch):
     first = r37.campbell("Ref", config=config)
     made = []
-    for step in ("geometry", "mesh", "reduced_model", "campbell"):
-        monkeypatch.setattr(structure_steps, step, lambda file, *_, step=step, **__: made.append(step) or file.write_text("x"))
+    steps = {"blade": "geometry", "fem": "mesh", "rom": "reduced_model", "results": "campbell_of_blade"}
+    for folder, step in steps.items():
+
+        def make(input, output, params, step=step):
+            made.append(step)
+            (output.vtu if step == "mesh" else next(file for _, file in output.items())).write_text("x")
+
+        monkeypatch.setattr(f"r37core.{folder}.steps.{step}", make)
     xr.testing.assert_identical(r37.campbell("Ref", config=config), first)
     assert made == []
-    monkeypatch.setattr(structure_files, "_code", lambda: ["other code"])
+    monkeypatch.setattr(structure_files, "_code", lambda step: ["other code"])
     with pytest.raises(r37.InputFileError):
         r37.campbell("Ref", config=config)
-    assert made == ["geometry", "mesh", "reduced_model", "campbell"]
+    assert made == list(steps.values())
 
 
 @pytest.mark.slow
@@ -311,7 +309,7 @@ def test_results_of_a_run_are_a_mapping(finished):
     results = r37.open_results(finished / "results")
     assert list(results) == ["campbell", "rms", "spectrum", "stress", "wear"] and len(results) == 5
     assert results["rms"] is results["rms"]
-    assert set(results.summary["blade"]) <= {"Ref"}
+    assert set(results.summary["blade"]) <= {"Ref", "CS100"}
     assert results.response("Ref", "direct").attrs["scene"] == "direct"
     with pytest.raises(KeyError, match="found 'signals'; allowed: campbell, rms"):
         results["signals"]
@@ -401,7 +399,7 @@ def test_the_command_does_what_the_page_says(root, finished, monkeypatch, capsys
     assert [row[0] for row in rows] == ["1700.0", "1729.0"]
     peak = r37.simulate("Ref", "abradable", 1729)
     assert float(rows[1][3]) == pytest.approx(1e-6 * peak["max_von_mises"].item(), rel=1e-5)
-    assert "blades: Ref\n" in told[3] and "simulations: 6\n" in told[3]
+    assert "blades: Ref, CS100\n" in told[3] and "simulations: 12\n" in told[3]
 
 
 def test_the_command_refuses_in_one_line(root, capsys):
@@ -425,6 +423,7 @@ def test_an_installed_package_needs_no_repository(root, tmp_path):
     for folder in (project, elsewhere):
         folder.mkdir()
     copy_project(root, project)
+    own_package(project)
     for name in ("pyproject.toml", "MANIFEST.in", "README.md"):
         (project / name).write_text((root / name).read_text())
     (project / "config/my_trial.yaml").write_text("fidelity: draft\n")

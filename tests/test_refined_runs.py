@@ -5,7 +5,6 @@ import json
 import os
 import random
 import re
-import shutil
 import signal
 import subprocess
 import time
@@ -13,11 +12,13 @@ import time
 import numpy as np
 import pytest
 import xarray as xr
-from stubbed_runs import copy_stubbed, planned_outputs, refine, simulated
-from workflow_runs import SNAKEMAKE, copy_project, snakemake
+from plans_of_snakemake import planned_outputs
+from shared_sweep import copy_structure
+from stubbed_runs import copy_stubbed, refine, simulated
+from workflow_runs import SNAKEMAKE, copy_finished, snakemake
 
-from r37core.config import read_settings
 from r37core.console.leftovers import leftovers
+from r37core.product.reading import read_settings
 from r37core.time_integration.status import RunStatus
 
 BLADES, SCENES = ("Ref", "CS100"), ("abradable", "direct")
@@ -40,8 +41,7 @@ def first_run(root, tmp_path_factory):
 
 @pytest.fixture
 def project(first_run, tmp_path):
-    shutil.copytree(first_run[0], tmp_path / "project", copy_function=shutil.copy2)
-    return tmp_path / "project"
+    return copy_finished(first_run[0], tmp_path / "project")
 
 
 def test_one_command_runs_all_rounds_and_each_speed_once(first_run):
@@ -108,6 +108,36 @@ def test_speeds_of_one_scene_may_refine_themselves_alone(root, tmp_path):
     assert not list(tmp_path.glob("results/*/abradable/round_*.json"))
 
 
+@pytest.mark.slow
+def test_members_are_run_by_the_rules_of_the_sweep(project):
+    """Beside it, at speeds that all of a sample share; more of them run alone, and so does what a member's model is made of."""
+
+    def members(number):
+        return {f"tolerances/{member}/{run}" for member in range(number) for run in runs(COARSE + ADDED, blades=["Ref"])}
+
+    config = project / "config/config.yaml"
+    tolerances = (
+        "\ntolerances:\n  members: 2\n  blades: [Ref]\n  of_scenes: { friction.coefficient: { uniform_percent: 5 } }\n"
+        "  of_blades: { thickness_percent: { values: [101] } }\n"
+    )
+    config.write_text(config.read_text() + tolerances)
+    text = snakemake(project, "all_blades", "--cores", "2")
+    assert sorted(simulated(text)) == sorted(members(2))
+    # both members have the same blade, made once beside the nominal one
+    assert {str(file.relative_to(project / "results")) for file in project.glob("results/**/rom_*.nc")} == {
+        f"{folder}/rom_pressure_edge.nc" for folder in ("Ref", "CS100", "tolerances/0/Ref")
+    }
+    rounds = {f"results/tolerances/Ref/{scene}/round_{number}.json" for scene in SCENES for number in range(3)}
+    assert set(re.findall(r"checkpoint refine:\n(?:    input: .*\n)?    output: (\S+)", text)) == rounds
+    assert planned_outputs(project) == {}
+    config.write_text(config.read_text().replace("members: 2", "members: 4"))
+    assert set(simulated(snakemake(project, "all_blades", "--cores", "2"))) == members(4) - members(2)
+    assert planned_outputs(project) == {}
+    stacking = project / "config/stacking/rotor37.csv"
+    stacking.write_text(stacking.read_text().replace("CS100,100,-1.16,4.89", "CS100,100,-1.20,4.89"))
+    assert not [file for files in planned_outputs(project).values() for file in files if file.startswith("tolerances/")]
+
+
 def test_leftovers_are_what_no_round_asked_for(project, monkeypatch):
     monkeypatch.chdir(project)
     assert leftovers(project / "results", read_settings(project)) == []
@@ -126,19 +156,19 @@ def test_a_study_without_a_range_that_refines_is_refused(root, tmp_path):
 
 
 @pytest.fixture(scope="module")
-def real(root, compiled, tmp_path_factory):
+def real(small_sweep, tmp_path_factory):
     """A small real run: windows, halving, the study against the whole grid."""
-    folder = tmp_path_factory.mktemp("real")
-    prepare_real(root, folder)
+    folder = prepare_real(small_sweep, tmp_path_factory.mktemp("real") / "project")
     snakemake(folder, "all_blades", "refinement", "--cores", "2")
     return folder
 
 
-def prepare_real(root, folder):
-    copy_project(root, folder)
+def prepare_real(small_sweep, folder):
+    copy_structure(small_sweep, folder)
     refine(folder, "{ start: 1000, stop: 1240, step: 80, refine_to: 20 }")
     config = folder / "config/config.yaml"
     config.write_text(config.read_text().replace("[Ref, CS100]", "[CS100]") + _REFINEMENT)
+    return folder
 
 
 _REFINEMENT = """
@@ -177,32 +207,32 @@ def test_real_rounds_stay_on_their_grid(real):
 
 
 @pytest.mark.slow
-def test_kills_at_random_moments_lose_nothing(real, root, tmp_path):
+def test_kills_at_random_moments_lose_nothing(real, small_sweep, tmp_path):
     """Killed in the middle of its rounds, again and again; in the end every array is bit for bit that of an undisturbed run."""
-    prepare_real(root, tmp_path)
+    project = prepare_real(small_sweep, tmp_path / "project")
     command = [SNAKEMAKE, "all_blades", "--cores", "2"]
     moments = random.Random(7)
     for files in (2, 7, 10, 13):
         run = subprocess.Popen(
-            command, cwd=tmp_path, env=os.environ | {"PYTHONPATH": str(tmp_path / "src")},
+            command, cwd=project, env=os.environ | {"PYTHONPATH": str(project / "src")},
             stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True,
         )  # fmt: skip
-        while run.poll() is None and len(speed_files(tmp_path)) < files:
+        while run.poll() is None and len(speed_files(project)) < files:
             time.sleep(0.1)
         time.sleep(3.0 * moments.random())
         with contextlib.suppress(ProcessLookupError):
             os.killpg(run.pid, signal.SIGKILL)
         run.wait()
-    snakemake(tmp_path, *command[1:])
+    snakemake(project, *command[1:])
     undisturbed = speed_files(real)
-    assert speed_files(tmp_path).keys() == undisturbed.keys()
-    for name, file in speed_files(tmp_path).items():
+    assert speed_files(project).keys() == undisturbed.keys()
+    for name, file in speed_files(project).items():
         with np.load(file) as one, np.load(undisturbed[name]) as other:
             assert all(np.array_equal(one[key], other[key], equal_nan=one[key].dtype.kind == "f") for key in other.files), name
     for name in ("rms", "spectrum", "stress", "wear"):
-        with xr.open_dataset(tmp_path / f"results/{name}.nc") as one, xr.open_dataset(real / f"results/{name}.nc") as other:
+        with xr.open_dataset(project / f"results/{name}.nc") as one, xr.open_dataset(real / f"results/{name}.nc") as other:
             assert one.identical(other)
-    assert (tmp_path / "results/summary.csv").read_bytes() == (real / "results/summary.csv").read_bytes()
+    assert (project / "results/summary.csv").read_bytes() == (real / "results/summary.csv").read_bytes()
     for file in real.glob("results/*/*/round_*.json"):
-        assert (tmp_path / file.relative_to(real)).read_bytes() == file.read_bytes()
-    assert not list(tmp_path.glob("results/**/.*partial*"))
+        assert (project / file.relative_to(real)).read_bytes() == file.read_bytes()
+    assert not list(project.glob("results/**/.*partial*"))

@@ -1,10 +1,8 @@
 """Adaptive speed sampling: what a range asks for, where a round looks next, and what comes of it."""
 
 import math
-import runpy
 from dataclasses import replace
 from itertools import pairwise
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -16,15 +14,17 @@ from hypothesis import strategies as st
 from r37core.adaptive.criterion import (
     RefinementChoice,
     Window,
+    dense_ranges,
     known_of,
     next_speeds,
-    stretches,
     window_speeds,
 )
 from r37core.adaptive.rounds import Round, first_round, measure, read_round, round_after, write_round
-from r37core.config import ConfigError, load_settings
-from r37core.io import InputFileError
+from r37core.adaptive.steps import refine as refine_step
+from r37core.config import ConfigError
+from r37core.io import InputFileError, Named
 from r37core.plain import from_plain, to_plain
+from r37core.product.reading import load_settings
 from r37core.speeds import RefinedRange, SpeedError, SpeedPlan, exact_text, plan_speeds
 from r37core.studies.refinement.report import above_yield, compare, errors_between, plain_grid, refinement_table, replay
 from r37core.time_integration.speed_file import write_speed
@@ -164,7 +164,7 @@ def test_refinement_refusals(config_copy, changes, message):
 
 
 def test_windows_are_looked_at_more_closely():
-    expected = stretches(campbell([1200.0]), WINDOWS)
+    expected = dense_ranges(campbell([1200.0]), WINDOWS)
     assert [(one.low, one.high, one.step) for one in expected] == [(1200.0, 1260.0, 5.0)]
     speeds = sorted({*PLAN.certain, *window_speeds(GRID, expected)})
     for first, last in pairwise(speeds):
@@ -176,11 +176,11 @@ def test_windows_are_looked_at_more_closely():
 
 
 def test_orders_above_the_window_s_have_none():
-    assert stretches(campbell([1200.0]), (replace(WINDOWS[0], highest_engine_order=3),)) == []
+    assert dense_ranges(campbell([1200.0]), (replace(WINDOWS[0], highest_engine_order=3),)) == []
 
 
 def test_the_highest_order_of_a_window_has_one():
-    expected = stretches(campbell([1200.0, 960.0]), (replace(WINDOWS[0], highest_engine_order=4),))
+    expected = dense_ranges(campbell([1200.0, 960.0]), (replace(WINDOWS[0], highest_engine_order=4),))
     assert [one.low for one in expected] == [1200.0]
 
 
@@ -292,7 +292,7 @@ def test_speeds_off_the_grid_are_not_refined_about():
 @given(st.lists(st.floats(0.0, 1.0), min_size=101, max_size=101), st.floats(0.1, 1.0), st.integers(1, 20))
 def test_any_response_ends_in_speeds_of_the_grid_each_once(values, share, coarse):
     plan = SpeedPlan((), (RefinedRange(100.0, 0.1, coarse, 100),))
-    plan = replace(plan, certain=tuple(plan.refined[0].speed(place) for place in plan.refined[0].coarse_places()))
+    plan = replace(plan, certain=tuple(plan.refined[0].speed(place) for place in plan.refined[0].coarse_indices()))
     rows = {speed: [0, value, value**2, 2.0 * value] for speed, value in zip(plan.every_speed(), values, strict=True)}
     one = first_round(plan, campbell([]), choice := replace(CHOICE, largest_share=share))
     run = list(one.new)
@@ -376,27 +376,13 @@ def test_study_says_what_is_robust():
     assert "| none | 33% |" in table
 
 
-class _Wildcards(dict):
-    """As Snakemake has them: a mapping whose values are attributes too."""
-
-    __getattr__ = dict.__getitem__
-
-
-def test_a_round_of_a_blade_without_stress(root, tmp_path, monkeypatch):
+def test_a_round_of_a_blade_without_stress(tmp_path):
     """A blade given by matrices has no material: its rounds go by rms and status alone."""
     write_round(Round((900.0,)), tmp_path / "round_0.json")
     write_speed({"status": np.array(0), "rms": np.full((2, 3), 1e-4)}, tmp_path / "speed_900.npz", {})
     params = {"plan": to_plain(SpeedPlan((900.0,))), "choice": to_plain(CHOICE)}
-    job = SimpleNamespace(
-        rule="refine",
-        log=[str(tmp_path / "refine.log")],
-        wildcards=_Wildcards(round="1"),
-        input=SimpleNamespace(before=tmp_path / "round_0.json", speeds=str(tmp_path / "speed_900.npz")),
-        output=[str(tmp_path / "round_1.json")],
-        params=SimpleNamespace(**params, yields=[math.inf]),
-    )
-    monkeypatch.syspath_prepend(root / "workflow/scripts")
-    runpy.run_path(str(root / "workflow/scripts/refine.py"), {"snakemake": job})
+    files = Named(before=tmp_path / "round_0.json", speeds=str(tmp_path / "speed_900.npz"))
+    refine_step(files, Named(round=tmp_path / "round_1.json"), Named(**params, yields=[math.inf]))
     status, normal, _, stress = read_round(tmp_path / "round_1.json").measured[900.0]
     assert (status, normal) == (0, 1e-4)
     assert np.isnan(stress)

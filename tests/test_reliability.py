@@ -12,15 +12,17 @@ import numpy as np
 import pytest
 import xarray as xr
 from defaults import Casing, IntegrationChoice, Scene
-from stubbed_runs import copy_stubbed, planned_outputs
+from plans_of_snakemake import planned_outputs
+from stubbed_runs import copy_stubbed
 from workflow_runs import SNAKEMAKE, copy_project, snakemake
 
-from r37core.config import ConfigError, command_line_document, read_settings
+from r37core.config import ConfigError, command_line_document
 from r37core.console import failures, lock
 from r37core.console.leftovers import leftovers
 from r37core.dataset_file import about, read_dataset, write_dataset
 from r37core.io import InputFileError, write_json
 from r37core.plans.run import replaced_level, source_folder
+from r37core.product.reading import read_settings
 from r37core.results.campbell_dataset import campbell_dataset
 from r37core.results.netcdf import create_axis, create_variable
 from r37core.rom.rotation import BucklingError
@@ -302,7 +304,7 @@ def test_environments_of_conda_are_refused_before_one_is_made(root, tmp_path):
 @pytest.mark.parametrize("wait", [0.0, 1.0])
 def test_a_killed_run_goes_on_with_the_same_command(root, tmp_path, wait):
     copy_stubbed(root, tmp_path)
-    slow = tmp_path / "workflow/scripts/geometry.py"
+    slow = tmp_path / "workflow/scripts/step.py"
     slow.write_text("import time\ntime.sleep(30)\n" + slow.read_text())
     environment = os.environ | {"PYTHONPATH": str(tmp_path / "src")}
     command = [SNAKEMAKE, "results/Ref/geometry.nc", "--cores", "1"]

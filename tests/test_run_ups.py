@@ -1,4 +1,4 @@
-"""Run-ups: the schedule, exact limits of the march, and a linear oscillator that is swept through its resonance."""
+"""Run-ups: the schedule, exact limits of the integration, and a linear oscillator that is swept through its resonance."""
 
 from dataclasses import replace
 
@@ -13,14 +13,14 @@ from scipy.integrate import solve_ivp
 from scipy.special import wofz
 
 from r37core.contact.ring import RingMode
-from r37core.figures.run_up_curves import draw_rates, draw_run_ups
 from r37core.io import InputFileError
 from r37core.rom.rotation import BucklingError
-from r37core.run_ups import march as march_module
+from r37core.run_ups import integration as integration_module
 from r37core.run_ups import schedule as schedule_module
 from r37core.run_ups.choice import Crossing, RunUpChoice, RunUpError
 from r37core.run_ups.dataset import write_run_ups
-from r37core.run_ups.march import March, told_problem
+from r37core.run_ups.figures import draw_rates, draw_run_ups
+from r37core.run_ups.integration import RunUpIntegration, resolved_problem
 from r37core.run_ups.revolutions import record_run_up
 from r37core.run_ups.schedule import RunUp, schedule
 from r37core.run_ups.tables import rate_table, run_up_table
@@ -35,8 +35,8 @@ NARROW = replace(ABRADABLE, lining=replace(LINING, bar_width=1e-3))
 FREE = Scene(Casing(1.0, lobes=0))
 
 
-def samples_of(march):
-    return np.concatenate([stage.samples for stage in march.stages()])
+def samples_of(integration):
+    return np.concatenate([stage.samples for stage in integration.stages()])
 
 
 @pytest.mark.parametrize(("start", "stop"), [(1300.0, 1800.0), (1800.0, 1300.0), (100.0, 101.0)])
@@ -44,12 +44,12 @@ def samples_of(march):
 def test_a_schedule_keeps_angle_and_time_of_a_constant_rate(start, stop, revolutions):
     per_revolution = 496
     run_up = RunUp(start, stop, revolutions, 3, 2, worn=False)
-    segments = schedule(run_up, per_revolution, 1e-8)
-    stretches = [stretch for segment in segments for stretch in segment.stretches]
-    samples = sum(stretch.samples for stretch in stretches)
+    intervals = schedule(run_up, per_revolution, 1e-8)
+    segments = [segment for interval in intervals for segment in interval.segments]
+    samples = sum(segment.samples for segment in segments)
     assert samples % per_revolution == 0
     assert samples == per_revolution * (5 + np.ceil(round(revolutions * per_revolution) / per_revolution))
-    changing = [one for one in stretches if one.speed not in (start, stop)]
+    changing = [one for one in segments if one.speed not in (start, stop)]
     time = sum(2.0 * np.pi * one.samples / per_revolution / one.speed for one in changing)
     angle = 2.0 * np.pi * sum(one.samples for one in changing) / per_revolution
     assert angle == pytest.approx(2.0 * np.pi * round(revolutions * per_revolution) / per_revolution, rel=1e-12)
@@ -60,8 +60,8 @@ def test_a_schedule_keeps_angle_and_time_of_a_constant_rate(start, stop, revolut
 
 def test_a_run_down_is_its_run_up_backwards():
     up, down = (schedule(RunUp(*ends, 40.3, 1, 0, worn=False), 496, 2e-7) for ends in ((1500.0, 1700.0), (1700.0, 1500.0)))
-    stretches = [[stretch for segment in one[1:-1] for stretch in segment.stretches] for one in (up, down)]
-    assert stretches[0] == stretches[1][::-1]
+    segments = [[segment for interval in one[1:-1] for segment in interval.segments] for one in (up, down)]
+    assert segments[0] == segments[1][::-1]
     assert [one.speed for one in up[1:-1]] == [one.speed for one in down[1:-1]][::-1]
 
 
@@ -70,8 +70,8 @@ def test_at_one_speed_a_run_up_is_the_run_at_that_speed(contact, engine):
     choice = replace(LONG, engine=engine)
     run = Simulation(contact, 1600.0, NARROW, choice)
     expected = run.advance(run.start(), 6).samples
-    march = March(contact, NARROW, choice, RunUp(1600.0, 1600.0, 1.5, 4, 0, worn=False))
-    np.testing.assert_array_equal(samples_of(march), expected)
+    integration = RunUpIntegration(contact, NARROW, choice, RunUp(1600.0, 1600.0, 1.5, 4, 0, worn=False))
+    np.testing.assert_array_equal(samples_of(integration), expected)
 
 
 @pytest.mark.parametrize("start", [1600.0, 1700.0])
@@ -79,22 +79,24 @@ def test_a_change_that_ends_where_it_began_hardly_differs_from_the_run_at_that_s
     """Other modes, and displacement and velocity taken over: a change of 1e-7 of the speed changes no more than that."""
     run = Simulation(contact, start, NARROW, LONG)
     expected = run.advance(run.start(), 6).samples
-    march = March(contact, NARROW, LONG, RunUp(start, start * (1.0 + 1e-7), 2.0, 4, 0, worn=False))
-    found = samples_of(march)
-    assert len(march.segments) == 2
+    integration = RunUpIntegration(contact, NARROW, LONG, RunUp(start, start * (1.0 + 1e-7), 2.0, 4, 0, worn=False))
+    found = samples_of(integration)
+    assert len(integration.intervals) == 2
     np.testing.assert_allclose(found, expected, rtol=0, atol=1e-5 * np.abs(expected).max())
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("ends", "segments", "stretches"), [((5000.0, 6000.0), 6, 1), ((1600.0, 1650.0), 2, 10)])
+@pytest.mark.parametrize(("ends", "intervals", "segments"), [((5000.0, 6000.0), 6, 1), ((1600.0, 1650.0), 2, 10)])
 @pytest.mark.parametrize("scene", [NARROW, replace(ABRADABLE, lining=None)], ids=["abradable", "direct"])
-def test_compiled_run_up_is_that_of_the_reference(contact, scene, ends, segments, stretches):
+def test_compiled_run_up_is_that_of_the_reference(contact, scene, ends, intervals, segments):
     choice = replace(LONG, time_step=3.2e-6 if scene.lining else 8e-7)
     run_up = RunUp(*ends, 1.3, 1, 0, worn=False)
-    ours, theirs = (March(contact, scene, replace(choice, engine=engine), run_up) for engine in ("compiled", "reference"))
+    ours, theirs = (
+        RunUpIntegration(contact, scene, replace(choice, engine=engine), run_up) for engine in ("compiled", "reference")
+    )
     found, expected = samples_of(ours), samples_of(theirs)
-    assert len(ours.segments) >= segments
-    assert max(len(segment.stretches) for segment in ours.segments) >= stretches
+    assert len(ours.intervals) >= intervals
+    assert max(len(interval.segments) for interval in ours.intervals) >= segments
     np.testing.assert_allclose(found, expected, rtol=0, atol=1e-10 * np.abs(expected).max())
     for name in ("work", "loss"):
         assert ours.state.totals[name] == pytest.approx(float(theirs.state.totals[name]), rel=1e-8)
@@ -102,14 +104,14 @@ def test_compiled_run_up_is_that_of_the_reference(contact, scene, ends, segments
     assert ours.stiffness_work != 0.0
 
 
-def test_it_does_not_matter_how_many_stretches_the_engine_does_at_once(contact, monkeypatch):
+def test_it_does_not_matter_how_many_segments_the_engine_does_at_once(contact, monkeypatch):
     found = []
     for revolutions in (64, 1):
-        monkeypatch.setattr(march_module, "_AT_ONCE", revolutions)
-        march = March(contact, NARROW, LONG, RunUp(1600.0, 1650.0, 5.3, 1, 1, worn=False))
-        stages = list(march.stages())
+        monkeypatch.setattr(integration_module, "_AT_ONCE", revolutions)
+        integration = RunUpIntegration(contact, NARROW, LONG, RunUp(1600.0, 1650.0, 5.3, 1, 1, worn=False))
+        stages = list(integration.stages())
         found.append({name: np.concatenate([getattr(one, name) for one in stages]) for name in ("samples", "speeds", "wear")})
-    assert len(stages) > len(march.segments)
+    assert len(stages) > len(integration.intervals)
     one, other = found
     for name, values in one.items():
         np.testing.assert_array_equal(values, other[name], err_msg=name)
@@ -120,13 +122,13 @@ def test_it_does_not_matter_how_many_stretches_the_engine_does_at_once(contact, 
 @pytest.mark.parametrize("scene", [NARROW, replace(ABRADABLE, lining=None)], ids=["abradable", "direct"])
 def test_energy_closes_with_the_work_of_the_changing_stiffness(contact, scene):
     choice = replace(LONG, time_step=3.2e-6 if scene.lining else 8e-7)
-    march = March(contact, scene, choice, RunUp(1500.0, 1900.0, 3.2, 1, 0, worn=False))
-    samples_of(march)
-    balance = march.balance()
+    integration = RunUpIntegration(contact, scene, choice, RunUp(1500.0, 1900.0, 3.2, 1, 0, worn=False))
+    samples_of(integration)
+    balance = integration.balance()
     work, loss = balance["contact_work"], balance["damping_loss"]
     assert loss > 0.0
-    assert abs(march.stiffness_work) > 1e-6 * abs(work)
-    assert abs(balance["energy_change"] - work + loss - march.stiffness_work) < 1e-10 * (abs(work) + loss)
+    assert abs(integration.stiffness_work) > 1e-6 * abs(work)
+    assert abs(balance["energy_change"] - work + loss - integration.stiffness_work) < 1e-10 * (abs(work) + loss)
 
 
 @pytest.mark.parametrize("integrator", ["exact_modal", "central_difference"])
@@ -138,13 +140,15 @@ def test_the_stiffness_works_half_of_its_change_times_the_squared_displacement(i
     errors = []
     for step in (4e-6, 2e-6):
         choice = replace(LONG, time_step=step, integrator=integrator, samples_per_revolution=124)
-        march = March(model, replace(FREE, damping_ratio=0.0), choice, RunUp(1000.0, 1200.0, 5.0, 1, 0, worn=False))
-        march.state.displacement[:] = 1e-3
-        march.energy = 0.5 * 3000.0**2 * 1e-6 + 0.5 * 2.0 * 1000.0**2 * 1e-6
-        first, stages = march.energy, list(march.stages())
+        integration = RunUpIntegration(
+            model, replace(FREE, damping_ratio=0.0), choice, RunUp(1000.0, 1200.0, 5.0, 1, 0, worn=False)
+        )
+        integration.state.displacement[:] = 1e-3
+        integration.energy = 0.5 * 3000.0**2 * 1e-6 + 0.5 * 2.0 * 1000.0**2 * 1e-6
+        first, stages = integration.energy, list(integration.stages())
         speeds, samples = (np.concatenate([getattr(stage, of) for stage in stages]) for of in ("speeds", "samples"))
         work = np.sum(np.diff(speeds**2, prepend=1000.0**2) * np.append(1e-3, samples[:-1, 0]) ** 2)
-        errors.append(abs(march.energy - first - work) / abs(work))
+        errors.append(abs(integration.energy - first - work) / abs(work))
     assert errors[0] < 1e-3
     assert errors[1] < 0.3 * errors[0]
 
@@ -174,13 +178,15 @@ def test_free_motion_is_that_of_the_whole_stiffness_at_every_speed(monkeypatch):
     for lead, stiffening in ((2.5e-4, 0.01), (1e-5, 0.001)):
         monkeypatch.setattr(schedule_module, "LARGEST_LEAD", lead)
         monkeypatch.setattr(schedule_module, "LARGEST_STIFFENING", stiffening)
-        march = March(blade, replace(FREE, damping_ratio=0.0), choice, RunUp(start, stop, revolutions, 1, 0, worn=False))
-        march.segments = march.segments[1:]
-        modes = Simulation(blade, march.segments[0].speed, FREE, choice).problem.modes[:8]
-        march.state.displacement[:] = modes.T @ first
-        samples_of(march)
-        modes = Simulation(blade, march.segments[-1].speed, FREE, choice).problem.modes[:8]
-        errors.append(np.abs(modes @ march.state.displacement - exact).max() / np.abs(exact).max())
+        integration = RunUpIntegration(
+            blade, replace(FREE, damping_ratio=0.0), choice, RunUp(start, stop, revolutions, 1, 0, worn=False)
+        )
+        integration.intervals = integration.intervals[1:]
+        modes = Simulation(blade, integration.intervals[0].speed, FREE, choice).problem.modes[:8]
+        integration.state.displacement[:] = modes.T @ first
+        samples_of(integration)
+        modes = Simulation(blade, integration.intervals[-1].speed, FREE, choice).problem.modes[:8]
+        errors.append(np.abs(modes @ integration.state.displacement - exact).max() / np.abs(exact).max())
     assert errors[0] < 0.05
     assert errors[1] < 0.1 * errors[0]
 
@@ -191,9 +197,9 @@ def test_without_contact_a_run_up_and_its_run_down_give_back_what_was_there(cont
     choice = replace(LONG, time_step=1e-7 if integrator == "central_difference" else 5e-7, integrator=integrator)
     scene = replace(FREE, damping_ratio=0.0)
     ends, revolutions = (4000.0, 5000.0), 2.0
-    up = March(contact, scene, choice, RunUp(*ends, revolutions, 1, 0, worn=False))
-    down = March(contact, scene, choice, RunUp(*ends[::-1], revolutions, 1, 0, worn=False))
-    up.segments, down.segments = up.segments[1:], down.segments[1:]
+    up = RunUpIntegration(contact, scene, choice, RunUp(*ends, revolutions, 1, 0, worn=False))
+    down = RunUpIntegration(contact, scene, choice, RunUp(*ends[::-1], revolutions, 1, 0, worn=False))
+    up.intervals, down.intervals = up.intervals[1:], down.intervals[1:]
     started = 1e-5 / (1.0 + np.arange(len(up.velocity))), 1e-2 * np.ones(len(up.velocity))
     up.state.displacement[:], up.velocity = started
     largest = np.abs(samples_of(up)).max()
@@ -229,9 +235,9 @@ def test_a_swept_oscillator_follows_the_closed_form(monkeypatch):
     for lead, step in ((1e-5, 4e-5), (1e-5, 1e-5), (schedule_module.LARGEST_LEAD, 1e-5)):
         monkeypatch.setattr(schedule_module, "LARGEST_LEAD", lead)
         choice = replace(LONG, time_step=step, samples_per_revolution=per_revolution, static_above=10.0)
-        march = March(model, Scene(casing, lining, damping_ratio=ratio), choice, run_up)
-        found = samples_of(march)[250 * per_revolution :, 0]
-        assert march.state.totals["steps_in_contact"] > 0.9999 * march.state.totals["steps"]
+        integration = RunUpIntegration(model, Scene(casing, lining, damping_ratio=ratio), choice, run_up)
+        found = samples_of(integration)[250 * per_revolution :, 0]
+        assert integration.state.totals["steps_in_contact"] > 0.9999 * integration.state.totals["steps"]
         errors[lead, step] = np.abs(found - exact).max() / level.max()
     coarse, fine, shipped = errors.values()
     assert fine < 3e-4
@@ -318,23 +324,25 @@ def test_steps_are_so_short_that_every_mode_tells_its_velocity(contact):
     """Those of the blade always do; an elastic casing's may be faster."""
     choice = replace(LONG, time_step=1.6e-6, shorten=True)
     scene = replace(ABRADABLE, lining=None, friction=None)
-    assert told_problem(contact, 1600.0, scene, choice).time_step == stable_problem(contact, 1600.0, scene, choice).time_step
+    assert (
+        resolved_problem(contact, 1600.0, scene, choice).time_step == stable_problem(contact, 1600.0, scene, choice).time_step
+    )
     scene = replace(scene, casing=replace(scene.casing, ring=(RingMode(2, 2.8e6, 1e3, 0.0),)))
-    problem = told_problem(contact, 1600.0, scene, choice)
+    problem = resolved_problem(contact, 1600.0, scene, choice)
     assert 2.5 < problem.highest_frequency * problem.time_step < 3.0
     with pytest.raises(UnstableStepError, match=r"time_step_s: 1\.6e-06 s; allowed in run-ups: below 1\.07\d+e-06 s"):
-        told_problem(contact, 1600.0, scene, replace(choice, shorten=False))
+        resolved_problem(contact, 1600.0, scene, replace(choice, shorten=False))
 
 
 def test_a_blade_that_buckles_on_the_way_is_refused_at_once(contact):
     soft = replace(contact, stiffness_per_square=-contact.stiffness_per_square)
-    with pytest.raises(BucklingError, match=r"no stable position at 6000 rad/s.*run_ups"):
-        March(soft, NARROW, LONG, RunUp(1500.0, 6000.0, 200.0, 4, 0, worn=False))
+    with pytest.raises(BucklingError, match=r"no stable position at 6000 rad/s.*run-ups"):
+        RunUpIntegration(soft, NARROW, LONG, RunUp(1500.0, 6000.0, 200.0, 4, 0, worn=False))
 
 
-def test_a_slow_change_has_few_stretches_in_memory_at_once():
-    segments = schedule(RunUp(1600.0, 1600.001, 100_000.0, 1, 0, worn=False), 62, 1e-7)
-    assert max(len(one.stretches) for one in segments) <= 500
+def test_a_slow_change_has_few_segments_in_memory_at_once():
+    intervals = schedule(RunUp(1600.0, 1600.001, 100_000.0, 1, 0, worn=False), 62, 1e-7)
+    assert max(len(interval.segments) for interval in intervals) <= 500
 
 
 @pytest.mark.parametrize(

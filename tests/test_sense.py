@@ -11,17 +11,18 @@ from defaults import MatricesSource, MeshSource, Orientation, Where
 
 from r37core.blade.profile import BladeShapeError
 from r37core.blade.sense import check_profile_sense, sense_of_profile
-from r37core.config import ConfigError, read_settings
-from r37core.exchange.exporting.matrices_out import write_reduced_matrices
-from r37core.exchange.exporting.write_mesh import write_mesh
+from r37core.config import ConfigError
 from r37core.exchange.importing.import_mesh import import_mesh
 from r37core.exchange.importing.matrices_in import import_matrices
 from r37core.exchange.importing.tip import check_sense_of_nodes
 from r37core.exchange.orientation import OURS
 from r37core.exchange.refusal import ImportRefused, MeshWarning
+from r37core.exchange.write_mesh import write_mesh
+from r37core.exports.matrices_out import write_reduced_matrices
 from r37core.figures.blade_shapes import draw_blade_shapes
 from r37core.mesh.generate import generate_mesh
 from r37core.mesh.mesh_files import write_vtu
+from r37core.product.reading import read_settings
 
 UPSTREAM = (0.0, 0.0, -1.0)
 ANGLES = r"leading edge at [-+]\d+\.\d degrees and its trailing edge at [-+]\d+\.\d degrees .* \(stagger -6\d\.\d degrees\)"

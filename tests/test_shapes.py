@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 import pyvista
 from box_mesh import box_mesh
-from browser import SOFTWARE_GRAPHICS, opened
+from browser import opened
 from vtkmodules.vtkIOGeometry import vtkGLTFReader
 
-from r37core.exchange.exporting.fields import WorstInstant, displacement_of, mode_shapes
+from r37core.exchange.fields import WorstInstant, displacement_of, mode_shapes
 from r37core.explorer import write_page
 from r37core.figures.style import save
 from r37core.io import read_json, write_json
@@ -223,7 +223,7 @@ def not_slow(message):
 def test_the_page_moves_the_blade(folders, tmp_path):
     """In headless Chromium: as the files say, without a message in the console."""
     write_page(shapes_contents(folders), "Shapes of Ref", tmp_path / "Ref.html", PARTS)
-    more = {"flags": SOFTWARE_GRAPHICS, "place": "#scene=abradable&speed=1150.4", "reduced_motion": "reduce"}
+    more = {"place": "#scene=abradable&speed=1150.4", "reduced_motion": "reduce"}
     with opened(tmp_path / "Ref.html", {"width": 1200, "height": 800}, kept=not_slow, **more) as page:
         page.wait_for_selector("html[data-ready]", timeout=60_000)
         assert page.text_content("#now").startswith("1B/5, abradable at 1150.5 rad/s")

@@ -6,11 +6,12 @@ import numpy as np
 import pytest
 import xarray as xr
 from stubbed_runs import edit
-from workflow_runs import copy_project, snakemake
+from workflow_runs import snakemake
 
-from r37core.config import command_line_document, read_settings
+from r37core.config import command_line_document
 from r37core.dataset_file import read_dataset, recipe_of, taken_over, write_dataset
 from r37core.plans.structure_plan import Structure
+from r37core.product.reading import read_settings
 
 
 def test_a_recipe_is_of_contents_and_values(tmp_path):
@@ -56,17 +57,16 @@ def test_only_runs_with_a_name_look_for_others(config_copy):
 
 
 @pytest.mark.slow
-def test_a_run_with_a_name_reduces_nothing_again(root, tmp_path):
-    copy_project(root, tmp_path)
-    snakemake(tmp_path, "results/Ref/rom_pressure_edge.nc", "--cores", "1")
+def test_a_run_with_a_name_reduces_nothing_again(structure_copy):
     for name, made in (("same", "copy of results/Ref/rom_pressure_edge.nc"), ("heavy", "independent at")):
         if name == "heavy":
-            edit(tmp_path, "blades.yaml", "density_kg_m3: 8000", "density_kg_m3: 8001")
+            edit(structure_copy, "blades.yaml", "density_kg_m3: 8000", "density_kg_m3: 8001")
         file = f"results/runs/{name}/Ref/rom_pressure_edge.nc"
-        snakemake(tmp_path, file, "--cores", "1", "--config", f"run={{name: {name}}}")
-        assert made in (tmp_path / f"logs/runs/{name}/Ref/reduced_model_pressure_edge.log").read_text()
+        snakemake(structure_copy, file, "--cores", "1", "--config", f"run={{name: {name}}}")
+        assert made in (structure_copy / f"logs/runs/{name}/Ref/reduced_model_pressure_edge.log").read_text()
     before, same, heavy = (
-        read_dataset(tmp_path / f"results/{folder}Ref/rom_pressure_edge.nc") for folder in ("", "runs/same/", "runs/heavy/")
+        read_dataset(structure_copy / f"results/{folder}Ref/rom_pressure_edge.nc")
+        for folder in ("", "runs/same/", "runs/heavy/")
     )
     xr.testing.assert_identical(before, same)
     assert not before["mass"].equals(heavy["mass"])

@@ -5,13 +5,16 @@ import math
 import re
 
 import pytest
-from defaults import defaults_of
 
-from r37core.config import schemas, si_fields
+from r37core.config import si_fields
 from r37core.config.casing_section import CasingSection
+from r37core.config.declaring import in_si
 from r37core.config.section import Section
-from r37core.config.si_fields import WORDS, in_si
 from r37core.contact.casing import Casing
+from r37core.contact.scene import Friction, Lining, Scene
+from r37core.declared import declared_keys
+from r37core.exchange.importing.source import MeshSource
+from r37core.product import schemas
 from r37core.units import SUFFIXES
 
 IN_SI = {
@@ -92,10 +95,13 @@ def test_a_dataclass_takes_its_fields_and_parts_made_otherwise():
 def test_words_for_yes_are_among_those_of_their_keys():
     allowed = [schemas.MODELS[name].model_json_schema() for name in schemas.MODELS]
     properties = [part["properties"] for one in allowed for part in one["$defs"].values() if "properties" in part]
-    for key, (_, word) in WORDS.items():
-        enums = [part[key]["enum"] for part in properties if key in part]
+    words = {one.name: one for kind in (Friction, Lining, Scene, MeshSource) for one in declared_keys(kind) if one.key.words}
+    assert set(words) == {"form", "direction", "coupling", "rings", "gap", "pressure_side"}
+    for name, one in words.items():
+        enums = [part[name]["enum"] for part in properties if name in part]
         assert enums
-        assert all(word in enum and len(enum) == 2 for enum in enums)
+        assert all(enum == list(one.key.words) and sorted(one.key.words.values()) == [False, True] for enum in enums)
+        assert one.key.words[next(part[name]["default"] for part in properties if name in part)] == one.default
 
 
 def literal(node):
@@ -105,8 +111,22 @@ def literal(node):
         return None
 
 
+def is_declaration(line):
+    """Whether a field's annotation declares a key of the configuration."""
+    return any(isinstance(node, ast.Name) and node.id == "Key" for node in ast.walk(line.annotation))
+
+
+def declarations(tree):
+    """Fields of dataclasses that declare keys, with their defaults."""
+    lines = [line for node in ast.walk(tree) if isinstance(node, ast.ClassDef) for line in node.body]
+    return [line for line in lines if isinstance(line, ast.AnnAssign) and is_declaration(line) and line.value is not None]
+
+
 def defaults_in(tree):
-    """Name, value and line of a module's constants and of the defaults of all dataclasses' fields and functions' parameters."""
+    """Name, value and line of a module's constants and of the defaults of all dataclasses' fields and functions' parameters.
+
+    But for fields that declare a key, where its default stands.
+    """
     for line in tree.body:
         if isinstance(line, ast.Assign) and isinstance(line.targets[0], ast.Name):
             yield line.targets[0].id.lower(), literal(line.value), line.lineno
@@ -116,7 +136,7 @@ def defaults_in(tree):
     for node in ast.walk(tree):
         if isinstance(node, ast.ClassDef):
             for line in node.body:
-                if isinstance(line, ast.AnnAssign) and line.value is not None:
+                if isinstance(line, ast.AnnAssign) and line.value is not None and not is_declaration(line):
                     yield line.target.id, literal(line.value), line.lineno
         elif isinstance(node, ast.FunctionDef):
             named = [*node.args.posonlyargs, *node.args.args]
@@ -127,17 +147,21 @@ def defaults_in(tree):
 
 
 def test_no_default_of_a_key_stands_in_the_code_again(root):
-    """CONTRIBUTING.md: a number that a user may want to change has its default in a model, and nowhere else."""
-    keys = {(name, repr(value)) for section in SECTIONS.values() for name, value in defaults_of(section).items()}
-    keys |= {(name, repr(value)) for section in SECTIONS.values() for name, value in section_defaults(section)}
-    assert ("bars", "10000") in keys
-    assert ("round_edges", "True") in keys
+    """CONTRIBUTING.md: a number that a user may want to change has its default where its key is declared, and nowhere else."""
     core = root / "src/r37core"
+    trees = {file: ast.parse(file.read_text()) for file in core.rglob("*.py")}
+    keys = {
+        (name, repr(value)) for section in SECTIONS.values() for name, value in si_fields(section_defaults(section)).items()
+    }
+    keys |= {(name, repr(value)) for section in SECTIONS.values() for name, value in section_defaults(section)}
+    keys |= {(line.target.id, repr(literal(line.value))) for tree in trees.values() for line in declarations(tree)}
+    keys = {(name, value) for name, value in keys if value not in ("None", "()")}
+    assert {("bars", "10000"), ("shared_ring", "False"), ("stress_instants", "62"), ("amplitude", "2.0")} <= keys
     found = [
         f"{file.relative_to(core)}:{line}: {name} = {value!r}"
-        for file in core.rglob("*.py")
+        for file, tree in trees.items()
         if "config" not in file.relative_to(core).parts
-        for name, value, line in defaults_in(ast.parse(file.read_text()))
+        for name, value, line in defaults_in(tree)
         if (name, repr(value)) in keys
     ]
     assert found == []
@@ -145,4 +169,4 @@ def test_no_default_of_a_key_stands_in_the_code_again(root):
 
 def section_defaults(section):
     """Keys with the defaults as they stand."""
-    return [(key, field.default) for key, field in section.model_fields.items() if field.default not in (None, ())]
+    return [(key, field.default) for key, field in section.model_fields.items() if not field.is_required()]

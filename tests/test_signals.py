@@ -10,19 +10,19 @@ from defaults import Casing, IntegrationChoice, Scene
 from integration_cases import oscillator, with_static_modes
 from scipy.optimize import brentq
 
-from r37core.config.output_sections import GaugeEntry
-from r37core.config.si_fields import in_si
+from r37core.config.declaring import in_si
 from r37core.dataset_file import read_dataset, write_dataset
 from r37core.exchange.importing.frame import blade_parameters
-from r37core.figures.spectrograms import draw_orders, draw_spectrograms
 from r37core.figures.style import save
 from r37core.io import InputFileError
 from r37core.rom.reduce import reduce_blade
 from r37core.rom.reduced_model import RecoveryNodes
 from r37core.signals.dataset import gather_signals, signals_dataset
+from r37core.signals.figures import draw_orders, draw_spectrograms
 from r37core.signals.gauges import Gauge, gauge_points, gauge_rows
 from r37core.signals.orders import order_tracks, spectrogram, strongest_orders
 from r37core.signals.record import Record, record_signals, revolutions_of
+from r37core.signals.section import GaugeEntry
 from r37core.signals.tip_timing import arrival_times
 from r37core.time_integration.simulate import Simulation
 from r37core.time_integration.speed_run import run_speed

@@ -13,18 +13,23 @@ import pytest
 import xarray as xr
 from defaults import IntegrationChoice
 from integration_cases import ABRADABLE, DIRECT, random_model, with_static_modes
+from plans_of_snakemake import planned
 from workflow_runs import snakemake
 
-from r37core.config import ConfigError, command_line_document, read_settings
+from r37.command import main
+from r37core.config import ConfigError, command_line_document, read_document
 from r37core.config.fidelity import recommended_level
 from r37core.config.study_sections import Parameters
 from r37core.dataset_file import read_dataset, write_dataset
 from r37core.plain import from_plain, to_plain
+from r37core.plans.extent import extent_of, extents
+from r37core.product.reading import read_settings
+from r37core.product.sampling import beside
 from r37core.results.measures import first_contact
 from r37core.stress.recovery import stress_operator
 from r37core.studies import runner
 from r37core.studies.case import MODEL_NAME, Case, ModelChoice, changed, model_of_name
-from r37core.studies.estimate.cases import sample
+from r37core.studies.estimate.cases import sample, values
 from r37core.studies.estimate.report import describe, project_costs
 from r37core.studies.plan import STUDIES
 from r37core.studies.runner import run_case
@@ -49,7 +54,7 @@ def test_a_study_is_a_folder_and_one_runner_serves_all(root):
     runs = [file.name for file in core.rglob("*.py") if re.search(r"\b(run_speed|write_response)\(", file.read_text())]
     assert runs == ["runner.py"]
     workflow = [file for file in (root / "workflow").rglob("*.*") if "r37core.studies" in file.read_text()]
-    assert sorted(file.name for file in workflow) == ["studies.smk", "study.py", "study_case.py", "study_model.py"]
+    assert sorted(file.name for file in workflow) == ["studies.smk"]
 
 
 def test_cases_are_planned_without_what_runs_them():
@@ -66,6 +71,22 @@ def test_sample_stands_for_the_whole_range():
     assert len(chosen) == 25
     assert sum(chosen) / len(chosen) == pytest.approx(sum(speeds) / len(speeds), abs=1.0)
     assert sample([3.0, 4.0], 50) == [4.0]
+
+
+def test_the_estimate_and_the_check_count_the_same_simulations(root, tmp_path, capsys):
+    """Those of members, too."""
+    (file := tmp_path / "members.yaml").write_text(
+        "tolerances: { members: 4, of_scenes: { friction.coefficient: { uniform_percent: 5 } } }\n"
+    )
+    settings = read_settings(root, read_document(tmp_path, "members.yaml"))
+    counted = extents(settings, beside(settings))
+    assert values(settings)["runs"] == {"__".join(place): extent.at_most for place, extent in counted.items()}
+    whole = extent_of(settings, beside(settings))
+    assert whole.at_most == whole.most + whole.members > whole.most > whole.certain
+    assert main(["check", str(root / "config/config.yaml"), str(file)]) == 0
+    told, cost = capsys.readouterr().out, whole.at_most * settings.fidelity.measured.cpu_s_per_run
+    assert f"simulations: {whole.certain} to about {whole.most}, and at most {whole.members} of members\n" in told
+    assert f"CPU time: about {cost / 60.0:.3g} minutes at most" in told
 
 
 def test_projection_by_hand():
@@ -321,7 +342,7 @@ def test_tradeoff_of_a_small_sweep(compiled, project):
 def test_studies_do_not_stand_in_the_way_of_another_blade(project):
     config = project / "config/config.yaml"
     config.write_text(config.read_text().replace("[Ref, CS100]", "[CS100]").replace("[abradable, direct]", "[direct]"))
-    assert "simulate" in snakemake(project, "all_blades", "--cores", "2", "--dry-run")
+    assert "simulate" in planned(project)
     text = snakemake(project, "modelling_choices", "--cores", "2", "--dry-run", check=False)
     assert re.search(
         r"config\.yaml: the study needs the (blade|scene) '(Ref|abradable)'; allowed in this run: (CS100|direct)", text

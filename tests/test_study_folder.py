@@ -1,7 +1,8 @@
 """A folder of one's own: `r37 init` writes it, and its Snakefile has the workflow as a module."""
 
 import pytest
-from workflow_runs import copy_project, planned, snakemake
+from plans_of_snakemake import planned
+from workflow_runs import copy_project, snakemake
 
 from r37 import SNAKEFILE, ConfigError
 from r37.command import main

@@ -13,21 +13,27 @@ from defaults import InteractionChoice
 from test_interactions import campbell, response
 
 from r37core.adaptive.criterion import RefinementChoice, known_of, next_speeds
-from r37core.config import ConfigError, Document, read_settings
+from r37core.config import ConfigError, Document
+from r37core.config.spread import Spread
 from r37core.console.leftovers import leftovers
 from r37core.dataset_file import write_dataset
-from r37core.figures.tolerance_curves import draw_tolerances
 from r37core.io import InputFileError
+from r37core.product.reading import read_settings
+from r37core.product.remarks import remarks as remarks_of
 from r37core.results.interactions import COLUMNS, find_interactions
 from r37core.results.measures import largest_stress, ratio_to_yield, speeds_above_yield
+from r37core.results.member_ends import ENDS
+from r37core.results.ranges import as_ranges_bear, read_ranges, with_ranges
 from r37core.speeds import RefinedRange
 from r37core.time_integration.status import RunStatus
 from r37core.tolerances.dataset import MemberRun, tolerances_dataset
+from r37core.tolerances.figures import draw_tolerances
+from r37core.tolerances.members import members_of
 from r37core.tolerances.number_ranks import ranking
-from r37core.tolerances.sample import Tolerance, is_of_sample, number_of, places
+from r37core.tolerances.sample import is_of_sample, number_of, places
 from r37core.tolerances.sensitivity import sobol_indices
 from r37core.tolerances.shares import CONFIDENCE, share_ends
-from r37core.tolerances.table import ENDS, as_ranges_bear, range_table, ranges, read_ranges, with_ranges
+from r37core.tolerances.table import range_table, ranges
 
 
 def test_more_members_change_none_that_are_there():
@@ -51,15 +57,15 @@ def test_members_for_the_indices_take_one_number_from_the_second_sample():
 @pytest.mark.parametrize(
     ("tolerance", "shares", "expected"),
     [
-        (Tolerance("uniform", (5.0,), percent=True), (0.0, 0.5, 1.0), (1.9, 2.0, 2.1)),
-        (Tolerance("uniform", (0.5,)), (0.0, 0.25, 1.0), (1.5, 1.75, 2.5)),
+        (Spread("uniform", (5.0,), percent=True), (0.0, 0.5, 1.0), (1.9, 2.0, 2.1)),
+        (Spread("uniform", (0.5,)), (0.0, 0.25, 1.0), (1.5, 1.75, 2.5)),
         (
-            Tolerance("normal", (10.0,), percent=True),
+            Spread("normal", (10.0,), percent=True),
             (0.5, 0.975, 0.025),
             (2.0, 2.0 + 0.2 * 1.959963985, 2.0 - 0.2 * 1.959963985),
         ),
-        (Tolerance("between", (0.8, 1.25)), (0.0, 1.0), (0.8, 1.25)),
-        (Tolerance("values", (3.0, 1.0)), (0.0, 0.49, 0.5, 1.0), (3.0, 3.0, 1.0, 1.0)),
+        (Spread("between", (0.8, 1.25)), (0.0, 1.0), (0.8, 1.25)),
+        (Spread("values", (3.0, 1.0)), (0.0, 0.49, 0.5, 1.0), (3.0, 3.0, 1.0, 1.0)),
     ],
 )
 def test_values_of_a_distribution(tolerance, shares, expected):
@@ -67,7 +73,7 @@ def test_values_of_a_distribution(tolerance, shares, expected):
 
 
 def test_a_negative_number_spreads_like_its_amount():
-    assert Tolerance("uniform", (10.0,), percent=True).value(-2.0, 1.0) == pytest.approx(-1.8)
+    assert Spread("uniform", (10.0,), percent=True).value(-2.0, 1.0) == pytest.approx(-1.8)
 
 
 def measured(function, numbers, members=2048):
@@ -78,7 +84,7 @@ def test_indices_of_the_ishigami_function():
     """Closed form: Ishigami and Homma (1990), with a = 7, b = 0.1."""
 
     def ishigami(*place):
-        x, y, z = (Tolerance("between", (-np.pi, np.pi)).value(0.0, share) for share in place)
+        x, y, z = (Spread("between", (-np.pi, np.pi)).value(0.0, share) for share in place)
         return np.sin(x) + 7.0 * np.sin(y) ** 2 + 0.1 * z**4 * np.sin(x)
 
     found = sobol_indices(measured(ishigami, 3), [0, 1, 2], 3)
@@ -97,7 +103,7 @@ def test_indices_of_an_oscillators_peak():
 
     def peak(*place):
         force, damping, stiffness = (
-            Tolerance("between", one).value(0.0, share) for one, share in zip(bounds.values(), place, strict=True)
+            Spread("between", one).value(0.0, share) for one, share in zip(bounds.values(), place, strict=True)
         )
         return force / (2.0 * damping * stiffness)
 
@@ -228,8 +234,8 @@ def settings_of(root, content, **more):
 def test_members_have_the_values_of_the_sample(root):
     numbers = {"friction.coefficient": {"uniform_percent": 5.0}, "lining.elastic_modulus_pa": {"values": [1.0e10, 3.0e10]}}
     settings = settings_of(root, {"members": 8, "blades": ["Ref"], "of_scenes": numbers})
-    assert settings.members.pairs == [("Ref", "abradable"), ("Ref", "direct")]
-    lined, direct = (settings.members.all["Ref", scene] for scene in ("abradable", "direct"))
+    assert members_of(settings).pairs == [("Ref", "abradable"), ("Ref", "direct")]
+    lined, direct = (members_of(settings).all["Ref", scene] for scene in ("abradable", "direct"))
     assert list(lined) == [str(row) for row in range(8)]
     for name, member in lined.items():
         assert member.values == (member.scene.friction.coefficient, member.scene.lining.elastic_modulus)
@@ -243,7 +249,7 @@ def test_members_have_the_values_of_the_sample(root):
 
 def test_indices_have_members_for_each_number_that_a_scene_has(root):
     numbers = {"friction.coefficient": {"uniform_percent": 5.0}, "lining.thickness_m": {"uniform_percent": 5.0}}
-    members = settings_of(root, {"members": 2, "sensitivity": True, "of_scenes": numbers}).members
+    members = members_of(settings_of(root, {"members": 2, "sensitivity": True, "of_scenes": numbers}))
     assert list(members.all["Ref", "abradable"]) == ["0", "1", "0b", "1b", "0f1", "1f1", "0f2", "1f2"]
     assert list(members.all["Ref", "direct"]) == ["0", "1", "0b", "1b", "0f1", "1f1"]
 
@@ -258,7 +264,7 @@ def test_a_blade_spreads_in_material_thickness_and_place(root):
     settings = settings_of(root, {"members": 4, "of_blades": numbers})
     for name in ("Ref", "S100"):
         nominal = settings.blades[name]
-        for member in settings.members.all[name, "direct"].values():
+        for member in members_of(settings).all[name, "direct"].values():
             young, thickness, sweep, lean = member.values
             assert member.blade.material == replace(nominal.material, youngs_modulus=young)
             hub, tip = member.blade.definition.profiles[0], member.blade.definition.profiles[-1]
@@ -275,9 +281,9 @@ def test_a_blade_spreads_in_material_thickness_and_place(root):
 def test_the_tolerances_of_the_page_and_of_the_file_are_accepted(root):
     page = (root / "docs/tolerances.md").read_text()
     asked = yaml.safe_load(re.search(r"```yaml\n(.*?)```", page, re.DOTALL)[1])
-    assert len(settings_of(root, asked["tolerances"]).members.all["S100", "abradable"]) == 32
+    assert len(members_of(settings_of(root, asked["tolerances"])).all["S100", "abradable"]) == 32
     with open(root / "config/tolerances.yaml") as stream:
-        assert len(settings_of(root, {}, **yaml.safe_load(stream)).members.all["Ref", "abradable"]) == 32
+        assert len(members_of(settings_of(root, {}, **yaml.safe_load(stream))).all["Ref", "abradable"]) == 32
 
 
 @pytest.mark.parametrize(
@@ -299,14 +305,14 @@ def test_the_tolerances_of_the_page_and_of_the_file_are_accepted(root):
 def test_a_run_says_when_its_members_rank_nothing(root, members, sensitivity, said):
     numbers = {"friction.coefficient": {"uniform_percent": 5.0}, "damping_ratio": {"uniform_percent": 5.0}}
     given = {"members": members, "sensitivity": sensitivity, "blades": ["Ref"], "of_scenes": numbers}
-    remarks = [one for one in settings_of(root, given).remarks if "rank" in one or "name the first" in one]
+    remarks = [one for one in remarks_of(settings_of(root, given)) if "rank" in one or "name the first" in one]
     assert len(remarks) == len(said) and all(f"tolerances: {text}" in one for text, one in zip(said, remarks, strict=True))
     alone = {**given, "of_scenes": {"damping_ratio": numbers["damping_ratio"]}}
-    assert not any("rank" in one for one in settings_of(root, alone).remarks if "Sobol" not in one)
+    assert not any("rank" in one for one in remarks_of(settings_of(root, alone)) if "Sobol" not in one)
 
 
 def test_without_numbers_there_are_no_members(settings):
-    assert settings.members.pairs == []
+    assert members_of(settings).pairs == []
 
 
 @pytest.mark.parametrize(
@@ -361,11 +367,11 @@ def test_percent_of_a_number_that_is_zero_is_refused(root, tmp_path):
 
 def test_a_blade_or_scene_without_any_of_the_numbers_has_no_members(root):
     lining = {"lining.thickness_m": {"uniform_percent": 5.0}}
-    assert settings_of(root, {"of_scenes": lining}).members.pairs == [("Ref", "abradable"), ("S100", "abradable")]
+    assert members_of(settings_of(root, {"of_scenes": lining})).pairs == [("Ref", "abradable"), ("S100", "abradable")]
     sweep = {"sweep_percent": {"uniform": 5.0}}
-    assert settings_of(root, {"of_blades": sweep}).members.pairs == [("S100", "abradable"), ("S100", "direct")]
+    assert members_of(settings_of(root, {"of_blades": sweep})).pairs == [("S100", "abradable"), ("S100", "direct")]
     # another part of the blades may have some
-    assert settings_of(root, {"of_blades": sweep}, run={"part": "1/2"}).members.pairs == []
+    assert members_of(settings_of(root, {"of_blades": sweep}, run={"part": "1/2"})).pairs == []
 
 
 def test_a_table_of_sweep_and_lean_stays_within_its_bounds(root):
@@ -600,8 +606,10 @@ def test_leftovers_are_members_that_are_not_drawn_any_more(root, tmp_path):
         },
     )
     folder = tmp_path / "tolerances"
-    kept = ["Ref/abradable/1/response.nc", "Ref/abradable/round_0.json", "models/Ref/0/mesh.vtu"]
-    gone = ["Ref/abradable/2", "Ref/abradable/0b", "Ref/direct", "S100", "models/Ref/0f1", "models/S100"]
+    kept = ["1/Ref/abradable/response.nc", "Ref/abradable/round_0.json", "0/Ref/mesh.vtu"]
+    gone = ["2", "0b", "0/Ref/direct", "Ref/direct", "S100", "0f1", "0/S100"]
+    # where members lay before
+    gone += ["Ref/abradable/0", "models"]
     for name in [*kept, *(f"{name}/file" for name in gone)]:
         (folder / name).parent.mkdir(parents=True, exist_ok=True)
         (folder / name).write_text("x")

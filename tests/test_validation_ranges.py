@@ -5,7 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from r37core.config import ConfigError, command_line_document, read_settings
+from r37core.config import ConfigError, command_line_document
+from r37core.product.reading import read_settings
 from r37core.studies.checks import Check, claim
 from r37core.studies.modelling_choices.cases import DIRECT
 from r37core.studies.plan import Studies

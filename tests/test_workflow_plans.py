@@ -2,25 +2,26 @@
 
 import json
 import math
+import re
 from dataclasses import replace
 from types import SimpleNamespace
 
 import pytest
 
 from r37core.adaptive.criterion import RefinementChoice
-from r37core.config import ConfigError, command_line_document, read_settings
+from r37core.config import ConfigError, command_line_document
+from r37core.config.speed_choice import most_runs
 from r37core.contact.scene import Scene
 from r37core.io import InputFileError
 from r37core.plain import from_plain
-from r37core.plans.import_plan import Imported
 from r37core.plans.paths import filled
 from r37core.plans.provenance import Provenance
-from r37core.plans.run_up_plan import RunUps
-from r37core.plans.signal_plan import Signals
 from r37core.plans.structure_plan import Structure
 from r37core.plans.sweep_plan import Sweep, asked_by
-from r37core.plans.targets import targets
+from r37core.product.reading import read_settings
+from r37core.product.targets import targets
 from r37core.run_ups.choice import RunUpChoice
+from r37core.run_ups.plan import RunUps
 from r37core.speeds import SpeedPlan
 from r37core.studies.estimate import cases as estimate
 from r37core.studies.modelling_choices import cases as modelling_choices
@@ -28,6 +29,8 @@ from r37core.studies.plan import STUDIES, Studies
 from r37core.studies.refinement import cases as refinement
 from r37core.studies.stability import cases as stability
 from r37core.studies.tradeoff import cases as tradeoff
+from r37core.tolerances.members import members_of
+from r37core.tolerances.plan import Tolerances
 
 
 @pytest.fixture(scope="module")
@@ -72,7 +75,8 @@ def refining(root, tmp_path):
     """A plan with adaptive speeds, with two finished rounds of the reference blade and one of the other."""
     rounds = {("Ref", 0): [900, 950, 1000], ("Ref", 1): [925], ("Ref", 2): [], ("L50", 0): [900, 950, 1000]}
 
-    def file_of_round(blade, scene, round):
+    def file_of_round(member, blade, scene, round):
+        assert member == ""
         file = tmp_path / f"{blade}_{round}.json"
         file.write_text(json.dumps({"new": rounds[blade, round], "measured": []}))
         return file
@@ -95,6 +99,96 @@ def test_a_round_reads_what_the_one_before_asked_for(refining):
     }
 
 
+TOLERANCES = {
+    "members": 2,
+    "sensitivity": True,
+    "blades": ["Ref"],
+    "largest_share": 0.4,
+    "of_scenes": {"lining.thickness_m": {"uniform_percent": 5.0}},
+    "of_blades": {"material.yield_stress_pa": {"values": [1.0e9]}, "thickness_percent": {"values": [100.0, 102.0]}},
+}
+
+
+@pytest.fixture
+def with_members(root, tmp_path):
+    """The same with members beside it: of the sample one has the nominal blade and one another, all yield early."""
+    settings = read_settings(root, command_line_document(REFINED | {"tolerances": TOLERANCES}))
+    (tmp_path / "round.json").write_text('{"new": [925], "measured": []}')
+
+    def file_of_round(member, blade, scene, round):
+        assert (member, blade, scene, round) == ("tolerances/", "Ref", "abradable", 1)
+        return tmp_path / "round.json"
+
+    return Tolerances(settings), file_of_round
+
+
+def test_a_member_is_run_like_the_nominal_blade(with_members):
+    """By the same plan: from the nominal model where its blade is the nominal one, with what its ranges are read off."""
+    tolerances, _ = with_members
+    settings, samples = tolerances.settings, {"tolerances": tolerances.samples}
+    sweep, structure, made = Sweep(settings, None, samples), Structure(settings, samples), Provenance(settings, samples)
+    drawn = members_of(settings).all["Ref", "abradable"]
+    shapes = {name: member.values[1] for name, member in drawn.items()}
+    (same, *_), (other, *_) = ([name for name in drawn if shapes[name] == percent] for percent in (100.0, 102.0))
+    task = json.loads(sweep.task(of(**vars(REF), speed="900")))
+    for name, folder in {same: "", other: f"tolerances/{other}/"}.items():
+        member = of(blade="Ref", scene="abradable", member=f"tolerances/{name}/", speed="900", tip_line="pressure_edge")
+        assert sweep.models(member) == [f"<results>/{folder}Ref/{kind}_pressure_edge.npz" for kind in ("contact", "stress")]
+        assert structure.mesh(member) == f"<results>/{folder}Ref/mesh.vtu"
+        assert sweep.yield_stress(member) == 1.0e9 != sweep.yield_stress(REF)
+        assert structure.elastic(member) == structure.elastic(REF)
+        own = json.loads(sweep.task(member))
+        assert own["results"] == ["spectrum", "stress"] and {"wear", "energy"} <= set(task["results"])
+        assert own["scene"]["lining"]["thickness"] == drawn[name].values[2] != task["scene"]["lining"]["thickness"]
+        assert own["kept"] == task["kept"]
+        about, nominal = made.sweep(member), made.sweep(REF)
+        assert about["member"] == name and "member" not in nominal
+        assert json.loads(about["scene_parameters"]) == own["scene"]
+        unlike = {key for key in nominal if about[key] != nominal[key]}
+        assert unlike == {"scene_parameters"}
+        assert sweep.nominal_stamp(member) == ["<results>/Ref/abradable/time_integration.stamp"]
+        assert sweep.stress_history_speeds(member) == ()
+    assert structure.definition(member)["name"] == f"Ref, member {other} of tolerances"
+    assert sweep.nominal_stamp(of(**vars(REF), member="")) == []
+
+
+def test_members_keep_no_history_of_the_stress(with_members):
+    settings = with_members[0].settings
+    history = settings.scene_entries["abradable"].model_copy(update={"stress_history_speeds_rad_s": [900.0]})
+    settings = replace(settings, scene_entries=settings.scene_entries | {"abradable": history})
+    sweep = Sweep(settings, None, {"tolerances": Tolerances(settings).samples})
+    kept = [
+        json.loads(sweep.task(of(**vars(REF), member=member, speed="900")))["choice"]["snapshot_revolutions"]
+        for member in ("", "tolerances/0/")
+    ]
+    assert kept == [settings.scenes["abradable"].revolutions, settings.scenes["abradable"].revolutions // 2]
+
+
+def test_a_round_of_members_reads_those_of_the_sample(with_members):
+    """One after the other; what indices need beside the sample changes no speeds."""
+    tolerances, file_of_round = with_members
+    sweep = Sweep(tolerances.settings, file_of_round, {"tolerances": tolerances.samples})
+    sample = of(blade="Ref", scene="abradable", member="tolerances/", round="2")
+    assert sweep.round_inputs(sample) == {
+        "before": "<results>/tolerances/Ref/abradable/round_1.json",
+        "speeds": [f"<results>/tolerances/{name}/Ref/abradable/speed_925.npz" for name in ("0", "1")],
+    }
+    assert sweep.yields_of_round(sample) == [1.0e9, 1.0e9]
+    assert sweep.refinement_choice(sample)["largest_share"] == 0.4 != sweep.refinement_choice(REF)["largest_share"]
+    assert len(tolerances.responses) == 2 * 2 * 5 - 2 and len(tolerances.responses_of_sample) == 2 * 2
+    assert tolerances.responses[0] == "<results>/tolerances/0/Ref/abradable/response.nc"
+
+
+@pytest.mark.parametrize(
+    ("part", "fits"),
+    [("", True), ("tolerances/", True), ("tolerances/0f1/", True), ("tolerances/0/1/", False), ("other/0/", False)],
+)
+def test_the_wildcard_of_a_member(with_members, part, fits):
+    tolerances, _ = with_members
+    pattern = Sweep(tolerances.settings, None, {"tolerances": tolerances.samples}).samples.pattern
+    assert bool(re.fullmatch(pattern, part)) == fits
+
+
 def test_what_a_round_is_told_is_what_it_takes(refining):
     """Plain values, of which a job makes the plan and the choice again."""
     assert from_plain(SpeedPlan, json.loads(json.dumps(refining.refined_plan(REF)))) == refining.speed_plan(REF)
@@ -111,7 +205,7 @@ def test_without_a_lining_a_round_has_a_share_of_its_own_and_no_windows(root):
     sweep = Sweep(settings)
     assert (sweep.refinement_choice(direct)["windows"], sweep.refinement_choice(direct)["largest_share"]) == ([], 0.125)
     assert sweep.refinement_choice(direct)["change"] == sweep.refinement_choice(lined)["change"]
-    assert settings.most_runs("Ref", "direct") < settings.most_runs("Ref", "abradable")
+    assert most_runs(settings, "Ref", "direct") < most_runs(settings, "Ref", "abradable")
     window = {"mode": "1B", "highest_engine_order": 3, "first": 0.0, "last": 0.1, "step_rad_s": 5.0}
     chosen = {"refinement": {"direct": {"windows": [window], "largest_share": 0.9}}}
     sweep = Sweep(read_settings(root, command_line_document(run | chosen)))
@@ -144,7 +238,7 @@ def test_members_are_run_at_every_speed_too(root):
     assert list(cases) == ["Ref__abradable", "Ref__direct", "Ref__abradable/0", "Ref__abradable/1"]
     assert members == {"Ref__abradable": {"0": "Ref__abradable/0", "1": "Ref__abradable/1"}}
     nominal, member = cases["Ref__abradable"], cases["Ref__abradable/1"]
-    assert member.scene == settings.members.all["Ref", "abradable"]["1"].scene != nominal.scene
+    assert member.scene == members_of(settings).all["Ref", "abradable"]["1"].scene != nominal.scene
     assert replace(member, scene=nominal.scene, what=nominal.what) == nominal
     of_blades = {"of_blades": {"thickness_percent": {"normal": 1}}}
     settings = read_settings(root, command_line_document({**REFINED, "blades": ["Ref"], "tolerances": of_blades}))
@@ -323,7 +417,7 @@ def test_targets_are_what_the_configuration_asks_for(config_copy):
     def asked(**sections):
         settings = read_settings(config_copy, command_line_document(few | sections))
         sweep = Sweep(settings)
-        return {file.removeprefix("<results>/") for file in filled(targets(sweep, Signals(Imported(settings), sweep)))}
+        return {file.removeprefix("<results>/") for file in filled(targets(sweep))}
 
     without = asked()
     assert {"rms.nc", "stress.nc", "spectrum.nc", "shapes/Ref.html", "figures/shapes_Ref__direct.png"} <= without
@@ -362,6 +456,6 @@ def test_run_ups_are_planned_like_speeds(root):
     assert found.before == planned.choice(climb)["revolutions"] == 200
     # stress in every revolution, the first ones too
     assert planned.choice(down)["revolutions"] == planned.choice(down)["snapshot_revolutions"] == 30
-    wanted = targets(Sweep(settings), Signals(Imported(settings), Sweep(settings)))
+    wanted = targets(Sweep(settings))
     assert {"<results>/run_ups.nc", "<results>/figures/run_ups_Ref__direct.png"} <= set(filled(wanted))
     assert "<results>/figures/run_ups_Ref__abradable.png" not in filled(wanted)

@@ -10,8 +10,9 @@ import pandas as pd
 import pytest
 import xarray as xr
 import yaml
-from stubbed_runs import copy_stubbed, edit, planned_outputs
-from workflow_runs import copy_project, snakemake
+from plans_of_snakemake import planned_outputs
+from stubbed_runs import copy_stubbed, edit
+from workflow_runs import copy_finished, copy_project, snakemake
 
 from r37core.config.imported_entry import MeshEntry
 from r37core.exchange.importing.import_mesh import import_mesh
@@ -109,8 +110,7 @@ def stubbed(root, drawn, tmp_path_factory):
 
 @pytest.fixture
 def project(stubbed, tmp_path):
-    shutil.copytree(stubbed, tmp_path / "project", copy_function=shutil.copy2)
-    return tmp_path / "project"
+    return copy_finished(stubbed, tmp_path / "project")
 
 
 @pytest.mark.slow

@@ -1,12 +1,14 @@
-"""Snakemake's command without its start: a process that has imported Snakemake forks for each command.
+"""Snakemake's command without its start: a process that has imported Snakemake and the package forks for each command.
 
-All else is as in a process of its own: folder, arguments, environment, what it prints, its exit status, and the project's
-package, which only the fork imports.
+All else is as in a process of its own: folder, arguments, environment, what it prints, its exit status. A project with a
+package of its own imports that in the fork.
 """
 
 import atexit
+import gc
 import json
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -15,20 +17,35 @@ from functools import cache
 from importlib import import_module
 from pathlib import Path
 
-COMMON = ("llvmlite", "numpy", "pandas", "pydantic", "scipy", "yaml", "snakemake.cli", "snakemake.report.html_reporter")
-"""What Snakemake and the project import for every plan."""
+CHECKOUT = Path(__file__).parent.parent
+COMMON = ("jsonschema", "llvmlite", "nbformat", "numpy", "pandas", "pydantic", "scipy", "smart_open", "yaml")
+COMMON += ("snakemake.cli", "snakemake.dag", "snakemake.profiles", "snakemake.storage", "snakemake.report.html_reporter")
+"""What Snakemake imports for every plan; what the rules import is read from them."""
 
 
-def run(folder, arguments, environment, seconds):
-    """Exit status and what is printed, output before errors; killed after `seconds`."""
+_used = [0.0]
+
+
+def cpu_time():
+    """CPU time (s) of all commands that have ended, for which only their server waits."""
+    return _used[0]
+
+
+def run(folder, arguments, environment, seconds, jobs=None):
+    """Exit status and what is printed, output before errors; killed after `seconds`.
+
+    `jobs`: file for the jobs of the graph, see tests/plans_of_snakemake.py.
+    """
     server = _server()
     with tempfile.TemporaryDirectory() as printed:
         files = [str(Path(printed, name)) for name in ("output", "errors")]
         order = {"folder": str(folder), "arguments": arguments, "environment": environment, "files": files, "seconds": seconds}
+        order |= {"jobs": jobs and str(jobs)}
         server.stdin.write(json.dumps(order) + "\n")
         server.stdin.flush()
-        status = int(server.stdout.readline())
-        return status, "".join(Path(file).read_text() for file in files)
+        status, used = server.stdout.readline().split()
+        _used[0] += float(used)
+        return int(status), "".join(Path(file).read_text() for file in files)
 
 
 @cache
@@ -40,13 +57,24 @@ def _server():
 
 
 def _serve():
-    """Answer each line of JSON, an order, with the exit status. Returns in the fork, with its order; None at the end."""
+    """Answer each line of JSON, an order, with the exit status and the CPU time (s).
+
+    Returns in the fork, with its order; None at the end.
+    """
     for line in sys.stdin:
         child = os.fork()
         if child == 0:
             return json.loads(line)
-        print(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]), flush=True)
+        _, status, used = os.wait4(child, 0)
+        print(os.waitstatus_to_exitcode(status), used.ru_utime + used.ru_stime, flush=True)
     return None
+
+
+def _import_package():
+    """What the rules take from the package of the checkout."""
+    for file in [CHECKOUT / "Snakefile", *(CHECKOUT / "workflow/rules").glob("*.smk")]:
+        for name in re.findall(r"^from (r37core\S*) import", file.read_text(), re.MULTILINE):
+            import_module(name)
 
 
 def _become(order):
@@ -55,16 +83,50 @@ def _become(order):
     os.environ.clear()
     os.environ.update(order["environment"])
     sys.path[:0] = order["environment"]["PYTHONPATH"].split(os.pathsep)
+    if Path(sys.path[0]).resolve() != CHECKOUT / "src":
+        for name in [name for name in sys.modules if name.split(".")[0] == "r37core"]:
+            del sys.modules[name]
     sys.argv = ["snakemake", *order["arguments"]]
     for stream, file in zip((sys.stdin, sys.stdout, sys.stderr), (os.devnull, *order["files"]), strict=True):
         with open(file, stream.mode) as opened:
             os.dup2(opened.fileno(), stream.fileno())
     signal.alarm(order["seconds"])
+    if order["jobs"]:
+        _write_jobs(Path(order["jobs"]))
+
+
+def _write_jobs(file):
+    """Let Snakemake's interface write the jobs that are to run, as JSON, once it has planned them."""
+    from snakemake.api import DAGApi
+
+    execute = DAGApi.execute_workflow
+
+    def execute_and_write(self, *arguments, **options):
+        execute(self, *arguments, **options)
+        dag = self.workflow_api._workflow.dag
+        jobs = [
+            {
+                "rule": job.rule.name,
+                "wildcards": dict(job.wildcards_dict),
+                "inputs": list(map(str, job.input)),
+                "outputs": list(map(str, job.output)),
+                "priority": float(job.priority),
+                "because_of_params": bool(dag.reason(job).params_changed),
+            }
+            for job in dag.needrun_jobs(exclude_finished=False)
+        ]
+        file.write_text(json.dumps(jobs))
+
+    DAGApi.execute_workflow = execute_and_write
 
 
 if __name__ == "__main__":
     for name in COMMON:
         import_module(name)
+    _import_package()
+    gc.collect()
+    # what is there for good costs the forks neither a look nor a copy
+    gc.freeze()
     if ordered := _serve():
         _become(ordered)
         sys.exit(import_module("snakemake.cli").main())

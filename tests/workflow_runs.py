@@ -16,13 +16,10 @@ LONGEST = 1800
 
 
 def copy_project(root, to):
-    for folder in ("config", "workflow", "profiles", "envs", "src"):
-        # src/r37/config stays a link: to the copy's config/
-        shutil.copytree(root / folder, to / folder, symlinks=True, ignore=shutil.ignore_patterns("__pycache__", "*.egg-info"))
-    # what was compiled for one copy is good for all
-    compiled = Path("src/r37core/__pycache__")
-    (root / compiled).mkdir(exist_ok=True)
-    (to / compiled).symlink_to(root / compiled)
+    """A copy with a small sweep. Its package is that of the checkout: see `own_package`."""
+    for folder in ("config", "workflow", "profiles", "envs"):
+        shutil.copytree(root / folder, to / folder, symlinks=True, ignore=shutil.ignore_patterns("__pycache__"))
+    (to / "src").symlink_to((root / "src").resolve())
     shutil.copy(root / "Snakefile", to / "Snakefile")
     config = (to / "config/config.yaml").read_text()
     config = config.replace("blades: all ", "blades: [Ref, CS100] ").replace("fidelity: standard ", "fidelity: tiny ")
@@ -36,6 +33,23 @@ def copy_project(root, to):
             "\ntiny:\n  mesh: { nodes: 1500, layers: 1, tip_elements: 14 }\n  reduction: { fixed_interface_modes: 8 }\n"
             "  time_integration: { time_step_s: 2.0e-7, revolutions: 8, speed_step_rad_s: 400 }\n"
         )
+
+
+def copy_finished(finished, to):
+    """A copy of a project and of all that was made in it, with the times of its files: nothing has to be made again."""
+    shutil.copytree(finished, to, symlinks=True, copy_function=shutil.copy2)
+    return to
+
+
+def own_package(project):
+    """Let a copy have a package of its own, to be edited; `src/r37/config` is a link to the copy's configuration there."""
+    source = project / "src"
+    shared = source.resolve()
+    source.unlink()
+    shutil.copytree(shared, source, symlinks=True, ignore=shutil.ignore_patterns("*.egg-info", "*.pyc.*", "*.o", "*.partial"))
+    # what was compiled for one copy is good for all
+    shutil.rmtree(source / "r37core/__pycache__", ignore_errors=True)
+    (source / "r37core/__pycache__").symlink_to(shared / "r37core/__pycache__")
 
 
 NAME = 'it\'s "my" $(touch EXECUTED) `touch EXECUTED`; touch EXECUTED & rotor'
@@ -74,21 +88,10 @@ def source(folder):
     return folder / "src"
 
 
-def snakemake(folder, *arguments, check=True):
+def snakemake(folder, *arguments, check=True, jobs=None):
+    """What the command prints. `jobs`: a file for the jobs that it plans (tests/plans_of_snakemake.py)."""
     environment = {key: value for key, value in os.environ.items() if not key.startswith("SNAKEMAKE")}
     environment |= {"PYTHONPATH": str(source(folder)), "R37_FULL_LOG": "1"}
-    status, text = warm_snakemake.run(folder, arguments, environment, LONGEST)
+    status, text = warm_snakemake.run(folder, arguments, environment, LONGEST, jobs)
     assert not check or status == 0, text
     return text
-
-
-def planned(folder, *arguments):
-    """Jobs of a dry run: rule -> blades (None for a rule without the wildcard)."""
-    jobs = {}
-    text = snakemake(folder, *(arguments or ("all_blades",)), "--cores", "2", "--dry-run")
-    for block in re.split(r"\n\[", text.split("Job stats:")[1] if text.startswith("Job stats") else text):
-        rule = re.search(r"^(?:local)?rule (\w+):", block, re.MULTILINE)
-        if rule:
-            blade = re.search(r"wildcards: blade=(\w+)", block)
-            jobs.setdefault(rule[1], set()).add(blade[1] if blade else None)
-    return jobs

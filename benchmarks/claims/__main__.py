@@ -29,21 +29,21 @@ _SNAKEMAKES = ("results/figures/", "results/runs/")
 
 def stale(claims: Iterable[Claim], root: Path) -> list[tuple[Claim, list[Output]]]:
     """Claims with outputs whose hash is not the present one, those that tests compare left out."""
-    found = [
-        (claim, [one for one in claim.outputs if read_stamp(one, root) != present_hash(claim, one, root)])
+    older = [
+        (claim, [output for output in claim.outputs if read_stamp(output, root) != present_hash(claim, output, root)])
         for claim in claims
         if not claim.checked_by
     ]
-    return [(claim, outputs) for claim, outputs in found if outputs]
+    return [(claim, outputs) for claim, outputs in older if outputs]
 
 
 def named(name: str) -> list[Claim]:
     """The claims of a name; ValueError where there are none."""
-    found = [claim for claim in CLAIMS if name == claim.name or any(_is(one, name) for one in claim.outputs)]
-    if not found:
+    claims = [claim for claim in CLAIMS if name == claim.name or any(_is(output, name) for output in claim.outputs)]
+    if not claims:
         allowed = ", ".join(claim.name for claim in CLAIMS)
         raise ValueError(f"ONLY: found '{name}'; allowed: {allowed}, or a file or table of docs/, as accuracy.md#levels")
-    return found
+    return claims
 
 
 def _is(output: Output, name: str) -> bool:
@@ -61,8 +61,8 @@ def make(claim: Claim, cores: str, root: Path) -> None:
         words = command.replace("{snakemake}", f"{{python}} -m snakemake --cores {cores}").replace("{python}", sys.executable)
         print(f"+ {words}", flush=True)
         subprocess.run(words, shell=True, cwd=root, check=True, env=os.environ | {"PYTHONPATH": str(root / "benchmarks")})
-    for one in claim.outputs:
-        made = one.source or one.page
+    for output in claim.outputs:
+        made = output.source or output.page
         # Snakemake leaves what is up to date as it is
         by_script = "{snakemake}" not in claim.commands[-1] and not made.startswith(_SNAKEMAKES)
         if not (root / made).exists() or (by_script and (root / made).stat().st_mtime < began - 1.0):
@@ -72,28 +72,28 @@ def make(claim: Claim, cores: str, root: Path) -> None:
 
 def present_hashes(claim: Claim, root: Path) -> dict[str, str]:
     """Place -> the present hash, of outputs that carry one."""
-    return {one.place: present_hash(claim, one, root) for one in claim.outputs if not claim.checked_by}
+    return {output.place: present_hash(claim, output, root) for output in claim.outputs if not claim.checked_by}
 
 
 def keep(claim: Claim, root: Path) -> None:
     """Renew the hashes of what is there; what is known to be older stays so."""
     older, hashes = read_older(root), present_hashes(claim, root)
-    for one in claim.outputs:
-        if one.place in hashes.keys() - older.keys():
-            write_stamp(one, hashes[one.place], root)
+    for output in claim.outputs:
+        if output.place in hashes.keys() - older.keys():
+            write_stamp(output, hashes[output.place], root)
 
 
 def take(claim: Claim, hashes: dict[str, str], root: Path) -> None:
     """Put what was made into the pages, with its hashes; older than what makes it is nothing of that any more."""
-    for one in claim.outputs:
-        if one.source is not None and one.marker:
-            text = (root / one.source).read_text(encoding="utf-8")
-            page = (root / one.page).read_text(encoding="utf-8")
-            write_text(with_part(page, one.marker, one.text(text)), root / one.page)
-        elif one.source is not None:
-            shutil.copy(root / one.source, root / one.page)
-        if one.place in hashes:
-            write_stamp(one, hashes[one.place], root)
+    for output in claim.outputs:
+        if output.source is not None and output.marker:
+            text = (root / output.source).read_text(encoding="utf-8")
+            page = (root / output.page).read_text(encoding="utf-8")
+            write_text(with_part(page, output.marker, output.text(text)), root / output.page)
+        elif output.source is not None:
+            shutil.copy(root / output.source, root / output.page)
+        if output.place in hashes:
+            write_stamp(output, hashes[output.place], root)
     write_older({place: why for place, why in read_older(root).items() if place not in hashes}, root)
 
 
@@ -105,36 +105,36 @@ def main() -> None:
     parser.add_argument("--taken", action="store_true", help="the results are there, made by this code: run no command")
     parser.add_argument("--same", action="store_true", help="code was rearranged, results are the same: renew only the hashes")
     parser.add_argument("--cores", default="2")
-    asked = parser.parse_args()
-    if (asked.taken or asked.same) and not asked.only:
+    options = parser.parse_args()
+    if (options.taken or options.same) and not options.only:
         parser.error("TAKEN and SAME need ONLY=name: whoever asks for them vouches for these")
     try:
-        _make_all(asked)
+        _make_all(options)
     except (ValueError, subprocess.CalledProcessError) as error:
         sys.exit(str(error))
 
 
-def _make_all(asked: argparse.Namespace) -> None:
-    chosen = [claim for name in asked.only for claim in named(name)]
+def _make_all(options: argparse.Namespace) -> None:
+    chosen = [claim for name in options.only for claim in named(name)]
     # what was asked for by name is made, older or not
     todo = [(claim, list(claim.outputs)) for claim in chosen] if chosen else stale(CLAIMS, ROOT)
     reasons = read_older(ROOT)
     for claim, outputs in todo:
         print(f"{claim.name} ({'minutes not measured' if claim.minutes is None else f'about {claim.minutes:g} min'}):")
-        print("\n".join(f"    {one.place}{_because(reasons.get(one.place))}" for one in outputs))
+        print("\n".join(f"    {output.place}{_because(reasons.get(output.place))}" for output in outputs))
         if claim.by_hand:
             print(f"    by hand: {claim.by_hand}; then make claims ONLY={claim.name} TAKEN=yes")
     minutes = sum(claim.minutes or 0.0 for claim, _ in todo if claim.commands)
     print(f"{len(todo)} to make, about {minutes / 60.0:.1f} hours in all" if todo else "nothing is older than what makes it")
-    if asked.list:
+    if options.list:
         return
     for claim, _ in todo:
-        if asked.same:
+        if options.same:
             keep(claim, ROOT)
-        elif asked.taken:
+        elif options.taken:
             take(claim, present_hashes(claim, ROOT), ROOT)
         elif claim.commands:
-            make(claim, asked.cores, ROOT)
+            make(claim, options.cores, ROOT)
 
 
 def _because(why: str | None) -> str:

@@ -49,10 +49,10 @@ def _section(root: Path, section: str) -> bytes:
     name, _, key = section.partition(":")
     if not name.endswith(".yaml"):
         return (root / name).read_bytes()
-    found: Any = _loaded(root / name)
+    content: Any = _loaded(root / name)
     for part in key.split(".") if key else ():
-        found = found[part]
-    return json.dumps(found, sort_keys=True, default=str).encode()
+        content = content[part]
+    return json.dumps(content, sort_keys=True, default=str).encode()
 
 
 @cache

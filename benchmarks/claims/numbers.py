@@ -12,10 +12,11 @@ from pathlib import Path
 
 import numpy as np
 
-from r37core.config import command_line_document, read_settings
+from r37core.config import command_line_document
 from r37core.fem.matrices import assemble
 from r37core.io import read_json, write_json
 from r37core.mesh.generate import generate_mesh
+from r37core.product.reading import read_settings
 from r37core.rom.contact_model import ContactModel
 from r37core.rom.reduce import reduce_blade
 from r37core.rom.reduced_model import ReducedModel, contact_model
@@ -45,19 +46,19 @@ def measured(root: Path) -> Numbers:
     settings = read_settings(root, command_line_document({"scenes": "all"}))
     blade, tip_line = settings.blades[_BLADE], settings.structure.boundary.tip_line
     mesh = generate_mesh(blade.definition.build(round_edges=True), **_MESH)
-    matrices, asked = assemble(mesh, blade.material), settings.reduction_choice(_BLADE)
-    with_coriolis = reduce_blade(mesh, matrices, replace(asked, coriolis=True))
-    patched = reduce_blade(mesh, matrices, replace(asked, boundary=replace(asked.boundary, contact=PATCHES)))
+    matrices, reduction = assemble(mesh, blade.material), settings.reduction_choice(_BLADE)
+    with_coriolis = reduce_blade(mesh, matrices, replace(reduction, coriolis=True))
+    patched = reduce_blade(mesh, matrices, replace(reduction, boundary=replace(reduction.boundary, contact=PATCHES)))
     model = replace(with_coriolis, coriolis=None)
-    contact, coriolis, patches = (contact_model(one, tip_line) for one in (model, with_coriolis, patched))
+    contact, coriolis, patches = (contact_model(each, tip_line) for each in (model, with_coriolis, patched))
 
     def run(of: ContactModel, name: str, speed: float = _SPEED, results=(), stress=None, **changes) -> dict[str, float]:
         quiet = {"energy": False, "snapshot_revolutions": 2 if stress else 0, "revolutions": _REVOLUTIONS}
         choice = replace(settings.integration_choice(_BLADE, name, speed), **quiet | changes)
-        kept = {"spectrum_highest_order": 1, "wear_angles": 8, "stress": stress}
-        return _of_run(run_speed(of, speed, settings.scenes[name].scene, choice, results, **kept))
+        counts = {"spectrum_highest_order": 1, "wear_angles": 8, "stress": stress}
+        return _of_run(run_speed(of, speed, settings.scenes[name].scene, choice, results, **counts))
 
-    found = {
+    numbers = {
         "structure": _frequencies(model),
         "lined": run(contact, "abradable", results=["wear"]),
         "direct": run(contact, "direct", **_DIRECT),
@@ -71,8 +72,8 @@ def measured(root: Path) -> Numbers:
     run_up = RunUp(1690.0, 1700.0, float(_REVOLUTIONS), 2, 2, False)
     choice = replace(settings.integration_choice(_BLADE, "abradable", 1690.0), snapshot_revolutions=0)
     more = {"highest_order": 1, "stress": None, "yield_stress": np.inf}
-    found["run_up"] = _of_run(record_run_up(contact, settings.scenes["abradable"].scene, choice, run_up, (), **more))
-    return {name: {key: float(f"{value:.9g}") for key, value in of.items()} for name, of in found.items()}
+    numbers["run_up"] = _of_run(record_run_up(contact, settings.scenes["abradable"].scene, choice, run_up, (), **more))
+    return {name: {key: float(f"{value:.9g}") for key, value in of.items()} for name, of in numbers.items()}
 
 
 def _frequencies(model: ReducedModel) -> dict[str, float]:
@@ -87,9 +88,9 @@ def _of_run(result: dict[str, np.ndarray]) -> dict[str, float]:
     """Rms of both corners in all directions (m), and one number of what else is there."""
     rms = result["rms"].reshape(-1, 2, 3)[-1]
     corners, directions = ("leading", "trailing"), ("normal", "radial", "tangential")
-    found = {f"rms {corner} {way} (m)": rms[i, j] for i, corner in enumerate(corners) for j, way in enumerate(directions)}
+    numbers = {f"rms {corner} {way} (m)": rms[i, j] for i, corner in enumerate(corners) for j, way in enumerate(directions)}
     sums = {"wear": "wear (m)", "revolution_von_mises": "von Mises (Pa)", "casing_rms_forward": "casing, forward (m)"}
-    return found | {f"sum of {said}": np.nansum(result[key]) for key, said in sums.items() if key in result}
+    return numbers | {f"sum of {label}": np.nansum(result[key]) for key, label in sums.items() if key in result}
 
 
 def moved(known: Numbers, now: Numbers) -> list[str]:

@@ -39,14 +39,14 @@ def with_notes(text: str, page: str, older: Mapping[str, str]) -> str:
     text = _NOTE.sub("", text)
     folder = Path(page).parent
     for place, why in older.items():
-        one = Output(place, None)
-        note = f"\n\n<!-- older -->\n*This {one.kind} is older than what makes it: {why}.*\n<!-- end -->"
-        if one.kind == "picture":
+        output = Output(place, None)
+        note = f"\n\n<!-- older -->\n*This {output.kind} is older than what makes it: {why}.*\n<!-- end -->"
+        if output.kind == "picture":
             shown = re.escape(str(Path(place).relative_to(folder)))
             pattern = rf"^!\[[^\]]*\]\({shown}\)$"
-        elif one.page == page:
-            pattern = rf"^<!-- {re.escape(one.marker)}(?: made-with:\w+)? -->\n.*?<!-- end -->"
+        elif output.page == page:
+            pattern = rf"^<!-- {re.escape(output.marker)}(?: made-with:\w+)? -->\n.*?<!-- end -->"
         else:
             continue
-        text = re.sub(pattern, lambda found, note=note: found[0] + note, text, flags=re.DOTALL | re.MULTILINE)
+        text = re.sub(pattern, lambda match, note=note: match[0] + note, text, flags=re.DOTALL | re.MULTILINE)
     return text

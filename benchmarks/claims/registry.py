@@ -27,7 +27,7 @@ _ALL = ("structure", "lined", "direct")
 
 def _study(name: str, *more: str) -> tuple[str, ...]:
     """Files of a study of r37core.studies that decide about its tables: what is run, and what is said."""
-    return tuple(f"src/r37core/studies/{name}/{one}.py" for one in ("cases", "report", *more))
+    return tuple(f"src/r37core/studies/{name}/{module}.py" for module in ("cases", "report", *more))
 
 
 _CHECKS = ("src/r37core/studies/checks.py", "src/r37core/published.py", "src/r37core/studies/modelling_choices/validation.py")
@@ -74,7 +74,7 @@ CLAIMS = (
     Claim(
         "configuration",
         tuple(Output(f"docs/configuration.md#{name}", None) for name in ("config", "blades", "scenes", "fidelity")),
-        ("{python} -m r37core.config.reference",),
+        ("{python} -m r37core.product.reference",),
         checked_by="tests/test_configuration_page.py",
     ),
     Claim(
@@ -424,11 +424,11 @@ CLAIMS = (
     ),
     # cost
     Claim(
-        "march_cost",
-        tables("speed", "", ("march_cost",)),
-        by_hand="make all_blades; python benchmarks/march_cost.py FOLDER, a checkout of the version to compare with",
+        "integration_cost",
+        tables("speed", "", ("integration_cost",)),
+        by_hand="make all_blades; python benchmarks/integration_cost.py FOLDER, a checkout of the version to compare with",
         minutes=12,
-        code=("benchmarks/march_cost.py",),
+        code=("benchmarks/integration_cost.py",),
         configuration=_BENCHMARK,
     ),
     Claim(

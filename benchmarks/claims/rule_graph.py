@@ -20,8 +20,8 @@ def rule_graph():
         command += ["--directory", empty]
         text = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True).stdout
     names = dict(re.findall(r"(id\d+)\[(\w+)\]", text))
-    edges = sorted((names[one], names[other]) for one, other in re.findall(r"(id\d+) --> (id\d+)", text))
-    lines = [f"    {one} --> {other}" for one, other in edges if other != "all_blades"]
+    edges = sorted((names[start], names[end]) for start, end in re.findall(r"(id\d+) --> (id\d+)", text))
+    lines = [f"    {start} --> {end}" for start, end in edges if end != "all_blades"]
     return "\n".join(["```mermaid", "flowchart LR", *lines, "```"])
 
 

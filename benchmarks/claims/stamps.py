@@ -31,8 +31,8 @@ def read_stamp(output: Output, root: Path) -> str | None:
         return json.loads(text)["metadata"].get("made_with")
     if output.marker:
         return made_with_of(text, output.marker)
-    found = _OF_PAGE.search(text)
-    return found and found[1]
+    match = _OF_PAGE.search(text)
+    return match and match[1]
 
 
 def write_stamp(output: Output, made_with: str, root: Path) -> None:

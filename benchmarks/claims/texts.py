@@ -20,13 +20,13 @@ def summary(text: str) -> str:
 
 def differences(text: str) -> str:
     """Of the table of all checks: how many agree, and the numbers that differ most, largest first."""
-    found = re.match(r"(\d+ of \d+) published numbers and statements agree", text.strip())
-    if found is None:
+    match = re.match(r"(\d+ of \d+) published numbers and statements agree", text.strip())
+    if match is None:
         raise ValueError("a table of checks begins with how many agree")
     rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in text.splitlines() if line.startswith("|")]
     # of yes and no there is no size
     numbers = [row for row in rows if re.fullmatch(r"\*\*[\d.]+%\*\*", row[3])]
     numbers.sort(key=lambda row: -float(row[3].strip("*%")))
     shown = [f"- {what}: {float(ours):.3g}, published {published}" for what, published, ours, *_ in numbers[:_LARGEST]]
-    head = f"At `paper` {found[1]} published numbers and statements agree. Furthest off:"
+    head = f"At `paper` {match[1]} published numbers and statements agree. Furthest off:"
     return "\n".join([head, "", *shown])

@@ -7,19 +7,21 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from r37core.config import ConfigError, Document, Settings, command_line_document, load_settings, read_document
+from r37core.config import ConfigError, Document, Settings, command_line_document, read_document
 from r37core.config.config_file import Config
-from r37core.config.cross_checks import CHECKS, history_speeds_are_run
+from r37core.config.cross_checks import history_speeds_are_run
 from r37core.config.reading import together
+from r37core.product.reading import CONFIG, READER
+from r37core.product.wings import WINGS
 
 _PACKAGE = Path(__file__).parent
 _FOLDER = "config"
 """Of the repository and of this package, where it is a link or, once installed, a copy."""
 
-_OF_A_RUN = ("run", "speeds", "speeds_rpm", "speeds_for", "exports", "signals", "run_ups", "tolerances", "studies")
+_OF_A_RUN = ("run", "speeds", "speeds_rpm", "speeds_for", "studies", *(wing.name for wing in WINGS))
 """Sections of config.yaml that say what a run of the workflow makes, and nothing of a single simulation."""
 
-_CHECKS = tuple(check for check in CHECKS if check is not history_speeds_are_run)
+_READER = replace(READER, checks=tuple(check for check in READER.checks if check is not history_speeds_are_run))
 """A call names its speeds: of those with a stress history it has the ones that it runs."""
 
 
@@ -37,7 +39,7 @@ class Configuration:
     @property
     def checked(self) -> Config:
         """The content as a model. Raises ConfigError."""
-        return self.document.check(Config)
+        return self.document.check(CONFIG)
 
     def with_file(self, key: str, file: Path | str) -> Configuration:
         """The same with another file under the key `blades_file` or `scenes_file`; tables of blades lie beside it."""
@@ -55,7 +57,7 @@ class Configuration:
         content = {key: value for key, value in self.document.content.items() if key not in _OF_A_RUN}
         places = {path: place for path, place in self.document.places.items() if not path or path[0] not in _OF_A_RUN}
         document = replace(self.document, content=content, places=places).overlaid(command_line_document(asked, caller))
-        return load_settings(document, self.root, blades_above=blades_above, scenes_above=scenes_above, checks=_CHECKS)
+        return _READER.load_settings(document, self.root, blades_above=blades_above, scenes_above=scenes_above)
 
 
 def read_configuration(file: Path | str | None = None) -> Configuration:

@@ -96,12 +96,12 @@ def scene(name: str, *, file: Path | str | None = None, config: Path | str | Non
 
 
 def _configuration(key: str, file: Path | str | None, config: Path | str | None) -> Configuration:
-    found = read_configuration(config)
+    configuration = read_configuration(config)
     if file is None:
-        return found
+        return configuration
     if not Path(file).is_file():
         raise ConfigError(f"file: found {file}; allowed: a file that is there")
-    return found.with_file(key, file)
+    return configuration.with_file(key, file)
 
 
 def _designs(document: Document, root: Path) -> Designs:

@@ -11,10 +11,14 @@ from pathlib import Path
 import pandas as pd
 import xarray as xr
 
-from r37core.config import ConfigError, load_settings
+from r37core.config import ConfigError
+from r37core.config.remarks import remarks_on_points
 from r37core.dataset_file import write_dataset
 from r37core.io import InputFileError
-from r37core.plans.sweep_plan import Sweep
+from r37core.plans.extent import extent_of
+from r37core.product.reading import load_settings
+from r37core.product.remarks import remarks
+from r37core.product.sampling import beside
 from r37core.time_integration.status import RunStatus
 
 from .call_configuration import read_configuration
@@ -111,17 +115,15 @@ def _check(given: argparse.Namespace) -> None:
     first, *changes = given.config or [None]
     configuration = read_configuration(first).with_changes(changes)
     settings = load_settings(configuration.document, configuration.root)
-    certain, most = sum(len(plan.certain) for plan in settings.speed_plans.values()), Sweep(settings).most_runs
+    extent, measured = extent_of(settings, beside(settings)), settings.fidelity.measured
     print(f"blades: {', '.join(settings.blade_names)}")
     print(f"scenes: {', '.join(settings.scene_names)}")
     print(f"level: {settings.fidelity_name}")
-    print(f"simulations: {certain}" if most == certain else f"simulations: {certain} to about {most}")
-    measured = settings.fidelity.measured
+    print(f"simulations: {extent.in_words}")
     if measured is not None:
-        cost = most * measured.cpu_s_per_run
-        told = f"{cost:.3g} s" if cost < 120.0 else f"{cost / 60.0:.3g} minutes"
-        print(f"their CPU time: about {told} at most, as measured on the reference blade")
-    for remark in [*settings.remarks, *settings.remarks_on_points]:
+        cost = extent.cpu_time(measured.cpu_s_per_run)
+        print(f"their CPU time: about {cost} at most, as measured on the reference blade; of yours: snakemake estimate")
+    for remark in [*remarks(settings), *remarks_on_points(settings)]:
         print(remark)
 
 

@@ -13,7 +13,8 @@ import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike
 
-from r37core.config import ConfigError, Settings
+from r37core.config import ConfigError, Settings, casing_remarks
+from r37core.config.remarks import remarks_on_points
 from r37core.dataset_file import read_dataset
 from r37core.io import FILE_ATTRIBUTES
 from r37core.plans.provenance import Provenance
@@ -61,14 +62,14 @@ def simulate(
     share of the energy, and the attribute initial_state. Other arguments and errors as of `sweep`; ConfigError also for a
     displacement that reaches into casing or lining.
     """
-    asked = {"speeds": _numbers([speed]), **_level(fidelity)}
-    settings = _settings("r37.simulate", blade, scene, config, asked, results)
+    changes = {"speeds": _numbers([speed]), **_level(fidelity)}
+    settings = _settings("r37.simulate", blade, scene, config, changes, results)
     try:
-        motion = InitialMotion.given(initial_displacement, initial_velocity)
-        found = _response(settings, motion)
+        motion = InitialMotion.from_arrays(initial_displacement, initial_velocity)
+        response = _response(settings, motion)
     except InitialMotionError as error:
         raise ConfigError(str(error)) from None
-    return found.isel(speed=0).assign_attrs({} if motion is None else motion.attributes)
+    return response.isel(speed=0).assign_attrs({} if motion is None else motion.attributes)
 
 
 def reduced_model(
@@ -85,7 +86,7 @@ def reduced_model(
     settings = _settings("r37.reduced_model", blade, scene, config, _level(fidelity))
     (name,) = settings.blade_names
     chosen = [settings.structure.boundary] if scene is None else settings.scenes.values()
-    (tip_line,) = {one.tip_line for one in chosen}
+    (tip_line,) = {choice.tip_line for choice in chosen}
     made = Provenance(settings).structure(SimpleNamespace(blade=name))
     model = read_dataset(StructureFiles(settings, name).reduced_model(tip_line))
     return model.assign_attrs(FILE_ATTRIBUTES | dict(made))
@@ -108,17 +109,17 @@ def sweep(
     in place of the shipped one, where names are looked up and from which structure and levels are taken. Raises ConfigError
     for bad input, and what a shape, mesh, model or time step raises that is impossible.
     """
-    asked = {"speeds": _numbers(speeds), **_level(fidelity)}
-    return _response(_settings("r37.sweep", blade, scene, config, asked, results))
+    changes = {"speeds": _numbers(speeds), **_level(fidelity)}
+    return _response(_settings("r37.sweep", blade, scene, config, changes, results))
 
 
 def _numbers(speeds: Iterable[float]) -> list[float]:
     """Speeds as plain numbers; ConfigError for others. Their bounds are the configuration's."""
-    found = [speed.item() if isinstance(speed, np.generic | np.ndarray) and speed.size == 1 else speed for speed in speeds]
-    for speed in found:
+    numbers = [speed.item() if isinstance(speed, np.generic | np.ndarray) and speed.size == 1 else speed for speed in speeds]
+    for speed in numbers:
         if isinstance(speed, bool) or not isinstance(speed, int | float):
             raise ConfigError(f"speeds: found {speed!r}; allowed: numbers, in rad/s")
-    return found
+    return numbers
 
 
 def _level(fidelity: str | None) -> dict[str, Any]:
@@ -130,30 +131,30 @@ def _settings(
     blade: BladeChoice | str,
     scene: SceneChoice | str | None,
     config: Path | str | None,
-    asked: dict[str, Any],
+    changes: dict[str, Any],
     results: Sequence[str] | None = None,
 ) -> Settings:
     """Settings of one blade and, where there is one, one scene; structure and levels are of `config`, else of the blade's."""
     base = blade.configuration if isinstance(blade, BladeChoice) and config is None else read_configuration(config)
     blade = blade if isinstance(blade, BladeChoice) else BladeChoice(blade, {}, base)
     _ = blade.settings
-    asked |= {"blades": [blade.name], "blades_file": blade.configuration.checked.blades_file}
+    changes |= {"blades": [blade.name], "blades_file": blade.configuration.checked.blades_file}
     above = None
     if scene is not None:
         scene = scene if isinstance(scene, SceneChoice) else SceneChoice(scene, {}, base)
         if results is not None:
             scene = SceneChoice(scene.name, {**scene.changes, "results": list(results)}, scene.configuration)
         _ = scene.entry
-        asked |= {"scenes": [scene.name], "scenes_file": scene.configuration.checked.scenes_file}
+        changes |= {"scenes": [scene.name], "scenes_file": scene.configuration.checked.scenes_file}
         above = scene.above
-    return Configuration(base.document, blade.configuration.root).settings(asked, caller, blade.above, above)
+    return Configuration(base.document, blade.configuration.root).settings(changes, caller, blade.above, above)
 
 
 def _response(settings: Settings, motion: InitialMotion | None = None) -> xr.Dataset:
     """The response of the one blade in the one scene of the settings, at their speeds, from rest or in `motion`."""
     ((blade, scene), plan), *_ = settings.speed_plans.items()
     at, sweep = SimpleNamespace(blade=blade, scene=scene), Sweep(settings)
-    for remark in [*settings.remarks_on_casings, *settings.remarks_on_points]:
+    for remark in [*casing_remarks.of_sweep(settings), *remarks_on_points(settings)]:
         warnings.warn(remark, stacklevel=3)
     chosen, structure = settings.scenes[scene], StructureFiles(settings, blade)
     model = read_contact_model(structure.contact_model(chosen.tip_line))

@@ -1,8 +1,10 @@
-"""The files of one blade's structure, each made when it is asked for, and kept."""
+"""The files of one blade's structure, each made by its step of the workflow when it is asked for, and kept."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import contextlib
+import io
+import tempfile
 from dataclasses import dataclass
 from functools import cache
 from importlib import import_module
@@ -10,16 +12,25 @@ from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any
 
-from r37core.blade.definition import BladeDefinition
+import r37core
 from r37core.config import Settings, plain, si_fields
 from r37core.exchange.importing.source import MatricesSource, MeshSource
+from r37core.io import Named
 from r37core.plain import to_plain
 from r37core.plans.code import CodeHashes
-from r37core.rom.reduction_choice import ReductionChoice, boundary_placed
+from r37core.plans.import_plan import Imported
+from r37core.plans.provenance import Attributes
+from r37core.plans.structure_plan import Structure
 
 from .structure_cache import cached_file
 
-_HERE = Path(__file__).parent
+
+@dataclass(frozen=True)
+class _Made:
+    """A file of the cache, and what its content follows from."""
+
+    file: Path
+    made_of: object
 
 
 @dataclass(frozen=True)
@@ -31,76 +42,70 @@ class StructureFiles:
 
     def reduced_model(self, tip_line: str) -> Path:
         """The reduced model (.nc) with contact nodes on this line. Raises what making it raises."""
-        return self._reduced(tip_line)[0]
+        return self._reduced(tip_line).file
 
     def contact_model(self, tip_line: str) -> Path:
         """What a simulation starts from (.npz). Raises what making it raises."""
-        rom, made_of = self._reduced(tip_line)
-        return _made("contact.npz", [made_of, tip_line], lambda file: _steps().contact(file, rom, tip_line))
+        return _made("rom.steps.contact_model", "contact.npz", {"rom": self._reduced(tip_line)}, tip_line=tip_line).file
 
     def stress_operator(self, tip_line: str) -> Path:
         """The stress per motion of a blade with a mesh (.npz). Raises what making it raises."""
-        rom, made_of = self._reduced(tip_line)
-        elastic = self.settings.blades[self.name].elastic.material
-        assert elastic is not None
-        return _made("stress.npz", made_of, lambda file: _steps().stress(file, rom, elastic))
+        material = Structure(self.settings).elastic(self._wildcards())
+        return _made("stress.steps.stress_operator", "stress.npz", {"rom": self._reduced(tip_line)}, material=material).file
 
     def campbell(self) -> Path:
         """The Campbell diagram (.nc), without provenance. Raises what making it raises."""
         structure = self.settings.structure
-        line, highest = structure.boundary.tip_line, structure.maximum_speed_rad_s
-        rom, made_of = self._reduced(line)
-        numbers = si_fields(self.settings.campbell)
         return _made(
+            "results.steps.campbell_of_blade",
             "campbell.nc",
-            [made_of, highest, line, numbers],
-            lambda file: _steps().campbell(file, rom, highest, line, numbers),
-        )
+            {"rom": self._reduced(structure.boundary.tip_line)},
+            campbell=si_fields(self.settings.config.campbell),
+            maximum_speed=structure.maximum_speed_rad_s,
+            tip_line=structure.boundary.tip_line,
+        ).file
 
-    def _reduced(self, tip_line: str) -> tuple[Path, object]:
-        """The reduced model, and what it is made of."""
-        with boundary_placed(self.settings.place_of_contact(self.name)):
-            return self._made_of(tip_line)
+    def _reduced(self, tip_line: str) -> _Made:
+        structure, wildcards = Structure(self.settings), self._wildcards(tip_line=tip_line)
+        common = {"reduction": structure.reduction(wildcards), "contact": structure.place_of_contact(wildcards)}
+        if isinstance(self.settings.blades[self.name].definition, MatricesSource):
+            return _made("exchange.importing.steps.imported_matrices", "rom.nc", {}, **self._source(), **common)
+        material, before, inputs = structure.elastic(wildcards), Attributes(file=None), {"mesh": self._mesh()}
+        return _made("rom.steps.reduced_model", "rom.nc", inputs, material=material, made_before=before, **common)
 
-    def _made_of(self, tip_line: str) -> tuple[Path, object]:
-        blade = self.settings.blades[self.name]
-        choice = self.settings.reduction_choice(self.name, tip_line)
-        if isinstance(blade.definition, MatricesSource):
-            return self._from_matrices(blade.definition, choice)
-        elastic = blade.elastic.material
-        assert elastic is not None
-        mesh, mesh_made_of = self._mesh(blade.definition)
-        made_of = to_plain([mesh_made_of, elastic, choice])
-        return _made("rom.nc", made_of, lambda file: _steps().reduced_model(file, mesh, elastic, choice)), made_of
-
-    def _from_matrices(self, source: MatricesSource, choice: ReductionChoice) -> tuple[Path, object]:
-        made_of = to_plain([source, choice])
-        root, places = self.settings.root, self.settings.places[self.name]
-        return _made("rom.nc", made_of, lambda file: _steps().imported_matrices(file, source, choice, root, places)), made_of
-
-    def _mesh(self, definition: BladeDefinition | MeshSource) -> tuple[Path, object]:
-        """The mesh (.vtu), and what it is made of."""
+    def _mesh(self) -> _Made:
+        definition, name = self.settings.blades[self.name].definition, "mesh.vtu"
         if isinstance(definition, MeshSource):
-            source, root, places = definition, self.settings.root, self.settings.places[self.name]
-            made_of = to_plain(source)
-            return _made("mesh.vtu", made_of, lambda file: _steps().imported_mesh(file, source, root, places)), made_of
-        shape, edges, level = definition, self.settings.structure.edges, plain(self.settings.fidelity.mesh)
-        made_of = to_plain([shape, edges, level])
+            return _made("exchange.importing.steps.imported_mesh", name, {}, **self._source())
+        shape, edges = to_plain(definition), self.settings.structure.edges
+        geometry = _made("blade.steps.geometry", "geometry.nc", {}, definition=shape, edges=edges)
+        return _made("fem.steps.mesh", name, {"geometry": geometry}, mesh=plain(self.settings.fidelity.mesh))
 
-        def make(file: Path) -> None:
-            geometry = _made("geometry.nc", [shape, edges], lambda built: _steps().geometry(built, shape, edges))
-            _steps().mesh(file, geometry, level)
+    def _source(self) -> dict[str, Any]:
+        """Parameters of an import."""
+        imported, wildcards = Imported(self.settings), self._wildcards()
+        return {"source": imported.source(wildcards), "folder": imported.folder, "places": imported.places(wildcards)}
 
-        return _made("mesh.vtu", made_of, make), made_of
-
-
-def _steps() -> Any:
-    """The module of the steps. It brings gmsh and VTK, which take seconds to load and are not needed for what is kept."""
-    return import_module("r37.structure_steps")
+    def _wildcards(self, **more: str) -> Named:
+        return Named(blade=self.name, **more)
 
 
-def _made(name: str, made_of: object, make: Callable[[Path], None]) -> Path:
-    return cached_file(name, [_code(), made_of], make)
+def _made(step: str, name: str, inputs: dict[str, _Made], **params: Any) -> _Made:
+    """The file called `name` that a step makes, from the cache or made now; of `params` Attributes do not count."""
+    counting = {key: value for key, value in params.items() if not isinstance(value, Attributes)}
+    made_of = to_plain([_code(step), [part.made_of for part in inputs.values()], counting])
+
+    def make(file: Path) -> None:
+        module, function = f"{r37core.__name__}.{step}".rsplit(".", 1)
+        files = Named(**{key: part.file for key, part in inputs.items()})
+        with tempfile.TemporaryDirectory() as aside, contextlib.redirect_stdout(io.StringIO()):
+            # a mesh is also written for Gmsh
+            output = Named(**{file.stem: file, file.suffix[1:]: file, "msh": Path(aside) / "mesh.msh"})
+            values = Named(**params, code=_code(step), provenance=Attributes())
+            # imported here: it brings gmsh and VTK, which take seconds to load and are not needed for what is kept
+            getattr(import_module(module), function)(files, output, values)
+
+    return _Made(cached_file(name, made_of, make), made_of)
 
 
 _LIBRARIES = ("gmsh", "h5py", "meshio", "numpy", "scipy")
@@ -108,9 +113,10 @@ _LIBRARIES = ("gmsh", "h5py", "meshio", "numpy", "scipy")
 
 
 @cache
-def _code() -> list[str]:
-    """Hash of the code of the steps, and versions of libraries: others make other files, and environments share the cache."""
-    return [CodeHashes(_HERE.parent, _HERE, packages=("r37", "r37core"))("structure_steps"), *map(_version, _LIBRARIES)]
+def _code(step: str) -> list[str]:
+    """Hash of the code of a step, and versions of libraries: others make other files, and environments share the cache."""
+    source = Path(r37core.__file__).parent.parent
+    return [CodeHashes(source, source)(f"{r37core.__name__}.{step}"), *map(_version, _LIBRARIES)]
 
 
 def _version(library: str) -> str:

@@ -80,9 +80,9 @@ def hash_of_parts(files: Iterable[Path | str]) -> str:
 
     Raises InputFileError for a file that cannot be read.
     """
-    said = []
+    attributes = []
     for file in files:
         with readable(file), netCDF4.Dataset(file) as dataset:
             names = sorted(set(dataset.ncattrs()) - set(FILE_ATTRIBUTES))
-            said.append([(name, str(dataset.getncattr(name))) for name in names])
-    return hashlib.sha256(repr(sorted(said)).encode()).hexdigest()[:16]
+            attributes.append([(name, str(dataset.getncattr(name))) for name in names])
+    return hashlib.sha256(repr(sorted(attributes)).encode()).hexdigest()[:16]

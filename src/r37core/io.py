@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Iterator, Sequence
+from collections.abc import ItemsView, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 from . import __version__
@@ -40,6 +41,14 @@ def readable(file: Path | str) -> Iterator[None]:
     except Exception as error:
         reason = f"{type(error).__name__}: {error}" if Path(file).exists() else "there is no such file"
         raise InputFileError(f"{file}: cannot be read ({reason}); if it is a result, delete it and run again") from error
+
+
+class Named(SimpleNamespace):
+    """What a step of the workflow is called with from Python: input, output and params, each with named attributes."""
+
+    def items(self) -> ItemsView[str, Any]:
+        """Names and what they stand for."""
+        return vars(self).items()
 
 
 def as_list(files: str | Sequence[str]) -> list[str]:

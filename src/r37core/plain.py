@@ -36,64 +36,64 @@ def from_plain(cls: type[T], data: Any) -> T:
     return _made(cls, data, getattr(cls, "__name__", str(cls)))
 
 
-def _plain(value: Any, place: str) -> Any:
+def _plain(value: Any, path: str) -> Any:
     if is_dataclass(value) and not isinstance(value, type):
-        return {field.name: _plain(getattr(value, field.name), f"{place}.{field.name}") for field in fields(value)}
+        return {field.name: _plain(getattr(value, field.name), f"{path}.{field.name}") for field in fields(value)}
     if isinstance(value, Mapping):
-        return {_plain(key, place): _plain(one, f"{place}.{key}") for key, one in value.items()}
+        return {_plain(key, path): _plain(part, f"{path}.{key}") for key, part in value.items()}
     if isinstance(value, list | tuple):
-        return [_plain(one, f"{place}[{index}]") for index, one in enumerate(value)]
+        return [_plain(part, f"{path}[{index}]") for index, part in enumerate(value)]
     for kind in _SCALARS:
         # np.float64 is a float too, but has a repr of its own, which Snakemake would compare
         if isinstance(value, kind):
             return kind(value)
     if value is None:
         return None
-    raise PlainError(f"{place}: found {type(value).__name__}; allowed: dataclasses, mappings, lists, tuples, plain numbers")
+    raise PlainError(f"{path}: found {type(value).__name__}; allowed: dataclasses, mappings, lists, tuples, plain numbers")
 
 
-def _made(kind: Any, data: Any, place: str) -> Any:
+def _made(kind: Any, data: Any, path: str) -> Any:
     origin = get_origin(kind)
     if origin in (Union, UnionType):
-        return _made_of_one(get_args(kind), data, place)
+        return _made_of_one(get_args(kind), data, path)
     if is_dataclass(kind):
-        return _dataclass(kind, data, place)
+        return _dataclass(kind, data, path)
     if origin in (tuple, list):
-        return _sequence(kind, data, place)
+        return _sequence(kind, data, path)
     if isinstance(origin, type) and issubclass(origin, Mapping):
         key_kind, value_kind = get_args(kind)
-        _require(isinstance(data, Mapping), data, "a mapping", place)
-        return {_made(key_kind, key, place): _made(value_kind, one, f"{place}.{key}") for key, one in data.items()}
+        _require(isinstance(data, Mapping), data, "a mapping", path)
+        return {_made(key_kind, key, path): _made(value_kind, part, f"{path}.{key}") for key, part in data.items()}
     if origin is Literal:
-        _require(data in get_args(kind), data, " or ".join(map(repr, get_args(kind))), place)
+        _require(data in get_args(kind), data, " or ".join(map(repr, get_args(kind))), path)
     elif kind is not Any:
-        _require(_is_scalar(kind, data), data, getattr(kind, "__name__", str(kind)), place)
+        _require(_is_scalar(kind, data), data, getattr(kind, "__name__", str(kind)), path)
     return data
 
 
-def _dataclass(kind: Any, data: Any, place: str) -> Any:
+def _dataclass(kind: Any, data: Any, path: str) -> Any:
     hints = _hints(kind)
-    _require(isinstance(data, Mapping), data, f"the fields of {kind.__name__}", place)
-    _require(set(data) == set(hints), ", ".join(map(str, data)) or "nothing", f"the fields {', '.join(hints)}", place)
-    return kind(**{name: _made(hint, data[name], f"{place}.{name}") for name, hint in hints.items()})
+    _require(isinstance(data, Mapping), data, f"the fields of {kind.__name__}", path)
+    _require(set(data) == set(hints), ", ".join(map(str, data)) or "nothing", f"the fields {', '.join(hints)}", path)
+    return kind(**{name: _made(hint, data[name], f"{path}.{name}") for name, hint in hints.items()})
 
 
-def _sequence(kind: Any, data: Any, place: str) -> Any:
+def _sequence(kind: Any, data: Any, path: str) -> Any:
     arguments = get_args(kind)
-    _require(isinstance(data, list | tuple), data, "a list", place)
+    _require(isinstance(data, list | tuple), data, "a list", path)
     if get_origin(kind) is list or arguments[-1] is Ellipsis:
         arguments = (arguments[0],) * len(data)
-    _require(len(data) == len(arguments), f"{len(data)} values", f"{len(arguments)}", place)
+    _require(len(data) == len(arguments), f"{len(data)} values", f"{len(arguments)}", path)
     parts = zip(arguments, data, strict=True)
-    return get_origin(kind)(_made(part, one, f"{place}[{index}]") for index, (part, one) in enumerate(parts))
+    return get_origin(kind)(_made(item_kind, item, f"{path}[{index}]") for index, (item_kind, item) in enumerate(parts))
 
 
-def _made_of_one(kinds: tuple[Any, ...], data: Any, place: str) -> Any:
+def _made_of_one(kinds: tuple[Any, ...], data: Any, path: str) -> Any:
     """Of several types the first that fits; a dictionary fits the dataclass that has its keys as fields."""
     refusals = []
     for kind in kinds:
         try:
-            return _made(kind, data, place)
+            return _made(kind, data, path)
         except PlainError as error:
             refusals.append(str(error))
     raise PlainError("; or ".join(refusals))
@@ -111,6 +111,6 @@ def _hints(kind: Any) -> dict[str, Any]:
     return {field.name: hints[field.name] for field in fields(kind)}
 
 
-def _require(fits: bool, found: Any, needed: str, place: str) -> None:
+def _require(fits: bool, value: Any, needed: str, path: str) -> None:
     if not fits:
-        raise PlainError(f"{place}: found {found!r}; needed: {needed}")
+        raise PlainError(f"{path}: found {value!r}; needed: {needed}")

@@ -35,7 +35,7 @@ INTERACTIONS = (
     PublishedInteraction("Ref", 7, 806.0, 838.0),
 )
 
-BLADES = tuple(one.blade for one in INTERACTIONS if one.engine_order == 4)
+BLADES = tuple(row.blade for row in INTERACTIONS if row.engine_order == 4)
 VARIANTS = BLADES[1:]
 
 MESH_NODES = 20_657

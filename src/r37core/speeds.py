@@ -36,19 +36,19 @@ class RefinedRange:
         """Length of the grid's intervals (rad/s)."""
         return self.refine_to * self.unit
 
-    def speed(self, place: int) -> float:
-        """The speed (rad/s) at a place of the grid, from 0 to `last`."""
+    def speed(self, index: int) -> float:
+        """The speed (rad/s) at an index of the grid, from 0 to `last`."""
         # rounded, so that a step like 0.1 gives the numbers a user would write
-        return round(self.start + place * self.refine_to, 9) * self.unit
+        return round(self.start + index * self.refine_to, 9) * self.unit
 
-    def coarse_places(self) -> list[int]:
-        """Places of the grid that are run whatever is found there."""
-        places = list(range(0, self.last + 1, self.coarse))
-        return places if places[-1] == self.last else [*places, self.last]
+    def coarse_indices(self) -> list[int]:
+        """Indices of the grid that are run whatever is found there."""
+        indices = list(range(0, self.last + 1, self.coarse))
+        return indices if indices[-1] == self.last else [*indices, self.last]
 
     def every_speed(self) -> list[float]:
         """All speeds (rad/s) of the grid."""
-        return [self.speed(place) for place in range(self.last + 1)]
+        return [self.speed(index) for index in range(self.last + 1)]
 
 
 @dataclass(frozen=True)
@@ -63,12 +63,12 @@ class SpeedPlan:
 
     def at_most(self, largest_share: float) -> int:
         """How many speeds are run when so large a share of each grid may be, as a rule at most."""
-        grids = sum(max(len(one.coarse_places()), int(largest_share * (one.last + 1))) for one in self.refined)
-        return len(self.certain) - sum(len(one.coarse_places()) for one in self.refined) + grids
+        grids = sum(max(len(grid.coarse_indices()), int(largest_share * (grid.last + 1))) for grid in self.refined)
+        return len(self.certain) - sum(len(grid.coarse_indices()) for grid in self.refined) + grids
 
     def every_speed(self) -> list[float]:
         """All speeds that can be asked for, ascending."""
-        return sorted({*self.certain, *(speed for one in self.refined for speed in one.every_speed())})
+        return sorted({*self.certain, *(speed for grid in self.refined for speed in grid.every_speed())})
 
 
 def plan_speeds(entries: Sequence[float | Mapping[str, Any]], default_step: float, unit: str = "rad/s") -> SpeedPlan:
@@ -102,16 +102,16 @@ def plan_speeds(entries: Sequence[float | Mapping[str, Any]], default_step: floa
         counted += int(intervals) + 1
         if "refine_to" in entry:
             refined.append(_refined(start, step, finest, int(intervals), unit))
-            speeds += [refined[-1].speed(place) for place in refined[-1].coarse_places()]
+            speeds += [refined[-1].speed(index) for index in refined[-1].coarse_indices()]
         else:
             speeds += [number * rad_s for number in spaced(start, stop, step)]
-    for one, other in pairwise(sorted(refined, key=lambda one: one.start)):
-        if other.speed(0) < one.speed(one.last):
+    for low, high in pairwise(sorted(refined, key=lambda grid: grid.start)):
+        if high.speed(0) < low.speed(low.last):
             raise SpeedError(
-                f"found ranges with refine_to that overlap, from {other.start:g} to {one.speed(one.last) / rad_s:g} {unit}; "
+                f"found ranges with refine_to that overlap, from {high.start:g} to {low.speed(low.last) / rad_s:g} {unit}; "
                 "allowed: each speed in one of them"
             )
-    coarse = {one.speed(place) for one in refined for place in one.coarse_places()}
+    coarse = {grid.speed(index) for grid in refined for index in grid.coarse_indices()}
     together = sorted([*speeds, *(number for number in numbers if number not in coarse)])
     twice = [a for a, b in pairwise(together) if a == b]
     if twice:

@@ -42,9 +42,9 @@ def with_part(text: str, name: str, part: str, made_with: str | None = None) -> 
 
     `made_with`: a hash for the first marker, <!-- name made-with:hash -->; without, the marker stays as it is.
     """
-    found = _markers(text, name)
-    opening = found[1] if made_with is None else f"<!-- {name} made-with:{made_with} -->"
-    return f"{text[: found.start()]}{opening}\n{part.rstrip()}\n<!-- end -->{text[found.end() :]}"
+    markers = _markers(text, name)
+    opening = markers[1] if made_with is None else f"<!-- {name} made-with:{made_with} -->"
+    return f"{text[: markers.start()]}{opening}\n{part.rstrip()}\n<!-- end -->{text[markers.end() :]}"
 
 
 def part_of(text: str, name: str) -> str:
@@ -59,7 +59,7 @@ def made_with_of(text: str, name: str) -> str | None:
 
 def _markers(text: str, name: str) -> re.Match[str]:
     pattern = rf"(<!-- {re.escape(name)}(?: made-with:(?P<made_with>\w+))? -->)\n(?P<part>.*?)<!-- end -->"
-    found = re.search(pattern, text, re.DOTALL)
-    if found is None:
+    match = re.search(pattern, text, re.DOTALL)
+    if match is None:
         raise ValueError(f"there is no part between <!-- {name} --> and <!-- end -->")
-    return found
+    return match

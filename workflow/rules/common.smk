@@ -8,17 +8,17 @@ from r37core.config import plain, si_fields
 from r37core.console.interpreter import PYTHON
 from r37core.console.snakemake_run import begin
 from r37core.explorer import parts_hash
-from r37core.figures.reporting import EVERY_SCENE, TOGETHER, captioned, drawing, shown
 from r37core.plans import paths
 from r37core.plans.code import CodeHashes
+from r37core.plans.extent import extent_of
 from r37core.plans.import_plan import Imported
 from r37core.plans.provenance import Provenance
 from r37core.plans.resources import Needs
-from r37core.plans.run_up_plan import RunUps
 from r37core.plans.structure_plan import Structure
 from r37core.plans.sweep_plan import MAPS, Sweep
-from r37core.plans.targets import targets
-from r37core.plans.tolerance_plan import Tolerances, of_member
+from r37core.product.reporting import EVERY_SCENE, TOGETHER, captioned, drawing, shown
+from r37core.product.sampling import beside, sampling_of
+from r37core.product.targets import files_of, simulated, targets
 
 ROOT = Path(workflow.current_basedir).parent.parent
 ENVIRONMENT = ROOT / "envs" / "r37.yaml"
@@ -27,14 +27,17 @@ TEXTS = ROOT / "workflow" / "report"
 
 console = begin(workflow, logger, WorkflowError, ROOT, config)
 settings = console.settings
+PACKAGE = console.source / "r37core"
 code = CodeHashes(console.source, SCRIPTS)
-made = Provenance(settings)
-structure = Structure(settings)
+# parameters of a rule that runs a step: a function of r37core, and the hash of its code
+step = code.step
+# members of samples that wings have run beside the sweep, and what is made of them
+samples, sampling = beside(settings), sampling_of(settings)
+made = Provenance(settings, samples)
+structure = Structure(settings, samples)
 imported = Imported(settings)
-sweep = Sweep(settings, lambda **wildcards: checkpoints.refine.get(**wildcards).output[0])
-run_ups = RunUps(sweep)
-tolerances = Tolerances(sweep, made, lambda **wildcards: checkpoints.refine_members.get(**wildcards).output[0])
-needs = Needs(settings, sweep.most_runs)
+sweep = Sweep(settings, lambda **wildcards: checkpoints.refine.get(**wildcards).output[0], samples)
+needs = Needs(settings, extent_of(settings, samples).most)
 
 
 def pictures(name, category, subcategory, figure):
@@ -63,5 +66,17 @@ onerror:
 wildcard_constraints:
     blade="|".join(settings.blades),
     scene="|".join(settings.scenes),
+    member=sweep.samples.pattern,
     tip_line="pressure_edge|camber|suction_edge",
     speed=r"[0-9.]+",
+
+
+# the pattern of all rules whose work is a step, never run by itself
+rule step:
+    log:
+        "<logs>/step.log",
+    # no other than what runs Snakemake; `snakemake --lint` asks for it
+    conda:
+        ENVIRONMENT
+    script:
+        "../scripts/step.py"

@@ -1,41 +1,38 @@
 # Families of designs: how robust each is, beside what it is.
-from r37core.plans.family_plan import Families
+from r37core.designs.plan import Families
+from r37core.designs.plan import families as families_of
 
 families = Families(settings)
 
 
-rule designs:
+use rule step as design_table with:
     input:
         **{kind: datasets[kind] for kind in sweep.kinds if kind in ("rms", "stress")},
         campbell=rules.campbell_of_all.output[0],
         summary=rules.summary.output[0],
-        geometry=expand(rules.geometry.output, blade=families.designs),
+        geometry=expand(paths.nominal(paths.GEOMETRY), blade=families.designs),
     output:
-        report(
+        table=report(
             "<results>/designs.csv",
-            **shown(TEXTS / "designs.rst", "Families", EVERY_SCENE, figure="table of designs"),
+            **shown(PACKAGE / "designs/report.rst", "Families", EVERY_SCENE, figure="table of designs"),
         ),
     log:
         "<logs>/designs.log",
-    conda:
-        ENVIRONMENT
     params:
+        **step("designs.steps.tabulate"),
         designs=families.designs,
         densities=families.densities,
         scenes=list(settings.scenes),
-        code=code("designs"),
-    script:
-        "../scripts/designs.py"
 
 
 use rule figure as design_figure with:
     input:
-        table=rules.designs.output[0],
+        table=rules.design_table.output[0],
     output:
         **pictures("designs_{family}", "Families", EVERY_SCENE, "{family}"),
     log:
         "<logs>/figures/designs_{family}.log",
     wildcard_constraints:
-        family="|".join(settings.families) or "none",
+        family="|".join(families_of(settings)) or "none",
     params:
-        **drawing(code, "design_plot.draw_designs", "designs", blades=families.blades, varied=families.varied),
+        **drawing(code, "designs.figures.draw_designs", "designs", blades=families.blades, varied=families.varied),

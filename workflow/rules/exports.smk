@@ -1,111 +1,84 @@
 # Results for other programs: mesh, surface, modes, worst stress, matrices. Not part of all_blades: snakemake exports
-from r37core.plans.export_plan import Exports
+from r37core.exports.plan import (
+    EXPORTED_MATRICES,
+    EXPORTED_MESH,
+    EXPORTED_MODES,
+    EXPORTED_STRESS,
+    EXPORTED_SURFACE,
+    Exports,
+)
 
 exported = Exports(imported, sweep)
 
 
-rule exported_mesh:
+use rule step as exported_mesh with:
     input:
-        rules.mesh.output.vtu,
+        mesh=paths.nominal(paths.MESH),
     output:
-        paths.EXPORTED_MESH,
+        mesh=EXPORTED_MESH,
     log:
         "<logs>/exports/{blade}_mesh_{format}.log",
     wildcard_constraints:
         format="msh|vtu|med|bdf|inp",
-    conda:
-        ENVIRONMENT
     params:
+        **step("exports.steps.mesh"),
+        blade="{blade}",
         material=structure.elastic,
         orientation=exported.orientation,
-        code=code("exported_mesh"),
-    script:
-        "../scripts/exported_mesh.py"
 
 
-rule exported_surface:
+use rule step as exported_surface with:
     input:
-        rules.geometry.output,
+        geometry=paths.nominal(paths.GEOMETRY),
     output:
-        paths.EXPORTED_SURFACE,
+        surface=EXPORTED_SURFACE,
     log:
         "<logs>/exports/{blade}_surface.log",
-    conda:
-        ENVIRONMENT
     params:
-        code=code("exported_surface"),
-    script:
-        "../scripts/exported_surface.py"
+        **step("exports.steps.surface"),
 
 
-use rule reduced_model as whole_blade_model with:
-    output:
-        temp(paths.WHOLE_BLADE_MODEL),
-    log:
-        "<logs>/exports/{blade}_model_{tip_line}.log",
-    priority: 0
-    params:
-        reduction=exported.reduction,
-
-
-rule exported_modes:
+use rule step as exported_modes with:
     input:
-        mesh=rules.mesh.output.vtu,
-        model=exported.model,
+        mesh=paths.nominal(paths.MESH),
+        model=structure.whole_blade_model,
     output:
-        directory(paths.EXPORTED_MODES),
+        folder=directory(EXPORTED_MODES),
     log:
         "<logs>/exports/{blade}_modes.log",
-    conda:
-        ENVIRONMENT
     params:
+        **step("exports.steps.modes"),
         choice=exported.choice,
         orientation=exported.orientation,
-        code=code("exported_modes"),
-    script:
-        "../scripts/exported_modes.py"
 
 
-rule exported_stress:
+use rule step as exported_stress with:
     input:
-        mesh=rules.mesh.output.vtu,
-        model=exported.model,
+        mesh=paths.nominal(paths.MESH),
+        model=structure.whole_blade_model,
         speeds=exported.speed_files,
     output:
-        directory(paths.EXPORTED_STRESS),
+        folder=directory(EXPORTED_STRESS),
     log:
         "<logs>/exports/{blade}_stress_{scene}.log",
-    conda:
-        ENVIRONMENT
     params:
+        **step("exports.steps.stress"),
         choice=exported.choice,
         speeds=sweep.speeds,
         only_worst=exported.only_worst,
         material=structure.elastic,
         orientation=exported.orientation,
-        code=code("exported_stress"),
-    script:
-        "../scripts/exported_stress.py"
 
 
-rule exported_matrices:
+use rule step as exported_matrices with:
     input:
         unpack(exported.matrix_files),
     output:
-        directory(paths.EXPORTED_MATRICES),
+        folder=directory(EXPORTED_MATRICES),
     log:
         "<logs>/exports/{blade}_matrices.log",
-    conda:
-        ENVIRONMENT
     params:
+        **step("exports.steps.matrices"),
         choice=exported.choice,
         tip_line=settings.structure.boundary.tip_line,
         material=structure.material,
-        code=code("exported_matrices"),
-    script:
-        "../scripts/exported_matrices.py"
-
-
-rule exports:
-    input:
-        paths.filled(exported.targets),

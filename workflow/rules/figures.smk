@@ -3,18 +3,14 @@
 
 
 # the pattern of the others, never run by itself
-rule figure:
+use rule step as figure with:
     log:
         "<logs>/figures/figure.log",
-    conda:
-        ENVIRONMENT
-    script:
-        "../scripts/figure.py"
 
 
 use rule figure as campbell_figure with:
     input:
-        campbell=rules.campbell_of_blade.output[0],
+        campbell=paths.nominal(paths.CAMPBELL),
     output:
         **pictures("campbell_{blade}", "{blade}", EVERY_SCENE, "Campbell diagram"),
     log:
@@ -22,7 +18,7 @@ use rule figure as campbell_figure with:
     resources:
         **needs.of("campbell_figure"),
     params:
-        **drawing(code, "campbell_diagram.draw_campbell", "campbell", casings=sweep.casings),
+        **drawing(code, "figures.campbell_diagram.draw_campbell", "campbell", casings=sweep.casings),
 
 
 use rule figure as campbell_overview with:
@@ -35,7 +31,7 @@ use rule figure as campbell_overview with:
     resources:
         **needs.of("campbell_overview"),
     params:
-        **drawing(code, "campbell_diagram.draw_campbell_overview", "campbell_overview"),
+        **drawing(code, "figures.campbell_diagram.draw_campbell_overview", "campbell_overview"),
 
 
 use rule figure as response_figure with:
@@ -48,7 +44,7 @@ use rule figure as response_figure with:
     resources:
         **needs.of("response_figure"),
     params:
-        **drawing(code, "response_curves.draw_response", "response"),
+        **drawing(code, "figures.response_curves.draw_response", "response"),
 
 
 use rule figure as response_overview with:
@@ -61,7 +57,7 @@ use rule figure as response_overview with:
     resources:
         **needs.of("response_overview"),
     params:
-        **drawing(code, "response_curves.draw_response_overview", "response_overview"),
+        **drawing(code, "figures.response_curves.draw_response_overview", "response_overview"),
 
 
 use rule figure as map_figure with:
@@ -77,7 +73,7 @@ use rule figure as map_figure with:
     resources:
         **needs.of("map_figure"),
     params:
-        **drawing(code, "maps.draw_map"),
+        **drawing(code, "figures.maps.draw_map"),
 
 
 use rule figure as waterfall_figure with:
@@ -91,7 +87,7 @@ use rule figure as waterfall_figure with:
     resources:
         **needs.of("map_figure"),
     params:
-        **drawing(code, "waterfall.draw_waterfall", "waterfall"),
+        **drawing(code, "figures.waterfall.draw_waterfall", "waterfall"),
 
 
 use rule figure as comparison_figure with:
@@ -106,10 +102,10 @@ use rule figure as comparison_figure with:
     params:
         **drawing(
             code,
-            "comparison.draw_comparison",
+            "figures.comparison.draw_comparison",
             "comparison",
-            below=settings.interactions.below,
-            above=settings.interactions.above,
+            below=settings.config.interactions.below,
+            above=settings.config.interactions.above,
         ),
 
 
@@ -121,7 +117,7 @@ use rule figure as ranking_figure with:
     log:
         "<logs>/figures/ranking.log",
     params:
-        **drawing(code, "ranking_bars.draw_ranking", "ranking"),
+        **drawing(code, "figures.ranking_bars.draw_ranking", "ranking"),
 
 
 use rule figure as clearance_figure with:
@@ -134,32 +130,28 @@ use rule figure as clearance_figure with:
     resources:
         **needs.of("response_overview"),
     params:
-        **drawing(code, "clearance_curves.draw_clearance", "clearance"),
+        **drawing(code, "figures.clearance_curves.draw_clearance", "clearance"),
 
 
-rule blade_shapes_figure:
+use rule step as blade_shapes_figure with:
     input:
-        expand(rules.mesh.output.vtu, blade=imported.with_mesh),
+        meshes=expand(paths.nominal(paths.MESH), blade=imported.with_mesh),
     output:
         **pictures("blades", TOGETHER, EVERY_SCENE, "shapes"),
     log:
         "<logs>/figures/blades.log",
-    conda:
-        ENVIRONMENT
     resources:
         **needs.of("blade_shapes_figure"),
     params:
+        **step("figures.steps.blade_shapes"),
         blades=imported.with_mesh,
         caption=captioned("blades"),
-        code=code("blade_shapes_figure"),
-    script:
-        "../scripts/blade_shapes_figure.py"
 
 
 rule campbell:
     input:
         rules.campbell_of_all.output,
-        expand([*rules.mesh.output[:1], *rules.abaqus_deck.output], blade=imported.with_mesh),
+        expand([paths.nominal(rules.mesh.output.msh), *rules.abaqus_deck.output], blade=imported.with_mesh),
         expand(rules.campbell_figure.output, blade=settings.blades),
         rules.campbell_overview.output,
         rules.blade_shapes_figure.output if imported.with_mesh else [],

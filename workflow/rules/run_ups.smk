@@ -1,20 +1,23 @@
 # Run-ups and run-downs: the speed changes while the blade rubs; each is a run of its own.
+from r37core.run_ups.plan import RUN_UP, RunUps
+
+run_ups = RunUps(sweep)
 
 
-rule run_up:
+use rule step as run_up with:
     input:
         unpack(run_ups.inputs),
     output:
-        paths.RUN_UP,
+        run_up=RUN_UP,
     log:
         "<logs>/{blade}/{scene}/run_up_{run_up}.log",
     wildcard_constraints:
         run_up="|".join(run_ups.names) or "none",
-    conda:
-        ENVIRONMENT
     resources:
         **needs.of("run_up"),
     params:
+        **step("run_ups.steps.record"),
+        name="{run_up}",
         scene=sweep.plain_scene,
         choice=run_ups.choice,
         run_up=run_ups.run_up,
@@ -22,47 +25,36 @@ rule run_up:
         highest_order=settings.fidelity.time_integration.spectrum_highest_order,
         yield_stress=sweep.yield_stress,
         provenance=made.sweep,
-        code=code("run_up"),
-    script:
-        "../scripts/run_up.py"
 
 
-rule run_ups_dataset:
+use rule step as run_ups_dataset with:
     input:
-        paths.filled({paths.RUN_UP: run_ups.files}),
+        run_ups=paths.filled({RUN_UP: run_ups.files}),
     output:
-        "<results>/run_ups.nc",
+        dataset="<results>/run_ups.nc",
     log:
         "<logs>/run_ups_dataset.log",
-    conda:
-        ENVIRONMENT
     resources:
         **needs.of("run_ups_dataset"),
     params:
+        **step("run_ups.steps.join"),
         runs=run_ups.runs,
         fidelity=settings.fidelity_name,
-        code=code("run_ups_dataset"),
-    script:
-        "../scripts/run_ups_dataset.py"
 
 
-rule run_up_tables:
+use rule step as run_up_tables with:
     input:
-        rules.run_ups_dataset.output[0],
+        dataset=rules.run_ups_dataset.output.dataset,
     output:
         runs=report(
             "<results>/run_ups.csv",
-            **shown(TEXTS / "run_ups.rst", TOGETHER, EVERY_SCENE, figure="run-ups"),
+            **shown(PACKAGE / "run_ups/report.rst", TOGETHER, EVERY_SCENE, figure="run-ups"),
         ),
         rates="<results>/run_up_rates.csv",
     log:
         "<logs>/run_up_tables.log",
-    conda:
-        ENVIRONMENT
     params:
-        code=code("run_up_tables"),
-    script:
-        "../scripts/run_up_tables.py"
+        **step("run_ups.steps.tables"),
 
 
 use rule figure as run_up_figure with:
@@ -73,7 +65,7 @@ use rule figure as run_up_figure with:
     log:
         "<logs>/figures/run_ups_{blade}__{scene}.log",
     params:
-        **drawing(code, "run_up_curves.draw_run_ups", "run_ups", blade="{blade}", scene="{scene}"),
+        **drawing(code, "run_ups.figures.draw_run_ups", "run_ups", blade="{blade}", scene="{scene}"),
 
 
 use rule figure as run_up_rates_figure with:
@@ -84,10 +76,4 @@ use rule figure as run_up_rates_figure with:
     log:
         "<logs>/figures/run_up_rates_{scene}.log",
     params:
-        **drawing(code, "run_up_curves.draw_rates", "run_up_rates", scene="{scene}"),
-
-
-# the run-ups alone, without the sweep
-rule run_ups:
-    input:
-        paths.filled({name: wildcards for name, wildcards in targets(sweep, recorded).items() if "run_up" in name}),
+        **drawing(code, "run_ups.figures.draw_rates", "run_up_rates", scene="{scene}"),

@@ -1,86 +1,75 @@
 # Shapes to look at: modes, and the worst instant of each interaction, for scenes with `shapes` among their results.
 from r37core.shapes import PARTS as SHAPE_PARTS
+from r37core.shapes.plan import MODE_SHAPES, WORST_SHAPES, Shapes
+
+shown_shapes = Shapes(sweep)
 
 
-rule mode_shapes:
+use rule step as mode_shapes with:
     input:
-        mesh=rules.mesh.output.vtu,
-        model=exported.model,
+        mesh=paths.nominal(paths.MESH),
+        model=structure.whole_blade_model,
     output:
-        directory("<results>/shapes/{blade}/modes"),
+        folder=directory(MODE_SHAPES),
     log:
         "<logs>/shapes/{blade}_modes.log",
-    conda:
-        ENVIRONMENT
     params:
-        modes=settings.config.shapes.modes,
-        code=code("mode_shapes"),
-    script:
-        "../scripts/mode_shapes.py"
+        **step("shapes.steps.modes"),
+        modes=shown_shapes.modes,
 
 
-rule worst_shapes:
+use rule step as worst_shapes with:
     input:
-        mesh=rules.mesh.output.vtu,
-        model=exported.model,
-        campbell=rules.campbell_of_blade.output[0],
-        response=rules.response.output[0],
+        mesh=paths.nominal(paths.MESH),
+        model=structure.whole_blade_model,
+        campbell=paths.nominal(paths.CAMPBELL),
+        response=paths.nominal(paths.RESPONSE),
         speeds=sweep.speed_files,
     output:
-        directory(paths.WORST_SHAPES),
+        folder=directory(WORST_SHAPES),
     log:
         "<logs>/shapes/{blade}_{scene}.log",
-    conda:
-        ENVIRONMENT
     params:
+        **step("shapes.steps.worst"),
+        scene="{scene}",
         speeds=sweep.speeds,
-        interactions=plain(settings.interactions),
+        interactions=plain(settings.config.interactions),
         material=structure.elastic,
-        code=code("worst_shapes"),
-    script:
-        "../scripts/worst_shapes.py"
 
 
-rule shapes_page:
+use rule step as shapes_page with:
     input:
-        rules.mode_shapes.output,
-        sweep.worst_shapes,
+        modes=rules.mode_shapes.output.folder,
+        worst=shown_shapes.worst_shapes,
     output:
-        report(
+        page=report(
             "<results>/shapes/{blade}.html",
-            **shown(TEXTS / "shapes.rst", "{blade}", EVERY_SCENE, figure="moving shapes"),
+            **shown(PACKAGE / "shapes/report.rst", "{blade}", EVERY_SCENE, figure="moving shapes"),
         ),
     log:
         "<logs>/shapes/{blade}_page.log",
-    conda:
-        ENVIRONMENT
     params:
-        scenes=lambda wildcards: sweep.scenes_with("shapes", wildcards.blade),
+        **step("shapes.steps.page"),
+        blade="{blade}",
+        scenes=shown_shapes.scenes,
         parts=parts_hash(SHAPE_PARTS),
-        code=code("shapes_page"),
-    script:
-        "../scripts/shapes_page.py"
 
 
-rule modes_figure:
+use rule step as modes_figure with:
     input:
-        rules.mode_shapes.output,
+        folder=rules.mode_shapes.output.folder,
     output:
         **pictures("shapes_{blade}", "{blade}", EVERY_SCENE, "first modes"),
     log:
         "<logs>/figures/shapes_{blade}.log",
-    conda:
-        ENVIRONMENT
     params:
+        **step("shapes.steps.figure"),
         caption=captioned("mode_shapes"),
-        code=code("shapes_figure"),
-    script:
-        "../scripts/shapes_figure.py"
 
 
 use rule modes_figure as worst_shapes_figure with:
     input:
-        rules.worst_shapes.output,
+        folder=rules.worst_shapes.output.folder,
     output:
         **pictures("shapes_{blade}__{scene}", "{blade}", "{scene}", "worst instants"),
     log:

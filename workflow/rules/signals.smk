@@ -1,48 +1,40 @@
 # Time signals of chosen speeds, each a run of its own: edges of the tip, strain gauges, tip timing.
-from r37core.plans.signal_plan import Signals
+from r37core.signals.plan import SIGNALS_OF_RUN, Signals
 
 recorded = Signals(imported, sweep)
 
 
-rule signals_of_run:
+use rule step as signals_of_run with:
     input:
         unpack(recorded.inputs),
     output:
-        "<results>/{blade}/{scene}/signals.nc",
+        signals=SIGNALS_OF_RUN,
     log:
         "<logs>/{blade}/{scene}/signals.log",
-    conda:
-        ENVIRONMENT
     params:
+        **step("signals.steps.record"),
         scene=sweep.plain_scene,
         choice=sweep.choice_of_scene,
         speeds=recorded.speeds,
-        interactions=plain(settings.interactions),
+        interactions=plain(settings.config.interactions),
         revolutions=recorded.revolutions,
         gauges=recorded.gauges,
         probes=recorded.probes,
         tip_line=recorded.tip_line,
         provenance=made.sweep,
-        code=code("signals_of_run"),
-    script:
-        "../scripts/signals_of_run.py"
 
 
-rule signals:
+use rule step as signals_dataset with:
     input:
-        paths.filled({rules.signals_of_run.output[0]: paths.of_runs(recorded.runs)}),
+        signals=paths.filled({rules.signals_of_run.output[0]: paths.of_runs(recorded.runs)}),
     output:
-        "<results>/signals.nc",
+        dataset="<results>/signals.nc",
     log:
         "<logs>/signals.log",
-    conda:
-        ENVIRONMENT
     params:
+        **step("signals.steps.gather"),
         runs=recorded.runs,
         fidelity=settings.fidelity_name,
-        code=code("signals"),
-    script:
-        "../scripts/signals.py"
 
 
 use rule figure as spectrogram_figure with:
@@ -53,7 +45,7 @@ use rule figure as spectrogram_figure with:
     log:
         "<logs>/figures/spectrogram_{blade}__{scene}.log",
     params:
-        **drawing(code, "spectrograms.draw_spectrograms", "spectrogram"),
+        **drawing(code, "signals.figures.draw_spectrograms", "spectrogram"),
 
 
 use rule figure as orders_figure with:
@@ -64,4 +56,4 @@ use rule figure as orders_figure with:
     log:
         "<logs>/figures/orders_{blade}__{scene}.log",
     params:
-        **drawing(code, "spectrograms.draw_orders", "orders"),
+        **drawing(code, "signals.figures.draw_orders", "orders"),

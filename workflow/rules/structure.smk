@@ -1,180 +1,162 @@
 # Blade shape -> mesh -> reduced model -> Campbell diagram, for each blade. A blade of another program comes in as
-# a mesh (imported_mesh) or as matrices (imported_matrices) and takes the same way from there.
+# a mesh (imported_mesh) or as matrices (imported_matrices) and takes the same way from there. A member of a sample whose blade
+# is another one has a model of its own, by the same rules.
 
 
-rule geometry:
+use rule step as geometry with:
     output:
-        paths.GEOMETRY,
+        geometry=paths.GEOMETRY,
     log:
-        "<logs>/{blade}/geometry.log",
+        "<logs>/{member}{blade}/geometry.log",
     wildcard_constraints:
         blade=imported.profiles,
     # an impossible shape should stop the run before any long work
     priority: 10
-    conda:
-        ENVIRONMENT
     resources:
         **needs.of("geometry"),
     params:
+        **step("blade.steps.geometry"),
         definition=structure.definition,
         edges=settings.structure.edges,
         provenance=made.shape,
-        code=code("geometry"),
-    script:
-        "../scripts/geometry.py"
 
 
-rule mesh:
+use rule step as mesh with:
     input:
-        rules.geometry.output,
+        geometry=rules.geometry.output.geometry,
     output:
-        msh="<results>/{blade}/mesh.msh",
+        msh="<results>/{member}{blade}/mesh.msh",
         vtu=paths.MESH,
     log:
-        "<logs>/{blade}/mesh.log",
+        "<logs>/{member}{blade}/mesh.log",
     wildcard_constraints:
         blade=imported.profiles,
     # a mesh or model that fails should do so before the first simulation
     priority: 2
-    conda:
-        ENVIRONMENT
     resources:
         **needs.of("mesh"),
     params:
+        **step("fem.steps.mesh"),
         mesh=plain(settings.fidelity.mesh),
-        code=code("mesh"),
-    script:
-        "../scripts/mesh.py"
 
 
-rule imported_mesh:
+use rule step as imported_mesh with:
     input:
         imported.files,
     output:
-        **rules.mesh.output,
+        msh=paths.nominal(rules.mesh.output.msh),
+        vtu=paths.nominal(paths.MESH),
     log:
         "<logs>/{blade}/mesh.log",
     wildcard_constraints:
         blade=imported.meshes,
     # as of geometry: an unsuitable mesh should stop the run before any long work
     priority: 10
-    conda:
-        ENVIRONMENT
     resources:
         **needs.of("mesh"),
     params:
+        **step("exchange.importing.steps.imported_mesh"),
         source=imported.source,
         folder=imported.folder,
         places=imported.places,
-        code=code("imported_mesh"),
-    script:
-        "../scripts/imported_mesh.py"
 
 
-rule abaqus_deck:
+use rule step as abaqus_deck with:
     input:
-        rules.mesh.output.vtu,
+        mesh=paths.nominal(paths.MESH),
     output:
-        "<results>/{blade}/mesh.inp",
+        deck="<results>/{blade}/mesh.inp",
     log:
         "<logs>/{blade}/abaqus_deck.log",
-    conda:
-        ENVIRONMENT
     resources:
         **needs.of("abaqus_deck"),
     params:
+        **step("fem.steps.abaqus_deck"),
+        blade="{blade}",
         material=structure.elastic,
-        code=code("abaqus_deck"),
-    script:
-        "../scripts/abaqus_deck.py"
 
 
-rule reduced_model:
+use rule step as reduced_model with:
     input:
-        rules.mesh.output.vtu,
+        mesh=structure.mesh,
     output:
-        paths.REDUCED_MODEL,
+        rom=paths.REDUCED_MODEL,
     log:
-        "<logs>/{blade}/reduced_model_{tip_line}.log",
+        "<logs>/{member}{blade}/reduced_model_{tip_line}.log",
     wildcard_constraints:
         blade=f"{imported.profiles}|{imported.meshes}",
     priority: 2
-    conda:
-        ENVIRONMENT
     resources:
         **needs.of("reduced_model"),
     params:
+        **step("rom.steps.reduced_model"),
         material=structure.elastic,
         reduction=structure.reduction,
         contact=structure.place_of_contact,
         made_before=structure.made_before,
         provenance=made.structure,
-        code=code("reduced_model"),
-    script:
-        "../scripts/reduced_model.py"
 
 
-rule imported_matrices:
+# recovered on every node, for who asks for shapes, gauges or files for other programs
+use rule reduced_model as whole_blade_model with:
+    output:
+        rom=temp(paths.WHOLE_BLADE_MODEL),
+    log:
+        "<logs>/{blade}/whole_blade_model_{tip_line}.log",
+    priority: 0
+    params:
+        reduction=structure.whole_blade_reduction,
+
+
+use rule step as imported_matrices with:
     input:
         imported.files,
     output:
-        rules.reduced_model.output,
+        rom=paths.nominal(paths.REDUCED_MODEL),
     log:
         "<logs>/{blade}/reduced_model_{tip_line}.log",
     wildcard_constraints:
         blade=imported.matrices,
     priority: 10
-    conda:
-        ENVIRONMENT
     resources:
         **needs.of("reduced_model"),
     params:
+        **step("exchange.importing.steps.imported_matrices"),
         source=imported.source,
         folder=imported.folder,
         places=imported.places,
         reduction=structure.reduction,
         contact=structure.place_of_contact,
         provenance=made.structure,
-        code=code("imported_matrices"),
-    script:
-        "../scripts/imported_matrices.py"
 
 
-rule campbell_of_blade:
+use rule step as campbell_of_blade with:
     input:
-        expand(rules.reduced_model.output, tip_line=settings.structure.boundary.tip_line, allow_missing=True),
+        rom=expand(rules.reduced_model.output, tip_line=settings.structure.boundary.tip_line, allow_missing=True)[0],
     output:
-        paths.CAMPBELL,
+        campbell=paths.CAMPBELL,
     log:
-        "<logs>/{blade}/campbell.log",
-    conda:
-        ENVIRONMENT
+        "<logs>/{member}{blade}/campbell.log",
     resources:
         **needs.of("campbell_of_blade"),
     params:
-        campbell=si_fields(settings.campbell),
+        **step("results.steps.campbell_of_blade"),
+        campbell=si_fields(settings.config.campbell),
         maximum_speed=settings.structure.maximum_speed_rad_s,
         tip_line=settings.structure.boundary.tip_line,
         provenance=made.structure,
-        code=code("campbell_of_blade"),
-    script:
-        "../scripts/campbell_of_blade.py"
 
 
-rule campbell_of_all:
+use rule step as campbell_of_all with:
     input:
-        expand(rules.campbell_of_blade.output, blade=settings.blades),
+        campbells=expand(paths.nominal(paths.CAMPBELL), blade=settings.blades),
     output:
-        "<results>/campbell.nc",
+        campbell="<results>/campbell.nc",
     log:
         "<logs>/campbell_of_all.log",
-    conda:
-        ENVIRONMENT
     resources:
         **needs.of("campbell_of_all"),
     params:
+        **step("results.steps.campbell_of_all"),
         blades=list(settings.blades),
         fidelity=settings.fidelity_name,
-        code=code("campbell_of_all"),
-    script:
-        "../scripts/campbell_of_all.py"

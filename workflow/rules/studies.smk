@@ -5,9 +5,9 @@ from r37core.studies.plan import STUDIES, Studies
 studies = Studies(settings)
 
 
-rule study_model:
+use rule step as study_model with:
     input:
-        paths.GEOMETRY,
+        geometry=paths.nominal(paths.GEOMETRY),
     output:
         rom=paths.STUDY_MODEL.replace("{file}", "rom.nc"),
         contact=paths.STUDY_MODEL.replace("{file}", "contact.npz"),
@@ -17,46 +17,38 @@ rule study_model:
     wildcard_constraints:
         model=MODEL_NAME,
     priority: 2
-    conda:
-        ENVIRONMENT
     params:
+        **step("studies.steps.model"),
         choice=studies.model,
         reduction=structure.base_reduction,
         material=studies.material,
         provenance=made.structure,
-        code=code("study_model"),
-    script:
-        "../scripts/study_model.py"
 
 
 use rule campbell_of_blade as study_campbell with:
     input:
-        paths.STUDY_MODEL.replace("{file}", "rom.nc"),
+        rom=paths.STUDY_MODEL.replace("{file}", "rom.nc"),
     output:
-        paths.STUDY_MODEL.replace("{file}", "campbell.nc"),
+        campbell=paths.STUDY_MODEL.replace("{file}", "campbell.nc"),
     log:
         paths.STUDY_MODEL.replace("{file}", "campbell.log").replace("<results>", "<logs>"),
     wildcard_constraints:
         model=MODEL_NAME,
 
 
-rule study_case:
+use rule step as study_case with:
     input:
         unpack(studies.case_inputs),
     output:
-        paths.STUDY_CASE,
+        response=paths.STUDY_CASE,
     log:
         paths.STUDY_CASE.replace("<results>", "<logs>").replace(".nc", ".log"),
     wildcard_constraints:
         study="|".join(STUDIES),
         case=r"[\w.+/-]+",
-    conda:
-        ENVIRONMENT
     params:
+        **step("studies.steps.case"),
         case=studies.case,
-        code=code("study_case"),
-    script:
-        "../scripts/study_case.py"
 
 
 for study in STUDIES:
@@ -73,9 +65,9 @@ for study in STUDIES:
         conda:
             ENVIRONMENT
         params:
+            **step("studies.steps.report", f"studies.{study}.report"),
             study=study,
             cases=studies.names(study),
             values=studies.values(study),
-            code=code("study", f"r37core.studies.{study}.report"),
         script:
-            "../scripts/study.py"
+            "../scripts/step.py"

@@ -1,64 +1,55 @@
-# Reduced model -> one simulation per blade, scene and speed -> all speeds of a blade and scene.
+# Reduced model -> one simulation per blade, scene and speed -> all speeds of a blade and scene. So for the nominal sweep, where the
+# wildcard `member` is empty, and for each member of a sample beside it.
 
 
-rule contact_model:
+use rule step as contact_model with:
     input:
-        rules.reduced_model.output,
+        rom=rules.reduced_model.output.rom,
     output:
-        paths.CONTACT_MODEL,
+        contact=paths.CONTACT_MODEL,
     log:
-        "<logs>/{blade}/contact_model_{tip_line}.log",
+        "<logs>/{member}{blade}/contact_model_{tip_line}.log",
     priority: 2
-    conda:
-        ENVIRONMENT
     resources:
         **needs.of("contact_model"),
     params:
-        code=code("contact_model"),
-    script:
-        "../scripts/contact_model.py"
+        **step("rom.steps.contact_model"),
+        tip_line="{tip_line}",
 
 
-rule stress_operator:
+use rule step as stress_operator with:
     input:
-        rules.reduced_model.output,
+        rom=rules.reduced_model.output.rom,
     output:
-        paths.STRESS_OPERATOR,
+        stress=paths.STRESS_OPERATOR,
     log:
-        "<logs>/{blade}/stress_operator_{tip_line}.log",
+        "<logs>/{member}{blade}/stress_operator_{tip_line}.log",
     priority: 2
-    conda:
-        ENVIRONMENT
     resources:
         **needs.of("contact_model"),
     params:
+        **step("stress.steps.stress_operator"),
         material=structure.elastic,
-        code=code("stress_operator"),
-    script:
-        "../scripts/stress_operator.py"
 
 
-rule prepare_time_integration:
+use rule step as prepare_time_integration with:
     input:
-        sweep.models,
+        models=sweep.models,
+        nominal=sweep.nominal_stamp,
     output:
         touch(paths.INTEGRATION_STAMP),
     log:
-        "<logs>/{blade}/{scene}/prepare_time_integration.log",
+        "<logs>/{member}{blade}/{scene}/prepare_time_integration.log",
     # the sweep's jobs find the time integration compiled; one message before the sweep instead of one from each of its jobs. Nothing here
     # may depend on which speeds are run: more speeds would renew the stamp, and with it run all of them again
     priority: 15
-    conda:
-        ENVIRONMENT
     resources:
         **needs.of("prepare_time_integration"),
     params:
+        **step("time_integration.speed_job.prepare"),
         scene=sweep.plain_scene,
         speed=settings.structure.maximum_speed_rad_s,
         choice=sweep.choice_of_scene,
-        code=code("prepare_time_integration"),
-    script:
-        "../scripts/prepare_time_integration.py"
 
 
 # of jobs that the server runs; paths and no texts: another place is no reason to run again
@@ -77,7 +68,7 @@ rule simulate:
     output:
         paths.SPEED,
     log:
-        "<logs>/{blade}/{scene}/speed_{speed}.log",
+        "<logs>/{member}{blade}/{scene}/speed_{speed}.log",
     priority: sweep.priority
     conda:
         ENVIRONMENT
@@ -92,14 +83,15 @@ rule simulate:
         "{params.python:q} -S -E {params.start:q} {params.script:q} {wildcards.speed:q} {output:q} {log:q} {params.task:q} {params.about:q} {input.models:q}"
 
 
-# adaptive speed sampling: each round asks for some more, from what those before it gave, until one asks for none
+# adaptive speed sampling: each round asks for some more, from what those before it gave, until one asks for none. All members of a
+# sample are run at the same speeds, where they are worth it on average
 checkpoint refine:
     input:
         unpack(sweep.round_inputs),
     output:
-        paths.ROUND,
+        round=paths.ROUND,
     log:
-        "<logs>/{blade}/{scene}/round_{round}.log",
+        "<logs>/{member}{blade}/{scene}/round_{round}.log",
     wildcard_constraints:
         round=r"\d+",
     # before the next blade's simulations, which would leave this one's waiting
@@ -109,31 +101,27 @@ checkpoint refine:
     resources:
         **needs.of("response"),
     params:
+        **step("adaptive.steps.refine"),
         plan=sweep.refined_plan,
         choice=sweep.refinement_choice,
         yields=sweep.yields_of_round,
-        code=code("refine"),
     script:
-        "../scripts/refine.py"
+        "../scripts/step.py"
 
 
-rule response:
+use rule step as response with:
     input:
         speeds=sweep.speed_files,
     output:
-        paths.RESPONSE,
+        response=paths.RESPONSE,
     log:
-        "<logs>/{blade}/{scene}/response.log",
+        "<logs>/{member}{blade}/{scene}/response.log",
     priority: 5
-    conda:
-        ENVIRONMENT
     resources:
         **needs.of("response"),
     params:
+        **step("results.steps.response"),
         speeds=sweep.speeds,
         stress_history_speeds=sweep.stress_history_speeds,
         yield_stress=sweep.yield_stress,
         provenance=made.sweep,
-        code=code("response"),
-    script:
-        "../scripts/response.py"

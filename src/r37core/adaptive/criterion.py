@@ -13,45 +13,13 @@ from scipy.signal import find_peaks
 from r37core.speeds import RefinedRange
 from r37core.time_integration.status import RunStatus
 
+from .refinement_choice import RefinementChoice, Window
+
 CURVES = ("rms_normal", "rms_tangential", "stress")
 """What is looked at over speed: rms (m) of the leading edge in two directions, largest stress as a share of yield."""
 
 LEAST_OF_A_ROUND = 16
 """Speeds that a round may ask for where so many are left: each round makes Snakemake plan the whole run again."""
-
-
-@dataclass(frozen=True)
-class Window:
-    """Where an interaction is expected: from `first` to `last`, shares of the speed above the crossings of `mode`.
-
-    Its intervals are halved until none is longer than `step` (rad/s), before anything is known.
-    """
-
-    mode: str
-    highest_engine_order: int
-    first: float
-    last: float
-    step: float
-
-
-@dataclass(frozen=True)
-class RefinementChoice:
-    """What makes an interval of speeds worth halving; every number is a share.
-
-    `windows` come first. Then an interval is halved when rms or stress change by more than `change` of the larger, when
-    stress crosses yield, when the status changes, and when a peak of at least `prominence` of the largest reaches within
-    `peak` of its height in it; changes below `prominence` of the largest do not count. A change by more than `steep_change`
-    counts down to `steep_prominence`: an interaction narrower than the interval leaves no more than its foot. At most
-    `largest_share` of the grid is run, where the response is largest first.
-    """
-
-    windows: tuple[Window, ...]
-    change: float
-    peak: float
-    largest_share: float
-    prominence: float
-    steep_change: float
-    steep_prominence: float
 
 
 @dataclass(frozen=True)
@@ -64,7 +32,7 @@ class KnownSpeeds:
 
 
 @dataclass(frozen=True)
-class Stretch:
+class DenseRange:
     """Speeds (rad/s) from `low` to `high` that are run every `step`."""
 
     low: float
@@ -72,60 +40,60 @@ class Stretch:
     step: float
 
 
-def stretches(campbell: xr.Dataset, windows: Sequence[Window]) -> list[Stretch]:
+def dense_ranges(campbell: xr.Dataset, windows: Sequence[Window]) -> list[DenseRange]:
     """The windows above the crossings of one blade's Campbell diagram."""
-    found = []
+    windowed = []
     for window in windows:
         crossings = campbell["crossing_speed"].sel(mode=window.mode)
         for speed in crossings.sel(engine_order=crossings["engine_order"] <= window.highest_engine_order).dropna(
             "engine_order"
         ):
             crossing = float(speed)
-            found.append(Stretch((1.0 + window.first) * crossing, (1.0 + window.last) * crossing, window.step))
-    return found
+            windowed.append(DenseRange((1.0 + window.first) * crossing, (1.0 + window.last) * crossing, window.step))
+    return windowed
 
 
-def window_speeds(grid: RefinedRange, expected: Sequence[Stretch]) -> list[float]:
-    """Speeds of the grid, beyond its coarse ones, that the stretches ask for, ascending."""
+def window_speeds(grid: RefinedRange, expected: Sequence[DenseRange]) -> list[float]:
+    """Speeds of the grid, beyond its coarse ones, that the dense ranges ask for, ascending."""
     added: list[int] = []
-    waiting = list(pairwise(grid.coarse_places()))
+    waiting = list(pairwise(grid.coarse_indices()))
     while waiting:
         first, last = waiting.pop()
         length = (last - first) * grid.interval
         too_long = any(
-            one.low < grid.speed(last) and grid.speed(first) < one.high and length > (1.0 + 1e-9) * one.step for one in expected
+            of.low < grid.speed(last) and grid.speed(first) < of.high and length > (1.0 + 1e-9) * of.step for of in expected
         )
         if too_long and last - first > 1:
             middle = (first + last) // 2
             added.append(middle)
             waiting += [(first, middle), (middle, last)]
-    return [grid.speed(place) for place in sorted(added)]
+    return [grid.speed(index) for index in sorted(added)]
 
 
 def next_speeds(grid: RefinedRange, members: Sequence[KnownSpeeds], choice: RefinementChoice) -> list[float]:
-    """Speeds (rad/s), ascending, in the middle of the intervals that are worth halving; none when all is said.
+    """Speeds (rad/s), ascending, in the middle of the intervals that are worth halving; none when all is known.
 
     `members`: what runs have given, of one run or of several members of a sample, all at the same speeds; an interval is worth
     what it is worth to them on average. Every coarse speed of the grid must be known. The result depends on nothing but the
     arguments.
     """
-    places = _places(grid, members[0].speeds)
-    on_grid = np.flatnonzero(places >= 0)
-    places = places[on_grid]
-    room = int(choice.largest_share * (grid.last + 1)) - len(places)
-    worth = np.mean([_worth(one.curves[:, on_grid], one.status[on_grid], _scale(one), choice) for one in members], axis=0)
-    open_intervals = np.flatnonzero((np.diff(places) > 1) & (worth > 0.0))
+    indices = _grid_indices(grid, members[0].speeds)
+    on_grid = np.flatnonzero(indices >= 0)
+    indices = indices[on_grid]
+    room = int(choice.largest_share * (grid.last + 1)) - len(indices)
+    worth = np.mean([_worth(run.curves[:, on_grid], run.status[on_grid], _scale(run), choice) for run in members], axis=0)
+    open_intervals = np.flatnonzero((np.diff(indices) > 1) & (worth > 0.0))
     # the largest first; half of the room, so that later rounds can follow what this one finds
     most = max(-(-room // 2), min(room, LEAST_OF_A_ROUND), 0)
     chosen = sorted(open_intervals, key=lambda i: (-worth[i], i))[:most]
-    return [grid.speed(int(places[i] + places[i + 1]) // 2) for i in sorted(chosen)]
+    return [grid.speed(int(indices[i] + indices[i + 1]) // 2) for i in sorted(chosen)]
 
 
-def _places(grid: RefinedRange, speeds: np.ndarray) -> np.ndarray:
-    """Place on the grid of each speed, -1 for one that is not on it."""
+def _grid_indices(grid: RefinedRange, speeds: np.ndarray) -> np.ndarray:
+    """Index on the grid of each speed, -1 for one that is not on it."""
     nearest = np.rint((speeds / grid.unit - grid.start) / grid.refine_to).astype(int)
     on_grid = [
-        0 <= place <= grid.last and grid.speed(int(place)) == speed for place, speed in zip(nearest, speeds, strict=True)
+        0 <= index <= grid.last and grid.speed(int(index)) == speed for index, speed in zip(nearest, speeds, strict=True)
     ]
     return np.where(on_grid, nearest, -1)
 

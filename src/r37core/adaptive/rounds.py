@@ -15,7 +15,7 @@ from r37core.speeds import SpeedPlan
 from r37core.time_integration.simulate import DIRECTIONS, TIP_POINTS
 from r37core.time_integration.speed_file import read_speed
 
-from .criterion import RefinementChoice, known_of, next_speeds, stretches, window_speeds
+from .criterion import RefinementChoice, dense_ranges, known_of, next_speeds, window_speeds
 
 
 @dataclass(frozen=True)
@@ -31,7 +31,7 @@ class Round:
 
 def first_round(plan: SpeedPlan, campbell: xr.Dataset, choice: RefinementChoice) -> Round:
     """The certain speeds of the plan, and those in the windows above the crossings of one blade's Campbell diagram."""
-    expected = stretches(campbell, choice.windows)
+    expected = dense_ranges(campbell, choice.windows)
     windows = {speed for grid in plan.refined for speed in window_speeds(grid, expected)}
     return Round(tuple(sorted({*plan.certain, *windows})))
 
@@ -65,10 +65,10 @@ def measure(run: Mapping[str, np.ndarray], yield_stress: float) -> list[float]:
     return [int(run["status"]), *(float(rms[DIRECTIONS.index(name)]) for name in ("normal", "tangential")), stress]
 
 
-def write_round(one: Round, file: Path | str) -> None:
+def write_round(finished: Round, file: Path | str) -> None:
     """Write it, atomically; what is no number is null."""
-    rows = [[speed, *(None if math.isnan(value) else value for value in row)] for speed, row in one.measured.items()]
-    write_json({"new": list(one.new), "measured": rows}, file)
+    rows = [[speed, *(None if math.isnan(value) else value for value in row)] for speed, row in finished.measured.items()]
+    write_json({"new": list(finished.new), "measured": rows}, file)
 
 
 def read_round(file: Path | str) -> Round:

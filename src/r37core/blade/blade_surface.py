@@ -36,10 +36,10 @@ class Blade:
         chord, span, thickness = (np.atleast_1d(np.asarray(a, dtype=float)) for a in (chord, span, thickness))
         weights = self._loft.weights(span)
         # points share few chords: along the span of a grid, through the thickness of a mesh
-        chords, places = np.unique(chord, return_inverse=True)
+        chords, inverse = np.unique(chord, return_inverse=True)
         cylindrical = np.zeros((3, len(chord)))
         for i, profile in enumerate(self.profiles):
-            pressure, suction = (np.array(profile.surfaces[side].point(chords))[:, places] for side in (PRESSURE, SUCTION))
+            pressure, suction = (np.array(profile.surfaces[side].point(chords))[:, inverse] for side in (PRESSURE, SUCTION))
             m, theta = self._section_point(profile, chord, thickness, pressure, suction)
             cylindrical[0] += weights[:, i] * profile.cone.radius(m)
             cylindrical[1] += weights[:, i] * (theta + self.placement.rotation[i])

@@ -136,14 +136,14 @@ def _read_rows(file: Path, number_columns: Iterable[str], text_columns: tuple[st
     wanted = [*text_columns, *number_columns]
     reader = csv.DictReader(io.StringIO(read_text(file), newline=""), strict=True)
     try:
-        reader.fieldnames = found = [column.strip() for column in reader.fieldnames or []]
-        missing = [column for column in wanted if column not in found]
+        reader.fieldnames = header = [column.strip() for column in reader.fieldnames or []]
+        missing = [column for column in wanted if column not in header]
         if missing:
             raise BladeShapeError(
-                f"line 1: the table lacks the columns {', '.join(missing)}; it has {', '.join(found) or 'none'}, "
+                f"line 1: the table lacks the columns {', '.join(missing)}; it has {', '.join(header) or 'none'}, "
                 "separated by commas"
             )
-        twice = [column for column in wanted if found.count(column) > 1]
+        twice = [column for column in wanted if header.count(column) > 1]
         if twice:
             raise BladeShapeError(f"line 1: the column {twice[0]} is given twice")
         return [_row(raw, reader.line_num, number_columns, text_columns) for raw in reader]

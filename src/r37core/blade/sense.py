@@ -30,7 +30,7 @@ class TipSense:
     camber: float
 
     def leads(self) -> bool | None:
-        """Whether the leading edge is ahead in the rotation; None where that cannot be told."""
+        """Whether the leading edge is ahead in the rotation; None where that cannot be decided."""
         return _sign(self.stagger)
 
     def fits(self, pressure_forward: bool) -> bool | None:

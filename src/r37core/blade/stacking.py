@@ -71,10 +71,10 @@ def plane_section_stacking(profiles: Sequence[Profile]) -> Placement:
     Raises BladeShapeError when a section cannot be cut or the iteration does not settle.
     """
     spans = np.array([p.parameters.span for p in profiles])
-    cut = _apart(spans)
+    sectioned = _apart(spans)
     start = conical_stacking(profiles)
-    moves = _moves_of_sections([profiles[i] for i in cut], Placement(start.axial[cut], start.rotation[cut]))
-    weights = SpanLoft(spans[cut]).weights(spans)
+    moves = _moves_of_sections([profiles[i] for i in sectioned], Placement(start.axial[sectioned], start.rotation[sectioned]))
+    weights = SpanLoft(spans[sectioned]).weights(spans)
     return start + Placement(weights @ moves.axial, weights @ moves.rotation)
 
 

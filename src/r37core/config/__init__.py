@@ -1,8 +1,8 @@
 """Configuration: YAML files checked by models, and the settings made of them."""
 
 from .blades import BladeSettings
+from .declaring import in_si
 from .document import ConfigError, Document, command_line_document, read_document
-from .reading import load_settings, read_settings, settings_of_run
 from .scenes import SceneEntry
 from .settings import SceneSettings, Settings, checked_scene, plain
 from .si_fields import si_fields
@@ -16,10 +16,8 @@ __all__ = [
     "Settings",
     "checked_scene",
     "command_line_document",
-    "load_settings",
+    "in_si",
     "plain",
     "read_document",
-    "read_settings",
-    "settings_of_run",
     "si_fields",
 ]

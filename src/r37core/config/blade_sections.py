@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-from typing import Annotated, Literal
+from typing import Literal
 
-from pydantic import Field, model_validator
+from pydantic import model_validator
 
-from r37core.rom.reduction_choice import EVERYWHERE, StressSubmesh
+from r37core.fem.material import Material
+from r37core.rom.reduction_choice import StressSubmesh
 
-from .section import LeftOut, Section, refused
-from .si_fields import si_fields
+from .declaring import declared_by
+from .section import Section, refused
 
 Contact = Literal["points", "patches", "area_patches"]
 CONTACT_IN_WORDS = (
@@ -18,29 +18,15 @@ CONTACT_IN_WORDS = (
     "line, or area_patches of the tip's whole face"
 )
 
-Coordinate = Annotated[float, Field(ge=-100, le=100)]
-Layers = Annotated[int, Field(ge=0, le=20)]
-_LAYERS = "layers of elements left out round contact nodes and root, where stress grows with every finer mesh"
 
-
+@declared_by(Material, optional=True)
 class MaterialSection(Section):
     """Isotropic material; what is left out comes from the base."""
 
-    youngs_modulus_pa: Annotated[float, Field(ge=1e6, le=1e13)] | LeftOut = Field(default=None, description="Young's modulus")
-    density_kg_m3: Annotated[float, Field(ge=1, le=1e5)] | LeftOut = Field(default=None, description="density")
-    poissons_ratio: Annotated[float, Field(gt=-1, lt=0.5)] | LeftOut = Field(default=None, description="Poisson's ratio")
-    yield_stress_pa: Annotated[float, Field(ge=1, le=1e12)] | LeftOut = Field(
-        default=None, description="results say where the stress is above it; nothing yields"
-    )
 
-
+@declared_by(StressSubmesh, maximum_x_m=0.197, minimum_z_m=0.0165, maximum_z_m=0.0265)
 class Submesh(Section):
     """Where stress is recovered; nodes with x (radial) below and z (downstream) between these bounds."""
-
-    maximum_x_m: float = Field(default=0.197, gt=0, le=100, description="upper bound of x")
-    minimum_z_m: Coordinate = Field(default=0.0165, description="lower bound of z")
-    maximum_z_m: Coordinate = Field(default=0.0265, description="upper bound of z")
-    excluded_layers: Layers = Field(default=0, description=_LAYERS)
 
     @model_validator(mode="after")
     def _has_a_height(self) -> Submesh:
@@ -48,24 +34,15 @@ class Submesh(Section):
         return self
 
 
+@declared_by(StressSubmesh, excluded_layers=1)
 class ImportedSubmesh(Section):
     """Where stress is recovered on a blade of another program: everywhere but near contact nodes and root, or in a box too."""
-
-    maximum_x_m: Annotated[float, Field(gt=0, le=100)] | LeftOut = Field(default=None, description="upper bound of x")
-    minimum_z_m: Coordinate | LeftOut = Field(default=None, description="lower bound of z")
-    maximum_z_m: Coordinate | LeftOut = Field(default=None, description="upper bound of z")
-    excluded_layers: Layers = Field(default=1, description=_LAYERS)
 
     @model_validator(mode="after")
     def _has_a_height(self) -> ImportedSubmesh:
         if self.minimum_z_m is not None and self.maximum_z_m is not None:
             check_height(self.minimum_z_m, self.maximum_z_m)
         return self
-
-
-def stress_region(section: Submesh | ImportedSubmesh) -> StressSubmesh:
-    """As the reduced model takes it: a bound that is not given is none."""
-    return replace(EVERYWHERE, **si_fields(section))
 
 
 def check_height(minimum: float, maximum: float) -> None:

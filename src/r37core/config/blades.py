@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Annotated, Any, Literal, TypeVar
@@ -21,16 +21,14 @@ from r37core.rom.reduction_choice import StressSubmesh
 from r37core.speeds import spaced
 from r37core.text_file import TextFileError
 
-from .blade_sections import CONTACT_IN_WORDS, Contact, MaterialSection, stress_region
-from .document import ConfigError, Document
+from .blade_sections import CONTACT_IN_WORDS, Contact, MaterialSection
+from .declaring import in_si
+from .document import ConfigError, ConfigRefusals, Document
 from .imported_entry import MatricesEntry, MeshEntry
 from .section import FileName, LeftOut, Name, Section, Unique, check_names, refused
-from .si_fields import in_si, si_fields
+from .si_fields import si_fields
 
 Table = TypeVar("Table")
-
-RESERVED = ("figures", "studies", "runs", "exports", "shapes", "tolerances")
-"""Folders beside those of the blades."""
 
 LARGEST_FAMILY = 10_000
 """Designs of one entry."""
@@ -147,9 +145,6 @@ class Blades(RootModel):
     @model_validator(mode="after")
     def _names(self) -> Blades:
         check_names(self.root)
-        for name in self.root:
-            if name.lower() in RESERVED:
-                raise refused((name,), f"the blade '{name}'", f"another name; {', '.join(RESERVED)} are folders of the results")
         return self
 
 
@@ -171,6 +166,18 @@ class BladeSettings:
     def elastic(self) -> BladeSettings:
         """The same as if it never yielded: a new yield stress asks for no new model."""
         return self if self.material is None else replace(self, material=replace(self.material, yield_stress=math.inf))
+
+
+def all_blades(names: Iterable[str], entries: Mapping[str, Any], root: Path, document: Document) -> dict[str, BladeSettings]:
+    """The blades of these names. Raises the ConfigErrors of all of them, but not of one whose base is refused before it."""
+    refusals = ConfigRefusals()
+    found: dict[str, BladeSettings | None] = {}
+    for name in names:
+        base = getattr(entries[name], "base", None)
+        known = base not in found or found[base] is not None
+        found[name] = refusals.of(blade_settings, name, entries, root, document) if known else None
+    refusals.tell()
+    return {name: blade for name, blade in found.items() if blade is not None}
 
 
 def blade_settings(name: str, entries: Mapping[str, Any], root: Path, document: Document) -> BladeSettings:
@@ -198,7 +205,7 @@ def blade_settings(name: str, entries: Mapping[str, Any], root: Path, document: 
         except ValueError as error:
             raise document.error((name, "material"), str(error)) from None
         return BladeSettings(
-            _source(entry, first, root, document), material, entries[name].contact, stress_region(entry.stress_submesh)
+            _source(entry, first, root, document), material, entries[name].contact, in_si(StressSubmesh, entry.stress_submesh)
         )
     shift: dict[str, Any] = {}
     for link in chain:
@@ -208,7 +215,7 @@ def blade_settings(name: str, entries: Mapping[str, Any], root: Path, document: 
         shift = _scaled(link, entries[link], shift, document)
     table = entry.profiles
     sense_check = all(entries[link].sense_check for link in chain)
-    profiles = _table(table, name, (first, "profiles"), document, lambda: _profiles(root / table, sense_check))
+    profiles = _table(table, first, (first, "profiles"), document, lambda: _profiles(root / table, sense_check))
     return BladeSettings(BladeDefinition(name, tuple(profiles), **shift), material, entries[name].contact)
 
 

@@ -5,14 +5,27 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from r37core.contact.elastic_casing import ElasticCasing, flexibility, flexibility_of, nodal_diameters_for
-from r37core.contact.ring import Ring
+from r37core.contact.ring import MOST_NODAL_DIAMETERS, Ring
 
-from .casing_section import MOST_NODAL_DIAMETERS
+from .settings import Settings
+from .speed_choice import fastest_of
 
 ENOUGH = 0.95
 """Share of the give under a force from which on nothing is said, and for which nodal diameters are named."""
 
 _KEY = "casing.ring.highest_nodal_diameter"
+
+
+def elastic_casings(settings: Settings) -> dict[str, ElasticCasing]:
+    """Of each scene to run whose casing gives way."""
+    entries = {name: settings.scene_entries[name].casing for name in settings.scene_names}
+    return {name: casing.elastic_casing() for name, casing in entries.items() if casing.elastic}
+
+
+def of_sweep(settings: Settings) -> list[str]:
+    """Of casings whose waves a blade of the sweep overtakes."""
+    said = (of_speeds(name, one, fastest_of(settings, name)) for name, one in elastic_casings(settings).items())
+    return [one for one in said if one]
 
 
 def of_speeds(scene: str, casing: ElasticCasing, fastest: float) -> str:

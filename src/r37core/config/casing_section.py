@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from itertools import pairwise
-from typing import Annotated, Literal
+from typing import Annotated, Any
 
 from pydantic import Field, model_validator
 
@@ -12,11 +12,9 @@ from r37core.contact.casing import Casing
 from r37core.contact.elastic_casing import ElasticCasing
 from r37core.contact.ring import Ring, RingMode
 
+from .declaring import DECLARED, declared_by, in_si
 from .section import LeftOut, Section, refused
-from .si_fields import in_si, si_fields
-
-MOST_NODAL_DIAMETERS = 100
-"""Of a ring's modes in a simulation."""
+from .si_fields import si_fields
 
 
 class GrowthSection(Section):
@@ -55,30 +53,9 @@ class ClearanceSection(Section):
     casing_growth: GrowthSection | LeftOut = None
 
 
+@declared_by(Ring)
 class RingSection(Section):
-    """A casing that gives way: a thin ring of one material on an elastic foundation, its flanges."""
-
-    radius_m: float = Field(
-        ge=1e-3, le=100, description="of the ring's middle line; at least the tip's, at most a quarter more"
-    )
-    thickness_m: float = Field(ge=1e-6, le=10, description="radial; at most a fifth of the radius")
-    width_m: float = Field(ge=1e-6, le=100, description="axial")
-    elastic_modulus_pa: float = Field(ge=1e3, le=1e15, description="of the ring's material")
-    density_kg_m3: float = Field(ge=1e-3, le=1e6, description="of the ring's material")
-    damping_ratio: float = Field(default=0.005, ge=0, lt=1, description="of every mode of the ring")
-    radial_foundation_n_m2: float = Field(
-        default=0.0, ge=0, le=1e15, description="radial stiffness per length of circumference; 0: a free ring"
-    )
-    tangential_foundation_n_m2: float = Field(
-        default=0.0, ge=0, le=1e15, description="tangential stiffness per length of circumference; without it no ring turns"
-    )
-    highest_nodal_diameter: int = Field(
-        default=20,
-        ge=2,
-        le=MOST_NODAL_DIAMETERS,
-        description="modes of more nodal diameters are left out; `r37 check` says what that leaves out: of the give under a "
-        "force, and of waves that the rotor overtakes",
-    )
+    """A flexible casing: a thin ring of one material on an elastic foundation, its flanges."""
 
     @model_validator(mode="after")
     def _thin(self) -> RingSection:
@@ -87,13 +64,14 @@ class RingSection(Section):
         return self
 
 
+@declared_by(RingMode)
 class RingModeSection(Section):
     """A mode of the casing, as a test or a finite-element model of it gives them; a pair where it has nodal diameters."""
 
-    nodal_diameter: int = Field(ge=0, le=200, description="waves round the circumference")
-    frequency_hz: float = Field(ge=1e-3, le=1e7, description="natural frequency, of a casing that does not turn")
-    modal_mass_kg: float = Field(ge=1e-9, le=1e9, description="for a radial displacement of 1 at the antinode")
-    damping_ratio: float = Field(default=0.005, ge=0, lt=1, description="of this mode")
+    nodal_diameter: Any = DECLARED
+    frequency_hz: Any = DECLARED
+    modal_mass_kg: Any = DECLARED
+    damping_ratio: Any = DECLARED
     tangential_ratio: Annotated[float, Field(ge=-10, le=10)] | LeftOut = Field(
         default=None, description="tangential over radial displacement; default: 1/nodal_diameter, bending alone; 0 without any"
     )
@@ -105,22 +83,17 @@ class RingModeSection(Section):
         return in_si(RingMode, self, frequency=2.0 * math.pi * self.frequency_hz, tangential=tangential)
 
 
+@declared_by(Casing)
 class CasingSection(Section):
-    """Shape of the casing, and whether it gives way."""
+    """Shape of the casing, and whether it is flexible."""
 
-    clearance_m: Annotated[float, Field(ge=1e-6, le=0.1)] | LeftOut = Field(
-        default=None, description="normal to the casing, at every speed; or clearance, which changes with the speed"
-    )
+    clearance_m: Any = DECLARED
     clearance: ClearanceSection | LeftOut = None
-    cone_angle_deg: Literal["tip"] | Annotated[float, Field(ge=-80, le=80)] = Field(
-        default="tip",
-        description="half angle of the casing's cone, negative where it narrows downstream, 0 for a cylinder; "
-        "tip: that of each blade's tip",
-    )
-    lobes: int = Field(default=2, ge=0, le=100, description="0 is a circular casing")
-    width: float = Field(default=0.15, ge=1e-3, le=100, description="width of a lobe in shares of its period")
-    amplitude_clearances: float = Field(default=2.0, ge=0, le=1000, description="height of the lobes")
-    rise_fraction: float = Field(default=0.2, ge=0, le=1, description="share of the run at which 99% is reached")
+    cone_angle_deg: Any = DECLARED
+    lobes: Any = DECLARED
+    width: Any = DECLARED
+    amplitude_clearances: Any = DECLARED
+    rise_fraction: Any = DECLARED
     ring: RingSection | LeftOut = Field(default=None, description="an elastic casing; rigid without it")
     ring_modes: Annotated[list[RingModeSection], Field(min_length=1, max_length=200)] | LeftOut = Field(
         default=None, description="the same by its modes, in place of ring"
@@ -141,11 +114,11 @@ class CasingSection(Section):
 
     @property
     def elastic(self) -> bool:
-        """Whether the casing gives way."""
+        """Whether the casing is flexible."""
         return self.ring is not None or self.ring_modes is not None
 
     def elastic_casing(self) -> ElasticCasing:
-        """What gives way, with the waves that simulations leave out; without modes where the casing is rigid."""
+        """The flexible casing, with the waves that simulations leave out; without modes where the casing is rigid."""
         if self.ring is None:
             return ElasticCasing(tuple(one.mode() for one in self.ring_modes or ()))
         ring = in_si(Ring, self.ring)

@@ -3,45 +3,44 @@
 from __future__ import annotations
 
 import re
-from typing import Annotated, Literal
+from collections.abc import Mapping
+from typing import Annotated, Any, Literal
 
-from pydantic import AfterValidator, Field, model_validator
+from pydantic import AfterValidator, Field, create_model, model_validator
 
+from r37core.adaptive.refinement_choice import RefinementChoice, Window
+from r37core.contact.scene import Scene
+from r37core.results.interaction_choice import InteractionChoice
 from r37core.rom.reduction_choice import BoundaryChoice, ReductionChoice, StressSubmesh
 
-from .blade_sections import CONTACT_IN_WORDS, Contact, Submesh, stress_region
+from .blade_sections import CONTACT_IN_WORDS, Contact, Submesh
+from .declaring import DECLARED, declared_by, in_si
 from .fidelity import Reduction
-from .output_sections import ExportSection, ShapeSection, SignalSection
-from .run_up_section import RunUpEntry
-from .scenes import TipLine
-from .section import AllOrNames, FileName, LeftOut, Name, Section, Speed, check_names, refused
-from .si_fields import in_si, si_fields
+from .section import AllOrNames, FileName, LeftOut, Name, Section, Speed, refused
 from .speed_section import RpmList, SpeedList, SpeedRange, SpeedRule, refuse_both_units
 from .study_sections import StudiesSection
-from .tolerance_section import ToleranceSection
 
 
+@declared_by(BoundaryChoice)
 class Boundary(Section):
     """The contact nodes, kept as physical coordinates of the reduced model."""
 
     contact: Contact | LeftOut = Field(
         default=None, description=f"{CONTACT_IN_WORDS}, for all blades; left out: as each blade says"
     )
-    tip_line: TipLine = Field(default="pressure_edge", description="line of the tip on which they lie")
-    nodes: int = Field(default=8, ge=1, le=200, description="how many, evenly spaced")
-    corners: bool = Field(default=True, description="whether leading and trailing corner are among them")
 
 
+@declared_by(ReductionChoice, only_listed=True)
 class StructureSection(Section):
     """Geometry and reduced model."""
 
     edges: Literal["round", "blunt"] = Field(default="round", description="how leading and trailing edge are closed")
     boundary: Boundary = Boundary()
     maximum_speed_rad_s: Speed = Field(default=2000.0, description="highest speed of the basis and of the Campbell diagram")
-    spin_softening: bool = Field(default=False, description="loss of stiffness because centrifugal forces follow the motion")
-    coriolis: bool = Field(default=False, description="in the Campbell diagram and in all simulations; needs exact_modal")
+    spin_softening: Any = DECLARED
+    coriolis: Any = DECLARED
     stress_submesh: Submesh = Submesh()
-    recover_whole_blade: bool = Field(default=False, description="keep the basis on every node (a large file)")
+    recover_whole_blade: Any = DECLARED
 
     def reduction(
         self, size: Reduction, contact: str, tip_line: str | None = None, stress_submesh: StressSubmesh | None = None
@@ -56,8 +55,8 @@ class StructureSection(Section):
             self,
             boundary=in_si(BoundaryChoice, self.boundary, tip_line=tip_line or self.boundary.tip_line, contact=contact),
             speeds=(0.0, 0.5 * self.maximum_speed_rad_s, self.maximum_speed_rad_s),
-            stress_submesh=stress_submesh or stress_region(self.stress_submesh),
-            **si_fields(size),
+            stress_submesh=stress_submesh or in_si(StressSubmesh, self.stress_submesh),
+            **dict(size),
         )
 
 
@@ -72,24 +71,14 @@ class CampbellSection(Section):
     )
 
 
+@declared_by(InteractionChoice)
 class Interactions(Section):
     """What counts as an interaction, in summary.csv."""
 
-    prominence: float = Field(
-        default=0.1, gt=0, le=1, description="rise of a peak above its surroundings, as a share of the largest"
-    )
-    below: float = Field(default=0.02, ge=0, le=0.5, description="how far below a Campbell speed its peak may lie, as a share")
-    above: float = Field(default=0.06, ge=0, le=1, description="how far above")
 
-
+@declared_by(Window)
 class WindowSection(Section):
     """Speeds above the crossings of a mode with engine orders, which are looked at more closely before anything is known."""
-
-    mode: Literal["1B", "1T", "2B"] = Field(description="whose crossings")
-    highest_engine_order: int = Field(ge=1, le=100, description="from order 1 up to this one")
-    first: float = Field(ge=-0.5, le=1, description="where it begins, as a share of the crossing's speed above it")
-    last: float = Field(ge=-0.5, le=1, description="where it ends")
-    step_rad_s: Speed = Field(description="its intervals are halved until none is longer")
 
     @model_validator(mode="after")
     def _has_a_length(self) -> WindowSection:
@@ -105,39 +94,30 @@ class DirectRefinementSection(Section):
     largest_share: float = Field(default=0.125, gt=0, le=1, description="the same in scenes without lining")
 
 
+@declared_by(RefinementChoice)
 class RefinementSection(Section):
     """Where ranges with `refine_to` get more speeds."""
 
     windows: list[WindowSection] = Field(
         default=[
-            WindowSection(mode="1B", highest_engine_order=8, first=0.01, last=0.06, step_rad_s=5.0),
-            WindowSection(mode="1T", highest_engine_order=20, first=0.0, last=0.02, step_rad_s=5.0),
+            WindowSection.model_validate(window)
+            for window in (
+                {"mode": "1B", "highest_engine_order": 8, "first": 0.01, "last": 0.06, "step_rad_s": 5.0},
+                {"mode": "1T", "highest_engine_order": 20, "first": 0.0, "last": 0.02, "step_rad_s": 5.0},
+            )
         ],
         description="where interactions are expected, because contact stiffens a blade",
     )
-    change: float = Field(
-        default=0.25,
-        gt=0,
-        le=10,
-        description="an interval is halved when rms or stress change by more, as a share of the larger",
-    )
-    peak: float = Field(
-        default=0.1, ge=0, lt=1, description="intervals are halved that reach so close to a peak's height, as a share of it"
-    )
-    steep_change: float = Field(
-        default=0.8,
-        gt=0,
-        le=1,
-        description="a change by more is the foot of an interaction narrower than the interval: it is halved down to "
-        "steep_prominence; 1: never",
-    )
-    steep_prominence: float = Field(
-        default=0.01, gt=0, le=1, description="height from which a steep change counts, as a share of the largest"
-    )
-    largest_share: float = Field(
-        default=0.2, gt=0, le=1, description="of the finest grid that is run at most; where the response is largest goes first"
-    )
+    change: Any = DECLARED
+    peak: Any = DECLARED
+    steep_change: Any = DECLARED
+    steep_prominence: Any = DECLARED
+    largest_share: Any = DECLARED
     direct: DirectRefinementSection = DirectRefinementSection()
+
+    def in_scene(self, scene: Scene) -> RefinementSection:
+        """What counts in a scene: without lining with windows and share of its own."""
+        return self if scene.lining else self.model_copy(update=dict(self.direct))
 
 
 def _numbers_of_part(part: str) -> tuple[int, int]:
@@ -178,11 +158,6 @@ class Run(Section):
         return names[first:last]
 
 
-def _names_differ(entries: dict[str, RunUpEntry]) -> dict[str, RunUpEntry]:
-    check_names(entries)
-    return entries
-
-
 class Config(Section):
     """config.yaml, what to run."""
 
@@ -216,16 +191,14 @@ class Config(Section):
     run: Run = Run()
     studies: StudiesSection = StudiesSection()
     campbell: CampbellSection = CampbellSection()
-    exports: ExportSection = ExportSection()
-    shapes: ShapeSection = ShapeSection()
-    signals: SignalSection = SignalSection()
-    run_ups: Annotated[dict[Name, RunUpEntry], AfterValidator(_names_differ)] = Field(
-        default={}, description="run-ups and run-downs by name"
-    )
-    tolerances: ToleranceSection = ToleranceSection()
 
     @model_validator(mode="after")
     def _one_unit(self) -> Config:
         if self.speeds_rpm is not None and "speeds" in self.model_fields_set:
             refuse_both_units("speeds", "speeds_rpm")
         return self
+
+
+def with_sections(sections: Mapping[str, tuple[Any, Any]]) -> type[Config]:
+    """config.yaml with more sections: name -> type and default, as `create_model` takes them."""
+    return create_model("Config", __base__=Config, __doc__=Config.__doc__, **sections)  # type: ignore[call-overload]

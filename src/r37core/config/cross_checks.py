@@ -1,12 +1,14 @@
 """What no model of one file can check: each function compares values of several keys or files.
 
-`CHECKS` are run one after the other; each raises ConfigError with the place of the value to blame.
+Each of `CHECKS` raises ConfigError with the place of the value to blame. All of them are run: one that needs what another has
+refused meets the same refusal in `Settings`, and that is told once.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable
+from typing import Any
 
 import numpy as np
 
@@ -14,46 +16,27 @@ from r37core.alignment import padded
 from r37core.blade.definition import BladeDefinition
 from r37core.exchange.importing.source import MatricesSource
 from r37core.rom.reduction_choice import AREA_PATCHES, PATCHES, POINTS, BoundaryError, check_patches
-from r37core.run_ups.choice import RunUpError, check_highest
 from r37core.time_integration.integration_choice import LARGEST_TABLE
 from r37core.time_integration.integrators import EXACT_MODAL
 from r37core.units import RPM
 from r37core.yaml_file import KeyPath
 
-from .document import Document
+from .document import ConfigRefusals, Document
 from .settings import Settings
 
 LARGEST_NUMBER_OF_SIMULATIONS = 200_000
 """Jobs that Snakemake can still plan: about 25 kB of memory and 1 ms for each."""
 
 
-def _known(settings: Settings, path: KeyPath, names: Iterable[str], entries: Iterable[str], file: Document) -> None:
-    """ConfigError for a name, at `path` of config.yaml, that is none of the `entries` of `file`."""
-    known = list(entries)
-    for name in names:
-        if name not in known:
-            raise settings.documents.config.refusal(path, f"'{name}'", f"{', '.join(known)} ({file.name})")
+def what_is_named_is_there(settings: Settings) -> None:
+    """Level, blades and scenes that are named are in their files, and `auto` has a level within the tolerance.
 
-
-def level_is_known(settings: Settings) -> None:
-    """The level that is named is in its file; `auto` finds one within the tolerance."""
-    _known(settings, ("fidelity",), [settings.fidelity_name], settings.levels, settings.documents.levels)
-
-
-def blades_are_known(settings: Settings) -> None:
-    """Blades and families that are named are in their file, and the run's part has some."""
-    chosen, designs = settings.config.blades, settings.designs
-    if chosen != "all":
-        _known(settings, ("blades",), chosen, [*designs.entries, *designs.families], settings.documents.blades)
-    if not settings.blade_names:
-        number = len(settings.chosen_blades)
-        found = f"{settings.config.run.part} of {number} blades"
-        raise settings.documents.config.refusal(("run", "part"), found, f"at most {number} parts")
-
-
-def scenes_are_known(settings: Settings) -> None:
-    """Scenes that are named are in their file."""
-    _known(settings, ("scenes",), settings.scene_names, settings.scene_entries, settings.documents.scenes)
+    What asks for one of them is refused for the same reason, which is told once.
+    """
+    refusals = ConfigRefusals()
+    for name in ("fidelity_name", "blade_names", "scene_names"):
+        refusals.of(getattr, settings, name)
+    refusals.tell()
 
 
 def studies_name_what_is_there(settings: Settings) -> None:
@@ -70,25 +53,25 @@ def studies_name_what_is_there(settings: Settings) -> None:
         study = getattr(studies, name)
         for key, (entries, file) in files.items():
             if given_name := getattr(study, key, None):
-                _known(settings, ("studies", name, key), [given_name], entries, file)
+                settings.documents.known(("studies", name, key), [given_name], entries, file)
         lined = getattr(study, "lined_scene", None)
         if lined and settings.scene_entries[lined].lining is None:
             raise documents.config.refusal(("studies", name, "lined_scene"), f"'{lined}'", "a scene with a lining")
     if given := studies.tradeoff:
-        highest = settings.campbell.highest_engine_order
+        highest = settings.config.campbell.highest_engine_order
         if given.engine_order > highest:
             allowed = f"at most campbell.highest_engine_order ({highest})"
             raise documents.config.refusal(("studies", "tradeoff", "engine_order"), f"{given.engine_order}", allowed)
         levels = given.parameters.level.values
-        _known(settings, ("studies", "tradeoff", "parameters", "level"), levels, settings.levels, documents.levels)
+        settings.documents.known(("studies", "tradeoff", "parameters", "level"), levels, settings.levels, documents.levels)
         if given.scenes != "all":
-            _known(settings, ("studies", "tradeoff", "scenes"), given.scenes, settings.scene_entries, documents.scenes)
+            settings.documents.known(("studies", "tradeoff", "scenes"), given.scenes, settings.scene_entries, documents.scenes)
 
 
 def stress_instants_are_samples(settings: Settings) -> None:
     """Stress instants of the trade-off are among the samples of a revolution."""
     tradeoff = settings.studies.tradeoff
-    if tradeoff is None or tradeoff.parameters.stress_instants is None:
+    if tradeoff is None or tradeoff.parameters.stress_instants is None or tradeoff.base not in settings.levels:
         return
     samples = settings.levels[tradeoff.base].time_integration.samples_per_revolution
     path = ("studies", "tradeoff", "parameters", "stress_instants", "values")
@@ -98,12 +81,21 @@ def stress_instants_are_samples(settings: Settings) -> None:
             raise settings.documents.config.refusal((*path, number), f"{instants}", allowed)
 
 
+def names_are_there(settings: Settings, path: KeyPath, section: Any) -> None:
+    """Blades, families and scenes that a section at `path` of config.yaml names, if not `all`, are in their files."""
+    designs, documents = settings.designs, settings.documents
+    if section.blades != "all":
+        documents.known((*path, "blades"), section.blades, [*designs.entries, *designs.families], documents.blades)
+    if section.scenes != "all":
+        documents.known((*path, "scenes"), section.scenes, settings.scene_entries, documents.scenes)
+
+
 def speed_rules_name_what_is_there(settings: Settings) -> None:
     """Blades and scenes with speeds of their own are in their files."""
     for number, rule in enumerate(settings.config.speeds_for):
         path, documents = ("speeds_for", number), settings.documents
-        _known(settings, (*path, "blades"), rule.blades or [], settings.designs.entries, documents.blades)
-        _known(settings, (*path, "scenes"), rule.scenes or [], settings.scene_entries, documents.scenes)
+        settings.documents.known((*path, "blades"), rule.blades or [], settings.designs.entries, documents.blades)
+        settings.documents.known((*path, "scenes"), rule.scenes or [], settings.scene_entries, documents.scenes)
 
 
 def simulations_can_be_planned(settings: Settings) -> None:
@@ -121,7 +113,7 @@ def windows_have_crossings(settings: Settings) -> None:
     """No window lies above crossings that the Campbell diagram does not have."""
     if not any(plan.refined for plan in settings.speed_plans.values()):
         return
-    highest, given = settings.campbell.highest_engine_order, settings.config.refinement
+    highest, given = settings.config.campbell.highest_engine_order, settings.config.refinement
     for place, windows in {("refinement",): given.windows, ("refinement", "direct"): given.direct.windows}.items():
         for number, window in enumerate(windows):
             if window.highest_engine_order > highest:
@@ -144,111 +136,23 @@ def history_speeds_are_run(settings: Settings) -> None:
                 raise settings.documents.scenes.refusal((name, key), f"{given:g}", allowed)
 
 
-def exported_speeds_are_run(settings: Settings) -> None:
-    """Speeds of `exports` are simulated whatever is found, and within the reduced model's basis."""
-    given, highest, document = settings.config.exports, settings.structure.maximum_speed_rad_s, settings.documents.config
-    run = {speed for plan in settings.speed_plans.values() for speed in plan.certain}
-    key = "stress_speeds_rad_s" if given.stress_speeds_rpm is None else "stress_speeds_rpm"
-    allowed = "speeds that are simulated whatever a range refines to; name it under speeds, too"
-    for number, speed in enumerate(given.stress_speeds() or []):
-        if speed not in run:
-            raise document.refusal(("exports", key, number), f"{getattr(given, key)[number]:g}", allowed)
-    for number, speed in enumerate(given.mode_speeds_rad_s or []):
-        if speed > highest:
-            allowed = f"up to structure.maximum_speed_rad_s, {highest:g}"
-            raise document.refusal(("exports", "mode_speeds_rad_s", number), f"{speed:g}", allowed)
-
-
 def slowest_speed_fits_in_memory(settings: Settings) -> None:
-    """The revolution of the slowest speed, of the sweep, signals or run-ups, has not too many steps."""
-    slowest: list[tuple[float, KeyPath]] = [(min(plan.certain[0] for plan in settings.speed_plans.values()), ("speeds",))]
-    signals = settings.config.signals
-    if isinstance(speeds := signals.speeds(), list):
-        slowest.append((speeds[0], ("signals", signals.key_of_speeds)))
-    for name, entry in settings.config.run_ups.items():
-        if entry.crossing is None:
-            slowest.append((min(entry.choice(1).start, entry.choice(1).stop), ("run_ups", name)))
+    """The revolution of the slowest speed of the sweep has not too many steps."""
+    revolution_fits(settings, min(plan.certain[0] for plan in settings.speed_plans.values()), ("speeds",))
+
+
+def revolution_fits(settings: Settings, speed: float, path: KeyPath) -> None:
+    """ConfigError for a speed (rad/s), at `path` of config.yaml, whose revolutions have too many steps."""
     steps, lined = settings.fidelity.time_integration, {one.scene.lining is not None for one in settings.scenes.values()}
     nodes, step = padded(settings.structure.boundary.nodes), min(map(steps.largest_step, lined))
-    for speed, path in slowest:
-        size = 8 * nodes * 2.0 * math.pi / speed / step
-        if size > LARGEST_TABLE:
-            raise settings.documents.config.refusal(
-                path,
-                f"{speed:g} rad/s, a revolution of {size / 8 / nodes:.3g} steps of {step:g} s",
-                f"speeds from {speed * size / LARGEST_TABLE:.3g} rad/s with this step (the casing's shape at every step has to "
-                "fit in memory)",
-            )
-
-
-def signals_have_runs(settings: Settings) -> None:
-    """Signals are wanted of blades that are there and of some scene, and are no longer than its runs."""
-    wanted, documents = settings.config.signals, settings.documents
-    if wanted.blades != "all":
-        _known(settings, ("signals", "blades"), wanted.blades, settings.designs.entries, documents.blades)
-    if wanted.speeds() is None:
-        return
-    with_signal = {name: scene for name, scene in settings.scenes.items() if "signal" in scene.results}
-    if not with_signal:
-        raise documents.config.refusal(
-            ("signals", wanted.key_of_speeds),
-            "speeds, though no scene that is run has signal among its results",
-            f"such a scene ({', '.join(settings.scenes)} of {documents.scenes.name} are run), or no speeds",
+    size = 8 * nodes * 2.0 * math.pi / speed / step
+    if size > LARGEST_TABLE:
+        raise settings.documents.config.refusal(
+            path,
+            f"{speed:g} rad/s, a revolution of {size / 8 / nodes:.3g} steps of {step:g} s",
+            f"speeds from {speed * size / LARGEST_TABLE:.3g} rad/s with this step (the casing's shape at every step has to "
+            "fit in memory)",
         )
-    for name, scene in with_signal.items():
-        if wanted.revolutions is not None and wanted.revolutions > scene.revolutions:
-            allowed = f"at most those of a run, {scene.revolutions} in '{name}'"
-            raise documents.config.refusal(("signals", "revolutions"), f"{wanted.revolutions}", allowed)
-
-
-def run_ups_can_be_done(settings: Settings) -> None:
-    """Run-ups name blades, scenes and orders that are there, wear a lining, and change little from sample to sample."""
-    documents, per_revolution = settings.documents, settings.fidelity.time_integration.samples_per_revolution
-    for name, entry in settings.config.run_ups.items():
-        path: KeyPath = ("run_ups", name)
-        blades, scenes = ([] if names == "all" else names for names in (entry.blades, entry.scenes))
-        _known(settings, (*path, "blades"), blades, [*settings.designs.entries, *settings.designs.families], documents.blades)
-        _known(settings, (*path, "scenes"), scenes, settings.scene_entries, documents.scenes)
-        choice, highest = entry.choice(1), settings.structure.maximum_speed_rad_s
-        try:
-            # of a crossing what holds wherever it lies: the higher, the more revolutions
-            choice.run_up(per_revolution, highest if entry.crossing else None)
-            if entry.crossing is None:
-                check_highest(max(choice.start, choice.stop), highest)
-        except RunUpError as error:
-            raise documents.config.error((*path, entry.key_of_length), str(error)) from None
-        if entry.crossing and entry.crossing.engine_order > settings.campbell.highest_engine_order:
-            raise documents.config.refusal(
-                (*path, "crossing", "engine_order"),
-                f"{entry.crossing.engine_order}",
-                f"at most campbell.highest_engine_order ({settings.campbell.highest_engine_order})",
-            )
-        for scene in scenes or settings.scenes:
-            if entry.lining == "worn" and settings.scene_entries[scene].lining is None:
-                raise documents.config.refusal(
-                    (*path, "lining"), f"worn in the scene '{scene}', which has no lining", "new, or scenes with a lining"
-                )
-
-
-def members_can_be_drawn(settings: Settings) -> None:
-    """Tolerances name blades, scenes and numbers that are there, no member is impossible, and all can be planned."""
-    given, documents, path = settings.config.tolerances, settings.documents, ("tolerances",)
-    blades, scenes = ([] if names == "all" else names for names in (given.blades, given.scenes))
-    _known(settings, (*path, "blades"), blades, [*settings.designs.entries, *settings.designs.families], documents.blades)
-    _known(settings, (*path, "scenes"), scenes, settings.scene_entries, documents.scenes)
-    # the configuration that a run keeps has the empty section written out
-    if given != type(given)() and not settings.members.numbers:
-        raise documents.config.refusal(path, "no numbers", "some under of_scenes or of_blades")
-    members = given.members * (len(settings.members.numbers) + 2 if given.sensitivity else 1)
-    number = members * sum(len(settings.speed_plans[pair].certain) for pair in settings.members.pairs)
-    if number > LARGEST_NUMBER_OF_SIMULATIONS:
-        raise documents.config.refusal(
-            (*path, "members"),
-            f"{number} simulations of members",
-            f"at most {LARGEST_NUMBER_OF_SIMULATIONS} in one run: fewer members, speeds, blades or scenes, or no sensitivity",
-        )
-    # draws them, and refuses what is impossible
-    _ = settings.members.all
 
 
 def matrices_hold_their_terms(settings: Settings) -> None:
@@ -300,10 +204,6 @@ def coriolis_can_be_carried(settings: Settings) -> None:
             f"true at the level '{settings.fidelity_name}', whose integrator {integrator} does not carry the Coriolis force",
             f"false, or a level of {EXACT_MODAL}" + (f" ({', '.join(others)})" if others else ""),
         )
-    for name in settings.config.run_ups:
-        raise document.refusal(
-            ("run_ups", name), "a run-up with structure.coriolis: true", "none; run-ups do not carry the Coriolis force yet"
-        )
 
 
 def clearances_reach_all_speeds(settings: Settings) -> None:
@@ -323,35 +223,18 @@ def clearances_reach_all_speeds(settings: Settings) -> None:
             )
 
 
-def families_have_shapes(settings: Settings) -> None:
-    """No family is of an imported blade: what is compared of designs needs their shape."""
-    for name, family in settings.families.items():
-        members = [settings.blades[design] for design in family.designs if design in settings.blades]
-        if any(not isinstance(blade.definition, BladeDefinition) for blade in members):
-            raise settings.documents.blades.refusal(
-                (name,), "a family of an imported blade", "families of blades with profiles"
-            )
-
-
 CHECKS: tuple[Callable[[Settings], None], ...] = (
-    level_is_known,
-    blades_are_known,
-    scenes_are_known,
+    what_is_named_is_there,
     studies_name_what_is_there,
     stress_instants_are_samples,
     speed_rules_name_what_is_there,
     simulations_can_be_planned,
     windows_have_crossings,
     history_speeds_are_run,
-    exported_speeds_are_run,
     slowest_speed_fits_in_memory,
-    signals_have_runs,
-    run_ups_can_be_done,
-    members_can_be_drawn,
     matrices_hold_their_terms,
     tips_have_room_for_patches,
     coriolis_can_be_carried,
     clearances_reach_all_speeds,
-    families_have_shapes,
 )
-"""In this order: those that name something come first, because the others look it up."""
+"""In the order in which refusals are told."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, TypeVar
@@ -12,13 +12,41 @@ from pydantic import BaseModel, ValidationError
 from r37core.text_file import TextFileError
 from r37core.yaml_file import KeyPath, load_yaml_with_lines, scalar
 
-from .messages import explain, on_one_line
+from .messages import explain_all, on_one_line
 
 Model = TypeVar("Model", bound=BaseModel)
+Result = TypeVar("Result")
+
+_MOST_TOLD = 20
+"""ConfigRefusals of one message."""
 
 
 class ConfigError(ValueError):
-    """The message names the file, the line where there is one, the key, what was found and what is allowed."""
+    """The message names the file, the line where there is one, the key, what was found and what is allowed.
+
+    Of several refusals each has a line of its own.
+    """
+
+
+class ConfigRefusals:
+    """What is wrong with a configuration, from checks that do not wait for each other: a user is told all at once."""
+
+    def __init__(self, *told: str) -> None:
+        self._lines = dict.fromkeys(told)
+
+    def of(self, check: Callable[..., Result], *arguments: Any) -> Result | None:
+        """What a check gives; None where it refuses, which it may do for the reason of one before it."""
+        try:
+            return check(*arguments)
+        except ConfigError as error:
+            self._lines |= dict.fromkeys(str(error).splitlines())
+            return None
+
+    def tell(self) -> None:
+        """ConfigError with all of them, each once and not too many, if there are any."""
+        if self._lines:
+            lines, more = list(self._lines)[:_MOST_TOLD], len(self._lines) - _MOST_TOLD
+            raise ConfigError("\n".join([*lines, *([f"and {more} more"] if more > 0 else [])]))
 
 
 @dataclass(frozen=True)
@@ -47,18 +75,36 @@ class Document:
         return self.error(path, f"found {found}; allowed: {allowed}")
 
     def check(self, model: type[Model]) -> Model:
-        """The content as a model; ConfigError for the first thing that the model does not allow."""
+        """The content as a model; ConfigError for all that the model does not allow."""
         try:
             return model.model_validate(self.content)
         except ValidationError as error:
-            path, key, text = explain(error, self.content, model)
-            raise self.error(path, text, key) from None
+            said = explain_all(error, self.content, model)
+        ConfigRefusals(*(str(self.error(path, text, key)) for path, key, text in said)).tell()
+        raise AssertionError("a model refuses for a reason")
 
     def overlaid(self, above: Document) -> Document:
         """This document with the values of another one on top: mappings are joined, all else is replaced."""
         places = dict(self.places)
         content = _overlay(self.content, above.content, (), places)
         return Document(self.name, content, places | dict(above.places))
+
+
+@dataclass(frozen=True)
+class Documents:
+    """The files that a message may have to point into; that of the blades has designs in place of families."""
+
+    config: Document
+    blades: Document
+    levels: Document
+    scenes: Document
+
+    def known(self, path: KeyPath, names: Iterable[str], entries: Iterable[str], file: Document) -> None:
+        """ConfigError for a name, at `path` of config.yaml, that is none of the `entries` of `file`."""
+        allowed = list(entries)
+        for name in names:
+            if name not in allowed:
+                raise self.config.refusal(path, f"'{name}'", f"{', '.join(allowed)} ({file.name})")
 
 
 def read_document(root: Path, name: str) -> Document:

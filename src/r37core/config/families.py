@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import copy
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import product
 from pathlib import Path
@@ -17,7 +17,7 @@ from r37core.blade.profile_tables import read_designs
 from r37core.speeds import exact_text
 from r37core.text_file import TextFileError
 
-from .blades import LARGEST_FAMILY, RESERVED, BladeEntry, Variation
+from .blades import LARGEST_FAMILY, BladeEntry, Variation
 from .document import ConfigError, Document
 from .imported_entry import MatricesEntry, MeshEntry
 from .messages import explain
@@ -49,6 +49,11 @@ class Designs:
     families: dict[str, Family]
     document: Document
 
+    def named(self, names: Iterable[str]) -> list[str]:
+        """Each of the blades, and of the families' designs, once."""
+        several = [list(self.families[name].designs) if name in self.families else [name] for name in names]
+        return list(dict.fromkeys(name for names in several for name in names))
+
 
 def with_designs(entries: Mapping[str, AnyEntry], root: Path, document: Document) -> Designs:
     """The entries with every family replaced by its designs. Raises ConfigError, with the place in `document`."""
@@ -61,7 +66,7 @@ def with_designs(entries: Mapping[str, AnyEntry], root: Path, document: Document
             continue
         families[name] = family = _family(name, entry, root, document)
         for design, values in family.designs.items():
-            if design in entries or design in found or design.lower() in RESERVED:
+            if design in entries or design in found:
                 raise document.refusal((name,), f"the design '{design}'", "designs that are not named like another blade")
             found[design] = _design(name, entry, dict(zip(family.keys, values, strict=True)), design, document)
             places |= {(design, *path[1:]): place for path, place in document.places.items() if path[:1] == (name,)}

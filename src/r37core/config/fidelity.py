@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Annotated, Literal
+from typing import Annotated, Any
 
 from pydantic import Field, RootModel, model_validator
 
+from r37core.rom.reduction_choice import ReductionChoice
 from r37core.time_integration.integration_choice import IntegrationChoice
 
+from .declaring import DECLARED, declared_by, in_si
+from .document import Documents
 from .section import LeftOut, Name, Section, Speed, check_names, refused
-from .si_fields import in_si
 
 _LARGEST_SIGNAL = 2**31
 """Bytes of tip motion that one run may keep in memory."""
@@ -25,15 +27,12 @@ class Mesh(Section):
     minimum_scaled_jacobian: float = Field(default=0.1, gt=0, le=1, description="meshes below are refused")
 
 
+@declared_by(ReductionChoice, only_listed=True)
 class Reduction(Section):
     """Size of the reduced model."""
 
-    fixed_interface_modes: int = Field(
-        ge=0, le=500, description="at each of three speeds: rest, half the maximum and the maximum"
-    )
-    basis_tolerance: float = Field(
-        default=1e-8, ge=0, lt=1, description="columns with smaller relative singular values are dropped"
-    )
+    fixed_interface_modes: Any = DECLARED
+    basis_tolerance: Any = DECLARED
 
 
 class Measured(Section):
@@ -48,6 +47,10 @@ class Measured(Section):
     )
     cpu_s_per_run: float = Field(gt=0, le=1e9, description="CPU seconds of a run")
 
+    def error_of(self, on_points: bool) -> float | None:
+        """The error of runs with direct contact on points, or of others; None where that was not measured."""
+        return self.error_on_points if on_points and self.error_on_points is not None else self.error
+
 
 Step = Annotated[float, Field(ge=1e-12, le=1e-2)]
 
@@ -59,6 +62,7 @@ class Steps(Section):
     direct: Step = Field(description="without")
 
 
+@declared_by(IntegrationChoice)
 class TimeIntegration(Section):
     """The time integration and what it keeps."""
 
@@ -69,17 +73,11 @@ class TimeIntegration(Section):
     largest_time_step_s: Steps | LeftOut = Field(
         default=None, description="in place of time_step_s: of each kind of scene; shortened also where it is unstable"
     )
-    revolutions: int = Field(ge=2, le=20000, description="length of a run")
+    revolutions: Any = DECLARED
     speed_step_rad_s: Speed = Field(description="step of the speed ranges that give none")
-    integrator: Literal["central_difference", "exact_modal"] = Field(
-        default="central_difference",
-        description="exact_modal follows modes without error between contacts, fast ones statically, with forces at t_n",
-    )
-    engine: Literal["compiled", "reference"] = Field(default="compiled", description="reference: plain NumPy, for short runs")
-    highest_frequency_hz: Annotated[float, Field(gt=0, le=1e12)] | LeftOut = Field(
-        default=None,
-        description="faster modes are not stepped: with exact_modal they follow statically, else they are left out",
-    )
+    integrator: Any = DECLARED
+    engine: Any = DECLARED
+    highest_frequency_hz: Any = DECLARED
     stress_instants: int = Field(default=62, ge=1, le=10000, description="stress evaluations per revolution")
     samples_per_stress_instant: int = Field(default=8, ge=1, le=10000, description="samples of the tip motion between them")
     spectrum_highest_order: int = Field(
@@ -160,6 +158,25 @@ class Levels(RootModel[dict[Name, Level]]):
         if "auto" in self.root:
             raise refused(("auto",), "the level 'auto'", "another name; fidelity: auto picks a level")
         return self
+
+
+def cheapest_level(levels: Mapping[str, Level], tolerance: float, on_points: bool, documents: Documents) -> str:
+    """The cheapest level whose measured error is within the tolerance; `on_points`: with direct contact on points.
+
+    Raises ConfigError where there is none.
+    """
+    measured = {name: level.measured for name, level in levels.items() if level.measured}
+    errors = {name: error for name, one in measured.items() if (error := one.error_of(on_points)) is not None}
+    chosen = recommended_level(errors, {name: one.cpu_s_per_run for name, one in measured.items()}, tolerance)
+    if chosen is None:
+        known = ", ".join(f"{name} {error:g}" for name, error in errors.items()) or "none"
+        raise documents.config.error(
+            ("tolerance",),
+            f"found {tolerance:g}; measured errors of the levels in {documents.levels.name}: {known}; "
+            "accept more, or name a level under fidelity"
+            + (", or take structure.boundary.contact: patches" if on_points else ""),
+        )
+    return chosen
 
 
 def recommended_level(errors: Mapping[str, float], costs: Mapping[str, float], tolerance: float) -> str | None:

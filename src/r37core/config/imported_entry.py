@@ -12,14 +12,13 @@ from r37core.exchange.importing.where import Where
 from r37core.exchange.orientation import Orientation
 
 from .blade_sections import CONTACT_IN_WORDS, Contact, ImportedSubmesh, MaterialSection
+from .declaring import DECLARED, declared_by, in_si
 from .section import FileName, LeftOut, Section, refused
-from .si_fields import in_si
 
-Direction = Annotated[list[Annotated[float, Field(ge=-1e9, le=1e9)]], Field(min_length=3, max_length=3)]
 Length = Annotated[float, Field(ge=-100, le=100)] | LeftOut
-MeridianPoint = Annotated[list[Annotated[float, Field(ge=-100, le=100)]], Field(min_length=2, max_length=2)]
 
 
+@declared_by(Where)
 class SurfaceRule(Section):
     """All outer faces within limits; r is the distance from the rotor axis, x radial, z along the axis downstream."""
 
@@ -29,10 +28,6 @@ class SurfaceRule(Section):
     x_at_most_m: Length = Field(default=None, description="upper bound of the radial coordinate")
     z_at_least_m: Length = Field(default=None, description="lower bound of the axial coordinate")
     z_at_most_m: Length = Field(default=None, description="upper bound of the axial coordinate")
-    cone_zr_m: Annotated[list[MeridianPoint], Field(min_length=2, max_length=2)] | LeftOut = Field(
-        default=None, description="two points [z, r] of the straight meridian that the faces lie on"
-    )
-    tolerance_m: float = Field(default=1e-4, gt=0, le=0.1, description="how far beyond a limit a face may lie")
 
     @model_validator(mode="after")
     def _says_something(self) -> SurfaceRule:
@@ -65,16 +60,15 @@ LengthUnit = Annotated[
 ]
 
 
+@declared_by(Orientation)
 class Oriented(Section):
     """How a file of another program describes space."""
 
     length_unit: LengthUnit = Field(description="of the file's coordinates, or how many metres their unit is")
-    rotor_axis: Direction = Field(description="direction of the rotor's axis in the file's axes, downstream")
-    radial: Direction = Field(description="direction from the axis to the blade, in the file's axes")
-    rotation: Literal["positive", "negative"] = Field(
-        description="positive: the rotor turns by the right hand about rotor_axis, negative: the other way"
-    )
-    axis_point: Direction = Field(default=[0.0, 0.0, 0.0], description="a point of the axis, in the file's unit")
+    rotor_axis: Any = DECLARED
+    radial: Any = DECLARED
+    rotation: Any = DECLARED
+    axis_point: Any = DECLARED
     sense_check: bool = Field(
         default=True, description="refuse a blade whose trailing edge would lead, or whose pressure side is convex"
     )
@@ -84,6 +78,7 @@ class Oriented(Section):
         return in_si(Orientation, self)
 
 
+@declared_by(MeshSource)
 class MeshEntry(Oriented):
     """A blade given by a mesh of solid elements."""
 
@@ -91,19 +86,11 @@ class MeshEntry(Oriented):
     material: MaterialSection
     root: SetOrRule = Field(description="what is clamped: name of a set of the file (BOUNDARY: nodes of *BOUNDARY), or a rule")
     tip: SetOrRule = Field(description="faces towards the casing: name of a set of the file, or a rule")
-    pressure_side: Literal["forward", "backward"] = Field(
-        default="forward", description="forward: the pressure side looks towards the rotation, as in a compressor"
-    )
-    revolution_tolerance_m: float = Field(
-        default=1e-4, gt=0, le=0.1, description="how far the tip may be from a surface of revolution"
-    )
-    drop_free_nodes: bool = Field(default=False, description="leave out nodes of no solid element instead of refusing them")
-    minimum_scaled_jacobian: float = Field(
-        default=0.02, gt=0, le=1, description="meshes with elements below are refused; 1 is ideal, 0 folded"
-    )
-    end_check: bool = Field(
-        default=True, description="refuse a root or tip with side faces, or without a part of the blade's end"
-    )
+    pressure_side: Any = DECLARED
+    revolution_tolerance_m: Any = DECLARED
+    drop_free_nodes: Any = DECLARED
+    minimum_scaled_jacobian: Any = DECLARED
+    end_check: Any = DECLARED
     contact: Contact = Field(default="patches", description=f"{CONTACT_IN_WORDS}; not taken from the base")
     stress_submesh: ImportedSubmesh = ImportedSubmesh()
 
@@ -120,12 +107,13 @@ class MeshEntry(Oriented):
         )
 
 
+@declared_by(MatricesSource)
 class MatricesEntry(Oriented):
     """A blade given by matrices, full or reduced; there is no stress without a mesh."""
 
     matrices: FileName = Field(description="folder with M and K_<speed> at three speeds (.mtx or .npz), and boundary.csv")
-    mass_unit: Literal["kg", "g", "t"] = Field(description="of M")
-    stiffness_unit: Literal["N/m", "N/mm"] = Field(description="of the K_<speed>")
+    mass_unit: Any = DECLARED
+    stiffness_unit: Any = DECLARED
     contact: Literal["points", "patches"] = Field(
         default="points",
         description="points: the nodes of boundary.csv; patches: made of them, when it has all of the tip line",

@@ -26,28 +26,46 @@ _BOUNDS = {
 
 
 def explain(error: ValidationError, content: Any, model: type[BaseModel]) -> tuple[KeyPath, KeyPath, str]:
-    """Where the first error stands, which key to name, and what to say about it.
+    """Where the first error stands, which key to name, and what to say about it."""
+    return explain_all(error, content, model)[0]
 
-    An unknown key comes first: it may be why another is missing.
+
+def explain_all(error: ValidationError, content: Any, model: type[BaseModel]) -> list[tuple[KeyPath, KeyPath, str]]:
+    """The same of all errors, one of each value.
+
+    Unknown keys come first: one may be why another is missing, which then is not said.
     """
-    errors = error.errors(include_url=False)
-    first = next((one for one in errors if one["type"] == "extra_forbidden"), errors[0])
-    context = first.get("ctx", {})
-    path = _within(content, first["loc"], missing=first["type"] == "missing") + tuple(context.get("at", ()))
-    schema, variants = _schema(model), frozenset(map(str, first["loc"]))
-    if first["type"] == "refused":
+    errors = sorted(error.errors(include_url=False), key=lambda one: one["type"] != "extra_forbidden")
+    unknown = [one["loc"][:-1] for one in errors if one["type"] == "extra_forbidden"]
+    said: dict[KeyPath, tuple[KeyPath, KeyPath, str]] = {}
+    for one in errors:
+        path = _path(one, content)
+        of_another = one["type"] == "missing" and one["loc"][:-1] in unknown
+        if not of_another and not any(path[: len(other)] == other or other[: len(path)] == path for other in said):
+            said[path] = _explained(one, path, content, model)
+    return list(said.values())
+
+
+def _path(error: Mapping[str, Any], content: Any) -> KeyPath:
+    within = _within(content, error["loc"], missing=error["type"] == "missing")
+    return within + tuple(error.get("ctx", {}).get("at", ()))
+
+
+def _explained(error: Mapping[str, Any], path: KeyPath, content: Any, model: type[BaseModel]) -> tuple[KeyPath, KeyPath, str]:
+    schema, variants, context = _schema(model), frozenset(map(str, error["loc"])), error.get("ctx", {})
+    if error["type"] == "refused":
         return path, path, f"found {on_one_line(context['found'])}; allowed: {context['allowed']}"
-    if first["type"] in ("missing", "extra_forbidden"):
+    if error["type"] in ("missing", "extra_forbidden"):
         *parent, key = path
         known = _keys(_at(schema, tuple(parent), schema, variants), schema)
-        if first["type"] == "missing":
+        if error["type"] == "missing":
             return tuple(parent), tuple(parent), f"missing key {key}; allowed keys: {', '.join(known)}"
         close = difflib.get_close_matches(str(key), known, 1)
         meant = f" (did you mean {close[0]}?)" if close else ""
         return path, tuple(parent), f"found unknown key {on_one_line(str(key))}; allowed keys: {', '.join(known)}{meant}"
     value = _value(content, path)
     found = "nothing" if value is None else on_one_line(repr(value))
-    return path, path, f"found {found}; allowed: {describe(_at(schema, path, schema, variants), schema) or first['msg']}"
+    return path, path, f"found {found}; allowed: {describe(_at(schema, path, schema, variants), schema) or error['msg']}"
 
 
 def on_one_line(text: str) -> str:

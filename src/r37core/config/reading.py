@@ -1,87 +1,118 @@
-"""From config.yaml and the files it names to settings that are checked, or to one clear refusal."""
+"""From config.yaml and the files it names to settings that are checked, or to a refusal of all that is wrong."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
+
+from pydantic import RootModel
 
 from .blades import Blades
 from .config_file import Config
-from .cross_checks import CHECKS
-from .document import ConfigError, Document, command_line_document, read_document
-from .families import with_designs
+from .document import ConfigError, ConfigRefusals, Document, command_line_document, read_document
+from .families import Designs, with_designs
 from .fidelity import Levels
 from .scenes import Scenes
 from .settings import Documents, Settings
 from .speed_section import UNITS
 
+Entry = TypeVar("Entry")
+
 CONFIG_FILE = "config/config.yaml"
 
 
-def read_settings(root: Path, *changes: Document) -> Settings:
-    """Settings of config/config.yaml in the folder `root`, with `changes` on top. Raises ConfigError."""
-    return load_settings(together(read_document(root, CONFIG_FILE), changes), root)
+@dataclass(frozen=True)
+class Reader:
+    """Reads configurations: config.yaml is checked by `model`, and what concerns several files by `checks`."""
+
+    model: type[Config]
+    checks: tuple[Callable[[Settings], None], ...]
+
+    def read_settings(self, root: Path, *changes: Document) -> Settings:
+        """Settings of config/config.yaml in the folder `root`, with `changes` on top. Raises ConfigError."""
+        return self.load_settings(together(read_document(root, CONFIG_FILE), changes), root)
+
+    def settings_of_run(
+        self,
+        root: Path,
+        files: Sequence[Path],
+        values: Mapping[str, Any],
+        of_module: Mapping[str, Any] | None = None,
+        only_given: bool = False,
+    ) -> Settings:
+        """Settings of a run of the workflow in the current folder: the configuration, `files` on top, then `values`.
+
+        The configuration is config/config.yaml of the current folder or, where that has none, of `root`; it is left out if
+        `only_given`. `of_module`: on top of all, what another workflow gives its module r37. Raises ConfigError.
+        """
+        here = Path.cwd()
+        folder = here if (here / CONFIG_FILE).exists() else root
+        first = [] if only_given and files else [_configuration(folder)]
+        named = [Path(file).relative_to(here) if Path(file).is_relative_to(here) else Path(file) for file in files]
+        changes = [*first, *(read_document(here, str(file)) for file in named), command_line_document(values)]
+        if of_module:
+            if not isinstance(of_module, Mapping):
+                raise ConfigError(
+                    f"config of the module r37: found {of_module!r}; allowed: keys and values, as in {CONFIG_FILE}"
+                )
+            changes.append(command_line_document(of_module, "config of the module r37"))
+        return self.load_settings(together(changes[0], changes[1:]), root)
+
+    def load_settings(
+        self,
+        config: Document | Mapping[str, Any],
+        root: Path,
+        *,
+        blades_above: Document | None = None,
+        scenes_above: Document | None = None,
+    ) -> Settings:
+        """Check a configuration (the content of config.yaml) and the files it names, relative to the folder `root`.
+
+        `blades_above`, `scenes_above`: changes that lie on top of these two files. Raises ConfigError before any work is done,
+        with all that is wrong in the files or, where these are right by themselves, with all that is wrong with them together.
+        """
+        document = config if isinstance(config, Document) else Document(CONFIG_FILE, dict(config))
+        refusals = ConfigRefusals()
+        checked = refusals.of(document.check, self.model)
+        files = [self._file(document, key) for key in ("blades_file", "fidelity_file", "scenes_file")]
+        designs = refusals.of(_designs, root, files[0], blades_above)
+        levels = refusals.of(_entries, root, files[1], Levels)
+        scenes = refusals.of(_entries, root, files[2], Scenes, scenes_above)
+        refusals.tell()
+        assert checked and designs and levels and scenes
+        documents = Documents(document, designs.document, levels[0], scenes[0])
+        settings = Settings(root, documents, checked, designs, levels[1], scenes[1])
+        for check in self.checks:
+            refusals.of(check, settings)
+        refusals.tell()
+        return settings
+
+    def _file(self, document: Document, key: str) -> str:
+        """The file that config.yaml names, also where something else there is refused."""
+        named = document.content.get(key) if isinstance(document.content, Mapping) else None
+        return named if isinstance(named, str) and named.isprintable() else self.model.model_fields[key].default
 
 
-def settings_of_run(
-    root: Path,
-    files: Sequence[Path],
-    values: Mapping[str, Any],
-    of_module: Mapping[str, Any] | None = None,
-    only_given: bool = False,
-) -> Settings:
-    """Settings of a run of the workflow in the current folder: the configuration, `files` on top, then `values`.
+def _entries(
+    root: Path, name: str, model: type[RootModel[dict[str, Entry]]], above: Document | None = None
+) -> tuple[Document, dict[str, Entry]]:
+    """A file with changes on top, and its checked entries. Raises ConfigError."""
+    document = read_document(root, name)
+    document = document.overlaid(above) if above else document
+    return document, document.check(model).root
 
-    The configuration is config/config.yaml of the current folder or, where that has none, of `root`; it is left out if
-    `only_given`. `of_module`: on top of all, what another workflow gives its module r37. Raises ConfigError.
-    """
-    here = Path.cwd()
-    folder = here if (here / CONFIG_FILE).exists() else root
-    first = [] if only_given and files else [_configuration(folder)]
-    named = [Path(file).relative_to(here) if Path(file).is_relative_to(here) else Path(file) for file in files]
-    changes = [*first, *(read_document(here, str(file)) for file in named), command_line_document(values)]
-    if of_module:
-        if not isinstance(of_module, Mapping):
-            raise ConfigError(f"config of the module r37: found {of_module!r}; allowed: keys and values, as in {CONFIG_FILE}")
-        changes.append(command_line_document(of_module, "config of the module r37"))
-    return load_settings(together(changes[0], changes[1:]), root)
+
+def _designs(root: Path, name: str, above: Document | None) -> Designs:
+    document, entries = _entries(root, name, Blades, above)
+    return with_designs(entries, root, document)
 
 
 def _configuration(folder: Path) -> Document:
     if not (folder / CONFIG_FILE).exists():
         raise ConfigError(f"{CONFIG_FILE}: there is no such file in {folder}; `r37 init FOLDER` writes a folder that has one")
     return read_document(folder, CONFIG_FILE)
-
-
-def load_settings(
-    config: Document | Mapping[str, Any],
-    root: Path,
-    *,
-    blades_above: Document | None = None,
-    scenes_above: Document | None = None,
-    checks: Iterable[Callable[[Settings], None]] = CHECKS,
-) -> Settings:
-    """Check a configuration (the content of config.yaml) and the files it names, relative to the folder `root`.
-
-    `blades_above`, `scenes_above`: changes that lie on top of these two files. Raises ConfigError for anything wrong, before
-    any work is done.
-    """
-    document = config if isinstance(config, Document) else Document(CONFIG_FILE, dict(config))
-    checked = document.check(Config)
-    files = (checked.blades_file, checked.fidelity_file, checked.scenes_file)
-    blades, levels, scenes = (read_document(root, name) for name in files)
-    blades, scenes = (
-        below.overlaid(above) if above else below for below, above in ((blades, blades_above), (scenes, scenes_above))
-    )
-    level_models, scene_models = levels.check(Levels).root, scenes.check(Scenes).root
-    designs = with_designs(blades.check(Blades).root, root, blades)
-    documents = Documents(document, designs.document, levels, scenes)
-    settings = Settings(root, documents, checked, designs, level_models, scene_models)
-    for check in checks:
-        check(settings)
-    return settings
 
 
 def together(below: Document, changes: Iterable[Document]) -> Document:

@@ -2,54 +2,35 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 from pydantic import Field, RootModel, model_validator
 
 from r37core.contact.scene import Friction, Lining, Scene
 
 from .casing_section import CasingSection
+from .declaring import DECLARED, declared_by, in_si
 from .section import LeftOut, Name, Rpm, Section, Speed, check_names, refused
-from .si_fields import in_si, si_fields
+from .si_fields import si_fields
 from .speed_section import refuse_both_units
 
 TipLine = Literal["pressure_edge", "camber", "suction_edge"]
 Result = Literal["spectrum", "signal", "stress", "static_stress", "wear", "energy", "casing", "shapes"]
 
 
+@declared_by(Lining)
 class LiningSection(Section):
     """The abradable lining in front of the casing."""
 
-    thickness_m: float = Field(ge=1e-6, le=1, description="from its surface to the casing behind it")
-    elastic_modulus_pa: float = Field(ge=1e3, le=1e15, description="of a bar that is not worn further")
-    plastic_modulus_pa: float = Field(ge=0, le=1e15, description="hardening of a bar as it wears")
-    yield_stress_pa: float = Field(ge=0, le=1e15, description="stress from which on a bar wears")
-    bars: int = Field(default=10000, ge=10, le=10_000_000, description="bars round the circumference")
-    rings: Literal["per_node", "shared"] = Field(
-        default="per_node", description="shared, one ring worn by all nodes, is kept for the study modelling_choices"
-    )
-    bar_width_m: float = Field(default=0.001, ge=1e-6, le=1, description="width of a bar, along the casing's meridian")
-    bar_area_m2: Annotated[float, Field(ge=1e-12, le=1)] | LeftOut = Field(
-        default=None, description="area of a bar, in place of its width times its arc length at the tip"
-    )
 
-
+@declared_by(Friction)
 class FrictionSection(Section):
     """Friction at the tip."""
 
-    form: Literal["constant", "vector"] = Field(
-        default="vector",
-        description="vector: against the sliding velocity of rotation and vibration; constant: of the rotation alone",
-    )
-    coefficient: float = Field(ge=0, le=10, description="Coulomb coefficient")
-    direction: Literal["against_rotation", "along_rotation"] = Field(
-        default="against_rotation", description="along_rotation, against physics, is kept for the study modelling_choices"
-    )
-    coupling: Literal["coupled", "after"] = Field(
-        default="coupled", description="friction inside the normal solve of direct contact or added after it"
-    )
+    form: Any = DECLARED
 
 
+@declared_by(Scene)
 class SceneEntry(Section):
     """One scene of scenes.yaml."""
 
@@ -59,17 +40,9 @@ class SceneEntry(Section):
     casing: CasingSection
     lining: LiningSection | LeftOut = Field(default=None, description="abradable lining; without it the tip meets the casing")
     friction: FrictionSection | LeftOut = Field(default=None, description="friction at the tip; none without it")
-    damping_ratio: float = Field(default=0.0005, ge=0, lt=1, description="of every mode of the reduced model")
-    gap: Literal["linear", "exact"] = Field(
-        default="linear",
-        description="clearance less the normal displacement, or distance of the displaced node from the casing",
-    )
-    divergence_limit_m: float = Field(
-        default=0.1,
-        gt=0,
-        le=100,
-        description="a tip displacement beyond it ends the run as diverged; farther no linear model can be asked",
-    )
+    damping_ratio: Any = DECLARED
+    gap: Any = DECLARED
+    divergence_limit_m: Any = DECLARED
     revolutions: Annotated[int, Field(ge=1, le=20000)] | LeftOut = Field(
         default=None, description="in place of the fidelity level's"
     )

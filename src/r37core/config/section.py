@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from typing import Annotated, Any, Literal, TypeVar
+from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeVar
 
 from pydantic import (
     AfterValidator,
@@ -29,6 +29,10 @@ class Section(BaseModel):
     """A mapping of a configuration file: only declared keys, no null, no text for a number, nothing infinite."""
 
     model_config = ConfigDict(extra="forbid", frozen=True, strict=True, allow_inf_nan=False)
+
+    if TYPE_CHECKING:
+        # keys that a dataclass of the computation declares (r37core.config.declaring)
+        def __getattr__(self, key: str) -> Any: ...
 
     @model_validator(mode="before")
     @classmethod

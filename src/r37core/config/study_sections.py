@@ -8,7 +8,7 @@ from typing import Annotated, Any, Generic, Literal, TypeVar
 from pydantic import Field, model_validator
 
 from .section import AllOrNames, LeftOut, Name, Section, Unique, refused
-from .tolerance_section import MemberCount, ToleranceEntry
+from .spread import MemberCount, SpreadEntry
 
 Value = TypeVar("Value")
 Step = Annotated[float, Field(ge=0.05, le=100)]
@@ -121,14 +121,14 @@ class ModellingChoicesSection(Section):
 
 
 class ValidationRangesSection(Section):
-    """The published numbers beside the range of ours under tolerances (snakemake validation_ranges).
+    """The published numbers beside the range of ours where what goes in spreads (snakemake validation_ranges).
 
     Scenes, mesh, time integration (`quick`) and step of the speeds (`coarse`) are those of modelling_choices.
     """
 
     members: MemberCount = Field(default=16, description="a power of two; more of them change none that are there")
     seed: int = Field(default=0, ge=0, le=2**31, description="another one gives another sample")
-    of_scenes: Annotated[dict[str, ToleranceEntry], Field(min_length=1)] = Field(
+    of_scenes: Annotated[dict[str, SpreadEntry], Field(min_length=1)] = Field(
         description="by dotted keys of scenes.yaml; direct contact has those that it knows"
     )
 

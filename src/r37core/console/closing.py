@@ -48,7 +48,7 @@ def _number(row: dict[str, str], column: str) -> float:
 
 
 def _stress(row: dict[str, str]) -> str:
-    """The largest stress, with tolerances only as many digits as its range bears, and that beside it."""
+    """The largest stress; where members give it a range, with as many digits as that bears, and the range beside it."""
     stress = 1e-9 * float(row["max_von_mises_pa"])
     ends = [row.get(f"max_von_mises_pa_{end}") for end in ("low", "high")]
     if not all(ends):

@@ -13,6 +13,7 @@ import contextlib
 import gc
 import importlib
 import os
+import re
 import runpy
 import select
 import shutil
@@ -29,6 +30,8 @@ from typing import NamedTuple, NoReturn
 
 ADDRESS = "R37_JOB_SERVER"
 """Environment variable with the socket's path, for the jobs; relative, because such a path may have a hundred letters."""
+
+_PACKAGE = (__package__ or "").partition(".")[0]
 
 _KEPT: list[subprocess.Popen] = []
 """A server whose handle is gone has no standard input any more."""
@@ -138,9 +141,13 @@ def _is_ours(script: str, folder: Path) -> bool:
 
 
 def _imports_of(script: str) -> set[str]:
-    """Modules that a script imports where it begins, and names out of them that may be modules."""
-    names: set[str] = set()
-    for node in ast.parse(Path(script).read_bytes()).body:
+    """Modules that a script imports where it begins, and names out of them that may be modules.
+
+    And those of our package that the job's parameters name, which stand in the line that Snakemake puts before its copy.
+    """
+    text = Path(script).read_text(encoding="utf-8")
+    names = set(re.findall(rf"{_PACKAGE}(?:\.[a-z_]\w*)+", text))
+    for node in ast.parse(text).body:
         if isinstance(node, ast.Import):
             names |= {alias.name for alias in node.names}
         elif isinstance(node, ast.ImportFrom) and node.module and not node.level:

@@ -9,14 +9,11 @@ from collections.abc import Iterator
 from itertools import count
 from pathlib import Path
 
-from r37core.config import Settings, read_settings
-from r37core.config.blades import RESERVED
+from r37core.config import Settings
 from r37core.plans import paths
-from r37core.plans.export_plan import Exports
-from r37core.plans.import_plan import Imported
-from r37core.plans.signal_plan import Signals
 from r37core.plans.sweep_plan import Sweep, asked_by
-from r37core.plans.targets import targets
+from r37core.product.reading import RESERVED, read_settings
+from r37core.product.targets import everything
 from r37core.speeds import SpeedPlan, exact_text
 
 
@@ -34,9 +31,6 @@ def _of_runs(results: Path, settings: Settings) -> Iterator[Path]:
     for folder in results.iterdir():
         if folder.is_dir() and folder.name not in (*settings.blades, *RESERVED):
             yield folder
-    yield from (folder for folder in (results / "exports").glob("*/") if folder.name not in settings.blades)
-    yield from _of_shapes(results / "shapes", settings)
-    yield from _of_members(results / "tolerances", settings)
     for blade in settings.blades:
         for folder in (results / blade).glob("*/"):
             if folder.is_dir() and folder.name not in settings.scenes:
@@ -54,49 +48,33 @@ def _dropped(results: Path, settings: Settings) -> Iterator[Path]:
     patterns = _planned(settings)
     planned = {results / file.removeprefix("<results>/") for file in paths.filled(patterns)}
     for pattern in patterns:
-        plain = pattern.removeprefix("<results>/")
+        plain = paths.nominal(pattern).removeprefix("<results>/")
         files = results.glob(re.sub(r"\{\w+\}", "*", plain))
         others = RESERVED if plain.startswith("{blade}") else ()
         yield from (file for file in files if file not in planned and file.relative_to(results).parts[0] not in others)
+    folders = {folder for file in planned for folder in file.parents}
+    for pattern in {parent for file in patterns for parent in _own_folders(file)}:
+        found = (folder for folder in results.glob(re.sub(r"\{\w+\}", "*", pattern)) if folder.is_dir())
+        yield from (folder for folder in found if folder not in folders)
+
+
+def _own_folders(pattern: str) -> Iterator[str]:
+    """Patterns of the folders of blades, and of others, inside the folders that capabilities have to themselves."""
+    first, *others = Path(pattern.removeprefix("<results>/")).parts[:-1] or ("",)
+    if first in RESERVED:
+        yield from ("/".join((first, *others[:depth])) for depth in range(1, len(others) + 1))
 
 
 def _planned(settings: Settings) -> dict[str, paths.Wildcards]:
     """Patterns of files that one configuration makes and another does not, with those of this one."""
-    sweep = Sweep(settings)
-    imported = Imported(settings)
     tip_lines = {settings.structure.boundary.tip_line, *(scene.tip_line for scene in settings.scenes.values())}
     models = [{"blade": blade, "tip_line": line} for blade in settings.blades for line in tip_lines]
     return {
-        **targets(sweep, Signals(imported, sweep)),
-        **Exports(imported, sweep).targets,
+        **everything(Sweep(settings)),
         paths.CONTACT_MODEL: models,
         paths.STRESS_OPERATOR: models,
         paths.REDUCED_MODEL: models,
     }
-
-
-def _of_shapes(folder: Path, settings: Settings) -> Iterator[Path]:
-    """Pages and folders of blades, and folders of scenes, that do not ask for shapes any more."""
-    wanted = [(blade, scene) for blade in settings.blades for scene in settings.scenes]
-    wanted = [pair for pair in wanted if "shapes" in settings.results_of(*pair)]
-    for shown in folder.glob("*"):
-        if shown.stem not in {blade for blade, _ in wanted}:
-            yield shown
-            continue
-        for scene in shown.glob("stress_*"):
-            if (shown.name, scene.name.removeprefix("stress_")) not in wanted:
-                yield scene
-
-
-def _of_members(folder: Path, settings: Settings) -> Iterator[Path]:
-    """Folders of members, and of models of members, that are not drawn any more."""
-    wanted = {(*pair, name) for pair, members in settings.members.all.items() for name in members}
-    models = {("models", blade, name) for blade, _, name in wanted}
-    kept = {place[:depth] for place in wanted | models for depth in (1, 2, 3)}
-    for depth in (1, 2, 3):
-        for one in folder.glob("*/" * depth):
-            if one.relative_to(folder).parts not in kept:
-                yield one
 
 
 def _speeds(folder: Path, plan: SpeedPlan) -> list[float]:

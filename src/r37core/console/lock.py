@@ -43,8 +43,8 @@ def _lift_stale(others: list[Path]) -> list[str]:
     for file in others:
         file.unlink(missing_ok=True)
     killed = ", ".join(file.name.split("_")[0] for file in others)
-    said = f"the last run here was killed (process {killed}); its lock is lifted, and what it left half-done runs again"
-    return [said] if locked else []
+    message = f"the last run here was killed (process {killed}); its lock is lifted, and what it left half-done runs again"
+    return [message] if locked else []
 
 
 def _may_live(record: str) -> bool:

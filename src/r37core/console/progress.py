@@ -26,8 +26,8 @@ QUIET_EVENTS = frozenset({"job_info", "job_started", "job_finished", "progress",
 HANDLER = "DefaultStreamHandler"
 """Name of Snakemake's handler of messages on the terminal."""
 
-_SIMULATIONS = ("simulate", "simulate_member")
-"""Rules whose jobs are counted."""
+_SIMULATION = "simulate"
+"""The rule whose jobs are counted."""
 
 _CHATTER = (
     "Select jobs to execute",
@@ -82,7 +82,7 @@ class Progress(logging.Filter):
             self._jobs[record.jobid] = (record.rule_name, blade, str(next(iter(output))))  # type: ignore[attr-defined]
         elif event == "job_finished":
             rule, blade, output = self._jobs.pop(record.job_id, ("", "", ""))  # type: ignore[attr-defined]
-            if rule in _SIMULATIONS:
+            if rule == _SIMULATION:
                 self._simulated[blade] += 1
                 self._diverged += _diverged(Path(output))
         elif event == "progress":
@@ -125,10 +125,10 @@ class Progress(logging.Filter):
 
 def quieten(handlers: Collection[logging.Handler], progress: Progress) -> bool:
     """Let `progress` stand before Snakemake's messages on the terminal; whether there was such a handler."""
-    found = [handler for handler in handlers if handler.name == HANDLER]
-    for handler in found:
+    terminal = [handler for handler in handlers if handler.name == HANDLER]
+    for handler in terminal:
         handler.addFilter(progress)
-    return bool(found)
+    return bool(terminal)
 
 
 def _diverged(file: Path) -> bool:

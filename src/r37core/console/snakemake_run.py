@@ -18,9 +18,13 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from r37core.config import ConfigError, Settings, settings_of_run
-from r37core.plans.run import check_asked, check_part, replaced_level, source_folder
-from r37core.plans.sweep_plan import Sweep
+from r37core.config import ConfigError, Settings
+from r37core.config.remarks import remarks_on_points
+from r37core.plans.extent import extent_of
+from r37core.plans.run import check_part, replaced_level, source_folder
+from r37core.product.reading import settings_of_run
+from r37core.product.remarks import check_asked, remarks
+from r37core.product.sampling import beside
 
 from . import failures, interpreter, job_server, lock
 from .closing import closing_lines
@@ -59,7 +63,7 @@ class Console:
     def succeed(self) -> None:
         """After the last job: nothing is said where there is nothing to say."""
         lock.release()
-        found = closing_lines(self.settings.results, self.began, time.time(), self.settings.remarks_on_points)
+        found = closing_lines(self.settings.results, self.began, time.time(), remarks_on_points(self.settings))
         _say_last([*failures.taken(), *found])
 
     def fail(self) -> None:
@@ -91,10 +95,10 @@ def begin(workflow: Any, logger: logging.Logger, refusal: Refusal, root: Path, v
             Path(workflow.basedir), given.configfiles, given.config, above, only_given=given.replace_workflow_config
         )
     lifted = lock.enter() if workflow.is_main_process else []
-    for line in [*lifted, *settings.remarks, *replaced_level(settings)]:
+    for line in [*lifted, *remarks(settings), *replaced_level(settings)]:
         logger.info(line)
     if not (os.environ.get("R37_FULL_LOG") or output.dryrun or output.verbose):
-        quieten(logger.handlers, Progress(Sweep(settings).most_runs + settings.most_of_members))
+        quieten(logger.handlers, Progress(extent_of(settings, beside(settings)).at_most))
     return Console(workflow, refusal, settings, root / "workflow/scripts", source, began)
 
 

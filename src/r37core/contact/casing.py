@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Annotated
 
 import numpy as np
+
+from r37core.declared import Key
 
 from .laws import lobe_shape
 from .ring import RingMode
@@ -19,24 +22,41 @@ class Casing:
 
     Distance = clearance - amplitude * clearance * (1 - exp(-a t)) f(theta), with
     f = exp(-[((theta mod p)/p - 1/2)/width]^2), p = 2 pi / lobes, and a such that 99% is reached at `rise_fraction` of the
-    run. `clearance` in m, normal to the casing; `amplitude` in clearances; no lobes: a circular casing. `cone_angle`: half
-    angle (rad) of the cone that the casing is, negative where it narrows downstream, 0 for a cylinder; None: that of the
-    blade's tip. Source: section 5 of the benchmark.
+    run. `cone_angle` None: that of the blade's tip. Source: section 5 of the benchmark.
 
     The clearance is that of every speed, unless the blade or the casing grows with it. Then it is the cold one, at rest:
     `centrifugal`, the blade's static displacement is taken off; `growth` (m) of the casing is added, given at
     `growth_speeds` (rad/s), ascending, and linear between them. The lobes stay as they are.
 
-    `ring`: modes of a casing that gives way to the contact forces; without them it is rigid. `ring_radius` (m): of the ring
+    `ring`: modes of a flexible casing, which the contact forces move; without them it is rigid. `ring_radius` (m): of the ring
     that they are of, None where they are given.
     """
 
-    clearance: float
-    lobes: int
-    width: float
-    amplitude: float
-    rise_fraction: float
-    cone_angle: float | None = None
+    clearance: Annotated[
+        float,
+        Key(
+            "normal to the casing, at every speed; or clearance, which changes with the speed",
+            "_m",
+            ge=1e-6,
+            le=0.1,
+            optional=True,
+        ),
+    ]
+    lobes: Annotated[int, Key("0 is a circular casing", ge=0, le=100)] = 2
+    width: Annotated[float, Key("width of a lobe in shares of its period", ge=1e-3, le=100)] = 0.15
+    amplitude: Annotated[float, Key("height of the lobes", "_clearances", ge=0, le=1000)] = 2.0
+    rise_fraction: Annotated[float, Key("share of the run at which 99% is reached", ge=0, le=1)] = 0.2
+    cone_angle: Annotated[
+        float | None,
+        Key(
+            "half angle of the casing's cone, negative where it narrows downstream, 0 for a cylinder; "
+            "tip: that of each blade's tip",
+            "_deg",
+            ge=-80,
+            le=80,
+            none="tip",
+        ),
+    ] = None
     centrifugal: bool = False
     growth_speeds: tuple[float, ...] = ()
     growth: tuple[float, ...] = ()

@@ -22,7 +22,7 @@ MOST_LISTED = 1000
 
 @dataclass(frozen=True)
 class ElasticCasing:
-    """A casing that gives way: `modes` that its simulations have, and the `ring` they are of; None where they are given."""
+    """A flexible casing: `modes` that its simulations have, and the `ring` they are of; None where they are given."""
 
     modes: tuple[RingMode, ...]
     ring: Ring | None = None
@@ -76,12 +76,12 @@ def slowest_wave(ring: Ring) -> tuple[int, float]:
 
 
 def flexibility_of(modes: Iterable[RingMode]) -> float:
-    """How far (m/N) the wall gives way at a radial force that rests, by these modes."""
+    """Static flexibility (m/N) of the wall under a radial force, of these modes."""
     return float(sum(mode.radial**2 / mode.modal_mass / mode.frequency**2 for mode in modes))
 
 
 def flexibility(ring: Ring) -> float:
-    """How far (m/N) the wall gives way at a radial force that rests, by all modes.
+    """Static flexibility (m/N) of the wall under a radial force, of all modes.
 
     Breathing, and 1/(pi R) times the sum over n of 1/(D (x - 1)^2 + k_r + k_t/x): a quotient of polynomials in x = n^2, in
     partial fractions of the sum over n of 1/(n^2 - a^2) = (1 - pi a cot(pi a))/(2 a^2). Without a foundation that of

@@ -12,21 +12,27 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Annotated
 
 import numpy as np
+
+from r37core.declared import Key
+
+MOST_NODAL_DIAMETERS = 100
+"""Of a ring's modes in a simulation."""
 
 
 @dataclass(frozen=True)
 class RingMode:
     """One mode of the casing, in the frame that does not turn.
 
-    Angular `frequency` (rad/s); `modal_mass` (kg) of q_c and of q_s; `damping_ratio`; `radial` and `tangential`: its shape.
+    Angular `frequency` (rad/s); `modal_mass` of q_c and of q_s; `radial` and `tangential`: its shape.
     """
 
-    nodal_diameter: int
-    frequency: float
-    modal_mass: float
-    damping_ratio: float
+    nodal_diameter: Annotated[int, Key("waves round the circumference", ge=0, le=200)]
+    frequency: Annotated[float, Key("natural frequency, of a casing that does not turn", "_hz", ge=1e-3, le=1e7)]
+    modal_mass: Annotated[float, Key("for a radial displacement of 1 at the antinode", "_kg", ge=1e-9, le=1e9)]
+    damping_ratio: Annotated[float, Key("of this mode", ge=0, lt=1)] = 0.005
     radial: float = 1.0
     tangential: float = 0.0
 
@@ -35,20 +41,34 @@ class RingMode:
 class Ring:
     """A ring of one material on an elastic foundation.
 
-    `radius` (m) of its middle line, radial `thickness` and axial `width` (m), `elastic_modulus` (Pa), `density` (kg/m3),
-    `damping_ratio` of every mode; `radial_foundation` and `tangential_foundation` (N/m2): stiffness per length of its
-    circumference; `highest_nodal_diameter` that is kept.
+    `radial_foundation` and `tangential_foundation`: stiffness per length of its circumference.
     """
 
-    radius: float
-    thickness: float
-    width: float
-    elastic_modulus: float
-    density: float
-    damping_ratio: float
-    radial_foundation: float
-    tangential_foundation: float
-    highest_nodal_diameter: int
+    radius: Annotated[
+        float,
+        Key("of the ring's middle line; at least the tip's, at most a quarter more", "_m", ge=1e-3, le=100),
+    ]
+    thickness: Annotated[float, Key("radial; at most a fifth of the radius", "_m", ge=1e-6, le=10)]
+    width: Annotated[float, Key("axial", "_m", ge=1e-6, le=100)]
+    elastic_modulus: Annotated[float, Key("of the ring's material", "_pa", ge=1e3, le=1e15)]
+    density: Annotated[float, Key("of the ring's material", "_kg_m3", ge=1e-3, le=1e6)]
+    damping_ratio: Annotated[float, Key("of every mode of the ring", ge=0, lt=1)] = 0.005
+    radial_foundation: Annotated[
+        float, Key("radial stiffness per length of circumference; 0: a free ring", "_n_m2", ge=0, le=1e15)
+    ] = 0.0
+    tangential_foundation: Annotated[
+        float,
+        Key("tangential stiffness per length of circumference; without it no ring turns", "_n_m2", ge=0, le=1e15),
+    ] = 0.0
+    highest_nodal_diameter: Annotated[
+        int,
+        Key(
+            "modes of more nodal diameters are left out; `r37 check` says what that leaves out: of the give under a force, and "
+            "of waves that the rotor overtakes",
+            ge=2,
+            le=MOST_NODAL_DIAMETERS,
+        ),
+    ] = 20
 
     @property
     def mass(self) -> float:
@@ -70,15 +90,15 @@ class Ring:
         """
         mass, round_mass = self.mass, 2.0 * np.pi * self.radius * self.mass
         stretching = self.elastic_modulus * self.width * self.thickness / self.radius**2
-        found = [self._mode(0, (stretching + self.radial_foundation) / mass, round_mass, 1.0, 0.0)]
+        modes = [self._mode(0, (stretching + self.radial_foundation) / mass, round_mass, 1.0, 0.0)]
         if self.tangential_foundation > 0.0:
-            found.append(self._mode(0, self.tangential_foundation / mass, round_mass, 0.0, 1.0))
+            modes.append(self._mode(0, self.tangential_foundation / mass, round_mass, 0.0, 1.0))
         for n in range(1, self.highest_nodal_diameter + 1):
             square = self.bending * n**2 * (n**2 - 1.0) ** 2 + self.radial_foundation * n**2 + self.tangential_foundation
             if square > 0.0:
                 square /= mass * (n**2 + 1.0)
-                found.append(self._mode(n, square, 0.5 * round_mass * (1.0 + 1.0 / n**2), 1.0, 1.0 / n))
-        return tuple(found)
+                modes.append(self._mode(n, square, 0.5 * round_mass * (1.0 + 1.0 / n**2), 1.0, 1.0 / n))
+        return tuple(modes)
 
     def _mode(self, nodal_diameter: int, square: float, mass: float, radial: float, tangential: float) -> RingMode:
         return RingMode(nodal_diameter, float(np.sqrt(square)), float(mass), self.damping_ratio, radial, tangential)
@@ -96,7 +116,7 @@ def critical_speed(modes: Sequence[RingMode]) -> float:
 class RingMotion:
     """The modes of a casing as oscillators of unit mass: all q_c, then all q_s.
 
-    The blade's nodes stand still in the rotor's frame, where the casing turns towards growing theta. A step turns the pair
+    The blade's nodes are fixed in the rotor's frame, where the casing turns towards growing theta. A step turns the pair
     (q_c, q_s), its increments and nothing else: free motion and recursion are those of the frame that does not turn, with no
     stiffness lost to the rotation, at critical speeds, too.
     """

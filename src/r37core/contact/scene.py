@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Annotated
 
 import numpy as np
+
+from r37core.declared import Key
 
 from .casing import Casing
 
@@ -13,19 +16,28 @@ from .casing import Casing
 class Lining:
     """Lining of bars in front of the casing.
 
-    `thickness` (m), moduli and yield stress in Pa, `bars` round the circumference, each `bar_width` (m) wide, or of a given
-    `bar_area` (m2); `shared_ring`: all tip nodes wear one ring, else each has its own. Law after Legrand, Batailly and
-    Pierre, J. Comput. Nonlinear Dyn. 7 (2012): yield in compression with linear hardening; the plastic shortening is the wear.
+    Law after Legrand, Batailly and Pierre, J. Comput. Nonlinear Dyn. 7 (2012): yield in compression with linear hardening;
+    the plastic shortening is the wear. `shared_ring`: all tip nodes wear one ring, else each has its own.
     """
 
-    thickness: float
-    elastic_modulus: float
-    plastic_modulus: float
-    yield_stress: float
-    bar_width: float
-    bars: int
-    shared_ring: bool
-    bar_area: float | None = None
+    thickness: Annotated[float, Key("from its surface to the casing behind it", "_m", ge=1e-6, le=1)]
+    elastic_modulus: Annotated[float, Key("of a bar that is not worn further", "_pa", ge=1e3, le=1e15)]
+    plastic_modulus: Annotated[float, Key("hardening of a bar as it wears", "_pa", ge=0, le=1e15)]
+    yield_stress: Annotated[float, Key("stress from which on a bar wears", "_pa", ge=0, le=1e15)]
+    bars: Annotated[int, Key("bars round the circumference", ge=10, le=10_000_000)] = 10000
+    shared_ring: Annotated[
+        bool,
+        Key(
+            "shared, one ring worn by all nodes, is kept for the study modelling_choices",
+            name="rings",
+            words={"per_node": False, "shared": True},
+        ),
+    ] = False
+    bar_width: Annotated[float, Key("width of a bar, along the casing's meridian", "_m", ge=1e-6, le=1)] = 0.001
+    bar_area: Annotated[
+        float | None,
+        Key("area of a bar, in place of its width times its arc length at the tip", "_m2", ge=1e-12, le=1),
+    ] = None
 
     def area(self, radius: float) -> float:
         """Area of one bar (m2): its width times the arc length of a bar at `radius` (m)."""
@@ -36,29 +48,59 @@ class Lining:
 class Friction:
     """Always-sliding Coulomb friction.
 
-    `coefficient`; `vector`: along the real sliding velocity (rotation plus vibration), else the vibration is neglected;
-    `against_rotation`: whether the rotation's part of the sliding velocity is the real one or reversed; `coupled`: whether
-    the friction a casing multiplier causes is part of the complementarity problem or added after it is solved.
+    `vector`: along the real sliding velocity (rotation plus vibration), else the vibration is neglected; `against_rotation`:
+    whether the rotation's part of the sliding velocity is the real one or reversed; `coupled`: whether the friction a casing
+    multiplier causes is part of the complementarity problem or added after it is solved.
     """
 
-    coefficient: float
-    vector: bool
-    against_rotation: bool
-    coupled: bool
+    coefficient: Annotated[float, Key("Coulomb coefficient", ge=0, le=10)]
+    vector: Annotated[
+        bool,
+        Key(
+            "vector: against the sliding velocity of rotation and vibration; constant: of the rotation alone",
+            name="form",
+            words={"constant": False, "vector": True},
+        ),
+    ] = True
+    against_rotation: Annotated[
+        bool,
+        Key(
+            "along_rotation, against physics, is kept for the study modelling_choices",
+            name="direction",
+            words={"against_rotation": True, "along_rotation": False},
+        ),
+    ] = True
+    coupled: Annotated[
+        bool,
+        Key(
+            "friction inside the normal solve of direct contact or added after it",
+            name="coupling",
+            words={"coupled": True, "after": False},
+        ),
+    ] = True
 
 
 @dataclass(frozen=True)
 class Scene:
     """What the blade meets: casing, lining or None, friction or None, and how the gap is measured.
 
-    `damping_ratio`: of every mode; `exact_gap`: distance of the displaced node from the conical, lobed casing, instead of
-    the clearance at the undeformed node's angle less the normal displacement; `divergence_limit` (m): a tip displacement
-    beyond it ends the run as diverged.
+    `exact_gap`: distance of the displaced node from the conical, lobed casing, instead of the clearance at the undeformed
+    node's angle less the normal displacement.
     """
 
     casing: Casing
     lining: Lining | None
     friction: Friction | None
-    damping_ratio: float
-    exact_gap: bool
-    divergence_limit: float
+    damping_ratio: Annotated[float, Key("of every mode of the reduced model", ge=0, lt=1)] = 0.0005
+    exact_gap: Annotated[
+        bool,
+        Key(
+            "clearance less the normal displacement, or distance of the displaced node from the casing",
+            name="gap",
+            words={"linear": False, "exact": True},
+        ),
+    ] = False
+    divergence_limit: Annotated[
+        float,
+        Key("a tip displacement beyond it ends the run as diverged; farther no linear model can be asked", "_m", gt=0, le=100),
+    ] = 0.1

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import Annotated
 
 import numpy as np
 
+from r37core.declared import Key
 from r37core.exchange.importing.raw_mesh import RawMesh
 from r37core.fem.elements import ELEMENTS
 from r37core.mesh.blade_mesh import BladeMesh
@@ -32,19 +34,33 @@ def fitting_units(span: float) -> list[str]:
 class Orientation:
     """How a file describes space.
 
-    `length_unit`: a key of UNITS, or metres per unit; `rotor_axis`: direction of the axis, pointing downstream; `axis_point`:
-    a point of it, in the file's unit; `radial`: direction from the axis to the blade; `rotation`: `positive` where the rotor
-    turns by the right hand about `rotor_axis`, else `negative`.
+    `length_unit`: a key of UNITS, or metres per unit.
 
     The blade's frame has z downstream, x radial, and a rotor that turns towards negative theta. A blade that turns the other
     way is mirrored: in an isotropic material its mirror image has the same motion, and every sign keeps its meaning.
     """
 
     length_unit: str | float
-    rotor_axis: tuple[float, float, float]
-    radial: tuple[float, float, float]
-    rotation: str
-    axis_point: tuple[float, float, float]
+    rotor_axis: Annotated[
+        tuple[float, float, float],
+        Key("direction of the rotor's axis in the file's axes, downstream", ge=-1e9, le=1e9),
+    ]
+    radial: Annotated[
+        tuple[float, float, float],
+        Key("direction from the axis to the blade, in the file's axes", ge=-1e9, le=1e9),
+    ]
+    rotation: Annotated[
+        str,
+        Key(
+            "positive: the rotor turns by the right hand about rotor_axis, negative: the other way",
+            one_of=("positive", "negative"),
+        ),
+    ]
+    axis_point: Annotated[tuple[float, float, float], Key("a point of the axis, in the file's unit", ge=-1e9, le=1e9)] = (
+        0.0,
+        0.0,
+        0.0,
+    )
 
     @property
     def metres_per_unit(self) -> float:
@@ -143,5 +159,5 @@ class Orientation:
             )
 
 
-OURS = Orientation("m", (0.0, 0.0, 1.0), (1.0, 0.0, 0.0), "negative", (0.0, 0.0, 0.0))
+OURS = Orientation("m", (0.0, 0.0, 1.0), (1.0, 0.0, 0.0), "negative")
 """The blade's own frame."""

@@ -35,7 +35,7 @@ def blamed(key: str, file: str | None = None) -> Iterator[None]:
 
 
 class Refusals:
-    """Several refusals of one file, kept to be told together."""
+    """Several refusals of one file, collected for one message."""
 
     def __init__(self, file: str):
         self._file = file
@@ -63,5 +63,5 @@ def placed(places: Mapping[str, str]) -> Iterator[None]:
     try:
         yield
     except ImportRefused as error:
-        place = places.get(error.key or "")
-        raise ImportRefused(f"{place}: {error.reason}" if place else error.reason, error.key, error.fitting) from None
+        prefix = places.get(error.key or "")
+        raise ImportRefused(f"{prefix}: {error.reason}" if prefix else error.reason, error.key, error.fitting) from None

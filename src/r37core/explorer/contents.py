@@ -10,9 +10,9 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 
+from r37core.results.ranges import as_ranges_bear
 from r37core.results.variables import VARIABLES
 from r37core.time_integration.status import RunStatus
-from r37core.tolerances.table import as_ranges_bear
 
 from .page_tables import interaction_table, published_peaks, ranking_rows
 
@@ -48,7 +48,7 @@ def explorer_contents(
     benchmark_scenes: Sequence[str] = (),
     ranking: pd.DataFrame | None = None,
 ) -> dict[str, object]:
-    """All that the page needs. `datasets`: campbell, rms and, where computed, spectrum, stress, wear and tolerances.
+    """All that the page needs. `datasets`: campbell, rms and, where computed, spectrum, stress, wear and members.
 
     `shapes`: pairs of blade and scene whose interactions are shown in shapes/<blade>.html beside the page;
     `shapes_in_report`: where that is in the archive of the report, by blade. `benchmark_scenes`: scenes that the published
@@ -75,7 +75,7 @@ def explorer_contents(
         "shapes": [list(pair) for pair in shapes],
         "shapes_in_report": dict(shapes_in_report or {}),
         "published": published_peaks(blades, [scene for scene in scenes if scene in benchmark_scenes]),
-        **({"tolerances": _tolerances(datasets["tolerances"])} if "tolerances" in datasets else {}),
+        **({"sample": _sample(datasets["members"])} if "members" in datasets else {}),
     }
 
 
@@ -140,7 +140,7 @@ def _map(variable: xr.DataArray, over: str, across: np.ndarray, other: np.ndarra
     about, factor = _described(variable)
     values = factor * variable.transpose("blade", "scene", "speed", over).values
     speeds = variable["speed"].values
-    along = stretches(len(speeds), MOST_SPEEDS)
+    along = bin_starts(len(speeds), MOST_SPEEDS)
     return about | {
         "speeds": packed(speeds[along], 64),
         "other": packed(other),
@@ -160,29 +160,29 @@ def _wear(wear: xr.Dataset | None, rms: xr.Dataset) -> dict[str, object] | None:
     """Wear (mm) over the angle (degrees) round the casing."""
     if wear is None:
         return None
-    starts = stretches(wear.sizes["angle"], MOST_ANGLES)
+    starts = bin_starts(wear.sizes["angle"], MOST_ANGLES)
     return _map(_like(wear, rms)["wear"], "angle", starts, np.degrees(wear["angle"].values[starts]))
 
 
-def _tolerances(tolerances: xr.Dataset) -> dict[str, object]:
+def _sample(sample: xr.Dataset) -> dict[str, object]:
     """Bands and members' curves, over the members' own speeds, of the pairs of blade and scene that have members."""
-    members = (tolerances["status"] != RunStatus.NOT_RUN).any("speed").sum("member").stack(pair=("blade", "scene"))
+    members = (sample["status"] != RunStatus.NOT_RUN).any("speed").sum("member").stack(pair=("blade", "scene"))
     members = members[members > 0]
     return {
         "pairs": [[str(name) for name in pair] for pair in members["pair"].values],
         "members": members.values.tolist(),
-        "numbers": tolerances["member"].values[:MOST_MEMBERS].tolist(),
-        "speeds": packed(tolerances["speed"].values, 64),
-        "curves": {name: _spread(tolerances, members["pair"], name) for _, name in CURVES if f"{name}_quantile" in tolerances},
+        "numbers": sample["member"].values[:MOST_MEMBERS].tolist(),
+        "speeds": packed(sample["speed"].values, 64),
+        "curves": {name: _spread(sample, members["pair"], name) for _, name in CURVES if f"{name}_quantile" in sample},
     }
 
 
-def _spread(tolerances: xr.Dataset, pairs: xr.DataArray, name: str) -> dict[str, object]:
+def _spread(sample: xr.Dataset, pairs: xr.DataArray, name: str) -> dict[str, object]:
     """Band (pair, quantile, speed) and members (pair, member, speed) of a curve; infinite: diverged, NaN: not run."""
-    factor = _described(tolerances[name])[1]
-    kept = tolerances.isel(member=slice(MOST_MEMBERS))
-    members = kept[name].where(kept["status"] != RunStatus.DIVERGED, np.inf)
-    band = tolerances[f"{name}_quantile"].where((tolerances["status"] != RunStatus.DIVERGED).any("member"), np.inf)
+    factor = _described(sample[name])[1]
+    drawn = sample.isel(member=slice(MOST_MEMBERS))
+    members = drawn[name].where(drawn["status"] != RunStatus.DIVERGED, np.inf)
+    band = sample[f"{name}_quantile"].where((sample["status"] != RunStatus.DIVERGED).any("member"), np.inf)
 
     def of_pairs(values: xr.DataArray, axis: str) -> dict[str, object]:
         return packed(factor * values.stack(pair=("blade", "scene")).sel(pair=pairs).transpose("pair", axis, "speed").values)
@@ -205,14 +205,14 @@ def rounded(values: np.ndarray) -> np.ndarray:
 
 
 def joined(values: np.ndarray, axis: int, starts: np.ndarray) -> np.ndarray:
-    """Largest of `values` in each stretch along an axis; `starts`: where the stretches begin. NaN where all are."""
+    """Largest of `values` in each bin along an axis; `starts`: where the bins begin. NaN where all are."""
     filled = np.where(np.isnan(values), -np.inf, values)
     largest = np.maximum.reduceat(filled, starts, axis=axis)
     return np.where(np.isneginf(largest), np.nan, largest)
 
 
-def stretches(number: int, most: int) -> np.ndarray:
-    """Where stretches of equal length begin, at most `most` of them."""
+def bin_starts(number: int, most: int) -> np.ndarray:
+    """Where bins of equal length begin, at most `most` of them."""
     length = -(-number // most)
     return np.arange(0, number, length)
 

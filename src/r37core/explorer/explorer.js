@@ -55,17 +55,17 @@
   const history = data.history
     && { speeds: (await unpack(data.history.speeds)).values, values: await unpack(data.history.values) };
 
-  async function unpackTolerances({ curves: spreads, ...kept }) {
+  async function unpackSample({ curves: spreads, ...kept }) {
     const unpackSpread = async ([name, { band, members }]) => [name, { band: await unpack(band), members: await unpack(members) }];
     return {
       ...kept, speeds: (await unpack(kept.speeds)).values,
       curves: Object.fromEntries(await Promise.all(Object.entries(spreads).map(unpackSpread))),
     };
   }
-  const tolerances = data.tolerances && await unpackTolerances(data.tolerances);
+  const sample = data.sample && await unpackSample(data.sample);
 
   // and what they are where the address does not say
-  const SWITCHES = { all: false, every: false, ...(tolerances && { band: true, members: false }) };
+  const SWITCHES = { all: false, every: false, ...(sample && { band: true, members: false }) };
   const state = { blade: data.blades[0], scene: data.scenes[0], quantity: curves[0].name, speed: speeds[0], unit: "rad/s", sort: "", ...SWITCHES };
 
   const bladeIndex = () => data.blades.indexOf(state.blade);
@@ -249,10 +249,10 @@
   }
 
   // places of the speeds that members of a pair ran at: the values of others are NaN
-  const ranOfMembers = (values) => tolerances.speeds.map((_, at) => at).filter((at) => !Number.isNaN(values[at]));
+  const ranOfMembers = (values) => sample.speeds.map((_, at) => at).filter((at) => !Number.isNaN(values[at]));
   // a line, with gaps where runs diverged
   const lineOfMembers = (places, values) => ({
-    x: shown(places.map((at) => tolerances.speeds[at])), y: places.map((at) => (Number.isFinite(values[at]) ? values[at] : null)),
+    x: shown(places.map((at) => sample.speeds[at])), y: places.map((at) => (Number.isFinite(values[at]) ? values[at] : null)),
   });
 
   // edges of the band, place and value, with gaps where its lower end diverged; an upper end that did is above all else
@@ -267,15 +267,15 @@
 
   // the band, and the median in it
   function bandTraces(pair, curve, say, { colour, uid, ...look }) {
-    const [low, median, high] = [0, 1, 2].map((number) => tolerances.curves[curve.name].band.row(pair, number));
+    const [low, median, high] = [0, 1, 2].map((number) => sample.curves[curve.name].band.row(pair, number));
     const value = (number) => (number === Infinity ? "diverged" : quantityText(number, curve.unit));
-    const text = (at) => `${say(at)}<br>band of ${tolerances.members[pair]} members`
+    const text = (at) => `${say(at)}<br>band of ${sample.members[pair]} members`
       + `<br>5%: ${value(low[at])}<br>median: ${value(median[at])}<br>95%: ${value(high[at])}`;
     const places = ranOfMembers(low);
     const edge = edges(places, low, high);
     return [
       {
-        ...look, x: shown(edge.map(([at]) => tolerances.speeds[at])), y: edge.map(([, y]) => y), text: edge.map(([at]) => text(at)),
+        ...look, x: shown(edge.map(([at]) => sample.speeds[at])), y: edge.map(([, y]) => y), text: edge.map(([at]) => text(at)),
         name: "band", uid: `${uid}-band`, fill: "toself", hoveron: "points", fillcolor: `${colour}2b`,
         line: { color: `${colour}66`, width: 0.5 },
       },
@@ -288,9 +288,9 @@
 
   // all members' lines in one trace, with a gap between them
   function memberTrace(pair, curve, say, { colour, uid, ...look }) {
-    const { members } = tolerances.curves[curve.name];
-    const said = tolerances.speeds.map((_, at) => say(at));
-    const points = tolerances.numbers.flatMap((number, row) => {
+    const { members } = sample.curves[curve.name];
+    const said = sample.speeds.map((_, at) => say(at));
+    const points = sample.numbers.flatMap((number, row) => {
       const values = members.row(pair, row);
       const places = ranOfMembers(values);
       const { x, y } = lineOfMembers(places, values);
@@ -303,10 +303,10 @@
 
   // what lies below the curve of a blade and scene: band and members, as far as they are there and wanted
   function spreadTraces(curve, blade, scene, given) {
-    if (!tolerances?.curves[curve.name]) return [];
-    const pair = tolerances.pairs.findIndex(([one, other]) => one === data.blades[blade] && other === data.scenes[scene]);
+    if (!sample?.curves[curve.name]) return [];
+    const pair = sample.pairs.findIndex(([one, other]) => one === data.blades[blade] && other === data.scenes[scene]);
     if (pair < 0) return [];
-    const say = (at) => `${data.blades[blade]}, ${data.scenes[scene]}<br>${speedText(tolerances.speeds[at])}`;
+    const say = (at) => `${data.blades[blade]}, ${data.scenes[scene]}<br>${speedText(sample.speeds[at])}`;
     const look = { ...given, mode: "lines", showlegend: false, hoverinfo: "text" };
     return [
       ...(state.band ? bandTraces(pair, curve, say, look) : []),
@@ -333,7 +333,7 @@
       below.push(...spreadTraces(curve, blade, number, { ...together, colour }));
       traces.push({
         x: shown(places.map((at) => speeds[at])), y: places.map((at) => values[at]), name, mode: "lines+markers", hoverinfo: "text",
-        ...(tolerances && together),
+        ...(sample && together),
         line: { color: colour, dash: DASHES[Math.floor(rank / COLOURS.length) % DASHES.length], width: 1.5 },
         marker: { size: 4, symbol: MARKERS[Math.floor(rank / COLOURS.length) % MARKERS.length] },
         text: places.map((at) => pointText(curve, blade, number, at)),
@@ -342,7 +342,7 @@
       if (lost.length) {
         traces.push({
           x: shown(lost.map((at) => speeds[at])), y: lost.map(() => 0), mode: "markers", name: `${data.blades[blade]} diverged`,
-          marker: { symbol: "x", size: 9, color: colour }, hoverinfo: "text", ...(tolerances && { uid: `${together.uid}-diverged` }),
+          marker: { symbol: "x", size: 9, color: colour }, hoverinfo: "text", ...(sample && { uid: `${together.uid}-diverged` }),
           text: lost.map((at) => pointText(curve, blade, number, at)),
         });
       }
@@ -454,7 +454,7 @@
     for (const name of ["blade", "scene", "quantity", "unit"]) document.getElementById(name).value = state[name];
     document.getElementById("speed").value = digits(state.speed * factor());
     for (const name of Object.keys(SWITCHES)) document.getElementById(name).checked = state[name];
-    for (const name of ["band", "members"]) document.getElementById(name).disabled = !tolerances?.curves[state.quantity];
+    for (const name of ["band", "members"]) document.getElementById(name).disabled = !sample?.curves[state.quantity];
     const told = new URLSearchParams(Object.entries(state).map(([name, value]) => [name, String(value)]));
     window.history.replaceState(null, "", `#${told}`);
   }
@@ -522,7 +522,7 @@
     s: () => set({ scene: next(data.scenes, state.scene, 1) }), u: () => set({ unit: state.unit === "rpm" ? "rad/s" : "rpm" }),
     q: () => set({ quantity: next(curves.map((one) => one.name), state.quantity, 1) }), a: () => set({ all: !state.all }),
     i: () => set({ every: !state.every }),
-    ...(tolerances && { t: () => set({ band: !state.band }), m: () => set({ members: !state.members }) }),
+    ...(sample && { t: () => set({ band: !state.band }), m: () => set({ members: !state.members }) }),
   };
 
   function listen() {
@@ -578,8 +578,8 @@
   const about = Object.entries(data.about).map(([name, value]) => `${name} ${value}`).join(", ");
   document.getElementById("about").append(` ${about}. Maps show the largest amplitude within 0.1 engine orders, and the largest`
     + " wear within two degrees; beyond 400 speeds neighbours are joined. Curves have every speed.");
-  if (tolerances) {
-    const [kept, most] = [tolerances.numbers.length, Math.max(...tolerances.members)];
+  if (sample) {
+    const [kept, most] = [sample.numbers.length, Math.max(...sample.members)];
     document.getElementById("members").after(kept < most ? ` first ${kept} of ${most} members` : " members");
     document.getElementById("about").append(" Nine tenths of the members lie in a band, half of them below its dotted line."
       + " Keys: t band, m members.");

@@ -57,10 +57,10 @@ COLUMNS = (
 def published_peaks(blades: Iterable[str], benchmark_scenes: Sequence[str]) -> list[dict[str, object]]:
     """The published peaks of the blades (rad/s), in the scenes that are the benchmark's."""
     return [
-        {"blade": one.blade, "scene": scene, "interaction": interaction_title(MODE, one.engine_order), "speed": one.peak}
+        {"blade": row.blade, "scene": scene, "interaction": interaction_title(MODE, row.engine_order), "speed": row.peak}
         for scene in benchmark_scenes
-        for one in INTERACTIONS
-        if one.blade in blades
+        for row in INTERACTIONS
+        if row.blade in blades
     ]
 
 
@@ -72,15 +72,15 @@ def interaction_table(interactions: pd.DataFrame, benchmark_scenes: Sequence[str
         for mode, order in zip(table["mode"], table["engine_order"], strict=True)
     ]
     published = {
-        (one["blade"], one["scene"], one["interaction"]): one["speed"]
-        for one in published_peaks(set(table["blade"]), benchmark_scenes)
+        (row["blade"], row["scene"], row["interaction"]): row["speed"]
+        for row in published_peaks(set(table["blade"]), benchmark_scenes)
     }
     keys = zip(table["blade"], table["scene"], titles, strict=True)
     table = table.assign(interaction=titles)
     if published:
         table["published_peak_speed_rad_s"] = [published.get(key) for key in keys]
         table = table.astype(object).where(table.notna(), None)
-    return {"interactions": table.to_dict("records"), "columns": _columns([one for one in COLUMNS if one in table], WORDS)}
+    return {"interactions": table.to_dict("records"), "columns": _columns([name for name in COLUMNS if name in table], WORDS)}
 
 
 def ranking_rows(ranking: pd.DataFrame | None) -> dict[str, object]:

@@ -101,13 +101,13 @@ class Element:
     @cached_property
     def edge_directions(self) -> np.ndarray:
         """Local directions of the edges, without those parallel to another, shape (directions, 3)."""
-        kept: list[np.ndarray] = []
+        directions: list[np.ndarray] = []
         for face in self.corner_faces:
             for i, j in zip(face, (*face[1:], face[0]), strict=True):
                 direction = self.nodes[j] - self.nodes[i]
-                if all(np.any(np.cross(direction, other)) for other in kept):
-                    kept.append(direction / np.abs(direction).max())
-        return np.array(kept)
+                if all(np.any(np.cross(direction, other)) for other in directions):
+                    directions.append(direction / np.abs(direction).max())
+        return np.array(directions)
 
 
 def _monomials(points: np.ndarray, exponents: np.ndarray) -> np.ndarray:

@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Annotated
 
 import numpy as np
+
+from r37core.declared import Key
 
 _SOUND_BETWEEN = (300.0, 20000.0)
 _STIFFNESS_BETWEEN = (1e8, 2e12)
@@ -12,15 +15,14 @@ _STIFFNESS_BETWEEN = (1e8, 2e12)
 
 @dataclass(frozen=True)
 class Material:
-    """Isotropic linear elastic material: Young's modulus (Pa), density (kg/m3), Poisson's ratio, yield stress (Pa).
+    """Isotropic linear elastic material. Without a yield stress it never yields."""
 
-    Without a yield stress it never yields.
-    """
-
-    youngs_modulus: float
-    density: float
-    poissons_ratio: float
-    yield_stress: float = float("inf")
+    youngs_modulus: Annotated[float, Key("Young's modulus", "_pa", ge=1e6, le=1e13)]
+    density: Annotated[float, Key("density", "_kg_m3", ge=1, le=1e5)]
+    poissons_ratio: Annotated[float, Key("Poisson's ratio", gt=-1, lt=0.5)]
+    yield_stress: Annotated[float, Key("results say where the stress is above it; nothing yields", "_pa", ge=1, le=1e12)] = (
+        float("inf")
+    )
 
     @property
     def lame_constants(self) -> tuple[float, float]:

@@ -90,7 +90,7 @@ def loops(faces: list[Faces]) -> list[np.ndarray]:
     keys = np.sort(edges[:, [0, 2]], axis=1)
     _, inverse, count = np.unique(keys, axis=0, return_inverse=True, return_counts=True)
     following = {int(start): (int(middle), int(end)) for start, middle, end in edges[count[inverse.ravel()] == 1]}
-    found = []
+    lines = []
     while following:
         start = min(following)
         line, node = [], start
@@ -98,8 +98,8 @@ def loops(faces: list[Faces]) -> list[np.ndarray]:
             middle, end = following.pop(node)
             line += [node] if middle < 0 else [node, middle]
             node = end
-        found.append(np.array(line))
-    return found
+        lines.append(np.array(line))
+    return lines
 
 
 def area_vectors(faces: list[Faces], points: np.ndarray) -> np.ndarray:

@@ -31,15 +31,15 @@ def edge_traces(points: np.ndarray, blocks: Mapping[str, np.ndarray], members: n
 
     `points`: coordinates (m), shape (nodes, 3); `blocks`: element type -> node numbers, shape (elements, nodes of the type).
     """
-    found: dict[int, list[np.ndarray]] = {}
+    edges: dict[int, list[np.ndarray]] = {}
     for name, elements in blocks.items():
         element = ELEMENTS[name]
         pairs = {frozenset(ends) for corners in element.corner_faces for ends in zip(corners, np.roll(corners, 1), strict=True)}
         for start, end in sorted(map(sorted, pairs)):
             local = [start, end] + ([element.edges[frozenset((start, end))]] if element.quadratic else [])
             inside = members[elements[:, local]].all(axis=1)
-            found.setdefault(len(local), []).append(elements[inside][:, local])
-    return [chain_trace(points, _each_once(np.concatenate(parts))) for parts in found.values()]
+            edges.setdefault(len(local), []).append(elements[inside][:, local])
+    return [chain_trace(points, _each_once(np.concatenate(parts))) for parts in edges.values()]
 
 
 def chain_trace(points: np.ndarray, edges: np.ndarray) -> Trace:

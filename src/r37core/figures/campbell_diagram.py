@@ -83,16 +83,16 @@ def _draw_casings(axes: Axes, campbell: xr.Dataset, casings: Mapping[str, Any]) 
     scenes: dict[ElasticCasing, list[str]] = {}
     for scene, casing in casings.items():
         scenes.setdefault(from_plain(ElasticCasing, casing), []).append(scene)
-    for number, (one, names) in enumerate(scenes.items()):
+    for number, (elastic, names) in enumerate(scenes.items()):
         whose = "casing" if len(scenes) == 1 else f"casing of {', '.join(names)}"
-        _draw_casing(axes, campbell, one, whose, _OF_CASINGS[number % len(_OF_CASINGS)])
+        _draw_casing(axes, campbell, elastic, whose, _OF_CASINGS[number % len(_OF_CASINGS)])
 
 
 def _draw_casing(axes: Axes, campbell: xr.Dataset, casing: ElasticCasing, whose: str, colour: str) -> None:
     speeds, highest = campbell["speed"].values, axes.get_ylim()[1]
     dashes = {"forward": (4.0, 2.0), "backward": (1.0, 1.5)}
     named: set[str] = set()
-    for mode, wave in [(one, wave) for one in modes_met(casing, campbell) for wave in waves_of(one)]:
+    for mode, wave in [(ring_mode, wave) for ring_mode in modes_met(casing, campbell) for wave in waves_of(ring_mode)]:
         seen = np.abs(seen_from_rotor(mode, wave, speeds))
         if seen.min() > highest:
             continue
@@ -110,9 +110,9 @@ def _draw_casing(axes: Axes, campbell: xr.Dataset, casing: ElasticCasing, whose:
         )
         named.add(label)
         for name in NAMED_MODES:
-            for place in coincidences(campbell["frequency"].sel(mode=name), mode, wave):
+            for crossing in coincidences(campbell["frequency"].sel(mode=name), mode, wave):
                 alpha = 1.0 if simulated else _PALE
-                axes.plot(*place, "D", color=colour, markersize=2.5, markerfacecolor="white", zorder=4, alpha=alpha)
+                axes.plot(*crossing, "D", color=colour, markersize=2.5, markerfacecolor="white", zorder=4, alpha=alpha)
 
 
 def _draw_engine_orders(axes: Axes, orders: np.ndarray, speed: np.ndarray, highest: float) -> None:
@@ -121,11 +121,11 @@ def _draw_engine_orders(axes: Axes, orders: np.ndarray, speed: np.ndarray, highe
     for order in orders:
         axes.plot(speed, order * speed / (2.0 * np.pi), color="0.7", linewidth=0.6, zorder=0)
         end = min(speed[-1], 2.0 * np.pi * highest / order)
-        place = np.array([(end - left) / (right - left), (order * end / (2.0 * np.pi) - low) / (high - low)])
+        end_on_axes = np.array([(end - left) / (right - left), (order * end / (2.0 * np.pi) - low) / (high - low)])
         # high orders lie close together: a number only where there is room for it
-        if place[1] > 0.0 and np.linalg.norm(place - labelled) > _ROOM:
+        if end_on_axes[1] > 0.0 and np.linalg.norm(end_on_axes - labelled) > _ROOM:
             _number(axes, order, end, at_the_right=end == speed[-1])
-            labelled = place
+            labelled = end_on_axes
 
 
 def _number(axes: Axes, order: int, end: float, at_the_right: bool) -> None:

@@ -60,46 +60,11 @@ CAPTIONS = {
         "edge) and the last one (trailing edge). It is what the casing leaves less what rotation brings the blade nearer "
         "to it, before anything vibrates."
     ),
-    "tolerances": (
-        "Tolerances of blade {blade} in scene {scene}: median of all members, the band that nine tenths lie in, and the "
-        "nominal run (dashed). Then the share of the members above yield, with the interval of the chance. Last, by how much "
-        "each number moves three measures, with intervals: rank coefficients, and where asked for Sobol's total indices. Above "
-        "the bars stands the place in the ranking; pale ones have none."
-    ),
     "ranking": (
         "Which blade? Length of the speeds above yield of every blade, scene by scene, in the order of the first scene. Dark: "
         "certainly, more than half of the revolutions of the last half of a run exceed yield; light: possibly, more than a "
-        "twentieth of them do. Lines: standard deviation by chance, in direct contact; with tolerances: the range that nine "
-        "tenths of the members lie in."
-    ),
-    "designs": (
-        "Family {family}: what each design is and how robust, over what varies. Frequencies, largest loss of clearance as "
-        "the tip swings along free modes, where interactions lie, speeds certainly and possibly above yield, largest stress."
-    ),
-    "mode_shapes": (
-        "The first modes of blade {blade} at rest, each moved by its shape from the blade as it is (black outline). The "
-        "colour is the displacement as a share of its largest. The page of the blade's shapes moves them."
-    ),
-    "worst_shapes": (
-        "Blade {blade} in scene {scene} at the worst instant of each interaction, displaced as the title says (black "
-        "outline: as it is). Colours are the von Mises stress, each on a scale of its own."
-    ),
-    "spectrogram": (
-        "Blade {blade} in scene {scene}: engine orders of the leading edge's motion and of strain gauges over the revolutions "
-        "since the start, at each speed; Hann windows of eight revolutions."
-    ),
-    "orders": (
-        "Blade {blade} in scene {scene}: amplitude of the strongest whole engine orders over the revolutions since the "
-        "start, at each speed. Beside them, where there are probes: the leading edge's displacement that tip timing tells."
-    ),
-    "run_ups": (
-        "Blade {blade} in scene {scene}, run up (solid) and down (dashed) at several rates. Of every revolution over its "
-        "mean speed: rms of the leading edge's motion normal to the casing and tangential, largest von Mises stress, and "
-        "largest wear so far. Dashed line: yield stress; above it (tinted) the blade is outside the linear model."
-    ),
-    "run_up_rates": (
-        "Largest von Mises stress of every run-up (left) and run-down (right) in scene {scene} against its rate, for every "
-        "blade. Tinted: above yield."
+        "twentieth of them do. Lines: standard deviation by chance, in direct contact; with members: the range that nine "
+        "tenths of them lie in."
     ),
     "modes": (
         "The first three modes of blade {blade} at rest: first bending (1B), first torsion (1T) and second bending (2B). "
@@ -148,8 +113,3 @@ CAPTIONS = {
         "every blade."
     ),
 }
-
-
-def caption(figure: str, **names: str) -> str:
-    """The caption of a kind of figure, with the names (blade, scene, family) of the one at hand."""
-    return CAPTIONS[figure].format(**names)

@@ -41,20 +41,20 @@ def draw_ranking(ranking: pd.DataFrame) -> Figure:
 
 
 def _draw(axes: Axes, rows: pd.DataFrame) -> None:
-    places = np.arange(float(len(rows)))
-    axes.barh(places, rows[_POSSIBLE], 0.76, color="C0", alpha=0.35, label="possibly")
-    axes.barh(places, rows[_CERTAIN], 0.44, color="C0", label="certainly")
+    positions = np.arange(float(len(rows)))
+    axes.barh(positions, rows[_POSSIBLE], 0.76, color="C0", alpha=0.35, label="possibly")
+    axes.barh(positions, rows[_CERTAIN], 0.44, color="C0", label="certainly")
     low, high, meaning = _range(rows)
     if np.isfinite(low).any():
         axes.errorbar(
-            rows[_CERTAIN], places, xerr=[low, high], fmt="none", ecolor="0.15", elinewidth=1.0, capsize=2.5, label=meaning
+            rows[_CERTAIN], positions, xerr=[low, high], fmt="none", ecolor="0.15", elinewidth=1.0, capsize=2.5, label=meaning
         )
     high = np.nan_to_num(high)
     largest = np.nanmax([1.0, *rows[_POSSIBLE], *(rows[_CERTAIN] + high)])
-    for place, above, (_, row) in zip(places, high, rows.iterrows(), strict=True):
+    for position, above, (_, row) in zip(positions, high, rows.iterrows(), strict=True):
         if np.isfinite(row[_CERTAIN]):
             ends = np.nanmax([row[_POSSIBLE], row[_CERTAIN] + above])
-            axes.text(ends + 0.02 * largest, place, f"{row[_CERTAIN]:.0f} to {row[_POSSIBLE]:.0f}", va="center", fontsize=7)
+            axes.text(ends + 0.02 * largest, position, f"{row[_CERTAIN]:.0f} to {row[_POSSIBLE]:.0f}", va="center", fontsize=7)
     axes.set_xlim(0.0, 1.25 * largest)
 
 

@@ -73,8 +73,8 @@ def blade_styles(blades: Iterable[Any]) -> dict[str, dict[str, str]]:
     """Colour and dashes of each blade, by its place in the whole list: the same in every figure and in the explorer."""
     count = len(COLOURS)
     return {
-        str(blade): {"color": COLOURS[place % count], "linestyle": _DASHES[place // count % len(_DASHES)]}
-        for place, blade in enumerate(blades)
+        str(blade): {"color": COLOURS[number % count], "linestyle": _DASHES[number // count % len(_DASHES)]}
+        for number, blade in enumerate(blades)
     }
 
 

@@ -29,12 +29,12 @@ def draw_waterfall(maps: xr.Dataset, campbell: xr.Dataset, title: str) -> Figure
     figure, panels = plt.subplots(1, 2, figsize=(style.PAGE, 5.0), sharex=True, sharey=True)
     figure.suptitle(f"waterfall: {title}")
     highest = 1.15 * float(campbell["frequency"].sel(mode="2B").max())
-    kept = maps[list(DIRECTIONS)].dropna("speed", how="all")
-    top = max([1e-15, *(float(kept[name].max()) for name in DIRECTIONS if kept.sizes["speed"])])
-    rows = thinned(kept["speed"].values, kept.to_dataarray().max(("variable", "engine_order")).values)
+    completed = maps[list(DIRECTIONS)].dropna("speed", how="all")
+    top = max([1e-15, *(float(completed[name].max()) for name in DIRECTIONS if completed.sizes["speed"])])
+    rows = thinned(completed["speed"].values, completed.to_dataarray().max(("variable", "engine_order")).values)
     for axes, (name, direction) in zip(panels, DIRECTIONS.items(), strict=True):
         if rows:
-            _draw(axes, kept[name], rows, campbell, highest, top)
+            _draw(axes, completed[name], rows, campbell, highest, top)
         else:
             style.say(axes, style.ALL_DIVERGED)
         axes.set(xlabel="frequency (Hz)", xlim=(0.0, highest))
@@ -51,16 +51,16 @@ def _draw(axes: Axes, amplitude: xr.DataArray, rows: list[int], campbell: xr.Dat
     low, high = float(speeds[0]), float(speeds[-1])
     distance = max(high - low, 1.0) / _LINES
     order, coarse = largest_of_bins(amplitude["engine_order"].values, values[rows], _MOST_BINS)
-    for place, row in enumerate(rows):
+    for line_number, row in enumerate(rows):
         speed = speeds[row]
-        height = np.clip(20.0 * np.log10(np.maximum(coarse[place], 1e-30) / top) / _DECIBELS + 1.0, 0.0, None)
+        height = np.clip(20.0 * np.log10(np.maximum(coarse[line_number], 1e-30) / top) / _DECIBELS + 1.0, 0.0, None)
         frequency = order * speed / (2.0 * np.pi)
-        kept = frequency <= highest
-        line = speed + _HEIGHT * distance * height[kept]
+        shown = frequency <= highest
+        line = speed + _HEIGHT * distance * height[shown]
         # the lowest speed is in front
-        front = 2.0 - 1e-3 * place
-        axes.fill_between(frequency[kept], speed, line, facecolor="white", linewidth=0.0, zorder=front)
-        axes.plot(frequency[kept], line, color="0.15", linewidth=0.5, zorder=front + 5e-4)
+        front = 2.0 - 1e-3 * line_number
+        axes.fill_between(frequency[shown], speed, line, facecolor="white", linewidth=0.0, zorder=front)
+        axes.plot(frequency[shown], line, color="0.15", linewidth=0.5, zorder=front + 5e-4)
     _draw_orders(axes, float(order[-1]), low, high, highest)
     for mode in NAMED_MODES:
         colour = style.mode_colour(campbell, mode)
@@ -102,6 +102,6 @@ def _draw_orders(axes: Axes, highest_order: float, low: float, high: float, high
         )
         end = min(high, 2.0 * np.pi * highest / order)
         if end > low:
-            place = (order * end / (2 * np.pi), end)
+            at_end = (order * end / (2 * np.pi), end)
             clear = {"facecolor": "white", "alpha": 0.8, "linewidth": 0.0, "pad": 0.3}
-            axes.annotate(str(order), place, fontsize=6, color="0.3", ha="right", zorder=5, bbox=clear)
+            axes.annotate(str(order), at_end, fontsize=6, color="0.3", ha="right", zorder=5, bbox=clear)

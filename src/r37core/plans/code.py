@@ -15,38 +15,56 @@ PACKAGE = "r37core"
 
 
 class CodeHashes:
-    """Hashes of the scripts in the folder `scripts` and of all they import from it and from the package in `source`.
+    """Hashes of code by its name: a script in the folder `scripts`, a module or a function of the package in `source`.
 
-    Comments, docstrings and layout do not count, nor does the version in the package's own __init__. `source` may hold
-    other packages, too: of those in it only imports of `packages` count.
+    Each is of all that it imports from the scripts and the package, directly or not. Of a function's own module only what
+    the function uses counts. Comments, docstrings and layout do not count, nor does the version in the package's own
+    __init__. `source` may hold other packages, too: of those in it only imports of `packages` count.
     """
 
     def __init__(self, source: Path, scripts: Path, packages: Collection[str] = (PACKAGE,)):
         self._source, self._scripts, self._packages = source, scripts, packages
         self._version_file = source / PACKAGE / "__init__.py"
 
-    def __call__(self, script: str, *modules: str) -> str:
-        """Short hash of the script of this name (without .py) and its imports: a parameter of the rule that runs it.
-
-        `modules`: dotted names that the script imports by a name it is told.
-        """
+    def __call__(self, *names: str) -> str:
+        """Short hash of what has these names, as `step`, `r37core.fem.steps` or `r37core.fem.steps.mesh`, and its imports."""
         digest = hashlib.sha256()
-        for file in self.closure(script, *modules):
-            digest.update(file.name.encode() + fingerprint(file))
+        for file, function in self._parts(*names):
+            digest.update(file.name.encode() + fingerprint(file, function))
         _facts_of_files().save()
         return digest.hexdigest()[:16]
 
-    def closure(self, script: str, *modules: str) -> list[Path]:
-        """The files of the script and `modules` and of all that they import, directly or not, sorted."""
-        found: set[Path] = set()
-        waiting = [self._scripts / f"{script}.py"]
-        waiting += [file for name in modules for file in self._files(name)]
+    def step(self, function: str, *modules: str) -> dict[str, str]:
+        """Parameters of a rule that runs this step by the script step.py: its name, and the hash of its code.
+
+        `function`: a step of the package, as `fem.steps.mesh`; `modules` of the package that it imports by name.
+        """
+        name, *others = (f"{PACKAGE}.{module}" for module in (function, *modules))
+        return {"step": name, "code": self("step", name, *others)}
+
+    def closure(self, *names: str) -> list[Path]:
+        """The files of what has these names and of all that they import, directly or not, sorted."""
+        return sorted({file for file, _ in self._parts(*names)})
+
+    def _parts(self, *names: str) -> list[tuple[Path, str]]:
+        """Files, each with the name of the function that alone counts, or "" for the whole.
+
+        Sorted, those of the package first wherever it lies: a hash is of code and not of places.
+        """
+        parts: set[tuple[Path, str]] = set()
+        waiting = [part for name in names for part in self._named(name)]
         while waiting:
-            file = waiting.pop()
-            if file not in found:
-                found.add(file)
-                waiting += [imported for name in imported_names(file) for imported in self._files(name)]
-        return sorted(found - {self._version_file})
+            part = waiting.pop()
+            if part not in parts:
+                parts.add(part)
+                waiting += [(imported, "") for name in imported_names(*part) for imported in self._files(name)]
+        return sorted(parts - {(self._version_file, "")}, key=lambda part: (part[0].is_relative_to(self._scripts), part))
+
+    def _named(self, name: str) -> list[tuple[Path, str]]:
+        above, _, last = name.rpartition(".")
+        *packages, file = self._files(name)
+        is_function = above != "" and self._files(above) == (*packages, file)
+        return [*((package, "") for package in packages), (file, last if is_function else "")]
 
     def _files(self, name: str) -> tuple[Path, ...]:
         counts = name.partition(".")[0] in self._packages
@@ -62,14 +80,17 @@ def module_files(name: str, roots: tuple[Path, ...]) -> tuple[Path, ...]:
     return tuple(file for file in candidates if file.exists())
 
 
-def imported_names(file: Path) -> tuple[str, ...]:
-    """Absolute dotted names of all that a file imports, functions' own imports included."""
-    return _facts(file)[1]
+def imported_names(file: Path, function: str = "") -> tuple[str, ...]:
+    """Absolute dotted names of all that a file imports, functions' own imports included, or that its `function` uses."""
+    return _facts(file, function)[1]
 
 
-def fingerprint(file: Path) -> bytes:
-    """Hash of what a Python file does: its syntax tree without docstrings, the same in every version of Python."""
-    return _facts(file)[0]
+def fingerprint(file: Path, function: str = "") -> bytes:
+    """Hash of what a Python file does, or its `function` and what that uses of it.
+
+    It is of the syntax tree without docstrings, the same in every version of Python.
+    """
+    return _facts(file, function)[0]
 
 
 class _FactsOfFiles:
@@ -78,16 +99,18 @@ class _FactsOfFiles:
     _NAME, _MOST = "code_hashes.json", 5000
 
     def __init__(self) -> None:
-        kept = read_kept(self._NAME)
-        self._known: dict[str, tuple[str, list[str]]] = json.loads(kept) if kept else {}
+        content = read_kept(self._NAME)
+        self._known: dict[str, tuple[str, list[str]]] = json.loads(content) if content else {}
         self._new = False
         self._own = Path(__file__).read_bytes()
 
-    def __call__(self, file: Path) -> tuple[bytes, tuple[str, ...]]:
+    def __call__(self, file: Path, function: str) -> tuple[bytes, tuple[str, ...]]:
         content, package = file.read_bytes(), _package_of(file)
-        key = hashlib.sha256(b"\0".join([self._own, ".".join(package).encode(), content])).hexdigest()
+        key = hashlib.sha256(b"\0".join([self._own, ".".join([*package, function]).encode(), content])).hexdigest()
         if key not in self._known:
             tree = ast.parse(content)
+            if function:
+                tree = _used_by(function, tree)
             self._known[key] = (_fingerprint(tree).hex(), _imported_names(tree, package))
             self._new = True
         fingerprint, names = self._known[key]
@@ -108,8 +131,29 @@ def _facts_of_files() -> _FactsOfFiles:
 
 
 @cache
-def _facts(file: Path) -> tuple[bytes, tuple[str, ...]]:
-    return _facts_of_files()(file)
+def _facts(file: Path, function: str) -> tuple[bytes, tuple[str, ...]]:
+    return _facts_of_files()(file, function)
+
+
+def _used_by(function: str, tree: ast.Module) -> ast.Module:
+    """The statements of a module that bind what its function uses, directly or not, and those that bind nothing."""
+    wanted, binding = {function}, [(statement, _bound_by(statement)) for statement in tree.body]
+    body: list[ast.stmt] = []
+    while more := [statement for statement, bound in binding if statement not in body and (not bound or bound & wanted)]:
+        body += more
+        wanted |= {node.id for statement in more for node in ast.walk(statement) if isinstance(node, ast.Name)}
+    return ast.Module([statement for statement in tree.body if statement in body], [])
+
+
+def _bound_by(statement: ast.stmt) -> set[str]:
+    """Names that a statement of a module binds, if that is all it does."""
+    if isinstance(statement, ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef):
+        return {statement.name}
+    if isinstance(statement, ast.Import | ast.ImportFrom):
+        return {alias.asname or alias.name.partition(".")[0] for alias in statement.names}
+    if isinstance(statement, ast.Assign | ast.AnnAssign):
+        return {node.id for node in ast.walk(statement) if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store)}
+    return set()
 
 
 def _imported_names(tree: ast.Module, package: list[str]) -> list[str]:
@@ -149,12 +193,12 @@ def _parts(node: ast.AST) -> Iterator[str]:
         yield name
         values = value if isinstance(value, list) else [value]
         if name == "body" and isinstance(node, ast.Module | ast.ClassDef | ast.FunctionDef | ast.AsyncFunctionDef):
-            values = [one for one in values if not _is_text(one)]
-        for one in values:
-            if isinstance(one, ast.AST):
-                yield from _parts(one)
+            values = [part for part in values if not _is_text(part)]
+        for part in values:
+            if isinstance(part, ast.AST):
+                yield from _parts(part)
             else:
-                yield repr(one)
+                yield repr(part)
         yield "."
 
 

@@ -11,6 +11,7 @@ from typing import Any
 
 from r37core.blade.definition import BladeDefinition
 from r37core.config import Settings
+from r37core.config.places import places_of
 from r37core.exchange.importing.source import MatricesSource, MeshSource, matrix_files, mesh_files
 from r37core.plain import to_plain
 
@@ -66,7 +67,7 @@ class Imported:
 
     def places(self, wildcards: Any) -> Attributes:
         """Where the keys of a blade stand, as `file:line: blade.key`; a new line re-runs nothing."""
-        return Attributes(self.settings.places[wildcards.blade])
+        return Attributes(places_of(self.settings, wildcards.blade))
 
     @property
     def folder(self) -> Attributes:

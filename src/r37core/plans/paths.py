@@ -1,6 +1,7 @@
 """Where the files lie that more than one rule speaks of, as Snakemake's patterns.
 
-`<results>` and `<logs>` are folders of the run; what stands in braces are wildcards. Two underscores separate names.
+`<results>` and `<logs>` are folders of the run; what stands in braces are wildcards. Two underscores separate names. `{member}`
+is empty for the nominal sweep, and `folder/name/` for what a member of a sample has in its place (samples.py).
 """
 
 from __future__ import annotations
@@ -8,36 +9,29 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Any
 
-GEOMETRY = "<results>/{blade}/geometry.nc"
-MESH = "<results>/{blade}/mesh.vtu"
-REDUCED_MODEL = "<results>/{blade}/rom_{tip_line}.nc"
-CONTACT_MODEL = "<results>/{blade}/contact_{tip_line}.npz"
-STRESS_OPERATOR = "<results>/{blade}/stress_{tip_line}.npz"
-CAMPBELL = "<results>/{blade}/campbell.nc"
-INTEGRATION_STAMP = "<results>/{blade}/{scene}/time_integration.stamp"
-RUN_UP = "<results>/{blade}/{scene}/run_up_{run_up}.npz"
-ROUND = "<results>/{blade}/{scene}/round_{round}.json"
-SPEED = "<results>/{blade}/{scene}/speed_{speed}.npz"
-RESPONSE = "<results>/{blade}/{scene}/response.nc"
-EXPORTED_MESH = "<results>/exports/{blade}/mesh.{format}"
-EXPORTED_SURFACE = "<results>/exports/{blade}/surface.step"
-EXPORTED_MODES = "<results>/exports/{blade}/modes"
-EXPORTED_STRESS = "<results>/exports/{blade}/stress_{scene}"
-EXPORTED_MATRICES = "<results>/exports/{blade}/matrices"
-WORST_SHAPES = "<results>/shapes/{blade}/stress_{scene}"
-WHOLE_BLADE_MODEL = "<results>/exports/{blade}/rom_{tip_line}.nc"
-MEMBER_MODELS = "<results>/tolerances/models/{blade}/{member}"
-MEMBER_STAMP = "<results>/tolerances/{blade}/{scene}/{member}/time_integration.stamp"
-MEMBER_ROUND = "<results>/tolerances/{blade}/{scene}/round_{round}.json"
-MEMBER_SPEED = "<results>/tolerances/{blade}/{scene}/{member}/speed_{speed}.npz"
-MEMBER_RESPONSE = "<results>/tolerances/{blade}/{scene}/{member}/response.nc"
+GEOMETRY = "<results>/{member}{blade}/geometry.nc"
+MESH = "<results>/{member}{blade}/mesh.vtu"
+REDUCED_MODEL = "<results>/{member}{blade}/rom_{tip_line}.nc"
+CONTACT_MODEL = "<results>/{member}{blade}/contact_{tip_line}.npz"
+STRESS_OPERATOR = "<results>/{member}{blade}/stress_{tip_line}.npz"
+CAMPBELL = "<results>/{member}{blade}/campbell.nc"
+INTEGRATION_STAMP = "<results>/{member}{blade}/{scene}/time_integration.stamp"
+ROUND = "<results>/{member}{blade}/{scene}/round_{round}.json"
+SPEED = "<results>/{member}{blade}/{scene}/speed_{speed}.npz"
+RESPONSE = "<results>/{member}{blade}/{scene}/response.nc"
+WHOLE_BLADE_MODEL = "<results>/{blade}/whole_blade_{tip_line}.nc"
 STUDY_CASE = "<results>/studies/{study}/{case}.nc"
 STUDY_MODEL = "<results>/studies/models/{blade}/{model}/{file}"
 
 
 def fill(pattern: str, **wildcards: Any) -> str:
-    """The pattern with its wildcards replaced."""
-    return pattern.format(**wildcards)
+    """The pattern with its wildcards replaced; without a member it is the nominal file."""
+    return pattern.format(**{"member": "", **wildcards})
+
+
+def nominal(pattern: str) -> str:
+    """The pattern of the files of the nominal sweep alone."""
+    return pattern.replace("{member}", "")
 
 
 Wildcards = list[dict[str, str]]
@@ -57,3 +51,8 @@ def of_runs(runs: Iterable[tuple[str, str]]) -> Wildcards:
 def filled(patterns: dict[str, Wildcards]) -> list[str]:
     """The files that patterns and their wildcards stand for."""
     return [fill(pattern, **wildcards) for pattern, several in patterns.items() for wildcards in several]
+
+
+def pictures(name: str, wildcards: Wildcards) -> dict[str, Wildcards]:
+    """A figure in both of its formats."""
+    return {f"<results>/figures/{name}.{suffix}": wildcards for suffix in ("png", "pdf")}

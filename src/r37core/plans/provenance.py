@@ -2,12 +2,18 @@
 
 from __future__ import annotations
 
+import hashlib
 import json
 from collections import UserDict
+from collections.abc import Mapping
+from dataclasses import replace
 from functools import cache
+from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any
 
 from r37core.plain import to_plain
+
+from .samples import Pair, Sample, Samples, member_of, place_of
 
 if TYPE_CHECKING:
     from r37core.config import Settings
@@ -27,44 +33,73 @@ class Attributes(UserDict[str, Any]):
 class Provenance:
     """Attributes of the files of a run, made once for each blade and scene and not for each of thousands of jobs.
 
-    Its methods are parameters of rules: they take Snakemake's wildcards.
+    Its methods are parameters of rules: they take Snakemake's wildcards. `beside`: samples beside the sweep (see Samples), of
+    which a file says in addition which member it is of.
     """
 
-    def __init__(self, settings: Settings):
-        self._settings = settings
+    def __init__(self, settings: Settings, beside: Mapping[str, Mapping[Pair, Sample]] | None = None):
+        self._settings, self._samples = settings, Samples(settings, beside or {})
         self._structure = cache(self._structure_of)
         self._sweep = cache(self._sweep_of)
 
     def shape(self, wildcards: Any) -> Attributes:
         """Of a blade's geometry."""
-        return Attributes(blade=wildcards.blade, input_hash=self._settings.shape_hash(wildcards.blade))
+        return Attributes(
+            blade=wildcards.blade, input_hash=shape_hash(self._settings, wildcards.blade), **_member(member_of(wildcards))
+        )
 
     def structure(self, wildcards: Any) -> Attributes:
         """Of a blade's mesh, reduced model and Campbell diagram."""
-        return self._structure(wildcards.blade)
+        return self._structure(member_of(wildcards), wildcards.blade)
 
     def sweep(self, wildcards: Any) -> Attributes:
         """Of the simulations of one blade and scene."""
-        return self._sweep(wildcards.blade, wildcards.scene)
+        return self._sweep(member_of(wildcards), wildcards.blade, wildcards.scene)
 
-    def _structure_of(self, blade: str) -> Attributes:
+    def _structure_of(self, member: str, blade: str) -> Attributes:
         settings = self._settings
         return Attributes(
             blade=blade,
             fidelity=settings.fidelity_name,
             contact=settings.contact_of(blade),
-            input_hash=settings.structure_hash(blade),
+            input_hash=structure_hash(settings, blade),
+            **_member(member),
         )
 
-    def _sweep_of(self, blade: str, scene: str) -> Attributes:
+    def _sweep_of(self, member: str, blade: str, scene: str) -> Attributes:
         chosen, steps = self._settings.scenes[scene], self._settings.fidelity.time_integration
         step = steps.largest_step(chosen.scene.lining is not None)
+        of_member = self._samples.member(SimpleNamespace(member=member, blade=blade, scene=scene))
         return Attributes(
-            self._structure(blade),
+            self._structure(member, blade),
             scene=scene,
-            scene_parameters=json.dumps(to_plain(chosen.scene)),
+            scene_parameters=json.dumps(to_plain(of_member.scene)),
             revolutions=chosen.revolutions,
             largest_time_step=step,
             # of all scenes: datasets of one level may be joined
             numerics=f"{self._settings.fidelity.mesh.nodes} nodes, {steps.integrator} of {steps.in_words}",
         )
+
+
+def _member(member: str) -> dict[str, str]:
+    """Name of a member; nothing of a nominal one."""
+    _, name = place_of(SimpleNamespace(member=member))
+    return {"member": name} if name else {}
+
+
+def shape_hash(settings: Settings, blade: str) -> str:
+    """Short hash of all that a blade's geometry depends on."""
+    return _short_hash(settings.blades[blade].definition, settings.structure.edges)
+
+
+def structure_hash(settings: Settings, blade: str) -> str:
+    """Short hash of all that a blade's structural results depend on."""
+    material = settings.blades[blade].material
+    elastic = material and replace(material, yield_stress=0.0)
+    mesh, choice = settings.fidelity.mesh.model_dump(exclude_none=True), settings.reduction_choice(blade)
+    return _short_hash(shape_hash(settings, blade), elastic, mesh, choice)
+
+
+def _short_hash(*parts: object) -> str:
+    """Hash of plain numbers, texts and frozen dataclasses."""
+    return hashlib.sha256(json.dumps(to_plain(parts)).encode()).hexdigest()[:16]

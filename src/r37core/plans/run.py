@@ -3,15 +3,11 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Collection
+from collections.abc import Collection
 from pathlib import Path
-from typing import Any
 
 import r37core
 from r37core.config import ConfigError, Settings
-
-from .run_up_plan import RunUps
-from .sweep_plan import Sweep
 
 CONFIGURATION = "configuration.json"
 """In the folder of the results."""
@@ -29,21 +25,6 @@ def check_part(settings: Settings, targets: Collection[str]) -> None:
             f"allowed: the target {RESPONSES}, as in: "
             f"snakemake {RESPONSES} --config run='{{part: {part}}}'; then all_blades without a part"
         )
-
-
-def check_asked(settings: Settings, targets: Collection[str]) -> None:
-    """ConfigError for a target that makes what one section asks for, and nothing else, where that asks for nothing."""
-    asked: dict[str, Callable[[], Collection[Any]]] = {
-        "run_ups": lambda: RunUps(Sweep(settings)).files,
-        "tolerances": lambda: settings.members.pairs,
-    }
-    for name, of_run in asked.items():
-        if name in targets and not of_run():
-            raise ConfigError(
-                f"{name}: found the target {name} and none of the blades and scenes that are run; "
-                f"allowed: some under {name} in config.yaml, or a file that has some, as in: "
-                f"snakemake {name} --cores 2 --configfile config/config.yaml config/{name}.yaml"
-            )
 
 
 def replaced_level(settings: Settings) -> list[str]:

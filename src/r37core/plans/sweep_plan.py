@@ -3,21 +3,25 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
-from functools import cache, partial
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from functools import cache, cached_property, partial
 from itertools import chain, count, takewhile
 from pathlib import Path
 from typing import Any
 
-from r37core.config import Settings, si_fields
+from r37core.adaptive.refinement_choice import RefinementChoice, Window
+from r37core.config import Settings, in_si
+from r37core.config.casing_remarks import elastic_casings
 from r37core.contact.benchmark import is_lined_benchmark
 from r37core.io import as_list, read_json, readable
 from r37core.plain import to_plain
 from r37core.speeds import SpeedPlan, exact_text
+from r37core.time_integration.integration_choice import IntegrationChoice
 from r37core.time_integration.speed_run import OF_RUNS
 
 from . import paths
+from .samples import Pair, Sample, Samples, member_of, path_part, place_of
 
 KINDS = ("rms", "spectrum", "stress", "wear", "casing")
 """Kinds of datasets over all blades and scenes; the first of every scene, the others of those that want them."""
@@ -28,18 +32,25 @@ MAPS = ("spectrum", "wear", "casing")
 
 @dataclass(frozen=True)
 class Sweep:
-    """Plan of the sweep that `settings` ask for. Methods with `wildcards` are inputs and parameters of rules.
+    """Plan of the sweep that `settings` ask for, and of samples `beside` it (see Samples).
 
-    `round_file(blade=..., scene=..., round=...)`: file of a finished round of refinement; Snakemake's own exception for one
-    that is still to be made. Without it adaptive speeds have no plan.
+    Methods with `wildcards` are inputs and parameters of rules. `round_file(member=..., blade=..., scene=..., round=...)`: file
+    of a finished round of refinement; Snakemake's own exception for one that is still to be made. Without it adaptive speeds
+    have no plan.
     """
 
     settings: Settings
     round_file: Callable[..., str] | None = None
+    beside: Mapping[str, Mapping[Pair, Sample]] = field(default_factory=dict)
+
+    @cached_property
+    def samples(self) -> Samples:
+        """All members that are run."""
+        return Samples(self.settings, self.beside)
 
     def contact_model(self, wildcards: Any) -> str:
         """What the simulations of a blade and scene start from."""
-        return paths.fill(paths.CONTACT_MODEL, blade=wildcards.blade, tip_line=self._scene(wildcards).tip_line)
+        return self._of_model(wildcards, paths.CONTACT_MODEL)
 
     def models(self, wildcards: Any) -> list[str]:
         """What the simulations of a blade and scene start from, and the operator of the stress, where that is wanted."""
@@ -47,39 +58,46 @@ class Sweep:
 
     def stress_operator(self, wildcards: Any) -> list[str]:
         """The stress of a blade per motion, for a scene whose stress is wanted."""
+        return [self._of_model(wildcards, paths.STRESS_OPERATOR)] if self.with_stress(wildcards) else []
+
+    def _of_model(self, wildcards: Any, pattern: str) -> str:
         tip_line = self._scene(wildcards).tip_line
-        wanted = self.with_stress(wildcards)
-        return [paths.fill(paths.STRESS_OPERATOR, blade=wildcards.blade, tip_line=tip_line)] if wanted else []
+        return paths.fill(pattern, member=self.samples.model(wildcards), blade=wildcards.blade, tip_line=tip_line)
+
+    def nominal_stamp(self, wildcards: Any) -> list[str]:
+        """What a member waits for: the nominal runs can be done, which else would be said once for every member."""
+        where = {"blade": wildcards.blade, "scene": wildcards.scene}
+        return [paths.fill(paths.INTEGRATION_STAMP, **where)] if wildcards.member else []
 
     def speed_files(self, wildcards: Any) -> list[str]:
         """The simulations of one blade and scene, by ascending speed: of all rounds, where its speeds are adaptive."""
-        return self._files_of(wildcards, speeds_of_rounds(self.speed_plan(wildcards), partial(self._asked, wildcards)))
+        speeds = speeds_of_rounds(self.speed_plan(wildcards), partial(self._asked, wildcards))
+        return _speed_files(member_of(wildcards), wildcards, speeds)
 
     def round_inputs(self, wildcards: Any) -> dict[str, Any]:
-        """What a round of refinement looks at: the Campbell diagram, or what the round before it asked for."""
-        number = int(wildcards.round)
+        """What a round looks at: the Campbell diagram, or the runs that the round before it asked for, member by member."""
+        number, (folder, _) = int(wildcards.round), place_of(wildcards)
         if number == 0:
             return {"campbell": paths.fill(paths.CAMPBELL, blade=wildcards.blade)}
-        before = {"blade": wildcards.blade, "scene": wildcards.scene, "round": number - 1}
-        new = self._asked(wildcards, number - 1)
-        return {"before": paths.fill(paths.ROUND, **before), "speeds": self._files_of(wildcards, new)}
+        of = {"member": path_part(folder), "blade": wildcards.blade, "scene": wildcards.scene}
+        new, names = self._asked(wildcards, number - 1), self.samples.sample(wildcards).deciding
+        files = [file for name in names for file in _speed_files(path_part(folder, name), wildcards, new)]
+        return {"before": paths.fill(paths.ROUND, **of, round=number - 1), "speeds": files}
 
     def _asked(self, wildcards: Any, number: int) -> list[float]:
-        """Speeds (rad/s) that a round asked for."""
+        """Speeds (rad/s) that a round asked for: the same of all members of a sample."""
         assert self.round_file is not None
-        return asked_by(self.round_file(blade=wildcards.blade, scene=wildcards.scene, round=number))
+        member = path_part(place_of(wildcards)[0])
+        return asked_by(self.round_file(member=member, blade=wildcards.blade, scene=wildcards.scene, round=number))
 
     def yield_stress(self, wildcards: Any) -> float:
         """Of a blade (Pa)."""
-        return self.settings.blades[wildcards.blade].yield_stress
+        return self.samples.member(wildcards).blade.yield_stress
 
     def yields_of_round(self, wildcards: Any) -> list[float]:
-        """Yield stress (Pa) of those whose runs a round looks at: one blade."""
-        return [self.yield_stress(wildcards)]
-
-    def _files_of(self, wildcards: Any, speeds: Sequence[float]) -> list[str]:
-        blade, scene = wildcards.blade, wildcards.scene
-        return [paths.fill(paths.SPEED, blade=blade, scene=scene, speed=exact_text(speed)) for speed in speeds]
+        """Yield stress (Pa) of the blade of each member whose runs a round looks at."""
+        sample = self.samples.sample(wildcards)
+        return [sample.members[name].blade.yield_stress for name in sample.deciding]
 
     def speed_plan(self, wildcards: Any) -> SpeedPlan:
         """Speeds of one blade and scene."""
@@ -96,34 +114,39 @@ class Sweep:
 
     def refinement_choice(self, wildcards: Any) -> dict[str, Any]:
         """What makes an interval of speeds of a scene worth halving, as fields of RefinementChoice."""
-        given = self.settings.refinement(wildcards.scene)
-        windows = [si_fields(window) for window in given.windows]
-        rest = si_fields((key, value) for key, value in given if key not in {"windows", "direct"})
-        return {**rest, "windows": windows, "prominence": self.settings.interactions.prominence}
+        given = self.settings.config.refinement.in_scene(self.settings.scenes[wildcards.scene].scene)
+        windows = tuple(in_si(Window, window) for window in given.windows)
+        share, prominence = self.samples.sample(wildcards).largest_share, self.settings.config.interactions.prominence
+        return to_plain(in_si(RefinementChoice, given, windows=windows, largest_share=share, prominence=prominence))
 
     def task(self, wildcards: Any) -> str:
         """What one simulation does, as JSON text."""
-        chosen = self._scene(wildcards)
         task = {
-            "scene": to_plain(chosen.scene),
-            "choice": to_plain(self.settings.integration_choice(wildcards.blade, wildcards.scene, float(wildcards.speed))),
+            "scene": self.plain_scene(wildcards),
+            "choice": to_plain(self._choice(wildcards, float(wildcards.speed))),
             "results": [result for result in self.results(wildcards) if result in OF_RUNS],
             "kept": self.kept,
         }
         return json.dumps(task)
 
+    def _choice(self, wildcards: Any, speed: float) -> IntegrationChoice:
+        """Numbers of the time integration at a speed (rad/s)."""
+        choice = self.settings.integration_choice(wildcards.blade, wildcards.scene, speed)
+        if speed in self.samples.sample(wildcards).history_speeds:
+            return choice
+        return replace(choice, snapshot_revolutions=min(choice.snapshot_revolutions, choice.revolutions_in_statistic))
+
     def choice_of_scene(self, wildcards: Any) -> dict[str, Any]:
         """Numbers of the time integration at the highest speed of the basis."""
-        highest = self.settings.structure.maximum_speed_rad_s
-        return to_plain(self.settings.integration_choice(wildcards.blade, wildcards.scene, highest))
+        return to_plain(self._choice(wildcards, self.settings.structure.maximum_speed_rad_s))
 
     def plain_scene(self, wildcards: Any) -> dict[str, Any]:
         """The scene: what the blade meets."""
-        return to_plain(self._scene(wildcards).scene)
+        return to_plain(self.samples.member(wildcards).scene)
 
     def results(self, wildcards: Any) -> tuple[str, ...]:
         """What is wanted of a blade and scene."""
-        return self.settings.results_of(wildcards.blade, wildcards.scene)
+        return self.samples.sample(wildcards).results
 
     def with_stress(self, wildcards: Any) -> bool:
         """Whether the stress of a blade and scene is wanted."""
@@ -131,17 +154,12 @@ class Sweep:
 
     def stress_history_speeds(self, wildcards: Any) -> tuple[float, ...]:
         """Speeds (rad/s) of a blade and scene whose stress is kept for every revolution."""
-        return self._scene(wildcards).stress_history_speeds if self.with_stress(wildcards) else ()
+        return self.samples.sample(wildcards).history_speeds
 
     def priority(self, wildcards: Any) -> float:
         """Of a blade's simulations, above 0 and up to 1: results should be complete one blade after another."""
         blades = list(self.settings.blades)
         return 1 - blades.index(wildcards.blade) / len(blades)
-
-    @property
-    def most_runs(self) -> int:
-        """Simulations of the whole sweep, at most where speeds are adaptive."""
-        return sum(self.settings.most_runs(*place) for place in self.settings.speed_plans)
 
     @property
     def kept(self) -> dict[str, int]:
@@ -178,22 +196,13 @@ class Sweep:
 
     @property
     def casings(self) -> dict[str, Any]:
-        """The casing of each scene whose casing gives way, as plain values."""
-        return {name: to_plain(one) for name, one in self.settings.elastic_casings.items()}
+        """The casing of each scene with a flexible one, as plain values."""
+        return {name: to_plain(casing) for name, casing in elastic_casings(self.settings).items()}
 
     @property
     def benchmark_scenes(self) -> list[str]:
         """Names of the scenes that are the benchmark's lined one: of these alone there are published peaks."""
         return [name for name, chosen in self.settings.scenes.items() if is_lined_benchmark(chosen.scene)]
-
-    def scenes_with(self, kind: str, blade: str) -> list[str]:
-        """Scenes of a blade that have this kind of result."""
-        return [scene for of, scene in self.runs_with(kind) if of == blade]
-
-    def worst_shapes(self, wildcards: Any) -> list[str]:
-        """The shapes of interactions of a blade, in each of its scenes that asks for them."""
-        scenes = self.scenes_with("shapes", wildcards.blade)
-        return [paths.fill(paths.WORST_SHAPES, blade=wildcards.blade, scene=scene) for scene in scenes]
 
     def response_pictured(self, wildcards: Any) -> dict[str, str]:
         """Datasets that a blade's response is drawn from."""
@@ -210,6 +219,11 @@ class Sweep:
 def speeds_of_rounds(plan: SpeedPlan, asked: Callable[[int], Sequence[float]]) -> list[float]:
     """Speeds (rad/s), ascending: all that the rounds `asked` for until one asks for none, where they are adaptive."""
     return sorted(chain.from_iterable(takewhile(bool, map(asked, count()))) if plan.refined else plan.certain)
+
+
+def _speed_files(member: str, wildcards: Any, speeds: Sequence[float]) -> list[str]:
+    of = {"member": member, "blade": wildcards.blade, "scene": wildcards.scene}
+    return [paths.fill(paths.SPEED, **of, speed=exact_text(speed)) for speed in speeds]
 
 
 def asked_by(file: str) -> list[float]:

@@ -64,11 +64,11 @@ def coincidences(frequency: xr.DataArray, mode: RingMode, wave: str) -> Iterator
     """
     speeds = frequency["speed"].values
     of_wave = seen_from_rotor(mode, wave, speeds)
-    found = {
+    crossing_speeds = {
         float(speed)
         for sign in (1.0, -1.0)
         for speed in CubicSpline(speeds, frequency.values - sign * of_wave).roots(extrapolate=False)
         if speed > 0.0
     }
-    for speed in sorted(found):
+    for speed in sorted(crossing_speeds):
         yield speed, abs(float(seen_from_rotor(mode, wave, np.array(speed))))

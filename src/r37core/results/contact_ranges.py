@@ -30,13 +30,13 @@ def with_ranges_above_yield(response: xr.Dataset, peaks: Sequence[Interaction]) 
     """
     exceedance = exceedance_of(response) if "share_of_revolutions_above_yield" in response else None
     ranges = _ranges(response, exceedance)
-    rows = [_row(response, exceedance, one) for one in ranges]
-    alone = [one for one in peaks if not any(of.begin <= one.peak_speed_rad_s <= of.end for of in ranges)]
-    for one in alone:
-        at = one.peak_speed_rad_s
-        row = _row(response, exceedance, SpeedRange(at, at, cut=False), peak_alone=True)
-        rows.append(replace(row, direction=one.direction))
-    return sorted(rows, key=lambda one: one.peak_speed_rad_s)
+    rows = [_row(response, exceedance, within) for within in ranges]
+    alone = [peak for peak in peaks if not any(of.begin <= peak.peak_speed_rad_s <= of.end for of in ranges)]
+    for peak in alone:
+        at = peak.peak_speed_rad_s
+        row = _row(response, exceedance, SpeedRange(at, at, truncated=False), peak_alone=True)
+        rows.append(replace(row, direction=peak.direction))
+    return sorted(rows, key=lambda row: row.peak_speed_rad_s)
 
 
 def ranges_without_peak(response: xr.Dataset, rows: Sequence[Interaction]) -> list[Interaction]:
@@ -45,11 +45,11 @@ def ranges_without_peak(response: xr.Dataset, rows: Sequence[Interaction]) -> li
         return []
     exceedance = exceedance_of(response)
     alone = [
-        one
-        for one in _ranges(response, exceedance)
-        if not any(row.possible_from_rad_s <= one.end and row.possible_to_rad_s >= one.begin for row in rows)
+        within
+        for within in _ranges(response, exceedance)
+        if not any(row.possible_from_rad_s <= within.end and row.possible_to_rad_s >= within.begin for row in rows)
     ]
-    return [_row(response, exceedance, one, note=NO_PEAK) for one in alone]
+    return [_row(response, exceedance, within, note=NO_PEAK) for within in alone]
 
 
 def _ranges(response: xr.Dataset, exceedance: Exceedance | None) -> list[SpeedRange]:
@@ -67,8 +67,8 @@ def _row(
     speeds, level = response["speed"].values, motion(response)
     inside = np.flatnonzero((speeds >= within.begin) & (speeds <= within.end))
     at = int(np.argmax(level[inside]))
-    place = int(inside[at])
-    peak, reach = response.isel(speed=place), response.isel(speed=inside)
+    peak_index = int(inside[at])
+    peak, reach = response.isel(speed=peak_index), response.isel(speed=inside)
     largest = [name for name in ("normal", "tangential") if np.argmax(response[f"rms_{name}"].fillna(0.0).values[inside]) == at]
     ended = bool(np.isfinite(peak["rms_normal"]))
     order = round(strongest_order(peak["amplitude"])) if ended and "amplitude" in peak else None
@@ -78,12 +78,12 @@ def _row(
         direction=largest[0] if len(largest) == 1 else "both",
         campbell_speed_rad_s=np.nan,
         shift_rad_s=np.nan,
-        drop=drop_after(response, place),
+        drop=drop_after(response, peak_index),
         note=note,
         **peak_columns(peak),
         **_range_columns(exceedance, within, peak_alone),
         **largest_columns(reach),
-        **(_motion_columns(speeds, level, place) if ended else {}),
+        **(_motion_columns(speeds, level, peak_index) if ended else {}),
     )
 
 
@@ -95,36 +95,36 @@ def _range_columns(exceedance: Exceedance | None, within: SpeedRange, peak_alone
     return columns if peak_alone else columns | {"possible_from_rad_s": within.begin, "possible_to_rad_s": within.end}
 
 
-def _motion_columns(speeds: np.ndarray, level: np.ndarray, place: int) -> dict[str, Any]:
+def _motion_columns(speeds: np.ndarray, level: np.ndarray, peak_index: int) -> dict[str, Any]:
     """Scatter of the motion at a peak, and where it falls below half of that above the peak."""
-    fall, scatter = _fall(speeds, level, place)
+    fall, scatter = _fall(speeds, level, peak_index)
     return {
-        "peak_motion_scatter_m": _scatter(speeds, level, place),
+        "peak_motion_scatter_m": _scatter(speeds, level, peak_index),
         "fall_speed_rad_s": fall,
         "fall_speed_scatter_rad_s": scatter,
     }
 
 
-def _scatter(speeds: np.ndarray, level: np.ndarray, place: int) -> float:
+def _scatter(speeds: np.ndarray, level: np.ndarray, index: int) -> float:
     """Standard deviation of the motion about the line between its neighbours, at the speeds nearest to a place; NaN for few."""
     if len(speeds) < 3:
         return np.nan
     share = (speeds[1:-1] - speeds[:-2]) / (speeds[2:] - speeds[:-2])
     off = np.abs(level[1:-1] - (1.0 - share) * level[:-2] - share * level[2:])
-    distance = np.abs(speeds[1:-1] - speeds[place])
+    distance = np.abs(speeds[1:-1] - speeds[index])
     near = distance <= max(HALF_WIDTH, np.sort(distance)[min(_FEWEST, len(distance)) - 1])
     return float(_OF_NORMAL * np.median(off[near]))
 
 
-def _fall(speeds: np.ndarray, level: np.ndarray, place: int) -> tuple[float, float]:
+def _fall(speeds: np.ndarray, level: np.ndarray, peak_index: int) -> tuple[float, float]:
     """Speed (rad/s) above a peak from which on the motion is below half of the peak's, and half of where it is so by turns."""
-    loud = level[place:] >= _HALF * level[place]
+    loud = level[peak_index:] >= _HALF * level[peak_index]
     quiet = np.flatnonzero(~loud)
     if not len(quiet):
         return np.nan, np.nan
     first, last = int(quiet[0]), int(quiet[0])
-    again = np.flatnonzero(loud & (speeds[place:] <= speeds[place + first] + DROP_WITHIN))
+    again = np.flatnonzero(loud & (speeds[peak_index:] <= speeds[peak_index + first] + DROP_WITHIN))
     last = max(last, int(again[-1]) + 1) if again[-1] > first else last
-    low = float(speeds[place + first - 1])
-    high = float(speeds[min(place + last, len(speeds) - 1)])
+    low = float(speeds[peak_index + first - 1])
+    high = float(speeds[min(peak_index + last, len(speeds) - 1)])
     return 0.5 * (low + high), 0.5 * (high - low)

@@ -73,12 +73,12 @@ def response_of(datasets: Mapping[str, xr.Dataset], blade: str, scene: str) -> x
 
 
 def _check_numerics(responses: Mapping[tuple[str, str], Path | str]) -> None:
-    found: dict[str, Path | str] = {}
+    first_with: dict[str, Path | str] = {}
     for source in responses.values():
         with readable(source), netCDF4.Dataset(source) as response:
-            found.setdefault(getattr(response, "numerics", "unknown numerics"), source)
-    if len(found) > 1:
-        (first, file), (other, another), *_ = found.items()
+            first_with.setdefault(getattr(response, "numerics", "unknown numerics"), source)
+    if len(first_with) > 1:
+        (first, file), (other, another), *_ = first_with.items()
         raise InputFileError(
             f"{file} was made with {first}, {another} with {other}; a dataset holds one fidelity level: "
             "delete the one that is out of date and run again"
@@ -97,7 +97,7 @@ def _axes(responses: Mapping[tuple[str, str], Path | str]) -> dict[str, np.ndarr
 
 
 def _copy(
-    response: netCDF4.Dataset, target: netCDF4.Dataset, kind: str, place: tuple[int, int], axes: Mapping[str, np.ndarray]
+    response: netCDF4.Dataset, target: netCDF4.Dataset, kind: str, pair: tuple[int, int], axes: Mapping[str, np.ndarray]
 ) -> None:
     for name in (*DATASETS[kind], *FLAGS):
         if name not in response.variables:
@@ -107,7 +107,7 @@ def _copy(
             if dim in axes and dim not in target.variables:
                 create_axis(target, dim, axes[dim], _attributes(response[dim]))
         if source.dtype is str:
-            _copy_text(source, target, place)
+            _copy_text(source, target, pair)
             continue
         if name not in target.variables:
             dims = ("blade", "scene", *source.dimensions)
@@ -120,13 +120,13 @@ def _copy(
         ]
         slab = np.full(target[name].shape[2:], RunStatus.NOT_RUN if name == "status" else np.nan, dtype=source.dtype)
         slab[np.ix_(*rows)] = np.ma.filled(source[:], np.nan) if source.dtype.kind == "f" else source[:]
-        target[name][place] = slab
+        target[name][pair] = slab
 
 
-def _copy_text(source: netCDF4.Variable, target: netCDF4.Dataset, place: tuple[int, int]) -> None:
+def _copy_text(source: netCDF4.Variable, target: netCDF4.Dataset, pair: tuple[int, int]) -> None:
     if source.name not in target.variables:
         create_text(target, source.name, ("blade", "scene"), source.long_name)
-    target[source.name][place] = source[...]
+    target[source.name][pair] = source[...]
 
 
 def _attributes(variable: netCDF4.Variable) -> dict[str, object]:

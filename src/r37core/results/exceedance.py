@@ -68,7 +68,7 @@ class Exceedance:
 
     def length(self, share: float) -> float:
         """Of all these ranges together (rad/s)."""
-        return float(sum(one.length for one in self.ranges(share)))
+        return float(sum(part.length for part in self.ranges(share)))
 
     @cached_property
     def _drawn(self) -> np.ndarray:
@@ -76,19 +76,19 @@ class Exceedance:
 
         Each speed's share is one of its neighbours', drawn by the weights.
         """
-        random, places = np.random.default_rng(_SEED), np.arange(len(self.speeds))
-        chosen = np.array([random.choice(places, _DRAWS, p=row) for row in self.weights])
+        random, indices = np.random.default_rng(_SEED), np.arange(len(self.speeds))
+        chosen = np.array([random.choice(indices, _DRAWS, p=row) for row in self.weights])
         return (self.weights @ self.shares[chosen]).T
 
     @cached_property
     def _ranges_drawn(self) -> dict[float, list[list[SpeedRange]]]:
-        return {share: [ranges_above(self.speeds, one, share) for one in self._drawn] for share in (CERTAIN, POSSIBLE)}
+        return {share: [ranges_above(self.speeds, drawn, share) for drawn in self._drawn] for share in (CERTAIN, POSSIBLE)}
 
     def scatter_of_length(self, share: float) -> float:
         """Standard deviation of `length` (rad/s) by chance; NaN where there is none."""
         if not self.chance:
             return np.nan
-        return float(np.std([sum(one.length for one in ranges) for ranges in self._ranges_drawn[share]]))
+        return float(np.std([sum(part.length for part in ranges) for ranges in self._ranges_drawn[share]]))
 
     def scatter_of_border(self, share: float, of: SpeedRange, *, begins: bool) -> float:
         """How far (rad/s) chance moves the begin, or the end, of a range, in two of three cases.
@@ -101,9 +101,9 @@ class Exceedance:
             return np.nan
         off = []
         for ranges in self._ranges_drawn[share]:
-            same = [one for one in ranges if one.begin <= of.end and one.end >= of.begin]
-            found = (same[0].begin if begins else same[-1].end) if same else np.inf
-            off.append(abs(found - border))
+            same = [part for part in ranges if part.begin <= of.end and part.end >= of.begin]
+            drawn_border = (same[0].begin if begins else same[-1].end) if same else np.inf
+            off.append(abs(drawn_border - border))
         scatter = float(np.quantile(off, 2.0 / 3.0))
         return scatter if np.isfinite(scatter) else np.nan
 

@@ -102,8 +102,8 @@ INTERACTIONS = {
     "peak_motion_m": Word("rms", "rms of the leading edge at the peak speed, normal and tangential together", "mm", 1e3),
     "fall_speed_rad_s": Word("falls at", "speed above the peak at which the motion falls below half of it", _SPEED),
     "note": Word("note", "why columns of the row are empty"),
-    "share_of_members": Word("members", "with `tolerances` alone: how many of the members show the interaction", "%", 100.0),
-    "robust": Word("robust", "with `tolerances` alone: whether at least half of the members show the interaction"),
+    "share_of_members": Word("members", "where members are run: how many of them show the interaction", "%", 100.0),
+    "robust": Word("robust", "where members are run: whether at least half of them show the interaction"),
 }
 """Columns of summary.csv."""
 
@@ -165,7 +165,7 @@ def word(name: str, words: dict[str, Word]) -> Word | None:
 
 def table(words: Mapping[str, Word]) -> str:
     """Columns as a table of Markdown."""
-    lines = [f"| `{name}` | {one.meaning} |" for name, one in words.items()]
+    lines = [f"| `{name}` | {word.meaning} |" for name, word in words.items()]
     return "\n".join(["| column | what it is |", "|---|---|", *lines])
 
 

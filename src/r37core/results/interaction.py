@@ -78,17 +78,17 @@ COLUMNS = ("blade", "scene", *(field.name for field in fields(Interaction)))
 
 def range_columns(exceedance: Exceedance, within: SpeedRange) -> dict[str, Any]:
     """Where within a row's speeds a share of the revolutions is above yield, with the scatter of the borders."""
-    found: dict[str, Any] = {}
+    columns: dict[str, Any] = {}
     for name, share in (("possible", POSSIBLE), ("certain", CERTAIN)):
-        ranges = [one for one in exceedance.ranges(share) if one.end >= within.begin and one.begin <= within.end]
+        ranges = [part for part in exceedance.ranges(share) if part.end >= within.begin and part.begin <= within.end]
         if name == "certain":
-            found["certain_length_rad_s"] = sum(min(one.end, within.end) - max(one.begin, within.begin) for one in ranges)
+            columns["certain_length_rad_s"] = sum(min(part.end, within.end) - max(part.begin, within.begin) for part in ranges)
         if ranges:
             begin, end = max(ranges[0].begin, within.begin), min(ranges[-1].end, within.end)
-            found[f"{name}_from_rad_s"], found[f"{name}_to_rad_s"] = begin, end
-            found[f"{name}_from_scatter_rad_s"] = exceedance.scatter_of_border(share, ranges[0], begins=True)
-            found[f"{name}_to_scatter_rad_s"] = exceedance.scatter_of_border(share, ranges[-1], begins=False)
-    return found
+            columns[f"{name}_from_rad_s"], columns[f"{name}_to_rad_s"] = begin, end
+            columns[f"{name}_from_scatter_rad_s"] = exceedance.scatter_of_border(share, ranges[0], begins=True)
+            columns[f"{name}_to_scatter_rad_s"] = exceedance.scatter_of_border(share, ranges[-1], begins=False)
+    return columns
 
 
 def peak_columns(peak: xr.Dataset) -> dict[str, Any]:
@@ -104,12 +104,12 @@ def peak_columns(peak: xr.Dataset) -> dict[str, Any]:
 
 def largest_columns(reach: xr.Dataset) -> dict[str, Any]:
     """The largest of everything within the `reach` of a row that has one, and how its runs ended."""
-    found: dict[str, Any] = {"status": RunStatus(int(reach["status"].max())).text, "stress_region": ""}
+    columns: dict[str, Any] = {"status": RunStatus(int(reach["status"].max())).text, "stress_region": ""}
     if "stress_region" in reach:
-        found["stress_region"] = str(reach["stress_region"].item())
+        columns["stress_region"] = str(reach["stress_region"].item())
     for column, name in _LARGEST.items():
-        found[column] = float(reach[name].max()) if name in reach else np.nan
-    return found
+        columns[column] = float(reach[name].max()) if name in reach else np.nan
+    return columns
 
 
 _LARGEST = {

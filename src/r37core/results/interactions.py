@@ -19,6 +19,7 @@ from .contact_ranges import ranges_without_peak, with_ranges_above_yield
 from .datasets import response_of
 from .exceedance import exceedance_of, is_lined
 from .interaction import COLUMNS, Interaction, largest_columns, peak_columns, range_columns
+from .interaction_choice import InteractionChoice
 from .measures import DROP_WITHIN, drop_after, largest_stress, leading_edge, motion, speeds_above_yield, strongest_order
 from .speed_ranges import SpeedRange
 
@@ -30,35 +31,15 @@ SPECTRA = {"normal": "amplitude", "tangential": "amplitude_tangential"}
 
 
 @dataclass(frozen=True)
-class InteractionChoice:
-    """What counts as an interaction.
-
-    A peak of the leading edge's normal or tangential rms must rise above its surroundings, on both sides, by `prominence` of
-    the largest one in that direction. It is matched with a crossing of the engine order that is strongest in that
-    direction's spectrum if it lies between `below` and `above` (shares of the Campbell speed) about it; without a spectrum,
-    with the nearest crossing of any order.
-    """
-
-    prominence: float
-    below: float
-    above: float
-
-    @property
-    def span(self) -> float:
-        """Largest ratio of two speeds that the crossing of one mode and order could explain."""
-        return (1.0 + self.above) / (1.0 - self.below)
-
-
-@dataclass(frozen=True)
 class _Peak:
-    """A peak of the rms in one direction, at a `place` among the speeds, and the crossing that explains it.
+    """A peak of the rms in one direction, at an `index` among the speeds, and the crossing that explains it.
 
-    `height`: share of the direction's largest; `top`: places about it that are less than the prominence lower;
+    `height`: share of the direction's largest; `top`: indices about it that are less than the prominence lower;
     `inner`: whether it falls by the prominence on both sides, as one at an end of the speeds does not.
     """
 
     direction: str
-    place: int
+    index: int
     height: float
     top: range
     inner: bool
@@ -81,7 +62,7 @@ def find_interactions(response: xr.Dataset, campbell: xr.Dataset, choice: Intera
     lined = is_lined(response)
     peaks = _interactions(response, campbell if lined else None, choice)
     if lined:
-        return sorted([*peaks, *ranges_without_peak(response, peaks)], key=lambda one: one.peak_speed_rad_s)
+        return sorted([*peaks, *ranges_without_peak(response, peaks)], key=lambda row: row.peak_speed_rad_s)
     return with_ranges_above_yield(response, peaks)
 
 
@@ -94,21 +75,21 @@ def _interactions(response: xr.Dataset, campbell: xr.Dataset | None, choice: Int
     if not groups:
         return []
     groups.sort(key=lambda group: _strongest(group, level))
-    places = [_strongest(group, level) for group in groups]
-    lowest = [first + int(np.argmin(level[first : last + 1])) for first, last in pairwise(places)]
-    found = []
-    for group, place, low, high in zip(groups, places, [0, *lowest], [*lowest, len(level) - 1], strict=True):
+    peak_indices = [_strongest(group, level) for group in groups]
+    lowest = [first + int(np.argmin(level[first : last + 1])) for first, last in pairwise(peak_indices)]
+    interactions = []
+    for group, peak_index, low, high in zip(groups, peak_indices, [0, *lowest], [*lowest, len(level) - 1], strict=True):
         if any(peak.inner for peak in group):
-            begin, end = _loud(speed[low : high + 1], level[low : high + 1], place - low)
+            begin, end = _loud(speed[low : high + 1], level[low : high + 1], peak_index - low)
             reach = response.isel(speed=slice(low + begin, low + end + 1))
-            drop = drop_after(response.isel(speed=slice(high + 1)), place)
-            found.append(_interaction(reach, response.isel(speed=place), group, place, drop))
-    return found
+            drop = drop_after(response.isel(speed=slice(high + 1)), peak_index)
+            interactions.append(_interaction(reach, response.isel(speed=peak_index), group, peak_index, drop))
+    return interactions
 
 
 def titles(interactions: Iterable[Interaction]) -> dict[float, str]:
     """Peak speed (rad/s) -> title."""
-    return {one.peak_speed_rad_s: one.title for one in interactions}
+    return {row.peak_speed_rad_s: row.title for row in interactions}
 
 
 def _peaks(response: xr.Dataset, campbell: xr.Dataset | None, direction: str, choice: InteractionChoice) -> list[_Peak]:
@@ -117,17 +98,17 @@ def _peaks(response: xr.Dataset, campbell: xr.Dataset | None, direction: str, ch
     if not largest > 0.0:
         return []
     # a floor at both ends gives peaks there too: no interactions themselves, they end the reach of their neighbours
-    places = find_peaks(np.concatenate([[0.0], curve, [0.0]]), prominence=choice.prominence * largest)[0] - 1
+    indices = find_peaks(np.concatenate([[0.0], curve, [0.0]]), prominence=choice.prominence * largest)[0] - 1
     inner = find_peaks(curve, prominence=choice.prominence * largest)[0]
-    found = []
-    for place in places.tolist():
-        low = np.flatnonzero(curve <= curve[place] - choice.prominence * largest)
-        top = range(int(low[low < place].max(initial=-1)) + 1, int(low[low > place].min(initial=len(curve))))
-        at = response.isel(speed=place)
+    peaks = []
+    for index in indices.tolist():
+        low = np.flatnonzero(curve <= curve[index] - choice.prominence * largest)
+        top = range(int(low[low < index].max(initial=-1)) + 1, int(low[low > index].min(initial=len(curve))))
+        at = response.isel(speed=index)
         order = round(strongest_order(at[SPECTRA[direction]])) if SPECTRA[direction] in at else None
         crossing = _nearest_crossing(campbell, float(at["speed"]), order, choice)
-        found.append(_Peak(direction, place, float(curve[place] / largest), top, place in inner, *crossing))
-    return found
+        peaks.append(_Peak(direction, index, float(curve[index] / largest), top, index in inner, *crossing))
+    return peaks
 
 
 def _nearest_crossing(
@@ -147,21 +128,21 @@ def _nearest_crossing(
 
 def _groups(peaks: list[_Peak], speed: np.ndarray, level: np.ndarray, choice: InteractionChoice) -> list[list[_Peak]]:
     """Peaks that are one interaction together; the first of each has its crossing or, without one, its engine order."""
-    ranked = sorted(peaks, key=lambda one: (not one.mode, -level[one.place], -one.height))
+    ranked = sorted(peaks, key=lambda peak: (not peak.mode, -level[peak.index], -peak.height))
 
     def one_peak(peak: _Peak, other: _Peak) -> bool:
         explained_otherwise = peak.mode and other.mode and peak.crossing != other.crossing
-        near = abs(peak.place - other.place) <= 1 or (peak.place in other.top and other.place in peak.top)
-        return peak.place == other.place or (peak.direction != other.direction and near and not explained_otherwise)
+        near = abs(peak.index - other.index) <= 1 or (peak.index in other.top and other.index in peak.top)
+        return peak.index == other.index or (peak.direction != other.direction and near and not explained_otherwise)
 
     def one_interaction(both: list[_Peak], group: list[_Peak]) -> bool:
         if both[0].mode:
             return both[0].crossing == group[0].crossing
-        places = [peak.place for peak in group]
-        low, high = sorted((speed[both[0].place], speed[group[0].place]))
+        indices = [peak.index for peak in group]
+        low, high = sorted((speed[both[0].index], speed[group[0].index]))
         orders = {peak.engine_order for peak in both} & {peak.engine_order for peak in group} - {None}
         one_crossing = not group[0].mode and bool(orders) and high <= choice.span * low
-        return one_crossing or min(places) < both[0].place < max(places)
+        return one_crossing or min(indices) < both[0].index < max(indices)
 
     of_both_directions = _joined([[peak] for peak in ranked], lambda new, group: any(one_peak(new[0], old) for old in group))
     return _joined(of_both_directions, one_interaction)
@@ -180,7 +161,7 @@ def _joined(parts: list[list[_Peak]], belongs: Callable[[list[_Peak], list[_Peak
 
 
 def _loud(speed: np.ndarray, level: np.ndarray, peak: int) -> tuple[int, int]:
-    """First and last place about the peak before the motion stays below QUIET of it for more than DROP_WITHIN."""
+    """First and last index about the peak before the motion stays below QUIET of it for more than DROP_WITHIN."""
     loud = np.flatnonzero(level >= QUIET * level[peak])
     ends = np.flatnonzero(np.diff(speed[loud]) > DROP_WITHIN)
     at = int(np.searchsorted(loud, peak))
@@ -189,14 +170,14 @@ def _loud(speed: np.ndarray, level: np.ndarray, peak: int) -> tuple[int, int]:
 
 
 def _strongest(group: list[_Peak], level: np.ndarray) -> int:
-    """Place of the peak with the largest motion, of those within the speeds if there is one."""
-    return max(group, key=lambda peak: (peak.inner, level[peak.place])).place
+    """Index of the peak with the largest motion, of those within the speeds if there is one."""
+    return max(group, key=lambda peak: (peak.inner, level[peak.index])).index
 
 
-def _interaction(reach: xr.Dataset, peak: xr.Dataset, group: list[_Peak], place: int, drop: float) -> Interaction:
-    """The row of a group, from the response within its reach and at its `peak`, the `place` of that, and its drop."""
+def _interaction(reach: xr.Dataset, peak: xr.Dataset, group: list[_Peak], index: int, drop: float) -> Interaction:
+    """The row of a group, from the response within its reach and at its `peak`, the `index` of that, and its drop."""
     first = group[0]
-    directions = {one.direction for one in group if one.place == place}
+    directions = {peak_of_group.direction for peak_of_group in group if peak_of_group.index == index}
     stress: dict[str, Any] = {}
     if "max_von_mises" in reach:
         above, (largest, at) = speeds_above_yield(reach), largest_stress(reach)
@@ -208,7 +189,7 @@ def _interaction(reach: xr.Dataset, peak: xr.Dataset, group: list[_Peak], place:
             "max_von_mises_speed_rad_s": at,
         }
     if "share_of_revolutions_above_yield" in reach:
-        ends = SpeedRange(float(reach["speed"][0]), float(reach["speed"][-1]), cut=False)
+        ends = SpeedRange(float(reach["speed"][0]), float(reach["speed"][-1]), truncated=False)
         stress |= range_columns(exceedance_of(reach), ends)
         stress["width_ever_above_yield_rad_s"] = speeds_above_yield(reach, "max_von_mises_ever").width
     return Interaction(
@@ -227,9 +208,9 @@ def _interaction(reach: xr.Dataset, peak: xr.Dataset, group: list[_Peak], place:
 def summarise(datasets: Mapping[str, xr.Dataset], choice: InteractionChoice) -> pd.DataFrame:
     """Table of all interactions, columns as in COLUMNS, from the datasets `campbell`, `rms` and, if there, others."""
     rows = [
-        {"blade": blade, "scene": scene} | asdict(one)
+        {"blade": blade, "scene": scene} | asdict(interaction)
         for blade in datasets["rms"]["blade"].values
         for scene in datasets["rms"]["scene"].values
-        for one in find_interactions(response_of(datasets, blade, scene), datasets["campbell"].sel(blade=blade), choice)
+        for interaction in find_interactions(response_of(datasets, blade, scene), datasets["campbell"].sel(blade=blade), choice)
     ]
     return pd.DataFrame(rows, columns=list(COLUMNS)).astype({"engine_order": "Int64"})

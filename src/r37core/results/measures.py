@@ -45,17 +45,17 @@ def peak_of(response: xr.Dataset) -> xr.Dataset:
 
 def peak_speed(response: xr.Dataset) -> float:
     """Speed (rad/s) of the peak; NaN where nothing answers, or what answers falls from the first speed on."""
-    place = int(np.argmax(motion(response)))
-    return float(response["speed"][place]) if place and motion(response)[place] >= _RESPONDS else np.nan
+    index = int(np.argmax(motion(response)))
+    return float(response["speed"][index]) if index and motion(response)[index] >= _RESPONDS else np.nan
 
 
-def drop_after(response: xr.Dataset, place: int | None = None) -> float:
-    """Share of the motion at a `place` among the speeds, by default the peak, that is lost within DROP_WITHIN above it.
+def drop_after(response: xr.Dataset, index: int | None = None) -> float:
+    """Share of the motion at an `index` among the speeds, by default the peak, that is lost within DROP_WITHIN above it.
 
     NaN without a speed there.
     """
     level, speed = motion(response), response["speed"].values
-    peak = int(np.argmax(level)) if place is None else place
+    peak = int(np.argmax(level)) if index is None else index
     after = level[(speed > speed[peak]) & (speed <= speed[peak] + DROP_WITHIN + 1e-6)]
     return float(1.0 - after.min() / level[peak]) if after.size and level[peak] > 0.0 else np.nan
 
@@ -64,8 +64,8 @@ def steepest_fall(response: xr.Dataset) -> tuple[float, float]:
     """Speed (rad/s) before which the motion loses its largest share to the next speed, and that share."""
     level = motion(response)
     shares = 1.0 - np.divide(level[1:], level[:-1], out=np.ones(len(level) - 1), where=level[:-1] > 0.0)
-    place = int(np.argmax(shares))
-    return float(response["speed"][place]), float(shares[place])
+    index = int(np.argmax(shares))
+    return float(response["speed"][index]), float(shares[index])
 
 
 def interactions_above(response: xr.Dataset, floor: float) -> int:
@@ -108,13 +108,13 @@ def first_contact(response: xr.Dataset) -> np.ndarray:
 class YieldRange:
     """Speeds (rad/s) above yield: the `first` and `last`, NaN for none, and the `length` of all between that are above.
 
-    The length is NaN without any speed. `cut`: whether the speeds begin or end above yield: the range may go on beyond them.
+    The length is NaN without any speed. `truncated`: whether the speeds begin or end above yield, and it may go on beyond.
     """
 
     first: float
     last: float
     length: float
-    cut: bool
+    truncated: bool
 
     @property
     def width(self) -> float:
@@ -135,8 +135,8 @@ def range_above_yield(speeds: np.ndarray, ratio: np.ndarray) -> YieldRange:
     ranges = ranges_above(speeds, ratio, 1.0)
     if not ranges:
         return YieldRange(np.nan, np.nan, 0.0 if len(speeds) else np.nan, False)
-    length = sum(one.length for one in ranges)
-    return YieldRange(ranges[0].begin, ranges[-1].end, length, ranges[0].cut or ranges[-1].cut)
+    length = sum(part.length for part in ranges)
+    return YieldRange(ranges[0].begin, ranges[-1].end, length, ranges[0].truncated or ranges[-1].truncated)
 
 
 def ratio_to_yield(response: xr.Dataset, stress: str = "max_von_mises") -> xr.DataArray:
@@ -153,8 +153,8 @@ def speeds_above_yield(response: xr.Dataset, stress: str = "max_von_mises") -> Y
 
 def width_above_yield(response: xr.Dataset) -> float:
     """Width (rad/s) from the first to the last speed above yield; NaN where the speeds begin or end above it."""
-    found = speeds_above_yield(response)
-    return np.nan if found.cut else found.width
+    above = speeds_above_yield(response)
+    return np.nan if above.truncated else above.width
 
 
 def largest_stress(response: xr.Dataset) -> tuple[float, float]:
@@ -162,8 +162,8 @@ def largest_stress(response: xr.Dataset) -> tuple[float, float]:
     series = response["max_von_mises"].dropna("speed")
     if not series.size:
         return np.nan, np.nan
-    place = int(np.argmax(series.values))
-    return float(series[place]), float(series["speed"][place])
+    index = int(np.argmax(series.values))
+    return float(series[index]), float(series["speed"][index])
 
 
 def motion_of_run(run: Mapping[str, np.ndarray]) -> float:

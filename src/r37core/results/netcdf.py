@@ -15,7 +15,7 @@ from r37core.units import RPM
 
 def status_flags() -> dict[str, Any]:
     """Attributes of a variable that holds a RunStatus, after the CF conventions."""
-    return {"flag_values": np.array(list(RunStatus), dtype="i1"), "flag_meanings": " ".join(one.text for one in RunStatus)}
+    return {"flag_values": np.array(list(RunStatus), dtype="i1"), "flag_meanings": " ".join(how.text for how in RunStatus)}
 
 
 def create_labels(dataset: netCDF4.Dataset, name: str, labels: Sequence[str]) -> None:

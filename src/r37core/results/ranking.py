@@ -51,46 +51,46 @@ def robustness(response: xr.Dataset, *, with_scatter: bool = True) -> dict[str, 
     `with_scatter`: whether chance is drawn, which takes longer than all else and which members have no use for.
     """
     response = response.isel(speed=np.flatnonzero(response["status"].values != RunStatus.NOT_RUN))
-    found = dict.fromkeys(ROBUSTNESS, np.nan)
+    measures = dict.fromkeys(ROBUSTNESS, np.nan)
     if not response.sizes["speed"]:
-        return found
+        return measures
     peak, speeds = peak_of(response), response["speed"].values
     ended = response["status"].values == RunStatus.COMPLETED
     if ended.any():
-        found["largest_rms_m"], found["largest_rms_speed_rad_s"] = float(motion(response).max()), float(peak["speed"])
-        found["drop"] = drop_after(response)
-    found["diverged_runs"] = float(np.count_nonzero(~ended))
-    found["largest_gap_rad_s"] = float(np.diff(speeds).max(initial=0.0))
+        measures["largest_rms_m"], measures["largest_rms_speed_rad_s"] = float(motion(response).max()), float(peak["speed"])
+        measures["drop"] = drop_after(response)
+    measures["diverged_runs"] = float(np.count_nonzero(~ended))
+    measures["largest_gap_rad_s"] = float(np.diff(speeds).max(initial=0.0))
     if "share_of_revolutions_above_yield" in response:
         exceedance = exceedance_of(response)
         for name, share in (("certain", CERTAIN), ("possible", POSSIBLE)):
             ranges = exceedance.ranges(share)
-            found[f"length_{name}_rad_s"] = exceedance.length(share)
+            measures[f"length_{name}_rad_s"] = exceedance.length(share)
             if with_scatter:
-                found[f"length_{name}_scatter_rad_s"] = exceedance.scatter_of_length(share)
-            found[f"first_{name}_rad_s"] = ranges[0].begin if ranges else np.nan
-        found["widest_range_rad_s"] = max((one.length for one in exceedance.ranges(CERTAIN)), default=0.0)
-        found["largest_median_stress_pa"] = float(response["max_von_mises_median"].max())
-    return found
+                measures[f"length_{name}_scatter_rad_s"] = exceedance.scatter_of_length(share)
+            measures[f"first_{name}_rad_s"] = ranges[0].begin if ranges else np.nan
+        measures["widest_range_rad_s"] = max((above.length for above in exceedance.ranges(CERTAIN)), default=0.0)
+        measures["largest_median_stress_pa"] = float(response["max_von_mises_median"].max())
+    return measures
 
 
 def ranking_table(
-    found: Mapping[tuple[str, str], Mapping[str, float]],
+    measures: Mapping[tuple[str, str], Mapping[str, float]],
     members: Mapping[tuple[str, str], Mapping[str, Mapping[str, float]]] | None = None,
 ) -> pd.DataFrame:
     """One row for each blade and scene, scene by scene with the best blade first; equal ones have the same rank.
 
-    `found`: blade and scene -> its `robustness`; `members`: the same of each member of a sample, by name, for the ranges under
-    tolerances (`_low`, `_high`: member_ends.ENDS) and the chance to be better than each other blade: the share of the
+    `measures`: blade and scene -> its `robustness`; `members`: the same of each member of a sample, by name, for their
+    ranges (`_low`, `_high`: member_ends.ENDS) and the chance to be better than each other blade: the share of the
     members that both blades have, which have the same values of the scene's numbers, in which it is; equal ones count half.
     """
-    table = pd.DataFrame([{"blade": blade, "scene": scene, **values} for (blade, scene), values in found.items()])
+    table = pd.DataFrame([{"blade": blade, "scene": scene, **values} for (blade, scene), values in measures.items()])
     keys = table[list(RANKED_BY)].fillna(np.inf).apply(tuple, axis=1)
     ranks = [1 + sum(other < key for other in keys[table["scene"] == of]) for key, of in zip(keys, table["scene"], strict=True)]
     # without stress there is nothing to rank by
     table.insert(2, "rank", pd.Series(ranks, dtype="Int64").where(table[RANKED_BY[0]].notna()))
     if members:
-        table = pd.concat([table, pd.DataFrame([_under_tolerances(pair, members) for pair in found])], axis=1)
+        table = pd.concat([table, pd.DataFrame([_of_members(pair, members) for pair in measures])], axis=1)
     scenes = list(dict.fromkeys(table["scene"]))
     return table.sort_values(
         ["scene", "rank"], key=lambda column: column.map(scenes.index) if column.name == "scene" else column
@@ -111,24 +111,24 @@ def read_ranking(file: Path | str) -> pd.DataFrame:
 
 def as_scatter_bears(table: pd.DataFrame) -> pd.DataFrame:
     """The table with lengths of as many digits as the range of the members bears, or the scatter, or a step of 1 rad/s."""
-    found = table.copy()
+    rounded = table.copy()
     for name in (f"length_{kind}_rad_s" for kind in ("certain", "possible") if f"length_{kind}_rad_s" in table):
         scatter = table.get(name.replace("_rad_s", "_scatter_rad_s"), table[name] * np.nan)
         spread = (2.0 * scatter).fillna(_STEP)
         if f"{name}_low" in table:
             spread = (table[f"{name}_high"] - table[f"{name}_low"]).fillna(spread)
-        found[name] = [float(rounded_to(*one) or np.nan) for one in zip(table[name], spread, strict=True)]
-    return found
+        rounded[name] = [float(rounded_to(*value) or np.nan) for value in zip(table[name], spread, strict=True)]
+    return rounded
 
 
-def _under_tolerances(
+def _of_members(
     pair: tuple[str, str], members: Mapping[tuple[str, str], Mapping[str, Mapping[str, float]]]
 ) -> dict[str, float]:
     blade, scene = pair
     own = members.get(pair, {})
     row: dict[str, float] = {"members": len(own)}
     for name in RANKED_BY:
-        values = [one[name] for one in own.values()]
+        values = [measures[name] for measures in own.values()]
         for end in _RANGE:
             row[f"{name}_{end}"] = float(np.quantile(values, ENDS[end], method="inverted_cdf")) if values else np.nan
     for other in dict.fromkeys(name for name, of in members if of == scene):
@@ -140,8 +140,8 @@ def _under_tolerances(
 def chance_to_be_better(own: Mapping[str, Mapping[str, float]], others: Mapping[str, Mapping[str, float]]) -> float:
     """Share of the common members, by name, in which `own` are better by RANKED_BY; equal ones count half; NaN without any."""
 
-    def key(one: Mapping[str, float]) -> tuple[float, ...]:
-        return tuple(np.inf if np.isnan(one[name]) else one[name] for name in RANKED_BY)
+    def key(measures: Mapping[str, float]) -> tuple[float, ...]:
+        return tuple(np.inf if np.isnan(measures[name]) else measures[name] for name in RANKED_BY)
 
     wins = [
         0.5 * ((key(own[name]) < key(others[name])) + (key(own[name]) <= key(others[name]))) for name in own if name in others

@@ -44,9 +44,9 @@ def write_response(
                 if "lined" in values:
                     about = {"units": "1", "long_name": "1 where a lining is worn, 0: the tip meets the casing itself"}
                     create_variable(dataset, "lined", "f4", (), about)[...] = values["lined"]
-                for name, one in OF_CASING.items():
+                for name, variable in OF_CASING.items():
                     if name in values:
-                        create_variable(dataset, name, one.dtype, one.dims, one.attributes)[...] = values[name]
+                        create_variable(dataset, name, variable.dtype, variable.dims, variable.attributes)[...] = values[name]
                 if "max_von_mises" in values:
                     about = {"units": "Pa", "long_name": "yield stress of the blade's material"}
                     create_variable(dataset, "yield_stress", "f8", (), about)[...] = yield_stress
@@ -58,9 +58,9 @@ def write_response(
                 if name in values:
                     dataset[name][row] = values[name]
             if speed in history_speeds:
-                history, place = values["revolution_von_mises"], history_speeds.index(speed)
-                dataset["max_von_mises_history"][place] = history
-                dataset["first_yield_revolution"][place] = first_yield(history, yield_stress)
+                history, number = values["revolution_von_mises"], history_speeds.index(speed)
+                dataset["max_von_mises_history"][number] = history
+                dataset["first_yield_revolution"][number] = first_yield(history, yield_stress)
 
 
 def _row(run: Mapping[str, np.ndarray], yield_stress: float) -> dict[str, np.ndarray]:

@@ -10,11 +10,11 @@ import numpy as np
 
 @dataclass(frozen=True)
 class SpeedRange:
-    """Speeds (rad/s) from `begin` to `end`; `cut`: it reaches to the first or last speed of all, and may go on beyond."""
+    """Speeds (rad/s) from `begin` to `end`; `truncated`: it reaches to the first or last speed of all, and may go on beyond."""
 
     begin: float
     end: float
-    cut: bool
+    truncated: bool
 
     @property
     def length(self) -> float:
@@ -44,10 +44,10 @@ def ranges_above(speeds: np.ndarray, values: np.ndarray, level: float) -> list[S
 
 def joined(ranges: Sequence[SpeedRange]) -> list[SpeedRange]:
     """Ranges that overlap as one, ascending."""
-    found: list[SpeedRange] = []
-    for one in sorted(ranges, key=lambda one: one.begin):
-        if found and one.begin <= found[-1].end:
-            before = found.pop()
-            one = SpeedRange(before.begin, max(before.end, one.end), before.cut or one.cut)
-        found.append(one)
-    return found
+    merged: list[SpeedRange] = []
+    for current in sorted(ranges, key=lambda current: current.begin):
+        if merged and current.begin <= merged[-1].end:
+            before = merged.pop()
+            current = SpeedRange(before.begin, max(before.end, current.end), before.truncated or current.truncated)
+        merged.append(current)
+    return merged

@@ -49,7 +49,7 @@ def weights_along(points: np.ndarray, chord: np.ndarray, choice: BoundaryChoice)
     return _means(choice, chord, [chain_trace(points, np.stack([numbers[:-1], numbers[1:]], axis=1))])
 
 
-def mean_places(points: np.ndarray, weights: sp.csr_array) -> np.ndarray:
+def mean_positions(points: np.ndarray, weights: sp.csr_array) -> np.ndarray:
     """Where the contact nodes are (m), shape (contact nodes, 3): the weighted means of radius, angle and axial position.
 
     So a patch on a cone lies on that cone.
@@ -57,10 +57,10 @@ def mean_places(points: np.ndarray, weights: sp.csr_array) -> np.ndarray:
     alone = np.diff(weights.indptr) == 1
     radius, theta = np.hypot(points[:, 0], points[:, 1]), np.arctan2(points[:, 1], points[:, 0])
     radius, theta, axial = weights @ radius, weights @ theta, weights @ points[:, 2]
-    places = np.stack([radius * np.cos(theta), radius * np.sin(theta), axial], axis=1)
+    positions = np.stack([radius * np.cos(theta), radius * np.sin(theta), axial], axis=1)
     # a single node is where it is, to the bit
-    places[alone] = points[weights.indices[weights.indptr[:-1][alone]]]
-    return places
+    positions[alone] = points[weights.indices[weights.indptr[:-1][alone]]]
+    return positions
 
 
 def _line_traces(mesh: BladeMesh, line: np.ndarray) -> list[Trace]:

@@ -107,8 +107,8 @@ def _internal_vectors(
     weighted = weight * columns
     weighted /= np.linalg.norm(weighted, axis=0)
     left, singular_values, _ = la.svd(weighted, full_matrices=False)
-    kept = left[:, singular_values > tolerance * singular_values[0]] / weight
-    free = kept @ la.null_space(boundary @ kept)
+    independent = left[:, singular_values > tolerance * singular_values[0]] / weight
+    free = independent @ la.null_space(boundary @ independent)
     free[_alone(boundary)] = 0.0
     factor = la.cholesky(free.T @ (mass @ free), lower=True)
     return la.solve_triangular(factor, free.T, lower=True).T, singular_values

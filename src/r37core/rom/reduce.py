@@ -8,7 +8,7 @@ import scipy.sparse as sp
 from r37core.fem.matrices import StructuralMatrices
 from r37core.mesh.blade_mesh import TIP_LINES, BladeMesh
 
-from .contact_weights import contact_weights, mean_places
+from .contact_weights import contact_weights, mean_positions
 from .craig_bampton import multi_speed_basis
 from .naming import ideal_shapes
 from .reduced_model import RecoveryNodes, ReducedModel
@@ -80,7 +80,7 @@ def contact_nodes(weights: sp.csr_array, line: np.ndarray, chord: np.ndarray, ev
     """
     nearest = np.abs(chord[line] - (weights @ chord)[:, None]).argmin(axis=1)
     fields = (mean_fields(weights, of) for of in (every.basis, every.rotation_shapes))
-    return RecoveryNodes(every.nodes[line[nearest]], mean_places(every.points, weights), *fields)
+    return RecoveryNodes(every.nodes[line[nearest]], mean_positions(every.points, weights), *fields)
 
 
 def mean_fields(weights: sp.csr_array, fields: np.ndarray) -> np.ndarray:

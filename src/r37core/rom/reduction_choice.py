@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from typing import Annotated
 
 import numpy as np
 
+from r37core.declared import Key
 from r37core.mesh.blade_mesh import TIP_LINES, BladeMesh
 
 
@@ -21,16 +23,16 @@ POINTS, PATCHES, AREA_PATCHES = "points", "patches", "area_patches"
 
 @dataclass(frozen=True)
 class BoundaryChoice:
-    """Where the contact nodes lie: the tip line (a key of TIP_LINES), how many, and whether the corners are among them.
+    """Where the contact nodes lie.
 
     With corners, node i of n lies at i/(n-1) of the chord; without, at (i + 1/2)/n. `contact`: POINTS, PATCHES or
     AREA_PATCHES; see r37core.rom.contact_weights.
     """
 
-    tip_line: str
-    nodes: int
-    corners: bool
-    contact: str
+    tip_line: Annotated[str, Key("line of the tip on which they lie", one_of=TIP_LINES)] = "pressure_edge"
+    nodes: Annotated[int, Key("how many, evenly spaced", ge=1, le=200)] = 8
+    corners: Annotated[bool, Key("whether leading and trailing corner are among them")] = True
+    contact: str = field(kw_only=True)
 
     @property
     def chord_positions(self) -> np.ndarray:
@@ -103,10 +105,13 @@ class StressSubmesh:
     as this number exceeds one: there a force on a single node and the clamping give stresses that grow with a finer mesh.
     """
 
-    maximum_x: float
-    minimum_z: float
-    maximum_z: float
-    excluded_layers: int
+    maximum_x: Annotated[float, Key("upper bound of x", "_m", gt=0, le=100)] = np.inf
+    minimum_z: Annotated[float, Key("lower bound of z", "_m", ge=-100, le=100)] = -np.inf
+    maximum_z: Annotated[float, Key("upper bound of z", "_m", ge=-100, le=100)] = np.inf
+    excluded_layers: Annotated[
+        int,
+        Key("layers of elements left out round contact nodes and root, where stress grows with every finer mesh", ge=0, le=20),
+    ] = 0
 
     def in_words(self) -> str:
         """The region as results name it."""
@@ -127,13 +132,13 @@ class StressSubmesh:
             near[np.concatenate([nodes[near[nodes].any(axis=1)].ravel() for nodes in mesh.blocks.values()])] = True
         chosen = {}
         for name, nodes in mesh.blocks.items():
-            kept = qualifies[nodes].all(axis=1) & ~(near[nodes].any(axis=1) & (self.excluded_layers > 0))
-            if kept.any():
-                chosen[name] = nodes[kept]
+            inside = qualifies[nodes].all(axis=1) & ~(near[nodes].any(axis=1) & (self.excluded_layers > 0))
+            if inside.any():
+                chosen[name] = nodes[inside]
         return chosen
 
 
-EVERYWHERE = StressSubmesh(np.inf, -np.inf, np.inf, 0)
+EVERYWHERE = StressSubmesh()
 """Stress on the whole blade but for the clamped elements."""
 
 
@@ -141,15 +146,14 @@ EVERYWHERE = StressSubmesh(np.inf, -np.inf, np.inf, 0)
 class ReductionChoice:
     """What the reduced model is made of.
 
-    Boundary nodes, speeds (rad/s) at which the basis is computed, fixed-interface modes at each, tolerance of
-    dependence, which rotation terms are kept, where stress is recovered, and whether the whole blade is.
+    `boundary`: the contact nodes; `speeds` (rad/s) at which the basis is computed; `stress_submesh`: where stress is recovered.
     """
 
     boundary: BoundaryChoice
     speeds: tuple[float, ...]
-    fixed_interface_modes: int
-    basis_tolerance: float
-    spin_softening: bool
-    coriolis: bool
     stress_submesh: StressSubmesh
-    recover_whole_blade: bool
+    fixed_interface_modes: Annotated[int, Key("at each of three speeds: rest, half the maximum and the maximum", ge=0, le=500)]
+    basis_tolerance: Annotated[float, Key("columns with smaller relative singular values are dropped", ge=0, lt=1)] = 1e-8
+    spin_softening: Annotated[bool, Key("loss of stiffness because centrifugal forces follow the motion")] = False
+    coriolis: Annotated[bool, Key("in the Campbell diagram and in all simulations; needs exact_modal")] = False
+    recover_whole_blade: Annotated[bool, Key("keep the basis on every node (a large file)")] = False

@@ -21,7 +21,8 @@ class BucklingError(ValueError):
     def __init__(self, speed: float):
         super().__init__(
             f"the blade has no stable position at {speed:g} rad/s: its stiffness is not positive there; choose lower speeds "
-            "(speeds, run_ups, and structure.maximum_speed_rad_s), or a stiffer or lighter material, or less sweep and lean"
+            "(speeds, those of run-ups, and structure.maximum_speed_rad_s), or a stiffer or lighter material, or less sweep "
+            "and lean"
         )
 
 

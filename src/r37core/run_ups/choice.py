@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Annotated
 
 import numpy as np
+
+from r37core.declared import Key
+from r37core.rom.naming import NAMED_MODES
 
 from .schedule import RunUp
 
@@ -28,8 +31,8 @@ class RunUpError(ValueError):
 class Crossing:
     """Where a `mode` has the frequency of an `engine_order`."""
 
-    mode: str
-    engine_order: int
+    mode: Annotated[str, Key("whose crossing", one_of=NAMED_MODES)]
+    engine_order: Annotated[int, Key("with which engine order", ge=1, le=100)]
 
 
 @dataclass(frozen=True)
@@ -39,14 +42,46 @@ class RunUpChoice:
     Of `rate` (rad/s2, positive) and `revolutions` one is given; `before`, `after` and `worn`: see RunUp.
     """
 
-    start: float
-    stop: float
+    start: Annotated[
+        float,
+        Key("first speed, at which the casing becomes lobed", "_rad_s", "from", ge=1e-3, le=1e6, optional=True),
+        Key("the same in revolutions per minute", "_rpm", "from", ge=0.01, le=9.5e6, optional=True),
+    ]
+    stop: Annotated[
+        float,
+        Key("last speed; a lower one makes a run-down", "_rad_s", "to", ge=1e-3, le=1e6, optional=True),
+        Key("the same in revolutions per minute", "_rpm", "to", ge=0.01, le=9.5e6, optional=True),
+    ]
     crossing: Crossing | None
-    rate: float | None
-    revolutions: float | None
-    before: int
-    after: int
-    worn: bool
+    rate: Annotated[
+        float | None,
+        Key(
+            "change of the speed per second, of a run-down too; or rate_rpm_s; or revolutions",
+            "_rad_s2",
+            gt=0,
+            le=1e9,
+            optional=True,
+        ),
+        Key("the rate in revolutions per minute per second", "_rpm_s", gt=0, le=1e10, optional=True),
+    ]
+    revolutions: Annotated[
+        float | None,
+        Key("revolutions that the change takes, in place of a rate", ge=SHORTEST, le=LONGEST, optional=True),
+    ]
+    before: Annotated[
+        int,
+        Key(
+            "at the first speed, in which the casing becomes lobed; without it those of the scene",
+            name="revolutions_before",
+            ge=1,
+            le=20000,
+            optional=True,
+        ),
+    ]
+    after: Annotated[int, Key("at the last speed", name="revolutions_after", ge=0, le=20000)] = 0
+    worn: Annotated[
+        bool, Key("worn: by the same run-up, done once before", name="lining", words={"new": False, "worn": True})
+    ] = False
 
     def run_up(self, samples_per_revolution: int, crossing_speed: float | None = None) -> RunUp:
         """The run-up in numbers; `crossing_speed` (rad/s): of the crossing, where there is one.

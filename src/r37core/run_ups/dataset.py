@@ -48,7 +48,7 @@ VARIABLES = {
         _TURN,
         "f8",
         "m",
-        "largest wear of the lining by the end of the stretch of equal steps, up to 7 revolutions on",
+        "largest wear of the lining by the end of the constant-speed segment, up to 7 revolutions on",
     ),
 }
 """Variable -> dimensions beyond the run, type, units, meaning."""
@@ -76,14 +76,14 @@ def write_run_ups(files: Mapping[tuple[str, str, str], Path | str], file: Path |
             create_axis(target, "engine_order", np.arange(orders), about("1", "engine order"))
         for name in LABELS:
             target.createVariable(name, str, ("run",))
-        for name in (one for one in VARIABLES if one in names):
+        for name in (variable for variable in VARIABLES if variable in names):
             dims, dtype, units, meaning = VARIABLES[name]
             create_variable(target, name, dtype, ("run", *dims), about(units, meaning) | {"coordinates": " ".join(LABELS)})
         target["status"].setncatts(status_flags())
         for row, (run, values) in enumerate(_runs(files)):
             for name, label in zip(LABELS, run, strict=True):
                 target[name][row] = label
-            for name in (one for one in VARIABLES if one in values):
+            for name in (variable for variable in VARIABLES if variable in values):
                 value = values[name]
                 target[name][(row, *(slice(length) for length in value.shape))] = value
 
@@ -96,7 +96,7 @@ def _runs(files: Mapping[tuple[str, str, str], Path | str]) -> Iterator[tuple[tu
             for kind in ("rms", "maximum"):
                 if values[kind].shape != (revolutions, len(TIP_POINTS), len(DIRECTIONS)):
                     raise ValueError(f"{kind} is not of {revolutions} revolutions")
-                values |= {f"{kind}_{name}": values[kind][:, :, place] for place, name in enumerate(DIRECTIONS)}
+                values |= {f"{kind}_{name}": values[kind][:, :, column] for column, name in enumerate(DIRECTIONS)}
             if "amplitude" in values:
                 values["amplitude"], values["amplitude_tangential"] = values["amplitude"].swapaxes(0, 1)
         yield run, values
@@ -104,10 +104,10 @@ def _runs(files: Mapping[tuple[str, str, str], Path | str]) -> Iterator[tuple[tu
 
 def runs_of(dataset: xr.Dataset, **labels: str) -> list[xr.Dataset]:
     """The runs with these labels, each with the revolutions that it has after the casing has become lobed."""
-    found = []
+    runs = []
     for number in range(dataset.sizes["run"]):
         run = dataset.isel(run=number)
         if all(str(run[name].values) == value for name, value in labels.items()):
             after = (run["revolution"] > run["revolutions_before"]) & np.isfinite(run["speed"])
-            found.append(run.isel(revolution=after.values))
-    return found
+            runs.append(run.isel(revolution=after.values))
+    return runs

@@ -16,7 +16,7 @@ from r37core.time_integration.simulate import DIRECTIONS, TIP_POINTS
 from r37core.time_integration.speed_run import amplitudes, with_rotation
 from r37core.time_integration.status import RunStatus
 
-from .march import March, Stage
+from .integration import RunUpIntegration, Stage
 from .schedule import RunUp
 
 _AT_ONCE, _INSTANTS_AT_ONCE = 32, 256
@@ -41,16 +41,16 @@ def record_run_up(
     Always: `status`, `diverged_revolution` and `yield_stress` (Pa, as given); `speed` (rad/s, the mean of the revolution) and
     `time` (s, at its end), shape (revolutions,); `rms` and `maximum` (m), shape (revolutions, 2, 3): TIP_POINTS by DIRECTIONS.
     `amplitude` (m), shape (revolutions, 2, orders): whole engine orders of the leading edge's normal and tangential motion;
-    `max_von_mises` (Pa) and `max_wear` (m, by the end of the stretch of equal steps that the revolution ends in), shape
+    `max_von_mises` (Pa) and `max_wear` (m, by the end of the constant-speed segment that the revolution ends in), shape
     (revolutions,). A run that diverges has the revolutions before it; one that does so while it wears the lining is that of
-    the lining as new. Raises what March raises.
+    the lining as new. Raises what RunUpIntegration raises.
     """
     orders = highest_order if "spectrum" in results else None
     empty = partial(_Revolutions, model, choice, orders, stress, "static_stress" in results)
-    march, found = _done(March(model, scene, choice, run_up), empty())
-    if run_up.worn and not found["status"]:
-        march, found = _done(March(model, scene, choice, run_up, march.state.wear), empty())
-    found |= {
+    integration, result = _done(RunUpIntegration(model, scene, choice, run_up), empty())
+    if run_up.worn and not result["status"]:
+        integration, result = _done(RunUpIntegration(model, scene, choice, run_up, integration.state.wear), empty())
+    result |= {
         "start_speed": np.array(run_up.start),
         "stop_speed": np.array(run_up.stop),
         "rate": np.array(run_up.rate(choice.samples_per_revolution)),
@@ -60,24 +60,24 @@ def record_run_up(
         "yield_stress": np.array(yield_stress),
     }
     if "wear" not in results:
-        del found["max_wear"]
+        del result["max_wear"]
     if "energy" in results:
-        found |= march.balance()
-        found["stiffness_work"] = np.array(march.stiffness_work)
-    return found
+        result |= integration.balance()
+        result["stiffness_work"] = np.array(integration.stiffness_work)
+    return result
 
 
-def _done(march: March, kept: _Revolutions) -> tuple[March, dict[str, np.ndarray]]:
-    """The march when it is done, and what it left behind."""
+def _done(integration: RunUpIntegration, revolutions: _Revolutions) -> tuple[RunUpIntegration, dict[str, np.ndarray]]:
+    """The integration when it is done, and what it left behind."""
     diverged, samples = False, 0
-    for stage in march.stages():
+    for stage in integration.stages():
         diverged, samples = stage.diverged, samples + len(stage.samples)
-        kept.add(stage)
-    return march, kept.joined() | {
+        revolutions.add(stage)
+    return integration, revolutions.joined() | {
         "status": np.array(int(RunStatus.DIVERGED if diverged else RunStatus.COMPLETED)),
-        "diverged_revolution": np.array(samples / kept.choice.samples_per_revolution if diverged else np.nan),
-        "largest_normal_force": np.array(march.state.totals["largest_force"]),
-        "casing_hits": np.array(march.state.totals["casing_hits"]),
+        "diverged_revolution": np.array(samples / revolutions.choice.samples_per_revolution if diverged else np.nan),
+        "largest_normal_force": np.array(integration.state.totals["largest_force"]),
+        "casing_hits": np.array(integration.state.totals["casing_hits"]),
     }
 
 
@@ -91,7 +91,7 @@ class _Revolutions:
     stress: StressOperator | None
     static_stress: bool
     waiting: dict[str, list[np.ndarray]] = field(default_factory=dict)
-    kept: list[dict[str, np.ndarray]] = field(default_factory=list)
+    reduced: list[dict[str, np.ndarray]] = field(default_factory=list)
     lasted: float = 0.0
     shapes: np.ndarray | None = None
 
@@ -123,37 +123,37 @@ class _Revolutions:
     def joined(self) -> dict[str, np.ndarray]:
         """All whole revolutions."""
         self._reduce(sum(map(len, self.waiting["interval"])) // self.choice.samples_per_revolution)
-        return {name: np.concatenate([part[name] for part in self.kept]) for name in self.kept[0]}
+        return {name: np.concatenate([part[name] for part in self.reduced]) for name in self.reduced[0]}
 
     def _wait(self, **arrays: np.ndarray) -> None:
         for name, array in arrays.items():
             self.waiting.setdefault(name, []).append(array)
 
     def _reduce(self, revolutions: int) -> None:
-        found = {}
+        arrays = {}
         for name, parts in self.waiting.items():
             instants = name in ("coordinates", "bound")
             each = self.choice.snapshots_per_revolution if instants else self.choice.samples_per_revolution
             whole = np.concatenate(parts)
             self.waiting[name] = [whole[revolutions * each :]]
-            found[name] = whole[: revolutions * each].reshape(revolutions, each, *whole.shape[1:])
-        samples, lasting = found["samples"], found["interval"].sum(axis=1)
+            arrays[name] = whole[: revolutions * each].reshape(revolutions, each, *whole.shape[1:])
+        samples, lasting = arrays["samples"], arrays["interval"].sum(axis=1)
         time = self.lasted + np.cumsum(lasting)
         self.lasted = float(time[-1]) if revolutions else self.lasted
-        kept = {
+        reduced = {
             "speed": 2.0 * np.pi / lasting,
             "time": time,
             "rms": np.sqrt(np.mean(samples**2, axis=1)),
             "maximum": np.abs(samples).max(axis=1, initial=0.0),
-            "max_wear": found["wear"][:, -1],
+            "max_wear": arrays["wear"][:, -1],
         }
         if self.highest_order is not None:
             # of the leading edge, its directions before the samples
             motion = np.moveaxis(samples[:, :, 0, _SPECTRA], 1, 2)
-            kept["amplitude"] = amplitudes(motion)[..., : self.highest_order + 1].astype(np.float32)
+            reduced["amplitude"] = amplitudes(motion)[..., : self.highest_order + 1].astype(np.float32)
         if self.stress is not None:
-            kept["max_von_mises"] = largest_stress(self.stress, found["coordinates"], found["bound"])
-        self.kept.append(kept)
+            reduced["max_von_mises"] = largest_stress(self.stress, arrays["coordinates"], arrays["bound"])
+        self.reduced.append(reduced)
 
 
 def largest_stress(stress: StressOperator, coordinates: np.ndarray, bound: np.ndarray) -> np.ndarray:

@@ -1,7 +1,7 @@
 """When a run-up has which speed: angle is its clock, so the samples of a revolution are the same at every speed.
 
-At a constant rate a the squared speed is linear in the angle, Omega^2 = Omega_0^2 + 2 a theta. Over a stretch of samples the
-time integration keeps the mean of the speeds at its ends, which passes the stretch in just the time that the run-up takes.
+At a constant rate a the squared speed is linear in the angle, Omega^2 = Omega_0^2 + 2 a theta. Over a segment of samples the
+time integration keeps the mean of the speeds at its ends, which passes the segment in just the time that the run-up takes.
 """
 
 from __future__ import annotations
@@ -16,9 +16,9 @@ from typing import NamedTuple
 import numpy as np
 
 LARGEST_LEAD = 2e-4
-"""Angle (rad) by which the rotor may be elsewhere within a stretch than at its mean speed (docs/accuracy.md)."""
+"""Angle (rad) by which the rotor may be elsewhere within a segment than at its mean speed (docs/accuracy.md)."""
 
-LARGEST_STRETCH = 8
+LONGEST_SEGMENT = 8
 """Revolutions."""
 
 LARGEST_STIFFENING = 0.05
@@ -51,50 +51,50 @@ class RunUp:
 
 
 _AT_ONCE = 500
-"""Stretches of a segment."""
+"""Constant-speed segments of an interval."""
 
 
-class Stretch(NamedTuple):
-    """Some samples at one speed (rad/s)."""
+class SpeedSegment(NamedTuple):
+    """A constant-speed segment: some samples at one speed (rad/s)."""
 
     speed: float
     samples: int
 
 
-class PacesOfStretches(NamedTuple):
-    """Different `speeds` (rad/s), shape (speeds,), and which of them each stretch has."""
+class DistinctSpeeds(NamedTuple):
+    """Different `speeds` (rad/s), shape (speeds,), and which of them each segment has."""
 
     speeds: np.ndarray
-    of_stretches: np.ndarray
+    of_segments: np.ndarray
 
 
 @dataclass(frozen=True)
-class Segment:
-    """Stretches in which the modes of one `speed` (rad/s) are held."""
+class ModalInterval:
+    """Constant-speed segments that are integrated in the modes of one `speed` (rad/s)."""
 
     speed: float
-    stretches: tuple[Stretch, ...]
+    segments: tuple[SpeedSegment, ...]
 
     @cached_property
-    def paces(self) -> PacesOfStretches:
-        """The speeds of the stretches."""
-        speeds, of_stretches = np.unique([one.speed for one in self.stretches], return_inverse=True)
-        return PacesOfStretches(speeds, of_stretches)
+    def distinct_speeds(self) -> DistinctSpeeds:
+        """The speeds of the segments."""
+        speeds, of_segments = np.unique([segment.speed for segment in self.segments], return_inverse=True)
+        return DistinctSpeeds(speeds, of_segments)
 
     @cached_property
     def lasting(self) -> np.ndarray:
-        """Samples of each stretch."""
-        return np.array([one.samples for one in self.stretches])
+        """Samples of each segment."""
+        return np.array([segment.samples for segment in self.segments])
 
     def at_once(self, samples: int) -> Iterator[slice]:
-        """The stretches in lots of about so many samples."""
+        """The segments in lots of about so many samples."""
         lots = (np.cumsum(self.lasting) - self.lasting) // samples
         for first, last in pairwise([*np.unique(lots, return_index=True)[1], len(lots)]):
             yield slice(first, last)
 
 
-def schedule(run_up: RunUp, samples_per_revolution: int, squared_frequency_change: float) -> list[Segment]:
-    """The segments of a run-up, of whole revolutions together.
+def schedule(run_up: RunUp, samples_per_revolution: int, squared_frequency_change: float) -> list[ModalInterval]:
+    """The intervals of a run-up, of whole revolutions together.
 
     `squared_frequency_change` (s2): relative change of the first mode's squared frequency per squared speed. The change takes
     whole samples, so its rate differs from the given one by half a sample at most. A run-down is its run-up backwards.
@@ -104,24 +104,24 @@ def schedule(run_up: RunUp, samples_per_revolution: int, squared_frequency_chang
     low, high = sorted((run_up.start, run_up.stop))
     before, after = run_up.before * per_revolution, -samples % per_revolution + run_up.after * per_revolution
     if low == high:
-        return [Segment(low, tuple(_turns(low, before + samples + after, per_revolution)))]
+        return [ModalInterval(low, tuple(_turns(low, before + samples + after, per_revolution)))]
     change = _rising(low, high, samples, per_revolution, squared_frequency_change)
     if run_up.stop < run_up.start:
-        change = [replace(one, stretches=one.stretches[::-1]) for one in reversed(change)]
-    first = Segment(run_up.start, tuple(_turns(run_up.start, before, per_revolution)))
-    last = Segment(run_up.stop, tuple(_turns(run_up.stop, after, per_revolution)))
-    return [one for one in (first, *change, last) if one.stretches]
+        change = [replace(interval, segments=interval.segments[::-1]) for interval in reversed(change)]
+    first = ModalInterval(run_up.start, tuple(_turns(run_up.start, before, per_revolution)))
+    last = ModalInterval(run_up.stop, tuple(_turns(run_up.stop, after, per_revolution)))
+    return [interval for interval in (first, *change, last) if interval.segments]
 
 
-def _turns(speed: float, samples: int, per_revolution: int) -> list[Stretch]:
-    """Samples at one speed, in stretches."""
-    number, rest = divmod(samples, LARGEST_STRETCH * per_revolution)
-    whole = [Stretch(speed, LARGEST_STRETCH * per_revolution)] * number
-    return [*whole, Stretch(speed, rest)] if rest else whole
+def _turns(speed: float, samples: int, per_revolution: int) -> list[SpeedSegment]:
+    """Samples at one speed, in segments."""
+    number, rest = divmod(samples, LONGEST_SEGMENT * per_revolution)
+    whole = [SpeedSegment(speed, LONGEST_SEGMENT * per_revolution)] * number
+    return [*whole, SpeedSegment(speed, rest)] if rest else whole
 
 
-def _rising(low: float, high: float, samples: int, per_revolution: int, squared_frequency_change: float) -> list[Segment]:
-    """The segments of a speed that rises."""
+def _rising(low: float, high: float, samples: int, per_revolution: int, squared_frequency_change: float) -> list[ModalInterval]:
+    """The intervals of a speed that rises."""
     rise = high**2 - low**2
 
     def speed_at(sample: float) -> float:
@@ -132,15 +132,15 @@ def _rising(low: float, high: float, samples: int, per_revolution: int, squared_
     lasting = math.sqrt(8.0 * LARGEST_LEAD / rate)
     number = min(max(int(np.ceil(rise * abs(squared_frequency_change) / LARGEST_STIFFENING)), 1), samples)
     ends = [round(samples * part / number) for part in range(number + 1)]
-    segments = []
+    intervals = []
     for first, last in pairwise(ends):
-        stretches, at = [], first
+        segments, at = [], first
         while at < last:
             longest = int(lasting * speed_at(at) / (2.0 * np.pi) * per_revolution)
-            following = min(at + min(max(longest, 1), LARGEST_STRETCH * per_revolution), last)
-            stretches.append(Stretch(0.5 * (speed_at(at) + speed_at(following)), following - at))
+            following = min(at + min(max(longest, 1), LONGEST_SEGMENT * per_revolution), last)
+            segments.append(SpeedSegment(0.5 * (speed_at(at) + speed_at(following)), following - at))
             at = following
-        # some at a time: the numbers of all stretches of a segment are in memory together
-        parts = [tuple(stretches[part : part + _AT_ONCE]) for part in range(0, len(stretches), _AT_ONCE)]
-        segments += [Segment(speed_at(0.5 * (first + last)), part) for part in parts]
-    return segments
+        # some at a time: the numbers of all segments of an interval are in memory together
+        parts = [tuple(segments[part : part + _AT_ONCE]) for part in range(0, len(segments), _AT_ONCE)]
+        intervals += [ModalInterval(speed_at(0.5 * (first + last)), part) for part in parts]
+    return intervals

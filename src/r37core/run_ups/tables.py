@@ -55,10 +55,10 @@ def _row(run: xr.Dataset) -> dict[str, Any]:
         row |= {"max_von_mises_pa": np.nan, "yield_stress_pa": float(run["yield_stress"])}
     if "max_von_mises" in run and run["max_von_mises"].notnull().any():
         stress, limit = run["max_von_mises"].values, float(run["yield_stress"])
-        place, first = int(np.argmax(stress)), first_yield(stress, limit)
+        worst, first = int(np.argmax(stress)), first_yield(stress, limit)
         row |= {
-            "max_von_mises_pa": float(stress[place]),
-            "max_von_mises_speed_rad_s": float(speed[place]),
+            "max_von_mises_pa": float(stress[worst]),
+            "max_von_mises_speed_rad_s": float(speed[worst]),
             "first_yield_speed_rad_s": float(speed[int(first) - 1]) if np.isfinite(first) else np.nan,
             "revolutions_above_yield": int(np.count_nonzero(stress > limit)),
             "last_von_mises_pa": float(stress[-1]),
@@ -78,8 +78,8 @@ def rate_table(runs: pd.DataFrame) -> pd.DataFrame:
     if "max_von_mises_pa" not in runs:
         return pd.DataFrame(columns=[*CASE, *_RATES])
     # a scene without stress says nothing
-    told = runs["max_von_mises_pa"].notna() | (runs["status"] == RunStatus.DIVERGED.text)
-    runs = runs[told & (runs["rate_rad_s2"] > 0.0)]
+    judged = runs["max_von_mises_pa"].notna() | (runs["status"] == RunStatus.DIVERGED.text)
+    runs = runs[judged & (runs["rate_rad_s2"] > 0.0)]
     return pd.DataFrame(
         [dict(zip(CASE, case, strict=True)) | safe_rates(group) for case, group in runs.groupby(CASE, sort=False)],
         columns=[*CASE, *_RATES],

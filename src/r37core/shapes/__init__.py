@@ -22,7 +22,7 @@ def shapes_contents(folders: Mapping[str, Path], explorer_in_report: str = "") -
     `explorer_in_report`: where the explorer is in the archive of the report.
     Raises InputFileError for a file that cannot be read.
     """
-    found = []
+    shapes = []
     for scene, folder in folders.items():
         for entry in read_json(folder / INDEX):
             file = folder / f"{entry['shape']}.glb"
@@ -31,5 +31,5 @@ def shapes_contents(folders: Mapping[str, Path], explorer_in_report: str = "") -
             here = f"{folder.parent.name}/{folder.name}"
             data = "modes_0" if not scene else entry["shape"]
             files = [f"{here}/{file.name}", f"{here}/{data}.vtu"]
-            found.append({**entry, "name": f"{folder.name}/{entry['shape']}", "scene": scene, "files": files, "glb": glb})
-    return {"shapes": found, "explorer_in_report": explorer_in_report}
+            shapes.append({**entry, "name": f"{folder.name}/{entry['shape']}", "scene": scene, "files": files, "glb": glb})
+    return {"shapes": shapes, "explorer_in_report": explorer_in_report}

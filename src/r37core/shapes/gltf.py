@@ -55,7 +55,7 @@ def write_glb(surface: MovingSurface, name: str, file: Path | str) -> None:
         "_VALUE": buffer.add(surface.values, _FLOAT, _VERTICES),
     }
     indices = buffer.add(surface.triangles.ravel(), _UINT32, _TRIANGLES)
-    targets = [{"POSITION": buffer.add(one[:, _AXES], _FLOAT, _VERTICES, bounds=True)} for one in surface.targets]
+    targets = [{"POSITION": buffer.add(target[:, _AXES], _FLOAT, _VERTICES, bounds=True)} for target in surface.targets]
     sampler = {
         "input": buffer.add(surface.times, _FLOAT, bounds=True),
         "output": buffer.add(surface.weights.ravel(), _FLOAT),

@@ -9,7 +9,7 @@ from typing import Final
 import numpy as np
 from matplotlib import colormaps
 
-from r37core.exchange.exporting.fields import (
+from r37core.exchange.fields import (
     Target,
     WorstInstant,
     displacement_of,

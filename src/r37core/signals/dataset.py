@@ -67,8 +67,8 @@ def signals_dataset(
         "tangential": np.stack([record.tangential.T for record in records.values()]),
         "strain": np.stack([record.strain.T for record in records.values()]),
         "gauge_place": np.stack([np.array(list(gauges.values())).reshape(-1, 3)] * len(speeds)),
-        "arrival_time": np.stack([one for one, _ in arrivals]),
-        "arrival_displacement": np.stack([one for _, one in arrivals]),
+        "arrival_time": np.stack([times for times, _ in arrivals]),
+        "arrival_displacement": np.stack([displacements for _, displacements in arrivals]),
         "status": np.array([int(record.status) for record in records.values()]),
     }
     axes = {"turn": first.turn, "revolution": numbers, "probe": np.array(probes, dtype=float)}
@@ -142,7 +142,7 @@ def _union(files: Mapping[tuple[str, str], Path | str]) -> dict[str, np.ndarray]
     axes: dict[str, np.ndarray] = {}
     for source in files.values():
         with readable(source), xr.open_dataset(source) as dataset:
-            for name in (one for one in ("gauge", *AXES) if one in dataset.dims):
+            for name in (axis for axis in ("gauge", *AXES) if axis in dataset.dims):
                 axes[name] = np.union1d(axes[name], dataset[name].values) if name in axes else dataset[name].values
     return axes
 
@@ -156,5 +156,5 @@ def _append(target: netCDF4.Dataset, dataset: xr.Dataset, blade: str, scene: str
     for name in ("speed", "speed_rpm"):
         target[name][rows] = dataset[name].values
     whole = dataset.reindex({name: values for name, values in axes.items() if name in dataset.dims})
-    for name in (one for one in VARIABLES if one in whole):
+    for name in (variable for variable in VARIABLES if variable in whole):
         target[name][rows] = whole[name].values

@@ -11,25 +11,14 @@ from r37core.fem.elements import ELEMENTS
 from r37core.fem.surface import outer_faces
 from r37core.mesh.blade_mesh import BladeMesh
 
+from .gauge import Gauge
+
 _OUTSIDE = 0.05  # of a triangle: so far beyond its sides a place still counts as in it
 
 
 @dataclass(frozen=True)
-class Gauge:
-    """A strain gauge: `chord` from 0 (leading) to 1 (trailing edge), `span` from 0 (root) to 1 (tip), on a `side`.
-
-    `side`: pressure or suction; `angle` (rad) of its grid: 0 along the span, outwards, pi/2 towards the trailing edge.
-    """
-
-    chord: float
-    span: float
-    side: str
-    angle: float
-
-
-@dataclass(frozen=True)
-class _Place:
-    """A place on the surface: its element (type and row), local coordinates there, and two directions in the surface.
+class _SurfacePoint:
+    """A point on the surface: its element (type and row), local coordinates there, and two directions in the surface.
 
     `slopes`, shape (2, 3): change of the local coordinates along them; `parameters`, shape (2, 2): of (chord, span).
     """
@@ -53,22 +42,22 @@ def gauge_rows(mesh: BladeMesh, basis: np.ndarray, gauges: Sequence[Gauge]) -> n
 
 def gauge_points(mesh: BladeMesh, gauges: Sequence[Gauge]) -> np.ndarray:
     """Where the gauges are (m), shape (gauges, 3)."""
-    found = [_place(mesh, gauge) for gauge in gauges]
-    return np.array([ELEMENTS[at.name].shape_functions(at.local[None])[0] @ _coordinates(mesh, at) for at in found])
+    points = [_surface_point(mesh, gauge) for gauge in gauges]
+    return np.array([ELEMENTS[at.name].shape_functions(at.local[None])[0] @ _coordinates(mesh, at) for at in points])
 
 
 def _row(mesh: BladeMesh, basis: np.ndarray, gauge: Gauge) -> np.ndarray:
-    place = _place(mesh, gauge)
-    element, coordinates = ELEMENTS[place.name], _coordinates(mesh, place)[None]
-    tangents = place.slopes @ element.jacobian(coordinates, place.local[None])[0, 0].T
-    direction = _direction(tangents, place.parameters, gauge.angle)
-    gradients, _ = element.physical_gradients(coordinates, place.local[None])
+    point = _surface_point(mesh, gauge)
+    element, coordinates = ELEMENTS[point.name], _coordinates(mesh, point)[None]
+    tangents = point.slopes @ element.jacobian(coordinates, point.local[None])[0, 0].T
+    direction = _direction(tangents, point.parameters, gauge.angle)
+    gradients, _ = element.physical_gradients(coordinates, point.local[None])
     along = gradients[0, 0] @ direction
-    return np.einsum("a,aij,i->j", along, basis[mesh.blocks[place.name][place.row]], direction, optimize=True)
+    return np.einsum("a,aij,i->j", along, basis[mesh.blocks[point.name][point.row]], direction, optimize=True)
 
 
-def _coordinates(mesh: BladeMesh, place: _Place) -> np.ndarray:
-    return mesh.points[mesh.blocks[place.name][place.row]]
+def _coordinates(mesh: BladeMesh, point: _SurfacePoint) -> np.ndarray:
+    return mesh.points[mesh.blocks[point.name][point.row]]
 
 
 def _direction(tangents: np.ndarray, parameters: np.ndarray, angle: float) -> np.ndarray:
@@ -82,7 +71,7 @@ def _direction(tangents: np.ndarray, parameters: np.ndarray, angle: float) -> np
     return np.cos(angle) * along + np.sin(angle) * across / np.linalg.norm(across)
 
 
-def _place(mesh: BladeMesh, gauge: Gauge) -> _Place:
+def _surface_point(mesh: BladeMesh, gauge: Gauge) -> _SurfacePoint:
     """The element under a gauge: the triangle of corners of its side's outer faces that holds (chord, span)."""
     corners = np.concatenate(_triangles(mesh, gauge.side))
     parameters = mesh.parameters[corners, :2]
@@ -99,24 +88,24 @@ def _place(mesh: BladeMesh, gauge: Gauge) -> _Place:
             "take a place farther from the edges (signals.gauges in config.yaml)"
         )
     name, row = _element_of(mesh, corners[best])
-    places = [int(np.flatnonzero(mesh.blocks[name][row] == node)[0]) for node in corners[best]]
-    nodes = ELEMENTS[name].nodes[places]
+    corner_numbers = [int(np.flatnonzero(mesh.blocks[name][row] == node)[0]) for node in corners[best]]
+    nodes = ELEMENTS[name].nodes[corner_numbers]
     # the shape functions' local coordinates are linear in those of a triangle of corners, chord and span (nearly) too
-    return _Place(name, row, shares[best] @ nodes, nodes[1:] - nodes[:1], edges[best])
+    return _SurfacePoint(name, row, shares[best] @ nodes, nodes[1:] - nodes[:1], edges[best])
 
 
 def _triangles(mesh: BladeMesh, side: str) -> list[np.ndarray]:
     """Corners of the side's outer faces as triangles, shape (triangles, 3) each, without those of root and tip."""
     ends = [np.isin(np.arange(len(mesh.points)), mesh.node_set(name)) for name in ("root", "tip")]
     sign = {"pressure": -1.0, "suction": 1.0}[side]
-    found = []
+    triangles = []
     for part in outer_faces(mesh.blocks):
         faces = part.nodes[:, : part.corners]
         a, b, c = (mesh.points[faces[:, number]] for number in range(3))
         outwards = np.sum(np.cross(b - a, c - a) * mesh.normals[faces].mean(axis=1), axis=1)
-        kept = faces[(sign * outwards > 0.0) & ~np.any([end[faces].all(axis=1) for end in ends], axis=0)]
-        found += [kept[:, split] for split in ([0, 1, 2], [0, 2, 3])[: part.corners - 2]]
-    return found
+        outer = faces[(sign * outwards > 0.0) & ~np.any([end[faces].all(axis=1) for end in ends], axis=0)]
+        triangles += [outer[:, split] for split in ([0, 1, 2], [0, 2, 3])[: part.corners - 2]]
+    return triangles
 
 
 def _element_of(mesh: BladeMesh, corners: np.ndarray) -> tuple[str, int]:

@@ -58,10 +58,10 @@ def record_signals(
         if record.diverged:
             status = RunStatus.DIVERGED
             break
-    kept = slice(-min(last, choice.revolutions) * per_revolution, None)
+    recorded = slice(-min(last, choice.revolutions) * per_revolution, None)
     turn = np.arange(1, len(tip) + 1) / per_revolution
-    normal, tangential = (tip[kept, :, DIRECTIONS.index(name)] for name in ("normal", "tangential"))
-    return Record(turn[kept], normal, tangential, strain[kept], status)
+    normal, tangential = (tip[recorded, :, DIRECTIONS.index(name)] for name in ("normal", "tangential"))
+    return Record(turn[recorded], normal, tangential, strain[recorded], status)
 
 
 def revolutions_of(record: Record) -> Sequence[int]:

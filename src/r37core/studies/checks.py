@@ -70,12 +70,12 @@ def validation_table(checks: Sequence[Check], others: Mapping[str, Sequence[Chec
     """
     head = ["what", "published", "ours", "error", *(name.replace("_", " ") for name in others)]
     rows = []
-    found = [{check.name: check.shown for check in several} for several in others.values()]
+    shown = [{check.name: check.shown for check in several} for several in others.values()]
     for check in sorted(checks, key=lambda check: (check.published is None, check.agrees, -check.error)):
         published = number(check.published)
         unit = f" {check.unit}" if check.unit and published else ""
         rows.append(
-            [check.name, published + unit, check.shown, _error(check), *(values.get(check.name, "") for values in found)]
+            [check.name, published + unit, check.shown, _error(check), *(values.get(check.name, "") for values in shown)]
         )
     return f"{score(checks)} published numbers and statements agree.\n\n{markdown_table(head, rows)}"
 
@@ -105,6 +105,6 @@ def energy_share(response: xr.Dataset) -> np.ndarray:
 
 def with_histories(run: xr.Dataset, other: xr.Dataset) -> xr.Dataset:
     """A response with the stress histories of another one of the same blade and scene beside its own."""
-    histories = [one["max_von_mises_history"] for one in (run, other) if "max_von_mises_history" in one]
+    histories = [each["max_von_mises_history"] for each in (run, other) if "max_von_mises_history" in each]
     together = xr.concat(histories, "history_speed").drop_duplicates("history_speed").sortby("history_speed")
     return run.drop_dims("history_speed", errors="ignore").assign(max_von_mises_history=together)

@@ -31,7 +31,7 @@ def build_model(
     clock = Stopwatch()
     reduction = replace(
         base,
-        boundary=BoundaryChoice(choice.tip_line, choice.boundary_nodes, choice.corners, base.boundary.contact),
+        boundary=BoundaryChoice(choice.tip_line, choice.boundary_nodes, choice.corners, contact=base.boundary.contact),
         fixed_interface_modes=choice.fixed_interface_modes,
         stress_submesh=EVERYWHERE if choice.whole_blade_stress else base.stress_submesh,
     )

@@ -95,8 +95,8 @@ def _cases_of(settings: Settings, study: str) -> dict[str, Case]:
     """Cases of a study; ConfigError for one that steps with central differences where the Coriolis force is wanted."""
     cases = _plan(study).cases(settings)
     if settings.structure.coriolis and any(case.choice.integrator != EXACT_MODAL for case in cases.values()):
-        path, found = ("structure", "coriolis"), f"true in the study {study}, which runs central differences, too"
-        raise settings.documents.config.refusal(path, found, "false; only exact_modal carries the Coriolis force")
+        path, value = ("structure", "coriolis"), f"true in the study {study}, which runs central differences, too"
+        raise settings.documents.config.refusal(path, value, "false; only exact_modal carries the Coriolis force")
     return cases
 
 
@@ -134,7 +134,7 @@ def blade_name_of(settings: Settings, section: TradeoffSection | StabilitySectio
 
 
 def _with_profiles(settings: Settings) -> dict[str, BladeSettings]:
-    return {blade: one for blade, one in settings.blades.items() if isinstance(one.definition, BladeDefinition)}
+    return {blade: entry for blade, entry in settings.blades.items() if isinstance(entry.definition, BladeDefinition)}
 
 
 def material_of(settings: Settings, blade: str) -> Material:

@@ -117,8 +117,8 @@ class _Runs:
         case = self.case
         choice = case.choice
         if "stress" in case.results:
-            kept = choice.revolutions if speed in self.histories else choice.revolutions_in_statistic
-            choice = replace(choice, snapshot_revolutions=kept)
+            snapshot_revolutions = choice.revolutions if speed in self.histories else choice.revolutions_in_statistic
+            choice = replace(choice, snapshot_revolutions=snapshot_revolutions)
         else:
             choice = replace(choice, snapshots_per_revolution=0, snapshot_revolutions=0)
         if case.share_of_limit is not None:

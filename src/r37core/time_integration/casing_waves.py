@@ -30,17 +30,17 @@ def casing_waves(
     orders = np.rint(np.fft.fftfreq(count, 1.0 / count)) / revolutions
     squares = amplitudes**2
     energy = 0.5 * np.sum(((orders * speed) ** 2 + own[:, None] ** 2) * squares, axis=1) / size**2
-    forward, backward = (0.5 * squares[:, one].sum(axis=1) for one in (orders > 0.0, orders < 0.0))
+    forward, backward = (0.5 * squares[:, wave].sum(axis=1) for wave in (orders > 0.0, orders < 0.0))
     # Z of a mode without nodal diameters is real, or imaginary: both halves move together
     runs = nodal_diameters > 0
     forward, backward = np.where(runs, forward, 2.0 * (forward + backward)), runs * backward
     ascending = np.argsort(orders)
-    kept = ascending[np.abs(orders[ascending]) <= highest_order + nodal_diameters.max()]
+    shown = ascending[np.abs(orders[ascending]) <= highest_order + nodal_diameters.max()]
     return {
         "casing_nodal_diameter": nodal_diameters,
         "casing_frequency": own / 2.0 / np.pi,
-        "casing_order": orders[kept],
-        "casing_amplitude": amplitudes[:, kept].astype(np.float32),
+        "casing_order": orders[shown],
+        "casing_amplitude": amplitudes[:, shown].astype(np.float32),
         "casing_rms_forward": np.sqrt(forward),
         "casing_rms_backward": np.sqrt(backward),
         "casing_energy": energy,

@@ -53,7 +53,7 @@ def check_room(model: ContactModel, scene: Scene, speeds: np.ndarray) -> None:
         f"casing.clearance of the scene (scenes.yaml): at {speeds[row]:g} rad/s contact node {node + 1} of {room.shape[1]}, "
         f"from the leading edge on, is {lacking:.3g} m inside of the casing before anything vibrates; allowed: a cold_m of "
         f"at least {scene.casing.clearance + lacking:.6g} m for this speed, {lining}, a casing_growth larger by as much, or "
-        "lower speeds (speeds, run_ups, and structure.maximum_speed_rad_s)"
+        "lower speeds (speeds, those of run-ups, and structure.maximum_speed_rad_s)"
     )
 
 
@@ -72,7 +72,7 @@ def gaps(problem: Problem, clearance: np.ndarray, displacement: np.ndarray, step
     """Distance (m) of every node from casing or lining, and the angle (rad) at which it meets it, shape (nodes,) both.
 
     `clearance` (m) of the round casing, shape (nodes,); `displacement` (m) of the nodes along its normal, tangent and meridian,
-    shape (3, nodes), relative to a casing that gives way; `step`: counted from the start of the run.
+    shape (3, nodes), relative to a flexible casing; `step`: counted from the start of the run.
     """
     theta = problem.theta(step % problem.steps_per_revolution)
     normal, across, meridional = displacement
@@ -87,7 +87,7 @@ def gaps(problem: Problem, clearance: np.ndarray, displacement: np.ndarray, step
     return clearance - lobes - position, theta
 
 
-def cut(clearance: np.ndarray, rings: int) -> np.ndarray:
+def initial_wear(clearance: np.ndarray, rings: int) -> np.ndarray:
     """Wear (m) of each ring of the lining where the tip reaches into it before anything vibrates, shape (rings, 1).
 
     `clearance` (m), shape (nodes,). The speed was reached slowly, so the tip has cut its way and presses nothing.

@@ -38,7 +38,7 @@ class ComplexModes:
         by_u, by_d = imaginary_part(recursion)
         turned = self.shapes.imag
         # none where the shape is real, however fast the mode
-        by_u, by_d = (np.where(turned.any(axis=0), one, 0.0) for one in (by_u, by_d))
+        by_u, by_d = (np.where(turned.any(axis=0), values, 0.0) for values in (by_u, by_d))
         return self.shapes.real - turned * by_u, -turned * by_d
 
     def begun(
@@ -52,8 +52,8 @@ class ComplexModes:
         turn = -damping_ratio + 1j * np.sqrt(1.0 - damping_ratio**2)
         # in w_j zeta_j, and with the rows of the displacement times W, all numbers are about one
         rows = np.concatenate([frequencies[:, None] * self.shapes / self.frequencies, turn * self.shapes])
-        given = np.concatenate([frequencies * displacement, velocity])
-        parts = np.linalg.solve(np.hstack([rows.real, -rows.imag]), given).reshape(2, -1) / self.frequencies
+        motion = np.concatenate([frequencies * displacement, velocity])
+        parts = np.linalg.solve(np.hstack([rows.real, -rows.imag]), motion).reshape(2, -1) / self.frequencies
         amplitude = parts[0] + 1j * parts[1]
         return amplitude.real, -(amplitude * np.expm1(-turn * self.frequencies * step)).real
 
@@ -63,17 +63,17 @@ def complex_modes(frequencies: np.ndarray, coupling: np.ndarray) -> ComplexModes
 
     A shape's largest number is real and positive, so that modes without coupling keep their real shapes.
     """
-    found, shapes = frequencies.copy(), np.eye(len(frequencies), dtype=complex)
+    coupled_frequencies, shapes = frequencies.copy(), np.eye(len(frequencies), dtype=complex)
     coupled = np.flatnonzero(coupling.any(axis=0))
     if len(coupled):
         stiff, modes = np.diag(frequencies[coupled]), len(coupled)
         block = coupling[np.ix_(coupled, coupled)]
         values, vectors = np.linalg.eigh(-1j * np.block([[np.zeros_like(stiff), stiff], [-stiff, -block]]))
-        found[coupled] = values[modes:]
-        moving = np.sqrt(2.0) * found[coupled] * vectors[:modes, modes:] / frequencies[coupled, None]
+        coupled_frequencies[coupled] = values[modes:]
+        moving = np.sqrt(2.0) * coupled_frequencies[coupled] * vectors[:modes, modes:] / frequencies[coupled, None]
         largest = moving[np.abs(moving).argmax(axis=0), np.arange(modes)]
         shapes[np.ix_(coupled, coupled)] = moving * (np.abs(largest) / largest)
-    return ComplexModes(found, shapes)
+    return ComplexModes(coupled_frequencies, shapes)
 
 
 def imaginary_part(recursion: Recursion) -> np.ndarray:

@@ -38,8 +38,8 @@ class InitialMotion:
     velocity: np.ndarray | None
 
     @classmethod
-    def given(cls, displacement: ArrayLike | None, velocity: ArrayLike | None) -> InitialMotion | None:
-        """The motion that a caller asks for; None where neither is given."""
+    def from_arrays(cls, displacement: ArrayLike | None, velocity: ArrayLike | None) -> InitialMotion | None:
+        """The motion with these; None where there is neither."""
         if displacement is None and velocity is None:
             return None
         return cls(_numbers("displacement", displacement), _numbers("velocity", velocity))
@@ -48,13 +48,13 @@ class InitialMotion:
     def attributes(self) -> dict[str, str | np.ndarray]:
         """What a dataset says of it; nothing of a blade at rest."""
         parts = {"initial_displacement": self.displacement, "initial_velocity": self.velocity}
-        found = {name: part for name, part in parts.items() if part is not None and part.any()}
-        return {"initial_state": "in motion", **found} if found else {}
+        named = {name: part for name, part in parts.items() if part is not None and part.any()}
+        return {"initial_state": "in motion", **named} if named else {}
 
     def at_rest(self, model: ContactModel) -> np.ndarray:
         """Displacement and velocity in the modes at rest, shape (2, modes); InitialMotionError if the model has others."""
         size = len(model.to_reduced)
-        given = np.zeros((2, size))
+        motion = np.zeros((2, size))
         for row, name in enumerate(("displacement", "velocity")):
             part = getattr(self, name)
             if part is None:
@@ -63,11 +63,11 @@ class InitialMotion:
                 raise InitialMotionError(
                     f"initial_{name}: found {len(part)} numbers; allowed: {size}, one for each coordinate of the reduced model"
                 )
-            given[row] = part
-        return np.linalg.lstsq(model.to_reduced, given.T, rcond=None)[0].T
+            motion[row] = part
+        return np.linalg.lstsq(model.to_reduced, motion.T, rcond=None)[0].T
 
     def left_out(self, problem: Problem) -> float:
-        """Share of its energy that a run leaves out, for it lies in modes that are not stepped."""
+        """Share of its energy that a run leaves out, because it lies in modes that are not stepped."""
         whole, model = self.at_rest(problem.model), problem.model
         rest = whole - (whole @ problem.modes) @ problem.modes.T
 
@@ -107,17 +107,17 @@ def _numbers(name: str, values: ArrayLike | None) -> np.ndarray | None:
         return None
     allowed = "allowed: finite numbers in a row, one for each coordinate of the reduced model"
     try:
-        found = np.asarray(values)
+        numbers = np.asarray(values)
     except ValueError:
         raise InitialMotionError(f"initial_{name}: found rows of different lengths; {allowed}") from None
-    if found.ndim != 1:
-        raise InitialMotionError(f"initial_{name}: found an array of shape {found.shape}; {allowed}")
-    if found.dtype.kind not in "iuf":
-        raise InitialMotionError(f"initial_{name}: found entries of kind {found.dtype.name}; {allowed}")
-    wrong = np.flatnonzero(~np.isfinite(found))
+    if numbers.ndim != 1:
+        raise InitialMotionError(f"initial_{name}: found an array of shape {numbers.shape}; {allowed}")
+    if numbers.dtype.kind not in "iuf":
+        raise InitialMotionError(f"initial_{name}: found entries of kind {numbers.dtype.name}; {allowed}")
+    wrong = np.flatnonzero(~np.isfinite(numbers))
     if len(wrong):
-        raise InitialMotionError(f"initial_{name}: found {found[wrong[0]]} at place {wrong[0]}, counted from 0; {allowed}")
-    return found.astype(float)
+        raise InitialMotionError(f"initial_{name}: found {numbers[wrong[0]]} at place {wrong[0]}, counted from 0; {allowed}")
+    return numbers.astype(float)
 
 
 def _check_room(problem: Problem, displacement: np.ndarray, state: SimulationState) -> None:

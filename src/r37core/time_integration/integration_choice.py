@@ -3,6 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Annotated
+
+from r37core.declared import Key
+
+from .integrators import CENTRAL_DIFFERENCE, INTEGRATORS
 
 LARGEST_TABLE = 2**30
 """Bytes of the casing's shape at every step of a revolution."""
@@ -12,23 +17,35 @@ LARGEST_TABLE = 2**30
 class IntegrationChoice:
     """Numbers of the time integration: largest time step (s), revolutions, samples per revolution, and what is recorded.
 
-    `snapshots_per_revolution` states are recorded in each of the last `snapshot_revolutions`; `jumps`: whether free flight is jumped over or stepped through; `highest_frequency` (Hz): faster
-    modes are not stepped; `static_above`: nor are, with exact_modal, modes with a larger product of angular frequency and step,
-    and all that are not stepped follow the contact forces statically; `shorten`: whether an unstable step is shortened, or
-    refused; `steps_per_sample`: given where a run keeps them over many speeds; `integrator`: one of
-    r37core.time_integration.integrators; `engine`: the compiled time integration, or the plain one of
-    r37core.time_integration.reference.
+    `snapshots_per_revolution` states are recorded in each of the last `snapshot_revolutions`; `jumps`: whether free flight is
+    jumped over or stepped through; `static_above`: with exact_modal, modes with a larger product of angular frequency and step
+    are not stepped either, and all that are not stepped follow the contact forces statically; `shorten`: whether an unstable
+    step is shortened, or refused; `steps_per_sample`: given where a run keeps them over many speeds.
     """
 
     time_step: float
-    revolutions: int
+    revolutions: Annotated[int, Key("length of a run", ge=2, le=20000)]
     samples_per_revolution: int
-    integrator: str
-    engine: str
+    integrator: Annotated[
+        str,
+        Key(
+            "exact_modal follows modes without error between contacts, fast ones statically, with forces at t_n",
+            one_of=INTEGRATORS,
+        ),
+    ] = CENTRAL_DIFFERENCE
+    engine: Annotated[str, Key("reference: plain NumPy, for short runs", one_of=("compiled", "reference"))] = "compiled"
     snapshots_per_revolution: int = 0
     snapshot_revolutions: int = 0
     jumps: bool = True
-    highest_frequency: float = float("inf")
+    highest_frequency: Annotated[
+        float,
+        Key(
+            "faster modes are not stepped: with exact_modal they follow statically, else they are left out",
+            "_hz",
+            gt=0,
+            le=1e12,
+        ),
+    ] = float("inf")
     static_above: float = 1.0
     shorten: bool = False
     steps_per_sample: int | None = None

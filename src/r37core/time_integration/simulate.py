@@ -9,7 +9,7 @@ import numpy as np
 from r37core.contact.scene import Scene
 from r37core.rom.contact_model import ContactModel
 
-from .clearance import cut
+from .clearance import initial_wear
 from .compiled.engine import CompiledEngine
 from .initial_motion import InitialMotion
 from .integration_choice import IntegrationChoice
@@ -57,7 +57,7 @@ class Simulation:
         directions, nodes, modes = problem.displacement_operator.shape
         wear = None if problem.scene.lining is None else np.zeros((problem.rings, problem.bars))
         if wear is not None and problem.scene.casing.changes_with_speed:
-            wear += cut(problem.clearance, problem.rings)
+            wear += initial_wear(problem.clearance, problem.rings)
         forces = np.zeros((directions, nodes))
         state = SimulationState(np.zeros(modes), np.zeros(modes), wear, np.zeros(nodes, dtype=bool), forces)
         if motion is not None:

@@ -6,6 +6,7 @@ import json
 from typing import Any
 
 from r37core.contact.scene import Scene
+from r37core.io import as_list
 from r37core.plain import from_plain
 from r37core.rom.contact_model import ContactModel, read_contact_model
 from r37core.stress.operator import read_stress_operator
@@ -23,17 +24,22 @@ def run_job(speed: str, output: str, task: str, about: str, model: str, stress: 
 
     `model`, `stress`: files of the contact model and, where stress is wanted, of its operator.
 
-    With `only_prepare` in the task it compiles what the run needs, refuses what cannot be run, and writes nothing.
     Raises InputFileError, and what Problem raises.
     """
     wanted = json.loads(task)
-    given = _given(model, speed, wanted)
-    if wanted.get("only_prepare"):
-        Simulation(*given)
-    else:
-        operator = read_stress_operator(stress) if stress else None
-        run = run_speed(*given, wanted["results"], **wanted["kept"], stress=operator)
-        write_speed(run, output, json.loads(about))
+    operator = read_stress_operator(stress) if stress else None
+    run = run_speed(*_given(model, speed, wanted), wanted["results"], **wanted["kept"], stress=operator)
+    write_speed(run, output, json.loads(about))
+
+
+def prepare(input: Any, output: Any, params: Any) -> None:
+    """A step of the workflow: compile the time integration; refuse a step too long. Inputs: models, that of contact first.
+
+    Params: scene, choice, speed. Raises InputFileError, and what Problem raises.
+    """
+    scene, choice = from_plain(Scene, params.scene), from_plain(IntegrationChoice, params.choice)
+    problem = Simulation(read_contact_model(as_list(input.models)[0]), params.speed, scene, choice).problem
+    print(f"{params.speed:g} rad/s: highest mode {problem.frequencies[-1]:.6g} rad/s, steps of {problem.time_step:.6g} s")
 
 
 def make_ready(speed: str, output: str, log: str, task: str, about: str, model: str, stress: str | None = None) -> None:
@@ -41,10 +47,7 @@ def make_ready(speed: str, output: str, log: str, task: str, about: str, model: 
     if (model, task) in _READY:
         return
     _READY.add((model, task))
-    wanted = json.loads(task)
-    # what is to be compiled is not compiled here, where all other jobs would wait
-    if not wanted.get("only_prepare"):
-        Simulation(*_given(model, speed, wanted))
+    Simulation(*_given(model, speed, json.loads(task)))
 
 
 def _given(model: str, speed: str, wanted: dict[str, Any]) -> tuple[ContactModel, float, Scene, IntegrationChoice]:

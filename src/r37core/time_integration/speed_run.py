@@ -59,14 +59,14 @@ def run_speed(
     begun = simulation.energy(state)
     record = simulation.advance(state, choice.revolutions)
     per_revolution = choice.samples_per_revolution
-    asked = choice.revolutions * per_revolution
-    samples = _whole(record.samples.reshape(-1, len(TIP_POINTS), len(DIRECTIONS)), asked, record.diverged)
+    sample_count = choice.revolutions * per_revolution
+    samples = _whole(record.samples.reshape(-1, len(TIP_POINTS), len(DIRECTIONS)), sample_count, record.diverged)
     maxima = np.abs(samples).reshape(choice.revolutions, per_revolution, *samples.shape[1:]).max(axis=1)
     first = choice.revolutions // 2
     half = samples[first * per_revolution :]
     diverged_at = len(record.samples) / per_revolution if record.diverged else np.nan
     totals = state.totals
-    kept = {
+    numbers = {
         "status": np.array(int(RunStatus.DIVERGED if record.diverged else RunStatus.COMPLETED)),
         "speed": np.array(speed),
         "diverged_revolution": np.array(diverged_at),
@@ -83,33 +83,33 @@ def run_speed(
         "worst_complementarity": np.array(totals["worst_complementarity"]),
     }
     if left_out is not None:
-        kept["initial_energy_left_out"] = np.array(left_out)
+        numbers["initial_energy_left_out"] = np.array(left_out)
     if scene.casing.changes_with_speed:
-        kept["clearance"] = simulation.problem.clearance
+        numbers["clearance"] = simulation.problem.clearance
     if "spectrum" in results:
-        kept |= _spectrum(half[:, 0, _KEPT].T, len(half) // per_revolution, spectrum_highest_order)
+        numbers |= _spectrum(half[:, 0, _KEPT].T, len(half) // per_revolution, spectrum_highest_order)
     if "stress" in results:
-        kept |= _stress(simulation, record, stress, "static_stress" in results)
+        numbers |= _stress(simulation, record, stress, "static_stress" in results)
     if "wear" in results:
         assert scene.lining is not None
-        kept |= _wear(state, min(wear_angles, scene.lining.bars))
+        numbers |= _wear(state, min(wear_angles, scene.lining.bars))
     if "energy" in results:
-        kept |= energy_balance(simulation.work(state), float(totals["loss"]), simulation.energy(state) - begun)
+        numbers |= energy_balance(simulation.work(state), float(totals["loss"]), simulation.energy(state) - begun)
         if motion is not None:
-            kept["initial_energy"] = np.array(begun)
+            numbers["initial_energy"] = np.array(begun)
     if "casing" in results:
         ring = simulation.problem.ring
         assert ring is not None and record.casing is not None
-        casing = _whole(record.casing, asked, record.diverged)[first * per_revolution :]
-        kept |= casing_waves(casing, ring, speed, len(casing) // per_revolution, spectrum_highest_order)
-    return kept
+        casing = _whole(record.casing, sample_count, record.diverged)[first * per_revolution :]
+        numbers |= casing_waves(casing, ring, speed, len(casing) // per_revolution, spectrum_highest_order)
+    return numbers
 
 
-def _whole(samples: np.ndarray, asked: int, diverged: bool) -> np.ndarray:
-    """As many samples as were asked for: after a divergence NaN, for the last one is past the limit and may be infinite."""
+def _whole(samples: np.ndarray, count: int, diverged: bool) -> np.ndarray:
+    """As many samples as were asked for: NaN after a divergence, and in place of the last one, which may be infinite."""
     if not diverged:
         return samples
-    missing = asked - len(samples) + 1
+    missing = count - len(samples) + 1
     return np.concatenate([samples[:-1], np.full((missing, *samples.shape[1:]), np.nan)])
 
 
@@ -159,9 +159,9 @@ def _spectrum(displacement: np.ndarray, revolutions: int, highest_order: int) ->
 
 def amplitudes(values: np.ndarray) -> np.ndarray:
     """Amplitudes of the Fourier series of real values, along the last axis; the first is the mean's size."""
-    found = 2.0 * np.abs(rfft(values)) / values.shape[-1]
-    found[..., 0] /= 2.0
-    return found
+    sizes = 2.0 * np.abs(rfft(values)) / values.shape[-1]
+    sizes[..., 0] /= 2.0
+    return sizes
 
 
 def _wear(state: SimulationState, angles: int) -> dict[str, np.ndarray]:
@@ -169,9 +169,9 @@ def _wear(state: SimulationState, angles: int) -> dict[str, np.ndarray]:
     assert state.wear is not None
     profile = state.wear.max(axis=0)
     sectors = np.linspace(0, len(profile), angles, endpoint=False).astype(int)
-    kept = np.maximum.reduceat(profile, sectors) if len(profile) >= angles else profile[sectors]
+    depths = np.maximum.reduceat(profile, sectors) if len(profile) >= angles else profile[sectors]
     return {
-        "wear": kept.astype(np.float32),
+        "wear": depths.astype(np.float32),
         "max_wear": np.array(profile.max()),
         "wear_harmonic": amplitudes(profile)[: _WEAR_LOBES + 1],
     }

@@ -33,26 +33,26 @@ class UnstableStepError(ValueError):
 def check_step(problem: Problem) -> None:
     """Raises UnstableStepError unless the problem's step is below its limits, of the free blade and of the pressed one."""
     choice, step = problem.choice, problem.time_step
-    given = f"time_step_s: {choice.time_step:g} s gives steps of {step:.6g} s, not below the"
+    taken = f"time_step_s: {choice.time_step:g} s gives steps of {step:.6g} s, not below the"
     if choice.integrator == CENTRAL_DIFFERENCE:
-        _check_published_step(problem, given)
+        _check_published_step(problem, taken)
         return
     ratio = pressed_ratio(problem) / largest_pressed_ratio(problem.scene)
     if not ratio < 1.0:
         limit = step / np.sqrt(ratio)
         raise UnstableStepError(
-            f"{given} limit for nodes pressed on the casing, about {limit:.6g} s; use a smaller one", float(limit)
+            f"{taken} limit for nodes pressed on the casing, about {limit:.6g} s; use a smaller one", float(limit)
         )
 
 
-def _check_published_step(problem: Problem, given: str) -> None:
+def _check_published_step(problem: Problem, taken: str) -> None:
     highest = problem.highest_frequency
     limit = 2.0 / highest
     of_casing = highest > problem.frequencies[-1]
     what, remedy = ("this casing", "leave its highest modes out") if of_casing else _OF_BLADE
     if not problem.time_step < limit:
         raise UnstableStepError(
-            f"{given} stability limit of {what}, {limit:.6g} s (highest mode {highest / 2e3 / np.pi:.1f} kHz); "
+            f"{taken} stability limit of {what}, {limit:.6g} s (highest mode {highest / 2e3 / np.pi:.1f} kHz); "
             f"use a smaller one, {remedy}, or take the integrator exact_modal",
             limit,
         )
@@ -62,7 +62,7 @@ def _check_published_step(problem: Problem, given: str) -> None:
     if not ratio < 1.0:
         limit = problem.time_step / np.sqrt(ratio)
         raise UnstableStepError(
-            f"{given} limit for this lining, about {limit:.6g} s (bars of {problem.bar_stiffness:.4g} N/m); use a smaller one, "
+            f"{taken} limit for this lining, about {limit:.6g} s (bars of {problem.bar_stiffness:.4g} N/m); use a smaller one, "
             "or a softer, thicker or narrower lining",
             limit,
         )

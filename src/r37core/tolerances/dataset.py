@@ -13,8 +13,9 @@ from r37core.dataset_file import SPEED_RPM, about, read_dataset
 from r37core.io import readable
 from r37core.results.measures import largest_stress, leading_edge, peak_of, ratio_to_yield, speeds_above_yield
 from r37core.results.member_ends import ENDS
+from r37core.results.members import MEASURES_RANKED_BY
 from r37core.results.netcdf import status_flags
-from r37core.results.ranking import RANKED_BY, robustness
+from r37core.results.ranking import robustness
 from r37core.results.variables import VARIABLES
 from r37core.time_integration.status import RunStatus
 from r37core.units import RPM
@@ -40,9 +41,6 @@ MEASURES = {
     "largest_median_stress": ("Pa", "largest over all speeds of the median over the revolutions"),
 }
 """What is read off each member over all its speeds -> units, meaning; all but the first need the stress."""
-
-_RANKED = dict(zip(RANKED_BY, ("length_certain", "length_possible", "diverged_runs", "largest_median_stress"), strict=True))
-"""What blades are ranked by -> measure that it is."""
 
 INDEXED = ("peak_speed", "width_above_yield", "largest_stress")
 """Measures for which the numbers are ranked."""
@@ -90,19 +88,8 @@ def _measured(response: xr.Dataset) -> dict[str, float]:
         above, (largest, _) = speeds_above_yield(response), largest_stress(response)
         found |= {"first_yield_speed": above.first, "width_above_yield": above.width, "largest_stress": largest}
         ranked = robustness(response, with_scatter=False)
-        found |= {measure: ranked[column] for column, measure in _RANKED.items()}
+        found |= {measure: ranked[column] for column, measure in MEASURES_RANKED_BY.items()}
     return found
-
-
-def measures_of_members(tolerances: xr.Dataset) -> dict[tuple[str, str], dict[str, dict[str, float]]]:
-    """What blades are ranked by of each blade and scene, member by member; `tolerances`: as `tolerances_dataset` gives it."""
-    found: dict[tuple[str, str], dict[str, dict[str, float]]] = {}
-    for blade in tolerances["blade"].values.tolist():
-        for scene in tolerances["scene"].values.tolist():
-            one = tolerances[list(_RANKED.values())].sel(blade=blade, scene=scene).dropna("member", how="all")
-            rows = one.to_dataframe()[list(_RANKED.values())].set_axis(list(_RANKED), axis=1)
-            found[blade, scene] = {str(member): values for member, values in rows.to_dict("index").items()}
-    return {pair: members for pair, members in found.items() if members}
 
 
 def _kept(response: xr.Dataset, run: MemberRun, numbers: Sequence[str], values: Mapping[str, float]) -> xr.Dataset:

@@ -4,31 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
-from pathlib import Path
 
 import numpy as np
 import pandas as pd
 
-from r37core.io import readable
 from r37core.results.interactions import Interaction, InteractionChoice
 from r37core.results.member_ends import ENDS
-from r37core.results.table_file import read_table
-from r37core.rounding import rounded_to
-
-RANGED = ("peak_speed_rad_s", "width_above_yield_rad_s", "first_yield_speed_rad_s", "max_von_mises_pa")
-"""Columns of summary.csv that have a range."""
-
-RANGES = tuple(f"{name}_{end}" for name in RANGED for end in ENDS)
-
-KEY = ["blade", "scene", "mode", "engine_order"]
-COLUMNS = [
-    *KEY,
-    "members",
-    "share_of_members",
-    "robust",
-    *(name for one in RANGED for name in (one, *(f"{one}_{end}" for end in ENDS))),
-]
-"""Columns of tolerances.csv: those without an end are of the nominal run."""
+from r37core.results.ranges import COLUMNS, RANGED
 
 ROBUST = 0.5
 """Share of the members that show an interaction, below which it is not robust."""
@@ -112,37 +94,3 @@ def range_table(rows: Iterable[tuple[str, str, dict[str, object]]]) -> pd.DataFr
     """The rows of all blades and scenes as a table, columns as in COLUMNS."""
     made = [{"blade": blade, "scene": scene, **row} for blade, scene, row in rows]
     return pd.DataFrame(made, columns=COLUMNS).astype({"engine_order": "Int64"})
-
-
-def read_ranges(file: Path | str) -> pd.DataFrame:
-    """tolerances.csv. Raises InputFileError where it cannot be read."""
-    table = read_table(file)
-    with readable(file):
-        if list(table.columns) != COLUMNS:
-            raise ValueError(f"its columns are not {', '.join(COLUMNS)}")
-        kinds = {"engine_order": "Int64", "robust": bool, **dict.fromkeys([*RANGED, *RANGES], float)}
-        # what no crossing explains has no mode
-        return table.fillna({"mode": ""}).astype(kinds)
-
-
-def as_ranges_bear(summary: pd.DataFrame) -> pd.DataFrame:
-    """The summary with as many digits of what has a range as its width bears, but for the nominal peaks, which are runs."""
-    found = summary.copy()
-    for one in RANGED:
-        columns = [name for name in (one, *(f"{one}_{end}" for end in ENDS)) if name in found and name != "peak_speed_rad_s"]
-        if f"{one}_low" in columns:
-            rows = found[f"{one}_low"].notna() & found[f"{one}_high"].notna()
-            spread = found.loc[rows, f"{one}_high"] - found.loc[rows, f"{one}_low"]
-            for name in columns:
-                values = zip(found.loc[rows, name], spread, strict=True)
-                found.loc[rows, name] = [float(rounded_to(value, width) or np.nan) for value, width in values]
-    return found
-
-
-def with_ranges(summary: pd.DataFrame, table: pd.DataFrame) -> pd.DataFrame:
-    """summary.csv with the share of members and the ranges of each interaction; empty for those without members."""
-    beside = table[table["peak_speed_rad_s"].notna()][[*KEY, "peak_speed_rad_s", "share_of_members", "robust", *RANGES]]
-    # an empty table has columns of no type
-    return summary.astype({"peak_speed_rad_s": float, "engine_order": "Int64"}).merge(
-        beside, "left", [*KEY, "peak_speed_rad_s"]
-    )

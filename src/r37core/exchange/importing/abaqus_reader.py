@@ -173,9 +173,9 @@ def _take_elements(deck: _Deck, options: dict[str, str], rows: list[list[str]]) 
     _add(deck.element_sets, options.get("ELSET"), [number for number, _ in elements])
 
 
-def _define(known: dict[int, list[T]], what: str, given: list[tuple[int, list[T]]]) -> None:
-    """Add what is `given` by number; one that comes twice must be the same both times."""
-    for number, values in given:
+def _define(known: dict[int, list[T]], what: str, entries: list[tuple[int, list[T]]]) -> None:
+    """Add `entries` by number; a number that comes twice must have the same values both times."""
+    for number, values in entries:
         if known.setdefault(number, values) != values:
             raise ImportRefused(f"{what} {number} is given twice, and not alike; number nodes and elements once")
 

@@ -1,4 +1,4 @@
-"""The axes of a mesh of another program, told from its shape: those about which its ends are cones and its tip makes sense."""
+"""The axes of a mesh of another program, found from its shape: those about which its ends are cones and its tip makes sense."""
 
 from __future__ import annotations
 
@@ -27,15 +27,15 @@ def find_axes(mesh: RawMesh, like: Orientation) -> Orientation | None:
     """
     size = np.ptp(mesh.points, axis=0).max()
     surface = outer_faces(mesh.blocks)
-    found = [(_SIZE, like)]
+    candidates = [(_SIZE, like)]
     for axis in np.eye(3):
         radial = _nearest_direction((mesh.points.mean(axis=0) - like.axis_point) * (1.0 - axis))
         tried = replace(like, length_unit=_SIZE / size, rotor_axis=tuple(axis), radial=radial, rotation="negative")
         placed = tried.points_to_blade(mesh.points)
         hub, casing = (find_end(what, placed, surface) for what in ("root", "tip"))
         if hub is not None and casing is not None and hub.straight and casing.straight:
-            found.append((hub.rule.tolerance + casing.rule.tolerance, tried))
-    _, best = min(found, key=lambda one: one[0])
+            candidates.append((hub.rule.tolerance + casing.rule.tolerance, tried))
+    _, best = min(candidates, key=lambda candidate: candidate[0])
     if best is like:
         return None
     fitting = [
@@ -58,7 +58,7 @@ def _turned(orientation: Orientation, sign: float, rotation: str) -> Orientation
 
 
 def _makes_sense(mesh: RawMesh, orientation: Orientation) -> bool:
-    """Whether leading edge and pressure side of the tip fit the orientation, and are told by its shape."""
+    """Whether leading edge and pressure side of the tip fit the orientation, and follow from its shape."""
     placed = orientation.to_blade(mesh)
     casing = find_end("tip", placed.points, outer_faces(placed.blocks))
     if casing is None:

@@ -55,9 +55,9 @@ def included_files(deck: Path) -> list[Path]:
 
     Raises ImportRefused for a file that is not there, and for one that includes itself.
     """
-    found: dict[Path, None] = {}
-    _include(deck, [], found)
-    return list(found)
+    files: dict[Path, None] = {}
+    _include(deck, [], files)
+    return list(files)
 
 
 def included(deck: Path, options: Mapping[str, str]) -> Path:
@@ -69,7 +69,7 @@ def included(deck: Path, options: Mapping[str, str]) -> Path:
     return file.resolve()
 
 
-def _include(deck: Path, above: list[Path], found: dict[Path, None]) -> None:
+def _include(deck: Path, above: list[Path], files: dict[Path, None]) -> None:
     above = [*above, deck.resolve()]
     for line in deck_lines(deck):
         keyword, options = keyword_and_options(line)
@@ -78,6 +78,6 @@ def _include(deck: Path, above: list[Path], found: dict[Path, None]) -> None:
         file = included(deck, options)
         if file in above:
             raise ImportRefused(f"{deck.name} includes {file.name}, which includes it; take one *INCLUDE out", "mesh")
-        if file not in found:
-            found[file] = None
-            _include(file, above, found)
+        if file not in files:
+            files[file] = None
+            _include(file, above, files)

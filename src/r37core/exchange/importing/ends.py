@@ -70,8 +70,8 @@ def find_end(what: str, points: np.ndarray, surface: list[Faces]) -> End | None:
     nodes = nodes_of(faces)
     rule = _cone(points[nodes])
     straight = rule.tolerance <= max(_STRAIGHT * np.ptp(radius), _TOLERANCES[0])
-    told = np.array_equal(mask_within(surface, rule.within(points)), mask)
-    return End(nodes, faces, mask, rule, straight) if told else None
+    is_exact = np.array_equal(mask_within(surface, rule.within(points)), mask)
+    return End(nodes, faces, mask, rule, straight) if is_exact else None
 
 
 def caught_root(where: Where, mesh: RawMesh, surface: list[Faces]) -> Caught:
@@ -110,8 +110,8 @@ def check_end(what: str, where: Where, caught: Caught, end: End | None) -> None:
 
 def check_root(points: np.ndarray, root: np.ndarray, tip: np.ndarray) -> None:
     """Refuse clamped nodes `root` that do not hold the blade, are the tip's or lie farther out than the nodes of the `tip`."""
-    place = points[root] - points[root].mean(axis=0)
-    if np.linalg.matrix_rank(place, tol=1e-6 * np.ptp(points, axis=0).max()) < 2:
+    offsets = points[root] - points[root].mean(axis=0)
+    if np.linalg.matrix_rank(offsets, tol=1e-6 * np.ptp(points, axis=0).max()) < 2:
         raise ImportRefused(f"root: found {len(root)} nodes on one line, which do not hold the blade; give the nodes of a face")
     inner, outer = (np.hypot(*points[nodes, :2].T).mean() for nodes in (root, tip))
     if inner >= outer:

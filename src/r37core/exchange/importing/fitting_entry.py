@@ -23,24 +23,24 @@ def fitting_entry(source: MeshSource, raw: RawMesh) -> dict[str, str]:
 
     `raw`: the mesh in the file's unit and axes. Empty where the shape tells nothing.
     """
-    given = source.orientation
+    orientation = source.orientation
     entry: dict[str, str] = {}
     # of a turbine both the side and the axes may be meant otherwise
-    found = find_axes(raw, given) if source.sense_check and source.pressure_side_forward else None
-    if found is not None and not _alike(found, given):
+    fitted = find_axes(raw, orientation) if source.sense_check and source.pressure_side_forward else None
+    if fitted is not None and not _alike(fitted, orientation):
         entry = {
-            "rotor_axis": _direction(found.rotor_axis),
-            "radial": _direction(found.radial),
-            "rotation": found.rotation,
+            "rotor_axis": _direction(fitted.rotor_axis),
+            "radial": _direction(fitted.radial),
+            "rotation": fitted.rotation,
         }
-        given = found
-    unit = _fitting_unit(given, raw)
+        orientation = fitted
+    unit = _fitting_unit(orientation, raw)
     if unit is None:
         return entry
-    if unit != given.length_unit:
+    if unit != orientation.length_unit:
         entry["length_unit"] = str(unit)
     try:
-        mesh = replace(given, length_unit=unit).to_blade(raw)
+        mesh = replace(orientation, length_unit=unit).to_blade(raw)
     except ImportRefused:
         return entry
     surface = outer_faces(mesh.blocks)
@@ -51,20 +51,20 @@ def fitting_entry(source: MeshSource, raw: RawMesh) -> dict[str, str]:
     return entry
 
 
-def _fitting_unit(given: Orientation, raw: RawMesh) -> str | float | None:
+def _fitting_unit(orientation: Orientation, raw: RawMesh) -> str | float | None:
     """The unit that is given where the blade has a plausible size with it, else the likeliest one; None without any."""
     try:
-        given.to_blade(raw)
+        orientation.to_blade(raw)
     except ImportRefused as error:
         if error.key == "length_unit":
-            points = given.points_to_blade(raw.points) / given.metres_per_unit
+            points = orientation.points_to_blade(raw.points) / orientation.metres_per_unit
             return next(iter(fitting_units(np.ptp(np.hypot(points[:, 0], points[:, 1])))), None)
-    return given.length_unit
+    return orientation.length_unit
 
 
-def _alike(one: Orientation, other: Orientation) -> bool:
+def _alike(first: Orientation, second: Orientation) -> bool:
     try:
-        return np.allclose(one.rows, other.rows, atol=_SAME_AXES)
+        return np.allclose(first.rows, second.rows, atol=_SAME_AXES)
     except ImportRefused:
         return False
 

@@ -60,8 +60,8 @@ def import_mesh(source: MeshSource, folder: Path | str = ".") -> tuple[BladeMesh
     return BladeMesh(raw.points, raw.blocks, parameters, normals, sets), quality
 
 
-def told_size(mesh: BladeMesh) -> str:
-    """Radii of both ends of the tip and of the root, in words, for whoever knows the blade."""
+def size_in_words(mesh: BladeMesh) -> str:
+    """Radii of both ends of the tip and of the root, as text, to be compared with the real blade."""
     radius = np.hypot(mesh.points[:, 0], mesh.points[:, 1])
     leading, trailing = (radius[mesh.node_set(f"{name}_edge")].max() for name in ("leading", "trailing"))
     root = radius[mesh.node_set("root")].mean()
@@ -87,11 +87,11 @@ def _ends(source: MeshSource, raw: RawMesh) -> tuple[np.ndarray, np.ndarray, Tip
         with blamed("root", source.file):
             check_root(raw.points, root.nodes, tip.nodes)
     if source.end_check:
-        for what, where, found, end in (("root", source.root, root, hub), ("tip", source.tip, tip, casing)):
-            if found is not None:
+        for what, where, caught, end in (("root", source.root, root, hub), ("tip", source.tip, tip, casing)):
+            if caught is not None:
                 with refusals.of(what):
-                    check_end(what, where, found, end)
-        # where the rule for the tip is refused, the sense is still told of the faces that it should have caught
+                    check_end(what, where, caught, end)
+        # where the rule for the tip is refused, the sense is still judged by the faces that it should have caught
         tip = casing if casing is not None and casing.straight else tip
     lines = None
     if tip is not None:

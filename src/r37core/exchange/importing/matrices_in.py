@@ -42,7 +42,7 @@ _REACH = 20.0  # how far beyond the highest speed of the files the fit may be us
 
 
 @dataclass(frozen=True)
-class _Given:
+class _InputMatrices:
     """Mass (kg), stiffness at rest (N/m) and its change per squared speed, and the nodes, in the blade's frame."""
 
     mass: sp.csr_array
@@ -74,37 +74,37 @@ def import_matrices(source: MatricesSource, choice: ReductionChoice, folder: Pat
         return _reduced(_read(files, source, max(choice.speeds)), choice)
 
 
-def _reduced(given: _Given, choice: ReductionChoice) -> ReducedModel:
-    chord = _fractions(given.points)
-    weights = _contact_weights(given.points, chord, choice.boundary)
-    rows = given.mass.shape[0]
+def _reduced(matrices: _InputMatrices, choice: ReductionChoice) -> ReducedModel:
+    chord = _fractions(matrices.points)
+    weights = _contact_weights(matrices.points, chord, choice.boundary)
+    rows = matrices.mass.shape[0]
     boundary = sp.csr_array(sp.kron(weights, sp.eye_array(3)))
     boundary.resize((boundary.shape[0], rows))
-    if rows <= 3 * len(given.points) + _REDUCED_UP_TO:
+    if rows <= 3 * len(matrices.points) + _REDUCED_UP_TO:
         vectors = np.eye(rows)
         if choice.boundary.contact != POINTS:
             # other coordinates for the same motions
-            constraint, _ = constraint_and_fixed_modes(given.stiffness, given.mass, boundary, 0, given.solve_at_rest)
-            vectors = combine_columns(constraint, vectors, given.mass, boundary, 0.0).vectors
+            constraint, _ = constraint_and_fixed_modes(matrices.stiffness, matrices.mass, boundary, 0, matrices.solve_at_rest)
+            vectors = combine_columns(constraint, vectors, matrices.mass, boundary, 0.0).vectors
         tolerance, singular = 0.0, np.ones(rows)
     else:
         basis, _ = multi_speed_basis(
-            lambda speed: sp.csr_array(given.stiffness + speed**2 * given.per_square),
-            given.mass,
+            lambda speed: sp.csr_array(matrices.stiffness + speed**2 * matrices.per_square),
+            matrices.mass,
             boundary,
             choice,
-            given.solve_at_rest,
+            matrices.solve_at_rest,
         )
         vectors, tolerance, singular = basis.vectors, choice.basis_tolerance, basis.singular_values
-    mass, stiffness = projected(given.mass, vectors), projected(given.stiffness, vectors)
+    mass, stiffness = projected(matrices.mass, vectors), projected(matrices.stiffness, vectors)
     _check_positive(mass, stiffness)
-    shapes = _ideal_shapes(given)
-    nodes = np.arange(len(given.points))
+    shapes = _ideal_shapes(matrices)
+    nodes = np.arange(len(matrices.points))
     size = vectors.shape[1]
-    line = RecoveryNodes(nodes, given.points, vectors[: 3 * len(nodes)].reshape(-1, 3, size), np.empty((len(nodes), 3, 0)))
+    line = RecoveryNodes(nodes, matrices.points, vectors[: 3 * len(nodes)].reshape(-1, 3, size), np.empty((len(nodes), 3, 0)))
     return ReducedModel(
         stiffness=stiffness,
-        geometric_stiffness=projected(given.per_square, vectors),
+        geometric_stiffness=projected(matrices.per_square, vectors),
         mass=mass,
         spin_softening=None,
         coriolis=None,
@@ -117,12 +117,12 @@ def _reduced(given: _Given, choice: ReductionChoice) -> ReducedModel:
         stress_region="none",
         whole_blade=None,
         shape_names=tuple(shapes),
-        shape_products=np.array([shape @ (given.mass @ vectors) for shape in shapes.values()]),
-        shape_norms=np.array([np.sqrt(shape @ (given.mass @ shape)) for shape in shapes.values()]),
+        shape_products=np.array([shape @ (matrices.mass @ vectors) for shape in shapes.values()]),
+        shape_norms=np.array([np.sqrt(shape @ (matrices.mass @ shape)) for shape in shapes.values()]),
         tolerance=tolerance,
         singular_values=singular,
         rotation_stiffening=np.empty(0),
-        quadratic_residual=given.residual,
+        quadratic_residual=matrices.residual,
     )
 
 
@@ -155,7 +155,7 @@ def _not_held(square: float) -> ImportRefused:
     )
 
 
-def _read(files: Mapping[str, Path], source: MatricesSource, fastest: float) -> _Given:
+def _read(files: Mapping[str, Path], source: MatricesSource, fastest: float) -> _InputMatrices:
     """What the files hold; `fastest`: the highest speed (rad/s) that the stiffness is needed at."""
     orientation = source.orientation
     nodes, dofs = _boundary(files["boundary"])
@@ -178,7 +178,7 @@ def _read(files: Mapping[str, Path], source: MatricesSource, fastest: float) -> 
     turn = _boundary_first(size, dofs, orientation.rows)
     mass, rest, per_square = (sp.csr_array(turn.T @ matrix @ turn) for matrix in (mass, rest, per_square))
     kilograms, newtons = MASS_UNITS[source.mass_unit], STIFFNESS_UNITS[source.stiffness_unit]
-    return _Given(kilograms * mass, newtons * rest, newtons * per_square, residual, points)
+    return _InputMatrices(kilograms * mass, newtons * rest, newtons * per_square, residual, points)
 
 
 def _speed(name: str, file: Path) -> float:
@@ -193,7 +193,7 @@ def _speed(name: str, file: Path) -> float:
 
 
 def _check_speeds(speeds: list[float], fastest: float) -> None:
-    """ImportRefused for speeds (rad/s), ascending, between which the change of the stiffness cannot be told."""
+    """ImportRefused for speeds (rad/s), ascending, that do not determine the change of the stiffness."""
     rest, middle, top = speeds
     if rest != 0.0 or not _APART[0] * top <= middle <= _APART[1] * top:
         raise ImportRefused(
@@ -249,27 +249,27 @@ def _boundary_first(size: int, dofs: np.ndarray, rows: np.ndarray) -> sp.csr_arr
     return sp.csr_array(permutation @ turns)
 
 
-def _ideal_shapes(given: _Given) -> dict[str, np.ndarray]:
+def _ideal_shapes(matrices: _InputMatrices) -> dict[str, np.ndarray]:
     """Shapes to name modes by, without a mesh: static answers to the tip moved along its normal, and turned.
 
     What the first has beyond a further static step (inverse stiffness times mass), orthogonal to it, is the second bending.
     """
-    tangent = given.points[-1] - given.points[0]
+    tangent = matrices.points[-1] - matrices.points[0]
     tangent = tangent if np.any(tangent) else np.array([0.0, 0.0, 1.0])
-    radial = given.points.mean(axis=0) * [1.0, 1.0, 0.0]
+    radial = matrices.points.mean(axis=0) * [1.0, 1.0, 0.0]
     normal = np.cross(tangent, radial)
     normal /= np.linalg.norm(normal)
-    chord = _fractions(given.points)
+    chord = _fractions(matrices.points)
     boundary = 3 * len(chord)
     bending = np.outer(np.ones(len(chord)), normal).ravel()
     torsion = np.outer(chord - 0.5 if len(chord) > 1 else 0.0 * chord, normal).ravel()
     if len(chord) == 1:
         torsion = np.cross(normal, radial / np.linalg.norm(radial))
-    inner, coupling = given.stiffness[boundary:, boundary:], given.stiffness[boundary:, :boundary]
+    inner, coupling = matrices.stiffness[boundary:, boundary:], matrices.stiffness[boundary:, :boundary]
     solve = factorise(inner) if inner.shape[0] else lambda load: load
     first, twist = (np.concatenate([part, -solve(coupling @ part)]) for part in (bending, torsion))
-    smooth = given.solve_at_rest(given.mass @ first)
-    second = first - smooth * (smooth @ (given.mass @ first)) / (smooth @ (given.mass @ smooth))
+    smooth = matrices.solve_at_rest(matrices.mass @ first)
+    second = first - smooth * (smooth @ (matrices.mass @ first)) / (smooth @ (matrices.mass @ smooth))
     return dict(zip(NAMED_MODES, (smooth, twist, second), strict=True))
 
 

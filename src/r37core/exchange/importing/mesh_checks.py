@@ -65,10 +65,10 @@ def _check_free_nodes(mesh: RawMesh) -> None:
 def without_free_nodes(mesh: RawMesh) -> RawMesh:
     """The mesh without the nodes that belong to no solid element."""
     used = np.unique(np.concatenate([nodes.ravel() for nodes in mesh.blocks.values()]))
-    place = np.full(len(mesh.points), -1)
-    place[used] = np.arange(len(used))
-    sets = {name: place[nodes][place[nodes] >= 0] for name, nodes in mesh.sets.items()}
-    return RawMesh(mesh.points[used], mesh.labels[used], {name: place[nodes] for name, nodes in mesh.blocks.items()}, sets)
+    new_number = np.full(len(mesh.points), -1)
+    new_number[used] = np.arange(len(used))
+    sets = {name: new_number[nodes][new_number[nodes] >= 0] for name, nodes in mesh.sets.items()}
+    return RawMesh(mesh.points[used], mesh.labels[used], {name: new_number[nodes] for name, nodes in mesh.blocks.items()}, sets)
 
 
 def _check_parts(mesh: RawMesh) -> None:

@@ -58,14 +58,14 @@ def read_ansys(file: Path) -> RawMesh:
 
 def quietly(read: Callable[[Path], Any], file: Path) -> Any:
     """What `read` makes of the file, its prints kept back; ImportRefused for any error, and for an attempt to exit."""
-    said = io.StringIO()
+    printed = io.StringIO()
     try:
-        with contextlib.redirect_stdout(said), contextlib.redirect_stderr(said):
+        with contextlib.redirect_stdout(printed), contextlib.redirect_stderr(printed):
             return read(file)
     except (Exception, SystemExit) as error:
         lacking = f"something names {error}, which the file lacks; are there elements without their mid-nodes?"
-        found = lacking if isinstance(error, KeyError) else f"{type(error).__name__}: {str(error) or 'the file is damaged'}"
-        reason = " ".join(said.getvalue().split()) or found
+        cause = lacking if isinstance(error, KeyError) else f"{type(error).__name__}: {str(error) or 'the file is damaged'}"
+        reason = " ".join(printed.getvalue().split()) or cause
         raise ImportRefused(f"the reader gave up: {reason}") from None
 
 
@@ -109,10 +109,10 @@ def _fields(mesh: Any) -> Iterator[tuple[str, np.ndarray]]:
     """A field of whole numbers on nodes or cells is a set for each value: `name=value`, and `name` where it only marks."""
     for name, values in mesh.point_data.items():
         if values.ndim == 1 and np.issubdtype(values.dtype, np.integer):
-            found = np.unique(values)
-            for value in found[:_MOST_VALUES]:
+            distinct = np.unique(values)
+            for value in distinct[:_MOST_VALUES]:
                 yield f"{name}={value}", np.flatnonzero(values == value)
-            if set(found.tolist()) <= {0, 1}:
+            if set(distinct.tolist()) <= {0, 1}:
                 yield name, np.flatnonzero(values)
     for name, parts in mesh.cell_data.items():
         if all(np.ndim(part) == 1 and np.issubdtype(np.asarray(part).dtype, np.integer) for part in parts):

@@ -32,13 +32,13 @@ def solid_blocks(cells: Iterable[tuple[str, np.ndarray]]) -> dict[str, np.ndarra
 
     Raises ImportRefused for solids that the table lacks and where there are none.
     """
-    found: dict[str, list[np.ndarray]] = {}
+    parts: dict[str, list[np.ndarray]] = {}
     for name, nodes in cells:
         if len(nodes) and not name.startswith(_SURFACE):
-            found.setdefault(name, []).append(np.asarray(nodes, dtype=np.int64))
-    unknown = [name for name in found if name not in ELEMENTS]
+            parts.setdefault(name, []).append(np.asarray(nodes, dtype=np.int64))
+    unknown = [name for name in parts if name not in ELEMENTS]
     if unknown:
         raise ImportRefused(f"found elements of type {', '.join(unknown)}; allowed: {', '.join(ELEMENTS)}")
-    if not found:
+    if not parts:
         raise ImportRefused(f"found no solid elements; allowed: {', '.join(ELEMENTS)}")
-    return {name: np.concatenate(found[name]) for name in ELEMENTS if name in found}
+    return {name: np.concatenate(parts[name]) for name in ELEMENTS if name in parts}

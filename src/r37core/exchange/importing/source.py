@@ -5,9 +5,11 @@ from __future__ import annotations
 import hashlib
 import os
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Annotated
 
+from r37core.declared import Key
 from r37core.exchange.orientation import Orientation
 from r37core.exchange.refusal import ImportRefused
 
@@ -32,23 +34,31 @@ STIFFNESS_UNITS = {"N/m": 1.0, "N/mm": 1e3}
 class MeshSource:
     """Where a blade's mesh is and how to read it.
 
-    `file`; its `orientation`; where `root` and `tip` are; `pressure_side_forward`: whether the pressure side looks towards
-    the rotation, as in a compressor; `revolution_tolerance` (m): how far the tip may be from a surface of revolution;
-    `drop_free_nodes`: whether nodes of no solid element are left out instead of refused; `minimum_scaled_jacobian`: elements
-    below are refused; `end_check`: whether a root or tip is refused that has side faces, or not all of the blade's end;
-    `sense_check`: whether a tip that contradicts rotation or pressure side is refused; `digest`: hash of the files.
+    `file`; its `orientation`; where `root` and `tip` are; `sense_check`: whether a tip that contradicts rotation or pressure
+    side is refused; `digest`: hash of the files.
     """
 
     file: str
     orientation: Orientation
     root: Where
     tip: Where
-    pressure_side_forward: bool
-    revolution_tolerance: float
-    drop_free_nodes: bool
-    minimum_scaled_jacobian: float
-    end_check: bool
-    sense_check: bool
+    pressure_side_forward: Annotated[
+        bool,
+        Key(
+            "forward: the pressure side looks towards the rotation, as in a compressor",
+            name="pressure_side",
+            words={"forward": True, "backward": False},
+        ),
+    ] = True
+    revolution_tolerance: Annotated[float, Key("how far the tip may be from a surface of revolution", "_m", gt=0, le=0.1)] = (
+        1e-4
+    )
+    drop_free_nodes: Annotated[bool, Key("leave out nodes of no solid element instead of refusing them")] = False
+    minimum_scaled_jacobian: Annotated[
+        float, Key("meshes with elements below are refused; 1 is ideal, 0 folded", gt=0, le=1)
+    ] = 0.02
+    end_check: Annotated[bool, Key("refuse a root or tip with side faces, or without a part of the blade's end")] = True
+    sense_check: bool = field(kw_only=True)
     digest: str = ""
 
 
@@ -61,8 +71,8 @@ class MatricesSource:
 
     folder: str
     orientation: Orientation
-    mass_unit: str
-    stiffness_unit: str
+    mass_unit: Annotated[str, Key("of M", one_of=MASS_UNITS)]
+    stiffness_unit: Annotated[str, Key("of the K_<speed>", one_of=STIFFNESS_UNITS)]
     sense_check: bool
     digest: str = ""
 
@@ -101,16 +111,16 @@ def matrix_files(name: str, root: Path) -> dict[str, Path]:
     if not os.path.isdir(folder):
         raise ImportRefused(f"there is no folder {name}", "matrices")
     files = [file for file in sorted(folder.glob("*")) if file.suffix in (".mtx", ".npz") or file.name == "boundary.csv"]
-    found = {file.stem: file for file in files}
-    speeds = [stem for stem in found if stem.startswith("K_")]
-    missing = [stem for stem in ("M", "boundary") if stem not in found]
-    if missing or len(speeds) != 3 or len(found) != len(files):
+    by_stem = {file.stem: file for file in files}
+    speeds = [stem for stem in by_stem if stem.startswith("K_")]
+    missing = [stem for stem in ("M", "boundary") if stem not in by_stem]
+    if missing or len(speeds) != 3 or len(by_stem) != len(files):
         raise ImportRefused(
             f"{name}: found {', '.join(file.name for file in files) or 'no files'}; needed: M and K_<speed> at three speeds in "
             "rad/s, one of them 0 (each .mtx or .npz), and boundary.csv",
             "matrices",
         )
-    return found
+    return by_stem
 
 
 def digest_of(files: Iterable[Path]) -> str:

@@ -158,7 +158,7 @@ def find_tip_lines(points: np.ndarray, faces: list[Faces], pressure_forward: boo
     Leading and trailing edge are the two points of the tip's outline that are farthest apart, the leading one upstream; the
     edges end at sharp corners near them (blunt edges). `pressure_forward`: whether the pressure side looks towards the
     rotation (compressors), against growing theta. The camber line is made of the tip's nodes that lie half-way between the
-    two edges. Raises ImportRefused where that cannot be told.
+    two edges. Raises ImportRefused where that cannot be decided.
     """
     count = patches(faces)
     if count > 1:

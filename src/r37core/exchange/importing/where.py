@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import warnings
-from dataclasses import dataclass, field
+from dataclasses import dataclass
+from typing import Annotated
 
 import numpy as np
 
+from r37core.declared import Key
 from r37core.exchange.refusal import ImportRefused, MeshWarning
 from r37core.fem.elements import ELEMENTS
 
@@ -26,8 +28,11 @@ class Where:
 
     set_name: str | None = None
     limits: tuple[tuple[str, str, float], ...] = ()
-    cone_zr: tuple[tuple[float, float], tuple[float, float]] | None = None
-    tolerance: float = field(kw_only=True)
+    cone_zr: Annotated[
+        tuple[tuple[float, float], tuple[float, float]] | None,
+        Key("two points [z, r] of the straight meridian that the faces lie on", "_m", ge=-100, le=100),
+    ] = None
+    tolerance: Annotated[float, Key("how far beyond a limit a face may lie", "_m", gt=0, le=0.1)] = 1e-4
 
     def nodes(self, what: str, mesh: RawMesh) -> np.ndarray:
         """Mask over the nodes of `mesh`. Raises ImportRefused, naming `what` is looked for, where there is no such set."""
@@ -92,9 +97,9 @@ def _with_mid_nodes(what: str, name: str, mesh: RawMesh, members: np.ndarray) ->
     middle = np.zeros(len(members), dtype=bool)
     between = np.zeros(len(members), dtype=bool)
     for kind, nodes in mesh.blocks.items():
-        for edge, place in ELEMENTS[kind].edges.items():
-            middle[nodes[:, place]] = True
-            between[nodes[members[nodes[:, list(edge)]].all(axis=1), place]] = True
+        for edge, middle_node in ELEMENTS[kind].edges.items():
+            middle[nodes[:, middle_node]] = True
+            between[nodes[members[nodes[:, list(edge)]].all(axis=1), middle_node]] = True
     if (members & middle).any() or not between.any():
         return members
     warnings.warn(

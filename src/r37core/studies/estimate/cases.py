@@ -6,6 +6,8 @@ from collections.abc import Sequence
 from typing import Any
 
 from r37core.config import Settings
+from r37core.plans.extent import extents
+from r37core.product.sampling import beside
 from r37core.time_integration.speed_run import OF_RUNS
 
 from ..case import Case
@@ -44,10 +46,10 @@ def outputs(settings: Settings) -> dict[str, str]:
 
 
 def values(settings: Settings) -> dict[str, Any]:
-    """How many runs each blade and scene has, as a rule at most with adaptive speeds, and where they are run."""
+    """How many runs each blade and scene has, members included, at most with adaptive speeds; and where they are run."""
     section = settings.studies.estimate
     return {
-        "runs": {"__".join(place): settings.most_runs(*place) for place in settings.speed_plans},
+        "runs": {"__".join(place): extent.at_most for place, extent in extents(settings, beside(settings)).items()},
         "workflow_s_per_job": section.workflow_s_per_job,
         "cores": section.cores,
         "fidelity": settings.fidelity_name,

@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from r37core.config import ConfigError, Settings
+from r37core.exports.plan import EXPORTED_MODES
 from r37core.plans import paths
 from r37core.published import BLADES, DIRECT_PEAK, INTERACTIONS, QUIET, REFERENCE, PublishedInteraction
 
@@ -84,15 +85,15 @@ def runs_of_sweep() -> list[tuple[str, str]]:
 
 def order_4(blade: str) -> PublishedInteraction:
     """The blade's interaction of 1B with engine order 4."""
-    return next(one for one in INTERACTIONS if one.blade == blade and one.engine_order == 4)
+    return next(interaction for interaction in INTERACTIONS if interaction.blade == blade and interaction.engine_order == 4)
 
 
 def cases(settings: Settings) -> dict[str, Case]:
     """Stress of every revolution at the published speeds and at each blade's own peak, and one revolution in detail."""
     _check(settings)
-    found = {f"{blade}__{kind}": _histories(settings, blade, kind) for blade, kind in runs_of_sweep()}
+    cases_of_runs = {f"{blade}__{kind}": _histories(settings, blade, kind) for blade, kind in runs_of_sweep()}
     detail = _with_instants(case_of_sweep(settings, REFERENCE, scenes_of(settings)["lined"], speeds=(), results=()), FINE)
-    return found | {REVOLUTION: replace(detail, speeds=(INTERACTIONS[0].peak,), results=("stress", "instants"))}
+    return cases_of_runs | {REVOLUTION: replace(detail, speeds=(INTERACTIONS[0].peak,), results=("stress", "instants"))}
 
 
 def _histories(settings: Settings, blade: str, kind: str) -> Case:
@@ -118,7 +119,7 @@ def inputs(settings: Settings) -> dict[str, Any]:
         "campbells": [paths.fill(paths.CAMPBELL, blade=blade) for blade in BLADES],
         "geometry": paths.fill(paths.GEOMETRY, blade=REFERENCE),
         "meshes": [paths.fill(paths.MESH, blade=blade) for blade in BLADES],
-        "modes": paths.fill(paths.EXPORTED_MODES, blade=REFERENCE),
+        "modes": paths.fill(EXPORTED_MODES, blade=REFERENCE),
     }
 
 

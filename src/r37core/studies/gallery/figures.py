@@ -91,9 +91,9 @@ def draw_stress_over_speed(survey: Runs) -> Figure:
         run = survey[f"Ref_{kind}"]
         axes.semilogy(run["speed"], 1e-9 * run["max_von_mises"], marker=".", markersize=2, linewidth=0.9, label=label)
     style.yield_lines(axes, {REFERENCE: float(survey["Ref_lined"]["yield_stress"])}, named=True)
-    for one in INTERACTIONS:
-        if one.blade == REFERENCE:
-            axes.axvline(one.peak, color="0.5", linestyle=":", linewidth=0.8)
+    for interaction in INTERACTIONS:
+        if interaction.blade == REFERENCE:
+            axes.axvline(interaction.peak, color="0.5", linestyle=":", linewidth=0.8)
     axes.set(xlabel="speed (rad/s); dotted: published peaks", ylabel="largest von Mises (GPa)")
     style.rpm_axis(axes)
     figure.legend(*axes.get_legend_handles_labels(), loc="outside lower center", ncols=3)

@@ -12,9 +12,9 @@ import numpy as np
 import xarray as xr
 
 from r37core.dataset_file import read_dataset
-from r37core.figures.captions import caption
 from r37core.mesh.mesh_files import read_vtu
 from r37core.plain import from_plain
+from r37core.product.captions import caption
 from r37core.published import BLADES, INTERACTIONS, MESH_NODES, REFERENCE, PublishedInteraction
 from r37core.results.measures import peak_of, strongest_order
 from r37core.rom.reduction_choice import StressSubmesh
@@ -51,7 +51,7 @@ def gallery_data(responses: Mapping[str, xr.Dataset], files: Any, values: Mappin
     """From the responses of the sweep, and those of the cases beside it."""
     swept = {run: read_dataset(file) for run, file in zip(runs_of_sweep(), files.responses, strict=True)}
     histories = {run: ran(responses["__".join(run)], "__".join(run)) for run in runs_of_sweep()}
-    shipped = {one.name: interaction_run(swept[one.blade, "lined"], one) for one in INTERACTIONS}
+    shipped = {row.name: interaction_run(swept[row.blade, "lined"], row) for row in INTERACTIONS}
     for blade in BLADES:
         name = f"{blade}_4"
         shipped[name] = with_histories(shipped[name], histories[blade, "lined"])
@@ -67,9 +67,9 @@ def gallery_data(responses: Mapping[str, xr.Dataset], files: Any, values: Mappin
     )
 
 
-def interaction_run(run: xr.Dataset, one: PublishedInteraction) -> xr.Dataset:
+def interaction_run(run: xr.Dataset, row: PublishedInteraction) -> xr.Dataset:
     """The speeds of a run about an interaction."""
-    return run.sel(speed=slice(WINDOW[0] * one.campbell, WINDOW[1] * one.campbell))
+    return run.sel(speed=slice(WINDOW[0] * row.campbell, WINDOW[1] * row.campbell))
 
 
 def gallery_checks(data: GalleryData, geometry: xr.Dataset, nodes: int) -> list[Check]:
@@ -83,10 +83,10 @@ def gallery_checks(data: GalleryData, geometry: xr.Dataset, nodes: int) -> list[
     loss = 1.0 - data.revolution[:: FINE // COARSE].max() / data.revolution.max()
     text = f"{100 * loss:.2g}% below that of {FINE}"
     checks.append(Check(f"largest stress of the last revolution from {COARSE} instants", None, text))
-    for one in INTERACTIONS:
-        order = strongest_order(peak_of(shipped[one.name])["amplitude"], above=_FIRST_LOBES)
-        name = f"{one.blade} 1B/{one.engine_order}: engine order of the largest amplitude at the peak"
-        checks.append(Check(name, float(one.engine_order), order, "", 0.01))
+    for row in INTERACTIONS:
+        order = strongest_order(peak_of(shipped[row.name])["amplitude"], above=_FIRST_LOBES)
+        name = f"{row.blade} 1B/{row.engine_order}: engine order of the largest amplitude at the peak"
+        checks.append(Check(name, float(row.engine_order), order, "", 0.01))
     order = strongest_order(peak_of(shipped[DIRECT])["amplitude"], above=_FIRST_LOBES)
     checks.append(Check("direct, engine order of the largest amplitude at the largest rms", None, order))
     return checks
@@ -94,9 +94,9 @@ def gallery_checks(data: GalleryData, geometry: xr.Dataset, nodes: int) -> list[
 
 def _at_rest() -> float:
     """Frequency (Hz) of the reference blade's 1B at rest: f^2 = f0^2 + s speed^2 through its published Campbell speeds."""
-    crossings = [one for one in INTERACTIONS if one.blade == REFERENCE]
-    speed = np.array([one.campbell for one in crossings])
-    frequency = np.array([one.engine_order for one in crossings]) * speed / (2.0 * np.pi)
+    crossings = [row for row in INTERACTIONS if row.blade == REFERENCE]
+    speed = np.array([row.campbell for row in crossings])
+    frequency = np.array([row.engine_order for row in crossings]) * speed / (2.0 * np.pi)
     _, square = np.polyfit(speed**2, frequency**2, 1)
     return float(np.sqrt(square))
 
@@ -112,8 +112,8 @@ def verdict(checks: Sequence[Check]) -> str:
     agreeing, differing = ([check for check in scored if check.agrees == agrees] for agrees in (True, False))
     parts = []
     if agreeing:
-        said = [_one(check) for check in agreeing] if len(agreeing) <= _LISTED else [_summed(agreeing)]
-        parts.append(_listed(f"**Agrees** ({len(agreeing)} of {len(scored)}):", said))
+        items = [_one(check) for check in agreeing] if len(agreeing) <= _LISTED else [_summed(agreeing)]
+        parts.append(_listed(f"**Agrees** ({len(agreeing)} of {len(scored)}):", items))
     if differing:
         parts.append(_listed("**Does not agree**:", [_one(check) for check in differing]))
     alone = [f"{check.name} {check.shown}{_unit(check)}" for check in checks if check.published is None]
@@ -122,8 +122,8 @@ def verdict(checks: Sequence[Check]) -> str:
     return "\n\n".join(parts)
 
 
-def _listed(head: str, said: Sequence[str]) -> str:
-    return "\n".join([head, "", *(f"- {one}" for one in said)])
+def _listed(head: str, items: Sequence[str]) -> str:
+    return "\n".join([head, "", *(f"- {item}" for item in items)])
 
 
 def _one(check: Check) -> str:

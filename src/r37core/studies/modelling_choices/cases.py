@@ -138,19 +138,19 @@ def windows(choice: ModellingChoice, steps: SpeedSteps) -> dict[str, Window]:
     """What a choice runs, by name; `steps` (rad/s): of the grids `fine`, `coarse` and `survey`."""
     if choice.surveys:
         return _surveys(steps.survey)
-    wanted = [one for one in INTERACTIONS if choice.blades is None or one.blade in choice.blades]
-    found = {one.name: _interaction(one, choice.fine, steps) for one in wanted}
+    wanted = [interaction for interaction in INTERACTIONS if choice.blades is None or interaction.blade in choice.blades]
+    windows_by_name = {interaction.name: _interaction(interaction, choice.fine, steps) for interaction in wanted}
     if INTERACTIONS[0] in wanted:
-        found[HISTORIES] = Window(REFERENCE, "lined", _PUBLISHED, _PUBLISHED)
+        windows_by_name[HISTORIES] = Window(REFERENCE, "lined", _PUBLISHED, _PUBLISHED)
     if not choice.only_lining:
-        found[DIRECT] = _direct(choice.fine, steps)
-    return found
+        windows_by_name[DIRECT] = _direct(choice.fine, steps)
+    return windows_by_name
 
 
-def _interaction(one: PublishedInteraction, fine: bool, steps: SpeedSteps) -> Window:
-    centre, (below, above) = (one.campbell, FINE_WINDOW) if fine else (one.peak, COARSE_WINDOW)
+def _interaction(interaction: PublishedInteraction, fine: bool, steps: SpeedSteps) -> Window:
+    centre, (below, above) = (interaction.campbell, FINE_WINDOW) if fine else (interaction.peak, COARSE_WINDOW)
     speeds = grid(centre, below * centre, above * centre, steps.fine if fine else steps.coarse)
-    return Window(one.blade, "lined", speeds, follow=fine)
+    return Window(interaction.blade, "lined", speeds, follow=fine)
 
 
 def _direct(fine: bool, steps: SpeedSteps) -> Window:
@@ -179,9 +179,9 @@ def cases(settings: Settings) -> dict[str, Case]:
     """A case for each choice, blade and window of speeds, as `choice/window`."""
     steps = settings.studies.modelling_choices.speed_steps_rad_s
     return {
-        f"{name}/{place}": _case(settings, choice, window)
+        f"{name}/{window_name}": _case(settings, choice, window)
         for name, choice in CHOICES.items()
-        for place, window in windows(choice, steps).items()
+        for window_name, window in windows(choice, steps).items()
     }
 
 
@@ -225,9 +225,9 @@ def _model(settings: Settings, blade: str, changes: Mapping[str, Any]) -> ModelC
 
 def campbell_files(settings: Settings) -> dict[tuple[str, str], str]:
     """Campbell diagrams by blade and mesh: LEVEL, or so many nodes."""
-    found = {(blade, LEVEL): campbell_file(blade, _model(settings, blade, {})) for blade in BLADES}
+    files = {(blade, LEVEL): campbell_file(blade, _model(settings, blade, {})) for blade in BLADES}
     finer = {str(nodes): _model(settings, REFERENCE, {"nodes": nodes}) for nodes in MESHES}
-    return found | {(REFERENCE, nodes): campbell_file(REFERENCE, model) for nodes, model in finer.items()}
+    return files | {(REFERENCE, nodes): campbell_file(REFERENCE, model) for nodes, model in finer.items()}
 
 
 def inputs(settings: Settings) -> dict[str, Any]:

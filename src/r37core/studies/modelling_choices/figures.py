@@ -23,18 +23,18 @@ _DIRECTIONS = {"rms_normal": "normal to the casing", "rms_tangential": "tangenti
 
 def draw_reference(survey: Runs, shipped: Runs) -> Figure:
     """Rms of both scenes over the whole range, the survey and the finer windows together; dotted: published peaks."""
-    windows = [shipped[one.name] for one in INTERACTIONS if one.blade == "Ref"]
+    windows = [shipped[row.name] for row in INTERACTIONS if row.blade == "Ref"]
     runs = {"lined": joined(*windows, survey["Ref_lined"]), "direct": joined(shipped[DIRECT], survey["Ref_direct"])}
     figure, panels = plt.subplots(2, 1, figsize=(style.PAGE, 5.0), sharex=True)
     for axes, (name, direction) in zip(panels, _DIRECTIONS.items(), strict=True):
         for scene, run in runs.items():
             label, color = _SCENES[scene]
             axes.semilogy(run["speed"], 1e3 * run[name], color=color, linewidth=1.1, label=label)
-        for one in INTERACTIONS:
-            if one.blade == "Ref":
-                axes.axvline(one.peak, color="C0", linestyle=":", linewidth=0.9)
+        for row in INTERACTIONS:
+            if row.blade == "Ref":
+                axes.axvline(row.peak, color="C0", linestyle=":", linewidth=0.9)
                 axes.annotate(
-                    f"1B/{one.engine_order}", (one.peak + 4, 0.96), xycoords=("data", "axes fraction"), fontsize=7, va="top"
+                    f"1B/{row.engine_order}", (row.peak + 4, 0.96), xycoords=("data", "axes fraction"), fontsize=7, va="top"
                 )
         axes.axvline(DIRECT_PEAK, color="C1", linestyle=":", linewidth=0.9)
         axes.set_ylabel(f"rms, {direction} (mm)")
@@ -61,7 +61,7 @@ def draw_stress(shipped: Runs) -> Figure:
     """Largest stress of the last revolution of all blades about 1B/4, with the yield line; dotted: published peaks."""
     figure, axes = plt.subplots(figsize=(style.PAGE, 3.6))
     _draw_about_order_4(axes, shipped, "max_von_mises", 1e-9)
-    yields = {one.blade: float(shipped[one.name]["yield_stress"]) for one in INTERACTIONS[: len(BLADES)]}
+    yields = {row.blade: float(shipped[row.name]["yield_stress"]) for row in INTERACTIONS[: len(BLADES)]}
     style.yield_lines(axes, yields, named=True)
     axes.set(ylabel="largest von Mises, last revolution (GPa)", yscale="log")
     axes.set_xlabel("speed (rad/s); dotted: published peaks")
@@ -72,10 +72,10 @@ def draw_stress(shipped: Runs) -> Figure:
 
 def _draw_about_order_4(axes: Axes, shipped: Runs, name: str, scale: float) -> None:
     """One curve for each blade, and its published peak."""
-    for number, one in enumerate(INTERACTIONS[: len(BLADES)]):
-        run, color = leading_edge(shipped[one.name]), f"C{number}"
-        axes.plot(run["speed"], scale * run[name], ".-", color=color, markersize=3, linewidth=1.0, label=one.blade)
-        axes.axvline(one.peak, color=color, linestyle=":", linewidth=0.9)
+    for number, row in enumerate(INTERACTIONS[: len(BLADES)]):
+        run, color = leading_edge(shipped[row.name]), f"C{number}"
+        axes.plot(run["speed"], scale * run[name], ".-", color=color, markersize=3, linewidth=1.0, label=row.blade)
+        axes.axvline(row.peak, color=color, linestyle=":", linewidth=0.9)
 
 
 def _legend_above(figure: Figure, axes: Axes) -> None:
@@ -102,8 +102,8 @@ def draw_histories(shipped: Runs) -> Figure:
 
 def joined(*runs: xr.Dataset) -> xr.Dataset:
     """Several runs of one blade and scene as one, by ascending speed; the first counts where two have a speed."""
-    kept = [leading_edge(run)[list(_DIRECTIONS)] for run in runs]
-    return xr.concat(kept, "speed").drop_duplicates("speed").sortby("speed")
+    parts = [leading_edge(run)[list(_DIRECTIONS)] for run in runs]
+    return xr.concat(parts, "speed").drop_duplicates("speed").sortby("speed")
 
 
 def draw_choices(choices: Mapping[str, Runs]) -> Figure:
@@ -111,17 +111,17 @@ def draw_choices(choices: Mapping[str, Runs]) -> Figure:
     figure, axes = plt.subplots(figsize=(9.0, 0.32 * len(choices) + 1.6))
     axes.axvspan(-100 * PEAK_WITHIN, 100 * PEAK_WITHIN, color="0.92", zorder=0)
     rows = np.arange(len(choices))
-    for number, one in enumerate(INTERACTIONS):
-        speeds = [peak_speed(runs[one.name]) if one.name in runs else np.nan for runs in choices.values()]
-        errors = 100.0 * (np.array(speeds) / one.peak - 1.0)
-        marker = "o" if one.engine_order == 4 else "^sD"[one.engine_order - 5]
-        color = f"C{number}" if one.engine_order == 4 else "C0"
-        label = f"{one.blade} 1B/{one.engine_order}"
+    for number, published in enumerate(INTERACTIONS):
+        speeds = [peak_speed(runs[published.name]) if published.name in runs else np.nan for runs in choices.values()]
+        errors = 100.0 * (np.array(speeds) / published.peak - 1.0)
+        marker = "o" if published.engine_order == 4 else "^sD"[published.engine_order - 5]
+        color = f"C{number}" if published.engine_order == 4 else "C0"
+        label = f"{published.blade} 1B/{published.engine_order}"
         axes.plot(errors, rows, marker, color=color, alpha=0.8, markersize=5, linestyle="none", label=label)
     for row, runs in enumerate(choices.values()):
-        found = sum(np.isfinite(peak_speed(runs[one.name])) for one in INTERACTIONS if one.name in runs)
+        found_peaks = sum(np.isfinite(peak_speed(runs[published.name])) for published in INTERACTIONS if published.name in runs)
         axes.annotate(
-            f"{found} of {len(INTERACTIONS)}", (1.01, row), xycoords=("axes fraction", "data"), va="center", fontsize=8
+            f"{found_peaks} of {len(INTERACTIONS)}", (1.01, row), xycoords=("axes fraction", "data"), va="center", fontsize=8
         )
     axes.set_yticks(rows, [CHOICES[name].what for name in choices])
     axes.invert_yaxis()

@@ -63,7 +63,7 @@ def runs_of(responses: Mapping[str, xr.Dataset]) -> dict[str, dict[str, xr.Datas
 
 def choices_table(choices: Mapping[str, Runs]) -> str:
     """Lined peaks of every choice, largest error, drops; then direct contact; then how many checks agree."""
-    peaks = [f"{one.blade} 1B/{one.engine_order}: {one.peak:g}" for one in INTERACTIONS]
+    peaks = [f"{interaction.blade} 1B/{interaction.engine_order}: {interaction.peak:g}" for interaction in INTERACTIONS]
     head = ["choice", *peaks, "largest error", "drops", "first yield at 1717: 40"]
     head += [f"direct, largest rms: {DIRECT_PEAK:g}", "drop after: 1344", "first yield there: 90", "agree"]
     return markdown_table(head, (_cells(name, runs) for name, runs in choices.items()))
@@ -71,7 +71,7 @@ def choices_table(choices: Mapping[str, Runs]) -> str:
 
 def _cells(name: str, runs: Runs) -> list[str]:
     checks = {check.name: check for check in choice_checks(runs)}
-    speeds = [_peak(runs, one.name) for one in INTERACTIONS]
+    speeds = [_peak(runs, interaction.name) for interaction in INTERACTIONS]
     errors = [check.error for name, check in checks.items() if name.endswith(": peak")]
     drops = [check for name, check in checks.items() if name.endswith("drop after the peak")]
     largest = f"{100 * max(errors):.2g}%" if np.isfinite(max(errors)) else f"{sum(np.isinf(errors))} differ"

@@ -81,21 +81,21 @@ def choice_checks(runs: Runs) -> list[Check]:
 def interaction_checks(runs: Runs) -> list[Check]:
     """Peak, drop and lobes of every interaction."""
     checks = []
-    for one in INTERACTIONS:
-        if one.name not in runs:
+    for row in INTERACTIONS:
+        if row.name not in runs:
             continue
-        run, name = runs[one.name], f"{one.blade} 1B/{one.engine_order}"
+        run, name = runs[row.name], f"{row.blade} 1B/{row.engine_order}"
         speed, drop, lobes = read.peak_speed(run), read.drop_after(run), float(read.strongest_lobes(read.peak_of(run)))
-        checks.append(Check(f"{name}: peak", one.peak, speed, "rad/s", PEAK_WITHIN))
+        checks.append(Check(f"{name}: peak", row.peak, speed, "rad/s", PEAK_WITHIN))
         checks.append(claim(f"{name}: drop after the peak", drop > 0.5, _percent(drop)))
-        checks.append(Check(f"{name}: lobes of the wear at the peak", float(one.engine_order), lobes, "", 0.0))
+        checks.append(Check(f"{name}: lobes of the wear at the peak", float(row.engine_order), lobes, "", 0.0))
     return checks
 
 
 def reference_checks(runs: Runs) -> list[Check]:
     """The reference blade in the lined scene."""
     run = runs[_MAIN]
-    peaks = [read.peak_of(runs[one.name]) for one in INTERACTIONS if one.blade == REFERENCE and one.name in runs]
+    peaks = [read.peak_of(runs[row.name]) for row in INTERACTIONS if row.blade == REFERENCE and row.name in runs]
     worn = max(float(peak["max_wear"]) for peak in peaks)
     through = all(float(peak["casing_hits"]) > 0 for peak in peaks)
     width, first = read.width_above_yield(run), _first_yield(run, _AT)
@@ -175,20 +175,20 @@ def blade_checks(runs: Runs) -> list[Check]:
 def variant_checks(runs: Runs) -> list[Check]:
     """Width above yield and first yield at our peak where a window is wide; the paper's range of the variants' first yields."""
     checks, firsts = [], []
-    for one in INTERACTIONS:
-        if one.name not in runs or "max_von_mises_history" not in runs[one.name]:
+    for row in INTERACTIONS:
+        if row.name not in runs or "max_von_mises_history" not in runs[row.name]:
             continue
-        run, name = runs[one.name], f"{one.blade} 1B/{one.engine_order}"
+        run, name = runs[row.name], f"{row.blade} 1B/{row.engine_order}"
         speed = float(read.peak_of(run)["speed"])
         if speed not in run["history_speed"]:
             continue
         first = _first_yield(run, speed)
-        if one.name != _MAIN:
+        if row.name != _MAIN:
             width, share = read.width_above_yield(run), read.speeds_above_yield(run).share
             detail = f"{_percent(share)} of it above" if share < 0.995 else ""
             checks.append(Check(f"{name}: width above yield", None, width, "rad/s", detail=detail))
         checks.append(Check(f"{name}: first yield at our peak", None, first, "revolutions"))
-        if one.blade in VARIANTS and np.isfinite(first):
+        if row.blade in VARIANTS and np.isfinite(first):
             firsts.append(first)
     for words, published, choose in zip(("earliest", "latest"), VARIANTS_FIRST_YIELD, (min, max), strict=True):
         if firsts:
@@ -201,9 +201,9 @@ def survey_checks(runs: Runs, shipped: Runs) -> list[Check]:
     """The whole range of speeds: `runs` of the survey; `shipped`: the windows about the interactions."""
     lined, direct, other = (runs[name] for name in ("Ref_lined", "Ref_direct", "CS100_lined"))
     outside = read.leading_edge(lined)[["rms_radial", "rms_normal"]]
-    for one in INTERACTIONS:
-        if one.blade == REFERENCE:
-            low, high = ((1.0 + share) * one.campbell for share in (FINE_WINDOW[0] - 0.01, FINE_WINDOW[1]))
+    for row in INTERACTIONS:
+        if row.blade == REFERENCE:
+            low, high = ((1.0 + share) * row.campbell for share in (FINE_WINDOW[0] - 0.01, FINE_WINDOW[1]))
             outside = outside.where((outside["speed"] < low) | (outside["speed"] > high), drop=True)
     rest, normal = (1e3 * float(outside[name].max()) for name in ("rms_radial", "rms_normal"))
     medians = [1e3 * read.median_over_speed(run, "rms_radial") for run in (lined, direct)]
@@ -241,10 +241,10 @@ def torsion_speed(run: xr.Dataset) -> float:
 def structure_checks(geometry: xr.Dataset | None, campbells: Mapping[str, xr.Dataset]) -> list[Check]:
     """Shape of the reference blade, Campbell diagrams by blade, dynamic clearance."""
     checks = [] if geometry is None else _shape_checks(geometry)
-    for one in INTERACTIONS:
-        if one.blade in campbells:
-            ours = float(campbells[one.blade]["crossing_speed"].sel(mode="1B", engine_order=one.engine_order))
-            checks.append(Check(f"{one.blade} 1B/{one.engine_order}: Campbell", one.campbell, ours, "rad/s", CAMPBELL_WITHIN))
+    for row in INTERACTIONS:
+        if row.blade in campbells:
+            ours = float(campbells[row.blade]["crossing_speed"].sel(mode="1B", engine_order=row.engine_order))
+            checks.append(Check(f"{row.blade} 1B/{row.engine_order}: Campbell", row.campbell, ours, "rad/s", CAMPBELL_WITHIN))
     if all(blade in campbells for blade in BLADES):
         checks += _clearance_checks(campbells)
     return checks
@@ -270,19 +270,19 @@ def _clearance_checks(campbells: Mapping[str, xr.Dataset]) -> list[Check]:
             checks.append(
                 Check(f"{blade}: slope of {mode}'s dynamic clearance (prototype)", value, slopes[mode, blade], "", within)
             )
-    said = {
+    statements = {
         "1B": {
             "L": (0.6, 1.0, "slightly smaller"),
             "S": (0.0, 0.6, "significantly smaller"),
             "CS": (1.0, 1.4, "slightly larger"),
         }
     }
-    said["1T"] = {
+    statements["1T"] = {
         "L": (0.85, 1.0, "slightly smaller"),
         "S": (0.0, 0.85, "dramatically smaller"),
         "CS": (0.95, 1.05, "the same"),
     }
-    for mode, families in said.items():
+    for mode, families in statements.items():
         for family, (low, high, words) in families.items():
             ratios = [slopes[mode, f"{family}{degree}"] / slopes[mode, REFERENCE] for degree in (50, 100)]
             detail = " and ".join(f"{ratio:.2f}" for ratio in ratios) + " of it"

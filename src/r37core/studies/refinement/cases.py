@@ -8,6 +8,7 @@ from typing import Any
 
 from r37core.config import ConfigError, Settings, plain
 from r37core.plans.sweep_plan import Sweep
+from r37core.tolerances.members import members_of, section
 from r37core.tolerances.sample import is_of_sample
 
 from ..case import Case
@@ -17,12 +18,12 @@ _STEPS = (5.0, 8.0, 20.0)
 """Plain grids (rad/s) beside: as many runs as a fifth of every 1 rad/s, and those of two fidelity levels."""
 
 _COMPARED = ("spectrum", "stress", "static_stress", "wear")
-"""Results of a scene by which interactions are told."""
+"""Results of a scene by which interactions are matched."""
 
 
 def adaptive(settings: Settings) -> dict[str, tuple[str, str]]:
     """Blade and scene of each adaptive sweep, by the name of its case."""
-    return {"__".join(place): place for place, plan in settings.speed_plans.items() if plan.refined}
+    return {"__".join(pair): pair for pair, plan in settings.speed_plans.items() if plan.refined}
 
 
 def cases(settings: Settings) -> dict[str, Case]:
@@ -32,31 +33,31 @@ def cases(settings: Settings) -> dict[str, Case]:
     nominal = {
         name: case_of_sweep(
             settings,
-            *place,
-            speeds=tuple(settings.speed_plans[place].every_speed()),
-            results=tuple(kind for kind in settings.results_of(*place) if kind in _COMPARED),
+            *pair,
+            speeds=tuple(settings.speed_plans[pair].every_speed()),
+            results=tuple(kind for kind in settings.results_of(*pair) if kind in _COMPARED),
         )
-        for name, place in adaptive(settings).items()
+        for name, pair in adaptive(settings).items()
     }
     members = adaptive_members(settings)
     return nominal | {
-        case: replace(nominal[name], scene=settings.members.all[place][member].scene, what=f"member {member}")
-        for name, place in adaptive(settings).items()
+        case: replace(nominal[name], scene=members_of(settings).all[pair][member].scene, what=f"member {member}")
+        for name, pair in adaptive(settings).items()
         for member, case in members.get(name, {}).items()
     }
 
 
 def adaptive_members(settings: Settings) -> dict[str, dict[str, str]]:
     """Cases of the members of each adaptive sweep, by its name and the member's; ConfigError where their blades differ."""
-    of_blades = settings.config.tolerances.of_blades
+    of_blades = section(settings).of_blades
     if of_blades:
         raise settings.documents.config.refusal(
             ("tolerances", "of_blades"), ", ".join(of_blades), "of_scenes alone: the study runs the nominal models"
         )
     return {
-        name: {member: f"{name}/{member}" for member in settings.members.all[place] if is_of_sample(member)}
-        for name, place in adaptive(settings).items()
-        if place in settings.members.pairs
+        name: {member: f"{name}/{member}" for member in members_of(settings).all[pair] if is_of_sample(member)}
+        for name, pair in adaptive(settings).items()
+        if pair in members_of(settings).pairs
     }
 
 
@@ -72,18 +73,20 @@ def outputs(settings: Settings) -> dict[str, str]:
 
 def values(settings: Settings) -> dict[str, Any]:
     """Plans of the speeds, steps of the plain grids, and what a sweep refines by."""
-    sweep, places = Sweep(settings), adaptive(settings)
+    sweep, pairs = Sweep(settings), adaptive(settings)
     return {
-        "places": places,
+        "places": pairs,
         "members": adaptive_members(settings),
-        "plans": {name: settings.speed_plans[place] for name, place in places.items()},
+        "plans": {name: settings.speed_plans[pair] for name, pair in pairs.items()},
         "steps": plain_steps(settings),
-        "choices": {name: sweep.refinement_choice(SimpleNamespace(scene=scene)) for name, (_, scene) in places.items()},
-        "interactions": plain(settings.interactions),
+        "choices": {
+            name: sweep.refinement_choice(SimpleNamespace(blade=blade, scene=scene)) for name, (blade, scene) in pairs.items()
+        },
+        "interactions": plain(settings.config.interactions),
     }
 
 
 def plain_steps(settings: Settings) -> list[float]:
     """Steps (rad/s) of the plain grids that are part of the whole ones."""
-    finest = [grid.interval for place in adaptive(settings).values() for grid in settings.speed_plans[place].refined]
-    return [step for step in _STEPS if all(abs(step / one - round(step / one)) < 1e-9 and step >= one for one in finest)]
+    finest = [grid.interval for pair in adaptive(settings).values() for grid in settings.speed_plans[pair].refined]
+    return [step for step in _STEPS if all(abs(step / span - round(step / span)) < 1e-9 and step >= span for span in finest)]

@@ -97,11 +97,11 @@ def report(responses: Mapping[str, xr.Dataset], files: Any, values: Mapping[str,
 def replay(response: xr.Dataset, campbell: xr.Dataset, plan: SpeedPlan, choice: RefinementChoice) -> list[list[float]]:
     """New speeds (rad/s) of each round, as the sweep would ask for them, with the runs looked up in the whole grid."""
     rows = _measured(response)
-    asked = first_round(plan, campbell, choice)
+    current = first_round(plan, campbell, choice)
     rounds = []
-    while asked.new:
-        rounds.append(list(asked.new))
-        asked = round_after(asked, {speed: rows[speed] for speed in asked.new}, plan, choice)
+    while current.new:
+        rounds.append(list(current.new))
+        current = round_after(current, {speed: rows[speed] for speed in current.new}, plan, choice)
     return rounds
 
 
@@ -120,7 +120,7 @@ def _measured(response: xr.Dataset) -> dict[float, list[float]]:
 def plain_grid(plan: SpeedPlan, step: float) -> list[float]:
     """Every so many rad/s of the grids of a plan, ascending."""
     return sorted(
-        grid.speed(place) for grid in plan.refined for place in range(0, grid.last + 1, max(1, round(step / grid.interval)))
+        grid.speed(index) for grid in plan.refined for index in range(0, grid.last + 1, max(1, round(step / grid.interval)))
     )
 
 
@@ -208,10 +208,10 @@ def refinement_table(outcomes: Mapping[str, Mapping[tuple[str, str], Outcome]], 
         rows.append([blade, scene, _whole([first[blade, scene]], every[blade, scene]), *cells])
     scenes = dict.fromkeys(scene for _, scene in first)
     for scene in scenes:
-        totals = [_cell([one for place, one in ways.items() if place[1] == scene]) for ways in outcomes.values()]
-        of_scene = [place for place in first if place[1] == scene]
-        rows.append(["all", scene, _whole([first[one] for one in of_scene], sum(every[one] for one in of_scene)), *totals])
-    missed = [(*place, one) for place, outcome in first.items() for one in outcome.interactions if not one.same]
+        totals = [_cell([run for pair, run in ways.items() if pair[1] == scene]) for ways in outcomes.values()]
+        of_scene = [pair for pair in first if pair[1] == scene]
+        rows.append(["all", scene, _whole([first[pair] for pair in of_scene], sum(every[pair] for pair in of_scene)), *totals])
+    missed = [(*pair, row) for pair, outcome in first.items() for row in outcome.interactions if not row.same]
     return (
         f"Interactions above yield that are found at all, and with peak and width within {TOLERANCE:g} rad/s; runs of each way "
         f"to choose speeds. Robust: at least half of the members show it.\n\n"
@@ -224,8 +224,8 @@ def _of_errors(outcomes: Mapping[str, Mapping[tuple[str, str], Outcome]], scenes
     """Means over the blades."""
     rows = []
     for scene in scenes:
-        for way, of_places in outcomes.items():
-            errors = np.mean([one.errors for place, one in of_places.items() if place[1] == scene], axis=0)
+        for way, of_pairs in outcomes.items():
+            errors = np.mean([run.errors for pair, run in of_pairs.items() if pair[1] == scene], axis=0)
             rows.append([scene, way, *(f"{100 * error:.1f}%" for error in errors)])
     head = ["scene", "speeds", "rms", "largest stress", "largest stress of all"]
     return (
@@ -236,32 +236,32 @@ def _of_errors(outcomes: Mapping[str, Mapping[tuple[str, str], Outcome]], scenes
 
 
 def _whole(outcomes: Sequence[Outcome], runs: int) -> str:
-    together = [one for outcome in outcomes for one in outcome.interactions]
-    robust = f", {sum(one.robust for one in together)} robust," if _with_members(together) else ""
+    together = [row for outcome in outcomes for row in outcome.interactions]
+    robust = f", {sum(row.robust for row in together)} robust," if _with_members(together) else ""
     return f"{len(together)}{robust} in {runs} runs"
 
 
 def _cell(outcomes: Sequence[Outcome]) -> str:
-    together = [one for outcome in outcomes for one in outcome.interactions]
-    robust = f", {sum(one.found and one.robust for one in together)} of the robust" if _with_members(together) else ""
+    together = [row for outcome in outcomes for row in outcome.interactions]
+    robust = f", {sum(row.found and row.robust for row in together)} of the robust" if _with_members(together) else ""
     rounds = f" in {outcomes[0].rounds} rounds" if len(outcomes) == 1 and outcomes[0].rounds > 1 else ""
-    found, same = (sum(getattr(one, name) for one in together) for name in ("found", "same"))
-    return f"{found} found{robust}, {same} the same, {sum(one.runs for one in outcomes)} runs{rounds}"
+    matched, same = (sum(getattr(row, name) for row in together) for name in ("found", "same"))
+    return f"{matched} found{robust}, {same} the same, {sum(run.runs for run in outcomes)} runs{rounds}"
 
 
 def _with_members(interactions: Sequence[Comparison]) -> bool:
-    return any(not math.isnan(one.share_of_members) for one in interactions)
+    return any(not math.isnan(row.share_of_members) for row in interactions)
 
 
 def _of_missed(missed: Sequence[tuple[str, str, Comparison]]) -> str:
     if not missed:
         return "Nothing is missed.\n"
     rows = []
-    for blade, scene, one in missed:
-        order = "" if one.engine_order is None or math.isnan(one.engine_order) else f"/{one.engine_order}"
-        name = f"{one.mode}{order}" if one.mode else f"no crossing, order {one.engine_order}"
-        found = f"{one.found_peak:g}, {one.found_width:.1f}" if one.found else "none"
-        share = "" if math.isnan(one.share_of_members) else f"{100 * one.share_of_members:.0f}%"
-        rows.append([blade, scene, name, f"{one.peak:g}, {one.width:.1f}", f"{1e-9 * one.stress:.2f}", found, share])
+    for blade, scene, row in missed:
+        order = "" if row.engine_order is None or math.isnan(row.engine_order) else f"/{row.engine_order}"
+        name = f"{row.mode}{order}" if row.mode else f"no crossing, order {row.engine_order}"
+        matched = f"{row.found_peak:g}, {row.found_width:.1f}" if row.found else "none"
+        share = "" if math.isnan(row.share_of_members) else f"{100 * row.share_of_members:.0f}%"
+        rows.append([blade, scene, name, f"{row.peak:g}, {row.width:.1f}", f"{1e-9 * row.stress:.2f}", matched, share])
     head = ["blade", "scene", "interaction", "peak, width (rad/s)", "largest stress (GPa)", "found peak, width", "members"]
     return f"Missed, or off by more:\n\n{markdown_table(head, rows)}"

@@ -108,11 +108,11 @@ def extremes(lined: str, direct: str) -> list[Extreme]:
 
 def cases(settings: Settings) -> dict[str, Case]:
     """Each extreme at three neighbouring speeds, and the same with half the step that it takes."""
-    found: dict[str, Case] = {}
+    by_name: dict[str, Case] = {}
     for extreme in _extremes(settings):
         case = _case(settings, extreme)
-        found |= {extreme.name: case, f"{extreme.name}{HALF}": replace(case, half_step=True)}
-    return found
+        by_name |= {extreme.name: case, f"{extreme.name}{HALF}": replace(case, half_step=True)}
+    return by_name
 
 
 def _extremes(settings: Settings) -> list[Extreme]:
@@ -161,4 +161,4 @@ def outputs(settings: Settings) -> dict[str, str]:
 
 def values(settings: Settings) -> dict[str, Any]:
     """What each extreme is."""
-    return {one.name: {"what": one.what, "value": one.value, "scene": one.scene} for one in _extremes(settings)}
+    return {case.name: {"what": case.what, "value": case.value, "scene": case.scene} for case in _extremes(settings)}

@@ -80,11 +80,11 @@ def _check_sound(response: xr.Dataset) -> None:
 def stability_table(rows: Sequence[Mapping[str, Any]]) -> str:
     """The outcomes as Markdown: how many of each, then every case."""
     counts = {outcome: sum(row["outcome"] == outcome for row in rows) for outcome in (ACCURATE, DEGRADED, DIVERGED, REFUSED)}
-    said = ", ".join(f"{number} {outcome}" for outcome, number in counts.items()) + f", of {len(rows)} cases."
+    counted = ", ".join(f"{number} {outcome}" for outcome, number in counts.items()) + f", of {len(rows)} cases."
     head, lines = ["what", "value", "scene", "step (s)", "outcome", "how it shows", "rms (mm)", "in contact"], []
     for row in rows:
         step = f"{row['step']:.3g}" if "step" in row else ""
         rms = f"{1e3 * row['rms']:.3g}" if np.isfinite(row.get("rms", np.nan)) else ""
         contact = f"{100 * row['contact']:.0f}%" if "contact" in row else ""
         lines.append([row["what"], row["value"], row["scene"], step, row["outcome"], row["detail"], rms, contact])
-    return f"{said}\n\n{markdown_table(head, lines)}"
+    return f"{counted}\n\n{markdown_table(head, lines)}"

@@ -127,9 +127,7 @@ def _rows_of(section: TradeoffSection) -> dict[str, list[int]]:
 def values_of(settings: Settings) -> dict[str, list[str]]:
     """Values of each parameter, as texts; none without the section."""
     section = settings.studies.tradeoff
-    return (
-        {name: [_text(value) for value in one.values] for name, one in section.parameters.varied().items()} if section else {}
-    )
+    return {name: [_text(value) for value in of.values] for name, of in section.parameters.varied().items()} if section else {}
 
 
 def inputs(settings: Settings) -> dict[str, Any]:
@@ -153,7 +151,7 @@ def values(settings: Settings) -> dict[str, Any]:
         "blade": blade_name_of(settings, section),
         "base_level": section.base,
         "places": _rows_of(section),
-        "references": {name: _text(one.reference) for name, one in section.parameters.varied().items()},
+        "references": {name: _text(entry.reference) for name, entry in section.parameters.varied().items()},
         "tolerance": settings.config.tolerance,
     }
 

@@ -51,17 +51,17 @@ PAIRS = (
 
 def report(responses: Mapping[str, xr.Dataset], files: Any, values: Mapping[str, Any]) -> dict[str, Any]:
     """All numbers, the tables of parameters, levels and growth, and figures."""
-    references, found = values["references"], gather_cases(responses, values["places"], values["references"])
-    growing = growths(found)
+    references, together = values["references"], gather_cases(responses, values["places"], values["references"])
+    growing = growths(together)
     made = {
-        "dataset": found.assign_attrs({name: values[name] for name in ("blade", "base_level")}),
-        "levels": level_table(found, values["tolerance"]),
-        "table": parameter_tables(found, references),
+        "dataset": together.assign_attrs({name: values[name] for name in ("blade", "base_level")}),
+        "levels": level_table(together, values["tolerance"]),
+        "table": parameter_tables(together, references),
         "growth": growth_table(growing),
         "growth_figure": draw_growth(growing),
-        "pareto": draw_pareto(found),
+        "pareto": draw_pareto(together),
     }
-    return made | {f"of_{parameter}": draw_parameter(found, parameter) for parameter in references}
+    return made | {f"of_{parameter}": draw_parameter(together, parameter) for parameter in references}
 
 
 def gather_cases(
@@ -98,7 +98,7 @@ def _values(responses: Mapping[str, xr.Dataset], places: Mapping[str, Sequence[i
     names = {name: name.rsplit("__", 1) for name in responses}
     cases, scenes = (list(dict.fromkeys(parts)) for parts in zip(*names.values(), strict=True))
     rows = np.concatenate([np.asarray(several, dtype=int) for several in places.values()])
-    speeds = next(one["speed"].values[rows] for one in responses.values() if one.sizes["speed"])
+    speeds = next(response["speed"].values[rows] for response in responses.values() if response.sizes["speed"])
     dims = ("case", "scene", "speed_number")
     shape = (len(cases), len(scenes), len(speeds))
     data = {name: np.full(shape, np.nan) for name in (*QUANTITIES, "status", "energy_residual")}
@@ -165,20 +165,20 @@ def parameter_tables(together: xr.Dataset, references: Mapping[str, str]) -> str
     for parameter in dict.fromkeys(together["parameter"].values):
         cases = together.isel(case=np.flatnonzero(together["parameter"].values == parameter))
         rows = [_cells(cases.isel(case=row).sel(scene=scene)) for row in range(cases.sizes["case"]) for scene in cases["scene"]]
-        said = f"### {parameter.replace('_', ' ')} (reference: {references[parameter]})"
-        tables.append(f"{said}\n\n{markdown_table(head, rows)}")
+        heading = f"### {parameter.replace('_', ' ')} (reference: {references[parameter]})"
+        tables.append(f"{heading}\n\n{markdown_table(head, rows)}")
     return "\n".join(tables)
 
 
-def _cells(one: xr.Dataset) -> list[str]:
-    value, scene, refused = (str(one[name].item()) for name in ("value", "scene", "refused"))
+def _cells(case: xr.Dataset) -> list[str]:
+    value, scene, refused = (str(case[name].item()) for name in ("value", "scene", "refused"))
     if refused:
         return [value, scene, f"refused: {refused}", *[""] * 10]
-    errors = [_percent(one["error"].sel(at="peak", quantity=name)) for name in QUANTITIES]
-    memory, written = float(one["peak_memory_bytes"]) / 1e6, float(one["bytes_written"]) / 1e3
-    cost = [f"{float(one['cpu_s']):.2f}", f"{memory:.0f}", f"{written:.0f}"]
-    off = _percent(one["error"].sel(at="off_resonance", quantity="rms_normal"))
-    return [value, scene, *errors, _percent(one["peak_speed_error"]), off, *cost]
+    errors = [_percent(case["error"].sel(at="peak", quantity=name)) for name in QUANTITIES]
+    memory, written = float(case["peak_memory_bytes"]) / 1e6, float(case["bytes_written"]) / 1e3
+    cost = [f"{float(case['cpu_s']):.2f}", f"{memory:.0f}", f"{written:.0f}"]
+    off = _percent(case["error"].sel(at="off_resonance", quantity="rms_normal"))
+    return [value, scene, *errors, _percent(case["peak_speed_error"]), off, *cost]
 
 
 def _percent(value: xr.DataArray) -> str:
@@ -227,7 +227,7 @@ class Growth:
 
 def growths(together: xr.Dataset) -> list[Growth]:
     """All pairs whose parameter the study varied; costs are means over the scenes."""
-    found = []
+    pairs = []
     for parameter, cost, of in PAIRS:
         rows = np.flatnonzero(together["parameter"].values == parameter)
         values = np.array([float(value) for value in together["value"].values[rows]])
@@ -237,8 +237,8 @@ def growths(together: xr.Dataset) -> list[Growth]:
         if usable.sum() >= 3:
             order = np.argsort(values[usable])
             values, cost_of_value = values[usable][order], cost_of_value[usable][order]
-            found.append(Growth(parameter, cost, of, values, cost_of_value, exponent_of(values, cost_of_value)))
-    return found
+            pairs.append(Growth(parameter, cost, of, values, cost_of_value, exponent_of(values, cost_of_value)))
+    return pairs
 
 
 def exponent_of(values: np.ndarray, costs: np.ndarray) -> float:
@@ -247,14 +247,14 @@ def exponent_of(values: np.ndarray, costs: np.ndarray) -> float:
     return float(np.polyfit(np.log(values[largest]), np.log(costs[largest]), 1)[0])
 
 
-def growth_table(found: list[Growth]) -> str:
+def growth_table(pairs: list[Growth]) -> str:
     """The exponents as Markdown."""
     rows = []
-    for one in found:
-        unit, scale = ("MB", 1e-6) if "memory" in one.cost or "bytes" in one.cost else ("s", 1.0)
-        first, last = (f"{scale * value:.3g} {unit}" for value in (one.costs[0], one.costs[-1]))
-        span = f"{one.values[0]:g} to {one.values[-1]:g}"
-        rows.append([one.parameter.replace("_", " "), one.of, span, first, last, f"{one.exponent:.2f}"])
+    for pair in pairs:
+        unit, scale = ("MB", 1e-6) if "memory" in pair.cost or "bytes" in pair.cost else ("s", 1.0)
+        first, last = (f"{scale * value:.3g} {unit}" for value in (pair.costs[0], pair.costs[-1]))
+        span = f"{pair.values[0]:g} to {pair.values[-1]:g}"
+        rows.append([pair.parameter.replace("_", " "), pair.of, span, first, last, f"{pair.exponent:.2f}"])
     return markdown_table(["parameter", "cost", "range", "from", "to", "exponent"], rows)
 
 
@@ -303,18 +303,18 @@ def draw_pareto(together: xr.Dataset) -> Figure:
     return figure
 
 
-def draw_growth(found: Sequence[Growth]) -> Figure:
+def draw_growth(pairs: Sequence[Growth]) -> Figure:
     """One panel per pair of parameter and cost, with the fitted power law."""
     columns = 4
-    rows = max(1, -(-len(found) // columns))
+    rows = max(1, -(-len(pairs) // columns))
     figure, panels = plt.subplots(rows, columns, figsize=(3.0 * columns, 2.6 * rows), squeeze=False)
-    for axes, one in zip(panels.ravel(), found, strict=False):
-        axes.loglog(one.values, one.costs, "o")
-        axes.loglog(one.values, one.costs[-1] * (one.values / one.values[-1]) ** one.exponent, "--", color="0.5")
-        axes.set_title(f"{one.of}: exponent {one.exponent:.2f}", fontsize=8)
-        axes.set(xlabel=one.parameter.replace("_", " "), ylabel=one.cost.replace("_", " "))
-    for axes in np.ravel(panels)[len(found) :]:
+    for axes, pair in zip(panels.ravel(), pairs, strict=False):
+        axes.loglog(pair.values, pair.costs, "o")
+        axes.loglog(pair.values, pair.costs[-1] * (pair.values / pair.values[-1]) ** pair.exponent, "--", color="0.5")
+        axes.set_title(f"{pair.of}: exponent {pair.exponent:.2f}", fontsize=8)
+        axes.set(xlabel=pair.parameter.replace("_", " "), ylabel=pair.cost.replace("_", " "))
+    for axes in np.ravel(panels)[len(pairs) :]:
         axes.set_visible(False)
-    if not found:
+    if not pairs:
         figure.text(0.5, 0.5, "no parameter was varied over three values", ha="center")
     return figure

@@ -10,12 +10,13 @@ from dataclasses import replace
 from typing import Any
 
 from r37core.config import ConfigError, Settings
-from r37core.config.member_changes import ImpossibleValueError, changed_scene, scene_numbers
+from r37core.config.spread import Spread
 from r37core.config.study_sections import ValidationRangesSection
 from r37core.contact.scene import Scene
 from r37core.plans import paths
 from r37core.published import REFERENCE
-from r37core.tolerances.sample import Tolerance, drawn, is_of_sample, places
+from r37core.tolerances.member_changes import ImpossibleValueError, changed_scene, scene_numbers
+from r37core.tolerances.sample import drawn, is_of_sample, places
 
 from ..case import Case
 from ..modelling_choices import cases as modelling_choices
@@ -35,9 +36,9 @@ def cases(settings: Settings) -> dict[str, Case]:
     planned = windows(_CHOICE, steps.model_copy(update={"fine": steps.coarse}))
     scenes = {kind: _scenes(settings, kind) for kind in ("lined", "direct")}
     return {
-        f"{member}/{place}": case_in(settings, replace(_CHOICE, what=f"member {member}"), window, scenes[window.kind][member])
+        f"{member}/{of}": case_in(settings, replace(_CHOICE, what=f"member {member}"), window, scenes[window.kind][member])
         for member in scenes["lined"]
-        for place, window in planned.items()
+        for of, window in planned.items()
     }
 
 
@@ -46,8 +47,8 @@ def _scenes(settings: Settings, kind: str) -> dict[str, Scene]:
     entry = scene_entry_of(settings, scene_name(settings, kind))
     numbers, tolerances, scenes = scene_numbers(entry), _tolerances(settings), {NOMINAL: entry.scene()}
     nominal = [numbers.get(key) for key in tolerances]
-    for member, place in _sample(settings, len(tolerances)).items():
-        values = dict(zip(tolerances, drawn(tolerances.values(), nominal, place), strict=True))
+    for member, point in _sample(settings, len(tolerances)).items():
+        values = dict(zip(tolerances, drawn(tolerances.values(), nominal, point), strict=True))
         try:
             scenes[member] = changed_scene(entry, {key: value for key, value in values.items() if value is not None})
         except ImpossibleValueError as error:
@@ -55,26 +56,26 @@ def _scenes(settings: Settings, kind: str) -> dict[str, Scene]:
     return scenes
 
 
-def _tolerances(settings: Settings) -> Mapping[str, Tolerance]:
+def _tolerances(settings: Settings) -> Mapping[str, Spread]:
     """Key of each number -> how it spreads; ConfigError for one that neither scene has."""
     known = {
         key: value
         for kind in ("lined", "direct")
         for key, value in scene_numbers(scene_entry_of(settings, scene_name(settings, kind))).items()
     }
-    found = {key: entry.tolerance() for key, entry in _section(settings).of_scenes.items()}
-    for key, tolerance in found.items():
+    tolerances = {key: entry.spread() for key, entry in _section(settings).of_scenes.items()}
+    for key, tolerance in tolerances.items():
         if key not in known:
             raise _refusal(settings, key, key, f"one of {', '.join(known)}")
         if tolerance.percent and known[key] == 0.0:
             raise _refusal(settings, key, f"percent of {key}, which is 0", "uniform, normal, between or values")
-    return found
+    return tolerances
 
 
 def _sample(settings: Settings, numbers: int) -> dict[str, tuple[float, ...]]:
     section = _section(settings)
-    drawn = places(numbers, section.members, section.seed)
-    return {member: place for member, place in drawn.items() if is_of_sample(member)}
+    points = places(numbers, section.members, section.seed)
+    return {member: point for member, point in points.items() if is_of_sample(member)}
 
 
 def _section(settings: Settings) -> ValidationRangesSection:
@@ -86,8 +87,8 @@ def _section(settings: Settings) -> ValidationRangesSection:
     return section
 
 
-def _refusal(settings: Settings, key: str, found: str, allowed: str) -> ConfigError:
-    return settings.documents.config.refusal(("studies", "validation_ranges", "of_scenes", key), found, allowed)
+def _refusal(settings: Settings, key: str, value: str, allowed: str) -> ConfigError:
+    return settings.documents.config.refusal(("studies", "validation_ranges", "of_scenes", key), value, allowed)
 
 
 def inputs(settings: Settings) -> dict[str, Any]:

@@ -30,13 +30,13 @@ class Judged:
     @property
     def true_for(self) -> int:
         """Members of which the statement is true."""
-        return sum(one.agrees for one in self.members)
+        return sum(entry.agrees for entry in self.members)
 
     @property
     def values(self) -> np.ndarray:
         """Numbers of the members that have one, ascending."""
-        found = np.array([one.ours for one in self.members], float)
-        return np.sort(found[np.isfinite(found)])
+        values = np.array([check.ours for check in self.members], float)
+        return np.sort(values[np.isfinite(values)])
 
     @property
     def inside(self) -> bool:
@@ -67,14 +67,14 @@ class Judged:
 def judge(shipped: Sequence[Check], nominal: Sequence[Check], members: Sequence[Sequence[Check]]) -> list[Judged]:
     """Each published number with the checks of the same name; a member without it counts as having no number."""
     ours = {check.name: check for check in nominal}
-    found = [{check.name: check for check in checks} for checks in members]
+    by_name = [{check.name: check for check in checks} for checks in members]
     judged = []
     for check in shipped:
         if check.published is None:
             continue
-        ran = any(check.name in checks for checks in found)
+        ran = any(check.name in checks for checks in by_name)
         lacking = Check(check.name, check.published, "no" if isinstance(check.published, str) else np.nan)
-        several = tuple(checks.get(check.name, lacking) for checks in found) if ran else ()
+        several = tuple(checks.get(check.name, lacking) for checks in by_name) if ran else ()
         judged.append(Judged(check, ours.get(check.name), several))
     return judged
 
@@ -85,27 +85,27 @@ def range_report(judged: Sequence[Judged], tolerances: Mapping[str, str]) -> str
 
 
 def _conclusion(judged: Sequence[Judged]) -> str:
-    ranged = [one for one in judged if one.members]
-    differing = [one for one in judged if not one.shipped.agrees]
-    inside = [one for one in differing if one.inside]
+    ranged = [row for row in judged if row.members]
+    differing = [row for row in judged if not row.shipped.agrees]
+    inside = [row for row in differing if row.inside]
     groups = {
         "differ as shipped, but lie inside": inside,
-        "differ, and the range does not reach them": [one for one in differing if one.members and not one.inside],
-        "differ, and none of these tolerances touches them": [one for one in differing if not one.members],
-        "agree as shipped, though outside": [one for one in ranged if one.shipped.agrees and not one.inside],
+        "differ, and the range does not reach them": [row for row in differing if row.members and not row.inside],
+        "differ, and none of these tolerances touches them": [row for row in differing if not row.members],
+        "agree as shipped, though outside": [row for row in ranged if row.shipped.agrees and not row.inside],
     }
-    first = f"{sum(one.inside for one in ranged)} of {len(ranged)} published numbers and statements lie inside the range."
+    first = f"{sum(row.inside for row in ranged)} of {len(ranged)} published numbers and statements lie inside the range."
     second = f"Of the {len(differing)} that differ as shipped, {len(inside)} lie inside."
-    lines = [f"- {words} ({len(group)}): {'; '.join(one.shipped.name for one in group)}" for words, group in groups.items()]
+    lines = [f"- {words} ({len(group)}): {'; '.join(row.shipped.name for row in group)}" for words, group in groups.items()]
     return "\n".join([f"{first} {second}", "", *(line for line, group in zip(lines, groups.values(), strict=True) if group)])
 
 
 def _members(judged: Sequence[Judged], tolerances: Mapping[str, str]) -> str:
-    ranged = [one for one in judged if one.members]
+    ranged = [row for row in judged if row.members]
     count = len(ranged[0].members) if ranged else 0
-    agreeing = [sum(one.members[place].agrees for one in ranged) for place in range(count)]
+    agreeing = [sum(row.members[member].agrees for row in ranged) for member in range(count)]
     spread = ", ".join(f"`{key}` {words}" for key, words in tolerances.items())
-    nominal = score([one.nominal for one in ranged if one.nominal])
+    nominal = score([row.nominal for row in ranged if row.nominal])
     most = f"Of these {len(ranged)}, single members agree with {min(agreeing)} to {max(agreeing)}. " if count else ""
     return f"{count} members; {spread}.\n{most}The nominal run agrees with {nominal}."
 
@@ -113,10 +113,10 @@ def _members(judged: Sequence[Judged], tolerances: Mapping[str, str]) -> str:
 def range_table(judged: Sequence[Judged]) -> str:
     """All that have a range, and those that differ without one: first what differs, outside the range before inside."""
     rows = []
-    shown = [one for one in judged if one.members or not one.shipped.agrees]
-    for one in sorted(shown, key=lambda one: (one.shipped.agrees, one.inside)):
-        unit = f" {one.shipped.unit}" if one.shipped.unit else ""
-        nominal = one.nominal.shown if one.nominal else ""
-        ours = one.shipped.shown if one.shipped.agrees else f"**{one.shipped.shown}**"
-        rows.append([one.shipped.name, number(one.shipped.published) + unit, ours, nominal, one.shown, one.verdict])
+    shown = [row for row in judged if row.members or not row.shipped.agrees]
+    for row in sorted(shown, key=lambda row: (row.shipped.agrees, row.inside)):
+        unit = f" {row.shipped.unit}" if row.shipped.unit else ""
+        nominal = row.nominal.shown if row.nominal else ""
+        ours = row.shipped.shown if row.shipped.agrees else f"**{row.shipped.shown}**"
+        rows.append([row.shipped.name, number(row.shipped.published) + unit, ours, nominal, row.shown, row.verdict])
     return markdown_table(["what", "published", "ours", "nominal", "range", "inside"], rows)

@@ -34,6 +34,7 @@ SOURCES = Sources(
     "contact/node_sweeps.py",
     "contact/ring.py",
     "contact/scene.py",
+    "declared.py",
     "time_integration/compiled/contact_steps.py",
     "time_integration/compiled/jump_steps.py",
     "time_integration/compiled/kind.py",

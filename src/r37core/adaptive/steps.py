@@ -1,0 +1,28 @@
+"""Steps of the workflow (docs/architecture.md): which speeds are run next."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from r37core.dataset_file import read_dataset
+from r37core.io import as_list
+from r37core.plain import from_plain
+from r37core.speeds import SpeedPlan
+
+from .criterion import RefinementChoice
+from .rounds import first_round, measure_members, read_round, round_after, write_round
+
+
+def refine(input: Any, output: Any, params: Any) -> None:
+    """Ask for the next speeds. Inputs: campbell of the first round, else before and speeds. Output: round (json).
+
+    Params: plan, choice, yields.
+    """
+    plan, choice = from_plain(SpeedPlan, params.plan), from_plain(RefinementChoice, params.choice)
+    if hasattr(input, "campbell"):
+        new_round = first_round(plan, read_dataset(input.campbell), choice)
+    else:
+        before = read_round(input.before)
+        measured = measure_members(params.yields, before.new, as_list(input.speeds))
+        new_round = round_after(before, measured, plan, choice)
+    write_round(new_round, output.round)

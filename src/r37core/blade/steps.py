@@ -1,0 +1,19 @@
+"""Steps of the workflow (docs/architecture.md): the shape of a blade."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from r37core.plain import from_plain
+
+from .definition import BladeDefinition
+from .geometry_file import write_geometry
+
+
+def geometry(input: Any, output: Any, params: Any) -> None:
+    """Build a blade given by profiles. Params: definition, edges, provenance. Output: geometry (nc).
+
+    Raises BladeShapeError for an impossible shape.
+    """
+    definition = from_plain(BladeDefinition, params.definition)
+    write_geometry(definition.build(round_edges=params.edges == "round"), output.geometry, params.provenance)

@@ -1,0 +1,105 @@
+"""Sections of the configuration from the dataclasses of the computations, and back.
+
+A dataclass declares its keys (`r37core.declared`). `declared_by` puts them into a section; `in_si` makes the dataclass of it.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import MISSING, fields
+from types import NoneType, UnionType
+from typing import Annotated, Any, Literal, TypeVar, Union, get_args, get_origin
+
+from pydantic import Field, create_model
+
+from r37core.declared import DeclaredKey, Key, declared_keys
+
+from .section import LeftOut, Section
+from .si_fields import to_si
+
+S = TypeVar("S", bound=Section)
+T = TypeVar("T")
+
+DECLARED: Any = Field()
+"""In a section it keeps the place of a key that the dataclass declares; those without a place follow at the end."""
+
+
+def declared_by(
+    kind: type, *, optional: bool = False, only_listed: bool = False, **defaults: Any
+) -> Callable[[type[S]], type[S]]:
+    """Complete a section by the keys that the dataclass `kind` declares.
+
+    `optional`: every key may be left out; `only_listed`: only those that have a place in the section; `defaults`: of keys,
+    where this section's is another than the dataclass's.
+    """
+
+    def completed(section: type[S]) -> type[S]:
+        keys = [one for one in declared_keys(kind) if one.name in section.model_fields or not only_listed]
+        made: dict[str, Any] = {one.name: _field(one, optional, defaults.get(one.name, MISSING)) for one in keys}
+        return create_model(section.__name__, __base__=section, __module__=section.__module__, __doc__=section.__doc__, **made)
+
+    return completed
+
+
+def in_si(kind: type[T], section: Section, **parts: Any) -> T:
+    """The dataclass `kind` of what a section gives it, in SI units, and of `parts` that are made otherwise.
+
+    A field has the value of a key that it declares or, without a declaration, of one that is called like it. What is left out
+    has the dataclass's default, or is None.
+    """
+    found: dict[str, Any] = {}
+    for field in fields(kind):  # type: ignore[arg-type]
+        keys = [one for one in declared_keys(kind) if one.field == field.name]  # type: ignore[arg-type]
+        if keys and keys[0].default is MISSING and NoneType in get_args(keys[0].kind):
+            found[field.name] = None
+        for name, key in [(one.name, one.key) for one in keys] or [(field.name, Key(""))]:
+            value = getattr(section, name, None)
+            if value is not None and value != key.none:
+                found[field.name] = key.words[value] if key.words else to_si(value, key.factor)
+    return kind(**found | parts)
+
+
+def _field(one: DeclaredKey, optional: bool, default: Any) -> tuple[Any, Any]:
+    """Type and field of a model for a key."""
+    key, default = one.key, _default(one) if default is MISSING else default
+    kind = _file_type(one, one.kind)
+    if default is MISSING and not (optional or key.optional):
+        return kind, Field(description=key.description)
+    if default is MISSING or default is None or optional:
+        return kind | LeftOut, Field(default=None, description=key.description)
+    return kind, Field(default=default, description=key.description)
+
+
+def _default(one: DeclaredKey) -> Any:
+    """The default in the key's unit; None where a key that is left out says the same, as with no bound."""
+    default, key = one.default, one.key
+    if default is MISSING:
+        return MISSING
+    if default is None or (isinstance(default, float) and math.isinf(default)):
+        return key.none or None
+    if key.words:
+        return next(word for word, value in key.words.items() if value == default)
+    if isinstance(default, tuple):
+        return list(default)
+    return default if key.factor in (None, 1.0) else default / key.factor
+
+
+def _file_type(one: DeclaredKey, kind: Any) -> Any:
+    """What a file has for a field of the type `kind`: words for true and false, lists for tuples, bounds of numbers."""
+    key = one.key
+    if key.words:
+        return Literal[tuple(key.words)]
+    if key.one_of:
+        return Literal[tuple(key.one_of)]
+    if get_origin(kind) in (Union, UnionType):
+        (kind,) = (part for part in get_args(kind) if part is not NoneType)
+        number = _file_type(one, kind)
+        return Literal[key.none] | number if key.none else number
+    if get_origin(kind) is tuple:
+        entries = get_args(kind)
+        length: dict[str, Any] = {} if entries[-1] is Ellipsis else {"min_length": len(entries), "max_length": len(entries)}
+        return Annotated[list[_file_type(one, entries[0])], Field(**length)]  # type: ignore[misc]
+    if kind in (int, float):
+        return Annotated[kind, Field(ge=key.ge, gt=key.gt, le=key.le, lt=key.lt)]
+    return kind

@@ -1,0 +1,104 @@
+"""How a number spreads that is never known exactly, and how it is written in a configuration."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Annotated, Literal
+
+import scipy
+from pydantic import AfterValidator, Field, model_validator
+
+from .section import LeftOut, Section, Unique, refused
+
+_DIGITS = 12
+"""Of a value: more would tell one machine's arithmetic from another's."""
+
+
+@dataclass(frozen=True)
+class Spread:
+    """How a number spreads.
+
+    `uniform`: one half width about the nominal value; `normal`: one standard deviation; `between`: a lower and an upper
+    bound, all between equally likely; `values`: a list, each equally likely. With `percent` the first two are in percent of
+    the nominal value.
+    """
+
+    kind: Literal["uniform", "normal", "between", "values"]
+    numbers: tuple[float, ...]
+    percent: bool = False
+
+    def value(self, nominal: float, share: float) -> float:
+        """The value below which a `share`, from 0 to 1, of all values lies, rounded to 12 digits."""
+        first = self.numbers[0]
+        width = first * abs(nominal) / 100.0 if self.percent else first
+        if self.kind == "uniform":
+            found = nominal + (2.0 * share - 1.0) * width
+        elif self.kind == "normal":
+            found = nominal + float(scipy.special.ndtri(share)) * width
+        elif self.kind == "between":
+            found = first + share * (self.numbers[1] - first)
+        else:
+            found = self.numbers[min(int(share * len(self.numbers)), len(self.numbers) - 1)]
+        return float(f"{found:.{_DIGITS}g}")
+
+    def ends(self, nominal: float) -> tuple[float, ...]:
+        """The values that no other goes beyond; none of a normal distribution, which has no bounds."""
+        if self.kind == "values":
+            return self.numbers
+        return () if self.kind == "normal" else (self.value(nominal, 0.0), self.value(nominal, 1.0))
+
+    @property
+    def words(self) -> str:
+        """For a page: how far it goes, in the unit of the number or in percent of it."""
+        unit = "%" if self.percent else ""
+        if self.kind == "between":
+            return " to ".join(f"{number:g}" for number in self.numbers)
+        if self.kind == "values":
+            return " or ".join(f"{number:g}" for number in self.numbers)
+        return ("± " if self.kind == "uniform" else "standard deviation ") + f"{self.numbers[0]:g}{unit}"
+
+
+_KINDS = ("uniform_percent", "uniform", "normal_percent", "normal", "between", "values")
+Width = Annotated[float, Field(gt=0, le=1e15)]
+Percent = Annotated[float, Field(gt=0, le=1000)]
+Number = Annotated[float, Field(ge=-1e15, le=1e15)]
+
+
+def _power_of_two(members: int) -> int:
+    if members & (members - 1):
+        nearest = 2 ** members.bit_length()
+        raise refused((), f"{members}", f"a power of two, such as {nearest // 2} or {nearest}")
+    return members
+
+
+MemberCount = Annotated[int, Field(ge=2, le=4096), AfterValidator(_power_of_two)]
+"""How many members a sample has."""
+
+
+class SpreadEntry(Section):
+    """How one number spreads: one of these, in the unit of the number's key where it is not in percent of its value."""
+
+    uniform_percent: Percent | LeftOut = Field(default=None, description="half width; 5: from 5% below to 5% above")
+    uniform: Width | LeftOut = Field(default=None, description="half width")
+    normal_percent: Percent | LeftOut = Field(default=None, description="standard deviation")
+    normal: Width | LeftOut = Field(default=None, description="standard deviation")
+    between: Annotated[list[Number], Field(min_length=2, max_length=2)] | LeftOut = Field(
+        default=None, description="lower and upper bound, all between equally likely"
+    )
+    values: Unique[Number] | LeftOut = Field(default=None, description="a list, each equally likely")
+
+    @model_validator(mode="after")
+    def _one_kind(self) -> SpreadEntry:
+        given = [key for key in _KINDS if getattr(self, key) is not None]
+        if len(given) != 1:
+            raise refused((), " and ".join(given) or "nothing", f"one of {', '.join(_KINDS)}")
+        if self.between is not None and not self.between[0] < self.between[1]:
+            raise refused(("between",), f"{self.between}", "a lower and a higher number")
+        return self
+
+    def spread(self) -> Spread:
+        """As the sample takes it."""
+        key = next(key for key in _KINDS if getattr(self, key) is not None)
+        given = getattr(self, key)
+        numbers = tuple(given) if isinstance(given, list) else (given,)
+        return Spread(key.removesuffix("_percent"), numbers, key.endswith("_percent"))  # type: ignore[arg-type]

@@ -1,0 +1,67 @@
+"""How a field of a dataclass stands in the configuration files: its key, unit, bounds and description.
+
+The dataclass of a computation declares them, and nothing else does: `r37core.config.declaring` makes the model of the file's
+section of it, and with that the schema, the messages and the tables of docs/configuration.md. Light: the simulations import it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, fields
+from functools import cache
+from typing import Annotated, Any, get_args, get_origin, get_type_hints
+
+from .units import SUFFIXES
+
+
+@dataclass(frozen=True)
+class Key:
+    """The key that gives a field: `Annotated[float, Key("of a bar", "_pa", ge=0)]`; its default is that of the field.
+
+    `unit`: end of the key, one of units.SUFFIXES; `name`: the key without its unit, where it is not called like the field;
+    `ge`, `gt`, `le`, `lt`: bounds in the key's unit, of a list's entries where there is one; `one_of`: texts that are allowed;
+    `words`: word -> value of a field that is true or false; `none`: word for a field that is None. `optional`: whether the key
+    may be left out though the field has no default, because it is then made otherwise. Several keys of one field are several
+    ways to give it.
+    """
+
+    description: str
+    unit: str = ""
+    name: str = ""
+    ge: float | None = None
+    gt: float | None = None
+    le: float | None = None
+    lt: float | None = None
+    words: Mapping[str, bool] | None = None
+    one_of: Iterable[str] = ()
+    none: str = ""
+    optional: bool = False
+
+    @property
+    def factor(self) -> float | None:
+        """What one of the key's unit is in the SI; None for a key without a unit."""
+        return SUFFIXES[self.unit] if self.unit else None
+
+
+@dataclass(frozen=True)
+class DeclaredKey:
+    """A `key` of the configuration, the `field` that it gives, and that field's `kind` and `default` (in SI units)."""
+
+    name: str
+    field: str
+    key: Key
+    kind: Any
+    default: Any
+
+
+@cache
+def declared_keys(of: type) -> tuple[DeclaredKey, ...]:
+    """All keys that the fields of a dataclass declare, in their order."""
+    hints = get_type_hints(of, include_extras=True)
+    found = []
+    for field in fields(of):
+        if get_origin(hints[field.name]) is Annotated:
+            kind, *metadata = get_args(hints[field.name])
+            keys = [one for one in metadata if isinstance(one, Key)]
+            found += [DeclaredKey((key.name or field.name) + key.unit, field.name, key, kind, field.default) for key in keys]
+    return tuple(found)

@@ -1,0 +1,1 @@
+"""Families of designs compared: what each is, and how robust."""

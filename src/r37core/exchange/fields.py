@@ -1,0 +1,181 @@
+"""Results for other programs: modes and the worst stress on the mesh, as .vtu with a .pvd list or as .med."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import meshio
+import numpy as np
+
+from r37core.exchange.importing.meshio_reader import quietly
+from r37core.exchange.orientation import OURS, Orientation
+from r37core.fem.material import Material
+from r37core.fem.stress import nodal_stress
+from r37core.io import atomic_write, write_text
+from r37core.mesh.blade_mesh import BladeMesh
+from r37core.mesh.mesh_files import vtk_grid
+from r37core.results.campbell import name_modes
+from r37core.rom.reduced_model import RecoveryNodes, ReducedModel
+from r37core.speeds import exact_text
+from r37core.stress.operator import StressOperator
+from r37core.stress.von_mises import von_mises
+from r37core.time_integration.speed_file import read_speed
+
+_NAMED_AMONG = 8
+_UPPER = ([0, 1, 2, 0, 1, 2], [0, 1, 2, 1, 2, 0])
+
+
+@dataclass(frozen=True)
+class Target:
+    """Where results go: a `folder`, the `formats` of the files (vtu, med), and unit and axes of what they hold."""
+
+    folder: Path
+    formats: tuple[str, ...] = ("vtu",)
+    orientation: Orientation = OURS
+
+
+@dataclass(frozen=True)
+class WorstInstant:
+    """The instant of the last revolution with the largest stress on the submesh.
+
+    `coordinates`, reduced, shape (coordinates,); `largest` (Pa), of von Mises on the submesh; `revolution`: the coordinates at
+    all instants of that revolution, shape (instants, coordinates), and `number`, which of them is the worst.
+    """
+
+    coordinates: np.ndarray
+    largest: float
+    revolution: np.ndarray
+    number: int
+
+
+@dataclass(frozen=True)
+class ModeShapes:
+    """Modes at one speed.
+
+    `names`; `frequencies` (Hz), shape (modes,); `displacement` of all nodes (kg^-1/2, mass-normalised), shape
+    (modes, nodes, 3).
+    """
+
+    names: tuple[str, ...]
+    frequencies: np.ndarray
+    displacement: np.ndarray
+
+
+def mode_shapes(model: ReducedModel, speed: float, count: int) -> ModeShapes:
+    """The `count` lowest modes at `speed` (rad/s); ValueError for a model that does not recover the whole blade."""
+    basis = _whole(model).basis
+    frequencies, shapes = model.modes(speed, max(count, _NAMED_AMONG))
+    names, order = name_modes(model, shapes, count)
+    displacement = np.array([(basis @ shapes[:, mode]).real for mode in order])
+    return ModeShapes(names, frequencies[order] / (2.0 * np.pi), displacement)
+
+
+def write_modes(mesh: BladeMesh, model: ReducedModel, speeds: Sequence[float], count: int, target: Target) -> None:
+    """Write modes_<speed> for each speed (rad/s) and modes.pvd: displacement of `count` modes, mass-normalised (kg^-1/2).
+
+    Fields are named by the mode; .vtu files have the frequency (Hz) of each in the field data. The model must recover the
+    whole blade.
+    """
+    shown = target.orientation.mesh_to_file(mesh)
+    files = {}
+    for speed in speeds:
+        modes = mode_shapes(model, speed, count)
+        fields = {f"mode {name}": u @ target.orientation.rows for name, u in zip(modes.names, modes.displacement, strict=True)}
+        notes = {f"frequency of mode {name} (Hz)": f for name, f in zip(modes.names, modes.frequencies, strict=True)}
+        files[speed] = f"modes_{exact_text(speed)}"
+        _write_fields(shown, fields, notes, files[speed], target)
+    _write_collection(files, "modes", target)
+
+
+def worst_instants(
+    files: Iterable[Path | str], speeds: Sequence[float], stress: StressOperator, only_worst: bool
+) -> dict[float, WorstInstant]:
+    """The worst instant of the last revolution at each of the `speeds` (rad/s), or the worst of all alone.
+
+    A run that diverged has none. Raises InputFileError for a file that cannot be read.
+    """
+    instants: dict[float, WorstInstant] = {}
+    for speed, file in zip(speeds, files, strict=True):
+        run = read_speed(file)
+        if run["status"] or not len(run["snapshots"]):
+            continue
+        revolution = run["snapshots"]
+        largest = stress.max_von_mises(revolution)
+        instant = int(np.argmax(largest))
+        instants[speed] = WorstInstant(revolution[instant], float(largest[instant]), revolution, instant)
+    worst = max(instants, key=lambda speed: instants[speed].largest, default=None)
+    return {worst: instants[worst]} if only_worst and worst is not None else instants
+
+
+def write_stress(
+    mesh: BladeMesh, model: ReducedModel, material: Material, instants: Mapping[float, WorstInstant], target: Target
+) -> None:
+    """Write stress_<speed> for the instant at each speed (rad/s), and stress.pvd.
+
+    Displacement (the target's unit), stress components xx yy zz xy yz zx and von Mises stress (Pa) on the whole blade: of
+    the vibration, and of rotation in a scene whose stress has it. The model must recover the whole blade.
+    """
+    shown = target.orientation.mesh_to_file(mesh)
+    files = {}
+    for speed, instant in instants.items():
+        displacement, stress = stress_of(mesh, model, material, instant)
+        fields = {
+            "displacement": target.orientation.vectors_to_file(displacement),
+            "stress": _turned(stress, target.orientation.rows).T,
+            "von Mises stress": von_mises(stress),
+        }
+        files[speed] = f"stress_{exact_text(speed)}"
+        _write_fields(shown, fields, {"largest von Mises stress of the submesh (Pa)": instant.largest}, files[speed], target)
+    _write_collection(files, "stress", target)
+
+
+def stress_of(mesh: BladeMesh, model: ReducedModel, material: Material, instant: WorstInstant) -> tuple[np.ndarray, np.ndarray]:
+    """Displacement (m), shape (nodes, 3), and stress (Pa), shape (6, nodes), on the whole blade."""
+    displacement = displacement_of(model, instant.coordinates[None])[0]
+    return displacement, nodal_stress(mesh.blocks, mesh.points, displacement[:, :, None], material)[:, :, 0]
+
+
+def displacement_of(model: ReducedModel, coordinates: np.ndarray) -> np.ndarray:
+    """Displacement of all nodes (m), shape (instants, nodes, 3), for coordinates as StressOperator takes them."""
+    return np.moveaxis(_whole(model).fields[:, :, : coordinates.shape[1]] @ coordinates.T, 2, 0)
+
+
+def _turned(stress: np.ndarray, rows: np.ndarray) -> np.ndarray:
+    """Stress components, shape (6, nodes), in the axes whose parts in the blade's frame are the columns of `rows`."""
+    tensors = np.empty((stress.shape[1], 3, 3))
+    for component, a, b in zip(stress, *_UPPER, strict=True):
+        tensors[:, a, b] = tensors[:, b, a] = component
+    return (rows.T @ tensors @ rows)[:, *_UPPER].T
+
+
+def _whole(model: ReducedModel) -> RecoveryNodes:
+    if model.whole_blade is None:
+        raise ValueError("the reduced model does not recover the whole blade")
+    return model.whole_blade
+
+
+def _write_fields(
+    mesh: BladeMesh, fields: Mapping[str, np.ndarray], notes: Mapping[str, float], name: str, target: Target
+) -> None:
+    for suffix in target.formats:
+        with atomic_write(target.folder / f"{name}.{suffix}") as partial:
+            if suffix == "vtu":
+                grid = vtk_grid(mesh)
+                grid.point_data.update(dict(fields))
+                for about, value in notes.items():
+                    grid.field_data[about] = [value]
+                grid.save(partial)
+            else:
+                content = meshio.Mesh(mesh.points, dict(mesh.blocks), point_data=dict(fields))
+                quietly(content.write, partial)
+
+
+def _write_collection(files: Mapping[float, str], name: str, target: Target) -> None:
+    """A ParaView list of the .vtu files over speed."""
+    if "vtu" not in target.formats:
+        return
+    rows = "".join(f'    <DataSet timestep="{speed!r}" file="{file}.vtu"/>\n' for speed, file in files.items())
+    text = f'<VTKFile type="Collection" version="0.1">\n  <Collection>\n{rows}  </Collection>\n</VTKFile>\n'
+    write_text(text, target.folder / f"{name}.pvd")

@@ -1,0 +1,27 @@
+"""Steps of the workflow (docs/architecture.md): the page to look at all results."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from r37core.dataset_file import read_dataset
+from r37core.results.ranking import read_ranking
+from r37core.results.table_file import read_table
+
+from . import write_page
+from .contents import explorer_contents
+
+
+def explorer(input: Any, output: Any, params: Any) -> None:
+    """One page to look at all results. Inputs: datasets by kind, summary, ranking. Output: page (html).
+
+    Params: title, shapes, benchmark_scenes, address (of a file in the report).
+    """
+    files = dict(input.items())
+    interactions, ranking = read_table(files.pop("summary")), read_ranking(files.pop("ranking"))
+    datasets = {kind: read_dataset(file) for kind, file in files.items()}
+    file = Path(output.page)
+    in_report = {blade: str(params.address(file.parent / f"shapes/{blade}.html")) for blade, _ in params.shapes}
+    contents = explorer_contents(datasets, interactions, params.shapes, in_report, params.benchmark_scenes, ranking)
+    write_page(contents, params.title, file)

@@ -1,0 +1,1 @@
+"""Results for other programs: mesh, surface, modes, worst stress, matrices."""

@@ -1,0 +1,56 @@
+"""exports of config.yaml: files for other programs."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import Discriminator, Field, Tag, model_validator
+
+from r37core.config import si_fields
+from r37core.config.section import LeftOut, Rpm, Section, Speed, Unique
+from r37core.config.speed_section import refuse_both_units
+
+ModeSpeed = Annotated[float, Field(ge=0, le=1e6)]
+ChosenSpeeds = Annotated[
+    Annotated[Literal["worst", "all"], Tag("word")] | Annotated[Unique[Speed], Tag("speeds")],
+    Discriminator(lambda value: "speeds" if isinstance(value, list) else "word"),
+]
+
+
+class ExportSection(Section):
+    """What `snakemake exports` writes."""
+
+    mesh_formats: Unique[Literal["msh", "vtu", "med", "bdf", "inp"]] = Field(
+        default=["msh", "vtu", "med", "bdf", "inp"], description="inp: a complete CalculiX/Abaqus deck"
+    )
+    result_formats: Unique[Literal["vtu", "med"]] = Field(default=["vtu"], description="of modes and stress")
+    modes: int = Field(default=10, ge=1, le=30, description="how many modes at each speed")
+    mode_speeds_rad_s: Annotated[Unique[ModeSpeed], Field()] | LeftOut = Field(
+        default=None, description="without it at rest and at structure.maximum_speed_rad_s"
+    )
+    stress_speeds_rad_s: ChosenSpeeds = Field(
+        default="worst",
+        description="speeds whose worst instant is written: worst, the one with the largest stress of a blade and scene; all; "
+        "or some of those that are run",
+    )
+    stress_speeds_rpm: Unique[Rpm] | LeftOut = Field(
+        default=None, description="some of those that are run, in revolutions per minute, in place of stress_speeds_rad_s"
+    )
+    full_matrices: bool = Field(
+        default=False, description="matrices of all nodes (hundreds of MB) in place of the reduced ones"
+    )
+
+    @model_validator(mode="after")
+    def _one_unit(self) -> ExportSection:
+        # beside the default, which is also what config.yaml says
+        if self.stress_speeds_rpm is not None and self.stress_speeds_rad_s != "worst":
+            refuse_both_units("stress_speeds_rad_s", "stress_speeds_rpm")
+        return self
+
+    def stress_speeds(self) -> tuple[float, ...] | None:
+        """Speeds (rad/s) that are named; None for `worst` and `all`."""
+        return si_fields(self).get("stress_speeds")
+
+    def only_worst(self) -> bool:
+        """Whether the speed with the largest stress is written alone."""
+        return self.stress_speeds() is None and self.stress_speeds_rad_s == "worst"

@@ -1,0 +1,17 @@
+"""Files for other programs as a wing."""
+
+from __future__ import annotations
+
+from r37core.plans.wing import Wing
+
+from .checks import exported_speeds_are_run
+from .plan import targets
+from .section import ExportSection
+
+WING = Wing(
+    name="exports",
+    section=(ExportSection, ExportSection()),
+    checks=(exported_speeds_are_run,),
+    targets=targets,
+    on_request=True,
+)

@@ -1,0 +1,35 @@
+"""Steps of the workflow (docs/architecture.md): a blade's mesh, and the same as a deck for Abaqus."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from r37core.blade.geometry_file import read_geometry
+from r37core.io import atomic_write
+from r37core.mesh.generate import generate_mesh
+from r37core.mesh.mesh_files import read_vtu, write_vtu
+from r37core.plain import from_plain
+
+from .abaqus_deck import write_abaqus
+from .material import Material
+from .mesh_quality import mesh_quality
+
+
+def mesh(input: Any, output: Any, params: Any) -> None:
+    """Mesh a blade. Input: geometry. Params: mesh, of the fidelity level. Outputs: msh, vtu.
+
+    Raises ValueError for a mesh of poor quality.
+    """
+    level = params.mesh
+    with atomic_write(output.msh) as msh_file:
+        made = generate_mesh(read_geometry(input.geometry), level["nodes"], level["layers"], level["tip_elements"], msh_file)
+        quality = mesh_quality(made)
+        print(f"{len(made.points)} nodes, {made.element_count} wedges")
+        print(f"scaled Jacobian: minimum {quality.minimum:.3f}, 1% quantile {quality.one_percent_quantile:.3f}")
+        quality.check(level["minimum_scaled_jacobian"])
+    write_vtu(made, output.vtu, quality.per_element)
+
+
+def abaqus_deck(input: Any, output: Any, params: Any) -> None:
+    """Write the Abaqus/CalculiX deck of a blade. Input: mesh (vtu). Params: material, blade. Output: deck (inp)."""
+    write_abaqus(read_vtu(input.mesh), output.deck, from_plain(Material, params.material), f"blade {params.blade}, SI units")

@@ -1,0 +1,39 @@
+"""Steps of the workflow (docs/architecture.md): figures."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from importlib import import_module
+from typing import Any
+
+from r37core.dataset_file import read_dataset
+from r37core.io import as_list
+from r37core.results.table_file import read_table
+
+from .blade_shapes import draw_blade_shapes
+from .style import picture_figure, save
+
+
+def draw(input: Any, output: Any, params: Any) -> None:
+    """Draw a figure. Inputs: named as its function takes them. Outputs: png, pdf.
+
+    Params: those of `reporting.drawing`; draw: the function, `module.function`; of: the wildcards; caption.
+    """
+    arguments = dict(params.items())
+    function, caption, of, *_ = (arguments.pop(name) for name in ("draw", "caption", "of", "step", "code"))
+    arguments |= {name: _read(file, of) for name, file in input.items()}
+    if of:
+        arguments["title"] = ", ".join(of.values())
+    module, name = function.rsplit(".", 1)
+    save(getattr(import_module(module), name)(**arguments), [output.png, output.pdf], caption)
+
+
+def blade_shapes(input: Any, output: Any, params: Any) -> None:
+    """Draw the meshes of all blades. Inputs: meshes. Params: blades, caption. Outputs: png, pdf."""
+    draw_blade_shapes(dict(zip(params.blades, as_list(input.meshes), strict=True)), output.png)
+    save(picture_figure(output.png), output.pdf, params.caption)
+
+
+def _read(file: str, part: Mapping[str, str]) -> Any:
+    """A table, or the part of a dataset that is of the figure's blade and scene."""
+    return read_table(file) if file.endswith(".csv") else read_dataset(file, part)

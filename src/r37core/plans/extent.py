@@ -1,0 +1,60 @@
+"""How large a run is: its simulations and what they cost. `r37 check`, the study `estimate` and the progress line say this."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from r37core.config import Settings
+from r37core.config.speed_choice import most_runs
+
+from .samples import Pair, Sample
+
+
+@dataclass(frozen=True)
+class Extent:
+    """Simulations of a sweep, `certain` ones and at `most` where speeds are adaptive, and at most so many of its `members`."""
+
+    certain: int
+    most: int
+    members: int
+
+    def __add__(self, other: Extent) -> Extent:
+        return Extent(self.certain + other.certain, self.most + other.most, self.members + other.members)
+
+    @property
+    def at_most(self) -> int:
+        """All of them."""
+        return self.most + self.members
+
+    @property
+    def in_words(self) -> str:
+        """Numbers, for a sentence about simulations."""
+        sweep = str(self.certain) if self.most == self.certain else f"{self.certain} to about {self.most}"
+        return f"{sweep}, and at most {self.members} of members" if self.members else sweep
+
+    def cpu_time(self, per_run: float) -> str:
+        """What they take at most, in words; `per_run`: CPU seconds of one."""
+        cost = self.at_most * per_run
+        return f"{cost:.3g} s" if cost < 120.0 else f"{cost / 60.0:.3g} minutes"
+
+
+def extents(settings: Settings, beside: Mapping[str, Mapping[Pair, Sample]]) -> dict[Pair, Extent]:
+    """The extent of each blade and scene, with the samples `beside` it (see Samples)."""
+    return {
+        pair: Extent(
+            certain=len(plan.certain),
+            most=most_runs(settings, *pair),
+            members=sum(
+                len(samples[pair].members) * plan.at_most(samples[pair].largest_share)
+                for samples in beside.values()
+                if pair in samples
+            ),
+        )
+        for pair, plan in settings.speed_plans.items()
+    }
+
+
+def extent_of(settings: Settings, beside: Mapping[str, Mapping[Pair, Sample]]) -> Extent:
+    """The extent of a whole run."""
+    return sum(extents(settings, beside).values(), Extent(0, 0, 0))

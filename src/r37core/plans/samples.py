@@ -1,0 +1,135 @@
+"""Members of samples, each a blade and a scene with runs of its own. The nominal sweep is a sample of one member."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cache, cached_property
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    # jobs unpickle what stands beside this
+    from r37core.config import BladeSettings, Settings
+    from r37core.contact.scene import Scene
+
+Pair = tuple[str, str]
+"""Blade and scene."""
+
+NOMINAL = ""
+"""Name of the one member of the nominal sweep, whose files lie in no folder of their own."""
+
+
+@dataclass(frozen=True)
+class Member:
+    """A blade and a scene as runs have them. `model`: name of the member with the same blade whose model they start from."""
+
+    blade: BladeSettings
+    scene: Scene
+    model: str = NOMINAL
+
+
+@dataclass(frozen=True)
+class Sample:
+    """Members of one blade and scene, by name, that are all run at the same speeds.
+
+    `deciding`: those of them that adaptive speeds are decided by, at most at `largest_share` of the finest grid. `results`:
+    what is wanted of each run. `history_speeds` (rad/s): where the stress is kept for every revolution.
+    """
+
+    members: Mapping[str, Member]
+    deciding: Sequence[str]
+    largest_share: float
+    results: tuple[str, ...]
+    history_speeds: tuple[float, ...] = ()
+
+
+@dataclass(frozen=True)
+class Sampling:
+    """What a wing adds whose members are runs of the sweep.
+
+    `samples`: members by blade and scene; none where the settings ask for none. What is made of them stands in the tables of
+    all blades: `ranges`, a table as of results/ranges.py, in the summary; `dataset`, with a dimension `member`, in the ranking
+    and the explorer.
+    """
+
+    samples: Callable[[Settings], Mapping[Pair, Sample]]
+    ranges: str
+    dataset: str
+
+
+@dataclass(frozen=True)
+class Samples:
+    """All members that are run: the nominal ones, and those of samples `beside` them, by the folder that these lie in.
+
+    Methods with `wildcards` take those of rules, with or without a `member`. That is the part of a path before the blade:
+    `folder/name/` of a member, `folder/` of what its sample has together, and nothing of the nominal ones.
+    """
+
+    settings: Settings
+    beside: Mapping[str, Mapping[Pair, Sample]] = field(default_factory=dict)
+
+    @property
+    def pattern(self) -> str:
+        """Pattern of the wildcard `member`."""
+        return rf"(?:(?:{'|'.join(self.beside)})/(?:[^/]+/)?)?"
+
+    def sample(self, wildcards: Any) -> Sample:
+        """Of a blade and scene, with the member."""
+        folder, _ = place_of(wildcards)
+        pair = (wildcards.blade, wildcards.scene)
+        return self.beside[folder][pair] if folder else self._nominal(pair)
+
+    def member(self, wildcards: Any) -> Member:
+        """Of a blade and scene."""
+        return self.sample(wildcards).members[place_of(wildcards)[1]]
+
+    def model(self, wildcards: Any) -> str:
+        """The part `member` of the paths of the model that a member's runs start from."""
+        model = self.member(wildcards).model
+        return path_part(place_of(wildcards)[0], model) if model else NOMINAL
+
+    def blade(self, wildcards: Any) -> BladeSettings:
+        """The blade of a member, which is the same in all scenes."""
+        folder, name = place_of(wildcards)
+        return self._blades[folder, wildcards.blade][name] if folder else self.settings.blades[wildcards.blade]
+
+    @cached_property
+    def _nominal(self) -> Any:
+        return cache(self._nominal_of)
+
+    def _nominal_of(self, pair: Pair) -> Sample:
+        settings, (blade, scene) = self.settings, pair
+        chosen, results = settings.scenes[scene], settings.results_of(blade, scene)
+        return Sample(
+            members={NOMINAL: Member(settings.blades[blade], chosen.scene)},
+            deciding=[NOMINAL],
+            largest_share=settings.config.refinement.in_scene(chosen.scene).largest_share,
+            results=results,
+            history_speeds=chosen.stress_history_speeds if "stress" in results else (),
+        )
+
+    @cached_property
+    def _blades(self) -> dict[tuple[str, str], dict[str, BladeSettings]]:
+        """By folder and blade, and by name."""
+        found: dict[tuple[str, str], dict[str, BladeSettings]] = {}
+        for folder, samples in self.beside.items():
+            for (blade, _), sample in samples.items():
+                members = {name: member.blade for name, member in sample.members.items()}
+                found.setdefault((folder, blade), {}).update(members)
+        return found
+
+
+def member_of(wildcards: Any) -> str:
+    """The part `member` of a path; that of the nominal ones where a rule has none."""
+    return getattr(wildcards, "member", NOMINAL)
+
+
+def place_of(wildcards: Any) -> tuple[str, str]:
+    """Folder and name of a member; both empty of a nominal one."""
+    folder, _, name = member_of(wildcards).removesuffix("/").partition("/")
+    return folder, name
+
+
+def path_part(folder: str, name: str = NOMINAL) -> str:
+    """The part `member` of a path: of a member, without a name of its sample, and of the nominal ones without a folder."""
+    return "".join(f"{part}/" for part in (folder, name) if part)

@@ -1,0 +1,49 @@
+"""A wing: what one capability adds to the spine, as plain data. `r37core.product.wings` names all of them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from r37core.config import Settings
+
+from .paths import Wildcards
+from .samples import Sampling
+from .sweep_plan import Sweep
+
+Targets = Callable[[Sweep], dict[str, Wildcards]]
+"""Patterns of files -> the wildcards of each that a run asks for; none where its configuration does without."""
+
+
+def _nothing(_: Sweep) -> dict[str, Wildcards]:
+    return {}
+
+
+@dataclass(frozen=True)
+class Wing:
+    """One capability: a folder of this package, a file of rules, and a line in the registry.
+
+    `name`: of the folder, of the rule that makes all of it, and of its section of config.yaml.
+    `section`: type and default of that section, as pydantic's `create_model` takes them; none without one.
+    `checks`: what no model of the section alone can check; each raises ConfigError.
+    `sampling`: members that it has run beside the sweep, and what is made of them.
+    `simulated`: files of its own simulations in the folders of the blades, which other machines may make.
+    `targets`: what is made of them; part of all_blades unless `on_request`.
+    `remarks`: what a run should say of it before it starts.
+    `captions`: kind of figure -> what is seen in it, with names (blade, scene) in braces.
+    """
+
+    name: str
+    section: tuple[Any, Any] | None = None
+    checks: tuple[Callable[[Settings], None], ...] = ()
+    sampling: Sampling | None = None
+    simulated: Targets = _nothing
+    targets: Targets = _nothing
+    remarks: Callable[[Settings], list[str]] = lambda _: []
+    captions: Mapping[str, str] = field(default_factory=dict)
+    on_request: bool = False
+
+    def asked(self, sweep: Sweep) -> dict[str, Wildcards]:
+        """All that a run makes of it."""
+        return {**self.simulated(sweep), **self.targets(sweep)}

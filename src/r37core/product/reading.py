@@ -1,0 +1,31 @@
+"""Configuration with the sections and checks of all wings."""
+
+from __future__ import annotations
+
+from r37core.config import Settings
+from r37core.config.config_file import Config, with_sections
+from r37core.config.cross_checks import CHECKS
+from r37core.config.reading import Reader
+
+from .wings import WINGS
+
+CONFIG: type[Config] = with_sections({wing.name: wing.section for wing in WINGS if wing.section})
+"""config.yaml with the section of each wing."""
+
+RESERVED = ("figures", "studies", "runs", *(wing.name for wing in WINGS))
+"""Folders of the results beside those of the blades."""
+
+
+def blades_are_no_other_folders(settings: Settings) -> None:
+    """No blade, nor design of a family, is called like a folder of something else."""
+    family_of = {design: name for name, family in settings.designs.families.items() for design in family.designs}
+    for name in settings.designs.entries:
+        if name.lower() in RESERVED:
+            found = f"the {'design' if name in family_of else 'blade'} '{name}'"
+            allowed = f"another name; {', '.join(RESERVED)} are folders of the results"
+            raise settings.documents.blades.refusal((family_of.get(name, name),), found, allowed)
+
+
+READER = Reader(CONFIG, (blades_are_no_other_folders, *CHECKS, *(check for wing in WINGS for check in wing.checks)))
+
+read_settings, settings_of_run, load_settings = READER.read_settings, READER.settings_of_run, READER.load_settings

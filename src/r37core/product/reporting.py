@@ -1,0 +1,39 @@
+"""What the report (snakemake --report) shows: categories by blade, then scene, labels and captions."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+from r37core.plans.code import CodeHashes
+
+from .captions import caption
+
+TOGETHER = "All blades"
+EVERY_SCENE = "every scene"
+
+
+def shown(text: Path, category: str, subcategory: str, **labels: str) -> dict[str, Any]:
+    """Arguments of Snakemake's `report` flag for one kind of output, with wildcards in braces; `text`: its .rst file."""
+    return {"caption": text, "category": category, "subcategory": subcategory, "labels": labels}
+
+
+def captioned(figure: str | None = None) -> Callable[[Any], str]:
+    """The parameter `caption` of a kind of figure, or where none is named of the kind that is a wildcard."""
+    return lambda wildcards: caption(figure or wildcards.kind, **dict(wildcards.items()))
+
+
+def drawing(code: CodeHashes, function: str, figure: str | None = None, **arguments: Any) -> dict[str, Any]:
+    """Parameters of a rule of figures: the `function` of r37core, as `folder.module.function`, and its code alone.
+
+    `arguments`: what the function takes beside the datasets; `figure`: the kind that the caption is of, as in `captioned`.
+    """
+    step = code.step("figures.steps.draw", function.rpartition(".")[0])
+    return {**step, "draw": f"r37core.{function}", "of": _of, "caption": captioned(figure), **arguments}
+
+
+def _of(wildcards: Any) -> dict[str, str]:
+    """What a figure is of, as its title says it and as datasets have it."""
+    values = dict(wildcards.items())
+    return {name: values[name] for name in ("family", "blade", "scene") if name in values}

@@ -1,0 +1,18 @@
+"""Members of samples that the wings have run beside the sweep."""
+
+from __future__ import annotations
+
+from r37core.config import Settings
+from r37core.plans.samples import Pair, Sample, Sampling
+
+from .wings import WINGS
+
+
+def beside(settings: Settings) -> dict[str, dict[Pair, Sample]]:
+    """Samples of each wing that has some, by the folder of its results."""
+    return {wing.name: dict(wing.sampling.samples(settings)) for wing in WINGS if wing.sampling}
+
+
+def sampling_of(settings: Settings) -> Sampling | None:
+    """That of the wing of which this run has members; none where it has none."""
+    return next((wing.sampling for wing in WINGS if wing.sampling and wing.sampling.samples(settings)), None)

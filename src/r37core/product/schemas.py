@@ -1,0 +1,40 @@
+"""JSON schemas of the configuration files, for editors: `python -m r37core.product.schemas` writes them to config/schemas."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+from pydantic import BaseModel
+
+from r37core.config.blades import Blades
+from r37core.config.fidelity import Levels
+from r37core.config.scenes import Scenes
+from r37core.io import write_text
+
+from .reading import CONFIG
+
+MODELS: dict[str, type[BaseModel]] = {"config": CONFIG, "blades": Blades, "scenes": Scenes, "fidelity": Levels}
+
+
+def schemas() -> dict[str, str]:
+    """File name -> content. `changes` is for files that lie on top of config.yaml, where nothing is required."""
+    made = {name: model.model_json_schema() for name, model in MODELS.items()}
+    made["changes"] = {key: value for key, value in made["config"].items() if key != "required"}
+    return {f"{name}.schema.json": _text(schema) for name, schema in made.items()}
+
+
+def _text(schema: dict[str, Any]) -> str:
+    dialect = {"$schema": "https://json-schema.org/draft/2020-12/schema"}
+    return json.dumps(dialect | schema, indent=1, ensure_ascii=False) + "\n"
+
+
+def main(folder: Path = Path("config/schemas")) -> None:
+    """Write all of them."""
+    for name, text in schemas().items():
+        write_text(text, folder / name)
+
+
+if __name__ == "__main__":
+    main()

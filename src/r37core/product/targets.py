@@ -1,0 +1,54 @@
+"""What the rule all_blades makes where the configuration asks for it, and what each wing adds."""
+
+from __future__ import annotations
+
+from r37core.plans.paths import Wildcards, filled, of, of_runs, pictures
+from r37core.plans.sweep_plan import KINDS, MAPS, Sweep
+from r37core.plans.wing import Wing
+
+from .wings import WINGS
+
+
+def targets(sweep: Sweep) -> dict[str, Wildcards]:
+    """Pattern of files -> wildcards of each that is asked for; none where a configuration does without."""
+    found = _of_spine(sweep)
+    for wing in WINGS:
+        if not wing.on_request:
+            found |= wing.asked(sweep)
+    return found
+
+
+def everything(sweep: Sweep) -> dict[str, Wildcards]:
+    """The same with what is made on request alone."""
+    return targets(sweep) | {pattern: files for wing in WINGS for pattern, files in wing.asked(sweep).items()}
+
+
+def simulated(sweep: Sweep) -> list[str]:
+    """Files of the wings' own simulations."""
+    return [file for wing in WINGS for file in filled(wing.simulated(sweep))]
+
+
+def files_of(wing: Wing, sweep: Sweep) -> list[str]:
+    """All files of a wing that are asked for."""
+    return filled(wing.asked(sweep))
+
+
+def _of_spine(sweep: Sweep) -> dict[str, Wildcards]:
+    settings = sweep.settings
+    growing = [name for name, chosen in settings.scenes.items() if chosen.scene.casing.changes_with_speed]
+    ranked: Wildcards = [{}] if "stress" in sweep.kinds else []
+    figures = {
+        "campbell_{blade}": of("blade", settings.blades),
+        "response_{blade}": of("blade", settings.blades),
+        **{f"{kind}_{{blade}}__{{scene}}": of_runs(sweep.runs_with(kind)) for kind in MAPS},
+        "waterfall_{blade}__{scene}": of_runs(sweep.runs_with("spectrum")),
+        "comparison_{scene}": of("scene", settings.scenes),
+        "ranking": ranked,
+        "clearance_{scene}": of("scene", growing),
+    }
+    found: dict[str, Wildcards] = {f"<results>/{kind}.nc": [{}] if kind in sweep.kinds else [] for kind in KINDS}
+    found["<results>/ranking.csv"] = [{}]
+    found["<results>/coincidences.csv"] = [{}] if sweep.casings else []
+    for name, wildcards in figures.items():
+        found |= pictures(name, wildcards)
+    return found

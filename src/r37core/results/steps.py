@@ -1,0 +1,88 @@
+"""Steps of the workflow (docs/architecture.md): Campbell diagrams, responses, the datasets and tables of all blades."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from r37core.contact.elastic_casing import ElasticCasing
+from r37core.dataset_file import hash_of_parts, read_dataset, write_dataset
+from r37core.io import as_list, write_json
+from r37core.plain import from_plain
+from r37core.rom.rom_file import read_reduced_model
+
+from .campbell_dataset import campbell_dataset
+from .casing_coincidence import coincidence_table
+from .datasets import response_of, write_sweep_dataset
+from .gather import gather_blades
+from .interactions import InteractionChoice, summarise
+from .members import measures_of_members
+from .ranges import read_ranges, with_ranges
+from .ranking import ranking_table, robustness
+from .response import write_response
+from .table_file import write_table
+
+
+def configuration(input: Any, output: Any, params: Any) -> None:
+    """Keep what a run is made with. Params: merged. Output: configuration (json)."""
+    write_json(params.merged, output.configuration)
+
+
+def campbell_of_blade(input: Any, output: Any, params: Any) -> None:
+    """Campbell diagram of a blade. Input: rom. Params: campbell, maximum_speed, tip_line, provenance. Output: campbell (nc)."""
+    model = read_reduced_model(input.rom)
+    dataset = campbell_dataset(model, maximum_speed=params.maximum_speed, tip_line=params.tip_line, **params.campbell)
+    write_dataset(dataset, output.campbell, params.provenance)
+
+
+def campbell_of_all(input: Any, output: Any, params: Any) -> None:
+    """Gather the Campbell diagrams. Inputs: campbells, of each blade. Params: blades, fidelity. Output: campbell (nc)."""
+    files = as_list(input.campbells)
+    made = {"fidelity": params.fidelity, "input_hash": hash_of_parts(files)}
+    write_dataset(gather_blades(params.blades, files), output.campbell, made)
+
+
+def response(input: Any, output: Any, params: Any) -> None:
+    """Reduce the speeds of a blade and scene. Inputs: speeds. Output: response (nc).
+
+    Params: speeds, stress_history_speeds, yield_stress, provenance.
+    """
+    write_response(
+        as_list(input.speeds),
+        params.speeds,
+        output.response,
+        stress_history_speeds=params.stress_history_speeds,
+        yield_stress=params.yield_stress,
+        provenance=params.provenance,
+    )
+
+
+def sweep_dataset(input: Any, output: Any, params: Any) -> None:
+    """Join one kind of result. Inputs: responses, of all runs. Params: kind, runs, fidelity. Output: dataset (nc)."""
+    files = as_list(input.responses)
+    made = {"fidelity": params.fidelity, "input_hash": hash_of_parts(files)}
+    write_sweep_dataset(params.kind, dict(zip(map(tuple, params.runs), files, strict=True)), output.dataset, made)
+
+
+def coincidences(input: Any, output: Any, params: Any) -> None:
+    """Where modes of blades meet waves of a casing. Input: campbell. Params: casings. Output: table (csv)."""
+    casings = from_plain(dict[str, ElasticCasing], params.casings)
+    write_table(coincidence_table(read_dataset(input.campbell), casings), output.table, digits=8)
+
+
+def summary(input: Any, output: Any, params: Any) -> None:
+    """List the interactions. Inputs: datasets by kind and, if there, ranges of members. Params: choice. Output: table (csv)."""
+    files = dict(input.items())
+    ranges = files.pop("ranges", None)
+    datasets = {kind: read_dataset(file) for kind, file in files.items()}
+    table = summarise(datasets, from_plain(InteractionChoice, params.choice))
+    if ranges:
+        table = with_ranges(table, read_ranges(ranges))
+    write_table(table, output.table)
+
+
+def ranking(input: Any, output: Any, params: Any) -> None:
+    """Rank the blades. Inputs: datasets by kind and, if there, members. Params: runs. Output: table (csv)."""
+    datasets = {kind: read_dataset(file) for kind, file in input.items()}
+    members = measures_of_members(datasets.pop("members")) if "members" in datasets else None
+    found = {(blade, scene): robustness(response_of(datasets, blade, scene)) for blade, scene in params.runs}
+    write_table(ranking_table(found, members), output.table, digits=6)

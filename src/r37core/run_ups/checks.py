@@ -1,0 +1,60 @@
+"""What no model of the section alone can check of run-ups."""
+
+from __future__ import annotations
+
+from r37core.config import Settings
+from r37core.config.cross_checks import names_are_there, revolution_fits
+from r37core.config.document import ConfigRefusals
+from r37core.yaml_file import KeyPath
+
+from .choice import RunUpError, check_highest
+from .plan import entries
+from .section import RunUpEntry
+
+
+def run_ups_can_be_done(settings: Settings) -> None:
+    """Run-ups name blades, scenes and orders that are there, wear a lining, and change little from sample to sample."""
+    refusals = ConfigRefusals()
+    for name, entry in entries(settings).items():
+        refusals.of(_can_be_done, settings, name, entry)
+    refusals.tell()
+
+
+def _can_be_done(settings: Settings, name: str, entry: RunUpEntry) -> None:
+    path: KeyPath = ("run_ups", name)
+    names_are_there(settings, path, entry)
+    per_revolution, document = settings.fidelity.time_integration.samples_per_revolution, settings.documents.config
+    choice, highest = entry.choice(1), settings.structure.maximum_speed_rad_s
+    try:
+        # of a crossing what holds wherever it lies: the higher, the more revolutions
+        choice.run_up(per_revolution, highest if entry.crossing else None)
+        if entry.crossing is None:
+            check_highest(max(choice.start, choice.stop), highest)
+    except RunUpError as error:
+        raise document.error((*path, entry.key_of_length), str(error)) from None
+    if entry.crossing and entry.crossing.engine_order > settings.config.campbell.highest_engine_order:
+        raise document.refusal(
+            (*path, "crossing", "engine_order"),
+            f"{entry.crossing.engine_order}",
+            f"at most campbell.highest_engine_order ({settings.config.campbell.highest_engine_order})",
+        )
+    for scene in settings.scenes if entry.scenes == "all" else entry.scenes:
+        if entry.lining == "worn" and settings.scene_entries[scene].lining is None:
+            raise document.refusal(
+                (*path, "lining"), f"worn in the scene '{scene}', which has no lining", "new, or scenes with a lining"
+            )
+
+
+def slowest_speeds_fit_in_memory(settings: Settings) -> None:
+    """The revolution of the slowest speed of a run-up has not too many steps."""
+    for name, entry in entries(settings).items():
+        if entry.crossing is None:
+            revolution_fits(settings, min(entry.choice(1).start, entry.choice(1).stop), ("run_ups", name))
+
+
+def no_coriolis(settings: Settings) -> None:
+    """The Coriolis force is wanted of runs at constant speed alone."""
+    for name in entries(settings) if settings.structure.coriolis else ():
+        raise settings.documents.config.refusal(
+            ("run_ups", name), "a run-up with structure.coriolis: true", "none; run-ups do not carry the Coriolis force yet"
+        )

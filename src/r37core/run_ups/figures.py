@@ -1,0 +1,100 @@
+"""Run-ups: motion, stress and wear while the speed changes, and the largest stress against the rate."""
+
+from __future__ import annotations
+
+import matplotlib.pyplot as plt
+import numpy as np
+import pandas as pd
+import xarray as xr
+from matplotlib.figure import Figure
+
+from r37core.figures import style
+
+from .dataset import runs_of
+from .tables import CASE
+
+_QUANTITIES = {**style.CURVES, "max_wear": ("largest wear (mm)", 1e3)}
+_FEW_REVOLUTIONS, _FAINT = 60, 1e-5
+_DIRECTIONS = {"up": "-", "down": "--"}
+_LININGS = {"new": "o", "worn": "x"}
+_RANGE = ["low_speed_rad_s", "high_speed_rad_s"]
+
+
+def draw_run_ups(run_ups: xr.Dataset, title: str, *, blade: str, scene: str) -> Figure:
+    """Leading edge's rms, stress and wear of every revolution, over its speed and over the revolutions since the change began.
+
+    Colour is the rate, dashes are run-downs.
+    """
+    runs = sorted(
+        runs_of(run_ups, blade=blade, scene=scene), key=lambda run: (float(run["rate"]) < 0.0, abs(float(run["rate"])))
+    )
+    # what another scene computes is in the dataset, too; runs that diverged at once have nothing
+    there = [name for name in _QUANTITIES if name in run_ups and any(run[name].notnull().any() for run in runs)]
+    shown = {name: _QUANTITIES[name] for name in there or ["rms_normal"]}
+    size = (style.PAGE, 1.6 * len(shown) + 0.8)
+    figure, grid = plt.subplots(len(shown), 2, figsize=size, sharex="col", sharey="row", squeeze=False)
+    rates = sorted({abs(float(run["rate"])) for run in runs})
+    colours = dict(zip(rates, plt.get_cmap("turbo")(np.linspace(0.95, 0.05, len(rates))), strict=True))
+    for run in runs:
+        direction = "down" if run["stop_speed"] < run["start_speed"] else "up"
+        since = run["revolution"] - run["revolutions_before"]
+        for row, (name, (_, scale)) in zip(grid, shown.items(), strict=True):
+            values = run[name].sel(tip_point="leading_edge") if "tip_point" in run[name].dims else run[name]
+            for axes, along in zip(row, (run["speed"], since), strict=True):
+                axes.plot(
+                    along,
+                    scale * values,
+                    color=colours[abs(float(run["rate"]))],
+                    linestyle=_DIRECTIONS[direction],
+                    marker="." if run.sizes["revolution"] < _FEW_REVOLUTIONS else None,
+                    markersize=2,
+                    linewidth=0.9,
+                    label=str(run["run_up"].values),
+                )
+    for row, (name, (label, _)) in zip(grid, shown.items(), strict=True):
+        row[0].set_ylabel(label)
+        if there and name != "max_wear":
+            row[0].set_yscale("log")
+            low, high = row[0].get_ylim()
+            row[0].set_ylim(max(low, _FAINT * high), high)
+        if name == "max_von_mises":
+            for axes in row:
+                style.yield_lines(axes, {blade: float(runs[0]["yield_stress"])}, named=True)
+    grid[-1, 0].set_xlabel("mean speed of the revolution (rad/s)")
+    grid[-1, 1].set_xlabel("revolutions since the change began")
+    if there:
+        grid[-1, 1].set_xscale("log")
+    style.rpm_axis(grid[0, 0], most_ticks=5)
+    figure.suptitle(f"run-ups: {title}, leading edge")
+    figure.legend(*style.legend_entries(grid[:, 0]), loc="outside lower center", ncols=6)
+    return figure
+
+
+def draw_rates(runs: pd.DataFrame, title: str, *, scene: str) -> Figure:
+    """Largest stress of each run-up of a scene against its rate, run-ups beside run-downs; blades in their colours."""
+    styles = style.blade_styles(dict.fromkeys(runs["blade"]))
+    runs = runs[(runs["scene"] == scene) & (runs["rate_rad_s2"] > 0.0)].sort_values("rate_rad_s2", kind="stable")
+    directions = [name for name in _DIRECTIONS if name in set(runs["direction"])] or ["up"]
+    figure, panels = plt.subplots(1, len(directions), figsize=(style.PAGE, 3.6), sharey=True, squeeze=False)
+    several = runs.groupby("blade")[_RANGE].nunique().max().max() > 1 if len(runs) else False
+    for axes, direction in zip(panels[0], directions, strict=True):
+        axes.set_title(f"run-{direction}s")
+        axes.set_xlabel("rate (rad/s²)")
+        if "max_von_mises_pa" not in runs or runs["max_von_mises_pa"].isna().all():
+            continue
+        for values, group in runs[runs["direction"] == direction].groupby(CASE, sort=False):
+            case = dict(zip(CASE, values, strict=True))
+            speeds = " to ".join(f"{case[name]:.0f}" for name in _RANGE)
+            label = ", ".join([case["blade"], *(["worn"] if case["lining"] == "worn" else []), *([speeds] if several else [])])
+            group = group.dropna(subset="max_von_mises_pa")
+            stress, look = 1e-9 * group["max_von_mises_pa"], {"marker": _LININGS[case["lining"]], "markersize": 3}
+            axes.plot(group["rate_rad_s2"], stress, label=label, **styles[case["blade"]] | look)
+        style.yield_lines(axes, runs.groupby("blade")["yield_stress_pa"].first().to_dict(), named=True)
+        axes.set_xscale("log")
+        axes.set_yscale("log")
+    panels[0, 0].set_ylabel("largest von Mises (GPa)")
+    figure.suptitle(f"largest stress against rate: {title}")
+    handles, labels = style.legend_entries(panels[0])
+    if labels:
+        figure.legend(handles, labels, loc="outside lower center", ncols=5)
+    return figure

@@ -1,0 +1,126 @@
+"""The plan of the run-ups: of which blades and scenes, from what, and which files are made of them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+from itertools import product
+from typing import Any
+
+from r37core.config import Settings, casing_remarks
+from r37core.config.speed_choice import fastest_of
+from r37core.plain import to_plain
+from r37core.plans import paths
+from r37core.plans.sweep_plan import Sweep
+from r37core.time_integration.integration_choice import IntegrationChoice
+
+from .choice import RunUpChoice
+from .section import RunUpEntry
+
+RUN_UP = "<results>/{blade}/{scene}/run_up_{run_up}.npz"
+
+
+def entries(settings: Settings) -> dict[str, RunUpEntry]:
+    """The section of config.yaml."""
+    return settings.section("run_ups")
+
+
+@dataclass(frozen=True)
+class RunUps:
+    """Plan of the run-ups that the configuration asks for. Methods with `wildcards` are inputs and parameters of rules."""
+
+    sweep: Sweep
+
+    @property
+    def files(self) -> paths.Wildcards:
+        """Wildcards of the files of all run-ups: blade, scene and name."""
+        return [{"blade": blade, "scene": scene, "run_up": name} for blade, scene, name in self.runs]
+
+    @property
+    def pairs(self) -> list[tuple[str, str]]:
+        """Pairs of blade and scene with run-ups."""
+        return [pair for pair, named in self.choices.items() if named]
+
+    @property
+    def names(self) -> list[str]:
+        """Names of all run-ups."""
+        return list(entries(self.sweep.settings))
+
+    @property
+    def runs(self) -> list[tuple[str, str, str]]:
+        """Blade, scene and name of each, in the order of the dataset."""
+        return [(*pair, name) for pair, named in self.choices.items() for name in named]
+
+    @cached_property
+    def choices(self) -> dict[tuple[str, str], dict[str, RunUpChoice]]:
+        """Run-ups of each blade and scene, by name."""
+        settings = self.sweep.settings
+        by_pair: dict[tuple[str, str], dict[str, RunUpChoice]] = {
+            (blade, scene): {} for blade in settings.blade_names for scene in settings.scene_names
+        }
+        for name, entry in entries(settings).items():
+            blades = settings.blade_names if entry.blades == "all" else settings.designs.named(entry.blades)
+            scenes = settings.scene_names if entry.scenes == "all" else entry.scenes
+            choices = {scene: entry.choice(settings.scenes[scene].revolutions) for scene in scenes if scene in settings.scenes}
+            for blade, (scene, choice) in product(blades, choices.items()):
+                if (blade, scene) in by_pair:
+                    by_pair[blade, scene][name] = choice
+        return by_pair
+
+    def inputs(self, wildcards: Any) -> dict[str, str]:
+        """What a run-up starts from, with the stress operator where its stress is wanted."""
+        prepared = paths.fill(paths.INTEGRATION_STAMP, blade=wildcards.blade, scene=wildcards.scene)
+        files = {"prepared": prepared, "model": self.sweep.contact_model(wildcards)}
+        if self.sweep.with_stress(wildcards):
+            (files["stress"],) = self.sweep.stress_operator(wildcards)
+        if self._choice(wildcards).crossing:
+            files["campbell"] = paths.fill(paths.CAMPBELL, blade=wildcards.blade)
+        return files
+
+    def run_up(self, wildcards: Any) -> dict[str, Any]:
+        """Speeds and revolutions, as plain values."""
+        return to_plain(self._choice(wildcards))
+
+    def _choice(self, wildcards: Any) -> RunUpChoice:
+        return self.choices[wildcards.blade, wildcards.scene][wildcards.run_up]
+
+    def choice(self, wildcards: Any) -> dict[str, Any]:
+        """Numbers of the time integration, as plain values."""
+        return to_plain(self.integration_choice(wildcards.blade, wildcards.scene, wildcards.run_up))
+
+    def integration_choice(self, blade: str, scene: str, name: str) -> IntegrationChoice:
+        """Numbers of the time integration of a run-up: those of the sweep, with stress in every revolution."""
+        choice = self.sweep.settings.integration_choice(blade, scene, 0.0)
+        before = self.choices[blade, scene][name].before
+        return replace(choice, revolutions=before, snapshot_revolutions=before if choice.snapshots_per_revolution else 0)
+
+    def results(self, wildcards: Any) -> list[str]:
+        """What is wanted of the scene."""
+        return list(self.sweep.results(wildcards))
+
+
+def simulated(sweep: Sweep) -> dict[str, paths.Wildcards]:
+    """The run-ups themselves."""
+    return {RUN_UP: RunUps(sweep).files}
+
+
+def targets(sweep: Sweep) -> dict[str, paths.Wildcards]:
+    """The dataset, the tables and the figures of the run-ups."""
+    pairs = paths.of_runs(RunUps(sweep).pairs)
+    return {
+        **{f"<results>/{name}": pairs and [{}] for name in ("run_ups.nc", "run_ups.csv", "run_up_rates.csv")},
+        **paths.pictures("run_ups_{blade}__{scene}", pairs),
+        **paths.pictures("run_up_rates_{scene}", paths.of("scene", dict.fromkeys(run["scene"] for run in pairs))),
+    }
+
+
+def remarks(settings: Settings) -> list[str]:
+    """Of elastic casings that only a run-up overtakes, as far as no crossing decides its speeds."""
+    lines = []
+    choices = RunUps(Sweep(settings)).choices
+    for name, casing in casing_remarks.elastic_casings(settings).items():
+        of_scene = [choice for (_, scene), named in choices.items() if scene == name for choice in named.values()]
+        fastest = max((max(choice.start, choice.stop) for choice in of_scene if choice.crossing is None), default=0.0)
+        if fastest > fastest_of(settings, name):
+            lines.append(casing_remarks.of_speeds(name, casing, fastest))
+    return [line for line in lines if line]

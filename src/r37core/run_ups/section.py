@@ -1,0 +1,75 @@
+"""run_ups of config.yaml: speeds that change while the blade rubs."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any
+
+from pydantic import AfterValidator, Field, model_validator
+
+from r37core.config.declaring import DECLARED, declared_by, in_si
+from r37core.config.section import AllOrNames, LeftOut, Name, Section, check_names, refused
+
+from .choice import Crossing, RunUpChoice
+
+_START, _STOP = ("from_rad_s", "from_rpm"), ("to_rad_s", "to_rpm")
+_LENGTH = ("rate_rad_s2", "rate_rpm_s", "revolutions")
+Share = Annotated[float, Field(ge=-0.5, le=1)]
+
+
+@declared_by(Crossing)
+class CrossingSection(Section):
+    """Speeds about a crossing of each blade's own Campbell diagram."""
+
+    mode: Any = DECLARED
+    engine_order: Any = DECLARED
+    first: Share = Field(description="where the run-up begins, as a share of the crossing's speed above it")
+    last: Share = Field(description="where it ends; below first it is a run-down")
+
+
+@declared_by(RunUpChoice)
+class RunUpEntry(Section):
+    """One run-up, or run-down where it ends at the lower speed, of every chosen blade in every chosen scene."""
+
+    blades: AllOrNames = Field(default="all", description="of those that are run")
+    scenes: AllOrNames = Field(default="all", description="of those that are run")
+    from_rad_s: Any = DECLARED
+    from_rpm: Any = DECLARED
+    to_rad_s: Any = DECLARED
+    to_rpm: Any = DECLARED
+    crossing: CrossingSection | LeftOut = Field(default=None, description="in place of the speeds")
+
+    @model_validator(mode="after")
+    def _complete(self) -> RunUpEntry:
+        for keys in ((*_START, "crossing"), (*_STOP, "crossing"), _LENGTH):
+            present = [key for key in keys if getattr(self, key) is not None]
+            if len(present) != 1:
+                at = present[1] if present else keys[0]
+                raise refused((at,), " and ".join(present) if present else "nothing", f"one of {', '.join(keys)}")
+        choice = self.choice(1)
+        if choice.start == choice.stop and self.revolutions is None:
+            raise refused((self.key_of_length,), "a rate between equal speeds", "revolutions, for a run at constant speed")
+        return self
+
+    @property
+    def key_of_length(self) -> str:
+        """The key that says how long it takes."""
+        return next(key for key in _LENGTH if getattr(self, key) is not None)
+
+    def choice(self, revolutions_of_scene: int) -> RunUpChoice:
+        """What is asked for in a scene whose runs have so many revolutions."""
+        given: dict[str, Any] = {"before": self.revolutions_before or revolutions_of_scene, "crossing": None}
+        if crossing := self.crossing:
+            given |= {"start": crossing.first, "stop": crossing.last, "crossing": in_si(Crossing, crossing)}
+        return in_si(RunUpChoice, self, **given)
+
+
+def _names_differ(entries: dict[str, RunUpEntry]) -> dict[str, RunUpEntry]:
+    check_names(entries)
+    return entries
+
+
+RUN_UP_SECTION: tuple[Any, Any] = (
+    Annotated[dict[Name, RunUpEntry], AfterValidator(_names_differ)],
+    Field(default={}, description="run-ups and run-downs by name"),
+)
+"""Type and default of the section."""

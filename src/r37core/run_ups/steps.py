@@ -1,0 +1,55 @@
+"""Steps of the workflow (docs/architecture.md): run-ups, their dataset, their tables."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from r37core.contact.scene import Scene
+from r37core.dataset_file import read_dataset
+from r37core.io import as_list
+from r37core.plain import from_plain
+from r37core.results.table_file import write_table
+from r37core.rom.contact_model import read_contact_model
+from r37core.stress.operator import read_stress_operator
+from r37core.time_integration.integration_choice import IntegrationChoice
+from r37core.time_integration.speed_file import write_speed
+
+from .choice import RunUpChoice
+from .dataset import write_run_ups
+from .revolutions import record_run_up
+from .tables import rate_table, run_up_table
+
+
+def record(input: Any, output: Any, params: Any) -> None:
+    """Do one run-up. Inputs: model, and stress and campbell if needed. Output: run_up (npz).
+
+    Params: scene, choice, run_up, name, results, highest_order, yield_stress, provenance.
+    """
+    stress = read_stress_operator(input.stress) if hasattr(input, "stress") else None
+    choice = from_plain(IntegrationChoice, params.choice)
+    campbell = read_dataset(input.campbell) if hasattr(input, "campbell") else None
+    run_up = from_plain(RunUpChoice, params.run_up)
+    result = record_run_up(
+        read_contact_model(input.model),
+        from_plain(Scene, params.scene),
+        choice,
+        run_up.of_blade(choice.samples_per_revolution, campbell, params.name),
+        params.results,
+        highest_order=params.highest_order,
+        stress=stress,
+        yield_stress=params.yield_stress,
+    )
+    write_speed(result, output.run_up, params.provenance)
+
+
+def join(input: Any, output: Any, params: Any) -> None:
+    """Join run-ups. Inputs: run_ups, of each blade and scene. Params: runs, fidelity. Output: dataset (nc)."""
+    files = dict(zip(map(tuple, params.runs), as_list(input.run_ups), strict=True))
+    write_run_ups(files, output.dataset, {"fidelity": params.fidelity})
+
+
+def tables(input: Any, output: Any, params: Any) -> None:
+    """List run-ups and the rates they need. Input: dataset. Outputs: runs, rates (csv)."""
+    runs = run_up_table(read_dataset(input.dataset))
+    for table, file in ((runs, output.runs), (rate_table(runs), output.rates)):
+        write_table(table, file, digits=9)

@@ -1,0 +1,50 @@
+"""The plan of the shapes: which blades and scenes have them, and which files are made."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from r37core.plans import paths
+from r37core.plans.sweep_plan import Sweep
+
+MODE_SHAPES = "<results>/shapes/{blade}/modes"
+WORST_SHAPES = "<results>/shapes/{blade}/stress_{scene}"
+
+
+@dataclass(frozen=True)
+class Shapes:
+    """Plan of the shapes that scenes ask for. Methods with `wildcards` are inputs and parameters of rules."""
+
+    sweep: Sweep
+
+    @property
+    def modes(self) -> int:
+        """How many modes of each blade."""
+        return self.sweep.settings.section("shapes").modes
+
+    @property
+    def runs(self) -> list[tuple[str, str]]:
+        """Pairs of blade and scene with shapes."""
+        return self.sweep.runs_with("shapes")
+
+    def scenes(self, wildcards: Any) -> list[str]:
+        """Scenes of a blade with shapes."""
+        return [scene for blade, scene in self.runs if blade == wildcards.blade]
+
+    def worst_shapes(self, wildcards: Any) -> list[str]:
+        """The shapes of interactions of a blade, in each of its scenes that asks for them."""
+        return [paths.fill(WORST_SHAPES, blade=wildcards.blade, scene=scene) for scene in self.scenes(wildcards)]
+
+
+def targets(sweep: Sweep) -> dict[str, paths.Wildcards]:
+    """Folders of shapes, the page of each blade, and the figures."""
+    runs = paths.of_runs(Shapes(sweep).runs)
+    blades = paths.of("blade", dict.fromkeys(run["blade"] for run in runs))
+    return {
+        MODE_SHAPES: blades,
+        WORST_SHAPES: runs,
+        "<results>/shapes/{blade}.html": blades,
+        **paths.pictures("shapes_{blade}", blades),
+        **paths.pictures("shapes_{blade}__{scene}", runs),
+    }

@@ -1,0 +1,13 @@
+"""shapes of config.yaml: modes and worst instants that move."""
+
+from __future__ import annotations
+
+from pydantic import Field
+
+from r37core.config.section import Section
+
+
+class ShapeSection(Section):
+    """Modes and worst instants as files that move."""
+
+    modes: int = Field(default=6, ge=1, le=30, description="how many modes of each blade, at rest")

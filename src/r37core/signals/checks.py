@@ -1,0 +1,31 @@
+"""What no model of the section alone can check of signals."""
+
+from __future__ import annotations
+
+from r37core.config import Settings
+from r37core.config.cross_checks import revolution_fits
+
+from .plan import section
+
+
+def signals_have_runs(settings: Settings) -> None:
+    """Signals are wanted of blades that are there and of some scene, and are no longer than its runs."""
+    wanted, documents = section(settings), settings.documents
+    if wanted.blades != "all":
+        settings.documents.known(("signals", "blades"), wanted.blades, settings.designs.entries, documents.blades)
+    speeds = wanted.speeds()
+    if speeds is None:
+        return
+    if isinstance(speeds, list):
+        revolution_fits(settings, speeds[0], ("signals", wanted.key_of_speeds))
+    with_signal = {name: scene for name, scene in settings.scenes.items() if "signal" in scene.results}
+    if not with_signal:
+        raise documents.config.refusal(
+            ("signals", wanted.key_of_speeds),
+            "speeds, though no scene that is run has signal among its results",
+            f"such a scene ({', '.join(settings.scenes)} of {documents.scenes.name} are run), or no speeds",
+        )
+    for name, scene in with_signal.items():
+        if wanted.revolutions is not None and wanted.revolutions > scene.revolutions:
+            allowed = f"at most those of a run, {scene.revolutions} in '{name}'"
+            raise documents.config.refusal(("signals", "revolutions"), f"{wanted.revolutions}", allowed)

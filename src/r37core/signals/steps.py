@@ -1,0 +1,52 @@
+"""Steps of the workflow (docs/architecture.md): time signals of single runs."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from r37core.contact.scene import Scene
+from r37core.dataset_file import hash_of_parts, read_dataset, write_dataset
+from r37core.io import as_list
+from r37core.mesh.mesh_files import read_vtu
+from r37core.plain import from_plain
+from r37core.results.interactions import InteractionChoice, find_interactions, titles
+from r37core.rom.contact_model import read_contact_model
+from r37core.rom.rom_file import read_reduced_model
+from r37core.time_integration.integration_choice import IntegrationChoice
+
+from .dataset import gather_signals, signals_dataset
+from .gauges import Gauge, gauge_points, gauge_rows
+from .record import record_signals
+
+
+def record(input: Any, output: Any, params: Any) -> None:
+    """Record signals. Inputs: model, rom, and mesh, whole, campbell, response if needed. Output: signals (nc).
+
+    Params: scene, choice, speeds, interactions, revolutions, gauges, probes, tip_line, provenance.
+    """
+    named: dict[float, str] = {}
+    rows: Any = []
+    positions: dict[str, Any] = {}
+    if hasattr(input, "response"):
+        wanted = from_plain(InteractionChoice, params.interactions)
+        named = titles(find_interactions(read_dataset(input.response), read_dataset(input.campbell), wanted))
+    if params.gauges:
+        mesh, gauges = read_vtu(input.mesh), from_plain(list[Gauge], list(params.gauges.values()))
+        whole = read_reduced_model(input.whole).whole_blade
+        assert whole is not None
+        rows = gauge_rows(mesh, whole.basis, gauges)
+        positions = dict(zip(params.gauges, gauge_points(mesh, gauges), strict=True))
+    model, scene = read_contact_model(input.model), from_plain(Scene, params.scene)
+    choice = from_plain(IntegrationChoice, params.choice)
+    records = {
+        speed: record_signals(model, speed, scene, choice, rows, params.revolutions) for speed in params.speeds or sorted(named)
+    }
+    tip = read_reduced_model(input.rom).tip_lines[params.tip_line]
+    write_dataset(signals_dataset(records, named, positions, params.probes, tip), output.signals, params.provenance)
+
+
+def gather(input: Any, output: Any, params: Any) -> None:
+    """Join signals. Inputs: signals, of each blade and scene. Params: runs, fidelity. Output: dataset (nc)."""
+    files = as_list(input.signals)
+    made = {"fidelity": params.fidelity, "input_hash": hash_of_parts(files)}
+    gather_signals(dict(zip(map(tuple, params.runs), files, strict=True)), output.dataset, made)

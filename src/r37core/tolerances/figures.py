@@ -1,0 +1,115 @@
+"""Tolerances: the band that the members lie in, their chance of passing yield, and what their spread comes from."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import matplotlib.pyplot as plt
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from r37core.figures import style
+from r37core.results.measures import leading_edge
+
+from .shares import CONFIDENCE
+
+_CHANCE = "probability_above_yield"
+_MEASURES = {"peak_speed": "peak speed", "width_above_yield": "width above yield", "largest_stress": "largest stress"}
+
+_SIZES = {
+    "rank_coefficient": ("rank_place", "rank coefficient", "what each number moves"),
+    "sobol_total": ("sobol_place", "Sobol index", "share of the variance, alone and with others"),
+}
+"""Size of a number's part in the spread -> its place in the ranking, label of the axis, title of the panel."""
+
+
+def draw_tolerances(tolerances: xr.Dataset, nominal: xr.Dataset, title: str) -> Figure:
+    """Band and median of rms and stress over speed with the nominal run, chance of passing yield, where the spread is from."""
+    curves = [
+        name for name in style.CURVES if f"{name}_quantile" in tolerances and tolerances[f"{name}_quantile"].notnull().any()
+    ]
+    chance = [_CHANCE] if _CHANCE in tolerances and tolerances[_CHANCE].notnull().any() else []
+    sizes = [size for size in _SIZES if size in tolerances and tolerances[size].notnull().any()]
+    rows = len(curves) + len(chance)
+    heights = [1.75 * rows + 0.6, *[1.7] * len(sizes)]
+    figure = plt.figure(figsize=(style.PAGE, sum(heights)))
+    above, *below = figure.subfigures(len(heights), 1, squeeze=False, height_ratios=heights)[:, 0]
+    panels = above.subplots(rows, 1, sharex=True, squeeze=False)[:, 0]
+    for axes, name in zip(panels, curves, strict=False):
+        _band(axes, tolerances, leading_edge(nominal), name)
+    if chance:
+        _probability(panels[-1], tolerances)
+    panels[-1].set_xlabel("speed (rad/s)")
+    style.rpm_axis(panels[0])
+    if "max_von_mises" in curves:
+        style.yield_lines(panels[curves.index("max_von_mises")], {"": float(tolerances["yield_stress"].median())}, named=True)
+    above.legend(*style.legend_entries(panels), loc="outside lower center", ncols=4)
+    above.suptitle(f"tolerances: {title}, {tolerances.sizes['member']} members")
+    for part, size in zip(below, sizes, strict=True):
+        axes, (rank, label, title) = part.subplots(1, 1), _SIZES[size]
+        _numbers(axes, tolerances, size, rank)
+        axes.set_ylabel(label)
+        axes.set_title(f"{title}, {CONFIDENCE:.0%} interval; above: place in the ranking, pale: any")
+    return figure
+
+
+def _band(axes: Axes, tolerances: xr.Dataset, nominal: xr.Dataset, name: str) -> None:
+    label, scale = style.CURVES[name]
+    spread = scale * tolerances[f"{name}_quantile"].dropna("speed", how="all")
+    # of a run that diverged there is no number; the band leaves the panel
+    shown = spread.where(np.isfinite(spread))
+    low, median, high = (shown.isel(quantile=quantile) for quantile in range(3))
+    speed, top = shown["speed"], float(shown.max()) * 1.5
+    axes.fill_between(
+        speed, low, high.fillna(top), color=style.COLOURS[0], alpha=0.25, linewidth=0, label="nine tenths of the members"
+    )
+    axes.plot(speed, median, color=style.COLOURS[0], label="median")
+    if name in nominal:
+        at = nominal[name].sel(speed=slice(speed.min(), speed.max())).dropna("speed")
+        axes.plot(at["speed"], scale * at, color=style.COLOURS[1], linewidth=0.8, linestyle="--", label="nominal")
+    axes.set_ylabel(label)
+    axes.set_ylim(0.0, None)
+
+
+def _probability(axes: Axes, tolerances: xr.Dataset) -> None:
+    share, low, high = (100.0 * tolerances[f"{_CHANCE}{end}"].dropna("speed") for end in ("", "_low", "_high"))
+    sure = f"{CONFIDENCE:.0%} interval of the chance"
+    axes.fill_between(share["speed"], low, high, color=style.COLOURS[1], alpha=0.25, linewidth=0, label=sure)
+    axes.plot(share["speed"], share, color=style.COLOURS[1], label="share of the members")
+    axes.axhline(50.0, color="0.5", linewidth=0.6, linestyle=":")
+    axes.set_ylim(0.0, 102.0)
+    axes.set_ylabel("above yield (%)")
+
+
+def _numbers(axes: Axes, tolerances: xr.Dataset, size: str, rank: str) -> None:
+    """Size of each number's part in the spread with its interval, and its place in the ranking above; pale: no place known."""
+    numbers = tolerances["number"].values
+    width = 0.8 / len(_MEASURES)
+    low, high = (tolerances[f"{rank}_{end}"] for end in ("low", "high"))
+    # a number that may have any place has none
+    known = low.notnull() & (high - low + 1 < tolerances[size].notnull().sum("number"))
+    for row, (measure, label) in enumerate(_MEASURES.items()):
+        at = np.arange(len(numbers)) + (row - 0.5 * (len(_MEASURES) - 1)) * width
+        bottom, value, top = (tolerances[f"{size}{end}"].sel(measure=measure).values for end in ("_low", "", "_high"))
+        clear = known.sel(measure=measure).values
+        look: dict[str, Any] = {"color": style.COLOURS[row], "error_kw": {"linewidth": 0.6, "ecolor": "0.3"}}
+        for chosen, alpha in ((clear, 0.7), (~clear, 0.15)):
+            ends = np.abs(np.array([bottom, top]) - value)[:, chosen]
+            axes.bar(
+                at[chosen], value[chosen], 0.9 * width, yerr=ends, alpha=alpha, label=label if chosen is clear else None, **look
+            )
+        for x, height, first, last in zip(
+            at[clear], top[clear], *(of.sel(measure=measure).values[clear] for of in (low, high)), strict=True
+        ):
+            text = f"{first:.0f}" if first == last else f"{first:.0f}-{last:.0f}"
+            axes.annotate(text, (x, max(height, 0.0)), (0, 1), textcoords="offset points", ha="center", fontsize=5)
+    axes.axhline(0.0, color="0.3", linewidth=0.5)
+    axes.set_xticks(np.arange(len(numbers)), [str(number).replace(".", "\n") for number in numbers], fontsize=6)
+    # numbers whose indices are not known have their room, too
+    axes.set_xlim(-0.5, len(numbers) - 0.5)
+    # room for the legend
+    bottom_end, top_end = axes.get_ylim()
+    axes.set_ylim(bottom_end, top_end + 0.25 * (top_end - bottom_end))
+    axes.legend(loc="upper right", ncols=3)

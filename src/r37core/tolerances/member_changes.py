@@ -1,0 +1,145 @@
+"""A blade or a scene with other values of some numbers, as a member of a sample has it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import Any
+
+from pydantic import BaseModel, Field, ValidationError
+
+from r37core.blade.definition import BladeDefinition
+from r37core.config import BladeSettings, SceneEntry
+from r37core.config.blade_sections import MaterialSection
+from r37core.config.blades import SHARES, SweepLean
+from r37core.config.families import with_value
+from r37core.config.messages import explain
+from r37core.config.section import Section
+from r37core.contact.scene import Scene
+from r37core.fem.material import Material
+from r37core.units import si_name
+
+_MATERIAL = "material."
+_SHIFTS = ("sweep_cm", "lean_deg")
+
+
+class _Shape(Section):
+    """Numbers of a shape as a member may have them."""
+
+    sweep_percent: float = Field(default=100.0, ge=-1000, le=1000)
+    lean_percent: float = Field(default=100.0, ge=-1000, le=1000)
+    sweep_cm: float = Field(default=0.0, ge=-100, le=100)
+    lean_deg: float = Field(default=0.0, gt=-90, lt=90)
+    thickness_percent: float = Field(default=100.0, ge=10, le=1000)
+
+
+class ImpossibleValueError(ValueError):
+    """A value that a blade or a scene cannot have; `key`: of which number, where that is told."""
+
+    def __init__(self, key: str, text: str):
+        super().__init__(text)
+        self.key = key
+
+
+_SHAPE: dict[str, float] = {name: field.default for name, field in _Shape.model_fields.items()}
+"""Keys of a blade's shape and their nominal values."""
+
+BLADE_KEYS = (*(_MATERIAL + key for key in MaterialSection.model_fields), *_SHAPE)
+"""What may vary of a blade. `sweep_cm` and `lean_deg` are added at the tip, and below in proportion to the span."""
+
+
+def scene_numbers(entry: SceneEntry) -> dict[str, float]:
+    """Dotted key -> value of all numbers of a scene but those that count something or stop a run."""
+    return {key: value for key, value in _numbers(_plain(entry), "").items() if key != "divergence_limit_m"}
+
+
+def blade_number(blade: BladeSettings, key: str) -> float | None:
+    """Nominal value of one of BLADE_KEYS in its unit; None for one that the blade does not have.
+
+    Raises ValueError for a shift that a blade with a chordwise sweep cannot take.
+    """
+    if key.startswith(_MATERIAL):
+        return None if blade.material is None else getattr(blade.material, si_name(key.removeprefix(_MATERIAL))[0])
+    shape = blade.definition
+    if not isinstance(shape, BladeDefinition) or (key in SHARES and shape.stacking is None):
+        return None
+    if key in _SHIFTS and shape.chordwise_sweep_angle is not None:
+        raise ValueError(f"{key} with {shape.name}, whose sweep is chordwise")
+    return _SHAPE[key]
+
+
+def changed_scene(entry: SceneEntry, changes: Mapping[str, float]) -> Scene:
+    """The scene with values at dotted keys replaced. Raises ImpossibleValueError."""
+    content = _plain(entry)
+    for key, value in changes.items():
+        content = with_value(content, key.split("."), value)
+    return _checked(SceneEntry, content).scene()
+
+
+def changed_blade(blade: BladeSettings, changes: Mapping[str, float]) -> BladeSettings:
+    """The blade with values of BLADE_KEYS replaced. Raises ImpossibleValueError."""
+    changed = blade
+    material = {key.removeprefix(_MATERIAL): value for key, value in changes.items() if key.startswith(_MATERIAL)}
+    if material and blade.material is not None:
+        changed = replace(changed, material=_changed_material(blade.material, material))
+    shape = {key: value for key, value in changes.items() if key in _SHAPE}
+    if shape and isinstance(blade.definition, BladeDefinition):
+        changed = replace(changed, definition=_changed_shape(blade.definition, shape))
+    return changed
+
+
+def _changed_material(nominal: Material, changes: Mapping[str, float]) -> Material:
+    section = _checked(MaterialSection, dict(changes), _MATERIAL)
+    return replace(nominal, **{si_name(key)[0]: value for key, value in section.model_dump(exclude_none=True).items()})
+
+
+def _changed_shape(definition: BladeDefinition, changes: Mapping[str, float]) -> BladeDefinition:
+    given: _Shape = _checked(_Shape, dict(changes))
+    profiles = tuple(
+        replace(one, **{name: 0.01 * given.thickness_percent * getattr(one, name) for name in _THICKNESSES})
+        for one in definition.profiles
+    )
+    return replace(definition, profiles=profiles, stacking=_changed_stacking(definition.stacking, given))
+
+
+_THICKNESSES = ("inlet_thickness", "maximum_thickness", "outlet_thickness")
+
+
+def _changed_stacking(
+    stacking: tuple[tuple[float, float, float], ...] | None, given: _Shape
+) -> tuple[tuple[float, float, float], ...] | None:
+    """The table of sweep and lean with shares of it kept, and a straight line over the span added."""
+    if stacking is None and not (given.sweep_cm or given.lean_deg):
+        return None
+    rows = stacking or ((0.0, 0.0, 0.0), (1.0, 0.0, 0.0))
+    sweep, lean = 0.01 * given.sweep_cm, math.radians(given.lean_deg)
+    changed = tuple(
+        (span, 0.01 * given.sweep_percent * one + span * sweep, 0.01 * given.lean_percent * other + span * lean)
+        for span, one, other in rows
+    )
+    for span, one, other in changed:
+        _checked(SweepLean, {"span_percent": 100.0 * span, "sweep_cm": 100.0 * one, "lean_deg": math.degrees(other)}, "table: ")
+    return changed
+
+
+def _checked(model: type[BaseModel], content: dict[str, Any], above: str = "") -> Any:
+    try:
+        return model.model_validate(content)
+    except ValidationError as error:
+        path, _, text = explain(error, content, model)
+        raise ImpossibleValueError(above + ".".join(map(str, path)), text) from None
+
+
+def _plain(entry: SceneEntry) -> dict[str, Any]:
+    return entry.model_dump(exclude_none=True)
+
+
+def _numbers(content: Mapping[str, Any], path: str) -> dict[str, float]:
+    found: dict[str, float] = {}
+    for key, value in content.items():
+        if isinstance(value, Mapping):
+            found |= _numbers(value, f"{path}{key}.")
+        elif isinstance(value, float):
+            found[path + key] = value
+    return found

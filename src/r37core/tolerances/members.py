@@ -1,0 +1,164 @@
+"""Members of a sample: a blade and a scene with other values of the numbers under `tolerances`."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TypeVar
+
+from r37core.config import BladeSettings, ConfigError, Settings
+from r37core.config.messages import on_one_line
+from r37core.contact.scene import Scene
+
+from .member_changes import BLADE_KEYS, ImpossibleValueError, blade_number, changed_blade, changed_scene, scene_numbers
+from .sample import drawn, is_of_sample, number_of, places
+from .section import ToleranceSection
+
+T = TypeVar("T")
+
+
+@dataclass(frozen=True)
+class Member:
+    """One of a sample. `values`: of each number in its key's unit; None for one that this blade or scene does not have."""
+
+    blade: BladeSettings
+    scene: Scene
+    values: tuple[float | None, ...]
+
+
+def section(settings: Settings) -> ToleranceSection:
+    """The section of config.yaml."""
+    return settings.section("tolerances")
+
+
+class Members:
+    """The members of all blades and scenes that have tolerances. `numbers`: section and key of each -> its tolerance."""
+
+    def __init__(self, settings: Settings):
+        self._settings, self._given = settings, section(settings)
+        self.numbers = self._given.spreads
+
+    @cached_property
+    def pairs(self) -> list[tuple[str, str]]:
+        """Blades and scenes that have members, in the order of the run: those that have some of the numbers.
+
+        Raises ConfigError where numbers are given and no blade and scene that is run has any of them.
+        """
+        settings, nominals = self._settings, self._nominals
+        found = [pair for pair, nominal in nominals.items() if any(value is not None for value in nominal)]
+        # a part of the blades may have none
+        if self.numbers and not found and settings.config.run.part is None:
+            named, (blades, scenes) = ", ".join(key for _, key in self.numbers), self._chosen
+            run = f"{', '.join(blades)} in {', '.join(scenes)}"
+            raise self._refusal((), f"none of its numbers ({named}) in {run}", "blades and scenes that are run and have some")
+        return found
+
+    @property
+    def _chosen(self) -> tuple[list[str], list[str]]:
+        """Blades and scenes that are to have members."""
+        settings, given = self._settings, self._given
+        blades = settings.blade_names if given.blades == "all" else settings.designs.named(given.blades)
+        return blades, settings.scene_names if given.scenes == "all" else given.scenes
+
+    @cached_property
+    def _nominals(self) -> dict[tuple[str, str], list[float | None]]:
+        """Of each of the chosen blades and scenes that are run, the value of each number without tolerance."""
+        if not self.numbers:
+            return {}
+        blades, scenes = self._chosen
+        pairs = [pair for pair in self._settings.speed_plans if pair[0] in blades and pair[1] in scenes]
+        return {pair: [self._nominal(*number, *pair) for number in self.numbers] for pair in pairs}
+
+    @cached_property
+    def _of_scenes(self) -> dict[str, dict[str, float]]:
+        """Numbers of the scenes that are run, by dotted key."""
+        return {name: scene_numbers(self._settings.scene_entries[name]) for name in self._settings.scene_names}
+
+    @cached_property
+    def all(self) -> dict[tuple[str, str], dict[str, Member]]:
+        """Members by blade and scene, by name: the sample, and what sensitivity indices need beside it.
+
+        Raises ConfigError for a number that is not there, and for a value that is impossible.
+        """
+        return {pair: self._of(*pair) for pair in self.pairs}
+
+    def most_runs(self, blade: str, scene: str) -> int:
+        """Simulations of all members of a blade and scene, at most where speeds are adaptive."""
+        plan = self._settings.speed_plans[blade, scene]
+        return len(self.all.get((blade, scene), ())) * plan.at_most(self._given.largest_share)
+
+    @cached_property
+    def _places(self) -> dict[str, tuple[float, ...]]:
+        return places(len(self.numbers), self._given.members, self._given.seed)
+
+    def _of(self, blade: str, scene: str) -> dict[str, Member]:
+        nominal = self._nominals[blade, scene]
+        varied = [number for number, value in enumerate(nominal) if value is not None]
+        self._check_ends(blade, scene, nominal)
+        beside = (None, *varied) if self._given.sensitivity else ()
+        wanted = [name for name in self._places if is_of_sample(name) or number_of(name) in beside]
+        return {name: self._member(name, blade, scene, nominal) for name in wanted}
+
+    def _check_ends(self, blade: str, scene: str, nominal: Sequence[float | None]) -> None:
+        """Every value that a bounded number can take at most is possible: more members then meet nothing new."""
+        for ((section, key), tolerance), value in zip(self.numbers.items(), nominal, strict=True):
+            for end in tolerance.ends(value) if value is not None else ():
+                self._changed(blade, scene, {(section, key): end}, f"the end of its range of {blade} in {scene}")
+
+    def _nominal(self, section: str, key: str, blade: str, scene: str) -> float | None:
+        """Value without tolerance; None where the blade or the scene has no such number."""
+        path = (section, key)
+        if section == "of_blades":
+            if key not in BLADE_KEYS:
+                raise self._refusal(path, on_one_line(key), f"one of {', '.join(BLADE_KEYS)}")
+            of = self._settings.blades[blade]
+            try:
+                nominal = blade_number(of, key)
+            except ValueError as error:
+                raise self._refusal(path, str(error), "blades with a table of sweep and lean, or none") from None
+        else:
+            known = list(dict.fromkeys(key for numbers in self._of_scenes.values() for key in numbers))
+            if key not in known:
+                allowed = f"a number of the scenes that are run, by its dotted key: {', '.join(known)}"
+                raise self._refusal(path, on_one_line(key), allowed)
+            nominal = self._of_scenes[scene].get(key)
+        if nominal == 0.0 and self.numbers[path].percent:
+            raise self._refusal(path, f"percent of {key}, which is 0", "uniform, normal, between or values")
+        return nominal
+
+    def _member(self, name: str, blade: str, scene: str, nominal: Sequence[float | None]) -> Member:
+        values = drawn(self.numbers.values(), nominal, self._places[name])
+        given = {number: value for number, value in zip(self.numbers, values, strict=True) if value is not None}
+        return Member(*self._changed(blade, scene, given, f"member {name} of {blade} in {scene}"), values)
+
+    def _changed(
+        self, blade: str, scene: str, values: Mapping[tuple[str, str], float], who: str
+    ) -> tuple[BladeSettings, Scene]:
+        """A blade and a scene with other values of some numbers."""
+        settings = self._settings
+        of_blade, of_scene = (
+            {key: value for (section, key), value in values.items() if section == wanted}
+            for wanted in ("of_blades", "of_scenes")
+        )
+        return (
+            self._possible("of_blades", who, lambda: changed_blade(settings.blades[blade], of_blade)),
+            self._possible("of_scenes", who, lambda: changed_scene(settings.scene_entries[scene], of_scene)),
+        )
+
+    def _possible(self, section: str, who: str, change: Callable[[], T]) -> T:
+        try:
+            return change()
+        except ImpossibleValueError as error:
+            known = (section, error.key) in self.numbers
+            path, text = (error.key,) if known else (), str(error) if known else f"{error.key}: {error}"
+            place = ("tolerances", section, *path)
+            raise self._settings.documents.config.error(place, f"{who}: {text}; or a narrower tolerance") from None
+
+    def _refusal(self, path: tuple[str, ...], found: str, allowed: str) -> ConfigError:
+        return self._settings.documents.config.refusal(("tolerances", *path), found, allowed)
+
+
+def members_of(settings: Settings) -> Members:
+    """Those that the settings ask for, drawn once."""
+    return settings.made(Members)

@@ -1,0 +1,165 @@
+"""The plan of the tolerances: members of samples, each with runs of its own, and what is made of them together."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+from r37core.config import BladeSettings, Settings
+from r37core.plans import paths
+from r37core.plans.extent import extent_of
+from r37core.plans.samples import NOMINAL, Member, Pair, Sample, Sampling, path_part
+from r37core.plans.sweep_plan import Sweep
+
+from .fewest import remarks_on_rankings
+from .members import Members, members_of, section
+from .sample import is_of_sample
+
+FOLDER = "tolerances"
+"""Of the members' files: the wing's name."""
+
+DATASET, TABLE = "<results>/tolerances.nc", "<results>/tolerances.csv"
+
+_KEPT = ("spectrum", "stress", "static_stress")
+"""Results of a scene that its members have, too: what ranges are read off."""
+
+
+@dataclass(frozen=True)
+class Tolerances:
+    """Plan of the members that `settings` ask for, and of what is made of them."""
+
+    settings: Settings
+
+    @property
+    def _members(self) -> Members:
+        return members_of(self.settings)
+
+    @property
+    def pairs(self) -> list[Pair]:
+        """Blades and scenes with members."""
+        return self._members.pairs
+
+    @cached_property
+    def samples(self) -> dict[Pair, Sample]:
+        """Members of each of them: the sample first, which alone says where speeds are adaptive, so that indices change none.
+
+        Then come those that sensitivity indices need beside it.
+        """
+        settings, models = self.settings, self._models
+        return {
+            (blade, scene): Sample(
+                members={name: Member(of.blade, of.scene, models[blade][name]) for name, of in members.items()},
+                deciding=[name for name in members if is_of_sample(name)],
+                largest_share=section(settings).largest_share,
+                results=tuple(result for result in settings.results_of(blade, scene) if result in _KEPT),
+            )
+            for (blade, scene), members in self._members.all.items()
+        }
+
+    @property
+    def _models(self) -> dict[str, dict[str, str]]:
+        """Which member's model each member has, by blade: the first of those with the same blade, or the nominal one."""
+        first: dict[str, dict[BladeSettings, str]] = {}
+        found: dict[str, dict[str, str]] = {}
+        for (blade, _), members in self._members.all.items():
+            known = first.setdefault(blade, {self.settings.blades[blade].elastic: NOMINAL})
+            for name, member in members.items():
+                if name not in found.setdefault(blade, {}):
+                    found[blade][name] = known.setdefault(member.blade.elastic, name)
+        return found
+
+    @property
+    def runs(self) -> list[dict[str, str]]:
+        """Blade, scene and member of all responses, in the order of the dataset."""
+        every = self.samples.items()
+        return [{"blade": blade, "scene": scene, "member": name} for (blade, scene), of in every for name in of.members]
+
+    @property
+    def runs_of_sample(self) -> list[dict[str, str]]:
+        """Those of the samples, without members for sensitivity indices alone."""
+        return [run for run in self.runs if is_of_sample(run["member"])]
+
+    @property
+    def responses(self) -> list[str]:
+        """Of all members."""
+        return paths.filled({paths.RESPONSE: _placed(self.runs)})
+
+    @property
+    def responses_of_sample(self) -> list[str]:
+        """Of the members of the samples."""
+        return paths.filled({paths.RESPONSE: _placed(self.runs_of_sample)})
+
+    @property
+    def campbells_of_sample(self) -> list[str]:
+        """The Campbell diagram of each of them."""
+        return [paths.fill(paths.CAMPBELL, member=self._model(run), blade=run["blade"]) for run in self.runs_of_sample]
+
+    def _model(self, run: dict[str, str]) -> str:
+        model = self.samples[run["blade"], run["scene"]].members[run["member"]].model
+        return path_part(FOLDER, model) if model else NOMINAL
+
+    @property
+    def nominal(self) -> dict[str, list[str]]:
+        """Responses and Campbell diagrams of the nominal runs."""
+        runs, blades = paths.of_runs(self.pairs), paths.of("blade", [blade for blade, _ in self.pairs])
+        return {"nominal": paths.filled({paths.RESPONSE: runs}), "nominal_campbells": paths.filled({paths.CAMPBELL: blades})}
+
+    @property
+    def first_rounds(self) -> list[str]:
+        """First rounds of the members and of the nominal runs beside them: as of Sweep."""
+        adaptive = paths.of_runs(pair for pair in self.pairs if self.settings.speed_plans[pair].refined)
+        members = [path_part(FOLDER), NOMINAL]
+        return paths.filled({paths.ROUND: [{**run, "member": one, "round": "0"} for one in members for run in adaptive]})
+
+    @property
+    def numbers(self) -> list[str]:
+        """Keys of the numbers that vary."""
+        return [key for _, key in self._members.numbers]
+
+    @property
+    def values(self) -> list[list[float | None]]:
+        """Of each of the runs, in the units of the keys."""
+        every = self._members.all
+        return [list(every[run["blade"], run["scene"]][run["member"]].values) for run in self.runs]
+
+
+def _placed(runs: list[dict[str, str]]) -> paths.Wildcards:
+    return [{**run, "member": path_part(FOLDER, run["member"])} for run in runs]
+
+
+def samples(settings: Settings) -> dict[Pair, Sample]:
+    """Members by blade and scene."""
+    return settings.made(Tolerances).samples
+
+
+SAMPLING = Sampling(samples, ranges=TABLE, dataset=DATASET)
+
+
+def simulated(sweep: Sweep) -> dict[str, paths.Wildcards]:
+    """The responses of the members, and first rounds where their speeds are adaptive."""
+    planned = sweep.settings.made(Tolerances)
+    adaptive = [pair for pair in planned.pairs if sweep.settings.speed_plans[pair].refined]
+    member, sample = path_part(FOLDER, "{member}"), path_part(FOLDER)
+    return {
+        paths.RESPONSE.replace("{member}", member): planned.runs,
+        paths.ROUND.replace("{member}", sample).replace("{round}", "0"): paths.of_runs(adaptive),
+    }
+
+
+def targets(sweep: Sweep) -> dict[str, paths.Wildcards]:
+    """The dataset, the table and the figures of the members."""
+    pairs = paths.of_runs(members_of(sweep.settings).pairs)
+    return {
+        **{file: pairs and [{}] for file in (DATASET, TABLE)},
+        **paths.pictures("tolerances_{blade}__{scene}", pairs),
+    }
+
+
+def remarks(settings: Settings) -> list[str]:
+    """How many members there are, and whether these rank the numbers."""
+    members, given = members_of(settings), section(settings)
+    if not members.pairs:
+        return []
+    most = extent_of(settings, {FOLDER: samples(settings)}).members
+    said = f"tolerances: {given.members} members, {most} simulations of theirs at most, beside those of the sweep"
+    return [said, *remarks_on_rankings(given.members, len(members.numbers), given.sensitivity)]

@@ -1,0 +1,21 @@
+"""Tolerances as a wing."""
+
+from __future__ import annotations
+
+from r37core.plans.wing import Wing
+
+from .captions import CAPTIONS
+from .checks import members_can_be_drawn
+from .plan import FOLDER, SAMPLING, remarks, simulated, targets
+from .section import ToleranceSection
+
+WING = Wing(
+    name=FOLDER,
+    section=(ToleranceSection, ToleranceSection()),
+    checks=(members_can_be_drawn,),
+    sampling=SAMPLING,
+    simulated=simulated,
+    targets=targets,
+    remarks=remarks,
+    captions=CAPTIONS,
+)
