@@ -12,6 +12,7 @@ report: "workflow/report/workflow.rst"
 
 
 include: "workflow/rules/common.smk"
+include: "workflow/rules/step.smk"
 include: "workflow/rules/structure.smk"
 include: "workflow/rules/sweep.smk"
 include: "workflow/rules/results.smk"

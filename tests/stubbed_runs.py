@@ -2,6 +2,7 @@
 
 import re
 
+from overlays import overlay
 from workflow_runs import copy_project
 
 # the job server, which reads the script with fewer arguments, makes nothing
@@ -54,10 +55,7 @@ def edit(project, name, old, new):
 
 def refine(folder, entry="{ start: 750, stop: 1550, step: 400, refine_to: 0.5 }"):
     """Make the speeds of a copy adaptive."""
-    config = folder / "config/config.yaml"
-    text = config.read_text()
-    assert "- { start: 750, stop: 1600 }" in text
-    config.write_text(text.replace("- { start: 750, stop: 1600 }", f"- {entry}"))
+    overlay(folder, "config.yaml", f"speeds: [{entry}]")
 
 
 def simulated(text):

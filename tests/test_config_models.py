@@ -7,7 +7,7 @@ import sys
 
 import pytest
 
-from r37core.config import ConfigError, command_line_document, read_document
+from r37core.config import ConfigError, Settings, command_line_document, read_document
 from r37core.product.reading import load_settings, read_settings
 from r37core.product.schemas import schemas
 
@@ -102,6 +102,12 @@ def test_simulations_do_not_import_the_models(root):
     code = f"import sys\n{imports}\nprint(sorted({{'pydantic', 'yaml', 'netCDF4', 'xarray'}} & set(sys.modules)))"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout.strip() == "[]"
+
+
+def test_settings_have_few_members():
+    """What is of one subject stands with that: remarks, places, hashes, numbers of speeds."""
+    own = {name for name in vars(Settings) if not name.startswith("__")} | set(Settings.__dataclass_fields__)
+    assert len(own) <= 25
 
 
 def test_a_plan_imports_no_optimiser():

@@ -59,7 +59,7 @@ def test_rows_have_default_unit_and_what_is_allowed(rows, file, key, cells):
 def test_every_key_of_the_shipped_files_is_there(root, rows):
     """As deep as the files go, with names and entries of lists as the page writes them."""
     for name, keys in rows.items():
-        for path in read_document(root, f"config/{name}.yaml").places:
+        for path in read_document(root, f"config/{name}.yaml").locations:
             steps = path if name == "config" else path[1:]
             if "of_scenes" in steps or not steps:
                 continue

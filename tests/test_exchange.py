@@ -16,7 +16,7 @@ from r37core.exchange.importing.import_mesh import _READERS, import_mesh
 from r37core.exchange.importing.meshio_reader import quietly
 from r37core.exchange.importing.source import MASS_UNITS, STIFFNESS_UNITS, SUFFIXES, digest_of, mesh_files
 from r37core.exchange.orientation import UNITS
-from r37core.exchange.refusal import ImportRefused, MeshWarning, placed
+from r37core.exchange.refusal import ImportRefused, MeshWarning, located
 from r37core.exchange.write_mesh import write_mesh
 from r37core.fem.abaqus_deck import write_abaqus
 from r37core.fem.elements import ELEMENTS
@@ -400,11 +400,11 @@ def test_an_included_file_is_one_of_the_mesh(tmp_path):
     ],
 )
 def test_a_refusal_blames_a_key(tmp_path, changes, key):
-    """The key's place goes in front where the configuration gives one."""
+    """The location of the key goes in front where the configuration gives one."""
     write_mesh(plate(), tmp_path / "mesh.vtu")
     with (
         pytest.raises(ImportRefused, match=f"^blades.yaml:3: Fan.{key}: ") as refusal,
-        placed({key: f"blades.yaml:3: Fan.{key}"}),
+        located({key: f"blades.yaml:3: Fan.{key}"}),
     ):
         import_mesh(replace(source("mesh.vtu"), **changes), tmp_path)
     assert refusal.value.key == key

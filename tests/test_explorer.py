@@ -10,6 +10,7 @@ import pytest
 import xarray as xr
 from browser import opened
 from explorer_cases import BLADES, SCENES, SPEEDS, beside, interaction_rows, sweep
+from overlays import overlay
 from plans_of_snakemake import planned
 from workflow_runs import copy_project
 
@@ -516,7 +517,7 @@ def test_the_page_is_made_of_the_members_where_there_are_some(root, tmp_path):
     """Only the page needs their dataset: the table of interactions is made of another file."""
     copy_project(root, tmp_path)
     assert "tolerances_dataset" not in planned(tmp_path, "results/explorer.html")
-    with open(tmp_path / "config/config.yaml", "a") as stream:
-        stream.write("tolerances: { members: 2, blades: [Ref], of_scenes: { friction.coefficient: { uniform_percent: 5 } } }\n")
+    ranges = "of_scenes: { friction.coefficient: { uniform_percent: 5 } }"
+    overlay(tmp_path, "config.yaml", f"tolerances: {{ members: 2, blades: [Ref], {ranges} }}")
     assert "tolerances_dataset" in planned(tmp_path, "results/explorer.html")
     assert "tolerances_dataset" not in planned(tmp_path, "results/summary.csv")

@@ -4,6 +4,7 @@ import numpy as np
 import pandas as pd
 import pytest
 import xarray as xr
+from overlays import overlay
 from plans_of_snakemake import planned_outputs
 from stubbed_runs import copy_stubbed
 
@@ -204,9 +205,8 @@ def test_a_family_is_drawn(compared):
 def test_a_family_s_designs_run_alone(root, tmp_path):
     """A family added by editing one file: its own jobs, the table and its picture; one more value, one more blade."""
     copy_stubbed(root, tmp_path)
-    blades, config = tmp_path / "config/blades.yaml", tmp_path / "config/config.yaml"
-    config.write_text(config.read_text().replace("[Ref, CS100]", "[Ref, Sweep]"))
-    blades.write_text(blades.read_text() + "\n" + SWEEP)
+    overlay(tmp_path, "config.yaml", "blades: [Ref, Sweep]")
+    overlay(tmp_path, "blades.yaml", SWEEP)
     jobs = planned_outputs(tmp_path)
     assert {name for file in jobs["simulate"] for name in file.split("/")[:1]} == {"Ref", "Sweep_-50", "Sweep_50", "Sweep_150"}
     assert jobs["design_table"] == {"designs.csv"}

@@ -9,7 +9,7 @@ import yaml
 from defaults import Where
 
 from r37core.config import ConfigError
-from r37core.config.places import places_of
+from r37core.config.key_locations import locations_of_keys
 from r37core.exchange.orientation import OURS
 from r37core.exports.plan import Exports, targets
 from r37core.plain import to_plain
@@ -82,7 +82,7 @@ def test_a_mesh_with_another_material(settings_with):
     settings = settings_with(MESH, {"Heavy": {"base": "Fan", "material": {"density_kg_m3": 4500}}}, blades=("Fan", "Heavy"))
     assert settings.blades["Heavy"].material.density == 4500.0
     assert settings.blades["Heavy"].definition == settings.blades["Fan"].definition
-    assert places_of(settings, "Heavy")["root"].endswith(": Fan.root")
+    assert locations_of_keys(settings, "Heavy")["root"].endswith(": Fan.root")
 
 
 @pytest.mark.parametrize(
@@ -205,7 +205,7 @@ def test_plan_of_imported_blades(three, tmp_path, monkeypatch):
         "M.mtx",
         "boundary.csv",
     ]
-    assert imported.places(fan)["tip"].endswith(": Fan.tip")
+    assert imported.locations(fan)["tip"].endswith(": Fan.tip")
     assert sweep.runs_with("stress") == [(blade, scene) for blade in ("Ref", "Fan") for scene in ("abradable", "direct")]
     assert "stress" not in sweep.results(given)
     assert '"snapshots_per_revolution": 0' in sweep.task(given)

@@ -20,12 +20,12 @@ from scipy.linalg import eigh
 from workflow_runs import copy_finished, copy_project, own_package
 
 import r37
-from r37 import structure_cache, structure_files
+from r37 import structure_files
 from r37.command import main
-from r37.structure_cache import cached_file
-from r37.structure_files import StructureFiles
+from r37.structure_files import StructureFiles, cache_folder
 from r37core.dataset_file import read_dataset
 from r37core.exports.matrices_out import write_reduced_matrices
+from r37core.kept import kept_file
 from r37core.product.reading import read_settings
 from r37core.rom.rom_file import read_reduced_model
 
@@ -256,7 +256,7 @@ def test_a_damaged_file_is_made_again(monkeypatch, tmp_path):
         file.write_text("content")
 
     def kept(made_of=1.0):
-        return cached_file("model.nc", [made_of], make)
+        return kept_file("model.nc", [made_of], make, cache_folder())
 
     file = kept()
     assert kept() == file and len(made) == 1
@@ -264,7 +264,7 @@ def test_a_damaged_file_is_made_again(monkeypatch, tmp_path):
     for damage in ("", "contenT"):
         file.write_text(damage)
         assert kept().read_text() == "content"
-    file.with_name("sha256").unlink()
+    file.with_name(f"{file.name}.sha256").unlink()
     assert kept().read_text() == "content"
     assert len(made) == 5
     assert [path.name for path in (tmp_path / "cache").iterdir() if path.name.startswith(".")] == []
@@ -278,8 +278,8 @@ def test_what_fails_leaves_nothing_in_the_cache(monkeypatch, tmp_path):
         raise ValueError("impossible")
 
     with pytest.raises(ValueError, match="impossible"):
-        cached_file("model.nc", [1.0], make)
-    assert list((tmp_path / "cache").iterdir()) == []
+        kept_file("model.nc", [1.0], make, cache_folder())
+    assert [path.name for path in (tmp_path / "cache").iterdir()] == ["making.lock"]
 
 
 def test_another_process_may_be_faster(monkeypatch, tmp_path):
@@ -287,21 +287,22 @@ def test_another_process_may_be_faster(monkeypatch, tmp_path):
 
     def make(file):
         if not list((tmp_path / "cache").glob("model-*")):
-            cached_file("model.nc", [1.0], lambda other: other.write_text("first"))
+            kept_file("model.nc", [1.0], lambda other: other.write_text("first"), cache_folder())
         file.write_text("second")
 
-    assert cached_file("model.nc", [1.0], make).read_text() == "first"
+    assert kept_file("model.nc", [1.0], make, cache_folder()).read_text() == "first"
 
 
 def test_the_cache_folder_is_where_the_environment_says(monkeypatch, tmp_path):
     monkeypatch.delenv("R37_CACHE")
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
-    assert structure_cache.cache_folder() == tmp_path / "r37"
+    assert cache_folder() == tmp_path / "r37"
     monkeypatch.setenv("R37_CACHE", str(tmp_path / "mine"))
-    assert structure_cache.cache_folder() == tmp_path / "mine"
+    assert cache_folder() == tmp_path / "mine"
+    (tmp_path / "mine").rmdir()
     (tmp_path / "mine").write_text("no folder")
     with pytest.raises(r37.ConfigError, match=r"R37_CACHE: found the cache folder .*mine, which cannot be written"):
-        cached_file("model.nc", [1.0], lambda file: None)
+        cache_folder()
 
 
 @pytest.mark.slow

@@ -12,6 +12,7 @@ import time
 import numpy as np
 import pytest
 import xarray as xr
+from overlays import overlay
 from plans_of_snakemake import planned_outputs
 from shared_sweep import copy_structure
 from stubbed_runs import copy_stubbed, refine, simulated
@@ -57,25 +58,21 @@ def test_nothing_after_a_run(project):
 
 @pytest.mark.slow
 def test_an_added_blade_runs_its_own_jobs(project):
-    config = project / "config/config.yaml"
-    config.write_text(config.read_text().replace("[Ref, CS100]", "[Ref, CS100, L50]"))
+    overlay(project, "config.yaml", "blades: [Ref, CS100, L50]")
     done = simulated(snakemake(project, "all_blades", "--cores", "2"))
     assert set(done) == runs(COARSE + ADDED, blades=["L50"])
 
 
 @pytest.mark.slow
 def test_friction_runs_all_rounds_of_its_scene(project):
-    file = project / "config/scenes.yaml"
-    before, direct = file.read_text().split("direct:")
-    file.write_text(before + "direct:" + direct.replace("coefficient: 0.15", "coefficient: 0.2"))
+    overlay(project, "scenes.yaml", "direct: { friction: { coefficient: 0.2 } }")
     done = simulated(snakemake(project, "all_blades", "--cores", "2"))
     assert sorted(done) == sorted(runs(COARSE + ADDED, scenes=["direct"]))
 
 
 @pytest.mark.slow
 def test_another_criterion_asks_anew_and_simulates_nothing_that_is_there(project):
-    config = project / "config/config.yaml"
-    config.write_text(config.read_text() + "\nrefinement: { change: 0.5 }\n")
+    overlay(project, "config.yaml", "refinement: { change: 0.5 }")
     text = snakemake(project, "all_blades", "--cores", "2")
     assert len(re.findall(r"checkpoint refine:", text)) == 3 * len(BLADES) * len(SCENES)
     assert simulated(text) == []
@@ -98,11 +95,8 @@ def test_a_lost_speed_of_a_later_round_runs_alone(project):
 @pytest.mark.slow
 def test_speeds_of_one_scene_may_refine_themselves_alone(root, tmp_path):
     copy_stubbed(root, tmp_path)
-    config = tmp_path / "config/config.yaml"
-    text = config.read_text().replace("speeds_for: [] ", (
-        "speeds_for: [{ scenes: [direct], speeds: [{ start: 750, stop: 1550, step: 400, refine_to: 0.5 }] }] "
-    ))  # fmt: skip
-    config.write_text(text)
+    refined = "{ start: 750, stop: 1550, step: 400, refine_to: 0.5 }"
+    overlay(tmp_path, "config.yaml", f"speeds_for: [{{ scenes: [direct], speeds: [{refined}] }}]")
     done = simulated(snakemake(tmp_path, "all_blades", "--cores", "2"))
     assert set(done) == runs(COARSE) | runs(ADDED, scenes=["direct"])
     assert not list(tmp_path.glob("results/*/abradable/round_*.json"))
@@ -115,12 +109,11 @@ def test_members_are_run_by_the_rules_of_the_sweep(project):
     def members(number):
         return {f"tolerances/{member}/{run}" for member in range(number) for run in runs(COARSE + ADDED, blades=["Ref"])}
 
-    config = project / "config/config.yaml"
     tolerances = (
-        "\ntolerances:\n  members: 2\n  blades: [Ref]\n  of_scenes: { friction.coefficient: { uniform_percent: 5 } }\n"
+        "tolerances:\n  members: 2\n  blades: [Ref]\n  of_scenes: { friction.coefficient: { uniform_percent: 5 } }\n"
         "  of_blades: { thickness_percent: { values: [101] } }\n"
     )
-    config.write_text(config.read_text() + tolerances)
+    overlay(project, "config.yaml", tolerances)
     text = snakemake(project, "all_blades", "--cores", "2")
     assert sorted(simulated(text)) == sorted(members(2))
     # both members have the same blade, made once beside the nominal one
@@ -130,7 +123,7 @@ def test_members_are_run_by_the_rules_of_the_sweep(project):
     rounds = {f"results/tolerances/Ref/{scene}/round_{number}.json" for scene in SCENES for number in range(3)}
     assert set(re.findall(r"checkpoint refine:\n(?:    input: .*\n)?    output: (\S+)", text)) == rounds
     assert planned_outputs(project) == {}
-    config.write_text(config.read_text().replace("members: 2", "members: 4"))
+    overlay(project, "config.yaml", "tolerances: { members: 4 }")
     assert set(simulated(snakemake(project, "all_blades", "--cores", "2"))) == members(4) - members(2)
     assert planned_outputs(project) == {}
     stacking = project / "config/stacking/rotor37.csv"
@@ -166,8 +159,7 @@ def real(small_sweep, tmp_path_factory):
 def prepare_real(small_sweep, folder):
     copy_structure(small_sweep, folder)
     refine(folder, "{ start: 1000, stop: 1240, step: 80, refine_to: 20 }")
-    config = folder / "config/config.yaml"
-    config.write_text(config.read_text().replace("[Ref, CS100]", "[CS100]") + _REFINEMENT)
+    overlay(folder, "config.yaml", "blades: [CS100]\n" + _REFINEMENT)
     return folder
 
 

@@ -69,6 +69,19 @@ def test_mistakes_of_the_spine_and_of_wings(config_copy):
     )
 
 
+def test_mistakes_in_one_section(config_copy):
+    rules = [{"blades": ["Reff"], "scenes": ["wet"], "speeds": [900]}, {"scenes": ["dry"], "speeds": [900]}]
+    studies = {"stability": {"base": "rough"}, "modelling_choices": {"lined_scene": "direct"}}
+    lines = told(config_copy, speeds_for=rules, studies=studies)
+    assert sorted(line.split(":")[1].strip() for line in lines) == [
+        "speeds_for.0.blades",
+        "speeds_for.0.scenes",
+        "speeds_for.1.scenes",
+        "studies.modelling_choices.lined_scene",
+        "studies.stability.base",
+    ]
+
+
 @pytest.mark.parametrize("text", [new for old, new, _ in CONFIG_REFUSALS if old == "speeds_for: []"][::5])
 def test_no_check_stumbles_over_what_another_has_refused(config_copy, text):
     edit(config_copy / "config/config.yaml", "speeds_for: []", text)

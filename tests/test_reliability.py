@@ -19,7 +19,7 @@ from workflow_runs import SNAKEMAKE, copy_project, snakemake
 from r37core.config import ConfigError, command_line_document
 from r37core.console import failures, lock
 from r37core.console.leftovers import leftovers
-from r37core.dataset_file import about, read_dataset, write_dataset
+from r37core.dataset_file import SPEED, Variable, about, read_dataset, write_dataset
 from r37core.io import InputFileError, write_json
 from r37core.plans.run import replaced_level, source_folder
 from r37core.product.reading import read_settings
@@ -246,8 +246,8 @@ def test_a_flipped_bit_of_a_response_is_found(tmp_path):
     values = np.frombuffer(np.random.default_rng(1).bytes(2400))
     by_bytes = values.view(np.uint8).reshape(-1, 8).T.tobytes()
     with netCDF4.Dataset(file, "w") as dataset:
-        create_axis(dataset, "speed", np.arange(300.0), about("rad s-1", "speed"))
-        create_variable(dataset, "a", "f8", ("speed",), about("m", "a"))[:] = values
+        create_axis(dataset, "speed", np.arange(300.0), SPEED)
+        create_variable(dataset, "a", Variable(("speed",), "m", "a"))[:] = values
     sound = file.read_bytes()
     # the variable, and the axis
     for stored in (by_bytes, np.arange(300.0).tobytes()):

@@ -3,6 +3,7 @@
 import os
 
 import pytest
+from overlays import overlay
 from plans_of_snakemake import plan, planned_outputs
 from stubbed_runs import copy_stubbed, edit, refine, simulated
 from workflow_runs import copy_finished, own_package, snakemake
@@ -65,8 +66,7 @@ def test_nothing_after_a_run(project):
     ],
 )
 def test_an_added_speed_runs_alone(project, speeds, added):
-    edit(project, "config.yaml", "speeds: # numbers", f"speeds: {speeds}\n# numbers")
-    edit(project, "config.yaml", "  - { start: 750, stop: 1600 }\n", "")
+    overlay(project, "config.yaml", f"speeds: {speeds}")
     jobs = planned_outputs(project)
     assert jobs.pop("simulate") == runs(added)
     assert jobs.pop("response") == per_run("response.nc")
@@ -74,7 +74,7 @@ def test_an_added_speed_runs_alone(project, speeds, added):
 
 
 def test_a_removed_speed_runs_no_simulation(project):
-    edit(project, "config.yaml", "stop: 1600 }", "stop: 1200 }")
+    overlay(project, "config.yaml", "speeds: [{ start: 750, stop: 1200 }]")
     jobs = planned_outputs(project)
     assert set(jobs) == DATASETS | {"response"}
 
@@ -91,9 +91,8 @@ def test_a_list_that_becomes_adaptive_runs_what_its_rounds_ask_for(project):
 
 def test_an_added_blade_runs_its_own_jobs(project):
     """By its lines in the configuration."""
-    edit(project, "config.yaml", "[Ref, CS100]", "[Ref, CS100, Eighth]")
-    with open(project / "config/blades.yaml", "a") as stream:
-        stream.write("\nEighth: { base: Ref, chordwise_sweep_deg: 7.5 }\n")
+    overlay(project, "config.yaml", "blades: [Ref, CS100, Eighth]")
+    overlay(project, "blades.yaml", "Eighth: { base: Ref, chordwise_sweep_deg: 7.5 }")
     jobs = planned_outputs(project)
     assert jobs.pop("simulate") == runs(blades=["Eighth"])
     for rule in STRUCTURE | {"response", "prepare_time_integration", "contact_model", "stress_operator"}:
@@ -102,13 +101,13 @@ def test_an_added_blade_runs_its_own_jobs(project):
 
 
 def test_a_removed_blade_runs_no_simulation(project):
-    edit(project, "config.yaml", "[Ref, CS100]", "[Ref]")
+    overlay(project, "config.yaml", "blades: [Ref]")
     assert set(planned_outputs(project)) == DATASETS | OF_ALL_BLADES
 
 
 def test_a_renamed_scene_runs_its_own_jobs(project):
     edit(project, "scenes.yaml", "direct:", "bare:")
-    edit(project, "config.yaml", "scenes: [abradable, direct]", "scenes: [abradable, bare]")
+    overlay(project, "config.yaml", "scenes: [abradable, bare]")
     jobs = planned_outputs(project)
     assert jobs.pop("simulate") == runs(scenes=["bare"])
     assert jobs.pop("response") == per_run("response.nc", scenes=["bare"])
@@ -117,9 +116,7 @@ def test_a_renamed_scene_runs_its_own_jobs(project):
 
 
 def test_friction_runs_its_scene(project):
-    file = project / "config/scenes.yaml"
-    before, direct = file.read_text().split("direct:")
-    file.write_text(before + "direct:" + direct.replace("coefficient: 0.15", "coefficient: 0.2"))
+    overlay(project, "scenes.yaml", "direct: { friction: { coefficient: 0.2 } }")
     jobs = planned_outputs(project)
     assert jobs.pop("simulate") == runs(scenes=["direct"])
     assert jobs.pop("response") == per_run("response.nc", scenes=["direct"])
@@ -128,9 +125,7 @@ def test_friction_runs_its_scene(project):
 
 
 def test_a_wanted_result_runs_its_scene(project):
-    file = project / "config/scenes.yaml"
-    before, direct = file.read_text().split("direct:")
-    file.write_text(before + "direct:" + direct.replace("spectrum, signal, ", "signal, "))
+    overlay(project, "scenes.yaml", "direct: { results: [signal, stress, energy] }")
     jobs = planned_outputs(project)
     assert jobs.pop("simulate") == runs(scenes=["direct"])
     assert not (STRUCTURE | {"contact_model"}) & set(jobs)
@@ -142,47 +137,46 @@ SIGNALS = {"signals_of_run", "signals_dataset", "spectrogram_figure", "orders_fi
 
 def test_shapes_run_no_simulation(project):
     """Asked for, they are made of what is there and nothing follows; the model of the whole blade serves all of a blade's."""
-    edit(project, "scenes.yaml", "wear, energy]", "wear, energy, shapes]")
+    overlay(project, "scenes.yaml", "abradable: { results: [spectrum, signal, stress, wear, energy, shapes] }")
     jobs = planned_outputs(project)
     assert set(jobs) == SHAPES | {"configuration"}
     assert jobs["worst_shapes"] == {f"shapes/{blade}/stress_abradable" for blade in BLADES}
     snakemake(project, "all_blades", "--cores", "2")
     assert planned_outputs(project) == {}
-    edit(project, "config.yaml", "shapes: { modes: 6 }", "shapes: { modes: 3 }")
+    overlay(project, "config.yaml", "shapes: { modes: 3 }")
     assert set(planned_outputs(project)) == SHAPES - {"explorer"} | {"configuration"}
 
 
 def test_signals_run_no_simulation_of_the_sweep(project):
     """At named speeds they are runs of their own; a gauge more runs those again and makes the model of the whole blade."""
-    edit(project, "config.yaml", "interactions: # what", "signals: { speeds_rad_s: [1151.5] }\ninteractions: # what")
+    overlay(project, "config.yaml", "signals: { speeds_rad_s: [1151.5] }")
     jobs = planned_outputs(project)
     assert set(jobs) == SIGNALS | {"configuration"}
     assert jobs["signals_of_run"] == per_run("signals.nc")
     snakemake(project, "all_blades", "--cores", "2")
     assert planned_outputs(project) == {}
-    gauge = "gauges: { root: { chord: 0.5, span: 0.1, side: suction } }"
-    edit(project, "config.yaml", "speeds_rad_s: [1151.5] }", f"speeds_rad_s: [1151.5], {gauge} }}")
+    overlay(project, "config.yaml", "signals: { gauges: { root: { chord: 0.5, span: 0.1, side: suction } } }")
     assert set(planned_outputs(project)) == SIGNALS | {"configuration", "whole_blade_model"}
-    edit(project, "config.yaml", "speeds_rad_s: [1151.5]", "blades: [Ref], speeds_rad_s: interactions")
+    overlay(project, "config.yaml", "signals: { blades: [Ref], speeds_rad_s: interactions }")
     assert planned_outputs(project)["signals_of_run"] == per_run("signals.nc", blades=["Ref"])
 
 
 def test_a_step_keeps_the_structure_and_back_keeps_all(project):
-    edit(project, "fidelity.yaml", "time_step_s: 2.0e-7, revolutions: 8", "time_step_s: 1.0e-7, revolutions: 8")
+    overlay(project, "fidelity.yaml", "tiny: { time_integration: { time_step_s: 1.0e-7 } }")
     jobs = planned_outputs(project)
     assert jobs.pop("simulate") == runs()
     assert not (STRUCTURE | {"contact_model"} | OF_ALL_BLADES) & set(jobs)
-    edit(project, "fidelity.yaml", "time_step_s: 1.0e-7, revolutions: 8", "time_step_s: 2.0e-7, revolutions: 8")
+    overlay(project, "fidelity.yaml", "tiny: { time_integration: { time_step_s: 2.0e-7 } }")
     assert planned_outputs(project) == {}
 
 
 def test_another_level_runs_what_differs_and_back_keeps_all(project):
     """A level with the same mesh and reduction, then one with another mesh, then the first again."""
-    with open(project / "config/fidelity.yaml", "a") as stream:
-        stream.write(
-            "same_mesh:\n  mesh: { nodes: 1500, layers: 1, tip_elements: 14 }\n  reduction: { fixed_interface_modes: 8 }\n"
-            "  time_integration: { time_step_s: 1.0e-7, revolutions: 8, speed_step_rad_s: 400 }\n"
-        )
+    same_mesh = (
+        "same_mesh:\n  mesh: { nodes: 1500, layers: 1, tip_elements: 14 }\n  reduction: { fixed_interface_modes: 8 }\n"
+        "  time_integration: { time_step_s: 1.0e-7, revolutions: 8, speed_step_rad_s: 400 }\n"
+    )
+    overlay(project, "fidelity.yaml", same_mesh)
     jobs = planned_outputs(project, "all_blades", "--config", "fidelity=same_mesh")
     assert jobs.pop("simulate") == runs()
     # the Campbell diagrams of all blades are gathered again: their file names the level
@@ -203,34 +197,32 @@ def test_editing_one_blade_runs_that_blade(project):
 
 
 @pytest.mark.parametrize(
-    ("old", "new", "again", "kept"),
+    ("material", "again", "kept"),
     [
-        ("density_kg_m3: 8000.0", "density_kg_m3: 8001.0", {"reduced_model", "simulate", "response"}, {"geometry", "mesh"}),
+        ("density_kg_m3: 8001.0", {"reduced_model", "simulate", "response"}, {"geometry", "mesh"}),
         (
-            "yield_stress_pa: 1.38e+9",
             "yield_stress_pa: 1.39e+9",
             {"response"},
             STRUCTURE | {"contact_model", "simulate", "prepare_time_integration"},
         ),
     ],
 )
-def test_a_material_runs_what_depends_on_it(project, old, new, again, kept):
-    edit(project, "blades.yaml", old, new)
+def test_a_material_runs_what_depends_on_it(project, material, again, kept):
+    overlay(project, "blades.yaml", f"Ref: {{ material: {{ {material} }} }}")
     jobs = planned_outputs(project)
     assert again <= set(jobs)
     assert not kept & set(jobs)
 
 
 def test_a_rotation_option_keeps_meshes(project):
-    edit(project, "config.yaml", "spin_softening: false", "spin_softening: true")
+    overlay(project, "config.yaml", "structure: { spin_softening: true }")
     jobs = planned_outputs(project)
     assert jobs["reduced_model"] == {f"{blade}/rom_pressure_edge.nc" for blade in BLADES}
     assert not {"geometry", "mesh", "abaqus_deck"} & set(jobs)
 
 
 def test_a_stress_history_runs_its_speed(project):
-    with open(project / "config/scenes.yaml", "a") as stream:
-        stream.write("  stress_history_speeds_rad_s: [1150]\n")
+    overlay(project, "scenes.yaml", "direct: { stress_history_speeds_rad_s: [1150] }")
     assert planned_outputs(project)["simulate"] == runs(["1150"], scenes=["direct"])
 
 

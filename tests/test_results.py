@@ -9,7 +9,7 @@ import xarray as xr
 from box_mesh import box_mesh
 from defaults import Casing, Friction, IntegrationChoice, Lining, Scene
 
-from r37core.dataset_file import hash_of_parts, write_dataset
+from r37core.dataset_file import Variable, hash_of_parts, write_dataset
 from r37core.fem.material import Material
 from r37core.io import InputFileError
 from r37core.results.datasets import write_sweep_dataset
@@ -204,8 +204,8 @@ def test_a_joined_file_hashes_what_its_parts_say(tmp_path):
 def test_empty_parts_of_cubes_take_no_place(tmp_path):
     with netCDF4.Dataset(tmp_path / "cube.nc", "w") as dataset:
         for name, length in (("scene", 4), ("speed", 50_000)):
-            create_axis(dataset, name, np.arange(length), {})
-        create_variable(dataset, "level", "f8", ("scene", "speed"), {})[0] = np.arange(50_000)
+            create_axis(dataset, name, np.arange(length), Variable((name,), "1", name))
+        create_variable(dataset, "level", Variable(("scene", "speed"), "1", "level"))[0] = np.arange(50_000)
     assert (tmp_path / "cube.nc").stat().st_size < 0.8 * 4 * 8 * 50_000
 
 

@@ -203,7 +203,7 @@ def test_without_contact_a_run_up_and_its_run_down_give_back_what_was_there(cont
     started = 1e-5 / (1.0 + np.arange(len(up.velocity))), 1e-2 * np.ones(len(up.velocity))
     up.state.displacement[:], up.velocity = started
     largest = np.abs(samples_of(up)).max()
-    assert len(up.segments) > 5
+    assert len(up.intervals) > 5
     assert np.abs(up.state.displacement - started[0]).max() > 1e-6
     down.state.displacement, down.velocity = up.state.displacement, -up.velocity
     samples_of(down)

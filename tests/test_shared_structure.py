@@ -5,7 +5,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 import xarray as xr
-from stubbed_runs import edit
+from overlays import overlay
 from workflow_runs import snakemake
 
 from r37core.config import command_line_document
@@ -60,7 +60,7 @@ def test_only_runs_with_a_name_look_for_others(config_copy):
 def test_a_run_with_a_name_reduces_nothing_again(structure_copy):
     for name, made in (("same", "copy of results/Ref/rom_pressure_edge.nc"), ("heavy", "independent at")):
         if name == "heavy":
-            edit(structure_copy, "blades.yaml", "density_kg_m3: 8000", "density_kg_m3: 8001")
+            overlay(structure_copy, "blades.yaml", "Ref: { material: { density_kg_m3: 8001 } }")
         file = f"results/runs/{name}/Ref/rom_pressure_edge.nc"
         snakemake(structure_copy, file, "--cores", "1", "--config", f"run={{name: {name}}}")
         assert made in (structure_copy / f"logs/runs/{name}/Ref/reduced_model_pressure_edge.log").read_text()

@@ -13,6 +13,7 @@ import time
 import netCDF4
 import numpy as np
 import pytest
+from overlays import overlay
 from workflow_runs import copy_project, snakemake
 
 PROGRAMS = ("munged", "slurmctld", "slurmd", "sbatch", "squeue")
@@ -152,10 +153,8 @@ def values(folder):
 def project(root, folder):
     copy_project(root, folder)
     shutil.copytree(root / "cluster", folder / "cluster")
-    config = folder / "config/config.yaml"
-    text = config.read_text()
-    text = text.replace("- { start: 750, stop: 1600 }", "- { start: 1000, stop: 1400, step: 100, refine_to: 12.5 }")
-    config.write_text(text.replace("scenes: [abradable, direct]", "scenes: [abradable]"))
+    speeds = "{ start: 1000, stop: 1400, step: 100, refine_to: 12.5 }"
+    overlay(folder, "config.yaml", f"{{ speeds: [{speeds}], scenes: [abradable] }}")
     return folder
 
 

@@ -13,6 +13,7 @@ import pytest
 import xarray as xr
 from defaults import IntegrationChoice
 from integration_cases import ABRADABLE, DIRECT, random_model, with_static_modes
+from overlays import overlay
 from plans_of_snakemake import planned
 from workflow_runs import snakemake
 
@@ -319,13 +320,13 @@ def test_a_crossing_that_is_not_there_is_named(settings, tmp_path):
 
 @pytest.mark.slow
 def test_tradeoff_of_a_small_sweep(compiled, project):
-    config = project / "config/config.yaml"
-    text = config.read_text()
-    start, end = text.index("    parameters:"), len(text)
-    parameters = "    parameters:\n      level: { values: [tiny, draft], reference: draft }\n"
-    parameters += "      bars: { values: [3000, 10000], reference: 10000 }\n"
-    parameters += "      revolutions: { values: [2, 3, 4], reference: 4 }\n"
-    config.write_text(text[:start].replace("base: standard", "base: tiny") + parameters + text[end:])
+    parameters = (
+        "{ level: { values: [tiny, draft], reference: draft }, bars: { values: [3000, 10000], reference: 10000 }, "
+        "revolutions: { values: [2, 3, 4], reference: 4 } }"
+    )
+    # these alone
+    overlay(project, "config.yaml", "studies:")
+    overlay(project, "config.yaml", f"studies: {{ tradeoff: {{ base: tiny, parameters: {parameters} }} }}")
     snakemake(project, "tradeoff", "--cores", "2")
     table = (project / "results/studies/tradeoff.md").read_text()
     levels = (project / "results/studies/levels.md").read_text()
@@ -340,8 +341,7 @@ def test_tradeoff_of_a_small_sweep(compiled, project):
 
 @pytest.mark.slow
 def test_studies_do_not_stand_in_the_way_of_another_blade(project):
-    config = project / "config/config.yaml"
-    config.write_text(config.read_text().replace("[Ref, CS100]", "[CS100]").replace("[abradable, direct]", "[direct]"))
+    overlay(project, "config.yaml", "{ blades: [CS100], scenes: [direct] }")
     assert "simulate" in planned(project)
     text = snakemake(project, "modelling_choices", "--cores", "2", "--dry-run", check=False)
     assert re.search(
@@ -351,11 +351,11 @@ def test_studies_do_not_stand_in_the_way_of_another_blade(project):
 
 @pytest.mark.slow
 def test_an_extreme_and_modelling_choices_run(compiled, project):
-    config = project / "config/config.yaml"
     steps = "{ fine: 100, coarse: 100, survey: 100 }"
-    studies = f"  stability: {{ base: tiny }}\n  modelling_choices: {{ base: tiny, quick: tiny, speed_steps_rad_s: {steps} }}\n"
+    choices = f"{{ base: tiny, quick: tiny, speed_steps_rad_s: {steps} }}"
+    studies = f"{{ stability: {{ base: tiny }}, modelling_choices: {choices} }}"
     # the study is of all blades, though only some of its cases are run
-    config.write_text(config.read_text().replace("[Ref, CS100]", "all") + studies)
+    overlay(project, "config.yaml", f"{{ blades: all, studies: {studies} }}")
     extreme = [f"results/studies/stability/lobes_5_direct{half}.nc" for half in ("", "__half_step")]
     varied, shipped, histories, survey = (
         f"results/studies/modelling_choices/{name}.nc"

@@ -30,21 +30,21 @@ from r37core.tolerances.dataset import MemberRun, tolerances_dataset
 from r37core.tolerances.figures import draw_tolerances
 from r37core.tolerances.members import members_of
 from r37core.tolerances.number_ranks import ranking
-from r37core.tolerances.sample import is_of_sample, number_of, places
+from r37core.tolerances.sample import is_of_sample, number_of, sobol_points
 from r37core.tolerances.sensitivity import sobol_indices
 from r37core.tolerances.shares import CONFIDENCE, share_ends
 from r37core.tolerances.table import range_table, ranges
 
 
 def test_more_members_change_none_that_are_there():
-    few, many = places(3, 16, 7), places(3, 32, 7)
+    few, many = sobol_points(3, 16, 7), sobol_points(3, 32, 7)
     assert all(many[name] == place for name, place in few.items())
     assert len(many) == 32 * 5 and len(set(many.values())) == len(many)
-    assert places(3, 16, 8)["0"] != few["0"]
+    assert sobol_points(3, 16, 8)["0"] != few["0"]
 
 
 def test_members_for_the_indices_take_one_number_from_the_second_sample():
-    found = places(3, 8, 0)
+    found = sobol_points(3, 8, 0)
     assert [name for name in found if is_of_sample(name)] == [str(row) for row in range(8)]
     for row in range(8):
         for number in range(3):
@@ -77,7 +77,7 @@ def test_a_negative_number_spreads_like_its_amount():
 
 
 def measured(function, numbers, members=2048):
-    return {name: function(*place) for name, place in places(numbers, members, 3).items()}
+    return {name: function(*place) for name, place in sobol_points(numbers, members, 3).items()}
 
 
 def test_indices_of_the_ishigami_function():
@@ -141,7 +141,7 @@ def test_where_nothing_spreads_there_is_no_index():
 
 def drawn(function, numbers, members, seed=0):
     """Values of a plain sample and what a function makes of them."""
-    values = np.array([place for name, place in places(numbers, members, seed).items() if is_of_sample(name)])
+    values = np.array([place for name, place in sobol_points(numbers, members, seed).items() if is_of_sample(name)])
     return values, function(*values.T)
 
 
@@ -506,7 +506,7 @@ def test_a_member_that_diverges_is_one_recorded_member(tmp_path):
 def test_the_peak_s_spread_comes_from_the_number_that_moves_it(tmp_path):
     runs = [
         replace(member_run(tmp_path, name, 5.0 * round((1700.0 + 60.0 * place[1]) / 5.0)), values=place)
-        for name, place in places(2, 8, 0).items()
+        for name, place in sobol_points(2, 8, 0).items()
     ]
     found = tolerances_dataset(runs, NUMBERS).sel(blade="Ref", scene="abradable", measure="peak_speed")
     assert found["member"].values.tolist() == list(range(8))

@@ -13,8 +13,8 @@ import pytest
 import xarray as xr
 import yaml
 from browser import opened
+from overlays import overlay
 from plans_of_snakemake import plan, planned, planned_outputs
-from stubbed_runs import edit
 from workflow_runs import copy_odd_project, run_in_odd_project, snakemake
 
 from r37core.config import ConfigError
@@ -74,13 +74,10 @@ def test_nothing_to_do_after_a_run(sweep_copy):
 def test_shapes_and_signals_of_a_finished_run(root, sweep_copy):
     """As the pages ask for them, of one blade: made of what is there, and the signal is that of the sweep's run."""
     asked = next(block for block in blocks(root, "yaml") if block.startswith("signals:"))
-    config = sweep_copy / "config/config.yaml"
-    with open(config, "a") as stream:
-        stream.write("\n" + asked.replace("speeds_rad_s: interactions", "speeds_rad_s: [1150]"))
+    overlay(sweep_copy, "config.yaml", asked.replace("speeds_rad_s: interactions", "speeds_rad_s: [1150]"))
     # one speed more, so that there is an interaction: 1B with order 6
-    config.write_text(config.read_text().replace("- { start: 750, stop: 1600 }", "- { start: 750, stop: 1600 }\n  - 1000"))
-    edit(sweep_copy, "config.yaml", "[Ref, CS100]", "[Ref]")
-    edit(sweep_copy, "scenes.yaml", "results: [spectrum, signal, ", "results: [shapes, spectrum, signal, ")
+    overlay(sweep_copy, "config.yaml", "{ blades: [Ref], speeds: [{ start: 750, stop: 1600 }, 1000] }")
+    overlay(sweep_copy, "scenes.yaml", "abradable: { results: [shapes, spectrum, signal, stress, wear, energy] }")
     snakemake(sweep_copy, "results/summary.csv", "--cores", "2")
     assert "rule simulate:" not in snakemake(sweep_copy, "all_blades", "--cores", "2")
     results = sweep_copy / "results"
@@ -215,8 +212,7 @@ def test_interrupted_sweep_keeps_what_is_done(sweep_copy):
 
 
 def test_results_not_wanted_are_not_planned(project):
-    scenes = project / "config/scenes.yaml"
-    scenes.write_text(re.sub(r"results: \[.*\]", "results: []", scenes.read_text()))
+    overlay(project, "scenes.yaml", "{ abradable: { results: [] }, direct: { results: [] } }")
     jobs = planned_outputs(project)
     assert "rms.nc" in jobs["sweep_dataset"]
     assert not {"stress.nc", "wear.nc", "spectrum.nc"} & jobs["sweep_dataset"]
@@ -234,12 +230,8 @@ def test_physical_scenes_are_planned_in_a_folder_of_their_own(root, tmp_path):
 
 def test_only_what_a_scene_requires(project, structure_copy):
     """Rules and arrays: no recovery basis without stress, no bars without a lining, no simulation for a Campbell diagram."""
-    scenes = project / "config/scenes.yaml"
-    parts = scenes.read_text().split("direct:")
-    bare = re.sub(r"results: \[.*\]", "results: []", parts[0])
-    scenes.write_text(bare + "direct:" + re.sub(r"results: \[.*\]", "results: [stress]", parts[1]))
-    config = project / "config/config.yaml"
-    config.write_text(config.read_text().replace("  - { start: 750, stop: 1600 }", "  - 900").replace("[Ref, CS100]", "[Ref]"))
+    overlay(project, "scenes.yaml", "{ abradable: { results: [] }, direct: { results: [stress] } }")
+    overlay(project, "config.yaml", "{ blades: [Ref], speeds: [900] }")
     jobs = plan(project)
     inputs = {job.wildcards["scene"]: job.inputs for job in jobs if job.rule == "simulate"}
     assert sorted(inputs) == ["abradable", "direct"]
@@ -264,8 +256,7 @@ def test_only_what_a_scene_requires(project, structure_copy):
 
 
 def test_step_beyond_the_limit_stops_with_the_limit(sweep_copy):
-    levels = sweep_copy / "config/fidelity.yaml"
-    levels.write_text(levels.read_text().replace("2.0e-7, revolutions: 8", "9.0e-7, revolutions: 8"))
+    overlay(sweep_copy, "fidelity.yaml", "tiny: { time_integration: { time_step_s: 9.0e-7 } }")
     text = snakemake(sweep_copy, "results/Ref/direct/response.nc", "--cores", "1", check=False)
     assert "rule simulate:" not in text
     assert re.search(
@@ -274,38 +265,32 @@ def test_step_beyond_the_limit_stops_with_the_limit(sweep_copy):
 
 
 @pytest.mark.parametrize(
-    ("old", "new", "message"),
+    ("text", "message"),
     [
         (
-            "- { start: 750, stop: 1600 }",
-            "- { start: 1600, stop: 750 }",
+            "speeds: [{ start: 1600, stop: 750 }]",
             r"yaml:\d+: speeds\.0: found a range from 1600 to 750",
         ),
-        ("- { start: 750, stop: 1600 }", "- 900\n  - 900", r"speeds: found 900 rad/s twice"),
-        ("- { start: 750, stop: 1600 }", "- -900", r"speeds\.0: found -900; allowed:"),
-        ("scenes: [abradable, direct] ", "scenes: [oval] ", r"scenes: found 'oval'; allowed: abradable, direct"),
+        ("speeds: [900, 900]", r"speeds: found 900 rad/s twice"),
+        ("speeds: [-900]", r"speeds\.0: found -900; allowed:"),
+        ("scenes: [oval]", r"scenes: found 'oval'; allowed: abradable, direct"),
     ],
 )
-def test_bad_speeds_and_scenes_are_refused(project, old, new, message):
-    config = project / "config/config.yaml"
-    text = config.read_text()
-    assert old in text
-    config.write_text(text.replace(old, new))
+def test_bad_speeds_and_scenes_are_refused(project, text, message):
+    overlay(project, "config.yaml", text)
     with pytest.raises(ConfigError, match=message):
         read_settings(project)
 
 
 def test_history_of_a_speed_that_is_not_run_is_refused(project):
-    scenes = project / "config/scenes.yaml"
-    scenes.write_text(scenes.read_text() + "  stress_history_speeds_rad_s: [1717]\n")
+    overlay(project, "scenes.yaml", "direct: { stress_history_speeds_rad_s: [1717] }")
     message = r"direct\.stress_history_speeds_rad_s: found 1717; allowed: speeds that are simulated"
     with pytest.raises(ConfigError, match=message):
         read_settings(project)
 
 
 def test_wear_without_a_lining_is_refused(project):
-    scenes = project / "config/scenes.yaml"
-    scenes.write_text(scenes.read_text().replace("results: [spectrum, signal, stress, energy]", "results: [wear]"))
+    overlay(project, "scenes.yaml", "direct: { results: [wear] }")
     message = r"config/scenes\.yaml:\d+: direct\.results: found wear; allowed: only in a scene with a lining"
     with pytest.raises(ConfigError, match=message):
         read_settings(project)
@@ -388,10 +373,8 @@ def run_python(block, folder):
 
 
 def test_blades_of_the_pages_are_accepted(root, project):
-    with open(project / "config/blades.yaml", "a") as stream:
-        stream.write("\n" + next(block for block in blocks(root, "yaml") if "Drawn:" in block))
-    config = project / "config/config.yaml"
-    config.write_text(config.read_text().replace("[Ref, CS100]", "[Mine, Stiffer, Drawn]"))
+    overlay(project, "blades.yaml", next(block for block in blocks(root, "yaml") if "Drawn:" in block))
+    overlay(project, "config.yaml", "blades: [Mine, Stiffer, Drawn]")
     assert planned(project)["geometry"] == {"Mine", "Stiffer", "Drawn"}
 
 
@@ -405,8 +388,7 @@ def test_readme_commands_exist(root):
 
 def test_names_that_begin_alike_keep_their_files_apart(project):
     """Blades A and A_b with scenes b_c and c: four figures, each of its own blade and scene."""
-    with open(project / "config/blades.yaml", "a") as stream:
-        stream.write("\nA: { base: Ref }\nA_b: { base: Ref }\n")
+    overlay(project, "blades.yaml", "{ A: { base: Ref }, A_b: { base: Ref } }")
     scenes = load_yaml(project / "config/scenes.yaml")
     (project / "config/scenes.yaml").write_text(yaml.safe_dump({"b_c": scenes["direct"], "c": scenes["direct"]}))
     jobs = plan(project, "all_blades", "--config", "blades=[A,A_b]", "scenes=[b_c,c]", "speeds=[900,1e3]")

@@ -17,7 +17,7 @@ from r37core.plain import from_plain
 from r37core.plans.paths import filled
 from r37core.plans.provenance import Provenance
 from r37core.plans.structure_plan import Structure
-from r37core.plans.sweep_plan import Sweep, asked_by
+from r37core.plans.sweep_plan import Sweep, speeds_of_round
 from r37core.product.reading import read_settings
 from r37core.product.targets import targets
 from r37core.run_ups.choice import RunUpChoice
@@ -221,7 +221,7 @@ def test_without_a_lining_a_round_has_a_share_of_its_own_and_no_windows(root):
 def test_a_damaged_round_is_named(content, tmp_path):
     (tmp_path / "round_0.json").write_text(content)
     with pytest.raises(InputFileError, match=r"round_0\.json: cannot be read .*; if it is a result, delete it and run again"):
-        asked_by(str(tmp_path / "round_0.json"))
+        speeds_of_round(str(tmp_path / "round_0.json"))
 
 
 def test_plain_grids_beside_are_part_of_the_whole_one(refining):

@@ -10,6 +10,7 @@ import pandas as pd
 import pytest
 import xarray as xr
 import yaml
+from overlays import overlay
 from plans_of_snakemake import planned_outputs
 from stubbed_runs import copy_stubbed, edit
 from workflow_runs import copy_finished, copy_project, snakemake
@@ -40,11 +41,7 @@ def with_example(root, drawn, to, copy):
     shutil.copytree(drawn / "meshes", to / "meshes")
     with open(to / "config/blades.yaml", "a") as stream:
         stream.write("\n" + blocks(root, "yaml")[0])
-    file = to / "config/config.yaml"
-    text = (
-        file.read_text().replace("[Ref, CS100]", "[Fan]").replace("- { start: 750, stop: 1600 }", "- 1450\n  - 1500\n  - 1550")
-    )
-    file.write_text(text)
+    overlay(to, "config.yaml", "{ blades: [Fan], speeds: [1450, 1500, 1550] }")
     return to
 
 
@@ -79,8 +76,7 @@ def test_a_first_attempt_may_ask(drawn, root):
 @pytest.mark.slow
 def test_the_example_runs_to_its_interactions(root, drawn, tmp_path, monkeypatch, capsys):
     project = with_example(root, drawn, tmp_path, copy_project)
-    fidelity = (project / "config/fidelity.yaml").read_text()
-    (project / "config/fidelity.yaml").write_text(fidelity.replace("revolutions: 8,", "revolutions: 60,"))
+    overlay(project, "fidelity.yaml", "tiny: { time_integration: { revolutions: 60 } }")
     command = re.search(r"^snakemake (.*)$", blocks(root, "sh")[0], re.MULTILINE)[1]
     said = snakemake(project, *shlex.split(command))
     assert re.search(
@@ -131,11 +127,11 @@ class TestWhatRunsAgain:
         assert "simulate" in jobs
 
     def test_a_key_of_the_mesh(self, project):
-        edit(project, "blades.yaml", "[1, 0, 0]", "[1, 0, 0.0001]")
+        overlay(project, "blades.yaml", "Fan: { rotor_axis: [1, 0, 0.0001] }")
         assert planned_outputs(project)["imported_mesh"] == {"Fan/mesh.msh"}
 
     def test_a_key_behind_the_mesh(self, project):
-        edit(project, "blades.yaml", "  length_unit: mm", "  stress_submesh: { excluded_layers: 2 }\n  length_unit: mm")
+        overlay(project, "blades.yaml", "Fan: { stress_submesh: { excluded_layers: 2 } }")
         jobs = planned_outputs(project)
         assert "imported_mesh" not in jobs
         assert jobs["reduced_model"] == {"Fan/rom_pressure_edge.nc"}
@@ -159,7 +155,7 @@ def test_matrices_run_to_the_same_response(root, drawn, tmp_path):
     On points, whose first is the leading edge that rms is of. The first patch is a mean.
     """
     project = with_example(root, drawn, tmp_path, copy_project)
-    edit(project, "blades.yaml", "Fan:\n", "Fan:\n  contact: points\n")
+    overlay(project, "blades.yaml", "Fan: { contact: points }")
     snakemake(project, "results/exports/Fan/matrices", "--cores", "1")
     shutil.copytree(project / "results/exports/Fan/matrices", project / "meshes/elsewhere")
     (given,) = yaml.safe_load(blocks(root, "yaml")[1]).values()
@@ -167,7 +163,7 @@ def test_matrices_run_to_the_same_response(root, drawn, tmp_path):
     given |= {"length_unit": "m", "rotor_axis": [0, 0, 1], "radial": [1, 0, 0], "rotation": "negative"}
     with open(project / "config/blades.yaml", "a") as stream:
         stream.write("\n" + yaml.safe_dump({"FromElsewhere": given}))
-    edit(project, "config.yaml", "[Fan]", "[Fan, FromElsewhere]")
+    overlay(project, "config.yaml", "blades: [Fan, FromElsewhere]")
     snakemake(project, "all_blades", "--cores", "1", "--config", "speeds=[1500]")
     with xr.open_dataset(project / "results/rms.nc") as dataset:
         ours, theirs = (dataset["rms_normal"].sel(blade=blade).values for blade in ("Fan", "FromElsewhere"))

@@ -2,7 +2,7 @@
 
 Blades, scenes and accuracy levels are those of the shipped configuration, or of one's own (`config="config.yaml"`). Datasets
 have the variables, units and attributes of the workflow's files. Speeds are in rad/s, everything is SI. What takes minutes,
-the structure of a blade, is kept in a cache folder (r37.structure_cache).
+the structure of a blade, is kept in a cache folder (r37.structure_files).
 
 Bad input raises ConfigError, a file that cannot be read InputFileError.
 """

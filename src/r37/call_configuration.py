@@ -48,15 +48,15 @@ class Configuration:
         return Configuration(document, _root_of(path) if key == "blades_file" else self.root)
 
     def settings(
-        self, asked: Mapping[str, Any], caller: str, blades_above: Document | None = None, scenes_above: Document | None = None
+        self, keys: Mapping[str, Any], caller: str, blades_above: Document | None = None, scenes_above: Document | None = None
     ) -> Settings:
-        """Checked settings of what is `asked` on top of this configuration; a message names the `caller` as its place.
+        """Checked settings of these `keys` on top of this configuration; a message names the `caller` as its place.
 
         `blades_above`, `scenes_above`: changes on top of these files. Raises ConfigError.
         """
         content = {key: value for key, value in self.document.content.items() if key not in _OF_A_RUN}
-        places = {path: place for path, place in self.document.places.items() if not path or path[0] not in _OF_A_RUN}
-        document = replace(self.document, content=content, places=places).overlaid(command_line_document(asked, caller))
+        locations = {path: line for path, line in self.document.locations.items() if not path or path[0] not in _OF_A_RUN}
+        document = replace(self.document, content=content, locations=locations).overlaid(command_line_document(keys, caller))
         return _READER.load_settings(document, self.root, blades_above=blades_above, scenes_above=scenes_above)
 
 

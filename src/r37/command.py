@@ -29,9 +29,9 @@ from .study_folder import init
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command with these arguments, or those of the process. Gives its exit status: 1 after one line of refusal."""
-    given = _parser().parse_args(arguments)
+    options = _parser().parse_args(arguments)
     try:
-        given.run(given)
+        options.run(options)
     except (ValueError, InputFileError) as refusal:
         print(f"r37: {refusal}", file=sys.stderr)
         return 1
@@ -63,26 +63,26 @@ def _parser() -> argparse.ArgumentParser:
     return parser
 
 
-def _init(given: argparse.Namespace) -> None:
-    init(given.folder)
-    print(f"{given.folder}: edit config/, then, in that folder: snakemake all_blades --cores 2")
+def _init(options: argparse.Namespace) -> None:
+    init(options.folder)
+    print(f"{options.folder}: edit config/, then, in that folder: snakemake all_blades --cores 2")
 
 
-def _campbell(given: argparse.Namespace) -> None:
-    is_file = given.blade.endswith((".yaml", ".yml"))
-    file = given.blade if is_file else given.blades
-    _check_output(given.output)
-    names = blades(file=file, config=given.config) if is_file else [given.blade]
-    if given.output is not None and len(names) > 1:
+def _campbell(options: argparse.Namespace) -> None:
+    is_file = options.blade.endswith((".yaml", ".yml"))
+    file = options.blade if is_file else options.blades
+    _check_output(options.output)
+    names = blades(file=file, config=options.config) if is_file else [options.blade]
+    if options.output is not None and len(names) > 1:
         raise ConfigError(
             f"--output: found {len(names)} blades in {file}; allowed: one, as in: r37 campbell {names[0]} --blades {file}"
         )
     for name in names:
         if len(names) > 1:
             print(name)
-        dataset = campbell(blade(name, file=file, config=given.config), fidelity=given.fidelity, config=given.config)
+        dataset = campbell(blade(name, file=file, config=options.config), fidelity=options.fidelity, config=options.config)
         _show(_campbell_table(dataset))
-        _write(dataset, given.output)
+        _write(dataset, options.output)
 
 
 def _campbell_table(dataset: xr.Dataset) -> pd.DataFrame:
@@ -97,10 +97,10 @@ _MOST_ORDERS = 6
 """Engine orders of the table, from the lowest that 1B crosses; the dataset has all."""
 
 
-def _simulate(given: argparse.Namespace) -> None:
-    _check_output(given.output)
-    chosen = blade(given.blade, file=given.blades, config=given.config)
-    dataset = sweep(chosen, given.scene, given.speeds, fidelity=given.fidelity, config=given.config)
+def _simulate(options: argparse.Namespace) -> None:
+    _check_output(options.output)
+    chosen = blade(options.blade, file=options.blades, config=options.config)
+    dataset = sweep(chosen, options.scene, options.speeds, fidelity=options.fidelity, config=options.config)
     edge, table = dataset.sel(tip_point="leading_edge"), pd.DataFrame(index=dataset["speed"].to_index().rename("speed (rad/s)"))
     table["rms, normal (mm)"] = 1e3 * edge["rms_normal"].values
     table["rms, tangential (mm)"] = 1e3 * edge["rms_tangential"].values
@@ -108,11 +108,11 @@ def _simulate(given: argparse.Namespace) -> None:
         table["largest von Mises (MPa)"] = 1e-6 * dataset["max_von_mises"].values
     table["status"] = [RunStatus(int(status)).text for status in dataset["status"].values]
     _show(table)
-    _write(dataset, given.output)
+    _write(dataset, options.output)
 
 
-def _check(given: argparse.Namespace) -> None:
-    first, *changes = given.config or [None]
+def _check(options: argparse.Namespace) -> None:
+    first, *changes = options.config or [None]
     configuration = read_configuration(first).with_changes(changes)
     settings = load_settings(configuration.document, configuration.root)
     extent, measured = extent_of(settings, beside(settings)), settings.fidelity.measured

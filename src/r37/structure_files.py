@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import io
+import os
 import tempfile
 from dataclasses import dataclass
 from functools import cache
@@ -13,16 +14,15 @@ from pathlib import Path
 from typing import Any
 
 import r37core
-from r37core.config import Settings, plain, si_fields
+from r37core.config import ConfigError, Settings, plain, si_fields
 from r37core.exchange.importing.source import MatricesSource, MeshSource
 from r37core.io import Named
+from r37core.kept import kept_file, users_cache
 from r37core.plain import to_plain
 from r37core.plans.code import CodeHashes
 from r37core.plans.import_plan import Imported
 from r37core.plans.provenance import Attributes
 from r37core.plans.structure_plan import Structure
-
-from .structure_cache import cached_file
 
 
 @dataclass(frozen=True)
@@ -67,7 +67,7 @@ class StructureFiles:
 
     def _reduced(self, tip_line: str) -> _Made:
         structure, wildcards = Structure(self.settings), self._wildcards(tip_line=tip_line)
-        common = {"reduction": structure.reduction(wildcards), "contact": structure.place_of_contact(wildcards)}
+        common = {"reduction": structure.reduction(wildcards), "contact": structure.location_of_contact(wildcards)}
         if isinstance(self.settings.blades[self.name].definition, MatricesSource):
             return _made("exchange.importing.steps.imported_matrices", "rom.nc", {}, **self._source(), **common)
         material, before, inputs = structure.elastic(wildcards), Attributes(file=None), {"mesh": self._mesh()}
@@ -84,7 +84,7 @@ class StructureFiles:
     def _source(self) -> dict[str, Any]:
         """Parameters of an import."""
         imported, wildcards = Imported(self.settings), self._wildcards()
-        return {"source": imported.source(wildcards), "folder": imported.folder, "places": imported.places(wildcards)}
+        return {"source": imported.source(wildcards), "folder": imported.folder, "locations": imported.locations(wildcards)}
 
     def _wildcards(self, **more: str) -> Named:
         return Named(blade=self.name, **more)
@@ -105,7 +105,20 @@ def _made(step: str, name: str, inputs: dict[str, _Made], **params: Any) -> _Mad
             # imported here: it brings gmsh and VTK, which take seconds to load and are not needed for what is kept
             getattr(import_module(module), function)(files, output, values)
 
-    return _Made(cached_file(name, made_of, make), made_of)
+    return _Made(kept_file(name, made_of, make, cache_folder()), made_of)
+
+
+def cache_folder() -> Path:
+    """The folder that R37_CACHE names, else `r37` of XDG_CACHE_HOME, else ~/.cache/r37. ConfigError if it cannot be written."""
+    named = os.environ.get("R37_CACHE")
+    folder = Path(named) if named else users_cache()
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        tempfile.TemporaryFile(dir=folder).close()
+    except OSError as error:
+        found = f"R37_CACHE: found the cache folder {folder}, which cannot be written ({error.strerror})"
+        raise ConfigError(f"{found}; allowed: a folder that can") from None
+    return folder
 
 
 _LIBRARIES = ("gmsh", "h5py", "meshio", "numpy", "scipy")

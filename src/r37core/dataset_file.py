@@ -5,22 +5,66 @@ from __future__ import annotations
 import hashlib
 import json
 import shutil
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import netCDF4
 import numpy as np
 import xarray as xr
 
 from .io import FILE_ATTRIBUTES, InputFileError, atomic_write, readable
+from .units import RPM
 
-SPEED_RPM = {"units": "rpm", "long_name": "angular speed of the rotor in revolutions per minute"}
-"""Of the coordinate `speed_rpm`, which stands beside `speed`."""
+
+@dataclass(frozen=True)
+class Variable:
+    """What a dataset's table says of a variable: `dims` beyond those that a file adds to all, meaning, `dtype` as stored."""
+
+    dims: tuple[str, ...]
+    units: str
+    long_name: str
+    dtype: str = "f8"
+
+    @property
+    def attributes(self) -> dict[str, str]:
+        """Of the variable in a file."""
+        return about(self.units, self.long_name)
 
 
 def about(units: str, long_name: str) -> dict[str, str]:
     """Attributes of a variable, after the CF conventions."""
     return {"units": units, "long_name": long_name}
+
+
+SPEED = Variable(("speed",), "rad s-1", "angular speed of the rotor")
+SPEED_RPM = Variable(("speed",), "rpm", "angular speed of the rotor in revolutions per minute")
+"""Of the coordinate `speed_rpm`, which stands beside `speed`."""
+
+
+def dataset_of(
+    variables: Mapping[str, Variable],
+    values: Mapping[str, Any],
+    coordinates: Mapping[str, Variable],
+    labels: Mapping[str, Any],
+    along: Sequence[str] = (),
+) -> xr.Dataset:
+    """The dataset of the `values`, by name, that tables of variables and coordinates describe; speeds are there in rpm, too.
+
+    `labels`: of dimensions that are counted by names; `along`: dimensions of all variables, before their own.
+    """
+
+    def of(table: Mapping[str, Variable], first: Sequence[str]) -> dict[str, Any]:
+        return {
+            name: ((*first, *one.dims), np.asarray(values[name], one.dtype), one.attributes)
+            for name, one in table.items()
+            if name in values
+        }
+
+    speed_rpm = SPEED_RPM.dims, RPM * np.asarray(values["speed"]), SPEED_RPM.attributes
+    speeds = of({"speed": coordinates["speed"]}, ()) | {"speed_rpm": speed_rpm}
+    return xr.Dataset(of(variables, along), {**labels, **speeds, **of(coordinates, ())})
 
 
 def write_dataset(dataset: xr.Dataset, file: Path | str, provenance: Mapping[str, object] | None = None) -> None:

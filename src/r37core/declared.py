@@ -58,10 +58,10 @@ class DeclaredKey:
 def declared_keys(of: type) -> tuple[DeclaredKey, ...]:
     """All keys that the fields of a dataclass declare, in their order."""
     hints = get_type_hints(of, include_extras=True)
-    found = []
+    declared = []
     for field in fields(of):
         if get_origin(hints[field.name]) is Annotated:
             kind, *metadata = get_args(hints[field.name])
-            keys = [one for one in metadata if isinstance(one, Key)]
-            found += [DeclaredKey((key.name or field.name) + key.unit, field.name, key, kind, field.default) for key in keys]
-    return tuple(found)
+            keys = [part for part in metadata if isinstance(part, Key)]
+            declared += [DeclaredKey((key.name or field.name) + key.unit, field.name, key, kind, field.default) for key in keys]
+    return tuple(declared)

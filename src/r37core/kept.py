@@ -1,7 +1,8 @@
-"""What is kept from run to run because it takes long to make: each in a file that is checked when it is read.
+"""What takes long to make, in files by a hash of all that their content follows from; each is checked when it is read.
 
-It lies beside the package, or in the user's cache folder where the package cannot be written. A file that is cut short or
-damaged is made again. Light: the simulation jobs import it.
+They lie beside the package, or in the user's cache folder where the package cannot be written, or where a caller says. A
+file that is cut short or damaged is made again; all may be removed at any time. Of several processes that need the same one
+makes it and the others wait, so that a core is not busy twice with one thing. Light: the simulation jobs import it.
 """
 
 from __future__ import annotations
@@ -10,53 +11,98 @@ import fcntl
 import hashlib
 import os
 import tempfile
-from collections.abc import Callable
-from contextlib import suppress
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
 _PACKAGE = Path(__file__).parent
-_DIGEST_BYTES = 32
+
+
+def kept_file(name: str, made_of: object, make: Callable[[Path], None], folder: Path) -> Path:
+    """The file called `name` in a folder that is there; `make(path)` writes it where there is none, or a damaged one.
+
+    `made_of`: what its content follows from, told apart by its repr. Raises what `make` raises, and OSError.
+    """
+    file = folder / _hashed(name, made_of)
+    if not _sound(file):
+        with _alone(file), tempfile.TemporaryDirectory(prefix=".", dir=folder) as partial:
+            if not _sound(file):
+                make(made := Path(partial) / name)
+                # where the file system has no locks another process may have been faster
+                if not _sound(file):
+                    _put(made, file)
+    return file
+
+
+def kept_bytes(name: str, made_of: object, make: Callable[[], bytes], worth_keeping: Callable[[], bool]) -> bytes:
+    """The same of a content in memory, which is kept if it is `worth_keeping` when it is made."""
+    name = _hashed(name, made_of)
+    content = read_kept(name)
+    if content is None:
+        with _alone(_folder() / name):
+            content = read_kept(name)
+            if content is None:
+                content = make()
+                if worth_keeping():
+                    keep(content, name)
+    return content
 
 
 def read_kept(name: str) -> bytes | None:
     """Content of what is kept under a name; None if it is not there, cannot be read or is not what was written."""
-    try:
-        content = (_folder() / name).read_bytes()
-    except OSError:
-        return None
-    digest, kept = content[:_DIGEST_BYTES], content[_DIGEST_BYTES:]
-    return kept if digest == hashlib.sha256(kept).digest() else None
-
-
-def kept_or_made(name: str, make: Callable[[], bytes], worth_keeping: Callable[[], bool]) -> bytes:
-    """Content of what is kept under a name, or what `make` gives, kept if it is `worth_keeping` then.
-
-    Of several processes that need the same one makes it and the others wait, so that a core is not busy twice with one thing.
-    """
-    content = read_kept(name)
-    if content is not None:
-        return content
-    with open(_folder() / "making.lock", "ab") as lock:
-        # a byte of its own for each name; where the file system has no locks, several may make it
-        with suppress(OSError):
-            fcntl.lockf(lock, fcntl.LOCK_EX, 1, int(hashlib.sha256(name.encode()).hexdigest()[:7], 16))
-        content = read_kept(name)
-        if content is None:
-            content = make()
-            if worth_keeping():
-                keep(content, name)
-    return content
+    file = _folder() / name
+    return file.read_bytes() if _sound(file) else None
 
 
 def keep(content: bytes, name: str) -> None:
-    """Write to a file of its own and move it into place, so that processes may do so side by side."""
-    handle, partial = tempfile.mkstemp(suffix=".partial", dir=_folder())
+    """Keep under a name, in place of what was; processes may do so side by side."""
+    with tempfile.TemporaryDirectory(prefix=".", dir=_folder()) as partial:
+        (made := Path(partial) / name).write_bytes(content)
+        _put(made, _folder() / name)
+
+
+def users_cache() -> Path:
+    """The user's cache folder for r37, which may not be there yet."""
+    return Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "r37"
+
+
+def _hashed(name: str, made_of: object) -> str:
+    digest = hashlib.sha256(repr((name, made_of)).encode()).hexdigest()[:32]
+    return f"{Path(name).stem}-{digest}{Path(name).suffix}"
+
+
+@contextmanager
+def _alone(file: Path) -> Iterator[None]:
+    """Wait for other processes that make this file; where the file system has no locks, several may make it."""
+    with open(file.with_name("making.lock"), "ab") as lock:
+        with suppress(OSError):
+            # a byte of its own for each name
+            fcntl.lockf(lock, fcntl.LOCK_EX, 1, int(hashlib.sha256(file.name.encode()).hexdigest()[:7], 16))
+        yield
+
+
+def _put(made: Path, file: Path) -> None:
+    """Move a finished file into place, and then its digest: until both are there it counts as damaged."""
+    (digest := made.with_name("digest")).write_text(_digest(made))
+    os.replace(made, file)
+    os.replace(digest, _digest_of(file))
+
+
+def _sound(file: Path) -> bool:
+    """Whether a file is there as it was written."""
     try:
-        with os.fdopen(handle, "wb") as stream:
-            stream.write(hashlib.sha256(content).digest() + content)
-        os.replace(partial, _folder() / name)
-    finally:
-        Path(partial).unlink(missing_ok=True)
+        return _digest_of(file).read_text() == _digest(file)
+    except (OSError, UnicodeDecodeError):
+        return False
+
+
+def _digest_of(file: Path) -> Path:
+    return file.with_name(f"{file.name}.sha256")
+
+
+def _digest(file: Path) -> str:
+    with open(file, "rb") as stream:
+        return hashlib.file_digest(stream, "sha256").hexdigest()
 
 
 def _folder() -> Path:
@@ -66,11 +112,6 @@ def _folder() -> Path:
     users = users_cache()
     users.mkdir(parents=True, exist_ok=True)
     return users
-
-
-def users_cache() -> Path:
-    """The user's cache folder for r37, which may not be there yet."""
-    return Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "r37"
 
 
 def _writable(folder: Path) -> bool:

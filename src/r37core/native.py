@@ -17,7 +17,7 @@ from typing import Any
 import llvmlite
 import llvmlite.binding as llvm
 
-from .kept import kept_or_made
+from .kept import kept_bytes
 
 _PACKAGE = Path(__file__).parent
 
@@ -62,9 +62,8 @@ def cached_object(name: str, sources: Sources, about: object, build: Callable[[]
     `about`: what it depends on beside its sources, told apart by its repr. The compiler's versions and the processor are
     taken along. What is built is not kept if the sources were edited after this process imported them.
     """
-    made_of = (name, about, sources.digest, _numba_version(), llvmlite.__version__, processor())
-    file = f"{name}-{hashlib.sha256(repr(made_of).encode()).hexdigest()[:16]}.o"
-    return kept_or_made(file, build, lambda: sources.unchanged)
+    made_of = (about, sources.digest, _numba_version(), llvmlite.__version__, processor())
+    return kept_bytes(f"{name}.o", made_of, build, lambda: sources.unchanged)
 
 
 def object_code(assembly: str, symbol: str, name: str) -> bytes:

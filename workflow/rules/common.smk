@@ -29,7 +29,7 @@ console = begin(workflow, logger, WorkflowError, ROOT, config)
 settings = console.settings
 PACKAGE = console.source / "r37core"
 code = CodeHashes(console.source, SCRIPTS)
-# parameters of a rule that runs a step: a function of r37core, and the hash of its code
+# for the parameters of rules: a step, which is a function of r37core, and the hash of its code
 step = code.step
 # members of samples that wings have run beside the sweep, and what is made of them
 samples, sampling = beside(settings), sampling_of(settings)
@@ -69,14 +69,3 @@ wildcard_constraints:
     member=sweep.samples.pattern,
     tip_line="pressure_edge|camber|suction_edge",
     speed=r"[0-9.]+",
-
-
-# the pattern of all rules whose work is a step, never run by itself
-rule step:
-    log:
-        "<logs>/step.log",
-    # no other than what runs Snakemake; `snakemake --lint` asks for it
-    conda:
-        ENVIRONMENT
-    script:
-        "../scripts/step.py"

@@ -1,5 +1,5 @@
 # Pictures of the results, as variants of one rule: each has its datasets, the function of r37core.figures that draws it, and a
-# caption. Pictures that are rendered off screen have a script of their own.
+# caption. Pictures that are rendered off screen have a step of their own.
 
 
 # the pattern of the others, never run by itself

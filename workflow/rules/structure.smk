@@ -58,7 +58,7 @@ use rule step as imported_mesh with:
         **step("exchange.importing.steps.imported_mesh"),
         source=imported.source,
         folder=imported.folder,
-        places=imported.places,
+        locations=imported.locations,
 
 
 use rule step as abaqus_deck with:
@@ -92,7 +92,7 @@ use rule step as reduced_model with:
         **step("rom.steps.reduced_model"),
         material=structure.elastic,
         reduction=structure.reduction,
-        contact=structure.place_of_contact,
+        contact=structure.location_of_contact,
         made_before=structure.made_before,
         provenance=made.structure,
 
@@ -124,9 +124,9 @@ use rule step as imported_matrices with:
         **step("exchange.importing.steps.imported_matrices"),
         source=imported.source,
         folder=imported.folder,
-        places=imported.places,
+        locations=imported.locations,
         reduction=structure.reduction,
-        contact=structure.place_of_contact,
+        contact=structure.location_of_contact,
         provenance=made.structure,
 
 

@@ -12,14 +12,14 @@ from r37core.console.failures import note, reported
 
 
 @contextmanager
-def warnings_told(places):
-    """Tell what an import is warned of, after the place of its key: in the log, on the screen, and when the run ends."""
+def printed_warnings(locations):
+    """Print what an import is warned of, after the location of its key: in the log, on the screen, and when the run ends."""
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         yield
-    place = places.get("mesh") or places["matrices"]
+    location = locations.get("mesh") or locations["matrices"]
     for warning in caught:
-        print(line := f"{place}: {warning.message}")
+        print(line := f"{location}: {warning.message}")
         if issubclass(warning.category, UserWarning):
             print(line, file=sys.__stderr__)
             note(line)
@@ -28,7 +28,7 @@ def warnings_told(places):
 def run(params):
     module, function = params.step.rsplit(".", 1)
     params.address = snakemake.report_href
-    with warnings_told(params.places) if hasattr(params, "places") else nullcontext():
+    with printed_warnings(params.locations) if hasattr(params, "locations") else nullcontext():
         shown = getattr(import_module(module), function)(snakemake.input, snakemake.output, params)
     if shown:
         print(shown)

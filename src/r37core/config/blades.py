@@ -111,9 +111,9 @@ class BladeEntry(Section):
     def _one_shift(self) -> BladeEntry:
         if self.vary is not None and self.designs is not None:
             raise refused((), "both vary and designs", "one of them")
-        given = [key for key in SHIFTS if getattr(self, key) is not None]
-        if len(given) > 1:
-            raise refused((), " and ".join(given), f"at most one of {', '.join(SHIFTS)}")
+        shifts = [key for key in SHIFTS if getattr(self, key) is not None]
+        if len(shifts) > 1:
+            raise refused((), " and ".join(shifts), f"at most one of {', '.join(SHIFTS)}")
         if self.profiles is not None and self.base is not None:
             raise refused((), "both profiles and base", "one of them")
         if self.profiles is None and self.base is None:
@@ -125,8 +125,8 @@ def _kind(value: Any) -> str:
     """Which model an entry is for: what it is given by decides."""
     if isinstance(value, BladeEntry | MeshEntry | MatricesEntry):
         return type(value).__name__
-    given = value if isinstance(value, dict) else {}
-    return "MeshEntry" if "mesh" in given else "MatricesEntry" if "matrices" in given else "BladeEntry"
+    entry = value if isinstance(value, dict) else {}
+    return "MeshEntry" if "mesh" in entry else "MatricesEntry" if "matrices" in entry else "BladeEntry"
 
 
 Entry = Annotated[
@@ -171,13 +171,13 @@ class BladeSettings:
 def all_blades(names: Iterable[str], entries: Mapping[str, Any], root: Path, document: Document) -> dict[str, BladeSettings]:
     """The blades of these names. Raises the ConfigErrors of all of them, but not of one whose base is refused before it."""
     refusals = ConfigRefusals()
-    found: dict[str, BladeSettings | None] = {}
+    blades: dict[str, BladeSettings | None] = {}
     for name in names:
         base = getattr(entries[name], "base", None)
-        known = base not in found or found[base] is not None
-        found[name] = refusals.of(blade_settings, name, entries, root, document) if known else None
+        known = base not in blades or blades[base] is not None
+        blades[name] = refusals.of(blade_settings, name, entries, root, document) if known else None
     refusals.tell()
-    return {name: blade for name, blade in found.items() if blade is not None}
+    return {name: blade for name, blade in blades.items() if blade is not None}
 
 
 def blade_settings(name: str, entries: Mapping[str, Any], root: Path, document: Document) -> BladeSettings:
@@ -195,10 +195,10 @@ def blade_settings(name: str, entries: Mapping[str, Any], root: Path, document: 
     material = _material(chain, entries, document)
     if isinstance(entry, MeshEntry):
         for link in chain[1:]:
-            given = [key for key in (*SHIFTS, *SHARES) if getattr(entries[link], key) is not None]
-            if given := given if entries[link].sense_check else [*given, "sense_check"]:
+            keys = [key for key in (*SHIFTS, *SHARES) if getattr(entries[link], key) is not None]
+            if keys := keys if entries[link].sense_check else [*keys, "sense_check"]:
                 raise document.refusal(
-                    (link, given[0]), f"{given[0]} with the mesh of {first}", "another material, no other shape"
+                    (link, keys[0]), f"{keys[0]} with the mesh of {first}", "another material, no other shape"
                 )
         try:
             material.check_units()
@@ -280,7 +280,7 @@ def _scaled(blade: str, entry: BladeEntry, shift: dict[str, Any], document: Docu
             (blade, key), f"blade {blade}: there is no table of sweep and lean to take a share of, here or in the base"
         )
     sweep, lean = (1.0 if share is None else share / 100.0 for share in (entry.sweep_percent, entry.lean_percent))
-    return {**shift, "stacking": tuple((span, sweep * one, lean * other) for span, one, other in shift["stacking"])}
+    return {**shift, "stacking": tuple((span, sweep * back, lean * side) for span, back, side in shift["stacking"])}
 
 
 def _table(file: str, blade: str, path: tuple[str, str], document: Document, read: Callable[[], Table]) -> Table:

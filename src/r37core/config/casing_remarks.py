@@ -24,23 +24,23 @@ def elastic_casings(settings: Settings) -> dict[str, ElasticCasing]:
 
 def of_sweep(settings: Settings) -> list[str]:
     """Of casings whose waves a blade of the sweep overtakes."""
-    said = (of_speeds(name, one, fastest_of(settings, name)) for name, one in elastic_casings(settings).items())
-    return [one for one in said if one]
+    lines = (of_speeds(name, casing, fastest_of(settings, name)) for name, casing in elastic_casings(settings).items())
+    return [line for line in lines if line]
 
 
 def of_speeds(scene: str, casing: ElasticCasing, fastest: float) -> str:
     """Of a scene with speeds up to `fastest` (rad/s) above the casing's lowest critical speed; nothing below it."""
     if fastest <= casing.critical_speed:
         return ""
-    said = (
+    remark = (
         f"scene {scene}: speeds up to {fastest:g} rad/s; above {casing.critical_speed:.4g} the rotor overtakes waves of the "
         "casing, which may then grow without bound"
     )
     unseen = [mode.nodal_diameter for mode in casing.overtaken(fastest) if mode not in casing.modes]
     if casing.ring is None or not unseen:
-        return said
-    kept = casing.ring.highest_nodal_diameter
-    return f"{said}; the simulation does not show those of {unseen[0]} to {unseen[-1]} nodal diameters: {_KEY} is {kept}"
+        return remark
+    highest = casing.ring.highest_nodal_diameter
+    return f"{remark}; the simulation does not show those of {unseen[0]} to {unseen[-1]} nodal diameters: {_KEY} is {highest}"
 
 
 def of_left_out_modes(casings: Mapping[str, ElasticCasing]) -> list[str]:
@@ -59,8 +59,8 @@ def _share(ring: Ring) -> float:
 def _of_left_out_modes(scenes: str, ring: Ring) -> str:
     number = nodal_diameters_for(ring, ENOUGH, MOST_NODAL_DIAMETERS)
     needed = f"{number} have {ENOUGH:.0%}" if number else f"not even {MOST_NODAL_DIAMETERS} have {ENOUGH:.0%}"
-    kept, whole = 1e6 * flexibility_of(ring.modes()), 1e6 * flexibility(ring)
+    part, whole = 1e6 * flexibility_of(ring.modes()), 1e6 * flexibility(ring)
     return (
-        f"scene {scenes}: the modes up to {_KEY} {ring.highest_nodal_diameter} give way {kept:.3g} um/N at a force that rests, "
+        f"scene {scenes}: the modes up to {_KEY} {ring.highest_nodal_diameter} give way {part:.3g} um/N at a force that rests, "
         f"{_share(ring):.0%} of what the whole ring does, {whole:.3g}; {needed}"
     )

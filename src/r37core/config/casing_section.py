@@ -32,12 +32,12 @@ class GrowthSection(Section):
 
     @model_validator(mode="after")
     def _table(self) -> GrowthSection:
-        given = [key for key in ("speeds_rad_s", "speeds_rpm") if getattr(self, key) is not None]
-        if len(given) != 1:
-            raise refused((), " and ".join(given) or "no speeds", "speeds_rad_s or speeds_rpm")
-        speeds = getattr(self, given[0])
+        keys = [key for key in ("speeds_rad_s", "speeds_rpm") if getattr(self, key) is not None]
+        if len(keys) != 1:
+            raise refused((), " and ".join(keys) or "no speeds", "speeds_rad_s or speeds_rpm")
+        speeds = getattr(self, keys[0])
         if speeds[0] != 0.0 or any(after <= before for before, after in pairwise(speeds)):
-            raise refused((given[0],), f"{speeds}", "ascending speeds, the first of them 0")
+            raise refused((keys[0],), f"{speeds}", "ascending speeds, the first of them 0")
         if len(speeds) != len(self.growth_m):
             raise refused(("growth_m",), f"{len(self.growth_m)} numbers for {len(speeds)} speeds", "one for each speed")
         if self.growth_m[0] != 0.0:
@@ -102,8 +102,8 @@ class CasingSection(Section):
     @model_validator(mode="after")
     def _one_clearance(self) -> CasingSection:
         if (self.clearance_m is None) == (self.clearance is None):
-            found = "neither of clearance_m and clearance" if self.clearance is None else "clearance_m and clearance"
-            raise refused((), found, "one of clearance_m and clearance")
+            value = "neither of clearance_m and clearance" if self.clearance is None else "clearance_m and clearance"
+            raise refused((), value, "one of clearance_m and clearance")
         return self
 
     @model_validator(mode="after")
@@ -120,7 +120,7 @@ class CasingSection(Section):
     def elastic_casing(self) -> ElasticCasing:
         """The flexible casing, with the waves that simulations leave out; without modes where the casing is rigid."""
         if self.ring is None:
-            return ElasticCasing(tuple(one.mode() for one in self.ring_modes or ()))
+            return ElasticCasing(tuple(mode.mode() for mode in self.ring_modes or ()))
         ring = in_si(Ring, self.ring)
         return ElasticCasing(ring.modes(), ring)
 

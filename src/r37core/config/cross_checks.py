@@ -23,6 +23,7 @@ from r37core.yaml_file import KeyPath
 
 from .document import ConfigRefusals, Document
 from .settings import Settings
+from .study_sections import TradeoffSection
 
 LARGEST_NUMBER_OF_SIMULATIONS = 200_000
 """Jobs that Snakemake can still plan: about 25 kB of memory and 1 ms for each."""
@@ -41,7 +42,16 @@ def what_is_named_is_there(settings: Settings) -> None:
 
 def studies_name_what_is_there(settings: Settings) -> None:
     """Names in the section `studies`, where it is given, are in their files."""
-    studies, documents = settings.studies, settings.documents
+    refusals = ConfigRefusals()
+    for name in sorted(settings.studies.model_fields_set):
+        refusals.of(_study_names_what_is_there, settings, name)
+    if settings.studies.tradeoff:
+        refusals.of(_tradeoff_asks_for_what_is_there, settings, settings.studies.tradeoff)
+    refusals.tell()
+
+
+def _study_names_what_is_there(settings: Settings, name: str) -> None:
+    study, documents = getattr(settings.studies, name), settings.documents
     files: dict[str, tuple[Iterable[str], Document]] = {
         "base": (settings.levels, documents.levels),
         "quick": (settings.levels, documents.levels),
@@ -49,23 +59,22 @@ def studies_name_what_is_there(settings: Settings) -> None:
         "lined_scene": (settings.scene_entries, documents.scenes),
         "direct_scene": (settings.scene_entries, documents.scenes),
     }
-    for name in studies.model_fields_set:
-        study = getattr(studies, name)
-        for key, (entries, file) in files.items():
-            if given_name := getattr(study, key, None):
-                settings.documents.known(("studies", name, key), [given_name], entries, file)
-        lined = getattr(study, "lined_scene", None)
-        if lined and settings.scene_entries[lined].lining is None:
-            raise documents.config.refusal(("studies", name, "lined_scene"), f"'{lined}'", "a scene with a lining")
-    if given := studies.tradeoff:
-        highest = settings.config.campbell.highest_engine_order
-        if given.engine_order > highest:
-            allowed = f"at most campbell.highest_engine_order ({highest})"
-            raise documents.config.refusal(("studies", "tradeoff", "engine_order"), f"{given.engine_order}", allowed)
-        levels = given.parameters.level.values
-        settings.documents.known(("studies", "tradeoff", "parameters", "level"), levels, settings.levels, documents.levels)
-        if given.scenes != "all":
-            settings.documents.known(("studies", "tradeoff", "scenes"), given.scenes, settings.scene_entries, documents.scenes)
+    for key, (entries, file) in files.items():
+        if given_name := getattr(study, key, None):
+            documents.known(("studies", name, key), [given_name], entries, file)
+    lined = getattr(study, "lined_scene", None)
+    if lined and settings.scene_entries[lined].lining is None:
+        raise documents.config.refusal(("studies", name, "lined_scene"), f"'{lined}'", "a scene with a lining")
+
+
+def _tradeoff_asks_for_what_is_there(settings: Settings, given: TradeoffSection) -> None:
+    documents, path, highest = settings.documents, ("studies", "tradeoff"), settings.config.campbell.highest_engine_order
+    if given.engine_order > highest:
+        allowed = f"at most campbell.highest_engine_order ({highest})"
+        raise documents.config.refusal((*path, "engine_order"), f"{given.engine_order}", allowed)
+    documents.known((*path, "parameters", "level"), given.parameters.level.values, settings.levels, documents.levels)
+    if given.scenes != "all":
+        documents.known((*path, "scenes"), given.scenes, settings.scene_entries, documents.scenes)
 
 
 def stress_instants_are_samples(settings: Settings) -> None:
@@ -83,19 +92,23 @@ def stress_instants_are_samples(settings: Settings) -> None:
 
 def names_are_there(settings: Settings, path: KeyPath, section: Any) -> None:
     """Blades, families and scenes that a section at `path` of config.yaml names, if not `all`, are in their files."""
-    designs, documents = settings.designs, settings.documents
+    designs, documents, refusals = settings.designs, settings.documents, ConfigRefusals()
+    entries = [*designs.entries, *designs.families]
     if section.blades != "all":
-        documents.known((*path, "blades"), section.blades, [*designs.entries, *designs.families], documents.blades)
+        refusals.of(documents.known, (*path, "blades"), section.blades, entries, documents.blades)
     if section.scenes != "all":
-        documents.known((*path, "scenes"), section.scenes, settings.scene_entries, documents.scenes)
+        refusals.of(documents.known, (*path, "scenes"), section.scenes, settings.scene_entries, documents.scenes)
+    refusals.tell()
 
 
 def speed_rules_name_what_is_there(settings: Settings) -> None:
     """Blades and scenes with speeds of their own are in their files."""
+    documents, refusals = settings.documents, ConfigRefusals()
     for number, rule in enumerate(settings.config.speeds_for):
-        path, documents = ("speeds_for", number), settings.documents
-        settings.documents.known((*path, "blades"), rule.blades or [], settings.designs.entries, documents.blades)
-        settings.documents.known((*path, "scenes"), rule.scenes or [], settings.scene_entries, documents.scenes)
+        path = ("speeds_for", number)
+        refusals.of(documents.known, (*path, "blades"), rule.blades or [], settings.designs.entries, documents.blades)
+        refusals.of(documents.known, (*path, "scenes"), rule.scenes or [], settings.scene_entries, documents.scenes)
+    refusals.tell()
 
 
 def simulations_can_be_planned(settings: Settings) -> None:
@@ -113,12 +126,12 @@ def windows_have_crossings(settings: Settings) -> None:
     """No window lies above crossings that the Campbell diagram does not have."""
     if not any(plan.refined for plan in settings.speed_plans.values()):
         return
-    highest, given = settings.config.campbell.highest_engine_order, settings.config.refinement
-    for place, windows in {("refinement",): given.windows, ("refinement", "direct"): given.direct.windows}.items():
+    highest, refining = settings.config.campbell.highest_engine_order, settings.config.refinement
+    for path, windows in {("refinement",): refining.windows, ("refinement", "direct"): refining.direct.windows}.items():
         for number, window in enumerate(windows):
             if window.highest_engine_order > highest:
                 raise settings.documents.config.refusal(
-                    (*place, "windows", number, "highest_engine_order"),
+                    (*path, "windows", number, "highest_engine_order"),
                     f"{window.highest_engine_order}",
                     f"at most campbell.highest_engine_order ({highest})",
                 )
@@ -130,10 +143,10 @@ def history_speeds_are_run(settings: Settings) -> None:
         run = {speed for (_, scene), plan in settings.speed_plans.items() if scene == name for speed in plan.certain}
         entry = settings.scene_entries[name]
         key = "stress_history_speeds_rpm" if entry.stress_history_speeds_rpm else "stress_history_speeds_rad_s"
-        for given, speed in zip(getattr(entry, key), chosen.stress_history_speeds, strict=True):
+        for value, speed in zip(getattr(entry, key), chosen.stress_history_speeds, strict=True):
             if speed not in run:
                 allowed = "speeds that are simulated (add it to speeds or speeds_for in config.yaml)"
-                raise settings.documents.scenes.refusal((name, key), f"{given:g}", allowed)
+                raise settings.documents.scenes.refusal((name, key), f"{value:g}", allowed)
 
 
 def slowest_speed_fits_in_memory(settings: Settings) -> None:
@@ -143,7 +156,7 @@ def slowest_speed_fits_in_memory(settings: Settings) -> None:
 
 def revolution_fits(settings: Settings, speed: float, path: KeyPath) -> None:
     """ConfigError for a speed (rad/s), at `path` of config.yaml, whose revolutions have too many steps."""
-    steps, lined = settings.fidelity.time_integration, {one.scene.lining is not None for one in settings.scenes.values()}
+    steps, lined = settings.fidelity.time_integration, {each.scene.lining is not None for each in settings.scenes.values()}
     nodes, step = padded(settings.structure.boundary.nodes), min(map(steps.largest_step, lined))
     size = 8 * nodes * 2.0 * math.pi / speed / step
     if size > LARGEST_TABLE:
@@ -157,15 +170,15 @@ def revolution_fits(settings: Settings, speed: float, path: KeyPath) -> None:
 
 def matrices_hold_their_terms(settings: Settings) -> None:
     """No term of rotation is wanted that cannot be added to matrices of another program."""
-    given = [name for name, blade in settings.blades.items() if isinstance(blade.definition, MatricesSource)]
+    blades = [name for name, blade in settings.blades.items() if isinstance(blade.definition, MatricesSource)]
     remedies = {
         "spin_softening": "put the term into its K_<speed>",
         "coriolis": "a Coriolis matrix of another program is not read",
     }
     for key, remedy in remedies.items():
-        if given and getattr(settings.structure, key):
+        if blades and getattr(settings.structure, key):
             raise settings.documents.config.refusal(
-                ("structure", key), f"true with the blade '{given[0]}', given by matrices", f"false; {remedy}"
+                ("structure", key), f"true with the blade '{blades[0]}', given by matrices", f"false; {remedy}"
             )
 
 

@@ -35,8 +35,10 @@ def declared_by(
     """
 
     def completed(section: type[S]) -> type[S]:
-        keys = [one for one in declared_keys(kind) if one.name in section.model_fields or not only_listed]
-        made: dict[str, Any] = {one.name: _field(one, optional, defaults.get(one.name, MISSING)) for one in keys}
+        keys = [declared for declared in declared_keys(kind) if declared.name in section.model_fields or not only_listed]
+        made: dict[str, Any] = {
+            declared.name: _field(declared, optional, defaults.get(declared.name, MISSING)) for declared in keys
+        }
         return create_model(section.__name__, __base__=section, __module__=section.__module__, __doc__=section.__doc__, **made)
 
     return completed
@@ -48,22 +50,22 @@ def in_si(kind: type[T], section: Section, **parts: Any) -> T:
     A field has the value of a key that it declares or, without a declaration, of one that is called like it. What is left out
     has the dataclass's default, or is None.
     """
-    found: dict[str, Any] = {}
+    values: dict[str, Any] = {}
     for field in fields(kind):  # type: ignore[arg-type]
-        keys = [one for one in declared_keys(kind) if one.field == field.name]  # type: ignore[arg-type]
+        keys = [declared for declared in declared_keys(kind) if declared.field == field.name]  # type: ignore[arg-type]
         if keys and keys[0].default is MISSING and NoneType in get_args(keys[0].kind):
-            found[field.name] = None
-        for name, key in [(one.name, one.key) for one in keys] or [(field.name, Key(""))]:
+            values[field.name] = None
+        for name, key in [(declared.name, declared.key) for declared in keys] or [(field.name, Key(""))]:
             value = getattr(section, name, None)
             if value is not None and value != key.none:
-                found[field.name] = key.words[value] if key.words else to_si(value, key.factor)
-    return kind(**found | parts)
+                values[field.name] = key.words[value] if key.words else to_si(value, key.factor)
+    return kind(**values | parts)
 
 
-def _field(one: DeclaredKey, optional: bool, default: Any) -> tuple[Any, Any]:
+def _field(declared: DeclaredKey, optional: bool, default: Any) -> tuple[Any, Any]:
     """Type and field of a model for a key."""
-    key, default = one.key, _default(one) if default is MISSING else default
-    kind = _file_type(one, one.kind)
+    key, default = declared.key, _default(declared) if default is MISSING else default
+    kind = _file_type(key, declared.kind)
     if default is MISSING and not (optional or key.optional):
         return kind, Field(description=key.description)
     if default is MISSING or default is None or optional:
@@ -71,9 +73,9 @@ def _field(one: DeclaredKey, optional: bool, default: Any) -> tuple[Any, Any]:
     return kind, Field(default=default, description=key.description)
 
 
-def _default(one: DeclaredKey) -> Any:
+def _default(declared: DeclaredKey) -> Any:
     """The default in the key's unit; None where a key that is left out says the same, as with no bound."""
-    default, key = one.default, one.key
+    default, key = declared.default, declared.key
     if default is MISSING:
         return MISSING
     if default is None or (isinstance(default, float) and math.isinf(default)):
@@ -85,21 +87,20 @@ def _default(one: DeclaredKey) -> Any:
     return default if key.factor in (None, 1.0) else default / key.factor
 
 
-def _file_type(one: DeclaredKey, kind: Any) -> Any:
+def _file_type(key: Key, kind: Any) -> Any:
     """What a file has for a field of the type `kind`: words for true and false, lists for tuples, bounds of numbers."""
-    key = one.key
     if key.words:
         return Literal[tuple(key.words)]
     if key.one_of:
         return Literal[tuple(key.one_of)]
     if get_origin(kind) in (Union, UnionType):
         (kind,) = (part for part in get_args(kind) if part is not NoneType)
-        number = _file_type(one, kind)
+        number = _file_type(key, kind)
         return Literal[key.none] | number if key.none else number
     if get_origin(kind) is tuple:
         entries = get_args(kind)
         length: dict[str, Any] = {} if entries[-1] is Ellipsis else {"min_length": len(entries), "max_length": len(entries)}
-        return Annotated[list[_file_type(one, entries[0])], Field(**length)]  # type: ignore[misc]
+        return Annotated[list[_file_type(key, entries[0])], Field(**length)]  # type: ignore[misc]
     if kind in (int, float):
         return Annotated[kind, Field(ge=key.ge, gt=key.gt, le=key.le, lt=key.lt)]
     return kind

@@ -17,7 +17,7 @@ from .messages import explain_all, on_one_line
 Model = TypeVar("Model", bound=BaseModel)
 Result = TypeVar("Result")
 
-_MOST_TOLD = 20
+_MOST_LINES = 20
 """ConfigRefusals of one message."""
 
 
@@ -31,8 +31,8 @@ class ConfigError(ValueError):
 class ConfigRefusals:
     """What is wrong with a configuration, from checks that do not wait for each other: a user is told all at once."""
 
-    def __init__(self, *told: str) -> None:
-        self._lines = dict.fromkeys(told)
+    def __init__(self, *lines: str) -> None:
+        self._lines = dict.fromkeys(lines)
 
     def of(self, check: Callable[..., Result], *arguments: Any) -> Result | None:
         """What a check gives; None where it refuses, which it may do for the reason of one before it."""
@@ -45,49 +45,49 @@ class ConfigRefusals:
     def tell(self) -> None:
         """ConfigError with all of them, each once and not too many, if there are any."""
         if self._lines:
-            lines, more = list(self._lines)[:_MOST_TOLD], len(self._lines) - _MOST_TOLD
+            lines, more = list(self._lines)[:_MOST_LINES], len(self._lines) - _MOST_LINES
             raise ConfigError("\n".join([*lines, *([f"and {more} more"] if more > 0 else [])]))
 
 
 @dataclass(frozen=True)
 class Document:
-    """What a file says. `name`: of the file, for messages; `places`: file and line of the values, as `file:line`."""
+    """What a file says. `name`: of the file, for messages; `locations`: file and line of the values, as `file:line`."""
 
     name: str
     content: Any
-    places: Mapping[KeyPath, str] = field(default_factory=dict)
+    locations: Mapping[KeyPath, str] = field(default_factory=dict)
 
-    def place(self, path: KeyPath) -> str:
+    def location(self, path: KeyPath) -> str:
         """File and line of a value, of what holds it if it is not given, or the file alone."""
         for length in range(len(path), 0, -1):
-            if path[:length] in self.places:
-                return self.places[path[:length]]
-        return self.name if path else self.places.get((), self.name)
+            if path[:length] in self.locations:
+                return self.locations[path[:length]]
+        return self.name if path else self.locations.get((), self.name)
 
     def error(self, path: KeyPath, text: str, key: KeyPath | None = None) -> ConfigError:
         """The error of the value at `path`: place, key (where that is not the whole path) and `text`."""
         named = path if key is None else key
         shown = ".".join(on_one_line(str(step)) for step in named) or "top level"
-        return ConfigError(f"{self.place(path)}: {shown}: {text}")
+        return ConfigError(f"{self.location(path)}: {shown}: {text}")
 
-    def refusal(self, path: KeyPath, found: str, allowed: str) -> ConfigError:
+    def refusal(self, path: KeyPath, value: str, allowed: str) -> ConfigError:
         """The error of the value at `path`, with what was found and what is allowed."""
-        return self.error(path, f"found {found}; allowed: {allowed}")
+        return self.error(path, f"found {value}; allowed: {allowed}")
 
     def check(self, model: type[Model]) -> Model:
         """The content as a model; ConfigError for all that the model does not allow."""
         try:
             return model.model_validate(self.content)
         except ValidationError as error:
-            said = explain_all(error, self.content, model)
-        ConfigRefusals(*(str(self.error(path, text, key)) for path, key, text in said)).tell()
+            explained = explain_all(error, self.content, model)
+        ConfigRefusals(*(str(self.error(path, text, key)) for path, key, text in explained)).tell()
         raise AssertionError("a model refuses for a reason")
 
     def overlaid(self, above: Document) -> Document:
         """This document with the values of another one on top: mappings are joined, all else is replaced."""
-        places = dict(self.places)
-        content = _overlay(self.content, above.content, (), places)
-        return Document(self.name, content, places | dict(above.places))
+        locations = dict(self.locations)
+        content = _overlay(self.content, above.content, (), locations)
+        return Document(self.name, content, locations | dict(above.locations))
 
 
 @dataclass(frozen=True)
@@ -123,9 +123,9 @@ def read_document(root: Path, name: str) -> Document:
 def command_line_document(values: Mapping[str, Any], name: str = "--config") -> Document:
     """What a command line gives: Snakemake hands numbers inside lists and mappings on as texts."""
     content = _with_numbers(dict(values))
-    places: dict[KeyPath, str] = {}
-    _mark(content, (), name, places)
-    return Document(name, content, places)
+    locations: dict[KeyPath, str] = {}
+    _mark(content, (), name, locations)
+    return Document(name, content, locations)
 
 
 def _with_numbers(value: Any) -> Any:
@@ -136,20 +136,20 @@ def _with_numbers(value: Any) -> Any:
     return scalar(value) if isinstance(value, str) else value
 
 
-def _mark(content: Any, path: KeyPath, name: str, places: dict[KeyPath, str]) -> None:
+def _mark(content: Any, path: KeyPath, name: str, locations: dict[KeyPath, str]) -> None:
     if path:
-        places[path] = name
+        locations[path] = name
     if isinstance(content, Mapping):
         for key, value in content.items():
-            _mark(value, (*path, key), name, places)
+            _mark(value, (*path, key), name, locations)
 
 
-def _overlay(below: Any, above: Any, path: KeyPath, places: dict[KeyPath, str]) -> Any:
+def _overlay(below: Any, above: Any, path: KeyPath, locations: dict[KeyPath, str]) -> Any:
     if not (isinstance(below, Mapping) and isinstance(above, Mapping)):
-        for inside in [place for place in places if place[: len(path)] == path]:
-            del places[inside]
+        for inside in [known for known in locations if known[: len(path)] == path]:
+            del locations[inside]
         return above
     joined = dict(below)
     for key, value in above.items():
-        joined[key] = _overlay(below[key], value, (*path, key), places) if key in below else value
+        joined[key] = _overlay(below[key], value, (*path, key), locations) if key in below else value
     return joined

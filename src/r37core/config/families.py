@@ -57,26 +57,26 @@ class Designs:
 
 def with_designs(entries: Mapping[str, AnyEntry], root: Path, document: Document) -> Designs:
     """The entries with every family replaced by its designs. Raises ConfigError, with the place in `document`."""
-    found: dict[str, AnyEntry] = {}
+    made: dict[str, AnyEntry] = {}
     families: dict[str, Family] = {}
-    places = dict(document.places)
+    locations = dict(document.locations)
     for name, entry in entries.items():
         if not isinstance(entry, BladeEntry) or (entry.vary is None and entry.designs is None):
-            found[name] = entry
+            made[name] = entry
             continue
         families[name] = family = _family(name, entry, root, document)
         for design, values in family.designs.items():
-            if design in entries or design in found:
+            if design in entries or design in made:
                 raise document.refusal((name,), f"the design '{design}'", "designs that are not named like another blade")
-            found[design] = _design(name, entry, dict(zip(family.keys, values, strict=True)), design, document)
-            places |= {(design, *path[1:]): place for path, place in document.places.items() if path[:1] == (name,)}
+            made[design] = _design(name, entry, dict(zip(family.keys, values, strict=True)), design, document)
+            locations |= {(design, *path[1:]): location for path, location in document.locations.items() if path[:1] == (name,)}
         try:
-            check_names(found)
+            check_names(made)
             for design in family.designs:
                 check_name(design)
         except PydanticCustomError as error:
             raise document.error((name,), str(error)) from None
-    return Designs(found, families, replace(document, places=places))
+    return Designs(made, families, replace(document, locations=locations))
 
 
 def _family(name: str, entry: BladeEntry, root: Path, document: Document) -> Family:
@@ -84,13 +84,13 @@ def _family(name: str, entry: BladeEntry, root: Path, document: Document) -> Fam
         return _from_table(name, entry.designs, root, document)
     assert entry.vary is not None
     values = {
-        key: one.values() if isinstance(one, Variation) else [float(value) for value in one] for key, one in entry.vary.items()
+        key: way.values() if isinstance(way, Variation) else [float(value) for value in way] for key, way in entry.vary.items()
     }
     if entry.combine == "pairs":
         lengths = {key: len(several) for key, several in values.items()}
         if len(set(lengths.values())) > 1:
-            told = ", ".join(f"{key} {length}" for key, length in lengths.items())
-            raise document.refusal((name, "vary"), f"{told} values", "as many of each key, with combine: pairs")
+            counted = ", ".join(f"{key} {length}" for key, length in lengths.items())
+            raise document.refusal((name, "vary"), f"{counted} values", "as many of each key, with combine: pairs")
         rows = list(zip(*values.values(), strict=True))
     else:
         rows = list(product(*values.values()))
@@ -130,8 +130,8 @@ def _design(family: str, entry: BladeEntry, values: Mapping[str, float], design:
         return BladeEntry.model_validate(content)
     except ValidationError as error:
         path, named, text = explain(error, content, BladeEntry)
-        place = (family, "vary", ".".join(map(str, path)))
-        raise document.error(place, f"design {design}: {text}", (family, *named)) from None
+        at = (family, "vary", ".".join(map(str, path)))
+        raise document.error(at, f"design {design}: {text}", (family, *named)) from None
 
 
 def with_value(content: dict[str, Any], path: Sequence[str], value: float) -> dict[str, Any]:

@@ -88,8 +88,8 @@ class TimeIntegration(Section):
     @model_validator(mode="after")
     def _one_step(self) -> TimeIntegration:
         if (self.time_step_s is None) == (self.largest_time_step_s is None):
-            found = "neither of them" if self.time_step_s is None else "both"
-            raise refused(("time_step_s",), found, "time_step_s or largest_time_step_s, one of them")
+            value = "neither of them" if self.time_step_s is None else "both"
+            raise refused(("time_step_s",), value, "time_step_s or largest_time_step_s, one of them")
         return self
 
     @model_validator(mode="after")
@@ -166,8 +166,8 @@ def cheapest_level(levels: Mapping[str, Level], tolerance: float, on_points: boo
     Raises ConfigError where there is none.
     """
     measured = {name: level.measured for name, level in levels.items() if level.measured}
-    errors = {name: error for name, one in measured.items() if (error := one.error_of(on_points)) is not None}
-    chosen = recommended_level(errors, {name: one.cpu_s_per_run for name, one in measured.items()}, tolerance)
+    errors = {name: error for name, measure in measured.items() if (error := measure.error_of(on_points)) is not None}
+    chosen = recommended_level(errors, {name: measure.cpu_s_per_run for name, measure in measured.items()}, tolerance)
     if chosen is None:
         known = ", ".join(f"{name} {error:g}" for name, error in errors.items()) or "none"
         raise documents.config.error(

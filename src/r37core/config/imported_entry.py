@@ -39,8 +39,8 @@ class SurfaceRule(Section):
 
     def _limits(self) -> tuple[tuple[str, str, float], ...]:
         names = [(axis, bound) for axis in "rxz" for bound in ("at_least", "at_most")]
-        given = [(axis, bound, getattr(self, f"{axis}_{bound}_m")) for axis, bound in names]
-        return tuple((axis, bound, float(value)) for axis, bound, value in given if value is not None)
+        limits = [(axis, bound, getattr(self, f"{axis}_{bound}_m")) for axis, bound in names]
+        return tuple((axis, bound, float(value)) for axis, bound, value in limits if value is not None)
 
     def where(self) -> Where:
         """As the import takes it."""
@@ -125,5 +125,5 @@ class MatricesEntry(Oriented):
         return in_si(MatricesSource, self, folder=self.matrices, orientation=self.orientation(), digest=digest)
 
 
-def _where(given: Any) -> Where:
-    return given.where() if isinstance(given, SurfaceRule) else Where(given, tolerance=0.0)
+def _where(rule: Any) -> Where:
+    return rule.where() if isinstance(rule, SurfaceRule) else Where(rule, tolerance=0.0)

@@ -35,15 +35,15 @@ def explain_all(error: ValidationError, content: Any, model: type[BaseModel]) ->
 
     Unknown keys come first: one may be why another is missing, which then is not said.
     """
-    errors = sorted(error.errors(include_url=False), key=lambda one: one["type"] != "extra_forbidden")
-    unknown = [one["loc"][:-1] for one in errors if one["type"] == "extra_forbidden"]
-    said: dict[KeyPath, tuple[KeyPath, KeyPath, str]] = {}
-    for one in errors:
-        path = _path(one, content)
-        of_another = one["type"] == "missing" and one["loc"][:-1] in unknown
-        if not of_another and not any(path[: len(other)] == other or other[: len(path)] == path for other in said):
-            said[path] = _explained(one, path, content, model)
-    return list(said.values())
+    errors = sorted(error.errors(include_url=False), key=lambda refusal: refusal["type"] != "extra_forbidden")
+    unknown = [refusal["loc"][:-1] for refusal in errors if refusal["type"] == "extra_forbidden"]
+    explained: dict[KeyPath, tuple[KeyPath, KeyPath, str]] = {}
+    for refusal in errors:
+        path = _path(refusal, content)
+        of_another = refusal["type"] == "missing" and refusal["loc"][:-1] in unknown
+        if not of_another and not any(path[: len(other)] == other or other[: len(path)] == path for other in explained):
+            explained[path] = _explained(refusal, path, content, model)
+    return list(explained.values())
 
 
 def _path(error: Mapping[str, Any], content: Any) -> KeyPath:
@@ -64,8 +64,8 @@ def _explained(error: Mapping[str, Any], path: KeyPath, content: Any, model: typ
         meant = f" (did you mean {close[0]}?)" if close else ""
         return path, tuple(parent), f"found unknown key {on_one_line(str(key))}; allowed keys: {', '.join(known)}{meant}"
     value = _value(content, path)
-    found = "nothing" if value is None else on_one_line(repr(value))
-    return path, path, f"found {found}; allowed: {describe(_at(schema, path, schema, variants), schema) or error['msg']}"
+    shown = "nothing" if value is None else on_one_line(repr(value))
+    return path, path, f"found {shown}; allowed: {describe(_at(schema, path, schema, variants), schema) or error['msg']}"
 
 
 def on_one_line(text: str) -> str:
@@ -150,9 +150,9 @@ def _at(part: Mapping[str, Any], path: KeyPath, schema: Mapping[str, Any], varia
     if not path:
         return part
     for choice in choices:
-        found = _at(choice, path, schema, variants)
-        if found:
-            return found
+        match = _at(choice, path, schema, variants)
+        if match:
+            return match
     step, *rest = path
     if isinstance(step, int):
         inner = part.get("items")

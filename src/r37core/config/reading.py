@@ -126,7 +126,7 @@ def together(below: Document, changes: Iterable[Document]) -> Document:
 
 def _with_one_unit(below: Document, change: Document) -> Document:
     """The document without speeds in the unit that a change on top does not give its own in."""
-    given = [key for key in UNITS if key in change.content]
-    if len(given) != 1:
+    keys = [key for key in UNITS if key in change.content]
+    if len(keys) != 1:
         return below
-    return replace(below, content={key: value for key, value in below.content.items() if key not in UNITS or key in given})
+    return replace(below, content={key: value for key, value in below.content.items() if key not in UNITS or key in keys})

@@ -9,31 +9,31 @@ from .speed_choice import most_runs
 
 def remarks_of_spine(settings: Settings) -> list[str]:
     """What a run should say before it starts."""
-    said = []
+    lines = []
     measured = settings.fidelity.measured
     if settings.config.fidelity == "auto" and measured is not None:
         error = measured.error_of(bool(settings.direct_on_points[0]))
         if error is not None:
             share, cost = 100 * error, measured.cpu_s_per_run
-            said.append(f"fidelity auto: level {settings.fidelity_name}, measured error {share:g}%, {cost:g} CPU s per run")
+            lines.append(f"fidelity auto: level {settings.fidelity_name}, measured error {share:g}%, {cost:g} CPU s per run")
     fastest = max(plan.every_speed()[-1] for plan in settings.speed_plans.values())
     highest = settings.structure.maximum_speed_rad_s
     if fastest > highest:
-        said.append(
+        lines.append(
             f"speeds: up to {fastest:g} rad/s, and structure.maximum_speed_rad_s is {highest:g}: reduced models and "
             "Campbell diagrams are made for speeds up to that; raise it to what is run"
         )
-    said += casing_remarks.of_sweep(settings)
-    said += casing_remarks.of_left_out_modes(casing_remarks.elastic_casings(settings))
-    refining = {place: plan for place, plan in settings.speed_plans.items() if plan.refined}
+    lines += casing_remarks.of_sweep(settings)
+    lines += casing_remarks.of_left_out_modes(casing_remarks.elastic_casings(settings))
+    refining = {pair: plan for pair, plan in settings.speed_plans.items() if plan.refined}
     if refining:
         certain = sum(len(plan.certain) for plan in refining.values())
-        most = sum(most_runs(settings, *place) for place in refining)
-        said.append(
+        most = sum(most_runs(settings, *pair) for pair in refining)
+        lines.append(
             f"adaptive speed sampling: {certain} simulations and those of the windows first, about {most} at most; "
             "they are planned round by round, so a dry run shows none of those to come"
         )
-    return said
+    return lines
 
 
 def remarks_on_points(settings: Settings) -> list[str]:

@@ -44,9 +44,9 @@ class Section(BaseModel):
         return data
 
 
-def refused(at: KeyPath, found: str, allowed: str) -> PydanticCustomError:
+def refused(at: KeyPath, value: str, allowed: str) -> PydanticCustomError:
     """The error of a validator that compares several keys; `at` is the one to blame, seen from the validated section."""
-    return PydanticCustomError("refused", "found {found}; allowed: {allowed}", {"at": at, "found": found, "allowed": allowed})
+    return PydanticCustomError("refused", "found {found}; allowed: {allowed}", {"at": at, "found": value, "allowed": allowed})
 
 
 def _unique(values: list[T]) -> list[T]:

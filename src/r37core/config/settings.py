@@ -90,8 +90,8 @@ class Settings:
         several = list(designs.entries) if chosen == "all" else designs.named(chosen)
         names = self.config.run.of_part(several)
         if not names:
-            found = f"{self.config.run.part} of {len(several)} blades"
-            raise self.documents.config.refusal(("run", "part"), found, f"at most {len(several)} parts")
+            part = f"{self.config.run.part} of {len(several)} blades"
+            raise self.documents.config.refusal(("run", "part"), part, f"at most {len(several)} parts")
         return names
 
     @cached_property
@@ -151,7 +151,7 @@ class Settings:
         step, document = self.fidelity.time_integration.speed_step_rad_s, self.documents.config
         sections = [(("speeds_for", number), rule) for number, rule in enumerate(self.config.speeds_for)]
         refusals = ConfigRefusals()
-        general, *special = (refusals.of(_planned, document, *one, step) for one in [((), self.config), *sections])
+        general, *special = (refusals.of(_planned, document, *section, step) for section in [((), self.config), *sections])
         refusals.tell()
         assert general
         return {

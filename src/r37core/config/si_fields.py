@@ -14,17 +14,17 @@ def si_fields(section: Iterable[tuple[str, Any]]) -> dict[str, Any]:
     A key that is not given has no field, nor has one with a word in place of a number. Of two keys for one field, in two
     units, the one that is given counts.
     """
-    found: dict[str, Any] = {}
+    fields: dict[str, Any] = {}
     for key, value in section:
         field, factor = si_name(key)
         left_out = value is None or (factor is not None and isinstance(value, str))
-        if not left_out and (value or field not in found):
-            found[field] = to_si(value, factor)
-    return found
+        if not left_out and (value or field not in fields):
+            fields[field] = to_si(value, factor)
+    return fields
 
 
 def to_si(value: Any, factor: float | None) -> Any:
     """A value of a key whose unit is `factor` in the SI, as fields have it: a list as a tuple."""
     if isinstance(value, list):
-        return tuple(to_si(one, factor) for one in value)
+        return tuple(to_si(entry, factor) for entry in value)
     return value * factor if factor is not None and isinstance(value, int | float) else value

@@ -77,9 +77,9 @@ class SpeedRule(Section):
         return (self.blades is None or blade in self.blades) and (self.scenes is None or scene in self.scenes)
 
 
-def refuse_both_units(one: str, other: str) -> None:
+def refuse_both_units(first: str, second: str) -> None:
     """Raise the error of a section that gives the same speeds in two keys, of two units."""
-    raise refused((other,), f"both {one} and {other}", "one of them")
+    raise refused((second,), f"both {first} and {second}", "one of them")
 
 
 def key_of_speeds(section: Any) -> str:

@@ -32,14 +32,14 @@ class Spread:
         first = self.numbers[0]
         width = first * abs(nominal) / 100.0 if self.percent else first
         if self.kind == "uniform":
-            found = nominal + (2.0 * share - 1.0) * width
+            value = nominal + (2.0 * share - 1.0) * width
         elif self.kind == "normal":
-            found = nominal + float(scipy.special.ndtri(share)) * width
+            value = nominal + float(scipy.special.ndtri(share)) * width
         elif self.kind == "between":
-            found = first + share * (self.numbers[1] - first)
+            value = first + share * (self.numbers[1] - first)
         else:
-            found = self.numbers[min(int(share * len(self.numbers)), len(self.numbers) - 1)]
-        return float(f"{found:.{_DIGITS}g}")
+            value = self.numbers[min(int(share * len(self.numbers)), len(self.numbers) - 1)]
+        return float(f"{value:.{_DIGITS}g}")
 
     def ends(self, nominal: float) -> tuple[float, ...]:
         """The values that no other goes beyond; none of a normal distribution, which has no bounds."""
@@ -89,9 +89,9 @@ class SpreadEntry(Section):
 
     @model_validator(mode="after")
     def _one_kind(self) -> SpreadEntry:
-        given = [key for key in _KINDS if getattr(self, key) is not None]
-        if len(given) != 1:
-            raise refused((), " and ".join(given) or "nothing", f"one of {', '.join(_KINDS)}")
+        kinds = [key for key in _KINDS if getattr(self, key) is not None]
+        if len(kinds) != 1:
+            raise refused((), " and ".join(kinds) or "nothing", f"one of {', '.join(_KINDS)}")
         if self.between is not None and not self.between[0] < self.between[1]:
             raise refused(("between",), f"{self.between}", "a lower and a higher number")
         return self
@@ -99,6 +99,6 @@ class SpreadEntry(Section):
     def spread(self) -> Spread:
         """As the sample takes it."""
         key = next(key for key in _KINDS if getattr(self, key) is not None)
-        given = getattr(self, key)
-        numbers = tuple(given) if isinstance(given, list) else (given,)
+        numbers = getattr(self, key)
+        numbers = tuple(numbers) if isinstance(numbers, list) else (numbers,)
         return Spread(key.removesuffix("_percent"), numbers, key.endswith("_percent"))  # type: ignore[arg-type]

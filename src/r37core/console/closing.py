@@ -64,7 +64,7 @@ def _ranked(file: Path) -> list[str]:
         return []
     with open(file, newline="", encoding="utf-8") as stream:
         rows = [row for row in csv.DictReader(stream) if row["length_certain_rad_s"]]
-    said = []
+    lines = []
     for scene in dict.fromkeys(row["scene"] for row in rows):
         of_scene = [row for row in rows if row["scene"] == scene]
         best, worst = of_scene[0], of_scene[-1]
@@ -72,14 +72,14 @@ def _ranked(file: Path) -> list[str]:
         apart = _number(worst, "length_certain_rad_s") - _number(best, "length_certain_rad_s")
         if apart > sum(_number(row, "length_certain_scatter_rad_s") for row in (best, worst)):
             verb = "is" if len(names) == 1 else "are"
-            said.append(
+            lines.append(
                 f"{scene}: {' and '.join(names)} {verb} above yield at the fewest speeds ({_length(best)}), "
                 f"{worst['blade']} at the most ({_length(worst)}); {file}"
             )
     gap = max((_number(row, "largest_gap_rad_s") for row in rows), default=0.0)
     if gap > 0.0:
-        said.append(f"speeds lie up to {gap:g} rad/s apart: a narrower interaction between them may be missed")
-    return said
+        lines.append(f"speeds lie up to {gap:g} rad/s apart: a narrower interaction between them may be missed")
+    return lines
 
 
 def _length(row: dict[str, str]) -> str:

@@ -11,7 +11,7 @@ from pathlib import Path
 
 from r37core.config import Settings
 from r37core.plans import paths
-from r37core.plans.sweep_plan import Sweep, asked_by
+from r37core.plans.sweep_plan import Sweep, speeds_of_round
 from r37core.product.reading import RESERVED, read_settings
 from r37core.product.targets import everything
 from r37core.speeds import SpeedPlan, exact_text
@@ -23,8 +23,8 @@ def leftovers(results: Path, settings: Settings) -> list[Path]:
     Those of blades, scenes and speeds that are not run any more, and datasets, figures and models that are not made any more.
     What no rule makes is left alone.
     """
-    found = {*_of_runs(results, settings), *_dropped(results, settings)} if results.is_dir() else set()
-    return sorted(path for path in found if found.isdisjoint(path.parents))
+    left = {*_of_runs(results, settings), *_dropped(results, settings)} if results.is_dir() else set()
+    return sorted(path for path in left if left.isdisjoint(path.parents))
 
 
 def _of_runs(results: Path, settings: Settings) -> Iterator[Path]:
@@ -54,8 +54,8 @@ def _dropped(results: Path, settings: Settings) -> Iterator[Path]:
         yield from (file for file in files if file not in planned and file.relative_to(results).parts[0] not in others)
     folders = {folder for file in planned for folder in file.parents}
     for pattern in {parent for file in patterns for parent in _own_folders(file)}:
-        found = (folder for folder in results.glob(re.sub(r"\{\w+\}", "*", pattern)) if folder.is_dir())
-        yield from (folder for folder in found if folder not in folders)
+        present = (folder for folder in results.glob(re.sub(r"\{\w+\}", "*", pattern)) if folder.is_dir())
+        yield from (folder for folder in present if folder not in folders)
 
 
 def _own_folders(pattern: str) -> Iterator[str]:
@@ -79,15 +79,15 @@ def _planned(settings: Settings) -> dict[str, paths.Wildcards]:
 
 def _speeds(folder: Path, plan: SpeedPlan) -> list[float]:
     """Speeds that the rounds of refinement asked for; all of the grid while no last round says that they are done."""
-    asked: list[float] = list(plan.certain)
+    speeds: list[float] = list(plan.certain)
     for number in count():
         file = folder / f"round_{number}.json"
         if not plan.refined or not file.exists():
             break
-        new = asked_by(str(file))
+        new = speeds_of_round(str(file))
         if not new:
-            return asked
-        asked += new
+            return speeds
+        speeds += new
     return plan.every_speed()
 
 
@@ -102,14 +102,12 @@ def main() -> None:
     parser.add_argument("--remove", action="store_true", help="remove them; without it they are listed")
     chosen = parser.parse_args()
     settings = read_settings(Path("."))
-    found = leftovers(settings.results, settings)
-    for path in found:
+    left = leftovers(settings.results, settings)
+    for path in left:
         print(f"{size(path) / 1e6:10.2f} MB  {path}")
         if chosen.remove:
             shutil.rmtree(path) if path.is_dir() else path.unlink()
-    print(
-        f"{len(found)} left over" + (", removed" if chosen.remove else "; make clean REMOVE=yes removes them" if found else "")
-    )
+    print(f"{len(left)} left over" + (", removed" if chosen.remove else "; make clean REMOVE=yes removes them" if left else ""))
 
 
 if __name__ == "__main__":

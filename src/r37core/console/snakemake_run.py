@@ -63,8 +63,8 @@ class Console:
     def succeed(self) -> None:
         """After the last job: nothing is said where there is nothing to say."""
         lock.release()
-        found = closing_lines(self.settings.results, self.began, time.time(), remarks_on_points(self.settings))
-        _say_last([*failures.taken(), *found])
+        lines = closing_lines(self.settings.results, self.began, time.time(), remarks_on_points(self.settings))
+        _say_last([*failures.taken(), *lines])
 
     def fail(self) -> None:
         """After a failure: what matters comes last."""
@@ -80,7 +80,7 @@ def begin(workflow: Any, logger: logging.Logger, refusal: Refusal, root: Path, v
     Snakemake's own messages of each job are in its log file, and on the terminal with R37_FULL_LOG=1 or --verbose. Raises
     `refusal` for a configuration that is not allowed.
     """
-    began, given, output = time.time(), workflow.config_settings, workflow.output_settings
+    began, config, output = time.time(), workflow.config_settings, workflow.output_settings
     if workflow.is_main_process:
         failures.begin(f"{socket.gethostname()}_{os.getpid()}")
     interpreter.quote()
@@ -92,7 +92,7 @@ def begin(workflow: Any, logger: logging.Logger, refusal: Refusal, root: Path, v
     with _refused(refusal):
         source = source_folder(root)
         settings = settings_of_run(
-            Path(workflow.basedir), given.configfiles, given.config, above, only_given=given.replace_workflow_config
+            Path(workflow.basedir), config.configfiles, config.config, above, only_given=config.replace_workflow_config
         )
     lifted = lock.enter() if workflow.is_main_process else []
     for line in [*lifted, *remarks(settings), *replaced_level(settings)]:

@@ -58,10 +58,10 @@ class Refusals:
 
 
 @contextmanager
-def placed(places: Mapping[str, str]) -> Iterator[None]:
-    """Put in front of a refusal where its key stands, of `places` (key -> `file:line: key`)."""
+def located(locations: Mapping[str, str]) -> Iterator[None]:
+    """Put in front of a refusal where its key stands, of `locations` (key -> `file:line: key`)."""
     try:
         yield
     except ImportRefused as error:
-        prefix = places.get(error.key or "")
+        prefix = locations.get(error.key or "")
         raise ImportRefused(f"{prefix}: {error.reason}" if prefix else error.reason, error.key, error.fitting) from None

@@ -25,6 +25,7 @@ class CodeHashes:
     def __init__(self, source: Path, scripts: Path, packages: Collection[str] = (PACKAGE,)):
         self._source, self._scripts, self._packages = source, scripts, packages
         self._version_file = source / PACKAGE / "__init__.py"
+        self._parts = cache(self._parts_of)
 
     def __call__(self, *names: str) -> str:
         """Short hash of what has these names, as `step`, `r37core.fem.steps` or `r37core.fem.steps.mesh`, and its imports."""
@@ -46,7 +47,7 @@ class CodeHashes:
         """The files of what has these names and of all that they import, directly or not, sorted."""
         return sorted({file for file, _ in self._parts(*names)})
 
-    def _parts(self, *names: str) -> list[tuple[Path, str]]:
+    def _parts_of(self, *names: str) -> list[tuple[Path, str]]:
         """Files, each with the name of the function that alone counts, or "" for the whole.
 
         Sorted, those of the package first wherever it lies: a hash is of code and not of places.
@@ -75,8 +76,8 @@ class CodeHashes:
 def module_files(name: str, roots: tuple[Path, ...]) -> tuple[Path, ...]:
     """Files of a dotted name, which may end in something that is no module: it and the packages above it."""
     parts = name.split(".")
-    places = [root.joinpath(*parts[:length]) for root in roots for length in range(1, len(parts) + 1)]
-    candidates = [file for place in places for file in (place.with_suffix(".py"), place / "__init__.py")]
+    bases = [root.joinpath(*parts[:length]) for root in roots for length in range(1, len(parts) + 1)]
+    candidates = [file for base in bases for file in (base.with_suffix(".py"), base / "__init__.py")]
     return tuple(file for file in candidates if file.exists())
 
 

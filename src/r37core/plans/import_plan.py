@@ -11,7 +11,7 @@ from typing import Any
 
 from r37core.blade.definition import BladeDefinition
 from r37core.config import Settings
-from r37core.config.places import places_of
+from r37core.config.key_locations import locations_of_keys
 from r37core.exchange.importing.source import MatricesSource, MeshSource, matrix_files, mesh_files
 from r37core.plain import to_plain
 
@@ -55,19 +55,19 @@ class Imported:
         """What a blade is imported from, as seen from the current folder where that is possible."""
         source = self.settings.blades[wildcards.blade].definition
         if isinstance(source, MeshSource):
-            found = mesh_files(source.file, self.settings.root)
+            files = mesh_files(source.file, self.settings.root)
         else:
             assert isinstance(source, MatricesSource)
-            found = list(matrix_files(source.folder, self.settings.root).values())
-        return [_seen_from_here(file) for file in found]
+            files = list(matrix_files(source.folder, self.settings.root).values())
+        return [_seen_from_here(file) for file in files]
 
     def source(self, wildcards: Any) -> Any:
         """What to import."""
         return to_plain(self.settings.blades[wildcards.blade].definition)
 
-    def places(self, wildcards: Any) -> Attributes:
+    def locations(self, wildcards: Any) -> Attributes:
         """Where the keys of a blade stand, as `file:line: blade.key`; a new line re-runs nothing."""
-        return Attributes(places_of(self.settings, wildcards.blade))
+        return Attributes(locations_of_keys(self.settings, wildcards.blade))
 
     @property
     def folder(self) -> Attributes:

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 from r37core.plain import to_plain
 
-from .samples import Pair, Sample, Samples, member_of, place_of
+from .samples import Pair, Sample, Samples, folder_and_name, member_of
 
 if TYPE_CHECKING:
     from r37core.config import Settings
@@ -83,7 +83,7 @@ class Provenance:
 
 def _member(member: str) -> dict[str, str]:
     """Name of a member; nothing of a nominal one."""
-    _, name = place_of(SimpleNamespace(member=member))
+    _, name = folder_and_name(SimpleNamespace(member=member))
     return {"member": name} if name else {}
 
 

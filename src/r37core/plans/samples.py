@@ -75,22 +75,22 @@ class Samples:
 
     def sample(self, wildcards: Any) -> Sample:
         """Of a blade and scene, with the member."""
-        folder, _ = place_of(wildcards)
+        folder, _ = folder_and_name(wildcards)
         pair = (wildcards.blade, wildcards.scene)
         return self.beside[folder][pair] if folder else self._nominal(pair)
 
     def member(self, wildcards: Any) -> Member:
         """Of a blade and scene."""
-        return self.sample(wildcards).members[place_of(wildcards)[1]]
+        return self.sample(wildcards).members[folder_and_name(wildcards)[1]]
 
     def model(self, wildcards: Any) -> str:
         """The part `member` of the paths of the model that a member's runs start from."""
         model = self.member(wildcards).model
-        return path_part(place_of(wildcards)[0], model) if model else NOMINAL
+        return path_part(folder_and_name(wildcards)[0], model) if model else NOMINAL
 
     def blade(self, wildcards: Any) -> BladeSettings:
         """The blade of a member, which is the same in all scenes."""
-        folder, name = place_of(wildcards)
+        folder, name = folder_and_name(wildcards)
         return self._blades[folder, wildcards.blade][name] if folder else self.settings.blades[wildcards.blade]
 
     @cached_property
@@ -111,12 +111,12 @@ class Samples:
     @cached_property
     def _blades(self) -> dict[tuple[str, str], dict[str, BladeSettings]]:
         """By folder and blade, and by name."""
-        found: dict[tuple[str, str], dict[str, BladeSettings]] = {}
+        members_of: dict[tuple[str, str], dict[str, BladeSettings]] = {}
         for folder, samples in self.beside.items():
             for (blade, _), sample in samples.items():
                 members = {name: member.blade for name, member in sample.members.items()}
-                found.setdefault((folder, blade), {}).update(members)
-        return found
+                members_of.setdefault((folder, blade), {}).update(members)
+        return members_of
 
 
 def member_of(wildcards: Any) -> str:
@@ -124,7 +124,7 @@ def member_of(wildcards: Any) -> str:
     return getattr(wildcards, "member", NOMINAL)
 
 
-def place_of(wildcards: Any) -> tuple[str, str]:
+def folder_and_name(wildcards: Any) -> tuple[str, str]:
     """Folder and name of a member; both empty of a nominal one."""
     folder, _, name = member_of(wildcards).removesuffix("/").partition("/")
     return folder, name

@@ -9,13 +9,13 @@ from typing import Any
 
 from r37core.blade.definition import BladeDefinition
 from r37core.config import Settings
-from r37core.config.places import place_of_contact
+from r37core.config.key_locations import location_of_contact
 from r37core.config.settings import RESULTS
 from r37core.plain import to_plain
 
 from .paths import MESH, REDUCED_MODEL, WHOLE_BLADE_MODEL, fill
 from .provenance import Attributes
-from .samples import NOMINAL, Pair, Sample, Samples, member_of, place_of
+from .samples import NOMINAL, Pair, Sample, Samples, folder_and_name, member_of
 
 
 @dataclass(frozen=True)
@@ -34,7 +34,7 @@ class Structure:
 
     def definition(self, wildcards: Any) -> Any:
         """Shape of a blade."""
-        definition, (folder, name) = self._samples.blade(wildcards).definition, place_of(wildcards)
+        definition, (folder, name) = self._samples.blade(wildcards).definition, folder_and_name(wildcards)
         if folder and isinstance(definition, BladeDefinition):
             # the name is for messages
             definition = replace(definition, name=f"{wildcards.blade}, member {name} of {folder}")
@@ -64,9 +64,9 @@ class Structure:
         pattern = REDUCED_MODEL.replace("<results>", str(RESULTS))
         return Attributes(file=fill(pattern, member=member_of(wildcards), blade=wildcards.blade, tip_line=wildcards.tip_line))
 
-    def place_of_contact(self, wildcards: Any) -> Attributes:
+    def location_of_contact(self, wildcards: Any) -> Attributes:
         """Where stands what a blade's contact acts on; another line re-runs nothing."""
-        return Attributes(place=place_of_contact(self.settings, wildcards.blade))
+        return Attributes(location=location_of_contact(self.settings, wildcards.blade))
 
     def reduction(self, wildcards: Any) -> dict[str, Any]:
         """What the reduced model is made of, with contact nodes on the line that the wildcard names."""

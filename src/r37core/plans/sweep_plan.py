@@ -21,7 +21,7 @@ from r37core.time_integration.integration_choice import IntegrationChoice
 from r37core.time_integration.speed_run import OF_RUNS
 
 from . import paths
-from .samples import Pair, Sample, Samples, member_of, path_part, place_of
+from .samples import Pair, Sample, Samples, folder_and_name, member_of, path_part
 
 KINDS = ("rms", "spectrum", "stress", "wear", "casing")
 """Kinds of datasets over all blades and scenes; the first of every scene, the others of those that want them."""
@@ -71,24 +71,24 @@ class Sweep:
 
     def speed_files(self, wildcards: Any) -> list[str]:
         """The simulations of one blade and scene, by ascending speed: of all rounds, where its speeds are adaptive."""
-        speeds = speeds_of_rounds(self.speed_plan(wildcards), partial(self._asked, wildcards))
+        speeds = speeds_of_rounds(self.speed_plan(wildcards), partial(self._new_speeds, wildcards))
         return _speed_files(member_of(wildcards), wildcards, speeds)
 
     def round_inputs(self, wildcards: Any) -> dict[str, Any]:
         """What a round looks at: the Campbell diagram, or the runs that the round before it asked for, member by member."""
-        number, (folder, _) = int(wildcards.round), place_of(wildcards)
+        number, (folder, _) = int(wildcards.round), folder_and_name(wildcards)
         if number == 0:
             return {"campbell": paths.fill(paths.CAMPBELL, blade=wildcards.blade)}
         of = {"member": path_part(folder), "blade": wildcards.blade, "scene": wildcards.scene}
-        new, names = self._asked(wildcards, number - 1), self.samples.sample(wildcards).deciding
+        new, names = self._new_speeds(wildcards, number - 1), self.samples.sample(wildcards).deciding
         files = [file for name in names for file in _speed_files(path_part(folder, name), wildcards, new)]
         return {"before": paths.fill(paths.ROUND, **of, round=number - 1), "speeds": files}
 
-    def _asked(self, wildcards: Any, number: int) -> list[float]:
+    def _new_speeds(self, wildcards: Any, number: int) -> list[float]:
         """Speeds (rad/s) that a round asked for: the same of all members of a sample."""
         assert self.round_file is not None
-        member = path_part(place_of(wildcards)[0])
-        return asked_by(self.round_file(member=member, blade=wildcards.blade, scene=wildcards.scene, round=number))
+        member = path_part(folder_and_name(wildcards)[0])
+        return speeds_of_round(self.round_file(member=member, blade=wildcards.blade, scene=wildcards.scene, round=number))
 
     def yield_stress(self, wildcards: Any) -> float:
         """Of a blade (Pa)."""
@@ -114,10 +114,10 @@ class Sweep:
 
     def refinement_choice(self, wildcards: Any) -> dict[str, Any]:
         """What makes an interval of speeds of a scene worth halving, as fields of RefinementChoice."""
-        given = self.settings.config.refinement.in_scene(self.settings.scenes[wildcards.scene].scene)
-        windows = tuple(in_si(Window, window) for window in given.windows)
+        refinement = self.settings.config.refinement.in_scene(self.settings.scenes[wildcards.scene].scene)
+        windows = tuple(in_si(Window, window) for window in refinement.windows)
         share, prominence = self.samples.sample(wildcards).largest_share, self.settings.config.interactions.prominence
-        return to_plain(in_si(RefinementChoice, given, windows=windows, largest_share=share, prominence=prominence))
+        return to_plain(in_si(RefinementChoice, refinement, windows=windows, largest_share=share, prominence=prominence))
 
     def task(self, wildcards: Any) -> str:
         """What one simulation does, as JSON text."""
@@ -216,9 +216,9 @@ class Sweep:
         return self.settings.scenes[wildcards.scene]
 
 
-def speeds_of_rounds(plan: SpeedPlan, asked: Callable[[int], Sequence[float]]) -> list[float]:
-    """Speeds (rad/s), ascending: all that the rounds `asked` for until one asks for none, where they are adaptive."""
-    return sorted(chain.from_iterable(takewhile(bool, map(asked, count()))) if plan.refined else plan.certain)
+def speeds_of_rounds(plan: SpeedPlan, new_speeds: Callable[[int], Sequence[float]]) -> list[float]:
+    """Speeds (rad/s), ascending: `new_speeds` of all rounds until one has none, where they are adaptive."""
+    return sorted(chain.from_iterable(takewhile(bool, map(new_speeds, count()))) if plan.refined else plan.certain)
 
 
 def _speed_files(member: str, wildcards: Any, speeds: Sequence[float]) -> list[str]:
@@ -226,13 +226,13 @@ def _speed_files(member: str, wildcards: Any, speeds: Sequence[float]) -> list[s
     return [paths.fill(paths.SPEED, **of, speed=exact_text(speed)) for speed in speeds]
 
 
-def asked_by(file: str) -> list[float]:
+def speeds_of_round(file: str) -> list[float]:
     """Speeds (rad/s) that a round asked for. Each member of a sample asks: the file is read once as long as it is the same."""
-    return _asked_by(file, Path(file).stat().st_mtime_ns)
+    return _speeds_of_round(file, Path(file).stat().st_mtime_ns)
 
 
 @cache
-def _asked_by(file: str, _time: int) -> list[float]:
+def _speeds_of_round(file: str, _time: int) -> list[float]:
     with readable(file):
         return [float(speed) for speed in read_json(file)["new"]]
 

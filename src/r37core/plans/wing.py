@@ -44,6 +44,6 @@ class Wing:
     captions: Mapping[str, str] = field(default_factory=dict)
     on_request: bool = False
 
-    def asked(self, sweep: Sweep) -> dict[str, Wildcards]:
+    def all_targets(self, sweep: Sweep) -> dict[str, Wildcards]:
         """All that a run makes of it."""
         return {**self.simulated(sweep), **self.targets(sweep)}

@@ -21,9 +21,9 @@ def blades_are_no_other_folders(settings: Settings) -> None:
     family_of = {design: name for name, family in settings.designs.families.items() for design in family.designs}
     for name in settings.designs.entries:
         if name.lower() in RESERVED:
-            found = f"the {'design' if name in family_of else 'blade'} '{name}'"
+            what = f"the {'design' if name in family_of else 'blade'} '{name}'"
             allowed = f"another name; {', '.join(RESERVED)} are folders of the results"
-            raise settings.documents.blades.refusal((family_of.get(name, name),), found, allowed)
+            raise settings.documents.blades.refusal((family_of.get(name, name),), what, allowed)
 
 
 READER = Reader(CONFIG, (blades_are_no_other_folders, *CHECKS, *(check for wing in WINGS for check in wing.checks)))

@@ -19,7 +19,7 @@ def remarks(settings: Settings) -> list[str]:
 def check_asked(settings: Settings, targets: Collection[str]) -> None:
     """ConfigError for a target that makes all of one wing, and nothing else, where nothing is asked for of that."""
     for wing in WINGS:
-        if wing.name in targets and not any(wing.asked(Sweep(settings)).values()):
+        if wing.name in targets and not any(wing.all_targets(Sweep(settings)).values()):
             allowed = f"some under {wing.name} in config.yaml" if wing.simulated(Sweep(settings)) else "some that ask for it"
             file = f"config/{wing.name}.yaml"
             if (settings.root / file).exists():

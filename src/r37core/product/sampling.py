@@ -14,5 +14,5 @@ def beside(settings: Settings) -> dict[str, dict[Pair, Sample]]:
 
 
 def sampling_of(settings: Settings) -> Sampling | None:
-    """That of the wing of which this run has members; none where it has none."""
+    """That of the wing of which this run has members; none where it has none. Tables have ranges of one wing's members."""
     return next((wing.sampling for wing in WINGS if wing.sampling and wing.sampling.samples(settings)), None)

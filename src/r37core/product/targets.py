@@ -11,16 +11,16 @@ from .wings import WINGS
 
 def targets(sweep: Sweep) -> dict[str, Wildcards]:
     """Pattern of files -> wildcards of each that is asked for; none where a configuration does without."""
-    found = _of_spine(sweep)
+    targets = _of_spine(sweep)
     for wing in WINGS:
         if not wing.on_request:
-            found |= wing.asked(sweep)
-    return found
+            targets |= wing.all_targets(sweep)
+    return targets
 
 
 def everything(sweep: Sweep) -> dict[str, Wildcards]:
     """The same with what is made on request alone."""
-    return targets(sweep) | {pattern: files for wing in WINGS for pattern, files in wing.asked(sweep).items()}
+    return targets(sweep) | {pattern: files for wing in WINGS for pattern, files in wing.all_targets(sweep).items()}
 
 
 def simulated(sweep: Sweep) -> list[str]:
@@ -30,7 +30,7 @@ def simulated(sweep: Sweep) -> list[str]:
 
 def files_of(wing: Wing, sweep: Sweep) -> list[str]:
     """All files of a wing that are asked for."""
-    return filled(wing.asked(sweep))
+    return filled(wing.all_targets(sweep))
 
 
 def _of_spine(sweep: Sweep) -> dict[str, Wildcards]:
@@ -46,9 +46,9 @@ def _of_spine(sweep: Sweep) -> dict[str, Wildcards]:
         "ranking": ranked,
         "clearance_{scene}": of("scene", growing),
     }
-    found: dict[str, Wildcards] = {f"<results>/{kind}.nc": [{}] if kind in sweep.kinds else [] for kind in KINDS}
-    found["<results>/ranking.csv"] = [{}]
-    found["<results>/coincidences.csv"] = [{}] if sweep.casings else []
+    targets: dict[str, Wildcards] = {f"<results>/{kind}.nc": [{}] if kind in sweep.kinds else [] for kind in KINDS}
+    targets["<results>/ranking.csv"] = [{}]
+    targets["<results>/coincidences.csv"] = [{}] if sweep.casings else []
     for name, wildcards in figures.items():
-        found |= pictures(name, wildcards)
-    return found
+        targets |= pictures(name, wildcards)
+    return targets

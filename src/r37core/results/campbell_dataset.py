@@ -5,14 +5,34 @@ from __future__ import annotations
 import numpy as np
 import xarray as xr
 
-from r37core.dataset_file import SPEED_RPM, about
+from r37core.dataset_file import SPEED, Variable, dataset_of
 from r37core.rom.reduced_model import ReducedModel
 from r37core.rom.rotation import BucklingError
-from r37core.units import RPM
 
 from .campbell import campbell_diagram, dynamic_clearance
 
 _CLEARANCE_POINTS = 41
+
+VARIABLES = {
+    "frequency": Variable(("mode", "speed"), "Hz", "natural frequency"),
+    "crossing_speed": Variable(
+        ("mode", "engine_order"), "rad s-1", "speed at which the frequency is the engine order times the speed"
+    ),
+    "dynamic_clearance": Variable(
+        ("mode", "tangential_displacement"),
+        "m",
+        "change of the leading-edge clearance, normal to the tip's cone, as the blade swings along the mode",
+    ),
+    "smallest_mac": Variable(("mode",), "1", "smallest MAC between neighbouring speeds"),
+}
+
+AXES = {
+    "speed": SPEED,
+    "engine_order": Variable(("engine_order",), "1", "engine order", "i8"),
+    "tangential_displacement": Variable(
+        ("tangential_displacement",), "m", "tangential displacement of the leading edge, positive against the rotation"
+    ),
+}
 
 
 def campbell_dataset(
@@ -40,37 +60,16 @@ def campbell_dataset(
     orders = np.arange(1, highest_engine_order + 1)
     displacement = np.linspace(-1.0, 1.0, _CLEARANCE_POINTS) * largest_tangential_displacement
     clearance = dynamic_clearance(model, diagram.shapes[:, 0].T, tip_line, displacement)
-    return xr.Dataset(
-        {
-            "frequency": (("mode", "speed"), diagram.frequencies, about("Hz", "natural frequency")),
-            "crossing_speed": (
-                ("mode", "engine_order"),
-                diagram.crossing_speeds(orders),
-                about("rad s-1", "speed at which the frequency is the engine order times the speed"),
-            ),
-            "dynamic_clearance": (
-                ("mode", "tangential_displacement"),
-                clearance,
-                about(
-                    "m",
-                    "change of the leading-edge clearance, normal to the tip's cone, as the blade swings along the mode",
-                ),
-            ),
-            "smallest_mac": ("mode", diagram.continuity, about("1", "smallest MAC between neighbouring speeds")),
-        },
-        coords={
-            "mode": list(diagram.mode_names),
-            "speed": ("speed", speeds, about("rad s-1", "angular speed of the rotor")),
-            "speed_rpm": ("speed", RPM * speeds, SPEED_RPM),
-            "engine_order": ("engine_order", orders, about("1", "engine order")),
-            "tangential_displacement": (
-                "tangential_displacement",
-                displacement,
-                about("m", "tangential displacement of the leading edge, positive against the rotation"),
-            ),
-        },
-        attrs={
-            "dynamic_clearance_tip_line": tip_line,
-            "tip_cone_angle_deg": float(np.degrees(model.tip_lines[tip_line].cone_angle)),
-        },
+    values = {
+        "frequency": diagram.frequencies,
+        "crossing_speed": diagram.crossing_speeds(orders),
+        "dynamic_clearance": clearance,
+        "smallest_mac": diagram.continuity,
+        "speed": speeds,
+        "engine_order": orders,
+        "tangential_displacement": displacement,
+    }
+    dataset = dataset_of(VARIABLES, values, AXES, {"mode": list(diagram.mode_names)})
+    return dataset.assign_attrs(
+        dynamic_clearance_tip_line=tip_line, tip_cone_angle_deg=float(np.degrees(model.tip_lines[tip_line].cone_angle))
     )

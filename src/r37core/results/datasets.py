@@ -9,25 +9,13 @@ import netCDF4
 import numpy as np
 import xarray as xr
 
+from r37core.dataset_file import Variable
 from r37core.io import FILE_ATTRIBUTES, InputFileError, atomic_write, readable
 from r37core.time_integration.simulate import TIP_POINTS
 from r37core.time_integration.status import RunStatus
 
-from .netcdf import create_axis, create_labels, create_text, create_variable
-from .variables import DATASETS, FLAGS
-
-_AXES = (
-    "speed",
-    "history_speed",
-    "revolution",
-    "engine_order",
-    "angle",
-    "lobes",
-    "contact_node",
-    "casing_mode",
-    "casing_order",
-)
-"""Numeric axes, of which a dataset has what its responses have together."""
+from .netcdf import create_axis, create_labels, create_variable
+from .variables import AXES, DATASETS, FLAGS
 
 
 def write_sweep_dataset(
@@ -90,7 +78,7 @@ def _axes(responses: Mapping[tuple[str, str], Path | str]) -> dict[str, np.ndarr
     axes: dict[str, np.ndarray] = {}
     for source in responses.values():
         with readable(source), netCDF4.Dataset(source) as response:
-            for name in _AXES:
+            for name in AXES:
                 if name in response.variables:
                     axes[name] = np.union1d(axes.get(name, np.empty(0)), response[name][:].filled(np.nan))
     return axes
@@ -105,15 +93,17 @@ def _copy(
         source = response[name]
         for dim in source.dimensions:
             if dim in axes and dim not in target.variables:
-                create_axis(target, dim, axes[dim], _attributes(response[dim]))
-        if source.dtype is str:
-            _copy_text(source, target, pair)
-            continue
+                create_axis(target, dim, axes[dim], AXES[dim])
         if name not in target.variables:
-            dims = ("blade", "scene", *source.dimensions)
-            created = create_variable(target, name, source.dtype, dims, _attributes(source))
+            attributes = {key: source.getncattr(key) for key in source.ncattrs() if key != "_FillValue"}
+            dtype = "str" if source.dtype is str else source.dtype.str
+            variable = Variable(source.dimensions, attributes.pop("units"), attributes.pop("long_name"), dtype)
+            created = create_variable(target, name, variable, ("blade", "scene"), **attributes)
             if name == "status":
                 created[:] = RunStatus.NOT_RUN
+        if source.dtype is str:
+            target[name][pair] = source[...]
+            continue
         rows = [
             np.searchsorted(axes[dim], response[dim][:]) if dim in axes else np.arange(len(target.dimensions[dim]))
             for dim in source.dimensions
@@ -121,13 +111,3 @@ def _copy(
         slab = np.full(target[name].shape[2:], RunStatus.NOT_RUN if name == "status" else np.nan, dtype=source.dtype)
         slab[np.ix_(*rows)] = np.ma.filled(source[:], np.nan) if source.dtype.kind == "f" else source[:]
         target[name][pair] = slab
-
-
-def _copy_text(source: netCDF4.Variable, target: netCDF4.Dataset, pair: tuple[int, int]) -> None:
-    if source.name not in target.variables:
-        create_text(target, source.name, ("blade", "scene"), source.long_name)
-    target[source.name][pair] = source[...]
-
-
-def _attributes(variable: netCDF4.Variable) -> dict[str, object]:
-    return {key: variable.getncattr(key) for key in variable.ncattrs() if key != "_FillValue"}

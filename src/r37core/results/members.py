@@ -14,10 +14,10 @@ MEASURES_RANKED_BY = dict(
 
 def measures_of_members(members: xr.Dataset) -> dict[tuple[str, str], dict[str, dict[str, float]]]:
     """What blades are ranked by of each blade and scene, member by member; `members`: a dataset of them."""
-    found: dict[tuple[str, str], dict[str, dict[str, float]]] = {}
+    by_pair: dict[tuple[str, str], dict[str, dict[str, float]]] = {}
     for blade in members["blade"].values.tolist():
         for scene in members["scene"].values.tolist():
-            one = members[list(MEASURES_RANKED_BY.values())].sel(blade=blade, scene=scene).dropna("member", how="all")
-            rows = one.to_dataframe()[list(MEASURES_RANKED_BY.values())].set_axis(list(MEASURES_RANKED_BY), axis=1)
-            found[blade, scene] = {str(member): values for member, values in rows.to_dict("index").items()}
-    return {pair: measures for pair, measures in found.items() if measures}
+            part = members[list(MEASURES_RANKED_BY.values())].sel(blade=blade, scene=scene).dropna("member", how="all")
+            rows = part.to_dataframe()[list(MEASURES_RANKED_BY.values())].set_axis(list(MEASURES_RANKED_BY), axis=1)
+            by_pair[blade, scene] = {str(member): values for member, values in rows.to_dict("index").items()}
+    return {pair: measures for pair, measures in by_pair.items() if measures}

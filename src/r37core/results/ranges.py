@@ -24,7 +24,7 @@ COLUMNS = [
     "members",
     "share_of_members",
     "robust",
-    *(name for one in RANGED for name in (one, *(f"{one}_{end}" for end in ENDS))),
+    *(name for key in RANGED for name in (key, *(f"{key}_{end}" for end in ENDS))),
 ]
 """Columns of the table: those without an end are of the nominal run."""
 
@@ -42,16 +42,16 @@ def read_ranges(file: Path | str) -> pd.DataFrame:
 
 def as_ranges_bear(summary: pd.DataFrame) -> pd.DataFrame:
     """The summary with as many digits of what has a range as its width bears, but for the nominal peaks, which are runs."""
-    found = summary.copy()
-    for one in RANGED:
-        columns = [name for name in (one, *(f"{one}_{end}" for end in ENDS)) if name in found and name != "peak_speed_rad_s"]
-        if f"{one}_low" in columns:
-            rows = found[f"{one}_low"].notna() & found[f"{one}_high"].notna()
-            spread = found.loc[rows, f"{one}_high"] - found.loc[rows, f"{one}_low"]
+    table = summary.copy()
+    for key in RANGED:
+        columns = [name for name in (key, *(f"{key}_{end}" for end in ENDS)) if name in table and name != "peak_speed_rad_s"]
+        if f"{key}_low" in columns:
+            rows = table[f"{key}_low"].notna() & table[f"{key}_high"].notna()
+            spread = table.loc[rows, f"{key}_high"] - table.loc[rows, f"{key}_low"]
             for name in columns:
-                values = zip(found.loc[rows, name], spread, strict=True)
-                found.loc[rows, name] = [float(rounded_to(value, width) or np.nan) for value, width in values]
-    return found
+                values = zip(table.loc[rows, name], spread, strict=True)
+                table.loc[rows, name] = [float(rounded_to(value, width) or np.nan) for value, width in values]
+    return table
 
 
 def with_ranges(summary: pd.DataFrame, table: pd.DataFrame) -> pd.DataFrame:

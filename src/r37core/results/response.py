@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
 import netCDF4
 import numpy as np
@@ -14,8 +15,8 @@ from r37core.time_integration.simulate import DIRECTIONS, TIP_POINTS
 from r37core.time_integration.speed_file import read_speed
 
 from .measures import first_yield
-from .netcdf import create_axis, create_labels, create_text, create_variable, status_flags
-from .variables import OF_CASING, VARIABLES
+from .netcdf import create_axis, create_labels, create_variable, status_flags
+from .variables import AXES, HISTORIES, OF_ALL_SPEEDS, OF_STRESS, VARIABLES
 
 
 def write_response(
@@ -39,21 +40,11 @@ def write_response(
             values = _row(read_speed(source), yield_stress)
             if row == 0:
                 _create(dataset, speeds, values, history_speeds)
-                about = {"units": "rad", "long_name": "half angle of the casing's cone, negative where it narrows downstream"}
-                create_variable(dataset, "casing_cone_angle", "f8", (), about)[...] = values["cone_angle"]
-                if "lined" in values:
-                    about = {"units": "1", "long_name": "1 where a lining is worn, 0: the tip meets the casing itself"}
-                    create_variable(dataset, "lined", "f4", (), about)[...] = values["lined"]
-                for name, variable in OF_CASING.items():
-                    if name in values:
-                        create_variable(dataset, name, variable.dtype, variable.dims, variable.attributes)[...] = values[name]
-                if "max_von_mises" in values:
-                    about = {"units": "Pa", "long_name": "yield stress of the blade's material"}
-                    create_variable(dataset, "yield_stress", "f8", (), about)[...] = yield_stress
-                    region = str(values["stress_region"])
-                    create_text(dataset, "stress_region", (), "where max_von_mises is looked for")[...] = region
-                    about = {"units": "1", "long_name": "1 where max_von_mises has the stress of rotation, 0: vibration alone"}
-                    create_variable(dataset, "static_stress", "f4", (), about)[...] = values["static_stress"]
+                of_all: dict[str, Any] = values | {"casing_cone_angle": values["cone_angle"], "yield_stress": yield_stress}
+                for name, variable in OF_ALL_SPEEDS.items():
+                    if name in of_all and (name not in OF_STRESS or "max_von_mises" in values):
+                        value = of_all[name]
+                        create_variable(dataset, name, variable)[...] = str(value) if variable.dtype == "str" else value
             for name in VARIABLES:
                 if name in values:
                     dataset[name][row] = values[name]
@@ -82,34 +73,26 @@ def _row(run: Mapping[str, np.ndarray], yield_stress: float) -> dict[str, np.nda
 def _create(
     dataset: netCDF4.Dataset, speeds: Sequence[float], values: Mapping[str, np.ndarray], history_speeds: Sequence[float]
 ) -> None:
-    coordinates: dict[str, tuple[np.ndarray, str, str]] = {"speed": (np.array(speeds), "rad s-1", "angular speed of the rotor")}
-    revolutions = len(values["revolution_maximum"])
-    coordinates["revolution"] = (np.arange(1, revolutions + 1), "1", "number of the revolution")
+    coordinates = {"speed": np.array(speeds), "revolution": np.arange(1, len(values["revolution_maximum"]) + 1)}
     if "amplitude" in values:
-        coordinates["engine_order"] = (values["engine_order"], "1", "engine order")
+        coordinates["engine_order"] = values["engine_order"]
     if "wear" in values:
         sectors = len(values["wear"])
-        coordinates["angle"] = (np.arange(sectors) * 2.0 * np.pi / sectors, "rad", "start of the sector round the casing")
-        coordinates["lobes"] = (np.arange(len(values["wear_harmonic"])), "1", "number of lobes")
+        coordinates["angle"] = np.arange(sectors) * 2.0 * np.pi / sectors
+        coordinates["lobes"] = np.arange(len(values["wear_harmonic"]))
     if "clearance" in values:
-        nodes = np.arange(1, len(values["clearance"]) + 1)
-        coordinates["contact_node"] = (nodes, "1", "number of the contact node, from the leading edge on")
+        coordinates["contact_node"] = np.arange(1, len(values["clearance"]) + 1)
     if "casing_order" in values:
-        modes = np.arange(1, len(values["casing_energy"]) + 1)
-        coordinates["casing_mode"] = (modes, "1", "number of the casing's mode")
-        order = "frequency over speed, not turning; positive with the rotor, negative against it"
-        coordinates["casing_order"] = (values["casing_order"], "1", order)
+        coordinates["casing_mode"] = np.arange(1, len(values["casing_energy"]) + 1)
+        coordinates["casing_order"] = values["casing_order"]
     if history_speeds:
-        coordinates["history_speed"] = (np.array(history_speeds), "rad s-1", "speed with a stress history")
+        coordinates["history_speed"] = np.array(history_speeds)
     create_labels(dataset, "tip_point", TIP_POINTS)
-    for name, (data, units, long_name) in coordinates.items():
-        create_axis(dataset, name, data, {"units": units, "long_name": long_name})
-    for name, about in VARIABLES.items():
+    for name, numbers in coordinates.items():
+        create_axis(dataset, name, numbers, AXES[name])
+    for name, variable in VARIABLES.items():
         if name in values:
-            create_variable(dataset, name, about.dtype, ("speed", *about.dims), about.attributes)
+            create_variable(dataset, name, variable, ("speed",))
     dataset["status"].setncatts(status_flags())
-    if history_speeds:
-        history = {"units": "Pa", "long_name": "largest von Mises stress of each revolution"}
-        create_variable(dataset, "max_von_mises_history", "f4", ("history_speed", "revolution"), history)
-        first = {"units": "1", "long_name": "first revolution whose largest stress exceeds yield"}
-        create_variable(dataset, "first_yield_revolution", "f8", ("history_speed",), first)
+    for name, variable in HISTORIES.items() if history_speeds else ():
+        create_variable(dataset, name, variable)

@@ -84,5 +84,5 @@ def ranking(input: Any, output: Any, params: Any) -> None:
     """Rank the blades. Inputs: datasets by kind and, if there, members. Params: runs. Output: table (csv)."""
     datasets = {kind: read_dataset(file) for kind, file in input.items()}
     members = measures_of_members(datasets.pop("members")) if "members" in datasets else None
-    found = {(blade, scene): robustness(response_of(datasets, blade, scene)) for blade, scene in params.runs}
-    write_table(ranking_table(found, members), output.table, digits=6)
+    measures = {(blade, scene): robustness(response_of(datasets, blade, scene)) for blade, scene in params.runs}
+    write_table(ranking_table(measures, members), output.table, digits=6)

@@ -2,25 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
+from r37core.dataset_file import SPEED, Variable
 from r37core.stress.statistic import HIGH
-
-
-@dataclass(frozen=True)
-class Variable:
-    """A variable of the datasets. `dims`: beyond (blade, scene, speed); `dtype` as stored."""
-
-    dims: tuple[str, ...]
-    units: str
-    long_name: str
-    dtype: str = "f8"
-
-    @property
-    def attributes(self) -> dict[str, str]:
-        """Of the variable in a file."""
-        return {"units": self.units, "long_name": self.long_name}
-
 
 _TIP = ("tip_point",)
 _OF_REVOLUTIONS = "largest von Mises stress of each revolution of the last half of the run"
@@ -77,7 +60,43 @@ OF_CASING = {
     "casing_nodal_diameter": Variable(("casing_mode",), "1", "nodal diameters of the casing's mode"),
     "casing_frequency": Variable(("casing_mode",), "Hz", "natural frequency of the casing's mode, which does not turn"),
 }
+
+OF_STRESS = {
+    "yield_stress": Variable((), "Pa", "yield stress of the blade's material"),
+    "stress_region": Variable((), "1", "where max_von_mises is looked for", "str"),
+    "static_stress": Variable((), "1", "1 where max_von_mises has the stress of rotation, 0: vibration alone", "f4"),
+}
+
+OF_ALL_SPEEDS = {
+    "casing_cone_angle": Variable((), "rad", "half angle of the casing's cone, negative where it narrows downstream"),
+    "lined": Variable((), "1", "1 where a lining is worn, 0: the tip meets the casing itself", "f4"),
+    **OF_CASING,
+    **OF_STRESS,
+}
 """The same at every speed."""
+
+HISTORIES = {
+    "max_von_mises_history": Variable(
+        ("history_speed", "revolution"), "Pa", "largest von Mises stress of each revolution", "f4"
+    ),
+    "first_yield_revolution": Variable(("history_speed",), "1", "first revolution whose largest stress exceeds yield"),
+}
+"""Of the speeds with a stress history."""
+
+AXES = {
+    "speed": SPEED,
+    "revolution": Variable(("revolution",), "1", "number of the revolution"),
+    "engine_order": Variable(("engine_order",), "1", "engine order"),
+    "angle": Variable(("angle",), "rad", "start of the sector round the casing"),
+    "lobes": Variable(("lobes",), "1", "number of lobes"),
+    "contact_node": Variable(("contact_node",), "1", "number of the contact node, from the leading edge on"),
+    "casing_mode": Variable(("casing_mode",), "1", "number of the casing's mode"),
+    "casing_order": Variable(
+        ("casing_order",), "1", "frequency over speed, not turning; positive with the rotor, negative against it"
+    ),
+    "history_speed": Variable(("history_speed",), "rad s-1", "speed with a stress history"),
+}
+"""Numeric axes, of which a dataset has what its responses have together."""
 
 DATASETS = {
     "rms": (

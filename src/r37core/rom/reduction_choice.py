@@ -80,12 +80,12 @@ def check_patches(choice: BoundaryChoice, chord: np.ndarray, of: str) -> None:
 
 
 @contextmanager
-def boundary_placed(place: str) -> Iterator[None]:
+def boundary_located(location: str) -> Iterator[None]:
     """Put in front of a BoundaryError where what contact acts on is chosen, as `file:line: key`."""
     try:
         yield
     except BoundaryError as error:
-        raise BoundaryError(f"{place}: {error}") from None
+        raise BoundaryError(f"{location}: {error}") from None
 
 
 def _resolves(choice: BoundaryChoice, count: int, chord: np.ndarray) -> bool:

@@ -13,7 +13,7 @@ from r37core.plain import from_plain
 from .contact_model import write_contact_model
 from .reduce import reduce_blade
 from .reduced_model import contact_model as contact_model_of
-from .reduction_choice import ReductionChoice, boundary_placed
+from .reduction_choice import ReductionChoice, boundary_located
 from .rom_file import read_reduced_model, write_reduced_model
 
 
@@ -30,7 +30,7 @@ def reduced_model(input: Any, output: Any, params: Any) -> None:
     mesh = read_vtu(input.mesh)
     matrices = assemble(mesh, from_plain(Material, params.material))
     print(f"mass {matrices.total_mass:.6g} kg, {3 * len(matrices.free_nodes)} free degrees of freedom")
-    with boundary_placed(params.contact["place"]):
+    with boundary_located(params.contact["location"]):
         model = reduce_blade(mesh, matrices, from_plain(ReductionChoice, params.reduction))
     print(f"{model.columns} columns, {model.size} independent at {model.tolerance:g}")
     write_reduced_model(model, output.rom, params.provenance | {"recipe": recipe})

@@ -9,49 +9,49 @@ import netCDF4
 import numpy as np
 import xarray as xr
 
-from r37core.dataset_file import about
+from r37core.dataset_file import Variable
 from r37core.io import FILE_ATTRIBUTES, atomic_write, readable
 from r37core.results.netcdf import create_axis, create_labels, create_variable, status_flags
+from r37core.results.variables import AXES
 from r37core.time_integration.simulate import DIRECTIONS, TIP_POINTS
 from r37core.time_integration.speed_file import read_speed
 
 _TURN, _TIP, _ORDER = ("revolution",), ("revolution", "tip_point"), ("revolution", "engine_order")
 
 VARIABLES = {
-    "start_speed": ((), "f8", "rad s-1", "speed before the change"),
-    "stop_speed": ((), "f8", "rad s-1", "speed after the change"),
-    "rate": ((), "f8", "rad s-2", "rate of the change, negative where the speed falls"),
-    "revolutions_before": ((), "i4", "1", "revolutions at the start speed, in which the casing becomes lobed"),
-    "revolutions_after": ((), "i4", "1", "revolutions at the stop speed, beyond the one in which the change ends"),
-    "worn": ((), "i1", "1", "1: the lining is worn by the same run-up, done once before"),
-    "status": ((), "i1", "1", "how the run ended"),
-    "diverged_revolution": ((), "f8", "1", "revolution at which the run diverged"),
-    "yield_stress": ((), "f8", "Pa", "yield stress of the blade's material"),
-    "largest_normal_force": ((), "f8", "N", "largest normal force on a tip node"),
-    "casing_hits": ((), "f8", "1", "how often a tip node came upon the casing"),
-    "contact_work": ((), "f8", "J", "work of the contact forces on the blade"),
-    "damping_loss": ((), "f8", "J", "energy lost to damping"),
-    "stiffness_work": ((), "f8", "J", "energy that the change of the stiffness with the speed brings to the vibration"),
-    "energy_change": ((), "f8", "J", "energy of the vibration at the end"),
-    "energy_residual": ((), "f8", "J", "energy change minus both works plus damping loss"),
-    "speed": (_TURN, "f8", "rad s-1", "mean angular speed of the revolution"),
-    "time": (_TURN, "f8", "s", "time at the end of the revolution"),
+    "start_speed": Variable((), "rad s-1", "speed before the change"),
+    "stop_speed": Variable((), "rad s-1", "speed after the change"),
+    "rate": Variable((), "rad s-2", "rate of the change, negative where the speed falls"),
+    "revolutions_before": Variable((), "1", "revolutions at the start speed, in which the casing becomes lobed", "i4"),
+    "revolutions_after": Variable((), "1", "revolutions at the stop speed, beyond the one in which the change ends", "i4"),
+    "worn": Variable((), "1", "1: the lining is worn by the same run-up, done once before", "i1"),
+    "status": Variable((), "1", "how the run ended", "i1"),
+    "diverged_revolution": Variable((), "1", "revolution at which the run diverged"),
+    "yield_stress": Variable((), "Pa", "yield stress of the blade's material"),
+    "largest_normal_force": Variable((), "N", "largest normal force on a tip node"),
+    "casing_hits": Variable((), "1", "how often a tip node came upon the casing"),
+    "contact_work": Variable((), "J", "work of the contact forces on the blade"),
+    "damping_loss": Variable((), "J", "energy lost to damping"),
+    "stiffness_work": Variable((), "J", "energy that the change of the stiffness with the speed brings to the vibration"),
+    "energy_change": Variable((), "J", "energy of the vibration at the end"),
+    "energy_residual": Variable((), "J", "energy change minus both works plus damping loss"),
+    "speed": Variable(_TURN, "rad s-1", "mean angular speed of the revolution"),
+    "time": Variable(_TURN, "s", "time at the end of the revolution"),
     **{
-        f"{kind}_{direction}": (_TIP, "f4", "m", f"{measure} {direction} displacement in the revolution")
+        f"{kind}_{direction}": Variable(_TIP, "m", f"{measure} {direction} displacement in the revolution", "f4")
         for kind, measure in (("rms", "rms of the"), ("maximum", "largest"))
         for direction in DIRECTIONS
     },
-    "amplitude": (_ORDER, "f4", "m", "amplitude of the leading edge's normal displacement in the revolution"),
-    "amplitude_tangential": (_ORDER, "f4", "m", "amplitude of the leading edge's tangential displacement in the revolution"),
-    "max_von_mises": (_TURN, "f8", "Pa", "largest von Mises stress on the submesh in the revolution"),
-    "max_wear": (
-        _TURN,
-        "f8",
-        "m",
-        "largest wear of the lining by the end of the constant-speed segment, up to 7 revolutions on",
+    "amplitude": Variable(_ORDER, "m", "amplitude of the leading edge's normal displacement in the revolution", "f4"),
+    "amplitude_tangential": Variable(
+        _ORDER, "m", "amplitude of the leading edge's tangential displacement in the revolution", "f4"
+    ),
+    "max_von_mises": Variable(_TURN, "Pa", "largest von Mises stress on the submesh in the revolution"),
+    "max_wear": Variable(
+        _TURN, "m", "largest wear of the lining by the end of the constant-speed segment, up to 7 revolutions on"
     ),
 }
-"""Variable -> dimensions beyond the run, type, units, meaning."""
+"""Dimensions are those beyond the run."""
 
 LABELS = ("blade", "scene", "run_up")
 """Of a run."""
@@ -71,14 +71,13 @@ def write_run_ups(files: Mapping[tuple[str, str, str], Path | str], file: Path |
         target.setncatts(FILE_ATTRIBUTES | {name: str(value) for name, value in provenance.items()})
         target.createDimension("run", len(files))
         create_labels(target, "tip_point", TIP_POINTS)
-        create_axis(target, "revolution", np.arange(1, revolutions + 1), about("1", "number of the revolution"))
+        create_axis(target, "revolution", np.arange(1, revolutions + 1), AXES["revolution"])
         if orders:
-            create_axis(target, "engine_order", np.arange(orders), about("1", "engine order"))
+            create_axis(target, "engine_order", np.arange(orders), AXES["engine_order"])
         for name in LABELS:
             target.createVariable(name, str, ("run",))
         for name in (variable for variable in VARIABLES if variable in names):
-            dims, dtype, units, meaning = VARIABLES[name]
-            create_variable(target, name, dtype, ("run", *dims), about(units, meaning) | {"coordinates": " ".join(LABELS)})
+            create_variable(target, name, VARIABLES[name], ("run",), coordinates=" ".join(LABELS))
         target["status"].setncatts(status_flags())
         for row, (run, values) in enumerate(_runs(files)):
             for name, label in zip(LABELS, run, strict=True):

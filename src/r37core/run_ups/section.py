@@ -57,10 +57,10 @@ class RunUpEntry(Section):
 
     def choice(self, revolutions_of_scene: int) -> RunUpChoice:
         """What is asked for in a scene whose runs have so many revolutions."""
-        given: dict[str, Any] = {"before": self.revolutions_before or revolutions_of_scene, "crossing": None}
+        parts: dict[str, Any] = {"before": self.revolutions_before or revolutions_of_scene, "crossing": None}
         if crossing := self.crossing:
-            given |= {"start": crossing.first, "stop": crossing.last, "crossing": in_si(Crossing, crossing)}
-        return in_si(RunUpChoice, self, **given)
+            parts |= {"start": crossing.first, "stop": crossing.last, "crossing": in_si(Crossing, crossing)}
+        return in_si(RunUpChoice, self, **parts)
 
 
 def _names_differ(entries: dict[str, RunUpEntry]) -> dict[str, RunUpEntry]:

@@ -3,43 +3,42 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 
 import netCDF4
 import numpy as np
 import xarray as xr
 
-from r37core.dataset_file import SPEED_RPM, about
+from r37core.dataset_file import SPEED, SPEED_RPM, Variable, dataset_of
 from r37core.io import FILE_ATTRIBUTES, atomic_write, readable
 from r37core.results.netcdf import create_axis, create_labels, create_variable, status_flags
 from r37core.rom.reduced_model import RecoveryNodes
 from r37core.time_integration.simulate import TIP_POINTS
-from r37core.units import RPM
 
 from .record import Record, revolutions_of
 from .tip_timing import arrival_times
 
 VARIABLES = {
-    "normal": (("tip_point", "turn"), "f4", "m", "displacement along the casing's normal"),
-    "tangential": (("tip_point", "turn"), "f4", "m", "tangential displacement, towards growing theta"),
-    "strain": (("gauge", "turn"), "f4", "1", "strain of the vibration along the gauge's grid"),
-    "gauge_place": (("gauge", "axis"), "f8", "m", "where the gauge is, in the blade's frame"),
-    "arrival_time": (("tip_point", "probe", "revolution"), "f8", "s", "time at which the tip passes the probe"),
-    "arrival_displacement": (
+    "normal": Variable(("tip_point", "turn"), "m", "displacement along the casing's normal", "f4"),
+    "tangential": Variable(("tip_point", "turn"), "m", "tangential displacement, towards growing theta", "f4"),
+    "strain": Variable(("gauge", "turn"), "1", "strain of the vibration along the gauge's grid", "f4"),
+    "gauge_place": Variable(("gauge", "axis"), "m", "where the gauge is, in the blade's frame"),
+    "arrival_time": Variable(("tip_point", "probe", "revolution"), "s", "time at which the tip passes the probe"),
+    "arrival_displacement": Variable(
         ("tip_point", "probe", "revolution"),
-        "f8",
         "m",
         "tangential displacement that the arrival tells: radius times speed times its lateness",
     ),
-    "status": ((), "i1", "1", "how the run ended"),
+    "status": Variable((), "1", "how the run ended", "i1"),
 }
-"""Variable -> dimensions beyond the run, type, units, meaning."""
+"""Dimensions are those beyond the run."""
 
 _BLADE_AXES = ("x", "y", "z")
 AXES = {
-    "turn": ("1", "time in revolutions since the start; times 2 pi / speed in s"),
-    "revolution": ("1", "number of the revolution"),
-    "probe": ("degree", "angle of the probe round the casing"),
+    "turn": Variable(("turn",), "1", "time in revolutions since the start; times 2 pi / speed in s"),
+    "revolution": Variable(("revolution",), "1", "number of the revolution", "i8"),
+    "probe": Variable(("probe",), "degree", "angle of the probe round the casing"),
 }
 
 
@@ -71,22 +70,10 @@ def signals_dataset(
         "arrival_displacement": np.stack([displacements for _, displacements in arrivals]),
         "status": np.array([int(record.status) for record in records.values()]),
     }
-    axes = {"turn": first.turn, "revolution": numbers, "probe": np.array(probes, dtype=float)}
-    dataset = xr.Dataset(
-        {
-            name: (("speed", *dims), data[name].astype(dtype), about(units, meaning))
-            for name, (dims, dtype, units, meaning) in VARIABLES.items()
-        },
-        {
-            "speed": ("speed", speeds, about("rad s-1", "angular speed of the rotor")),
-            "speed_rpm": ("speed", RPM * np.array(speeds), SPEED_RPM),
-            "interaction": ("speed", [names.get(speed, "") for speed in speeds]),
-            "tip_point": list(TIP_POINTS),
-            "gauge": np.array(list(gauges), dtype=object),
-            "axis": list(_BLADE_AXES),
-            **{name: (name, values, about(*AXES[name])) for name, values in axes.items()},
-        },
-    )
+    values = {"speed": speeds, "turn": first.turn, "revolution": numbers, "probe": probes}
+    labels = {"tip_point": list(TIP_POINTS), "gauge": np.array(list(gauges), dtype=object), "axis": list(_BLADE_AXES)}
+    dataset = dataset_of(VARIABLES, data | values, {"speed": SPEED, **AXES}, labels, ("speed",))
+    dataset = dataset.assign_coords(interaction=("speed", [names.get(speed, "") for speed in speeds]))
     dataset = dataset.drop_dims([name for name, size in dataset.sizes.items() if size == 0])
     return dataset if gauges else dataset.drop_dims("axis")
 
@@ -119,15 +106,15 @@ def gather_signals(files: Mapping[tuple[str, str], Path | str], file: Path | str
             if name == "gauge":
                 create_labels(target, name, list(values))
             else:
-                create_axis(target, name, values, about(*AXES[name]))
+                create_axis(target, name, values, AXES[name])
         target.createDimension("run", None)
         for name in ("blade", "scene", "interaction"):
             target.createVariable(name, str, ("run",))
-        create_variable(target, "speed", "f8", ("run",), about("rad s-1", "angular speed of the rotor"))
-        create_variable(target, "speed_rpm", "f8", ("run",), SPEED_RPM)
-        for name, (dims, dtype, units, meaning) in VARIABLES.items():
-            if set(dims) <= {"tip_point", "axis", *axes}:
-                create_variable(target, name, dtype, ("run", *dims), about(units, meaning) | {"coordinates": _COORDINATES})
+        for name, variable in {"speed": SPEED, "speed_rpm": SPEED_RPM}.items():
+            create_variable(target, name, replace(variable, dims=()), ("run",))
+        for name, variable in VARIABLES.items():
+            if set(variable.dims) <= {"tip_point", "axis", *axes}:
+                create_variable(target, name, variable, ("run",), coordinates=_COORDINATES)
         target["status"].setncatts(status_flags())
         for (blade, scene), source in files.items():
             with readable(source), xr.open_dataset(source) as dataset:

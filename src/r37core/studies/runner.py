@@ -12,7 +12,7 @@ import netCDF4
 import numpy as np
 import xarray as xr
 
-from r37core.dataset_file import about, read_dataset, write_dataset
+from r37core.dataset_file import SPEED, Variable, read_dataset, write_dataset
 from r37core.io import atomic_write, read_json
 from r37core.results.measures import motion_of_run, peak_of
 from r37core.results.netcdf import create_variable
@@ -31,10 +31,10 @@ from .case import Case, SweptPeak
 from .costs import Stopwatch, peak_memory
 
 BESIDE = {
-    "cpu_s": about("s", "CPU time of the time integration"),
-    "wall_s": about("s", "wall time of the time integration"),
-    "file_cpu_s": about("s", "CPU time of writing the run's file"),
-    "bytes_written": about("1", "bytes of the run's file"),
+    "cpu_s": Variable(("speed",), "s", "CPU time of the time integration"),
+    "wall_s": Variable(("speed",), "s", "wall time of the time integration"),
+    "file_cpu_s": Variable(("speed",), "s", "CPU time of writing the run's file"),
+    "bytes_written": Variable(("speed",), "1", "bytes of the run's file"),
 }
 """What a case's response holds of every speed beside the results."""
 
@@ -93,7 +93,7 @@ def run_case(
         with tempfile.TemporaryDirectory() as folder:
             _Runs(case, model, recovery, Path(folder)).write(output, attributes)
     except ValueError as error:
-        nothing = xr.Dataset(coords={"speed": ("speed", np.empty(0), about("rad s-1", "angular speed of the rotor"))})
+        nothing = xr.Dataset(coords={"speed": ("speed", np.empty(0), SPEED.attributes)})
         write_dataset(nothing, output, attributes | {"refused": str(error).split(";")[0]})
 
 
@@ -177,13 +177,13 @@ class _Runs:
                 provenance=attributes,
             )
         with netCDF4.Dataset(partial, "a") as dataset:
-            for name, words in BESIDE.items():
+            for name, variable in BESIDE.items():
                 values = [self.beside[speed][name] for speed in speeds]
-                create_variable(dataset, name, "f8", ("speed",), words)[:] = values
+                create_variable(dataset, name, variable)[:] = values
             if "instants" in self.case.results and self.recovery:
                 dataset.createDimension("instant", instants)
-                words = about("Pa", "largest von Mises stress at each instant of the last revolution")
-                stress = create_variable(dataset, "max_von_mises_of_instant", "f8", ("speed", "instant"), words)
+                meaning = "largest von Mises stress at each instant of the last revolution"
+                stress = create_variable(dataset, "max_von_mises_of_instant", Variable(("speed", "instant"), "Pa", meaning))
                 for row, speed in enumerate(speeds):
                     of_run = self.recovery.max_von_mises(read_speed(self.files[speed])["snapshots"])
                     # a run that diverged has none

@@ -10,12 +10,12 @@ from .members import members_of, section
 
 def members_can_be_drawn(settings: Settings) -> None:
     """Tolerances name blades, scenes and numbers that are there, no member is impossible, and all can be planned."""
-    given, documents, path = section(settings), settings.documents, ("tolerances",)
-    names_are_there(settings, path, given)
+    entry, documents, path = section(settings), settings.documents, ("tolerances",)
+    names_are_there(settings, path, entry)
     # the configuration that a run keeps has the empty section written out
-    if given != type(given)() and not members_of(settings).numbers:
+    if entry != type(entry)() and not members_of(settings).numbers:
         raise documents.config.refusal(path, "no numbers", "some under of_scenes or of_blades")
-    members = given.members * (len(members_of(settings).numbers) + 2 if given.sensitivity else 1)
+    members = entry.members * (len(members_of(settings).numbers) + 2 if entry.sensitivity else 1)
     number = members * sum(len(settings.speed_plans[pair].certain) for pair in members_of(settings).pairs)
     if number > LARGEST_NUMBER_OF_SIMULATIONS:
         raise documents.config.refusal(

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 
-from r37core.dataset_file import SPEED_RPM, about, read_dataset
+from r37core.dataset_file import SPEED_RPM, Variable, about, read_dataset
 from r37core.io import readable
 from r37core.results.measures import largest_stress, leading_edge, peak_of, ratio_to_yield, speeds_above_yield
 from r37core.results.member_ends import ENDS
@@ -31,16 +31,16 @@ QUANTILES = tuple(ENDS.values())
 _CURVES = ("rms_normal", "rms_tangential", "max_von_mises")
 
 MEASURES = {
-    "peak_speed": ("rad s-1", "speed of the leading edge's largest motion"),
-    "first_yield_speed": ("rad s-1", "first speed above yield"),
-    "width_above_yield": ("rad s-1", "from the first to the last speed above yield"),
-    "largest_stress": ("Pa", "largest von Mises stress over all speeds"),
-    "length_certain": ("rad s-1", "length of the speeds certainly above yield"),
-    "length_possible": ("rad s-1", "length of the speeds possibly above yield"),
-    "diverged_runs": ("1", "runs that diverged"),
-    "largest_median_stress": ("Pa", "largest over all speeds of the median over the revolutions"),
+    "peak_speed": Variable((), "rad s-1", "speed of the leading edge's largest motion"),
+    "first_yield_speed": Variable((), "rad s-1", "first speed above yield"),
+    "width_above_yield": Variable((), "rad s-1", "from the first to the last speed above yield"),
+    "largest_stress": Variable((), "Pa", "largest von Mises stress over all speeds"),
+    "length_certain": Variable((), "rad s-1", "length of the speeds certainly above yield"),
+    "length_possible": Variable((), "rad s-1", "length of the speeds possibly above yield"),
+    "diverged_runs": Variable((), "1", "runs that diverged"),
+    "largest_median_stress": Variable((), "Pa", "largest over all speeds of the median over the revolutions"),
 }
-"""What is read off each member over all its speeds -> units, meaning; all but the first need the stress."""
+"""What is read off each member over all its speeds; all but the first need the stress."""
 
 INDEXED = ("peak_speed", "width_above_yield", "largest_stress")
 """Measures for which the numbers are ranked."""
@@ -76,7 +76,7 @@ def tolerances_dataset(runs: Iterable[MemberRun], numbers: Sequence[str]) -> xr.
     parts = [_of_pair(pair, members, measured[pair], numbers) for pair, members in groups.items()]
     joined = xr.merge(parts, join="outer", compat="no_conflicts", combine_attrs="override")
     joined["status"] = joined["status"].fillna(RunStatus.NOT_RUN).astype("i1")
-    joined = joined.assign_coords(speed_rpm=("speed", RPM * joined["speed"].values, SPEED_RPM))
+    joined = joined.assign_coords(speed_rpm=("speed", RPM * joined["speed"].values, SPEED_RPM.attributes))
     blades, scenes = (list(dict.fromkeys(pair[place] for pair in groups)) for place in (0, 1))
     return joined.sel(blade=blades, scene=scenes)
 
@@ -98,7 +98,7 @@ def _kept(response: xr.Dataset, run: MemberRun, numbers: Sequence[str], values: 
     kept = edge[["status", *(name for name in (*_CURVES, "yield_stress") if name in edge)]].drop_vars(
         "speed_rpm", errors="ignore"
     )
-    kept = kept.assign({name: ((), value, about(*MEASURES[name])) for name, value in values.items()})
+    kept = kept.assign({name: ((), value, MEASURES[name].attributes) for name, value in values.items()})
     kept["value"] = ("number", list(run.values), {"long_name": "value of the number, in the unit of its key"})
     return kept.assign_coords(number=list(numbers)).expand_dims(member=[int(run.member)])
 

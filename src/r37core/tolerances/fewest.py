@@ -11,16 +11,16 @@ SOBOL_RANKS = 32
 
 def remarks_on_rankings(members: int, numbers: int, sensitivity: bool) -> list[str]:
     """What a run should say before it starts where its members are too few to rank so many numbers."""
-    said: list[str] = []
+    lines: list[str] = []
     where = "(docs/tolerances.md#how-many-members)"
     if numbers < 2:
-        return said
+        return lines
     if members < NAMES_THE_FIRST:
-        found = f"do not rank the numbers; {NAMES_THE_FIRST} name the first, {RANKS} tell most apart"
-        said.append(f"tolerances: {members} members {found} {where}")
+        what = f"do not rank the numbers; {NAMES_THE_FIRST} name the first, {RANKS} tell most apart"
+        lines.append(f"tolerances: {members} members {what} {where}")
     elif members < RANKS:
-        said.append(f"tolerances: {members} members name the first of the numbers at best; {RANKS} tell most apart {where}")
+        lines.append(f"tolerances: {members} members name the first of the numbers at best; {RANKS} tell most apart {where}")
     if sensitivity and members < SOBOL_RANKS:
-        found = f"do not rank the numbers; those of {SOBOL_RANKS} do, as far as they are told apart"
-        said.append(f"tolerances: Sobol indices of {members} members {found} {where}")
-    return said
+        what = f"do not rank the numbers; those of {SOBOL_RANKS} do, as far as they are told apart"
+        lines.append(f"tolerances: Sobol indices of {members} members {what} {where}")
+    return lines

@@ -95,31 +95,31 @@ def _changed_material(nominal: Material, changes: Mapping[str, float]) -> Materi
 
 
 def _changed_shape(definition: BladeDefinition, changes: Mapping[str, float]) -> BladeDefinition:
-    given: _Shape = _checked(_Shape, dict(changes))
+    shape: _Shape = _checked(_Shape, dict(changes))
     profiles = tuple(
-        replace(one, **{name: 0.01 * given.thickness_percent * getattr(one, name) for name in _THICKNESSES})
-        for one in definition.profiles
+        replace(profile, **{name: 0.01 * shape.thickness_percent * getattr(profile, name) for name in _THICKNESSES})
+        for profile in definition.profiles
     )
-    return replace(definition, profiles=profiles, stacking=_changed_stacking(definition.stacking, given))
+    return replace(definition, profiles=profiles, stacking=_changed_stacking(definition.stacking, shape))
 
 
 _THICKNESSES = ("inlet_thickness", "maximum_thickness", "outlet_thickness")
 
 
 def _changed_stacking(
-    stacking: tuple[tuple[float, float, float], ...] | None, given: _Shape
+    stacking: tuple[tuple[float, float, float], ...] | None, shape: _Shape
 ) -> tuple[tuple[float, float, float], ...] | None:
     """The table of sweep and lean with shares of it kept, and a straight line over the span added."""
-    if stacking is None and not (given.sweep_cm or given.lean_deg):
+    if stacking is None and not (shape.sweep_cm or shape.lean_deg):
         return None
     rows = stacking or ((0.0, 0.0, 0.0), (1.0, 0.0, 0.0))
-    sweep, lean = 0.01 * given.sweep_cm, math.radians(given.lean_deg)
+    sweep, lean = 0.01 * shape.sweep_cm, math.radians(shape.lean_deg)
     changed = tuple(
-        (span, 0.01 * given.sweep_percent * one + span * sweep, 0.01 * given.lean_percent * other + span * lean)
-        for span, one, other in rows
+        (span, 0.01 * shape.sweep_percent * back + span * sweep, 0.01 * shape.lean_percent * side + span * lean)
+        for span, back, side in rows
     )
-    for span, one, other in changed:
-        _checked(SweepLean, {"span_percent": 100.0 * span, "sweep_cm": 100.0 * one, "lean_deg": math.degrees(other)}, "table: ")
+    for span, back, side in changed:
+        _checked(SweepLean, {"span_percent": 100.0 * span, "sweep_cm": 100.0 * back, "lean_deg": math.degrees(side)}, "table: ")
     return changed
 
 
@@ -136,10 +136,10 @@ def _plain(entry: SceneEntry) -> dict[str, Any]:
 
 
 def _numbers(content: Mapping[str, Any], path: str) -> dict[str, float]:
-    found: dict[str, float] = {}
+    numbers: dict[str, float] = {}
     for key, value in content.items():
         if isinstance(value, Mapping):
-            found |= _numbers(value, f"{path}{key}.")
+            numbers |= _numbers(value, f"{path}{key}.")
         elif isinstance(value, float):
-            found[path + key] = value
-    return found
+            numbers[path + key] = value
+    return numbers

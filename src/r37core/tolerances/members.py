@@ -12,7 +12,7 @@ from r37core.config.messages import on_one_line
 from r37core.contact.scene import Scene
 
 from .member_changes import BLADE_KEYS, ImpossibleValueError, blade_number, changed_blade, changed_scene, scene_numbers
-from .sample import drawn, is_of_sample, number_of, places
+from .sample import drawn, is_of_sample, number_of, sobol_points
 from .section import ToleranceSection
 
 T = TypeVar("T")
@@ -36,8 +36,8 @@ class Members:
     """The members of all blades and scenes that have tolerances. `numbers`: section and key of each -> its tolerance."""
 
     def __init__(self, settings: Settings):
-        self._settings, self._given = settings, section(settings)
-        self.numbers = self._given.spreads
+        self._settings, self._entry = settings, section(settings)
+        self.numbers = self._entry.spreads
 
     @cached_property
     def pairs(self) -> list[tuple[str, str]]:
@@ -46,20 +46,20 @@ class Members:
         Raises ConfigError where numbers are given and no blade and scene that is run has any of them.
         """
         settings, nominals = self._settings, self._nominals
-        found = [pair for pair, nominal in nominals.items() if any(value is not None for value in nominal)]
+        pairs = [pair for pair, nominal in nominals.items() if any(value is not None for value in nominal)]
         # a part of the blades may have none
-        if self.numbers and not found and settings.config.run.part is None:
+        if self.numbers and not pairs and settings.config.run.part is None:
             named, (blades, scenes) = ", ".join(key for _, key in self.numbers), self._chosen
             run = f"{', '.join(blades)} in {', '.join(scenes)}"
             raise self._refusal((), f"none of its numbers ({named}) in {run}", "blades and scenes that are run and have some")
-        return found
+        return pairs
 
     @property
     def _chosen(self) -> tuple[list[str], list[str]]:
         """Blades and scenes that are to have members."""
-        settings, given = self._settings, self._given
-        blades = settings.blade_names if given.blades == "all" else settings.designs.named(given.blades)
-        return blades, settings.scene_names if given.scenes == "all" else given.scenes
+        settings, entry = self._settings, self._entry
+        blades = settings.blade_names if entry.blades == "all" else settings.designs.named(entry.blades)
+        return blades, settings.scene_names if entry.scenes == "all" else entry.scenes
 
     @cached_property
     def _nominals(self) -> dict[tuple[str, str], list[float | None]]:
@@ -86,18 +86,18 @@ class Members:
     def most_runs(self, blade: str, scene: str) -> int:
         """Simulations of all members of a blade and scene, at most where speeds are adaptive."""
         plan = self._settings.speed_plans[blade, scene]
-        return len(self.all.get((blade, scene), ())) * plan.at_most(self._given.largest_share)
+        return len(self.all.get((blade, scene), ())) * plan.at_most(self._entry.largest_share)
 
     @cached_property
-    def _places(self) -> dict[str, tuple[float, ...]]:
-        return places(len(self.numbers), self._given.members, self._given.seed)
+    def _points(self) -> dict[str, tuple[float, ...]]:
+        return sobol_points(len(self.numbers), self._entry.members, self._entry.seed)
 
     def _of(self, blade: str, scene: str) -> dict[str, Member]:
         nominal = self._nominals[blade, scene]
         varied = [number for number, value in enumerate(nominal) if value is not None]
         self._check_ends(blade, scene, nominal)
-        beside = (None, *varied) if self._given.sensitivity else ()
-        wanted = [name for name in self._places if is_of_sample(name) or number_of(name) in beside]
+        beside = (None, *varied) if self._entry.sensitivity else ()
+        wanted = [name for name in self._points if is_of_sample(name) or number_of(name) in beside]
         return {name: self._member(name, blade, scene, nominal) for name in wanted}
 
     def _check_ends(self, blade: str, scene: str, nominal: Sequence[float | None]) -> None:
@@ -128,9 +128,9 @@ class Members:
         return nominal
 
     def _member(self, name: str, blade: str, scene: str, nominal: Sequence[float | None]) -> Member:
-        values = drawn(self.numbers.values(), nominal, self._places[name])
-        given = {number: value for number, value in zip(self.numbers, values, strict=True) if value is not None}
-        return Member(*self._changed(blade, scene, given, f"member {name} of {blade} in {scene}"), values)
+        values = drawn(self.numbers.values(), nominal, self._points[name])
+        changes = {number: value for number, value in zip(self.numbers, values, strict=True) if value is not None}
+        return Member(*self._changed(blade, scene, changes, f"member {name} of {blade} in {scene}"), values)
 
     def _changed(
         self, blade: str, scene: str, values: Mapping[tuple[str, str], float], who: str
@@ -152,11 +152,11 @@ class Members:
         except ImpossibleValueError as error:
             known = (section, error.key) in self.numbers
             path, text = (error.key,) if known else (), str(error) if known else f"{error.key}: {error}"
-            place = ("tolerances", section, *path)
-            raise self._settings.documents.config.error(place, f"{who}: {text}; or a narrower tolerance") from None
+            at = ("tolerances", section, *path)
+            raise self._settings.documents.config.error(at, f"{who}: {text}; or a narrower tolerance") from None
 
-    def _refusal(self, path: tuple[str, ...], found: str, allowed: str) -> ConfigError:
-        return self._settings.documents.config.refusal(("tolerances", *path), found, allowed)
+    def _refusal(self, path: tuple[str, ...], value: str, allowed: str) -> ConfigError:
+        return self._settings.documents.config.refusal(("tolerances", *path), value, allowed)
 
 
 def members_of(settings: Settings) -> Members:

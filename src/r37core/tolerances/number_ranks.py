@@ -71,13 +71,13 @@ def ranking(values: np.ndarray, measure: np.ndarray) -> Ranking:
         return Ranking(coefficient, low, high, above, np.nan, members)
     x, y = (stats.zscore(stats.rankdata(of, axis=0)) for of in (values[:, varied], measure))
     inverse = np.linalg.pinv(x.T @ x)
-    found = inverse @ x.T @ y
-    rest = float(np.sum((y - x @ found) ** 2))
+    fitted = inverse @ x.T @ y
+    rest = float(np.sum((y - x @ fitted) ** 2))
     covariance, sure = rest / free * inverse, stats.t.ppf(0.5 + 0.5 * CONFIDENCE, free)
     half = sure * np.sqrt(np.diag(covariance))
-    coefficient[varied], low[varied], high[varied] = found, found - half, found + half
+    coefficient[varied], low[varied], high[varied] = fitted, fitted - half, fitted + half
     # of the difference of two sizes
-    signed = covariance * np.outer(np.sign(found), np.sign(found))
+    signed = covariance * np.outer(np.sign(fitted), np.sign(fitted))
     spread = np.sqrt(np.maximum(np.diag(signed)[:, None] + np.diag(signed) - 2.0 * signed, 0.0))
-    above[np.ix_(varied, varied)] = np.abs(found)[:, None] - np.abs(found) > np.maximum(sure * spread, _ROUND_OFF)
+    above[np.ix_(varied, varied)] = np.abs(fitted)[:, None] - np.abs(fitted) > np.maximum(sure * spread, _ROUND_OFF)
     return Ranking(coefficient, low, high, above, 1.0 - rest / members, members)

@@ -19,6 +19,8 @@ FOLDER = "tolerances"
 """Of the members' files: the wing's name."""
 
 DATASET, TABLE = "<results>/tolerances.nc", "<results>/tolerances.csv"
+_RESPONSE = paths.RESPONSE.replace("{member}", path_part(FOLDER, "{member}"))
+_FIRST_ROUND = paths.ROUND.replace("{member}", path_part(FOLDER)).replace("{round}", "0")
 
 _KEPT = ("spectrum", "stress", "static_stress")
 """Results of a scene that its members have, too: what ranges are read off."""
@@ -60,13 +62,13 @@ class Tolerances:
     def _models(self) -> dict[str, dict[str, str]]:
         """Which member's model each member has, by blade: the first of those with the same blade, or the nominal one."""
         first: dict[str, dict[BladeSettings, str]] = {}
-        found: dict[str, dict[str, str]] = {}
+        models: dict[str, dict[str, str]] = {}
         for (blade, _), members in self._members.all.items():
             known = first.setdefault(blade, {self.settings.blades[blade].elastic: NOMINAL})
             for name, member in members.items():
-                if name not in found.setdefault(blade, {}):
-                    found[blade][name] = known.setdefault(member.blade.elastic, name)
-        return found
+                if name not in models.setdefault(blade, {}):
+                    models[blade][name] = known.setdefault(member.blade.elastic, name)
+        return models
 
     @property
     def runs(self) -> list[dict[str, str]]:
@@ -82,12 +84,12 @@ class Tolerances:
     @property
     def responses(self) -> list[str]:
         """Of all members."""
-        return paths.filled({paths.RESPONSE: _placed(self.runs)})
+        return paths.filled({_RESPONSE: self.runs})
 
     @property
     def responses_of_sample(self) -> list[str]:
         """Of the members of the samples."""
-        return paths.filled({paths.RESPONSE: _placed(self.runs_of_sample)})
+        return paths.filled({_RESPONSE: self.runs_of_sample})
 
     @property
     def campbells_of_sample(self) -> list[str]:
@@ -105,11 +107,15 @@ class Tolerances:
         return {"nominal": paths.filled({paths.RESPONSE: runs}), "nominal_campbells": paths.filled({paths.CAMPBELL: blades})}
 
     @property
+    def adaptive(self) -> paths.Wildcards:
+        """Blades and scenes whose members share rounds of refinement."""
+        return paths.of_runs(pair for pair in self.pairs if self.settings.speed_plans[pair].refined)
+
+    @property
     def first_rounds(self) -> list[str]:
         """First rounds of the members and of the nominal runs beside them: as of Sweep."""
-        adaptive = paths.of_runs(pair for pair in self.pairs if self.settings.speed_plans[pair].refined)
-        members = [path_part(FOLDER), NOMINAL]
-        return paths.filled({paths.ROUND: [{**run, "member": one, "round": "0"} for one in members for run in adaptive]})
+        nominal = [{**run, "round": "0"} for run in self.adaptive]
+        return paths.filled({_FIRST_ROUND: self.adaptive, paths.ROUND: nominal})
 
     @property
     def numbers(self) -> list[str]:
@@ -123,10 +129,6 @@ class Tolerances:
         return [list(every[run["blade"], run["scene"]][run["member"]].values) for run in self.runs]
 
 
-def _placed(runs: list[dict[str, str]]) -> paths.Wildcards:
-    return [{**run, "member": path_part(FOLDER, run["member"])} for run in runs]
-
-
 def samples(settings: Settings) -> dict[Pair, Sample]:
     """Members by blade and scene."""
     return settings.made(Tolerances).samples
@@ -138,12 +140,7 @@ SAMPLING = Sampling(samples, ranges=TABLE, dataset=DATASET)
 def simulated(sweep: Sweep) -> dict[str, paths.Wildcards]:
     """The responses of the members, and first rounds where their speeds are adaptive."""
     planned = sweep.settings.made(Tolerances)
-    adaptive = [pair for pair in planned.pairs if sweep.settings.speed_plans[pair].refined]
-    member, sample = path_part(FOLDER, "{member}"), path_part(FOLDER)
-    return {
-        paths.RESPONSE.replace("{member}", member): planned.runs,
-        paths.ROUND.replace("{member}", sample).replace("{round}", "0"): paths.of_runs(adaptive),
-    }
+    return {_RESPONSE: planned.runs, _FIRST_ROUND: planned.adaptive}
 
 
 def targets(sweep: Sweep) -> dict[str, paths.Wildcards]:
@@ -157,9 +154,9 @@ def targets(sweep: Sweep) -> dict[str, paths.Wildcards]:
 
 def remarks(settings: Settings) -> list[str]:
     """How many members there are, and whether these rank the numbers."""
-    members, given = members_of(settings), section(settings)
+    members, entry = members_of(settings), section(settings)
     if not members.pairs:
         return []
     most = extent_of(settings, {FOLDER: samples(settings)}).members
-    said = f"tolerances: {given.members} members, {most} simulations of theirs at most, beside those of the sweep"
-    return [said, *remarks_on_rankings(given.members, len(members.numbers), given.sensitivity)]
+    counted = f"tolerances: {entry.members} members, {most} simulations of theirs at most, beside those of the sweep"
+    return [counted, *remarks_on_rankings(entry.members, len(members.numbers), entry.sensitivity)]

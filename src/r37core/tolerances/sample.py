@@ -1,6 +1,6 @@
 """Members of a sample: how a number spreads about its nominal value, and which values each member has.
 
-Light but for `places`: the workflow imports it whether there are tolerances or not.
+Light but for `sobol_points`: the workflow imports it whether there are tolerances or not.
 """
 
 from __future__ import annotations
@@ -17,8 +17,8 @@ MEMBER_NAME = r"\d+(?:b|f\d+)?"
 """Pattern of a member's name."""
 
 
-def places(numbers: int, members: int, seed: int) -> dict[str, tuple[float, ...]]:
-    """Name of each member -> its place among the values of each number, shares above 0 and below 1.
+def sobol_points(numbers: int, members: int, seed: int) -> dict[str, tuple[float, ...]]:
+    """Name of each member -> its point: where it lies among the values of each number, shares above 0 and below 1.
 
     `members`, a power of two, are the first points of a scrambled Sobol sequence, named 0, 1, ...: more of them change none.
     Those that sensitivity indices need beside them follow: 0b, an independent second sample, and 0f1, the first sample with
@@ -33,7 +33,7 @@ def places(numbers: int, members: int, seed: int) -> dict[str, tuple[float, ...]
     pairs = [
         pair for names, sample in zip(names, [first, second, *mixed], strict=True) for pair in zip(names, sample, strict=True)
     ]
-    return {name: tuple(place.tolist()) for name, place in pairs}
+    return {name: tuple(point.tolist()) for name, point in pairs}
 
 
 def together(row: int, numbers: Iterable[int]) -> list[str]:
@@ -41,11 +41,11 @@ def together(row: int, numbers: Iterable[int]) -> list[str]:
     return [f"{row}", f"{row}b", *(f"{row}f{number + 1}" for number in numbers)]
 
 
-def drawn(spreads: Iterable[Spread], nominal: Sequence[float | None], place: Sequence[float]) -> tuple[float | None, ...]:
-    """Values of a member at its `place`; None for a number without a nominal value."""
+def drawn(spreads: Iterable[Spread], nominal: Sequence[float | None], point: Sequence[float]) -> tuple[float | None, ...]:
+    """Values of a member at its `point`; None for a number without a nominal value."""
     return tuple(
         None if value is None else spread.value(value, share)
-        for spread, value, share in zip(spreads, nominal, place, strict=True)
+        for spread, value, share in zip(spreads, nominal, point, strict=True)
     )
 
 

@@ -51,8 +51,8 @@ class Sensitivity:
 def sobol_indices(measure: Mapping[str, float], numbers: Sequence[int], count: int) -> Sensitivity:
     """First-order and total index of each of `count` numbers, of which those at `numbers` were varied.
 
-    `measure`: value of each member, by name (sample.places). Members for which any of the values that belong together is no
-    number are left out. Source: Saltelli et al. (2010), equations b and f of table 2.
+    `measure`: value of each member, by name (sample.sobol_points). Members for which any of the values that belong together is
+    no number are left out. Source: Saltelli et al. (2010), equations b and f of table 2.
     """
     from scipy import stats
 
@@ -88,8 +88,8 @@ def sobol_indices(measure: Mapping[str, float], numbers: Sequence[int], count: i
     above[np.ix_(numbers, numbers)] = (totals[:, None] > totals).mean(axis=-1) >= 0.5 + 0.5 * CONFIDENCE
 
     def placed(values: np.ndarray) -> np.ndarray:
-        found = nothing.copy()
-        found[:, list(numbers)] = values
-        return found
+        whole = nothing.copy()
+        whole[:, list(numbers)] = values
+        return whole
 
     return Sensitivity(placed(indices(np.arange(members))), placed(ends.low), placed(ends.high), above, members)

@@ -18,5 +18,5 @@ def share_ends(counts: np.ndarray, members: int) -> tuple[np.ndarray, np.ndarray
     from scipy import stats
 
     known = [stats.binomtest(count, members).proportion_ci(CONFIDENCE) for count in range(members + 1)]
-    low, high = np.array([(one.low, one.high) for one in known]).T
+    low, high = np.array([(interval.low, interval.high) for interval in known]).T
     return low[counts], high[counts]

@@ -19,8 +19,8 @@ def join(input: Any, output: Any, params: Any) -> None:
     """Join the members' responses. Inputs: responses. Params: members, numbers, values, fidelity. Output: dataset (nc)."""
     files = as_list(input.responses)
     runs = (
-        MemberRun(**one, values=tuple(math.nan if value is None else value for value in values), file=file)
-        for one, values, file in zip(params.members, params.values, files, strict=True)
+        MemberRun(**member, values=tuple(math.nan if value is None else value for value in values), file=file)
+        for member, values, file in zip(params.members, params.values, files, strict=True)
     )
     made = {"fidelity": params.fidelity, "input_hash": hash_of_parts(files)}
     write_dataset(tolerances_dataset(runs, params.numbers), output.dataset, made)
@@ -33,21 +33,21 @@ def table(input: Any, output: Any, params: Any) -> None:
     """
     choice = from_plain(InteractionChoice, params.choice)
 
-    def found(responses: Any, campbells: Any) -> Any:
-        for one, campbell in zip(as_list(responses), as_list(campbells), strict=True):
-            response = read_dataset(one)
+    def read(responses: Any, campbells: Any) -> Any:
+        for file, campbell in zip(as_list(responses), as_list(campbells), strict=True):
+            response = read_dataset(file)
             yield find_interactions(response, read_dataset(campbell), choice), response["speed"].values[[0, -1]]
 
     members: dict[tuple[str, str], dict[str, Any]] = {}
     speeds: dict[tuple[str, str], tuple[float, float]] = {}
-    for one, (interactions, ends) in zip(params.members, found(input.responses, input.campbells), strict=True):
-        pair = one["blade"], one["scene"]
-        members.setdefault(pair, {})[one["member"]] = interactions
+    for member, (interactions, ends) in zip(params.members, read(input.responses, input.campbells), strict=True):
+        pair = member["blade"], member["scene"]
+        members.setdefault(pair, {})[member["member"]] = interactions
         speeds[pair] = tuple(ends)
-    nominal = found(input.nominal, input.nominal_campbells)
+    nominal = read(input.nominal, input.nominal_campbells)
     rows = [
         (*pair, row)
-        for pair, (one, _) in zip(members, nominal, strict=True)
-        for row in ranges(one, members[pair], choice, speeds[pair])
+        for pair, (interactions, _) in zip(members, nominal, strict=True)
+        for row in ranges(interactions, members[pair], choice, speeds[pair])
     ]
     write_table(range_table(rows), output.table)

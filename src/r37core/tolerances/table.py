@@ -24,7 +24,7 @@ class _Found:
     members: dict[str, Interaction] = field(default_factory=dict)
 
     def speed(self) -> float:
-        speeds = [one.peak_speed_rad_s for one in (*filter(None, [self.nominal]), *self.members.values())]
+        speeds = [row.peak_speed_rad_s for row in (*filter(None, [self.nominal]), *self.members.values())]
         return float(np.median(speeds))
 
     def any(self) -> Interaction:
@@ -42,50 +42,50 @@ def ranges(
     Two are the same where mode and engine order are; those that no crossing explains where one crossing could hold both.
     `speeds`: first and last (rad/s) of the members; what the nominal run shows beyond them no member could.
     """
-    within = [one for one in nominal if speeds[0] <= one.peak_speed_rad_s <= speeds[1]]
-    found = sorted(_matched(within, members, choice), key=_Found.speed)
-    return [_row(one, len(members)) for one in found]
+    within = [row for row in nominal if speeds[0] <= row.peak_speed_rad_s <= speeds[1]]
+    matched = sorted(_matched(within, members, choice), key=_Found.speed)
+    return [_row(match, len(members)) for match in matched]
 
 
 def shares_of_members(
     nominal: Sequence[Interaction], members: Mapping[str, Sequence[Interaction]], choice: InteractionChoice
 ) -> list[float]:
     """Share of the members that show each of the nominal interactions, as in `ranges`, in the order of these."""
-    return [len(one.members) / len(members) for one in _matched(nominal, members, choice)[: len(nominal)]]
+    return [len(match.members) / len(members) for match in _matched(nominal, members, choice)[: len(nominal)]]
 
 
 def _matched(
     nominal: Sequence[Interaction], members: Mapping[str, Sequence[Interaction]], choice: InteractionChoice
 ) -> list[_Found]:
     """The nominal interactions in their order with the members that show them, then those of members alone."""
-    found = [_Found(one) for one in nominal]
+    matches = [_Found(row) for row in nominal]
     for name, interactions in members.items():
-        for one in interactions:
-            fits = [other for other in found if name not in other.members and _same(one, other, choice)]
+        for row in interactions:
+            fits = [match for match in matches if name not in match.members and _same(row, match, choice)]
             if fits:
-                min(fits, key=lambda other: abs(other.speed() - one.peak_speed_rad_s)).members[name] = one
+                min(fits, key=lambda match: abs(match.speed() - row.peak_speed_rad_s)).members[name] = row
             else:
-                found.append(_Found(members={name: one}))
-    return found
+                matches.append(_Found(members={name: row}))
+    return matches
 
 
-def _same(one: Interaction, other: _Found, choice: InteractionChoice) -> bool:
-    known = other.any()
-    if (one.mode, one.engine_order) != (known.mode, known.engine_order):
+def _same(row: Interaction, match: _Found, choice: InteractionChoice) -> bool:
+    known = match.any()
+    if (row.mode, row.engine_order) != (known.mode, known.engine_order):
         return False
-    low, high = sorted((one.peak_speed_rad_s, other.speed()))
-    return bool(one.mode) or high <= choice.span * low
+    low, high = sorted((row.peak_speed_rad_s, match.speed()))
+    return bool(row.mode) or high <= choice.span * low
 
 
-def _row(one: _Found, members: int) -> dict[str, object]:
-    known, share = one.any(), len(one.members) / members
+def _row(match: _Found, members: int) -> dict[str, object]:
+    known, share = match.any(), len(match.members) / members
     row: dict[str, object] = {"mode": known.mode, "engine_order": known.engine_order, "members": members}
     row |= {"share_of_members": share, "robust": share >= ROBUST}
     for name in RANGED:
-        values = np.array([getattr(member, name) for member in one.members.values()], float)
+        values = np.array([getattr(member, name) for member in match.members.values()], float)
         values = values[np.isfinite(values)]
         quantiles = np.quantile(values, list(ENDS.values()), method="inverted_cdf") if len(values) else [np.nan] * len(ENDS)
-        row[name] = getattr(one.nominal, name) if one.nominal else np.nan
+        row[name] = getattr(match.nominal, name) if match.nominal else np.nan
         row |= {f"{name}_{end}": float(value) for end, value in zip(ENDS, quantiles, strict=True)}
     return row
 

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from typing import Any
 
-from r37core.exchange.refusal import placed
+from r37core.exchange.refusal import located
 from r37core.exchange.write_mesh import write_mesh
 from r37core.mesh.mesh_files import write_vtu
 from r37core.plain import from_plain
-from r37core.rom.reduction_choice import ReductionChoice, boundary_placed
+from r37core.rom.reduction_choice import ReductionChoice, boundary_located
 from r37core.rom.rom_file import write_reduced_model
 
 from .import_mesh import import_mesh, size_in_words
@@ -19,25 +19,25 @@ from .source import MatricesSource, MeshSource
 def imported_mesh(input: Any, output: Any, params: Any) -> str:
     """Import the mesh of another program; returns its size, which shows a wrong unit. Outputs: msh, vtu.
 
-    Params: source, folder, places (of the keys, as `placed` takes them). Raises ImportRefused.
+    Params: source, folder, locations (of the keys, as `located` takes them). Raises ImportRefused.
     """
-    with placed(params.places):
+    with located(params.locations):
         mesh, quality = import_mesh(from_plain(MeshSource, params.source), params.folder["folder"])
     print(f"{len(mesh.points)} nodes, " + ", ".join(f"{len(nodes)} {name}" for name, nodes in mesh.blocks.items()))
     print(f"root: {len(mesh.node_set('root'))} nodes, tip: {len(mesh.node_set('tip'))} nodes")
     print(f"scaled Jacobian: minimum {quality.min():.3f}")
     write_mesh(mesh, output.msh)
     write_vtu(mesh, output.vtu, quality)
-    return f"{params.places['mesh']}: {size_in_words(mesh)}"
+    return f"{params.locations['mesh']}: {size_in_words(mesh)}"
 
 
 def imported_matrices(input: Any, output: Any, params: Any) -> None:
     """Reduced model from matrices of another program. Output: rom (nc).
 
-    Params: source, folder, places, reduction, contact, provenance. Raises ImportRefused.
+    Params: source, folder, locations, reduction, contact, provenance. Raises ImportRefused.
     """
     choice = from_plain(ReductionChoice, params.reduction)
-    with boundary_placed(params.contact["place"]), placed(params.places):
+    with boundary_located(params.contact["location"]), located(params.locations):
         model = import_matrices(from_plain(MatricesSource, params.source), choice, params.folder["folder"])
     print(f"{model.columns} columns, {model.size} independent at {model.tolerance:g}")
     write_reduced_model(model, output.rom, params.provenance)

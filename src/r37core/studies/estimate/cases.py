@@ -21,10 +21,10 @@ def sample(speeds: Sequence[float], every: int) -> list[float]:
 
 def cases(settings: Settings) -> dict[str, Case]:
     """Some of the speeds of each blade and scene, evenly spread."""
-    found = {}
+    cases_of_runs = {}
     for (blade, scene), plan in settings.speed_plans.items():
         speeds = tuple(sample(plan.certain, settings.studies.estimate.every))
-        found[f"{blade}__{scene}"] = case_of_sweep(
+        cases_of_runs[f"{blade}__{scene}"] = case_of_sweep(
             settings,
             blade,
             scene,
@@ -32,7 +32,7 @@ def cases(settings: Settings) -> dict[str, Case]:
             results=tuple(kind for kind in settings.results_of(blade, scene) if kind in OF_RUNS),
             history_speeds=tuple(speed for speed in speeds if speed in settings.scenes[scene].stress_history_speeds),
         )
-    return found
+    return cases_of_runs
 
 
 def inputs(settings: Settings) -> dict[str, Any]:
@@ -49,7 +49,7 @@ def values(settings: Settings) -> dict[str, Any]:
     """How many runs each blade and scene has, members included, at most with adaptive speeds; and where they are run."""
     section = settings.studies.estimate
     return {
-        "runs": {"__".join(place): extent.at_most for place, extent in extents(settings, beside(settings)).items()},
+        "runs": {"__".join(pair): extent.at_most for pair, extent in extents(settings, beside(settings)).items()},
         "workflow_s_per_job": section.workflow_s_per_job,
         "cores": section.cores,
         "fidelity": settings.fidelity_name,

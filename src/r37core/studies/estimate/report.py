@@ -57,12 +57,12 @@ def project_costs(
     samples: Sequence[Mapping[str, float]], start_up: float, workflow_per_job: float, cores: int
 ) -> dict[str, float]:
     """Core seconds of each part, their sum, and the wall seconds on so many cores when all are kept busy."""
-    runs = sum(one["runs"] for one in samples)
+    runs = sum(sample["runs"] for sample in samples)
     parts = {
-        "time integration": sum(one["time integration"] for one in samples),
+        "time integration": sum(sample["time integration"] for sample in samples),
         "start-up": start_up * runs,
         "workflow": workflow_per_job * runs,
-        "reduction": sum(one["reduction"] for one in samples),
+        "reduction": sum(sample["reduction"] for sample in samples),
     }
     total = sum(parts.values())
     return parts | {"runs": runs, "total": total, "cores": cores, "wall": total / cores}
@@ -71,6 +71,6 @@ def project_costs(
 def describe(estimate: Mapping[str, float], fidelity: str) -> str:
     """The projection as a table in Markdown."""
     runs = estimate["runs"]
-    said = f"Level `{fidelity}`: {runs:.0f} simulations, {estimate['wall'] / 3600:.2f} h on {estimate['cores']:.0f} cores."
+    head = f"Level `{fidelity}`: {runs:.0f} simulations, {estimate['wall'] / 3600:.2f} h on {estimate['cores']:.0f} cores."
     rows = [[part, f"{estimate[part] / 3600:.2f}", f"{estimate[part] / runs:.3f}"] for part in (*PARTS, "total")]
-    return f"{said}\n\n{markdown_table(['part', 'core hours', 'core seconds per simulation'], rows)}"
+    return f"{head}\n\n{markdown_table(['part', 'core hours', 'core seconds per simulation'], rows)}"

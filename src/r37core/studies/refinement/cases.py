@@ -75,7 +75,7 @@ def values(settings: Settings) -> dict[str, Any]:
     """Plans of the speeds, steps of the plain grids, and what a sweep refines by."""
     sweep, pairs = Sweep(settings), adaptive(settings)
     return {
-        "places": pairs,
+        "pairs": pairs,
         "members": adaptive_members(settings),
         "plans": {name: settings.speed_plans[pair] for name, pair in pairs.items()},
         "steps": plain_steps(settings),

@@ -50,7 +50,7 @@ class Comparison:
         return self.share_of_members >= ROBUST
 
     @property
-    def found(self) -> bool:
+    def is_found(self) -> bool:
         """Whether there is one at all."""
         return not math.isnan(self.found_peak)
 
@@ -80,7 +80,7 @@ def report(responses: Mapping[str, xr.Dataset], files: Any, values: Mapping[str,
     diagrams = read_dataset(files.campbell)
     ways: dict[str, dict[tuple[str, str], Outcome]] = {"adaptive": {}}
     every = {}
-    for name, (blade, scene) in values["places"].items():
+    for name, (blade, scene) in values["pairs"].items():
         response = ran(responses[name], name)
         campbell, plan = diagrams.sel(blade=blade), from_plain(SpeedPlan, values["plans"][name])
         choice = from_plain(RefinementChoice, values["choices"][name])
@@ -243,9 +243,9 @@ def _whole(outcomes: Sequence[Outcome], runs: int) -> str:
 
 def _cell(outcomes: Sequence[Outcome]) -> str:
     together = [row for outcome in outcomes for row in outcome.interactions]
-    robust = f", {sum(row.found and row.robust for row in together)} of the robust" if _with_members(together) else ""
+    robust = f", {sum(row.is_found and row.robust for row in together)} of the robust" if _with_members(together) else ""
     rounds = f" in {outcomes[0].rounds} rounds" if len(outcomes) == 1 and outcomes[0].rounds > 1 else ""
-    matched, same = (sum(getattr(row, name) for row in together) for name in ("found", "same"))
+    matched, same = (sum(getattr(row, name) for row in together) for name in ("is_found", "same"))
     return f"{matched} found{robust}, {same} the same, {sum(run.runs for run in outcomes)} runs{rounds}"
 
 
@@ -260,7 +260,7 @@ def _of_missed(missed: Sequence[tuple[str, str, Comparison]]) -> str:
     for blade, scene, row in missed:
         order = "" if row.engine_order is None or math.isnan(row.engine_order) else f"/{row.engine_order}"
         name = f"{row.mode}{order}" if row.mode else f"no crossing, order {row.engine_order}"
-        matched = f"{row.found_peak:g}, {row.found_width:.1f}" if row.found else "none"
+        matched = f"{row.found_peak:g}, {row.found_width:.1f}" if row.is_found else "none"
         share = "" if math.isnan(row.share_of_members) else f"{100 * row.share_of_members:.0f}%"
         rows.append([blade, scene, name, f"{row.peak:g}, {row.width:.1f}", f"{1e-9 * row.stress:.2f}", matched, share])
     head = ["blade", "scene", "interaction", "peak, width (rad/s)", "largest stress (GPa)", "found peak, width", "members"]

@@ -16,7 +16,7 @@ from r37core.contact.scene import Scene
 from r37core.plans import paths
 from r37core.published import REFERENCE
 from r37core.tolerances.member_changes import ImpossibleValueError, changed_scene, scene_numbers
-from r37core.tolerances.sample import drawn, is_of_sample, places
+from r37core.tolerances.sample import drawn, is_of_sample, sobol_points
 
 from ..case import Case
 from ..modelling_choices import cases as modelling_choices
@@ -74,7 +74,7 @@ def _tolerances(settings: Settings) -> Mapping[str, Spread]:
 
 def _sample(settings: Settings, numbers: int) -> dict[str, tuple[float, ...]]:
     section = _section(settings)
-    points = places(numbers, section.members, section.seed)
+    points = sobol_points(numbers, section.members, section.seed)
     return {member: point for member, point in points.items() if is_of_sample(member)}
 
 

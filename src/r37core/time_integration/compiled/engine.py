@@ -35,6 +35,7 @@ SOURCES = Sources(
     "contact/ring.py",
     "contact/scene.py",
     "declared.py",
+    "units.py",
     "time_integration/compiled/contact_steps.py",
     "time_integration/compiled/jump_steps.py",
     "time_integration/compiled/kind.py",

@@ -1,0 +1,12 @@
+# What most rules are made of: a function of r37core, which step(...) names, called by one script (docs/architecture.md).
+
+
+# the pattern of the others, never run by itself
+rule step:
+    log:
+        "<logs>/step.log",
+    # no other than what runs Snakemake; `snakemake --lint` asks for it
+    conda:
+        ENVIRONMENT
+    script:
+        "../scripts/step.py"
