@@ -16,6 +16,7 @@ from r37core.plain import to_plain
 from r37core.plans.import_plan import Imported
 from r37core.plans.paths import filled
 from r37core.plans.provenance import structure_hash
+from r37core.plans.structure_plan import Structure
 from r37core.plans.sweep_plan import Sweep
 from r37core.product.reading import read_settings
 from r37core.studies.plan import blade_of
@@ -224,9 +225,10 @@ def test_plan_of_exports(three):
     assert {"Ref/surface.step", "Ref/modes", "Fan/mesh.med", "Fan/stress_direct", "Given/matrices"} <= files
     assert not files & {"Fan/surface.step", "Given/mesh.med", "Given/modes", "Given/stress_direct"}
     fan = SimpleNamespace(blade="Fan", scene="direct", tip_line="camber")
-    assert exports.model(fan) == "<results>/exports/Fan/rom_pressure_edge.nc"
-    assert exports.reduction(fan)["recover_whole_blade"]
-    assert exports.reduction(fan)["boundary"]["tip_line"] == "camber"
+    structure = Structure(sweep.settings)
+    assert structure.whole_blade_model(fan) == "<results>/Fan/whole_blade_pressure_edge.nc"
+    assert structure.whole_blade_reduction(fan)["recover_whole_blade"]
+    assert structure.whole_blade_reduction(fan)["boundary"]["tip_line"] == "camber"
     assert exports.orientation(fan)["length_unit"] == "mm"
     assert exports.orientation(SimpleNamespace(blade="Ref")) == to_plain(OURS)
     assert exports.choice["mode_speeds"] == (0.0, 2000.0)

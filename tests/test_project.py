@@ -214,7 +214,7 @@ def test_a_wing_is_one_place(root):
                 assert not [name for name in names if name.startswith(f"r37core.{wing.name}.")], file
 
 
-VAGUE, MOST_VAGUE = ("found", "one", "given"), 30
+VAGUE, MOST_VAGUE = ("found", "one", "given"), 13
 """Names that say nothing of a value, and how many of them the package had when they were last counted: not one more."""
 
 TRANSLATED = {"pace", "paces", "march", "course", "stretch", "stretches", "climb", "bench"}

@@ -19,12 +19,9 @@ from workflow_runs import copy_project, snakemake
 PROGRAMS = ("munged", "slurmctld", "slurmd", "sbatch", "squeue")
 MISSING = [program for program in PROGRAMS if not shutil.which(program, path=f"{os.environ['PATH']}:/usr/sbin")]
 WANTED = os.environ.get("R37_SLURM")
-"""Set by make test-slurm: then what is missing is an error."""
+"""Set by make test-slurm and .ci/run: then what is missing is an error."""
 
-pytestmark = [
-    pytest.mark.slow,
-    pytest.mark.skipif(not WANTED and bool(MISSING or os.getuid()), reason="Slurm and root (make test-slurm)"),
-]
+pytestmark = [pytest.mark.slow, pytest.mark.skipif(not WANTED, reason="Slurm and root (make test-slurm, .ci/run)")]
 
 CONFIGURATION = """
 ClusterName=r37

@@ -116,8 +116,8 @@ def cache_folder() -> Path:
         folder.mkdir(parents=True, exist_ok=True)
         tempfile.TemporaryFile(dir=folder).close()
     except OSError as error:
-        found = f"R37_CACHE: found the cache folder {folder}, which cannot be written ({error.strerror})"
-        raise ConfigError(f"{found}; allowed: a folder that can") from None
+        refusal = f"R37_CACHE: found the cache folder {folder}, which cannot be written ({error.strerror})"
+        raise ConfigError(f"{refusal}; allowed: a folder that can") from None
     return folder
 
 

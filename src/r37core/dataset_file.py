@@ -57,8 +57,8 @@ def dataset_of(
 
     def of(table: Mapping[str, Variable], first: Sequence[str]) -> dict[str, Any]:
         return {
-            name: ((*first, *one.dims), np.asarray(values[name], one.dtype), one.attributes)
-            for name, one in table.items()
+            name: ((*first, *entry.dims), np.asarray(values[name], entry.dtype), entry.attributes)
+            for name, entry in table.items()
             if name in values
         }
 

@@ -67,14 +67,14 @@ def _study_names_what_is_there(settings: Settings, name: str) -> None:
         raise documents.config.refusal(("studies", name, "lined_scene"), f"'{lined}'", "a scene with a lining")
 
 
-def _tradeoff_asks_for_what_is_there(settings: Settings, given: TradeoffSection) -> None:
+def _tradeoff_asks_for_what_is_there(settings: Settings, tradeoff: TradeoffSection) -> None:
     documents, path, highest = settings.documents, ("studies", "tradeoff"), settings.config.campbell.highest_engine_order
-    if given.engine_order > highest:
+    if tradeoff.engine_order > highest:
         allowed = f"at most campbell.highest_engine_order ({highest})"
-        raise documents.config.refusal((*path, "engine_order"), f"{given.engine_order}", allowed)
-    documents.known((*path, "parameters", "level"), given.parameters.level.values, settings.levels, documents.levels)
-    if given.scenes != "all":
-        documents.known((*path, "scenes"), given.scenes, settings.scene_entries, documents.scenes)
+        raise documents.config.refusal((*path, "engine_order"), f"{tradeoff.engine_order}", allowed)
+    documents.known((*path, "parameters", "level"), tradeoff.parameters.level.values, settings.levels, documents.levels)
+    if tradeoff.scenes != "all":
+        documents.known((*path, "scenes"), tradeoff.scenes, settings.scene_entries, documents.scenes)
 
 
 def stress_instants_are_samples(settings: Settings) -> None:

@@ -77,30 +77,30 @@ def tolerances_dataset(runs: Iterable[MemberRun], numbers: Sequence[str]) -> xr.
     joined = xr.merge(parts, join="outer", compat="no_conflicts", combine_attrs="override")
     joined["status"] = joined["status"].fillna(RunStatus.NOT_RUN).astype("i1")
     joined = joined.assign_coords(speed_rpm=("speed", RPM * joined["speed"].values, SPEED_RPM.attributes))
-    blades, scenes = (list(dict.fromkeys(pair[place] for pair in groups)) for place in (0, 1))
+    blades, scenes = (list(dict.fromkeys(pair[axis] for pair in groups)) for axis in (0, 1))
     return joined.sel(blade=blades, scene=scenes)
 
 
 def _measured(response: xr.Dataset) -> dict[str, float]:
     """MEASURES of one member."""
-    found = {**dict.fromkeys(MEASURES, np.nan), "peak_speed": float(peak_of(response)["speed"])}
+    measures = {**dict.fromkeys(MEASURES, np.nan), "peak_speed": float(peak_of(response)["speed"])}
     if "max_von_mises" in response:
         above, (largest, _) = speeds_above_yield(response), largest_stress(response)
-        found |= {"first_yield_speed": above.first, "width_above_yield": above.width, "largest_stress": largest}
+        measures |= {"first_yield_speed": above.first, "width_above_yield": above.width, "largest_stress": largest}
         ranked = robustness(response, with_scatter=False)
-        found |= {measure: ranked[column] for column, measure in MEASURES_RANKED_BY.items()}
-    return found
+        measures |= {measure: ranked[column] for column, measure in MEASURES_RANKED_BY.items()}
+    return measures
 
 
 def _kept(response: xr.Dataset, run: MemberRun, numbers: Sequence[str], values: Mapping[str, float]) -> xr.Dataset:
     """What stays of one member."""
     edge = leading_edge(response)
-    kept = edge[["status", *(name for name in (*_CURVES, "yield_stress") if name in edge)]].drop_vars(
+    member = edge[["status", *(name for name in (*_CURVES, "yield_stress") if name in edge)]].drop_vars(
         "speed_rpm", errors="ignore"
     )
-    kept = kept.assign({name: ((), value, MEASURES[name].attributes) for name, value in values.items()})
-    kept["value"] = ("number", list(run.values), {"long_name": "value of the number, in the unit of its key"})
-    return kept.assign_coords(number=list(numbers)).expand_dims(member=[int(run.member)])
+    member = member.assign({name: ((), value, MEASURES[name].attributes) for name, value in values.items()})
+    member["value"] = ("number", list(run.values), {"long_name": "value of the number, in the unit of its key"})
+    return member.assign_coords(number=list(numbers)).expand_dims(member=[int(run.member)])
 
 
 def _of_pair(
@@ -144,15 +144,15 @@ def _chances(above: xr.DataArray) -> dict[str, xr.DataArray]:
 def _rankings(sample: xr.Dataset) -> dict[str, xr.DataArray]:
     """Rank coefficients of INDEXED and the places that they give, from the sample alone."""
     values = sample["value"].transpose("member", "number").values
-    found = [ranking(values, sample[name].values) for name in INDEXED]
+    fits = [ranking(values, sample[name].values) for name in INDEXED]
     sure = f"{CONFIDENCE:.0%} sure"
     return {
-        "rank_coefficient": _index([one.coefficient for one in found], "standardized rank coefficient"),
-        "rank_coefficient_low": _index([one.low for one in found], f"lower end of the rank coefficient, {sure}"),
-        "rank_coefficient_high": _index([one.high for one in found], f"upper end of the rank coefficient, {sure}"),
-        **_places("rank", [one.places for one in found], "rank coefficients, of numbers that have one beyond zero"),
-        "rank_explained": _of_measures([one.explained for one in found], "share of the ranks' variance that they explain"),
-        "rank_members": _of_measures([one.members for one in found], "members that the coefficients are made of"),
+        "rank_coefficient": _index([fit.coefficient for fit in fits], "standardized rank coefficient"),
+        "rank_coefficient_low": _index([fit.low for fit in fits], f"lower end of the rank coefficient, {sure}"),
+        "rank_coefficient_high": _index([fit.high for fit in fits], f"upper end of the rank coefficient, {sure}"),
+        **_places("rank", [fit.places for fit in fits], "rank coefficients, of numbers that have one beyond zero"),
+        "rank_explained": _of_measures([fit.explained for fit in fits], "share of the ranks' variance that they explain"),
+        "rank_members": _of_measures([fit.members for fit in fits], "members that the coefficients are made of"),
     }
 
 
@@ -161,14 +161,14 @@ def _sensitivities(measured: Mapping[str, Mapping[str, float]], numbers: Sequenc
     varied = sorted({number for name in measured[INDEXED[0]] if (number := number_of(name)) is not None})
     if not varied:
         return {}
-    found = [sobol_indices(measured[name], varied, len(numbers)) for name in INDEXED]
+    results = [sobol_indices(measured[name], varied, len(numbers)) for name in INDEXED]
     indices, ends = {}, f"{CONFIDENCE:.0%} of bootstrap samples"
-    for place, (order, meaning) in enumerate(ORDERS.items()):
-        indices[f"sobol_{order}"] = _index([one.index[place] for one in found], f"{meaning} (Sobol)")
-        indices[f"sobol_{order}_low"] = _index([one.low[place] for one in found], f"lower end of {ends}: {meaning}")
-        indices[f"sobol_{order}_high"] = _index([one.high[place] for one in found], f"upper end of {ends}: {meaning}")
-    indices |= _places("sobol", [one.places for one in found], "total indices")
-    indices["sobol_members"] = _of_measures([one.members for one in found], "members that the indices are made of")
+    for row, (order, meaning) in enumerate(ORDERS.items()):
+        indices[f"sobol_{order}"] = _index([of.index[row] for of in results], f"{meaning} (Sobol)")
+        indices[f"sobol_{order}_low"] = _index([of.low[row] for of in results], f"lower end of {ends}: {meaning}")
+        indices[f"sobol_{order}_high"] = _index([of.high[row] for of in results], f"upper end of {ends}: {meaning}")
+    indices |= _places("sobol", [of.places for of in results], "total indices")
+    indices["sobol_members"] = _of_measures([of.members for of in results], "members that the indices are made of")
     return indices
 
 
