@@ -241,7 +241,7 @@ def test_blades_of_any_size_take_one_program(integrator):
                 model = with_static_modes(model, 1e-9)
             simulation = Simulation(model, 12_000.0, DIRECT, choice)
             programs.append(simulation.engine._advance)
-            sizes.append(len(simulation.problem.frequencies))
+            sizes.append(len(simulation.problem.blade.frequencies))
             state = simulation.start()
             state.displacement[:] = 1e-7
             simulation.advance(state, 1)
