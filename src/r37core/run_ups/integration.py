@@ -65,7 +65,7 @@ class RunUpIntegration:
         check_room(model, scene, np.array([low, *scene.casing.growth_speeds, high]).clip(low, high))
         coarsest = resolved_problem(model, low, scene, choice)
         self._model, self._scene = model, scene
-        self._choice = replace(coarsest.choice, shorten=False, steps_per_sample=coarsest.steps_per_sample)
+        self._choice = replace(coarsest.choice, shorten=False, steps_per_sample=coarsest.grid.steps_per_sample)
         # between two speeds with a stable position there are only such
         self._of_ends = {high: self._problem(high), low: coarsest}
         stiffening = model.stiffness_per_square[0, 0] / model.squared_frequencies[0]
@@ -93,7 +93,7 @@ class RunUpIntegration:
     def balance(self) -> dict[str, np.ndarray]:
         """Work, loss and energy (J) of all stages together: see energy_balance."""
         assert self._simulation is not None
-        held = self._simulation.problem.static_energy(self.state.contact_force)
+        held = self._simulation.problem.contact.static_energy(self.state.contact_force)
         loss = float(self.state.totals["loss"])
         return energy_balance(self._simulation.work(self.state), loss, self.energy + held, self.stiffness_work)
 
@@ -103,7 +103,7 @@ class RunUpIntegration:
         for interval in self.intervals:
             simulation = self._of(interval)
             if modes is not None:
-                turned = simulation.problem.modes.T @ modes
+                turned = simulation.problem.blade.modes.T @ modes
                 # an elastic casing's modes, which come after the blade's, stay as they are
                 self.state.displacement, self.velocity = (
                     np.concatenate([turned @ values[: modes.shape[1]], values[modes.shape[1] :]])
@@ -111,15 +111,15 @@ class RunUpIntegration:
                 )
                 # there may be more of them or fewer, where the fastest are left out
                 self.state.increment = np.zeros_like(self.state.displacement)
-            modes = simulation.problem.modes
+            modes = simulation.problem.blade.modes
             for stage in self._stages_of(simulation, interval):
                 yield stage
                 if stage.diverged:
                     return
 
     def _stages_of(self, simulation: Simulation, interval: ModalInterval) -> Iterator[Stage]:
-        state, problem, constants = self.state, simulation.problem, simulation.paces
-        shapes = problem.state_shapes
+        state, problem, constants = self.state, simulation.problem, simulation.segments
+        shapes = problem.contact.state_shapes
         increments, begun = constants.increments, interval.distinct_speeds.of_segments[0]
         assert increments is not None
         simulation.engine.take(begun)
@@ -133,7 +133,7 @@ class RunUpIntegration:
             self.velocity = increments.velocity(speed_indices[reached - 1], state.displacement, state.increment)
             self._balance(constants.recursion[speed_indices[:reached]], segments_of_call.ends[:reached])
             speeds = np.repeat(interval.distinct_speeds.speeds[speed_indices], lasted)
-            instants = problem.snapshots_between(first, first + len(speeds))
+            instants = problem.grid.snapshots_between(first, first + len(speeds))
             yield Stage(
                 speeds,
                 record.samples,
@@ -161,8 +161,8 @@ def resolved_problem(model: ContactModel, speed: float, scene: Scene, choice: In
     Raises what Problem raises; UnstableStepError for an explicit step that is too long.
     """
     problem = stable_problem(model, speed, scene, choice)
-    fastest = problem.highest_frequency
-    if choice.integrator == CENTRAL_DIFFERENCE or fastest * problem.time_step < _LARGEST_TURN:
+    fastest = problem.contact.highest_frequency
+    if choice.integrator == CENTRAL_DIFFERENCE or fastest * problem.grid.time_step < _LARGEST_TURN:
         return problem
     limit = _LARGEST_TURN / fastest
     if not choice.shorten:
