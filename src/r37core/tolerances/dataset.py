@@ -144,15 +144,17 @@ def _chances(above: xr.DataArray) -> dict[str, xr.DataArray]:
 def _rankings(sample: xr.Dataset) -> dict[str, xr.DataArray]:
     """Rank coefficients of INDEXED and the places that they give, from the sample alone."""
     values = sample["value"].transpose("member", "number").values
-    fits = [ranking(values, sample[name].values) for name in INDEXED]
+    rankings = [ranking(values, sample[name].values) for name in INDEXED]
     sure = f"{CONFIDENCE:.0%} sure"
     return {
-        "rank_coefficient": _index([fit.coefficient for fit in fits], "standardized rank coefficient"),
-        "rank_coefficient_low": _index([fit.low for fit in fits], f"lower end of the rank coefficient, {sure}"),
-        "rank_coefficient_high": _index([fit.high for fit in fits], f"upper end of the rank coefficient, {sure}"),
-        **_places("rank", [fit.places for fit in fits], "rank coefficients, of numbers that have one beyond zero"),
-        "rank_explained": _of_measures([fit.explained for fit in fits], "share of the ranks' variance that they explain"),
-        "rank_members": _of_measures([fit.members for fit in fits], "members that the coefficients are made of"),
+        "rank_coefficient": _index([measure.coefficient for measure in rankings], "standardized rank coefficient"),
+        "rank_coefficient_low": _index([measure.low for measure in rankings], f"lower end of the rank coefficient, {sure}"),
+        "rank_coefficient_high": _index([measure.high for measure in rankings], f"upper end of the rank coefficient, {sure}"),
+        **_places("rank", [measure.places for measure in rankings], "rank coefficients, of numbers that have one beyond zero"),
+        "rank_explained": _of_measures(
+            [measure.explained for measure in rankings], "share of the ranks' variance that they explain"
+        ),
+        "rank_members": _of_measures([measure.members for measure in rankings], "members that the coefficients are made of"),
     }
 
 
@@ -161,14 +163,14 @@ def _sensitivities(measured: Mapping[str, Mapping[str, float]], numbers: Sequenc
     varied = sorted({number for name in measured[INDEXED[0]] if (number := number_of(name)) is not None})
     if not varied:
         return {}
-    results = [sobol_indices(measured[name], varied, len(numbers)) for name in INDEXED]
+    sobol = [sobol_indices(measured[name], varied, len(numbers)) for name in INDEXED]
     indices, ends = {}, f"{CONFIDENCE:.0%} of bootstrap samples"
-    for row, (order, meaning) in enumerate(ORDERS.items()):
-        indices[f"sobol_{order}"] = _index([of.index[row] for of in results], f"{meaning} (Sobol)")
-        indices[f"sobol_{order}_low"] = _index([of.low[row] for of in results], f"lower end of {ends}: {meaning}")
-        indices[f"sobol_{order}_high"] = _index([of.high[row] for of in results], f"upper end of {ends}: {meaning}")
-    indices |= _places("sobol", [of.places for of in results], "total indices")
-    indices["sobol_members"] = _of_measures([of.members for of in results], "members that the indices are made of")
+    for place, (order, meaning) in enumerate(ORDERS.items()):
+        indices[f"sobol_{order}"] = _index([measure.index[place] for measure in sobol], f"{meaning} (Sobol)")
+        indices[f"sobol_{order}_low"] = _index([measure.low[place] for measure in sobol], f"lower end of {ends}: {meaning}")
+        indices[f"sobol_{order}_high"] = _index([measure.high[place] for measure in sobol], f"upper end of {ends}: {meaning}")
+    indices |= _places("sobol", [measure.places for measure in sobol], "total indices")
+    indices["sobol_members"] = _of_measures([measure.members for measure in sobol], "members that the indices are made of")
     return indices
 
 
