@@ -79,9 +79,7 @@ def measured(task):
         row = []
         for speed in speeds:
             choice = settings.integration_choice(blade, scene, speed)
-            choice = replace(
-                choice, time_step=step, integrator=integrator, snapshot_revolutions=STRESS_REVOLUTIONS, energy=False
-            )
+            choice = replace(choice, time_step=step, integrator=integrator, snapshot_revolutions=STRESS_REVOLUTIONS)
             run = run_speed(model, float(speed), of, choice, ("stress",), **KEPT, stress=recovery)
             # the median of a run that diverged is no number
             row.append([*run["rms"][0, [0, 2]], np.median(run["revolution_von_mises"])])
@@ -203,7 +201,7 @@ def of_mesh(task):
     mesh = generate_mesh(chosen.definition.build(round_edges=True), nodes=nodes, layers=1, tip_elements=MESHES[nodes])
     reduced = reduce_blade(mesh, assemble(mesh, chosen.material), settings.reduction_choice(blade))
     model, choice = contact_model(reduced, scene.tip_line), settings.integration_choice(blade, "direct", 0.0)
-    choice = replace(choice, snapshot_revolutions=0, energy=False)
+    choice = replace(choice, snapshot_revolutions=0)
 
     def rms(step, integrator):
         choices = replace(choice, time_step=step, integrator=integrator)
@@ -264,7 +262,7 @@ def of_extreme(task):
         read_contact_model(ROOT / f"results/{blade}/contact_{settings.scenes[name].tip_line}.npz"),
         far_scene(settings.scenes[name].scene, **changes),
     )
-    choice = replace(settings.integration_choice(blade, name, speed), snapshot_revolutions=0, energy=False)
+    choice = replace(settings.integration_choice(blade, name, speed), snapshot_revolutions=0)
     cells = []
     for step, integrator in (
         *((step, EXACT_MODAL) for step in (6.4e-6, 4.8e-6, 3.2e-6, 1.6e-6, 8e-7)),

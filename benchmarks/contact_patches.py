@@ -201,7 +201,7 @@ def sweep(model, way):
         scene = way.of_scene(model, contact)
         for speed in way.speeds(model.blade):
             choice = settings().integration_choice(model.blade, way.scene, speed)
-            choice = replace(choice, integrator=way.integrator, snapshot_revolutions=0, energy=False)
+            choice = replace(choice, integrator=way.integrator, snapshot_revolutions=0)
             try:
                 run = run_speed(
                     contact, float(speed), scene, replace(choice, time_step=way.step or choice.time_step), (), **KEPT

@@ -58,7 +58,7 @@ def models_of(blade, settings):
 
 def run(settings, blade, contact, scene, speed):
     """A run at a speed (rad/s) as the sweep does it, without stress."""
-    choice = replace(settings.integration_choice(blade, scene, speed), energy=False, snapshot_revolutions=0)
+    choice = replace(settings.integration_choice(blade, scene, speed), snapshot_revolutions=0)
     return run_speed(contact, float(speed), settings.scenes[scene].scene, choice, (), **KEPT)
 
 

@@ -105,7 +105,7 @@ def run(task):
 
 def integrated(blade, speed, choice, scene):
     """What `run` returns, of a scene with or without a ring."""
-    ring, choice = scene.casing.ring, replace(choice, energy=False, snapshot_revolutions=0)
+    ring, choice = scene.casing.ring, replace(choice, snapshot_revolutions=0)
     result = run_speed(contact(blade), float(speed), scene, choice, ["casing"] if ring else [], **KEPT)
     waves = np.sum(result["casing_rms_forward"] ** 2 + result["casing_rms_backward"] ** 2) if ring else 0.0
     return *result["rms"][0, [0, 2]], np.sqrt(waves)
@@ -223,7 +223,7 @@ def timed(name, ring, speed):
     """CPU time of the time integration with the ring as a multiple of that without."""
     times = []
     for modes in ((), ring):
-        choice = replace(settings().integration_choice("Ref", name, speed), energy=False, snapshot_revolutions=0)
+        choice = replace(settings().integration_choice("Ref", name, speed), snapshot_revolutions=0)
         simulation = Simulation(contact("Ref"), float(speed), with_casing(name, modes), choice)
         simulation.advance(simulation.start(), 1)
         state, begun = simulation.start(), time.process_time()

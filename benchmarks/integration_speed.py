@@ -46,7 +46,7 @@ SCENES = {
     for form in ("vector", "constant")
     for name, lining in (("abradable", {"lining": LINING}), ("direct", {}))
 }
-CHOICE = IntegrationChoice(STEP, 200, 496, CENTRAL_DIFFERENCE, "compiled", energy=True)
+CHOICE = IntegrationChoice(STEP, 200, 496, CENTRAL_DIFFERENCE, "compiled")
 
 SETTLED = 40
 ROUNDS = 3

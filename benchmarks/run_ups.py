@@ -125,7 +125,7 @@ def needed_rate(blade, settings, campbell, changes):
     run_up_choice = settings.run_ups[blade, SCENE][VARIED]
     run_up_choice = replace(run_up_choice, **{name: value for name, value in changes.items() if hasattr(run_up_choice, name)})
     choice = settings.run_up_choice(blade, SCENE, VARIED)
-    choice = replace(choice, revolutions=run_up_choice.before, snapshot_revolutions=run_up_choice.before, energy=False)
+    choice = replace(choice, revolutions=run_up_choice.before, snapshot_revolutions=run_up_choice.before)
     if "time_step" in changes:
         choice = replace(choice, time_step=changes["time_step"] * choice.time_step)
     if "published" in changes:

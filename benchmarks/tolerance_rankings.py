@@ -74,7 +74,7 @@ def outcomes(settings, model, recovery, member):
     speeds = settings.speed_plans[BLADE, SCENE].certain
     motion, stress, instants = [], [], settings.fidelity.time_integration.stress_instants
     for speed in speeds:
-        choice = replace(settings.integration_choice(BLADE, SCENE, speed), snapshot_revolutions=1, energy=False)
+        choice = replace(settings.integration_choice(BLADE, SCENE, speed), snapshot_revolutions=1)
         run = run_speed(model, speed, member.scene, choice, ("stress",), spectrum_highest_order=1, wear_angles=8)
         motion.append(motion_of_run(run))
         stress.append(largest_of_run(run, recovery.max_von_mises(run["snapshots"]), instants))

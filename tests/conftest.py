@@ -156,7 +156,7 @@ def contact(model):
 
 @pytest.fixture(scope="session")
 def compiled(root, tmp_path_factory):
-    """The programs of the small sweep, with and without energies, made in one process.
+    """The programs of the small sweep, made in one process.
 
     After the first one, another of the same layout takes half of its time or less; in jobs, each takes as long as the first.
     """

@@ -8,7 +8,7 @@ from numba import njit
 from r37core.alignment import LANES, aligned_record, aligned_zeros, padded
 from r37core.contact import complementarity, laws, node_sweeps
 from r37core.lanes import OPTIONS, inlined, load, store
-from r37core.time_integration.layout import LINING, complementarity_record, contact_record
+from r37core.time_integration.compiled.layout import LINING, complementarity_record, contact_record
 from r37core.time_integration.static_modes import relaxation
 
 _return_mapping, _friction_direction = inlined(laws.return_mapping), inlined(laws.friction_direction)
@@ -36,7 +36,7 @@ def _complement(room):
 def _sweep(room, count, largest_gap, lined):
     m = room[0]
     node_sweeps.set_laws(m.contact, count, m.lining, lined)
-    return node_sweeps.sweep_nodes(m.contact, count, largest_gap, m.lining.thickness, lined, True)
+    return node_sweeps.sweep_nodes(m.contact, count, largest_gap, m.lining.thickness, lined)
 
 
 @njit(**OPTIONS)
@@ -75,7 +75,7 @@ def solve_complementarity(matrix, gap, guess=None):
     )
     p = room[0]["problem"]
     room[0]["columns"][:count, :count] = np.transpose(matrix)
-    p["diagonal"] = 1.0
+    p["diagonal"], p["lanes"] = 1.0, nodes
     p["diagonal"][:count], p["gap"][:count] = np.diag(matrix), gap
     if guess is None or not np.any(guess):
         guess = np.asarray(gap) < 0.0
@@ -95,7 +95,7 @@ def press_nodes(matrix, gap, bar=None, area=0.0, wear=0.0, start=0.0):
     c = room[0]["contact"]
     c["gap"][:count], c["opened"][:count], c["pressure"][:count], c["wear"][:count] = gap, gap, start, wear
     c["columns"][:count, :count] = np.transpose(matrix)
-    c["listed"][:count] = np.arange(count)
+    c["listed"][:count], c["lanes"] = np.arange(count), nodes
     c["relaxation"] = relaxation(np.stack([np.transpose(matrix), np.zeros_like(matrix), np.zeros_like(matrix)]), 0.0)
     listed = np.arange(nodes) < count
     c["found"] = np.packbits(listed, bitorder="little")

@@ -34,10 +34,10 @@ def oscillator(frequency, radius=0.25):
     )
 
 
-def random_model(nodes):
+def random_model(nodes, modes=None):
     """A blade of so many contact nodes on a cone, each moving on its own."""
     generator = np.random.default_rng(nodes)
-    modes = max(nodes, 8) + 16
+    modes = modes or max(nodes, 8) + 16
     frequencies = np.sort(generator.uniform(5e3, 3e6, modes))
     return ContactModel(
         squared_frequencies=frequencies**2,

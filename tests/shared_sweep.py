@@ -2,7 +2,6 @@
 
 import fcntl
 import shutil
-from dataclasses import replace
 
 from workflow_runs import copy_finished, copy_project, snakemake
 
@@ -57,5 +56,4 @@ def compile_programs(root, folder):
     model = contact_model(reduced, "pressure_edge")
     for name, scene in settings.scenes.items():
         choice = settings.integration_choice("Ref", name, 1150.0)
-        for energy in (True, False):
-            Simulation(model, 1150.0, scene.scene, replace(choice, energy=energy))
+        Simulation(model, 1150.0, scene.scene, choice)

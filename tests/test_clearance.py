@@ -36,7 +36,7 @@ from r37core.time_integration.speed_file import write_speed
 from r37core.time_integration.speed_run import run_speed
 from r37core.yaml_file import load_yaml
 
-SHORT = IntegrationChoice(4e-7, 3, 62, integrator="exact_modal", energy=True)
+SHORT = IntegrationChoice(4e-7, 3, 62, integrator="exact_modal")
 NARROW = replace(ABRADABLE, lining=replace(LINING, bar_area=1.6e-7))
 COLD = {"cold_m": 3.56e-4}
 

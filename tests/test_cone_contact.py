@@ -12,7 +12,7 @@ from r37core.results.campbell import campbell_diagram, dynamic_clearance
 from r37core.rom.contact_model import ContactModel
 from r37core.rom.reduce import reduce_blade
 from r37core.rom.reduced_model import contact_model
-from r37core.time_integration.reference import ReferenceEngine
+from r37core.time_integration.reference.engine import ReferenceEngine
 from r37core.time_integration.simulate import Simulation
 
 ANGLE = np.radians(-15.24)

@@ -28,7 +28,7 @@ NARROW = replace(ABRADABLE, lining=replace(LINING, bar_width=1e-3))
 THIN = replace(NARROW, lining=Lining(1e-4, 1e8, 5e7, 1e5, bar_width=0.03))
 """With the casing behind it in reach."""
 
-LONG = IntegrationChoice(3.2e-6, 2, 62, integrator=EXACT_MODAL, energy=True)
+LONG = IntegrationChoice(3.2e-6, 2, 62, integrator=EXACT_MODAL)
 ELASTIC = Lining(5e-3, 20e9, 5e9, 1e30, bar_area=1e-6)
 """Bars that never yield."""
 

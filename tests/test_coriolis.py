@@ -23,11 +23,11 @@ from r37core.time_integration import step_limit
 from r37core.time_integration.gyroscopic import LARGEST_TURN
 from r37core.time_integration.integrators import CENTRAL_DIFFERENCE, EXACT_MODAL
 from r37core.time_integration.problem import Problem, UnstableStepError, stable_problem
-from r37core.time_integration.reference_motion import CoupledMotion
+from r37core.time_integration.reference.motion import CoupledMotion
 from r37core.time_integration.simulate import Simulation
 from r37core.time_integration.step_limit import pressed_ratio
 
-CHOICE = IntegrationChoice(2e-7, 1, 62, integrator=EXACT_MODAL, energy=True)
+CHOICE = IntegrationChoice(2e-7, 1, 62, integrator=EXACT_MODAL)
 FREE = Scene(Casing(1.0, lobes=0), damping_ratio=0.0, divergence_limit=10.0)
 TURN = np.array([[0.0, -2.0], [2.0, 0.0]])
 """2 Omega z x velocity of a point, per Omega."""

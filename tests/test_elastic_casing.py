@@ -42,7 +42,7 @@ from r37core.time_integration.simulate import Simulation
 from r37core.time_integration.speed_file import write_speed
 from r37core.time_integration.speed_run import run_speed
 
-CHOICE = IntegrationChoice(2e-7, 1, 62, integrator=EXACT_MODAL, energy=True)
+CHOICE = IntegrationChoice(2e-7, 1, 62, integrator=EXACT_MODAL)
 
 STEEL = Ring(0.255, 0.002, 0.05, 2.1e11, 7850.0, 0.002, 1e7, 1e6, 11)
 """Eleven modes: more pairs than a vector has numbers."""

@@ -26,7 +26,7 @@ ENGINES = ("compiled", "reference")
 
 
 def choice(integrator, step=2e-7, revolutions=1, engine="compiled", **others):
-    return IntegrationChoice(step, revolutions, 50, integrator=integrator, engine=engine, energy=True, **others)
+    return IntegrationChoice(step, revolutions, 50, integrator=integrator, engine=engine, **others)
 
 
 def motion(displacement=None, velocity=None):

@@ -87,7 +87,7 @@ NARROW = replace(ABRADABLE, lining=replace(LINING, bar_width=1e-3))
 @pytest.mark.parametrize("scene", [NARROW, DIRECT], ids=["abradable", "direct"])
 @pytest.mark.parametrize("step", [2e-7, 8e-7])
 def test_energy_balance_of_exact_modal_steps_closes(contact, scene, step):
-    simulation = Simulation(contact, 1600.0, scene, IntegrationChoice(step, 3, 62, energy=True, integrator=EXACT_MODAL))
+    simulation = Simulation(contact, 1600.0, scene, IntegrationChoice(step, 3, 62, integrator=EXACT_MODAL))
     state = simulation.start()
     simulation.advance(state, 3)
     work, loss = simulation.work(state), state.totals["loss"]

@@ -6,18 +6,20 @@ import json
 import os
 import subprocess
 import sys
-from itertools import pairwise
+from itertools import pairwise, product
 
 import numpy as np
 import pytest
 from defaults import IntegrationChoice, Scene
-from integration_cases import DIRECT, LINING, oscillator
+from integration_cases import DIRECT, LINING, oscillator, random_model, with_static_modes
 
 from r37core import kept, native
 from r37core.native import ObjectCodeError, Sources, cached_object, load_function, object_code
 from r37core.plain import to_plain
-from r37core.time_integration import compiled
-from r37core.time_integration.layout import Kind, integration_record, layout_of
+from r37core.time_integration.compiled import engine as compiled
+from r37core.time_integration.compiled.kind import Kind
+from r37core.time_integration.compiled.layout import PACE_ROWS, capacity_of, integration_record, pace_record
+from r37core.time_integration.integrators import EXACT_MODAL, INTEGRATORS
 from r37core.time_integration.simulate import Simulation
 
 TWICE = """
@@ -160,18 +162,46 @@ def test_sources_of_the_compiled_code_are_all_that_it_is_compiled_from(root):
             if not isinstance(node, ast.ImportFrom) or not (node.level or (node.module or "").startswith("r37core")):
                 continue
             module = (node.module or "").removeprefix("r37core").strip(".").replace(".", "/")
-            names = [f"{folder / module if node.level else module}.py"]
+            above = core / folder
+            for _ in range(1, node.level):
+                above = above.parent
+            names = [f"{above.relative_to(core) / module if node.level else module}.py"]
             if not (core / names[0]).exists():
                 names = [f"{module}/{alias.name}.py" for alias in node.names]
             assert set(names) <= set(compiled.SOURCES.files), source
 
 
+def records(kind):
+    """A record and all in it."""
+    yield kind
+    for field, _ in kind.fields.values():
+        if field.names:
+            yield from records(field)
+
+
+def test_no_record_has_more_than_60_fields():
+    """A record inside of one is one field of it."""
+    sizes = [len(kind.names) for kind in records(integration_record(capacity_of(1, 1)))]
+    assert len(sizes) == 9
+    assert max(sizes) <= 60
+
+
+def test_a_pace_begins_with_its_rows_of_modes():
+    """As they are copied from a table of paces, whose rows are as long as there are modes."""
+    of_nodes = ("coupling", "response", "columns", "clearance")
+    for modes in (8, 40, 96):
+        kind = pace_record(modes, 8)
+        of_modes = [name for name in kind.names if kind[name].shape[-1] == modes and name not in of_nodes]
+        assert list(kind.names[: len(of_modes)]) == of_modes
+        assert kind.fields[kind.names[len(of_modes)]][1] == 8 * PACE_ROWS * modes
+
+
 def test_arrays_of_the_record_are_aligned_and_apart():
-    kind = integration_record(layout_of(88, 9, 6))
-    places = sorted((offset, offset + field.itemsize) for field, offset in kind.fields.values())
-    assert all(end <= start for (_, end), (start, _) in pairwise(places))
-    for name, (field, offset) in kind.fields.items():
-        assert offset % (64 if field.shape or field.names else 8) == 0, name
+    for kind in records(integration_record(capacity_of(88, 9))):
+        places = sorted((offset, offset + field.itemsize) for field, offset in kind.fields.values())
+        assert all(end <= start for (_, end), (start, _) in pairwise(places))
+        for name, (field, offset) in kind.fields.items():
+            assert offset % (64 if field.shape or field.names else 8) == 0, name
 
 
 def test_a_parameter_of_the_lining_reaches_the_law():
@@ -183,5 +213,38 @@ def test_a_parameter_of_the_lining_reaches_the_law():
 
 
 def test_kinds_are_told_apart():
-    kinds = [Kind(*[flag] * len(Kind._fields)) for flag in (True, False)]
-    assert len({repr((layout_of(88, 8, 6, pairs), kind)) for kind in kinds for pairs in (0, 21)}) == 4
+    kinds = [Kind(*flags) for flags in product((True, False), repeat=len(Kind._fields))]
+    assert len({repr((capacity_of(88, nodes), kind)) for kind in kinds for nodes in (8, 15)}) == 2 * len(kinds)
+
+
+def test_there_are_few_kinds():
+    """With central differences nothing is coupled by the Coriolis force: see Problem."""
+    kinds = [Kind(*flags) for flags in product((True, False), repeat=len(Kind._fields))]
+    assert len([kind for kind in kinds if not (kind.published and kind.coriolis)]) <= 24
+
+
+@pytest.mark.parametrize(
+    ("modes", "nodes", "capacity"), [(1, 1, (96, 8)), (96, 8, (96, 8)), (97, 9, (192, 32)), (385, 76, (768, 128))]
+)
+def test_capacities(modes, nodes, capacity):
+    assert capacity_of(modes, nodes) == capacity
+
+
+@pytest.mark.parametrize("integrator", INTEGRATORS)
+def test_blades_of_any_size_take_one_program(integrator):
+    """Of 1 to 96 modes and up to 8 nodes, with jumps or without."""
+    programs, sizes = [], []
+    for nodes, modes in ((3, 1), (8, 5), (8, 40), (8, 96)):
+        for jumps in (True, False):
+            model, choice = random_model(nodes, modes), IntegrationChoice(1e-7, 2, 31, integrator=integrator, jumps=jumps)
+            if integrator == EXACT_MODAL:
+                model = with_static_modes(model, 1e-9)
+            simulation = Simulation(model, 12_000.0, DIRECT, choice)
+            programs.append(simulation.engine._advance)
+            sizes.append(len(simulation.problem.frequencies))
+            state = simulation.start()
+            state.displacement[:] = 1e-7
+            simulation.advance(state, 1)
+            assert np.isfinite(state.displacement).all()
+    assert sizes == [1, 1, 5, 5, 40, 40, 96, 96]
+    assert all(program is programs[0] for program in programs)

@@ -95,7 +95,7 @@ def sweep(model, tmp_path_factory):
             limit = 1e-7 if name == "direct" and speed == SPEEDS[-1] else 0.05
             scene = Scene(lined.casing, lined.lining, lined.friction, divergence_limit=limit)
             history = 4 if speed == 1200.0 else 2
-            choice = IntegrationChoice(2e-7, 4, 62, snapshots_per_revolution=31, snapshot_revolutions=history, energy=True)
+            choice = IntegrationChoice(2e-7, 4, 62, snapshots_per_revolution=31, snapshot_revolutions=history)
             wanted = [kind for kind in RESULTS if kind != "wear" or lined.lining]
             kept = run_speed(contact, speed, scene, choice, wanted, spectrum_highest_order=10, wear_angles=60, stress=recovery)
             sources.append(folder / f"{name}_{speed:g}.npz")

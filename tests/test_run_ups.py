@@ -30,7 +30,7 @@ from r37core.time_integration.simulate import Simulation
 from r37core.time_integration.speed_file import write_speed
 from r37core.time_integration.step_limit import UnstableStepError
 
-LONG = IntegrationChoice(3.2e-6, 4, 62, integrator=EXACT_MODAL, energy=True)
+LONG = IntegrationChoice(3.2e-6, 4, 62, integrator=EXACT_MODAL)
 NARROW = replace(ABRADABLE, lining=replace(LINING, bar_width=1e-3))
 FREE = Scene(Casing(1.0, lobes=0))
 

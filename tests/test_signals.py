@@ -245,7 +245,7 @@ def scene(settings):
 
 def test_a_record_is_the_run_of_the_sweep(contact, scene, model):
     """The same numbers to the last digit; with gauges as without."""
-    choice = IntegrationChoice(4e-7, 4, 62, "exact_modal", snapshots_per_revolution=31, snapshot_revolutions=1, energy=True)
+    choice = IntegrationChoice(4e-7, 4, 62, "exact_modal", snapshots_per_revolution=31, snapshot_revolutions=1)
     run = run_speed(contact, 1200.0, scene, choice, ("stress",), spectrum_highest_order=10, wear_angles=60)
     rows = np.eye(model.size)[:2]
     record = record_signals(contact, 1200.0, scene, choice, rows, 4)

@@ -21,7 +21,7 @@ from r37core.time_integration.static_modes import (
     stepped_modes,
 )
 
-CHOICE = IntegrationChoice(3.2e-6, 1, 62, integrator=EXACT_MODAL, energy=True)
+CHOICE = IntegrationChoice(3.2e-6, 1, 62, integrator=EXACT_MODAL)
 
 
 def with_friction(coefficient, **others):

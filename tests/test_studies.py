@@ -39,7 +39,7 @@ from r37core.studies.stability.report import judge
 from r37core.studies.tradeoff import cases as tradeoff
 from r37core.studies.tradeoff.cases import PARAMETERS, vary
 from r37core.studies.tradeoff.report import QUANTITIES, exponent_of, gather_cases, level_error, parameter_tables
-from r37core.time_integration.compiled import _program
+from r37core.time_integration.compiled.engine import _program
 from r37core.time_integration.problem import Problem
 from r37core.time_integration.speed_run import run_speed
 

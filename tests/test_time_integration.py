@@ -102,7 +102,7 @@ STEPPED = {"central_difference": (CENTRAL_DIFFERENCE, 1e-7, 1), "exact_modal": (
 def test_compiled_time_integration_is_the_reference(contact, name, way):
     """A turn of 10,000 steps, or two of long ones, of the compiled engine against the one with dense matrices, to 1e-10."""
     (integrator, step, revolutions), scene, speed = STEPPED[way], SCENES[name], 6000.0
-    choice = IntegrationChoice(step, revolutions, 62, integrator=integrator, energy=True)
+    choice = IntegrationChoice(step, revolutions, 62, integrator=integrator)
     states = []
     for engine in ENGINES:
         simulation = Simulation(contact, speed, scene, replace(choice, engine=engine))
@@ -178,7 +178,7 @@ def test_order_of_the_contact_nodes_does_not_matter(contact, scene):
 
 @pytest.mark.parametrize("scene", [ABRADABLE, DIRECT], ids=["abradable", "direct"])
 def test_energy_balance_closes(contact, scene):
-    simulation, state, _ = run(contact, scene, IntegrationChoice(2e-7, 3, 62, energy=True), speed=1600.0)
+    simulation, state, _ = run(contact, scene, IntegrationChoice(2e-7, 3, 62), speed=1600.0)
     work, loss = state.totals["work"], state.totals["loss"]
     assert loss > 0.0
     assert abs(simulation.energy(state) - work + loss) < 1e-9 * (abs(work) + loss)
@@ -190,7 +190,7 @@ def test_discrete_energy_tends_to_the_exact_one_with_the_step():
     errors = []
     for step in (4e-6, 2e-6, 1e-6):
         scene = Scene(Casing(1.0, lobes=0), damping_ratio=ratio)
-        choice = IntegrationChoice(step, 2, 100, energy=True)
+        choice = IntegrationChoice(step, 2, 100)
         simulation, state, _ = run(oscillator(frequency), scene, choice, displacement=1e-3)
         exact = 0.5 * (frequency * 1e-3) ** 2
         lost = exact * (1.0 - np.exp(-2.0 * ratio * frequency * simulation.problem.duration))
@@ -216,7 +216,7 @@ def test_step_too_long_for_the_lining_is_refused(contact):
 
 def test_divergence_is_a_result(contact, tmp_path):
     scene = replace(DIRECT, divergence_limit=2e-5)
-    choice = IntegrationChoice(2e-7, 6, 62, snapshots_per_revolution=62, snapshot_revolutions=1, energy=True)
+    choice = IntegrationChoice(2e-7, 6, 62, snapshots_per_revolution=62, snapshot_revolutions=1)
     results = ("spectrum", "stress", "energy")
     kept = run_speed(contact, 1000.0, scene, choice, results, spectrum_highest_order=10, wear_angles=100)
     assert kept["status"] == RunStatus.DIVERGED
@@ -251,7 +251,7 @@ def test_only_what_is_asked_for_is_kept(contact):
     kept = run_speed(contact, 1000.0, DIRECT, choice, (), spectrum_highest_order=10, wear_angles=100)
     asked = {"amplitude", "snapshots", "wear", "contact_work", "damping_loss"}
     assert not asked & set(kept)
-    rich = replace(choice, snapshots_per_revolution=62, snapshot_revolutions=1, energy=True)
+    rich = replace(choice, snapshots_per_revolution=62, snapshot_revolutions=1)
     everything = run_speed(
         contact,
         1000.0,
@@ -278,7 +278,7 @@ def test_what_a_scene_lacks_is_not_compiled(contact):
     """The program of a scene without lining and friction is not given their arrays: it would crash if it read them."""
     simulation = Simulation(contact, 1000.0, Scene(AT_ONCE), IntegrationChoice(2e-7, 1, 62))
     record = simulation.engine._record[0]
-    for absent in ("wear", "friction", "rotation", "bar_position", "loss"):
+    for absent in ("wear", "friction", "rotation", "bar_position"):
         assert not np.any(record[absent]), absent
     state = simulation.start()
     assert state.wear is None

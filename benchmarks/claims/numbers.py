@@ -70,7 +70,7 @@ def measured(root: Path) -> Numbers:
         "ring": run(contact, "elastic_abradable", results=["casing"]),
     }
     run_up = RunUp(1690.0, 1700.0, float(_REVOLUTIONS), 2, 2, False)
-    choice = replace(settings.integration_choice(_BLADE, "abradable", 1690.0), energy=False, snapshot_revolutions=0)
+    choice = replace(settings.integration_choice(_BLADE, "abradable", 1690.0), snapshot_revolutions=0)
     more = {"highest_order": 1, "stress": None, "yield_stress": np.inf}
     numbers["run_up"] = _of_run(record_run_up(contact, settings.scenes["abradable"].scene, choice, run_up, (), **more))
     return {name: {key: float(f"{value:.9g}") for key, value in of.items()} for name, of in numbers.items()}

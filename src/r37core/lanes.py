@@ -20,14 +20,14 @@ from numba.core import cgutils
 from numba.extending import intrinsic, lower_builtin, models, register_model, type_callable
 
 from .alignment import LANES
-from .known_arguments import KnowingCompiler
 
-OPTIONS: dict[str, Any] = {"fastmath": {"reassoc", "contract", "nsz", "arcp"}, "error_model": "numpy"}
-"""Sums may be reordered and contracted; NaN and infinity keep their meaning, and a division by zero is no error."""
+OPTIONS: dict[str, Any] = {"fastmath": {"contract", "nsz", "arcp"}, "error_model": "numpy"}
+"""Sums are made in the order in which they stand, contracted; NaN and infinity keep their meaning, and a division by zero is
+no error. Were sums reordered, their bits would change with what is compiled around them."""
 
 # wrappers for Python and C would be optimised and emitted, too, a quarter of all work, and nothing calls them
-inlined = njit(**OPTIONS, forceinline=True, no_cpython_wrapper=True, no_cfunc_wrapper=True, pipeline_class=KnowingCompiler)
-"""Compiles a function into those that call it: what a flag given as a constant leaves unused is then not in the program."""
+inlined = njit(**OPTIONS, forceinline=True, no_cpython_wrapper=True, no_cfunc_wrapper=True)
+"""Compiles a function into those that call it."""
 
 _FAST = tuple(sorted(OPTIONS["fastmath"]))
 _INTEGER = ir.IntType(32)
@@ -244,6 +244,28 @@ def sum_of_lanes(typingctx, value):
         return builder.extract_element(total, _INTEGER(0))
 
     return types.float64(value), build
+
+
+@intrinsic
+def lanes_of(typingctx, vectors, place):
+    """Lanes of so many vectors, an integer of an array in a record that nothing changes while a program runs, at least 1."""
+
+    def build(context, builder, sig, args):
+        data = context.make_array(sig.args[0])(context, builder, args[0]).data
+        number = builder.load(builder.gep(data, [context.cast(builder, args[1], sig.args[1], types.intp)]))
+        # so that loops begin without asking again
+        integer = ir.IntType(64)
+        number.set_metadata("invariant.load", builder.module.add_metadata([]))
+        number.set_metadata("range", builder.module.add_metadata([integer(1), integer(2**31)]))
+        return builder.mul(number, integer(LANES), flags=("nuw", "nsw"))
+
+    return types.int64(vectors, place), build
+
+
+@inlined
+def lanes_used(array, used):
+    """How many lanes of an array are `used`; of a single vector the compiler knows it."""
+    return LANES if len(array) == LANES else used
 
 
 def _elements_at(kind: types.Type) -> Callable:

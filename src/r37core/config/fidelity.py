@@ -135,7 +135,6 @@ class TimeIntegration(Section):
             samples_per_revolution=self.samples_per_revolution,
             snapshots_per_revolution=self.stress_instants,
             snapshot_revolutions=1,
-            energy=True,
         )
 
 

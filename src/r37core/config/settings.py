@@ -209,7 +209,6 @@ class Settings:
             choice,
             snapshots_per_revolution=choice.snapshots_per_revolution if stress else 0,
             snapshot_revolutions=(choice.revolutions if history else choice.revolutions_in_statistic) if stress else 0,
-            energy="energy" in chosen.results,
         )
 
 

@@ -1,7 +1,7 @@
 """The small complementarity problem of direct contact, compiled into the time integration.
 
-Nodes are lanes. A problem `p` is a complementarity_record of r37core.time_integration.layout: `gap` (m) of the nodes before the
-casing pushes, and room to work in. `columns[j, i]`: opening of gap i per unit multiplier of node j. Sets of nodes are bits,
+Nodes are lanes. A problem `p` is a complementarity_record of time_integration.compiled.layout: `gap` (m) of the nodes before
+the casing pushes, and room to work in. `columns[j, i]`: opening of gap i per unit multiplier of node j. Sets of nodes are bits,
 eight nodes to an integer.
 """
 
@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 from r37core.alignment import LANES
-from r37core.lanes import bits_of, first_bit, flag_at, flags_of, inlined, load, spread, store
+from r37core.lanes import bits_of, first_bit, flag_at, flags_of, inlined, lanes_used, load, spread, store
 
 BLOCK_ROUNDS, SINGLE_ROUNDS = 8, 500
 TOLERANCE = 1e-12
@@ -36,7 +36,7 @@ def _solve(p, columns, count):
 
     Principal minors of a P-matrix are positive, so that is rare.
     """
-    nodes = len(p.gap)
+    nodes = lanes_used(p.gap, p.lanes)
     for g in range(0, nodes, LANES):
         for j in range(count):
             store(p.left, (j, g), load(columns, (p.listed[j], g)))
@@ -92,7 +92,7 @@ def solve_complementarity(p, columns):
     P-matrix (Cottle, Pang and Stone, The Linear Complementarity Problem, section 4.2). Returns the largest violation of either
     sign condition, relative to the largest gap.
     """
-    nodes = len(p.gap)
+    nodes = lanes_used(p.gap, p.lanes)
     scale = violation = 0.0
     for g in range(0, nodes, LANES):
         store(p.short, g, np.abs(load(p.gap, g)))

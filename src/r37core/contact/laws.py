@@ -47,7 +47,7 @@ def return_mapping(penetration: float, wear: float, elastic_modulus: float, lini
     trial = stiffness * (penetration - wear)
     if not trial > 0.0:
         return 0.0, wear
-    excess = trial - (lining.yield_stress + lining.plastic_modulus * wear / thickness)
+    excess = trial - lining.yield_stress - lining.plastic_modulus * wear / thickness
     if not excess > 0.0:
         return trial, wear
     worn = min(wear + thickness * excess / (elastic_modulus + lining.plastic_modulus), thickness)
@@ -66,9 +66,9 @@ def lines_of_bar(elastic_modulus: Any, lining: Any) -> tuple[Any, Any, Any]:
     through: elastic E A/e, offset and plastic E/(E + K) A times the yield stress and K/e, with the area A and the thickness e.
     `elastic_modulus` E (Pa), of the bar or in series; `lining`: as of return_mapping, with the `area` (m2) of a bar.
     """
-    share = elastic_modulus / (elastic_modulus + lining.plastic_modulus) * lining.area
-    elastic = elastic_modulus * lining.area / lining.thickness
-    return elastic, share * lining.yield_stress, share * lining.plastic_modulus / lining.thickness
+    with_area, per_thickness = elastic_modulus * lining.area, 1.0 / lining.thickness
+    share = with_area / (elastic_modulus + lining.plastic_modulus)
+    return with_area * per_thickness, share * lining.yield_stress, share * (lining.plastic_modulus * per_thickness)
 
 
 def worn(penetration: Any, wear: Any, lining: Any) -> Any:
@@ -77,14 +77,14 @@ def worn(penetration: Any, wear: Any, lining: Any) -> Any:
     What return_mapping says, without its force: (E x - e yield stress)/(E + plastic modulus), if that is more than before.
     """
     yielding = lining.elastic_modulus * penetration - lining.thickness * lining.yield_stress
-    return np.maximum(wear, yielding / (lining.elastic_modulus + lining.plastic_modulus))
+    return np.maximum(wear, yielding * (1.0 / (lining.elastic_modulus + lining.plastic_modulus)))
 
 
-def friction_direction(tangential: Any, meridional: Any) -> tuple[Any, Any]:
-    """Unit vectors of the friction forces on nodes, opposite to their sliding over the casing; zero where nothing slides.
+def friction_direction(tangential: Any, meridional: Any, length: Any = 1.0) -> tuple[Any, Any]:
+    """Vectors of a `length`, opposite to the sliding of nodes over the casing, as friction is; zero where nothing slides.
 
     `tangential`, `meridional`: parts of the sliding velocity, or of the sliding in one step, in any one unit.
     """
     size = np.sqrt(tangential * tangential + meridional * meridional)
-    opposite = np.where(size > 0.0, -1.0 / size, 0.0)
+    opposite = np.where(size > 0.0, -1.0 / size, 0.0) * length
     return tangential * opposite, meridional * opposite

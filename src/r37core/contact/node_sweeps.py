@@ -1,6 +1,6 @@
 """The contact problem at one instant, compiled into the time integration: forces and gaps of all nodes, each by its own law.
 
-A problem `c` is a contact_record of r37core.time_integration.layout; nodes are lanes, and a set of nodes is a bit for each,
+A problem `c` is a contact_record of time_integration.compiled.layout; nodes are lanes, and a set of nodes is a bit for each,
 eight to an integer. Forces p open the gaps g to g + G p, G being what the static modes do. A node at the bare casing keeps
 g + G p >= 0, p >= 0 and one of them zero; one on a lining has the force of its bar, with the casing behind it. In a sweep eight
 nodes at once get the forces that their laws say while the others keep theirs: the projected Jacobi method (Cottle, Pang and
@@ -13,7 +13,7 @@ from __future__ import annotations
 import numpy as np
 
 from r37core.alignment import LANES
-from r37core.lanes import bits_of, flag_at, flags_of, inlined, load, spread, store
+from r37core.lanes import bits_of, flag_at, flags_of, inlined, lanes_used, load, spread, store
 
 from .laws import lines_of_bar, series_modulus, worn
 
@@ -27,7 +27,7 @@ TOLERANCE = 1e-12
 @inlined
 def set_laws(c, count, lining, lined):
     """The laws of the listed nodes, from what their own forces do, `columns`, and the wear of their bars."""
-    for g in range(0, len(c.gap), LANES):
+    for g in range(0, lanes_used(c.gap, c.lanes), LANES):
         own = spread(1.0)
         for j in range(count):
             k = c.listed[j]
@@ -35,7 +35,7 @@ def set_laws(c, count, lining, lined):
         store(c.own, g, own)
         store(c.stiffness, g, 1.0 / own)
         if lined:
-            bar = lining.elastic_modulus * lining.area / lining.thickness
+            bar = lining.elastic_modulus * lining.area * (1.0 / lining.thickness)
             elastic, offset, plastic = _lines_of_bar(_series_modulus(lining.elastic_modulus, bar, own), lining)
             store(c.elastic, g, elastic)
             store(c.offset, g, offset)
@@ -69,15 +69,15 @@ def open_gaps(c, g, count):
 
 
 @inlined
-def sweep_nodes(c, count, largest_gap, thickness, lined, relaxed):
+def sweep_nodes(c, count, largest_gap, thickness, lined):
     """Set the forces on the listed nodes, from those they have; returns the last change if it is still too large.
 
-    It is relative to `largest_gap` (m). `thickness` (m): of the lining; `relaxed`: whether nodes take a share of the change.
+    It is relative to `largest_gap` (m). `thickness` (m): of the lining.
     """
-    allowed = TOLERANCE * largest_gap
+    allowed, relaxed = TOLERANCE * largest_gap, c.relaxation < 1.0
     for _ in range(SWEEPS):
         changed = 0
-        for g in range(0, len(c.gap), LANES):
+        for g in range(0, lanes_used(c.gap, c.lanes), LANES):
             opened, before, own = open_gaps(c, g, count), load(c.pressure, g), load(c.own, g)
             after = forces_of_laws(c, g, own * before - opened, thickness, lined)
             if relaxed:

@@ -39,7 +39,7 @@ def record_signals(
     """
     per_revolution = choice.samples_per_revolution
     snapshots = per_revolution if len(gauge_rows) else 0
-    choice = replace(choice, snapshots_per_revolution=snapshots, snapshot_revolutions=choice.revolutions, energy=False)
+    choice = replace(choice, snapshots_per_revolution=snapshots, snapshot_revolutions=choice.revolutions)
     simulation = Simulation(model, speed, scene, choice)
     # rows of what the states are kept in
     shapes = simulation.problem.state_shapes

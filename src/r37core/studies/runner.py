@@ -115,7 +115,7 @@ class _Runs:
 
     def _choice(self, speed: float) -> IntegrationChoice:
         case = self.case
-        choice = replace(case.choice, energy="energy" in case.results)
+        choice = case.choice
         if "stress" in case.results:
             snapshot_revolutions = choice.revolutions if speed in self.histories else choice.revolutions_in_statistic
             choice = replace(choice, snapshot_revolutions=snapshot_revolutions)

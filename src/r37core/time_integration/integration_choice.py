@@ -17,11 +17,10 @@ LARGEST_TABLE = 2**30
 class IntegrationChoice:
     """Numbers of the time integration: largest time step (s), revolutions, samples per revolution, and what is recorded.
 
-    `snapshots_per_revolution` states are recorded in each of the last `snapshot_revolutions`; `energy`: whether the loss to
-    damping is added up; `jumps`: whether free flight is jumped over or stepped through; `static_above`: with exact_modal, modes
-    with a larger product of angular frequency and step are not stepped either, and all that are not stepped follow the contact
-    forces statically; `shorten`: whether an unstable step is shortened, or refused; `steps_per_sample`: given where a run keeps
-    them over many speeds.
+    `snapshots_per_revolution` states are recorded in each of the last `snapshot_revolutions`; `jumps`: whether free flight is
+    jumped over or stepped through; `static_above`: with exact_modal, modes with a larger product of angular frequency and step
+    are not stepped either, and all that are not stepped follow the contact forces statically; `shorten`: whether an unstable
+    step is shortened, or refused; `steps_per_sample`: given where a run keeps them over many speeds.
     """
 
     time_step: float
@@ -37,7 +36,6 @@ class IntegrationChoice:
     engine: Annotated[str, Key("reference: plain NumPy, for short runs", one_of=("compiled", "reference"))] = "compiled"
     snapshots_per_revolution: int = 0
     snapshot_revolutions: int = 0
-    energy: bool = False
     jumps: bool = True
     highest_frequency: Annotated[
         float,

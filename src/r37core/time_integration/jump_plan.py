@@ -1,6 +1,6 @@
 """Jumps over free flight as they are planned before a run, in NumPy: many steps of every mode as one map, and its bounds.
 
-time_integration.jump_steps says how a run uses them.
+time_integration.compiled.jump_steps says how a run uses them.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .integrators import Recursion
-from .layout import COARSE, STRIDES
+from .jump_numbers import COARSE, STRIDES
 
 
 @dataclass(frozen=True)

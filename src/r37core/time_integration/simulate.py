@@ -10,11 +10,11 @@ from r37core.contact.scene import Scene
 from r37core.rom.contact_model import ContactModel
 
 from .clearance import initial_wear
-from .compiled import CompiledEngine
+from .compiled.engine import CompiledEngine
 from .initial_motion import InitialMotion
 from .integration_choice import IntegrationChoice
 from .problem import Paces, Problem, stable_problem
-from .reference import ReferenceEngine
+from .reference.engine import ReferenceEngine
 from .state import Course, SimulationRecord, SimulationState
 
 TIP_POINTS, DIRECTIONS = ("leading_edge", "trailing_edge"), ("normal", "radial", "tangential")

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from .layout import TOTALS
+from .totals import TOTALS
 
 
 @dataclass
@@ -15,7 +15,7 @@ class SimulationState:
 
     `displacement` u_n and `increment` u_n - u_{n-1}, shape (modes,), in the speed's modes; `wear` (m), shape (rings, bars);
     `on_casing`, shape (nodes,): whether a node touched the casing in the last step; `contact_force` (N), shape (3, nodes): what
-    presses the nodes at t_n with exact_modal, along normal, tangent and meridian; `totals`: see layout.TOTALS.
+    presses the nodes at t_n with exact_modal, along normal, tangent and meridian; `totals`: see TOTALS.
     """
 
     displacement: np.ndarray

@@ -15,24 +15,25 @@ from r37core.alignment import LANES
 from r37core.contact.node_sweeps import set_laws, sweep_nodes, wear_bars
 from r37core.lanes import bits_of, first_bit, flags_of, inlined, load, numbers_at, store
 
+from .kind import LINED, VECTOR_FRICTION
 from .layout import MERIDIONAL, NORMAL, TANGENTIAL
-from .steps import bar_at, leave_casing, list_pressed, push_blade, set_friction_of_listed
+from .steps import bar_at, leave_casing, node_lanes, push_blade, set_friction_of_listed
 
 
 @inlined
-def push_contact(m, kind, work, lost):
+def push_contact(m, work, lost):
     """Push the blade with the forces at t_n; adds the work, doubled, and the energy lost."""
-    pressed, work, lost = push_blade(m, list_pressed(m), kind, work, lost)
+    pressed, work, lost = push_blade(m, work, lost)
     m.totals.steps_in_contact += pressed
     return work, lost
 
 
 @inlined
-def press_contact(m, place, kind):
+def press_contact(m, place):
     """The contact forces at u_n from the gaps there, and the wear; returns whether there are any."""
     c, thickness = m.contact, m.lining.thickness
     largest_gap, violation = 0.0, 0.0
-    for g in range(0, len(c.gap), LANES):
+    for g in range(0, node_lanes(m), LANES):
         gap = load(m.problem.gap, g)
         store(c.gap, g, gap)
         store(c.opened, g, gap)
@@ -41,49 +42,49 @@ def press_contact(m, place, kind):
         largest_gap = max(largest_gap, abs(c.gap[k]))
     count = int(np.int64(0))
     while True:
-        joined = list_beyond(m, count, place, kind)
+        joined = list_beyond(m, count, place)
         if joined == count:
             break
-        if kind.vector_friction:
-            set_friction_of_listed(m, c.listed, joined, True, kind.coriolis)
+        if VECTOR_FRICTION:
+            set_friction_of_listed(m, c.listed, joined)
         for j in range(count, joined):
-            set_column(m, c.listed[j], kind)
-        for g in range(0, len(c.gap), LANES):
+            set_column(m, c.listed[j])
+        for g in range(0, node_lanes(m), LANES):
             # from the forces a step ago
             store(c.pressure, g, np.where(flags_of(c.found[g // LANES]), 0.0 - load(m.force, g), 0.0))
         count = joined
-        set_laws(c, count, m.lining, kind.lined)
-        violation = sweep_nodes(c, count, largest_gap, thickness, kind.lined, kind.relaxed)
+        set_laws(c, count, m.lining, LINED)
+        violation = sweep_nodes(c, count, largest_gap, thickness, LINED)
     if count == 0:
         release_contact(m)
         return False
     m.totals.worst_complementarity = max(m.totals.worst_complementarity, violation)
-    return keep_forces(m, count, kind)
+    return keep_forces(m, count)
 
 
 @inlined
 def release_contact(m):
     """No node is pressed any more."""
     leave_casing(m)
-    for g in range(0, len(m.force), LANES):
+    for g in range(0, node_lanes(m), LANES):
         store(m.force, g, 0.0)
         store(m.friction_force, (0, g), 0.0)
         store(m.friction_force, (1, g), 0.0)
 
 
 @inlined
-def list_beyond(m, count, place, kind):
+def list_beyond(m, count, place):
     """List more nodes that pass the casing, or what is left of their bar, after `count` of them; returns how many there are."""
     c = m.contact
-    for g in range(0, len(c.gap), LANES):
+    for g in range(0, node_lanes(m), LANES):
         bits = bits_of(load(c.opened, g) < 0.0) & ~c.found[g // LANES]
         while bits:
             bit = bits & -bits
             bits &= bits - 1
             k = g + first_bit(bit)
-            if kind.lined:
-                c.bar[k] = bar_at(m, k, place, kind.exact_gap)
-                c.wear[k] = numbers_at(m.wear)[c.bar[k]]
+            if LINED:
+                c.bar[k] = bar_at(m, k, place)
+                c.wear[k] = numbers_at(m.call.wear)[c.bar[k]]
                 # it may be clear of what is left of its bar
                 if not c.opened[k] + c.wear[k] < 0.0:
                     continue
@@ -94,37 +95,37 @@ def list_beyond(m, count, place, kind):
 
 
 @inlined
-def set_column(m, k, kind):
+def set_column(m, k):
     """What a normal force on a node, with the friction that it brings, opens the gaps by at once."""
     c = m.contact
-    for g in range(0, len(c.gap), LANES):
+    for g in range(0, node_lanes(m), LANES):
         column = load(m.flexibility, (NORMAL, k, g))
-        if kind.coupled:
+        if m.coupled != 0:
             column += load(m.flexibility, (TANGENTIAL, k, g)) * m.friction_share[0, k]
             column += load(m.flexibility, (MERIDIONAL, k, g)) * m.friction_share[1, k]
         store(c.columns, (k, g), column)
 
 
 @inlined
-def keep_forces(m, count, kind):
+def keep_forces(m, count):
     """Make the normal forces found those on the nodes, with their friction, and wear the bars; whether there are any."""
     c = m.contact
     any_pressed = 0
-    for g in range(0, len(c.gap), LANES):
+    for g in range(0, node_lanes(m), LANES):
         normal = 0.0 - load(c.pressure, g)
         store(m.force, g, normal)
         store(m.friction_force, (0, g), normal * load(m.friction_share, (0, g)))
         store(m.friction_force, (1, g), normal * load(m.friction_share, (1, g)))
         pressed = bits_of(normal < 0.0)
         any_pressed |= pressed
-        touching = wear_bars(c, g, m.lining) if kind.lined else pressed
+        touching = wear_bars(c, g, m.lining) if LINED else pressed
         onsets = touching & ~m.on_casing[g // LANES]
         m.on_casing[g // LANES] = touching
         while onsets:
             m.totals.casing_hits += 1.0
             onsets &= onsets - 1
-    if kind.lined:
-        wear = numbers_at(m.wear)
+    if LINED:
+        wear = numbers_at(m.call.wear)
         for j in range(count):
             k = c.listed[j]
             wear[c.bar[k]] = max(wear[c.bar[k]], c.wear[k])

@@ -1,9 +1,9 @@
 """The reference engine: the time integration as it reads on paper, in dense NumPy. Slow; the compiled engine must equal it.
 
 Equations after section 5 of the benchmark, in the coordinates of the modes at rest, where the mass is the identity:
-u* = A u_n + B u_{n-1} without contact, u_{n+1} = u* + C F with it (reference_motion). Work per step is of the order of modes
-squared. Forces at t_n, and the static modes with them: r37core.time_integration.contact_steps. An elastic casing is followed in
-the frame that does not turn.
+u* = A u_n + B u_{n-1} without contact, u_{n+1} = u* + C F with it (reference.motion). Work per step is of the order of modes
+squared. Forces at t_n, and the static modes with them: time_integration.compiled.contact_steps. An elastic casing is followed
+in the frame that does not turn.
 """
 
 from __future__ import annotations
@@ -15,10 +15,10 @@ import numpy as np
 from r37core.contact.casing import casing_axes
 from r37core.contact.scene import Lining
 
-from .clearance import gaps
-from .problem import Paces, Problem
-from .reference_motion import CoupledMotion, Motion, MotionWithCasing, RealMotion
-from .state import Course, SimulationRecord, SimulationState
+from ..clearance import gaps
+from ..problem import Paces, Problem
+from ..state import Course, SimulationRecord, SimulationState
+from .motion import CoupledMotion, Motion, MotionWithCasing, RealMotion
 
 _MOST_SWEEPS = 200
 

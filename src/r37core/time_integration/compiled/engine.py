@@ -9,36 +9,43 @@ from typing import Any
 
 import numpy as np
 
-from r37core.alignment import aligned_copy, aligned_zeros
+from r37core.alignment import LANES, aligned_copy, aligned_zeros, padded
 from r37core.contact.ring import RingMotion
 from r37core.contact.scene import Friction, Lining
 from r37core.native import Sources, cached_object, load_function
 
-from .integrators import CENTRAL_DIFFERENCE
-from .jump_plan import jump_lengths, nearest_casing
-from .layout import LINING, NEVER, NORMAL, TANGENTIAL, Kind, Layout, integration_record, layout_of, pace_record
-from .problem import Paces, Problem
-from .state import Course, SimulationRecord, SimulationState
+from ..integrators import CENTRAL_DIFFERENCE
+from ..jump_numbers import NEVER
+from ..jump_plan import jump_lengths, nearest_casing
+from ..problem import Paces, Problem
+from ..state import Course, SimulationRecord, SimulationState
+from .kind import Kind
+from .layout import LINING, NORMAL, TANGENTIAL, Capacity, capacity_of, integration_record, pace_record
 
 SOURCES = Sources(
     "alignment.py",
     "kept.py",
-    "known_arguments.py",
     "lanes.py",
     "native.py",
+    "program_constants.py",
     "contact/casing.py",
     "contact/complementarity.py",
     "contact/laws.py",
     "contact/node_sweeps.py",
     "contact/ring.py",
     "contact/scene.py",
-    "time_integration/contact_steps.py",
-    "time_integration/jump_steps.py",
-    "time_integration/layout.py",
-    "time_integration/pace_steps.py",
-    "time_integration/program.py",
-    "time_integration/ring_steps.py",
-    "time_integration/steps.py",
+    "declared.py",
+    "units.py",
+    "time_integration/compiled/contact_steps.py",
+    "time_integration/compiled/jump_steps.py",
+    "time_integration/compiled/kind.py",
+    "time_integration/compiled/layout.py",
+    "time_integration/compiled/pace_steps.py",
+    "time_integration/compiled/program.py",
+    "time_integration/compiled/ring_steps.py",
+    "time_integration/compiled/steps.py",
+    "time_integration/jump_numbers.py",
+    "time_integration/totals.py",
 )
 """What the compiled time integration is made from: a change in one of these compiles it anew."""
 
@@ -55,29 +62,25 @@ class CompiledEngine:
     _tables: _CasingTables
 
     def __init__(self, problem: Problem, paces: Paces, before: CompiledEngine | None = None):
-        outputs = len(problem.output_operator)
         _, self._nodes, self._modes = problem.displacement_operator.shape
         blade, pairs = len(problem.frequencies), len(problem.scene.casing.ring)
-        self._layout = layout_of(blade, self._nodes, outputs, pairs)
-        # where the modes are: those of an elastic casing begin whole vectors
-        firsts = (self._layout.modes - 2 * self._layout.pairs, self._layout.modes - self._layout.pairs)
+        # lanes that are used; the modes of an elastic casing begin whole vectors
+        self._pairs, self._node_lanes = padded(pairs), padded(self._nodes)
+        self._mode_lanes = padded(blade) + 2 * self._pairs
+        firsts = (self._mode_lanes - 2 * self._pairs, self._mode_lanes - self._pairs)
         of_ring = [first + np.arange(pairs) for first in firsts]
         # an array of places costs more in every stretch of a run-up
         self._places = np.concatenate([np.arange(blade), *of_ring]) if pairs else slice(blade)
         scene, choice = problem.scene, problem.choice
+        self._capacity = capacity_of(self._mode_lanes, self._node_lanes)
         self._kind = kind = Kind(
             published=choice.integrator == CENTRAL_DIFFERENCE,
             lined=scene.lining is not None,
             vector_friction=scene.friction is not None and scene.friction.vector,
-            coupled=scene.friction is None or scene.friction.coupled,
             exact_gap=scene.exact_gap,
-            energy=choice.energy,
-            jumps=paces.jumps is not None,
             coriolis=problem.complex_modes is not None,
-            ring=problem.ring is not None,
-            relaxed=problem.relaxation < 1.0,
         )
-        self._advance = _program(self._layout, kind)
+        self._advance = _program(self._capacity, kind)
         self._constant_share: np.ndarray | None = None
         self._take_room(before)
         self._lay_out(problem)
@@ -85,8 +88,6 @@ class CompiledEngine:
             self._lay_out_coriolis(problem)
         if problem.ring is not None:
             self._lay_out_ring(problem.ring, problem)
-        if kind.coriolis or kind.ring:
-            self._put_modes(size_operator=problem.size_operator)
         self._lay_out_casing(problem, before)
         if scene.friction is not None:
             self._lay_out_friction(problem, scene.friction)
@@ -94,23 +95,25 @@ class CompiledEngine:
             self._lay_out_lining(problem, scene.lining)
         if not kind.published:
             self._lay_out_static_modes(problem)
+        self._put(jumping=paces.jumps is not None)
         self._paces = self._table_of(paces)
         self.take(0)
 
     def take(self, place: int) -> None:
         """Go on at the pace of this place."""
-        m, size = self._record[0], self._paces.dtype.itemsize
-        self._record.view(np.uint8)[:size] = self._paces[place : place + 1].view(np.uint8)
-        m["problem"]["diagonal"][: self._nodes] = np.diagonal(m["columns"])[: self._nodes]
-        m["pace"] = place
+        m, pace = self._record[0], self._paces[place]
+        for name in pace.dtype.names:
+            m["pace"][name][..., : pace[name].shape[-1]] = pace[name]
+        m["problem"]["diagonal"][: self._nodes] = np.diagonal(pace["columns"])[: self._nodes]
+        m["call"]["pace"] = place
 
     def _take_room(self, before: CompiledEngine | None) -> None:
         """Make the record, or take that of an engine before."""
-        sizes = (self._layout, self._kind, self._nodes, self._modes)
-        if before is not None and sizes == (before._layout, before._kind, before._nodes, before._modes):
+        sizes = (self._capacity, self._kind, self._nodes, self._modes, self._mode_lanes)
+        if before is not None and sizes == (before._capacity, before._kind, before._nodes, before._modes, before._mode_lanes):
             self._record, self._corners = before._record, before._corners
         else:
-            self._record, self._corners = aligned_zeros((1,), integration_record(self._layout)), {}
+            self._record, self._corners = aligned_zeros((1,), integration_record(self._capacity)), {}
         self._address = self._record.ctypes.data
 
     def _table_of(self, paces: Paces) -> np.ndarray:
@@ -122,9 +125,7 @@ class CompiledEngine:
             # friction of constant direction is part of what a normal force does
             response = normal if self._constant_share is None else normal + self._constant_share * coupling[:, TANGENTIAL]
             fields |= {"coupling": coupling, "columns": normal, "response": response}
-        of_modes = {"keep": recursion.keep, "pull": recursion.pull, "inverse": recursion.inverse}
-        if self._kind.energy:
-            of_modes["loss"] = recursion.loss
+        of_modes = {name: getattr(recursion, name) for name in ("keep", "pull", "inverse", "loss")}
         if self._kind.coriolis:
             of_modes["inverse_keep"] = 1.0 / recursion.keep
         if increments is not None:
@@ -136,7 +137,7 @@ class CompiledEngine:
             of_modes |= {"jumps": plan.jumps}
             of_modes |= {"amplitude_by_u": plan.amplitude_rows[:, 0], "amplitude_by_d": plan.amplitude_rows[:, 1]}
         fields |= {name: self._spread(values) for name, values in of_modes.items()}
-        found = aligned_zeros((len(clearance),), pace_record(self._layout))
+        found = aligned_zeros((len(clearance),), pace_record(self._mode_lanes, self._capacity.nodes))
         # a node that only pads the vector must not touch
         found["clearance"] = 1.0
         for name, values in fields.items():
@@ -163,9 +164,9 @@ class CompiledEngine:
         self._put(**{name: self._spread(value) for name, value in values.items()})
 
     def _spread(self, values: np.ndarray) -> np.ndarray:
-        if not self._layout.pairs:
+        if not self._pairs:
             return values
-        found = np.zeros((*values.shape[:-1], self._layout.modes))
+        found = np.zeros((*values.shape[:-1], self._mode_lanes))
         found[..., self._places] = values
         return found
 
@@ -175,7 +176,7 @@ class CompiledEngine:
         They are done at the paces of `course`, whose ends and wear are filled. Returns the blocks done: fewer when an output
         passed the limit or is NaN.
         """
-        m, modes, nodes = self._record[0], self._layout.modes, self._layout.nodes
+        m, modes, nodes = self._record[0], self._mode_lanes, self._node_lanes
         ends = np.empty((*course.ends.shape[:-1], modes))
         # u and, with Coriolis, d of each
         of_mode = 1 + self._kind.coriolis
@@ -185,17 +186,20 @@ class CompiledEngine:
         self._put(
             on_casing=np.packbits(state.on_casing, bitorder="little"),
             totals=state.totals,
-            first_step=state.samples * m["steps_per_block"],
-            blocks=len(out.samples),
-            paces=self._paces.ctypes.data,
-            places=course.places.ctypes.data,
-            lasting=course.samples.ctypes.data,
-            ends=ends.ctypes.data,
-            worn=course.wear.ctypes.data,
-            wear=0 if state.wear is None else state.wear.ctypes.data,
-            samples=out.samples.ctypes.data,
-            snapshots=snapshots.ctypes.data,
         )
+        addresses = {
+            "paces": self._paces,
+            "places": course.places,
+            "lasting": course.samples,
+            "ends": ends,
+            "worn": course.wear,
+            "wear": state.wear,
+            "samples": out.samples,
+            "snapshots": snapshots,
+        }
+        for name, array in addresses.items():
+            m["call"][name] = 0 if array is None else array.ctypes.data
+        m["call"]["first_step"], m["call"]["blocks"] = state.samples * m["steps_per_block"], len(out.samples)
         if not self._kind.published:
             self._put(force=state.contact_force[NORMAL], friction_force=state.contact_force[TANGENTIAL:])
         done = int(self._advance(self._address))
@@ -215,9 +219,11 @@ class CompiledEngine:
     def _lay_out(self, problem: Problem) -> None:
         m = self._record[0]
         # a node that only pads the vector must neither sit on the axis nor cancel a pivot
-        m["radius"] = m["towards"] = m["problem"]["diagonal"] = 1.0
+        m["radius"] = m["flight"]["towards"] = m["problem"]["diagonal"] = 1.0
+        m["contact"]["lanes"] = m["problem"]["lanes"] = self._node_lanes
         self._put_modes(
             displacement_operator=problem.displacement_operator,
+            size_operator=problem.size_operator,
             push_operator=problem.displacement_operator[NORMAL],
             outputs=problem.output_operator[None, :, : self._modes],
         )
@@ -227,6 +233,9 @@ class CompiledEngine:
             number_of_outputs=len(problem.output_operator),
             limit=problem.scene.divergence_limit,
             nodes=self._nodes,
+            vectors=np.array([self._mode_lanes, self._node_lanes]) // LANES,
+            pairs=self._pairs,
+            coupled=problem.scene.friction is None or problem.scene.friction.coupled,
             rings=problem.rings,
             steps_per_revolution=problem.steps_per_revolution,
             steps_per_block=problem.steps_per_sample,
@@ -242,7 +251,7 @@ class CompiledEngine:
         )
 
     def _lay_out_ring(self, ring: RingMotion, problem: Problem) -> None:
-        lengths = jump_lengths(problem.steps_per_sample) if self._kind.jumps else np.empty(0)
+        lengths = jump_lengths(problem.steps_per_sample) if problem.choice.jumps else np.empty(0)
         turns = 2.0 * np.pi / problem.steps_per_revolution * ring.nodal_diameters
         self._put(turn_cosine=np.cos(lengths[:, None] * turns), turn_sine=np.sin(lengths[:, None] * turns))
         m, pairs = self._record[0], slice(len(ring.modes))
@@ -262,15 +271,15 @@ class CompiledEngine:
         for name, number in numbers.items():
             m["casing"][name] = number
         kept = None if before is None else before._tables
-        self._tables = kept if kept is not None and kept.fits(problem) else _CasingTables(problem, self._layout.nodes)
-        m["casing_shape"] = self._tables.shape.ctypes.data
-        if self._kind.jumps:
-            m["nearest_casing"] = self._tables.nearest.ctypes.data
-            lengths = jump_lengths(problem.steps_per_sample)
-            m["lengths"] = NEVER
-            self._put(lengths=lengths)
+        self._tables = kept if kept is not None and kept.fits(problem) else _CasingTables(problem, self._node_lanes)
+        m["call"]["casing_shape"] = self._tables.shape.ctypes.data
+        if problem.choice.jumps:
+            m["call"]["nearest_casing"] = self._tables.nearest.ctypes.data
+            lengths, flight = jump_lengths(problem.steps_per_sample), m["flight"]
+            flight["lengths"] = NEVER
+            flight["lengths"][: len(lengths)] = lengths
             if np.isfinite(rise):
-                self._put(decay=np.exp(-rise * lengths))
+                flight["decay"][: len(lengths)] = np.exp(-rise * lengths)
 
     def _lay_out_friction(self, problem: Problem, friction: Friction) -> None:
         velocity = problem.rotation_velocity
@@ -295,7 +304,7 @@ class CompiledEngine:
     def _lay_out_static_modes(self, problem: Problem) -> None:
         self._record[0]["contact"]["relaxation"] = problem.relaxation
         force_outputs = problem.output_operator[:, -3 * self._nodes :].reshape(-1, 3, self._nodes)
-        padded_forces = np.zeros((*force_outputs.shape[:2], self._layout.nodes))
+        padded_forces = np.zeros((*force_outputs.shape[:2], self._node_lanes))
         padded_forces[:, :, : self._nodes] = force_outputs
         self._put(flexibility=problem.contact_flexibility, force_outputs=padded_forces.reshape(1, len(force_outputs), -1))
 
@@ -321,13 +330,13 @@ class _CasingTables:
 
 
 @cache
-def _program(layout: Layout, kind: Kind) -> Callable:
-    """The program of time_integration.program, compiled if it is not there yet."""
+def _program(capacity: Capacity, kind: Kind) -> Callable:
+    """The program of time_integration.compiled.program, compiled if it is not there yet."""
 
     def build() -> bytes:
         from .program import compile_integration
 
-        return compile_integration(layout, kind)
+        return compile_integration(capacity, kind)
 
-    code = cached_object("time_integration", SOURCES, (layout, kind), build)
+    code = cached_object("time_integration", SOURCES, (capacity, kind), build)
     return load_function(code, "advance", ctypes.c_int64, ctypes.c_void_p)

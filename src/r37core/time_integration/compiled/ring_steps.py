@@ -9,7 +9,8 @@ from __future__ import annotations
 from r37core.alignment import LANES
 from r37core.lanes import inlined, load, store
 
-from .layout import STRIDES
+from ..jump_numbers import STRIDES
+from .steps import mode_lanes
 
 SINGLE = STRIDES
 """Row of a single step."""
@@ -18,8 +19,8 @@ SINGLE = STRIDES
 @inlined
 def turn(m, row, amplitudes):
     """Write the pairs among `amplitudes` in the frame after a jump or a step: a `row` of the turns."""
-    pairs = m.turn_cosine.shape[1]
-    first = len(amplitudes) - 2 * pairs
+    pairs = m.pairs
+    first = mode_lanes(m) - 2 * pairs
     for j in range(0, pairs, LANES):
         cosine, sine = load(m.turn_cosine, (row, j)), load(m.turn_sine, (row, j))
         c, s = load(amplitudes, first + j), load(amplitudes, first + pairs + j)

@@ -7,10 +7,10 @@ from typing import Any, Protocol
 
 import numpy as np
 
-from .gyroscopic import ComplexRecursion, imaginary_part
-from .integrators import Recursion
-from .problem import Problem
-from .state import SimulationState
+from ..gyroscopic import ComplexRecursion, imaginary_part
+from ..integrators import Recursion
+from ..problem import Problem
+from ..state import SimulationState
 
 
 class Motion(Protocol):

@@ -6,25 +6,25 @@ import numba
 import numpy as np
 from numba import types
 
-from r37core.known_arguments import known
 from r37core.lanes import OPTIONS, inlined, pointed_at, spread, sum_of_lanes
 from r37core.native import object_code
+from r37core.program_constants import with_constants
 
+from ..jump_numbers import COARSE, STRIDES
 from .contact_steps import press_contact, push_contact, release_contact
 from .jump_steps import bound_amplitudes, choose_jump, jump_ahead
-from .layout import COARSE, STRIDES, Kind, Layout, integration_record, pace_record
+from .kind import EXACT_GAP, PUBLISHED, Kind
+from .layout import PACE_ROWS, Capacity, integration_record, pace_record
 from .pace_steps import begin_stretch, end_stretch
 from .ring_steps import turn_jump, turn_step
-from .steps import leave_casing, list_pressed, measure_exact_gaps, measure_gaps, meet, predict, record
-
-known(Kind)
+from .steps import leave_casing, list_pressed, measure_exact_gaps, measure_gaps, meet, node_lanes, predict, record
 
 
 @inlined
-def _integrate(m, kind, pace_numbers):
+def _integrate(m, others):
     """Do the blocks of steps asked for; returns how many were done, fewer when an output passed the limit or is NaN.
 
-    `pace_numbers`: how many numbers a pace has.
+    `others`: how many numbers of a pace are not of modes.
     """
     at_once = np.isinf(m.casing.rise)
     decay = 0.0 if at_once else np.exp(-m.casing.rise)
@@ -35,59 +35,55 @@ def _integrate(m, kind, pace_numbers):
     # whether there are forces at t_n, which the next step follows
     follows = False
     done = kept = stretch = until = zero
-    while done < m.blocks:
+    while done < m.call.blocks:
         begins = done == until
         if begins:
-            until += begin_stretch(m, stretch, pace_numbers)
-        start = m.first_step + done * m.steps_per_block
+            until += begin_stretch(m, stretch, others)
+        start = m.call.first_step + done * m.steps_per_block
         place = start % m.steps_per_revolution
         remaining = 0.0 if at_once else np.exp(-m.casing.rise * start)
         if place == 0 or begins:
             # so that a run stopped after a revolution goes on with the same bits
             beyond, bounded, first_stride = False, False, one
-            if not kind.published:
+            if not PUBLISHED:
                 follows = list_pressed(m) > 0
         work = lost = spread(0.0)
         position = 0
         while position < m.steps_per_block:
-            if kind.jumps and not beyond and not follows and position % COARSE == 0:
+            if position % COARSE == 0 and m.jumping != 0 and not beyond and not follows:
                 if not bounded:
-                    bound_amplitudes(m, kind)
+                    bound_amplitudes(m)
                     bounded = True
-                nearest = (place // m.steps_per_block * coarse_per_block + position // COARSE) * len(m.force)
+                nearest = (place // m.steps_per_block * coarse_per_block + position // COARSE) * node_lanes(m)
                 left = m.steps_per_block - position
-                stride = choose_jump(m, nearest, first_stride, left, remaining, kind)
+                stride = choose_jump(m, nearest, first_stride, left, remaining)
                 first_stride = max(min(stride + 1, STRIDES - 1), 1)
                 if stride >= 0:
-                    lost = jump_ahead(m, stride, kind.energy, lost)
-                    if kind.ring:
+                    lost = jump_ahead(m, stride, lost)
+                    if m.pairs > 0:
                         turn_jump(m, stride)
-                    remaining *= m.decay[stride]
-                    position += m.lengths[stride]
-                    m.totals.steps_jumped += m.lengths[stride]
+                    remaining *= m.flight.decay[stride]
+                    position += m.flight.lengths[stride]
+                    m.totals.steps_jumped += m.flight.lengths[stride]
                     leave_casing(m)
                     continue
             position += 1
             remaining *= decay
-            lost = predict(m, kind.energy, lost, kind.coriolis)
+            lost = predict(m, lost)
             here = place + position if place + position < m.steps_per_revolution else 0
             lobes = m.casing.amplitude * (1.0 - remaining)
-            if not kind.published and follows:
-                work, lost = push_contact(m, kind, work, lost)
+            if not PUBLISHED and follows:
+                work, lost = push_contact(m, work, lost)
                 bounded = False
-            if kind.ring:
+            if m.pairs > 0:
                 turn_step(m)
-            # not a function of its own: sums are reordered by how they are inlined, and the published scheme keeps its bits
-            if kind.exact_gap:
-                beyond = measure_exact_gaps(m, here, lobes, kind.coriolis)
-            else:
-                beyond = measure_gaps(m, here, lobes, kind.coriolis)
-            if kind.published and beyond:
-                work, lost = meet(m, here, kind, work, lost)
+            beyond = measure_exact_gaps(m, here, lobes) if EXACT_GAP else measure_gaps(m, here, lobes)
+            if PUBLISHED and beyond:
+                work, lost = meet(m, here, work, lost)
                 bounded = False
             elif beyond:
-                follows = press_contact(m, here, kind)
-            elif not kind.published and follows:
+                follows = press_contact(m, here)
+            elif not PUBLISHED and follows:
                 release_contact(m)
                 follows = False
             else:
@@ -98,7 +94,7 @@ def _integrate(m, kind, pace_numbers):
         # of the samples from the first snapshot's revolution on, every so many-th
         due = (start + m.steps_per_block) // m.steps_per_block - m.samples_before_snapshots
         taken = m.samples_per_snapshot > 0 and due > 0 and due % m.samples_per_snapshot == 0
-        within = record(m, done, kept if taken else -1, kind)
+        within = record(m, done, kept if taken else -1)
         kept += taken
         done += 1
         if done == until or not within:
@@ -109,13 +105,14 @@ def _integrate(m, kind, pace_numbers):
     return done
 
 
-def compile_integration(layout: Layout, kind: Kind) -> bytes:
+def compile_integration(capacity: Capacity, kind: Kind) -> bytes:
     """Object code of `advance(record)`: a function of the record's address that returns the blocks of steps done."""
-    pace_numbers = pace_record(layout).itemsize // 8
-    signature = types.int64(types.CPointer(numba.from_dtype(integration_record(layout))))
+    integrate = with_constants(_integrate, kind.constants)
+    others = pace_record(*capacity).itemsize // 8 - PACE_ROWS * capacity.modes
+    signature = types.int64(types.CPointer(numba.from_dtype(integration_record(capacity))))
 
     @numba.cfunc(signature, **OPTIONS)
     def advance(record):
-        return _integrate(pointed_at(record), kind, pace_numbers)
+        return integrate(pointed_at(record), others)
 
     return object_code(advance.inspect_llvm(), advance.native_name, "advance")

@@ -1,0 +1,115 @@
+"""Jumps over free flight as a run does them, compiled: while no node can reach lining or casing, many steps at once.
+
+Each mode is u_n = Re(C lambda^n) with |lambda| <= 1, so m steps are a 2 x 2 map of (u, d), made once
+(time_integration.jump_plan), and |C| bounds the mode until the next contact. A jump is taken only if a bound on every node's
+position over all the steps it skips stays clear of the casing's nearest position over them: modes slow in the jump follow
+their tangent within |C| |1 - 1/lambda|^2 m (m + 1)/2, the others stay within |C|. A complex mode moves a node by up
+to |C| times the size of its shape there, and so do the casing's, which turn.
+
+With the exact gap a node's position is at most n + cos(alpha) y^2/(2 R), and the lobes at its displaced angle at most
+their greatest slope times |y|/R nearer than at its undeformed one; n, y (sideways) and R (distance from the axis) are bounded.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from r37core.alignment import LANES
+from r37core.lanes import bits_of, inlined, load, numbers_at, store
+
+from ..jump_numbers import BEYOND, COARSE, D_FROM_D, D_FROM_U, LOSS_DD, LOSS_UD, LOSS_UU, STRIDES, U_FROM_D, U_FROM_U
+from .kind import CORIOLIS, EXACT_GAP
+from .layout import MERIDIONAL, NORMAL, TANGENTIAL
+from .steps import along, mode_lanes, node_lanes, second_difference
+
+ROUNDING_MARGIN = 1e-9
+"""Of the distances compared; generous beside what summing rounds."""
+
+
+@inlined
+def bound_amplitudes(m):
+    """|C| of each mode from displacement and increment and, for the exact gap, how far nodes can get sideways and inwards."""
+    for i in range(0, mode_lanes(m), LANES):
+        u, d = load(m.u, i), load(m.increment, i)
+        imaginary = load(m.pace.amplitude_by_u, i) * u + load(m.pace.amplitude_by_d, i) * d
+        store(m.flight.amplitude, i, np.sqrt(u * u + imaginary * imaginary))
+    if EXACT_GAP:
+        for g in range(0, node_lanes(m), LANES):
+            normal = along(m.size_operator, NORMAL, m.flight.amplitude, g, mode_lanes(m))
+            meridional = along(m.size_operator, MERIDIONAL, m.flight.amplitude, g, mode_lanes(m))
+            inwards = normal * m.casing.cosine + meridional * abs(m.casing.sine)
+            store(m.flight.across, g, along(m.size_operator, TANGENTIAL, m.flight.amplitude, g, mode_lanes(m)))
+            store(m.flight.towards, g, load(m.radius, g) - inwards)
+    for stride in range(STRIDES):
+        m.flight.reach_known[stride] = 0
+
+
+@inlined
+def _is_clear(m, place, stride, remaining):
+    """Whether no node can touch anything in a jump; `remaining`: what the casing's lobes lack before it."""
+    if m.flight.reach_known[stride] == 0:
+        for i in range(0, mode_lanes(m), LANES):
+            store(m.flight.beyond, i, load(m.flight.amplitude, i) * load(m.pace.jumps, (stride, BEYOND, i)))
+        for g in range(0, node_lanes(m), LANES):
+            store(m.flight.reach, (stride, g), along(m.size_operator, NORMAL, m.flight.beyond, g, mode_lanes(m)))
+        m.flight.reach_known[stride] = 1
+    casing, nodes, length = numbers_at(m.call.nearest_casing), node_lanes(m), m.flight.lengths[stride]
+    lobes = m.casing.amplitude * (1.0 - remaining * m.flight.decay[stride])
+    for g in range(0, nodes, LANES):
+        velocity = along(m.displacement_operator, NORMAL, m.increment, g, m.pace.slow_modes[stride])
+        position = along(m.displacement_operator, NORMAL, m.u, g, m.pace.slow_modes[stride])
+        if CORIOLIS:
+            velocity += along(m.increment_operator, NORMAL, m.last_second_difference, g, m.pace.slow_modes[stride])
+            position += along(m.increment_operator, NORMAL, m.increment, g, m.pace.slow_modes[stride])
+        position += np.maximum(velocity, velocity * length) + load(m.flight.reach, (stride, g))
+        nearest = load(casing, place + g)
+        for j in range(1, (length + COARSE - 1) // COARSE):
+            nearest = np.maximum(nearest, load(casing, place + j * nodes + g))
+        if EXACT_GAP:
+            across, towards = load(m.flight.across, g), load(m.flight.towards, g)
+            position += across * across * (0.5 * m.casing.cosine) / towards
+            # the greatest slope of exp(-x^2) is sqrt(2/e)
+            slope = np.sqrt(2.0 / np.e) / (m.casing.width * m.casing.period)
+            nearest = nearest + across / towards * slope
+            nearest = np.where(nearest < 1.0, nearest, 1.0)
+            if bits_of(towards > 0.0) != (1 << LANES) - 1:
+                return False
+        clearance = load(m.pace.clearance, g)
+        gap = clearance - lobes * nearest - position
+        # written so that NaN is not clear
+        clear = bits_of(gap > ROUNDING_MARGIN * (np.abs(clearance) + lobes + np.abs(position)))
+        if clear != (1 << LANES) - 1:
+            return False
+    return True
+
+
+@inlined
+def choose_jump(m, place, first_stride, left, remaining):
+    """Stride of the longest jump that the rest of the block and the bounds allow, -1 if there is none."""
+    if CORIOLIS:
+        for i in range(0, mode_lanes(m), LANES):
+            store(m.last_second_difference, i, second_difference(m, i))
+    stride = first_stride
+    if left < COARSE:
+        stride = 0
+    else:
+        while m.flight.lengths[stride] > left:
+            stride -= 1
+    while not _is_clear(m, place, stride, remaining):
+        if stride <= 1:
+            return -1
+        stride -= 1
+    return stride
+
+
+@inlined
+def jump_ahead(m, stride, lost):
+    """Do the steps of a jump; adds the energy they lose to damping, in lanes."""
+    jumps = m.pace.jumps
+    for i in range(0, mode_lanes(m), LANES):
+        u, d = load(m.u, i), load(m.increment, i)
+        store(m.u, i, u + load(jumps, (stride, U_FROM_U, i)) * u + load(jumps, (stride, U_FROM_D, i)) * d)
+        store(m.increment, i, d + load(jumps, (stride, D_FROM_U, i)) * u + load(jumps, (stride, D_FROM_D, i)) * d)
+        lost += load(jumps, (stride, LOSS_DD, i)) * (d * d)
+        lost += (load(jumps, (stride, LOSS_UU, i)) * u + load(jumps, (stride, LOSS_UD, i)) * d) * u
+    return lost

@@ -1,0 +1,212 @@
+"""What the compiled engine works on, described once: a NumPy record, whose shapes are known when its program is compiled.
+
+Only padded sizes and numbers that no speed changes are in it, so all speeds of a sweep share one compiled time integration.
+"""
+
+from __future__ import annotations
+
+from dataclasses import fields
+from functools import cache
+from typing import NamedTuple
+
+import numpy as np
+
+from r37core.alignment import Field, aligned_record, padded
+from r37core.contact.scene import Lining
+
+from ..jump_numbers import STRIDES
+from ..totals import TOTALS
+
+NORMAL, TANGENTIAL, MERIDIONAL = range(3)
+"""Directions of contact: along the casing's normal, positive towards it; growing theta; along its meridian, downstream."""
+
+FEWEST_MODES, FEWEST_NODES = 96, 8
+"""Of a capacity. A program takes seconds to make, and a step costs what is used of its record, not what there is room for."""
+
+
+OF_MODES, OF_NODES = range(2)
+"""Places of the numbers of vectors."""
+
+
+class Capacity(NamedTuple):
+    """How many modes and nodes there is room for, in whole vectors: what a program is compiled for beside its kind.
+
+    Most blades step 32 or 40 modes, with central differences up to 93. A vector of nodes is handled without loops, so more
+    nodes are another capacity: four times as many each, so that contact patches of 15 and 29 nodes share one. Modes are
+    doubled. The modes of an elastic casing count, by pairs: the first of each pair come after the blade's modes, then the
+    second, each whole vectors. Outputs are never more than modes.
+    """
+
+    modes: int
+    nodes: int
+
+
+def capacity_of(modes: int, nodes: int) -> Capacity:
+    """The smallest that has room for so many."""
+    most_modes, most_nodes = FEWEST_MODES, FEWEST_NODES
+    while most_modes < modes:
+        most_modes *= 2
+    while most_nodes < nodes:
+        most_nodes *= 4
+    return Capacity(most_modes, most_nodes)
+
+
+def _numbers(names: str, kind: type = np.float64) -> list[Field]:
+    return [(name, kind, ()) for name in names.split()]
+
+
+def _arrays(names: str, *shape: int, kind: type = np.float64) -> list[Field]:
+    return [(name, kind, shape) for name in names.split()]
+
+
+LINING = aligned_record(_numbers(" ".join(field.name for field in fields(Lining)) + " area"))
+"""What the law of the lining may use: every field of Lining as a number, and a bar's area (m2)."""
+
+CASING = aligned_record(_numbers("amplitude rise period width cosine sine"))
+"""Amplitude (m) of the lobes; rise rate times step; angle (rad) between lobes and their relative width; cone angle."""
+
+
+def complementarity_record(nodes: int) -> np.dtype:
+    """The record of a complementarity problem of `nodes` nodes, whole vectors of them; see contact.complementarity."""
+    groups = padded(nodes) // padded(1)
+    return aligned_record(
+        [
+            *_arrays("gap multiplier answer short diagonal", nodes),
+            *_arrays("left", nodes + 1, nodes),
+            *_arrays("matrix", nodes, nodes + 1),
+            *_arrays("listed", nodes, kind=np.int64),
+            *_arrays("touching wrong", groups, kind=np.int64),
+            *_numbers("lanes", kind=np.int64),  # that the nodes fill
+        ]
+    )
+
+
+def contact_record(nodes: int) -> np.dtype:
+    """The record of the contact problem at t_n of `nodes` nodes, whole vectors of them; see contact.node_sweeps."""
+    return aligned_record(
+        [
+            # gaps (m) without forces and with those found, and these (N); what the last sweep changed (m)
+            *_arrays("gap opened pressure change", nodes),
+            # the laws of the listed nodes: own flexibility (m/N) and one over it; wear (m) of the bar; lines of
+            # the bar's law in series with the node
+            *_arrays("own stiffness wear elastic offset plastic", nodes),
+            # opening of the last node's gap per force on the one before (m/N)
+            *_arrays("columns", nodes, nodes),
+            # numbers of the listed nodes; the bar of each node
+            *_arrays("listed bar", nodes, kind=np.int64),
+            *_arrays("found", padded(nodes) // padded(1), kind=np.int64),  # set of the listed nodes
+            *_numbers("relaxation"),
+            *_numbers("lanes", kind=np.int64),  # that the nodes fill
+        ]
+    )
+
+
+_PACE_OF_MODES = (
+    # of the recursion: see steps; energy lost per step and squared central difference; 1/keep
+    "keep pull inverse loss inverse_keep "
+    # increment of a free mode per displacement and per velocity, and one over the latter
+    "increment_by_displacement increment_by_velocity velocity_by_increment "
+    # of jumps over free flight: see time_integration.jump_plan
+    "amplitude_by_u amplitude_by_d"
+)
+_NUMBERS_OF_A_JUMP = 8
+
+PACE_ROWS = len(_PACE_OF_MODES.split()) + STRIDES * _NUMBERS_OF_A_JUMP
+"""What a pace has of each mode: it begins with these rows, and copies them as far as there are modes."""
+
+
+@cache
+def pace_record(modes: int, nodes: int) -> np.dtype:
+    """What of a time integration changes with the speed while its modes are held, of whole vectors of modes and nodes."""
+    return aligned_record(
+        [
+            *_arrays(_PACE_OF_MODES, modes),
+            *_arrays("jumps", STRIDES, _NUMBERS_OF_A_JUMP, modes),
+            # normal displacement of the last node per force in the three directions on the one before
+            *_arrays("coupling", 3, nodes, nodes),
+            # opening of the last node's gap per unit multiplier of the one before: with friction, and as the problem has it
+            *_arrays("response columns", nodes, nodes),
+            *_arrays("clearance", nodes),  # of the round casing (m)
+            *_arrays("slow_modes", STRIDES, kind=np.int64),
+        ]
+    )
+
+
+def _flight_record(modes: int, nodes: int) -> np.dtype:
+    """Of jumps: amplitudes of the modes, and how far these get beyond in one; how far they bring the nodes; strides."""
+    return aligned_record(
+        [
+            *_arrays("amplitude beyond", modes),
+            *_arrays("reach", STRIDES, nodes),
+            *_arrays("across towards", nodes),
+            *_arrays("decay", STRIDES),
+            *_arrays("lengths reach_known", STRIDES, kind=np.int64),
+        ]
+    )
+
+
+CALL = aligned_record(
+    [
+        # where it begins, how many blocks of steps it asks for, and the pace it is at
+        *_numbers("first_step blocks pace", kind=np.int64),
+        # addresses of arrays whose sizes are known only then: f(theta) at every step, and the largest of each stretch
+        *_numbers("casing_shape nearest_casing wear samples snapshots", kind=np.int64),
+        # all paces; pace and blocks of each stretch; motion at its ends, and largest wear by then
+        *_numbers("paces places lasting ends worn", kind=np.int64),
+    ]
+)
+"""One call of the program."""
+
+
+@cache
+def integration_record(capacity: Capacity) -> np.dtype:
+    """The record of a time integration: its pace, its state, its constants, room to work in, and its totals."""
+    modes, nodes = capacity
+    groups = nodes // padded(1)
+    return aligned_record(
+        [
+            ("pace", pace_record(modes, nodes), ()),
+            # displacement u_n; its increments u_n - u_{n-1} and u_{n-1} - u_{n-2}; with Coriolis the increment of the last one,
+            # had there been no force
+            *_arrays("u increment last_increment last_second_difference", modes),
+            *_arrays("push increment_push", modes),  # forces on the modes and, with Coriolis, on their increments
+            # displacement of the nodes per mode, the size of it per amplitude that turns, and what a unit normal force does to
+            # the modes, with constant friction
+            *_arrays("displacement_operator size_operator", 3, nodes, modes),
+            *_arrays("push_operator", nodes, modes),
+            *_arrays("outputs", 1, modes, modes),
+            *_arrays("sample", modes),
+            # with Coriolis the same per increment
+            *_arrays("increment_operator", 3, nodes, modes),
+            *_arrays("increment_push_operator", nodes, modes),
+            *_arrays("increment_outputs", 1, modes, modes),
+            *_arrays("friction_share", 2, nodes),  # tangential and meridional force per normal force
+            *_arrays("force", nodes),
+            *_arrays("friction_force", 2, nodes),
+            # of forces at t_n: normal displacement of the last node by the static modes per force on the one before; all forces
+            # at a sample, and the static modes' part of it; the contact problem
+            *_arrays("flexibility", 3, nodes, nodes),
+            *_arrays("static_force", 3 * nodes),
+            *_arrays("force_outputs", 1, modes, 3 * nodes),
+            ("contact", contact_record(nodes), ()),
+            *_arrays("rotation", nodes),  # signed sliding in a step by the rotation (m)
+            *_arrays("bar_position", nodes),  # angle at step 0, in bars
+            *_arrays("radius theta shift", nodes),  # m; angle at step 0 and what vibration adds to it (rad)
+            ("problem", complementarity_record(nodes), ()),
+            *_arrays("beyond on_casing", groups, kind=np.int64),
+            # by how much pairs of the casing's modes turn in a jump and, in the last row, in a step
+            *_arrays("turn_cosine turn_sine", STRIDES + 1, modes // 2),
+            ("flight", _flight_record(modes, nodes), ()),
+            ("lining", LINING, ()),
+            ("casing", CASING, ()),
+            ("totals", TOTALS, ()),
+            *_numbers("limit friction"),
+            # how much of the record is used: vectors of modes and of nodes; numbers
+            *_arrays("vectors", 2, kind=np.int64),
+            *_numbers("pairs number_of_outputs nodes rings", kind=np.int64),
+            # whether it jumps, and whether friction is part of the complementarity problem
+            *_numbers("jumping coupled", kind=np.int64),
+            *_numbers("steps_per_revolution steps_per_block samples_before_snapshots samples_per_snapshot", kind=np.int64),
+            ("call", CALL, ()),
+        ]
+    )

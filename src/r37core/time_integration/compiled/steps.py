@@ -1,0 +1,428 @@
+"""The steps of the compiled engine, one function for each thing that happens in a step. Compiled for what a scene has.
+
+Recursion (section 5 of the benchmark, diagonal in the modes of one speed): u* = a u_n + b u_{n-1}; where a tip node passes the
+lining or the casing, u_{n+1} = u* + c F. It is carried in displacement u and increment d = u_n - u_{n-1}, which is the same
+recursion without its loss of digits: d* = keep d - pull u, u* = u + d*, with keep = -b, pull = 1 - a - b, inverse = c.
+With Coriolis u is the real part of a complex amplitude, whose increment moves the nodes, too: time_integration.gyroscopic.
+
+`m` is a record of layout; tip nodes are lanes (r37core.lanes), sets of nodes are bits, eight nodes to an
+integer. Names in capitals that choose are those of `kind`, constants of each program.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from r37core.alignment import LANES
+from r37core.contact.complementarity import list_nodes, solve_complementarity
+from r37core.contact.laws import displaced_position, friction_direction, lobe_shape, return_mapping
+from r37core.lanes import bits_of, flag_at, inlined, lanes_of, load, numbers_at, spread, store, sum_of_lanes, sums_of_lanes
+
+from .kind import CORIOLIS, EXACT_GAP, LINED, PUBLISHED, VECTOR_FRICTION
+from .layout import MERIDIONAL, NORMAL, OF_MODES, OF_NODES, TANGENTIAL
+
+_friction_direction = inlined(friction_direction)
+_return_mapping = inlined(return_mapping)
+_displaced_position = inlined(displaced_position)
+_lobe_shape = inlined(lobe_shape)
+
+
+@inlined
+def mode_lanes(m):
+    """How many lanes the modes fill."""
+    return lanes_of(m.vectors, OF_MODES)
+
+
+@inlined
+def node_lanes(m):
+    """How many lanes the nodes fill; of a single vector the compiler knows it."""
+    return LANES if len(m.force) == LANES else lanes_of(m.vectors, OF_NODES)
+
+
+@inlined
+def along(rows, direction, modal, g, used):
+    """Displacement in a direction of the eight nodes from g on, by the first `used` modes; `rows`: displacement_operator."""
+    s = t = u = v = w = x = y = z = spread(0.0)
+    for i in range(0, used, LANES):
+        amplitude = load(modal, i)
+        s += load(rows, (direction, g, i)) * amplitude
+        t += load(rows, (direction, g + 1, i)) * amplitude
+        u += load(rows, (direction, g + 2, i)) * amplitude
+        v += load(rows, (direction, g + 3, i)) * amplitude
+        w += load(rows, (direction, g + 4, i)) * amplitude
+        x += load(rows, (direction, g + 5, i)) * amplitude
+        y += load(rows, (direction, g + 6, i)) * amplitude
+        z += load(rows, (direction, g + 7, i)) * amplitude
+    return sums_of_lanes(s, t, u, v, w, x, y, z)
+
+
+@inlined
+def displaced(m, direction, g):
+    """Displacement of the eight nodes from g on, by all modes."""
+    total = along(m.displacement_operator, direction, m.u, g, mode_lanes(m))
+    if CORIOLIS:
+        total += along(m.increment_operator, direction, m.increment, g, mode_lanes(m))
+    return total
+
+
+@inlined
+def second_difference(m, i):
+    """Increment of the increments of the eight modes from i on: d_n - d_{n-1} of the free motion through u_n, d_n."""
+    u, d, keep = load(m.u, i), load(m.increment, i), load(m.pace.keep, i)
+    return ((keep - 1.0) * d - load(m.pace.pull, i) * (u - d)) * load(m.pace.inverse_keep, i)
+
+
+@inlined
+def predict(m, lost):
+    """The free step of every mode; returns `lost` and the energy it loses, in lanes."""
+    for i in range(0, mode_lanes(m), LANES):
+        if CORIOLIS:
+            store(m.last_second_difference, i, second_difference(m, i))
+        u, last = load(m.u, i), load(m.increment, i)
+        d = load(m.pace.keep, i) * last - load(m.pace.pull, i) * u
+        store(m.last_increment, i, last)
+        store(m.increment, i, d)
+        store(m.u, i, u + d)
+        if CORIOLIS:
+            keep, pull = load(m.pace.keep, i), load(m.pace.pull, i)
+            lost += load(m.pace.loss, i) * (pull * u * (u - last) + ((1.0 - keep) * u + keep * last) * last)
+        else:
+            lost += load(m.pace.loss, i) * ((d + last) * (d + last))
+    return lost
+
+
+@inlined
+def measure_gaps(m, place, lobes):
+    """Linear gaps: clearance, less the lobes at the undeformed angle, less the normal displacement. Whether any is passed."""
+    shape = numbers_at(m.call.casing_shape)
+    any_beyond = 0
+    for g in range(0, node_lanes(m), LANES):
+        normal = displaced(m, NORMAL, g)
+        gap = load(m.pace.clearance, g) - lobes * load(shape, place * node_lanes(m) + g) - normal
+        store(m.problem.gap, g, gap)
+        beyond = bits_of(gap < 0.0)
+        m.beyond[g // LANES] = beyond
+        any_beyond |= beyond
+    return any_beyond != 0
+
+
+@inlined
+def measure_exact_gaps(m, place, lobes):
+    """Gaps between the displaced nodes and the lobed cone: see r37core.contact.casing. Whether any is passed."""
+    turned = place * (2.0 * np.pi / m.steps_per_revolution)
+    any_beyond = False
+    for g in range(0, node_lanes(m), LANES):
+        # room that is free before contact
+        store(m.problem.multiplier, g, displaced(m, NORMAL, g))
+        store(m.problem.answer, g, displaced(m, TANGENTIAL, g))
+        store(m.problem.short, g, displaced(m, MERIDIONAL, g))
+        m.beyond[g // LANES] = 0
+    for k in range(m.nodes):
+        p, casing = m.problem, m.casing
+        position, m.shift[k] = _displaced_position(
+            p.multiplier[k], p.answer[k], p.short[k], m.radius[k], casing.cosine, casing.sine
+        )
+        shape = _lobe_shape(m.theta[k] - turned + m.shift[k], casing.period, casing.width)
+        p.gap[k] = m.pace.clearance[k] - lobes * shape - position
+        if p.gap[k] < 0.0:
+            m.beyond[k // LANES] |= 1 << (k % LANES)
+            any_beyond = True
+    return any_beyond
+
+
+@inlined
+def set_friction(m, g, tangential, meridional):
+    """Vector friction per normal force on the nodes from g on, against their sliding in the last step (m)."""
+    # a normal force is negative
+    along_tangent, along_meridian = _friction_direction(load(m.rotation, g) + tangential, meridional, 0.0 - m.friction)
+    store(m.friction_share, (0, g), along_tangent)
+    store(m.friction_share, (1, g), along_meridian)
+
+
+@inlined
+def set_friction_of_listed(m, listed, count):
+    """Vector friction on `listed` nodes: more costly for each than `set_friction_of_all`, but they are few.
+
+    With forces at t_n it is against the sliding then, extrapolated from the last two increments, else in the last step.
+    """
+    for g in range(0, node_lanes(m), LANES):
+        tangential = meridional = spread(0.0)
+        for j in range(count):
+            k = listed[j]
+            if g <= k < g + LANES:
+                t = r = spread(0.0)
+                for i in range(0, mode_lanes(m), LANES):
+                    last = load(m.last_increment, i)
+                    if not PUBLISHED:
+                        last = 0.5 * (3.0 * load(m.increment, i) - last)
+                    t += load(m.displacement_operator, (TANGENTIAL, k, i)) * last
+                    r += load(m.displacement_operator, (MERIDIONAL, k, i)) * last
+                    if CORIOLIS:
+                        last = 0.5 * (3.0 * second_difference(m, i) - load(m.last_second_difference, i))
+                        t += load(m.increment_operator, (TANGENTIAL, k, i)) * last
+                        r += load(m.increment_operator, (MERIDIONAL, k, i)) * last
+                # put into lanes here: loading together what was stored one by one stalls the processor
+                tangential = np.where(flag_at(k - g), sum_of_lanes(t), tangential)
+                meridional = np.where(flag_at(k - g), sum_of_lanes(r), meridional)
+        set_friction(m, g, tangential, meridional)
+
+
+@inlined
+def set_friction_of_all(m):
+    """Vector friction on all nodes, and the gaps' response with it."""
+    for g in range(0, node_lanes(m), LANES):
+        tangential = along(m.displacement_operator, TANGENTIAL, m.last_increment, g, mode_lanes(m))
+        meridional = along(m.displacement_operator, MERIDIONAL, m.last_increment, g, mode_lanes(m))
+        set_friction(m, g, tangential, meridional)
+    for k in range(m.nodes):
+        for g in range(0, node_lanes(m), LANES):
+            store(m.pace.response, (k, g), response_with_friction(m, k, g))
+
+
+@inlined
+def response_with_friction(m, k, g):
+    """Opening of gaps per unit multiplier of a node, with the vector friction that comes with it."""
+    response = load(m.pace.coupling, (NORMAL, k, g)) + load(m.pace.coupling, (TANGENTIAL, k, g)) * m.friction_share[0, k]
+    return response + load(m.pace.coupling, (MERIDIONAL, k, g)) * m.friction_share[1, k]
+
+
+@inlined
+def bar_at(m, k, place):
+    """The number of the bar that a node is at, counted over all rings."""
+    bars = int(m.lining.bars)
+    position = m.bar_position[k] - place * m.lining.bars / m.steps_per_revolution
+    if EXACT_GAP:
+        position += m.shift[k] * (m.lining.bars / (2.0 * np.pi))
+    bar = int(np.floor(position))
+    while bar < 0:
+        bar += bars
+    if EXACT_GAP:
+        while bar >= bars:
+            bar -= bars
+    if m.rings > 1:
+        bar += k * bars
+    return bar
+
+
+@inlined
+def press_bars(m, place):
+    """Normal forces of the bars that the nodes press; wears them. Returns how many nodes are listed as pressing."""
+    p, lining, wear = m.problem, m.lining, numbers_at(m.call.wear)
+    count = list_nodes(m.beyond, p.listed)
+    if VECTOR_FRICTION:
+        set_friction_of_listed(m, p.listed, count)
+    for j in range(count):
+        k = p.listed[j]
+        bar = bar_at(m, k, place)
+        stress, wear[bar] = _return_mapping(-p.gap[k], wear[bar], lining.elastic_modulus, lining)
+        m.force[k] = -stress * lining.area
+    return count
+
+
+@inlined
+def press_lining(m, place):
+    """Normal forces of the lining; returns whether a node reaches the casing behind it."""
+    p, lining = m.problem, m.lining
+    count = press_bars(m, place)
+    any_closed = 0
+    for g in range(0, node_lanes(m), LANES):
+        gap = load(p.gap, g) + lining.thickness
+        for j in range(count):
+            k = p.listed[j]
+            if VECTOR_FRICTION:
+                gap -= response_with_friction(m, k, g) * m.force[k]
+            else:
+                gap -= load(m.pace.response, (k, g)) * m.force[k]
+        store(p.gap, g, gap)
+        any_closed |= bits_of(gap < 0.0)
+    return any_closed != 0
+
+
+@inlined
+def press_casing(m):
+    """Add the Lagrange multipliers of direct contact, keep the set of touching nodes."""
+    p = m.problem
+    if VECTOR_FRICTION:
+        # the others' reaction may bring any of them to the casing
+        set_friction_of_all(m)
+    guessed = 0
+    for g in range(node_lanes(m) // LANES):
+        p.touching[g] = m.on_casing[g]
+        guessed |= m.on_casing[g]
+    if guessed == 0:
+        for g in range(0, node_lanes(m), LANES):
+            p.touching[g // LANES] = bits_of(load(p.gap, g) < 0.0)
+    violation = solve_complementarity(p, m.pace.response if m.coupled != 0 else m.pace.columns)
+    m.totals.worst_complementarity = max(m.totals.worst_complementarity, violation)
+    for g in range(0, node_lanes(m), LANES):
+        multiplier = load(p.multiplier, g)
+        store(m.force, g, load(m.force, g) - multiplier)
+        touching = bits_of(multiplier > 0.0)
+        p.wrong[g // LANES] = touching & ~m.on_casing[g // LANES]
+        m.on_casing[g // LANES] = touching
+    m.totals.casing_hits += list_nodes(p.wrong, p.listed)
+
+
+@inlined
+def list_pressed(m):
+    """List the nodes that a force presses; returns how many."""
+    for g in range(0, node_lanes(m), LANES):
+        m.problem.wrong[g // LANES] = bits_of(load(m.force, g) < 0.0)
+    return list_nodes(m.problem.wrong, m.problem.listed)
+
+
+@inlined
+def clear_force(m):
+    """No node is pressed."""
+    for g in range(0, node_lanes(m), LANES):
+        store(m.force, g, 0.0)
+
+
+@inlined
+def set_friction_force(m):
+    """Friction of the forces on all nodes."""
+    for g in range(0, node_lanes(m), LANES):
+        normal = load(m.force, g)
+        store(m.friction_force, (0, g), normal * load(m.friction_share, (0, g)))
+        store(m.friction_force, (1, g), normal * load(m.friction_share, (1, g)))
+
+
+@inlined
+def push_blade(m, work, lost):
+    """Correct displacement and increment for the forces; adds the work, doubled, and the energy lost.
+
+    Returns also whether any node is pressed.
+    """
+    p, count = m.problem, list_pressed(m)
+    if count == 0:
+        return False, work, lost
+    for j in range(count):
+        k = p.listed[j]
+        force = m.force[k], m.friction_force[0, k], m.friction_force[1, k]
+        m.totals.largest_force = max(m.totals.largest_force, -force[0])
+        add_push(m, m.push, m.displacement_operator, m.push_operator, k, force)
+        if CORIOLIS:
+            add_push(m, m.increment_push, m.increment_operator, m.increment_push_operator, k, force)
+    for i in range(0, mode_lanes(m), LANES):
+        if CORIOLIS:
+            work, lost = kick_complex_modes(m, i, load(m.push, i), load(m.increment_push, i), work, lost)
+        else:
+            work, lost = push_modes(m, i, load(m.push, i), work, lost)
+        # the sums of the next step begin so
+        store(m.push, i, 0.0)
+        if CORIOLIS:
+            store(m.increment_push, i, 0.0)
+    return True, work, lost
+
+
+@inlined
+def add_push(m, pushes, rows, constant_rows, k, force):
+    """Add what a node's `force`, normal, tangential and meridional, is to all modes.
+
+    `constant_rows` have friction of constant direction in them, for the normal force alone.
+    """
+    normal, tangential, meridional = force
+    for i in range(0, mode_lanes(m), LANES):
+        push = load(pushes, i)
+        if VECTOR_FRICTION:
+            push += load(rows, (NORMAL, k, i)) * normal
+            push += load(rows, (TANGENTIAL, k, i)) * tangential
+            push += load(rows, (MERIDIONAL, k, i)) * meridional
+        else:
+            push += load(constant_rows, (k, i)) * normal
+        store(pushes, i, push)
+
+
+@inlined
+def push_modes(m, i, push, work, lost):
+    """What a push adds to the eight modes from i on; adds its work, doubled, and loss."""
+    free = load(m.increment, i) + load(m.last_increment, i)
+    pushed = load(m.pace.inverse, i) * push
+    store(m.increment, i, load(m.increment, i) + pushed)
+    store(m.u, i, load(m.u, i) + pushed)
+    return work + push * (free + pushed), lost + load(m.pace.loss, i) * (pushed * (free + free + pushed))
+
+
+@inlined
+def kick_complex_modes(m, i, push, increment_push, work, lost):
+    """What a kick as the step began adds to its end; adds its work, doubled, and loss. See gyroscopic.ComplexRecursion."""
+    keep, pull = load(m.pace.keep, i), load(m.pace.pull, i)
+    inverse_keep, inverse, d = load(m.pace.inverse_keep, i), load(m.pace.inverse, i), load(m.increment, i)
+    # twice the displacement mid-kick, its increment times keep, and q
+    before = load(m.u, i) - d
+    kicked = inverse * inverse_keep * increment_push
+    displacement = before + before - kicked
+    increment = 2.0 * (d + pull * before) + inverse * push
+    sense = 0.5 * (1.0 - keep - pull)
+    of_push = push * (increment + sense * displacement)
+    of_push -= increment_push * (sense * inverse_keep * increment + pull * displacement)
+    pushed = inverse * push + pull * kicked
+    store(m.increment, i, d + pushed)
+    store(m.u, i, before + d + pushed - kicked)
+    return work + of_push, lost + 0.5 * (1.0 - keep) * of_push
+
+
+@inlined
+def meet(m, place, work, lost):
+    """Everything that happens in a step in which nodes are beyond the lining or casing; adds work, doubled, and loss."""
+    clear_force(m)
+    closed = True
+    if LINED:
+        closed = press_lining(m, place)
+    if closed:
+        press_casing(m)
+    else:
+        leave_casing(m)
+    if VECTOR_FRICTION:
+        set_friction_force(m)
+    pressed, work, lost = push_blade(m, work, lost)
+    m.totals.steps_in_contact += pressed
+    return work, lost
+
+
+@inlined
+def leave_casing(m):
+    """No node touches the casing."""
+    for g in range(node_lanes(m) // LANES):
+        m.on_casing[g] = 0
+
+
+@inlined
+def record(m, block, row):
+    """Samples and, unless `row` is -1, a snapshot at the end of a block; returns whether the outputs are within the limit."""
+    snapshots, modes, nodes = numbers_at(m.call.snapshots), mode_lanes(m), node_lanes(m)
+    bounded = sample(m, block)
+    if row >= 0:
+        numbers = 2 * modes if CORIOLIS else modes
+        width = numbers + (0 if PUBLISHED else 3 * nodes)
+        for i in range(modes):
+            snapshots[row * width + i] = m.u[i]
+            if CORIOLIS:
+                snapshots[row * width + modes + i] = m.increment[i]
+        for k in range(width - numbers):
+            snapshots[row * width + numbers + k] = m.static_force[k]
+    return bounded
+
+
+@inlined
+def sample(m, block):
+    """The outputs, with those of the static modes; returns whether they are within the limit."""
+    samples, outputs, nodes = numbers_at(m.call.samples), m.number_of_outputs, node_lanes(m)
+    if not PUBLISHED:
+        for g in range(0, nodes, LANES):
+            store(m.static_force, g, load(m.force, g))
+            store(m.static_force, nodes + g, load(m.friction_force, (0, g)))
+            store(m.static_force, 2 * nodes + g, load(m.friction_force, (1, g)))
+    beyond = 0
+    for g in range(0, outputs, LANES):
+        total = along(m.outputs, 0, m.u, g, mode_lanes(m))
+        if CORIOLIS:
+            total += along(m.increment_outputs, 0, m.increment, g, mode_lanes(m))
+        if not PUBLISHED:
+            total += along(m.force_outputs, 0, m.static_force, g, 3 * nodes)
+        store(m.sample, g, total)
+        # written so that NaN fails as well
+        beyond |= ~bits_of(np.abs(total) < m.limit) & ((1 << LANES) - 1)
+    for o in range(outputs):
+        samples[block * outputs + o] = m.sample[o]
+    return beyond == 0
