@@ -186,7 +186,7 @@ def test_no_record_has_more_than_60_fields():
     assert max(sizes) <= 60
 
 
-def test_a_pace_begins_with_its_rows_of_modes():
+def test_constants_of_a_speed_begin_with_its_rows_of_modes():
     """As they are copied from a table of constants, whose rows are as long as there are modes."""
     of_nodes = ("coupling", "response", "columns", "clearance")
     for modes in (8, 40, 96):

@@ -317,9 +317,7 @@ class Problem:
         """Half of what a kick moves the stepped modes by, in the shape of `static_shapes`; see ComplexRecursion."""
         by_u, by_d = self._shapes
         size = 0.5 * self.recursion.inverse / self.recursion.keep
-        rows, increment_rows = (
-            rows_of.reshape(-1, len(size)) for rows_of in (self.displacement_operator, self.increment_operator)
-        )
+        rows, increment_rows = (of.reshape(-1, len(size)) for of in (self.displacement_operator, self.increment_operator))
         return (by_d * size) @ rows.T - (by_u * size) @ increment_rows.T
 
     @property
