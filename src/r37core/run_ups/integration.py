@@ -20,7 +20,7 @@ from r37core.time_integration.integrators import CENTRAL_DIFFERENCE, Recursion
 from r37core.time_integration.problem import Problem, stable_problem
 from r37core.time_integration.simulate import Simulation
 from r37core.time_integration.speed_run import energy_balance
-from r37core.time_integration.state import Course
+from r37core.time_integration.state import Segments
 from r37core.time_integration.step_limit import UnstableStepError
 
 from .schedule import ModalInterval, RunUp, schedule
@@ -118,7 +118,7 @@ class RunUpIntegration:
                     return
 
     def _stages_of(self, simulation: Simulation, interval: ModalInterval) -> Iterator[Stage]:
-        state, problem, constants = self.state, simulation.problem, simulation.paces
+        state, problem, constants = self.state, simulation.problem, simulation.constants
         shapes = problem.state_shapes
         increments, begun = constants.increments, interval.distinct_speeds.of_segments[0]
         assert increments is not None
@@ -126,7 +126,7 @@ class RunUpIntegration:
         state.increment[:] = increments.increment(begun, state.displacement, self.velocity)
         for segments in interval.at_once(_AT_ONCE * self._choice.samples_per_revolution):
             speed_indices, lasting = interval.distinct_speeds.of_segments[segments], interval.lasting[segments]
-            segments_of_call, first = Course(speed_indices, lasting, len(state.displacement)), state.samples
+            segments_of_call, first = Segments(speed_indices, lasting, len(state.displacement)), state.samples
             record = simulation.follow(state, segments_of_call)
             lasted = np.diff(np.cumsum(lasting).clip(max=len(record.samples)), prepend=0)
             reached = np.count_nonzero(lasted)
@@ -145,7 +145,7 @@ class RunUpIntegration:
             )
 
     def _balance(self, recursions: Recursion, ends: np.ndarray) -> None:
-        """Add up the energies of segments; `ends`, shape (segments, 2, 2, modes): see Course."""
+        """Add up the energies of segments; `ends`, shape (segments, 2, 2, modes): see Segments."""
         begun, ended = (recursions.energy(ends[:, end, 0], ends[:, end, 1]) for end in range(2))
         self.stiffness_work += float(begun[0] - self.energy + np.sum(begun[1:] - ended[:-1]))
         self.energy = float(ended[-1])

@@ -32,7 +32,7 @@ class LongRevolutionError(ValueError):
     """A revolution of so many steps that the casing's table would not fit in memory."""
 
 
-class Paces(NamedTuple):
+class SpeedConstants(NamedTuple):
     """What of a problem changes with the speed while its modes are held: all with a first axis of speeds.
 
     `coupling`: of central differences alone. `increments`: None of a single speed.
@@ -193,12 +193,12 @@ class Problem:
     @cached_property
     def recursion(self) -> Recursion:
         """How a mode goes from step to step: a complex one in the real part of its amplitude, the casing's without turning."""
-        found = self._blade_recursion
+        own = self._blade_recursion
         if self.ring is not None:
             ring = self.ring
             of_ring = recursion(self.choice.integrator, ring.frequencies, ring.damping_ratios, self.time_step)
-            found = joined(found, of_ring)
-        return found if self.complex_modes is None else complex_recursion(found)
+            own = joined(own, of_ring)
+        return own if self.complex_modes is None else complex_recursion(own)
 
     @cached_property
     def _blade_recursion(self) -> Recursion:
@@ -252,10 +252,10 @@ class Problem:
         Per displacement u of all modes; a coupled one's increment d moves the nodes by `increment_operator`, too. It is that
         relative to the casing, whose modes count against it.
         """
-        found = self.operator_at_rest @ self._shapes[0]
+        operator = self.operator_at_rest @ self._shapes[0]
         if self.ring is not None:
-            found[..., len(self.frequencies) :] = self._ring_rows
-        return found
+            operator[..., len(self.frequencies) :] = self._ring_rows
+        return operator
 
     @cached_property
     def increment_operator(self) -> np.ndarray:
@@ -274,13 +274,13 @@ class Problem:
     def size_operator(self) -> np.ndarray:
         """Largest displacement of the nodes per amplitude of each mode alone, in the shape of `displacement_operator`."""
         operator = self.displacement_operator if self.complex_operator is None else self.complex_operator
-        found = np.abs(operator)
+        sizes = np.abs(operator)
         if self.ring is not None:
             # a pair turns into each other
             blade = len(self.frequencies)
-            first, second = np.split(found[..., blade:], 2, axis=-1)
-            found[..., blade:] = np.tile(np.hypot(first, second), 2)
-        return found
+            first, second = np.split(sizes[..., blade:], 2, axis=-1)
+            sizes[..., blade:] = np.tile(np.hypot(first, second), 2)
+        return sizes
 
     @cached_property
     def _static_modes(self) -> tuple[np.ndarray, np.ndarray]:
@@ -317,7 +317,7 @@ class Problem:
         """Half of what a kick moves the stepped modes by, in the shape of `static_shapes`; see ComplexRecursion."""
         by_u, by_d = self._shapes
         size = 0.5 * self.recursion.inverse / self.recursion.keep
-        rows, increment_rows = (one.reshape(-1, len(size)) for one in (self.displacement_operator, self.increment_operator))
+        rows, increment_rows = (of.reshape(-1, len(size)) for of in (self.displacement_operator, self.increment_operator))
         return (by_d * size) @ rows.T - (by_u * size) @ increment_rows.T
 
     @property
@@ -369,11 +369,11 @@ class Problem:
         return np.stack([(rows * inverse[..., None, :]) @ normal.T for rows in self.displacement_operator], axis=-3)
 
     @property
-    def own_pace(self) -> Paces:
+    def own_constants(self) -> SpeedConstants:
         """Of the problem's own speed alone."""
         several = self.recursion[None]
         coupling = None if self.second_order else self.coupling[None]
-        return Paces(several, coupling, self._jumps(several), self.clearance[None], None)
+        return SpeedConstants(several, coupling, self._jumps(several), self.clearance[None], None)
 
     def _jumps(self, recursion: Recursion) -> JumpPlan | None:
         if not self.choice.jumps:
@@ -381,7 +381,7 @@ class Problem:
         # the casing's modes turn as they go, and so do not follow a tangent
         return plan_jumps(recursion, self.steps_per_sample, LANES, followed=len(self.frequencies))
 
-    def paces(self, speeds: np.ndarray) -> Paces:
+    def constants_at(self, speeds: np.ndarray) -> SpeedConstants:
         """At other `speeds` (rad/s), shape (speeds,), in the modes of the problem's speed and with its steps per revolution.
 
         A mode's squared frequency is its stiffness at the speed, phi^T K(Omega) phi; the stiffness between modes is left out.
@@ -391,7 +391,7 @@ class Problem:
         several = recursion(self.choice.integrator, *motion)
         rooms, of_modes = clearances(self.model, self.scene, speeds), increments(self.choice.integrator, *motion)
         coupling = None if self.second_order else self._coupling(several.inverse)
-        return Paces(several, coupling, self._jumps(several), rooms, of_modes)
+        return SpeedConstants(several, coupling, self._jumps(several), rooms, of_modes)
 
     @cached_property
     def _stiffening(self) -> np.ndarray:
@@ -458,8 +458,8 @@ class Problem:
     def samples_per_snapshot(self) -> int:
         """Samples from one snapshot to the next; 0: there are none."""
         choice = self.choice
-        asked = choice.snapshots_per_revolution > 0 and choice.snapshot_revolutions > 0
-        return choice.samples_per_revolution // choice.snapshots_per_revolution if asked else 0
+        wanted = choice.snapshots_per_revolution > 0 and choice.snapshot_revolutions > 0
+        return choice.samples_per_revolution // choice.snapshots_per_revolution if wanted else 0
 
     def snapshots_after(self, samples: int) -> int:
         """How many snapshots the first `samples` of the run have."""

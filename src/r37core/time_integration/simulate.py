@@ -13,9 +13,9 @@ from .clearance import initial_wear
 from .compiled.engine import CompiledEngine
 from .initial_motion import InitialMotion
 from .integration_choice import IntegrationChoice
-from .problem import Paces, Problem, stable_problem
+from .problem import Problem, SpeedConstants, stable_problem
 from .reference.engine import ReferenceEngine
-from .state import Course, SimulationRecord, SimulationState
+from .state import Segments, SimulationRecord, SimulationState
 
 TIP_POINTS, DIRECTIONS = ("leading_edge", "trailing_edge"), ("normal", "radial", "tangential")
 """What the samples are of: every direction at the first tip point, then at the second."""
@@ -31,7 +31,7 @@ class Simulation:
 
     def __init__(self, model: ContactModel, speed: float, scene: Scene, choice: IntegrationChoice):
         problem = stable_problem(model, speed, scene, choice)
-        self._take(problem, problem.own_pace, None)
+        self._take(problem, problem.own_constants, None)
 
     @classmethod
     def at_speeds(cls, problem: Problem, speeds: np.ndarray, before: Simulation | None) -> Simulation:
@@ -40,13 +40,13 @@ class Simulation:
         `before`: a simulation that is done, of the same scene and choice, of whose engine is kept what fits.
         """
         simulation = cls.__new__(cls)
-        simulation._take(problem, problem.paces(speeds), None if before is None else before.engine)
+        simulation._take(problem, problem.constants_at(speeds), None if before is None else before.engine)
         return simulation
 
-    def _take(self, problem: Problem, paces: Paces, before: Any) -> None:
-        self.problem, self.paces = problem, paces
+    def _take(self, problem: Problem, constants: SpeedConstants, before: Any) -> None:
+        self.problem, self.constants = problem, constants
         # of one choice, so of one class
-        self.engine: Any = _ENGINES[problem.choice.engine](problem, paces, before)
+        self.engine: Any = _ENGINES[problem.choice.engine](problem, constants, before)
 
     def start(self, motion: InitialMotion | None = None) -> SimulationState:
         """The blade at rest or in `motion`, in an unworn lining, or in one that it has cut its way into.
@@ -70,21 +70,21 @@ class Simulation:
 
     def advance_samples(self, state: SimulationState, samples: int) -> SimulationRecord:
         """The same by a number of samples."""
-        return self.follow(state, Course(np.zeros(1), np.array([samples]), len(state.displacement)))
+        return self.follow(state, Segments(np.zeros(1), np.array([samples]), len(state.displacement)))
 
-    def follow(self, state: SimulationState, course: Course) -> SimulationRecord:
-        """The same along a course."""
+    def follow(self, state: SimulationState, segments: Segments) -> SimulationRecord:
+        """The same in constant-speed segments."""
         problem = self.problem
-        first, asked = state.samples, int(course.samples.sum())
+        first, count = state.samples, int(segments.samples.sum())
 
         def snapshots(samples: int) -> int:
             return problem.snapshots_after(first + samples) - problem.snapshots_after(first)
 
         outputs, numbers = problem.output_operator.shape
-        out = SimulationRecord(np.empty((asked, outputs)), np.empty((snapshots(asked), numbers)))
-        done = self.engine.advance(state, out, course)
-        state.samples = first + asked
-        diverged = done < asked or not (np.abs(out.samples[done - 1]) < problem.scene.divergence_limit).all()
+        out = SimulationRecord(np.empty((count, outputs)), np.empty((snapshots(count), numbers)))
+        done = self.engine.advance(state, out, segments)
+        state.samples = first + count
+        diverged = done < count or not (np.abs(out.samples[done - 1]) < problem.scene.divergence_limit).all()
         of_tip = len(TIP_POINTS) * len(DIRECTIONS)
         casing = None if problem.ring is None else out.samples[:done, of_tip:]
         return SimulationRecord(out.samples[:done, :of_tip], out.snapshots[: snapshots(done)], bool(diverged), casing)
