@@ -7,6 +7,7 @@ import os
 import subprocess
 import sys
 from itertools import pairwise, product
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -241,10 +242,41 @@ def test_blades_of_any_size_take_one_program(integrator):
                 model = with_static_modes(model, 1e-9)
             simulation = Simulation(model, 12_000.0, DIRECT, choice)
             programs.append(simulation.engine._advance)
-            sizes.append(len(simulation.problem.frequencies))
+            sizes.append(len(simulation.problem.blade.frequencies))
             state = simulation.start()
             state.displacement[:] = 1e-7
             simulation.advance(state, 1)
             assert np.isfinite(state.displacement).all()
     assert sizes == [1, 1, 5, 5, 40, 40, 96, 96]
     assert all(program is programs[0] for program in programs)
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(
+    "+fma" not in native.this_processor()[1], reason="an x86-64 processor that fuses multiplication and addition"
+)
+def test_programs_for_narrower_vectors_give_the_same_bits():
+    """Of direct contact with vector friction: sums are made as they stand, however wide a vector is."""
+    code = (
+        "import hashlib\n"
+        "from defaults import IntegrationChoice\n"
+        "from integration_cases import DIRECT, random_model, with_static_modes\n"
+        "from r37core.time_integration.simulate import Simulation\n"
+        "choice = IntegrationChoice(2e-7, 2, 31, integrator='exact_modal')\n"
+        "simulation = Simulation(with_static_modes(random_model(8), 1e-9), 12_000.0, DIRECT, choice)\n"
+        "state = simulation.start()\n"
+        "record = simulation.advance(state, 2)\n"
+        "assert state.totals['steps_in_contact'] > 100\n"
+        "print(hashlib.sha256(record.samples.tobytes() + state.totals.tobytes()).hexdigest())"
+    )
+    results = [
+        subprocess.run(
+            [sys.executable, "-c", code],
+            check=True,
+            stdout=subprocess.PIPE,
+            text=True,
+            env=os.environ | {"PYTHONPATH": str(Path(__file__).parent), "NUMBA_CPU_NAME": name},
+        ).stdout
+        for name in ("host", "x86-64-v3")
+    ]
+    assert results[0] == results[1]

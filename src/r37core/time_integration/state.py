@@ -27,7 +27,7 @@ class SimulationState:
     totals: np.ndarray = field(default_factory=lambda: np.zeros((), TOTALS))
 
 
-class Segments:
+class Schedule:
     """Constant-speed segments one after another: what an engine is to do, and what it leaves of each.
 
     `speed_indices`, `samples`, shape (segments,): the speed of each segment and its length. Filled by the engine:
