@@ -271,7 +271,7 @@ def of_extreme(task):
         tried = replace(choice, time_step=step, integrator=integrator)
         try:
             run = run_speed(model, speed, scene, tried, (), **KEPT)
-            modes = len(stable_problem(model, speed, scene, tried).frequencies)
+            modes = len(stable_problem(model, speed, scene, tried).blade.frequencies)
         except ValueError:
             cells.append("refused")
             continue

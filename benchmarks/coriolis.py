@@ -82,8 +82,8 @@ def frequencies_table(settings, models):
         for scene in (LINED, DIRECT):
             choice = settings.integration_choice(blade, scene, speed)
             problem = Simulation(contact, speed, settings.scenes[scene].scene, choice).problem
-            turns = problem.frequencies * problem.time_step
-            left_out = np.abs(problem.complex_modes.frequencies[:FREQUENCIES] / exact - 1.0).max()
+            turns = problem.blade.frequencies * problem.grid.time_step
+            left_out = np.abs(problem.blade.complex_modes.frequencies[:FREQUENCIES] / exact - 1.0).max()
             cells += [f"{np.count_nonzero(turns <= LARGEST_TURN)} of {len(contact.squared_frequencies)}", f"{left_out:.0e}"]
         rows.append(cells)
     head = ["blade", "1B", "largest of ten", "coupled modes, lined", "off by up to", "coupled modes, direct", "off by up to"]

@@ -171,10 +171,10 @@ def growth(casing, speed):
     """
     scene = with_casing(LINED, casing.modes)
     problem = Problem(contact("Ref"), speed, scene, settings().integration_choice("Ref", LINED, speed))
-    ring, row = problem.ring, problem.displacement_operator[0, 0]
+    ring, row = problem.casing.ring, problem.contact.displacement_operator[0, 0]
     blade, pairs = len(row) - len(ring.frequencies), len(ring.modes)
     turning = np.tile(ring.nodal_diameters * speed, 2)
-    stiff = np.concatenate([problem.frequencies[:blade] ** 2, ring.frequencies**2 - turning**2])
+    stiff = np.concatenate([problem.blade.frequencies[:blade] ** 2, ring.frequencies**2 - turning**2])
     gyroscopic = np.zeros((len(row), len(row)))
     first, second = np.arange(blade, blade + pairs), np.arange(blade + pairs, len(row))
     gyroscopic[first, second], gyroscopic[second, first] = -2.0 * turning[:pairs], 2.0 * turning[:pairs]

@@ -41,7 +41,7 @@ def timed(checkout):
             state, begun = simulation.start(), time.process_time()
             simulation.advance(state, choice.revolutions)
             taken.append(time.process_time() - begun)
-        measured.append((len(simulation.problem.frequencies), choice.time_step, min(taken)))
+        measured.append((len(simulation.problem.blade.frequencies), choice.time_step, min(taken)))
     return json.dumps(measured)
 
 

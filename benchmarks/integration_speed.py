@@ -86,7 +86,7 @@ def compare(model, scene, name, speed):
     jumping = Simulation(model, speed, scene, CHOICE)
     problem = stepping.problem
     plain = PlainProblem(problem)
-    first, steps = SETTLED * problem.steps_per_revolution, problem.steps_per_revolution
+    first, steps = SETTLED * problem.grid.steps_per_revolution, problem.grid.steps_per_revolution
     best = dict.fromkeys(WAYS, np.inf)
     answers = {}
     for _ in range(ROUNDS):
@@ -98,7 +98,7 @@ def compare(model, scene, name, speed):
             start = time.process_time()
             if way == DENSE:
                 count = steps // 20
-                plain.dense_recursion_numpy(problem.modes @ u, problem.modes @ d, count)
+                plain.dense_recursion_numpy(problem.blade.modes @ u, problem.blade.modes @ d, count)
             elif way == SCALAR:
                 plain.modal(u, d, wear, first, steps)
             else:

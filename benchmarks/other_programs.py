@@ -70,7 +70,7 @@ def integrated(model, settings, scene, step, revolutions, speed=SPEED, **choice)
     chosen = replace(settings.integration_choice("Ref", name, speed), time_step=step, revolutions=revolutions, **choice)
     simulation = Simulation(model, speed, scene, chosen)
     state = simulation.start()
-    return simulation.advance(state, revolutions).samples[:, 0], simulation.problem.time_step, state
+    return simulation.advance(state, revolutions).samples[:, 0], simulation.problem.grid.time_step, state
 
 
 def sample_times(speed, samples):
@@ -108,7 +108,7 @@ def at_t_n(model, settings, scene, steps):
     blade, times = blade_of(model, SPEED, scene, np.inf), sample_times(SPEED, REVOLUTIONS * SAMPLES)
     runs = []
     choice = replace(settings.integration_choice("Ref", "direct", SPEED), integrator=EXACT_MODAL, time_step=MOVING_ABOVE)
-    blade = with_static_modes(blade, len(Problem(model, SPEED, scene, choice).frequencies))
+    blade = with_static_modes(blade, len(Problem(model, SPEED, scene, choice).blade.frequencies))
     stiffness = np.inf if scene.lining is None else bar_stiffness(blade)
     exact, checked = (static_contact(blade, times, stiffness, method, **EXACT) for method in ("DOP853", "LSODA"))
     for step in steps:
@@ -188,7 +188,7 @@ def histories(model, settings):
     for moving_above in (9.6e-6, 6.4e-6, 3.2e-6, 2.4e-6):
         choice = {"integrator": EXACT_MODAL, "static_above": 2e-7 / moving_above}
         chosen = replace(settings.integration_choice("Ref", "direct", SPEED), time_step=2e-7, **choice)
-        modes = len(Problem(model, SPEED, scene, chosen).frequencies)
+        modes = len(Problem(model, SPEED, scene, chosen).blade.frequencies)
         ours = integrated(model, settings, scene, 2e-7, 1, **choice)[0][:half]
         cells = [str(modes), f"{blade.frequencies[modes - 1] / 2e3 / np.pi:.0f}"]
         for parts in (50, 100):
@@ -221,7 +221,7 @@ def rms(model, settings):
             rubbed = replace(scene, friction=replace(scene.friction, coefficient=factor * scene.friction.coefficient))
             ours.append(rms_of(integrated(model, settings, rubbed, step, RMS_REVOLUTIONS, speed)[0]))
         choice = replace(settings.integration_choice("Ref", "direct", speed), time_step=step)
-        modes = len(Problem(model, speed, scene, choice).frequencies)
+        modes = len(Problem(model, speed, scene, choice).blade.frequencies)
         samples = RMS_REVOLUTIONS * SAMPLES
         theirs = run_nlstep(blade_of(model, speed, scene, duration), modes, parts, SAMPLES, samples)[0]
         cells = [f"{speed:g}", str(modes), str(parts * SAMPLES), f"{1e3 * rms_of(theirs):.4f}", f"{1e3 * np.mean(ours):.4f}"]

@@ -13,17 +13,17 @@ class PlainProblem:
 
     def __init__(self, problem):
         model, scene = problem.model, problem.scene
-        step, modes = problem.time_step, problem.modes
-        damping = 2.0 * scene.damping_ratio * problem.frequencies
+        step, modes = problem.grid.time_step, problem.blade.modes
+        damping = 2.0 * scene.damping_ratio * problem.blade.frequencies
         self.inverse = 1.0 / (1.0 / step**2 + damping / (2.0 * step))
         self.keep = self.inverse * (1.0 / step**2 - damping / (2.0 * step))
-        self.pull = self.inverse * problem.frequencies**2
+        self.pull = self.inverse * problem.blade.frequencies**2
         self.dense = [np.ascontiguousarray(modes @ np.diag(d) @ modes.T) for d in (self.keep, self.pull, self.inverse)]
-        self.displacement_operator = problem.displacement_operator
+        self.displacement_operator = problem.contact.displacement_operator
         self.coupling = np.array(
-            [problem.displacement_operator[0] * self.inverse @ rows.T for rows in problem.displacement_operator]
+            [problem.contact.displacement_operator[0] * self.inverse @ rows.T for rows in problem.contact.displacement_operator]
         )
-        steps = problem.steps_per_revolution
+        steps = problem.grid.steps_per_revolution
         theta = model.theta - 2.0 * np.pi * np.arange(steps)[:, None] / steps
         self.shape = scene.casing.shape(theta)
         lining, friction = scene.lining, scene.friction
@@ -35,7 +35,7 @@ class PlainProblem:
             [
                 scene.casing.clearance,
                 scene.casing.amplitude * scene.casing.clearance,
-                scene.casing.rise_rate(problem.duration) * step,
+                scene.casing.rise_rate(problem.grid.duration) * step,
                 *law,
                 area,
                 bars,

@@ -249,7 +249,10 @@ def missed_table():
                 choice = settings.integration_choice(blade, scene, speed)
                 simulation = Simulation(model, speed, settings.scenes[scene].scene, choice)
                 states = simulation.advance(simulation.start(), choice.revolutions).snapshots
-                shapes, per_revolution = model.to_reduced @ simulation.problem.state_shapes, choice.snapshots_per_revolution
+                shapes, per_revolution = (
+                    model.to_reduced @ simulation.problem.contact.state_shapes,
+                    choice.snapshots_per_revolution,
+                )
                 found = largest_of_revolutions(stress, states, shapes, np.empty(0), per_revolution)
                 revolutions = np.split(states, len(states) // per_revolution)
                 every = np.array([stress.max_von_mises(one @ shapes.T).max() for one in revolutions])

@@ -105,7 +105,7 @@ def test_exact_and_linear_gap_differ_by_the_square_of_the_motion(contact):
             simulation = Simulation(contact, speed, scene, IntegrationChoice(1e-7, 1, 62, engine="reference"))
             twin = simulation.engine
             assert isinstance(twin, ReferenceEngine)
-            shape = simulation.problem.modes[:, 0] + 0.3 * simulation.problem.modes[:, 1]
+            shape = simulation.problem.blade.modes[:, 0] + 0.3 * simulation.problem.blade.modes[:, 1]
             gaps.append(twin.gap(size * 1e-3 / np.abs(contact.displacement_operator @ shape).max() * shape, step)[0])
         differences.append(np.abs(gaps[1] - gaps[0]).max())
     np.testing.assert_allclose(np.array(differences[:-1]) / differences[1:], 100.0, rtol=0.1)
@@ -117,7 +117,7 @@ def test_exact_gap_is_the_distance_from_the_cone():
     model = moving_along([(1, 0, 0), (0, 1, 0), (0, 0, 1)], [1e3, 2e3, 3e3])
     casing = Casing(1e-3, lobes=3, width=0.2, rise_fraction=0.0)
     simulation = Simulation(model, 1000.0, Scene(casing, exact_gap=True), IntegrationChoice(1e-6, 1, 62, engine="reference"))
-    gap, theta = simulation.engine.gap(np.array([radial, tangential, axial]), simulation.problem.steps_per_revolution)
+    gap, theta = simulation.engine.gap(np.array([radial, tangential, axial]), simulation.problem.grid.steps_per_revolution)
     point = np.array([0.25 + radial, tangential, axial])
     radius, angle = np.hypot(point[0], point[1]), np.arctan2(point[1], point[0])
     # a line along the cone's ruling through the undeformed node, in the plane of radius and axis

@@ -22,7 +22,7 @@ from r37core.time_integration.integrators import EXACT_MODAL
 from r37core.time_integration.problem import Problem, UnstableStepError, stable_problem
 from r37core.time_integration.simulate import Simulation
 from r37core.time_integration.speed_run import run_speed
-from r37core.time_integration.step_limit import pressed_ratio
+from r37core.time_integration.step_checks import pressed_ratio
 
 NARROW = replace(ABRADABLE, lining=replace(LINING, bar_width=1e-3))
 THIN = replace(NARROW, lining=Lining(1e-4, 1e8, 5e7, 1e5, bar_width=0.03))
@@ -35,7 +35,7 @@ ELASTIC = Lining(5e-3, 20e9, 5e9, 1e30, bar_area=1e-6)
 
 def times(simulation, record):
     problem = simulation.problem
-    return (1 + np.arange(len(record.samples))) * problem.steps_per_sample * problem.time_step
+    return (1 + np.arange(len(record.samples))) * problem.grid.steps_per_sample * problem.grid.time_step
 
 
 def order_of(errors, steps):
@@ -64,7 +64,7 @@ def test_error_of_a_mode_on_an_elastic_bar_falls_with_the_square_of_the_step(fle
         time = times(simulation, record)
         found = solve_ivp(motion, (0.0, time[-1]), [0.0, 0.0], "DOP853", time, rtol=1e-11, atol=1e-15, max_step=2e-5)
         errors.append(np.abs(record.samples[:, 0] - found.y[0]).max() / np.abs(found.y[0]).max())
-        steps.append(simulation.problem.time_step)
+        steps.append(simulation.problem.grid.time_step)
     assert errors[0] < 1e-3
     assert 1.8 < order_of(errors, steps) < 2.3, errors
 
@@ -83,7 +83,7 @@ def bouncing(step, stop, flexibility, revolutions, **others):
     state = simulation.start()
     state.displacement[:] = START
     # u(-h) of what moves off from rest
-    state.increment[:] = 0.5 * simulation.problem.recursion.pull * START
+    state.increment[:] = 0.5 * simulation.problem.contact.recursion.pull * START
     return simulation, state
 
 
@@ -114,7 +114,7 @@ def test_a_mass_bounces_off_a_rigid_stop_as_in_closed_form():
             assert state.totals["casing_hits"] >= 8
             of_step.append(np.abs(record.samples[:, 0] - exact).max() / abs(START))
         errors.append(np.mean(of_step))
-        steps.append(simulation.problem.time_step)
+        steps.append(simulation.problem.grid.time_step)
     assert errors[0] < 1e-2
     assert 1.8 < order_of(errors, steps) < 2.3, errors
     found = []
@@ -137,7 +137,7 @@ def test_bounces_off_a_rigid_stop_lose_no_energy():
             free, held, first = [], 0.0, simulation.energy(state) / start
             for _ in range(1000 if step == 8e-6 else 100):
                 simulation.advance_samples(state, 10)
-                held = max(held, simulation.problem.static_energy(state.contact_force) / start)
+                held = max(held, simulation.problem.contact.static_energy(state.contact_force) / start)
                 gained = simulation.work(state) / start
                 assert abs(simulation.energy(state) / start - first - gained) < 1e-11
                 if not state.contact_force.any():
@@ -150,7 +150,7 @@ def test_bounces_off_a_rigid_stop_lose_no_energy():
             of_step.append(np.max(free))
         # some bounces are in step with the steps: these are not to tell the order
         missing.append(np.exp(np.mean(np.log(of_step))))
-        steps.append(simulation.problem.time_step)
+        steps.append(simulation.problem.grid.time_step)
     assert missing[0] < 1e-3
     assert 1.8 < order_of(missing, steps) < 2.3, missing
 
@@ -167,9 +167,9 @@ def test_work_of_the_contact_forces_is_that_of_forces_times_paths(contact, scene
     choice = replace(choice, snapshot_revolutions=choice.revolutions, engine="reference")
     simulation = Simulation(contact, 1600.0, scene, choice)
     problem, state = simulation.problem, simulation.start()
-    assert problem.steps_per_sample == 1
-    rows = problem.operator_at_rest.reshape(3 * len(contact.theta), -1) @ problem.state_shapes
-    stepped = len(problem.frequencies)
+    assert problem.grid.steps_per_sample == 1
+    rows = problem.contact.operator_at_rest.reshape(3 * len(contact.theta), -1) @ problem.contact.state_shapes
+    stepped = len(problem.blade.frequencies)
     before, counted, found = np.zeros(rows.shape[1]), 0.0, []
     for _ in range(every // steps_at_once):
         for snapshot in simulation.advance_samples(state, steps_at_once).snapshots:
@@ -204,7 +204,7 @@ def test_work_of_the_contact_forces_is_that_of_forces_times_paths(contact, scene
 )
 def test_energy_balance_closes_with_static_modes(contact, scene):
     simulation = Simulation(contact, 1600.0, scene, replace(LONG, revolutions=4))
-    assert len(simulation.problem.frequencies) < len(contact.squared_frequencies)
+    assert len(simulation.problem.blade.frequencies) < len(contact.squared_frequencies)
     state, held = simulation.start(), []
     for _ in range(4 * 62):
         simulation.advance_samples(state, 1)
@@ -243,9 +243,9 @@ def test_the_limit_is_where_nodes_on_the_casing_become_unstable(monkeypatch, sha
     if share > 1.0:
         with pytest.raises(UnstableStepError, match="limit for nodes pressed on the casing"):
             Problem(model, speed, scene, choice)
-        monkeypatch.setattr(problem_module, "check_step", lambda problem: None)
+        monkeypatch.setattr(problem_module, "check_step", lambda contact: None)
     simulation = Simulation(model, speed, scene, choice)
-    assert pressed_ratio(simulation.problem) == pytest.approx(share, rel=1e-9)
+    assert pressed_ratio(simulation.problem.contact) == pytest.approx(share, rel=1e-9)
     state = simulation.start()
     state.displacement[:] = rest * (1.0 + 1e-9)
     state.contact_force[0] = -force
@@ -292,8 +292,8 @@ def test_no_few_nodes_that_stay_pressed_grow(contact, number, modulus):
         problem = stable_problem(model, 1600.0, scene, replace(LONG, time_step=step, shorten=True))
         for count in (2, 3, 8):
             for nodes in combinations(range(8), count):
-                growth = _growth(problem, list(nodes), problem.bar_stiffness if modulus < np.inf else np.inf)
-                assert growth < 1e-6, (step, problem.time_step, nodes)
+                growth = _growth(problem, list(nodes), problem.casing.bar_stiffness if modulus < np.inf else np.inf)
+                assert growth < 1e-6, (step, problem.grid.time_step, nodes)
 
 
 def _growth(problem, nodes, bar):
@@ -301,15 +301,15 @@ def _growth(problem, nodes, bar):
 
     The forces are -K N u_n with K = (1/bar + R)^-1 of the nodes pressed, on the displacement at the same instant.
     """
-    normal, recursion = problem.displacement_operator[0, nodes], problem.recursion
-    held = np.linalg.inv(np.eye(len(nodes)) / bar + problem.contact_flexibility[0][np.ix_(nodes, nodes)])
+    normal, recursion = problem.contact.displacement_operator[0, nodes], problem.contact.recursion
+    held = np.linalg.inv(np.eye(len(nodes)) / bar + problem.contact.contact_flexibility[0][np.ix_(nodes, nodes)])
     pushed = -recursion.inverse[:, None] * (normal.T @ held @ normal)
     # of the force at u_n, which acts on the step to u_{n+1}
     increment = np.hstack([pushed - np.diag(recursion.pull), np.diag(recursion.keep)])
     step = np.vstack([increment, increment])
     modes = len(recursion.keep)
     step[:modes, :modes] += np.eye(modes)
-    return np.abs(np.linalg.eigvals(step)).max() ** problem.steps_per_revolution - 1.0
+    return np.abs(np.linalg.eigvals(step)).max() ** problem.grid.steps_per_revolution - 1.0
 
 
 EVERY = replace(LONG, snapshots_per_revolution=62, snapshot_revolutions=2)
@@ -344,10 +344,10 @@ def test_samples_and_snapshots_have_the_share_of_the_static_modes(contact, scene
     """The samples are the snapshots' shapes at the tip, of which some percent are static when the blade is first pressed."""
     simulation = Simulation(contact, 1600.0, scene, EVERY)
     record = simulation.advance(simulation.start(), 2)
-    radial = contact.tip_displacement_operator[0, 0] @ simulation.problem.state_shapes
+    radial = contact.tip_displacement_operator[0, 0] @ simulation.problem.contact.state_shapes
     largest = np.abs(record.samples[:, 1]).max()
     np.testing.assert_allclose(record.snapshots @ radial, record.samples[:, 1], rtol=0, atol=1e-12 * largest)
-    stepped = len(simulation.problem.frequencies)
+    stepped = len(simulation.problem.blade.frequencies)
     static = np.abs(record.snapshots[:, stepped:] @ radial[stepped:]).max()
     assert 1e-3 * largest < static < (0.1 if scene.lining else 0.2) * largest
 
@@ -357,11 +357,11 @@ def test_no_node_is_beyond_the_casing_and_none_is_pulled(contact):
     """At every sample of direct contact, with the static modes' share, whatever the stepped modes alone would do."""
     simulation = Simulation(contact, 1600.0, DIRECT, EVERY)
     problem, state = simulation.problem, simulation.start()
-    stepped, nodes = len(problem.frequencies), len(contact.theta)
+    stepped, nodes = len(problem.blade.frequencies), len(contact.theta)
     snapshots = simulation.advance(state, 2).snapshots
-    normal = problem.operator_at_rest[0] @ problem.state_shapes
-    step = problem.steps_per_sample * (1 + np.arange(len(snapshots)))
-    room = problem.clearance - np.array([DIRECT.casing.lobe(problem.theta(n), np.zeros(1), 1.0) for n in step])
+    normal = problem.contact.operator_at_rest[0] @ problem.contact.state_shapes
+    step = problem.grid.steps_per_sample * (1 + np.arange(len(snapshots)))
+    room = problem.casing.clearance - np.array([DIRECT.casing.lobe(problem.casing.theta(n), np.zeros(1), 1.0) for n in step])
     gap, force = room - snapshots @ normal.T, -snapshots[:, stepped : stepped + nodes]
     largest = np.abs(snapshots @ normal.T).max()
     assert force.min() >= 0.0 and np.count_nonzero(force) > 5
@@ -413,7 +413,7 @@ def test_static_modes_let_go_of_the_casing(contact, name):
     for kind in ("samples", "snapshots"):
         largest = np.abs(getattr(plain, kind)).max()
         np.testing.assert_allclose(getattr(record, kind), getattr(plain, kind), rtol=0, atol=1e-10 * largest)
-    stepped = len(simulation.problem.frequencies)
+    stepped = len(simulation.problem.blade.frequencies)
     pressed = np.any(plain.snapshots[:, stepped:] != 0.0, axis=1)
     assert 10 < np.count_nonzero(pressed) < 0.9 * len(pressed)
     np.testing.assert_array_equal(np.any(record.snapshots[:, stepped:] != 0.0, axis=1), pressed)

@@ -25,7 +25,7 @@ from r37core.time_integration.integrators import CENTRAL_DIFFERENCE, EXACT_MODAL
 from r37core.time_integration.problem import Problem, UnstableStepError, stable_problem
 from r37core.time_integration.reference.motion import CoupledMotion
 from r37core.time_integration.simulate import Simulation
-from r37core.time_integration.step_limit import pressed_ratio
+from r37core.time_integration.step_checks import pressed_ratio
 
 CHOICE = IntegrationChoice(2e-7, 1, 62, integrator=EXACT_MODAL)
 FREE = Scene(Casing(1.0, lobes=0), damping_ratio=0.0, divergence_limit=10.0)
@@ -71,13 +71,15 @@ def coupled_model(nodes=8, size=3.0):
 def moving(simulation, displacement, velocity):
     """A state with displacement and velocity of the speed's real modes."""
     problem, state = simulation.problem, simulation.start()
-    CoupledMotion(problem, problem.recursion).write(np.concatenate([problem.frequencies * displacement, velocity]), state)
+    CoupledMotion(problem, problem.contact.recursion).write(
+        np.concatenate([problem.blade.frequencies * displacement, velocity]), state
+    )
     return state
 
 
 def times(simulation, record):
     problem = simulation.problem
-    return (1 + np.arange(len(record.samples))) * problem.steps_per_sample * problem.time_step
+    return (1 + np.arange(len(record.samples))) * problem.grid.steps_per_sample * problem.grid.time_step
 
 
 @pytest.mark.parametrize("jumps", [True, False])
@@ -118,7 +120,7 @@ def test_free_motion_has_the_frequencies_of_the_campbell_diagram(reduced, couple
     campbell, without = (model.modes(speed, 8)[0] for model in (reduced, replace(reduced, coriolis=None)))
     assert np.abs(campbell / without - 1.0).max() > 1e-4
     simulation = Simulation(coupled_blade, speed, FREE, CHOICE)
-    stepped = simulation.problem.complex_modes.frequencies[:8]
+    stepped = simulation.problem.blade.complex_modes.frequencies[:8]
     # static modes are not coupled, but they are fast
     np.testing.assert_allclose(stepped, campbell, rtol=1e-6)
     for mode, frequency in enumerate(stepped):
@@ -176,9 +178,9 @@ def test_compiled_time_integration_is_the_reference(name, step, static_above, mo
         state = simulation.start()
         found.append((state, simulation.advance(state, 1)))
     problem, ((ours, record), (theirs, plain)) = simulation.problem, found
-    assert len(problem.frequencies) == (24 if step < 1e-6 else 8)
-    assert (problem.frequencies[-1] * step > LARGEST_TURN) == (static_above > 2.0)
-    assert problem.complex_modes.shapes.imag.any()
+    assert len(problem.blade.frequencies) == (24 if step < 1e-6 else 8)
+    assert (problem.blade.frequencies[-1] * step > LARGEST_TURN) == (static_above > 2.0)
+    assert problem.blade.complex_modes.shapes.imag.any()
     assert ours.totals["steps_in_contact"] > 100 and ours.totals["steps_jumped"] > 100
     for name in ("samples", "snapshots"):
         largest = np.abs(getattr(plain, name)).max()
@@ -277,13 +279,16 @@ def test_error_on_an_elastic_bar_falls_with_the_square_of_the_step(radius):
         # the lining's force at the start, against the rotation, of whose kick only the second half comes after it
         force = stiffness * (casing.clearance - casing.lobe(model.theta, np.zeros(1), 1.0)[0]) * np.array([1.0, -0.4, 0.0])
         state.contact_force[:, 0] = force
-        by_u, by_d = (np.einsum("dki,d->i", one, force) for one in (problem.displacement_operator, problem.increment_operator))
-        state.displacement[:], state.increment[:] = 0.5 * problem.recursion.inverse * np.array([by_d, -by_u])
+        by_u, by_d = (
+            np.einsum("dki,d->i", one, force)
+            for one in (problem.contact.displacement_operator, problem.contact.increment_operator)
+        )
+        state.displacement[:], state.increment[:] = 0.5 * problem.contact.recursion.inverse * np.array([by_d, -by_u])
         record = simulation.advance(state, 1)
         time = times(simulation, record)
         exact = solve_ivp(motion, (0.0, time[-1]), np.zeros(6), "DOP853", time, rtol=1e-12, atol=1e-16, max_step=1e-5).y
         errors.append(np.abs(record.samples[:, [1, 2]].T - exact[:2]).max() / np.abs(exact[:2]).max())
-        steps.append(simulation.problem.time_step)
+        steps.append(simulation.problem.grid.time_step)
     orders = np.diff(np.log(errors)) / np.diff(np.log(steps))
     assert errors[0] < 3e-2
     assert np.all((orders > 1.9) & (orders < 2.1)), orders
@@ -295,9 +300,11 @@ def resting(simulation, force):
     Solution of d = d + c a - pull (u - c b), u = u - c b + d for u and d before the kick, with the kick's a and b.
     """
     problem, state = simulation.problem, simulation.start()
-    by_u, by_d = (np.einsum("dki,d->i", one, force) for one in (problem.displacement_operator, problem.increment_operator))
-    inverse = problem.recursion.inverse
-    state.displacement[:] = inverse * by_u / problem.recursion.pull + inverse * by_d
+    by_u, by_d = (
+        np.einsum("dki,d->i", one, force) for one in (problem.contact.displacement_operator, problem.contact.increment_operator)
+    )
+    inverse = problem.contact.recursion.inverse
+    state.displacement[:] = inverse * by_u / problem.contact.recursion.pull + inverse * by_d
     state.increment[:] = inverse * by_d
     state.contact_force[:, 0] = force
     return state
@@ -310,7 +317,7 @@ def test_a_pressed_node_rests_where_the_stiffness_says():
     model = replace(point_in_space(frequency, 0.25), squared_frequencies=np.array([4e4, 3e4, 5.6e4]) ** 2)
     flexibility = 2e-7
     simulation = Simulation(with_static_modes(model, flexibility), speed, scene, replace(CHOICE, time_step=1.5e-5))
-    stiffness = 1.0 / (1.0 / simulation.problem.bar_stiffness + flexibility)
+    stiffness = 1.0 / (1.0 / simulation.problem.casing.bar_stiffness + flexibility)
     force = stiffness * penetration / (1.0 + stiffness / frequency**2) * np.array([-1.0, 0.3, 0.0])
     state = resting(simulation, force)
     assert np.abs(state.increment).max() > 1e-3 * np.abs(state.displacement).max()
@@ -331,10 +338,10 @@ def edge_of_stability(share, monkeypatch):
     scene = Scene(casing, damping_ratio=0.0, divergence_limit=1e300)
 
     def ratio(stiffness):
-        return pressed_ratio(Problem(with_static_modes(model, 1.0 / stiffness), speed, scene, choice))
+        return pressed_ratio(Problem(with_static_modes(model, 1.0 / stiffness), speed, scene, choice).contact)
 
     with monkeypatch.context() as without:
-        without.setattr(problem_module, "check_step", lambda problem: None)
+        without.setattr(problem_module, "check_step", lambda contact: None)
         limit = brentq(lambda stiffness: ratio(stiffness) - 1.0, 1e6, 1e12)
     return with_static_modes(model, 1.0 / (share * limit)), speed, scene, choice, share * limit
 
@@ -345,7 +352,7 @@ def test_the_limit_is_where_nodes_on_the_casing_become_unstable(monkeypatch, sha
     if share > 1.0:
         with pytest.raises(UnstableStepError, match="limit for nodes pressed on the casing"):
             Problem(model, speed, scene, choice)
-        monkeypatch.setattr(problem_module, "check_step", lambda problem: None)
+        monkeypatch.setattr(problem_module, "check_step", lambda contact: None)
     simulation = Simulation(model, speed, scene, choice)
     rest = -1e-3 * stiffness / (stiffness + model.squared_frequencies[0])
     state = resting(simulation, np.array([-stiffness * (1e-3 + rest), 0.0, 0.0]))
@@ -360,9 +367,9 @@ def _pressed_step(problem, nodes, bar):
 
     The force at t_n is -K (N_u u_n + N_d d_n), K = (1/bar + R)^-1 of the nodes pressed, with half of its own kick in R.
     """
-    recursion, modes = problem.recursion, len(problem.frequencies)
-    by_u, by_d = (one[0, nodes] for one in (problem.displacement_operator, problem.increment_operator))
-    held = np.linalg.inv(np.eye(len(nodes)) / bar + problem.contact_flexibility[0][np.ix_(nodes, nodes)].T)
+    recursion, modes = problem.contact.recursion, len(problem.blade.frequencies)
+    by_u, by_d = (one[0, nodes] for one in (problem.contact.displacement_operator, problem.contact.increment_operator))
+    held = np.linalg.inv(np.eye(len(nodes)) / bar + problem.contact.contact_flexibility[0][np.ix_(nodes, nodes)].T)
     kick = recursion.inverse / recursion.keep
     moved_by_force = np.vstack([-kick[:, None] * by_d.T, kick[:, None] * by_u.T])
     kicked = np.eye(2 * modes) - moved_by_force @ held @ np.hstack([by_u, by_d])
@@ -380,10 +387,10 @@ def test_no_few_nodes_that_stay_pressed_grow(coupled_blade, modulus, size):
     for step in (6.4e-6, 1.6e-6):
         choice = replace(CHOICE, time_step=step, shorten=True)
         problem = stable_problem(model, 1600.0, replace(ABRADABLE, lining=lining, friction=Friction(0.0)), choice)
-        bar = problem.bar_stiffness if modulus < np.inf else np.inf
+        bar = problem.casing.bar_stiffness if modulus < np.inf else np.inf
         for nodes in [*combinations(range(8), 2), range(8)]:
             largest = np.abs(np.linalg.eigvals(_pressed_step(problem, list(nodes), bar))).max()
-            assert largest**problem.steps_per_revolution - 1.0 < 1e-6, (step, problem.time_step, nodes)
+            assert largest**problem.grid.steps_per_revolution - 1.0 < 1e-6, (step, problem.grid.time_step, nodes)
 
 
 def _meets_casing(model, start, velocity, excess):
@@ -394,14 +401,14 @@ def _meets_casing(model, start, velocity, excess):
     samples = free.advance(moving(free, start, velocity), 1).samples[:, [0, 3]]
     # lobes that come while a node still rises
     casing = Casing(1.0, lobes=40, width=0.1, amplitude=0.5, rise_fraction=0.0)
-    theta = free.problem.theta(np.arange(1, steps + 1)[:, None])
+    theta = free.problem.casing.theta(np.arange(1, steps + 1)[:, None])
     reach = (samples[:, : theta.shape[1]] / (1.0 - casing.amplitude * casing.shape(theta))).max()
     # the same steps, of which many are jumped over
     choice = replace(choice, samples_per_revolution=50, jumps=True)
     jumping = Simulation(
         model, speed, replace(FREE, casing=replace(casing, clearance=reach * (1.0 - excess)), divergence_limit=1e9), choice
     )
-    assert free.problem.steps_per_revolution == jumping.problem.steps_per_revolution == steps
+    assert free.problem.grid.steps_per_revolution == jumping.problem.grid.steps_per_revolution == steps
     state = moving(jumping, start, velocity)
     jumping.advance(state, 1)
     return bool(state.totals["steps_in_contact"] > 0)
@@ -482,14 +489,14 @@ def test_snapshots_and_split_runs():
     model = coupled_model()
     choice = replace(CHOICE, time_step=1.2e-6, revolutions=2, snapshots_per_revolution=62, snapshot_revolutions=2)
     simulation = Simulation(model, 6000.0, ABRADABLE, choice)
-    assert len(simulation.problem.frequencies) < len(model.squared_frequencies)
+    assert len(simulation.problem.blade.frequencies) < len(model.squared_frequencies)
     whole_state, state = simulation.start(), simulation.start()
     whole = simulation.advance(whole_state, 2)
     parts = [simulation.advance(state, 1) for _ in range(2)]
     np.testing.assert_array_equal(np.concatenate([part.snapshots for part in parts]), whole.snapshots)
     np.testing.assert_array_equal(state.increment, whole_state.increment)
     assert state.totals["steps_in_contact"] > 100
-    radial = model.tip_displacement_operator[0, 0] @ simulation.problem.state_shapes
+    radial = model.tip_displacement_operator[0, 0] @ simulation.problem.contact.state_shapes
     largest = np.abs(whole.samples[:, 1]).max()
     np.testing.assert_allclose(whole.snapshots @ radial, whole.samples[:, 1], rtol=0, atol=1e-12 * largest)
 

@@ -196,7 +196,7 @@ def test_a_load_that_runs_round_the_ring(speed):
     n, frequency, mass, ratio, *_ = np.array([list(vars(mode).values()) for mode in MOVING]).T
     force_to_wave = np.exp(-1j * n * 0.7) / mass / (frequency**2 - (n * speed) ** 2 + 2j * ratio * frequency * n * speed)
     given_way = np.sum(force_to_wave * np.exp(1j * n * 0.7)).real
-    force = 1e-4 / (1.0 / simulation.problem.bar_stiffness + flexibility + given_way + 1.0 / 2e4**2)
+    force = 1e-4 / (1.0 / simulation.problem.casing.bar_stiffness + flexibility + given_way + 1.0 / 2e4**2)
     # phase by phase: cosines, then sines
     expected = np.concatenate([(force * force_to_wave).real, -(force * force_to_wave).imag])
     np.testing.assert_allclose(record.casing[-1], expected, rtol=0, atol=2e-4 * np.abs(expected).max())
@@ -210,14 +210,14 @@ def test_free_waves_keep_their_frequency_and_their_sense(jumps):
     scene = with_ring(Scene(Casing(1.0, lobes=0), damping_ratio=0.0, divergence_limit=10.0), modes)
     choice = replace(CHOICE, time_step=2e-5, revolutions=40, jumps=jumps)
     simulation = Simulation(with_static_modes(oscillator(5000.0), 1e-9), speed, scene, choice)
-    state, step = simulation.start(), simulation.problem.time_step
+    state, step = simulation.start(), simulation.problem.grid.time_step
     # q_c = cos(omega t), q_s = -sin(omega t): Z = e^(i omega t); and the ring breathes
     state.displacement[1:] = [1e-3, 1e-3, 0.0, 0.0]
     angles = np.array([4, 3]) * speed * step
     state.increment[1:] = 1e-3 * np.concatenate([2.0 * np.sin(0.5 * angles) ** 2, [-np.sin(angles[0]), 0.0]])
     record = simulation.advance(state, 40)
     assert (state.totals["steps_jumped"] > 0) == jumps
-    found = casing_waves(record.casing, simulation.problem.ring, speed, 40, 20)
+    found = casing_waves(record.casing, simulation.problem.casing.ring, speed, 40, 20)
     peaks = found["casing_order"][found["casing_amplitude"].argmax(axis=1)]
     assert peaks[0] == 4.0 and abs(peaks[1]) == 3.0
     assert found["casing_amplitude"].max(axis=1) == pytest.approx([1e-3, 5e-4], rel=1e-6)
@@ -261,16 +261,18 @@ def test_error_on_an_elastic_bar_falls_with_the_square_of_the_step():
         pressed = -stiffness * scene.casing.clearance * (1.0 - 0.2 * scene.casing.shape(np.zeros(1))[0])
         state.contact_force[:, 0] = force = pressed * np.array([-1.0, coefficient, 0.0])
         # u(-h) of what moves off from rest under this force
-        state.increment[:] = -0.5 * problem.recursion.inverse * np.einsum("dki,d->i", problem.displacement_operator, force)
+        state.increment[:] = (
+            -0.5 * problem.contact.recursion.inverse * np.einsum("dki,d->i", problem.contact.displacement_operator, force)
+        )
         record = simulation.advance(state, 1)
         count = len(record.samples)
-        time = (1 + np.arange(count)) * problem.steps_per_sample * problem.time_step
+        time = (1 + np.arange(count)) * problem.grid.steps_per_sample * problem.grid.time_step
         exact = solve_ivp(
             motion, (0.0, time[-1]), np.zeros(2 * len(own)), "DOP853", time, rtol=1e-11, atol=1e-16, max_step=1e-5
         ).y
         turned = np.array([ring.turned(exact[1 : len(own), i], speed * time[i]) for i in range(count)]) * ring.size
         errors.append(np.abs(record.casing - turned).max() / np.abs(turned).max())
-        steps.append(problem.time_step)
+        steps.append(problem.grid.time_step)
         assert np.abs(record.samples[:, 0] - exact[0]).max() < 30.0 * errors[-1] * np.abs(exact[0]).max()
     orders = np.diff(np.log(errors)) / np.diff(np.log(steps))
     assert errors[0] < 3e-2

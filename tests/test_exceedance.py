@@ -101,19 +101,20 @@ def test_a_row_of_direct_contact_is_a_range_and_has_no_mode():
     speeds = np.arange(900.0, 1401.0, 5.0)
     motion = 1e-3 * (1.0 + rising(speeds))
     found = find_interactions(response(speeds, drawn(rising(speeds), speeds), motion), None, CHOICE)
-    (row,) = [one for one in found if one.certain_length_rad_s > 0.0]
-    assert row.mode == ""
-    assert np.isnan(row.campbell_speed_rad_s)
-    assert np.isnan(row.width_above_yield_rad_s)
-    assert np.isnan(row.max_von_mises_pa)
+    (row,) = [one for one in found if one.all_revolutions.certain_length_rad_s > 0.0]
+    assert row.crossing.mode == ""
+    assert np.isnan(row.crossing.campbell_speed_rad_s)
+    assert np.isnan(row.last_revolution.width_above_yield_rad_s)
+    assert np.isnan(row.last_revolution.max_von_mises_pa)
     assert "direct contact" in row.note
-    assert row.certain_from_rad_s == pytest.approx(1050.0, abs=8.0)
-    assert row.certain_to_rad_s == pytest.approx(1300.0, abs=5.0)
-    assert row.possible_from_rad_s < row.certain_from_rad_s < row.certain_to_rad_s < row.possible_to_rad_s
-    assert row.median_von_mises_pa == pytest.approx(1.5e9)
-    assert row.peak_motion_m == pytest.approx(np.sqrt(2.0) * 2e-3)
+    assert row.all_revolutions.certain_from_rad_s == pytest.approx(1050.0, abs=8.0)
+    assert row.all_revolutions.certain_to_rad_s == pytest.approx(1300.0, abs=5.0)
+    every = row.all_revolutions
+    assert every.possible_from_rad_s < every.certain_from_rad_s < every.certain_to_rad_s < every.possible_to_rad_s
+    assert row.all_revolutions.median_von_mises_pa == pytest.approx(1.5e9)
+    assert row.peak_motion.peak_motion_m == pytest.approx(np.sqrt(2.0) * 2e-3)
     # the motion is halved, and no less, where the range ends
-    assert np.isnan(row.fall_speed_rad_s)
+    assert np.isnan(row.peak_motion.fall_speed_rad_s)
 
 
 def test_no_speed_above_yield_is_outside_of_a_row():
@@ -123,10 +124,11 @@ def test_no_speed_above_yield_is_outside_of_a_row():
     shares[20], last = 0.09, 1e9 * (0.5 + shares)
     last[40] = 1.1e9
     rows = with_ranges_above_yield(response(speeds, shares, np.ones(len(speeds)), last=last), [])
+    shown = [row.all_revolutions for row in rows]
     for speed in speeds[(shares > POSSIBLE) | (last > 1e9)]:
-        assert any(row.possible_from_rad_s <= speed <= row.possible_to_rad_s for row in rows), speed
-    assert [row.certain_length_rad_s > 0.0 for row in rows] == [False, False, True]
-    assert np.isnan(rows[0].possible_from_scatter_rad_s)
+        assert any(every.possible_from_rad_s <= speed <= every.possible_to_rad_s for every in shown), speed
+    assert [every.certain_length_rad_s > 0.0 for every in shown] == [False, False, True]
+    assert np.isnan(shown[0].possible_from_scatter_rad_s)
 
 
 def test_the_fall_of_a_branch_and_its_scatter():
@@ -135,8 +137,8 @@ def test_the_fall_of_a_branch_and_its_scatter():
     motion = np.where(speeds <= 1050.0, speeds / 1050.0, 0.3)
     motion[speeds == 1054.0] = 0.9
     (row,) = with_ranges_above_yield(response(speeds, np.where(speeds < 1060.0, 1.0, 0.0), motion), [])
-    assert (row.fall_speed_rad_s, row.fall_speed_scatter_rad_s) == (1053.0, 3.0)
-    assert 0.0 < row.peak_motion_scatter_m < 0.3
+    assert (row.peak_motion.fall_speed_rad_s, row.peak_motion.fall_speed_scatter_rad_s) == (1053.0, 3.0)
+    assert 0.0 < row.peak_motion.peak_motion_scatter_m < 0.3
 
 
 def test_a_lined_row_has_both_widths():
@@ -153,9 +155,9 @@ def test_a_lined_row_has_both_widths():
         {"mode": ["1B", "1T", "2B"], "engine_order": [4]},
     )
     (row,) = find_interactions(lined, campbell, CHOICE)
-    assert (row.mode, row.engine_order, row.note) == ("1B", 4, "")
-    assert (row.width_above_yield_rad_s, row.width_ever_above_yield_rad_s) == (3.0, 5.0)
-    assert row.certain_length_rad_s == pytest.approx(2.0 + 2.0 * 0.5 / 0.8)
+    assert (row.crossing.mode, row.crossing.engine_order, row.note) == ("1B", 4, "")
+    assert (row.last_revolution.width_above_yield_rad_s, row.all_revolutions.width_ever_above_yield_rad_s) == (3.0, 5.0)
+    assert row.all_revolutions.certain_length_rad_s == pytest.approx(2.0 + 2.0 * 0.5 / 0.8)
 
 
 def test_a_lined_blade_that_is_above_yield_without_a_peak_has_a_row():
@@ -167,7 +169,8 @@ def test_a_lined_blade_that_is_above_yield_without_a_peak_has_a_row():
         {"mode": ["1B", "1T", "2B"], "engine_order": [4]},
     )
     (row,) = find_interactions(rising_motion, campbell, CHOICE)
-    assert (row.possible_from_rad_s, row.possible_to_rad_s, row.certain_length_rad_s) == (1000.0, 1010.0, 10.0)
+    every = row.all_revolutions
+    assert (every.possible_from_rad_s, every.possible_to_rad_s, every.certain_length_rad_s) == (1000.0, 1010.0, 10.0)
     assert "without a peak" in row.note
 
 
@@ -176,8 +179,8 @@ def test_a_blade_that_always_diverges_has_no_motion_and_is_above_yield():
     nothing = np.full(len(speeds), np.nan)
     one = response(speeds, nothing, nothing, status=np.full(len(speeds), RunStatus.DIVERGED))
     (row,) = find_interactions(one, None, CHOICE)
-    assert row.status == "diverged" and row.engine_order is None
-    assert np.isnan([row.peak_motion_m, row.peak_motion_scatter_m]).all()
+    assert row.status == "diverged" and row.crossing.engine_order is None
+    assert np.isnan([row.peak_motion.peak_motion_m, row.peak_motion.peak_motion_scatter_m]).all()
     found = robustness(one)
     assert (found["length_certain_rad_s"], found["diverged_runs"]) == (100.0, 11)
     assert np.isnan(found["largest_rms_m"])

@@ -13,6 +13,7 @@ from r37core.config.scenes import Scenes
 from r37core.contact.benchmark import LINED, is_lined_benchmark
 from r37core.explorer import write_page
 from r37core.explorer.contents import explorer_contents
+from r37core.plans.dataset_plan import Datasets
 from r37core.plans.sweep_plan import Sweep
 from r37core.product.reading import read_settings
 from r37core.results import glossary
@@ -91,7 +92,7 @@ def test_the_benchmark_is_told_by_its_physics(root):
     scenes = {name: entry.scene() for name, entry in entries.items()}
     assert len(scenes) > 5
     assert [name for name, scene in scenes.items() if is_lined_benchmark(scene)] == ["abradable"]
-    assert Sweep(read_settings(root)).benchmark_scenes == ["abradable"]
+    assert Datasets(Sweep(read_settings(root))).benchmark_scenes == ["abradable"]
     assert not is_lined_benchmark(replace(LINED, damping_ratio=1e-3))
     assert is_lined_benchmark(replace(LINED, divergence_limit=0.05))
 

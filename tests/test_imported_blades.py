@@ -13,9 +13,11 @@ from r37core.config.key_locations import locations_of_keys
 from r37core.exchange.orientation import OURS
 from r37core.exports.plan import Exports, targets
 from r37core.plain import to_plain
+from r37core.plans.dataset_plan import Datasets
 from r37core.plans.import_plan import Imported
 from r37core.plans.paths import filled
 from r37core.plans.provenance import structure_hash
+from r37core.plans.simulation_plan import Simulations
 from r37core.plans.structure_plan import Structure
 from r37core.plans.sweep_plan import Sweep
 from r37core.product.reading import read_settings
@@ -209,8 +211,8 @@ def test_plan_of_imported_blades(three, tmp_path, monkeypatch):
     assert imported.locations(fan)["tip"].endswith(": Fan.tip")
     assert sweep.runs_with("stress") == [(blade, scene) for blade in ("Ref", "Fan") for scene in ("abradable", "direct")]
     assert "stress" not in sweep.results(given)
-    assert '"snapshots_per_revolution": 0' in sweep.task(given)
-    assert set(sweep.response_pictured(given)) == {"campbell", "rms"}
+    assert '"snapshots_per_revolution": 0' in Simulations(sweep).task(given)
+    assert set(Datasets(sweep).response_pictured(given)) == {"campbell", "rms"}
     with pytest.raises(ConfigError, match="the study needs the blade 'Fan'; allowed in this run: Ref"):
         blade_of(imported.settings, "Fan")
     monkeypatch.chdir(tmp_path / "config")

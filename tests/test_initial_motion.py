@@ -34,7 +34,7 @@ def motion(displacement=None, velocity=None):
 
 
 def times(problem, count):
-    return (1 + np.arange(count)) * problem.steps_per_sample * problem.time_step
+    return (1 + np.arange(count)) * problem.grid.steps_per_sample * problem.grid.time_step
 
 
 def flown(model, scene, chosen, start, speed=SPEED):
@@ -122,7 +122,7 @@ def test_free_flight_of_a_blade_is_that_of_its_matrices(model, contact, integrat
     for _ in range(50):
         now = step @ now
         expected.append(shapes @ now[:modes])
-    found = record.snapshots @ (contact.to_reduced @ simulation.problem.state_shapes).T
+    found = record.snapshots @ (contact.to_reduced @ simulation.problem.contact.state_shapes).T
     np.testing.assert_allclose(found, expected, rtol=0, atol=within * np.abs(expected).max())
     assert given.left_out(simulation.problem) < 1e-12
 
@@ -137,7 +137,7 @@ def test_what_is_not_stepped_is_left_out(model, contact):
         given = motion(displacement)
         simulation, state, record = flown(contact, FAR, chosen, given, speed)
         runs[name] = record.samples, given.left_out(simulation.problem), simulation.energy(state)
-    assert len(simulation.problem.frequencies) < len(frequencies)
+    assert len(simulation.problem.blade.frequencies) < len(frequencies)
     scale = np.abs(runs["slow"][0]).max()
     np.testing.assert_allclose(runs["fast"][0], 0.0, rtol=0, atol=1e-9 * scale)
     np.testing.assert_allclose(runs["both"][0], runs["slow"][0], rtol=0, atol=1e-9 * scale)
@@ -163,16 +163,16 @@ def test_free_flight_with_the_coriolis_force(coupled, engine):
     simulation, _, record = flown(model, scene, chosen, motion(*start), speed)
     problem = simulation.problem
     # of the modes that are stepped: the others' part of the force is left out
-    reduced = model.to_reduced @ problem.modes
+    reduced = model.to_reduced @ problem.blade.modes
     coupling = speed * reduced.T @ coupled.coriolis @ reduced
-    size = len(problem.frequencies)
-    system = np.block([[np.zeros((size, size)), np.eye(size)], [-np.diag(problem.frequencies**2), -coupling]])
+    size = len(problem.blade.frequencies)
+    system = np.block([[np.zeros((size, size)), np.eye(size)], [-np.diag(problem.blade.frequencies**2), -coupling]])
     step = expm(times(problem, 1)[0] * system)
     now, expected = np.concatenate([reduced.T @ coupled.mass @ part for part in start]), []
     for _ in range(50):
         now = step @ now
         expected.append(reduced @ now[:size])
-    found = record.snapshots @ (model.to_reduced @ problem.state_shapes).T
+    found = record.snapshots @ (model.to_reduced @ problem.contact.state_shapes).T
     np.testing.assert_allclose(found, expected, rtol=0, atol=1e-8 * np.abs(expected).max())
 
 
@@ -275,7 +275,7 @@ def test_a_start_inside_of_the_casing_is_refused(scene, engine, exact_gap):
     model, chosen = with_static_modes(oscillator(6000.0), 1e-9), choice(EXACT_MODAL, 2e-6, engine=engine)
     simulation = Simulation(model, SPEED, replace(scene, exact_gap=exact_gap), chosen)
     problem = simulation.problem
-    room = scene.casing.clearance - scene.casing.lobe(problem.theta(0), 0.0, 1.0)[0]
+    room = scene.casing.clearance - scene.casing.lobe(problem.casing.theta(0), 0.0, 1.0)[0]
     assert 0.0 < room < scene.casing.clearance
     state = simulation.start(motion([room]))
     assert state.displacement[0] == room

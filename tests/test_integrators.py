@@ -74,7 +74,7 @@ def test_a_pushed_oscillator_against_an_ode_solver(integrator):
     for step in (1e-6, 1e-7):
         simulation = Simulation(model, speed, scene, IntegrationChoice(step, 3, 500, integrator=integrator))
         ours = simulation.advance(simulation.start(), 3).samples[:, 0]
-        time = (1 + np.arange(len(ours))) * simulation.problem.steps_per_sample * simulation.problem.time_step
+        time = (1 + np.arange(len(ours))) * simulation.problem.grid.steps_per_sample * simulation.problem.grid.time_step
         exact = solve_ivp(motion, (0.0, time[-1]), [0.0, 0.0], t_eval=time, rtol=1e-10, atol=1e-14, max_step=1e-5).y[0]
         errors.append(np.abs(ours - exact).max() / np.abs(exact).max())
     assert errors[0] < 0.02
@@ -101,7 +101,7 @@ def test_exact_modal_steps_have_no_limit_from_the_blade(contact):
     scene = Scene(Casing(1.0, lobes=0), damping_ratio=5e-4)
     simulation = Simulation(contact, 1000.0, scene, IntegrationChoice(8.0 / highest, 4, 62, integrator=EXACT_MODAL))
     state = simulation.start()
-    state.displacement[:] = 1e-6 / (1.0 + np.arange(len(simulation.problem.frequencies)))
+    state.displacement[:] = 1e-6 / (1.0 + np.arange(len(simulation.problem.blade.frequencies)))
     start = simulation.energy(state)
     simulation.advance(state, 4)
     assert 0.0 < simulation.energy(state) < start

@@ -77,49 +77,52 @@ def joined(data):
 def test_a_row_of_each_branch():
     branches = [(840.0, 6e-4, 7), (1265.0, 8e-4, 5), (1715.0, 2e-3, 4)]
     rows = found(response(tangential=branches))
-    assert [row.title for row in rows] == ["1B/7", "1B/5", "1B/4"]
-    assert [row.peak_speed_rad_s for row in rows] == [840.0, 1265.0, 1715.0]
-    np.testing.assert_allclose([row.shift_rad_s for row in rows], [34.0, 52.0, 43.0])
-    assert {row.direction for row in rows} == {"tangential"}
+    assert [row.crossing.title for row in rows] == ["1B/7", "1B/5", "1B/4"]
+    assert [row.peak.peak_speed_rad_s for row in rows] == [840.0, 1265.0, 1715.0]
+    np.testing.assert_allclose([row.peak.shift_rad_s for row in rows], [34.0, 52.0, 43.0])
+    assert {row.crossing.direction for row in rows} == {"tangential"}
     last = rows[-1]
-    assert last.drop == pytest.approx(1.0, abs=0.02)
+    assert last.peak.drop == pytest.approx(1.0, abs=0.02)
     # stress is twice yield at the peak, yield at half its height: 25 rad/s before it; after it the fall is within one step
-    assert last.width_above_yield_rad_s == pytest.approx(25.0 + 5.0 * 1.0 / 1.99, rel=0.02)
-    assert last.share_above_yield == pytest.approx(1.0)
-    assert last.max_von_mises_pa == pytest.approx(2e9, rel=1e-3)
-    assert (rows[0].width_above_yield_rad_s, last.status) == (0.0, "completed")
-    assert np.isnan([rows[0].share_above_yield, last.max_wear_m]).all()
+    assert last.last_revolution.width_above_yield_rad_s == pytest.approx(25.0 + 5.0 * 1.0 / 1.99, rel=0.02)
+    assert last.last_revolution.share_above_yield == pytest.approx(1.0)
+    assert last.last_revolution.max_von_mises_pa == pytest.approx(2e9, rel=1e-3)
+    assert (rows[0].last_revolution.width_above_yield_rad_s, last.status) == (0.0, "completed")
+    assert np.isnan([rows[0].last_revolution.share_above_yield, last.max_wear_m]).all()
 
 
 def test_single_speeds_below_yield_do_not_end_the_range():
     """Near the end of a branch the motion is chaotic: width is from the first to the last, the share says what is above."""
     data = response(tangential=[(1715.0, 4e-3, 4)], step=1.0)
     whole = found(data)[0]
-    assert whole.width_above_yield_rad_s == pytest.approx(37.5 + 1.0 * 3.0 / 3.99, rel=0.01)
+    assert whole.last_revolution.width_above_yield_rad_s == pytest.approx(37.5 + 1.0 * 3.0 / 3.99, rel=0.01)
     for speed in (1713.0, 1714.0):
         for name in ("max_von_mises", "rms_tangential"):
             data[name].loc[{"speed": speed}] *= 0.1
     broken = found(data)[0]
-    assert broken.width_above_yield_rad_s == whole.width_above_yield_rad_s
+    assert broken.last_revolution.width_above_yield_rad_s == whole.last_revolution.width_above_yield_rad_s
     # of the ratios 3.76, 0.384, 0.392 and 4 only the ends of the first and last interval are above yield
     below = 1.0 + (1.0 - 0.384) / (3.76 - 0.384) + (1.0 - 0.392) / (4.0 - 0.392)
-    assert broken.share_above_yield == pytest.approx(1.0 - below / whole.width_above_yield_rad_s, rel=1e-3)
+    assert broken.last_revolution.share_above_yield == pytest.approx(
+        1.0 - below / whole.last_revolution.width_above_yield_rad_s, rel=1e-3
+    )
 
 
 def test_the_largest_stress_is_that_of_the_interaction():
     data = response(tangential=[(1715.0, 2e-3, 4), (900.0, 1e-3, 2)])
     data["max_von_mises"].loc[{"speed": [1705.0, 880.0]}] = [5e9, 9e9]
     row = found(data)[-1]
-    assert (row.max_von_mises_pa, row.max_von_mises_speed_rad_s, row.peak_speed_rad_s) == (5e9, 1705.0, 1715.0)
+    stress = row.last_revolution
+    assert (stress.max_von_mises_pa, stress.max_von_mises_speed_rad_s, row.peak.peak_speed_rad_s) == (5e9, 1705.0, 1715.0)
 
 
 def test_a_drop_need_not_follow_at_once():
     data = response(tangential=[(1001.0, 2e-3, 6)], step=1.0)
     data["rms_tangential"].loc[{"speed": slice(1002.0, 1005.0)}] = 0.97 * 2e-3
-    assert found(data)[0].drop == pytest.approx(1.0 - np.hypot(1e-5, 1e-5) / 2e-3, rel=1e-4)
+    assert found(data)[0].peak.drop == pytest.approx(1.0 - np.hypot(1e-5, 1e-5) / 2e-3, rel=1e-4)
     # but not anywhere: 24 rad/s above the peak
     data["rms_tangential"].loc[{"speed": slice(1002.0, 1026.0)}] = 0.97 * 2e-3
-    assert found(data)[0].drop == pytest.approx(0.03, rel=1e-3)
+    assert found(data)[0].peak.drop == pytest.approx(0.03, rel=1e-3)
 
 
 def test_a_drop_is_that_of_the_row_s_own_peak():
@@ -127,16 +130,18 @@ def test_a_drop_is_that_of_the_row_s_own_peak():
     data = response(normal=[(1000.0, 1e-4, 2)], tangential=[(1715.0, 1e-2, 4)])
     data["rms_tangential"].loc[{"speed": 1005.0}] = 5e-4
     row = found(data)[0]
-    assert row.peak_speed_rad_s == 1000.0
-    assert row.drop == pytest.approx(1.0 - np.sqrt(2.0) * 1e-5 / np.hypot(1e-4, 1e-5))
+    assert row.peak.peak_speed_rad_s == 1000.0
+    assert row.peak.drop == pytest.approx(1.0 - np.sqrt(2.0) * 1e-5 / np.hypot(1e-4, 1e-5))
 
 
 def test_peaks_without_a_crossing_are_kept_apart():
     rows = found(response(tangential=[(900.0, 1e-3, 2), (1500.0, 1.2e-3, 2)]))
-    assert [(row.mode, row.engine_order, row.peak_speed_rad_s) for row in rows] == [("", 2, 900.0), ("", 2, 1500.0)]
-    assert np.isnan([row.campbell_speed_rad_s for row in rows]).all()
+    assert [(row.crossing.mode, row.crossing.engine_order) for row in rows] == [("", 2), ("", 2)]
+    assert [row.peak.peak_speed_rad_s for row in rows] == [900.0, 1500.0]
+    assert np.isnan([row.crossing.campbell_speed_rad_s for row in rows]).all()
     # as far apart as one crossing's peaks may be they are one, and of two orders they are two
-    assert [row.peak_speed_rad_s for row in found(response(tangential=[(1400.0, 1e-3, 2), (1500.0, 1.2e-3, 2)]))] == [1500.0]
+    (row,) = found(response(tangential=[(1400.0, 1e-3, 2), (1500.0, 1.2e-3, 2)]))
+    assert row.peak.peak_speed_rad_s == 1500.0
     assert len(found(response(tangential=[(1400.0, 1e-3, 3), (1500.0, 1.2e-3, 2)]))) == 2
 
 
@@ -145,59 +150,60 @@ def test_one_peak_is_listed_once():
     for normal in ([(1640.0, 5e-5, 3)], [(1641.0, 5e-5, 3)]):
         data = response(normal, [(1640.0, 9e-3, 4)], step=1.0)
         (row,) = found(data)
-        assert (row.title, row.peak_speed_rad_s) == ("1B/4", 1640.0)
+        assert (row.crossing.title, row.peak.peak_speed_rad_s) == ("1B/4", 1640.0)
         assert titles([row]) == {1640.0: "1B/4"}
-        assert row.direction == ("both" if normal[0][0] == 1640.0 else "tangential")
+        assert row.crossing.direction == ("both" if normal[0][0] == 1640.0 else "tangential")
 
 
 def test_peaks_of_one_crossing_are_one_interaction():
     (row,) = found(response(tangential=[(1700.0, 2e-3, 4), (1755.0, 3e-3, 4)], normal=[(1722.0, 1e-3, 3)]))
-    assert (row.title, row.peak_speed_rad_s) == ("1B/4", 1755.0)
+    assert (row.crossing.title, row.peak.peak_speed_rad_s) == ("1B/4", 1755.0)
 
 
 def test_an_interaction_that_moves_the_tip_tangentially_only():
     """As of S100: the normal motion has its peak elsewhere, with another order; direction and its spectrum go together."""
     rows = found(response([(1700.0, 5e-5, 2)], [(1640.0, 9e-3, 4)]))
-    assert [(row.title, row.direction) for row in rows] == [("1B/4", "tangential"), ("engine order 2", "normal")]
-    assert rows[0].peak_rms_tangential_m == pytest.approx(9e-3)
-    assert rows[1].peak_rms_normal_m == pytest.approx(5e-5)
+    met = [row.crossing for row in rows]
+    assert [(crossing.title, crossing.direction) for crossing in met] == [("1B/4", "tangential"), ("engine order 2", "normal")]
+    assert rows[0].peak.peak_rms_tangential_m == pytest.approx(9e-3)
+    assert rows[1].peak.peak_rms_normal_m == pytest.approx(5e-5)
 
 
 def test_the_end_of_the_speeds_is_no_peak():
     """It ends the reach of the interaction before it all the same."""
     data = response(tangential=[(1940.0, 1e-3, 2), (2000.0, 3e-3, 4)])
     (row,) = found(data)
-    assert (row.peak_speed_rad_s, row.max_von_mises_speed_rad_s) == (1940.0, 1940.0)
+    assert (row.peak.peak_speed_rad_s, row.last_revolution.max_von_mises_speed_rad_s) == (1940.0, 1940.0)
     falling = response(tangential=[(1265.0, 1e-3, 5)])
     falling["rms_tangential"][0] = 5e-3
-    assert [one.peak_speed_rad_s for one in found(falling)] == [1265.0]
+    assert [one.peak.peak_speed_rad_s for one in found(falling)] == [1265.0]
     # a fall before the end, by the prominence, makes it a peak
-    assert [one.peak_speed_rad_s for one in found(response(tangential=[(1995.0, 3e-3, 4)]))] == [1995.0]
+    assert [one.peak.peak_speed_rad_s for one in found(response(tangential=[(1995.0, 3e-3, 4)]))] == [1995.0]
 
 
 def test_what_answers_beyond_a_quiet_range_is_not_part_of_it():
     """A peak too small to be listed, far above one that is, neither widens nor worsens it."""
     data = response([(1265.0, 5e-5, 5)], [(900.0, 30e-3, 3), (1265.0, 5e-3, 5), (1400.0, 2e-3, 2)])
     row = found(data)[1]
-    assert row.title == "1B/5"
-    assert row.width_above_yield_rad_s < 50.0
+    assert row.crossing.title == "1B/5"
+    assert row.last_revolution.width_above_yield_rad_s < 50.0
     data["max_von_mises"].loc[{"speed": 1400.0}] = 90e9
     assert found(data)[1] == row
 
 
 def test_the_crossing_is_the_nearest_and_the_order_the_strongest_whole_one():
     (row,) = found(response(tangential=[(1685.0, 1e-3, 4)]).drop_vars(["amplitude", "amplitude_tangential"]))
-    assert row.title == "1T/9"
+    assert row.crossing.title == "1T/9"
     # 1B/4 at 1672 is 3 above and 1T/9 at 1680 is 11: nearest, not least
     (row,) = found(response(tangential=[(1670.0, 1e-3, 4)]).drop_vars(["amplitude", "amplitude_tangential"]))
-    assert row.title == "1B/4"
+    assert row.crossing.title == "1B/4"
     data = response(tangential=[(1715.0, 2e-3, 3.98)])
     data["amplitude_tangential"].loc[{"engine_order": 0.0}] = 1.0
-    assert found(data)[0].title == "1B/4"
+    assert found(data)[0].crossing.title == "1B/4"
     (row,) = found(response(tangential=[(1715.0, 1e-3, 2)]))
-    assert (row.title, row.mode) == ("engine order 2", "")
+    assert (row.crossing.title, row.crossing.mode) == ("engine order 2", "")
     (alone,) = found(response(tangential=[(1450.0, 1e-3, 2)]).drop_vars(["amplitude", "amplitude_tangential"]))
-    assert alone.title == "a peak of its own"
+    assert alone.crossing.title == "a peak of its own"
 
 
 def test_a_run_that_diverged_is_above_yield():
@@ -206,7 +212,7 @@ def test_a_run_that_diverged_is_above_yield():
         data[name].loc[{"speed": 1720.0}] = np.nan
     data["status"].loc[{"speed": 1720.0}] = RunStatus.DIVERGED
     (row,) = found(data)
-    assert row.width_above_yield_rad_s == pytest.approx(1720.0 - 1677.5, rel=1e-3)
+    assert row.last_revolution.width_above_yield_rad_s == pytest.approx(1720.0 - 1677.5, rel=1e-3)
     assert row.status == "diverged"
 
 

@@ -80,15 +80,15 @@ def test_no_contact_is_missed(contact, seed, excess, exact, lobes, cone_angle):
 def largest_reach(model, scene, choice, displacement, increment):
     """The smallest clearance that a free run never uses up, by the recursion in NumPy."""
     problem = Problem(model, 1500.0, scene, choice)
-    keep, pull = problem.recursion.keep, problem.recursion.pull
-    cosine, sine = np.cos(problem.cone_angle), np.sin(problem.cone_angle)
-    u, d = np.empty((problem.steps_per_revolution + 1, len(keep))), increment
+    keep, pull = problem.contact.recursion.keep, problem.contact.recursion.pull
+    cosine, sine = np.cos(problem.casing.cone_angle), np.sin(problem.casing.cone_angle)
+    u, d = np.empty((problem.grid.steps_per_revolution + 1, len(keep))), increment
     u[0] = displacement
-    for n in range(problem.steps_per_revolution):
+    for n in range(problem.grid.steps_per_revolution):
         d = keep * d - pull * u[n]
         u[n + 1] = u[n] + d
-    position, tangential, meridional = (u[1:] @ rows.T for rows in problem.displacement_operator)
-    turned = 2.0 * np.pi * np.arange(1, len(u)) / problem.steps_per_revolution
+    position, tangential, meridional = (u[1:] @ rows.T for rows in problem.contact.displacement_operator)
+    turned = 2.0 * np.pi * np.arange(1, len(u)) / problem.grid.steps_per_revolution
     theta = model.theta - turned[:, None]
     if scene.exact_gap:
         from_axis = model.radius + cosine * position + sine * meridional

@@ -7,6 +7,7 @@ import os
 import subprocess
 import sys
 from itertools import pairwise, product
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -18,7 +19,7 @@ from r37core.native import ObjectCodeError, Sources, cached_object, load_functio
 from r37core.plain import to_plain
 from r37core.time_integration.compiled import engine as compiled
 from r37core.time_integration.compiled.kind import Kind
-from r37core.time_integration.compiled.layout import PACE_ROWS, capacity_of, integration_record, pace_record
+from r37core.time_integration.compiled.layout import MODAL_ROWS, capacity_of, constants_record, integration_record
 from r37core.time_integration.integrators import EXACT_MODAL, INTEGRATORS
 from r37core.time_integration.simulate import Simulation
 
@@ -186,14 +187,14 @@ def test_no_record_has_more_than_60_fields():
     assert max(sizes) <= 60
 
 
-def test_a_pace_begins_with_its_rows_of_modes():
-    """As they are copied from a table of paces, whose rows are as long as there are modes."""
+def test_constants_of_a_speed_begin_with_its_rows_of_modes():
+    """As they are copied from a table of constants, whose rows are as long as there are modes."""
     of_nodes = ("coupling", "response", "columns", "clearance")
     for modes in (8, 40, 96):
-        kind = pace_record(modes, 8)
+        kind = constants_record(modes, 8)
         of_modes = [name for name in kind.names if kind[name].shape[-1] == modes and name not in of_nodes]
         assert list(kind.names[: len(of_modes)]) == of_modes
-        assert kind.fields[kind.names[len(of_modes)]][1] == 8 * PACE_ROWS * modes
+        assert kind.fields[kind.names[len(of_modes)]][1] == 8 * MODAL_ROWS * modes
 
 
 def test_arrays_of_the_record_are_aligned_and_apart():
@@ -241,10 +242,41 @@ def test_blades_of_any_size_take_one_program(integrator):
                 model = with_static_modes(model, 1e-9)
             simulation = Simulation(model, 12_000.0, DIRECT, choice)
             programs.append(simulation.engine._advance)
-            sizes.append(len(simulation.problem.frequencies))
+            sizes.append(len(simulation.problem.blade.frequencies))
             state = simulation.start()
             state.displacement[:] = 1e-7
             simulation.advance(state, 1)
             assert np.isfinite(state.displacement).all()
     assert sizes == [1, 1, 5, 5, 40, 40, 96, 96]
     assert all(program is programs[0] for program in programs)
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(
+    "+fma" not in native.this_processor()[1], reason="an x86-64 processor that fuses multiplication and addition"
+)
+def test_programs_for_narrower_vectors_give_the_same_bits():
+    """Of direct contact with vector friction: sums are made as they stand, however wide a vector is."""
+    code = (
+        "import hashlib\n"
+        "from defaults import IntegrationChoice\n"
+        "from integration_cases import DIRECT, random_model, with_static_modes\n"
+        "from r37core.time_integration.simulate import Simulation\n"
+        "choice = IntegrationChoice(2e-7, 2, 31, integrator='exact_modal')\n"
+        "simulation = Simulation(with_static_modes(random_model(8), 1e-9), 12_000.0, DIRECT, choice)\n"
+        "state = simulation.start()\n"
+        "record = simulation.advance(state, 2)\n"
+        "assert state.totals['steps_in_contact'] > 100\n"
+        "print(hashlib.sha256(record.samples.tobytes() + state.totals.tobytes()).hexdigest())"
+    )
+    results = [
+        subprocess.run(
+            [sys.executable, "-c", code],
+            check=True,
+            stdout=subprocess.PIPE,
+            text=True,
+            env=os.environ | {"PYTHONPATH": str(Path(__file__).parent), "NUMBA_CPU_NAME": name},
+        ).stdout
+        for name in ("host", "x86-64-v3")
+    ]
+    assert results[0] == results[1]

@@ -71,8 +71,8 @@ def integrated(model, scene, steps, integrator, static_above=1.0):
         TIMES[-1] / steps, 1, SAMPLES, integrator=integrator, engine="reference", static_above=static_above
     )
     simulation = Simulation(model, SPEED, scene, choice)
-    assert simulation.problem.steps_per_revolution == steps
-    assert len(simulation.problem.frequencies) == len(SLOW)
+    assert simulation.problem.grid.steps_per_revolution == steps
+    assert len(simulation.problem.blade.frequencies) == len(SLOW)
     state = simulation.start()
     return simulation.advance(state, 1).samples[:, 0], state.wear
 

@@ -59,11 +59,11 @@ def test_contact_statistics_counted_step_by_step():
     scene = Scene(Casing(1e-4, rise_fraction=0.0), damping_ratio=0.0)
     model = oscillator(frequency)
     simulation = Simulation(model, SPEED, scene, choice)
-    assert simulation.problem.steps_per_sample == 1
+    assert simulation.problem.grid.steps_per_sample == 1
     kept = run_speed(model, SPEED, scene, choice, (), spectrum_highest_order=10, wear_angles=10)
     u = simulation.advance(simulation.start(), 2).samples[:, 0]
     u = np.concatenate([[0.0, 0.0], u])
-    h = simulation.problem.time_step
+    h = simulation.problem.grid.time_step
     # the force that the recursion of central differences leaves over, for a unit mass
     force = (u[2:] - 2.0 * u[1:-1] + u[:-2]) / h**2 + frequency**2 * u[1:-1]
     pushed = np.abs(force) > 1e-6 * np.abs(force).max()
@@ -136,7 +136,7 @@ def test_step_limit_of_a_lining_is_four_thirds():
     assert np.abs(np.roots([1.0, -2.0 * (1.0 - 1.33), 1.0 - 1.33])).max() < 1.0
     assert np.abs(np.roots([1.0, -2.0 * (1.0 - 1.34), 1.0 - 1.34])).max() > 1.0
     model, choice = oscillator(6000.0), IntegrationChoice(1e-6, 1, 62)
-    step = Problem(model, SPEED, DIRECT, choice).time_step
+    step = Problem(model, SPEED, DIRECT, choice).grid.time_step
     soft = replace(LINING, elastic_modulus=1.0)
     stiffness_per_pascal = soft.area(float(model.radius[0])) / soft.thickness
     for share, refused in ((0.999, False), (1.001, True)):

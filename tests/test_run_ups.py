@@ -182,10 +182,10 @@ def test_free_motion_is_that_of_the_whole_stiffness_at_every_speed(monkeypatch):
             blade, replace(FREE, damping_ratio=0.0), choice, RunUp(start, stop, revolutions, 1, 0, worn=False)
         )
         integration.intervals = integration.intervals[1:]
-        modes = Simulation(blade, integration.intervals[0].speed, FREE, choice).problem.modes[:8]
+        modes = Simulation(blade, integration.intervals[0].speed, FREE, choice).problem.blade.modes[:8]
         integration.state.displacement[:] = modes.T @ first
         samples_of(integration)
-        modes = Simulation(blade, integration.intervals[-1].speed, FREE, choice).problem.modes[:8]
+        modes = Simulation(blade, integration.intervals[-1].speed, FREE, choice).problem.blade.modes[:8]
         errors.append(np.abs(modes @ integration.state.displacement - exact).max() / np.abs(exact).max())
     assert errors[0] < 0.05
     assert errors[1] < 0.1 * errors[0]
@@ -292,7 +292,7 @@ def test_modes_that_pass_the_highest_frequency_come_and_go(contact):
     second = contact.modes_at(1650.0)[0][1] / 2.0 / np.pi
     choice = replace(LONG, highest_frequency=second)
     low, high = (Problem(contact, speed, NARROW, choice) for speed in (1500.0, 1800.0))
-    assert (len(low.frequencies), len(high.frequencies)) == (2, 1)
+    assert (len(low.blade.frequencies), len(high.blade.frequencies)) == (2, 1)
     found = recorded(contact, NARROW, choice, RunUp(1500.0, 1800.0, 3.0, 1, 0, worn=False))
     assert found["status"] == 0
     assert abs(found["energy_residual"]) < 1e-10 * (abs(found["contact_work"]) + found["damping_loss"])
@@ -325,11 +325,12 @@ def test_steps_are_so_short_that_every_mode_tells_its_velocity(contact):
     choice = replace(LONG, time_step=1.6e-6, shorten=True)
     scene = replace(ABRADABLE, lining=None, friction=None)
     assert (
-        resolved_problem(contact, 1600.0, scene, choice).time_step == stable_problem(contact, 1600.0, scene, choice).time_step
+        resolved_problem(contact, 1600.0, scene, choice).grid.time_step
+        == stable_problem(contact, 1600.0, scene, choice).grid.time_step
     )
     scene = replace(scene, casing=replace(scene.casing, ring=(RingMode(2, 2.8e6, 1e3, 0.0),)))
     problem = resolved_problem(contact, 1600.0, scene, choice)
-    assert 2.5 < problem.highest_frequency * problem.time_step < 3.0
+    assert 2.5 < problem.contact.highest_frequency * problem.grid.time_step < 3.0
     with pytest.raises(UnstableStepError, match=r"time_step_s: 1\.6e-06 s; allowed in run-ups: below 1\.07\d+e-06 s"):
         resolved_problem(contact, 1600.0, scene, replace(choice, shorten=False))
 

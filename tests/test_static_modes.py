@@ -35,15 +35,15 @@ def problem_of(model, coefficient, step, **others):
 def test_what_is_stepped_and_what_is_static_are_the_whole_flexibility(contact):
     """Normal displacement per force along each direction, by the stiffness matrix of the speed."""
     problem = problem_of(contact, 0.15, 3.2e-6)
-    rows, nodes = problem.operator_at_rest, len(contact.theta)
+    rows, nodes = problem.contact.operator_at_rest, len(contact.theta)
     stiffness = np.diag(contact.squared_frequencies) + 1600.0**2 * contact.stiffness_per_square
     whole = np.stack([along @ np.linalg.solve(stiffness, rows[0].T) for along in rows])
-    stepped = rows @ problem.modes / problem.frequencies
-    found = problem.contact_flexibility + stepped @ stepped[0].T
+    stepped = rows @ problem.blade.modes / problem.blade.frequencies
+    found = problem.contact.contact_flexibility + stepped @ stepped[0].T
     assert found.shape == (3, nodes, nodes)
     np.testing.assert_allclose(found, whole, rtol=0, atol=1e-9 * np.abs(whole).max())
     # most of it moves slowly
-    assert np.abs(problem.contact_flexibility).max() < 0.2 * np.abs(whole).max()
+    assert np.abs(problem.contact.contact_flexibility).max() < 0.2 * np.abs(whole).max()
 
 
 def opening(flexibility, coefficient, angle):
@@ -57,9 +57,9 @@ def opening(flexibility, coefficient, angle):
 def test_contact_forces_of_a_blade_are_unique(contact, step):
     """Every principal minor is positive, whichever way the nodes slide together: theorem 3.3.7 of Cottle, Pang and Stone."""
     problem = problem_of(contact, 0.15, step)
-    assert definiteness(problem.contact_flexibility, 0.15) > SMALLEST_DEFINITENESS
+    assert definiteness(problem.contact.contact_flexibility, 0.15) > SMALLEST_DEFINITENESS
     for angle in np.linspace(0.0, 2.0 * np.pi, 7):
-        matrix = opening(problem.contact_flexibility, 0.15, np.full(8, angle))
+        matrix = opening(problem.contact.contact_flexibility, 0.15, np.full(8, angle))
         for count in range(1, 9):
             chosen = [np.ix_(nodes, nodes) for nodes in combinations(range(8), count)]
             assert np.linalg.det([matrix[one] / matrix.diagonal().max() for one in chosen]).min() > 0.0
@@ -86,7 +86,7 @@ def test_static_modes_are_those_that_the_step_does_not_follow(contact):
         counts.append(stepped_modes(frequencies, rows, 0.15, step, 1.0, most))
         assert counts[-1] % 8 == 0
         assert frequencies[counts[-1] - 1] * step <= 2.0
-        assert len(problem_of(contact, 0.15, step).frequencies) == counts[-1]
+        assert len(problem_of(contact, 0.15, step).blade.frequencies) == counts[-1]
     assert counts == sorted(counts, reverse=True) and counts[0] > counts[1] > counts[2] > counts[3]
     # a step that follows every mode still leaves the forces their flexibility
     assert frequencies[-1] * 1e-8 < 1.0 and counts[0] < len(frequencies)
@@ -99,7 +99,7 @@ def test_static_modes_are_those_that_the_step_does_not_follow(contact):
 
 
 def test_strong_friction_steps_more_modes_or_shortens_the_step(contact):
-    weak, strong = (len(problem_of(contact, coefficient, 2.9e-6).frequencies) for coefficient in (0.15, 0.8))
+    weak, strong = (len(problem_of(contact, coefficient, 2.9e-6).blade.frequencies) for coefficient in (0.15, 0.8))
     assert strong > weak
     with pytest.raises(
         UnstableStepError, match=r"time_step_s: 6\.4e-06 s, not below (\S+) s: .*friction of 0\.5 modes up to"
@@ -184,7 +184,7 @@ def test_forces_settle_where_static_modes_move_all_nodes_together(shared):
     scene, found = Scene(Casing(1e-4, lobes=1, amplitude=1.5, width=1e6, rise_fraction=0.0, cone_angle=0.0)), []
     for engine in ("compiled", "reference"):
         simulation = Simulation(model, 6000.0, scene, replace(CHOICE, time_step=6e-7, engine=engine))
-        assert definiteness(simulation.problem.contact_flexibility, 0.0) > SMALLEST_DEFINITENESS
+        assert definiteness(simulation.problem.contact.contact_flexibility, 0.0) > SMALLEST_DEFINITENESS
         state = simulation.start()
         found.append(simulation.advance(state, 1).samples)
         assert state.totals["steps_in_contact"] > 0.1 * state.totals["steps"]

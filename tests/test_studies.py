@@ -279,8 +279,8 @@ def test_every_extreme_has_a_name_of_its_own():
 
 def test_modes_that_are_left_out(contact):
     problem = Problem(contact, 1500.0, DIRECT, IntegrationChoice(2e-7, 1, 62, highest_frequency=2e4))
-    assert problem.frequencies[-1] <= 2 * np.pi * 2e4
-    assert 5 < len(problem.frequencies) < len(contact.squared_frequencies)
+    assert problem.blade.frequencies[-1] <= 2 * np.pi * 2e4
+    assert 5 < len(problem.blade.frequencies) < len(contact.squared_frequencies)
 
 
 @pytest.mark.parametrize("instants", [60, 1000])
@@ -389,7 +389,7 @@ def test_no_priced_run_compiles(tmp_path, monkeypatch):
     def timed(model, speed, scene, choice, *given, **kept):
         before = _program.cache_info().misses
         run = run_speed(model, speed, scene, choice, *given, **kept)
-        counts.append(len(Problem(model, speed, scene, choice).frequencies))
+        counts.append(len(Problem(model, speed, scene, choice).blade.frequencies))
         compiled.append(_program.cache_info().misses - before)
         return run
 

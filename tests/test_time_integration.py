@@ -32,7 +32,7 @@ def run(model, scene, choice, speed=1000.0, displacement=None, velocity=0.0):
     state = simulation.start()
     if displacement is not None:
         state.displacement[:] = displacement
-        state.increment[:] = simulation.problem.time_step * velocity
+        state.increment[:] = simulation.problem.grid.time_step * velocity
     return simulation, state, simulation.advance(state, choice.revolutions)
 
 
@@ -41,7 +41,7 @@ def test_free_decay():
     frequency, ratio = 6000.0, 0.02
     scene = Scene(Casing(1.0, lobes=0), damping_ratio=ratio)
     simulation, _, record = run(oscillator(frequency), scene, IntegrationChoice(1e-7, 3, 500), displacement=1e-3)
-    time = (1 + np.arange(len(record.samples))) * simulation.problem.steps_per_sample * simulation.problem.time_step
+    time = (1 + np.arange(len(record.samples))) * simulation.problem.grid.steps_per_sample * simulation.problem.grid.time_step
     damped = frequency * np.sqrt(1 - ratio**2)
     phase = np.cos(damped * time) + ratio * frequency / damped * np.sin(damped * time)
     exact = 1e-3 * np.exp(-ratio * frequency * time) * phase
@@ -57,7 +57,9 @@ def test_mass_against_a_rigid_stop():
     errors = []
     for step in (4e-7, 1e-7):
         simulation, state, record = run(oscillator(frequency), scene, IntegrationChoice(step, 2, 1000), displacement=start)
-        time = (1 + np.arange(len(record.samples))) * simulation.problem.steps_per_sample * simulation.problem.time_step
+        time = (
+            (1 + np.arange(len(record.samples))) * simulation.problem.grid.steps_per_sample * simulation.problem.grid.time_step
+        )
         hit = np.arccos(stop / start) / frequency
         exact = np.where(time < hit, start * np.cos(frequency * time), stop * np.cos(frequency * (time - hit)))
         errors.append(np.abs(record.samples[:, 0] - exact).max())
@@ -106,11 +108,11 @@ def test_compiled_time_integration_is_the_reference(contact, name, way):
     states = []
     for engine in ENGINES:
         simulation = Simulation(contact, speed, scene, replace(choice, engine=engine))
-        stepped, of_model = len(simulation.problem.frequencies), len(contact.squared_frequencies)
+        stepped, of_model = len(simulation.problem.blade.frequencies), len(contact.squared_frequencies)
         assert (stepped < of_model) == (integrator == EXACT_MODAL)
         state = simulation.start()
         if name == "free":
-            state.displacement[:] = 1e-5 / (1 + np.arange(len(simulation.problem.frequencies)))
+            state.displacement[:] = 1e-5 / (1 + np.arange(len(simulation.problem.blade.frequencies)))
         states.append((state, simulation.advance(state, choice.revolutions)))
     (ours, record), (theirs, plain) = states
     largest = np.abs(plain.samples).max()
@@ -193,7 +195,7 @@ def test_discrete_energy_tends_to_the_exact_one_with_the_step():
         choice = IntegrationChoice(step, 2, 100)
         simulation, state, _ = run(oscillator(frequency), scene, choice, displacement=1e-3)
         exact = 0.5 * (frequency * 1e-3) ** 2
-        lost = exact * (1.0 - np.exp(-2.0 * ratio * frequency * simulation.problem.duration))
+        lost = exact * (1.0 - np.exp(-2.0 * ratio * frequency * simulation.problem.grid.duration))
         errors.append(abs(state.totals["loss"] / lost - 1.0))
         assert simulation.energy(state) + state.totals["loss"] == pytest.approx(exact, rel=1e-10)
     assert errors[0] < 0.01
@@ -270,7 +272,10 @@ def test_snapshots_are_evenly_spread_over_the_last_revolutions(contact):
     choice = IntegrationChoice(2e-7, 3, 64, snapshots_per_revolution=16, snapshot_revolutions=2)
     simulation, _, record = run(contact, ABRADABLE, choice)
     assert len(record.snapshots) == 32
-    normal = casing_axes(contact.tip_displacement_operator, simulation.problem.cone_angle)[0, 0] @ simulation.problem.modes
+    normal = (
+        casing_axes(contact.tip_displacement_operator, simulation.problem.casing.cone_angle)[0, 0]
+        @ simulation.problem.blade.modes
+    )
     np.testing.assert_allclose(record.snapshots @ normal, record.samples[64 + 3 :: 4, 0], rtol=1e-9, atol=1e-15)
 
 
@@ -278,7 +283,8 @@ def test_what_a_scene_lacks_is_not_compiled(contact):
     """The program of a scene without lining and friction is not given their arrays: it would crash if it read them."""
     simulation = Simulation(contact, 1000.0, Scene(AT_ONCE), IntegrationChoice(2e-7, 1, 62))
     record = simulation.engine._record[0]
-    for absent in ("wear", "friction", "rotation", "bar_position"):
+    assert not record["call"]["wear"]
+    for absent in ("friction", "rotation", "bar_position"):
         assert not np.any(record[absent]), absent
     state = simulation.start()
     assert state.wear is None

@@ -14,8 +14,11 @@ from r37core.config.speed_choice import most_runs
 from r37core.contact.scene import Scene
 from r37core.io import InputFileError
 from r37core.plain import from_plain
+from r37core.plans.dataset_plan import Datasets
 from r37core.plans.paths import filled
 from r37core.plans.provenance import Provenance
+from r37core.plans.rounds_plan import Rounds
+from r37core.plans.simulation_plan import Simulations
 from r37core.plans.structure_plan import Structure
 from r37core.plans.sweep_plan import Sweep, speeds_of_round
 from r37core.product.reading import read_settings
@@ -92,8 +95,9 @@ def test_speeds_of_all_rounds_are_reduced(refining):
 
 
 def test_a_round_reads_what_the_one_before_asked_for(refining):
-    assert refining.round_inputs(of(blade="Ref", scene="abradable", round="0")) == {"campbell": "<results>/Ref/campbell.nc"}
-    assert refining.round_inputs(of(blade="Ref", scene="abradable", round="2")) == {
+    rounds = Rounds(refining)
+    assert rounds.round_inputs(of(blade="Ref", scene="abradable", round="0")) == {"campbell": "<results>/Ref/campbell.nc"}
+    assert rounds.round_inputs(of(blade="Ref", scene="abradable", round="2")) == {
         "before": "<results>/Ref/abradable/round_1.json",
         "speeds": ["<results>/Ref/abradable/speed_925.npz"],
     }
@@ -130,14 +134,14 @@ def test_a_member_is_run_like_the_nominal_blade(with_members):
     drawn = members_of(settings).all["Ref", "abradable"]
     shapes = {name: member.values[1] for name, member in drawn.items()}
     (same, *_), (other, *_) = ([name for name in drawn if shapes[name] == percent] for percent in (100.0, 102.0))
-    task = json.loads(sweep.task(of(**vars(REF), speed="900")))
+    task = json.loads(Simulations(sweep).task(of(**vars(REF), speed="900")))
     for name, folder in {same: "", other: f"tolerances/{other}/"}.items():
         member = of(blade="Ref", scene="abradable", member=f"tolerances/{name}/", speed="900", tip_line="pressure_edge")
         assert sweep.models(member) == [f"<results>/{folder}Ref/{kind}_pressure_edge.npz" for kind in ("contact", "stress")]
         assert structure.mesh(member) == f"<results>/{folder}Ref/mesh.vtu"
         assert sweep.yield_stress(member) == 1.0e9 != sweep.yield_stress(REF)
         assert structure.elastic(member) == structure.elastic(REF)
-        own = json.loads(sweep.task(member))
+        own = json.loads(Simulations(sweep).task(member))
         assert own["results"] == ["spectrum", "stress"] and {"wear", "energy"} <= set(task["results"])
         assert own["scene"]["lining"]["thickness"] == drawn[name].values[2] != task["scene"]["lining"]["thickness"]
         assert own["kept"] == task["kept"]
@@ -158,7 +162,7 @@ def test_members_keep_no_history_of_the_stress(with_members):
     settings = replace(settings, scene_entries=settings.scene_entries | {"abradable": history})
     sweep = Sweep(settings, None, {"tolerances": Tolerances(settings).samples})
     kept = [
-        json.loads(sweep.task(of(**vars(REF), member=member, speed="900")))["choice"]["snapshot_revolutions"]
+        json.loads(Simulations(sweep).task(of(**vars(REF), member=member, speed="900")))["choice"]["snapshot_revolutions"]
         for member in ("", "tolerances/0/")
     ]
     assert kept == [settings.scenes["abradable"].revolutions, settings.scenes["abradable"].revolutions // 2]
@@ -167,14 +171,14 @@ def test_members_keep_no_history_of_the_stress(with_members):
 def test_a_round_of_members_reads_those_of_the_sample(with_members):
     """One after the other; what indices need beside the sample changes no speeds."""
     tolerances, file_of_round = with_members
-    sweep = Sweep(tolerances.settings, file_of_round, {"tolerances": tolerances.samples})
+    rounds = Rounds(Sweep(tolerances.settings, file_of_round, {"tolerances": tolerances.samples}))
     sample = of(blade="Ref", scene="abradable", member="tolerances/", round="2")
-    assert sweep.round_inputs(sample) == {
+    assert rounds.round_inputs(sample) == {
         "before": "<results>/tolerances/Ref/abradable/round_1.json",
         "speeds": [f"<results>/tolerances/{name}/Ref/abradable/speed_925.npz" for name in ("0", "1")],
     }
-    assert sweep.yields_of_round(sample) == [1.0e9, 1.0e9]
-    assert sweep.refinement_choice(sample)["largest_share"] == 0.4 != sweep.refinement_choice(REF)["largest_share"]
+    assert rounds.yields_of_round(sample) == [1.0e9, 1.0e9]
+    assert rounds.refinement_choice(sample)["largest_share"] == 0.4 != rounds.refinement_choice(REF)["largest_share"]
     assert len(tolerances.responses) == 2 * 2 * 5 - 2 and len(tolerances.responses_of_sample) == 2 * 2
     assert tolerances.responses[0] == "<results>/tolerances/0/Ref/abradable/response.nc"
 
@@ -191,8 +195,8 @@ def test_the_wildcard_of_a_member(with_members, part, fits):
 
 def test_what_a_round_is_told_is_what_it_takes(refining):
     """Plain values, of which a job makes the plan and the choice again."""
-    assert from_plain(SpeedPlan, json.loads(json.dumps(refining.refined_plan(REF)))) == refining.speed_plan(REF)
-    choice = from_plain(RefinementChoice, json.loads(json.dumps(refining.refinement_choice(REF))))
+    assert from_plain(SpeedPlan, json.loads(json.dumps(Rounds(refining).refined_plan(REF)))) == refining.speed_plan(REF)
+    choice = from_plain(RefinementChoice, json.loads(json.dumps(Rounds(refining).refinement_choice(REF))))
     assert [window.mode for window in choice.windows] == ["1B", "1T"]
     assert choice.prominence == 0.1
 
@@ -202,16 +206,16 @@ def test_without_a_lining_a_round_has_a_share_of_its_own_and_no_windows(root):
     run = {**REFINED, "blades": ["Ref"]}
     direct, lined = (of(blade="Ref", scene=scene) for scene in ("direct", "abradable"))
     settings = read_settings(root, command_line_document(run))
-    sweep = Sweep(settings)
-    assert (sweep.refinement_choice(direct)["windows"], sweep.refinement_choice(direct)["largest_share"]) == ([], 0.125)
-    assert sweep.refinement_choice(direct)["change"] == sweep.refinement_choice(lined)["change"]
+    rounds = Rounds(Sweep(settings))
+    assert (rounds.refinement_choice(direct)["windows"], rounds.refinement_choice(direct)["largest_share"]) == ([], 0.125)
+    assert rounds.refinement_choice(direct)["change"] == rounds.refinement_choice(lined)["change"]
     assert most_runs(settings, "Ref", "direct") < most_runs(settings, "Ref", "abradable")
     window = {"mode": "1B", "highest_engine_order": 3, "first": 0.0, "last": 0.1, "step_rad_s": 5.0}
     chosen = {"refinement": {"direct": {"windows": [window], "largest_share": 0.9}}}
-    sweep = Sweep(read_settings(root, command_line_document(run | chosen)))
-    assert [one["highest_engine_order"] for one in sweep.refinement_choice(direct)["windows"]] == [3]
-    assert sweep.refinement_choice(direct)["largest_share"] == 0.9
-    assert sweep.refinement_choice(lined) == Sweep(settings).refinement_choice(lined)
+    rounds = Rounds(Sweep(read_settings(root, command_line_document(run | chosen))))
+    assert [one["highest_engine_order"] for one in rounds.refinement_choice(direct)["windows"]] == [3]
+    assert rounds.refinement_choice(direct)["largest_share"] == 0.9
+    assert rounds.refinement_choice(lined) == Rounds(Sweep(settings)).refinement_choice(lined)
     window["highest_engine_order"] = 30
     with pytest.raises(ConfigError, match=r"refinement\.direct\.windows\.0\.highest_engine_order: found 30; allowed"):
         read_settings(root, command_line_document(run | chosen))
@@ -260,15 +264,15 @@ def test_a_scene_without_stress_needs_no_basis(chosen):
     plain = chosen.scene_entries["direct"].model_copy(update={"results": ["spectrum"]})
     sweep = Sweep(replace(chosen, scene_entries=chosen.scene_entries | {"direct": plain}))
     assert sweep.stress_operator(L50) == []
-    assert sweep.runs(of(kind="stress")) == [("Ref", "abradable"), ("L50", "abradable")]
+    assert Datasets(sweep).runs(of(kind="stress")) == [("Ref", "abradable"), ("L50", "abradable")]
 
 
 def test_task_of_a_simulation(chosen):
-    task = json.loads(Sweep(chosen).task(of(blade="Ref", scene="direct", speed="900")))
+    task = json.loads(Simulations(Sweep(chosen)).task(of(blade="Ref", scene="direct", speed="900")))
     assert task["scene"]["lining"] is None
     level = chosen.fidelity.time_integration
     assert task["choice"]["time_step"] == level.largest_time_step_s.direct
-    lined = json.loads(Sweep(chosen).task(of(blade="Ref", scene="abradable", speed="900")))
+    lined = json.loads(Simulations(Sweep(chosen)).task(of(blade="Ref", scene="abradable", speed="900")))
     assert lined["choice"]["time_step"] == level.largest_time_step_s.lined
     assert task["choice"]["revolutions"] == level.revolutions
     assert task["kept"]["wear_angles"] == level.wear_angles
@@ -276,17 +280,18 @@ def test_task_of_a_simulation(chosen):
 
 def test_datasets_join_the_runs_that_have_their_kind(chosen):
     sweep = Sweep(chosen)
+    datasets = Datasets(sweep)
     assert sweep.kinds == ["rms", "spectrum", "stress", "wear"]
     every = [("Ref", "abradable"), ("Ref", "direct"), ("L50", "abradable"), ("L50", "direct")]
-    assert sweep.runs(of(kind="rms")) == every
-    assert sweep.runs(of(kind="wear")) == [("Ref", "abradable"), ("L50", "abradable")]
-    assert sweep.responses(of(kind="wear")) == [f"<results>/{blade}/abradable/response.nc" for blade in ("Ref", "L50")]
+    assert datasets.runs(of(kind="rms")) == every
+    assert datasets.runs(of(kind="wear")) == [("Ref", "abradable"), ("L50", "abradable")]
+    assert datasets.responses(of(kind="wear")) == [f"<results>/{blade}/abradable/response.nc" for blade in ("Ref", "L50")]
 
 
 def test_blades_are_finished_one_after_another(chosen):
-    sweep = Sweep(chosen)
-    assert sweep.priority(of(blade="Ref")) == 1.0
-    assert 0.0 < sweep.priority(of(blade="L50")) < 1.0
+    simulations = Simulations(Sweep(chosen))
+    assert simulations.priority(of(blade="Ref")) == 1.0
+    assert 0.0 < simulations.priority(of(blade="L50")) < 1.0
 
 
 def test_matrices_do_not_depend_on_the_yield_stress(chosen):

@@ -18,6 +18,7 @@ from r37core.config.remarks import remarks_on_points
 from r37core.dataset_file import read_dataset
 from r37core.io import FILE_ATTRIBUTES
 from r37core.plans.provenance import Provenance
+from r37core.plans.simulation_plan import Simulations
 from r37core.plans.sweep_plan import Sweep
 from r37core.results.response import write_response
 from r37core.rom.contact_model import read_contact_model
@@ -160,11 +161,12 @@ def _response(settings: Settings, motion: InitialMotion | None = None) -> xr.Dat
     model = read_contact_model(structure.contact_model(chosen.tip_line))
     stress = read_stress_operator(structure.stress_operator(chosen.tip_line)) if sweep.with_stress(at) else None
     results = [result for result in sweep.results(at) if result in OF_RUNS]
+    kept = Simulations(sweep).kept
     with tempfile.TemporaryDirectory() as folder:
         files = [Path(folder, f"{number}.npz") for number in range(len(plan.certain))]
         for speed, file in zip(plan.certain, files, strict=True):
             choice = settings.integration_choice(blade, scene, speed)
-            run = run_speed(model, speed, chosen.scene, choice, results, **sweep.kept, stress=stress, motion=motion)
+            run = run_speed(model, speed, chosen.scene, choice, results, **kept, stress=stress, motion=motion)
             write_speed(run, file, {})
         response = Path(folder, "response.nc")
         write_response(

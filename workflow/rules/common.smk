@@ -10,10 +10,13 @@ from r37core.console.snakemake_run import begin
 from r37core.explorer import parts_hash
 from r37core.plans import paths
 from r37core.plans.code import CodeHashes
+from r37core.plans.dataset_plan import Datasets
 from r37core.plans.extent import extent_of
 from r37core.plans.import_plan import Imported
 from r37core.plans.provenance import Provenance
 from r37core.plans.resources import Needs
+from r37core.plans.rounds_plan import Rounds
+from r37core.plans.simulation_plan import Simulations
 from r37core.plans.structure_plan import Structure
 from r37core.plans.sweep_plan import MAPS, Sweep
 from r37core.product.reporting import EVERY_SCENE, TOGETHER, captioned, drawing, shown
@@ -37,6 +40,7 @@ made = Provenance(settings, samples)
 structure = Structure(settings, samples)
 imported = Imported(settings)
 sweep = Sweep(settings, lambda **wildcards: checkpoints.refine.get(**wildcards).output[0], samples)
+simulations, rounds, joined = Simulations(sweep), Rounds(sweep), Datasets(sweep)
 needs = Needs(settings, extent_of(settings, samples).most)
 
 

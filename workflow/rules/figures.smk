@@ -18,7 +18,7 @@ use rule figure as campbell_figure with:
     resources:
         **needs.of("campbell_figure"),
     params:
-        **drawing(code, "figures.campbell_diagram.draw_campbell", "campbell", casings=sweep.casings),
+        **drawing(code, "figures.campbell_diagram.draw_campbell", "campbell", casings=joined.casings),
 
 
 use rule figure as campbell_overview with:
@@ -36,7 +36,7 @@ use rule figure as campbell_overview with:
 
 use rule figure as response_figure with:
     input:
-        unpack(sweep.response_pictured),
+        unpack(joined.response_pictured),
     output:
         **pictures("response_{blade}", "{blade}", EVERY_SCENE, "response"),
     log:
@@ -92,7 +92,7 @@ use rule figure as waterfall_figure with:
 
 use rule figure as comparison_figure with:
     input:
-        unpack(sweep.compared),
+        unpack(joined.compared),
     output:
         **pictures("comparison_{scene}", TOGETHER, "{scene}", "around an interaction"),
     log:

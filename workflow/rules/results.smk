@@ -22,14 +22,14 @@ rule responses:
     input:
         expand(paths.nominal(paths.CAMPBELL), blade=settings.blades),
         paths.filled({paths.RESPONSE: paths.of_runs(sweep.runs_with("rms"))}),
-        sweep.first_rounds,
+        rounds.first_rounds,
         simulated(sweep),
 
 
 use rule step as sweep_dataset with:
     input:
-        responses=sweep.responses,
-        rounds=sweep.first_rounds,
+        responses=joined.responses,
+        rounds=rounds.first_rounds,
     output:
         dataset="<results>/{kind}.nc",
     log:
@@ -41,7 +41,7 @@ use rule step as sweep_dataset with:
     params:
         **step("results.steps.sweep_dataset"),
         kind="{kind}",
-        runs=sweep.runs,
+        runs=joined.runs,
         fidelity=settings.fidelity_name,
 
 
@@ -99,7 +99,7 @@ use rule step as coincidences with:
         **needs.of("summary"),
     params:
         **step("results.steps.coincidences"),
-        casings=sweep.casings,
+        casings=joined.casings,
 
 
 use rule step as explorer with:
@@ -122,5 +122,5 @@ use rule step as explorer with:
         **step("explorer.steps.explorer"),
         title=f"r37 {settings.config.run.name or ''}".strip(),
         shapes=sweep.runs_with("shapes"),
-        benchmark_scenes=sweep.benchmark_scenes,
+        benchmark_scenes=joined.benchmark_scenes,
         parts=parts_hash(),

@@ -18,7 +18,7 @@ use rule step as run_up with:
     params:
         **step("run_ups.steps.record"),
         name="{run_up}",
-        scene=sweep.plain_scene,
+        scene=simulations.plain_scene,
         choice=run_ups.choice,
         run_up=run_ups.run_up,
         results=run_ups.results,

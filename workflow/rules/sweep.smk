@@ -47,9 +47,9 @@ use rule step as prepare_time_integration with:
         **needs.of("prepare_time_integration"),
     params:
         **step("time_integration.speed_job.prepare"),
-        scene=sweep.plain_scene,
+        scene=simulations.plain_scene,
         speed=settings.structure.maximum_speed_rad_s,
-        choice=sweep.choice_of_scene,
+        choice=simulations.choice_of_scene,
 
 
 # of jobs that the server runs; paths and no texts: another place is no reason to run again
@@ -69,14 +69,14 @@ rule simulate:
         paths.SPEED,
     log:
         "<logs>/{member}{blade}/{scene}/speed_{speed}.log",
-    priority: sweep.priority
+    priority: simulations.priority
     conda:
         ENVIRONMENT
     resources:
         **needs.of("simulate"),
     params:
         **served,
-        task=sweep.task,
+        task=simulations.task,
         about=made.sweep,
     # not `script:`, whose preamble imports Snakemake into each of thousands of jobs
     shell:
@@ -87,7 +87,7 @@ rule simulate:
 # sample are run at the same speeds, where they are worth it on average
 checkpoint refine:
     input:
-        unpack(sweep.round_inputs),
+        unpack(rounds.round_inputs),
     output:
         round=paths.ROUND,
     log:
@@ -102,9 +102,9 @@ checkpoint refine:
         **needs.of("response"),
     params:
         **step("adaptive.steps.refine"),
-        plan=sweep.refined_plan,
-        choice=sweep.refinement_choice,
-        yields=sweep.yields_of_round,
+        plan=rounds.refined_plan,
+        choice=rounds.refinement_choice,
+        yields=rounds.yields_of_round,
     script:
         "../scripts/step.py"
 

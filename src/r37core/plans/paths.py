@@ -6,8 +6,10 @@ is empty for the nominal sweep, and `folder/name/` for what a member of a sample
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from typing import Any
+
+from r37core.speeds import exact_text
 
 GEOMETRY = "<results>/{member}{blade}/geometry.nc"
 MESH = "<results>/{member}{blade}/mesh.vtu"
@@ -32,6 +34,12 @@ def fill(pattern: str, **wildcards: Any) -> str:
 def nominal(pattern: str) -> str:
     """The pattern of the files of the nominal sweep alone."""
     return pattern.replace("{member}", "")
+
+
+def speed_files(member: str, wildcards: Any, speeds: Sequence[float]) -> list[str]:
+    """Of the simulations of a member's blade and scene at some speeds (rad/s)."""
+    of = {"member": member, "blade": wildcards.blade, "scene": wildcards.scene}
+    return [fill(SPEED, **of, speed=exact_text(speed)) for speed in speeds]
 
 
 Wildcards = list[dict[str, str]]

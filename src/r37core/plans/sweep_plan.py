@@ -1,24 +1,17 @@
-"""The plan of the sweep: which simulations, from which files, with which numbers, and what is made of them."""
+"""The plan of the sweep: which simulations, from which files, and which results are wanted of them."""
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import cache, cached_property, partial
 from itertools import chain, count, takewhile
 from pathlib import Path
 from typing import Any
 
-from r37core.adaptive.refinement_choice import RefinementChoice, Window
-from r37core.config import Settings, in_si
-from r37core.config.casing_remarks import elastic_casings
-from r37core.contact.benchmark import is_lined_benchmark
+from r37core.config import Settings
 from r37core.io import as_list, read_json, readable
-from r37core.plain import to_plain
-from r37core.speeds import SpeedPlan, exact_text
-from r37core.time_integration.integration_choice import IntegrationChoice
-from r37core.time_integration.speed_run import OF_RUNS
+from r37core.speeds import SpeedPlan
 
 from . import paths
 from .samples import Pair, Sample, Samples, folder_and_name, member_of, path_part
@@ -61,7 +54,7 @@ class Sweep:
         return [self._of_model(wildcards, paths.STRESS_OPERATOR)] if self.with_stress(wildcards) else []
 
     def _of_model(self, wildcards: Any, pattern: str) -> str:
-        tip_line = self._scene(wildcards).tip_line
+        tip_line = self.settings.scenes[wildcards.scene].tip_line
         return paths.fill(pattern, member=self.samples.model(wildcards), blade=wildcards.blade, tip_line=tip_line)
 
     def nominal_stamp(self, wildcards: Any) -> list[str]:
@@ -71,20 +64,10 @@ class Sweep:
 
     def speed_files(self, wildcards: Any) -> list[str]:
         """The simulations of one blade and scene, by ascending speed: of all rounds, where its speeds are adaptive."""
-        speeds = speeds_of_rounds(self.speed_plan(wildcards), partial(self._new_speeds, wildcards))
-        return _speed_files(member_of(wildcards), wildcards, speeds)
+        speeds = speeds_of_rounds(self.speed_plan(wildcards), partial(self.new_speeds, wildcards))
+        return paths.speed_files(member_of(wildcards), wildcards, speeds)
 
-    def round_inputs(self, wildcards: Any) -> dict[str, Any]:
-        """What a round looks at: the Campbell diagram, or the runs that the round before it asked for, member by member."""
-        number, (folder, _) = int(wildcards.round), folder_and_name(wildcards)
-        if number == 0:
-            return {"campbell": paths.fill(paths.CAMPBELL, blade=wildcards.blade)}
-        of = {"member": path_part(folder), "blade": wildcards.blade, "scene": wildcards.scene}
-        new, names = self._new_speeds(wildcards, number - 1), self.samples.sample(wildcards).deciding
-        files = [file for name in names for file in _speed_files(path_part(folder, name), wildcards, new)]
-        return {"before": paths.fill(paths.ROUND, **of, round=number - 1), "speeds": files}
-
-    def _new_speeds(self, wildcards: Any, number: int) -> list[float]:
+    def new_speeds(self, wildcards: Any, number: int) -> list[float]:
         """Speeds (rad/s) that a round asked for: the same of all members of a sample."""
         assert self.round_file is not None
         member = path_part(folder_and_name(wildcards)[0])
@@ -94,55 +77,14 @@ class Sweep:
         """Of a blade (Pa)."""
         return self.samples.member(wildcards).blade.yield_stress
 
-    def yields_of_round(self, wildcards: Any) -> list[float]:
-        """Yield stress (Pa) of the blade of each member whose runs a round looks at."""
-        sample = self.samples.sample(wildcards)
-        return [sample.members[name].blade.yield_stress for name in sample.deciding]
-
     def speed_plan(self, wildcards: Any) -> SpeedPlan:
         """Speeds of one blade and scene."""
         return self.settings.speed_plans[wildcards.blade, wildcards.scene]
-
-    def refined_plan(self, wildcards: Any) -> dict[str, Any]:
-        """The same as plain values."""
-        return to_plain(self.speed_plan(wildcards))
 
     def speeds(self, wildcards: Any, input: Any) -> list[float]:
         """Speeds (rad/s), ascending, of the files that are an input; a round stands there until the rounds are done."""
         names = [Path(file).stem for file in as_list(input.speeds)]
         return [float(name.removeprefix("speed_")) for name in names if name.startswith("speed_")]
-
-    def refinement_choice(self, wildcards: Any) -> dict[str, Any]:
-        """What makes an interval of speeds of a scene worth halving, as fields of RefinementChoice."""
-        refinement = self.settings.config.refinement.in_scene(self.settings.scenes[wildcards.scene].scene)
-        windows = tuple(in_si(Window, window) for window in refinement.windows)
-        share, prominence = self.samples.sample(wildcards).largest_share, self.settings.config.interactions.prominence
-        return to_plain(in_si(RefinementChoice, refinement, windows=windows, largest_share=share, prominence=prominence))
-
-    def task(self, wildcards: Any) -> str:
-        """What one simulation does, as JSON text."""
-        task = {
-            "scene": self.plain_scene(wildcards),
-            "choice": to_plain(self._choice(wildcards, float(wildcards.speed))),
-            "results": [result for result in self.results(wildcards) if result in OF_RUNS],
-            "kept": self.kept,
-        }
-        return json.dumps(task)
-
-    def _choice(self, wildcards: Any, speed: float) -> IntegrationChoice:
-        """Numbers of the time integration at a speed (rad/s)."""
-        choice = self.settings.integration_choice(wildcards.blade, wildcards.scene, speed)
-        if speed in self.samples.sample(wildcards).history_speeds:
-            return choice
-        return replace(choice, snapshot_revolutions=min(choice.snapshot_revolutions, choice.revolutions_in_statistic))
-
-    def choice_of_scene(self, wildcards: Any) -> dict[str, Any]:
-        """Numbers of the time integration at the highest speed of the basis."""
-        return to_plain(self._choice(wildcards, self.settings.structure.maximum_speed_rad_s))
-
-    def plain_scene(self, wildcards: Any) -> dict[str, Any]:
-        """The scene: what the blade meets."""
-        return to_plain(self.samples.member(wildcards).scene)
 
     def results(self, wildcards: Any) -> tuple[str, ...]:
         """What is wanted of a blade and scene."""
@@ -156,17 +98,6 @@ class Sweep:
         """Speeds (rad/s) of a blade and scene whose stress is kept for every revolution."""
         return self.samples.sample(wildcards).history_speeds
 
-    def priority(self, wildcards: Any) -> float:
-        """Of a blade's simulations, above 0 and up to 1: results should be complete one blade after another."""
-        blades = list(self.settings.blades)
-        return 1 - blades.index(wildcards.blade) / len(blades)
-
-    @property
-    def kept(self) -> dict[str, int]:
-        """How much of a run its file keeps."""
-        keys = ("spectrum_highest_order", "wear_angles")
-        return {key: getattr(self.settings.fidelity.time_integration, key) for key in keys}
-
     @property
     def kinds(self) -> list[str]:
         """Kinds of datasets that this run ends in."""
@@ -177,53 +108,10 @@ class Sweep:
         pairs = [(blade, scene) for blade in self.settings.blades for scene in self.settings.scenes]
         return [pair for pair in pairs if kind == KINDS[0] or kind in self.settings.results_of(*pair)]
 
-    def runs(self, wildcards: Any) -> list[tuple[str, str]]:
-        """Pairs of blade and scene in one dataset."""
-        return self.runs_with(wildcards.kind)
-
-    def responses(self, wildcards: Any) -> list[str]:
-        """What one dataset is joined of."""
-        return [paths.fill(paths.RESPONSE, blade=blade, scene=scene) for blade, scene in self.runs(wildcards)]
-
-    def first_rounds(self, wildcards: Any) -> list[str]:
-        """First rounds of the runs in one dataset, of all without a kind.
-
-        They are asked for beside the responses: a response that is there is not planned anew for a round that is not.
-        """
-        pairs = self.runs_with(getattr(wildcards, "kind", KINDS[0]))
-        adaptive = [(blade, scene) for blade, scene in pairs if self.settings.speed_plans[blade, scene].refined]
-        return [paths.fill(paths.ROUND, blade=blade, scene=scene, round=0) for blade, scene in adaptive]
-
-    @property
-    def casings(self) -> dict[str, Any]:
-        """The casing of each scene with a flexible one, as plain values."""
-        return {name: to_plain(casing) for name, casing in elastic_casings(self.settings).items()}
-
-    @property
-    def benchmark_scenes(self) -> list[str]:
-        """Names of the scenes that are the benchmark's lined one: of these alone there are published peaks."""
-        return [name for name, chosen in self.settings.scenes.items() if is_lined_benchmark(chosen.scene)]
-
-    def response_pictured(self, wildcards: Any) -> dict[str, str]:
-        """Datasets that a blade's response is drawn from."""
-        return _drawn(with_stress=any(blade == wildcards.blade for blade, _ in self.runs_with("stress")))
-
-    def compared(self, wildcards: Any) -> dict[str, str]:
-        """Datasets that the blades of a scene are compared by."""
-        return _drawn(with_stress=any(scene == wildcards.scene for _, scene in self.runs_with("stress")))
-
-    def _scene(self, wildcards: Any) -> Any:
-        return self.settings.scenes[wildcards.scene]
-
 
 def speeds_of_rounds(plan: SpeedPlan, new_speeds: Callable[[int], Sequence[float]]) -> list[float]:
     """Speeds (rad/s), ascending: `new_speeds` of all rounds until one has none, where they are adaptive."""
     return sorted(chain.from_iterable(takewhile(bool, map(new_speeds, count()))) if plan.refined else plan.certain)
-
-
-def _speed_files(member: str, wildcards: Any, speeds: Sequence[float]) -> list[str]:
-    of = {"member": member, "blade": wildcards.blade, "scene": wildcards.scene}
-    return [paths.fill(paths.SPEED, **of, speed=exact_text(speed)) for speed in speeds]
 
 
 def speeds_of_round(file: str) -> list[float]:
@@ -235,7 +123,3 @@ def speeds_of_round(file: str) -> list[float]:
 def _speeds_of_round(file: str, _time: int) -> list[float]:
     with readable(file):
         return [float(speed) for speed in read_json(file)["new"]]
-
-
-def _drawn(with_stress: bool) -> dict[str, str]:
-    return {kind: f"<results>/{kind}.nc" for kind in ("campbell", "rms", *(["stress"] if with_stress else []))}

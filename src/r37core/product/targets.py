@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from r37core.config.casing_remarks import elastic_casings
 from r37core.plans.paths import Wildcards, filled, of, of_runs, pictures
 from r37core.plans.sweep_plan import KINDS, MAPS, Sweep
 from r37core.plans.wing import Wing
@@ -48,7 +49,7 @@ def _of_spine(sweep: Sweep) -> dict[str, Wildcards]:
     }
     targets: dict[str, Wildcards] = {f"<results>/{kind}.nc": [{}] if kind in sweep.kinds else [] for kind in KINDS}
     targets["<results>/ranking.csv"] = [{}]
-    targets["<results>/coincidences.csv"] = [{}] if sweep.casings else []
+    targets["<results>/coincidences.csv"] = [{}] if elastic_casings(settings) else []
     for name, wildcards in figures.items():
         targets |= pictures(name, wildcards)
     return targets

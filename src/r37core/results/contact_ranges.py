@@ -10,7 +10,7 @@ import numpy as np
 import xarray as xr
 
 from .exceedance import HALF_WIDTH, POSSIBLE, Exceedance, exceedance_of
-from .interaction import Interaction, largest_columns, peak_columns, range_columns
+from .interaction import Crossing, Interaction, interaction_row, range_columns
 from .measures import DROP_WITHIN, drop_after, motion, ratio_to_yield, strongest_order
 from .speed_ranges import SpeedRange, joined, ranges_above
 
@@ -31,23 +31,23 @@ def with_ranges_above_yield(response: xr.Dataset, peaks: Sequence[Interaction]) 
     exceedance = exceedance_of(response) if "share_of_revolutions_above_yield" in response else None
     ranges = _ranges(response, exceedance)
     rows = [_row(response, exceedance, within) for within in ranges]
-    alone = [peak for peak in peaks if not any(of.begin <= peak.peak_speed_rad_s <= of.end for of in ranges)]
+    alone = [peak for peak in peaks if not any(of.begin <= peak.peak.peak_speed_rad_s <= of.end for of in ranges)]
     for peak in alone:
-        at = peak.peak_speed_rad_s
-        row = _row(response, exceedance, SpeedRange(at, at, truncated=False), peak_alone=True)
-        rows.append(replace(row, direction=peak.direction))
-    return sorted(rows, key=lambda row: row.peak_speed_rad_s)
+        at = peak.peak.peak_speed_rad_s
+        beside = _row(response, exceedance, SpeedRange(at, at, truncated=False), peak_alone=True)
+        rows.append(replace(beside, crossing=replace(beside.crossing, direction=peak.crossing.direction)))
+    return sorted(rows, key=lambda found: found.peak.peak_speed_rad_s)
 
 
 def ranges_without_peak(response: xr.Dataset, rows: Sequence[Interaction]) -> list[Interaction]:
     """Of a lined scene: rows of the ranges above yield that no interaction among the `rows` reaches into."""
     if "share_of_revolutions_above_yield" not in response:
         return []
-    exceedance = exceedance_of(response)
+    exceedance, possible = exceedance_of(response), [found.all_revolutions for found in rows]
     alone = [
         within
         for within in _ranges(response, exceedance)
-        if not any(row.possible_from_rad_s <= within.end and row.possible_to_rad_s >= within.begin for row in rows)
+        if not any(of.possible_from_rad_s <= within.end and of.possible_to_rad_s >= within.begin for of in possible)
     ]
     return [_row(response, exceedance, within, note=NO_PEAK) for within in alone]
 
@@ -72,18 +72,15 @@ def _row(
     largest = [name for name in ("normal", "tangential") if np.argmax(response[f"rms_{name}"].fillna(0.0).values[inside]) == at]
     ended = bool(np.isfinite(peak["rms_normal"]))
     order = round(strongest_order(peak["amplitude"])) if ended and "amplitude" in peak else None
-    return Interaction(
-        mode="",
-        engine_order=order,
-        direction=largest[0] if len(largest) == 1 else "both",
-        campbell_speed_rad_s=np.nan,
-        shift_rad_s=np.nan,
-        drop=drop_after(response, peak_index),
+    return interaction_row(
+        reach,
+        peak,
+        Crossing("", order, largest[0] if len(largest) == 1 else "both"),
+        drop_after(response, peak_index),
+        last_revolution={},
+        all_revolutions=_range_columns(exceedance, within, peak_alone),
+        peak_motion=_motion_columns(speeds, level, peak_index) if ended else {},
         note=note,
-        **peak_columns(peak),
-        **_range_columns(exceedance, within, peak_alone),
-        **largest_columns(reach),
-        **(_motion_columns(speeds, level, peak_index) if ended else {}),
     )
 
 

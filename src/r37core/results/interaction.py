@@ -1,9 +1,10 @@
-"""One row of summary.csv, and what all rows are given by the revolutions of their runs."""
+"""One row of summary.csv by its subjects, and what all rows are given by the revolutions of their runs."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
-from typing import Any
+from collections.abc import Iterator
+from dataclasses import dataclass, fields, is_dataclass
+from typing import Any, get_type_hints
 
 import numpy as np
 import xarray as xr
@@ -16,38 +17,47 @@ from .speed_ranges import SpeedRange
 
 
 @dataclass(frozen=True)
-class Interaction:
-    """One row of summary.csv; units are part of the names.
-
-    Of a lined scene it is a peak of the motion; of direct contact a range of speeds that may be above yield (results.
-    contact_ranges), for a peak's crossing and one revolution's stress are chance there, and their columns are empty. `note`
-    says why columns are.
-
-    glossary.INTERACTIONS says what each field is. What is named peak is at the peak speed, what is named max the largest
-    within the interaction. An interaction reaches, on both sides, to the lowest motion before the neighbouring peak, or to
-    where the motion stays below QUIET of its own peak for more than measures.DROP_WITHIN: single speeds in between do not
-    end it, for near the end of a branch the motion is chaotic. `mode` is empty and the Campbell speed NaN for a peak that no
-    crossing of a named mode explains; NaN is also what a scene does not compute. What ends in scatter is the standard
-    deviation by chance of what stands before it (results.exceedance).
-    """
+class Crossing:
+    """What meets: `mode` is empty and the Campbell speed NaN for a peak that no crossing of a named mode explains."""
 
     mode: str
     engine_order: int | None
     direction: str
-    campbell_speed_rad_s: float
+    campbell_speed_rad_s: float = np.nan
+
+    @property
+    def title(self) -> str:
+        """What meets there: 1B/4, or the engine order alone."""
+        return interaction_title(self.mode, self.engine_order)
+
+
+@dataclass(frozen=True)
+class Peak:
+    """The response at the peak speed, and what is lost of it above that."""
+
     peak_speed_rad_s: float
     shift_rad_s: float
     peak_rms_normal_m: float
     peak_rms_tangential_m: float
     drop: float
+
+
+@dataclass(frozen=True)
+class LastRevolution:
+    """Speeds above yield and the largest stress, by the last revolution of each run. Of direct contact the region alone."""
+
     first_yield_speed_rad_s: float = np.nan
     width_above_yield_rad_s: float = np.nan
     share_above_yield: float = np.nan
     max_von_mises_pa: float = np.nan
     max_von_mises_speed_rad_s: float = np.nan
     stress_region: str = ""
-    max_wear_m: float = np.nan
-    status: str = ""
+
+
+@dataclass(frozen=True)
+class AllRevolutions:
+    """Speeds above yield and the largest stress, by all revolutions in the last half of each run (results.exceedance)."""
+
     width_ever_above_yield_rad_s: float = np.nan
     possible_from_rad_s: float = np.nan
     possible_from_scatter_rad_s: float = np.nan
@@ -60,19 +70,58 @@ class Interaction:
     certain_length_rad_s: float = np.nan
     median_von_mises_pa: float = np.nan
     high_von_mises_pa: float = np.nan
-    peak_motion_m: float = np.nan
+
+
+@dataclass(frozen=True)
+class PeakMotion:
+    """The motion at the peak speed in both directions together, and where it falls above that; the scatter of both."""
+
+    peak_motion_m: float
     peak_motion_scatter_m: float = np.nan
     fall_speed_rad_s: float = np.nan
     fall_speed_scatter_rad_s: float = np.nan
+
+
+@dataclass(frozen=True)
+class Interaction:
+    """One row of summary.csv; its columns are the fields of its parts in their order, with units in their names.
+
+    Of a lined scene it is a peak of the motion; of direct contact a range of speeds that may be above yield (results.
+    contact_ranges), for a peak's crossing and one revolution's stress are chance there, and their columns are empty. `note`
+    says why columns are.
+
+    glossary.INTERACTIONS says what each column is. What is named peak is at the peak speed, what is named max the largest
+    within the interaction. An interaction reaches, on both sides, to the lowest motion before the neighbouring peak, or to
+    where the motion stays below QUIET of its own peak for more than measures.DROP_WITHIN: single speeds in between do not
+    end it, for near the end of a branch the motion is chaotic. NaN is what a scene does not compute. What ends in scatter is
+    the standard deviation by chance of what stands before it (results.exceedance).
+    """
+
+    crossing: Crossing
+    peak: Peak
+    last_revolution: LastRevolution
+    max_wear_m: float
+    status: str
+    all_revolutions: AllRevolutions
+    peak_motion: PeakMotion
     note: str = ""
 
     @property
-    def title(self) -> str:
-        """What meets there: 1B/4, or the engine order alone."""
-        return interaction_title(self.mode, self.engine_order)
+    def columns(self) -> dict[str, Any]:
+        """The row: column -> value."""
+        columns: dict[str, Any] = {}
+        for field in fields(self):
+            part = getattr(self, field.name)
+            columns |= vars(part) if is_dataclass(part) else {field.name: part}
+        return columns
 
 
-COLUMNS = ("blade", "scene", *(field.name for field in fields(Interaction)))
+def _columns() -> Iterator[str]:
+    for name, kind in get_type_hints(Interaction).items():
+        yield from (field.name for field in fields(kind)) if is_dataclass(kind) else [name]
+
+
+COLUMNS = ("blade", "scene", *_columns())
 """Columns of summary.csv."""
 
 
@@ -91,29 +140,39 @@ def range_columns(exceedance: Exceedance, within: SpeedRange) -> dict[str, Any]:
     return columns
 
 
-def peak_columns(peak: xr.Dataset) -> dict[str, Any]:
-    """What a row says of the response at its peak speed."""
+def interaction_row(
+    reach: xr.Dataset,
+    peak: xr.Dataset,
+    crossing: Crossing,
+    drop: float,
+    *,
+    last_revolution: dict[str, float],
+    all_revolutions: dict[str, float],
+    peak_motion: dict[str, float],
+    note: str = "",
+) -> Interaction:
+    """The row of a response's `reach` that has its `peak` there; other columns of the parts, where there are some, by name.
+
+    The largest of everything, and how its runs ended, are those of all its speeds.
+    """
     normal, tangential = float(peak["rms_normal"]), float(peak["rms_tangential"])
-    return {
-        "peak_speed_rad_s": float(peak["speed"]),
-        "peak_rms_normal_m": normal,
-        "peak_rms_tangential_m": tangential,
-        "peak_motion_m": float(np.hypot(normal, tangential)),
-    }
+    speed = float(peak["speed"])
+    region = str(reach["stress_region"].item()) if "stress_region" in reach else ""
+    return Interaction(
+        crossing,
+        Peak(speed, speed - crossing.campbell_speed_rad_s, normal, tangential, drop),
+        LastRevolution(**last_revolution, stress_region=region),
+        _largest(reach, "max_wear"),
+        RunStatus(int(reach["status"].max())).text,
+        AllRevolutions(
+            **all_revolutions,
+            median_von_mises_pa=_largest(reach, "max_von_mises_median"),
+            high_von_mises_pa=_largest(reach, "max_von_mises_high"),
+        ),
+        PeakMotion(float(np.hypot(normal, tangential)), **peak_motion),
+        note,
+    )
 
 
-def largest_columns(reach: xr.Dataset) -> dict[str, Any]:
-    """The largest of everything within the `reach` of a row that has one, and how its runs ended."""
-    columns: dict[str, Any] = {"status": RunStatus(int(reach["status"].max())).text, "stress_region": ""}
-    if "stress_region" in reach:
-        columns["stress_region"] = str(reach["stress_region"].item())
-    for column, name in _LARGEST.items():
-        columns[column] = float(reach[name].max()) if name in reach else np.nan
-    return columns
-
-
-_LARGEST = {
-    "max_wear_m": "max_wear",
-    "median_von_mises_pa": "max_von_mises_median",
-    "high_von_mises_pa": "max_von_mises_high",
-}
+def _largest(reach: xr.Dataset, name: str) -> float:
+    return float(reach[name].max()) if name in reach else np.nan

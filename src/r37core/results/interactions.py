@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from itertools import pairwise
-from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -18,7 +17,7 @@ from r37core.time_integration.status import RunStatus
 from .contact_ranges import ranges_without_peak, with_ranges_above_yield
 from .datasets import response_of
 from .exceedance import exceedance_of, is_lined
-from .interaction import COLUMNS, Interaction, largest_columns, peak_columns, range_columns
+from .interaction import COLUMNS, Crossing, Interaction, interaction_row, range_columns
 from .interaction_choice import InteractionChoice
 from .measures import DROP_WITHIN, drop_after, largest_stress, leading_edge, motion, speeds_above_yield, strongest_order
 from .speed_ranges import SpeedRange
@@ -62,7 +61,7 @@ def find_interactions(response: xr.Dataset, campbell: xr.Dataset, choice: Intera
     lined = is_lined(response)
     peaks = _interactions(response, campbell if lined else None, choice)
     if lined:
-        return sorted([*peaks, *ranges_without_peak(response, peaks)], key=lambda row: row.peak_speed_rad_s)
+        return sorted([*peaks, *ranges_without_peak(response, peaks)], key=lambda found: found.peak.peak_speed_rad_s)
     return with_ranges_above_yield(response, peaks)
 
 
@@ -89,7 +88,7 @@ def _interactions(response: xr.Dataset, campbell: xr.Dataset | None, choice: Int
 
 def titles(interactions: Iterable[Interaction]) -> dict[float, str]:
     """Peak speed (rad/s) -> title."""
-    return {row.peak_speed_rad_s: row.title for row in interactions}
+    return {found.peak.peak_speed_rad_s: found.crossing.title for found in interactions}
 
 
 def _peaks(response: xr.Dataset, campbell: xr.Dataset | None, direction: str, choice: InteractionChoice) -> list[_Peak]:
@@ -178,10 +177,11 @@ def _interaction(reach: xr.Dataset, peak: xr.Dataset, group: list[_Peak], index:
     """The row of a group, from the response within its reach and at its `peak`, the `index` of that, and its drop."""
     first = group[0]
     directions = {peak_of_group.direction for peak_of_group in group if peak_of_group.index == index}
-    stress: dict[str, Any] = {}
+    direction = "both" if len(directions) == len(SPECTRA) else min(directions)
+    last, every = {}, {}
     if "max_von_mises" in reach:
         above, (largest, at) = speeds_above_yield(reach), largest_stress(reach)
-        stress = {
+        last = {
             "first_yield_speed_rad_s": above.first,
             "width_above_yield_rad_s": above.width,
             "share_above_yield": above.share,
@@ -190,25 +190,16 @@ def _interaction(reach: xr.Dataset, peak: xr.Dataset, group: list[_Peak], index:
         }
     if "share_of_revolutions_above_yield" in reach:
         ends = SpeedRange(float(reach["speed"][0]), float(reach["speed"][-1]), truncated=False)
-        stress |= range_columns(exceedance_of(reach), ends)
-        stress["width_ever_above_yield_rad_s"] = speeds_above_yield(reach, "max_von_mises_ever").width
-    return Interaction(
-        mode=first.mode,
-        engine_order=first.engine_order,
-        direction="both" if len(directions) == len(SPECTRA) else min(directions),
-        campbell_speed_rad_s=first.crossing,
-        shift_rad_s=float(peak["speed"]) - first.crossing,
-        drop=drop,
-        **peak_columns(peak),
-        **stress,
-        **largest_columns(reach),
-    )
+        every = range_columns(exceedance_of(reach), ends)
+        every["width_ever_above_yield_rad_s"] = speeds_above_yield(reach, "max_von_mises_ever").width
+    crossing = Crossing(first.mode, first.engine_order, direction, first.crossing)
+    return interaction_row(reach, peak, crossing, drop, last_revolution=last, all_revolutions=every, peak_motion={})
 
 
 def summarise(datasets: Mapping[str, xr.Dataset], choice: InteractionChoice) -> pd.DataFrame:
     """Table of all interactions, columns as in COLUMNS, from the datasets `campbell`, `rms` and, if there, others."""
     rows = [
-        {"blade": blade, "scene": scene} | asdict(interaction)
+        {"blade": blade, "scene": scene} | interaction.columns
         for blade in datasets["rms"]["blade"].values
         for scene in datasets["rms"]["scene"].values
         for interaction in find_interactions(response_of(datasets, blade, scene), datasets["campbell"].sel(blade=blade), choice)

@@ -20,7 +20,7 @@ from r37core.time_integration.integrators import CENTRAL_DIFFERENCE, Recursion
 from r37core.time_integration.problem import Problem, stable_problem
 from r37core.time_integration.simulate import Simulation
 from r37core.time_integration.speed_run import energy_balance
-from r37core.time_integration.state import Course
+from r37core.time_integration.state import Schedule
 from r37core.time_integration.step_limit import UnstableStepError
 
 from .schedule import ModalInterval, RunUp, schedule
@@ -65,7 +65,7 @@ class RunUpIntegration:
         check_room(model, scene, np.array([low, *scene.casing.growth_speeds, high]).clip(low, high))
         coarsest = resolved_problem(model, low, scene, choice)
         self._model, self._scene = model, scene
-        self._choice = replace(coarsest.choice, shorten=False, steps_per_sample=coarsest.steps_per_sample)
+        self._choice = replace(coarsest.choice, shorten=False, steps_per_sample=coarsest.grid.steps_per_sample)
         # between two speeds with a stable position there are only such
         self._of_ends = {high: self._problem(high), low: coarsest}
         stiffening = model.stiffness_per_square[0, 0] / model.squared_frequencies[0]
@@ -93,7 +93,7 @@ class RunUpIntegration:
     def balance(self) -> dict[str, np.ndarray]:
         """Work, loss and energy (J) of all stages together: see energy_balance."""
         assert self._simulation is not None
-        held = self._simulation.problem.static_energy(self.state.contact_force)
+        held = self._simulation.problem.contact.static_energy(self.state.contact_force)
         loss = float(self.state.totals["loss"])
         return energy_balance(self._simulation.work(self.state), loss, self.energy + held, self.stiffness_work)
 
@@ -103,7 +103,7 @@ class RunUpIntegration:
         for interval in self.intervals:
             simulation = self._of(interval)
             if modes is not None:
-                turned = simulation.problem.modes.T @ modes
+                turned = simulation.problem.blade.modes.T @ modes
                 # an elastic casing's modes, which come after the blade's, stay as they are
                 self.state.displacement, self.velocity = (
                     np.concatenate([turned @ values[: modes.shape[1]], values[modes.shape[1] :]])
@@ -111,33 +111,33 @@ class RunUpIntegration:
                 )
                 # there may be more of them or fewer, where the fastest are left out
                 self.state.increment = np.zeros_like(self.state.displacement)
-            modes = simulation.problem.modes
+            modes = simulation.problem.blade.modes
             for stage in self._stages_of(simulation, interval):
                 yield stage
                 if stage.diverged:
                     return
 
     def _stages_of(self, simulation: Simulation, interval: ModalInterval) -> Iterator[Stage]:
-        state, problem, constants = self.state, simulation.problem, simulation.paces
-        shapes = problem.state_shapes
+        state, problem, constants = self.state, simulation.problem, simulation.segments
+        shapes = problem.contact.state_shapes
         increments, begun = constants.increments, interval.distinct_speeds.of_segments[0]
         assert increments is not None
         simulation.engine.take(begun)
         state.increment[:] = increments.increment(begun, state.displacement, self.velocity)
         for segments in interval.at_once(_AT_ONCE * self._choice.samples_per_revolution):
             speed_indices, lasting = interval.distinct_speeds.of_segments[segments], interval.lasting[segments]
-            segments_of_call, first = Course(speed_indices, lasting, len(state.displacement)), state.samples
-            record = simulation.follow(state, segments_of_call)
+            call, first = Schedule(speed_indices, lasting, len(state.displacement)), state.samples
+            record = simulation.follow(state, call)
             lasted = np.diff(np.cumsum(lasting).clip(max=len(record.samples)), prepend=0)
             reached = np.count_nonzero(lasted)
             self.velocity = increments.velocity(speed_indices[reached - 1], state.displacement, state.increment)
-            self._balance(constants.recursion[speed_indices[:reached]], segments_of_call.ends[:reached])
+            self._balance(constants.recursion[speed_indices[:reached]], call.ends[:reached])
             speeds = np.repeat(interval.distinct_speeds.speeds[speed_indices], lasted)
-            instants = problem.snapshots_between(first, first + len(speeds))
+            instants = problem.grid.snapshots_between(first, first + len(speeds))
             yield Stage(
                 speeds,
                 record.samples,
-                np.repeat(segments_of_call.wear, lasted),
+                np.repeat(call.wear, lasted),
                 record.snapshots,
                 speeds[list(instants)],
                 shapes,
@@ -145,7 +145,7 @@ class RunUpIntegration:
             )
 
     def _balance(self, recursions: Recursion, ends: np.ndarray) -> None:
-        """Add up the energies of segments; `ends`, shape (segments, 2, 2, modes): see Course."""
+        """Add up the energies of segments; `ends`, shape (segments, 2, 2, modes): see Schedule."""
         begun, ended = (recursions.energy(ends[:, end, 0], ends[:, end, 1]) for end in range(2))
         self.stiffness_work += float(begun[0] - self.energy + np.sum(begun[1:] - ended[:-1]))
         self.energy = float(ended[-1])
@@ -161,8 +161,8 @@ def resolved_problem(model: ContactModel, speed: float, scene: Scene, choice: In
     Raises what Problem raises; UnstableStepError for an explicit step that is too long.
     """
     problem = stable_problem(model, speed, scene, choice)
-    fastest = problem.highest_frequency
-    if choice.integrator == CENTRAL_DIFFERENCE or fastest * problem.time_step < _LARGEST_TURN:
+    fastest = problem.contact.highest_frequency
+    if choice.integrator == CENTRAL_DIFFERENCE or fastest * problem.grid.time_step < _LARGEST_TURN:
         return problem
     limit = _LARGEST_TURN / fastest
     if not choice.shorten:

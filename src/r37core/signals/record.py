@@ -42,7 +42,7 @@ def record_signals(
     choice = replace(choice, snapshots_per_revolution=snapshots, snapshot_revolutions=choice.revolutions)
     simulation = Simulation(model, speed, scene, choice)
     # rows of what the states are kept in
-    shapes = simulation.problem.state_shapes
+    shapes = simulation.problem.contact.state_shapes
     rows = gauge_rows @ model.to_reduced @ shapes if len(gauge_rows) else np.empty((0, shapes.shape[1]))
     state, status = simulation.start(), RunStatus.COMPLETED
     tip = np.full((choice.revolutions * per_revolution, len(TIP_POINTS), len(DIRECTIONS)), np.nan)

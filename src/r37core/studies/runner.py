@@ -127,7 +127,7 @@ class _Runs:
             choice = replace(choice, time_step=step, shorten=False)
         if case.half_step:
             # of the step taken, which divides the sampling instants: half of the one asked for may give the same
-            choice = replace(choice, time_step=0.5 * stable_problem(self.model, speed, self.scene, choice).time_step)
+            choice = replace(choice, time_step=0.5 * stable_problem(self.model, speed, self.scene, choice).grid.time_step)
         return choice
 
     def _run(self, speed: float) -> None:

@@ -1,17 +1,12 @@
-"""The room of the contact nodes: the round casing's clearance at each speed, whether a run can begin with it, and gaps."""
+"""The room of the contact nodes: the round casing's clearance at each speed, and whether a run can begin with it."""
 
 from __future__ import annotations
-
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from r37core.contact.casing import approach
 from r37core.contact.scene import Scene
 from r37core.rom.contact_model import ContactModel
-
-if TYPE_CHECKING:
-    from .problem import Problem
 
 LARGEST_RING = 1.25
 """Radius of a casing's middle line over that of the tip."""
@@ -66,25 +61,6 @@ def check_ring(model: ContactModel, scene: Scene) -> None:
         f"casing.ring.radius_m of the scene (scenes.yaml): found {ring:g} m round a tip at {tip:.4g} m; "
         f"allowed: {tip:.4g} to {LARGEST_RING * tip:.4g} m"
     )
-
-
-def gaps(problem: Problem, clearance: np.ndarray, displacement: np.ndarray, step: int) -> tuple[np.ndarray, np.ndarray]:
-    """Distance (m) of every node from casing or lining, and the angle (rad) at which it meets it, shape (nodes,) both.
-
-    `clearance` (m) of the round casing, shape (nodes,); `displacement` (m) of the nodes along its normal, tangent and meridian,
-    shape (3, nodes), relative to a flexible casing; `step`: counted from the start of the run.
-    """
-    theta = problem.theta(step % problem.steps_per_revolution)
-    normal, across, meridional = displacement
-    position = normal
-    if problem.scene.exact_gap:
-        # the displaced node's radius is sqrt((r + u_r)^2 + u_theta^2), its angle theta + atan(u_theta/(r + u_r))
-        cosine, sine = np.cos(problem.cone_angle), np.sin(problem.cone_angle)
-        radius = problem.tip.radius + cosine * normal + sine * meridional
-        position = position + cosine * (np.hypot(radius, across) - radius)
-        theta = theta + np.arctan2(across, radius)
-    lobes = problem.scene.casing.lobe(theta, np.array(step * problem.time_step), problem.duration)
-    return clearance - lobes - position, theta
 
 
 def initial_wear(clearance: np.ndarray, rings: int) -> np.ndarray:

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 
 from r37core.rom.contact_model import ContactModel
 
-from .clearance import gaps
+from .gaps import gaps
 from .integrators import increments
 from .state import SimulationState
 
@@ -69,7 +69,7 @@ class InitialMotion:
     def left_out(self, problem: Problem) -> float:
         """Share of its energy that a run leaves out, because it lies in modes that are not stepped."""
         whole, model = self.at_rest(problem.model), problem.model
-        rest = whole - (whole @ problem.modes) @ problem.modes.T
+        rest = whole - (whole @ problem.blade.modes) @ problem.blade.modes.T
 
         def energy(motion: np.ndarray) -> float:
             displacement, velocity = motion
@@ -89,15 +89,15 @@ class InitialMotion:
         with central differences the velocity is (u_1 - u_{-1})/(2h). Static modes follow contact forces, and there are none.
         Raises InitialMotionError for a displacement that does not fit, and for one that reaches into casing or lining.
         """
-        displacement, velocity = self.at_rest(problem.model) @ problem.modes
+        displacement, velocity = self.at_rest(problem.model) @ problem.blade.modes
         if self.displacement is not None:
             _check_room(problem, displacement, state)
         blade = slice(len(displacement))
-        ratio, step = problem.scene.damping_ratio, problem.time_step
-        if problem.complex_modes is not None:
-            u, d = problem.complex_modes.begun(problem.frequencies, displacement, velocity, ratio, step)
+        ratio, step = problem.scene.damping_ratio, problem.grid.time_step
+        if problem.blade.complex_modes is not None:
+            u, d = problem.blade.complex_modes.begun(problem.blade.frequencies, displacement, velocity, ratio, step)
         else:
-            of = increments(problem.choice.integrator, problem.frequencies, ratio, step)
+            of = increments(problem.choice.integrator, problem.blade.frequencies, ratio, step)
             u, d = displacement, of.by_displacement * displacement + of.by_velocity * velocity
         state.displacement[blade], state.increment[blade] = u, d
 
@@ -125,8 +125,8 @@ def _check_room(problem: Problem, displacement: np.ndarray, state: SimulationSta
 
     The contact forces of the first instant would be missing.
     """
-    nodes = np.array([rows @ (problem.modes @ displacement) for rows in problem.operator_at_rest])
-    room, _ = gaps(problem, problem.clearance, nodes, 0)
+    nodes = np.array([rows @ (problem.blade.modes @ displacement) for rows in problem.contact.operator_at_rest])
+    room, _ = gaps(problem, problem.casing.clearance, nodes, 0)
     if state.wear is not None:
         room = room + state.wear[:, 0]
     node = int(room.argmin())

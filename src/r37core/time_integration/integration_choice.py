@@ -7,7 +7,7 @@ from typing import Annotated
 
 from r37core.declared import Key
 
-from .integrators import CENTRAL_DIFFERENCE, INTEGRATORS
+from .integrators import CENTRAL_DIFFERENCE, EXACT_MODAL, INTEGRATORS
 
 LARGEST_TABLE = 2**30
 """Bytes of the casing's shape at every step of a revolution."""
@@ -49,6 +49,11 @@ class IntegrationChoice:
     static_above: float = 1.0
     shorten: bool = False
     steps_per_sample: int | None = None
+
+    @property
+    def second_order(self) -> bool:
+        """Whether the contact forces are those at t_n, and not, as published, those that correct the prediction of t_n+1."""
+        return self.integrator == EXACT_MODAL
 
     @property
     def revolutions_in_statistic(self) -> int:

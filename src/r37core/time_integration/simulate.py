@@ -13,9 +13,10 @@ from .clearance import initial_wear
 from .compiled.engine import CompiledEngine
 from .initial_motion import InitialMotion
 from .integration_choice import IntegrationChoice
-from .problem import Paces, Problem, stable_problem
+from .problem import Problem, stable_problem
 from .reference.engine import ReferenceEngine
-from .state import Course, SimulationRecord, SimulationState
+from .segments import Segments, own_segment, segments_at
+from .state import Schedule, SimulationRecord, SimulationState
 
 TIP_POINTS, DIRECTIONS = ("leading_edge", "trailing_edge"), ("normal", "radial", "tangential")
 """What the samples are of: every direction at the first tip point, then at the second."""
@@ -31,7 +32,7 @@ class Simulation:
 
     def __init__(self, model: ContactModel, speed: float, scene: Scene, choice: IntegrationChoice):
         problem = stable_problem(model, speed, scene, choice)
-        self._take(problem, problem.own_pace, None)
+        self._take(problem, own_segment(problem), None)
 
     @classmethod
     def at_speeds(cls, problem: Problem, speeds: np.ndarray, before: Simulation | None) -> Simulation:
@@ -40,13 +41,13 @@ class Simulation:
         `before`: a simulation that is done, of the same scene and choice, of whose engine is kept what fits.
         """
         simulation = cls.__new__(cls)
-        simulation._take(problem, problem.paces(speeds), None if before is None else before.engine)
+        simulation._take(problem, segments_at(problem, speeds), None if before is None else before.engine)
         return simulation
 
-    def _take(self, problem: Problem, paces: Paces, before: Any) -> None:
-        self.problem, self.paces = problem, paces
+    def _take(self, problem: Problem, segments: Segments, before: Any) -> None:
+        self.problem, self.segments = problem, segments
         # of one choice, so of one class
-        self.engine: Any = _ENGINES[problem.choice.engine](problem, paces, before)
+        self.engine: Any = _ENGINES[problem.choice.engine](problem, segments, before)
 
     def start(self, motion: InitialMotion | None = None) -> SimulationState:
         """The blade at rest or in `motion`, in an unworn lining, or in one that it has cut its way into.
@@ -54,10 +55,10 @@ class Simulation:
         Raises what InitialMotion.put raises.
         """
         problem = self.problem
-        directions, nodes, modes = problem.displacement_operator.shape
-        wear = None if problem.scene.lining is None else np.zeros((problem.rings, problem.bars))
+        directions, nodes, modes = problem.contact.displacement_operator.shape
+        wear = None if problem.scene.lining is None else np.zeros((problem.casing.rings, problem.casing.bars))
         if wear is not None and problem.scene.casing.changes_with_speed:
-            wear += initial_wear(problem.clearance, problem.rings)
+            wear += initial_wear(problem.casing.clearance, problem.casing.rings)
         forces = np.zeros((directions, nodes))
         state = SimulationState(np.zeros(modes), np.zeros(modes), wear, np.zeros(nodes, dtype=bool), forces)
         if motion is not None:
@@ -70,30 +71,30 @@ class Simulation:
 
     def advance_samples(self, state: SimulationState, samples: int) -> SimulationRecord:
         """The same by a number of samples."""
-        return self.follow(state, Course(np.zeros(1), np.array([samples]), len(state.displacement)))
+        return self.follow(state, Schedule(np.zeros(1), np.array([samples]), len(state.displacement)))
 
-    def follow(self, state: SimulationState, course: Course) -> SimulationRecord:
-        """The same along a course."""
+    def follow(self, state: SimulationState, schedule: Schedule) -> SimulationRecord:
+        """The same in the constant-speed segments of a schedule."""
         problem = self.problem
-        first, asked = state.samples, int(course.samples.sum())
+        first, count = state.samples, int(schedule.samples.sum())
 
         def snapshots(samples: int) -> int:
-            return problem.snapshots_after(first + samples) - problem.snapshots_after(first)
+            return problem.grid.snapshots_after(first + samples) - problem.grid.snapshots_after(first)
 
-        outputs, numbers = problem.output_operator.shape
-        out = SimulationRecord(np.empty((asked, outputs)), np.empty((snapshots(asked), numbers)))
-        done = self.engine.advance(state, out, course)
-        state.samples = first + asked
-        diverged = done < asked or not (np.abs(out.samples[done - 1]) < problem.scene.divergence_limit).all()
+        outputs, numbers = problem.contact.output_operator.shape
+        out = SimulationRecord(np.empty((count, outputs)), np.empty((snapshots(count), numbers)))
+        done = self.engine.advance(state, out, schedule)
+        state.samples = first + count
+        diverged = done < count or not (np.abs(out.samples[done - 1]) < problem.scene.divergence_limit).all()
         of_tip = len(TIP_POINTS) * len(DIRECTIONS)
-        casing = None if problem.ring is None else out.samples[:done, of_tip:]
+        casing = None if problem.casing.ring is None else out.samples[:done, of_tip:]
         return SimulationRecord(out.samples[:done, :of_tip], out.snapshots[: snapshots(done)], bool(diverged), casing)
 
     def energy(self, state: SimulationState) -> float:
         """Energy (J) of the vibration, that of the static modes in it; see Recursion."""
-        stepped = float(self.problem.recursion.energy(state.displacement, state.increment))
-        return stepped + self.problem.static_energy(state.contact_force)
+        stepped = float(self.problem.contact.recursion.energy(state.displacement, state.increment))
+        return stepped + self.problem.contact.static_energy(state.contact_force)
 
     def work(self, state: SimulationState) -> float:
         """Work (J) of the contact forces since the start: on the stepped modes, and all that the static ones hold."""
-        return float(state.totals["work"]) + self.problem.static_energy(state.contact_force)
+        return float(state.totals["work"]) + self.problem.contact.static_energy(state.contact_force)

@@ -39,7 +39,8 @@ def prepare(input: Any, output: Any, params: Any) -> None:
     """
     scene, choice = from_plain(Scene, params.scene), from_plain(IntegrationChoice, params.choice)
     problem = Simulation(read_contact_model(as_list(input.models)[0]), params.speed, scene, choice).problem
-    print(f"{params.speed:g} rad/s: highest mode {problem.frequencies[-1]:.6g} rad/s, steps of {problem.time_step:.6g} s")
+    highest, step = problem.blade.frequencies[-1], problem.grid.time_step
+    print(f"{params.speed:g} rad/s: highest mode {highest:.6g} rad/s, steps of {step:.6g} s")
 
 
 def make_ready(speed: str, output: str, log: str, task: str, about: str, model: str, stress: str | None = None) -> None:

@@ -71,8 +71,8 @@ def run_speed(
         "speed": np.array(speed),
         "diverged_revolution": np.array(diverged_at),
         "diverged_time": np.array(diverged_at * 2.0 * np.pi / speed),
-        "time_step": np.array(simulation.problem.time_step),
-        "cone_angle": np.array(simulation.problem.cone_angle),
+        "time_step": np.array(simulation.problem.grid.time_step),
+        "cone_angle": np.array(simulation.problem.casing.cone_angle),
         "lined": np.array(int(scene.lining is not None)),
         "rms": np.sqrt(np.mean(half**2, axis=0)),
         "peak": maxima[first:].max(axis=0),
@@ -85,7 +85,7 @@ def run_speed(
     if left_out is not None:
         numbers["initial_energy_left_out"] = np.array(left_out)
     if scene.casing.changes_with_speed:
-        numbers["clearance"] = simulation.problem.clearance
+        numbers["clearance"] = simulation.problem.casing.clearance
     if "spectrum" in results:
         numbers |= _spectrum(half[:, 0, _KEPT].T, len(half) // per_revolution, spectrum_highest_order)
     if "stress" in results:
@@ -98,7 +98,7 @@ def run_speed(
         if motion is not None:
             numbers["initial_energy"] = np.array(begun)
     if "casing" in results:
-        ring = simulation.problem.ring
+        ring = simulation.problem.casing.ring
         assert ring is not None and record.casing is not None
         casing = _whole(record.casing, sample_count, record.diverged)[first * per_revolution :]
         numbers |= casing_waves(casing, ring, speed, len(casing) // per_revolution, spectrum_highest_order)
@@ -118,7 +118,7 @@ def _stress(
 ) -> dict[str, np.ndarray]:
     """What is kept of the snapshots of a run: see `run_speed`."""
     model, speed, choice = simulation.problem.model, simulation.problem.speed, simulation.problem.choice
-    shapes, per_revolution = model.to_reduced @ simulation.problem.state_shapes, choice.snapshots_per_revolution
+    shapes, per_revolution = model.to_reduced @ simulation.problem.contact.state_shapes, choice.snapshots_per_revolution
     coordinates = record.snapshots[-per_revolution:] @ shapes.T
     if static_stress:
         coordinates = with_rotation(coordinates, model, speed)

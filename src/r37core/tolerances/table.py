@@ -24,7 +24,7 @@ class _Found:
     members: dict[str, Interaction] = field(default_factory=dict)
 
     def speed(self) -> float:
-        speeds = [row.peak_speed_rad_s for row in (*filter(None, [self.nominal]), *self.members.values())]
+        speeds = [row.peak.peak_speed_rad_s for row in (*filter(None, [self.nominal]), *self.members.values())]
         return float(np.median(speeds))
 
     def any(self) -> Interaction:
@@ -42,7 +42,7 @@ def ranges(
     Two are the same where mode and engine order are; those that no crossing explains where one crossing could hold both.
     `speeds`: first and last (rad/s) of the members; what the nominal run shows beyond them no member could.
     """
-    within = [row for row in nominal if speeds[0] <= row.peak_speed_rad_s <= speeds[1]]
+    within = [row for row in nominal if speeds[0] <= row.peak.peak_speed_rad_s <= speeds[1]]
     matched = sorted(_matched(within, members, choice), key=_Found.speed)
     return [_row(match, len(members)) for match in matched]
 
@@ -63,29 +63,29 @@ def _matched(
         for row in interactions:
             fits = [match for match in matches if name not in match.members and _same(row, match, choice)]
             if fits:
-                min(fits, key=lambda match: abs(match.speed() - row.peak_speed_rad_s)).members[name] = row
+                min(fits, key=lambda match: abs(match.speed() - row.peak.peak_speed_rad_s)).members[name] = row
             else:
                 matches.append(_Found(members={name: row}))
     return matches
 
 
 def _same(row: Interaction, match: _Found, choice: InteractionChoice) -> bool:
-    known = match.any()
-    if (row.mode, row.engine_order) != (known.mode, known.engine_order):
+    known = match.any().crossing
+    if (row.crossing.mode, row.crossing.engine_order) != (known.mode, known.engine_order):
         return False
-    low, high = sorted((row.peak_speed_rad_s, match.speed()))
-    return bool(row.mode) or high <= choice.span * low
+    low, high = sorted((row.peak.peak_speed_rad_s, match.speed()))
+    return bool(row.crossing.mode) or high <= choice.span * low
 
 
 def _row(match: _Found, members: int) -> dict[str, object]:
-    known, share = match.any(), len(match.members) / members
+    known, share = match.any().crossing, len(match.members) / members
     row: dict[str, object] = {"mode": known.mode, "engine_order": known.engine_order, "members": members}
     row |= {"share_of_members": share, "robust": share >= ROBUST}
     for name in RANGED:
-        values = np.array([getattr(member, name) for member in match.members.values()], float)
+        values = np.array([member.columns[name] for member in match.members.values()], float)
         values = values[np.isfinite(values)]
         quantiles = np.quantile(values, list(ENDS.values()), method="inverted_cdf") if len(values) else [np.nan] * len(ENDS)
-        row[name] = getattr(match.nominal, name) if match.nominal else np.nan
+        row[name] = match.nominal.columns[name] if match.nominal else np.nan
         row |= {f"{name}_{end}": float(value) for end, value in zip(ENDS, quantiles, strict=True)}
     return row
 

@@ -7,6 +7,7 @@ from types import SimpleNamespace
 from typing import Any
 
 from r37core.config import ConfigError, Settings, plain
+from r37core.plans.rounds_plan import Rounds
 from r37core.plans.sweep_plan import Sweep
 from r37core.tolerances.members import members_of, section
 from r37core.tolerances.sample import is_of_sample
@@ -73,14 +74,14 @@ def outputs(settings: Settings) -> dict[str, str]:
 
 def values(settings: Settings) -> dict[str, Any]:
     """Plans of the speeds, steps of the plain grids, and what a sweep refines by."""
-    sweep, pairs = Sweep(settings), adaptive(settings)
+    rounds, pairs = Rounds(Sweep(settings)), adaptive(settings)
     return {
         "pairs": pairs,
         "members": adaptive_members(settings),
         "plans": {name: settings.speed_plans[pair] for name, pair in pairs.items()},
         "steps": plain_steps(settings),
         "choices": {
-            name: sweep.refinement_choice(SimpleNamespace(blade=blade, scene=scene)) for name, (blade, scene) in pairs.items()
+            name: rounds.refinement_choice(SimpleNamespace(blade=blade, scene=scene)) for name, (blade, scene) in pairs.items()
         },
         "interactions": plain(settings.config.interactions),
     }

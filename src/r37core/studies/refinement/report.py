@@ -173,22 +173,23 @@ def above_yield(response: xr.Dataset, campbell: xr.Dataset, interactions: Intera
 
 def _width(row: Interaction) -> float:
     """Width above yield (rad/s): of the last revolution, in direct contact of what is certain."""
-    width = row.certain_to_rad_s - row.certain_from_rad_s if row.note else row.width_above_yield_rad_s
+    every = row.all_revolutions
+    width = every.certain_to_rad_s - every.certain_from_rad_s if row.note else row.last_revolution.width_above_yield_rad_s
     return 0.0 if math.isnan(width) else width
 
 
 def _held_against(row: Interaction, got: Sequence[Interaction], share_of_members: float) -> Comparison:
     """One interaction beside the nearest of those that were found."""
-    peak, width = row.peak_speed_rad_s, _width(row)
-    near = [other for other in got if abs(other.peak_speed_rad_s - peak) <= max(width, TOLERANCE)]
-    nearest = min(near, key=lambda other: abs(other.peak_speed_rad_s - peak), default=None)
+    peak, width = row.peak.peak_speed_rad_s, _width(row)
+    near = [other for other in got if abs(other.peak.peak_speed_rad_s - peak) <= max(width, TOLERANCE)]
+    nearest = min(near, key=lambda other: abs(other.peak.peak_speed_rad_s - peak), default=None)
     return Comparison(
-        mode=row.mode,
-        engine_order=row.engine_order,
+        mode=row.crossing.mode,
+        engine_order=row.crossing.engine_order,
         peak=peak,
         width=width,
-        stress=row.median_von_mises_pa if row.note else row.max_von_mises_pa,
-        found_peak=nearest.peak_speed_rad_s if nearest else math.nan,
+        stress=row.all_revolutions.median_von_mises_pa if row.note else row.last_revolution.max_von_mises_pa,
+        found_peak=nearest.peak.peak_speed_rad_s if nearest else math.nan,
         found_width=_width(nearest) if nearest else math.nan,
         share_of_members=share_of_members,
     )

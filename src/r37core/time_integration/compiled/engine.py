@@ -17,10 +17,11 @@ from r37core.native import Sources, cached_object, load_function
 from ..integrators import CENTRAL_DIFFERENCE
 from ..jump_numbers import NEVER
 from ..jump_plan import jump_lengths, nearest_casing
-from ..problem import Paces, Problem
-from ..state import Course, SimulationRecord, SimulationState
+from ..problem import Problem
+from ..segments import Segments
+from ..state import Schedule, SimulationRecord, SimulationState
 from .kind import Kind
-from .layout import LINING, NORMAL, TANGENTIAL, Capacity, capacity_of, integration_record, pace_record
+from .layout import LINING, NORMAL, TANGENTIAL, Capacity, capacity_of, constants_record, integration_record
 
 SOURCES = Sources(
     "alignment.py",
@@ -40,7 +41,7 @@ SOURCES = Sources(
     "time_integration/compiled/jump_steps.py",
     "time_integration/compiled/kind.py",
     "time_integration/compiled/layout.py",
-    "time_integration/compiled/pace_steps.py",
+    "time_integration/compiled/segment_steps.py",
     "time_integration/compiled/program.py",
     "time_integration/compiled/ring_steps.py",
     "time_integration/compiled/steps.py",
@@ -53,7 +54,7 @@ SOURCES = Sources(
 class CompiledEngine:
     """The time integration of one problem, compiled for what its scene has: all that its program needs lies in one record.
 
-    It goes at the first of its `paces` until it takes another. Of an engine `before`, of the same scene and choice at another
+    It goes at the first speed of its `segments` until `take`. Of an engine `before`, of the same scene and choice at another
     speed, it keeps what fits, and that one must not go on.
     """
 
@@ -61,16 +62,16 @@ class CompiledEngine:
     _corners: dict[tuple[str, tuple[int, ...]], np.ndarray]
     _tables: _CasingTables
 
-    def __init__(self, problem: Problem, paces: Paces, before: CompiledEngine | None = None):
-        _, self._nodes, self._modes = problem.displacement_operator.shape
-        blade, pairs = len(problem.frequencies), len(problem.scene.casing.ring)
+    def __init__(self, problem: Problem, segments: Segments, before: CompiledEngine | None = None):
+        _, self._nodes, self._modes = problem.contact.displacement_operator.shape
+        blade, pairs = len(problem.blade.frequencies), len(problem.scene.casing.ring)
         # lanes that are used; the modes of an elastic casing begin whole vectors
         self._pairs, self._node_lanes = padded(pairs), padded(self._nodes)
         self._mode_lanes = padded(blade) + 2 * self._pairs
         firsts = (self._mode_lanes - 2 * self._pairs, self._mode_lanes - self._pairs)
         of_ring = [first + np.arange(pairs) for first in firsts]
-        # an array of places costs more in every stretch of a run-up
-        self._places = np.concatenate([np.arange(blade), *of_ring]) if pairs else slice(blade)
+        # an array of indices costs more in every segment of a run-up
+        self._mode_columns = np.concatenate([np.arange(blade), *of_ring]) if pairs else slice(blade)
         scene, choice = problem.scene, problem.choice
         self._capacity = capacity_of(self._mode_lanes, self._node_lanes)
         self._kind = kind = Kind(
@@ -78,7 +79,7 @@ class CompiledEngine:
             lined=scene.lining is not None,
             vector_friction=scene.friction is not None and scene.friction.vector,
             exact_gap=scene.exact_gap,
-            coriolis=problem.complex_modes is not None,
+            coriolis=problem.blade.complex_modes is not None,
         )
         self._advance = _program(self._capacity, kind)
         self._constant_share: np.ndarray | None = None
@@ -86,8 +87,8 @@ class CompiledEngine:
         self._lay_out(problem)
         if kind.coriolis:
             self._lay_out_coriolis(problem)
-        if problem.ring is not None:
-            self._lay_out_ring(problem.ring, problem)
+        if problem.casing.ring is not None:
+            self._lay_out_ring(problem.casing.ring, problem)
         self._lay_out_casing(problem, before)
         if scene.friction is not None:
             self._lay_out_friction(problem, scene.friction)
@@ -95,17 +96,17 @@ class CompiledEngine:
             self._lay_out_lining(problem, scene.lining)
         if not kind.published:
             self._lay_out_static_modes(problem)
-        self._put(jumping=paces.jumps is not None)
-        self._paces = self._table_of(paces)
+        self._put(jumping=segments.jumps is not None)
+        self._constants = self._table_of(segments)
         self.take(0)
 
-    def take(self, place: int) -> None:
-        """Go on at the pace of this place."""
-        m, pace = self._record[0], self._paces[place]
-        for name in pace.dtype.names:
-            m["pace"][name][..., : pace[name].shape[-1]] = pace[name]
-        m["problem"]["diagonal"][: self._nodes] = np.diagonal(pace["columns"])[: self._nodes]
-        m["call"]["pace"] = place
+    def take(self, speed_index: int) -> None:
+        """Go on at this one of the speeds."""
+        m, constants = self._record[0], self._constants[speed_index]
+        for name in constants.dtype.names:
+            m["speed"][name][..., : constants[name].shape[-1]] = constants[name]
+        m["problem"]["diagonal"][: self._nodes] = np.diagonal(constants["columns"])[: self._nodes]
+        m["call"]["speed_index"] = speed_index
 
     def _take_room(self, before: CompiledEngine | None) -> None:
         """Make the record, or take that of an engine before."""
@@ -116,9 +117,9 @@ class CompiledEngine:
             self._record, self._corners = aligned_zeros((1,), integration_record(self._capacity)), {}
         self._address = self._record.ctypes.data
 
-    def _table_of(self, paces: Paces) -> np.ndarray:
-        """The paces as they stand in the record, shape (paces,)."""
-        recursion, coupling, plan, clearance, increments = paces
+    def _table_of(self, segments: Segments) -> np.ndarray:
+        """The segments as they stand in the record, shape (segments,)."""
+        recursion, coupling, plan, clearance, increments = segments
         fields = {"clearance": clearance}
         if coupling is not None:
             normal = coupling[:, NORMAL]
@@ -137,12 +138,12 @@ class CompiledEngine:
             of_modes |= {"jumps": plan.jumps}
             of_modes |= {"amplitude_by_u": plan.amplitude_rows[:, 0], "amplitude_by_d": plan.amplitude_rows[:, 1]}
         fields |= {name: self._spread(values) for name, values in of_modes.items()}
-        found = aligned_zeros((len(clearance),), pace_record(self._mode_lanes, self._capacity.nodes))
+        table = aligned_zeros((len(clearance),), constants_record(self._mode_lanes, self._capacity.nodes))
         # a node that only pads the vector must not touch
-        found["clearance"] = 1.0
+        table["clearance"] = 1.0
         for name, values in fields.items():
-            found[name][(slice(None), *map(slice, values.shape[1:]))] = values
-        return found
+            table[name][(slice(None), *map(slice, values.shape[1:]))] = values
+        return table
 
     def _corner(self, name: str, shape: tuple[int, ...]) -> np.ndarray:
         """The part of a field of the record that an array fills; what pads it stays as it is."""
@@ -166,18 +167,18 @@ class CompiledEngine:
     def _spread(self, values: np.ndarray) -> np.ndarray:
         if not self._pairs:
             return values
-        found = np.zeros((*values.shape[:-1], self._mode_lanes))
-        found[..., self._places] = values
-        return found
+        lanes = np.zeros((*values.shape[:-1], self._mode_lanes))
+        lanes[..., self._mode_columns] = values
+        return lanes
 
-    def advance(self, state: SimulationState, out: SimulationRecord, course: Course) -> int:
+    def advance(self, state: SimulationState, out: SimulationRecord, schedule: Schedule) -> int:
         """Do one block of steps per row of `out.samples`, from `state`, which is changed, and fill samples and snapshots.
 
-        They are done at the paces of `course`, whose ends and wear are filled. Returns the blocks done: fewer when an output
+        They are done as the `schedule` says, whose ends and wear are filled. Returns the blocks done: fewer when an output
         passed the limit or is NaN.
         """
         m, modes, nodes = self._record[0], self._mode_lanes, self._node_lanes
-        ends = np.empty((*course.ends.shape[:-1], modes))
+        ends = np.empty((*schedule.ends.shape[:-1], modes))
         # u and, with Coriolis, d of each
         of_mode = 1 + self._kind.coriolis
         numbers, kept = of_mode * modes, of_mode * self._modes
@@ -188,11 +189,11 @@ class CompiledEngine:
             totals=state.totals,
         )
         addresses = {
-            "paces": self._paces,
-            "places": course.places,
-            "lasting": course.samples,
+            "constants": self._constants,
+            "speed_indices": schedule.speed_indices,
+            "lasting": schedule.samples,
             "ends": ends,
-            "worn": course.wear,
+            "worn": schedule.wear,
             "wear": state.wear,
             "samples": out.samples,
             "snapshots": snapshots,
@@ -203,11 +204,11 @@ class CompiledEngine:
         if not self._kind.published:
             self._put(force=state.contact_force[NORMAL], friction_force=state.contact_force[TANGENTIAL:])
         done = int(self._advance(self._address))
-        state.displacement[:], state.increment[:] = m["u"][self._places], m["increment"][self._places]
-        course.ends[:] = ends[..., self._places]
+        state.displacement[:], state.increment[:] = m["u"][self._mode_columns], m["increment"][self._mode_columns]
+        schedule.ends[:] = ends[..., self._mode_columns]
         state.on_casing[:] = np.unpackbits(m["on_casing"].astype(np.uint8), bitorder="little")[: self._nodes]
         state.totals[()] = m["totals"]
-        of_modes = snapshots[:, :numbers].reshape(len(snapshots), of_mode, modes)[:, :, self._places]
+        of_modes = snapshots[:, :numbers].reshape(len(snapshots), of_mode, modes)[:, :, self._mode_columns]
         out.snapshots[:, :kept] = of_modes.reshape(len(snapshots), kept)
         if not self._kind.published:
             state.contact_force[NORMAL] = m["force"][: self._nodes]
@@ -222,51 +223,51 @@ class CompiledEngine:
         m["radius"] = m["flight"]["towards"] = m["problem"]["diagonal"] = 1.0
         m["contact"]["lanes"] = m["problem"]["lanes"] = self._node_lanes
         self._put_modes(
-            displacement_operator=problem.displacement_operator,
-            size_operator=problem.size_operator,
-            push_operator=problem.displacement_operator[NORMAL],
-            outputs=problem.output_operator[None, :, : self._modes],
+            displacement_operator=problem.contact.displacement_operator,
+            size_operator=problem.contact.size_operator,
+            push_operator=problem.contact.displacement_operator[NORMAL],
+            outputs=problem.contact.output_operator[None, :, : self._modes],
         )
         self._put(
-            radius=problem.tip.radius,
-            theta=problem.tip.theta,
-            number_of_outputs=len(problem.output_operator),
+            radius=problem.casing.tip.radius,
+            theta=problem.casing.tip.theta,
+            number_of_outputs=len(problem.contact.output_operator),
             limit=problem.scene.divergence_limit,
             nodes=self._nodes,
             vectors=np.array([self._mode_lanes, self._node_lanes]) // LANES,
             pairs=self._pairs,
             coupled=problem.scene.friction is None or problem.scene.friction.coupled,
-            rings=problem.rings,
-            steps_per_revolution=problem.steps_per_revolution,
-            steps_per_block=problem.steps_per_sample,
-            samples_before_snapshots=problem.samples_before_snapshots,
-            samples_per_snapshot=problem.samples_per_snapshot,
+            rings=problem.casing.rings,
+            steps_per_revolution=problem.grid.steps_per_revolution,
+            steps_per_block=problem.grid.steps_per_sample,
+            samples_before_snapshots=problem.grid.samples_before_snapshots,
+            samples_per_snapshot=problem.grid.samples_per_snapshot,
         )
 
     def _lay_out_coriolis(self, problem: Problem) -> None:
         self._put_modes(
-            increment_operator=problem.increment_operator,
-            increment_push_operator=problem.increment_operator[NORMAL],
-            increment_outputs=problem.output_operator[None, :, self._modes : 2 * self._modes],
+            increment_operator=problem.contact.increment_operator,
+            increment_push_operator=problem.contact.increment_operator[NORMAL],
+            increment_outputs=problem.contact.output_operator[None, :, self._modes : 2 * self._modes],
         )
 
     def _lay_out_ring(self, ring: RingMotion, problem: Problem) -> None:
-        lengths = jump_lengths(problem.steps_per_sample) if problem.choice.jumps else np.empty(0)
-        turns = 2.0 * np.pi / problem.steps_per_revolution * ring.nodal_diameters
+        lengths = jump_lengths(problem.grid.steps_per_sample) if problem.choice.jumps else np.empty(0)
+        turns = 2.0 * np.pi / problem.grid.steps_per_revolution * ring.nodal_diameters
         self._put(turn_cosine=np.cos(lengths[:, None] * turns), turn_sine=np.sin(lengths[:, None] * turns))
         m, pairs = self._record[0], slice(len(ring.modes))
         m["turn_cosine"][-1, pairs], m["turn_sine"][-1, pairs] = np.cos(turns), np.sin(turns)
 
     def _lay_out_casing(self, problem: Problem, before: CompiledEngine | None) -> None:
         m, casing = self._record[0], problem.scene.casing
-        rise = casing.rise_rate(problem.duration) * problem.time_step
+        rise = casing.rise_rate(problem.grid.duration) * problem.grid.time_step
         numbers = {
             "amplitude": casing.lobe_height,
             "rise": rise,
             "period": 2.0 * np.pi / max(casing.lobes, 1),
             "width": casing.width,
-            "cosine": np.cos(problem.cone_angle),
-            "sine": np.sin(problem.cone_angle),
+            "cosine": np.cos(problem.casing.cone_angle),
+            "sine": np.sin(problem.casing.cone_angle),
         }
         for name, number in numbers.items():
             m["casing"][name] = number
@@ -275,18 +276,18 @@ class CompiledEngine:
         m["call"]["casing_shape"] = self._tables.shape.ctypes.data
         if problem.choice.jumps:
             m["call"]["nearest_casing"] = self._tables.nearest.ctypes.data
-            lengths, flight = jump_lengths(problem.steps_per_sample), m["flight"]
+            lengths, flight = jump_lengths(problem.grid.steps_per_sample), m["flight"]
             flight["lengths"] = NEVER
             flight["lengths"][: len(lengths)] = lengths
             if np.isfinite(rise):
                 flight["decay"][: len(lengths)] = np.exp(-rise * lengths)
 
     def _lay_out_friction(self, problem: Problem, friction: Friction) -> None:
-        velocity = problem.rotation_velocity
-        self._put(friction=friction.coefficient, rotation=velocity * problem.time_step)
+        velocity = problem.casing.rotation_velocity
+        self._put(friction=friction.coefficient, rotation=velocity * problem.grid.time_step)
         if not friction.vector:
             share = friction.coefficient * np.sign(velocity)[:, None]
-            operator, increments = problem.displacement_operator, problem.increment_operator
+            operator, increments = problem.contact.displacement_operator, problem.contact.increment_operator
             self._constant_share = share
             self._put(friction_share=np.stack([share[:, 0], np.zeros(self._nodes)]))
             self._put_modes(push_operator=operator[NORMAL] + share * operator[TANGENTIAL])
@@ -296,37 +297,42 @@ class CompiledEngine:
     def _lay_out_lining(self, problem: Problem, lining: Lining) -> None:
         m = self._record[0]
         for name in LINING.names or ():
-            value = problem.bar_area if name == "area" else getattr(lining, name)
+            value = problem.casing.bar_area if name == "area" else getattr(lining, name)
             m["lining"][name] = np.nan if value is None else value
-        m["lining"]["bars"] = problem.bars
-        self._put(bar_position=problem.tip.theta / (2.0 * np.pi) * problem.bars)
+        m["lining"]["bars"] = problem.casing.bars
+        self._put(bar_position=problem.casing.tip.theta / (2.0 * np.pi) * problem.casing.bars)
 
     def _lay_out_static_modes(self, problem: Problem) -> None:
-        self._record[0]["contact"]["relaxation"] = problem.relaxation
-        force_outputs = problem.output_operator[:, -3 * self._nodes :].reshape(-1, 3, self._nodes)
+        self._record[0]["contact"]["relaxation"] = problem.blade.relaxation
+        force_outputs = problem.contact.output_operator[:, -3 * self._nodes :].reshape(-1, 3, self._nodes)
         padded_forces = np.zeros((*force_outputs.shape[:2], self._node_lanes))
         padded_forces[:, :, : self._nodes] = force_outputs
-        self._put(flexibility=problem.contact_flexibility, force_outputs=padded_forces.reshape(1, len(force_outputs), -1))
+        self._put(
+            flexibility=problem.contact.contact_flexibility, force_outputs=padded_forces.reshape(1, len(force_outputs), -1)
+        )
 
 
 class _CasingTables:
     """f(theta) of the casing at every step of a revolution, for whole vectors of nodes."""
 
     def __init__(self, problem: Problem, nodes: int):
-        shape = problem.scene.casing.shape(problem.theta(np.arange(problem.steps_per_revolution)[:, None]))
+        shape = problem.scene.casing.shape(problem.casing.theta(np.arange(problem.grid.steps_per_revolution)[:, None]))
         self.shape, self._of = aligned_copy(shape, nodes), problem
 
     @cached_property
     def nearest(self) -> np.ndarray:
-        """The nearest of each stretch, for jumps; see nearest_casing."""
-        nearest = nearest_casing(self.shape, self._of.steps_per_sample)
+        """The nearest of each interval, for jumps; see nearest_casing."""
+        nearest = nearest_casing(self.shape, self._of.grid.steps_per_sample)
         return aligned_copy(nearest, self.shape.shape[1])
 
     def fits(self, problem: Problem) -> bool:
         """Whether they are those of this problem, too."""
-        mine = self._of
-        steps = (mine.steps_per_revolution, mine.steps_per_sample) == (problem.steps_per_revolution, problem.steps_per_sample)
-        return steps and mine.scene is problem.scene and np.array_equal(mine.tip.theta, problem.tip.theta)
+        mine, grid = self._of, problem.grid
+        steps = (mine.grid.steps_per_revolution, mine.grid.steps_per_sample) == (
+            grid.steps_per_revolution,
+            grid.steps_per_sample,
+        )
+        return steps and mine.scene is problem.scene and np.array_equal(mine.casing.tip.theta, problem.casing.tip.theta)
 
 
 @cache

@@ -15,9 +15,10 @@ import numpy as np
 from r37core.contact.casing import casing_axes
 from r37core.contact.scene import Lining
 
-from ..clearance import gaps
-from ..problem import Paces, Problem
-from ..state import Course, SimulationRecord, SimulationState
+from ..gaps import gaps
+from ..problem import Problem
+from ..segments import Segments
+from ..state import Schedule, SimulationRecord, SimulationState
 from .motion import CoupledMotion, Motion, MotionWithCasing, RealMotion
 
 _MOST_SWEEPS = 200
@@ -26,69 +27,69 @@ _MOST_SWEEPS = 200
 class ReferenceEngine:
     """The time integration of one problem with dense matrices, in the coordinates of the modes at rest."""
 
-    def __init__(self, problem: Problem, paces: Paces, before: ReferenceEngine | None = None):
-        self.problem, self._paces = problem, paces
-        self._blade_rows = problem.operator_at_rest @ problem.modes @ problem.modes.T
+    def __init__(self, problem: Problem, segments: Segments, before: ReferenceEngine | None = None):
+        self.problem, self._segments = problem, segments
+        self._blade_rows = problem.contact.operator_at_rest @ problem.blade.modes @ problem.blade.modes.T
         self._turn(0)
-        self.flexibility = problem.contact_flexibility
+        self.flexibility = problem.contact.contact_flexibility
         self.take(0)
 
-    def take(self, place: int) -> None:
-        """Go on at the pace of this place."""
-        self._place, recursion = place, self._paces.recursion[place]
-        blade = (RealMotion if self.problem.complex_modes is None else CoupledMotion)(self.problem, recursion)
-        self.motion: Motion = blade if self.problem.ring is None else MotionWithCasing(blade, self.problem, recursion)
-        self.clearance = self._paces.clearance[place]
+    def take(self, speed_index: int) -> None:
+        """Go on at this one of the speeds."""
+        self._speed_index, recursion = speed_index, self._segments.recursion[speed_index]
+        blade = (RealMotion if self.problem.blade.complex_modes is None else CoupledMotion)(self.problem, recursion)
+        self.motion: Motion = blade if self.problem.casing.ring is None else MotionWithCasing(blade, self.problem, recursion)
+        self.clearance = self._segments.clearance[speed_index]
 
     def _turn(self, n: int) -> None:
         """Take the rows of the nodes where they are at t_n: of the blade's modes at rest, and of an elastic casing's."""
         problem, self.rows = self.problem, self._blade_rows
-        if problem.ring is not None:
-            of_casing = -casing_axes(problem.ring.displacement(problem.theta(n)), problem.cone_angle)
+        if problem.casing.ring is not None:
+            of_casing = -casing_axes(problem.casing.ring.displacement(problem.casing.theta(n)), problem.casing.cone_angle)
             self.rows = np.concatenate([self._blade_rows, of_casing], axis=-1)
         self.normal, self.tangential, self.meridional = self.rows
 
-    def advance(self, state: SimulationState, out: SimulationRecord, course: Course) -> int:
+    def advance(self, state: SimulationState, out: SimulationRecord, schedule: Schedule) -> int:
         """Do the steps of every row of `out.samples`, as the compiled engine does; returns the rows done."""
-        first, snapshots_before = state.samples, self.problem.snapshots_after(state.samples)
-        for stretch, (place, samples) in enumerate(zip(course.places, course.samples, strict=True)):
-            self._go_over(state, place)
-            course.ends[stretch, 0] = state.displacement, state.increment
-            done, kept = state.samples - first, self.problem.snapshots_after(state.samples) - snapshots_before
+        first, snapshots_before = state.samples, self.problem.grid.snapshots_after(state.samples)
+        for segment, (speed_index, samples) in enumerate(zip(schedule.speed_indices, schedule.samples, strict=True)):
+            self._go_over(state, speed_index)
+            schedule.ends[segment, 0] = state.displacement, state.increment
+            done, kept = state.samples - first, self.problem.grid.snapshots_after(state.samples) - snapshots_before
             part = SimulationRecord(out.samples[done : done + samples], out.snapshots[kept:])
-            reached, bounded = self._stretch(state, part)
+            reached, bounded = self._segment(state, part)
             state.samples += reached
-            course.ends[stretch, 1] = state.displacement, state.increment
-            course.wear[stretch] = 0.0 if state.wear is None else state.wear.max()
+            schedule.ends[segment, 1] = state.displacement, state.increment
+            schedule.wear[segment] = 0.0 if state.wear is None else state.wear.max()
             if not bounded:
                 break
         return state.samples - first
 
-    def _go_over(self, state: SimulationState, place: int) -> None:
-        """Take a pace; displacement and velocity go over to it."""
-        if place == self._place:
+    def _go_over(self, state: SimulationState, speed_index: int) -> None:
+        """Take another speed; displacement and velocity go over to it."""
+        if speed_index == self._speed_index:
             return
-        increments = self._paces.increments
+        increments = self._segments.increments
         assert increments is not None
-        velocity = increments.velocity(self._place, state.displacement, state.increment)
-        self.take(place)
-        state.increment[:] = increments.increment(place, state.displacement, velocity)
+        velocity = increments.velocity(self._speed_index, state.displacement, state.increment)
+        self.take(speed_index)
+        state.increment[:] = increments.increment(speed_index, state.displacement, velocity)
 
-    def _stretch(self, state: SimulationState, out: SimulationRecord) -> tuple[int, bool]:
-        """Go on at one pace; returns the rows done, and whether they are within the limit."""
+    def _segment(self, state: SimulationState, out: SimulationRecord) -> tuple[int, bool]:
+        """Go on at one speed; returns the rows done, and whether they are within the limit."""
         problem, motion, first = self.problem, self.motion.read(state), state.samples
         done, kept, bounded = 0, 0, True
-        step = self._second_order_step if problem.second_order else self._step
-        self._turn(first * problem.steps_per_sample)
+        step = self._second_order_step if problem.choice.second_order else self._step
+        self._turn(first * problem.grid.steps_per_sample)
         while done < len(out.samples) and bounded:
-            for n in range(1, problem.steps_per_sample + 1):
-                motion = step(motion, (first + done) * problem.steps_per_sample + n, state)
-            static = state.contact_force.ravel() if problem.second_order else np.empty(0)
+            for n in range(1, problem.grid.steps_per_sample + 1):
+                motion = step(motion, (first + done) * problem.grid.steps_per_sample + n, state)
+            static = state.contact_force.ravel() if problem.choice.second_order else np.empty(0)
             numbers = np.concatenate([self.motion.numbers(motion), static])
-            out.samples[done] = problem.output_operator @ numbers
+            out.samples[done] = problem.contact.output_operator @ numbers
             bounded = bool(np.all(np.abs(out.samples[done]) < problem.scene.divergence_limit))
             done += 1
-            if problem.snapshots_after(first + done) > problem.snapshots_after(first) + kept:
+            if problem.grid.snapshots_after(first + done) > problem.grid.snapshots_after(first) + kept:
                 out.snapshots[kept] = numbers
                 kept += 1
         self.motion.write(motion, state)
@@ -153,9 +154,9 @@ class ReferenceEngine:
         if friction is None:
             return np.array([towards_axis, 0.0 * towards_axis, 0.0 * towards_axis])
         # sliding velocity over the casing: that of the rotation plus, in vector form, that of the vibration
-        along, across = self.problem.rotation_velocity, np.zeros(len(self.normal))
+        along, across = self.problem.casing.rotation_velocity, np.zeros(len(self.normal))
         if friction.vector:
-            step = self.problem.time_step
+            step = self.problem.grid.time_step
             along, across = along + self.tangential @ d / step, self.meridional @ d / step
         # Coulomb: mu times the normal force, opposite to the sliding
         share = -friction.coefficient / np.hypot(along, across)
@@ -200,7 +201,7 @@ class ReferenceEngine:
 
     def _press_bar_and_casing(self, penetration: float, own: float, wear: float, lining: Lining) -> tuple[float, float, bool]:
         """Force (N) on a node of flexibility `own` (m/N), new wear (m), and whether it touches the casing behind the bar."""
-        stiffness = self.problem.bar_stiffness
+        stiffness = self.problem.casing.bar_stiffness
         force, worn = self._press_bar(penetration, wear, lining, lining.elastic_modulus / (1.0 + stiffness * own))
         if penetration - own * force > lining.thickness:
             _, worn = self._press_bar(lining.thickness, wear, lining, lining.elastic_modulus)
@@ -226,7 +227,7 @@ class ReferenceEngine:
         if excess > 0.0:
             # a bar worn through is gone
             plastic = min(plastic + excess / (modulus + lining.plastic_modulus), 1.0)
-        return max(modulus * (strain - plastic), 0.0) * self.problem.bar_area, plastic * lining.thickness
+        return max(modulus * (strain - plastic), 0.0) * self.problem.casing.bar_area, plastic * lining.thickness
 
     def _press_lining(self, gap: np.ndarray, theta: np.ndarray, lining: Lining, wear: np.ndarray) -> np.ndarray:
         """Normal forces (N) of the bars that the nodes of a prediction press, shape (nodes,); wears the bars."""

@@ -51,7 +51,7 @@ class RealMotion:
     """
 
     def __init__(self, problem: Problem, recursion: Recursion):
-        self._modes, recursion = problem.modes, recursion[: len(problem.frequencies)]
+        self._modes, recursion = problem.blade.modes, recursion[: len(problem.blade.frequencies)]
         # -B, I - A - B, C and the loss per squared central difference, as matrices
         self._keep, self._pull, self.response, self._loss = (
             self._modes @ np.diag(diagonal) @ self._modes.T
@@ -108,10 +108,10 @@ class CoupledMotion:
         # simulation jobs of the other engine never import SciPy
         from scipy.linalg import expm
 
-        coupled, coupling = problem.complex_modes, problem.gyroscopic_coupling
+        coupled, coupling = problem.blade.complex_modes, problem.blade.gyroscopic_coupling
         assert coupled is not None and coupling is not None
-        self._modes, self._root, self._coupled = problem.modes, problem.frequencies, coupled
-        modes, ratio, step = len(self._root), problem.scene.damping_ratio, problem.time_step
+        self._modes, self._root, self._coupled = problem.blade.modes, problem.blade.frequencies, coupled
+        modes, ratio, step = len(self._root), problem.scene.damping_ratio, problem.grid.time_step
         system = np.block([[np.zeros((modes, modes)), np.diag(self._root)], [-np.diag(self._root), -coupling]])
         squares, axes = np.linalg.eigh(-system @ system)
         size = (axes * np.sqrt(squares)) @ axes.T
@@ -176,11 +176,11 @@ class MotionWithCasing:
     """
 
     def __init__(self, blade: RealMotion | CoupledMotion, problem: Problem, recursion: Recursion):
-        assert problem.ring is not None
-        self._blade, self._problem, self._ring = blade, problem, problem.ring
-        self._stepped = len(problem.frequencies)
+        assert problem.casing.ring is not None
+        self._blade, self._problem, self._ring = blade, problem, problem.casing.ring
+        self._stepped = len(problem.blade.frequencies)
         self._casing = recursion[self._stepped :]
-        at_rest = len(problem.modes)
+        at_rest = len(problem.blade.modes)
         self.response = np.zeros((at_rest + len(self._casing.keep),) * 2)
         self.response[:at_rest, :at_rest] = blade.response
         self.response[at_rest:, at_rest:] = np.diag(self._casing.inverse)
@@ -191,11 +191,11 @@ class MotionWithCasing:
         return replace(state, displacement=state.displacement[: self._stepped], increment=state.increment[: self._stepped])
 
     def _turned(self, casing: np.ndarray, step: int) -> np.ndarray:
-        return self._ring.turned(casing, 2.0 * np.pi * step / self._problem.steps_per_revolution)
+        return self._ring.turned(casing, 2.0 * np.pi * step / self._problem.grid.steps_per_revolution)
 
     def read(self, state: SimulationState) -> tuple:
         """From a state, which is in the rotor's frame."""
-        step = state.samples * self._problem.steps_per_sample
+        step = state.samples * self._problem.grid.steps_per_sample
         both = np.array([state.displacement[self._stepped :], state.increment[self._stepped :]])
         return self._blade.read(self._of_blade(state)), self._turned(both, -step), step
 

@@ -1,0 +1,89 @@
+"""The casing of a run as its contact nodes meet it: its axes, clearance, own modes, and the bars of its lining."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from r37core.contact.ring import RingMotion
+from r37core.contact.scene import Scene
+from r37core.rom.contact_model import ContactModel
+
+from .clearance import clearances
+from .integration_choice import IntegrationChoice
+from .time_grid import TimeGrid
+
+
+@dataclass(frozen=True, eq=False)
+class CasingOfRun:
+    """What the contact nodes of a `model` meet in a `scene` at the speed of a `grid`."""
+
+    model: ContactModel
+    scene: Scene
+    choice: IntegrationChoice
+    grid: TimeGrid
+
+    @property
+    def speed(self) -> float:
+        """Of the rotor (rad/s)."""
+        return self.grid.speed
+
+    @cached_property
+    def ring(self) -> RingMotion | None:
+        """The modes of an elastic casing; None for a rigid one."""
+        return RingMotion(self.scene.casing.ring) if self.scene.casing.ring else None
+
+    @property
+    def cone_angle(self) -> float:
+        """Half angle (rad) of the casing's cone."""
+        return self.scene.casing.angle(self.model.tip_cone_angle)
+
+    @cached_property
+    def tip(self) -> ContactModel:
+        """The model whose contact nodes are where the rotation holds them, if the blade grows with the speed."""
+        return self.model.spun(self.speed) if self.scene.casing.centrifugal else self.model
+
+    @cached_property
+    def clearance(self) -> np.ndarray:
+        """Of the round casing at each contact node (m), shape (nodes,)."""
+        return clearances(self.model, self.scene, np.array([self.speed]))[0]
+
+    @property
+    def rotation_velocity(self) -> np.ndarray:
+        """What the rotation adds to the nodes' sliding over the casing (m/s), positive along the tangent, shape (nodes,)."""
+        friction = self.scene.friction
+        return self.tip.radius * self.speed * (-1.0 if friction and friction.against_rotation else 1.0)
+
+    @property
+    def bar_area(self) -> float:
+        """Area of a bar of the lining (m2), at the largest radius of the contact nodes; 0 without lining."""
+        return self.scene.lining.area(float(np.max(self.model.radius))) if self.scene.lining else 0.0
+
+    @property
+    def bar_stiffness(self) -> float:
+        """Of an elastic bar (N/m); 0 without lining."""
+        lining = self.scene.lining
+        return 0.0 if lining is None else lining.elastic_modulus * self.bar_area / lining.thickness
+
+    @property
+    def bars(self) -> int:
+        """How many bars of each ring are told apart: with steps longer than a bar, one for each step of a revolution.
+
+        All bars that a step passes over are then worn as the one it ends on; a force is still that of a single bar.
+        """
+        lining = self.scene.lining
+        if lining is None:
+            return 0
+        return min(lining.bars, self.grid.steps_per_revolution) if self.choice.second_order else lining.bars
+
+    @property
+    def rings(self) -> int:
+        """How many rings of bars the lining has."""
+        lining = self.scene.lining
+        return 0 if lining is None else 1 if lining.shared_ring else len(self.tip.radius)
+
+    def theta(self, step: np.ndarray | int) -> np.ndarray:
+        """Angle (rad) of the undeformed contact nodes at a step of a revolution; the rotor turns towards negative theta."""
+        return self.tip.theta - 2.0 * np.pi * step / self.grid.steps_per_revolution

@@ -1,0 +1,184 @@
+"""Linear operators of a run: from the motion of all modes to its contact nodes, samples and snapshots, and from forces back."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from r37core.contact.casing import casing_axes
+
+from .casing_of_run import CasingOfRun
+from .gyroscopic import complex_recursion
+from .integrators import Recursion, joined, recursion
+from .stepped_blade import SteppedBlade
+
+
+@dataclass(frozen=True, eq=False)
+class ContactOperators:
+    """Operators of a stepped `blade` and its `casing`.
+
+    The modes of an elastic casing follow those of the blade wherever "all modes" are meant: the recursion, the operators, a
+    snapshot.
+    """
+
+    blade: SteppedBlade
+    casing: CasingOfRun
+
+    @property
+    def highest_frequency(self) -> float:
+        """Of all modes that are stepped (rad/s), the casing's among them."""
+        of_ring = self.casing.ring.frequencies.max() if self.casing.ring is not None else 0.0
+        return float(max(self.blade.frequencies[-1], of_ring))
+
+    @cached_property
+    def recursion(self) -> Recursion:
+        """How a mode goes from step to step: a complex one in the real part of its amplitude, the casing's without turning."""
+        own = self.blade.recursion
+        if self.casing.ring is not None:
+            ring = self.casing.ring
+            of_ring = recursion(self.blade.choice.integrator, ring.frequencies, ring.damping_ratios, self.blade.grid.time_step)
+            own = joined(own, of_ring)
+        return own if self.blade.complex_modes is None else complex_recursion(own)
+
+    @cached_property
+    def _shapes(self) -> tuple[np.ndarray, np.ndarray]:
+        """Displacement in the modes at rest per u and per d of all modes; no column of the second without Coriolis.
+
+        The casing's move no mode of the blade.
+        """
+        none = np.zeros((len(self.blade.modes), len(self._ring_rows[0, 0])))
+        if self.blade.complex_modes is None:
+            return np.hstack([self.blade.modes, none]), np.empty((len(self.blade.modes), 0))
+        by_u, by_d = self.blade.complex_modes.real_shapes(self.blade.recursion)
+        return np.hstack([self.blade.modes @ by_u, none]), np.hstack([self.blade.modes @ by_d, none])
+
+    @cached_property
+    def _ring_rows(self) -> np.ndarray:
+        """What the casing's modes add to `displacement_operator`, with which the nodes come nearer to it."""
+        if self.casing.ring is None:
+            return np.empty((3, len(self.casing.tip.radius), 0))
+        return -casing_axes(self.casing.ring.displacement(self.casing.tip.theta), self.casing.cone_angle)
+
+    @cached_property
+    def operator_at_rest(self) -> np.ndarray:
+        """`displacement_operator` of the modes at rest."""
+        return casing_axes(self.casing.tip.displacement_operator, self.casing.cone_angle)
+
+    @cached_property
+    def displacement_operator(self) -> np.ndarray:
+        """Displacement of the contact nodes along the casing's normal, tangent and meridian, shape (3, nodes, modes).
+
+        Per displacement u of all modes; a coupled one's increment d moves the nodes by `increment_operator`, too. It is that
+        relative to the casing, whose modes count against it.
+        """
+        operator = self.operator_at_rest @ self._shapes[0]
+        if self.casing.ring is not None:
+            operator[..., len(self.blade.frequencies) :] = self._ring_rows
+        return operator
+
+    @cached_property
+    def increment_operator(self) -> np.ndarray:
+        """The same per increment d, shape (3, nodes, modes); no column without Coriolis."""
+        return self.operator_at_rest @ self._shapes[1]
+
+    @cached_property
+    def complex_operator(self) -> np.ndarray | None:
+        """The same per complex amplitude, shape (3, nodes, modes)."""
+        if self.blade.complex_modes is None:
+            return None
+        blade = self.operator_at_rest @ self.blade.modes @ self.blade.complex_modes.shapes
+        return np.concatenate([blade, self._ring_rows], axis=-1)
+
+    @property
+    def size_operator(self) -> np.ndarray:
+        """Largest displacement of the nodes per amplitude of each mode alone, in the shape of `displacement_operator`."""
+        operator = self.displacement_operator if self.complex_operator is None else self.complex_operator
+        sizes = np.abs(operator)
+        if self.casing.ring is not None:
+            # a pair turns into each other
+            blade = len(self.blade.frequencies)
+            first, second = np.split(sizes[..., blade:], 2, axis=-1)
+            sizes[..., blade:] = np.tile(np.hypot(first, second), 2)
+        return sizes
+
+    @cached_property
+    def static_shapes(self) -> np.ndarray:
+        """Displacement that follows forces on the contact nodes at once, shape (modes at rest, 3 nodes).
+
+        That of the modes that are not stepped, of forces in the directions of `displacement_operator`: see static_modes. With
+        Coriolis also half of the kick by which a force at t_n acts on the stepped modes. No column where the forces are not
+        those at t_n.
+        """
+        if not self.blade.choice.second_order:
+            return np.empty((len(self.blade.modes), 0))
+        frequencies, modes = self.blade.static_modes
+        rows = (self.operator_at_rest @ modes).reshape(3 * len(self.casing.tip.radius), len(frequencies))
+        residual = (modes / frequencies**2) @ rows.T
+        return residual if self.blade.complex_modes is None else residual + self._half_kick
+
+    def static_energy(self, forces: np.ndarray) -> float:
+        """Elastic energy (J) of the static modes under `forces` (N) on the nodes, shape (3, nodes).
+
+        It is all the work that the forces have done on them: what follows at once is elastic.
+        """
+        frequencies, modes = self.blade.static_modes
+        of_modes = np.einsum("dk,dkm->m", forces, self.operator_at_rest @ modes) / frequencies
+        return 0.5 * float(of_modes @ of_modes)
+
+    @property
+    def _half_kick(self) -> np.ndarray:
+        """Half of what a kick moves the stepped modes by, in the shape of `static_shapes`; see ComplexRecursion."""
+        by_u, by_d = self._shapes
+        size = 0.5 * self.recursion.inverse / self.recursion.keep
+        rows, increment_rows = (of.reshape(-1, len(size)) for of in (self.displacement_operator, self.increment_operator))
+        return (by_d * size) @ rows.T - (by_u * size) @ increment_rows.T
+
+    @property
+    def state_shapes(self) -> np.ndarray:
+        """Displacement in the modes at rest per number of a snapshot.
+
+        They are the stepped modes' u, with Coriolis their d, then the contact forces (N).
+        """
+        return np.hstack([*self._shapes, self.static_shapes])
+
+    @cached_property
+    def output_operator(self) -> np.ndarray:
+        """Rows of the samples, shape (6, numbers of a snapshot): see time_integration.simulate, TIP_POINTS and DIRECTIONS.
+
+        After them one row for each of the casing's oscillators: displacement at the antinode of its mode (m).
+        """
+        radial, tangential, _ = self.blade.model.tip_displacement_operator
+        normal = casing_axes(self.blade.model.tip_displacement_operator, self.casing.cone_angle)[0]
+        rows = np.stack([normal, radial, tangential], axis=1)
+        outputs = rows.reshape(-1, rows.shape[-1]) @ self.state_shapes
+        if self.casing.ring is None:
+            return outputs
+        of_ring = np.zeros((len(self.casing.ring.size), outputs.shape[1]))
+        np.fill_diagonal(of_ring[:, len(self.blade.frequencies) :], self.casing.ring.size)
+        return np.concatenate([outputs, of_ring])
+
+    @cached_property
+    def contact_flexibility(self) -> np.ndarray:
+        """Normal displacement (m/N) of the last node by `static_shapes` per force on the first, along each direction.
+
+        Shape (3, nodes, nodes). That of the static modes; with Coriolis half of a kick in it, which is skew-symmetric.
+        """
+        nodes = len(self.casing.tip.radius)
+        if not self.static_shapes.size:
+            return np.zeros((3, nodes, nodes))
+        return (self.operator_at_rest[0] @ self.static_shapes).T.reshape(3, nodes, nodes)
+
+    @cached_property
+    def coupling(self) -> np.ndarray:
+        """Normal displacement (m/N) of the last node, one step on, per normal, tangential or meridional force on the first.
+
+        Shape (3, nodes, nodes).
+        """
+        return self.coupling_of(self.recursion.inverse)
+
+    def coupling_of(self, inverse: np.ndarray) -> np.ndarray:
+        """`coupling` of the recursion's `inverse`, shape (..., modes); shape (..., 3, nodes, nodes)."""
+        normal = self.displacement_operator[0]
+        return np.stack([(rows * inverse[..., None, :]) @ normal.T for rows in self.displacement_operator], axis=-3)

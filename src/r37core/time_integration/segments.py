@@ -1,0 +1,71 @@
+"""Segments of constant speed: what of a problem changes with the speed while its modes are held."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from r37core.alignment import LANES
+from r37core.rom.rotation import BucklingError
+
+from .clearance import clearances
+from .integrators import Increments, Recursion, increments, recursion
+from .jump_plan import JumpPlan, plan_jumps
+from .problem import Problem
+
+
+class Segments(NamedTuple):
+    """What of a problem changes with the speed while its modes are held: all with a first axis of speeds.
+
+    `coupling`: of central differences alone. `increments`: None of a single speed.
+    """
+
+    recursion: Recursion
+    coupling: np.ndarray | None
+    jumps: JumpPlan | None
+    clearance: np.ndarray
+    increments: Increments | None
+
+
+def own_segment(problem: Problem) -> Segments:
+    """Of the problem's own speed alone."""
+    several = problem.contact.recursion[None]
+    coupling = None if problem.choice.second_order else problem.contact.coupling[None]
+    return Segments(several, coupling, _jumps(problem, several), problem.casing.clearance[None], None)
+
+
+def segments_at(problem: Problem, speeds: np.ndarray) -> Segments:
+    """At other `speeds` (rad/s), shape (speeds,), in the modes of the problem's speed and with its steps per revolution.
+
+    A mode's squared frequency is its stiffness at the speed, phi^T K(Omega) phi; the stiffness between modes is left out.
+    Raises BucklingError where it is not positive.
+    """
+    motion = _motion_at(problem, speeds)
+    several = recursion(problem.choice.integrator, *motion)
+    rooms = clearances(problem.model, problem.scene, speeds)
+    of_modes = increments(problem.choice.integrator, *motion)
+    coupling = None if problem.choice.second_order else problem.contact.coupling_of(several.inverse)
+    return Segments(several, coupling, _jumps(problem, several), rooms, of_modes)
+
+
+def _jumps(problem: Problem, recursion: Recursion) -> JumpPlan | None:
+    if not problem.choice.jumps:
+        return None
+    # the casing's modes turn as they go, and so do not follow a tangent
+    return plan_jumps(recursion, problem.grid.steps_per_sample, LANES, followed=len(problem.blade.frequencies))
+
+
+def _motion_at(problem: Problem, speeds: np.ndarray) -> tuple[np.ndarray, float | np.ndarray, np.ndarray]:
+    """Frequencies (rad/s) of all modes at each of the speeds, damping ratio, and steps (s)."""
+    blade, ring = problem.blade, problem.casing.ring
+    ratio = 1.0 + (speeds[:, None] ** 2 - problem.speed**2) * blade.stiffening
+    if not np.all(ratio > 0.0):
+        raise BucklingError(float(speeds[np.argmin(ratio.min(axis=1))]))
+    steps = 2.0 * np.pi / speeds[:, None] / problem.grid.steps_per_revolution
+    frequencies, damping = blade.frequencies * np.sqrt(ratio), problem.scene.damping_ratio
+    if ring is None:
+        return frequencies, damping, steps
+    of_ring = np.tile(ring.frequencies, (len(speeds), 1))
+    dampings = np.concatenate([np.full(len(blade.frequencies), damping), ring.damping_ratios])
+    return np.hstack([frequencies, of_ring]), dampings, steps

@@ -1,0 +1,132 @@
+"""The blade of a run: which of its modes are stepped, and how they move between contacts."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from r37core.contact.casing import casing_axes
+from r37core.contact.scene import Scene
+from r37core.rom.contact_model import ContactModel
+
+from .gyroscopic import LARGEST_TURN, ComplexModes, complex_modes
+from .integration_choice import IntegrationChoice
+from .integrators import Recursion, recursion
+from .static_modes import relaxation, residual_flexibility, stepped_modes
+from .step_limit import largest_pressed_ratio, ratio_of_pressed_nodes
+from .time_grid import TimeGrid
+
+
+@dataclass(frozen=True, eq=False)
+class SteppedBlade:
+    """Modes of a blade's `model` at the speed of a `grid`, in a `scene` whose casing has the `cone_angle` (rad).
+
+    With the integrator exact_modal modes faster than `choice.static_above` per step follow the forces statically: they are none
+    of `frequencies` and `modes`; see r37core.time_integration.static_modes. With central differences all modes are stepped. A
+    model with a Coriolis matrix has its stepped modes coupled by it (`complex_modes`).
+    """
+
+    model: ContactModel
+    scene: Scene
+    choice: IntegrationChoice
+    grid: TimeGrid
+    cone_angle: float
+
+    @property
+    def speed(self) -> float:
+        """Of the rotor (rad/s)."""
+        return self.grid.speed
+
+    @property
+    def frequencies(self) -> np.ndarray:
+        """Of the blade's modes that are stepped (rad/s), ascending, without the Coriolis force."""
+        return self._modes_of_speed[0][: self._stepped]
+
+    @cached_property
+    def modes(self) -> np.ndarray:
+        """Those that are stepped, of the speed, shape (modes at rest, modes)."""
+        return np.ascontiguousarray(self._modes_of_speed[1][:, : self._stepped])
+
+    @cached_property
+    def gyroscopic_coupling(self) -> np.ndarray | None:
+        """What couples the stepped modes at the speed (rad/s), skew-symmetric, shape (modes, modes); None without Coriolis.
+
+        Modes that turn by more than LARGEST_TURN in a step are not coupled.
+        """
+        if self.model.coriolis is None:
+            return None
+        slow = self.frequencies * self.grid.time_step <= LARGEST_TURN
+        return np.where(np.outer(slow, slow), self.speed * self.modes.T @ self.model.coriolis @ self.modes, 0.0)
+
+    @cached_property
+    def complex_modes(self) -> ComplexModes | None:
+        """Of the stepped modes as the Coriolis force couples them; None for a model without it."""
+        return None if self.gyroscopic_coupling is None else complex_modes(self.frequencies, self.gyroscopic_coupling)
+
+    @cached_property
+    def _stepped(self) -> int:
+        """How many modes are stepped: with central differences all up to the highest frequency, else see static_modes."""
+        frequencies, _ = self._modes_of_speed
+        below = int(np.count_nonzero(frequencies <= 2.0 * np.pi * self.choice.highest_frequency))
+        if below == 0:
+            raise ValueError(
+                f"highest_frequency_hz: found {self.choice.highest_frequency:g}; allowed: more than the first mode's, "
+                f"{frequencies[0] / 2.0 / np.pi:.6g} Hz at {self.speed:g} rad/s"
+            )
+        if not self.choice.second_order:
+            return below
+        frequencies, rows = self._at_rest
+        choice = self.choice
+
+        def is_stable(stepped: int) -> bool:
+            of = recursion(choice.integrator, frequencies[:stepped], self.scene.damping_ratio, choice.time_step)
+            flexibility = residual_flexibility(frequencies[stepped:], rows[..., stepped:])[0]
+            ratio = ratio_of_pressed_nodes(of, rows[0, :, :stepped], flexibility)
+            return ratio < largest_pressed_ratio(self.scene)
+
+        step, above = choice.time_step, choice.static_above
+        return stepped_modes(frequencies, rows, self.coupled_friction, step, above, below, is_stable)
+
+    @cached_property
+    def relaxation(self) -> float:
+        """Of the sweeps over the nodes, the same at every speed: see static_modes.relaxation; 1 with central differences."""
+        if not self.choice.second_order:
+            return 1.0
+        frequencies, rows = self._at_rest
+        flexibility = residual_flexibility(frequencies[self._stepped :], rows[..., self._stepped :])
+        return relaxation(flexibility, self.coupled_friction)
+
+    @property
+    def _at_rest(self) -> tuple[np.ndarray, np.ndarray]:
+        """Frequencies (rad/s) of all modes at rest, and the contact nodes' displacement by them, shape (3, nodes, modes)."""
+        return np.sqrt(self.model.squared_frequencies), casing_axes(self.model.displacement_operator, self.cone_angle)
+
+    @property
+    def coupled_friction(self) -> float:
+        """Coefficient of the friction that is part of the contact problem."""
+        friction = self.scene.friction
+        return friction.coefficient if friction is not None and friction.coupled else 0.0
+
+    @cached_property
+    def _modes_of_speed(self) -> tuple[np.ndarray, np.ndarray]:
+        return self.model.modes_at(self.speed)
+
+    @cached_property
+    def recursion(self) -> Recursion:
+        """How the stepped modes go from step to step, without the casing's."""
+        coupled = self.complex_modes
+        frequencies = self.frequencies if coupled is None else coupled.frequencies
+        return recursion(self.choice.integrator, frequencies, self.scene.damping_ratio, self.grid.time_step)
+
+    @cached_property
+    def static_modes(self) -> tuple[np.ndarray, np.ndarray]:
+        """Frequencies (rad/s) and shapes of the modes that are not stepped."""
+        frequencies, modes = self._modes_of_speed
+        return frequencies[self._stepped :], modes[:, self._stepped :]
+
+    @cached_property
+    def stiffening(self) -> np.ndarray:
+        """Relative change of the modes' squared frequencies per squared speed (s2), shape (modes,)."""
+        return np.sum(self.modes * (self.model.stiffness_per_square @ self.modes), axis=0) / self.frequencies**2
