@@ -36,14 +36,14 @@ def with_ranges_above_yield(response: xr.Dataset, peaks: Sequence[Interaction]) 
         at = peak.peak.peak_speed_rad_s
         beside = _row(response, exceedance, SpeedRange(at, at, truncated=False), peak_alone=True)
         rows.append(replace(beside, crossing=replace(beside.crossing, direction=peak.crossing.direction)))
-    return sorted(rows, key=lambda found: found.peak.peak_speed_rad_s)
+    return sorted(rows, key=lambda row: row.peak.peak_speed_rad_s)
 
 
 def ranges_without_peak(response: xr.Dataset, rows: Sequence[Interaction]) -> list[Interaction]:
     """Of a lined scene: rows of the ranges above yield that no interaction among the `rows` reaches into."""
     if "share_of_revolutions_above_yield" not in response:
         return []
-    exceedance, possible = exceedance_of(response), [found.all_revolutions for found in rows]
+    exceedance, possible = exceedance_of(response), [row.all_revolutions for row in rows]
     alone = [
         within
         for within in _ranges(response, exceedance)

@@ -61,7 +61,7 @@ def find_interactions(response: xr.Dataset, campbell: xr.Dataset, choice: Intera
     lined = is_lined(response)
     peaks = _interactions(response, campbell if lined else None, choice)
     if lined:
-        return sorted([*peaks, *ranges_without_peak(response, peaks)], key=lambda found: found.peak.peak_speed_rad_s)
+        return sorted([*peaks, *ranges_without_peak(response, peaks)], key=lambda row: row.peak.peak_speed_rad_s)
     return with_ranges_above_yield(response, peaks)
 
 
@@ -88,7 +88,7 @@ def _interactions(response: xr.Dataset, campbell: xr.Dataset | None, choice: Int
 
 def titles(interactions: Iterable[Interaction]) -> dict[float, str]:
     """Peak speed (rad/s) -> title."""
-    return {found.peak.peak_speed_rad_s: found.crossing.title for found in interactions}
+    return {row.peak.peak_speed_rad_s: row.crossing.title for row in interactions}
 
 
 def _peaks(response: xr.Dataset, campbell: xr.Dataset | None, direction: str, choice: InteractionChoice) -> list[_Peak]:
