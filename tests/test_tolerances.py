@@ -1,7 +1,7 @@
 """Tolerances: the sample, what its members are, their ranges, and Sobol indices against closed forms."""
 
 import re
-from dataclasses import asdict, replace
+from dataclasses import replace
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -574,7 +574,7 @@ def test_the_summary_has_the_ranges_beside_the_nominal_run(tmp_path):
     nominal = interactions_of((1700.0, 0.01, 4), (1240.0, 0.005, 5))
     rows = ranges(nominal, {"0": interactions_of((1710.0, 0.01, 4), (990.0, 0.004, 6))}, InteractionChoice())
     range_table([("NA", "lined", row) for row in rows]).to_csv(tmp_path / "tolerances.csv", index=False)
-    summary = pd.DataFrame([{"blade": blade, "scene": "lined", **asdict(one)} for blade in ("NA", "L50") for one in nominal])
+    summary = pd.DataFrame([{"blade": blade, "scene": "lined", **one.columns} for blade in ("NA", "L50") for one in nominal])
     joined = with_ranges(summary.astype({"engine_order": "Int64"}), read_ranges(tmp_path / "tolerances.csv"))
     assert len(joined) == len(summary)
     assert joined["share_of_members"].fillna(-1.0).tolist() == [0.0, 1.0, -1.0, -1.0]
