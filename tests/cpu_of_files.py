@@ -1,7 +1,7 @@
 """CPU time of every test file with that of its processes, in every log, and a refusal of a file that takes too much.
 
-Of CPU and not of the clock, so that a busy machine is no failure. What files share, the fixtures of a session, stands beside
-them under its own name. Jobs of Snakemake's job server are not in it: nobody waits for them.
+Of CPU and not of the clock, so that a busy machine is no failure. What files share, fixtures of a session and compiled
+programs, stands beside them under its own name. Jobs of Snakemake's job server are not in it: nobody waits for them.
 """
 
 import resource
@@ -27,10 +27,19 @@ def pytest_addoption(parser):
 
 
 def too_long(spent, most):
-    """One line for each name that has taken more than `most` (s)."""
+    """One line for each file that has taken more than `most` (s)."""
     remedy = "share what it makes, make that smaller, or part the file"
-    found = [(name, seconds) for name, seconds in sorted(spent.items()) if seconds > most]
+    found = [(name, seconds) for name, seconds in sorted(spent.items()) if name.endswith(".py") and seconds > most]
     return [f"{name}: found {seconds:.2f} s of CPU; allowed: {most:g} s ({remedy})" for name, seconds in found]
+
+
+def told_apart(name, make):
+    """What `make()` gives, which the first of many makes for all: its CPU time stands under `name`."""
+    before, shared = _now(), _shared.total()
+    try:
+        return make()
+    finally:
+        _shared[name] += _now() - before - (_shared.total() - shared)
 
 
 def pytest_runtest_logstart():
@@ -40,12 +49,12 @@ def pytest_runtest_logstart():
 
 @pytest.hookimpl(wrapper=True)
 def pytest_fixture_setup(fixturedef):
-    before = _now()
+    before, shared = _now(), _shared.total()
     try:
         return (yield)
     finally:
         if fixturedef.scope == "session":
-            _shared[f"fixture {fixturedef.argname}"] += _now() - before
+            _shared[f"fixture {fixturedef.argname}"] += _now() - before - (_shared.total() - shared)
 
 
 @pytest.hookimpl(wrapper=True)

@@ -226,7 +226,8 @@ def pressed_oscillator(share, scene):
     choice = replace(LONG, time_step=2e-5, samples_per_revolution=314)
     scene = replace(scene, casing=Casing(1e-3, lobes=1, amplitude=2.0, width=1e6, rise_fraction=0.0), divergence_limit=1e300)
     free = Problem(with_static_modes(oscillator(frequency), 1.0), speed, scene, choice)
-    keep, pull, inverse = (float(part[0]) for part in (free.recursion.keep, free.recursion.pull, free.recursion.inverse))
+    free_recursion = free.contact.recursion
+    keep, pull, inverse = (float(part[0]) for part in (free_recursion.keep, free_recursion.pull, free_recursion.inverse))
     flexibility = inverse / (share * 2.0 * (1.0 + keep) - pull)
     # of a bar that is worn through the thickness is left
     force = (penetration - (scene.lining.thickness if scene.lining else 0.0)) / (flexibility + 1.0 / frequency**2)
@@ -260,10 +261,10 @@ def test_nodes_held_stiffly_shorten_a_level_s_step_but_not_one_that_is_asked_for
     with pytest.raises(UnstableStepError, match=r"time_step_s: 2e-05 s .* limit for nodes pressed on the casing"):
         stable_problem(model, speed, scene, choice)
     shortened = stable_problem(model, speed, scene, replace(choice, shorten=True))
-    assert shortened.time_step < 0.6 * choice.time_step
+    assert shortened.grid.time_step < 0.6 * choice.time_step
     # not more than it must be
     with pytest.raises(UnstableStepError):
-        Problem(model, speed, scene, replace(choice, time_step=4.0 * shortened.time_step))
+        Problem(model, speed, scene, replace(choice, time_step=4.0 * shortened.grid.time_step))
 
 
 def test_bars_of_any_stiffness_bear_the_step_of_the_casing():

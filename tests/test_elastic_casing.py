@@ -170,7 +170,7 @@ def test_nodes_are_coupled_by_the_difference_of_their_angles():
     model = replace(random_model(8), theta=np.linspace(0.3, -0.4, 8))
     choice = replace(CHOICE, integrator=CENTRAL_DIFFERENCE)
     rigid, elastic = (Problem(model, 3000.0, scene, choice) for scene in (DIRECT, ELASTIC_SCENES["direct"]))
-    added = elastic.coupling - rigid.coupling
+    added = elastic.contact.coupling - rigid.contact.coupling
     normal = added[0]
     assert normal.min() < 0.0 < normal.diagonal().min()
     np.testing.assert_allclose(normal, normal.T, rtol=0, atol=1e-12 * normal.max())

@@ -19,7 +19,7 @@ from r37core.native import ObjectCodeError, Sources, cached_object, load_functio
 from r37core.plain import to_plain
 from r37core.time_integration.compiled import engine as compiled
 from r37core.time_integration.compiled.kind import Kind
-from r37core.time_integration.compiled.layout import PACE_ROWS, capacity_of, integration_record, pace_record
+from r37core.time_integration.compiled.layout import MODAL_ROWS, capacity_of, constants_record, integration_record
 from r37core.time_integration.integrators import EXACT_MODAL, INTEGRATORS
 from r37core.time_integration.simulate import Simulation
 
@@ -187,14 +187,14 @@ def test_no_record_has_more_than_60_fields():
     assert max(sizes) <= 60
 
 
-def test_a_pace_begins_with_its_rows_of_modes():
-    """As they are copied from a table of paces, whose rows are as long as there are modes."""
+def test_constants_of_a_speed_begin_with_its_rows_of_modes():
+    """As they are copied from a table of constants, whose rows are as long as there are modes."""
     of_nodes = ("coupling", "response", "columns", "clearance")
     for modes in (8, 40, 96):
-        kind = pace_record(modes, 8)
+        kind = constants_record(modes, 8)
         of_modes = [name for name in kind.names if kind[name].shape[-1] == modes and name not in of_nodes]
         assert list(kind.names[: len(of_modes)]) == of_modes
-        assert kind.fields[kind.names[len(of_modes)]][1] == 8 * PACE_ROWS * modes
+        assert kind.fields[kind.names[len(of_modes)]][1] == 8 * MODAL_ROWS * modes
 
 
 def test_arrays_of_the_record_are_aligned_and_apart():

@@ -108,8 +108,8 @@ def test_strong_friction_steps_more_modes_or_shortens_the_step(contact):
     limit = float(re.search(r"not below (\S+) s", str(error.value))[1])
     shortened = stable_problem(contact, 1600.0, with_friction(0.5), replace(CHOICE, time_step=6.4e-6, shorten=True))
     # not more than it must be: to half of what pressed nodes bear, where that is less
-    assert 0.4 * limit < shortened.time_step <= limit * (1.0 + 1e-5)
-    assert definiteness(shortened.contact_flexibility, 0.5) > SMALLEST_DEFINITENESS
+    assert 0.4 * limit < shortened.grid.time_step <= limit * (1.0 + 1e-5)
+    assert definiteness(shortened.contact.contact_flexibility, 0.5) > SMALLEST_DEFINITENESS
 
 
 def test_friction_that_leaves_no_unique_forces_is_refused_with_what_is_allowed(contact):
@@ -149,7 +149,9 @@ def test_models_of_too_few_modes_are_refused(model, scene):
     with pytest.raises(TooFewStaticModesError, match=message):
         Problem(model, 1600.0, scene, replace(CHOICE, time_step=1e-7))
     Problem(model, 1600.0, scene, replace(CHOICE, time_step=1e-7, integrator=CENTRAL_DIFFERENCE))
-    assert len(Problem(with_static_modes(model, 1e-9), 1600.0, scene, replace(CHOICE, time_step=1e-7)).frequencies) == modes
+    assert (
+        len(Problem(with_static_modes(model, 1e-9), 1600.0, scene, replace(CHOICE, time_step=1e-7)).blade.frequencies) == modes
+    )
 
 
 @pytest.mark.slow

@@ -68,6 +68,6 @@ def tables(page: str, prefix: str, names: Iterable[str]) -> tuple[Output, ...]:
 
 
 def picture(name: str, source: str, *drawn_by: str) -> Output:
-    """A picture of docs/; `drawn_by`: modules of r37core.figures, beside the style that all share."""
-    files = tuple(f"src/r37core/figures/{module}.py" for module in ("style", *drawn_by))
+    """A picture of docs/; `drawn_by`: modules of r37core, as `folder/module`, beside the style that all share."""
+    files = tuple(f"src/r37core/{module}.py" for module in ("figures/style", *drawn_by))
     return Output(f"docs/{name}.png", source, files)

@@ -99,7 +99,7 @@ CLAIMS = (
     # the default sweep
     Claim(
         "sweep",
-        (picture("response_Ref", f"{_SWEEP}/response_Ref.png", "response_curves"),),
+        (picture("response_Ref", f"{_SWEEP}/response_Ref.png", "figures/response_curves"),),
         (_MAKE,),
         minutes=10,
         configuration=(*_BENCHMARK, *_SPEEDS),
@@ -107,7 +107,7 @@ CLAIMS = (
     ),
     Claim(
         "blades",
-        (picture("blades", f"{_SWEEP}/blades.png", "blade_shapes", "offscreen"),),
+        (picture("blades", f"{_SWEEP}/blades.png", "figures/blade_shapes", "figures/offscreen"),),
         ("{snakemake} results/figures/blades.png",),
         minutes=1,
         configuration=_BLADES,
@@ -184,7 +184,7 @@ CLAIMS = (
             *(
                 picture(f"validation_{name}", f"{STUDIES}/figures/validation_{name}.png", *drawn_by)
                 for name in _VALIDATION_PICTURES
-                for drawn_by in [("maps", "cells") if "spectrum" in name else ()]
+                for drawn_by in [("figures/maps", "figures/cells") if "spectrum" in name else ()]
             ),
         ),
         ("{snakemake} modelling_choices",),
@@ -288,8 +288,8 @@ CLAIMS = (
     Claim(
         "elastic_casing_run",
         (
-            picture("casing_Ref", f"{_ELASTIC}/casing_Ref__elastic_abradable.png", "casing_map", "cells"),
-            picture("campbell_elastic_casing", f"{_ELASTIC}/campbell_Ref.png", "campbell_diagram"),
+            picture("casing_Ref", f"{_ELASTIC}/casing_Ref__elastic_abradable.png", "figures/casing_map", "figures/cells"),
+            picture("campbell_elastic_casing", f"{_ELASTIC}/campbell_Ref.png", "figures/campbell_diagram"),
         ),
         (f"{_MAKE} --configfile config/config.yaml config/elastic_casing.yaml --config blades='[Ref]'",),
         minutes=5,
@@ -300,7 +300,7 @@ CLAIMS = (
         "clearance",
         (
             *tables("clearance", "", ("clearance_growth", "clearance_effect")),
-            picture("clearance_growing_abradable", f"{_SWEEP}/clearance_growing_abradable.png", "clearance_curves"),
+            picture("clearance_growing_abradable", f"{_SWEEP}/clearance_growing_abradable.png", "figures/clearance_curves"),
         ),
         (
             f"{_MAKE} --configfile config/config.yaml config/clearance.yaml",
@@ -316,8 +316,8 @@ CLAIMS = (
         (
             *tables("run_ups", "", ("run_up_rates", "run_up_variants")),
             Output("docs/accuracy.md#run_ups", f"{STUDIES}/run_up_accuracy.md"),
-            picture("run_up_rates", f"{_SWEEP}/run_up_rates_abradable.png", "run_up_curves"),
-            picture("run_ups_Ref", f"{_SWEEP}/run_ups_Ref__abradable.png", "run_up_curves"),
+            picture("run_up_rates", f"{_SWEEP}/run_up_rates_abradable.png", "run_ups/figures"),
+            picture("run_ups_Ref", f"{_SWEEP}/run_ups_Ref__abradable.png", "run_ups/figures"),
         ),
         (
             _MAKE,
@@ -342,7 +342,7 @@ CLAIMS = (
         "tolerances",
         (
             *tables("tolerances", "", ("tolerance_ranges",)),
-            picture("tolerances_Ref", "results/runs/members/figures/tolerances_Ref__abradable.png", "tolerance_curves"),
+            picture("tolerances_Ref", "results/runs/members/figures/tolerances_Ref__abradable.png", "tolerances/figures"),
         ),
         (
             _MAKE,
@@ -368,7 +368,7 @@ CLAIMS = (
         "ranking",
         (
             *(Output(f"docs/which_blade.md#ranking{name}", f"{STUDIES}/ranking{name}.md") for name in _RANKING),
-            picture("which_blade", f"{_SWEEP}/ranking.png", "ranking_bars"),
+            picture("which_blade", f"{_SWEEP}/ranking.png", "figures/ranking_bars"),
         ),
         (
             _MAKE,
@@ -450,7 +450,7 @@ CLAIMS = (
         "designs",
         (
             *tables("blades", "", ("designs", "designs_correlations")),
-            picture("designs_Sweep", f"{STUDIES}/designs_Sweep.png", "design_plot"),
+            picture("designs_Sweep", f"{STUDIES}/designs_Sweep.png", "designs/figures"),
         ),
         ("{python} benchmarks/designs.py",),
         minutes=10,
@@ -460,14 +460,14 @@ CLAIMS = (
     ),
     Claim(
         "shapes",
-        (picture("shapes", f"{_SWEEP}/shapes_Ref__abradable.png", "offscreen"),),
+        (picture("shapes", f"{_SWEEP}/shapes_Ref__abradable.png", "figures/offscreen"),),
         by_hand="`shapes` among the results of the scene `abradable`; snakemake all_blades --config blades='[Ref]'",
         configuration=(*_BENCHMARK, *_SPEEDS),
         numbers=("structure", "lined", "stress"),
     ),
     Claim(
         "signals",
-        (picture("signals", f"{_SWEEP}/orders_Ref__abradable.png", "spectrograms", "cells"),),
+        (picture("signals", f"{_SWEEP}/orders_Ref__abradable.png", "signals/figures", "figures/cells"),),
         by_hand="`signals` as shown in config/config.yaml; snakemake all_blades --config blades='[Ref]'",
         configuration=(*_BENCHMARK, *_SPEEDS),
         numbers=("structure", "lined"),
@@ -475,8 +475,8 @@ CLAIMS = (
     Claim(
         "imported",
         (
-            picture("your_blade_campbell", f"{_SWEEP}/campbell_Fan.png", "campbell_diagram"),
-            picture("your_blade_response", f"{_SWEEP}/response_Fan.png", "response_curves"),
+            picture("your_blade_campbell", f"{_SWEEP}/campbell_Fan.png", "figures/campbell_diagram"),
+            picture("your_blade_response", f"{_SWEEP}/response_Fan.png", "figures/response_curves"),
         ),
         by_hand="the worked example of docs/your_blade.md",
         configuration=(_LINED, *_levels("standard"), *_SPEEDS),

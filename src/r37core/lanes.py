@@ -75,13 +75,13 @@ def _of_lanes(symbol: Callable, result: types.Type, count: int, build: Callable)
 
     @type_callable(symbol)
     def _(context: Any) -> Callable:
-        def one(a: types.Type) -> types.Type | None:
+        def unary(a: types.Type) -> types.Type | None:
             return result if a == _lanes else None
 
-        def two(a: types.Type, b: types.Type) -> types.Type | None:
+        def binary(a: types.Type, b: types.Type) -> types.Type | None:
             return result if _lanes in (a, b) and isinstance(a, _KINDS) and isinstance(b, _KINDS) else None
 
-        return one if count == 1 else two
+        return unary if count == 1 else binary
 
     def lower(context: Any, builder: Any, sig: Any, args: Any) -> Any:
         return build(builder, *(_spread(context, builder, kind, value) for kind, value in zip(sig.args, args, strict=True)))

@@ -51,4 +51,4 @@ def _called(function: Any) -> dict[str, Any]:
 
 def _globals_of(python: Callable) -> set[str]:
     """Names of the globals that a function reads."""
-    return {one.argval for one in get_instructions(python) if one.opname == "LOAD_GLOBAL"}
+    return {step.argval for step in get_instructions(python) if step.opname == "LOAD_GLOBAL"}

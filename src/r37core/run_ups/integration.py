@@ -20,7 +20,7 @@ from r37core.time_integration.integrators import CENTRAL_DIFFERENCE, Recursion
 from r37core.time_integration.problem import Problem, stable_problem
 from r37core.time_integration.simulate import Simulation
 from r37core.time_integration.speed_run import energy_balance
-from r37core.time_integration.state import Course
+from r37core.time_integration.state import Schedule
 from r37core.time_integration.step_limit import UnstableStepError
 
 from .schedule import ModalInterval, RunUp, schedule
@@ -126,18 +126,18 @@ class RunUpIntegration:
         state.increment[:] = increments.increment(begun, state.displacement, self.velocity)
         for segments in interval.at_once(_AT_ONCE * self._choice.samples_per_revolution):
             speed_indices, lasting = interval.distinct_speeds.of_segments[segments], interval.lasting[segments]
-            segments_of_call, first = Course(speed_indices, lasting, len(state.displacement)), state.samples
-            record = simulation.follow(state, segments_of_call)
+            call, first = Schedule(speed_indices, lasting, len(state.displacement)), state.samples
+            record = simulation.follow(state, call)
             lasted = np.diff(np.cumsum(lasting).clip(max=len(record.samples)), prepend=0)
             reached = np.count_nonzero(lasted)
             self.velocity = increments.velocity(speed_indices[reached - 1], state.displacement, state.increment)
-            self._balance(constants.recursion[speed_indices[:reached]], segments_of_call.ends[:reached])
+            self._balance(constants.recursion[speed_indices[:reached]], call.ends[:reached])
             speeds = np.repeat(interval.distinct_speeds.speeds[speed_indices], lasted)
             instants = problem.grid.snapshots_between(first, first + len(speeds))
             yield Stage(
                 speeds,
                 record.samples,
-                np.repeat(segments_of_call.wear, lasted),
+                np.repeat(call.wear, lasted),
                 record.snapshots,
                 speeds[list(instants)],
                 shapes,
@@ -145,7 +145,7 @@ class RunUpIntegration:
             )
 
     def _balance(self, recursions: Recursion, ends: np.ndarray) -> None:
-        """Add up the energies of segments; `ends`, shape (segments, 2, 2, modes): see Course."""
+        """Add up the energies of segments; `ends`, shape (segments, 2, 2, modes): see Schedule."""
         begun, ended = (recursions.energy(ends[:, end, 0], ends[:, end, 1]) for end in range(2))
         self.stiffness_work += float(begun[0] - self.energy + np.sum(begun[1:] - ended[:-1]))
         self.energy = float(ended[-1])

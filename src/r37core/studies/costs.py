@@ -1,4 +1,4 @@
-"""What a stretch of work costs this process."""
+"""What some work costs this process."""
 
 from __future__ import annotations
 

@@ -35,12 +35,12 @@ class ContactOperators:
     @cached_property
     def recursion(self) -> Recursion:
         """How a mode goes from step to step: a complex one in the real part of its amplitude, the casing's without turning."""
-        found = self.blade.recursion
+        own = self.blade.recursion
         if self.casing.ring is not None:
             ring = self.casing.ring
             of_ring = recursion(self.blade.choice.integrator, ring.frequencies, ring.damping_ratios, self.blade.grid.time_step)
-            found = joined(found, of_ring)
-        return found if self.blade.complex_modes is None else complex_recursion(found)
+            own = joined(own, of_ring)
+        return own if self.blade.complex_modes is None else complex_recursion(own)
 
     @cached_property
     def _shapes(self) -> tuple[np.ndarray, np.ndarray]:
@@ -73,10 +73,10 @@ class ContactOperators:
         Per displacement u of all modes; a coupled one's increment d moves the nodes by `increment_operator`, too. It is that
         relative to the casing, whose modes count against it.
         """
-        found = self.operator_at_rest @ self._shapes[0]
+        operator = self.operator_at_rest @ self._shapes[0]
         if self.casing.ring is not None:
-            found[..., len(self.blade.frequencies) :] = self._ring_rows
-        return found
+            operator[..., len(self.blade.frequencies) :] = self._ring_rows
+        return operator
 
     @cached_property
     def increment_operator(self) -> np.ndarray:
@@ -95,13 +95,13 @@ class ContactOperators:
     def size_operator(self) -> np.ndarray:
         """Largest displacement of the nodes per amplitude of each mode alone, in the shape of `displacement_operator`."""
         operator = self.displacement_operator if self.complex_operator is None else self.complex_operator
-        found = np.abs(operator)
+        sizes = np.abs(operator)
         if self.casing.ring is not None:
             # a pair turns into each other
             blade = len(self.blade.frequencies)
-            first, second = np.split(found[..., blade:], 2, axis=-1)
-            found[..., blade:] = np.tile(np.hypot(first, second), 2)
-        return found
+            first, second = np.split(sizes[..., blade:], 2, axis=-1)
+            sizes[..., blade:] = np.tile(np.hypot(first, second), 2)
+        return sizes
 
     @cached_property
     def static_shapes(self) -> np.ndarray:
@@ -132,7 +132,7 @@ class ContactOperators:
         """Half of what a kick moves the stepped modes by, in the shape of `static_shapes`; see ComplexRecursion."""
         by_u, by_d = self._shapes
         size = 0.5 * self.recursion.inverse / self.recursion.keep
-        rows, increment_rows = (one.reshape(-1, len(size)) for one in (self.displacement_operator, self.increment_operator))
+        rows, increment_rows = (of.reshape(-1, len(size)) for of in (self.displacement_operator, self.increment_operator))
         return (by_d * size) @ rows.T - (by_u * size) @ increment_rows.T
 
     @property

@@ -15,7 +15,7 @@ from .jump_numbers import COARSE, STRIDES
 
 @dataclass(frozen=True)
 class JumpPlan:
-    """Jumps of `lengths` steps, shape (strides,): what is left of a block after whole stretches, then doubling stretches.
+    """Jumps of `lengths` steps, shape (strides,): what is left of a block after whole intervals, then doubling ones.
 
     `slow_modes`, shape (strides,): modes followed along their tangent; `jumps`, shape (strides, 8, modes): the entries of the
     map less the identity (u from u, u from d, d from u, d from d), the loss as a quadratic form (uu, ud, dd), and how far a
@@ -65,7 +65,7 @@ def plan_jumps(recursion: Recursion, steps_per_block: int, multiple: int, follow
 
 
 def jump_lengths(steps_per_block: int) -> np.ndarray:
-    """Steps of the jumps: what is left of a block after whole stretches, then stretches doubled while they fit."""
+    """Steps of the jumps: what is left of a block after whole intervals, then intervals doubled while they fit."""
     lengths = [steps_per_block % COARSE]
     while len(lengths) < STRIDES and COARSE << (len(lengths) - 1) <= steps_per_block:
         lengths.append(COARSE << (len(lengths) - 1))
@@ -80,10 +80,10 @@ def _jumps(recursion: Recursion, lengths: np.ndarray) -> list[np.ndarray]:
     powers = [np.zeros_like(single), single]
     while len(powers) <= lengths[:2].max():
         powers.append(_after(powers[-1], single))
-    found = [powers[length] for length in lengths[:2]]
-    while len(found) < len(lengths):
-        found.append(_after(found[-1], found[-1]))
-    return found
+    jumps = [powers[length] for length in lengths[:2]]
+    while len(jumps) < len(lengths):
+        jumps.append(_after(jumps[-1], jumps[-1]))
+    return jumps
 
 
 def _after(first: np.ndarray, second: np.ndarray) -> np.ndarray:

@@ -16,7 +16,7 @@ from .integration_choice import IntegrationChoice
 from .problem import Problem, stable_problem
 from .reference.engine import ReferenceEngine
 from .segments import Segments, own_segment, segments_at
-from .state import Course, SimulationRecord, SimulationState
+from .state import Schedule, SimulationRecord, SimulationState
 
 TIP_POINTS, DIRECTIONS = ("leading_edge", "trailing_edge"), ("normal", "radial", "tangential")
 """What the samples are of: every direction at the first tip point, then at the second."""
@@ -71,21 +71,21 @@ class Simulation:
 
     def advance_samples(self, state: SimulationState, samples: int) -> SimulationRecord:
         """The same by a number of samples."""
-        return self.follow(state, Course(np.zeros(1), np.array([samples]), len(state.displacement)))
+        return self.follow(state, Schedule(np.zeros(1), np.array([samples]), len(state.displacement)))
 
-    def follow(self, state: SimulationState, course: Course) -> SimulationRecord:
-        """The same along a course."""
+    def follow(self, state: SimulationState, schedule: Schedule) -> SimulationRecord:
+        """The same in the constant-speed segments of a schedule."""
         problem = self.problem
-        first, asked = state.samples, int(course.samples.sum())
+        first, count = state.samples, int(schedule.samples.sum())
 
         def snapshots(samples: int) -> int:
             return problem.grid.snapshots_after(first + samples) - problem.grid.snapshots_after(first)
 
         outputs, numbers = problem.contact.output_operator.shape
-        out = SimulationRecord(np.empty((asked, outputs)), np.empty((snapshots(asked), numbers)))
-        done = self.engine.advance(state, out, course)
-        state.samples = first + asked
-        diverged = done < asked or not (np.abs(out.samples[done - 1]) < problem.scene.divergence_limit).all()
+        out = SimulationRecord(np.empty((count, outputs)), np.empty((snapshots(count), numbers)))
+        done = self.engine.advance(state, out, schedule)
+        state.samples = first + count
+        diverged = done < count or not (np.abs(out.samples[done - 1]) < problem.scene.divergence_limit).all()
         of_tip = len(TIP_POINTS) * len(DIRECTIONS)
         casing = None if problem.casing.ring is None else out.samples[:done, of_tip:]
         return SimulationRecord(out.samples[:done, :of_tip], out.snapshots[: snapshots(done)], bool(diverged), casing)

@@ -1,4 +1,4 @@
-"""What an engine changes: where a run stands, and what a stretch of it leaves behind."""
+"""What an engine changes: where a run stands, and what a part of it leaves behind."""
 
 from __future__ import annotations
 
@@ -27,22 +27,22 @@ class SimulationState:
     totals: np.ndarray = field(default_factory=lambda: np.zeros((), TOTALS))
 
 
-class Course:
-    """Stretches one after another at several paces: what an engine is to do, and what it leaves of each.
+class Schedule:
+    """Constant-speed segments one after another: what an engine is to do, and what it leaves of each.
 
-    `places`, `samples`, shape (stretches,): the pace of each stretch and how many samples it lasts. Filled by the engine:
-    `ends`, shape (stretches, 2, 2, modes), displacement and increment as a stretch begins and as it ends; `wear` (m), shape
-    (stretches,), the largest by its end.
+    `speed_indices`, `samples`, shape (segments,): the speed of each segment and its length. Filled by the engine:
+    `ends`, shape (segments, 2, 2, modes), displacement and increment as a segment begins and as it ends; `wear` (m), shape
+    (segments,), the largest by its end.
     """
 
-    def __init__(self, places: np.ndarray, samples: np.ndarray, modes: int):
-        self.places, self.samples = (np.ascontiguousarray(part, dtype=np.int64) for part in (places, samples))
-        self.ends, self.wear = np.empty((len(places), 2, 2, modes)), np.zeros(len(places))
+    def __init__(self, speed_indices: np.ndarray, samples: np.ndarray, modes: int):
+        self.speed_indices, self.samples = (np.ascontiguousarray(part, dtype=np.int64) for part in (speed_indices, samples))
+        self.ends, self.wear = np.empty((len(speed_indices), 2, 2, modes)), np.zeros(len(speed_indices))
 
 
 @dataclass(frozen=True)
 class SimulationRecord:
-    """What a stretch of revolutions leaves behind.
+    """What some revolutions leave behind.
 
     `samples` (m), shape (samples, 6): normal, radial and tangential displacement of the leading edge, then of the trailing
     edge; `snapshots`, shape (snapshots, numbers): see Problem.state_shapes; `diverged`; `casing` (m), shape (samples, casing

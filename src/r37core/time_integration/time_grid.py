@@ -53,8 +53,8 @@ class TimeGrid:
     def samples_per_snapshot(self) -> int:
         """Samples from one snapshot to the next; 0: there are none."""
         choice = self.choice
-        asked = choice.snapshots_per_revolution > 0 and choice.snapshot_revolutions > 0
-        return choice.samples_per_revolution // choice.snapshots_per_revolution if asked else 0
+        wanted = choice.snapshots_per_revolution > 0 and choice.snapshot_revolutions > 0
+        return choice.samples_per_revolution // choice.snapshots_per_revolution if wanted else 0
 
     def snapshots_after(self, samples: int) -> int:
         """How many snapshots the first `samples` of the run have."""

@@ -15,7 +15,7 @@ from ..plan import case_of_sweep
 
 
 def sample(speeds: Sequence[float], every: int) -> list[float]:
-    """Every so many of the speeds, each from the middle of the stretch it stands for."""
+    """Every so many of the speeds, each from the middle of the part it stands for."""
     return list(speeds[min(every // 2, len(speeds) - 1) :: every])
 
 

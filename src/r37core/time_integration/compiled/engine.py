@@ -19,9 +19,9 @@ from ..jump_numbers import NEVER
 from ..jump_plan import jump_lengths, nearest_casing
 from ..problem import Problem
 from ..segments import Segments
-from ..state import Course, SimulationRecord, SimulationState
+from ..state import Schedule, SimulationRecord, SimulationState
 from .kind import Kind
-from .layout import LINING, NORMAL, TANGENTIAL, Capacity, capacity_of, integration_record, pace_record
+from .layout import LINING, NORMAL, TANGENTIAL, Capacity, capacity_of, constants_record, integration_record
 
 SOURCES = Sources(
     "alignment.py",
@@ -41,7 +41,7 @@ SOURCES = Sources(
     "time_integration/compiled/jump_steps.py",
     "time_integration/compiled/kind.py",
     "time_integration/compiled/layout.py",
-    "time_integration/compiled/pace_steps.py",
+    "time_integration/compiled/segment_steps.py",
     "time_integration/compiled/program.py",
     "time_integration/compiled/ring_steps.py",
     "time_integration/compiled/steps.py",
@@ -54,7 +54,7 @@ SOURCES = Sources(
 class CompiledEngine:
     """The time integration of one problem, compiled for what its scene has: all that its program needs lies in one record.
 
-    It goes at the first of its `paces` until it takes another. Of an engine `before`, of the same scene and choice at another
+    It goes at the first speed of its `segments` until `take`. Of an engine `before`, of the same scene and choice at another
     speed, it keeps what fits, and that one must not go on.
     """
 
@@ -70,8 +70,8 @@ class CompiledEngine:
         self._mode_lanes = padded(blade) + 2 * self._pairs
         firsts = (self._mode_lanes - 2 * self._pairs, self._mode_lanes - self._pairs)
         of_ring = [first + np.arange(pairs) for first in firsts]
-        # an array of places costs more in every stretch of a run-up
-        self._places = np.concatenate([np.arange(blade), *of_ring]) if pairs else slice(blade)
+        # an array of indices costs more in every segment of a run-up
+        self._mode_columns = np.concatenate([np.arange(blade), *of_ring]) if pairs else slice(blade)
         scene, choice = problem.scene, problem.choice
         self._capacity = capacity_of(self._mode_lanes, self._node_lanes)
         self._kind = kind = Kind(
@@ -97,16 +97,16 @@ class CompiledEngine:
         if not kind.published:
             self._lay_out_static_modes(problem)
         self._put(jumping=segments.jumps is not None)
-        self._paces = self._table_of(segments)
+        self._constants = self._table_of(segments)
         self.take(0)
 
-    def take(self, place: int) -> None:
-        """Go on at the pace of this place."""
-        m, pace = self._record[0], self._paces[place]
-        for name in pace.dtype.names:
-            m["pace"][name][..., : pace[name].shape[-1]] = pace[name]
-        m["problem"]["diagonal"][: self._nodes] = np.diagonal(pace["columns"])[: self._nodes]
-        m["call"]["pace"] = place
+    def take(self, speed_index: int) -> None:
+        """Go on at this one of the speeds."""
+        m, constants = self._record[0], self._constants[speed_index]
+        for name in constants.dtype.names:
+            m["speed"][name][..., : constants[name].shape[-1]] = constants[name]
+        m["problem"]["diagonal"][: self._nodes] = np.diagonal(constants["columns"])[: self._nodes]
+        m["call"]["speed_index"] = speed_index
 
     def _take_room(self, before: CompiledEngine | None) -> None:
         """Make the record, or take that of an engine before."""
@@ -138,12 +138,12 @@ class CompiledEngine:
             of_modes |= {"jumps": plan.jumps}
             of_modes |= {"amplitude_by_u": plan.amplitude_rows[:, 0], "amplitude_by_d": plan.amplitude_rows[:, 1]}
         fields |= {name: self._spread(values) for name, values in of_modes.items()}
-        found = aligned_zeros((len(clearance),), pace_record(self._mode_lanes, self._capacity.nodes))
+        table = aligned_zeros((len(clearance),), constants_record(self._mode_lanes, self._capacity.nodes))
         # a node that only pads the vector must not touch
-        found["clearance"] = 1.0
+        table["clearance"] = 1.0
         for name, values in fields.items():
-            found[name][(slice(None), *map(slice, values.shape[1:]))] = values
-        return found
+            table[name][(slice(None), *map(slice, values.shape[1:]))] = values
+        return table
 
     def _corner(self, name: str, shape: tuple[int, ...]) -> np.ndarray:
         """The part of a field of the record that an array fills; what pads it stays as it is."""
@@ -167,18 +167,18 @@ class CompiledEngine:
     def _spread(self, values: np.ndarray) -> np.ndarray:
         if not self._pairs:
             return values
-        found = np.zeros((*values.shape[:-1], self._mode_lanes))
-        found[..., self._places] = values
-        return found
+        lanes = np.zeros((*values.shape[:-1], self._mode_lanes))
+        lanes[..., self._mode_columns] = values
+        return lanes
 
-    def advance(self, state: SimulationState, out: SimulationRecord, course: Course) -> int:
+    def advance(self, state: SimulationState, out: SimulationRecord, schedule: Schedule) -> int:
         """Do one block of steps per row of `out.samples`, from `state`, which is changed, and fill samples and snapshots.
 
-        They are done at the paces of `course`, whose ends and wear are filled. Returns the blocks done: fewer when an output
+        They are done as the `schedule` says, whose ends and wear are filled. Returns the blocks done: fewer when an output
         passed the limit or is NaN.
         """
         m, modes, nodes = self._record[0], self._mode_lanes, self._node_lanes
-        ends = np.empty((*course.ends.shape[:-1], modes))
+        ends = np.empty((*schedule.ends.shape[:-1], modes))
         # u and, with Coriolis, d of each
         of_mode = 1 + self._kind.coriolis
         numbers, kept = of_mode * modes, of_mode * self._modes
@@ -189,11 +189,11 @@ class CompiledEngine:
             totals=state.totals,
         )
         addresses = {
-            "paces": self._paces,
-            "places": course.places,
-            "lasting": course.samples,
+            "constants": self._constants,
+            "speed_indices": schedule.speed_indices,
+            "lasting": schedule.samples,
             "ends": ends,
-            "worn": course.wear,
+            "worn": schedule.wear,
             "wear": state.wear,
             "samples": out.samples,
             "snapshots": snapshots,
@@ -204,11 +204,11 @@ class CompiledEngine:
         if not self._kind.published:
             self._put(force=state.contact_force[NORMAL], friction_force=state.contact_force[TANGENTIAL:])
         done = int(self._advance(self._address))
-        state.displacement[:], state.increment[:] = m["u"][self._places], m["increment"][self._places]
-        course.ends[:] = ends[..., self._places]
+        state.displacement[:], state.increment[:] = m["u"][self._mode_columns], m["increment"][self._mode_columns]
+        schedule.ends[:] = ends[..., self._mode_columns]
         state.on_casing[:] = np.unpackbits(m["on_casing"].astype(np.uint8), bitorder="little")[: self._nodes]
         state.totals[()] = m["totals"]
-        of_modes = snapshots[:, :numbers].reshape(len(snapshots), of_mode, modes)[:, :, self._places]
+        of_modes = snapshots[:, :numbers].reshape(len(snapshots), of_mode, modes)[:, :, self._mode_columns]
         out.snapshots[:, :kept] = of_modes.reshape(len(snapshots), kept)
         if not self._kind.published:
             state.contact_force[NORMAL] = m["force"][: self._nodes]
@@ -321,7 +321,7 @@ class _CasingTables:
 
     @cached_property
     def nearest(self) -> np.ndarray:
-        """The nearest of each stretch, for jumps; see nearest_casing."""
+        """The nearest of each interval, for jumps; see nearest_casing."""
         nearest = nearest_casing(self.shape, self._of.grid.steps_per_sample)
         return aligned_copy(nearest, self.shape.shape[1])
 

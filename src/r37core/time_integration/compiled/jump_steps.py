@@ -31,7 +31,7 @@ def bound_amplitudes(m):
     """|C| of each mode from displacement and increment and, for the exact gap, how far nodes can get sideways and inwards."""
     for i in range(0, mode_lanes(m), LANES):
         u, d = load(m.u, i), load(m.increment, i)
-        imaginary = load(m.pace.amplitude_by_u, i) * u + load(m.pace.amplitude_by_d, i) * d
+        imaginary = load(m.speed.amplitude_by_u, i) * u + load(m.speed.amplitude_by_d, i) * d
         store(m.flight.amplitude, i, np.sqrt(u * u + imaginary * imaginary))
     if EXACT_GAP:
         for g in range(0, node_lanes(m), LANES):
@@ -49,18 +49,18 @@ def _is_clear(m, place, stride, remaining):
     """Whether no node can touch anything in a jump; `remaining`: what the casing's lobes lack before it."""
     if m.flight.reach_known[stride] == 0:
         for i in range(0, mode_lanes(m), LANES):
-            store(m.flight.beyond, i, load(m.flight.amplitude, i) * load(m.pace.jumps, (stride, BEYOND, i)))
+            store(m.flight.beyond, i, load(m.flight.amplitude, i) * load(m.speed.jumps, (stride, BEYOND, i)))
         for g in range(0, node_lanes(m), LANES):
             store(m.flight.reach, (stride, g), along(m.size_operator, NORMAL, m.flight.beyond, g, mode_lanes(m)))
         m.flight.reach_known[stride] = 1
     casing, nodes, length = numbers_at(m.call.nearest_casing), node_lanes(m), m.flight.lengths[stride]
     lobes = m.casing.amplitude * (1.0 - remaining * m.flight.decay[stride])
     for g in range(0, nodes, LANES):
-        velocity = along(m.displacement_operator, NORMAL, m.increment, g, m.pace.slow_modes[stride])
-        position = along(m.displacement_operator, NORMAL, m.u, g, m.pace.slow_modes[stride])
+        velocity = along(m.displacement_operator, NORMAL, m.increment, g, m.speed.slow_modes[stride])
+        position = along(m.displacement_operator, NORMAL, m.u, g, m.speed.slow_modes[stride])
         if CORIOLIS:
-            velocity += along(m.increment_operator, NORMAL, m.last_second_difference, g, m.pace.slow_modes[stride])
-            position += along(m.increment_operator, NORMAL, m.increment, g, m.pace.slow_modes[stride])
+            velocity += along(m.increment_operator, NORMAL, m.last_second_difference, g, m.speed.slow_modes[stride])
+            position += along(m.increment_operator, NORMAL, m.increment, g, m.speed.slow_modes[stride])
         position += np.maximum(velocity, velocity * length) + load(m.flight.reach, (stride, g))
         nearest = load(casing, place + g)
         for j in range(1, (length + COARSE - 1) // COARSE):
@@ -74,7 +74,7 @@ def _is_clear(m, place, stride, remaining):
             nearest = np.where(nearest < 1.0, nearest, 1.0)
             if bits_of(towards > 0.0) != (1 << LANES) - 1:
                 return False
-        clearance = load(m.pace.clearance, g)
+        clearance = load(m.speed.clearance, g)
         gap = clearance - lobes * nearest - position
         # written so that NaN is not clear
         clear = bits_of(gap > ROUNDING_MARGIN * (np.abs(clearance) + lobes + np.abs(position)))
@@ -105,7 +105,7 @@ def choose_jump(m, place, first_stride, left, remaining):
 @inlined
 def jump_ahead(m, stride, lost):
     """Do the steps of a jump; adds the energy they lose to damping, in lanes."""
-    jumps = m.pace.jumps
+    jumps = m.speed.jumps
     for i in range(0, mode_lanes(m), LANES):
         u, d = load(m.u, i), load(m.increment, i)
         store(m.u, i, u + load(jumps, (stride, U_FROM_U, i)) * u + load(jumps, (stride, U_FROM_D, i)) * d)

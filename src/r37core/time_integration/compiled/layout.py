@@ -101,7 +101,7 @@ def contact_record(nodes: int) -> np.dtype:
     )
 
 
-_PACE_OF_MODES = (
+_MODAL_CONSTANTS = (
     # of the recursion: see steps; energy lost per step and squared central difference; 1/keep
     "keep pull inverse loss inverse_keep "
     # increment of a free mode per displacement and per velocity, and one over the latter
@@ -111,16 +111,16 @@ _PACE_OF_MODES = (
 )
 _NUMBERS_OF_A_JUMP = 8
 
-PACE_ROWS = len(_PACE_OF_MODES.split()) + STRIDES * _NUMBERS_OF_A_JUMP
-"""What a pace has of each mode: it begins with these rows, and copies them as far as there are modes."""
+MODAL_ROWS = len(_MODAL_CONSTANTS.split()) + STRIDES * _NUMBERS_OF_A_JUMP
+"""What a speed has of each mode: its constants begin with these rows, and copies them as far as there are modes."""
 
 
 @cache
-def pace_record(modes: int, nodes: int) -> np.dtype:
+def constants_record(modes: int, nodes: int) -> np.dtype:
     """What of a time integration changes with the speed while its modes are held, of whole vectors of modes and nodes."""
     return aligned_record(
         [
-            *_arrays(_PACE_OF_MODES, modes),
+            *_arrays(_MODAL_CONSTANTS, modes),
             *_arrays("jumps", STRIDES, _NUMBERS_OF_A_JUMP, modes),
             # normal displacement of the last node per force in the three directions on the one before
             *_arrays("coupling", 3, nodes, nodes),
@@ -147,12 +147,12 @@ def _flight_record(modes: int, nodes: int) -> np.dtype:
 
 CALL = aligned_record(
     [
-        # where it begins, how many blocks of steps it asks for, and the pace it is at
-        *_numbers("first_step blocks pace", kind=np.int64),
-        # addresses of arrays whose sizes are known only then: f(theta) at every step, and the largest of each stretch
+        # where it begins, how many blocks of steps it asks for, and the speed it is at
+        *_numbers("first_step blocks speed_index", kind=np.int64),
+        # addresses of arrays whose sizes are known only then: f(theta) at every step, and the largest of each interval
         *_numbers("casing_shape nearest_casing wear samples snapshots", kind=np.int64),
-        # all paces; pace and blocks of each stretch; motion at its ends, and largest wear by then
-        *_numbers("paces places lasting ends worn", kind=np.int64),
+        # constants of all speeds; speed and blocks of each segment; motion at its ends, and largest wear by then
+        *_numbers("constants speed_indices lasting ends worn", kind=np.int64),
     ]
 )
 """One call of the program."""
@@ -160,12 +160,12 @@ CALL = aligned_record(
 
 @cache
 def integration_record(capacity: Capacity) -> np.dtype:
-    """The record of a time integration: its pace, its state, its constants, room to work in, and its totals."""
+    """The record of a time integration: constants of its speed, state, operators, room to work in, and totals."""
     modes, nodes = capacity
     groups = nodes // padded(1)
     return aligned_record(
         [
-            ("pace", pace_record(modes, nodes), ()),
+            ("speed", constants_record(modes, nodes), ()),
             # displacement u_n; its increments u_n - u_{n-1} and u_{n-1} - u_{n-2}; with Coriolis the increment of the last one,
             # had there been no force
             *_arrays("u increment last_increment last_second_difference", modes),

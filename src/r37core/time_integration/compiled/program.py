@@ -14,9 +14,9 @@ from ..jump_numbers import COARSE, STRIDES
 from .contact_steps import press_contact, push_contact, release_contact
 from .jump_steps import bound_amplitudes, choose_jump, jump_ahead
 from .kind import EXACT_GAP, PUBLISHED, Kind
-from .layout import PACE_ROWS, Capacity, integration_record, pace_record
-from .pace_steps import begin_stretch, end_stretch
+from .layout import MODAL_ROWS, Capacity, constants_record, integration_record
 from .ring_steps import turn_jump, turn_step
+from .segment_steps import begin_segment, end_segment
 from .steps import leave_casing, list_pressed, measure_exact_gaps, measure_gaps, meet, node_lanes, predict, record
 
 
@@ -24,7 +24,7 @@ from .steps import leave_casing, list_pressed, measure_exact_gaps, measure_gaps,
 def _integrate(m, others):
     """Do the blocks of steps asked for; returns how many were done, fewer when an output passed the limit or is NaN.
 
-    `others`: how many numbers of a pace are not of modes.
+    `others`: how many constants of a speed are not of modes.
     """
     at_once = np.isinf(m.casing.rise)
     decay = 0.0 if at_once else np.exp(-m.casing.rise)
@@ -34,11 +34,11 @@ def _integrate(m, others):
     beyond, bounded, first_stride = False, False, one
     # whether there are forces at t_n, which the next step follows
     follows = False
-    done = kept = stretch = until = zero
+    done = kept = segment = until = zero
     while done < m.call.blocks:
         begins = done == until
         if begins:
-            until += begin_stretch(m, stretch, others)
+            until += begin_segment(m, segment, others)
         start = m.call.first_step + done * m.steps_per_block
         place = start % m.steps_per_revolution
         remaining = 0.0 if at_once else np.exp(-m.casing.rise * start)
@@ -98,8 +98,8 @@ def _integrate(m, others):
         kept += taken
         done += 1
         if done == until or not within:
-            end_stretch(m, stretch)
-            stretch += 1
+            end_segment(m, segment)
+            segment += 1
         if not within:
             break
     return done
@@ -108,7 +108,7 @@ def _integrate(m, others):
 def compile_integration(capacity: Capacity, kind: Kind) -> bytes:
     """Object code of `advance(record)`: a function of the record's address that returns the blocks of steps done."""
     integrate = with_constants(_integrate, kind.constants)
-    others = pace_record(*capacity).itemsize // 8 - PACE_ROWS * capacity.modes
+    others = constants_record(*capacity).itemsize // 8 - MODAL_ROWS * capacity.modes
     signature = types.int64(types.CPointer(numba.from_dtype(integration_record(capacity))))
 
     @numba.cfunc(signature, **OPTIONS)

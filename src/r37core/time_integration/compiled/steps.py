@@ -68,8 +68,8 @@ def displaced(m, direction, g):
 @inlined
 def second_difference(m, i):
     """Increment of the increments of the eight modes from i on: d_n - d_{n-1} of the free motion through u_n, d_n."""
-    u, d, keep = load(m.u, i), load(m.increment, i), load(m.pace.keep, i)
-    return ((keep - 1.0) * d - load(m.pace.pull, i) * (u - d)) * load(m.pace.inverse_keep, i)
+    u, d, keep = load(m.u, i), load(m.increment, i), load(m.speed.keep, i)
+    return ((keep - 1.0) * d - load(m.speed.pull, i) * (u - d)) * load(m.speed.inverse_keep, i)
 
 
 @inlined
@@ -79,15 +79,15 @@ def predict(m, lost):
         if CORIOLIS:
             store(m.last_second_difference, i, second_difference(m, i))
         u, last = load(m.u, i), load(m.increment, i)
-        d = load(m.pace.keep, i) * last - load(m.pace.pull, i) * u
+        d = load(m.speed.keep, i) * last - load(m.speed.pull, i) * u
         store(m.last_increment, i, last)
         store(m.increment, i, d)
         store(m.u, i, u + d)
         if CORIOLIS:
-            keep, pull = load(m.pace.keep, i), load(m.pace.pull, i)
-            lost += load(m.pace.loss, i) * (pull * u * (u - last) + ((1.0 - keep) * u + keep * last) * last)
+            keep, pull = load(m.speed.keep, i), load(m.speed.pull, i)
+            lost += load(m.speed.loss, i) * (pull * u * (u - last) + ((1.0 - keep) * u + keep * last) * last)
         else:
-            lost += load(m.pace.loss, i) * ((d + last) * (d + last))
+            lost += load(m.speed.loss, i) * ((d + last) * (d + last))
     return lost
 
 
@@ -98,7 +98,7 @@ def measure_gaps(m, place, lobes):
     any_beyond = 0
     for g in range(0, node_lanes(m), LANES):
         normal = displaced(m, NORMAL, g)
-        gap = load(m.pace.clearance, g) - lobes * load(shape, place * node_lanes(m) + g) - normal
+        gap = load(m.speed.clearance, g) - lobes * load(shape, place * node_lanes(m) + g) - normal
         store(m.problem.gap, g, gap)
         beyond = bits_of(gap < 0.0)
         m.beyond[g // LANES] = beyond
@@ -123,7 +123,7 @@ def measure_exact_gaps(m, place, lobes):
             p.multiplier[k], p.answer[k], p.short[k], m.radius[k], casing.cosine, casing.sine
         )
         shape = _lobe_shape(m.theta[k] - turned + m.shift[k], casing.period, casing.width)
-        p.gap[k] = m.pace.clearance[k] - lobes * shape - position
+        p.gap[k] = m.speed.clearance[k] - lobes * shape - position
         if p.gap[k] < 0.0:
             m.beyond[k // LANES] |= 1 << (k % LANES)
             any_beyond = True
@@ -176,14 +176,14 @@ def set_friction_of_all(m):
         set_friction(m, g, tangential, meridional)
     for k in range(m.nodes):
         for g in range(0, node_lanes(m), LANES):
-            store(m.pace.response, (k, g), response_with_friction(m, k, g))
+            store(m.speed.response, (k, g), response_with_friction(m, k, g))
 
 
 @inlined
 def response_with_friction(m, k, g):
     """Opening of gaps per unit multiplier of a node, with the vector friction that comes with it."""
-    response = load(m.pace.coupling, (NORMAL, k, g)) + load(m.pace.coupling, (TANGENTIAL, k, g)) * m.friction_share[0, k]
-    return response + load(m.pace.coupling, (MERIDIONAL, k, g)) * m.friction_share[1, k]
+    response = load(m.speed.coupling, (NORMAL, k, g)) + load(m.speed.coupling, (TANGENTIAL, k, g)) * m.friction_share[0, k]
+    return response + load(m.speed.coupling, (MERIDIONAL, k, g)) * m.friction_share[1, k]
 
 
 @inlined
@@ -232,7 +232,7 @@ def press_lining(m, place):
             if VECTOR_FRICTION:
                 gap -= response_with_friction(m, k, g) * m.force[k]
             else:
-                gap -= load(m.pace.response, (k, g)) * m.force[k]
+                gap -= load(m.speed.response, (k, g)) * m.force[k]
         store(p.gap, g, gap)
         any_closed |= bits_of(gap < 0.0)
     return any_closed != 0
@@ -252,7 +252,7 @@ def press_casing(m):
     if guessed == 0:
         for g in range(0, node_lanes(m), LANES):
             p.touching[g // LANES] = bits_of(load(p.gap, g) < 0.0)
-    violation = solve_complementarity(p, m.pace.response if m.coupled != 0 else m.pace.columns)
+    violation = solve_complementarity(p, m.speed.response if m.coupled != 0 else m.speed.columns)
     m.totals.worst_complementarity = max(m.totals.worst_complementarity, violation)
     for g in range(0, node_lanes(m), LANES):
         multiplier = load(p.multiplier, g)
@@ -337,17 +337,17 @@ def add_push(m, pushes, rows, constant_rows, k, force):
 def push_modes(m, i, push, work, lost):
     """What a push adds to the eight modes from i on; adds its work, doubled, and loss."""
     free = load(m.increment, i) + load(m.last_increment, i)
-    pushed = load(m.pace.inverse, i) * push
+    pushed = load(m.speed.inverse, i) * push
     store(m.increment, i, load(m.increment, i) + pushed)
     store(m.u, i, load(m.u, i) + pushed)
-    return work + push * (free + pushed), lost + load(m.pace.loss, i) * (pushed * (free + free + pushed))
+    return work + push * (free + pushed), lost + load(m.speed.loss, i) * (pushed * (free + free + pushed))
 
 
 @inlined
 def kick_complex_modes(m, i, push, increment_push, work, lost):
     """What a kick as the step began adds to its end; adds its work, doubled, and loss. See gyroscopic.ComplexRecursion."""
-    keep, pull = load(m.pace.keep, i), load(m.pace.pull, i)
-    inverse_keep, inverse, d = load(m.pace.inverse_keep, i), load(m.pace.inverse, i), load(m.increment, i)
+    keep, pull = load(m.speed.keep, i), load(m.speed.pull, i)
+    inverse_keep, inverse, d = load(m.speed.inverse_keep, i), load(m.speed.inverse, i), load(m.increment, i)
     # twice the displacement mid-kick, its increment times keep, and q
     before = load(m.u, i) - d
     kicked = inverse * inverse_keep * increment_push

@@ -18,7 +18,7 @@ from r37core.contact.scene import Lining
 from ..gaps import gaps
 from ..problem import Problem
 from ..segments import Segments
-from ..state import Course, SimulationRecord, SimulationState
+from ..state import Schedule, SimulationRecord, SimulationState
 from .motion import CoupledMotion, Motion, MotionWithCasing, RealMotion
 
 _MOST_SWEEPS = 200
@@ -34,12 +34,12 @@ class ReferenceEngine:
         self.flexibility = problem.contact.contact_flexibility
         self.take(0)
 
-    def take(self, place: int) -> None:
-        """Go on at the pace of this place."""
-        self._place, recursion = place, self._segments.recursion[place]
+    def take(self, speed_index: int) -> None:
+        """Go on at this one of the speeds."""
+        self._speed_index, recursion = speed_index, self._segments.recursion[speed_index]
         blade = (RealMotion if self.problem.blade.complex_modes is None else CoupledMotion)(self.problem, recursion)
         self.motion: Motion = blade if self.problem.casing.ring is None else MotionWithCasing(blade, self.problem, recursion)
-        self.clearance = self._segments.clearance[place]
+        self.clearance = self._segments.clearance[speed_index]
 
     def _turn(self, n: int) -> None:
         """Take the rows of the nodes where they are at t_n: of the blade's modes at rest, and of an elastic casing's."""
@@ -49,34 +49,34 @@ class ReferenceEngine:
             self.rows = np.concatenate([self._blade_rows, of_casing], axis=-1)
         self.normal, self.tangential, self.meridional = self.rows
 
-    def advance(self, state: SimulationState, out: SimulationRecord, course: Course) -> int:
+    def advance(self, state: SimulationState, out: SimulationRecord, schedule: Schedule) -> int:
         """Do the steps of every row of `out.samples`, as the compiled engine does; returns the rows done."""
         first, snapshots_before = state.samples, self.problem.grid.snapshots_after(state.samples)
-        for stretch, (place, samples) in enumerate(zip(course.places, course.samples, strict=True)):
-            self._go_over(state, place)
-            course.ends[stretch, 0] = state.displacement, state.increment
+        for segment, (speed_index, samples) in enumerate(zip(schedule.speed_indices, schedule.samples, strict=True)):
+            self._go_over(state, speed_index)
+            schedule.ends[segment, 0] = state.displacement, state.increment
             done, kept = state.samples - first, self.problem.grid.snapshots_after(state.samples) - snapshots_before
             part = SimulationRecord(out.samples[done : done + samples], out.snapshots[kept:])
-            reached, bounded = self._stretch(state, part)
+            reached, bounded = self._segment(state, part)
             state.samples += reached
-            course.ends[stretch, 1] = state.displacement, state.increment
-            course.wear[stretch] = 0.0 if state.wear is None else state.wear.max()
+            schedule.ends[segment, 1] = state.displacement, state.increment
+            schedule.wear[segment] = 0.0 if state.wear is None else state.wear.max()
             if not bounded:
                 break
         return state.samples - first
 
-    def _go_over(self, state: SimulationState, place: int) -> None:
-        """Take a pace; displacement and velocity go over to it."""
-        if place == self._place:
+    def _go_over(self, state: SimulationState, speed_index: int) -> None:
+        """Take another speed; displacement and velocity go over to it."""
+        if speed_index == self._speed_index:
             return
         increments = self._segments.increments
         assert increments is not None
-        velocity = increments.velocity(self._place, state.displacement, state.increment)
-        self.take(place)
-        state.increment[:] = increments.increment(place, state.displacement, velocity)
+        velocity = increments.velocity(self._speed_index, state.displacement, state.increment)
+        self.take(speed_index)
+        state.increment[:] = increments.increment(speed_index, state.displacement, velocity)
 
-    def _stretch(self, state: SimulationState, out: SimulationRecord) -> tuple[int, bool]:
-        """Go on at one pace; returns the rows done, and whether they are within the limit."""
+    def _segment(self, state: SimulationState, out: SimulationRecord) -> tuple[int, bool]:
+        """Go on at one speed; returns the rows done, and whether they are within the limit."""
         problem, motion, first = self.problem, self.motion.read(state), state.samples
         done, kept, bounded = 0, 0, True
         step = self._second_order_step if problem.choice.second_order else self._step

@@ -1,0 +1,63 @@
+"""Constant-speed segments of a run, as the compiled engine does them: displacement and velocity go over to the next speed.
+
+An increment u_n - u_{n-1} belongs to its speed: it is that of a free mode of this frequency, in a step of this length.
+"""
+
+from __future__ import annotations
+
+from r37core.alignment import LANES
+from r37core.lanes import inlined, integers_at, load, numbers_at, numbers_of, store
+
+from .layout import MODAL_ROWS
+from .steps import mode_lanes
+
+
+@inlined
+def begin_segment(m, segment, others):
+    """Go on at the speed of a segment, with `others` constants that are not of modes; returns its blocks of steps."""
+    index = integers_at(m.call.speed_indices)[segment]
+    if index != m.call.speed_index:
+        take_speed(m, index, others)
+    put_motion(m, 2 * segment)
+    return integers_at(m.call.lasting)[segment]
+
+
+@inlined
+def take_speed(m, index, others):
+    """Take the constants of another speed, and write the motion's velocity as an increment at it."""
+    for i in range(0, mode_lanes(m), LANES):
+        of_displacement = load(m.speed.increment_by_displacement, i) * load(m.u, i)
+        store(m.increment, i, (load(m.increment, i) - of_displacement) * load(m.speed.velocity_by_increment, i))
+    own, table, modes, most = numbers_of(m), numbers_at(m.call.constants), mode_lanes(m), len(m.u)
+    first = index * (MODAL_ROWS * modes + others)
+    for row in range(MODAL_ROWS):
+        for i in range(0, modes, LANES):
+            store(own, row * most + i, load(table, first + row * modes + i))
+    for i in range(0, others, LANES):
+        store(own, MODAL_ROWS * most + i, load(table, first + MODAL_ROWS * modes + i))
+    for k in range(m.nodes):
+        m.problem.diagonal[k] = m.speed.columns[k, k]
+    for i in range(0, mode_lanes(m), LANES):
+        of_displacement = load(m.speed.increment_by_displacement, i) * load(m.u, i)
+        store(m.increment, i, of_displacement + load(m.speed.increment_by_velocity, i) * load(m.increment, i))
+    m.call.speed_index = index
+
+
+@inlined
+def end_segment(m, segment):
+    """Keep how the motion ends a segment, and the largest wear by then."""
+    put_motion(m, 2 * segment + 1)
+    if m.call.wear != 0:
+        largest, wear = 0.0, numbers_at(m.call.wear)
+        for bar in range(m.rings * int(m.lining.bars)):
+            largest = max(largest, wear[bar])
+        numbers_at(m.call.worn)[segment] = largest
+
+
+@inlined
+def put_motion(m, end):
+    """Displacement and increment at an end of a segment."""
+    ends, modes = numbers_at(m.call.ends), mode_lanes(m)
+    for i in range(modes):
+        ends[2 * end * modes + i] = m.u[i]
+        ends[(2 * end + 1) * modes + i] = m.increment[i]
