@@ -66,7 +66,7 @@ def scene_of(settings, name, **casing):
 def integrated(model, settings, scene, step, revolutions, speed=SPEED, **choice):
     """Samples (m) of the leading edge's normal displacement, shape (samples,), the step (s) and the state at the end."""
     name = "direct" if scene.lining is None else "abradable"
-    choice = {"samples_per_revolution": SAMPLES, "energy": False, "snapshot_revolutions": 0, "shorten": False} | choice
+    choice = {"samples_per_revolution": SAMPLES, "snapshot_revolutions": 0, "shorten": False} | choice
     chosen = replace(settings.integration_choice("Ref", name, speed), time_step=step, revolutions=revolutions, **choice)
     simulation = Simulation(model, speed, scene, chosen)
     state = simulation.start()

@@ -53,7 +53,7 @@ def measured(root: Path) -> Numbers:
     contact, coriolis, patches = (contact_model(each, tip_line) for each in (model, with_coriolis, patched))
 
     def run(of: ContactModel, name: str, speed: float = _SPEED, results=(), stress=None, **changes) -> dict[str, float]:
-        quiet = {"energy": False, "snapshot_revolutions": 2 if stress else 0, "revolutions": _REVOLUTIONS}
+        quiet = {"snapshot_revolutions": 2 if stress else 0, "revolutions": _REVOLUTIONS}
         choice = replace(settings.integration_choice(_BLADE, name, speed), **quiet | changes)
         counts = {"spectrum_highest_order": 1, "wear_angles": 8, "stress": stress}
         return _of_run(run_speed(of, speed, settings.scenes[name].scene, choice, results, **counts))
