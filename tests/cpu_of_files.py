@@ -1,9 +1,11 @@
-"""CPU time of every test file with that of its processes, in every log, and a refusal of a file that takes too much.
+"""CPU time of every test file with that of its processes, in every log, and a line for a file that takes too much.
 
-Of CPU and not of the clock, so that a busy machine is no failure. What files share, fixtures of a session and compiled
-programs, stands beside them under its own name. Jobs of Snakemake's job server are not in it: nobody waits for them.
+Of CPU and not of the clock, so that a busy machine says the same. With CI=true such a file fails the run; elsewhere a slow
+processor is no failure. What files share, fixtures of a session and compiled programs, stands beside them under its own name.
+Jobs of Snakemake's job server are not in it: nobody waits for them.
 """
 
+import os
 import resource
 import sys
 from collections import Counter
@@ -75,7 +77,7 @@ def pytest_runtest_logreport(report):
 
 @pytest.hookimpl(trylast=True)
 def pytest_sessionfinish(session):
-    if session.exitstatus == pytest.ExitCode.OK and too_long(_spent, _most(session.config)):
+    if os.environ.get("CI") and session.exitstatus == pytest.ExitCode.OK and too_long(_spent, _most(session.config)):
         session.exitstatus = pytest.ExitCode.TESTS_FAILED
 
 

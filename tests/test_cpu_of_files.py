@@ -1,4 +1,4 @@
-"""The CPU time of test files stands in every log, and one that takes too much fails the run."""
+"""The CPU time of test files stands in every log, and with CI=true one that takes too much fails the run."""
 
 import subprocess
 import sys
@@ -39,7 +39,7 @@ def test_a_file_is_measured_without_what_it_shares(tmp_path, workers, most, stat
     (tmp_path / "pytest.ini").write_text(f"[pytest]\ncpu_of_a_file_s = {most}\n")
     command = [sys.executable, "-m", "pytest", "-p", "cpu_of_files", *workers]
     # other plugins take longer than all of this
-    environment = {"PYTHONPATH": str(Path(__file__).parent), "PATH": "", "PYTEST_DISABLE_PLUGIN_AUTOLOAD": "1"}
+    environment = {"PYTHONPATH": str(Path(__file__).parent), "PATH": "", "CI": "true", "PYTEST_DISABLE_PLUGIN_AUTOLOAD": "1"}
     done = subprocess.run(command, cwd=tmp_path, env=environment, capture_output=True, text=True, check=False)
     assert done.returncode == status, done.stdout + done.stderr
     assert "fixture shared" in done.stdout
