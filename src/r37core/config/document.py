@@ -18,7 +18,7 @@ Model = TypeVar("Model", bound=BaseModel)
 Result = TypeVar("Result")
 
 _MOST_LINES = 20
-"""ConfigRefusals of one message."""
+"""Of a message with several refusals."""
 
 
 class ConfigError(ValueError):

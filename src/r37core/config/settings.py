@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache, cached_property
 from pathlib import Path
@@ -198,12 +198,17 @@ class Settings:
         matrices = isinstance(self.blades[blade].definition, MatricesSource)
         return tuple(result for result in wanted if not (matrices and result in ("stress", "static_stress", "shapes")))
 
-    def integration_choice(self, blade: str, scene: str, speed: float) -> IntegrationChoice:
-        """Numbers of the time integration at one speed of a blade and scene, with only what its results need."""
+    def integration_choice(
+        self, blade: str, scene: str, speed: float, history_speeds: Sequence[float] | None = None
+    ) -> IntegrationChoice:
+        """Numbers of the time integration at one speed of a blade and scene, with only what its results need.
+
+        `history_speeds` (rad/s): where the stress is kept for every revolution, in place of those of the scene.
+        """
         chosen = self.scenes[scene]
         everything = self.fidelity.time_integration.choice(chosen.scene.lining is not None)
         stress = "stress" in self.results_of(blade, scene)
-        history = speed in chosen.stress_history_speeds
+        history = speed in (chosen.stress_history_speeds if history_speeds is None else history_speeds)
         choice = replace(everything, revolutions=chosen.revolutions)
         return replace(
             choice,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 from r37core.plain import to_plain
@@ -31,10 +31,8 @@ class Simulations:
 
     def _choice(self, wildcards: Any, speed: float) -> IntegrationChoice:
         """Numbers of the time integration at a speed (rad/s)."""
-        choice = self.sweep.settings.integration_choice(wildcards.blade, wildcards.scene, speed)
-        if speed in self.sweep.samples.sample(wildcards).history_speeds:
-            return choice
-        return replace(choice, snapshot_revolutions=min(choice.snapshot_revolutions, choice.revolutions_in_statistic))
+        history_speeds = self.sweep.samples.sample(wildcards).history_speeds
+        return self.sweep.settings.integration_choice(wildcards.blade, wildcards.scene, speed, history_speeds)
 
     def choice_of_scene(self, wildcards: Any) -> dict[str, Any]:
         """Numbers of the time integration at the highest speed of the basis."""

@@ -12,7 +12,6 @@ from r37core.contact.scene import Scene
 from r37core.rom.contact_model import ContactModel
 
 from .clearance import clearances
-from .integration_choice import IntegrationChoice
 from .time_grid import TimeGrid
 
 
@@ -22,13 +21,7 @@ class CasingOfRun:
 
     model: ContactModel
     scene: Scene
-    choice: IntegrationChoice
     grid: TimeGrid
-
-    @property
-    def speed(self) -> float:
-        """Of the rotor (rad/s)."""
-        return self.grid.speed
 
     @cached_property
     def ring(self) -> RingMotion | None:
@@ -43,18 +36,18 @@ class CasingOfRun:
     @cached_property
     def tip(self) -> ContactModel:
         """The model whose contact nodes are where the rotation holds them, if the blade grows with the speed."""
-        return self.model.spun(self.speed) if self.scene.casing.centrifugal else self.model
+        return self.model.spun(self.grid.speed) if self.scene.casing.centrifugal else self.model
 
     @cached_property
     def clearance(self) -> np.ndarray:
         """Of the round casing at each contact node (m), shape (nodes,)."""
-        return clearances(self.model, self.scene, np.array([self.speed]))[0]
+        return clearances(self.model, self.scene, np.array([self.grid.speed]))[0]
 
     @property
     def rotation_velocity(self) -> np.ndarray:
         """What the rotation adds to the nodes' sliding over the casing (m/s), positive along the tangent, shape (nodes,)."""
         friction = self.scene.friction
-        return self.tip.radius * self.speed * (-1.0 if friction and friction.against_rotation else 1.0)
+        return self.tip.radius * self.grid.speed * (-1.0 if friction and friction.against_rotation else 1.0)
 
     @property
     def bar_area(self) -> float:
@@ -76,7 +69,7 @@ class CasingOfRun:
         lining = self.scene.lining
         if lining is None:
             return 0
-        return min(lining.bars, self.grid.steps_per_revolution) if self.choice.second_order else lining.bars
+        return min(lining.bars, self.grid.steps_per_revolution) if self.grid.choice.second_order else lining.bars
 
     @property
     def rings(self) -> int:

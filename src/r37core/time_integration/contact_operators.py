@@ -37,8 +37,8 @@ class ContactOperators:
         """How a mode goes from step to step: a complex one in the real part of its amplitude, the casing's without turning."""
         own = self.blade.recursion
         if self.casing.ring is not None:
-            ring = self.casing.ring
-            of_ring = recursion(self.blade.choice.integrator, ring.frequencies, ring.damping_ratios, self.blade.grid.time_step)
+            ring, grid = self.casing.ring, self.blade.grid
+            of_ring = recursion(grid.choice.integrator, ring.frequencies, ring.damping_ratios, grid.time_step)
             own = joined(own, of_ring)
         return own if self.blade.complex_modes is None else complex_recursion(own)
 
@@ -111,7 +111,7 @@ class ContactOperators:
         Coriolis also half of the kick by which a force at t_n acts on the stepped modes. No column where the forces are not
         those at t_n.
         """
-        if not self.blade.choice.second_order:
+        if not self.blade.grid.choice.second_order:
             return np.empty((len(self.blade.modes), 0))
         frequencies, modes = self.blade.static_modes
         rows = (self.operator_at_rest @ modes).reshape(3 * len(self.casing.tip.radius), len(frequencies))

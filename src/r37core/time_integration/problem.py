@@ -61,12 +61,12 @@ class Problem:
     @cached_property
     def casing(self) -> CasingOfRun:
         """What the contact nodes meet."""
-        return CasingOfRun(self.model, self.scene, self.choice, self.grid)
+        return CasingOfRun(self.model, self.scene, self.grid)
 
     @cached_property
     def blade(self) -> SteppedBlade:
         """The blade's modes."""
-        return SteppedBlade(self.model, self.scene, self.choice, self.grid, self.casing.cone_angle)
+        return SteppedBlade(self.model, self.scene, self.grid, self.casing.cone_angle)
 
     @cached_property
     def contact(self) -> ContactOperators:

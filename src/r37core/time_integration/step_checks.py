@@ -13,7 +13,7 @@ _OF_BLADE = "this reduced model", "raise basis_tolerance to drop the highest mod
 
 def check_step(contact: ContactOperators) -> None:
     """Raises UnstableStepError unless the run's step is below its limits, of the free blade and of the pressed one."""
-    choice, step = contact.blade.choice, contact.blade.grid.time_step
+    choice, step = contact.blade.grid.choice, contact.blade.grid.time_step
     taken = f"time_step_s: {choice.time_step:g} s gives steps of {step:.6g} s, not below the"
     if choice.integrator == CENTRAL_DIFFERENCE:
         _check_published_step(contact, taken)

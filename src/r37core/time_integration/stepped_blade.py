@@ -12,7 +12,6 @@ from r37core.contact.scene import Scene
 from r37core.rom.contact_model import ContactModel
 
 from .gyroscopic import LARGEST_TURN, ComplexModes, complex_modes
-from .integration_choice import IntegrationChoice
 from .integrators import Recursion, recursion
 from .static_modes import relaxation, residual_flexibility, stepped_modes
 from .step_limit import largest_pressed_ratio, ratio_of_pressed_nodes
@@ -23,21 +22,15 @@ from .time_grid import TimeGrid
 class SteppedBlade:
     """Modes of a blade's `model` at the speed of a `grid`, in a `scene` whose casing has the `cone_angle` (rad).
 
-    With the integrator exact_modal modes faster than `choice.static_above` per step follow the forces statically: they are none
-    of `frequencies` and `modes`; see r37core.time_integration.static_modes. With central differences all modes are stepped. A
-    model with a Coriolis matrix has its stepped modes coupled by it (`complex_modes`).
+    With the integrator exact_modal modes faster than `grid.choice.static_above` per step follow the forces statically: they
+    are none of `frequencies` and `modes`; see r37core.time_integration.static_modes. With central differences all modes are
+    stepped. A model with a Coriolis matrix has its stepped modes coupled by it (`complex_modes`).
     """
 
     model: ContactModel
     scene: Scene
-    choice: IntegrationChoice
     grid: TimeGrid
     cone_angle: float
-
-    @property
-    def speed(self) -> float:
-        """Of the rotor (rad/s)."""
-        return self.grid.speed
 
     @property
     def frequencies(self) -> np.ndarray:
@@ -58,7 +51,7 @@ class SteppedBlade:
         if self.model.coriolis is None:
             return None
         slow = self.frequencies * self.grid.time_step <= LARGEST_TURN
-        return np.where(np.outer(slow, slow), self.speed * self.modes.T @ self.model.coriolis @ self.modes, 0.0)
+        return np.where(np.outer(slow, slow), self.grid.speed * self.modes.T @ self.model.coriolis @ self.modes, 0.0)
 
     @cached_property
     def complex_modes(self) -> ComplexModes | None:
@@ -69,16 +62,16 @@ class SteppedBlade:
     def _stepped(self) -> int:
         """How many modes are stepped: with central differences all up to the highest frequency, else see static_modes."""
         frequencies, _ = self._modes_of_speed
-        below = int(np.count_nonzero(frequencies <= 2.0 * np.pi * self.choice.highest_frequency))
+        below = int(np.count_nonzero(frequencies <= 2.0 * np.pi * self.grid.choice.highest_frequency))
         if below == 0:
             raise ValueError(
-                f"highest_frequency_hz: found {self.choice.highest_frequency:g}; allowed: more than the first mode's, "
-                f"{frequencies[0] / 2.0 / np.pi:.6g} Hz at {self.speed:g} rad/s"
+                f"highest_frequency_hz: found {self.grid.choice.highest_frequency:g}; allowed: more than the first mode's, "
+                f"{frequencies[0] / 2.0 / np.pi:.6g} Hz at {self.grid.speed:g} rad/s"
             )
-        if not self.choice.second_order:
+        if not self.grid.choice.second_order:
             return below
         frequencies, rows = self._at_rest
-        choice = self.choice
+        choice = self.grid.choice
 
         def is_stable(stepped: int) -> bool:
             of = recursion(choice.integrator, frequencies[:stepped], self.scene.damping_ratio, choice.time_step)
@@ -92,7 +85,7 @@ class SteppedBlade:
     @cached_property
     def relaxation(self) -> float:
         """Of the sweeps over the nodes, the same at every speed: see static_modes.relaxation; 1 with central differences."""
-        if not self.choice.second_order:
+        if not self.grid.choice.second_order:
             return 1.0
         frequencies, rows = self._at_rest
         flexibility = residual_flexibility(frequencies[self._stepped :], rows[..., self._stepped :])
@@ -111,14 +104,14 @@ class SteppedBlade:
 
     @cached_property
     def _modes_of_speed(self) -> tuple[np.ndarray, np.ndarray]:
-        return self.model.modes_at(self.speed)
+        return self.model.modes_at(self.grid.speed)
 
     @cached_property
     def recursion(self) -> Recursion:
         """How the stepped modes go from step to step, without the casing's."""
         coupled = self.complex_modes
         frequencies = self.frequencies if coupled is None else coupled.frequencies
-        return recursion(self.choice.integrator, frequencies, self.scene.damping_ratio, self.grid.time_step)
+        return recursion(self.grid.choice.integrator, frequencies, self.scene.damping_ratio, self.grid.time_step)
 
     @cached_property
     def static_modes(self) -> tuple[np.ndarray, np.ndarray]:
