@@ -26,7 +26,7 @@ from r37core.rom.rom_file import read_reduced_model
 from r37core.stress.recovery import stress_operator
 from r37core.studies.tables import markdown_table
 from r37core.time_integration.clearance import growth
-from r37core.time_integration.speed_run import with_rotation
+from r37core.time_integration.kept_numbers import with_rotation
 
 RESULTS = Path("results")
 MODE, ORDER = "1B", 4

@@ -28,6 +28,8 @@ class Casing:
     `centrifugal`, the blade's static displacement is taken off; `growth` (m) of the casing is added, given at
     `growth_speeds` (rad/s), ascending, and linear between them. The lobes stay as they are.
 
+    `longer` (m): by how much the blade is longer than its model, as one of a rotor may be; it has so much less clearance.
+
     `ring`: modes of a flexible casing, which the contact forces move; without them it is rigid. `ring_radius` (m): of the ring
     that they are of, None where they are given.
     """
@@ -58,6 +60,7 @@ class Casing:
         ),
     ] = None
     centrifugal: bool = False
+    longer: float = 0.0
     growth_speeds: tuple[float, ...] = ()
     growth: tuple[float, ...] = ()
     ring: tuple[RingMode, ...] = ()

@@ -10,6 +10,7 @@ import numpy as np
 from r37core.declared import Key
 
 from .casing import Casing
+from .rotor import Rotor
 
 
 @dataclass(frozen=True)
@@ -85,7 +86,7 @@ class Scene:
     """What the blade meets: casing, lining or None, friction or None, and how the gap is measured.
 
     `exact_gap`: distance of the displaced node from the conical, lobed casing, instead of the clearance at the undeformed
-    node's angle less the normal displacement.
+    node's angle less the normal displacement. `rotor`: the blades that meet it, None for a single one.
     """
 
     casing: Casing
@@ -104,3 +105,4 @@ class Scene:
         float,
         Key("a tip displacement beyond it ends the run as diverged; farther no linear model can be asked", "_m", gt=0, le=100),
     ] = 0.1
+    rotor: Rotor | None = None

@@ -19,7 +19,7 @@ from r37core.time_integration.integration_choice import IntegrationChoice
 from r37core.time_integration.integrators import CENTRAL_DIFFERENCE, Recursion
 from r37core.time_integration.problem import Problem, stable_problem
 from r37core.time_integration.simulate import Simulation
-from r37core.time_integration.speed_run import energy_balance
+from r37core.time_integration.kept_numbers import energy_balance
 from r37core.time_integration.state import Schedule
 from r37core.time_integration.step_limit import UnstableStepError
 

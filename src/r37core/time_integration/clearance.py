@@ -19,10 +19,10 @@ class NoRoomError(ValueError):
 def clearances(model: ContactModel, scene: Scene, speeds: np.ndarray) -> np.ndarray:
     """Clearance (m) of the round casing at `speeds` (rad/s), shape (speeds, nodes).
 
-    The casing's own, with its growth, less what rotation brings the node nearer to it. Raises BucklingError.
+    The casing's own, with its growth, less what rotation and a longer blade bring the node nearer to it. Raises BucklingError.
     """
     casing = scene.casing
-    undeformed = np.repeat((casing.clearance + casing.opening(speeds))[:, None], len(model.theta), axis=1)
+    undeformed = np.repeat((casing.clearance + casing.opening(speeds) - casing.longer)[:, None], len(model.theta), axis=1)
     return undeformed - growth(model, speeds, casing.angle(model.tip_cone_angle)) if casing.centrifugal else undeformed
 
 

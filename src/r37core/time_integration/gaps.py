@@ -7,13 +7,16 @@ import numpy as np
 from .problem import Problem
 
 
-def gaps(problem: Problem, clearance: np.ndarray, displacement: np.ndarray, step: int) -> tuple[np.ndarray, np.ndarray]:
+def gaps(
+    problem: Problem, clearance: np.ndarray, displacement: np.ndarray, step: int, angle: float = 0.0
+) -> tuple[np.ndarray, np.ndarray]:
     """Distance (m) of every node from casing or lining, and the angle (rad) at which it meets it, shape (nodes,) both.
 
     `clearance` (m) of the round casing, shape (nodes,); `displacement` (m) of the nodes along its normal, tangent and meridian,
-    shape (3, nodes), relative to a flexible casing; `step`: counted from the start of the run.
+    shape (3, nodes), relative to a flexible casing; `step`: counted from the start of the run;
+    `angle` (rad): at which the blade stands beyond that of its model.
     """
-    theta = problem.casing.theta(step % problem.grid.steps_per_revolution)
+    theta = problem.casing.theta(step % problem.grid.steps_per_revolution) + angle
     normal, across, meridional = displacement
     position = normal
     if problem.scene.exact_gap:

@@ -31,6 +31,8 @@ class Simulation:
     """
 
     def __init__(self, model: ContactModel, speed: float, scene: Scene, choice: IntegrationChoice):
+        if scene.rotor is not None:
+            raise ValueError("a scene with a rotor: see RotorSimulation")
         problem = stable_problem(model, speed, scene, choice)
         self._take(problem, own_segment(problem), None)
 
@@ -44,10 +46,17 @@ class Simulation:
         simulation._take(problem, segments_at(problem, speeds), None if before is None else before.engine)
         return simulation
 
-    def _take(self, problem: Problem, segments: Segments, before: Any) -> None:
+    @classmethod
+    def beside(cls, problem: Problem, other: Simulation | None) -> Simulation:
+        """One of a problem beside another of the same casing, whose tables it shares."""
+        simulation = cls.__new__(cls)
+        simulation._take(problem, own_segment(problem), None, None if other is None else other.engine)
+        return simulation
+
+    def _take(self, problem: Problem, segments: Segments, before: Any, beside: Any = None) -> None:
         self.problem, self.segments = problem, segments
         # of one choice, so of one class
-        self.engine: Any = _ENGINES[problem.choice.engine](problem, segments, before)
+        self.engine: Any = _ENGINES[problem.choice.engine](problem, segments, before, beside)
 
     def start(self, motion: InitialMotion | None = None) -> SimulationState:
         """The blade at rest or in `motion`, in an unworn lining, or in one that it has cut its way into.
@@ -75,20 +84,27 @@ class Simulation:
 
     def follow(self, state: SimulationState, schedule: Schedule) -> SimulationRecord:
         """The same in the constant-speed segments of a schedule."""
-        problem = self.problem
-        first, count = state.samples, int(schedule.samples.sum())
+        out = self.room(state, int(schedule.samples.sum()))
+        return self.recorded(state, out, self.engine.advance(state, out, schedule))
 
-        def snapshots(samples: int) -> int:
-            return problem.grid.snapshots_after(first + samples) - problem.grid.snapshots_after(first)
+    def room(self, state: SimulationState, samples: int) -> SimulationRecord:
+        """Room for what an engine leaves behind in so many samples from the state on."""
+        outputs, numbers = self.problem.contact.output_operator.shape
+        return SimulationRecord(np.empty((samples, outputs)), np.empty((self._snapshots(state, samples), numbers)))
 
-        outputs, numbers = problem.contact.output_operator.shape
-        out = SimulationRecord(np.empty((count, outputs)), np.empty((snapshots(count), numbers)))
-        done = self.engine.advance(state, out, schedule)
-        state.samples = first + count
-        diverged = done < count or not (np.abs(out.samples[done - 1]) < problem.scene.divergence_limit).all()
+    def recorded(self, state: SimulationState, out: SimulationRecord, done: int) -> SimulationRecord:
+        """What an engine has left in that room when it has `done` so many samples; the state goes on by all of them."""
+        snapshots = self._snapshots(state, done)
+        diverged = done < len(out.samples) or not (np.abs(out.samples[done - 1]) < self.problem.scene.divergence_limit).all()
+        state.samples += len(out.samples)
         of_tip = len(TIP_POINTS) * len(DIRECTIONS)
-        casing = None if problem.casing.ring is None else out.samples[:done, of_tip:]
-        return SimulationRecord(out.samples[:done, :of_tip], out.snapshots[: snapshots(done)], bool(diverged), casing)
+        casing = None if self.problem.casing.ring is None else out.samples[:done, of_tip:]
+        return SimulationRecord(out.samples[:done, :of_tip], out.snapshots[:snapshots], bool(diverged), casing)
+
+    def _snapshots(self, state: SimulationState, samples: int) -> int:
+        """How many there are in so many samples from the state on."""
+        grid = self.problem.grid
+        return grid.snapshots_after(state.samples + samples) - grid.snapshots_after(state.samples)
 
     def energy(self, state: SimulationState) -> float:
         """Energy (J) of the vibration, that of the static modes in it; see Recursion."""

@@ -26,6 +26,11 @@ class SimulationState:
     samples: int = 0
     totals: np.ndarray = field(default_factory=lambda: np.zeros((), TOTALS))
 
+    @property
+    def worn(self) -> float:
+        """Sum of the wear (m) of all bars."""
+        return 0.0 if self.wear is None else float(self.wear.sum())
+
 
 class Schedule:
     """Constant-speed segments one after another: what an engine is to do, and what it leaves of each.

@@ -22,6 +22,7 @@ from ..segments import Segments
 from ..state import Schedule, SimulationRecord, SimulationState
 from .kind import Kind
 from .layout import LINING, NORMAL, TANGENTIAL, Capacity, capacity_of, constants_record, integration_record
+from .passage import Passage
 
 SOURCES = Sources(
     "alignment.py",
@@ -34,6 +35,7 @@ SOURCES = Sources(
     "contact/laws.py",
     "contact/node_sweeps.py",
     "contact/ring.py",
+    "contact/rotor.py",
     "contact/scene.py",
     "declared.py",
     "units.py",
@@ -55,25 +57,33 @@ class CompiledEngine:
     """The time integration of one problem, compiled for what its scene has: all that its program needs lies in one record.
 
     It goes at the first speed of its `segments` until `take`. Of an engine `before`, of the same scene and choice at another
-    speed, it keeps what fits, and that one must not go on.
+    speed, it keeps what fits, and that one must not go on. With one `beside` it shares the tables of the casing, if they fit.
     """
 
-    _record: np.ndarray
+    record: np.ndarray
+    constants: np.ndarray
     _corners: dict[tuple[str, tuple[int, ...]], np.ndarray]
     _tables: _CasingTables
 
-    def __init__(self, problem: Problem, segments: Segments, before: CompiledEngine | None = None):
+    def __init__(
+        self,
+        problem: Problem,
+        segments: Segments,
+        before: CompiledEngine | None = None,
+        beside: CompiledEngine | None = None,
+    ):
+        self.problem = problem
         _, self._nodes, self._modes = problem.contact.displacement_operator.shape
         blade, pairs = len(problem.blade.frequencies), len(problem.scene.casing.ring)
         # lanes that are used; the modes of an elastic casing begin whole vectors
         self._pairs, self._node_lanes = padded(pairs), padded(self._nodes)
-        self._mode_lanes = padded(blade) + 2 * self._pairs
-        firsts = (self._mode_lanes - 2 * self._pairs, self._mode_lanes - self._pairs)
+        self.mode_lanes = padded(blade) + 2 * self._pairs
+        firsts = (self.mode_lanes - 2 * self._pairs, self.mode_lanes - self._pairs)
         of_ring = [first + np.arange(pairs) for first in firsts]
         # an array of indices costs more in every segment of a run-up
-        self._mode_columns = np.concatenate([np.arange(blade), *of_ring]) if pairs else slice(blade)
+        self.mode_columns = np.concatenate([np.arange(blade), *of_ring]) if pairs else slice(blade)
         scene, choice = problem.scene, problem.choice
-        self._capacity = capacity_of(self._mode_lanes, self._node_lanes)
+        self._capacity = capacity_of(self.mode_lanes, self._node_lanes)
         self._kind = kind = Kind(
             published=choice.integrator == CENTRAL_DIFFERENCE,
             lined=scene.lining is not None,
@@ -89,20 +99,20 @@ class CompiledEngine:
             self._lay_out_coriolis(problem)
         if problem.casing.ring is not None:
             self._lay_out_ring(problem.casing.ring, problem)
-        self._lay_out_casing(problem, before)
+        self._lay_out_casing(problem, before or beside)
         if scene.friction is not None:
             self._lay_out_friction(problem, scene.friction)
         if scene.lining is not None:
             self._lay_out_lining(problem, scene.lining)
         if not kind.published:
             self._lay_out_static_modes(problem)
-        self._put(jumping=segments.jumps is not None)
-        self._constants = self._table_of(segments)
+        self.put(jumping=segments.jumps is not None)
+        self.constants = self._table_of(segments)
         self.take(0)
 
     def take(self, speed_index: int) -> None:
         """Go on at this one of the speeds."""
-        m, constants = self._record[0], self._constants[speed_index]
+        m, constants = self.record[0], self.constants[speed_index]
         for name in constants.dtype.names:
             m["speed"][name][..., : constants[name].shape[-1]] = constants[name]
         m["problem"]["diagonal"][: self._nodes] = np.diagonal(constants["columns"])[: self._nodes]
@@ -110,12 +120,12 @@ class CompiledEngine:
 
     def _take_room(self, before: CompiledEngine | None) -> None:
         """Make the record, or take that of an engine before."""
-        sizes = (self._capacity, self._kind, self._nodes, self._modes, self._mode_lanes)
-        if before is not None and sizes == (before._capacity, before._kind, before._nodes, before._modes, before._mode_lanes):
-            self._record, self._corners = before._record, before._corners
+        sizes = (self._capacity, self._kind, self._nodes, self._modes, self.mode_lanes)
+        if before is not None and sizes == (before._capacity, before._kind, before._nodes, before._modes, before.mode_lanes):
+            self.record, self._corners = before.record, before._corners
         else:
-            self._record, self._corners = aligned_zeros((1,), integration_record(self._capacity)), {}
-        self._address = self._record.ctypes.data
+            self.record, self._corners = aligned_zeros((1,), integration_record(self._capacity)), {}
+        self._address = self.record.ctypes.data
 
     def _table_of(self, segments: Segments) -> np.ndarray:
         """The segments as they stand in the record, shape (segments,)."""
@@ -138,7 +148,7 @@ class CompiledEngine:
             of_modes |= {"jumps": plan.jumps}
             of_modes |= {"amplitude_by_u": plan.amplitude_rows[:, 0], "amplitude_by_d": plan.amplitude_rows[:, 1]}
         fields |= {name: self._spread(values) for name, values in of_modes.items()}
-        table = aligned_zeros((len(clearance),), constants_record(self._mode_lanes, self._capacity.nodes))
+        table = aligned_zeros((len(clearance),), constants_record(self.mode_lanes, self._capacity.nodes))
         # a node that only pads the vector must not touch
         table["clearance"] = 1.0
         for name, values in fields.items():
@@ -148,27 +158,27 @@ class CompiledEngine:
     def _corner(self, name: str, shape: tuple[int, ...]) -> np.ndarray:
         """The part of a field of the record that an array fills; what pads it stays as it is."""
         if (name, shape) not in self._corners:
-            self._corners[name, shape] = self._record[0][name][tuple(map(slice, shape))]
+            self._corners[name, shape] = self.record[0][name][tuple(map(slice, shape))]
         return self._corners[name, shape]
 
-    def _put(self, **values: Any) -> None:
+    def put(self, **values: Any) -> None:
         """Put numbers and arrays into fields of the record."""
-        m = self._record[0]
+        m = self.record[0]
         for name, value in values.items():
             if isinstance(value, np.ndarray) and value.shape:
                 self._corner(name, value.shape)[...] = value
             else:
                 m[name] = value
 
-    def _put_modes(self, **values: np.ndarray) -> None:
+    def put_modes(self, **values: np.ndarray) -> None:
         """The same of arrays whose last axis is that of the modes."""
-        self._put(**{name: self._spread(value) for name, value in values.items()})
+        self.put(**{name: self._spread(value) for name, value in values.items()})
 
     def _spread(self, values: np.ndarray) -> np.ndarray:
         if not self._pairs:
             return values
-        lanes = np.zeros((*values.shape[:-1], self._mode_lanes))
-        lanes[..., self._mode_columns] = values
+        lanes = np.zeros((*values.shape[:-1], self.mode_lanes))
+        lanes[..., self.mode_columns] = values
         return lanes
 
     def advance(self, state: SimulationState, out: SimulationRecord, schedule: Schedule) -> int:
@@ -177,75 +187,53 @@ class CompiledEngine:
         They are done as the `schedule` says, whose ends and wear are filled. Returns the blocks done: fewer when an output
         passed the limit or is NaN.
         """
-        m, modes, nodes = self._record[0], self._mode_lanes, self._node_lanes
-        ends = np.empty((*schedule.ends.shape[:-1], modes))
-        # u and, with Coriolis, d of each
-        of_mode = 1 + self._kind.coriolis
-        numbers, kept = of_mode * modes, of_mode * self._modes
-        snapshots = np.empty((len(out.snapshots), numbers + (0 if self._kind.published else 3 * nodes)))
-        self._put_modes(u=state.displacement, increment=state.increment)
-        self._put(
-            on_casing=np.packbits(state.on_casing, bitorder="little"),
-            totals=state.totals,
-        )
-        addresses = {
-            "constants": self._constants,
-            "speed_indices": schedule.speed_indices,
-            "lasting": schedule.samples,
-            "ends": ends,
-            "worn": schedule.wear,
-            "wear": state.wear,
-            "samples": out.samples,
-            "snapshots": snapshots,
-        }
-        for name, array in addresses.items():
-            m["call"][name] = 0 if array is None else array.ctypes.data
-        m["call"]["first_step"], m["call"]["blocks"] = state.samples * m["steps_per_block"], len(out.samples)
-        if not self._kind.published:
-            self._put(force=state.contact_force[NORMAL], friction_force=state.contact_force[TANGENTIAL:])
-        done = int(self._advance(self._address))
-        state.displacement[:], state.increment[:] = m["u"][self._mode_columns], m["increment"][self._mode_columns]
-        schedule.ends[:] = ends[..., self._mode_columns]
-        state.on_casing[:] = np.unpackbits(m["on_casing"].astype(np.uint8), bitorder="little")[: self._nodes]
-        state.totals[()] = m["totals"]
-        of_modes = snapshots[:, :numbers].reshape(len(snapshots), of_mode, modes)[:, :, self._mode_columns]
-        out.snapshots[:, :kept] = of_modes.reshape(len(snapshots), kept)
-        if not self._kind.published:
-            state.contact_force[NORMAL] = m["force"][: self._nodes]
-            state.contact_force[TANGENTIAL:] = m["friction_force"][:, : self._nodes]
-            forces = snapshots[:, numbers:].reshape(-1, 3, nodes)[:, :, : self._nodes]
-            out.snapshots[:, kept:] = forces.reshape(len(snapshots), 3 * self._nodes)
-        return done
+        passage = Passage(self, state, out, schedule)
+        passage.go_on(len(out.samples))
+        passage.end()
+        return passage.done
+
+    @property
+    def numbers_of_mode(self) -> int:
+        """Of a snapshot: u and, with Coriolis, d."""
+        return 1 + self._kind.coriolis
+
+    @property
+    def snapshot_width(self) -> int:
+        """Numbers of a snapshot in whole vectors, the forces on the nodes after those of the modes."""
+        return self.numbers_of_mode * self.mode_lanes + (0 if self._kind.published else 3 * self._node_lanes)
+
+    def call(self) -> int:
+        """Do what the record asks for; returns the blocks done."""
+        return int(self._advance(self._address))
 
     def _lay_out(self, problem: Problem) -> None:
-        m = self._record[0]
+        m = self.record[0]
         # a node that only pads the vector must neither sit on the axis nor cancel a pivot
         m["radius"] = m["flight"]["towards"] = m["problem"]["diagonal"] = 1.0
         m["contact"]["lanes"] = m["problem"]["lanes"] = self._node_lanes
-        self._put_modes(
+        self.put_modes(
             displacement_operator=problem.contact.displacement_operator,
             size_operator=problem.contact.size_operator,
             push_operator=problem.contact.displacement_operator[NORMAL],
             outputs=problem.contact.output_operator[None, :, : self._modes],
         )
-        self._put(
+        self.put(
             radius=problem.casing.tip.radius,
             theta=problem.casing.tip.theta,
             number_of_outputs=len(problem.contact.output_operator),
             limit=problem.scene.divergence_limit,
             nodes=self._nodes,
-            vectors=np.array([self._mode_lanes, self._node_lanes]) // LANES,
+            vectors=np.array([self.mode_lanes, self._node_lanes]) // LANES,
             pairs=self._pairs,
             coupled=problem.scene.friction is None or problem.scene.friction.coupled,
             rings=problem.casing.rings,
             steps_per_revolution=problem.grid.steps_per_revolution,
             steps_per_block=problem.grid.steps_per_sample,
-            samples_before_snapshots=problem.grid.samples_before_snapshots,
             samples_per_snapshot=problem.grid.samples_per_snapshot,
         )
 
     def _lay_out_coriolis(self, problem: Problem) -> None:
-        self._put_modes(
+        self.put_modes(
             increment_operator=problem.contact.increment_operator,
             increment_push_operator=problem.contact.increment_operator[NORMAL],
             increment_outputs=problem.contact.output_operator[None, :, self._modes : 2 * self._modes],
@@ -254,12 +242,12 @@ class CompiledEngine:
     def _lay_out_ring(self, ring: RingMotion, problem: Problem) -> None:
         lengths = jump_lengths(problem.grid.steps_per_sample) if problem.choice.jumps else np.empty(0)
         turns = 2.0 * np.pi / problem.grid.steps_per_revolution * ring.nodal_diameters
-        self._put(turn_cosine=np.cos(lengths[:, None] * turns), turn_sine=np.sin(lengths[:, None] * turns))
-        m, pairs = self._record[0], slice(len(ring.modes))
+        self.put(turn_cosine=np.cos(lengths[:, None] * turns), turn_sine=np.sin(lengths[:, None] * turns))
+        m, pairs = self.record[0], slice(len(ring.modes))
         m["turn_cosine"][-1, pairs], m["turn_sine"][-1, pairs] = np.cos(turns), np.sin(turns)
 
     def _lay_out_casing(self, problem: Problem, before: CompiledEngine | None) -> None:
-        m, casing = self._record[0], problem.scene.casing
+        m, casing = self.record[0], problem.scene.casing
         rise = casing.rise_rate(problem.grid.duration) * problem.grid.time_step
         numbers = {
             "amplitude": casing.lobe_height,
@@ -284,30 +272,30 @@ class CompiledEngine:
 
     def _lay_out_friction(self, problem: Problem, friction: Friction) -> None:
         velocity = problem.casing.rotation_velocity
-        self._put(friction=friction.coefficient, rotation=velocity * problem.grid.time_step)
+        self.put(friction=friction.coefficient, rotation=velocity * problem.grid.time_step)
         if not friction.vector:
             share = friction.coefficient * np.sign(velocity)[:, None]
             operator, increments = problem.contact.displacement_operator, problem.contact.increment_operator
             self._constant_share = share
-            self._put(friction_share=np.stack([share[:, 0], np.zeros(self._nodes)]))
-            self._put_modes(push_operator=operator[NORMAL] + share * operator[TANGENTIAL])
+            self.put(friction_share=np.stack([share[:, 0], np.zeros(self._nodes)]))
+            self.put_modes(push_operator=operator[NORMAL] + share * operator[TANGENTIAL])
             if self._kind.coriolis:
-                self._put_modes(increment_push_operator=increments[NORMAL] + share * increments[TANGENTIAL])
+                self.put_modes(increment_push_operator=increments[NORMAL] + share * increments[TANGENTIAL])
 
     def _lay_out_lining(self, problem: Problem, lining: Lining) -> None:
-        m = self._record[0]
+        m = self.record[0]
         for name in LINING.names or ():
             value = problem.casing.bar_area if name == "area" else getattr(lining, name)
             m["lining"][name] = np.nan if value is None else value
         m["lining"]["bars"] = problem.casing.bars
-        self._put(bar_position=problem.casing.tip.theta / (2.0 * np.pi) * problem.casing.bars)
+        self.put(bar_position=problem.casing.tip.theta / (2.0 * np.pi) * problem.casing.bars)
 
     def _lay_out_static_modes(self, problem: Problem) -> None:
-        self._record[0]["contact"]["relaxation"] = problem.blade.relaxation
+        self.record[0]["contact"]["relaxation"] = problem.blade.relaxation
         force_outputs = problem.contact.output_operator[:, -3 * self._nodes :].reshape(-1, 3, self._nodes)
         padded_forces = np.zeros((*force_outputs.shape[:2], self._node_lanes))
         padded_forces[:, :, : self._nodes] = force_outputs
-        self._put(
+        self.put(
             flexibility=problem.contact.contact_flexibility, force_outputs=padded_forces.reshape(1, len(force_outputs), -1)
         )
 
@@ -332,7 +320,9 @@ class _CasingTables:
             grid.steps_per_revolution,
             grid.steps_per_sample,
         )
-        return steps and mine.scene is problem.scene and np.array_equal(mine.casing.tip.theta, problem.casing.tip.theta)
+        casing, other = mine.scene.casing, problem.scene.casing
+        lobes = (casing.lobes, casing.width) == (other.lobes, other.width)
+        return steps and lobes and np.array_equal(mine.casing.tip.theta, problem.casing.tip.theta)
 
 
 @cache

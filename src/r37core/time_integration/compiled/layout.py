@@ -149,6 +149,8 @@ CALL = aligned_record(
     [
         # where it begins, how many blocks of steps it asks for, and the speed it is at
         *_numbers("first_step blocks speed_index", kind=np.int64),
+        # how many steps the time is ahead of their number
+        *_numbers("ahead"),
         # addresses of arrays whose sizes are known only then: f(theta) at every step, and the largest of each interval
         *_numbers("casing_shape nearest_casing wear samples snapshots", kind=np.int64),
         # constants of all speeds; speed and blocks of each segment; motion at its ends, and largest wear by then

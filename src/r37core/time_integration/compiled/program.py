@@ -41,7 +41,7 @@ def _integrate(m, others):
             until += begin_segment(m, segment, others)
         start = m.call.first_step + done * m.steps_per_block
         place = start % m.steps_per_revolution
-        remaining = 0.0 if at_once else np.exp(-m.casing.rise * start)
+        remaining = 0.0 if at_once else np.exp(-m.casing.rise * (start + m.call.ahead))
         if place == 0 or begins:
             # so that a run stopped after a revolution goes on with the same bits
             beyond, bounded, first_stride = False, False, one

@@ -45,9 +45,9 @@ def take_speed(m, index, others):
 
 @inlined
 def end_segment(m, segment):
-    """Keep how the motion ends a segment, and the largest wear by then."""
+    """Keep how the motion ends a segment and, where it is asked for, the largest wear by then."""
     put_motion(m, 2 * segment + 1)
-    if m.call.wear != 0:
+    if m.call.wear != 0 and m.call.worn != 0:
         largest, wear = 0.0, numbers_at(m.call.wear)
         for bar in range(m.rings * int(m.lining.bars)):
             largest = max(largest, wear[bar])

@@ -25,9 +25,20 @@ _MOST_SWEEPS = 200
 
 
 class ReferenceEngine:
-    """The time integration of one problem with dense matrices, in the coordinates of the modes at rest."""
+    """The time integration of one problem with dense matrices, in the coordinates of the modes at rest.
 
-    def __init__(self, problem: Problem, segments: Segments, before: ReferenceEngine | None = None):
+    `angle` (rad): at which the blade stands at time 0, beyond that of its model.
+    """
+
+    angle = 0.0
+
+    def __init__(
+        self,
+        problem: Problem,
+        segments: Segments,
+        before: ReferenceEngine | None = None,
+        beside: ReferenceEngine | None = None,
+    ):
         self.problem, self._segments = problem, segments
         self._blade_rows = problem.contact.operator_at_rest @ problem.blade.modes @ problem.blade.modes.T
         self._turn(0)
@@ -79,24 +90,36 @@ class ReferenceEngine:
         """Go on at one speed; returns the rows done, and whether they are within the limit."""
         problem, motion, first = self.problem, self.motion.read(state), state.samples
         done, kept, bounded = 0, 0, True
-        step = self._second_order_step if problem.choice.second_order else self._step
         self._turn(first * problem.grid.steps_per_sample)
         while done < len(out.samples) and bounded:
             for n in range(1, problem.grid.steps_per_sample + 1):
-                motion = step(motion, (first + done) * problem.grid.steps_per_sample + n, state)
-            static = state.contact_force.ravel() if problem.choice.second_order else np.empty(0)
-            numbers = np.concatenate([self.motion.numbers(motion), static])
-            out.samples[done] = problem.contact.output_operator @ numbers
-            bounded = bool(np.all(np.abs(out.samples[done]) < problem.scene.divergence_limit))
+                motion = self.step(motion, (first + done) * problem.grid.steps_per_sample + n, state)
+            bounded, taken = self.record(motion, first, done, state, SimulationRecord(out.samples, out.snapshots[kept:]))
             done += 1
-            if problem.grid.snapshots_after(first + done) > problem.grid.snapshots_after(first) + kept:
-                out.snapshots[kept] = numbers
-                kept += 1
+            kept += taken
         self.motion.write(motion, state)
         return done, bounded
 
-    def _step(self, before: Any, n: int, state: SimulationState) -> Any:
+    def record(self, motion: Any, first: int, done: int, state: SimulationState, out: SimulationRecord) -> tuple[bool, bool]:
+        """Sample number `done` after the `first`, and the next snapshot where one is due.
+
+        Returns whether the outputs are within the limit, and whether there was one.
+        """
+        problem = self.problem
+        static = state.contact_force.ravel() if problem.choice.second_order else np.empty(0)
+        numbers = np.concatenate([self.motion.numbers(motion), static])
+        out.samples[done] = problem.contact.output_operator @ numbers
+        due = problem.grid.snapshots_after(first + done + 1) > problem.grid.snapshots_after(first + done)
+        if due:
+            out.snapshots[0] = numbers
+        return bool(np.all(np.abs(out.samples[done]) < problem.scene.divergence_limit)), due
+
+    def step(self, before: Any, n: int, state: SimulationState) -> Any:
         """The motion at t_n from that at t_{n-1}; changes wear, totals and the nodes on the casing."""
+        return (self._second_order_step if self.problem.choice.second_order else self._step)(before, n, state)
+
+    def _step(self, before: Any, n: int, state: SimulationState) -> Any:
+        """With forces that correct the prediction of t_n."""
         lining = self.problem.scene.lining
         self._turn(n)
         predicted = self.motion.flown(before)
@@ -143,7 +166,7 @@ class ReferenceEngine:
 
     def gap(self, u: np.ndarray, n: int) -> tuple[np.ndarray, np.ndarray]:
         """Distance (m) of every node from casing or lining, and the angle (rad) at which it meets it."""
-        return gaps(self.problem, self.clearance, np.array([rows @ u for rows in self.rows]), n)
+        return gaps(self.problem, self.clearance, np.array([rows @ u for rows in self.rows]), n, self.angle)
 
     def _directions(self, d: np.ndarray) -> np.ndarray:
         """Forces per unit normal force on each node, shape (3, nodes): towards the axis, with friction against the sliding.

@@ -1,0 +1,100 @@
+"""A run of the compiled engine in parts: its state is laid into the record once, and read as the last part is done."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from ..state import Schedule, SimulationRecord, SimulationState
+from .layout import NORMAL, TANGENTIAL
+
+if TYPE_CHECKING:
+    from .engine import CompiledEngine
+
+
+class Start(NamedTuple):
+    """Where a run starts: `samples` after the blade has last passed angle 0, and `late`, a share of a sample, after time 0."""
+
+    samples: int = 0
+    late: float = 0.0
+
+
+AT_ONCE = Start()
+
+
+class Passage:
+    """Blocks of steps from a `state` on, as a `schedule` says, with samples and snapshots into `out`; `done`: how many.
+
+    Of several parts there is one segment, of which the largest wear is not kept.
+    """
+
+    def __init__(
+        self,
+        engine: CompiledEngine,
+        state: SimulationState,
+        out: SimulationRecord,
+        schedule: Schedule,
+        start: Start = AT_ONCE,
+        in_parts: bool = False,
+    ):
+        self._engine, self._state, self._out, self._schedule = engine, state, out, schedule
+        self._grid, self._start = engine.problem.grid, start
+        self._snapshots = np.empty((len(out.snapshots), engine.snapshot_width))
+        self._ends = np.empty((*schedule.ends.shape[:-1], engine.mode_lanes))
+        self._lasting, self._in_parts = schedule.samples, in_parts
+        self.done = 0
+        m = engine.record[0]
+        engine.put_modes(u=state.displacement, increment=state.increment)
+        engine.put(on_casing=np.packbits(state.on_casing, bitorder="little"), totals=state.totals)
+        if self._grid.choice.second_order:
+            engine.put(force=state.contact_force[NORMAL], friction_force=state.contact_force[TANGENTIAL:])
+        addresses = {
+            "constants": engine.constants,
+            "speed_indices": schedule.speed_indices,
+            "lasting": self._lasting,
+            "ends": self._ends,
+            "worn": None if in_parts else schedule.wear,
+            "wear": state.wear,
+            "samples": out.samples,
+            "snapshots": self._snapshots,
+        }
+        for name, array in addresses.items():
+            m["call"][name] = 0 if array is None else array.ctypes.data
+        self._samples_at, self._snapshots_at = int(m["call"]["samples"]), int(m["call"]["snapshots"])
+        # steps are counted from the last pass of angle 0 on
+        m["samples_before_snapshots"] = self._grid.samples_before_snapshots + start.samples
+        m["call"]["ahead"] = (start.late - start.samples) * self._grid.steps_per_sample
+
+    def go_on(self, blocks: int) -> int:
+        """Do so many more; returns how many were done, fewer when an output passed the limit or is NaN."""
+        call, first = self._engine.record[0]["call"], self._state.samples
+        call["first_step"] = (first + self._start.samples + self.done) * self._grid.steps_per_sample
+        call["blocks"] = blocks
+        if self.done:
+            kept = self._grid.snapshots_after(first + self.done) - self._grid.snapshots_after(first)
+            call["samples"] = self._samples_at + self.done * self._out.samples.strides[0]
+            call["snapshots"] = self._snapshots_at + kept * self._snapshots.strides[0]
+        if self._in_parts:
+            self._lasting[0] = blocks
+        done = self._engine.call()
+        self.done += done
+        return done
+
+    def end(self) -> None:
+        """Read the state that is reached, but for the number of samples."""
+        engine, state, m = self._engine, self._state, self._engine.record[0]
+        modes, nodes, columns = engine.mode_lanes, len(state.on_casing), engine.mode_columns
+        state.displacement[:], state.increment[:] = m["u"][columns], m["increment"][columns]
+        self._schedule.ends[:] = self._ends[..., columns]
+        state.on_casing[:] = np.unpackbits(m["on_casing"].astype(np.uint8), bitorder="little")[:nodes]
+        state.totals[()] = m["totals"]
+        of_mode = engine.numbers_of_mode
+        numbers, kept = of_mode * modes, of_mode * len(state.displacement)
+        snapshots, out = self._snapshots, self._out.snapshots
+        of_modes = snapshots[:, :numbers].reshape(len(snapshots), of_mode, modes)[:, :, columns]
+        out[:, :kept] = of_modes.reshape(len(snapshots), kept)
+        if self._grid.choice.second_order:
+            state.contact_force[NORMAL] = m["force"][:nodes]
+            state.contact_force[TANGENTIAL:] = m["friction_force"][:, :nodes]
+            out[:, kept:] = snapshots[:, numbers:].reshape(len(snapshots), 3, -1)[:, :, :nodes].reshape(len(snapshots), 3 * nodes)

@@ -1,0 +1,42 @@
+"""Blades of a rotor step by step: all do a step of time before any does the next."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from ..state import SimulationRecord, SimulationState
+from .engine import ReferenceEngine
+
+
+def advance_together(
+    engines: Sequence[ReferenceEngine],
+    states: Sequence[SimulationState],
+    outs: Sequence[SimulationRecord],
+    angles: Sequence[float],
+    order: Sequence[int],
+) -> tuple[list[int], list[float]]:
+    """Do the steps of every row of the samples, as each blade stands at its angle (rad); returns the rows done of each and
+    what each has worn off the bars (m).
+
+    In a step the blades follow each other in `order`. All end with the sample in which one passes the limit.
+    """
+    motions, worn = [], [0.0] * len(engines)
+    for engine, state, angle in zip(engines, states, angles, strict=True):
+        engine.angle = angle
+        motions.append(engine.motion.read(state))
+    steps, kept, done, bounded = engines[0].problem.grid.steps_per_sample, [0] * len(engines), 0, True
+    while done < len(outs[0].samples) and bounded:
+        for n in range(1, steps + 1):
+            for place in order:
+                before = states[place].worn
+                motions[place] = engines[place].step(motions[place], done * steps + n, states[place])
+                worn[place] += states[place].worn - before
+        for place, engine in enumerate(engines):
+            out = SimulationRecord(outs[place].samples, outs[place].snapshots[kept[place] :])
+            within, taken = engine.record(motions[place], 0, done, states[place], out)
+            kept[place] += taken
+            bounded &= within
+        done += 1
+    for engine, motion, state in zip(engines, motions, states, strict=True):
+        engine.motion.write(motion, state)
+    return [done] * len(engines), worn

@@ -1,0 +1,72 @@
+"""The blades of a rotor as problems of their own: what mistuning and length change of each."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import cache
+
+import numpy as np
+
+from r37core.contact.rotor import Rotor
+from r37core.contact.scene import Scene
+from r37core.rom.contact_model import ContactModel
+
+from .integration_choice import IntegrationChoice
+from .problem import Problem, stable_problem
+
+NO_COUPLING = "blades in direct contact with a rigid casing are not coupled: run a single blade for each"
+NO_ELASTIC_CASING = "a rotor in an elastic casing is not built yet: all blades would press one ring at once"
+NO_SHARED_RING = "a rotor wears one ring per node (lining.rings: per_node)"
+"""Why a rotor is refused."""
+
+
+def refusal_of(scene: Scene) -> str | None:
+    """Why the blades of a scene's rotor cannot be run, None where they can."""
+    if scene.rotor is None:
+        return None
+    if scene.casing.ring:
+        return NO_ELASTIC_CASING
+    if scene.lining is None:
+        return NO_COUPLING
+    return NO_SHARED_RING if scene.lining.shared_ring else None
+
+
+def blade_problems(
+    model: ContactModel, speed: float, scene: Scene, rotor: Rotor, choice: IntegrationChoice
+) -> tuple[Problem, ...]:
+    """One problem for each blade of the rotor, all with the steps of the one that needs the shortest.
+
+    Equal blades have the same. Raises what Problem raises; ValueError for a rotor that cannot be run.
+    """
+    refused = refusal_of(scene)
+    if refused:
+        raise ValueError(refused)
+
+    @cache
+    def problem(factor: float, longer: float) -> Problem:
+        own = replace(scene, rotor=None, casing=replace(scene.casing, longer=longer))
+        return stable_problem(mistuned(model, factor), speed, own, choice)
+
+    blades = list(zip(rotor.frequency_factors, rotor.longer, strict=True))
+    steps = max(problem(*blade).grid.steps_per_sample for blade in blades)
+
+    @cache
+    def with_steps(factor: float, longer: float) -> Problem:
+        own = problem(factor, longer)
+        if own.grid.steps_per_sample == steps:
+            return own
+        return Problem(own.model, speed, own.scene, replace(own.choice, steps_per_sample=steps))
+
+    return tuple(with_steps(*blade) for blade in blades)
+
+
+def mistuned(model: ContactModel, factor: float) -> ContactModel:
+    """The model with all frequencies, at any speed, times a factor: its stiffness times the square, its modes as they are."""
+    if factor == 1.0:
+        return model
+    square = factor**2
+    return replace(
+        model,
+        squared_frequencies=model.squared_frequencies * square,
+        stiffness_per_square=np.multiply(model.stiffness_per_square, square),
+    )

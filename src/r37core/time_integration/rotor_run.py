@@ -1,0 +1,208 @@
+"""One speed of a whole rotor, from model to the small set of numbers that its file keeps."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.fft import rfft
+
+from r37core.contact.rotor import Rotor
+from r37core.contact.scene import Scene
+from r37core.rom.contact_model import ContactModel
+from r37core.rom.rotation import rotation_amplitudes
+from r37core.stress.of_revolutions import largest_of_revolutions
+from r37core.stress.operator import StressOperator
+
+from .integration_choice import IntegrationChoice
+from .kept_numbers import KEPT, energy_balance, spectrum, stress_numbers, wear_numbers, whole
+from .rotor_simulation import RotorRecord, RotorSimulation
+from .simulate import DIRECTIONS, TIP_POINTS
+from .state import SimulationState
+from .status import RunStatus
+
+MOST_GROWTH = 200
+"""Spans of revolutions whose largest motion and stress are kept of each blade: a file stays small with many blades."""
+
+
+def run_rotor(
+    model: ContactModel,
+    speed: float,
+    scene: Scene,
+    choice: IntegrationChoice,
+    results: Sequence[str],
+    *,
+    spectrum_highest_order: int,
+    wear_angles: int,
+    stress: StressOperator | None = None,
+) -> dict[str, np.ndarray]:
+    """Simulate one speed (rad/s) of a rotor: what run_speed keeps, of all blades together, and numbers of each blade.
+
+    Of all blades: the largest of rms, peak, maxima, forces and stresses; the sum of hits and energies; the
+    spectrum of the leading blade, the snapshots of the one with the largest stress. The leading blade has the largest rms of the
+    leading edge's normal displacement. `status` is that of the rotor: all blades end when one diverges.
+
+    Of each blade, shape (blades,) first: `blade_number`, `blade_angle` (rad), `blade_frequency_factor`, `blade_longer` (m),
+    `blade_rms` and `blade_peak` (m), of the leading edge's normal displacement over the last half, `blade_maximum` (m), shape
+    (blades, spans), in spans of `span_revolutions` each, `blade_contact`, share of the time, `blade_worn` (m3), of the lining,
+    and with stress `blade_max_von_mises` (Pa) in the last revolution and `blade_von_mises` (Pa), shape (blades, revolutions of
+    the statistic), in spans. `leader`: number of the leading blade. `nodal_diameter` and `nodal_diameter_share`: see
+    nodal_diameters.
+    """
+    assert scene.rotor is not None and scene.lining is not None
+    simulation = RotorSimulation(model, speed, scene, choice)
+    states = simulation.start()
+    record = simulation.run(states, choice.revolutions)
+    samples = _samples(record, choice)
+    per_revolution, first = choice.samples_per_revolution, choice.revolutions // 2
+    half = samples[:, first * per_revolution :]
+    maxima = np.abs(samples).reshape(len(samples), choice.revolutions, per_revolution, *samples.shape[2:]).max(axis=2)
+    rms = np.sqrt(np.mean(half**2, axis=1))
+    leader = int(np.nan_to_num(rms[:, 0, 0]).argmax())
+    diverged_at = min(len(part.samples) for part in record.blades) / per_revolution if record.diverged else np.nan
+    totals = np.array([state.totals for state in states])
+    numbers = {
+        "status": np.array(int(RunStatus.DIVERGED if record.diverged else RunStatus.COMPLETED)),
+        "speed": np.array(speed),
+        "diverged_revolution": np.array(diverged_at),
+        "diverged_time": np.array(diverged_at * 2.0 * np.pi / speed),
+        "time_step": np.array(simulation.problem.grid.time_step),
+        "cone_angle": np.array(simulation.problem.casing.cone_angle),
+        "lined": np.array(1),
+        "rms": rms.max(axis=0),
+        "peak": maxima[:, first:].max(axis=(0, 1)),
+        "revolution_maxima": maxima.max(axis=0),
+        "share_of_time_in_contact": np.array((totals["steps_in_contact"] / totals["steps"]).max()),
+        "largest_normal_force": np.array(totals["largest_force"].max()),
+        "casing_hits": np.array(totals["casing_hits"].sum()),
+        "worst_complementarity": np.array(totals["worst_complementarity"].max()),
+    }
+    if scene.casing.changes_with_speed:
+        numbers["clearance"] = np.min([problem.casing.clearance for problem in simulation.problems], axis=0)
+    numbers |= _of_blades(simulation, states, record, maxima, rms, first)
+    numbers["leader"] = np.array(scene.rotor.numbers[leader])
+    numbers |= nodal_diameters(half[:, :, 0, 0], record.late, scene.rotor)
+    if "spectrum" in results:
+        numbers |= spectrum(half[leader, :, 0, KEPT], len(half[leader]) // per_revolution, spectrum_highest_order)
+    if "stress" in results:
+        numbers |= _stress(simulation, record, stress, "static_stress" in results)
+    if "wear" in results:
+        numbers |= wear_numbers(_worn(states), min(wear_angles, scene.lining.bars))
+    if "energy" in results:
+        pairs = list(zip(simulation.blades, states, strict=True))
+        work, energy = (sum(of) for of in zip(*((blade.work(state), blade.energy(state)) for blade, state in pairs), strict=True))
+        numbers |= energy_balance(work, float(totals["loss"].sum()), energy)
+    return numbers
+
+
+def _samples(record: RotorRecord, choice: IntegrationChoice) -> np.ndarray:
+    """Displacement (m) of all blades, shape (blades, samples, 2, 3), NaN from a divergence on."""
+    count = choice.revolutions * choice.samples_per_revolution
+    shape = (-1, len(TIP_POINTS), len(DIRECTIONS))
+    return np.array([whole(part.samples.reshape(shape), count, len(part.samples) < count or part.diverged) for part in record.blades])
+
+
+def _of_blades(
+    simulation: RotorSimulation,
+    states: list[SimulationState],
+    record: RotorRecord,
+    maxima: np.ndarray,
+    rms: np.ndarray,
+    first: int,
+) -> dict[str, np.ndarray]:
+    """Numbers of each blade: see run_rotor."""
+    rotor, totals = simulation.rotor, np.array([state.totals for state in states])
+    span = -(-maxima.shape[1] // MOST_GROWTH)
+    return {
+        "blade_number": np.array(rotor.numbers),
+        "blade_angle": np.array(rotor.angles),
+        "blade_frequency_factor": np.array(rotor.frequency_factors),
+        "blade_longer": np.array(rotor.longer),
+        "blade_rms": rms[:, 0, 0],
+        "blade_peak": maxima[:, first:, 0, 0].max(axis=1),
+        "blade_maximum": in_spans(maxima[:, :, 0, 0], span),
+        "blade_contact": totals["steps_in_contact"] / totals["steps"],
+        "blade_worn": record.worn * simulation.problem.casing.bar_area,
+        "span_revolutions": np.array(span),
+    }
+
+
+def in_spans(values: np.ndarray, span: int) -> np.ndarray:
+    """The largest of every `span` revolutions along the last axis, the last span may be shorter; single precision."""
+    return np.maximum.reduceat(values, np.arange(0, values.shape[-1], span), axis=-1).astype(np.float32)
+
+
+def _worn(states: list[SimulationState]) -> np.ndarray:
+    """Wear (m) of the lining that all share, or the largest of their own."""
+    return np.max([state.wear for state in states if state.wear is not None], axis=0)
+
+
+def _stress(
+    simulation: RotorSimulation, record: RotorRecord, stress: StressOperator | None, static_stress: bool
+) -> dict[str, np.ndarray]:
+    """Of the blade with the largest stress what stress_numbers keeps, the largest history of all blades, and that of each."""
+    history = None if stress is None else _histories(simulation, record, stress, static_stress)
+    largest = 0 if history is None else int(np.nan_to_num(history[:, -1]).argmax())
+    numbers = stress_numbers(simulation.blades[largest], record.blades[largest], stress, static_stress)
+    if history is None:
+        return numbers
+    if record.diverged:
+        numbers["max_von_mises"] = np.array(np.nan)
+    span = -(-history.shape[1] // MOST_GROWTH)
+    return numbers | {
+        "revolution_von_mises": history.max(axis=0),
+        "blade_max_von_mises": history[:, -1],
+        "blade_von_mises": in_spans(history, span),
+        "stress_span_revolutions": np.array(span),
+    }
+
+
+def _histories(
+    simulation: RotorSimulation, record: RotorRecord, stress: StressOperator, static_stress: bool
+) -> np.ndarray:
+    """Largest stress (Pa) of each blade in each revolution of the statistic, shape (blades, revolutions); NaN where it ended.
+
+    Blades with as many stepped modes are looked at together: their modes have the same shapes, and what follows a force at once
+    is in proportion to the flexibility, 1/factor^2.
+    """
+    choice, model, speed = simulation.problem.choice, simulation.problem.model, simulation.problem.speed
+    rotation = rotation_amplitudes(model.rotation_stiffening, speed) if static_stress else np.empty(0)
+    history = np.full((len(record.blades), choice.snapshot_revolutions), np.nan, dtype=np.float32)
+    groups: dict[tuple[int, int], list[int]] = {}
+    for place, part in enumerate(record.blades):
+        revolutions = len(part.snapshots) // choice.snapshots_per_revolution
+        if revolutions:
+            groups.setdefault((part.snapshots.shape[1], revolutions), []).append(place)
+    for (_, revolutions), places in groups.items():
+        instants = revolutions * choice.snapshots_per_revolution
+        contact, factor = simulation.problems[places[0]].contact, simulation.rotor.frequency_factors[places[0]]
+        stepped = contact.state_shapes.shape[1] - contact.static_shapes.shape[1]
+        states = np.concatenate([record.blades[place].snapshots[:instants] for place in places])
+        for row, place in enumerate(places):
+            states[row * instants : (row + 1) * instants, stepped:] *= (factor / simulation.rotor.frequency_factors[place]) ** 2
+        shapes = model.to_reduced @ contact.state_shapes
+        largest = largest_of_revolutions(stress, states, shapes, rotation, choice.snapshots_per_revolution)
+        history[places, :revolutions] = largest.reshape(len(places), revolutions)
+    return history
+
+
+def nodal_diameters(displacement: np.ndarray, late: np.ndarray, rotor: Rotor) -> dict[str, np.ndarray]:
+    """How the motion of the blades is made of waves that run round the rotor.
+
+    `displacement` (m), shape (blades, samples), of whole revolutions; `late`, shape (blades,): see RotorRecord. A wave of n
+    nodal diameters at frequency w is x_b(t) = Re(X exp(i(w t - n theta_b))), positive n in the sense of growing theta. With
+    the Fourier transform X_b(w) of each blade's motion the share of n is
+
+        P_n = sum_w |sum_b X_b(w) exp(i n theta_b)|^2 / (B sum_w sum_b |X_b(w)|^2),
+
+    over positive frequencies. For equal angles the shares add up to 1 (Parseval). `nodal_diameter`: from -(B-1)//2 to B//2.
+    """
+    blades, samples = displacement.shape
+    diameters = np.arange(-((blades - 1) // 2), blades // 2 + 1)
+    waves = rfft(displacement, axis=1)[:, 1:]
+    waves = waves * np.exp(-2j * np.pi / samples * late[:, None] * np.arange(1, waves.shape[1] + 1))
+    with np.errstate(invalid="ignore"):  # blades that stand still have no share
+        power = np.sum(np.abs(waves) ** 2)
+        of_diameter = np.exp(1j * np.outer(diameters, rotor.angles)) @ waves
+        share = np.sum(np.abs(of_diameter) ** 2, axis=1) / (blades * power)
+    return {"nodal_diameter": diameters, "nodal_diameter_share": share}

@@ -1,0 +1,135 @@
+"""The time integration of a whole rotor: blades that meet one casing and wear one lining.
+
+Blades are coupled by the bars that they wear, and by nothing else. So what counts is the order in which they pass a bar. A blade
+passes the casing from angle 0 to angle 0 in one go, and then the blade behind it does: every bar is then met in the order of time,
+by every node that has a ring of bars of its own. Each blade is at the same steps of its revolution as a single one; it starts
+with the first sample after time 0, at rest, where the casing is still round.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from r37core.contact.scene import Scene
+from r37core.rom.contact_model import ContactModel
+
+from .clearance import initial_wear
+from .compiled.passage import Passage, Start
+from .integration_choice import IntegrationChoice
+from .problem import Problem
+from .reference.lockstep import advance_together
+from .rotor_blades import blade_problems
+from .segments import own_segment
+from .simulate import Simulation
+from .state import Schedule, SimulationRecord, SimulationState
+
+
+@dataclass(frozen=True)
+class RotorRecord:
+    """What the blades leave behind: a record of each, and where the samples lie in time.
+
+    `late`, shape (blades,): time of a blade's samples after those of a blade at angle 0, in samples; `worn` (m), shape
+    (blades,): what each has worn off all bars together.
+    """
+
+    blades: tuple[SimulationRecord, ...]
+    late: np.ndarray
+    worn: np.ndarray
+
+    @property
+    def diverged(self) -> bool:
+        """Whether any blade did; all end in the revolution in which the first does."""
+        return any(record.diverged for record in self.blades)
+
+
+class RotorSimulation:
+    """The time integration of a rotor at one speed (rad/s); the scene says which blades it has.
+
+    Raises what blade_problems raises.
+    """
+
+    def __init__(self, model: ContactModel, speed: float, scene: Scene, choice: IntegrationChoice):
+        assert scene.rotor is not None
+        self.rotor = scene.rotor
+        self.problems = blade_problems(model, speed, scene, scene.rotor, choice)
+        self.blades: list[Simulation] = []
+        for problem in self.problems:
+            self.blades.append(Simulation.beside(problem, self.blades[0] if self.blades else None))
+
+    @property
+    def problem(self) -> Problem:
+        """Of the first blade: grid and casing are those of all."""
+        return self.problems[0]
+
+    def start(self) -> list[SimulationState]:
+        """All blades at rest, in an unworn lining, or in one in which the longest have cut their way."""
+        states = [simulation.start() for simulation in self.blades]
+        if self.problem.scene.lining is None:
+            return states
+        wear = [initial_wear(problem.casing.clearance, problem.casing.rings) for problem in self.problems]
+        if self.rotor.shared_lining:
+            deepest = np.max(wear, axis=0)
+            shared = np.zeros((self.problem.casing.rings, self.problem.casing.bars)) + deepest
+            for state in states:
+                state.wear = shared
+        else:
+            for state, own in zip(states, wear, strict=True):
+                assert state.wear is not None
+                np.maximum(state.wear, own, out=state.wear)
+        return states
+
+    def run(self, states: list[SimulationState], revolutions: int) -> RotorRecord:
+        """Do so many revolutions from the start, which the `states` are at; they are changed."""
+        samples = revolutions * self.problem.choice.samples_per_revolution
+        outs = [simulation.room(states[0], samples) for simulation in self.blades]
+        if self.problem.choice.engine == "reference":
+            engines = [simulation.engine for simulation in self.blades]
+            angles = [self.rotor.angles[place] for place in range(len(engines))]
+            done, worn = advance_together(engines, states, outs, angles, self.rotor.order)
+            late = np.zeros(len(engines))
+        else:
+            starts = [self._start(angle) for angle in self.rotor.angles]
+            done, worn = self._pass_by_pass(states, outs, starts, revolutions)
+            late = np.array([start.late for start in starts])
+        records = [
+            simulation.recorded(state, out, reached)
+            for simulation, state, out, reached in zip(self.blades, states, outs, done, strict=True)
+        ]
+        return RotorRecord(tuple(records), late, np.array(worn))
+
+    def _start(self, angle: float) -> Start:
+        """Of a blade that stands at an angle (rad) at time 0: so many samples before it passes angle 0, that are whole."""
+        per_revolution = self.problem.choice.samples_per_revolution
+        # an angle that is a whole number of samples but for rounding has no share of one
+        left = np.mod(angle, 2.0 * np.pi) / (2.0 * np.pi) * per_revolution
+        left = float(np.round(left)) if abs(left - np.round(left)) < 1e-9 * per_revolution else float(left)
+        whole = int(left)
+        return Start((per_revolution - whole) % per_revolution, left - whole)
+
+    def _pass_by_pass(
+        self, states: list[SimulationState], outs: list[SimulationRecord], starts: list[Start], revolutions: int
+    ) -> tuple[list[int], list[float]]:
+        """Let blade after blade pass the casing; returns the samples done of each, and what each has worn off (m)."""
+        per_revolution = self.problem.choice.samples_per_revolution
+        passages = [
+            Passage(simulation.engine, state, out, Schedule(np.zeros(1), np.zeros(1), len(state.displacement)), start, in_parts=True)
+            for simulation, state, out, start in zip(self.blades, states, outs, starts, strict=True)
+        ]
+        total, worn = revolutions * per_revolution, [0.0] * len(passages)
+        # the first part of those that have not passed angle 0 yet, whole passes, and what is left
+        for number in range(revolutions + 1):
+            diverged = False
+            for place in self.rotor.order:
+                until = min(total, number * per_revolution + (-starts[place].samples) % per_revolution)
+                blocks = until - passages[place].done
+                if blocks:
+                    before = states[place].worn
+                    diverged |= passages[place].go_on(blocks) < blocks
+                    worn[place] += states[place].worn - before
+            if diverged:
+                break
+        for passage in passages:
+            passage.end()
+        return [passage.done for passage in passages], worn
