@@ -7,9 +7,11 @@ from typing import Annotated, Any, Literal
 from pydantic import Field, RootModel, model_validator
 
 from r37core.contact.scene import Friction, Lining, Scene
+from r37core.time_integration.rotor_blades import refusal_of
 
 from .casing_section import CasingSection
 from .declaring import DECLARED, declared_by, in_si
+from .rotor_section import RotorSection
 from .section import LeftOut, Name, Rpm, Section, Speed, check_names, refused
 from .si_fields import si_fields
 from .speed_section import refuse_both_units
@@ -40,6 +42,7 @@ class SceneEntry(Section):
     casing: CasingSection
     lining: LiningSection | LeftOut = Field(default=None, description="abradable lining; without it the tip meets the casing")
     friction: FrictionSection | LeftOut = Field(default=None, description="friction at the tip; none without it")
+    rotor: RotorSection | LeftOut = Field(default=None, description="a whole rotor on one lining; a single blade without it")
     damping_ratio: Any = DECLARED
     gap: Any = DECLARED
     divergence_limit_m: Any = DECLARED
@@ -87,6 +90,18 @@ class SceneEntry(Section):
             )
         return self
 
+    @model_validator(mode="after")
+    def _rotor_can_be_run(self) -> SceneEntry:
+        if self.rotor is None:
+            return self
+        refusal = refusal_of(self.scene())
+        if refusal:
+            raise refused(("rotor",), "a rotor in this scene", refusal)
+        for result in ("signal", "shapes"):
+            if result in self.results:
+                raise refused(("results",), f"{result} with a rotor", "results of all blades together; a scene without rotor has it")
+        return self
+
     def stress_history_speeds(self) -> tuple[float, ...]:
         """Speeds (rad/s) at which the largest stress of every revolution is kept."""
         return si_fields(self)["stress_history_speeds"]
@@ -99,6 +114,7 @@ class SceneEntry(Section):
             casing=self.casing.casing(),
             lining=self.lining and in_si(Lining, self.lining),
             friction=self.friction and in_si(Friction, self.friction),
+            rotor=self.rotor and self.rotor.rotor(),
         )
 
 

@@ -11,6 +11,7 @@ _FOLDERS = (
     "shapes",
     "signals",
     "run_ups",
+    "rotors",
     "designs",
     "tolerances",
 )

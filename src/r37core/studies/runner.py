@@ -23,7 +23,7 @@ from r37core.stress.operator import StressOperator
 from r37core.stress.recovery import stress_operator
 from r37core.time_integration.integration_choice import IntegrationChoice
 from r37core.time_integration.problem import stable_problem
-from r37core.time_integration.simulate import Simulation
+from r37core.time_integration.speed_job import prepared
 from r37core.time_integration.speed_file import read_speed, write_speed
 from r37core.time_integration.speed_run import run_speed
 
@@ -134,7 +134,7 @@ class _Runs:
         case, integration, writing = self.case, Stopwatch(), Stopwatch()
         choice, file = self._choice(speed), self.folder / f"{speed!r}.npz"
         # compiled before it is timed
-        Simulation(self.model, speed, self.scene, choice)
+        prepared(self.model, speed, self.scene, choice)
         with integration:
             run = run_speed(self.model, speed, self.scene, choice, case.results, motion=None, stress=self.recovery, **case.kept)
         with writing:

@@ -14,14 +14,14 @@ from r37core.rom.contact_model import ContactModel
 from .integration_choice import IntegrationChoice
 from .problem import Problem, stable_problem
 
-NO_COUPLING = "blades in direct contact with a rigid casing are not coupled: run a single blade for each"
-NO_ELASTIC_CASING = "a rotor in an elastic casing is not built yet: all blades would press one ring at once"
-NO_SHARED_RING = "a rotor wears one ring per node (lining.rings: per_node)"
-"""Why a rotor is refused."""
+NO_COUPLING = "a lining; in direct contact with a rigid casing nothing couples the blades: run a single blade for each"
+NO_ELASTIC_CASING = "a rigid casing; a ring that all blades press at once is not built yet"
+NO_SHARED_RING = "one ring of bars per node (lining.rings: per_node)"
+"""What a rotor needs."""
 
 
 def refusal_of(scene: Scene) -> str | None:
-    """Why the blades of a scene's rotor cannot be run, None where they can."""
+    """What the blades of a scene's rotor need that it does not have, None where they can be run."""
     if scene.rotor is None:
         return None
     if scene.casing.ring:
@@ -40,7 +40,7 @@ def blade_problems(
     """
     refused = refusal_of(scene)
     if refused:
-        raise ValueError(refused)
+        raise ValueError(f"rotor: allowed: {refused}")
 
     @cache
     def problem(factor: float, longer: float) -> Problem:

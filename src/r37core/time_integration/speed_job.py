@@ -12,6 +12,8 @@ from r37core.rom.contact_model import ContactModel, read_contact_model
 from r37core.stress.operator import read_stress_operator
 
 from .integration_choice import IntegrationChoice
+from .problem import Problem
+from .rotor_simulation import RotorSimulation
 from .simulate import Simulation
 from .speed_file import write_speed
 from .speed_run import run_speed
@@ -38,7 +40,7 @@ def prepare(input: Any, output: Any, params: Any) -> None:
     Params: scene, choice, speed. Raises InputFileError, and what Problem raises.
     """
     scene, choice = from_plain(Scene, params.scene), from_plain(IntegrationChoice, params.choice)
-    problem = Simulation(read_contact_model(as_list(input.models)[0]), params.speed, scene, choice).problem
+    problem = prepared(read_contact_model(as_list(input.models)[0]), params.speed, scene, choice)
     highest, step = problem.blade.frequencies[-1], problem.grid.time_step
     print(f"{params.speed:g} rad/s: highest mode {highest:.6g} rad/s, steps of {step:.6g} s")
 
@@ -48,7 +50,12 @@ def make_ready(speed: str, output: str, log: str, task: str, about: str, model: 
     if (model, task) in _READY:
         return
     _READY.add((model, task))
-    Simulation(*_given(model, speed, json.loads(task)))
+    prepared(*_given(model, speed, json.loads(task)))
+
+
+def prepared(model: ContactModel, speed: float, scene: Scene, choice: IntegrationChoice) -> Problem:
+    """The problem of a simulation, of a rotor's first blade, with its program compiled. Raises what Problem raises."""
+    return (RotorSimulation if scene.rotor else Simulation)(model, speed, scene, choice).problem
 
 
 def _given(model: str, speed: str, wanted: dict[str, Any]) -> tuple[ContactModel, float, Scene, IntegrationChoice]:

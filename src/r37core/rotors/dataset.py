@@ -1,0 +1,134 @@
+"""rotor.nc: numbers of every blade of a rotor at every speed, of one blade shape and scene, and of all."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import xarray as xr
+
+from r37core.dataset_file import SPEED, Variable, dataset_of, read_dataset
+from r37core.results.netcdf import status_flags
+from r37core.time_integration.speed_file import read_speed
+
+_BLADES = ("blade_number",)
+
+VARIABLES = {
+    "blade_rms": Variable(_BLADES, "m", "rms of the leading edge's normal displacement over the last half of the run"),
+    "blade_peak": Variable(_BLADES, "m", "largest normal displacement of the leading edge over the last half of the run"),
+    "blade_maximum": Variable((*_BLADES, "span"), "m", "largest normal displacement of the leading edge in the span", "f4"),
+    "blade_contact": Variable(_BLADES, "1", "share of the steps with a contact force"),
+    "blade_worn": Variable(_BLADES, "m3", "volume of lining that the blade has worn off, of bars of the scene's width"),
+    "blade_max_von_mises": Variable(_BLADES, "Pa", "largest von Mises stress on the submesh in the last revolution"),
+    "blade_von_mises": Variable((*_BLADES, "stress_span"), "Pa", "largest von Mises stress in the span", "f4"),
+    "leader": Variable((), "1", "number of the blade with the largest rms", "i4"),
+    "blades_above_yield": Variable((), "1", "share of the blades above yield in the last revolution"),
+    "blades_ever_above_yield": Variable((), "1", "share of the blades above yield in any revolution of the last half"),
+    "wear_harmonic": Variable(("lobes",), "m", "amplitude of the wear profile's lobes"),
+    "max_wear": Variable((), "m", "largest wear of the lining at the end"),
+    "nodal_diameter_share": Variable(
+        ("nodal_diameter",), "1", "share of the blades' motion that runs round the rotor as a wave of so many nodal diameters"
+    ),
+    "status": Variable((), "1", "how the run ended", "i1"),
+    "diverged_revolution": Variable((), "1", "revolution at which the first blade diverged"),
+    "blade_angle": Variable(_BLADES, "rad", "angle at which the blade stands"),
+    "blade_frequency_factor": Variable(_BLADES, "1", "frequencies of the blade over those of the model"),
+    "blade_longer": Variable(_BLADES, "m", "by how much the blade is longer than the model"),
+    "yield_stress": Variable((), "Pa", "yield stress of the blade's material"),
+}
+"""Dimensions are those beyond the speed."""
+
+OF_ALL_SPEEDS = ("blade_angle", "blade_frequency_factor", "blade_longer", "yield_stress")
+"""Variables that no speed changes."""
+
+AXES = {
+    "blade_number": Variable(_BLADES, "1", "number of the blade", "i4"),
+    "span": Variable(("span",), "1", "last revolution of the span", "i4"),
+    "stress_span": Variable(("stress_span",), "1", "last revolution of the span", "i4"),
+    "lobes": Variable(("lobes",), "1", "number of lobes", "i4"),
+    "nodal_diameter": Variable(
+        ("nodal_diameter",), "1", "nodal diameters; positive for a wave that runs in the sense of growing theta", "i4"
+    ),
+}
+
+
+def rotor_dataset(files: Iterable[Path | str], speeds: Sequence[float], yield_stress: float) -> xr.Dataset:
+    """What the files of the `speeds` (rad/s) have of every blade of a rotor; `yield_stress` (Pa) of the blades' material.
+
+    Raises InputFileError for a file that cannot be read.
+    """
+    rows = [_row(read_speed(file), yield_stress) for file in files]
+    data = {name: np.stack([row[name] for row in rows]) for name in VARIABLES if name in rows[0]}
+    for name in OF_ALL_SPEEDS:
+        data[name] = data[name][0]
+    coordinates = {name: rows[0][name] for name in AXES if name in rows[0]}
+    of_speeds = {name: variable for name, variable in VARIABLES.items() if name not in OF_ALL_SPEEDS}
+    dataset = dataset_of(of_speeds, data | coordinates | {"speed": speeds}, {"speed": SPEED, **AXES}, {}, ("speed",))
+    still = {name: (VARIABLES[name].dims, data[name], VARIABLES[name].attributes) for name in OF_ALL_SPEEDS}
+    dataset = dataset.assign(still)
+    dataset["status"].attrs |= status_flags()
+    return dataset
+
+
+def _row(run: dict[str, np.ndarray], yield_stress: float) -> dict[str, np.ndarray]:
+    """Numbers of one speed, and the coordinates that they need."""
+    revolutions = len(run["revolution_maxima"])
+    row = run | {"yield_stress": np.array(yield_stress), "span": _ends(run["blade_maximum"], run["span_revolutions"], revolutions)}
+    if "wear_harmonic" in run:
+        row["lobes"] = np.arange(len(run["wear_harmonic"]))
+    if "blade_von_mises" in run:
+        row["stress_span"] = _ends(run["blade_von_mises"], run["stress_span_revolutions"], revolutions)
+        row["blades_above_yield"] = np.mean(run["blade_max_von_mises"] > yield_stress)
+        row["blades_ever_above_yield"] = np.mean(run["blade_von_mises"].max(axis=1) > yield_stress)
+    return row
+
+
+def _ends(values: np.ndarray, span: np.ndarray, revolutions: int) -> np.ndarray:
+    """Last revolution of each span; the last one ends with the run."""
+    count = values.shape[-1]
+    return revolutions - np.arange(count)[::-1] * int(span)
+
+
+def gather_rotors(files: Mapping[tuple[str, str], Path | str]) -> xr.Dataset:
+    """All (blade, scene) along the dimension `run`, a row for each speed; NaN where a rotor has fewer blades."""
+    parts = []
+    for (blade, scene), file in files.items():
+        dataset = read_dataset(file).rename_dims(speed="run").reset_index("speed").reset_coords("speed_rpm", drop=True)
+        spread = {name: dataset[name].expand_dims(run=dataset.sizes["run"]) for name in OF_ALL_SPEEDS}
+        labels = {name: ("run", [label] * dataset.sizes["run"]) for name, label in (("blade", blade), ("scene", scene))}
+        parts.append(dataset.assign(spread).assign_coords(labels))
+    return xr.concat(parts, "run", join="outer", combine_attrs="drop_conflicts")
+
+
+def rotor_table(files: Mapping[tuple[str, str], Path | str]) -> pd.DataFrame:
+    """A row for each blade and scene: how far any blade is above yield, at which speed most, and which blade leads there."""
+    rows = []
+    for (blade, scene), file in files.items():
+        dataset = read_dataset(file)
+        speeds = dataset["speed"].values
+        row = {"blade": blade, "scene": scene, "blades": dataset.sizes["blade_number"], "speeds": len(speeds)}
+        worst = int(np.nan_to_num(dataset["blade_rms"].max("blade_number").values).argmax())
+        if "blade_max_von_mises" in dataset:
+            stress = dataset["blade_max_von_mises"].max("blade_number").values
+            worst = int(np.nan_to_num(stress).argmax())
+            above = dataset["blades_above_yield"].values > 0.0
+            length = np.gradient(speeds) if len(speeds) > 1 else np.zeros(1)
+            row |= {
+                "length_with_any_blade_above_yield_rad_s": float(length[above].sum()),
+                "max_von_mises_pa": float(stress[worst]),
+                "blades_above_yield_at_once": float(dataset["blades_above_yield"].max() * dataset.sizes["blade_number"]),
+            }
+        at = dataset.isel(speed=worst)
+        shares = at["nodal_diameter_share"]
+        row |= {
+            "worst_speed_rad_s": float(speeds[worst]),
+            "leader": int(at["leader"]),
+            "rms_of_leader_m": float(at["blade_rms"].max()),
+            "median_rms_m": float(at["blade_rms"].median()),
+            "nodal_diameter": int(shares["nodal_diameter"][int(shares.fillna(0.0).argmax())]),
+            "nodal_diameter_share": float(shares.max()),
+        }
+        rows.append(row)
+    return pd.DataFrame(rows)

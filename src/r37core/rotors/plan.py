@@ -1,0 +1,35 @@
+"""The plan of whole rotors: which scenes have one, from what, and which files are made of them."""
+
+from __future__ import annotations
+
+from r37core.config import Settings
+from r37core.plans import paths
+from r37core.plans.sweep_plan import Sweep
+
+ROTOR_OF_RUN = "<results>/{blade}/{scene}/rotor.nc"
+
+
+def rotor_scenes(settings: Settings) -> list[str]:
+    """Names of the scenes that a whole rotor meets."""
+    return [name for name, chosen in settings.scenes.items() if chosen.scene.rotor is not None]
+
+
+def rotor_runs(sweep: Sweep) -> list[tuple[str, str]]:
+    """Pairs of blade and scene with a rotor."""
+    return [(blade, scene) for blade in sweep.settings.blade_names for scene in rotor_scenes(sweep.settings)]
+
+
+def targets(sweep: Sweep) -> dict[str, paths.Wildcards]:
+    """The dataset, the table and a figure of each blade and scene."""
+    runs = paths.of_runs(rotor_runs(sweep))
+    together = {f"<results>/{name}": runs and [{}] for name in ("rotor.nc", "rotors.csv")}
+    return together | paths.pictures("rotor_{blade}__{scene}", runs)
+
+
+def remarks(settings: Settings) -> list[str]:
+    """Of scenes whose numbers are those of many blades."""
+    return [
+        f"scene '{name}': {len(settings.scenes[name].scene.rotor.numbers)} blades on one lining, as many times the simulations' "  # type: ignore[union-attr]
+        "cost; rms, stress and tables are those of the blade that is worst (docs/rotor.md)"
+        for name in rotor_scenes(settings)
+    ]

@@ -1,0 +1,26 @@
+"""Steps of the workflow (docs/architecture.md): datasets and table of whole rotors."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from r37core.dataset_file import hash_of_parts, write_dataset
+from r37core.io import as_list
+from r37core.results.table_file import write_table
+
+from .dataset import gather_rotors, rotor_dataset, rotor_table
+
+
+def rotor_of_run(input: Any, output: Any, params: Any) -> None:
+    """Numbers of every blade. Inputs: speeds. Output: rotor (nc). Params: speeds, yield_stress, provenance."""
+    dataset = rotor_dataset(as_list(input.speeds), params.speeds, params.yield_stress)
+    write_dataset(dataset, output.rotor, params.provenance)
+
+
+def join(input: Any, output: Any, params: Any) -> None:
+    """All rotors in one dataset and table. Inputs: rotors. Params: runs, fidelity. Outputs: dataset (nc), table (csv)."""
+    files = as_list(input.rotors)
+    of_runs = dict(zip(map(tuple, params.runs), files, strict=True))
+    made = {"fidelity": params.fidelity, "input_hash": hash_of_parts(files)}
+    write_dataset(gather_rotors(of_runs), output.dataset, made)
+    write_table(rotor_table(of_runs), output.table, digits=6)

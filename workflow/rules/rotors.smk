@@ -1,0 +1,46 @@
+# Whole rotors: what the simulations of a scene with a rotor have of every blade.
+from r37core.rotors.plan import ROTOR_OF_RUN, rotor_runs
+
+
+use rule step as rotor_of_run with:
+    input:
+        speeds=sweep.speed_files,
+    output:
+        rotor=ROTOR_OF_RUN,
+    log:
+        "<logs>/{blade}/{scene}/rotor.log",
+    resources:
+        **needs.of("response"),
+    params:
+        **step("rotors.steps.rotor_of_run"),
+        speeds=sweep.speeds,
+        yield_stress=sweep.yield_stress,
+        provenance=made.sweep,
+
+
+use rule step as rotors_dataset with:
+    input:
+        rotors=paths.filled({ROTOR_OF_RUN: paths.of_runs(rotor_runs(sweep))}),
+    output:
+        dataset="<results>/rotor.nc",
+        table=report(
+            "<results>/rotors.csv",
+            **shown(PACKAGE / "rotors/report.rst", TOGETHER, EVERY_SCENE, figure="whole rotors"),
+        ),
+    log:
+        "<logs>/rotors_dataset.log",
+    params:
+        **step("rotors.steps.join"),
+        runs=rotor_runs(sweep),
+        fidelity=settings.fidelity_name,
+
+
+use rule figure as rotor_figure with:
+    input:
+        rotor=rules.rotor_of_run.output.rotor,
+    output:
+        **pictures("rotor_{blade}__{scene}", "{blade}", "{scene}", "rotor"),
+    log:
+        "<logs>/figures/rotor_{blade}__{scene}.log",
+    params:
+        **drawing(code, "rotors.figures.draw_rotor", "rotor"),
