@@ -282,7 +282,7 @@ def test_snapshots_are_evenly_spread_over_the_last_revolutions(contact):
 def test_what_a_scene_lacks_is_not_compiled(contact):
     """The program of a scene without lining and friction is not given their arrays: it would crash if it read them."""
     simulation = Simulation(contact, 1000.0, Scene(AT_ONCE), IntegrationChoice(2e-7, 1, 62))
-    record = simulation.engine._record[0]
+    record = simulation.engine.record[0]
     assert not record["call"]["wear"]
     for absent in ("friction", "rotation", "bar_position"):
         assert not np.any(record[absent]), absent

@@ -15,7 +15,7 @@ from r37core.stress.of_revolutions import largest_of_revolutions
 from r37core.stress.operator import StressOperator
 
 from .integration_choice import IntegrationChoice
-from .kept_numbers import KEPT, energy_balance, spectrum, stress_numbers, wear_numbers, whole
+from .kept_numbers import KEPT, energy_balance, spectrum, stress_numbers, wear_numbers
 from .rotor_simulation import RotorRecord, RotorSimulation
 from .simulate import DIRECTIONS, TIP_POINTS
 from .state import SimulationState
@@ -59,7 +59,7 @@ def run_rotor(
     maxima = np.abs(samples).reshape(len(samples), choice.revolutions, per_revolution, *samples.shape[2:]).max(axis=2)
     rms = np.sqrt(np.mean(half**2, axis=1))
     leader = int(np.nan_to_num(rms[:, 0, 0]).argmax())
-    diverged_at = min(len(part.samples) for part in record.blades) / per_revolution if record.diverged else np.nan
+    diverged_at = min(len(part.samples) for part in record.blades if part.diverged) / per_revolution if record.diverged else np.nan
     totals = np.array([state.totals for state in states])
     numbers = {
         "status": np.array(int(RunStatus.DIVERGED if record.diverged else RunStatus.COMPLETED)),
@@ -96,10 +96,14 @@ def run_rotor(
 
 
 def _samples(record: RotorRecord, choice: IntegrationChoice) -> np.ndarray:
-    """Displacement (m) of all blades, shape (blades, samples, 2, 3), NaN from a divergence on."""
+    """Displacement (m) of all blades, shape (blades, samples, 2, 3), NaN from where a blade ended."""
     count = choice.revolutions * choice.samples_per_revolution
-    shape = (-1, len(TIP_POINTS), len(DIRECTIONS))
-    return np.array([whole(part.samples.reshape(shape), count, len(part.samples) < count or part.diverged) for part in record.blades])
+    samples = np.full((len(record.blades), count, len(TIP_POINTS), len(DIRECTIONS)), np.nan)
+    for blade, part in zip(samples, record.blades, strict=True):
+        # the last one before a divergence may be infinite
+        reached = len(part.samples) - part.diverged
+        blade[:reached] = part.samples[:reached].reshape(reached, *blade.shape[1:])
+    return samples
 
 
 def _of_blades(

@@ -83,7 +83,7 @@ class RotorSimulation:
     def run(self, states: list[SimulationState], revolutions: int) -> RotorRecord:
         """Do so many revolutions from the start, which the `states` are at; they are changed."""
         samples = revolutions * self.problem.choice.samples_per_revolution
-        outs = [simulation.room(states[0], samples) for simulation in self.blades]
+        outs = [simulation.room(0, samples) for simulation in self.blades]
         if self.problem.choice.engine == "reference":
             engines = [simulation.engine for simulation in self.blades]
             angles = [self.rotor.angles[place] for place in range(len(engines))]
@@ -94,8 +94,8 @@ class RotorSimulation:
             done, worn = self._pass_by_pass(states, outs, starts, revolutions)
             late = np.array([start.late for start in starts])
         records = [
-            simulation.recorded(state, out, reached)
-            for simulation, state, out, reached in zip(self.blades, states, outs, done, strict=True)
+            simulation.recorded(0, out, reached)
+            for simulation, out, reached in zip(self.blades, outs, done, strict=True)
         ]
         return RotorRecord(tuple(records), late, np.array(worn))
 

@@ -84,27 +84,28 @@ class Simulation:
 
     def follow(self, state: SimulationState, schedule: Schedule) -> SimulationRecord:
         """The same in the constant-speed segments of a schedule."""
-        out = self.room(state, int(schedule.samples.sum()))
-        return self.recorded(state, out, self.engine.advance(state, out, schedule))
+        first = state.samples
+        out = self.room(first, int(schedule.samples.sum()))
+        done = self.engine.advance(state, out, schedule)
+        state.samples = first + len(out.samples)
+        return self.recorded(first, out, done)
 
-    def room(self, state: SimulationState, samples: int) -> SimulationRecord:
-        """Room for what an engine leaves behind in so many samples from the state on."""
+    def room(self, first: int, samples: int) -> SimulationRecord:
+        """Room for what an engine leaves behind in so many samples after the `first`."""
         outputs, numbers = self.problem.contact.output_operator.shape
-        return SimulationRecord(np.empty((samples, outputs)), np.empty((self._snapshots(state, samples), numbers)))
+        return SimulationRecord(np.empty((samples, outputs)), np.empty((self._snapshots(first, samples), numbers)))
 
-    def recorded(self, state: SimulationState, out: SimulationRecord, done: int) -> SimulationRecord:
-        """What an engine has left in that room when it has `done` so many samples; the state goes on by all of them."""
-        snapshots = self._snapshots(state, done)
-        diverged = done < len(out.samples) or not (np.abs(out.samples[done - 1]) < self.problem.scene.divergence_limit).all()
-        state.samples += len(out.samples)
+    def recorded(self, first: int, out: SimulationRecord, done: int) -> SimulationRecord:
+        """What an engine has left in that room when it has `done` so many samples."""
+        limit = self.problem.scene.divergence_limit
+        diverged = done > 0 and not (np.abs(out.samples[done - 1]) < limit).all()
         of_tip = len(TIP_POINTS) * len(DIRECTIONS)
         casing = None if self.problem.casing.ring is None else out.samples[:done, of_tip:]
-        return SimulationRecord(out.samples[:done, :of_tip], out.snapshots[:snapshots], bool(diverged), casing)
+        return SimulationRecord(out.samples[:done, :of_tip], out.snapshots[: self._snapshots(first, done)], bool(diverged), casing)
 
-    def _snapshots(self, state: SimulationState, samples: int) -> int:
-        """How many there are in so many samples from the state on."""
-        grid = self.problem.grid
-        return grid.snapshots_after(state.samples + samples) - grid.snapshots_after(state.samples)
+    def _snapshots(self, first: int, samples: int) -> int:
+        """How many there are in so many samples after the `first`."""
+        return self.problem.grid.snapshots_after(first + samples) - self.problem.grid.snapshots_after(first)
 
     def energy(self, state: SimulationState) -> float:
         """Energy (J) of the vibration, that of the static modes in it; see Recursion."""

@@ -97,4 +97,5 @@ class Passage:
         if self._grid.choice.second_order:
             state.contact_force[NORMAL] = m["force"][:nodes]
             state.contact_force[TANGENTIAL:] = m["friction_force"][:, :nodes]
-            out[:, kept:] = snapshots[:, numbers:].reshape(len(snapshots), 3, -1)[:, :, :nodes].reshape(len(snapshots), 3 * nodes)
+            forces = snapshots[:, numbers:].reshape(len(snapshots), 3, (snapshots.shape[1] - numbers) // 3)
+            out[:, kept:] = forces[:, :, :nodes].reshape(len(snapshots), 3 * nodes)

@@ -1,0 +1,291 @@
+"""A whole rotor on one lining: limits that are single blades, symmetry, order, energy, the step-by-step formulation, files."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from defaults import IntegrationChoice
+from integration_cases import ABRADABLE, DIRECT, random_model, with_static_modes
+
+from r37core.config import ConfigError, checked_scene
+from r37core.contact.rotor import Rotor
+from r37core.figures.style import plt
+from r37core.plain import from_plain, to_plain
+from r37core.rotors.dataset import gather_rotors, rotor_dataset, rotor_table
+from r37core.rotors.figures import draw_rotor
+from r37core.dataset_file import write_dataset
+from r37core.time_integration.integrators import EXACT_MODAL
+from r37core.time_integration.rotor_blades import mistuned
+from r37core.time_integration.rotor_run import MOST_GROWTH, in_spans, nodal_diameters
+from r37core.time_integration.rotor_simulation import RotorSimulation
+from r37core.time_integration.simulate import Simulation
+from r37core.time_integration.speed_file import write_speed
+from r37core.time_integration.speed_run import run_speed
+
+SPEED = 1000.0
+CHOICE = IntegrationChoice(1e-5, 4, 64, integrator=EXACT_MODAL)
+KEPT = {"spectrum_highest_order": 5, "wear_angles": 36}
+STEEP = replace(ABRADABLE, casing=replace(ABRADABLE.casing, lobes=2, amplitude=2.0, rise_fraction=0.2))
+"""Lobes that rise in the first revolutions."""
+
+
+def a_blade():
+    """Eight nodes on soft modes, so that what one blade wears away another one feels."""
+    model = with_static_modes(random_model(8), 1e-9)
+    softer = np.where(model.squared_frequencies < 1e14, model.squared_frequencies * 1e-2, model.squared_frequencies)
+    return replace(model, squared_frequencies=softer)
+
+
+def rotor_of(blades, angles=None, factors=None, longer=None, shared=True):
+    angles = 2.0 * np.pi * np.arange(blades) / blades if angles is None else angles
+    return Rotor(
+        tuple(range(1, blades + 1)),
+        tuple(map(float, angles)),
+        tuple(factors or [1.0] * blades),
+        tuple(longer or [0.0] * blades),
+        shared,
+    )
+
+
+def run(rotor, scene=STEEP, choice=CHOICE):
+    simulation = RotorSimulation(a_blade(), SPEED, replace(scene, rotor=rotor), choice)
+    states = simulation.start()
+    return simulation, states, simulation.run(states, choice.revolutions)
+
+
+def samples(record):
+    return np.array([blade.samples for blade in record.blades])
+
+
+def test_a_rotor_of_one_blade_is_the_blade():
+    single = Simulation(a_blade(), SPEED, STEEP, CHOICE)
+    state = single.start()
+    alone = single.advance(state, CHOICE.revolutions)
+    _, (of_rotor,), record = run(rotor_of(1))
+    assert np.abs(alone.samples).max() > 1e-5
+    np.testing.assert_array_equal(record.blades[0].samples, alone.samples)
+    np.testing.assert_array_equal(of_rotor.wear, state.wear)
+    assert of_rotor.totals == state.totals
+
+
+def test_its_file_is_that_of_the_blade():
+    results = ("spectrum", "wear", "energy")
+    alone = run_speed(a_blade(), SPEED, STEEP, CHOICE, results, **KEPT)
+    rotor = run_speed(a_blade(), SPEED, replace(STEEP, rotor=rotor_of(1)), CHOICE, results, **KEPT)
+    assert set(alone) <= set(rotor)
+    for name, value in alone.items():
+        np.testing.assert_array_equal(rotor[name], value, err_msg=name)
+
+
+@pytest.mark.parametrize("shared", [True, False])
+def test_pass_by_pass_is_step_by_step(shared):
+    """The compiled engine lets a blade pass the whole casing before the next one; the reference does all blades in each step."""
+    per_revolution = CHOICE.samples_per_revolution
+    angles = 2.0 * np.pi * np.array([0, 21, 40, 22]) / per_revolution
+    rotor = rotor_of(4, angles, [1.0, 1.03, 0.97, 1.01], [0.0, 2e-5, 0.0, -1e-5], shared)
+    choice = replace(CHOICE, revolutions=2)
+    _, ours, compiled = run(rotor, choice=choice)
+    _, theirs, reference = run(rotor, choice=replace(choice, engine="reference"))
+    np.testing.assert_allclose(samples(compiled), samples(reference), rtol=0, atol=1e-9 * np.abs(samples(reference)).max())
+    for one, other in zip(ours, theirs, strict=True):
+        np.testing.assert_allclose(one.wear, other.wear, rtol=0, atol=1e-9 * other.wear.max())
+    np.testing.assert_allclose(compiled.worn, reference.worn, rtol=1e-6)
+    alone = run(rotor_of(1), choice=choice)[2].blades[0].samples
+    coupled = np.abs(samples(compiled)[0] - alone).max() > 1e-3 * np.abs(alone).max()
+    assert coupled is np.True_ if shared else not coupled
+
+
+def test_blades_on_separate_linings_are_single_blades():
+    """At angles that the lobes do not tell apart, all move as one."""
+    alone = run(rotor_of(1))[2].blades[0].samples
+    for blade in samples(run(rotor_of(2, shared=False))[2]):
+        np.testing.assert_allclose(blade, alone, rtol=0, atol=1e-12 * np.abs(alone).max())
+
+
+def test_at_any_angle_a_blade_of_its_own_lining_is_one_that_is_turned():
+    for share, within in ((0.0, 1e-9), (0.4, 0.1)):
+        angle = 2.0 * np.pi * (17.0 + share) / CHOICE.samples_per_revolution
+        _, _, record = run(rotor_of(2, [0.0, angle], shared=False))
+        single = Simulation(replace(a_blade(), theta=a_blade().theta + angle), SPEED, STEEP, CHOICE)
+        alone = single.advance(single.start(), CHOICE.revolutions)
+        # the single blade starts at time 0, that of the rotor with its next whole sample
+        assert record.late[1] == pytest.approx(share)
+        maxima = [np.abs(part.samples[:, 0]).reshape(CHOICE.revolutions, -1).max(axis=1) for part in (record.blades[1], alone)]
+        np.testing.assert_allclose(*maxima, rtol=within)
+
+
+def test_blades_half_a_turn_apart_between_two_lobes_move_alike():
+    first, second = samples(run(rotor_of(2))[2])
+    np.testing.assert_allclose(first, second, rtol=0, atol=0.02 * np.abs(first).max())
+
+
+def test_a_symmetric_rotor_stays_symmetric():
+    """Four blades between four lobes: every blade finds what the one before it has left a quarter of a turn earlier."""
+    scene = replace(STEEP, casing=replace(STEEP.casing, lobes=4))
+    alone, *others = samples(run(rotor_of(4), scene)[2])
+    for blade in others:
+        np.testing.assert_allclose(blade, alone, rtol=0, atol=0.02 * np.abs(alone).max())
+
+
+def test_blades_in_another_order_are_the_same_rotor():
+    angles, factors, longer = [0.3, 4.0, 2.0, 5.5], [1.0, 1.02, 0.97, 1.01], [0.0, 1e-5, 0.0, 2e-5]
+    other = [2, 0, 3, 1]
+    first = samples(run(rotor_of(4, angles, factors, longer))[2])
+    second = samples(run(rotor_of(4, *([values[place] for place in other] for values in (angles, factors, longer))))[2])
+    np.testing.assert_array_equal(first[other], second)
+
+
+def test_angles_beyond_a_turn_are_those_within_it():
+    angles = np.array([0.3, 4.0, 2.0])
+    first, second = (samples(run(rotor_of(3, beyond))[2]) for beyond in (angles, angles - 2.0 * np.pi))
+    np.testing.assert_array_equal(first, second)
+
+
+def test_energy_of_all_blades_closes():
+    rotor = replace(STEEP, rotor=rotor_of(5, factors=[1.0, 1.01, 0.99, 1.02, 0.98]))
+    numbers = run_speed(a_blade(), SPEED, rotor, CHOICE, ("energy",), **KEPT)
+    assert abs(numbers["contact_work"]) > 0.0
+    assert abs(numbers["energy_residual"]) < 1e-9 * abs(numbers["damping_loss"])
+
+
+def test_mistuning_is_a_factor_of_all_frequencies_at_any_speed():
+    model = replace(a_blade(), stiffness_per_square=np.eye(len(a_blade().squared_frequencies)))
+    for speed in (0.0, 800.0):
+        tuned, modes = model.modes_at(speed)
+        others, same = mistuned(model, 1.05).modes_at(speed)
+        np.testing.assert_allclose(others, 1.05 * tuned, rtol=1e-12)
+        np.testing.assert_allclose(np.abs(same), np.abs(modes), atol=1e-9)
+
+
+def test_a_longer_blade_meets_the_lining_before_the_others():
+    _, states, record = run(rotor_of(3, longer=[0.0, 5e-5, 0.0]))
+    assert record.worn[1] > 1.3 * max(record.worn[0], record.worn[2])
+    assert record.worn.sum() == pytest.approx(states[0].wear.sum(), rel=1e-9)
+
+
+def test_a_wave_of_nodal_diameters_is_found():
+    """x_b(t) = cos(w t - n theta_b), seen by blades whose samples are not those of the same instants."""
+    rotor, count = rotor_of(12), 256
+    late = np.random.default_rng(0).random(12)
+    time = 2.0 * np.pi * (np.arange(count) + late[:, None]) / count
+    for diameters in (-5, 0, 3, 6):
+        motion = np.cos(9.0 * time - diameters * np.array(rotor.angles)[:, None]) + 0.5
+        found = nodal_diameters(motion, late, rotor)
+        share = dict(zip(found["nodal_diameter"].tolist(), found["nodal_diameter_share"], strict=True))
+        assert share[diameters] == pytest.approx(1.0, abs=1e-9)
+        assert sum(share.values()) == pytest.approx(1.0)
+    assert np.isnan(nodal_diameters(np.zeros((12, count)), late, rotor)["nodal_diameter_share"]).all()
+
+
+@pytest.mark.parametrize(
+    ("rotor", "scene"),
+    [
+        (rotor_of(5, angles=[0.5] * 5), STEEP),
+        (rotor_of(200), STEEP),
+        (rotor_of(3, longer=[0.0, 0.0, -0.05]), STEEP),
+        (rotor_of(4, factors=[0.5, 1.5, 0.7, 1.3]), STEEP),
+        (rotor_of(2), replace(STEEP, lining=replace(STEEP.lining, thickness=1e-4))),
+        (rotor_of(2, longer=[0.0, 5e-4]), STEEP),
+    ],
+    ids=["one angle", "200 blades", "never touches", "half as fast", "worn through", "in the lining"],
+)
+def test_extremes_are_numbers(rotor, scene, tmp_path):
+    choice = replace(CHOICE, revolutions=2)
+    numbers = run_speed(a_blade(), SPEED, replace(scene, rotor=rotor), choice, ("spectrum", "wear", "energy"), **KEPT)
+    assert numbers["status"] == 0
+    assert np.isfinite(numbers["blade_rms"]).all() and np.isfinite(numbers["wear"]).all()
+    if rotor.longer[-1] == -0.05:
+        assert numbers["blade_peak"][2] == numbers["blade_worn"][2] == numbers["blade_contact"][2] == 0.0
+    if rotor.longer[-1] == 5e-4:
+        assert numbers["max_wear"] >= 5e-4 - scene.casing.clearance
+    write_speed(numbers, tmp_path / "speed.npz", {})
+    assert (tmp_path / "speed.npz").stat().st_size < 1_000_000
+
+
+def test_a_blade_that_diverges_ends_the_rotor():
+    scene = replace(STEEP, divergence_limit=1e-5, rotor=rotor_of(3, longer=[0.0, 5e-5, 0.0]))
+    numbers = run_speed(a_blade(), SPEED, scene, CHOICE, ("spectrum", "wear", "energy"), **KEPT)
+    assert numbers["status"] == 1 and 0.0 < numbers["diverged_revolution"] < CHOICE.revolutions
+    assert np.isnan(numbers["rms"]).all() and numbers["leader"] in (1, 2, 3)
+
+
+def test_growth_is_kept_in_spans_of_revolutions():
+    values = np.arange(12.0).reshape(2, 6)
+    np.testing.assert_array_equal(in_spans(values, 4), [[3.0, 5.0], [9.0, 11.0]])
+    assert in_spans(np.zeros((1, 20000)), -(-20000 // MOST_GROWTH)).shape == (1, MOST_GROWTH)
+
+
+def lined(**rotor):
+    casing = {"clearance_m": 3.56e-4}
+    lining = {"thickness_m": 5e-3, "elastic_modulus_pa": 2e10, "plastic_modulus_pa": 5e9, "yield_stress_pa": 1.5}
+    return {"casing": casing, "lining": lining, "results": ["stress"], "rotor": rotor}
+
+
+def test_a_rotor_is_drawn_from_a_seed():
+    spread = {"mistuning_spread_percent": {"normal": 1.0}, "longer_spread_m": {"uniform": 2e-5}}
+    rotor = checked_scene(lined(blades=36, **spread)).rotor
+    assert rotor == checked_scene(lined(blades=36, **spread)).rotor == from_plain(Rotor, to_plain(rotor))
+    assert rotor != checked_scene(lined(blades=36, seed=1, **spread)).rotor
+    assert 0.5 < 100.0 * np.std(rotor.frequency_factors) < 1.5 and 1e-5 < np.max(np.abs(rotor.longer)) < 2e-5
+    # a blade keeps its draw where another one is missing or has a value of its own
+    fewer = checked_scene(lined(blades=36, missing=[2], mistuning_percent={1: 3.0}, **spread)).rotor
+    assert fewer.numbers == (1, *range(3, 37)) and fewer.frequency_factors[0] == 1.03
+    assert fewer.frequency_factors[1:] == rotor.frequency_factors[2:] and fewer.angles[1] == rotor.angles[2]
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"rotor": {"blades": 0}}, "rotor.blades: found 0"),
+        ({"rotor": {"blades": 4, "missing": [5]}}, "rotor.missing: found blade 5; allowed: 1 to 4"),
+        ({"rotor": {"blades": 2, "missing": [1, 2]}}, "rotor.missing: found all blades"),
+        ({"rotor": {"blades": 4, "angles_deg": [0.0]}}, "rotor.angles_deg: found 1 angles; allowed: 4"),
+        ({"rotor": {"blades": 4, "longer_spread_m": {"normal_percent": 1.0}}}, "rotor.longer_spread_m: found a spread in percent"),
+        ({"rotor": {"blades": 36, "mistuning_spread_percent": {"normal": 50.0}}}, "a narrower spread, a uniform one"),
+        ({"results": ["signal"]}, "results: found signal with a rotor"),
+        ({"lining": None}, "run a single blade for each"),
+        ({"lining": {"rings": "shared"}}, "one ring of bars per node"),
+        ({"casing": {"ring_modes": [{"nodal_diameter": 3, "frequency_hz": 560, "modal_mass_kg": 0.7}]}}, "a rigid casing"),
+    ],
+)
+def test_what_cannot_be_run_is_refused_in_one_line(changes, message):
+    entry = lined(blades=4)
+    for key, value in changes.items():
+        if value is None:
+            del entry[key]
+        else:
+            entry[key] = {**entry[key], **value} if isinstance(value, dict) and key != "rotor" else value
+    with pytest.raises(ConfigError, match=message.replace("(", r"\(")) as refusal:
+        checked_scene(entry)
+    assert "\n" not in str(refusal.value)
+
+
+def test_no_rotor_is_run_as_a_single_blade():
+    with pytest.raises(ValueError, match="RotorSimulation"):
+        Simulation(a_blade(), SPEED, replace(STEEP, rotor=rotor_of(2)), CHOICE)
+    with pytest.raises(ValueError, match="nothing couples the blades"):
+        RotorSimulation(a_blade(), SPEED, replace(DIRECT, rotor=rotor_of(2)), CHOICE)
+
+
+def test_dataset_table_and_figure(tmp_path):
+    files, speeds = {}, [990.0, 1000.0, 1010.0]
+    for name, blades in (("many", 6), ("few", 2)):
+        rotor = rotor_of(blades, factors=list(np.linspace(0.99, 1.01, blades)))
+        written = []
+        for speed in speeds:
+            written.append(tmp_path / f"{name}_{speed}.npz")
+            numbers = run_speed(a_blade(), speed, replace(STEEP, rotor=rotor), replace(CHOICE, revolutions=2), ("wear",), **KEPT)
+            write_speed(numbers, written[-1], {})
+        files["Ref", name] = tmp_path / f"{name}.nc"
+        write_dataset(rotor_dataset(written, speeds, 1e9), files["Ref", name])
+    together = gather_rotors(files)
+    assert together.sizes["run"] == 6 and together.sizes["blade_number"] == 6
+    of_few = together["blade_rms"].sel(run=together["scene"] == "few")
+    assert np.isfinite(of_few).sum() == 6
+    table = rotor_table(files)
+    assert table["blades"].tolist() == [6, 2]
+    assert table["leader"].between(1, 6).all() and set(table["worst_speed_rad_s"]) <= set(speeds)
+    many = rotor_dataset([tmp_path / f"many_{speed}.npz" for speed in speeds], speeds, 1e9)
+    figure = draw_rotor(many, "Ref, many")
+    assert "6 blades" in figure.get_suptitle()
+    plt.close(figure)
