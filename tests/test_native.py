@@ -209,8 +209,8 @@ def test_a_parameter_of_the_lining_reaches_the_law():
     """Every field of Lining is a number of the record, under its name."""
     simulation = Simulation(oscillator(6000.0), 1000.0, Scene(DIRECT.casing, LINING), IntegrationChoice(1e-6, 1, 8))
     for name in ("thickness", "elastic_modulus", "plastic_modulus", "yield_stress", "bar_width", "bars", "shared_ring"):
-        assert simulation.engine._record[0]["lining"][name] == getattr(LINING, name)
-    assert np.isnan(simulation.engine._record[0]["lining"]["bar_area"])
+        assert simulation.engine.record[0]["lining"][name] == getattr(LINING, name)
+    assert np.isnan(simulation.engine.record[0]["lining"]["bar_area"])
 
 
 def test_kinds_are_told_apart():

@@ -9,11 +9,11 @@ from integration_cases import ABRADABLE, DIRECT, random_model, with_static_modes
 
 from r37core.config import ConfigError, checked_scene
 from r37core.contact.rotor import Rotor
+from r37core.dataset_file import write_dataset
 from r37core.figures.style import plt
 from r37core.plain import from_plain, to_plain
 from r37core.rotors.dataset import gather_rotors, rotor_dataset, rotor_table
 from r37core.rotors.figures import draw_rotor
-from r37core.dataset_file import write_dataset
 from r37core.time_integration.integrators import EXACT_MODAL
 from r37core.time_integration.rotor_blades import mistuned
 from r37core.time_integration.rotor_run import MOST_GROWTH, in_spans, nodal_diameters
@@ -79,7 +79,7 @@ def test_its_file_is_that_of_the_blade():
 
 @pytest.mark.parametrize("shared", [True, False])
 def test_pass_by_pass_is_step_by_step(shared):
-    """The compiled engine lets a blade pass the whole casing before the next one; the reference does all blades in each step."""
+    """The compiled engine lets a blade pass the whole casing before the next one; the reference does all in each step."""
     per_revolution = CHOICE.samples_per_revolution
     angles = 2.0 * np.pi * np.array([0, 21, 40, 22]) / per_revolution
     rotor = rotor_of(4, angles, [1.0, 1.03, 0.97, 1.01], [0.0, 2e-5, 0.0, -1e-5], shared)
@@ -240,7 +240,10 @@ def test_a_rotor_is_drawn_from_a_seed():
         ({"rotor": {"blades": 4, "missing": [5]}}, "rotor.missing: found blade 5; allowed: 1 to 4"),
         ({"rotor": {"blades": 2, "missing": [1, 2]}}, "rotor.missing: found all blades"),
         ({"rotor": {"blades": 4, "angles_deg": [0.0]}}, "rotor.angles_deg: found 1 angles; allowed: 4"),
-        ({"rotor": {"blades": 4, "longer_spread_m": {"normal_percent": 1.0}}}, "rotor.longer_spread_m: found a spread in percent"),
+        (
+            {"rotor": {"blades": 4, "longer_spread_m": {"normal_percent": 1.0}}},
+            "rotor.longer_spread_m: found a spread in percent",
+        ),
         ({"rotor": {"blades": 36, "mistuning_spread_percent": {"normal": 50.0}}}, "a narrower spread, a uniform one"),
         ({"results": ["signal"]}, "results: found signal with a rotor"),
         ({"lining": None}, "run a single blade for each"),
@@ -274,7 +277,9 @@ def test_dataset_table_and_figure(tmp_path):
         written = []
         for speed in speeds:
             written.append(tmp_path / f"{name}_{speed}.npz")
-            numbers = run_speed(a_blade(), speed, replace(STEEP, rotor=rotor), replace(CHOICE, revolutions=2), ("wear",), **KEPT)
+            numbers = run_speed(
+                a_blade(), speed, replace(STEEP, rotor=rotor), replace(CHOICE, revolutions=2), ("wear",), **KEPT
+            )
             write_speed(numbers, written[-1], {})
         files["Ref", name] = tmp_path / f"{name}.nc"
         write_dataset(rotor_dataset(written, speeds, 1e9), files["Ref", name])

@@ -30,7 +30,8 @@ class RotorSection(Section):
         default={}, description="number of a blade -> change of all its frequencies; in place of what is drawn"
     )
     mistuning_spread_percent: SpreadEntry | LeftOut = Field(
-        default=None, description="how the frequencies of the other blades differ, drawn: {normal: 1} has a standard deviation of 1%"
+        default=None,
+        description="how the other blades' frequencies differ, drawn: {normal: 1} has a standard deviation of 1%",
     )
     longer_m: dict[Number, Length] = Field(
         default={}, description="number of a blade -> by how much it is longer than the model; in place of what is drawn"
@@ -59,7 +60,9 @@ class RotorSection(Section):
         for key in ("mistuning_spread_percent", "longer_spread_m"):
             spread = getattr(self, key)
             if spread is not None and spread.spread().percent:
-                raise refused((key,), "a spread in percent of the nominal value, which is 0", "uniform, normal, between, values")
+                raise refused(
+                    (key,), "a spread in percent of the nominal value, which is 0", "uniform, normal, between, values"
+                )
         for number, factor in zip(self._present, self._factors, strict=True):
             if factor < LEAST_FACTOR:
                 remedy = f"at least {100.0 * (LEAST_FACTOR - 1.0):g}; a narrower spread, a uniform one, or another seed"

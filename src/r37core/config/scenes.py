@@ -99,7 +99,9 @@ class SceneEntry(Section):
             raise refused(("rotor",), "a rotor in this scene", refusal)
         for result in ("signal", "shapes"):
             if result in self.results:
-                raise refused(("results",), f"{result} with a rotor", "results of all blades together; a scene without rotor has it")
+                raise refused(
+                    ("results",), f"{result} with a rotor", "results of all blades together; a scene without rotor has it"
+                )
         return self
 
     def stress_history_speeds(self) -> tuple[float, ...]:

@@ -10,6 +10,7 @@ import pandas as pd
 import xarray as xr
 
 from r37core.dataset_file import SPEED, Variable, dataset_of, read_dataset
+from r37core.results.measures import range_above_yield
 from r37core.results.netcdf import status_flags
 from r37core.time_integration.speed_file import read_speed
 
@@ -75,13 +76,16 @@ def rotor_dataset(files: Iterable[Path | str], speeds: Sequence[float], yield_st
 def _row(run: dict[str, np.ndarray], yield_stress: float) -> dict[str, np.ndarray]:
     """Numbers of one speed, and the coordinates that they need."""
     revolutions = len(run["revolution_maxima"])
-    row = run | {"yield_stress": np.array(yield_stress), "span": _ends(run["blade_maximum"], run["span_revolutions"], revolutions)}
+    row = run | {
+        "yield_stress": np.array(yield_stress),
+        "span": _ends(run["blade_maximum"], run["span_revolutions"], revolutions),
+    }
     if "wear_harmonic" in run:
         row["lobes"] = np.arange(len(run["wear_harmonic"]))
     if "blade_von_mises" in run:
         row["stress_span"] = _ends(run["blade_von_mises"], run["stress_span_revolutions"], revolutions)
-        row["blades_above_yield"] = np.mean(run["blade_max_von_mises"] > yield_stress)
-        row["blades_ever_above_yield"] = np.mean(run["blade_von_mises"].max(axis=1) > yield_stress)
+        row["blades_above_yield"] = np.array(np.mean(run["blade_max_von_mises"] > yield_stress))
+        row["blades_ever_above_yield"] = np.array(np.mean(run["blade_von_mises"].max(axis=1) > yield_stress))
     return row
 
 
@@ -113,10 +117,10 @@ def rotor_table(files: Mapping[tuple[str, str], Path | str]) -> pd.DataFrame:
         if "blade_max_von_mises" in dataset:
             stress = dataset["blade_max_von_mises"].max("blade_number").values
             worst = int(np.nan_to_num(stress).argmax())
-            above = dataset["blades_above_yield"].values > 0.0
-            length = np.gradient(speeds) if len(speeds) > 1 else np.zeros(1)
             row |= {
-                "length_with_any_blade_above_yield_rad_s": float(length[above].sum()),
+                "length_with_any_blade_above_yield_rad_s": range_above_yield(
+                    speeds, stress / float(dataset["yield_stress"])
+                ).length,
                 "max_von_mises_pa": float(stress[worst]),
                 "blades_above_yield_at_once": float(dataset["blades_above_yield"].max() * dataset.sizes["blade_number"]),
             }
@@ -127,7 +131,7 @@ def rotor_table(files: Mapping[tuple[str, str], Path | str]) -> pd.DataFrame:
             "leader": int(at["leader"]),
             "rms_of_leader_m": float(at["blade_rms"].max()),
             "median_rms_m": float(at["blade_rms"].median()),
-            "nodal_diameter": int(shares["nodal_diameter"][int(shares.fillna(0.0).argmax())]),
+            "nodal_diameter": int(shares["nodal_diameter"].values[np.nan_to_num(shares.values).argmax()]),
             "nodal_diameter_share": float(shares.max()),
         }
         rows.append(row)

@@ -28,8 +28,12 @@ def targets(sweep: Sweep) -> dict[str, paths.Wildcards]:
 
 def remarks(settings: Settings) -> list[str]:
     """Of scenes whose numbers are those of many blades."""
-    return [
-        f"scene '{name}': {len(settings.scenes[name].scene.rotor.numbers)} blades on one lining, as many times the simulations' "  # type: ignore[union-attr]
-        "cost; rms, stress and tables are those of the blade that is worst (docs/rotor.md)"
-        for name in rotor_scenes(settings)
-    ]
+    lines = []
+    for name in rotor_scenes(settings):
+        rotor = settings.scenes[name].scene.rotor
+        assert rotor is not None
+        lines.append(
+            f"scene '{name}': {len(rotor.numbers)} blades on one lining cost as many times a single one; rms, stress and tables are "
+            "those of the worst blade (docs/rotor.md)"
+        )
+    return lines

@@ -52,6 +52,18 @@ def slowest_speeds_fit_in_memory(settings: Settings) -> None:
             revolution_fits(settings, min(entry.choice(1).start, entry.choice(1).stop), ("run_ups", name))
 
 
+def no_rotors(settings: Settings) -> None:
+    """Run-ups are wanted of single blades."""
+    rotors = [name for name, chosen in settings.scenes.items() if chosen.scene.rotor is not None]
+    for name, entry in entries(settings).items():
+        for scene in rotors if entry.scenes == "all" else [scene for scene in entry.scenes if scene in rotors]:
+            raise settings.documents.config.refusal(
+                ("run_ups", name, "scenes"),
+                f"'{scene}', which has a rotor",
+                "scenes of a single blade; the speed of a rotor does not change while it runs",
+            )
+
+
 def no_coriolis(settings: Settings) -> None:
     """The Coriolis force is wanted of runs at constant speed alone."""
     for name in entries(settings) if settings.structure.coriolis else ():

@@ -17,9 +17,9 @@ from r37core.rom.contact_model import ContactModel
 from r37core.time_integration.clearance import check_room
 from r37core.time_integration.integration_choice import IntegrationChoice
 from r37core.time_integration.integrators import CENTRAL_DIFFERENCE, Recursion
+from r37core.time_integration.kept_numbers import energy_balance
 from r37core.time_integration.problem import Problem, stable_problem
 from r37core.time_integration.simulate import Simulation
-from r37core.time_integration.kept_numbers import energy_balance
 from r37core.time_integration.state import Schedule
 from r37core.time_integration.step_limit import UnstableStepError
 

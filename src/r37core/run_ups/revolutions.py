@@ -12,8 +12,8 @@ from r37core.contact.scene import Scene
 from r37core.rom.contact_model import ContactModel
 from r37core.stress.operator import StressOperator
 from r37core.time_integration.integration_choice import IntegrationChoice
-from r37core.time_integration.simulate import DIRECTIONS, TIP_POINTS
 from r37core.time_integration.kept_numbers import amplitudes, with_rotation
+from r37core.time_integration.simulate import DIRECTIONS, TIP_POINTS
 from r37core.time_integration.status import RunStatus
 
 from .integration import RunUpIntegration, Stage

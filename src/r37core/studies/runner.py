@@ -23,8 +23,8 @@ from r37core.stress.operator import StressOperator
 from r37core.stress.recovery import stress_operator
 from r37core.time_integration.integration_choice import IntegrationChoice
 from r37core.time_integration.problem import stable_problem
-from r37core.time_integration.speed_job import prepared
 from r37core.time_integration.speed_file import read_speed, write_speed
+from r37core.time_integration.speed_job import prepared
 from r37core.time_integration.speed_run import run_speed
 
 from .case import Case, SweptPeak

@@ -78,7 +78,7 @@ def amplitudes(values: np.ndarray) -> np.ndarray:
 
 
 def wear_numbers(wear: np.ndarray, angles: int) -> dict[str, np.ndarray]:
-    """Largest wear (m), shape (rings, bars), over the rings: its profile as the maximum in each of `angles` sectors, and its lobes."""
+    """Of the `wear` (m), shape (rings, bars), the largest over the rings: in each of `angles` sectors, and its lobes."""
     profile = wear.max(axis=0)
     sectors = np.linspace(0, len(profile), angles, endpoint=False).astype(int)
     depths = np.maximum.reduceat(profile, sectors) if len(profile) >= angles else profile[sectors]

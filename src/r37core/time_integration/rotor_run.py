@@ -39,8 +39,8 @@ def run_rotor(
     """Simulate one speed (rad/s) of a rotor: what run_speed keeps, of all blades together, and numbers of each blade.
 
     Of all blades: the largest of rms, peak, maxima, forces and stresses; the sum of hits and energies; the
-    spectrum of the leading blade, the snapshots of the one with the largest stress. The leading blade has the largest rms of the
-    leading edge's normal displacement. `status` is that of the rotor: all blades end when one diverges.
+    spectrum of the leading blade, the snapshots of the one with the largest stress. The leading blade has the largest rms of
+    the leading edge's normal displacement. `status` is that of the rotor: all blades end when one diverges.
 
     Of each blade, shape (blades,) first: `blade_number`, `blade_angle` (rad), `blade_frequency_factor`, `blade_longer` (m),
     `blade_rms` and `blade_peak` (m), of the leading edge's normal displacement over the last half, `blade_maximum` (m), shape
@@ -59,7 +59,9 @@ def run_rotor(
     maxima = np.abs(samples).reshape(len(samples), choice.revolutions, per_revolution, *samples.shape[2:]).max(axis=2)
     rms = np.sqrt(np.mean(half**2, axis=1))
     leader = int(np.nan_to_num(rms[:, 0, 0]).argmax())
-    diverged_at = min(len(part.samples) for part in record.blades if part.diverged) / per_revolution if record.diverged else np.nan
+    diverged_at = (
+        min(len(part.samples) for part in record.blades if part.diverged) / per_revolution if record.diverged else np.nan
+    )
     totals = np.array([state.totals for state in states])
     numbers = {
         "status": np.array(int(RunStatus.DIVERGED if record.diverged else RunStatus.COMPLETED)),
@@ -90,7 +92,9 @@ def run_rotor(
         numbers |= wear_numbers(_worn(states), min(wear_angles, scene.lining.bars))
     if "energy" in results:
         pairs = list(zip(simulation.blades, states, strict=True))
-        work, energy = (sum(of) for of in zip(*((blade.work(state), blade.energy(state)) for blade, state in pairs), strict=True))
+        work, energy = (
+            sum(of) for of in zip(*((blade.work(state), blade.energy(state)) for blade, state in pairs), strict=True)
+        )
         numbers |= energy_balance(work, float(totals["loss"].sum()), energy)
     return numbers
 
@@ -161,9 +165,7 @@ def _stress(
     }
 
 
-def _histories(
-    simulation: RotorSimulation, record: RotorRecord, stress: StressOperator, static_stress: bool
-) -> np.ndarray:
+def _histories(simulation: RotorSimulation, record: RotorRecord, stress: StressOperator, static_stress: bool) -> np.ndarray:
     """Largest stress (Pa) of each blade in each revolution of the statistic, shape (blades, revolutions); NaN where it ended.
 
     Blades with as many stepped modes are looked at together: their modes have the same shapes, and what follows a force at once

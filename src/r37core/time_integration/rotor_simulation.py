@@ -1,9 +1,9 @@
 """The time integration of a whole rotor: blades that meet one casing and wear one lining.
 
-Blades are coupled by the bars that they wear, and by nothing else. So what counts is the order in which they pass a bar. A blade
-passes the casing from angle 0 to angle 0 in one go, and then the blade behind it does: every bar is then met in the order of time,
-by every node that has a ring of bars of its own. Each blade is at the same steps of its revolution as a single one; it starts
-with the first sample after time 0, at rest, where the casing is still round.
+Blades are coupled by the bars that they wear, and by nothing else. So what counts is the order in which they pass a bar. A
+blade passes the casing from angle 0 to angle 0 in one go, and then the blade behind it does: every bar is then met in the order
+of time, by every node that has a ring of bars of its own. Each blade is at the same steps of its revolution as a single one;
+it starts with its first sample after time 0, at rest, where the casing is still round.
 """
 
 from __future__ import annotations
@@ -21,7 +21,6 @@ from .integration_choice import IntegrationChoice
 from .problem import Problem
 from .reference.lockstep import advance_together
 from .rotor_blades import blade_problems
-from .segments import own_segment
 from .simulate import Simulation
 from .state import Schedule, SimulationRecord, SimulationState
 
@@ -94,8 +93,7 @@ class RotorSimulation:
             done, worn = self._pass_by_pass(states, outs, starts, revolutions)
             late = np.array([start.late for start in starts])
         records = [
-            simulation.recorded(0, out, reached)
-            for simulation, out, reached in zip(self.blades, outs, done, strict=True)
+            simulation.recorded(0, out, reached) for simulation, out, reached in zip(self.blades, outs, done, strict=True)
         ]
         return RotorRecord(tuple(records), late, np.array(worn))
 
@@ -114,7 +112,9 @@ class RotorSimulation:
         """Let blade after blade pass the casing; returns the samples done of each, and what each has worn off (m)."""
         per_revolution = self.problem.choice.samples_per_revolution
         passages = [
-            Passage(simulation.engine, state, out, Schedule(np.zeros(1), np.zeros(1), len(state.displacement)), start, in_parts=True)
+            Passage(
+                simulation.engine, state, out, Schedule(np.zeros(1), np.zeros(1), len(state.displacement)), start, in_parts=True
+            )
             for simulation, state, out, start in zip(self.blades, states, outs, starts, strict=True)
         ]
         total, worn = revolutions * per_revolution, [0.0] * len(passages)

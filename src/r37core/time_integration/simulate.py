@@ -101,7 +101,9 @@ class Simulation:
         diverged = done > 0 and not (np.abs(out.samples[done - 1]) < limit).all()
         of_tip = len(TIP_POINTS) * len(DIRECTIONS)
         casing = None if self.problem.casing.ring is None else out.samples[:done, of_tip:]
-        return SimulationRecord(out.samples[:done, :of_tip], out.snapshots[: self._snapshots(first, done)], bool(diverged), casing)
+        return SimulationRecord(
+            out.samples[:done, :of_tip], out.snapshots[: self._snapshots(first, done)], bool(diverged), casing
+        )
 
     def _snapshots(self, first: int, samples: int) -> int:
         """How many there are in so many samples after the `first`."""

@@ -44,8 +44,9 @@ def run_speed(
     rotation's shapes. With a `stress` operator: `max_von_mises` (Pa) in the last revolution, `revolution_von_mises` (Pa), the
     largest of each of the last `choice.snapshot_revolutions`, `stress_region` and `static_stress`, 1 where rotation's is in
     them. `casing_...`: see casing_waves. A diverged run has NaN where a number would need the rest of the run.
-    With a rotor the numbers are those of all its blades: see run_rotor. With `motion` the blade starts in it and not at rest: `initial_energy_left_out`, see InitialMotion, and of the energies
-    `initial_energy` (J). Raises what Problem raises, and InitialMotionError.
+    With a rotor the numbers are those of all its blades: see run_rotor. With `motion` the blade starts in it and not at rest:
+    `initial_energy_left_out`, see InitialMotion, and of the energies `initial_energy` (J).
+    Raises what Problem raises, and InitialMotionError.
     """
     if scene.rotor is not None:
         if motion is not None:
