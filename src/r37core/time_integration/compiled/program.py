@@ -19,13 +19,14 @@ from .ring_steps import turn_jump, turn_step
 from .segment_steps import begin_segment, end_segment
 from .steps import leave_casing, list_pressed, measure_exact_gaps, measure_gaps, meet, node_lanes, predict, record
 
+OTHERS = 0
+"""How many constants of a speed are not of modes."""
+
 
 @inlined
-def _integrate(m, others):
-    """Do the blocks of steps asked for; returns how many were done, fewer when an output passed the limit or is NaN.
-
-    `others`: how many constants of a speed are not of modes.
-    """
+def _integrate(address):
+    """Do the blocks of steps asked for; returns how many were done, fewer when an output passed the limit or is NaN."""
+    m = pointed_at(address)
     at_once = np.isinf(m.casing.rise)
     decay = 0.0 if at_once else np.exp(-m.casing.rise)
     coarse_per_block = (m.steps_per_block + COARSE - 1) // COARSE
@@ -38,7 +39,7 @@ def _integrate(m, others):
     while done < m.call.blocks:
         begins = done == until
         if begins:
-            until += begin_segment(m, segment, others)
+            until += begin_segment(m, segment, OTHERS)
         start = m.call.first_step + done * m.steps_per_block
         place = start % m.steps_per_revolution
         remaining = 0.0 if at_once else np.exp(-m.casing.rise * start)
@@ -107,12 +108,9 @@ def _integrate(m, others):
 
 def compile_integration(capacity: Capacity, kind: Kind) -> bytes:
     """Object code of `advance(record)`: a function of the record's address that returns the blocks of steps done."""
-    integrate = with_constants(_integrate, kind.constants)
     others = constants_record(*capacity).itemsize // 8 - MODAL_ROWS * capacity.modes
+    integrate = with_constants(_integrate, kind.constants | {"OTHERS": others})
+    # the loop itself, not a function around it: what a compiled function calls was optimised and emitted once already
     signature = types.int64(types.CPointer(numba.from_dtype(integration_record(capacity))))
-
-    @numba.cfunc(signature, **OPTIONS)
-    def advance(record):
-        return integrate(pointed_at(record), others)
-
+    advance = numba.cfunc(signature, **OPTIONS)(integrate.py_func)
     return object_code(advance.inspect_llvm(), advance.native_name, "advance")
