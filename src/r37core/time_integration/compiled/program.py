@@ -36,12 +36,15 @@ def _integrate(address):
     # whether there are forces at t_n, which the next step follows
     follows = False
     done = kept = segment = until = zero
+    first_block = m.call.first_step // m.steps_per_block
+    place = m.call.first_step % m.steps_per_revolution
+    # of the steps' intervals in which the casing's nearest is known, the first of this block
+    interval = place // m.steps_per_block * coarse_per_block
     while done < m.call.blocks:
         begins = done == until
         if begins:
             until += begin_segment(m, segment, OTHERS)
         start = m.call.first_step + done * m.steps_per_block
-        place = start % m.steps_per_revolution
         remaining = 0.0 if at_once else np.exp(-m.casing.rise * start)
         if place == 0 or begins:
             # so that a run stopped after a revolution goes on with the same bits
@@ -55,7 +58,7 @@ def _integrate(address):
                 if not bounded:
                     bound_amplitudes(m)
                     bounded = True
-                nearest = (place // m.steps_per_block * coarse_per_block + position // COARSE) * node_lanes(m)
+                nearest = (interval + position // COARSE) * node_lanes(m)
                 left = m.steps_per_block - position
                 stride = choose_jump(m, nearest, first_stride, left, remaining)
                 first_stride = max(min(stride + 1, STRIDES - 1), 1)
@@ -93,11 +96,15 @@ def _integrate(address):
         m.totals.loss += sum_of_lanes(lost)
         m.totals.steps += m.steps_per_block
         # of the samples from the first snapshot's revolution on, every so many-th
-        due = (start + m.steps_per_block) // m.steps_per_block - m.samples_before_snapshots
+        due = first_block + done + 1 - m.samples_before_snapshots
         taken = m.samples_per_snapshot > 0 and due > 0 and due % m.samples_per_snapshot == 0
-        within = record(m, done, kept if taken else -1)
+        within = record(m, done, kept if taken else -1, follows)
         kept += taken
         done += 1
+        # counted on, not divided: a block may have two steps
+        place, interval = place + m.steps_per_block, interval + coarse_per_block
+        if place == m.steps_per_revolution:
+            place = interval = zero
         if done == until or not within:
             end_segment(m, segment)
             segment += 1
