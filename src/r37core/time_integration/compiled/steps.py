@@ -135,7 +135,12 @@ def measure_exact_gaps(m, place, lobes):
 
 @inlined
 def set_friction(m, g, tangential, meridional):
-    """Vector friction per normal force on the nodes from g on, against their sliding in the last step (m)."""
+    """Vector friction per normal force on the nodes from g on, against their sliding in the last step (m).
+
+    Friction of constant direction stays as it is.
+    """
+    if m.follows_sliding == 0:
+        return
     # a normal force is negative
     along_tangent, along_meridian = _friction_direction(load(m.rotation, g) + tangential, meridional, 0.0 - m.friction)
     store(m.friction_share, (0, g), along_tangent)
