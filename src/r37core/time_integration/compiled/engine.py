@@ -74,7 +74,8 @@ class CompiledEngine:
         self._mode_columns = np.concatenate([np.arange(blade), *of_ring]) if pairs else slice(blade)
         scene, choice = problem.scene, problem.choice
         self._capacity = capacity_of(self._mode_lanes, self._node_lanes)
-        coriolis, follows_sliding = problem.blade.complex_modes is not None, scene.friction is not None and scene.friction.vector
+        coriolis = problem.blade.complex_modes is not None
+        follows_sliding = scene.friction is not None and scene.friction.vector
         self._kind = kind = Kind(
             published=choice.integrator == CENTRAL_DIFFERENCE,
             lined=scene.lining is not None,
