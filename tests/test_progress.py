@@ -11,6 +11,7 @@ import pytest
 from stubbed_runs import copy_stubbed
 from workflow_runs import SNAKEMAKE
 
+from r37core.console.failures import show
 from r37core.console.progress import Progress, quieten
 from r37core.time_integration.status import RunStatus
 
@@ -88,6 +89,24 @@ def test_on_a_terminal_the_line_renews_itself(clock):
     # a message of its own begins on a line of its own
     assert said(progress, "job_error", "Error in rule simulate")
     assert stream.getvalue().endswith("\n")
+
+
+def test_a_job_of_the_structure_is_named_when_it_begins(clock):
+    """Of these nobody knows how long the rest takes; a plain log has no line of each."""
+    stream, log = Terminal(), io.StringIO()
+    for progress in (Progress(10, stream, clock), Progress(10, log, clock)):
+        said(progress, "job_info", "", jobid=1, rule_name="mesh", wildcards={"blade": "Ref"}, output=["mesh.vtu"])
+    assert stream.getvalue().endswith("now mesh Ref") and log.getvalue() == ""
+    clock.now = 1.0
+    said(progress, "progress", "steps", done=1, total=100)
+    assert log.getvalue() == "jobs 1 of 100; 1.0 a second; now mesh Ref\n"
+
+
+def test_a_message_of_a_job_takes_the_place_of_the_line(clock):
+    stream, log = Terminal(), io.StringIO()
+    for where in (stream, log):
+        show("size of the import", where)
+    assert (stream.getvalue(), log.getvalue()) == ("\r\x1b[Ksize of the import\n", "size of the import\n")
 
 
 def test_diverged_runs_are_counted(clock, tmp_path):

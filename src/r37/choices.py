@@ -73,6 +73,15 @@ def blades(*, file: Path | str | None = None, config: Path | str | None = None) 
     return list(_designs(read_document(blades_file.parent, str(blades_file)), chosen.root).entries)
 
 
+def scenes(*, file: Path | str | None = None, config: Path | str | None = None) -> list[str]:
+    """Names of the scenes: shipped ones, one's own (`config`), or of a scenes.yaml (`file`).
+
+    Raises ConfigError for files that cannot be read, or are no scenes.
+    """
+    scenes_file = Path(_configuration("scenes_file", file, config).checked.scenes_file)
+    return list(read_document(scenes_file.parent, str(scenes_file)).check(Scenes).root)
+
+
 def blade(name: str, *, file: Path | str | None = None, config: Path | str | None = None, **changes: Any) -> BladeChoice:
     """A blade of the shipped configuration, of one's own (`config`), or of one's own blades.yaml (`file`).
 

@@ -14,12 +14,13 @@ import xarray as xr
 from numpy.typing import ArrayLike
 
 from r37core.config import ConfigError, Settings, casing_remarks
-from r37core.config.remarks import remarks_on_points
+from r37core.config.remarks import remarks_on_points, remarks_on_speeds
 from r37core.dataset_file import read_dataset
 from r37core.io import FILE_ATTRIBUTES
 from r37core.plans.provenance import Provenance
 from r37core.plans.simulation_plan import Simulations
 from r37core.plans.sweep_plan import Sweep
+from r37core.results.contact_remarks import remarks_on_contact
 from r37core.results.response import write_response
 from r37core.rom.contact_model import read_contact_model
 from r37core.stress.operator import read_stress_operator
@@ -29,9 +30,11 @@ from r37core.time_integration.speed_run import OF_RUNS, run_speed
 
 from .call_configuration import Configuration, read_configuration
 from .choices import BladeChoice, SceneChoice
+from .stages import LOGGER, bar, stages
 from .structure_files import StructureFiles
 
 
+@stages()
 def campbell(blade: BladeChoice | str, *, fidelity: str | None = None, config: Path | str | None = None) -> xr.Dataset:
     """The Campbell diagram of a blade: frequencies (Hz), crossings with engine orders (rad/s), dynamic clearance (m).
 
@@ -45,6 +48,7 @@ def campbell(blade: BladeChoice | str, *, fidelity: str | None = None, config: P
     return read_dataset(StructureFiles(settings, name).campbell()).assign_attrs(FILE_ATTRIBUTES | dict(made))
 
 
+@stages()
 def simulate(
     blade: BladeChoice | str,
     scene: SceneChoice | str,
@@ -73,6 +77,7 @@ def simulate(
     return response.isel(speed=0).assign_attrs({} if motion is None else motion.attributes)
 
 
+@stages()
 def reduced_model(
     blade: BladeChoice | str,
     scene: SceneChoice | str | None = None,
@@ -93,6 +98,7 @@ def reduced_model(
     return model.assign_attrs(FILE_ATTRIBUTES | dict(made))
 
 
+@stages()
 def sweep(
     blade: BladeChoice | str,
     scene: SceneChoice | str,
@@ -112,6 +118,10 @@ def sweep(
     """
     changes = {"speeds": _numbers(speeds), **_level(fidelity)}
     return _response(_settings("r37.sweep", blade, scene, config, changes, results))
+
+
+_CALLER = 4
+"""How far above `_response` the caller of `simulate` or `sweep` is, for warnings: these and their decorator lie between."""
 
 
 def _numbers(speeds: Iterable[float]) -> list[float]:
@@ -155,8 +165,8 @@ def _response(settings: Settings, motion: InitialMotion | None = None) -> xr.Dat
     """The response of the one blade in the one scene of the settings, at their speeds, from rest or in `motion`."""
     ((blade, scene), plan), *_ = settings.speed_plans.items()
     at, sweep = SimpleNamespace(blade=blade, scene=scene), Sweep(settings)
-    for remark in [*casing_remarks.of_sweep(settings), *remarks_on_points(settings)]:
-        warnings.warn(remark, stacklevel=3)
+    for remark in [*remarks_on_speeds(settings), *casing_remarks.of_sweep(settings), *remarks_on_points(settings)]:
+        warnings.warn(remark, stacklevel=_CALLER)
     chosen, structure = settings.scenes[scene], StructureFiles(settings, blade)
     model = read_contact_model(structure.contact_model(chosen.tip_line))
     stress = read_stress_operator(structure.stress_operator(chosen.tip_line)) if sweep.with_stress(at) else None
@@ -164,7 +174,10 @@ def _response(settings: Settings, motion: InitialMotion | None = None) -> xr.Dat
     kept = Simulations(sweep).kept
     with tempfile.TemporaryDirectory() as folder:
         files = [Path(folder, f"{number}.npz") for number in range(len(plan.certain))]
-        for speed, file in zip(plan.certain, files, strict=True):
+        title = f"{blade} in {scene}"
+        number = f"{len(files)} speeds" if len(files) > 1 else f"{plan.certain[0]:g} rad/s"
+        LOGGER.info("%s: simulation at %s, level %s", title, number, settings.fidelity_name)
+        for speed, file in bar(list(zip(plan.certain, files, strict=True)), title, "speed"):
             choice = settings.integration_choice(blade, scene, speed)
             run = run_speed(model, speed, chosen.scene, choice, results, **kept, stress=stress, motion=motion)
             write_speed(run, file, {})
@@ -177,4 +190,8 @@ def _response(settings: Settings, motion: InitialMotion | None = None) -> xr.Dat
             yield_stress=sweep.yield_stress(at),
             provenance=Provenance(settings).sweep(at),
         )
-        return read_dataset(response)
+        dataset = read_dataset(response)
+    # free flight is what a start in motion may be for
+    for remark in remarks_on_contact([(title, dataset["largest_normal_force"].values)]) if motion is None else ():
+        warnings.warn(remark, stacklevel=_CALLER)
+    return dataset

@@ -24,6 +24,8 @@ from r37core.plans.import_plan import Imported
 from r37core.plans.provenance import Attributes
 from r37core.plans.structure_plan import Structure
 
+from .stages import LOGGER
+
 
 @dataclass(frozen=True)
 class _Made:
@@ -46,17 +48,19 @@ class StructureFiles:
 
     def contact_model(self, tip_line: str) -> Path:
         """What a simulation starts from (.npz). Raises what making it raises."""
-        return _made("rom.steps.contact_model", "contact.npz", {"rom": self._reduced(tip_line)}, tip_line=tip_line).file
+        return self._made("rom.steps.contact_model", "contact.npz", {"rom": self._reduced(tip_line)}, tip_line=tip_line).file
 
     def stress_operator(self, tip_line: str) -> Path:
         """The stress per motion of a blade with a mesh (.npz). Raises what making it raises."""
         material = Structure(self.settings).elastic(self._wildcards())
-        return _made("stress.steps.stress_operator", "stress.npz", {"rom": self._reduced(tip_line)}, material=material).file
+        return self._made(
+            "stress.steps.stress_operator", "stress.npz", {"rom": self._reduced(tip_line)}, material=material
+        ).file
 
     def campbell(self) -> Path:
         """The Campbell diagram (.nc), without provenance. Raises what making it raises."""
         structure = self.settings.structure
-        return _made(
+        return self._made(
             "results.steps.campbell_of_blade",
             "campbell.nc",
             {"rom": self._reduced(structure.boundary.tip_line)},
@@ -69,17 +73,17 @@ class StructureFiles:
         structure, wildcards = Structure(self.settings), self._wildcards(tip_line=tip_line)
         common = {"reduction": structure.reduction(wildcards), "contact": structure.location_of_contact(wildcards)}
         if isinstance(self.settings.blades[self.name].definition, MatricesSource):
-            return _made("exchange.importing.steps.imported_matrices", "rom.nc", {}, **self._source(), **common)
+            return self._made("exchange.importing.steps.imported_matrices", "rom.nc", {}, **self._source(), **common)
         material, before, inputs = structure.elastic(wildcards), Attributes(file=None), {"mesh": self._mesh()}
-        return _made("rom.steps.reduced_model", "rom.nc", inputs, material=material, made_before=before, **common)
+        return self._made("rom.steps.reduced_model", "rom.nc", inputs, material=material, made_before=before, **common)
 
     def _mesh(self) -> _Made:
         definition, name = self.settings.blades[self.name].definition, "mesh.vtu"
         if isinstance(definition, MeshSource):
-            return _made("exchange.importing.steps.imported_mesh", name, {}, **self._source())
+            return self._made("exchange.importing.steps.imported_mesh", name, {}, **self._source())
         shape, edges = to_plain(definition), self.settings.structure.edges
-        geometry = _made("blade.steps.geometry", "geometry.nc", {}, definition=shape, edges=edges)
-        return _made("fem.steps.mesh", name, {"geometry": geometry}, mesh=plain(self.settings.fidelity.mesh))
+        geometry = self._made("blade.steps.geometry", "geometry.nc", {}, definition=shape, edges=edges)
+        return self._made("fem.steps.mesh", name, {"geometry": geometry}, mesh=plain(self.settings.fidelity.mesh))
 
     def _source(self) -> dict[str, Any]:
         """Parameters of an import."""
@@ -89,23 +93,38 @@ class StructureFiles:
     def _wildcards(self, **more: str) -> Named:
         return Named(blade=self.name, **more)
 
+    def _made(self, step: str, name: str, inputs: dict[str, _Made], **params: Any) -> _Made:
+        """The file called `name` that a step makes, from the cache or made now; of `params` Attributes do not count."""
+        counting = {key: value for key, value in params.items() if not isinstance(value, Attributes)}
+        made_of = to_plain([_code(step), [part.made_of for part in inputs.values()], counting])
 
-def _made(step: str, name: str, inputs: dict[str, _Made], **params: Any) -> _Made:
-    """The file called `name` that a step makes, from the cache or made now; of `params` Attributes do not count."""
-    counting = {key: value for key, value in params.items() if not isinstance(value, Attributes)}
-    made_of = to_plain([_code(step), [part.made_of for part in inputs.values()], counting])
+        def make(file: Path) -> None:
+            LOGGER.info("%s: %s", self.name, _STAGES[step])
+            module, function = f"{r37core.__name__}.{step}".rsplit(".", 1)
+            files = Named(**{key: part.file for key, part in inputs.items()})
+            with tempfile.TemporaryDirectory() as aside, contextlib.redirect_stdout(io.StringIO()):
+                # a mesh is also written for Gmsh
+                output = Named(**{file.stem: file, file.suffix[1:]: file, "msh": Path(aside) / "mesh.msh"})
+                values = Named(**params, code=_code(step), provenance=Attributes())
+                # imported here: it brings gmsh and VTK, which take seconds to load and are not needed for what is kept
+                shown = getattr(import_module(module), function)(files, output, values)
+            if shown:
+                LOGGER.info("%s: %s", self.name, shown)
 
-    def make(file: Path) -> None:
-        module, function = f"{r37core.__name__}.{step}".rsplit(".", 1)
-        files = Named(**{key: part.file for key, part in inputs.items()})
-        with tempfile.TemporaryDirectory() as aside, contextlib.redirect_stdout(io.StringIO()):
-            # a mesh is also written for Gmsh
-            output = Named(**{file.stem: file, file.suffix[1:]: file, "msh": Path(aside) / "mesh.msh"})
-            values = Named(**params, code=_code(step), provenance=Attributes())
-            # imported here: it brings gmsh and VTK, which take seconds to load and are not needed for what is kept
-            getattr(import_module(module), function)(files, output, values)
+        return _Made(kept_file(name, made_of, make, cache_folder()), made_of)
 
-    return _Made(kept_file(name, made_of, make, cache_folder()), made_of)
+
+_STAGES = {
+    "blade.steps.geometry": "shape",
+    "exchange.importing.steps.imported_matrices": "import of the matrices",
+    "exchange.importing.steps.imported_mesh": "import of the mesh",
+    "fem.steps.mesh": "mesh",
+    "results.steps.campbell_of_blade": "Campbell diagram",
+    "rom.steps.contact_model": "contact model",
+    "rom.steps.reduced_model": "matrices and reduced model, the longest stage",
+    "stress.steps.stress_operator": "stress operator",
+}
+"""What a step is called while it works."""
 
 
 def cache_folder() -> Path:

@@ -8,7 +8,7 @@ import warnings
 from contextlib import contextmanager, nullcontext
 from importlib import import_module
 
-from r37core.console.failures import note, reported
+from r37core.console.failures import note, reported, show
 
 
 @contextmanager
@@ -21,7 +21,7 @@ def printed_warnings(locations):
     for warning in caught:
         print(line := f"{location}: {warning.message}")
         if issubclass(warning.category, UserWarning):
-            print(line, file=sys.__stderr__)
+            show(line, sys.__stderr__)
             note(line)
 
 
@@ -32,7 +32,7 @@ def run(params):
         shown = getattr(import_module(module), function)(snakemake.input, snakemake.output, params)
     if shown:
         print(shown)
-        print(shown, file=sys.__stderr__)
+        show(shown, sys.__stderr__)
 
 
 about = "".join(f"{name} {value}, " for name, value in snakemake.wildcards.items() if value)

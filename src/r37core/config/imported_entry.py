@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
-from pydantic import Discriminator, Field, Tag, model_validator
+from pydantic import AfterValidator, Discriminator, Field, Tag, TypeAdapter, model_validator
 
 from r37core.exchange.importing.source import MatricesSource, MeshSource, digest_of, matrix_files, mesh_files
 from r37core.exchange.importing.where import Where
@@ -53,10 +53,19 @@ SetOrRule = Annotated[
 ]
 
 
+Metres = Annotated[float, Field(ge=1e-9, le=1e3)]
+
+
+def _quotient(text: str) -> float:
+    above, below = (float(part) for part in text.split("/"))
+    return TypeAdapter(Metres).validate_python(above / below if below else 0.0)
+
+
 LengthUnit = Annotated[
     Annotated[Literal["m", "cm", "mm", "um", "in", "ft"], Tag("name")]
-    | Annotated[float, Field(ge=1e-9, le=1e3), Tag("metres")],
-    Discriminator(lambda value: "name" if isinstance(value, str) else "metres"),
+    | Annotated[str, Field(pattern=r"^\d+(\.\d+)? ?/ ?\d+(\.\d+)?$"), AfterValidator(_quotient), Tag("quotient")]
+    | Annotated[Metres, Tag("metres")],
+    Discriminator(lambda value: ("quotient" if "/" in value else "name") if isinstance(value, str) else "metres"),
 ]
 
 
@@ -64,7 +73,9 @@ LengthUnit = Annotated[
 class Oriented(Section):
     """How a file of another program describes space."""
 
-    length_unit: LengthUnit = Field(description="of the file's coordinates, or how many metres their unit is")
+    length_unit: LengthUnit = Field(
+        description="of the file's coordinates, or how many metres their unit is, also as a quotient: 1/2540"
+    )
     rotor_axis: Any = DECLARED
     radial: Any = DECLARED
     rotation: Any = DECLARED

@@ -11,6 +11,7 @@ import sys
 import traceback
 from collections.abc import Iterator
 from pathlib import Path
+from typing import TextIO
 
 _NOTES = "R37_FAILURES"
 """Environment variable that names the file, one for each run: several may go on in one folder."""
@@ -34,8 +35,13 @@ def reported(rule: str, log: Path | str, about: str = "") -> Iterator[None]:
             with contextlib.suppress(OSError):
                 traceback.print_exc(file=stream)
                 note(line)
-            print(line, file=sys.stderr)
+            show(line, sys.stderr)
             sys.exit(1)
+
+
+def show(line: str, stream: TextIO) -> None:
+    """Write a line of a job to where messages go, in place of the progress that stands there on a terminal."""
+    print(f"\r\x1b[K{line}" if stream.isatty() else line, file=stream)
 
 
 def begin(run: str) -> None:

@@ -44,6 +44,7 @@ def import_mesh(source: MeshSource, folder: Path | str = ".") -> tuple[BladeMesh
     try:
         with blamed("rotor_axis", source.file):
             placed = source.orientation.to_blade(raw)
+            source.orientation.warn_of_size(placed.points)
         root, tip, lines = _ends(source, placed)
     except ImportRefused as error:
         raise ImportRefused(error.reason, error.key, fitting_entry(source, raw)) from None
@@ -61,11 +62,12 @@ def import_mesh(source: MeshSource, folder: Path | str = ".") -> tuple[BladeMesh
 
 
 def size_in_words(mesh: BladeMesh) -> str:
-    """Radii of both ends of the tip and of the root, as text, to be compared with the real blade."""
-    radius = np.hypot(mesh.points[:, 0], mesh.points[:, 1])
+    """Length and width, radii of both ends of the tip and of the root, as text, to be compared with the real blade."""
+    radius, size = np.hypot(mesh.points[:, 0], mesh.points[:, 1]), np.ptp(mesh.points, axis=0)
     leading, trailing = (radius[mesh.node_set(f"{name}_edge")].max() for name in ("leading", "trailing"))
     root = radius[mesh.node_set("root")].mean()
     return (
+        f"{size[0]:.4g} m long and {size[2]:.4g} m wide along the axis, "
         f"radius of the tip {leading:.4g} m at the leading and {trailing:.4g} m at the trailing edge, of the root {root:.4g} m"
     )
 
