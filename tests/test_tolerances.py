@@ -311,6 +311,14 @@ def test_a_run_says_when_its_members_rank_nothing(root, members, sensitivity, sa
     assert not any("rank" in one for one in remarks_of(settings_of(root, alone)) if "Sobol" not in one)
 
 
+def test_a_number_of_one_value_is_told(root):
+    numbers = {"friction.coefficient": {"values": [0.15]}, "damping_ratio": {"uniform_percent": 5}}
+    said = [one for one in remarks_of(settings_of(root, {"members": 2, "of_scenes": numbers})) if "no index" in one]
+    assert said == [
+        "tolerances.of_scenes: friction.coefficient is 0.15 in all members, so it has no index; a wider tolerance gives it one"
+    ]
+
+
 def test_without_numbers_there_are_no_members(settings):
     assert members_of(settings).pairs == []
 

@@ -25,26 +25,33 @@ def main(arguments: Sequence[str] | None = None) -> int:
     # imported here, and below: --version and --help need neither
     from r37core.io import InputFileError
 
+    logger = logging.getLogger("r37")
+    level = logger.level
     try:
         with warnings.catch_warnings():
             warnings.showwarning = _say
+            if options.quiet:
+                logger.setLevel(logging.WARNING)
             options.run(options)
     except (ValueError, InputFileError) as refusal:
         print(f"r37: {refusal}", file=sys.stderr)
         return 1
+    finally:
+        logger.setLevel(level)
     return 0
 
 
-def _say(message: Warning | str, *_: Any) -> None:
+def _say(message: Warning | str, *_: Any, **__: Any) -> None:
     """A warning as one line; whoever uses the command did not write the line of code that warns."""
     print(f"r37: {message}", file=sys.stderr)
 
 
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(prog="r37", description="blade-tip rubbing in a compressor")
+    parser.set_defaults(quiet=False)
     parser.add_argument("--version", action=_Version, nargs=0, help="print the version and end")
     parser.add_argument(
-        "--print-completion", action=_Completion, metavar="SHELL", help="print completions for bash, zsh or tcsh"
+        "--print-completion", action=_Completion, metavar="SHELL", help="print completions for bash, zsh, tcsh or fish"
     )
     commands = parser.add_subparsers(required=True, metavar="command")
     level = argparse.ArgumentParser(add_help=False)
@@ -123,7 +130,7 @@ def _campbell(options: argparse.Namespace) -> None:
     if is_file and options.blades is not None:
         raise ConfigError(f"--blades: found {options.blades} beside the file {options.blade}; allowed: one of them")
     file = options.blade if is_file else options.blades
-    _begin(options)
+    _check_output(options.output)
     names = blades(file=file, config=options.config) if is_file else [options.blade]
     if options.output is not None and len(names) > 1:
         raise ConfigError(
@@ -164,7 +171,7 @@ def _simulate(options: argparse.Namespace) -> None:
     from .choices import blade
     from .simulations import sweep
 
-    _begin(options)
+    _check_output(options.output)
     chosen = blade(options.blade, file=options.blades, config=options.config)
     speeds = [RAD_S["rpm" if options.rpm else "rad/s"] * speed for speed in options.speeds]
     dataset = sweep(chosen, options.scene, speeds, fidelity=options.fidelity, config=options.config)
@@ -204,13 +211,6 @@ def _check(options: argparse.Namespace) -> None:
 
 def _show(table: pd.DataFrame) -> None:
     print(table.to_string(float_format=lambda number: f"{number:.6g}", na_rep=""))
-
-
-def _begin(options: argparse.Namespace) -> None:
-    """Before what takes minutes."""
-    if options.quiet:
-        logging.getLogger("r37").setLevel(logging.WARNING)
-    _check_output(options.output)
 
 
 def _check_output(file: Path | None) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
-from pydantic import AfterValidator, Discriminator, Field, Tag, TypeAdapter, model_validator
+from pydantic import AfterValidator, Discriminator, Field, Tag, model_validator
 
 from r37core.exchange.importing.source import MatricesSource, MeshSource, digest_of, matrix_files, mesh_files
 from r37core.exchange.importing.where import Where
@@ -53,18 +53,25 @@ SetOrRule = Annotated[
 ]
 
 
-Metres = Annotated[float, Field(ge=1e-9, le=1e3)]
+_LEAST_METRES, _MOST_METRES = 1e-9, 1e3
 
 
 def _quotient(text: str) -> float:
-    above, below = (float(part) for part in text.split("/"))
-    return TypeAdapter(Metres).validate_python(above / below if below else 0.0)
+    """Metres of a unit that is written as a quotient, as 1/2540."""
+    try:
+        above, below = map(float, text.split("/"))
+        metres = above / below
+    except (ValueError, ZeroDivisionError):
+        metres = 0.0
+    if not _LEAST_METRES <= metres <= _MOST_METRES:
+        raise refused((), text, f"a quotient such as 1/2540, from {_LEAST_METRES:g} to {_MOST_METRES:g} metres")
+    return metres
 
 
 LengthUnit = Annotated[
     Annotated[Literal["m", "cm", "mm", "um", "in", "ft"], Tag("name")]
-    | Annotated[str, Field(pattern=r"^\d+(\.\d+)? ?/ ?\d+(\.\d+)?$"), AfterValidator(_quotient), Tag("quotient")]
-    | Annotated[Metres, Tag("metres")],
+    | Annotated[str, AfterValidator(_quotient), Tag("quotient")]
+    | Annotated[float, Field(ge=_LEAST_METRES, le=_MOST_METRES), Tag("metres")],
     Discriminator(lambda value: ("quotient" if "/" in value else "name") if isinstance(value, str) else "metres"),
 ]
 

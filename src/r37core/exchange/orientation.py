@@ -121,8 +121,8 @@ class Orientation:
         tip, (low, high) = float(np.hypot(points[:, 0], points[:, 1]).max()), _USUAL_TIP_RADIUS
         if not low <= tip <= high:
             warnings.warn(
-                f"length_unit {self.length_unit} gives a tip radius of {tip:.3g} m; tips of real blades lie {low:g} to {high:g} m "
-                "from the axis: check length_unit, rotor_axis and axis_point",
+                f"length_unit {self.length_unit} gives a tip radius of {tip:.3g} m; those of blades are {low:g} to {high:g} m: "
+                "check length_unit, rotor_axis and axis_point",
                 MeshWarning,
                 stacklevel=2,
             )

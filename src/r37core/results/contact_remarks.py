@@ -16,6 +16,6 @@ def remarks_on_contact(runs: Sequence[tuple[str, np.ndarray]]) -> list[str]:
     if not apart:
         return []
     return [
-        f"{', '.join(apart)}: the tip touched nothing at any speed, so all numbers are zero; casing.clearance_m, casing.lobes and "
-        "casing.amplitude_clearances say where it can"
+        f"{', '.join(apart)}: the tip touched nothing at any speed, so all numbers are zero; casing.clearance_m, casing.lobes "
+        "and casing.amplitude_clearances say where it can"
     ]

@@ -164,11 +164,11 @@ def remarks(settings: Settings) -> list[str]:
 
 def _without_width(members: Members) -> list[str]:
     """Of numbers that have one value in all members, and so no index."""
-    values = {number: set() for number in members.numbers}  # type: dict[tuple[str, str], set[float]]
-    for of in members.all.values():
-        for member in of.values():
-            for number, value in zip(members.numbers, member.values, strict=True):
-                values[number] |= {value} - {None}
+    values: dict[tuple[str, str], set[float]] = {number: set() for number in members.numbers}
+    for member in (member for of in members.all.values() for member in of.values()):
+        for number, value in zip(members.numbers, member.values, strict=True):
+            if value is not None:
+                values[number].add(value)
     return [
         f"tolerances.{section}: {key} is {min(of):g} in all members, so it has no index; a wider tolerance gives it one"
         for (section, key), of in values.items()
