@@ -394,7 +394,13 @@ def test_files_that_are_no_run_ups_are_named(contact, tmp_path):
         table = run_up_table(dataset.load())
         assert "max_von_mises_pa" not in table
         assert len(rate_table(table)) == 0
-        for figure in (draw_run_ups(dataset, "", blade="Ref", scene="abradable"), draw_rates(table, "", scene="abradable")):
+        figures = [draw_run_ups(dataset, "", blade="Ref", scene="abradable"), draw_rates(table, "", scene="abradable")]
+        rate, *others = [text.get_text() for text in figures[0].legends[0].texts]
+        assert rate == f"{abs(dataset['rate'].item()):.4g} rad/s²" and others == ["run-up"]
+        dataset["worn"][:] = 1
+        worn = draw_run_ups(dataset, "", blade="Ref", scene="abradable")
+        assert [text.get_text() for text in worn.legends[0].texts] == [rate, "run-up", "worn before"]
+        for figure in (*figures, worn):
             plt.close(figure)
 
 
