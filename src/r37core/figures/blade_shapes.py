@@ -6,19 +6,22 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+import matplotlib
 import numpy as np
 import pyvista
 from matplotlib.colors import to_rgb
 
 from r37core.io import readable
 
-from .offscreen import LETTERS, look, new_plotter, save_picture
+from .offscreen import look, new_plotter, save_picture
 from .style import blade_styles
 
 _BESIDE = 0.09
 """Of the blade's height: how far a name stands from what it names."""
 _PANEL = (440, 600)
 """Pixels of one blade."""
+_LETTERS = str(Path(matplotlib.get_data_path(), "fonts/ttf/DejaVuSans.ttf"))
+"""Those of all other figures."""
 _TITLE, _NAME = 18, 24
 """Sizes of letters."""
 
@@ -45,7 +48,7 @@ def draw_blade_shapes(meshes: Mapping[str, Path | str], file: Path | str) -> Non
         )
         plotter.add_mesh(surface.extract_feature_edges(feature_angle=50.0), color="black", line_width=1.5)
         _mark_sense(plotter, grid)
-        plotter.add_text(name, font_size=_TITLE, font_file=LETTERS)
+        plotter.add_text(name, font_size=_TITLE, font_file=_LETTERS)
         look(plotter)
     save_picture(plotter, file)
 
@@ -74,7 +77,7 @@ def _mark_sense(plotter: pyvista.Plotter, grid: Any) -> None:
         np.array([*ends, middle, above]),
         ["LE", "TE", side, "rotation"],
         font_size=_NAME,
-        font_file=LETTERS,
+        font_file=_LETTERS,
         show_points=False,
         always_visible=True,
         shape=None,

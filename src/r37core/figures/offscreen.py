@@ -10,15 +10,12 @@ from pathlib import Path
 if sys.platform == "linux":
     os.environ.setdefault("VTK_DEFAULT_OPENGL_WINDOW", "vtkOSOpenGLRenderWindow")
 
-import matplotlib
 import numpy as np
 import pyvista
 
 from r37core.io import atomic_write
 
 Point = tuple[float, float, float]
-LETTERS = str(Path(matplotlib.get_data_path(), "fonts/ttf/DejaVuSans.ttf"))
-"""Those of all other figures."""
 SEEN_FROM: Point = (0.25, -1.0, 0.9)
 """Where pictures of blades are mostly seen from."""
 

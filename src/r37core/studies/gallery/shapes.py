@@ -9,7 +9,7 @@ import numpy as np
 import pyvista
 
 from r37core.figures import style
-from r37core.figures.offscreen import LETTERS, look, new_plotter, save_picture
+from r37core.figures.offscreen import look, new_plotter, save_picture
 from r37core.io import readable
 from r37core.mesh.mesh_files import read_vtu
 from r37core.rom.naming import NAMED_MODES
@@ -82,5 +82,5 @@ def _surface(grid: pyvista.DataSet) -> pyvista.PolyData:
 
 
 def _finish(plotter: pyvista.Plotter, title: str) -> None:
-    plotter.add_text(title, font_size=9, font_file=LETTERS)
+    plotter.add_text(title, font_size=9)
     look(plotter)
