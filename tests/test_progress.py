@@ -95,8 +95,10 @@ def test_a_job_of_the_structure_is_named_when_it_begins(clock):
     """Of these nobody knows how long the rest takes; a plain log has no line of each."""
     stream, log = Terminal(), io.StringIO()
     for progress in (Progress(10, stream, clock), Progress(10, log, clock)):
-        said(progress, "job_info", "", jobid=1, rule_name="mesh", wildcards={"blade": "Ref"}, output=["mesh.vtu"])
-    assert stream.getvalue().endswith("now mesh Ref") and log.getvalue() == ""
+        for number, rule in enumerate(("geometry", "mesh")):
+            said(progress, "job_info", "", jobid=number, rule_name=rule, wildcards={"blade": "Ref"}, output=["mesh.vtu"])
+        said(progress, "job_finished", "", job_id=0)
+    assert stream.getvalue().endswith("now geometry Ref, mesh Ref") and log.getvalue() == ""
     clock.now = 1.0
     said(progress, "progress", "steps", done=1, total=100)
     assert log.getvalue() == "jobs 1 of 100; 1.0 a second; now mesh Ref\n"

@@ -82,7 +82,7 @@ class Progress(logging.Filter):
             self._jobs[record.jobid] = (record.rule_name, blade, str(next(iter(output))))  # type: ignore[attr-defined]
             if not self._simulated and self.stream.isatty():
                 # what takes half a minute is named when it begins, not when it has ended
-                self._write(last=False)
+                self._write(at_once=True)
         elif event == "job_finished":
             rule, blade, output = self._jobs.pop(record.job_id, ("", "", ""))  # type: ignore[attr-defined]
             if rule == _SIMULATION:
@@ -90,7 +90,7 @@ class Progress(logging.Filter):
                 self._diverged += _diverged(Path(output))
         elif event == "progress":
             self._done, self._known = record.done, record.total  # type: ignore[attr-defined]
-            self._write(last=record.done == record.total)  # type: ignore[attr-defined]
+            self._write(at_once=record.done == record.total, last=record.done == record.total)  # type: ignore[attr-defined]
 
     @property
     def _running(self) -> list[str]:
@@ -118,10 +118,10 @@ class Progress(logging.Filter):
             parts.append(f"now {', '.join(self._running)}")
         return "; ".join(parts)
 
-    def _write(self, last: bool) -> None:
+    def _write(self, at_once: bool, last: bool = False) -> None:
         terminal = self.stream.isatty()
         now = self.clock()
-        if not last and now - self._written < (_ON_TERMINAL_S if terminal else _ELSEWHERE_S):
+        if not at_once and now - self._written < (_ON_TERMINAL_S if terminal else _ELSEWHERE_S):
             return
         self._written = now
         self.stream.write(f"\r\x1b[K{self.line()}" if terminal else f"{self.line()}\n")
