@@ -514,11 +514,17 @@ def test_an_installed_package_needs_no_repository(root, tmp_path):
             for place in (root, packages / "r37")
         )
         assert installed == shipped
+    assert all((packages / name / "py.typed").exists() for name in ("r37", "r37core"))
     with tarfile.open(project / source) as archive:
         assert not [name for name in archive.getnames() if "/tests/" in name]
     (project / "src").rename(project / "gone")
     code = "import r37; print(r37.__file__); print(float(r37.campbell('Ref', fidelity='tiny').frequency[0, 0]))"
-    file, frequency = python("-c", code)
+    # workers of other processes need no guard in the program
+    (elsewhere / "program.py").write_text(
+        f"{code}; print(r37.compare('Ref', 'abradable', [750, 1150], fidelity='tiny', cores=2))"
+    )
+    file, frequency, compared = python("program.py")
+    assert compared.endswith(": campbell, rms, spectrum, stress, wear")
     assert Path(file).is_relative_to(packages)
     assert "level: tiny" in python(environment / "bin/r37", "check")
     assert 800.0 < float(frequency) < 900.0  # Hz, 1B at rest

@@ -119,9 +119,13 @@ class Calculation:
         return StructureFiles(self.settings, run.blade, self.samples, self.sweep.samples.model(run))
 
     def _kept(self, wanted: Mapping[str, Recipe]) -> dict[str, Path]:
-        """Files of the cache, under the names that they have in the results."""
-        files = in_parallel([recipe.file for recipe in wanted.values()], self.cores)
-        return dict(zip(wanted, files, strict=True))
+        """Files of the cache, under the names that they have in the results: those of each blade one after another."""
+        of_blades: dict[Path, list[str]] = {}
+        for name in wanted:
+            of_blades.setdefault(Path(name).parent, []).append(name)
+        calls = [partial(_files, {name: wanted[name] for name in names}) for names in of_blades.values()]
+        files = {name: file for made in in_parallel(calls, self.cores) for name, file in made.items()}
+        return {name: files[name] for name in wanted}
 
     def responses(self, motion: InitialMotion | None = None) -> None:
         """All simulations and the response of each run. Raises what they raise.
@@ -195,6 +199,10 @@ class Calculation:
             yield_stress=self.sweep.yield_stress(run),
             provenance=self.made.sweep(run),
         )
+
+
+def _files(recipes: Mapping[str, Recipe]) -> dict[str, Path]:
+    return {name: recipe.file() for name, recipe in recipes.items()}
 
 
 def _with(wildcards: Named, **more: str) -> Named:
