@@ -110,7 +110,7 @@ def test_a_moved_number_is_told():
 @pytest.fixture
 def copy(root, tmp_path):
     """What hashes are of, to be changed."""
-    for name in ("docs", "config", "benchmarks"):
+    for name in ("docs", "config", "benchmarks", "examples"):
         shutil.copytree(root / name, tmp_path / name)
     shutil.copytree(root / "src/r37core", tmp_path / "src/r37core", ignore=shutil.ignore_patterns("__pycache__"))
     shutil.copy(root / "README.md", tmp_path)

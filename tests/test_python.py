@@ -143,7 +143,7 @@ def test_blades_of_other_programs(root, config, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     runpy.run_path("draw.py")
     settings = read_settings(config.parent.parent)
-    model = read_reduced_model(StructureFiles(settings, "Ref").reduced_model("pressure_edge"))
+    model = read_reduced_model(StructureFiles(settings, "Ref").reduced_model("pressure_edge").file())
     write_reduced_matrices(model, [0.0, 1000.0, 2000.0], tmp_path / "matrices")
     entry = {"matrices": "matrices", "mass_unit": "kg", "stiffness_unit": "N/m", "length_unit": "m", "rotation": "negative"}
     frame = {"rotor_axis": [0, 0, 1], "radial": [1, 0, 0]}
@@ -198,7 +198,7 @@ BAD = {
     ),
     "a negative speed": (
         lambda config: r37.simulate("Ref", "direct", -5, config=config),
-        r"r37.simulate: speeds.0: found -5; allowed: number, at least 0.001",
+        r"r37.simulate: speed: found -5; allowed: number, at least 0.001",
     ),
     "a speed twice": (
         lambda config: r37.sweep("Ref", "direct", [5, 5.0], config=config),
@@ -207,9 +207,69 @@ BAD = {
     "no speed": (lambda config: r37.sweep("Ref", "direct", [], config=config), "speeds: found .*; allowed: .* at least 1"),
     "a speed in words": (
         lambda config: r37.simulate("Ref", "direct", "fast", config=config),
-        "speeds: found 'fast'; allowed: num",
+        "speed: found 'fast'; allowed: num",
     ),
-    "several speeds at once": (lambda config: r37.simulate("Ref", "direct", [1, 2], config=config), "speeds: found"),
+    "several speeds at once": (
+        lambda config: r37.simulate("Ref", "direct", [1, 2], config=config),
+        r"speed: found \[1, 2\]; allowed: one number, in rad/s; several are for r37.sweep",
+    ),
+    "no speed in rpm": (
+        lambda config: r37.simulate("Ref", "direct", speed_rpm=0, config=config),
+        "r37.simulate: speed_rpm: found 0; allowed: number, at least 0.01",
+    ),
+    "a speed in both units": (
+        lambda config: r37.simulate("Ref", "direct", 1, speed_rpm=10, config=config),
+        "speed: found both; allowed: speed, in rad/s, or speed_rpm",
+    ),
+    "speeds of a unit and none": (
+        lambda config: r37.sweep("Ref", "direct", config=config),
+        "speeds: found neither; allowed: speeds, in rad/s, or speeds_rpm",
+    ),
+    "a range with a wrong key": (
+        lambda config: r37.sweep("Ref", "direct", {"start": 1, "stpo": 9}, config=config),
+        r"r37.sweep: speeds.0: found unknown key stpo; .* \(did you mean stop\?\)",
+    ),
+    "an almost known blade": (lambda config: r37.campbell("cs10", config=config), r"\(did you mean CS100\?\)"),
+    "an almost known scene": (
+        lambda config: r37.simulate("Ref", "abrasable", 1000, config=config),
+        r"\(did you mean abradable\?\)",
+    ),
+    "an almost known level": (lambda config: r37.campbell("Ref", fidelity="drft", config=config), r"\(did you mean draft\?\)"),
+    "a value in place of a section": (
+        lambda config: r37.scene("direct", friction=0.2, config=config),
+        r'direct.friction: found 0.2; allowed: mapping .* of one of them: \*\*\{"friction.coefficient": 0.2\}',
+    ),
+    "results as a text": (
+        lambda config: r37.simulate("Ref", "direct", 9, results="stress", config=config),
+        r'results: found "stress"; allowed: a list, as in results=\["stress"\]',
+    ),
+    "a name that is taken": (
+        lambda config: r37.blade("Ref", name="CS50", config=config),
+        "name: found 'CS50', which .* has; allowed: another name",
+    ),
+    "a changed blade without a name beside others": (
+        lambda config: r37.compare(
+            ["Ref", r37.blade("Ref", chordwise_sweep_deg=5, config=config)], "direct", [9], config=config
+        ),
+        r'blades: found Ref, chordwise_sweep_deg=5; allowed: names that differ, as of r37.blade\("Ref", ..., name="Mine"\)',
+    ),
+    "no blades": (lambda config: r37.compare([], "direct", [9], config=config), "blades: found none"),
+    "no scenes": (lambda config: r37.compare("Ref", [], [9], config=config), "scenes: found none"),
+    "no cores": (lambda config: r37.sweep("Ref", "direct", [9], cores=0, config=config), "cores: found 0; allowed: a whole"),
+    "no run-ups": (lambda config: r37.run_ups("Ref", "direct", {}, config=config), r"run_ups: found \{\}; allowed: names and"),
+    "a run-up without an end": (
+        lambda config: r37.run_up("Ref", "direct", from_rad_s=100, config=config),
+        "r37.run_up: run_ups.run_up.to_rad_s: found nothing; allowed: one of to_rad_s, to_rpm, crossing",
+    ),
+    "a number that does not vary": (
+        lambda config: r37.tolerances("Ref", "direct", [9], of_scenes={"friction": {"uniform_percent": 5}}, config=config),
+        "r37.tolerances: tolerances.of_scenes.friction: found friction; allowed: a number of the scenes",
+    ),
+    "a plot of something else": (
+        lambda config: r37.plot_campbell(xr.Dataset()),
+        "campbell: found a dataset without frequency; allowed: what r37.campbell gives",
+    ),
+    "a plot of nothing": (lambda config: r37.plot_response(None), "response: found a NoneType; allowed: what r37.sweep gives"),
     "an unknown level": (
         lambda config: r37.campbell("Ref", fidelity="rough", config=config),
         "r37.campbell: fidelity: found 'rough'; allowed: draft, standard",
@@ -454,11 +514,17 @@ def test_an_installed_package_needs_no_repository(root, tmp_path):
             for place in (root, packages / "r37")
         )
         assert installed == shipped
+    assert all((packages / name / "py.typed").exists() for name in ("r37", "r37core"))
     with tarfile.open(project / source) as archive:
         assert not [name for name in archive.getnames() if "/tests/" in name]
     (project / "src").rename(project / "gone")
     code = "import r37; print(r37.__file__); print(float(r37.campbell('Ref', fidelity='tiny').frequency[0, 0]))"
-    file, frequency = python("-c", code)
+    # workers of other processes need no guard in the program
+    (elsewhere / "program.py").write_text(
+        f"{code}; print(r37.compare('Ref', 'abradable', [750, 1150], fidelity='tiny', cores=2))"
+    )
+    file, frequency, compared = python("program.py")
+    assert compared.endswith(": campbell, rms, spectrum, stress, wear")
     assert Path(file).is_relative_to(packages)
     assert "level: tiny" in python(environment / "bin/r37", "check")
     assert 800.0 < float(frequency) < 900.0  # Hz, 1B at rest

@@ -33,6 +33,8 @@ html_static_path = ["style"]
 html_css_files = ["r37.css"]
 # excerpts would be fetched, which browsers refuse to a page on the disk
 html_show_search_summary = False
+# pages and calls before the inside
+html_search_scorer = str(HERE / "search_order.js")
 html_copy_source = False
 html_show_copyright = False
 html_show_sphinx = False

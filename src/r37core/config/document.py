@@ -12,7 +12,7 @@ from pydantic import BaseModel, ValidationError
 from r37core.text_file import TextFileError
 from r37core.yaml_file import KeyPath, load_yaml_with_lines, scalar
 
-from .messages import explain_all, on_one_line
+from .messages import did_you_mean, explain_all, on_one_line
 
 Model = TypeVar("Model", bound=BaseModel)
 Result = TypeVar("Result")
@@ -104,7 +104,8 @@ class Documents:
         allowed = list(entries)
         for name in names:
             if name not in allowed:
-                raise self.config.refusal(path, f"'{name}'", f"{', '.join(allowed)} ({file.name})")
+                meant = did_you_mean(name, allowed)
+                raise self.config.refusal(path, f"'{name}'", f"{', '.join(allowed)} ({file.name}){meant}")
 
 
 def read_document(root: Path, name: str) -> Document:

@@ -31,14 +31,15 @@ def remarks_of_spine(settings: Settings) -> list[str]:
 
 
 def remarks_on_speeds(settings: Settings) -> list[str]:
-    """Of speeds above those that reduced models are made for."""
+    """What is to be said of speeds beyond those that models are made for: they may be rpm."""
     fastest = max(plan.every_speed()[-1] for plan in settings.speed_plans.values())
     highest = settings.structure.maximum_speed_rad_s
     if fastest <= highest:
         return []
+    in_rpm = "" if settings.config.speeds_rpm else "; speeds in rpm stand under speeds_rpm"
     return [
         f"speeds: up to {fastest:g} rad/s, and structure.maximum_speed_rad_s is {highest:g}: reduced models and "
-        "Campbell diagrams are made for speeds up to that; raise it to what is run"
+        f"Campbell diagrams are made for speeds up to that; raise it to what is run{in_rpm}"
     ]
 
 
