@@ -2,8 +2,8 @@
 
 Blades, scenes and accuracy levels are those of the shipped configuration, or of one's own (`config="config.yaml"`). Datasets
 have the variables, units and attributes of the workflow's files. Speeds are in rad/s unless a name says rpm, everything is SI.
-What takes minutes, the structure of a blade, is kept in a cache folder (r37.structure_files). What a call does meanwhile is told
-by the logger `r37` (r37.stages).
+What takes minutes, the structure of a blade, is kept in a cache folder (r37.structure_files). What a call does meanwhile is
+told by the logger `r37` (r37.stages).
 
 Bad input raises ConfigError, an argument that a call does not have TypeError, a file that cannot be read InputFileError.
 """

@@ -26,7 +26,6 @@ from r37core.plans.structure_plan import Structure
 from .jobs import run_step
 from .stages import LOGGER
 
-
 _STAGES = {
     "blade.steps.geometry": "shape",
     "exchange.importing.steps.imported_matrices": "import of the matrices",
