@@ -109,7 +109,7 @@ def slow_part(reduced, speed, modes, generator):
 @pytest.mark.parametrize(("integrator", "within"), [(EXACT_MODAL, 1e-9), (CENTRAL_DIFFERENCE, 1e-4)])
 def test_free_flight_of_a_blade_is_that_of_its_matrices(model, contact, integrator, within, engine):
     """Reduced coordinates at every sample, by the exponential of the first modes of the reduced matrices."""
-    speed, modes, scene = 1600.0, 6, replace(FAR, damping_ratio=0.02)
+    speed, modes, scene = 4800.0, 6, replace(FAR, damping_ratio=0.02)
     start = slow_part(model, speed, modes, np.random.default_rng(1))
     chosen = choice(integrator, 2e-7, 1, engine, snapshots_per_revolution=50, snapshot_revolutions=1)
     given = motion(*start)
@@ -156,7 +156,7 @@ def coupled(mesh, matrices, choice):
 @pytest.mark.parametrize("engine", ENGINES)
 def test_free_flight_with_the_coriolis_force(coupled, engine):
     """Without damping the exponential of the reduced matrices, of all coordinates; steps in which fast modes do not move."""
-    speed, scene, modes = 1600.0, replace(FAR, damping_ratio=0.0), 4
+    speed, scene, modes = 4800.0, replace(FAR, damping_ratio=0.0), 4
     model = contact_model(coupled, "pressure_edge")
     start = slow_part(replace(coupled, coriolis=None), speed, modes, np.random.default_rng(2))
     chosen = choice(EXACT_MODAL, 2e-7, 1, engine, snapshots_per_revolution=50, snapshot_revolutions=1)

@@ -83,9 +83,7 @@ def built(root, tmp_path_factory):
     sites = {root: made / "site", broken: made / "site_of_broken"}
     command = [sys.executable, "-c", BUILD, *(str(path) for pair in sites.items() for path in pair)]
     statuses = subprocess.run(command, stdout=subprocess.PIPE, text=True, timeout=900, check=True).stdout.split()
-    return [
-        (site, int(status), Path(f"{site}.txt").read_text()) for site, status in zip(sites.values(), statuses, strict=True)
-    ]
+    return [(site, int(status), Path(f"{site}.txt").read_text()) for site, status in zip(sites.values(), statuses, strict=True)]
 
 
 @pytest.mark.slow

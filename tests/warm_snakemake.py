@@ -15,7 +15,7 @@ import sys
 import tempfile
 import threading
 import traceback
-from contextlib import suppress
+from contextlib import contextmanager, suppress
 from functools import cache
 from importlib import import_module
 from pathlib import Path
@@ -40,6 +40,13 @@ def run(folder, arguments, environment, seconds, jobs=None):
 
     `jobs`: file for the jobs of the graph, see tests/plans_of_snakemake.py.
     """
+    with started(folder, arguments, environment, seconds, jobs) as (_, end):
+        return end()
+
+
+@contextmanager
+def started(folder, arguments, environment, seconds, jobs=None):
+    """Of a command that runs: its process id, which is that of a group as well, and a function that waits: see `run`."""
     server = _server()
     with tempfile.TemporaryDirectory() as printed:
         files = [str(Path(printed, name)) for name in ("output", "errors")]
@@ -47,9 +54,14 @@ def run(folder, arguments, environment, seconds, jobs=None):
         order |= {"jobs": jobs and str(jobs)}
         server.stdin.write(json.dumps(order) + "\n")
         server.stdin.flush()
-        status, used = server.stdout.readline().split()
-        _used[0] += float(used)
-        return int(status), "".join(Path(file).read_text() for file in files)
+        number = int(server.stdout.readline())
+
+        def end():
+            status, used = server.stdout.readline().split()
+            _used[0] += float(used)
+            return int(status), "".join(Path(file).read_text() for file in files)
+
+        yield number, end
 
 
 @cache
@@ -61,14 +73,19 @@ def _server():
 
 
 def _serve():
-    """Answer each line of JSON, an order, with the exit status and the CPU time (s).
+    """Answer each line of JSON, an order, with its process, and then with the exit status and the CPU time (s).
 
     Returns in the fork, with its order; None at the end.
     """
     for line in sys.stdin:
         child = os.fork()
         if child == 0:
+            os.setpgid(0, 0)
             return json.loads(line)
+        with suppress(PermissionError):
+            # whoever comes first
+            os.setpgid(child, child)
+        print(child, flush=True)
         _, status, used = os.wait4(child, 0)
         print(os.waitstatus_to_exitcode(status), used.ru_utime + used.ru_stime, flush=True)
     return None
@@ -114,10 +131,10 @@ def _fork_job_server():
         os.close(writing)
         os.dup2(reading, 0)
         os.close(reading)
-        sys.stdin = open(0)
-        if line := sys.stdin.readline():
-            address, script = json.loads(line)
-            job_server.serve(Path(address), script)
+        with open(0) as sys.stdin:
+            if line := sys.stdin.readline():
+                address, script = json.loads(line)
+                job_server.serve(Path(address), script)
         os._exit(0)
     os.close(reading)
 
