@@ -5,6 +5,7 @@ import os
 import shutil
 import sys
 from collections import Counter
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -162,6 +163,22 @@ def model(mesh, matrices, choice):
     from r37core.rom.reduce import reduce_blade
 
     return reduce_blade(mesh, matrices, choice)
+
+
+@pytest.fixture(scope="session")
+def whole(mesh, matrices, choice):
+    """The reduced model that gives the displacement of every node."""
+    from r37core.rom.reduce import reduce_blade
+
+    return reduce_blade(mesh, matrices, replace(choice, recover_whole_blade=True))
+
+
+@pytest.fixture(scope="session")
+def turning(mesh, matrices, choice):
+    """The reduced model with the Coriolis force."""
+    from r37core.rom.reduce import reduce_blade
+
+    return reduce_blade(mesh, matrices, replace(choice, coriolis=True))
 
 
 @pytest.fixture(scope="session")

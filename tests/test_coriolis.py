@@ -13,7 +13,6 @@ from scipy.optimize import brentq
 from r37core.config import ConfigError, command_line_document
 from r37core.product.reading import read_settings
 from r37core.rom.contact_model import ContactModel, read_contact_model, write_contact_model
-from r37core.rom.reduce import reduce_blade
 from r37core.rom.reduced_model import contact_model
 from r37core.run_ups.integration import RunUpIntegration
 from r37core.run_ups.schedule import RunUp
@@ -104,20 +103,15 @@ def test_foucault_pendulum(jumps, engine):
 
 
 @pytest.fixture(scope="module")
-def reduced(mesh, matrices, choice):
-    return reduce_blade(mesh, matrices, replace(choice, coriolis=True))
-
-
-@pytest.fixture(scope="module")
-def coupled_blade(reduced):
-    return contact_model(reduced, "pressure_edge")
+def coupled_blade(turning):
+    return contact_model(turning, "pressure_edge")
 
 
 @pytest.mark.slow
-def test_free_motion_has_the_frequencies_of_the_campbell_diagram(reduced, coupled_blade):
+def test_free_motion_has_the_frequencies_of_the_campbell_diagram(turning, coupled_blade):
     """Each mode alone: three samples in a row obey the recursion of its frequency."""
     speed = 1800.0
-    campbell, without = (model.modes(speed, 8)[0] for model in (reduced, replace(reduced, coriolis=None)))
+    campbell, without = (model.modes(speed, 8)[0] for model in (turning, replace(turning, coriolis=None)))
     assert np.abs(campbell / without - 1.0).max() > 1e-4
     simulation = Simulation(coupled_blade, speed, FREE, CHOICE)
     stepped = simulation.problem.blade.complex_modes.frequencies[:8]
