@@ -20,18 +20,12 @@ from r37core.exchange.importing.matrix_file import read_matrix
 from r37core.exchange.refusal import ImportRefused
 from r37core.exports.matrices_out import write_full_matrices, write_reduced_matrices
 from r37core.results.campbell import campbell_diagram
-from r37core.rom.reduce import reduce_blade
 from r37core.rom.reduced_model import contact_model
 from r37core.stress.recovery import stress_operator
 from r37core.time_integration.speed_file import write_speed
 
 OURS = Orientation("m", (0, 0, 1), (1, 0, 0), "negative")
 FOREIGN = Orientation("mm", (0.6, 0.8, 0), (0, 0, 1), "positive", (5.0, 6.0, 7.0))
-
-
-@pytest.fixture(scope="module")
-def whole(mesh, matrices, choice):
-    return reduce_blade(mesh, matrices, replace(choice, recover_whole_blade=True))
 
 
 @pytest.fixture(scope="module")
@@ -133,12 +127,6 @@ def test_reduced_matrices_come_back(model, choice, tmp_path):
     again = import_matrices(MatricesSource(str(tmp_path), OURS), choice)
     np.testing.assert_allclose(again.mass, model.mass, atol=1e-12 * np.abs(model.mass).max())
     np.testing.assert_allclose(again.modes(1400.0, 12)[0], model.modes(1400.0, 12)[0], rtol=1e-8)
-
-
-@pytest.fixture(scope="module")
-def turning(mesh, matrices, choice):
-    """The reduced model with the Coriolis force."""
-    return reduce_blade(mesh, matrices, replace(choice, coriolis=True))
 
 
 def gyroscopic(mass, stiffness, coriolis, count):

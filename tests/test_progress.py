@@ -2,14 +2,12 @@
 
 import io
 import logging
-import os
 import re
-import subprocess
 
 import numpy as np
 import pytest
 from stubbed_runs import copy_stubbed
-from workflow_runs import SNAKEMAKE
+from workflow_runs import snakemake
 
 from r37core.console.failures import show
 from r37core.console.progress import Progress, quieten
@@ -141,13 +139,7 @@ def test_only_the_terminal_s_handler_is_quietened():
 @pytest.mark.slow
 def test_a_run_prints_little_and_its_log_has_everything(root, tmp_path):
     copy_stubbed(root, tmp_path)
-    environment = {key: value for key, value in os.environ.items() if key != "R37_FULL_LOG"} | {
-        "PYTHONPATH": str(tmp_path / "src")
-    }
-    done = subprocess.run(
-        [SNAKEMAKE, "all_blades", "--cores", "2"], cwd=tmp_path, env=environment, capture_output=True, text=True, check=True
-    )
-    printed = done.stdout + done.stderr
+    printed = snakemake(tmp_path, "all_blades", "--cores", "2", full_log="")
     assert len(printed.splitlines()) < 64
     # of two jobs at a time either may end first
     assert re.search(r"simulations 12 of at most 12 \((Ref 6, CS100 6|CS100 6, Ref 6)\); 0 diverged", printed)

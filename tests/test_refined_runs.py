@@ -1,12 +1,8 @@
 """Adaptive speed sampling through Snakemake: all rounds in one command, each speed once, and what runs again."""
 
-import contextlib
 import json
-import os
 import random
 import re
-import signal
-import subprocess
 import time
 
 import numpy as np
@@ -18,7 +14,7 @@ from overlays import overlay
 from plans_of_snakemake import planned_outputs
 from shared_sweep import copy_structure
 from stubbed_runs import copy_stubbed, refine, simulated
-from workflow_runs import SNAKEMAKE, copy_finished, snakemake
+from workflow_runs import copy_finished, kill_snakemake, snakemake
 
 import r37
 from r37core.console.leftovers import leftovers
@@ -205,20 +201,17 @@ def test_real_rounds_stay_on_their_grid(real):
 def test_kills_at_random_moments_lose_nothing(real, small_sweep, tmp_path):
     """Killed in the middle of its rounds, again and again; in the end every array is bit for bit that of an undisturbed run."""
     project = prepare_real(small_sweep, tmp_path / "project")
-    command = [SNAKEMAKE, "all_blades", "--cores", "2"]
-    moments = random.Random(7)
+    command, moments = ("all_blades", "--cores", "2"), random.Random(7)
     for files in (2, 7, 10, 13):
-        run = subprocess.Popen(
-            command, cwd=project, env=os.environ | {"PYTHONPATH": str(project / "src")},
-            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True,
-        )  # fmt: skip
-        while run.poll() is None and len(speed_files(project)) < files:
-            time.sleep(0.1)
-        time.sleep(3.0 * moments.random())
-        with contextlib.suppress(ProcessLookupError):
-            os.killpg(run.pid, signal.SIGKILL)
-        run.wait()
-    snakemake(project, *command[1:])
+
+        def there(files=files):
+            if len(speed_files(project)) < files:
+                return False
+            time.sleep(moments.random())
+            return True
+
+        kill_snakemake(project, *command, when=there)
+    snakemake(project, *command)
     undisturbed = speed_files(real)
     assert speed_files(project).keys() == undisturbed.keys()
     for name, file in speed_files(project).items():

@@ -3,7 +3,6 @@
 import dataclasses
 import os
 import shutil
-import signal
 import subprocess
 import sys
 import time
@@ -14,7 +13,7 @@ import xarray as xr
 from defaults import Casing, IntegrationChoice, Scene
 from plans_of_snakemake import planned_outputs
 from stubbed_runs import copy_stubbed
-from workflow_runs import SNAKEMAKE, copy_project, snakemake
+from workflow_runs import copy_project, kill_snakemake, snakemake
 
 from r37core.config import ConfigError, command_line_document
 from r37core.console import failures, lock
@@ -306,17 +305,15 @@ def test_a_killed_run_goes_on_with_the_same_command(root, tmp_path, wait):
     copy_stubbed(root, tmp_path)
     slow = tmp_path / "workflow/scripts/step.py"
     slow.write_text("import time\ntime.sleep(30)\n" + slow.read_text())
-    environment = os.environ | {"PYTHONPATH": str(tmp_path / "src")}
-    command = [SNAKEMAKE, "results/Ref/geometry.nc", "--cores", "1"]
-    first = subprocess.Popen(command, cwd=tmp_path, env=environment, stderr=subprocess.DEVNULL, start_new_session=True)
-    for _ in range(600):
-        if any((tmp_path / ".snakemake/locks").glob("*")):
-            break
-        time.sleep(0.01)
-    time.sleep(wait)
-    os.killpg(first.pid, signal.SIGKILL)
-    first.wait()
+    command = ("results/Ref/geometry.nc", "--cores", "1")
+
+    def begun():
+        locked = any((tmp_path / ".snakemake/locks").glob("*"))
+        time.sleep(wait if locked else 0.0)
+        return locked
+
+    kill_snakemake(tmp_path, *command, when=begun)
     slow.write_text(slow.read_text().replace("time.sleep(30)", ""))
-    text = snakemake(tmp_path, *command[1:])
+    text = snakemake(tmp_path, *command)
     assert "the last run here was killed" in text
     assert (tmp_path / "results/Ref/geometry.nc").exists()

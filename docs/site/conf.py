@@ -21,6 +21,8 @@ myst_heading_anchors = 4
 nb_execution_mode = "off"
 
 autodoc_member_order = "bysource"
+# types stand in annotations
+autodoc_use_type_comments = False
 # `name` in a docstring is code
 default_role = "code"
 add_module_names = False
