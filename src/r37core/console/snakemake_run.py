@@ -39,10 +39,14 @@ Refusal = Callable[[str], Exception]
 
 @dataclass(frozen=True)
 class Console:
-    """One run of the `workflow`, with its `settings` and scripts and its package's `source`; `began`: time in s."""
+    """One run of the `workflow`, with its `settings` and scripts and its package's `source`.
+
+    `tell` warns the user; `began`: time in s.
+    """
 
     workflow: Any
     refusal: Refusal
+    tell: Callable[[str], object]
     settings: Settings
     scripts: Path
     source: Path
@@ -57,7 +61,7 @@ class Console:
         # quarter of a core in the default sweep. The limit is for the queues of clusters
         if self.workflow.local_exec:
             self.workflow.scheduler.job_rate_limiter = None
-            if job_server.start(self.scripts / "simulate.py", interpreter.PYTHON):
+            if job_server.start(self.scripts / "simulate.py", interpreter.PYTHON, self.tell):
                 interpreter.through(self.scripts / "start.py")
 
     def succeed(self) -> None:
@@ -99,7 +103,7 @@ def begin(workflow: Any, logger: logging.Logger, refusal: Refusal, root: Path, v
         logger.info(line)
     if not (os.environ.get("R37_FULL_LOG") or output.dryrun or output.verbose):
         quieten(logger.handlers, Progress(extent_of(settings, beside(settings)).at_most))
-    return Console(workflow, refusal, settings, root / "workflow/scripts", source, began)
+    return Console(workflow, refusal, logger.warning, settings, root / "workflow/scripts", source, began)
 
 
 @contextlib.contextmanager
