@@ -11,6 +11,7 @@ from types import SimpleNamespace
 from typing import Any
 
 from . import __version__
+from .checksums import checksum_file, is_as_written
 
 FILE_ATTRIBUTES = {"Conventions": "CF-1.11", "r37core_version": __version__}
 """Global attributes of every netCDF file."""
@@ -35,9 +36,16 @@ def atomic_write(file: Path | str) -> Iterator[Path]:
 
 @contextmanager
 def readable(file: Path | str) -> Iterator[None]:
-    """Turn whatever goes wrong while reading `file` into an InputFileError that names it and the remedy."""
+    """Turn whatever goes wrong while reading `file` into an InputFileError that names it and the remedy.
+
+    A file that is not as the stage before has written it is refused, too.
+    """
     try:
+        if not is_as_written(Path(file)):
+            raise ValueError(f"it has changed since it was written, {checksum_file(Path(file)).name} says")
         yield
+    except InputFileError:
+        raise
     except Exception as error:
         reason = f"{type(error).__name__}: {error}" if Path(file).exists() else "there is no such file"
         raise InputFileError(f"{file}: cannot be read ({reason}); if it is a result, delete it and run again") from error

@@ -9,7 +9,8 @@ import os
 import shutil
 import sys
 import traceback
-from collections.abc import Iterator
+import warnings
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 _NOTES = "R37_FAILURES"
@@ -36,6 +37,20 @@ def reported(rule: str, log: Path | str, about: str = "") -> Iterator[None]:
                 note(line)
             print(line, file=sys.stderr)
             sys.exit(1)
+
+
+@contextlib.contextmanager
+def printed_warnings(locations: Mapping[str, str]) -> Iterator[None]:
+    """Print what an import is warned of, after the location of its key: in the log, on the screen, and when the run ends."""
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        yield
+    location = locations.get("mesh") or locations["matrices"]
+    for warning in caught:
+        print(line := f"{location}: {warning.message}")
+        if issubclass(warning.category, UserWarning):
+            print(line, file=sys.__stderr__)
+            note(line)
 
 
 def begin(run: str) -> None:

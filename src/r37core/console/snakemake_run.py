@@ -26,7 +26,7 @@ from r37core.product.reading import settings_of_run
 from r37core.product.remarks import check_asked, remarks
 from r37core.product.sampling import beside
 
-from . import failures, interpreter, job_server, lock
+from . import failures, interpreter, job_server, lock, refusals
 from .closing import closing_lines
 from .progress import Progress, quieten
 
@@ -76,7 +76,7 @@ class Console:
         _say_last(["", *failures.taken()])
 
 
-def begin(workflow: Any, logger: logging.Logger, refusal: Refusal, root: Path, values: Mapping[str, Any]) -> Console:
+def begin(workflow: Any, logger: logging.Logger, refusal: type[Exception], root: Path, values: Mapping[str, Any]) -> Console:
     """Read the configuration of a run, say what there is to say, and put one line in place of thousands of messages.
 
     `root`: folder of our Snakefile. `values`: configuration that another Snakefile gives its module r37, on top of all.
@@ -85,6 +85,9 @@ def begin(workflow: Any, logger: logging.Logger, refusal: Refusal, root: Path, v
     `refusal` for a configuration that is not allowed.
     """
     began, config, output = time.time(), workflow.config_settings, workflow.output_settings
+    refusal = refusals.without_files(refusal)
+    for handler in logger.handlers:
+        handler.addFilter(refusals.MessageAlone())
     if workflow.is_main_process:
         failures.begin(f"{socket.gethostname()}_{os.getpid()}")
     interpreter.quote()
