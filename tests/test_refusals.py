@@ -1,10 +1,12 @@
 """Configurations that cannot be meant: each ends in one message with file, line and key."""
 
+import os
 import re
 
 import numpy as np
 import pytest
 
+from r37core import text_file
 from r37core.config import ConfigError, Document, command_line_document
 from r37core.product.reading import read_settings
 from r37core.product.schemas import MODELS
@@ -399,6 +401,28 @@ def test_tables_that_cannot_be_read(config_copy, name, change, message):
     file.write_text(change(file.read_text()))
     with pytest.raises(ConfigError, match=rf"^{re.escape(name)}{message}"):
         read_settings(config_copy)
+
+
+@pytest.mark.parametrize("name", TABLES)
+def test_a_table_without_an_end_is_refused(config_copy, name, monkeypatch):
+    """A device, a pipe that nobody writes to, a file that no person has written."""
+    file = config_copy / name
+    content = file.read_text()
+    for make in (lambda: file.symlink_to("/dev/zero"), lambda: os.mkfifo(file), file.mkdir):
+        file.unlink()
+        make()
+        with pytest.raises(
+            ConfigError, match=rf"{re.escape(name)} cannot be read: it is a folder, a device or a pipe|Is a dir"
+        ):
+            read_settings(config_copy)
+        file.rmdir() if file.is_dir() else None
+        file.touch()
+    file.write_text(content)
+    monkeypatch.setattr(text_file, "_LARGEST", len(content) - 1)
+    with pytest.raises(TextFileError, match="found more than"):
+        text_file.read_text(file)
+    monkeypatch.setattr(text_file, "_LARGEST", len(content))
+    assert text_file.read_text(file) == content
 
 
 def test_numbers_are_read_alike_everywhere(tmp_path):

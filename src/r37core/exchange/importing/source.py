@@ -110,7 +110,8 @@ def matrix_files(name: str, root: Path) -> dict[str, Path]:
     folder = root / name
     if not os.path.isdir(folder):
         raise ImportRefused(f"there is no folder {name}", "matrices")
-    files = [file for file in sorted(folder.glob("*")) if file.suffix in (".mtx", ".npz") or file.name == "boundary.csv"]
+    ours = (file for file in sorted(folder.glob("*")) if file.suffix in (".mtx", ".npz") or file.name == "boundary.csv")
+    files = [file for file in ours if os.path.isfile(file)]
     by_stem = {file.stem: file for file in files}
     speeds = [stem for stem in by_stem if stem.startswith("K_")]
     missing = [stem for stem in ("M", "boundary") if stem not in by_stem]
