@@ -154,7 +154,7 @@ def test_ranges_that_cannot_be_refined(entries, message):
             },
             r"windows\.0\.last: found 0\.1; allowed: more than first \(0\.1\)",
         ),
-        ({"refinement": {"change": -1}}, r"refinement\.change: found -1; allowed: .*more than 0"),
+        ({"refinement": {"change": -1}}, r"refinement\.change: found -1; allowed: .*at least 0\.001"),
         ({"refinement": {"largest_share": 1.5}}, r"refinement\.largest_share: found 1\.5; allowed: .*at most 1"),
     ],
 )

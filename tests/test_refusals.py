@@ -54,6 +54,13 @@ def test_no_number_may_be_anything_else(root, name, value):
             Document("a.yaml", with_value(content, path, value)).check(MODELS[name])
 
 
+@pytest.mark.parametrize("name", MODELS)
+def test_what_cannot_be_zero_cannot_be_almost_zero(name):
+    """A rate of 5e-324 was divided by: each number that is more than 0 has a bound that somebody can mean."""
+    schema = str(MODELS[name].model_json_schema())
+    assert not re.search(r"'exclusiveMinimum': 0(\.0)?\b", schema)
+
+
 GAUGE = "{ chord: 0.5, span: 0.5, side: suction }"
 CONFIG_REFUSALS = [
     (
@@ -126,7 +133,12 @@ CONFIG_REFUSALS = [
     (
         "speeds_for: []",
         "run_ups: { a: { from_rad_s: 900, to_rad_s: 1000, rate_rad_s2: -10 } }",
-        r"run_ups\.a\.rate_rad_s2: found -10; allowed: number, more than 0",
+        r"run_ups\.a\.rate_rad_s2: found -10; allowed: number, at least 0\.001",
+    ),
+    (
+        "speeds_for: []",
+        "run_ups: { a: { from_rad_s: 900, to_rad_s: 1000, rate_rpm_s: 5e-324 } }",
+        r"run_ups\.a\.rate_rpm_s: found 5e-324; allowed: number, at least 0\.01",
     ),
     (
         "speeds_for: []",
@@ -299,6 +311,10 @@ BLADE_REFUSALS = [
     ("X: {base: Ref, stacking_table: ''}", r"X\.stacking_table: found ''; allowed: string"),
     ("X: {base: Ref, stacking_table: .}", r"X\.stacking_table: \. cannot be read: Is a directory"),
     ("X: {base: Ref, profiles: a.csv}", r"X: found both profiles and base; allowed: one of them"),
+    (
+        "X: {base: Ref, vary: {sweep_percent: {start: 0, stop: 10, step: 1e12}}}",
+        r"X\.vary\.sweep_percent\.step: found 1e\+12; allowed: at most stop - start \(10\)",
+    ),
     ("X: null", r"X: found nothing; allowed: mapping with the keys profiles, base"),
     ("X: &x {base: Ref, <<: *x}", r"not readable as YAML"),
     ("X: {base: Ref, material: {density_kg_m3: 1e30}}", r"X\.material\.density_kg_m3: found 1e\+30; allowed: .*at most 100000"),

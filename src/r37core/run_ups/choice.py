@@ -58,11 +58,11 @@ class RunUpChoice:
         Key(
             "change of the speed per second, of a run-down too; or rate_rpm_s; or revolutions",
             "_rad_s2",
-            gt=0,
+            ge=1e-3,
             le=1e9,
             optional=True,
         ),
-        Key("the rate in revolutions per minute per second", "_rpm_s", gt=0, le=1e10, optional=True),
+        Key("the rate in revolutions per minute per second", "_rpm_s", ge=1e-2, le=1e10, optional=True),
     ]
     revolutions: Annotated[
         float | None,
