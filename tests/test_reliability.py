@@ -1,13 +1,17 @@
 """What a user sees when something goes wrong: one clear line, and a way on."""
 
 import dataclasses
+import errno
 import hashlib
 import logging
 import os
+import re
+import resource
 import shutil
 import signal
 import subprocess
 import sys
+import tempfile
 import time
 from types import SimpleNamespace
 
@@ -20,12 +24,14 @@ from snakemake.exceptions import InputFunctionException, WorkflowError, format_e
 from stubbed_runs import copy_stubbed
 from workflow_runs import SNAKEMAKE, copy_project, snakemake
 
+from r37 import structure_files
+from r37core import kept
 from r37core.checksums import checksum_file, checksummed, drop_checksum
 from r37core.config import ConfigError, command_line_document
 from r37core.console import failures, lock, refusals, snakemake_run
 from r37core.console.leftovers import leftovers
 from r37core.dataset_file import SPEED, Variable, about, read_dataset, write_dataset
-from r37core.io import InputFileError, readable, write_json
+from r37core.io import InputFileError, OutputFileError, atomic_write, readable, scratch_folder, write_json
 from r37core.plans.run import replaced_level, source_folder
 from r37core.plans.sweep_plan import speeds_of_round
 from r37core.product.reading import read_settings
@@ -93,6 +99,80 @@ def test_a_full_disk_is_said_as_such(folder, capsys, monkeypatch):
     fail(RuntimeError("NetCDF: HDF error"))
     line = capsys.readouterr().err
     assert "the disk is full (NetCDF: HDF error); free some space and give the same command again" in line
+
+
+DATASET = xr.Dataset({"a": (("x",), np.arange(20_000.0), about("m", "a"))}, {"x": ("x", np.arange(20_000.0))})
+
+
+@pytest.mark.parametrize("write", [lambda file: write_dataset(DATASET, file), lambda file: write_json([1.0] * 20_000, file)])
+def test_a_file_that_may_not_be_as_large_is_one_line(tmp_path, write):
+    """Whatever netCDF calls it."""
+    soft, hard = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (10_000, hard))
+    try:
+        with pytest.raises(OutputFileError, match=r"a\.nc: cannot be written: files may not be as large here; raise the limit"):
+            write(tmp_path / "a.nc")
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, (soft, hard))
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize(
+    ("error", "free", "outcome"),
+    [
+        (OSError(errno.ENOSPC, "No space left on device"), 10**9, OutputFileError),
+        (OSError(errno.EDQUOT, "Disk quota exceeded"), 10**9, OutputFileError),
+        (RuntimeError("NetCDF: HDF error"), 10, OutputFileError),
+        (OSError(-101, "NetCDF: HDF error"), 10, OutputFileError),
+        (RuntimeError("NetCDF: HDF error"), 10**9, RuntimeError),
+        (PermissionError(errno.EACCES, "Permission denied"), 10, PermissionError),
+        (InputFileError("b.nc: no"), 10, InputFileError),
+    ],
+)
+def test_a_full_disk_is_one_line_in_python(tmp_path, monkeypatch, error, free, outcome):
+    """From every writer, and where r37 keeps structures; other errors are as they were."""
+    monkeypatch.setattr(shutil, "disk_usage", lambda place: shutil._ntuple_diskusage(10**10, 10**10 - free, free))
+
+    def fails(*_):
+        raise error
+
+    def written():
+        with atomic_write(tmp_path / "a.nc"):
+            fails()
+
+    def made():
+        with pytest.MonkeyPatch.context() as patch:
+            patch.setenv("R37_CACHE", str(tmp_path / "cache"))
+            patch.setattr(structure_files, "kept_file", fails)
+            structure_files._made("rom.steps.reduced_model", "a.nc", {})
+
+    for write in (written, made):
+        with pytest.raises(outcome) as raised:
+            write()
+        told = type(raised.value) is OutputFileError
+        assert told == (outcome is OutputFileError)
+        assert not told or re.search(r"a\S*\.nc: cannot be written: the disk is full; free some space \(", str(raised.value))
+
+
+def test_what_cannot_be_kept_is_there_nevertheless(tmp_path, monkeypatch):
+    """Compiled code, which a full disk has no room for."""
+    monkeypatch.setattr(kept, "_folder", lambda: tmp_path)
+    monkeypatch.setattr(kept, "keep", lambda *_: (tmp_path / "none/a").write_text(""))
+    assert kept.kept_bytes("a.o", "", lambda: b"code", lambda: True) == b"code"
+
+
+def test_no_temporary_folder_is_one_line(tmp_path, monkeypatch):
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path / "none"))
+    with (
+        pytest.raises(OutputFileError, match="no temporary folder can be made: free some space, or set TMPDIR"),
+        scratch_folder(),
+    ):
+        pass
+
+
+def test_a_job_on_a_full_disk_says_so_once(folder, capsys):
+    fail(OutputFileError("a.nc: cannot be written: the disk is full"))
+    assert capsys.readouterr().err == "rule mesh: a.nc: cannot be written: the disk is full (details in a.log)\n"
 
 
 def test_too_little_memory_is_said_as_such(folder, capsys):

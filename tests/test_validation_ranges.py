@@ -176,7 +176,8 @@ def test_what_cannot_spread_is_refused(root, change, message):
             read_settings(root, document)
 
 
-def test_a_run_without_the_study_s_scenes_is_not_refused(root):
-    study = {"of_scenes": {"lining.bars": {"uniform": 3}}}
-    changes = {"studies": {"validation_ranges": study, "modelling_choices": {"lined_scene": "elsewhere"}}}
-    read_settings(root, command_line_document(changes))
+def test_scenes_without_the_study_s_are_not_refused(config_copy):
+    """It may never be asked for."""
+    (config_copy / "config/scenes.yaml").write_text("rigid: { casing: { clearance_m: 3e-4 } }\n")
+    changes = {"scenes": ["rigid"], "studies": {"validation_ranges": {"of_scenes": {"lining.bars": {"uniform": 3}}}}}
+    read_settings(config_copy, command_line_document(changes))

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import tempfile
 import warnings
 from collections.abc import Iterable, Sequence
 from pathlib import Path
@@ -16,7 +15,7 @@ from numpy.typing import ArrayLike
 from r37core.config import ConfigError, Settings, casing_remarks
 from r37core.config.remarks import remarks_on_points
 from r37core.dataset_file import read_dataset
-from r37core.io import FILE_ATTRIBUTES
+from r37core.io import FILE_ATTRIBUTES, scratch_folder
 from r37core.plans.provenance import Provenance
 from r37core.plans.simulation_plan import Simulations
 from r37core.plans.sweep_plan import Sweep
@@ -162,7 +161,7 @@ def _response(settings: Settings, motion: InitialMotion | None = None) -> xr.Dat
     stress = read_stress_operator(structure.stress_operator(chosen.tip_line)) if sweep.with_stress(at) else None
     results = [result for result in sweep.results(at) if result in OF_RUNS]
     kept = Simulations(sweep).kept
-    with tempfile.TemporaryDirectory() as folder:
+    with scratch_folder() as folder:
         files = [Path(folder, f"{number}.npz") for number in range(len(plan.certain))]
         for speed, file in zip(plan.certain, files, strict=True):
             choice = settings.integration_choice(blade, scene, speed)

@@ -16,7 +16,7 @@ from typing import Any
 import r37core
 from r37core.config import ConfigError, Settings, plain, si_fields
 from r37core.exchange.importing.source import MatricesSource, MeshSource
-from r37core.io import Named
+from r37core.io import Named, room_for, scratch_folder
 from r37core.kept import kept_file, users_cache
 from r37core.plain import to_plain
 from r37core.plans.code import CodeHashes
@@ -98,14 +98,16 @@ def _made(step: str, name: str, inputs: dict[str, _Made], **params: Any) -> _Mad
     def make(file: Path) -> None:
         module, function = f"{r37core.__name__}.{step}".rsplit(".", 1)
         files = Named(**{key: part.file for key, part in inputs.items()})
-        with tempfile.TemporaryDirectory() as aside, contextlib.redirect_stdout(io.StringIO()):
+        with scratch_folder() as aside, contextlib.redirect_stdout(io.StringIO()):
             # a mesh is also written for Gmsh
-            output = Named(**{file.stem: file, file.suffix[1:]: file, "msh": Path(aside) / "mesh.msh"})
+            output = Named(**{file.stem: file, file.suffix[1:]: file, "msh": aside / "mesh.msh"})
             values = Named(**params, code=_code(step), provenance=Attributes())
             # imported here: it brings gmsh and VTK, which take seconds to load and are not needed for what is kept
             getattr(import_module(module), function)(files, output, values)
 
-    return _Made(kept_file(name, made_of, make, cache_folder()), made_of)
+    folder = cache_folder()
+    with room_for(folder / name):
+        return _Made(kept_file(name, made_of, make, folder), made_of)
 
 
 def cache_folder() -> Path:

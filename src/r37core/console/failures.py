@@ -13,6 +13,8 @@ import warnings
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 
+from r37core.io import OutputFileError
+
 _NOTES = "R37_FAILURES"
 """Environment variable that names the file, one for each run: several may go on in one folder."""
 
@@ -86,6 +88,8 @@ def _file() -> Path | None:
 
 def _explained(error: Exception) -> str:
     text = str(error).strip() or type(error).__name__
+    if isinstance(error, OutputFileError):
+        return text
     full = isinstance(error, OSError) and error.errno in (errno.ENOSPC, errno.EDQUOT)
     if full or shutil.disk_usage(".").free < _FULL:
         return f"the disk is full ({text}); free some space and give the same command again"

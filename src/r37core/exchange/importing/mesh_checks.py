@@ -134,9 +134,9 @@ def _tell_holes(points: np.ndarray, faces: list[Faces]) -> None:
         smallest = np.argmin(np.bincount(piece))
         cavities = f"{pieces - 1} closed inside, one near {_place(points[corners[piece == smallest]].mean(axis=0))}"
         through = f"corners - edges + faces of its surface is {characteristic} and not {2 * pieces}"
-        found = [cavities] * (pieces > 1) + [through] * (characteristic != 2 * pieces)
+        holes = [cavities] * (pieces > 1) + [through] * (characteristic != 2 * pieces)
         warnings.warn(
-            f"the mesh has holes ({'; '.join(found)}): elements may be missing, and with them mass and stiffness; if the blade "
+            f"the mesh has holes ({'; '.join(holes)}): elements may be missing, and with them mass and stiffness; if the blade "
             "is hollow, all is well",
             MeshWarning,
             stacklevel=2,
