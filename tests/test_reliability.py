@@ -40,6 +40,7 @@ from r37core.results.netcdf import create_axis, create_variable
 from r37core.rom.rotation import BucklingError
 from r37core.speeds import plan_speeds
 from r37core.time_integration.simulate import Simulation
+from r37core.time_integration.speed_file import read_speed
 
 
 @pytest.fixture
@@ -369,6 +370,15 @@ def test_what_has_changed_since_it_was_written_is_refused(tmp_path, name):
     with pytest.raises(KeyError), checksummed([str(file)]):
         raise KeyError
     assert not checksum_file(file).exists()
+
+
+@pytest.mark.parametrize("content", [b"", b"x", b"\x80\x04]\x94."])
+def test_nobody_is_advised_to_load_what_may_run_something(tmp_path, content):
+    file = tmp_path / "speed_1.npz"
+    file.write_bytes(content)
+    with pytest.raises(InputFileError) as refused:
+        read_speed(file)
+    assert "pickle" not in str(refused.value) and "cannot be read (" in str(refused.value)
 
 
 def test_checksums_are_those_of_a_common_tool(tmp_path):

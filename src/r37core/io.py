@@ -101,6 +101,8 @@ def readable(file: Path | str) -> Iterator[None]:
         raise
     except Exception as error:
         reason = f"{type(error).__name__}: {error}" if Path(file).exists() else "there is no such file"
+        # NumPy's advice for what it does not know is to run what stands in it
+        reason = "its content is not what results have" if "pickle" in reason else reason
         raise InputFileError(f"{file}: cannot be read ({reason}); if it is a result, delete it and run again") from error
 
 

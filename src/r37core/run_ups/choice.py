@@ -108,7 +108,7 @@ class RunUpChoice:
         if not fewest <= revolutions <= LONGEST:
             slowest, fastest = (squares / (4.0 * np.pi * number) for number in (LONGEST, fewest))
             raise RunUpError(
-                f"found a change from {start:g} to {stop:g} rad/s within {revolutions:.4g} revolutions; "
+                f"found a change from {start:.15g} to {stop:.15g} rad/s within {revolutions:.4g} revolutions; "
                 f"allowed: {fewest:.3g} to {LONGEST:g} of them (rates from {slowest:.3g} to {fastest:.3g} rad/s2)"
             )
         return RunUp(start, stop, revolutions, self.before, self.after, self.worn)
