@@ -1,6 +1,9 @@
 # r37: blade shape in; Campbell diagrams, vibration, stress and wear maps out. Reads like a table of contents.
 import os
 
+from r37core.console import interruption
+
+interruption.in_one_line()
 # one thread per job: Snakemake runs jobs side by side, and results must not depend on the number of cores
 for library in ("OPENBLAS", "OMP", "MKL", "NUMBA"):
     os.environ[f"{library}_NUM_THREADS"] = "1"

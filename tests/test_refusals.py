@@ -137,6 +137,11 @@ CONFIG_REFUSALS = [
     ),
     (
         "speeds_for: []",
+        "run_ups: { a: { from_rad_s: 1999, to_rad_s: 1999.0000001, rate_rad_s2: 10 } }",
+        r"run_ups\.a\.rate_rad_s2: found a change from 1999 to 1999\.0000001 rad/s within",
+    ),
+    (
+        "speeds_for: []",
         "run_ups: { a: { from_rad_s: 900, to_rad_s: 1000, rate_rpm_s: 5e-324 } }",
         r"run_ups\.a\.rate_rpm_s: found 5e-324; allowed: number, at least 0\.01",
     ),
