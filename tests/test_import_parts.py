@@ -68,7 +68,8 @@ def test_coordinates_that_a_deck_leaves_out_are_zero_and_nodes_of_an_assembly_ar
     np.testing.assert_array_equal(again.points, mesh.points)
 
 
-def test_axes_are_found_about_any_point_and_are_units():
+@pytest.mark.parametrize("upside_down", [False, True])
+def test_axes_are_found_about_any_point_and_are_units(upside_down):
     mesh = box_mesh(0.06, 0.004, 0.03, (6, 2, 6), origin=(0.2, -0.002, 0.0), element="hexahedron20")
     x, y, z = mesh.points.T
     # on cones, staggered and cambered, as a compressor's blade is
@@ -77,7 +78,8 @@ def test_axes_are_found_about_any_point_and_are_units():
     points = np.stack([np.sqrt(x**2 - y**2), y, z], axis=1)
     offset = np.array([0.5, -0.3, 0.2])
     # the file has its axis along y and the blade along z
-    theirs = replace(raw(mesh), points=points[:, [1, 2, 0]] + offset)
+    half_a_turn = np.array([-1.0, -1.0, 1.0]) if upside_down else np.ones(3)
+    theirs = replace(raw(mesh), points=half_a_turn * points[:, [1, 2, 0]] + offset)
     like = Orientation("m", (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), "positive", tuple(offset))
     axes = find_axes(theirs, like)
     assert axes is not None
@@ -282,3 +284,18 @@ def test_a_blade_lies_about_its_radial_direction(degrees, fits):
     else:
         with pytest.raises(ImportRefused, match="degrees round the axis from `radial`"):
             OURS.to_blade(placed)
+
+
+def test_a_tip_that_waves_is_no_surface_of_revolution():
+    """A polynomial of the number of places along the axis would follow it."""
+    z = np.linspace(0.0, 0.03, 13)
+    radius = 0.25 + 5e-4 * np.cos(200.0 * np.pi * z)
+    with pytest.raises(ImportRefused, match="no surface of revolution"):
+        tip.check_revolution(np.stack([radius, np.zeros(13), z], axis=1), 1e-4)
+
+
+def test_contact_nodes_run_along_their_line():
+    points = np.array([[0.25, 0.0, 0.0], [0.25, 0.001, 0.01], [0.25, 0.002, 0.02], [0.25, 0.003, 0.03]])
+    tip.check_order(points)
+    with pytest.raises(ImportRefused, match="contact node 3 does not lie beyond the one before it"):
+        tip.check_order(points[[0, 2, 1, 3]])
