@@ -407,6 +407,7 @@ def test_errors_between_the_speeds_that_are_run():
 def test_the_size_of_a_curve_does_not_matter():
     """Not of one far below a tenth, either."""
     rows = {speed: [0, 1e-3 + 1e-2 * np.sin(0.01 * speed) ** 8, 1e-3, 1e-3] for speed in PLAN.certain}
+    rows[PLAN.certain[3]] = [1, np.nan, np.nan, np.nan]
     small = {speed: [status, 1e-6 * normal, *others] for speed, (status, normal, *others) in rows.items()}
     asked_for = next_speeds(GRID, known_of(rows), CHOICE)
     assert asked_for and next_speeds(GRID, known_of(small), CHOICE) == asked_for
