@@ -15,6 +15,7 @@ from r37core.exchange.importing import ends, fitting_entry, mesh_checks, meshio_
 from r37core.exchange.importing.abaqus_reader import read_abaqus
 from r37core.exchange.importing.axes import find_axes
 from r37core.exchange.importing.deck_text import deck_lines
+from r37core.exchange.importing.frame import blade_parameters
 from r37core.exchange.importing.import_mesh import size_in_words
 from r37core.exchange.importing.raw_mesh import RawMesh
 from r37core.exchange.importing.source import digest_of, matrix_files
@@ -299,3 +300,20 @@ def test_contact_nodes_run_along_their_line():
     tip.check_order(points)
     with pytest.raises(ImportRefused, match="contact node 3 does not lie beyond the one before it"):
         tip.check_order(points[[0, 2, 1, 3]])
+
+
+@pytest.mark.parametrize("forward", [True, False])
+@pytest.mark.parametrize(("stagger_deg", "place_deg", "z"), [(0.0, 0.0, 0.0), (80.0, 0.0, 0.0), (0.0, 45.0, -3.0)])
+def test_normals_of_sections_look_to_the_suction_side(forward, stagger_deg, place_deg, z):
+    """However staggered the blade is, and wherever round and along the axis it lies."""
+    mesh = plate("hexahedron20", (6, 1, 3))
+    angle = np.radians(stagger_deg)
+    x, y, axial = mesh.points.T
+    axial = axial - 0.015
+    standing = np.stack([x, y * np.cos(angle) + axial * np.sin(angle), axial * np.cos(angle) - y * np.sin(angle) + z], axis=1)
+    points = turned(standing, place_deg)
+    parameters, normals = blade_parameters(points, mesh.node_set("root"), mesh.node_set("tip"), forward)
+    side = np.array([0.0, np.cos(angle), -np.sin(angle)]) * (1.0 if forward else -1.0)
+    expected = turned(side[None], place_deg)[0]
+    np.testing.assert_allclose(normals, np.broadcast_to(expected, normals.shape), atol=0.03)
+    np.testing.assert_allclose(parameters[:, 2], (1.0 if forward else -1.0) * y / 0.002, atol=0.3)
