@@ -247,6 +247,21 @@ def sum_of_lanes(typingctx, value):
 
 
 @intrinsic
+def largest_of_lanes(typingctx, value):
+    """The largest of all lanes, none of which is NaN."""
+
+    def build(context, builder, sig, args):
+        largest, half = args[0], LANES // 2
+        while half:
+            other = _shuffle(builder, largest, largest, [lane ^ half for lane in range(LANES)])
+            largest = builder.select(builder.fcmp_ordered(">", largest, other), largest, other)
+            half //= 2
+        return builder.extract_element(largest, _INTEGER(0))
+
+    return types.float64(value), build
+
+
+@intrinsic
 def lanes_of(typingctx, vectors, place):
     """Lanes of so many vectors, an integer of an array in a record that nothing changes while a program runs, at least 1."""
 

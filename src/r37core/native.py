@@ -75,11 +75,13 @@ def object_code(assembly: str, symbol: str, name: str) -> bytes:
     module = llvm.parse_assembly(assembly)
     module.verify()
     module.get_function(symbol).name = name
+    machine = _target_machine(opt=3, reloc="pic", codemodel="small")
+    _drop_unreached(module, machine)
     outside = [f.name for f in module.functions if f.is_declaration and not f.name.startswith("llvm.")]
     missing = [function for function in outside if not _in_process(function)]
     if missing:
         raise ObjectCodeError(f"{name} needs {', '.join(missing)}, which only its compiler has")
-    return _target_machine(opt=3, reloc="pic", codemodel="small").emit_object(module)
+    return machine.emit_object(module)
 
 
 def load_function(code: bytes, name: str, result: Any, *arguments: Any) -> Callable:
@@ -107,6 +109,15 @@ def _start_llvm() -> None:
 def _target_machine(**options: Any) -> llvm.TargetMachine:
     cpu, features = processor()
     return llvm.Target.from_default_triple().create_target_machine(cpu=cpu, features=features, **options)
+
+
+def _drop_unreached(module: llvm.ModuleRef, machine: llvm.TargetMachine) -> None:
+    """Without what a caller does about errors that its function, as it was optimised, never has."""
+    passes = llvm.create_new_module_pass_manager()
+    passes.add_ipsccp_pass()
+    passes.add_simplify_cfg_pass()
+    passes.add_global_dead_code_eliminate_pass()
+    passes.run(module, llvm.create_pass_builder(machine, llvm.create_pipeline_tuning_options()))
 
 
 def _in_process(function: str) -> bool:

@@ -17,7 +17,7 @@ from .lanes import inlined
 _copies = dict[tuple[Any, ...], Any]()
 
 
-def with_constants(function: Any, constants: Mapping[str, bool]) -> Any:
+def with_constants(function: Any, constants: Mapping[str, int]) -> Any:
     """A compiled function and all that it calls, with `constants` as the globals of these names.
 
     Choices of constants that agree in those that a function uses share its copy; a function that uses none stays what it is.
@@ -34,7 +34,7 @@ def with_constants(function: Any, constants: Mapping[str, bool]) -> Any:
     return _copies[key]
 
 
-def _used(function: Any, constants: Mapping[str, bool]) -> dict[str, bool]:
+def _used(function: Any, constants: Mapping[str, int]) -> dict[str, int]:
     """Those of the constants that it or a function that it calls names."""
     names = _globals_of(function.py_func)
     for other in _called(function).values():

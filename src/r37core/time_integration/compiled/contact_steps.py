@@ -13,7 +13,7 @@ import numpy as np
 
 from r37core.alignment import LANES
 from r37core.contact.node_sweeps import set_laws, sweep_nodes, wear_bars
-from r37core.lanes import bits_of, first_bit, flags_of, inlined, load, numbers_at, store
+from r37core.lanes import bits_of, first_bit, flags_of, inlined, largest_of_lanes, load, numbers_at, store
 
 from .kind import LINED, VECTOR_FRICTION
 from .layout import MERIDIONAL, NORMAL, TANGENTIAL
@@ -38,8 +38,8 @@ def press_contact(m, place):
         store(c.gap, g, gap)
         store(c.opened, g, gap)
         c.found[g // LANES] = 0
-    for k in range(m.nodes):
-        largest_gap = max(largest_gap, abs(c.gap[k]))
+        size = np.where(flags_of((1 << min(m.nodes - g, LANES)) - 1), np.abs(gap), 0.0)
+        largest_gap = max(largest_gap, largest_of_lanes(np.where(size > 0.0, size, 0.0)))
     count = int(np.int64(0))
     while True:
         joined = list_beyond(m, count, place)

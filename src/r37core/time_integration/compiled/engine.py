@@ -74,12 +74,15 @@ class CompiledEngine:
         self._mode_columns = np.concatenate([np.arange(blade), *of_ring]) if pairs else slice(blade)
         scene, choice = problem.scene, problem.choice
         self._capacity = capacity_of(self._mode_lanes, self._node_lanes)
+        coriolis = problem.blade.complex_modes is not None
+        follows_sliding = scene.friction is not None and scene.friction.vector
         self._kind = kind = Kind(
             published=choice.integrator == CENTRAL_DIFFERENCE,
             lined=scene.lining is not None,
-            vector_friction=scene.friction is not None and scene.friction.vector,
+            # other friction is rare with the exact gap and the Coriolis force: no program of its own
+            vector_friction=follows_sliding or scene.exact_gap or coriolis,
             exact_gap=scene.exact_gap,
-            coriolis=problem.blade.complex_modes is not None,
+            coriolis=coriolis,
         )
         self._advance = _program(self._capacity, kind)
         self._constant_share: np.ndarray | None = None
@@ -96,7 +99,7 @@ class CompiledEngine:
             self._lay_out_lining(problem, scene.lining)
         if not kind.published:
             self._lay_out_static_modes(problem)
-        self._put(jumping=segments.jumps is not None)
+        self._put(jumping=segments.jumps is not None, follows_sliding=follows_sliding)
         self._constants = self._table_of(segments)
         self.take(0)
 

@@ -14,7 +14,8 @@ class Kind(NamedTuple):
 
     `published`: the integrator is central_difference, whose forces correct the prediction; else they are those at t_n, see
     contact_steps. `lined`, `exact_gap`: see Scene. `vector_friction`: along the real sliding velocity; friction of constant
-    direction is in the push rows and responses. `coriolis`: modes are complex, see r37core.time_integration.gyroscopic.
+    direction is in the push rows and responses, but with `exact_gap` or `coriolis` it is a vector that stays. `coriolis`:
+    modes are complex, see r37core.time_integration.gyroscopic.
     """
 
     published: bool

@@ -204,8 +204,8 @@ def integration_record(capacity: Capacity) -> np.dtype:
             # how much of the record is used: vectors of modes and of nodes; numbers
             *_arrays("vectors", 2, kind=np.int64),
             *_numbers("pairs number_of_outputs nodes rings", kind=np.int64),
-            # whether it jumps, and whether friction is part of the complementarity problem
-            *_numbers("jumping coupled", kind=np.int64),
+            # whether it jumps, friction is part of the complementarity problem, and its direction follows the sliding
+            *_numbers("jumping coupled follows_sliding", kind=np.int64),
             *_numbers("steps_per_revolution steps_per_block samples_before_snapshots samples_per_snapshot", kind=np.int64),
             ("call", CALL, ()),
         ]

@@ -19,13 +19,14 @@ from .ring_steps import turn_jump, turn_step
 from .segment_steps import begin_segment, end_segment
 from .steps import leave_casing, list_pressed, measure_exact_gaps, measure_gaps, meet, node_lanes, predict, record
 
+OTHERS = 0
+"""How many constants of a speed are not of modes."""
+
 
 @inlined
-def _integrate(m, others):
-    """Do the blocks of steps asked for; returns how many were done, fewer when an output passed the limit or is NaN.
-
-    `others`: how many constants of a speed are not of modes.
-    """
+def _integrate(address):
+    """Do the blocks of steps asked for; returns how many were done, fewer when an output passed the limit or is NaN."""
+    m = pointed_at(address)
     at_once = np.isinf(m.casing.rise)
     decay = 0.0 if at_once else np.exp(-m.casing.rise)
     coarse_per_block = (m.steps_per_block + COARSE - 1) // COARSE
@@ -35,12 +36,15 @@ def _integrate(m, others):
     # whether there are forces at t_n, which the next step follows
     follows = False
     done = kept = segment = until = zero
+    first_block = m.call.first_step // m.steps_per_block
+    place = m.call.first_step % m.steps_per_revolution
+    # of the steps' intervals in which the casing's nearest is known, the first of this block
+    interval = place // m.steps_per_block * coarse_per_block
     while done < m.call.blocks:
         begins = done == until
         if begins:
-            until += begin_segment(m, segment, others)
+            until += begin_segment(m, segment, OTHERS)
         start = m.call.first_step + done * m.steps_per_block
-        place = start % m.steps_per_revolution
         remaining = 0.0 if at_once else np.exp(-m.casing.rise * start)
         if place == 0 or begins:
             # so that a run stopped after a revolution goes on with the same bits
@@ -54,7 +58,7 @@ def _integrate(m, others):
                 if not bounded:
                     bound_amplitudes(m)
                     bounded = True
-                nearest = (place // m.steps_per_block * coarse_per_block + position // COARSE) * node_lanes(m)
+                nearest = (interval + position // COARSE) * node_lanes(m)
                 left = m.steps_per_block - position
                 stride = choose_jump(m, nearest, first_stride, left, remaining)
                 first_stride = max(min(stride + 1, STRIDES - 1), 1)
@@ -92,11 +96,15 @@ def _integrate(m, others):
         m.totals.loss += sum_of_lanes(lost)
         m.totals.steps += m.steps_per_block
         # of the samples from the first snapshot's revolution on, every so many-th
-        due = (start + m.steps_per_block) // m.steps_per_block - m.samples_before_snapshots
+        due = first_block + done + 1 - m.samples_before_snapshots
         taken = m.samples_per_snapshot > 0 and due > 0 and due % m.samples_per_snapshot == 0
-        within = record(m, done, kept if taken else -1)
+        within = record(m, done, kept if taken else -1, follows)
         kept += taken
         done += 1
+        # counted on, not divided: a block may have two steps
+        place, interval = place + m.steps_per_block, interval + coarse_per_block
+        if place == m.steps_per_revolution:
+            place = interval = zero
         if done == until or not within:
             end_segment(m, segment)
             segment += 1
@@ -107,12 +115,9 @@ def _integrate(m, others):
 
 def compile_integration(capacity: Capacity, kind: Kind) -> bytes:
     """Object code of `advance(record)`: a function of the record's address that returns the blocks of steps done."""
-    integrate = with_constants(_integrate, kind.constants)
     others = constants_record(*capacity).itemsize // 8 - MODAL_ROWS * capacity.modes
+    integrate = with_constants(_integrate, kind.constants | {"OTHERS": others})
+    # the loop itself, not a function around it: what a compiled function calls was optimised and emitted once already
     signature = types.int64(types.CPointer(numba.from_dtype(integration_record(capacity))))
-
-    @numba.cfunc(signature, **OPTIONS)
-    def advance(record):
-        return integrate(pointed_at(record), others)
-
+    advance = numba.cfunc(signature, **OPTIONS)(integrate.py_func)
     return object_code(advance.inspect_llvm(), advance.native_name, "advance")

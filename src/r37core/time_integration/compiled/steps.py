@@ -21,6 +21,9 @@ from r37core.lanes import bits_of, flag_at, inlined, lanes_of, load, numbers_at,
 from .kind import CORIOLIS, EXACT_GAP, LINED, PUBLISHED, VECTOR_FRICTION
 from .layout import MERIDIONAL, NORMAL, OF_MODES, OF_NODES, TANGENTIAL
 
+FEW_NODES = 3
+"""That many nodes or fewer have their friction set one by one."""
+
 _friction_direction = inlined(friction_direction)
 _return_mapping = inlined(return_mapping)
 _displaced_position = inlined(displaced_position)
@@ -132,7 +135,12 @@ def measure_exact_gaps(m, place, lobes):
 
 @inlined
 def set_friction(m, g, tangential, meridional):
-    """Vector friction per normal force on the nodes from g on, against their sliding in the last step (m)."""
+    """Vector friction per normal force on the nodes from g on, against their sliding in the last step (m).
+
+    Friction of constant direction stays as it is.
+    """
+    if m.follows_sliding == 0:
+        return
     # a normal force is negative
     along_tangent, along_meridian = _friction_direction(load(m.rotation, g) + tangential, meridional, 0.0 - m.friction)
     store(m.friction_share, (0, g), along_tangent)
@@ -141,7 +149,7 @@ def set_friction(m, g, tangential, meridional):
 
 @inlined
 def set_friction_of_listed(m, listed, count):
-    """Vector friction on `listed` nodes: more costly for each than `set_friction_of_all`, but they are few.
+    """Vector friction on `listed` nodes: more costly for each than `set_friction_against_last`, but they are few.
 
     With forces at t_n it is against the sliding then, extrapolated from the last two increments, else in the last step.
     """
@@ -168,12 +176,18 @@ def set_friction_of_listed(m, listed, count):
 
 
 @inlined
-def set_friction_of_all(m):
-    """Vector friction on all nodes, and the gaps' response with it."""
+def set_friction_against_last(m):
+    """Vector friction on all nodes, against their sliding in the last step."""
     for g in range(0, node_lanes(m), LANES):
         tangential = along(m.displacement_operator, TANGENTIAL, m.last_increment, g, mode_lanes(m))
         meridional = along(m.displacement_operator, MERIDIONAL, m.last_increment, g, mode_lanes(m))
         set_friction(m, g, tangential, meridional)
+
+
+@inlined
+def set_friction_of_all(m):
+    """Vector friction on all nodes, and the gaps' response with it."""
+    set_friction_against_last(m)
     for k in range(m.nodes):
         for g in range(0, node_lanes(m), LANES):
             store(m.speed.response, (k, g), response_with_friction(m, k, g))
@@ -210,7 +224,11 @@ def press_bars(m, place):
     p, lining, wear = m.problem, m.lining, numbers_at(m.call.wear)
     count = list_nodes(m.beyond, p.listed)
     if VECTOR_FRICTION:
-        set_friction_of_listed(m, p.listed, count)
+        # the same sums
+        if count > FEW_NODES:
+            set_friction_against_last(m)
+        else:
+            set_friction_of_listed(m, p.listed, count)
     for j in range(count):
         k = p.listed[j]
         bar = bar_at(m, k, place)
@@ -296,13 +314,14 @@ def push_blade(m, work, lost):
     p, count = m.problem, list_pressed(m)
     if count == 0:
         return False, work, lost
+    largest = m.totals.largest_force
     for j in range(count):
-        k = p.listed[j]
-        force = m.force[k], m.friction_force[0, k], m.friction_force[1, k]
-        m.totals.largest_force = max(m.totals.largest_force, -force[0])
-        add_push(m, m.push, m.displacement_operator, m.push_operator, k, force)
-        if CORIOLIS:
-            add_push(m, m.increment_push, m.increment_operator, m.increment_push_operator, k, force)
+        largest = max(largest, -m.force[p.listed[j]])
+    m.totals.largest_force = largest
+    if count % 2 != 0:
+        add_pushes(m, p.listed[0], p.listed[0], False)
+    for j in range(count % 2, count, 2):
+        add_pushes(m, p.listed[j], p.listed[j + 1], True)
     for i in range(0, mode_lanes(m), LANES):
         if CORIOLIS:
             work, lost = kick_complex_modes(m, i, load(m.push, i), load(m.increment_push, i), work, lost)
@@ -316,21 +335,40 @@ def push_blade(m, work, lost):
 
 
 @inlined
-def add_push(m, pushes, rows, constant_rows, k, force):
-    """Add what a node's `force`, normal, tangential and meridional, is to all modes.
+def add_pushes(m, first, second, both):
+    """Add what the forces of two nodes, or of the first alone, are to all modes.
+
+    Two at once, because a sum that is kept in memory waits for its last store.
+    """
+    # loaded once: a store may change them, for all that the compiler knows
+    of_first = m.force[first], m.friction_force[0, first], m.friction_force[1, first]
+    of_second = m.force[second], m.friction_force[0, second], m.friction_force[1, second]
+    for i in range(0, mode_lanes(m), LANES):
+        push = pushed(m.displacement_operator, m.push_operator, first, i, of_first, load(m.push, i))
+        if both:
+            push = pushed(m.displacement_operator, m.push_operator, second, i, of_second, push)
+        store(m.push, i, push)
+        if CORIOLIS:
+            push = pushed(m.increment_operator, m.increment_push_operator, first, i, of_first, load(m.increment_push, i))
+            if both:
+                push = pushed(m.increment_operator, m.increment_push_operator, second, i, of_second, push)
+            store(m.increment_push, i, push)
+
+
+@inlined
+def pushed(rows, constant_rows, k, i, force, push):
+    """`push` on the eight modes from i on and what a node's `force`, normal, tangential and meridional, adds to it.
 
     `constant_rows` have friction of constant direction in them, for the normal force alone.
     """
     normal, tangential, meridional = force
-    for i in range(0, mode_lanes(m), LANES):
-        push = load(pushes, i)
-        if VECTOR_FRICTION:
-            push += load(rows, (NORMAL, k, i)) * normal
-            push += load(rows, (TANGENTIAL, k, i)) * tangential
-            push += load(rows, (MERIDIONAL, k, i)) * meridional
-        else:
-            push += load(constant_rows, (k, i)) * normal
-        store(pushes, i, push)
+    if VECTOR_FRICTION:
+        push += load(rows, (NORMAL, k, i)) * normal
+        push += load(rows, (TANGENTIAL, k, i)) * tangential
+        push += load(rows, (MERIDIONAL, k, i)) * meridional
+    else:
+        push += load(constant_rows, (k, i)) * normal
+    return push
 
 
 @inlined
@@ -388,10 +426,13 @@ def leave_casing(m):
 
 
 @inlined
-def record(m, block, row):
-    """Samples and, unless `row` is -1, a snapshot at the end of a block; returns whether the outputs are within the limit."""
+def record(m, block, row, pressed):
+    """Samples and, unless `row` is -1, a snapshot at the end of a block; returns whether the outputs are within the limit.
+
+    `pressed`: whether there are forces.
+    """
     snapshots, modes, nodes = numbers_at(m.call.snapshots), mode_lanes(m), node_lanes(m)
-    bounded = sample(m, block)
+    bounded = sample(m, block, pressed)
     if row >= 0:
         numbers = 2 * modes if CORIOLIS else modes
         width = numbers + (0 if PUBLISHED else 3 * nodes)
@@ -405,7 +446,7 @@ def record(m, block, row):
 
 
 @inlined
-def sample(m, block):
+def sample(m, block, pressed):
     """The outputs, with those of the static modes; returns whether they are within the limit."""
     samples, outputs, nodes = numbers_at(m.call.samples), m.number_of_outputs, node_lanes(m)
     if not PUBLISHED:
@@ -418,7 +459,7 @@ def sample(m, block):
         total = along(m.outputs, 0, m.u, g, mode_lanes(m))
         if CORIOLIS:
             total += along(m.increment_outputs, 0, m.increment, g, mode_lanes(m))
-        if not PUBLISHED:
+        if not PUBLISHED and pressed:
             total += along(m.force_outputs, 0, m.static_force, g, 3 * nodes)
         store(m.sample, g, total)
         # written so that NaN fails as well
