@@ -476,3 +476,18 @@ def test_contact_nodes_of_another_size_or_order_are_refused(model, choice, tmp_p
     with pytest.raises(ImportRefused, match=rf"^{tmp_path}: boundary\.csv: .*{message}") as refusal:
         import_matrices(MatricesSource(str(tmp_path), OURS), choice)
     assert refusal.value.key == key
+
+
+@pytest.mark.parametrize("size", [1e-6, 1.0, 1e9])
+def test_a_matrix_is_judged_whatever_its_unit(tmp_path, size):
+    """Symmetric to a part in 1e8 of its largest entry, which is a number above 0."""
+    matrix = size * SPARSE.toarray()
+    for off, message in ((1e-9, None), (1e-6, "not symmetric"), (np.inf, "some are no numbers"), (-1.0, "all entries are 0")):
+        beside = np.where(np.eye(24, k=1) > 0.0, off * matrix.max(), 0.0)
+        changed = 0.0 * matrix if off < 0.0 else matrix + beside
+        np.savez(tmp_path / "M.npz", changed)
+        if message is None:
+            assert read_matrix(tmp_path / "M.npz").shape == (24, 24)
+        else:
+            with pytest.raises(ImportRefused, match=message):
+                read_matrix(tmp_path / "M.npz")
