@@ -28,7 +28,7 @@ from r37core.figures.maps import draw_map
 from r37core.figures.style import plt
 from r37core.plain import to_plain
 from r37core.product.reading import read_settings
-from r37core.results.casing_coincidence import coincidence_table
+from r37core.results.casing_coincidence import coincidence_table, coincidences, seen_from_rotor, waves_of
 from r37core.results.datasets import write_sweep_dataset
 from r37core.results.response import write_response
 from r37core.run_ups.integration import RunUpIntegration
@@ -624,3 +624,15 @@ def test_a_casing_that_cannot_be_meant_is_refused(changed, message):
     changed = changed | {"casing": {"clearance_m": 3e-4} | changed.get("casing", {})}
     with pytest.raises(ConfigError, match=message):
         checked_scene(changed)
+
+
+def test_a_rotor_at_rest_is_no_coincidence():
+    """Where the blade has the very frequency of the casing; the speed at which they meet again is one."""
+    mode, speeds = RingMode(3, 2.0 * np.pi * 800.0, 1.0), np.linspace(0.0, 2000.0, 9)
+    for wave in waves_of(mode):
+        of_wave = seen_from_rotor(mode, wave, speeds)
+        blade = of_wave + 1e-4 * speeds * (speeds - 1000.0)
+        assert blade[0] == of_wave[0]
+        frequency = xr.DataArray(blade, {"speed": speeds}, "speed")
+        speeds_met = [speed for speed, _ in coincidences(frequency, mode, wave)]
+        assert min(speeds_met) > 1.0 and any(abs(speed - 1000.0) < 1e-6 for speed in speeds_met)

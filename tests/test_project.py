@@ -22,6 +22,7 @@ from r37core.io import FILE_ATTRIBUTES
 from r37core.product.wings import WINGS
 
 LAYERS = [
+    "checksums",
     "io",
     "plain",
     "units",

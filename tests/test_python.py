@@ -23,6 +23,7 @@ import r37
 from r37 import structure_files
 from r37.command import main
 from r37.structure_files import StructureFiles, cache_folder
+from r37core.config import command_line_document
 from r37core.dataset_file import read_dataset
 from r37core.exports.matrices_out import write_reduced_matrices
 from r37core.kept import kept_file
@@ -229,6 +230,19 @@ BAD = {
         lambda config: r37.sweep("Ref", "direct", {"start": 1, "stpo": 9}, config=config),
         r"r37.sweep: speeds.0: found unknown key stpo; .* \(did you mean stop\?\)",
     ),
+    "no scene": (
+        lambda config: r37.simulate("Ref", None, 1200, config=config),
+        "scene: found None; allowed: the name of a scene",
+    ),
+    "a list of blades": (
+        lambda config: r37.campbell(["Ref"], config=config),
+        r"blade: found \['Ref'\]; allowed: the name of a",
+    ),
+    "a number of results": (
+        lambda config: r37.simulate("Ref", "direct", 1200, results=3, config=config),
+        "results: found 3; allowed: a list of names",
+    ),
+    "no folder for a study": (lambda config: r37.init(None), "init: found None; allowed: a folder"),
     "an almost known blade": (lambda config: r37.campbell("cs10", config=config), r"\(did you mean CS100\?\)"),
     "an almost known scene": (
         lambda config: r37.simulate("Ref", "abrasable", 1000, config=config),
@@ -471,8 +485,30 @@ def test_the_command_does_what_the_page_says(root, finished, monkeypatch, capsys
     assert "blades: Ref, CS100\n" in told[3] and "simulations: 12\n" in told[3]
 
 
-def test_the_command_refuses_in_one_line(root, capsys):
+@pytest.mark.parametrize("file", [3.5, 300 * "x", "a\0b", "a\nb", ".", "/dev/zero", []])
+def test_what_is_no_file_is_refused_in_one_line(file):
+    for call in (lambda: r37.blades(config=file), lambda: r37.blades(file=file), lambda: r37.scene("direct", file=file)):
+        with pytest.raises(r37.ConfigError, match=r"^(config|file): found .*; allowed: ") as refused:
+            call()
+        assert str(refused.value).isprintable() and len(str(refused.value)) < 200
+
+
+def test_numbers_of_numpy_are_numbers():
+    changes = {"casing.lobes": np.int64(3), "friction.coefficient": np.float32(0.5), "gap": np.str_("exact")}
+    entry = r37.scene("direct", **changes).entry
+    assert (entry.casing.lobes, entry.friction.coefficient, entry.gap) == (3, 0.5, "exact")
+    assert command_line_document({"a": [np.int64(1), {"b": np.bool_(True)}]}).content == {"a": [1, {"b": True}]}
+
+
+def test_the_command_refuses_in_one_line(root, capsys, tmp_path):
     config = str(root / "config/config.yaml")
+    # no folder is made, and nothing is put in the place of a device
+    os.mkfifo(tmp_path / "pipe")
+    for output in (tmp_path / "none/a.nc", tmp_path / "pipe", Path("/dev/null"), tmp_path / f"{300 * 'x'}.nc"):
+        assert main(["campbell", "Ref", "--output", str(output)]) == 1
+        told = capsys.readouterr().err
+        assert told.startswith("r37: --output: found ") and told.count("\n") == 1
+    assert [path.name for path in tmp_path.iterdir()] == ["pipe"] and (tmp_path / "pipe").is_fifo()
     assert main(["simulate", "Ref", "rub", "1000", "--config", config]) == 1
     told = capsys.readouterr()
     assert told.out == "" and told.err.startswith("r37: scene: found 'rub'; allowed: abradable") and told.err.count("\n") == 1

@@ -1,42 +1,16 @@
-"""What all calls do with their arguments: names that are not theirs, and what speeds may be."""
+"""What speeds and other numbers may be as arguments of a call."""
 
 from __future__ import annotations
 
-import inspect
-from collections.abc import Callable, Iterable, Mapping
-from functools import wraps
-from typing import Any, ParamSpec, TypeVar
+from collections.abc import Iterable, Mapping
+from typing import Any
 
 import numpy as np
 
 from r37core.config import ConfigError
-from r37core.config.messages import did_you_mean
-
-from .stages import stages
-
-Arguments = ParamSpec("Arguments")
-Result = TypeVar("Result")
 
 Speeds = Iterable[float | Mapping[str, float]] | Mapping[str, float]
 """Numbers, and ranges `{"start": ..., "stop": ..., "step": ..., "refine_to": ...}` as in config.yaml."""
-
-
-def checked_call(call: Callable[Arguments, Result]) -> Callable[Arguments, Result]:
-    """The call, with its stages told, and a TypeError for an unknown keyword argument that says which there are."""
-    parameters = inspect.signature(call).parameters
-    named = [name for name, parameter in parameters.items() if parameter.kind is not parameter.POSITIONAL_ONLY]
-    takes_any = any(parameter.kind is parameter.VAR_KEYWORD for parameter in parameters.values())
-
-    @wraps(call)
-    def checked(*arguments: Arguments.args, **keywords: Arguments.kwargs) -> Result:
-        for name in () if takes_any else keywords.keys() - set(named):
-            raise TypeError(
-                f"r37.{call.__name__}: found the argument {name}; allowed: {', '.join(named)}{did_you_mean(name, named)}"
-            )
-        with stages():
-            return call(*arguments, **keywords)
-
-    return checked
 
 
 def speed_keys(speeds: Any, speeds_rpm: Any) -> dict[str, list[Any]]:

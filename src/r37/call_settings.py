@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from functools import reduce
 from pathlib import Path
 from typing import Any
@@ -15,6 +15,8 @@ from .choices import BladeChoice, Choice, SceneChoice
 
 def chosen_blade(blade: BladeChoice | str, config: Path | str | None) -> BladeChoice:
     """The blade, of the configuration `config` where it is a name. Raises ConfigError."""
+    if not isinstance(blade, BladeChoice | str):
+        raise ConfigError(f"blade: found {blade!r}; allowed: the name of a blade, or what r37.blade gives")
     chosen = blade if isinstance(blade, BladeChoice) else BladeChoice(blade, {}, read_configuration(config))
     chosen.check()
     return chosen
@@ -22,7 +24,11 @@ def chosen_blade(blade: BladeChoice | str, config: Path | str | None) -> BladeCh
 
 def chosen_scene(scene: SceneChoice | str, base: Configuration, results: Sequence[str] | None = None) -> SceneChoice:
     """The scene, of the configuration `base` where it is a name, with other `results` if there are any. Raises ConfigError."""
+    if not isinstance(scene, SceneChoice | str):
+        raise ConfigError(f"scene: found {scene!r}; allowed: the name of a scene, or what r37.scene gives")
     chosen = scene if isinstance(scene, SceneChoice) else SceneChoice(scene, {}, base)
+    if results is not None and not isinstance(results, Iterable):
+        raise ConfigError(f"results: found {results!r}; allowed: a list of names")
     if isinstance(results, str):
         raise ConfigError(f'results: found "{results}"; allowed: a list, as in results=["{results}"]')
     chosen = chosen.with_results(results)

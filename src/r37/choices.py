@@ -16,8 +16,9 @@ from r37core.config.families import Designs, with_designs, with_value
 from r37core.config.messages import did_you_mean, on_one_line
 from r37core.config.scenes import Scenes
 
-from .arguments import checked_call, plain_value
-from .call_configuration import Configuration, read_configuration
+from .arguments import plain_value
+from .call_configuration import Configuration, existing_file, read_configuration
+from .checked import checked_call
 
 
 @dataclass(frozen=True)
@@ -323,9 +324,7 @@ def _configuration(key: str, file: Path | str | None, config: Path | str | None)
     configuration = read_configuration(config)
     if file is None:
         return configuration
-    if not Path(file).is_file():
-        raise ConfigError(f"file: found {file}; allowed: a file that is there")
-    return configuration.with_file(key, file)
+    return configuration.with_file(key, existing_file("file", file, "a file that is there"))
 
 
 def _designs(document: Document, root: Path) -> Designs:

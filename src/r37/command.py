@@ -219,12 +219,14 @@ def _check_output(file: Path | None) -> None:
 
     if file is None:
         return
-    allowed = "allowed: a file in a folder that can be written"
-    if not file.name or file.is_dir():
-        raise ConfigError(f"--output: found {str(file)!r}, a folder; {allowed}")
+    allowed = "allowed: a file in a folder that is there and can be written"
     try:
-        file.parent.mkdir(parents=True, exist_ok=True)
-        with tempfile.NamedTemporaryFile(dir=file.parent, prefix=f".{file.name}"):
+        if not file.name or file.is_dir():
+            raise ConfigError(f"--output: found {str(file)!r}, a folder; {allowed}")
+        # what is moved into the place of a device or a pipe takes it away from others
+        if file.exists() and not file.is_file():
+            raise ConfigError(f"--output: found {file}, a device or a pipe; {allowed}")
+        with tempfile.NamedTemporaryFile(dir=file.parent, prefix=f".{file.name[:100]}"):
             pass
     except OSError as error:
         raise ConfigError(f"--output: found {file}, which cannot be written ({error.strerror}); {allowed}") from None

@@ -12,7 +12,7 @@ import xarray as xr
 
 from r37core.config import ConfigError
 
-from .arguments import checked_call
+from .checked import checked_call
 from .run_results import RunResults
 
 if TYPE_CHECKING:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 from typing import Generic, TypeVar
@@ -15,7 +16,7 @@ from r37core.io import InputFileError, readable
 from r37core.results.ranking import read_ranking
 from r37core.results.table_file import read_table
 
-from .arguments import checked_call
+from .checked import checked_call
 
 Content = TypeVar("Content")
 
@@ -137,7 +138,9 @@ def open_results(folder: Path | str) -> RunResults:
     >>> results.tree()["Ref/abradable/response"].sizes["speed"]
     3
     """
-    if not Path(folder).is_dir():
+    if not isinstance(folder, str | os.PathLike):
+        raise InputFileError(f"results: found {folder!r}; allowed: the folder of a run, such as results")
+    if not os.path.isdir(folder):
         raise InputFileError(f"{folder}: there is no such folder; results of a run lie in results/ or results/runs/<name>/")
     results = RunResults(Path(folder))
     if not results:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import tempfile
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -11,12 +10,13 @@ import xarray as xr
 
 from r37core.config import ConfigError
 from r37core.dataset_file import read_dataset
-from r37core.io import Named
+from r37core.io import Named, scratch_folder
 from r37core.run_ups.plan import RUN_UP, RunUps
 
-from .arguments import checked_call, plain_value
+from .arguments import plain_value
 from .calculation import Calculation
 from .call_settings import base_of, chosen_blade, chosen_scene, level, settings_of
+from .checked import checked_call
 from .choices import BladeChoice, SceneChoice
 from .jobs import check_cores, in_parallel
 from .simulations import remarks_of, tell
@@ -164,8 +164,8 @@ def _run_ups(
     keys = {"run_ups": entries, **first_speed, **level(fidelity)}
     settings = settings_of(caller, base, [chosen], [rubs_on], keys)
     tell(remarks_of(settings))
-    with tempfile.TemporaryDirectory() as folder:
-        dataset = _dataset(Calculation(settings, Path(folder), cores))
+    with scratch_folder() as folder:
+        dataset = _dataset(Calculation(settings, folder, cores))
     labels = {"blade": chosen.label, "scene": rubs_on.label}
     coordinates = {name: ("run", [label] * dataset.sizes["run"]) for name, label in labels.items()}
     return dataset.assign_coords(coordinates).assign_attrs(chosen.told | rubs_on.told)

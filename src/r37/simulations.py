@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-import tempfile
 import warnings
 from collections.abc import Iterable, Sequence
 from pathlib import Path
@@ -14,15 +13,16 @@ from numpy.typing import ArrayLike
 from r37core.config import ConfigError, Settings, casing_remarks
 from r37core.config.remarks import remarks_on_points, remarks_on_speeds
 from r37core.dataset_file import read_dataset
-from r37core.io import FILE_ATTRIBUTES, Named
+from r37core.io import FILE_ATTRIBUTES, Named, scratch_folder
 from r37core.plans import paths
 from r37core.plans.provenance import Provenance
 from r37core.results.contact_remarks import remarks_on_contact
 from r37core.time_integration.initial_motion import InitialMotion, InitialMotionError
 
-from .arguments import Speeds, checked_call, speed_key, speed_keys
+from .arguments import Speeds, speed_key, speed_keys
 from .calculation import Calculation
 from .call_settings import base_of, chosen_blade, chosen_scene, level, settings_of
+from .checked import checked_call
 from .choices import BladeChoice, SceneChoice
 from .jobs import check_cores, in_parallel
 from .structure_files import Recipe, StructureFiles
@@ -235,8 +235,8 @@ def _response(
 ) -> xr.Dataset:
     """The response of the one blade in the one scene of the settings, at their speeds, from rest or in `motion`."""
     tell(remarks_of(settings))
-    with tempfile.TemporaryDirectory() as folder:
-        calculation = Calculation(settings, Path(folder), cores)
+    with scratch_folder() as folder:
+        calculation = Calculation(settings, folder, cores)
         calculation.responses(motion)
         response = read_dataset(calculation.path(paths.fill(paths.RESPONSE, blade=blade.name, scene=scene.name)))
     # free flight is what a start in motion may be for

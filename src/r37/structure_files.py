@@ -14,7 +14,7 @@ from typing import Any
 import r37core
 from r37core.config import BladeSettings, ConfigError, Settings, plain, si_fields
 from r37core.exchange.importing.source import MatricesSource, MeshSource
-from r37core.io import Named
+from r37core.io import Named, room_for, scratch_folder
 from r37core.kept import kept_file, users_cache
 from r37core.plain import to_plain
 from r37core.plans.code import CodeHashes
@@ -57,14 +57,16 @@ class Recipe:
 
     def file(self) -> Path:
         """The file, from the cache or made now, which may take minutes. Raises what making it raises."""
-        return kept_file(self.name, self.made_of, self._make, cache_folder())
+        folder = cache_folder()
+        with room_for(folder / self.name):
+            return kept_file(self.name, self.made_of, self._make, folder)
 
     def _make(self, file: Path) -> None:
         files = {key: part.file() for key, part in self.inputs.items()}
         LOGGER.info("%s: %s", self.blade, _STAGES[self.step])
-        with tempfile.TemporaryDirectory() as aside:
+        with scratch_folder() as aside:
             # a mesh is also written for Gmsh
-            output = {file.stem: file, file.suffix[1:]: file, "msh": Path(aside) / "mesh.msh"}
+            output = {file.stem: file, file.suffix[1:]: file, "msh": aside / "mesh.msh"}
             params = {**self.params, "code": _code(self.step), "provenance": Attributes()}
             shown = run_step(self.step, files, output, params)
         if shown:

@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-import tempfile
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 from r37core.config import ConfigError
+from r37core.io import temporary_folder
 
-from .arguments import Speeds, checked_call, plain_value, speed_keys
+from .arguments import Speeds, plain_value, speed_keys
 from .calculation import Calculation
 from .call_configuration import read_configuration
 from .call_settings import chosen_blade, chosen_scene, level, names_of_their_own, settings_of
+from .checked import checked_call
 from .choices import BladeChoice, SceneChoice
 from .jobs import check_cores
 from .run_results import RunResults
@@ -210,7 +211,7 @@ def _results(
     names_of_their_own(rubs_on)
     settings = settings_of(caller, base, blades, rubs_on, keys)
     tell(remarks_of(settings))
-    folder = tempfile.TemporaryDirectory(prefix="r37-")
+    folder = temporary_folder()
     calculation = Calculation(settings, Path(folder.name), cores)
     calculation.responses()
     make_tables(calculation)

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from r37core.config import ConfigError
 
-from .arguments import checked_call
+from .checked import checked_call
 
 _PACKAGE = Path(__file__).parent
 
@@ -44,6 +44,8 @@ def init(folder: Path | str) -> Path:
     >>> (study / "config/blades.yaml").is_file()
     True
     """
+    if not isinstance(folder, str | os.PathLike):
+        raise ConfigError(f"init: found {folder!r}; allowed: a folder that is new or empty")
     path = Path(folder).absolute()
     try:
         if path.exists() and not (path.is_dir() and not any(path.iterdir())):

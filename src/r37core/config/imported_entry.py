@@ -16,14 +16,15 @@ from .declaring import DECLARED, declared_by, in_si
 from .section import FileName, LeftOut, Section, refused
 
 Length = Annotated[float, Field(ge=-100, le=100)] | LeftOut
+Radius = Annotated[float, Field(ge=0, le=100)] | LeftOut
 
 
 @declared_by(Where)
 class SurfaceRule(Section):
     """All outer faces within limits; r is the distance from the rotor axis, x radial, z along the axis downstream."""
 
-    r_at_least_m: Length = Field(default=None, description="lower bound of the distance from the rotor axis")
-    r_at_most_m: Length = Field(default=None, description="upper bound of the distance from the rotor axis")
+    r_at_least_m: Radius = Field(default=None, description="lower bound of the distance from the rotor axis")
+    r_at_most_m: Radius = Field(default=None, description="upper bound of the distance from the rotor axis")
     x_at_least_m: Length = Field(default=None, description="lower bound of the radial coordinate")
     x_at_most_m: Length = Field(default=None, description="upper bound of the radial coordinate")
     z_at_least_m: Length = Field(default=None, description="lower bound of the axial coordinate")
@@ -35,6 +36,8 @@ class SurfaceRule(Section):
             raise refused((), "a rule without limits", "a limit such as r_at_least_m, or cone_zr_m")
         if self.cone_zr_m is not None and self.cone_zr_m[0] == self.cone_zr_m[1]:
             raise refused(("cone_zr_m",), "one point twice", "two points [z, r]")
+        if self.cone_zr_m is not None and min(radius for _, radius in self.cone_zr_m) < 0.0:
+            raise refused(("cone_zr_m",), f"{self.cone_zr_m}", "two points [z, r], with radii of 0 or more")
         return self
 
     def _limits(self) -> tuple[tuple[str, str, float], ...]:
