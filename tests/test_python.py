@@ -236,7 +236,7 @@ BAD = {
     ),
     "a list of blades": (
         lambda config: r37.campbell(["Ref"], config=config),
-        r"blade: found \['Ref'\]; allowed: the name of a",
+        r"blade: found \['Ref'\]; allowed: the name",
     ),
     "a number of results": (
         lambda config: r37.simulate("Ref", "direct", 1200, results=3, config=config),

@@ -144,7 +144,7 @@ def test_a_full_disk_is_one_line_in_python(tmp_path, monkeypatch, error, free, o
         with pytest.MonkeyPatch.context() as patch:
             patch.setenv("R37_CACHE", str(tmp_path / "cache"))
             patch.setattr(structure_files, "kept_file", fails)
-            structure_files._made("rom.steps.reduced_model", "a.nc", {})
+            structure_files.Recipe("Ref", "rom.steps.reduced_model", "a.nc", {}, {}).file()
 
     for write in (written, made):
         with pytest.raises(outcome) as raised:

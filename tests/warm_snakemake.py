@@ -126,7 +126,7 @@ def _fork_job_server():
     """Let the server of the jobs be a fork, which has imported what most of them need; it waits for its address."""
     job_server = import_module("r37core.console.job_server")
     reading, writing = os.pipe()
-    if os.fork() == 0:
+    if (number := os.fork()) == 0:
         os.setsid()
         os.close(writing)
         os.dup2(reading, 0)
@@ -140,7 +140,7 @@ def _fork_job_server():
 
     def popen(command, **_):
         os.write(writing, (json.dumps(command[-2:]) + "\n").encode())
-        return writing
+        return SimpleNamespace(pid=number, kill=lambda: os.kill(number, signal.SIGKILL))
 
     job_server.subprocess = SimpleNamespace(Popen=popen, PIPE=None)
 
