@@ -1,11 +1,18 @@
 # r37: blade shape in; Campbell diagrams, vibration, stress and wear maps out. Reads like a table of contents.
 import os
+import sys
 
+from r37core.console import interruption
+
+interruption.in_one_line()
 # one thread per job: Snakemake runs jobs side by side, and results must not depend on the number of cores
 for library in ("OPENBLAS", "OMP", "MKL", "NUMBA"):
     os.environ[f"{library}_NUM_THREADS"] = "1"
 # figures are files, also where a notebook that started this has named a backend of its own
 os.environ.update(MPLBACKEND="Agg")
+# pictures of blades need no display: jobs that a server forks have this environment, whatever it has imported before (figures/offscreen.py)
+if sys.platform == "linux":
+    os.environ.setdefault("VTK_DEFAULT_OPENGL_WINDOW", "vtkOSOpenGLRenderWindow")
 
 
 report: "workflow/report/workflow.rst"

@@ -18,6 +18,9 @@ def executed():
         # when cells ran, and names made up anew each time, say nothing
         cell.metadata.pop("execution", None)
         cell.id = f"cell-{number}"
+        # nor does what calls say while they work, which depends on what is kept
+        if cell.cell_type == "code":
+            cell.outputs = [output for output in cell.outputs if output.get("name") != "stderr"]
     return notebook
 
 

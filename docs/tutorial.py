@@ -14,35 +14,22 @@
 # # From a blade of your own to its worst interaction
 #
 # A compressor blade spins inside a casing that slowly becomes oval. At some speeds the rub locks on to a mode of the
-# blade, and vibration, stress and wear grow: an interaction. This notebook takes a blade that nobody has computed yet,
-# the reference blade swept forward by ten degrees, and finds the speed at which it fares worst. It needs neither
-# Snakemake nor a configuration of its own, and takes a few minutes on one core.
+# blade, and vibration, stress and wear grow: an interaction. This notebook takes a blade that is none of the benchmark's
+# seven, the reference blade swept forward by seven degrees, and finds the speed at which it fares worst. It calls `r37`
+# alone, needs no folder and no configuration of its own, and takes a minute or two on two cores.
 #
 # Lengths are in m, speeds in rad/s, stress in Pa, unless an axis says otherwise.
 
 # %%
-from dataclasses import replace
-from pathlib import Path
-from tempfile import TemporaryDirectory
-
 import matplotlib.pyplot as plt
 import numpy as np
-from IPython.display import Image, display
 
-from r37core.config import command_line_document, plain, si_fields
-from r37core.figures import style
-from r37core.product.reading import read_settings
-from r37core.units import RPM
+import r37
 
 # %matplotlib inline
 
-ROOT = Path.cwd() if (Path.cwd() / "config").exists() else Path.cwd().parent
-settings = read_settings(ROOT, command_line_document({"fidelity": "draft"}))
-print(f"level {settings.fidelity_name}: {settings.fidelity.mesh.nodes} nodes")
-
-
 # %% [markdown]
-# ## The shape
+# ## The blade
 #
 # A blade is a table of profiles, arcs of circles on cones, and what moves them: here one angle. In `config/blades.yaml`
 # the same blade reads
@@ -50,38 +37,16 @@ print(f"level {settings.fidelity_name}: {settings.fidelity.mesh.nodes} nodes")
 # ```yaml
 # Mine:
 #   base: Ref
-#   chordwise_sweep_deg: 10
+#   contact: points
+#   chordwise_sweep_deg: 7
 # ```
-
-# %%
-reference = settings.blades["Ref"]
-definition = replace(reference.definition, name="Mine", chordwise_sweep_angle=np.radians(10.0))
-blade = definition.build(round_edges=settings.structure.edges == "round")
-
-# %% [markdown]
-# ## Mesh, matrices, reduced model
 #
-# The mesh has wedges of 15 nodes. Its matrices carry the stiffening of the centrifugal load, and a Craig-Bampton
-# reduction leaves about a hundred coordinates, among them eight nodes along the tip where the blade can touch.
+# All calls below are at level `draft`, with 5,000 nodes; [accuracy.md](accuracy.md) says what that costs in accuracy.
 
 # %%
-from r37core.fem.matrices import assemble
-from r37core.fem.mesh_quality import mesh_quality
-from r37core.figures.blade_shapes import draw_blade_shapes
-from r37core.mesh.generate import generate_mesh
-from r37core.mesh.mesh_files import write_vtu
-from r37core.rom.reduce import reduce_blade
-
-level = settings.fidelity
-mesh = generate_mesh(blade, nodes=level.mesh.nodes, layers=level.mesh.layers, tip_elements=level.mesh.tip_elements)
-model = reduce_blade(mesh, assemble(mesh, reference.material), settings.reduction_choice("Ref"))
-print(f"{mesh.points.shape[0]} nodes, {model.size} coordinates")
-
-with TemporaryDirectory() as folder:
-    file, picture = Path(folder) / "mesh.vtu", Path(folder) / "mesh.png"
-    write_vtu(mesh, file, mesh_quality(mesh).per_element)
-    draw_blade_shapes({"Mine": file}, picture)
-    display(Image(picture.read_bytes()))
+mine = r37.blade("Ref", chordwise_sweep_deg=7, name="Mine")
+draft = {"fidelity": "draft"}
+print(r37.blades(), "and", mine.label)
 
 # %% [markdown]
 # ## Where it could resonate
@@ -91,121 +56,93 @@ with TemporaryDirectory() as folder:
 # edge changes while the blade swings freely. A blade whose gap closes less is the safer one.
 
 # %%
-from r37core.figures.campbell_diagram import draw_campbell
-from r37core.results.campbell_dataset import campbell_dataset
-
-campbell = campbell_dataset(
-    model,
-    maximum_speed=settings.structure.maximum_speed_rad_s,
-    tip_line="pressure_edge",
-    **si_fields(settings.config.campbell),
-)
-draw_campbell(campbell, "Mine")
-crossings = campbell["crossing_speed"].sel(mode="1B").to_series().dropna()
+campbell = r37.campbell(mine, **draft)
+figure = r37.plot_campbell(campbell)
+crossings = campbell.crossing_speed.sel(mode="1B").to_series().dropna()
 print(crossings.round(1).to_string())
 
 # %% [markdown]
 # ## One simulation
 #
 # The scene `abradable` is the benchmark's: the casing closes in and wears into a lining. One run is one speed. It gives
-# the rms of the leading edge's motion, the wear of the lining, and the largest stress, here of each revolution.
+# the rms of the leading edge's motion, the wear of the lining, and the largest stress.
 
 # %%
-from r37core.rom.reduced_model import contact_model
-from r37core.stress.recovery import stress_operator
-from r37core.time_integration.speed_run import run_speed
-
-scene = settings.scenes["abradable"].scene
-contact = contact_model(model, "pressure_edge")
-recovered = stress_operator(model, reference.material)
-kept = {key: plain(level.time_integration)[key] for key in ("spectrum_highest_order", "wear_angles")}
-
-
-def simulate(speed, whole_run=False):
-    """One speed: the run, and the largest stress of each revolution, from the last half on or of all."""
-    choice = settings.integration_choice("Ref", "abradable", speed)
-    choice = replace(choice, snapshot_revolutions=choice.revolutions if whole_run else choice.revolutions_in_statistic)
-    run = run_speed(contact, speed, scene, choice, ["stress", "wear"], **kept, stress=recovered)
-    return run, run["revolution_von_mises"]
-
-
-run, stress = simulate(1600.0)
-normal, _, tangential = run["rms"][0]
-print(f"1600 rad/s: rms {1e3 * normal:.3f} mm to the casing, {1e3 * tangential:.3f} mm tangential, {1e-9 * stress[-1]:.3f} GPa")
+run = r37.simulate(mine, "abradable", 1600, **draft)
+edge = run.sel(tip_point="leading_edge")
+print(f"rms {1e3 * edge.rms_normal:.3f} mm to the casing, {1e3 * edge.rms_tangential:.3f} mm tangential")
+print(f"largest stress {1e-9 * run.max_von_mises:.3f} GPa, wear up to {1e3 * run.max_wear:.2f} mm")
 
 # %% [markdown]
-# ## All speeds, then a closer look
+# ## All speeds
 #
-# First every 20 rad/s. Contact stiffens the blade, so its answer peaks a few percent above a crossing, and ends in a
-# drop within a few rad/s: around the largest stress of the first pass, every 2 rad/s.
+# Contact stiffens the blade, so its answer peaks a few percent above a crossing, and ends in a drop within a few rad/s.
+# With `refine_to` the speeds are sampled adaptively: every 20 rad/s, and down to 2 where something happens.
 
 # %%
-found = {}
-
-
-def sweep(speeds):
-    for speed in speeds:
-        if speed not in found:
-            run, stress = simulate(float(speed))
-            found[speed] = (run["rms"][0][0], run["rms"][0][2], stress[-1], float(run["max_wear"]))
-
-
-def worst():
-    return max(found, key=lambda speed: found[speed][2])
-
-
-sweep(np.arange(750.0, 2000.1, 20.0))
-first = worst()
-sweep(np.arange(first - 18.0, first + 18.1, 2.0))
-speed = worst()
-nearest = crossings[crossings < speed].index[0]
-print(f"{len(found)} runs; the largest stress at {speed:g} rad/s ({speed * RPM:.0f} rpm), {1e-9 * found[speed][2]:.2f} GPa")
-print(f"{100 * (speed / crossings[nearest] - 1):.1f}% above the crossing of 1B with engine order {nearest}")
-
-# %%
-speeds = np.array(sorted(found))
-values = np.array([found[one] for one in speeds])
-_, (above, below) = plt.subplots(2, 1, figsize=(style.PAGE, 4.6), sharex=True)
-above.plot(speeds, 1e3 * values[:, 0], ".-", markersize=3, label="normal to the casing")
-above.plot(speeds, 1e3 * values[:, 1], ".-", markersize=3, label="tangential")
-above.set_ylabel("rms, leading edge (mm)")
-above.legend()
-below.plot(speeds, 1e-9 * values[:, 2], ".-", markersize=3)
-below.axhline(1e-9 * reference.material.yield_stress, color="0.3", linestyle="--", linewidth=0.9)
-below.set(xlabel="speed (rad/s)", ylabel="largest von Mises (GPa)")
-for order, crossing in crossings[crossings > 750.0].items():
-    above.axvline(crossing, color="0.5", linestyle=":", linewidth=0.8)
-    above.annotate(f"{order}", (crossing, 0.9), xycoords=("data", "axes fraction"), fontsize=7)
-style.rpm_axis(above)
+speeds = {"start": 750, "stop": 2000, "step": 20, "refine_to": 2}
+response = r37.sweep(mine, "abradable", speeds, cores=2, **draft)
+speed = response.max_von_mises.idxmax("speed").item()
+order = crossings[crossings < speed].index[0]
+largest = 1e-9 * response.max_von_mises.max().item()
+rpm = 30 / np.pi * speed
+print(f"{response.sizes['speed']} runs; the largest stress at {speed:.0f} rad/s ({rpm:.0f} rpm), {largest:.2f} GPa")
+print(f"{100 * (speed / crossings[order] - 1):.1f}% above the crossing of 1B with engine order {order}")
+figure = r37.plot_response(response, campbell)
 
 # %% [markdown]
-# Dotted: crossings of 1B with engine orders; dashed: yield stress. Beyond yield the linear model can say where the
-# blade is in danger and how wide the range is, no more how far it swings.
+# Beyond yield the linear model can say where the blade is in danger and how wide the range is, no more how far it swings.
 #
 # ## The worst speed in detail
+#
+# A scene says what is kept of a run. Here it keeps the largest stress of every revolution of this speed.
 
 # %%
-run, history = simulate(speed, whole_run=True)
-first_yield = np.argmax(history > reference.material.yield_stress) + 1
-print(f"yield is first passed in revolution {first_yield} of {len(history)}; wear up to {1e3 * float(run['max_wear']):.2f} mm")
+kept = r37.scene("abradable", results=["stress", "wear"], stress_history_speeds_rad_s=[speed])
+worst = r37.sweep(mine, kept, [speed], **draft)
+history = worst.max_von_mises_history.sel(history_speed=speed)
+first_yield = int(history.revolution[history > worst.yield_stress][0])
+print(f"yield is first passed in revolution {first_yield} of {len(history)}")
 
-figure = plt.figure(figsize=(style.PAGE, 2.8))
+figure = plt.figure(figsize=(7, 2.8), layout="constrained")
 left, right = figure.add_subplot(1, 2, 1), figure.add_subplot(1, 2, 2, projection="polar")
-left.semilogy(np.arange(1, len(history) + 1), 1e-9 * history)
-left.axhline(1e-9 * reference.material.yield_stress, color="0.3", linestyle="--", linewidth=0.9)
+left.semilogy(history.revolution, 1e-9 * history)
+left.axhline(1e-9 * worst.yield_stress.item(), color="0.3", linestyle="--", linewidth=0.9)
 left.set(xlabel="revolution", ylabel="largest von Mises (GPa)", ylim=(1e-3, None))
-angle = 2.0 * np.pi * np.arange(len(run["wear"])) / len(run["wear"])
-right.plot(angle, 1e3 * run["wear"])
+right.plot(worst.angle, 1e3 * worst.wear.isel(speed=0))
 right.set_title("wear round the casing (mm)")
 plt.show()
 
 # %% [markdown]
-# As many lobes are worn into the lining as the engine order has.
+# As many lobes are worn into the lining as the engine order has; dashed is the yield stress.
 #
+# ## A run-up through it
+#
+# A rotor does not stay at its worst speed. Here the speed rises through it, at two rates.
+
+# %%
+about = {"crossing": {"mode": "1B", "engine_order": int(order), "first": -0.015, "last": 0.07}}
+rates = {"slow": {**about, "rate_rad_s2": 100}, "fast": {**about, "rate_rad_s2": 1000}}
+run_ups = r37.run_ups(mine, "abradable", rates, cores=2, **draft)
+for name, stress in zip(run_ups.run_up.values, run_ups.max_von_mises.max("revolution").values, strict=True):
+    print(f"{name}: up to {1e-9 * stress:.2f} GPa")
+figure = r37.plot_run_ups(run_ups)
+
+# %% [markdown]
+# ## Is it better than the reference blade?
+#
+# Blades are ranked by how long a range of speeds is above yield.
+
+# %%
+results = r37.compare(["Ref", mine], "abradable", speeds, cores=2, **draft)
+print(results.ranking[["blade", "rank", "length_certain_rad_s", "largest_median_stress_pa"]].to_string(index=False))
+
+# %% [markdown]
 # ## And on
 #
-# - The whole of it at full accuracy, in both scenes, with adaptive speed sampling: put the blade into
-#   `config/blades.yaml` and run `make all_blades`. Nothing of the other blades is run again.
+# - In both scenes, at full accuracy: put the blade into `config/blades.yaml` and run `make all_blades`. Nothing of the other
+#   blades is run again.
 # - `results/explorer.html` shows all blades linked, `make report` makes one file of it.
-# - A family instead of one blade: `chordwise_sweep_deg` under `vary`, in [blades.md](blades.md).
+# - A family instead of one blade: `r37.designs(..., vary={"chordwise_sweep_deg": [0, 5, 10]})`. Ten figures, each with its
+#   code: [user_code.md](user_code.md).
 # - A mesh or matrices of another program: [your_blade.md](your_blade.md).

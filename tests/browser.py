@@ -1,5 +1,6 @@
-"""Pages in headless Chromium, without a network: one browser for all that a process of the tests opens."""
+"""Pages in headless Chromium, without a network: one browser for all that a run of the tests opens, on however many cores."""
 
+import fcntl
 import json
 import os
 import shutil
@@ -7,8 +8,9 @@ import signal
 import subprocess
 import sys
 import tempfile
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from functools import cache
+from pathlib import Path
 
 import pytest
 
@@ -18,28 +20,42 @@ SOFTWARE_GRAPHICS = ("--enable-unsafe-swiftshader", "--use-gl=angle", "--use-ang
 """For pages that draw in three dimensions, without a graphics card."""
 
 
-_servers = []
+PLACE = "R37_BROWSER_OF_TESTS"
+"""Environment variable with a folder of this run of the tests, for its processes."""
+
+_KEPT = []
 
 
 def close():
-    """End the browser of this process, if there is one."""
-    for server in _servers:
+    """End the browser of this run of the tests, if there is one."""
+    for file in Path(os.environ[PLACE]).glob("browser.json"):
         # Playwright's command is a process that waits for another
-        os.killpg(server.pid, signal.SIGTERM)
+        with suppress(ProcessLookupError):
+            os.killpg(json.loads(file.read_text())[0], signal.SIGTERM)
+    for server in _KEPT:
         server.wait(20)
-    _servers.clear()
 
 
 @cache
 def _address():
-    """Of a browser that runs until `close`."""
+    """Of a browser that the first to need it starts; it runs until `close`."""
+    file = Path(os.environ[PLACE]) / "browser.json"
+    with open(file.with_suffix(".lock"), "w") as lock:
+        fcntl.lockf(lock, fcntl.LOCK_EX)
+        if not file.exists():
+            file.write_text(json.dumps(_start()))
+    return json.loads(file.read_text())[1]
+
+
+def _start():
+    """Number of a process that is a browser, and its address."""
     flags = ["--no-sandbox", "--no-first-run", *(f"--disable-{name}" for name in QUIET), *SOFTWARE_GRAPHICS]
     with tempfile.NamedTemporaryFile("w", suffix=".json") as settings:
         json.dump({"executablePath": CHROMIUM, "args": flags}, settings)
         settings.flush()
         command = [sys.executable, "-m", "playwright", "launch-server", "--browser", "chromium", "--config", settings.name]
-        _servers.append(subprocess.Popen(command, stdout=subprocess.PIPE, text=True, start_new_session=True))
-        return _servers[-1].stdout.readline().strip()
+        _KEPT.append(subprocess.Popen(command, stdout=subprocess.PIPE, text=True, start_new_session=True))
+        return _KEPT[-1].pid, _KEPT[-1].stdout.readline().strip()
 
 
 @contextmanager

@@ -3,10 +3,12 @@
 import filecmp
 import os
 import shutil
-import sys
+import tempfile
 from collections import Counter
+from dataclasses import replace
 from pathlib import Path
 
+import browser
 import pytest
 from hypothesis import settings
 
@@ -58,9 +60,16 @@ def pytest_collection_modifyitems(items):
     items.sort(key=lambda item: (rank.get(item.path.name, len(rank)), item.path not in slow))
 
 
-def pytest_sessionfinish():
-    if browser := sys.modules.get("browser"):
+def pytest_configure(config):
+    # processes of this run that start later have it from their environment
+    if not hasattr(config, "workerinput"):
+        os.environ[browser.PLACE] = tempfile.mkdtemp(prefix="r37_browser_")
+
+
+def pytest_unconfigure(config):
+    if not hasattr(config, "workerinput"):
         browser.close()
+        shutil.rmtree(os.environ[browser.PLACE])
 
 
 def pytest_terminal_summary(terminalreporter):
@@ -162,6 +171,22 @@ def model(mesh, matrices, choice):
     from r37core.rom.reduce import reduce_blade
 
     return reduce_blade(mesh, matrices, choice)
+
+
+@pytest.fixture(scope="session")
+def whole(mesh, matrices, choice):
+    """The reduced model that gives the displacement of every node."""
+    from r37core.rom.reduce import reduce_blade
+
+    return reduce_blade(mesh, matrices, replace(choice, recover_whole_blade=True))
+
+
+@pytest.fixture(scope="session")
+def turning(mesh, matrices, choice):
+    """The reduced model with the Coriolis force."""
+    from r37core.rom.reduce import reduce_blade
+
+    return reduce_blade(mesh, matrices, replace(choice, coriolis=True))
 
 
 @pytest.fixture(scope="session")

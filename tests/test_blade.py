@@ -34,9 +34,9 @@ def test_stacking_corrections(profiles):
 
 @pytest.mark.slow
 def test_a_dense_table_makes_the_same_blade(root, blade, tmp_path):
-    """200 profiles on the spline through the table's eleven, printed as it is to 1/100 mm, against the blade of these."""
+    """Sixty profiles on the spline through the table's eleven, printed as it is to 1/100 mm, against the blade of these."""
     source = pd.read_csv(root / "config/profiles/rotor37.csv").sort_values("span_percent")
-    spans = np.linspace(0.0, 100.0, 200)
+    spans = np.linspace(0.0, 100.0, 60)
     dense = CubicSpline(source["span_percent"], source.values)(spans)
     pd.DataFrame(dense, columns=source.columns).round(3).to_csv(tmp_path / "dense.csv", index=False)
     many = BladeDefinition("Dense", tuple(read_profile_table(tmp_path / "dense.csv"))).build(round_edges=True)
@@ -46,13 +46,13 @@ def test_a_dense_table_makes_the_same_blade(root, blade, tmp_path):
 
 def test_plane_sections_of_the_finished_blade_lie_on_one_line(blade, profiles):
     """A second formulation: bisection on the finished map instead of Newton steps on outlines; inside the blade only."""
-    chord = np.linspace(0.0, 1.0, 201)
+    chord = np.linspace(0.0, 1.0, 101)
     for i in (3, 4, 5, 6):
         height = profiles[i].cone.radius(profiles[i].centroid[0])
         outline = []
         for side, along in ((-1.0, chord), (1.0, chord[::-1])):
             low, high = np.zeros_like(along), np.ones_like(along)
-            for _ in range(50):
+            for _ in range(32):
                 middle = 0.5 * (low + high)
                 below = blade.position(along, middle, np.full_like(along, side))[:, 0] < height
                 low, high = np.where(below, middle, low), np.where(below, high, middle)

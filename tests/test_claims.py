@@ -110,7 +110,7 @@ def test_a_moved_number_is_told():
 @pytest.fixture
 def copy(root, tmp_path):
     """What hashes are of, to be changed."""
-    for name in ("docs", "config", "benchmarks"):
+    for name in ("docs", "config", "benchmarks", "examples"):
         shutil.copytree(root / name, tmp_path / name)
     shutil.copytree(root / "src/r37core", tmp_path / "src/r37core", ignore=shutil.ignore_patterns("__pycache__"))
     shutil.copy(root / "README.md", tmp_path)
@@ -147,7 +147,7 @@ def forget_code():
         ("src/r37core/figures/casing_map.py", '"""What an', '"""Here: what an', set()),
         ("benchmarks/run_ups.py", "RESULTS", "FOLDER", {"docs/run_ups.md#run_up_rates", "docs/accuracy.md#run_ups"}),
         ("benchmarks/mesh_step.py", "quiet_gmsh()", "quiet_gmsh( )", set()),
-        ("config/run_ups.yaml", "rate_rad_s2: 10,", "rate_rad_s2: 11,", {"docs/run_ups_Ref.png"}),
+        ("config/run_ups.yaml", "rate_rad_s2: 10,", "rate_rad_s2: 11,", {"docs/run_up_rates.png"}),
         ("config/run_ups.yaml", "# Run-ups", "# All run-ups", set()),
         ("config/fidelity.yaml", "cpu_s_per_run: 0.03", "cpu_s_per_run: 0.04", set()),
         (

@@ -263,11 +263,6 @@ def test_the_clearance_follows_the_speed():
 # stress of rotation
 
 
-@pytest.fixture(scope="module")
-def whole(mesh, matrices, choice):
-    return reduce_blade(mesh, matrices, replace(choice, recover_whole_blade=True))
-
-
 def test_stress_is_that_of_both_displacements_together(whole, mesh, steel):
     """Of the sum of the displacements, from the elements themselves; not the sum of two von Mises stresses."""
     contact, speed = contact_model(whole, "pressure_edge"), 1500.0

@@ -72,8 +72,22 @@ def test_lengths_of_time(tmp_path, seconds, text):
 def test_runs_that_diverged_are_counted(tmp_path):
     """No interaction is found where none was completed."""
     for status, said in (([0, 0, 2], ""), ([1, 1, 2], "; 2 of 2 runs diverged"), ([0, 1, 0], "; 1 of 3 runs diverged")):
-        xr.Dataset({"status": ("speed", np.array(status, "i1"))}).to_netcdf(tmp_path / "rms.nc")
+        _runs(status, [[[1.0, np.nan, np.nan]]], ["direct"]).to_netcdf(tmp_path / "rms.nc")
         assert closing_lines(written(tmp_path), 0.0, 1.0)[0] == f"found no interaction{said}"
+
+
+def _runs(status, force, scenes):
+    variables = {"status": (("blade", "scene", "speed"), np.broadcast_to(np.array(status, "i1"), np.shape(force)))}
+    variables["largest_normal_force"] = (("blade", "scene", "speed"), force)
+    return xr.Dataset(variables, {"blade": ["Ref"], "scene": scenes})
+
+
+def test_scenes_that_touch_nothing_are_named(tmp_path):
+    """A single force is enough to touch; a scene without any run is none that touches nothing."""
+    forces = [[[0.0, 0.0, np.nan], [0.0, 2.0, np.nan], [np.nan] * 3]]
+    _runs([0, 0, 2], forces, ["far", "near", "none"]).to_netcdf(tmp_path / "rms.nc")
+    said = closing_lines(written(tmp_path), 0.0, 1.0)
+    assert len(said) == 4 and said[1].startswith("Ref in far: the tip touched nothing at any speed, ")
 
 
 def test_nothing_found_and_nothing_new(tmp_path):

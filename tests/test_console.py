@@ -2,6 +2,7 @@
 
 import inspect
 import re
+import sys
 from dataclasses import fields
 from importlib.metadata import version
 from pathlib import Path
@@ -14,7 +15,7 @@ from snakemake.settings import types
 from snakemake_interface_logger_plugins.common import LogEvent
 
 from r37core.config import ConfigError
-from r37core.console import progress, snakemake_run
+from r37core.console import interruption, progress, snakemake_run
 from r37core.console.lock import _LOCKS
 
 
@@ -94,3 +95,16 @@ def test_a_refusal_is_snakemake_s_own():
 
     with pytest.raises(Shown, match="found nothing"), snakemake_run._refused(Shown):
         raise ConfigError("found nothing")
+
+
+def test_an_interruption_while_the_rules_are_read_is_one_line(root, capsys, monkeypatch):
+    """Before anything else is imported, which takes the first second."""
+    shown = []
+    monkeypatch.setattr(sys, "excepthook", lambda *error: shown.append(error))
+    interruption.in_one_line()
+    sys.excepthook(KeyboardInterrupt, KeyboardInterrupt(), None)
+    assert (capsys.readouterr().err, shown) == ("interrupted before the first job\n", [])
+    sys.excepthook(ValueError, error := ValueError("x"), None)
+    assert shown == [(ValueError, error, None)]
+    lines = [line for line in (root / "Snakefile").read_text().splitlines() if line and not line.startswith("#")]
+    assert lines.index("interruption.in_one_line()") == 2

@@ -9,7 +9,8 @@ from pathlib import Path
 
 import pytest
 from conftest import CHECKOUT
-from yaml import safe_load
+from overlays import overlay
+from yaml import safe_dump, safe_load
 
 from r37core.config import command_line_document
 from r37core.product.reading import read_settings
@@ -167,6 +168,36 @@ def headings(page):
     """The anchors of a page's headings."""
     lines = re.findall(r"^#+ (.*)$", page, re.MULTILINE)
     return {re.sub(r"\s", "-", re.sub(r"[^\w\s-]", "", line.lower()).strip()) for line in lines}
+
+
+def test_blades_of_readme_are_accepted(root, readme, config_copy):
+    """The mesh is that of the page on imports, without what a first attempt does not know."""
+    mesh, variant = (safe_load(text) for text in re.findall(r"```yaml\n(.*?)```", readme, re.DOTALL))
+    page = safe_load(re.search(r"```yaml\n(.*?)```", (root / "docs/your_blade.md").read_text(), re.DOTALL)[1])
+    assert mesh == {"Fan": page["Fan"] | {"root": "?", "tip": "?"}}
+    overlay(config_copy, "blades.yaml", safe_dump(variant))
+    overlay(config_copy, "config.yaml", "blades: [Mine]")
+    assert read_settings(config_copy).blade_names == ["Mine"]
+
+
+def test_readme_has_a_door_for_each_wish(readme):
+    doors = ["I have a mesh", "I want to compare blades", "I want to check a published number"]
+    assert [line[3:] for line in readme.splitlines() if line.startswith("## I ")] == doors
+
+
+@pytest.mark.parametrize("name", ["wrong_result", "failure", "wish"])
+def test_templates_of_issues_ask(name):
+    template = safe_load((CHECKOUT / f".github/ISSUE_TEMPLATE/{name}.yml").read_text())
+    assert template["name"] and template["description"]
+    assert all(part["type"] in {"textarea", "input"} and part["attributes"]["label"] for part in template["body"])
+
+
+def test_the_image_runs_the_two_commands(root, readme):
+    """It cannot be built here: what it calls is what README and Makefile have."""
+    image, page = (root / "envs/Containerfile").read_text(), (root / "envs/README.md").read_text()
+    commands = re.findall(r"^(make \w+)", readme, re.MULTILINE)
+    assert len(commands) == 2 and all(command in page for command in commands)
+    assert 'CMD ["make", "all_blades"]' in image and "RUN make setup" in image and "\nsetup:" in (root / "Makefile").read_text()
 
 
 def test_readme_is_short(readme):

@@ -28,7 +28,7 @@ from r37core.figures.maps import draw_map
 from r37core.figures.style import plt
 from r37core.plain import to_plain
 from r37core.product.reading import read_settings
-from r37core.results.casing_coincidence import coincidence_table
+from r37core.results.casing_coincidence import coincidence_table, coincidences, seen_from_rotor, waves_of
 from r37core.results.datasets import write_sweep_dataset
 from r37core.results.response import write_response
 from r37core.run_ups.integration import RunUpIntegration
@@ -148,7 +148,7 @@ def test_published_scheme_carries_the_casing(name):
     choice, model = replace(CHOICE, integrator=CENTRAL_DIFFERENCE, time_step=1e-7), random_model(8)
     found = []
     for engine in ("compiled", "reference"):
-        simulation = Simulation(model, 6000.0, ELASTIC_SCENES[name], replace(choice, engine=engine))
+        simulation = Simulation(model, 18_000.0, ELASTIC_SCENES[name], replace(choice, engine=engine))
         state = simulation.start()
         found.append((state, simulation.advance(state, 1)))
     (ours, record), (theirs, plain) = found
@@ -252,6 +252,9 @@ def test_error_on_an_elastic_bar_falls_with_the_square_of_the_step():
         force = rows.T @ (np.array([-pressed, 0.0, 0.0]) - coefficient * pressed * sliding / np.linalg.norm(sliding))
         return np.concatenate([velocity, force - own**2 * position - 2.0 * ratios * own * velocity])
 
+    # whatever the step, of samples there are fifty in a revolution
+    time = 2.0 * np.pi / speed / 50 * np.arange(1, 51)
+    exact = solve_ivp(motion, (0.0, time[-1]), np.zeros(2 * len(own)), "DOP853", time, rtol=1e-11, atol=1e-16, max_step=1e-5).y
     errors, steps = [], []
     for step in (1.6e-5, 8e-6, 4e-6, 2e-6):
         simulation = Simulation(
@@ -265,12 +268,9 @@ def test_error_on_an_elastic_bar_falls_with_the_square_of_the_step():
             -0.5 * problem.contact.recursion.inverse * np.einsum("dki,d->i", problem.contact.displacement_operator, force)
         )
         record = simulation.advance(state, 1)
-        count = len(record.samples)
-        time = (1 + np.arange(count)) * problem.grid.steps_per_sample * problem.grid.time_step
-        exact = solve_ivp(
-            motion, (0.0, time[-1]), np.zeros(2 * len(own)), "DOP853", time, rtol=1e-11, atol=1e-16, max_step=1e-5
-        ).y
-        turned = np.array([ring.turned(exact[1 : len(own), i], speed * time[i]) for i in range(count)]) * ring.size
+        sampled = (1 + np.arange(len(record.samples))) * problem.grid.steps_per_sample * problem.grid.time_step
+        np.testing.assert_allclose(sampled, time, rtol=1e-12)
+        turned = np.array([ring.turned(exact[1 : len(own), i], speed * time[i]) for i in range(len(time))]) * ring.size
         errors.append(np.abs(record.casing - turned).max() / np.abs(turned).max())
         steps.append(problem.grid.time_step)
         assert np.abs(record.samples[:, 0] - exact[0]).max() < 30.0 * errors[-1] * np.abs(exact[0]).max()
@@ -624,3 +624,15 @@ def test_a_casing_that_cannot_be_meant_is_refused(changed, message):
     changed = changed | {"casing": {"clearance_m": 3e-4} | changed.get("casing", {})}
     with pytest.raises(ConfigError, match=message):
         checked_scene(changed)
+
+
+def test_a_rotor_at_rest_is_no_coincidence():
+    """Where the blade has the very frequency of the casing; the speed at which they meet again is one."""
+    mode, speeds = RingMode(3, 2.0 * np.pi * 800.0, 1.0), np.linspace(0.0, 2000.0, 9)
+    for wave in waves_of(mode):
+        of_wave = seen_from_rotor(mode, wave, speeds)
+        blade = of_wave + 1e-4 * speeds * (speeds - 1000.0)
+        assert blade[0] == of_wave[0]
+        frequency = xr.DataArray(blade, {"speed": speeds}, "speed")
+        speeds_met = [speed for speed, _ in coincidences(frequency, mode, wave)]
+        assert min(speeds_met) > 1.0 and any(abs(speed - 1000.0) < 1e-6 for speed in speeds_met)

@@ -2,6 +2,7 @@
 
 import subprocess
 import sys
+import warnings
 from dataclasses import replace
 
 import gmsh
@@ -9,8 +10,10 @@ import numpy as np
 import pytest
 from box_mesh import plate
 from defaults import MeshSource, Orientation, Where
+from pydantic import TypeAdapter, ValidationError
 from scipy import constants
 
+from r37core.config.imported_entry import LengthUnit
 from r37core.exchange.importing.abaqus_reader import read_abaqus
 from r37core.exchange.importing.import_mesh import _READERS, import_mesh
 from r37core.exchange.importing.meshio_reader import quietly
@@ -354,6 +357,25 @@ def test_wrong_orientation_and_rules_are_refused(tmp_path, changes, message):
     write_mesh(plate(), tmp_path / "mesh.vtu")
     with pytest.raises(ImportRefused, match=message):
         import_mesh(source("mesh.vtu", **changes), tmp_path)
+
+
+def test_a_unit_may_be_a_quotient():
+    unit = TypeAdapter(LengthUnit)
+    assert unit.validate_python("1/2540") == pytest.approx(0.0254 / 64.516) == unit.validate_python(1 / 2540)
+    for text in ("1/0", "1/2/3", "mm/2", "1/1e20", "nan/1"):
+        with pytest.raises(ValidationError) as refusal:
+            unit.validate_python(text)
+        assert refusal.value.errors()[0]["ctx"]["found"] == text
+
+
+def test_a_blade_larger_than_any_is_told():
+    """16 m from the axis: inches for centimetres."""
+    places = {0.25: False, 16.3: True, 3.1: True, 2.9: False, 0.005: True}
+    for radius, told in places.items():
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            OURS.warn_of_size(radius * np.array([[0.9, 0.0, 0.0], [1.0, 0.0, 0.1]]))
+        assert [f"tip radius of {radius:.3g} m" in str(warning.message) for warning in caught] == [True] * told
 
 
 def test_units_are_those_of_si():

@@ -1,6 +1,10 @@
 """Results for other programs, and matrices that come back."""
 
+import io
+import os
 import re
+import warnings
+import zipfile
 from dataclasses import replace
 
 import meshio
@@ -15,23 +19,20 @@ import scipy.sparse.linalg as spl
 from defaults import MatricesSource, Orientation
 
 from r37core.exchange.fields import Target, WorstInstant, worst_instants, write_modes, write_stress
+from r37core.exchange.importing import matrix_file
+from r37core.exchange.importing.first_frequency import in_words
 from r37core.exchange.importing.matrices_in import import_matrices
 from r37core.exchange.importing.matrix_file import read_matrix
-from r37core.exchange.refusal import ImportRefused
+from r37core.exchange.importing.source import matrix_files
+from r37core.exchange.refusal import ImportRefused, MeshWarning
 from r37core.exports.matrices_out import write_full_matrices, write_reduced_matrices
 from r37core.results.campbell import campbell_diagram
-from r37core.rom.reduce import reduce_blade
 from r37core.rom.reduced_model import contact_model
 from r37core.stress.recovery import stress_operator
 from r37core.time_integration.speed_file import write_speed
 
 OURS = Orientation("m", (0, 0, 1), (1, 0, 0), "negative")
 FOREIGN = Orientation("mm", (0.6, 0.8, 0), (0, 0, 1), "positive", (5.0, 6.0, 7.0))
-
-
-@pytest.fixture(scope="module")
-def whole(mesh, matrices, choice):
-    return reduce_blade(mesh, matrices, replace(choice, recover_whole_blade=True))
 
 
 @pytest.fixture(scope="module")
@@ -135,12 +136,6 @@ def test_reduced_matrices_come_back(model, choice, tmp_path):
     np.testing.assert_allclose(again.modes(1400.0, 12)[0], model.modes(1400.0, 12)[0], rtol=1e-8)
 
 
-@pytest.fixture(scope="module")
-def turning(mesh, matrices, choice):
-    """The reduced model with the Coriolis force."""
-    return reduce_blade(mesh, matrices, replace(choice, coriolis=True))
-
-
 def gyroscopic(mass, stiffness, coriolis, count):
     """Angular frequencies and shapes of M x'' + G x' + K x = 0, of the plain eigenproblem of (x, x')."""
     size, inverse = len(mass), np.linalg.inv(mass)
@@ -241,6 +236,26 @@ def test_units_of_matrices(model, choice, tmp_path):
     np.testing.assert_allclose(
         again.stiffness_at(900.0), 1e3 * model.stiffness_at(900.0), atol=1e-6 * np.abs(model.stiffness).max()
     )
+
+
+@pytest.mark.parametrize(("factor", "outcome"), [(1.0, "said"), (1e3, "warned"), (1e-3, "warned"), (1e-20, "refused")])
+def test_the_first_frequency_shows_a_wrong_unit(model, choice, tmp_path, factor, outcome):
+    """Of the reference blade 840 Hz; the frequency follows the root of the stiffness."""
+    changed = replace(model, stiffness=factor * model.stiffness, geometric_stiffness=factor * model.geometric_stiffness)
+    first = model.modes(0.0, 1)[0][0] / (2.0 * np.pi)
+    write_reduced_matrices(changed, (0.0, 1000.0, 2000.0), tmp_path)
+    source = MatricesSource(str(tmp_path), OURS)
+    said = re.escape(f"the first frequency at rest is {first * factor**0.5:.4g} Hz")
+    if outcome == "said":
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            assert re.match(said, in_words(import_matrices(source, choice)))
+    elif outcome == "warned":
+        with pytest.warns(MeshWarning, match=rf"{said}, with a tip of 56\.1 mm; .* look at mass_unit"):
+            import_matrices(source, choice)
+    else:
+        with pytest.raises(ImportRefused, match=rf"{re.escape(tmp_path.name)}: {said}"):
+            import_matrices(source, choice)
 
 
 def test_unsuitable_matrices_are_refused(directory, choice, tmp_path):
@@ -351,6 +366,53 @@ def test_an_archive_has_one_matrix(tmp_path):
         read_matrix(tmp_path / "M.npz")
 
 
+def _member(array):
+    packed = io.BytesIO()
+    np.lib.format.write_array(packed, array, allow_pickle=True)
+    return packed.getvalue()
+
+
+@pytest.mark.parametrize(
+    ("content", "message"),
+    [
+        (
+            _member(np.zeros(0)).replace(b"(0,)", b"(99999, 99999)"),
+            r"found an array of shape \(99999, 99999\); allowed: at most",
+        ),
+        (
+            _member(np.zeros(0)).replace(b"(0,)", b"(99999, 1)"),
+            r"found an array of shape \(99999, 1\); allowed: a square matrix",
+        ),
+        (_member(np.array([{}])), "found objects of Python in its array arr_0; allowed: numbers$"),
+        (b"no array", r"cannot be read as a matrix \(ValueError: .*magic"),
+    ],
+)
+def test_an_archive_is_not_unpacked_before_its_shape_is_known(tmp_path, monkeypatch, content, message):
+    with zipfile.ZipFile(tmp_path / "M.npz", "w") as archive:
+        archive.writestr("arr_0.npy", content)
+    monkeypatch.setattr(np, "load", None)
+    with pytest.raises(ImportRefused, match=rf"^M\.npz: {message}"):
+        read_matrix(tmp_path / "M.npz")
+
+
+def test_an_archive_of_too_many_numbers_is_refused(tmp_path, monkeypatch):
+    np.savez(tmp_path / "M.npz", np.eye(24))
+    monkeypatch.setattr(matrix_file, "_MOST_NUMBERS", 24 * 24)
+    assert read_matrix(tmp_path / "M.npz").shape == (24, 24)
+    monkeypatch.setattr(matrix_file, "_MOST_NUMBERS", 24 * 24 - 1)
+    with pytest.raises(ImportRefused, match=r"shape \(24, 24\); allowed: at most 575 numbers"):
+        read_matrix(tmp_path / "M.npz")
+
+
+def test_a_pipe_is_no_matrix(tmp_path):
+    """It would be waited for."""
+    for name in ("K_0.npz", "K_100.npz", "K_200.npz", "boundary.csv"):
+        (tmp_path / name).write_text("")
+    os.mkfifo(tmp_path / "M.npz")
+    with pytest.raises(ImportRefused, match="needed: M and K_<speed>"):
+        matrix_files("", tmp_path)
+
+
 @pytest.mark.parametrize("name", ["none", 5000 * "x"])
 def test_a_folder_of_matrices_that_is_not_there(choice, tmp_path, name):
     with pytest.raises(ImportRefused, match=f"^there is no folder {name}$") as refusal:
@@ -402,3 +464,18 @@ def test_contact_nodes_of_another_size_or_order_are_refused(model, choice, tmp_p
     with pytest.raises(ImportRefused, match=rf"^{tmp_path}: boundary\.csv: .*{message}") as refusal:
         import_matrices(MatricesSource(str(tmp_path), OURS), choice)
     assert refusal.value.key == key
+
+
+@pytest.mark.parametrize("size", [1e-6, 1.0, 1e9])
+def test_a_matrix_is_judged_whatever_its_unit(tmp_path, size):
+    """Symmetric to a part in 1e8 of its largest entry, which is a number above 0."""
+    matrix = size * SPARSE.toarray()
+    for off, message in ((1e-9, None), (1e-6, "not symmetric"), (np.inf, "some are no numbers"), (-1.0, "all entries are 0")):
+        beside = np.where(np.eye(24, k=1) > 0.0, off * matrix.max(), 0.0)
+        changed = 0.0 * matrix if off < 0.0 else matrix + beside
+        np.savez(tmp_path / "M.npz", changed)
+        if message is None:
+            assert read_matrix(tmp_path / "M.npz").shape == (24, 24)
+        else:
+            with pytest.raises(ImportRefused, match=message):
+                read_matrix(tmp_path / "M.npz")

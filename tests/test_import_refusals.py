@@ -1,6 +1,7 @@
 """What a new user meets with a mesh of another program: the refusal of the first attempt says what the second must have."""
 
 import re
+import warnings
 from dataclasses import replace
 
 import numpy as np
@@ -274,6 +275,35 @@ def test_a_mesh_of_one_element(tmp_path, element):
     write_mesh(plate(element, (1, 1, 1)), tmp_path / "mesh.vtu")
     with pytest.raises(ImportRefused, match=r"found a mesh of \d+ nodes, too few to tell sections between root and tip"):
         read(tmp_path, "mesh.vtu")
+
+
+@pytest.mark.parametrize(
+    ("cell", "message"),
+    [
+        ((2, 1, 1), r"the mesh has holes \(1 closed inside, one near \(0\.225, .*, 0\.015\)\): elements may be missing"),
+        ((2, 0, 1), r"the mesh has holes \(corners - edges \+ faces of its surface is 0 and not 2\)"),
+        (None, None),
+    ],
+)
+@pytest.mark.parametrize("element", ["hexahedron20", "wedge15"])
+def test_an_element_that_is_missing_inside_is_told(tmp_path, element, cell, message):
+    """In the middle of three layers, or of one; at the outside it is a notch, as a blade may have."""
+    layers = 3 if cell is None or cell[1] else 1
+    mesh = plate(element, (6, layers, 3))
+    (nodes,) = mesh.blocks.values()
+    if cell is not None:
+        place = (np.array(cell) + 0.5) / (6, layers, 3) * (0.06, 0.004, 0.03) + (0.2, -0.002, 0.0)
+        here = np.all(np.abs(mesh.points[nodes].mean(axis=1) - place) < np.array((0.005, 0.002 / layers, 0.005)), axis=1)
+        assert here.any()
+        nodes = nodes[~here]
+    write_mesh(replace(mesh, blocks={element: nodes}), tmp_path / "mesh.vtu")
+    source = MeshSource("mesh.vtu", OURS, Where("root"), Where("tip"), drop_free_nodes=True)
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        import_mesh(source, tmp_path)
+    told = [str(warning.message) for warning in caught if "holes" in str(warning.message)]
+    assert len(told) == (message is not None)
+    assert message is None or re.match(message, told[0]), told
 
 
 def test_elements_of_two_orders_must_not_touch(tmp_path):

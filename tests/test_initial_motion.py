@@ -9,7 +9,6 @@ from integration_cases import ABRADABLE, DIRECT, LINING, oscillator, with_static
 from scipy.linalg import expm
 
 from r37core.contact.ring import RingMode
-from r37core.rom.reduce import reduce_blade
 from r37core.rom.reduced_model import contact_model
 from r37core.time_integration.initial_motion import InitialMotion, InitialMotionError
 from r37core.time_integration.integrators import CENTRAL_DIFFERENCE, EXACT_MODAL, INTEGRATORS
@@ -109,7 +108,7 @@ def slow_part(reduced, speed, modes, generator):
 @pytest.mark.parametrize(("integrator", "within"), [(EXACT_MODAL, 1e-9), (CENTRAL_DIFFERENCE, 1e-4)])
 def test_free_flight_of_a_blade_is_that_of_its_matrices(model, contact, integrator, within, engine):
     """Reduced coordinates at every sample, by the exponential of the first modes of the reduced matrices."""
-    speed, modes, scene = 1600.0, 6, replace(FAR, damping_ratio=0.02)
+    speed, modes, scene = 4800.0, 6, replace(FAR, damping_ratio=0.02)
     start = slow_part(model, speed, modes, np.random.default_rng(1))
     chosen = choice(integrator, 2e-7, 1, engine, snapshots_per_revolution=50, snapshot_revolutions=1)
     given = motion(*start)
@@ -147,28 +146,22 @@ def test_what_is_not_stepped_is_left_out(model, contact):
     assert velocity.left_out(simulation.problem) == pytest.approx(0.75, abs=1e-9)
 
 
-@pytest.fixture(scope="module")
-def coupled(mesh, matrices, choice):
-    """The reduced model with the Coriolis force."""
-    return reduce_blade(mesh, matrices, replace(choice, coriolis=True))
-
-
 @pytest.mark.parametrize("engine", ENGINES)
-def test_free_flight_with_the_coriolis_force(coupled, engine):
+def test_free_flight_with_the_coriolis_force(turning, engine):
     """Without damping the exponential of the reduced matrices, of all coordinates; steps in which fast modes do not move."""
-    speed, scene, modes = 1600.0, replace(FAR, damping_ratio=0.0), 4
-    model = contact_model(coupled, "pressure_edge")
-    start = slow_part(replace(coupled, coriolis=None), speed, modes, np.random.default_rng(2))
+    speed, scene, modes = 4800.0, replace(FAR, damping_ratio=0.0), 4
+    model = contact_model(turning, "pressure_edge")
+    start = slow_part(replace(turning, coriolis=None), speed, modes, np.random.default_rng(2))
     chosen = choice(EXACT_MODAL, 2e-7, 1, engine, snapshots_per_revolution=50, snapshot_revolutions=1)
     simulation, _, record = flown(model, scene, chosen, motion(*start), speed)
     problem = simulation.problem
     # of the modes that are stepped: the others' part of the force is left out
     reduced = model.to_reduced @ problem.blade.modes
-    coupling = speed * reduced.T @ coupled.coriolis @ reduced
+    coupling = speed * reduced.T @ turning.coriolis @ reduced
     size = len(problem.blade.frequencies)
     system = np.block([[np.zeros((size, size)), np.eye(size)], [-np.diag(problem.blade.frequencies**2), -coupling]])
     step = expm(times(problem, 1)[0] * system)
-    now, expected = np.concatenate([reduced.T @ coupled.mass @ part for part in start]), []
+    now, expected = np.concatenate([reduced.T @ turning.mass @ part for part in start]), []
     for _ in range(50):
         now = step @ now
         expected.append(reduced @ now[:size])
@@ -176,12 +169,12 @@ def test_free_flight_with_the_coriolis_force(coupled, engine):
     np.testing.assert_allclose(found, expected, rtol=0, atol=1e-8 * np.abs(expected).max())
 
 
-def test_with_the_coriolis_force_displacement_and_velocity_are_those_of_damped_modes(coupled):
+def test_with_the_coriolis_force_displacement_and_velocity_are_those_of_damped_modes(turning):
     """A weaker and weaker force: the run without it. A strong damping, which displacement and velocity see."""
     speed, scene, samples = 1600.0, replace(FAR, damping_ratio=0.2), []
-    start = slow_part(replace(coupled, coriolis=None), speed, 4, np.random.default_rng(3))
-    for coriolis in (None, 1e-12 * coupled.coriolis):
-        model = contact_model(replace(coupled, coriolis=coriolis), "pressure_edge")
+    start = slow_part(replace(turning, coriolis=None), speed, 4, np.random.default_rng(3))
+    for coriolis in (None, 1e-12 * turning.coriolis):
+        model = contact_model(replace(turning, coriolis=coriolis), "pressure_edge")
         samples.append(flown(model, scene, choice(EXACT_MODAL, 2e-7), motion(*start), speed)[2].samples)
     np.testing.assert_allclose(samples[1], samples[0], rtol=0, atol=1e-9 * np.abs(samples[0]).max())
 

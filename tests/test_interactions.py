@@ -8,6 +8,7 @@ import pytest
 import xarray as xr
 from defaults import InteractionChoice
 
+from r37core.results import interactions
 from r37core.results.interactions import COLUMNS, find_interactions, summarise, titles
 from r37core.time_integration.status import RunStatus
 from r37core.units import RAD_S
@@ -246,3 +247,18 @@ def test_no_response_no_interaction():
     assert summarise(joined(data), CHOICE).empty
     data["status"][:] = RunStatus.NOT_RUN
     assert found(data) == []
+
+
+def test_neighbouring_peaks_that_two_crossings_explain_are_two():
+    """Of one mode the normal motion, of the other the tangential one; with one crossing they are one."""
+    apart = found(response([(1700.0, 5e-3, 4)], [(1705.0, 9e-3, 9)]))
+    assert sorted(row.crossing.title for row in apart) == ["1B/4", "1T/9"]
+    (row,) = found(response([(1700.0, 5e-3, 4)], [(1705.0, 9e-3, 4)]))
+    assert row.crossing.title == "1B/4"
+
+
+def test_the_reach_of_a_peak_may_begin_and_end_with_the_speeds():
+    level = np.array([1.0, 0.9, 0.01, 0.01, 0.01])
+    assert interactions._loud(1000.0 * np.arange(5), level, 0) == (0, 1)
+    assert interactions._loud(np.arange(5.0), level, 0) == (0, 2)
+    assert interactions._loud(np.arange(5.0), level[::-1], 4) == (2, 4)

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from r37core.console import interpreter, job_server
+from r37core.console import interpreter, job_requests, job_server
 
 SCRIPT = """
 import os, sys, time
@@ -48,15 +48,16 @@ def serve(root, tmp_path, monkeypatch):
     monkeypatch.setenv("PYTHONPATH", str(root / "src"))
     monkeypatch.setenv(job_server.ADDRESS, "")
     Path(".snakemake").mkdir()
-    script, servers = tmp_path / "job.py", []
+    script, servers, said = tmp_path / "job.py", [], []
 
     def one(text):
         script.write_text(text)
-        assert job_server.start(script, Path(sys.executable))
+        assert job_server.start(script, Path(sys.executable), said.append)
         servers.append(job_server._KEPT.pop())
         wait_for(Path(os.environ[job_server.ADDRESS]))
         return script, servers[-1]
 
+    one.said = said
     yield one
     for server in servers:
         server.stdin.close()
@@ -72,7 +73,7 @@ def start(serve, starter):
         command = [sys.executable, "-S", "-E", starter, "job.py", out, *arguments]
         return subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, **options)
 
-    one.server = server
+    one.server, one.said = server, serve.said
     return one
 
 
@@ -134,11 +135,115 @@ def test_a_module_is_run_without_the_server(start, root):
     assert start.server.poll() is None
 
 
-def test_a_client_that_says_nothing_keeps_no_other_waiting(start, monkeypatch):
+def _message(*parts, more=b""):
+    text = b"\0".join(map(os.fsencode, parts)) + more
+    return len(text).to_bytes(8, "little") + text
+
+
+NONSENSE = {
+    "nothing": (b"", 0),
+    "half a length": (b"\1\0", 0),
+    "no text": (bytes(8), 2),
+    "the longest length": (b"\xff" * 8 + b"x", 2),
+    "no number": (_message("/", "many", "job.py"), 2),
+    "no job": (_message("/", "0"), 2),
+    "a negative number": (_message("/", "-1", "job.py"), 2),
+    "no environment": (_message("/", "1", "x", "job.py", "out"), 2),
+    "no outputs": (_message("/", "0", "job.py", "out", "0"), 0),
+    "one output": (_message("/", "0", "job.py", "out", "0"), 1),
+    "more than it said": (_message("/", "0", "job.py", "out", "0") + b"more", 2),
+    "an empty script": (_message("/", "0", ""), 2),
+    "a folder": (_message("/", "0", "/"), 2),
+    "an endless script": (_message("/", "0", "/dev/zero"), 2),
+    "a pipe": (_message("/", "0", "pipe"), 2),
+    "no Python": (_message("/", "0", "broken.py"), 2),
+    "no UTF-8": (_message("/", "0", "job.py", more=b"\0\xff\xfe"), 2),
+}
+
+
+def test_no_client_ends_the_server_or_keeps_others_waiting(start, tmp_path):
+    """Some go at once and some stay; after them all a job is done, by the server and without a wait."""
+    os.mkfifo("pipe")
+    Path("broken.py").write_text("def (")
+    job = start("0")
+    assert job.wait(20) == 0
+    staying = []
+    for text, outputs in NONSENSE.values():
+        for goes in (True, False):
+            staying.append(socket.socket(socket.AF_UNIX))
+            staying[-1].connect(os.environ[job_server.ADDRESS])
+            with open(os.devnull, "w") as nowhere:
+                if outputs:
+                    socket.send_fds(staying[-1], [text], [nowhere.fileno()] * outputs)
+                else:
+                    staying[-1].sendall(text)
+            if goes:
+                staying.pop().close()
+    began = time.monotonic()
+    assert start("3").wait(20) == 3
+    assert parent() == start.server.pid and time.monotonic() - began < job_requests.PATIENCE_S
+    for client in staying:
+        client.close()
     assert start("0").wait(20) == 0
-    with socket.socket(socket.AF_UNIX) as client:
-        client.connect(os.environ[job_server.ADDRESS])
-        assert start("3").wait(20) == 3
+    assert start.said == []
+
+
+def test_a_client_that_stays_silent_is_done_with_in_the_end(start, monkeypatch):
+    client = job_requests.Client(socket.socket(socket.AF_UNIX))
+    assert not client.is_late()
+    monkeypatch.setattr(time, "monotonic", lambda: client.until + 1e-3)
+    assert client.is_late()
+    client.close()
+
+
+def test_a_long_message_is_read_in_linear_time(monkeypatch):
+    """In parts, which are not joined anew for each that comes."""
+    monkeypatch.setattr(job_requests, "_PART", 64)
+    ours, others = socket.socketpair()
+    text = _message("/", "1", f"a={'b' * 100_000}", "job.py", "c" * 50_000)
+    with ours, others, open(os.devnull) as nowhere:
+        others.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, 2**20)
+        socket.send_fds(others, [text], [nowhere.fileno()] * 2)
+        client, began = job_requests.Client(ours), time.process_time()
+        while (job := client.read()) is None:
+            pass
+        assert time.process_time() - began < 1.0
+        assert (job.folder, len(job.environment["a"]), job.arguments) == ("/", 100_000, ["job.py", "c" * 50_000])
+        for output in job.outputs:
+            os.close(output)
+
+
+def test_a_server_that_ends_is_told_of_and_leaves_nothing(start, monkeypatch):
+    monkeypatch.setattr(job_server, "_STOPPED_S", 0.05)
+    folder = Path(os.environ[job_server.ADDRESS]).parent
+    start.server.send_signal(signal.SIGSTOP)
+    # a job that waits for it is done by itself
+    job = start("2")
+    assert job.wait(20) == 2 and parent() == os.getpid()
+    wait_for(folder, there=False)
+    (line,) = start.said
+    assert f"job server (process {start.server.pid}) was stopped or killed" in line and "the same command again" in line
+
+
+def test_a_server_that_is_stopped_for_a_moment_goes_on(start, monkeypatch):
+    monkeypatch.setattr(job_server, "_STOPPED_S", 0.2)
+    start.server.send_signal(signal.SIGSTOP)
+    start.server.send_signal(signal.SIGCONT)
+    assert start("2").wait(20) == 2 and parent() == start.server.pid
+    assert start.said == []
+
+
+def test_folders_of_servers_that_were_killed_are_removed(serve):
+    """And those of living ones stay."""
+    _, first = serve(SCRIPT)
+    here = Path(os.environ[job_server.ADDRESS]).parent
+    deserted = Path(".snakemake/r37_jobs_before")
+    deserted.mkdir()
+    with socket.socket(socket.AF_UNIX) as killed:
+        killed.bind(str(deserted / "socket"))
+    serve(SCRIPT)
+    assert here.is_dir() and not deserted.exists()
+    assert first.poll() is None
 
 
 def test_only_the_owner_reaches_the_server(start):
@@ -202,7 +307,7 @@ def test_modules_of_the_users_folder_are_not_the_servers(start):
     """The server imports what it needs at its start and at the first job."""
     Path("random.py").write_text("raise SystemExit(9)")
     Path("runpy.py").write_text("raise SystemExit(9)")
-    job_server.start(Path("job.py").absolute(), Path(sys.executable))
+    job_server.start(Path("job.py").absolute(), Path(sys.executable), print)
     second = job_server._KEPT.pop()
     wait_for(Path(os.environ[job_server.ADDRESS]))
     assert start("0").wait(20) == 0
@@ -214,7 +319,7 @@ def test_modules_of_the_users_folder_are_not_the_servers(start):
 def test_a_folder_without_sockets_has_no_server(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv(job_server.ADDRESS, "of another run")
-    job_server.start(tmp_path / "job.py", Path(sys.executable))
+    job_server.start(tmp_path / "job.py", Path(sys.executable), print)
     assert job_server.ADDRESS not in os.environ
 
 

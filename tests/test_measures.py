@@ -144,3 +144,11 @@ def test_the_slope_of_a_clearance_is_that_at_rest():
         {"mode": ["1B"], "tangential_displacement": x},
     )
     assert measures.slope_of_clearance(campbell, "1B") == pytest.approx(0.2)
+
+
+def test_speeds_without_a_number_have_no_length_in_the_median():
+    """Many of them, whose lengths would count together."""
+    speeds = np.arange(60.0)
+    values = np.full(60, np.nan)
+    values[:4] = [1.0, 2.0, 3.0, 4.0]
+    assert measures.median_over_speed(response(values, speeds=speeds), "rms_normal") == 2.0

@@ -2,15 +2,14 @@
 
 import io
 import logging
-import os
 import re
-import subprocess
 
 import numpy as np
 import pytest
 from stubbed_runs import copy_stubbed
-from workflow_runs import SNAKEMAKE
+from workflow_runs import snakemake
 
+from r37core.console.failures import show
 from r37core.console.progress import Progress, quieten
 from r37core.time_integration.status import RunStatus
 
@@ -90,6 +89,26 @@ def test_on_a_terminal_the_line_renews_itself(clock):
     assert stream.getvalue().endswith("\n")
 
 
+def test_a_job_of_the_structure_is_named_when_it_begins(clock):
+    """Of these nobody knows how long the rest takes; a plain log has no line of each."""
+    stream, log = Terminal(), io.StringIO()
+    for progress in (Progress(10, stream, clock), Progress(10, log, clock)):
+        for number, rule in enumerate(("geometry", "mesh")):
+            said(progress, "job_info", "", jobid=number, rule_name=rule, wildcards={"blade": "Ref"}, output=["mesh.vtu"])
+        said(progress, "job_finished", "", job_id=0)
+    assert stream.getvalue().endswith("now geometry Ref, mesh Ref") and log.getvalue() == ""
+    clock.now = 1.0
+    said(progress, "progress", "steps", done=1, total=100)
+    assert log.getvalue() == "jobs 1 of 100; 1.0 a second; now mesh Ref\n"
+
+
+def test_a_message_of_a_job_takes_the_place_of_the_line(clock):
+    stream, log = Terminal(), io.StringIO()
+    for where in (stream, log):
+        show("size of the import", where)
+    assert (stream.getvalue(), log.getvalue()) == ("\r\x1b[Ksize of the import\n", "size of the import\n")
+
+
 def test_diverged_runs_are_counted(clock, tmp_path):
     for name, status in (("a", RunStatus.COMPLETED), ("b", RunStatus.DIVERGED)):
         np.savez(tmp_path / f"{name}.npz", status=int(status))
@@ -120,13 +139,7 @@ def test_only_the_terminal_s_handler_is_quietened():
 @pytest.mark.slow
 def test_a_run_prints_little_and_its_log_has_everything(root, tmp_path):
     copy_stubbed(root, tmp_path)
-    environment = {key: value for key, value in os.environ.items() if key != "R37_FULL_LOG"} | {
-        "PYTHONPATH": str(tmp_path / "src")
-    }
-    done = subprocess.run(
-        [SNAKEMAKE, "all_blades", "--cores", "2"], cwd=tmp_path, env=environment, capture_output=True, text=True, check=True
-    )
-    printed = done.stdout + done.stderr
+    printed = snakemake(tmp_path, "all_blades", "--cores", "2", full_log="")
     assert len(printed.splitlines()) < 64
     # of two jobs at a time either may end first
     assert re.search(r"simulations 12 of at most 12 \((Ref 6, CS100 6|CS100 6, Ref 6)\); 0 diverged", printed)

@@ -23,6 +23,7 @@ import r37
 from r37 import structure_files
 from r37.command import main
 from r37.structure_files import StructureFiles, cache_folder
+from r37core.config import command_line_document
 from r37core.dataset_file import read_dataset
 from r37core.exports.matrices_out import write_reduced_matrices
 from r37core.kept import kept_file
@@ -143,7 +144,7 @@ def test_blades_of_other_programs(root, config, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     runpy.run_path("draw.py")
     settings = read_settings(config.parent.parent)
-    model = read_reduced_model(StructureFiles(settings, "Ref").reduced_model("pressure_edge"))
+    model = read_reduced_model(StructureFiles(settings, "Ref").reduced_model("pressure_edge").file())
     write_reduced_matrices(model, [0.0, 1000.0, 2000.0], tmp_path / "matrices")
     entry = {"matrices": "matrices", "mass_unit": "kg", "stiffness_unit": "N/m", "length_unit": "m", "rotation": "negative"}
     frame = {"rotor_axis": [0, 0, 1], "radial": [1, 0, 0]}
@@ -198,7 +199,7 @@ BAD = {
     ),
     "a negative speed": (
         lambda config: r37.simulate("Ref", "direct", -5, config=config),
-        r"r37.simulate: speeds.0: found -5; allowed: number, at least 0.001",
+        r"r37.simulate: speed: found -5; allowed: number, at least 0.001",
     ),
     "a speed twice": (
         lambda config: r37.sweep("Ref", "direct", [5, 5.0], config=config),
@@ -207,9 +208,82 @@ BAD = {
     "no speed": (lambda config: r37.sweep("Ref", "direct", [], config=config), "speeds: found .*; allowed: .* at least 1"),
     "a speed in words": (
         lambda config: r37.simulate("Ref", "direct", "fast", config=config),
-        "speeds: found 'fast'; allowed: num",
+        "speed: found 'fast'; allowed: num",
     ),
-    "several speeds at once": (lambda config: r37.simulate("Ref", "direct", [1, 2], config=config), "speeds: found"),
+    "several speeds at once": (
+        lambda config: r37.simulate("Ref", "direct", [1, 2], config=config),
+        r"speed: found \[1, 2\]; allowed: one number, in rad/s; several are for r37.sweep",
+    ),
+    "no speed in rpm": (
+        lambda config: r37.simulate("Ref", "direct", speed_rpm=0, config=config),
+        "r37.simulate: speed_rpm: found 0; allowed: number, at least 0.01",
+    ),
+    "a speed in both units": (
+        lambda config: r37.simulate("Ref", "direct", 1, speed_rpm=10, config=config),
+        "speed: found both; allowed: speed, in rad/s, or speed_rpm",
+    ),
+    "speeds of a unit and none": (
+        lambda config: r37.sweep("Ref", "direct", config=config),
+        "speeds: found neither; allowed: speeds, in rad/s, or speeds_rpm",
+    ),
+    "a range with a wrong key": (
+        lambda config: r37.sweep("Ref", "direct", {"start": 1, "stpo": 9}, config=config),
+        r"r37.sweep: speeds.0: found unknown key stpo; .* \(did you mean stop\?\)",
+    ),
+    "no scene": (
+        lambda config: r37.simulate("Ref", None, 1200, config=config),
+        "scene: found None; allowed: the name of a scene",
+    ),
+    "a list of blades": (
+        lambda config: r37.campbell(["Ref"], config=config),
+        r"blade: found \['Ref'\]; allowed: the name",
+    ),
+    "a number of results": (
+        lambda config: r37.simulate("Ref", "direct", 1200, results=3, config=config),
+        "results: found 3; allowed: a list of names",
+    ),
+    "no folder for a study": (lambda config: r37.init(None), "init: found None; allowed: a folder"),
+    "an almost known blade": (lambda config: r37.campbell("cs10", config=config), r"\(did you mean CS100\?\)"),
+    "an almost known scene": (
+        lambda config: r37.simulate("Ref", "abrasable", 1000, config=config),
+        r"\(did you mean abradable\?\)",
+    ),
+    "an almost known level": (lambda config: r37.campbell("Ref", fidelity="drft", config=config), r"\(did you mean draft\?\)"),
+    "a value in place of a section": (
+        lambda config: r37.scene("direct", friction=0.2, config=config),
+        r'direct.friction: found 0.2; allowed: mapping .* of one of them: \*\*\{"friction.coefficient": 0.2\}',
+    ),
+    "results as a text": (
+        lambda config: r37.simulate("Ref", "direct", 9, results="stress", config=config),
+        r'results: found "stress"; allowed: a list, as in results=\["stress"\]',
+    ),
+    "a name that is taken": (
+        lambda config: r37.blade("Ref", name="CS50", config=config),
+        "name: found 'CS50', which .* has; allowed: another name",
+    ),
+    "a changed blade without a name beside others": (
+        lambda config: r37.compare(
+            ["Ref", r37.blade("Ref", chordwise_sweep_deg=5, config=config)], "direct", [9], config=config
+        ),
+        r'blades: found Ref, chordwise_sweep_deg=5; allowed: names that differ, as of r37.blade\("Ref", ..., name="Mine"\)',
+    ),
+    "no blades": (lambda config: r37.compare([], "direct", [9], config=config), "blades: found none"),
+    "no scenes": (lambda config: r37.compare("Ref", [], [9], config=config), "scenes: found none"),
+    "no cores": (lambda config: r37.sweep("Ref", "direct", [9], cores=0, config=config), "cores: found 0; allowed: a whole"),
+    "no run-ups": (lambda config: r37.run_ups("Ref", "direct", {}, config=config), r"run_ups: found \{\}; allowed: names and"),
+    "a run-up without an end": (
+        lambda config: r37.run_up("Ref", "direct", from_rad_s=100, config=config),
+        "r37.run_up: run_ups.run_up.to_rad_s: found nothing; allowed: one of to_rad_s, to_rpm, crossing",
+    ),
+    "a number that does not vary": (
+        lambda config: r37.tolerances("Ref", "direct", [9], of_scenes={"friction": {"uniform_percent": 5}}, config=config),
+        "r37.tolerances: tolerances.of_scenes.friction: found friction; allowed: a number of the scenes",
+    ),
+    "a plot of something else": (
+        lambda config: r37.plot_campbell(xr.Dataset()),
+        "campbell: found a dataset without frequency; allowed: what r37.campbell gives",
+    ),
+    "a plot of nothing": (lambda config: r37.plot_response(None), "response: found a NoneType; allowed: what r37.sweep gives"),
     "an unknown level": (
         lambda config: r37.campbell("Ref", fidelity="rough", config=config),
         "r37.campbell: fidelity: found 'rough'; allowed: draft, standard",
@@ -316,23 +390,31 @@ def test_results_of_a_run_are_a_mapping(finished):
         results["signals"]
 
 
-@pytest.mark.parametrize(
-    ("before", "backend"),
-    [("", "Agg"), ("import matplotlib; matplotlib.use('svg')", "svg"), ("import r37core.figures.style", "Agg")],
-)
-def test_plots_take_the_chosen_backend(before, backend):
-    """Without one, what matplotlib chooses on a machine without a display."""
-    code = f"""
-{before}
-import matplotlib, numpy, r37, xarray
-rms = {{f"rms_{{name}}": (("speed", "tip_point"), numpy.ones((2, 1))) for name in ("normal", "tangential")}}
-rms["status"] = ("speed", [0, 0])
-r37.plot_response(xarray.Dataset(rms, {{"speed": [1.0, 2.0], "tip_point": ["leading_edge"]}}))
-print(matplotlib.get_backend())
+BACKENDS = {"": "agg", "import matplotlib; matplotlib.use('svg')": "svg", "import r37core.figures.style": "agg"}
+
+PLOTTED = """
+import os, sys
+import netCDF4, numpy, pandas, scipy.linalg, xarray
+assert "matplotlib" not in sys.modules
+for before in sys.argv[1:]:
+    if os.fork() == 0:
+        exec(before)
+        import matplotlib, r37
+        rms = {f"rms_{name}": (("speed", "tip_point"), numpy.ones((2, 1))) for name in ("normal", "tangential")}
+        rms["status"] = ("speed", [0, 0])
+        r37.plot_response(xarray.Dataset(rms, {"speed": [1.0, 2.0], "tip_point": ["leading_edge"]}))
+        print(matplotlib.get_backend().lower(), flush=True)
+        os._exit(0)
+    os.wait()
 """
+
+
+def test_plots_take_the_chosen_backend():
+    """Without one, what matplotlib chooses on a machine without a display."""
     kept = {name: value for name, value in os.environ.items() if name not in ("DISPLAY", "WAYLAND_DISPLAY", "MPLBACKEND")}
-    done = subprocess.run([sys.executable, "-c", code], env=kept, capture_output=True, text=True, check=True)
-    assert done.stdout.strip().lower() == backend.lower()
+    command = [sys.executable, "-c", PLOTTED, *BACKENDS]
+    done = subprocess.run(command, env=kept, capture_output=True, text=True, check=True)
+    assert done.stdout.split() == list(BACKENDS.values()), done.stderr
 
 
 def test_results_that_are_not_there(tmp_path):
@@ -403,8 +485,30 @@ def test_the_command_does_what_the_page_says(root, finished, monkeypatch, capsys
     assert "blades: Ref, CS100\n" in told[3] and "simulations: 12\n" in told[3]
 
 
-def test_the_command_refuses_in_one_line(root, capsys):
+@pytest.mark.parametrize("file", [3.5, 300 * "x", "a\0b", "a\nb", ".", "/dev/zero", []])
+def test_what_is_no_file_is_refused_in_one_line(file):
+    for call in (lambda: r37.blades(config=file), lambda: r37.blades(file=file), lambda: r37.scene("direct", file=file)):
+        with pytest.raises(r37.ConfigError, match=r"^(config|file): found .*; allowed: ") as refused:
+            call()
+        assert str(refused.value).isprintable() and len(str(refused.value)) < 200
+
+
+def test_numbers_of_numpy_are_numbers():
+    changes = {"casing.lobes": np.int64(3), "friction.coefficient": np.float32(0.5), "gap": np.str_("exact")}
+    entry = r37.scene("direct", **changes).entry
+    assert (entry.casing.lobes, entry.friction.coefficient, entry.gap) == (3, 0.5, "exact")
+    assert command_line_document({"a": [np.int64(1), {"b": np.bool_(True)}]}).content == {"a": [1, {"b": True}]}
+
+
+def test_the_command_refuses_in_one_line(root, capsys, tmp_path):
     config = str(root / "config/config.yaml")
+    # no folder is made, and nothing is put in the place of a device
+    os.mkfifo(tmp_path / "pipe")
+    for output in (tmp_path / "none/a.nc", tmp_path / "pipe", Path("/dev/null"), tmp_path / f"{300 * 'x'}.nc"):
+        assert main(["campbell", "Ref", "--output", str(output)]) == 1
+        told = capsys.readouterr().err
+        assert told.startswith("r37: --output: found ") and told.count("\n") == 1
+    assert [path.name for path in tmp_path.iterdir()] == ["pipe"] and (tmp_path / "pipe").is_fifo()
     assert main(["simulate", "Ref", "rub", "1000", "--config", config]) == 1
     told = capsys.readouterr()
     assert told.out == "" and told.err.startswith("r37: scene: found 'rub'; allowed: abradable") and told.err.count("\n") == 1
@@ -454,11 +558,17 @@ def test_an_installed_package_needs_no_repository(root, tmp_path):
             for place in (root, packages / "r37")
         )
         assert installed == shipped
+    assert all((packages / name / "py.typed").exists() for name in ("r37", "r37core"))
     with tarfile.open(project / source) as archive:
         assert not [name for name in archive.getnames() if "/tests/" in name]
     (project / "src").rename(project / "gone")
     code = "import r37; print(r37.__file__); print(float(r37.campbell('Ref', fidelity='tiny').frequency[0, 0]))"
-    file, frequency = python("-c", code)
+    # workers of other processes need no guard in the program
+    (elsewhere / "program.py").write_text(
+        f"{code}; print(r37.compare('Ref', 'abradable', [750, 1150], fidelity='tiny', cores=2))"
+    )
+    file, frequency, compared = python("program.py")
+    assert compared.endswith(": campbell, rms, spectrum, stress, wear")
     assert Path(file).is_relative_to(packages)
     assert "level: tiny" in python(environment / "bin/r37", "check")
     assert 800.0 < float(frequency) < 900.0  # Hz, 1B at rest

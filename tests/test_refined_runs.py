@@ -1,23 +1,22 @@
 """Adaptive speed sampling through Snakemake: all rounds in one command, each speed once, and what runs again."""
 
-import contextlib
 import json
-import os
 import random
 import re
-import signal
-import subprocess
 import time
 
 import numpy as np
+import pandas as pd
 import pytest
 import xarray as xr
+import yaml
 from overlays import overlay
 from plans_of_snakemake import planned_outputs
 from shared_sweep import copy_structure
 from stubbed_runs import copy_stubbed, refine, simulated
-from workflow_runs import SNAKEMAKE, copy_finished, snakemake
+from workflow_runs import copy_finished, kill_snakemake, snakemake
 
+import r37
 from r37core.console.leftovers import leftovers
 from r37core.product.reading import read_settings
 from r37core.time_integration.status import RunStatus
@@ -202,20 +201,17 @@ def test_real_rounds_stay_on_their_grid(real):
 def test_kills_at_random_moments_lose_nothing(real, small_sweep, tmp_path):
     """Killed in the middle of its rounds, again and again; in the end every array is bit for bit that of an undisturbed run."""
     project = prepare_real(small_sweep, tmp_path / "project")
-    command = [SNAKEMAKE, "all_blades", "--cores", "2"]
-    moments = random.Random(7)
+    command, moments = ("all_blades", "--cores", "2"), random.Random(7)
     for files in (2, 7, 10, 13):
-        run = subprocess.Popen(
-            command, cwd=project, env=os.environ | {"PYTHONPATH": str(project / "src")},
-            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True,
-        )  # fmt: skip
-        while run.poll() is None and len(speed_files(project)) < files:
-            time.sleep(0.1)
-        time.sleep(3.0 * moments.random())
-        with contextlib.suppress(ProcessLookupError):
-            os.killpg(run.pid, signal.SIGKILL)
-        run.wait()
-    snakemake(project, *command[1:])
+
+        def there(files=files):
+            if len(speed_files(project)) < files:
+                return False
+            time.sleep(moments.random())
+            return True
+
+        kill_snakemake(project, *command, when=there)
+    snakemake(project, *command)
     undisturbed = speed_files(real)
     assert speed_files(project).keys() == undisturbed.keys()
     for name, file in speed_files(project).items():
@@ -228,3 +224,50 @@ def test_kills_at_random_moments_lose_nothing(real, small_sweep, tmp_path):
     for file in real.glob("results/*/*/round_*.json"):
         assert (project / file.relative_to(real)).read_bytes() == file.read_bytes()
     assert not list(project.glob("results/**/.*partial*"))
+
+
+RUN_UPS = {
+    "up": {"from_rpm": 9500, "to_rpm": 9600, "revolutions": 4, "scenes": ["abradable"]},
+    "down": {
+        "crossing": {"mode": "1B", "engine_order": 6, "first": 0.02, "last": 0.01},
+        "rate_rad_s2": 500,
+        "scenes": ["abradable"],
+    },
+}
+TOLERANCES = {
+    "members": 2,
+    "largest_share": 0.9,
+    "of_scenes": {"friction.coefficient": {"uniform_percent": 20}},
+    "of_blades": {"material.youngs_modulus_pa": {"uniform_percent": 1}},
+}
+
+
+@pytest.fixture(scope="module")
+def with_wings(real, tmp_path_factory):
+    """The same with run-ups and tolerances."""
+    folder = copy_finished(real, tmp_path_factory.mktemp("wings") / "project")
+    overlay(
+        folder,
+        "config.yaml",
+        yaml.safe_dump({"run_ups": RUN_UPS, "tolerances": {**TOLERANCES, "scenes": ["abradable"]}}, sort_keys=False),
+    )
+    files = [f"results/{name}" for name in ("tolerances.nc", "tolerances.csv", "run_ups.nc")]
+    snakemake(folder, *files, "--cores", "2")
+    return folder
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("cores", [1, 2])
+def test_python_has_the_same_rounds_members_and_run_ups(with_wings, cores, monkeypatch):
+    """To the last bit, on one core and on two."""
+    monkeypatch.setenv("R37_CACHE", str(with_wings / "cache"))
+    results, common = r37.open_results(with_wings / "results"), {"config": with_wings / "config/config.yaml", "cores": cores}
+    speeds = {"start": 1000, "stop": 1240, "step": 80, "refine_to": 20}
+    again = r37.tolerances("CS100", "abradable", speeds, **TOLERANCES, **common)
+    xr.testing.assert_identical(again.response("CS100", "abradable"), results.response("CS100", "abradable"))
+    xr.testing.assert_identical(again["tolerances"], results["tolerances"])
+    pd.testing.assert_frame_equal(again.tables["tolerances"], results.tables["tolerances"])
+    run_ups = {name: {key: value for key, value in entry.items() if key != "scenes"} for name, entry in RUN_UPS.items()}
+    xr.testing.assert_identical(r37.run_ups("CS100", "abradable", run_ups, **common), results["run_ups"])
+    up = r37.run_up("CS100", "abradable", **run_ups["up"], config=common["config"])
+    xr.testing.assert_equal(up.drop_vars("run_up"), results["run_ups"].isel(run=0).drop_vars("run_up"))

@@ -11,6 +11,7 @@ from defaults import InteractionChoice
 from hypothesis import given
 from hypothesis import strategies as st
 
+from r37core.adaptive import criterion
 from r37core.adaptive.criterion import (
     RefinementChoice,
     Window,
@@ -154,7 +155,7 @@ def test_ranges_that_cannot_be_refined(entries, message):
             },
             r"windows\.0\.last: found 0\.1; allowed: more than first \(0\.1\)",
         ),
-        ({"refinement": {"change": -1}}, r"refinement\.change: found -1; allowed: .*more than 0"),
+        ({"refinement": {"change": -1}}, r"refinement\.change: found -1; allowed: .*at least 0\.001"),
         ({"refinement": {"largest_share": 1.5}}, r"refinement\.largest_share: found 1\.5; allowed: .*at most 1"),
     ],
 )
@@ -401,3 +402,28 @@ def test_errors_between_the_speeds_that_are_run():
     diverged["max_von_mises"].loc[{"speed": 1000.0}] = np.nan
     assert errors_between(diverged, [750.0, 2000.0])[1:] == (0.0, 0.0)
     assert np.isnan(errors_between(response.drop_vars("max_von_mises"), [750.0, 2000.0])[1:]).all()
+
+
+def test_the_size_of_a_curve_does_not_matter():
+    """Not of one far below a tenth, either."""
+    rows = {speed: [0, 1e-3 + 1e-2 * np.sin(0.01 * speed) ** 8, 1e-3, 1e-3] for speed in PLAN.certain}
+    rows[PLAN.certain[3]] = [1, np.nan, np.nan, np.nan]
+    small = {speed: [status, 1e-6 * normal, *others] for speed, (status, normal, *others) in rows.items()}
+    asked_for = next_speeds(GRID, known_of(rows), CHOICE)
+    assert asked_for and next_speeds(GRID, known_of(small), CHOICE) == asked_for
+
+
+def test_without_a_width_a_peak_has_its_two_intervals():
+    """The share `peak` may be 0."""
+    curve = np.array([0.2, 0.4, 1.0, 0.4, 0.2])
+    near = criterion._near_a_peak(curve, replace(CHOICE, peak=0.0))
+    assert near.tolist() == [False, True, True, False]
+
+
+def test_a_window_is_halved_to_the_end_and_not_where_it_only_touches():
+    grid = RefinedRange(1000.0, 1.0, 8, 16)
+    window = criterion.DenseRange(1000.0, 1008.0, 1.0)
+    assert window_speeds(grid, [window]) == [float(speed) for speed in range(1001, 1008)]
+    # as far as the second interval's first speed and no farther; and from the first one's last
+    assert window_speeds(grid, [criterion.DenseRange(990.0, 1000.0, 1.0)]) == []
+    assert window_speeds(grid, [criterion.DenseRange(1016.0, 1030.0, 1.0)]) == []

@@ -1,10 +1,12 @@
 """Configurations that cannot be meant: each ends in one message with file, line and key."""
 
+import os
 import re
 
 import numpy as np
 import pytest
 
+from r37core import text_file
 from r37core.config import ConfigError, Document, command_line_document
 from r37core.product.reading import read_settings
 from r37core.product.schemas import MODELS
@@ -50,6 +52,13 @@ def test_no_number_may_be_anything_else(root, name, value):
     for path in numbers(content):
         with pytest.raises(ConfigError, match=r"^a\.yaml: .*: (found|at least)"):
             Document("a.yaml", with_value(content, path, value)).check(MODELS[name])
+
+
+@pytest.mark.parametrize("name", MODELS)
+def test_what_cannot_be_zero_cannot_be_almost_zero(name):
+    """A rate of 5e-324 was divided by: each number that is more than 0 has a bound that somebody can mean."""
+    schema = str(MODELS[name].model_json_schema())
+    assert not re.search(r"'exclusiveMinimum': 0(\.0)?\b", schema)
 
 
 GAUGE = "{ chord: 0.5, span: 0.5, side: suction }"
@@ -124,7 +133,17 @@ CONFIG_REFUSALS = [
     (
         "speeds_for: []",
         "run_ups: { a: { from_rad_s: 900, to_rad_s: 1000, rate_rad_s2: -10 } }",
-        r"run_ups\.a\.rate_rad_s2: found -10; allowed: number, more than 0",
+        r"run_ups\.a\.rate_rad_s2: found -10; allowed: number, at least 0\.001",
+    ),
+    (
+        "speeds_for: []",
+        "run_ups: { a: { from_rad_s: 1999, to_rad_s: 1999.0000001, rate_rad_s2: 10 } }",
+        r"run_ups\.a\.rate_rad_s2: found a change from 1999 to 1999\.0000001 rad/s within",
+    ),
+    (
+        "speeds_for: []",
+        "run_ups: { a: { from_rad_s: 900, to_rad_s: 1000, rate_rpm_s: 5e-324 } }",
+        r"run_ups\.a\.rate_rpm_s: found 5e-324; allowed: number, at least 0\.01",
     ),
     (
         "speeds_for: []",
@@ -297,6 +316,10 @@ BLADE_REFUSALS = [
     ("X: {base: Ref, stacking_table: ''}", r"X\.stacking_table: found ''; allowed: string"),
     ("X: {base: Ref, stacking_table: .}", r"X\.stacking_table: \. cannot be read: Is a directory"),
     ("X: {base: Ref, profiles: a.csv}", r"X: found both profiles and base; allowed: one of them"),
+    (
+        "X: {base: Ref, vary: {sweep_percent: {start: 0, stop: 10, step: 1e12}}}",
+        r"X\.vary\.sweep_percent\.step: found 1e\+12; allowed: at most stop - start \(10\)",
+    ),
     ("X: null", r"X: found nothing; allowed: mapping with the keys profiles, base"),
     ("X: &x {base: Ref, <<: *x}", r"not readable as YAML"),
     ("X: {base: Ref, material: {density_kg_m3: 1e30}}", r"X\.material\.density_kg_m3: found 1e\+30; allowed: .*at most 100000"),
@@ -399,6 +422,28 @@ def test_tables_that_cannot_be_read(config_copy, name, change, message):
     file.write_text(change(file.read_text()))
     with pytest.raises(ConfigError, match=rf"^{re.escape(name)}{message}"):
         read_settings(config_copy)
+
+
+@pytest.mark.parametrize("name", TABLES)
+def test_a_table_without_an_end_is_refused(config_copy, name, monkeypatch):
+    """A device, a pipe that nobody writes to, a file that no person has written."""
+    file = config_copy / name
+    content = file.read_text()
+    for make in (lambda: file.symlink_to("/dev/zero"), lambda: os.mkfifo(file), file.mkdir):
+        file.unlink()
+        make()
+        with pytest.raises(
+            ConfigError, match=rf"{re.escape(name)} cannot be read: it is a folder, a device or a pipe|Is a dir"
+        ):
+            read_settings(config_copy)
+        file.rmdir() if file.is_dir() else None
+        file.touch()
+    file.write_text(content)
+    monkeypatch.setattr(text_file, "_LARGEST", len(content) - 1)
+    with pytest.raises(TextFileError, match="found more than"):
+        text_file.read_text(file)
+    monkeypatch.setattr(text_file, "_LARGEST", len(content))
+    assert text_file.read_text(file) == content
 
 
 def test_numbers_are_read_alike_everywhere(tmp_path):

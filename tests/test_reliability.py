@@ -1,32 +1,45 @@
 """What a user sees when something goes wrong: one clear line, and a way on."""
 
 import dataclasses
+import errno
+import hashlib
+import logging
 import os
+import re
+import resource
 import shutil
-import signal
 import subprocess
 import sys
+import tempfile
 import time
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 import xarray as xr
 from defaults import Casing, IntegrationChoice, Scene
 from plans_of_snakemake import planned_outputs
+from snakemake.exceptions import InputFunctionException, WorkflowError, format_exception_to_string
 from stubbed_runs import copy_stubbed
-from workflow_runs import SNAKEMAKE, copy_project, snakemake
+from workflow_runs import copy_project, kill_snakemake, snakemake
 
+from r37 import structure_files
+from r37core import kept
+from r37core.checksums import checksum_file, checksummed, drop_checksum
 from r37core.config import ConfigError, command_line_document
-from r37core.console import failures, lock
+from r37core.console import failures, lock, refusals, snakemake_run
 from r37core.console.leftovers import leftovers
 from r37core.dataset_file import SPEED, Variable, about, read_dataset, write_dataset
-from r37core.io import InputFileError, write_json
+from r37core.io import InputFileError, OutputFileError, atomic_write, readable, scratch_folder, write_json
 from r37core.plans.run import replaced_level, source_folder
+from r37core.plans.sweep_plan import speeds_of_round
 from r37core.product.reading import read_settings
 from r37core.results.campbell_dataset import campbell_dataset
 from r37core.results.netcdf import create_axis, create_variable
 from r37core.rom.rotation import BucklingError
+from r37core.speeds import plan_speeds
 from r37core.time_integration.simulate import Simulation
+from r37core.time_integration.speed_file import read_speed
 
 
 @pytest.fixture
@@ -86,6 +99,80 @@ def test_a_full_disk_is_said_as_such(folder, capsys, monkeypatch):
     fail(RuntimeError("NetCDF: HDF error"))
     line = capsys.readouterr().err
     assert "the disk is full (NetCDF: HDF error); free some space and give the same command again" in line
+
+
+DATASET = xr.Dataset({"a": (("x",), np.arange(20_000.0), about("m", "a"))}, {"x": ("x", np.arange(20_000.0))})
+
+
+@pytest.mark.parametrize("write", [lambda file: write_dataset(DATASET, file), lambda file: write_json([1.0] * 20_000, file)])
+def test_a_file_that_may_not_be_as_large_is_one_line(tmp_path, write):
+    """Whatever netCDF calls it."""
+    soft, hard = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (10_000, hard))
+    try:
+        with pytest.raises(OutputFileError, match=r"a\.nc: cannot be written: files may not be as large here; raise the limit"):
+            write(tmp_path / "a.nc")
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, (soft, hard))
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize(
+    ("error", "free", "outcome"),
+    [
+        (OSError(errno.ENOSPC, "No space left on device"), 10**9, OutputFileError),
+        (OSError(errno.EDQUOT, "Disk quota exceeded"), 10**9, OutputFileError),
+        (RuntimeError("NetCDF: HDF error"), 10, OutputFileError),
+        (OSError(-101, "NetCDF: HDF error"), 10, OutputFileError),
+        (RuntimeError("NetCDF: HDF error"), 10**9, RuntimeError),
+        (PermissionError(errno.EACCES, "Permission denied"), 10, PermissionError),
+        (InputFileError("b.nc: no"), 10, InputFileError),
+    ],
+)
+def test_a_full_disk_is_one_line_in_python(tmp_path, monkeypatch, error, free, outcome):
+    """From every writer, and where r37 keeps structures; other errors are as they were."""
+    monkeypatch.setattr(shutil, "disk_usage", lambda place: shutil._ntuple_diskusage(10**10, 10**10 - free, free))
+
+    def fails(*_):
+        raise error
+
+    def written():
+        with atomic_write(tmp_path / "a.nc"):
+            fails()
+
+    def made():
+        with pytest.MonkeyPatch.context() as patch:
+            patch.setenv("R37_CACHE", str(tmp_path / "cache"))
+            patch.setattr(structure_files, "kept_file", fails)
+            structure_files.Recipe("Ref", "rom.steps.reduced_model", "a.nc", {}, {}).file()
+
+    for write in (written, made):
+        with pytest.raises(outcome) as raised:
+            write()
+        told = type(raised.value) is OutputFileError
+        assert told == (outcome is OutputFileError)
+        assert not told or re.search(r"a\S*\.nc: cannot be written: the disk is full; free some space \(", str(raised.value))
+
+
+def test_what_cannot_be_kept_is_there_nevertheless(tmp_path, monkeypatch):
+    """Compiled code, which a full disk has no room for."""
+    monkeypatch.setattr(kept, "_folder", lambda: tmp_path)
+    monkeypatch.setattr(kept, "keep", lambda *_: (tmp_path / "none/a").write_text(""))
+    assert kept.kept_bytes("a.o", "", lambda: b"code", lambda: True) == b"code"
+
+
+def test_no_temporary_folder_is_one_line(tmp_path, monkeypatch):
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path / "none"))
+    with (
+        pytest.raises(OutputFileError, match="no temporary folder can be made: free some space, or set TMPDIR"),
+        scratch_folder(),
+    ):
+        pass
+
+
+def test_a_job_on_a_full_disk_says_so_once(folder, capsys):
+    fail(OutputFileError("a.nc: cannot be written: the disk is full"))
+    assert capsys.readouterr().err == "rule mesh: a.nc: cannot be written: the disk is full (details in a.log)\n"
 
 
 def test_too_little_memory_is_said_as_such(folder, capsys):
@@ -258,6 +345,102 @@ def test_a_flipped_bit_of_a_response_is_found(tmp_path):
             read_dataset(file)
 
 
+@pytest.mark.parametrize("name", ["summary.csv", "round_0.json", "rms.nc", "mesh.vtu"])
+def test_what_has_changed_since_it_was_written_is_refused(tmp_path, name):
+    """Cut where it is still a table, or one bit: of netCDF a checksum of its own may not see it."""
+    file = tmp_path / name
+    with checksummed([str(file)]):
+        file.write_bytes(b"blade,scene\nRef,direct\nL50,direct\n")
+    with readable(file):
+        pass
+    for changed in (b"blade,scene\nRef,direct\n", b"blade,scene\nRef,direct\nL51,direct\n"):
+        file.write_bytes(changed)
+        with (
+            pytest.raises(
+                InputFileError, match=rf"{name}: cannot be read .*\.{name}\.sha256 says\); .* delete it and run again"
+            ),
+            readable(file),
+        ):
+            pass
+    # one of an older version, and one that is written anew
+    drop_checksum(file)
+    with readable(file):
+        pass
+    with pytest.raises(KeyError), checksummed([str(file)]):
+        raise KeyError
+    assert not checksum_file(file).exists()
+
+
+@pytest.mark.parametrize("content", [b"", b"x", b"\x80\x04]\x94."])
+def test_nobody_is_advised_to_load_what_may_run_something(tmp_path, content):
+    file = tmp_path / "speed_1.npz"
+    file.write_bytes(content)
+    with pytest.raises(InputFileError) as refused:
+        read_speed(file)
+    assert "pickle" not in str(refused.value) and "cannot be read (" in str(refused.value)
+
+
+def test_checksums_are_those_of_a_common_tool(tmp_path):
+    file = tmp_path / "summary.csv"
+    with checksummed([str(file), str(tmp_path / "figure.png")]):
+        file.write_text("abc")
+    assert [path.name for path in tmp_path.glob(".*")] == [".summary.csv.sha256"]
+    assert checksum_file(file).read_text() == f"{hashlib.sha256(b'abc').hexdigest()}  summary.csv\n"
+
+
+def test_a_refusal_names_no_files_of_ours():
+    """Snakemake lists what it finds in the traceback."""
+    refused = refusals.without_files(WorkflowError)
+    with pytest.raises(WorkflowError) as shown, snakemake_run._refused(refused):
+        raise ConfigError("config.yaml:3: speeds: found none")
+    text = format_exception_to_string(shown.value, {__file__: dict.fromkeys(range(2000), 1)})
+    assert text == "ConfigError:\nconfig.yaml:3: speeds: found none"
+    # as it would without
+    assert __file__ in format_exception_to_string(_raised(WorkflowError("x")), {__file__: dict.fromkeys(range(2000), 1)})
+
+
+def _raised(error):
+    try:
+        raise error
+    except WorkflowError as raised:
+        return raised
+
+
+def test_a_file_that_cannot_be_planned_with_is_told_in_one_line(tmp_path, settings):
+    """A damaged round, which Snakemake meets when it plans; other errors are as they were."""
+    rule = SimpleNamespace(lineno=1, snakefile="sweep.smk", name="response", workflow=SimpleNamespace(linemaps={}))
+    for error, line in ((InputFileError("round_0.json: no"), "round_0.json: no"), (KeyError("speed"), None)):
+        text = str(InputFunctionException(error, wildcards={"blade": "Ref"}, rule=rule))
+        about = {"exception": InputFunctionException.__name__, "event": "error"}
+        record = logging.makeLogRecord({"msg": text, **about})
+        assert refusals.MessageAlone().filter(record)
+        assert record.getMessage() == (line or text)
+
+
+def test_a_damaged_round_is_one_line_and_its_speeds_are_held_against_the_grid(tmp_path):
+    plan = plan_speeds([{"start": 800, "stop": 820, "step": 10, "refine_to": 2.5}], 1.0)
+    file = tmp_path / "round_0.json"
+    write_json({"new": [800, 802.5], "measured": []}, file)
+    assert speeds_of_round(str(file), plan) == [800.0, 802.5]
+    for number, (text, reason) in enumerate(
+        (
+            ('{"new": [800, 802.6]}', "it asks for 802.6 rad/s, which is no speed of the configuration"),
+            ('{"new": [7197, 800]}', "it asks for 7197 rad/s"),
+            ('{"new": ["x"]}', "could not convert"),
+            ('{"new": 800}', "not iterable"),
+            ('{"old": []}', "KeyError: 'new'"),
+            ("[]", "TypeError"),
+            ('{"new": [800', "JSONDecodeError"),
+        )
+    ):
+        file.write_text(text)
+        os.utime(file, (number, number))
+        with pytest.raises(InputFileError) as refused:
+            speeds_of_round(str(file), plan)
+        message = str(refused.value)
+        assert reason in message and message.count("cannot be read") == 1 and "\n" not in message, message
+
+
 @pytest.mark.slow
 def test_a_run_with_a_name_has_its_results_apart(root, tmp_path):
     copy_stubbed(root, tmp_path)
@@ -306,17 +489,15 @@ def test_a_killed_run_goes_on_with_the_same_command(root, tmp_path, wait):
     copy_stubbed(root, tmp_path)
     slow = tmp_path / "workflow/scripts/step.py"
     slow.write_text("import time\ntime.sleep(30)\n" + slow.read_text())
-    environment = os.environ | {"PYTHONPATH": str(tmp_path / "src")}
-    command = [SNAKEMAKE, "results/Ref/geometry.nc", "--cores", "1"]
-    first = subprocess.Popen(command, cwd=tmp_path, env=environment, stderr=subprocess.DEVNULL, start_new_session=True)
-    for _ in range(600):
-        if any((tmp_path / ".snakemake/locks").glob("*")):
-            break
-        time.sleep(0.01)
-    time.sleep(wait)
-    os.killpg(first.pid, signal.SIGKILL)
-    first.wait()
+    command = ("results/Ref/geometry.nc", "--cores", "1")
+
+    def begun():
+        locked = any((tmp_path / ".snakemake/locks").glob("*"))
+        time.sleep(wait if locked else 0.0)
+        return locked
+
+    kill_snakemake(tmp_path, *command, when=begun)
     slow.write_text(slow.read_text().replace("time.sleep(30)", ""))
-    text = snakemake(tmp_path, *command[1:])
+    text = snakemake(tmp_path, *command)
     assert "the last run here was killed" in text
     assert (tmp_path / "results/Ref/geometry.nc").exists()

@@ -1,18 +1,21 @@
 """What a run's file keeps, against closed forms and counts by hand."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from defaults import Casing, IntegrationChoice, Scene
 from integration_cases import DIRECT, LINING, oscillator
 
+from r37core.time_integration.casing_of_run import CasingOfRun
 from r37core.time_integration.initial_motion import InitialMotion
 from r37core.time_integration.problem import Problem, UnstableStepError
 from r37core.time_integration.simulate import Simulation
 from r37core.time_integration.speed_run import run_speed
 from r37core.time_integration.state import SimulationState
 from r37core.time_integration.status import RunStatus
+from r37core.time_integration.time_grid import TimeGrid
 
 FREE = Scene(Casing(1.0, lobes=0), damping_ratio=0.0)
 SPEED = 1000.0
@@ -147,3 +150,34 @@ def test_step_limit_of_a_lining_is_four_thirds():
                 Problem(model, SPEED, scene, choice)
         else:
             Problem(model, SPEED, scene, choice)
+
+
+@pytest.mark.parametrize(("snapshots", "kept"), [(4, 2), (1, 1), (0, 2), (4, 0)])
+def test_snapshots_are_the_last_samples_of_equal_parts(snapshots, kept):
+    """In whatever pieces the run is done."""
+    choice = IntegrationChoice(1e-5, 3, 8, snapshots_per_revolution=snapshots, snapshot_revolutions=kept)
+    grid, samples = TimeGrid(1000.0, choice), 24
+    every = 8 // snapshots if snapshots and kept else 0
+    expected = [n for n in range(samples) if every and n >= samples - 8 * kept and (n + 1) % every == 0]
+    assert grid.samples_per_snapshot == every and grid.snapshots_after(samples) == len(expected)
+    for piece in (24, 5, 1):
+        pieces = [(first, min(first + piece, samples)) for first in range(0, samples, piece)]
+        assert [first + n for first, last in pieces for n in grid.snapshots_between(first, last)] == expected
+
+
+@pytest.mark.parametrize(("against", "sign"), [(True, -1.0), (False, 1.0), (None, 1.0)])
+def test_rotation_slides_the_tip_with_its_own_speed(against, sign):
+    friction = None if against is None else SimpleNamespace(against_rotation=against)
+    run = SimpleNamespace(
+        scene=SimpleNamespace(friction=friction),
+        tip=SimpleNamespace(radius=np.array([0.25])),
+        grid=SimpleNamespace(speed=1000.0),
+    )
+    np.testing.assert_array_equal(CasingOfRun.rotation_velocity.fget(run), [sign * 250.0])
+
+
+@pytest.mark.parametrize(("lining", "rings"), [(None, 0), ("shared", 1), ("own", 3)])
+def test_a_lining_has_a_ring_for_all_nodes_or_one_each(lining, rings):
+    kind = None if lining is None else SimpleNamespace(shared_ring=lining == "shared")
+    run = SimpleNamespace(scene=SimpleNamespace(lining=kind), tip=SimpleNamespace(radius=np.ones(3)))
+    assert CasingOfRun.rings.fget(run) == rings

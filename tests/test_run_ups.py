@@ -16,12 +16,13 @@ from r37core.contact.ring import RingMode
 from r37core.io import InputFileError
 from r37core.rom.rotation import BucklingError
 from r37core.run_ups import integration as integration_module
+from r37core.run_ups import revolutions as revolutions_module
 from r37core.run_ups import schedule as schedule_module
-from r37core.run_ups.choice import Crossing, RunUpChoice, RunUpError
-from r37core.run_ups.dataset import write_run_ups
+from r37core.run_ups.choice import Crossing, RunUpChoice, RunUpError, check_highest
+from r37core.run_ups.dataset import runs_of, write_run_ups
 from r37core.run_ups.figures import draw_rates, draw_run_ups
-from r37core.run_ups.integration import RunUpIntegration, resolved_problem
-from r37core.run_ups.revolutions import record_run_up
+from r37core.run_ups.integration import RunUpIntegration, Stage, resolved_problem
+from r37core.run_ups.revolutions import largest_stress, record_run_up
 from r37core.run_ups.schedule import RunUp, schedule
 from r37core.run_ups.tables import rate_table, run_up_table
 from r37core.time_integration.integrators import EXACT_MODAL
@@ -394,7 +395,13 @@ def test_files_that_are_no_run_ups_are_named(contact, tmp_path):
         table = run_up_table(dataset.load())
         assert "max_von_mises_pa" not in table
         assert len(rate_table(table)) == 0
-        for figure in (draw_run_ups(dataset, "", blade="Ref", scene="abradable"), draw_rates(table, "", scene="abradable")):
+        figures = [draw_run_ups(dataset, "", blade="Ref", scene="abradable"), draw_rates(table, "", scene="abradable")]
+        rate, *others = [text.get_text() for text in figures[0].legends[0].texts]
+        assert rate == f"{abs(dataset['rate'].item()):.4g} rad/s²" and others == ["run-up"]
+        dataset["worn"][:] = 1
+        worn = draw_run_ups(dataset, "", blade="Ref", scene="abradable")
+        assert [text.get_text() for text in worn.legends[0].texts] == [rate, "run-up", "worn before"]
+        for figure in (*figures, worn):
             plt.close(figure)
 
 
@@ -448,3 +455,109 @@ def test_a_run_that_diverged_is_above_yield():
     runs.loc[1, "status"] = "diverged"
     row = rate_table(runs).iloc[0]
     assert row["lowest_safe_rate_rad_s2"] == row["rate_at_yield_rad_s2"] == 1000.0
+
+
+def test_the_highest_speed_of_the_model_is_allowed():
+    check_highest(2000.0, 2000.0)
+    with pytest.raises(RunUpError, match=r"found 2000\.\d+ rad/s|found 2000 rad/s"):
+        check_highest(np.nextafter(2000.0, 3000.0), 2000.0)
+
+
+def run_of(stress, *, start=900.0, stop=1000.0, before=2, **more):
+    """A dataset of one run-up of blade Ref, whose revolutions have this stress (shares of yield); the first two come before."""
+    count = len(stress)
+    speed = np.linspace(start, stop, count)
+    rms = np.ones((count, 2)) * np.arange(count)[:, None]
+    of_run = {"start_speed": start, "stop_speed": stop, "rate": 10.0, "worn": 0, "revolutions_before": before}
+    of_run |= {"revolutions_after": 0, "status": 0, "casing_hits": 0, "yield_stress": 1e9} | more
+    names = {name: ("run", [label]) for name, label in (("blade", "Ref"), ("scene", "direct"), ("run_up", "a"))}
+    return xr.Dataset(
+        {name: ("run", [value]) for name, value in of_run.items()}
+        | {
+            "speed": (("run", "revolution"), speed[None]),
+            "rms_normal": (("run", "revolution", "tip_point"), rms[None]),
+            "rms_tangential": (("run", "revolution", "tip_point"), rms[None]),
+            "max_von_mises": (("run", "revolution"), 1e9 * np.array(stress)[None]),
+        },
+        names | {"revolution": np.arange(1, count + 1), "tip_point": ["leading_edge", "trailing_edge"]},
+    )
+
+
+def test_a_run_has_its_labels_and_its_revolutions_after_those_before():
+    dataset = run_of([0.1, 0.2, 0.3, 0.4])
+    (run,) = runs_of(dataset, blade="Ref", scene="direct")
+    np.testing.assert_array_equal(run["revolution"], [3, 4])
+    assert runs_of(dataset, blade="L50") == [] and runs_of(dataset, blade="Ref", scene="abradable") == []
+
+
+def test_the_last_stress_is_that_of_the_last_revolution_and_one_speed_is_no_run_down():
+    (row,) = run_up_table(run_of([9.0, 9.0, 0.5, 1.5, 0.25])).to_dict("records")
+    assert (row["last_von_mises_pa"], row["max_von_mises_pa"], row["direction"]) == (0.25e9, 1.5e9, "up")
+    assert run_up_table(run_of([0.1, 0.2, 0.3], stop=900.0))["direction"].item() == "up"
+    assert run_up_table(run_of([0.1, 0.2, 0.3], stop=800.0))["direction"].item() == "down"
+
+
+def test_exactly_yield_is_not_above_and_the_fastest_of_two_may_be_the_first_safe_one():
+    assert rate_table(runs_at((10.0, 100.0), (1.0, 0.5))).iloc[0]["lowest_safe_rate_rad_s2"] == 10.0
+    row = rate_table(runs_at((10.0, 100.0), (2.0, 0.5))).iloc[0]
+    assert row["lowest_safe_rate_rad_s2"] == 100.0 and row["rate_at_yield_rad_s2"] == pytest.approx(10.0**1.5)
+    # at constant speed there is no rate, and so none that is safe
+    assert len(rate_table(runs_at((0.0,), (0.5,)))) == 0
+
+
+class _Stress:
+    """Of a node that has the coordinate itself as its stress; counts how often it is asked."""
+
+    def __init__(self):
+        self.asked = []
+
+    def max_von_mises(self, coordinates):
+        self.asked.append(len(coordinates))
+        return np.abs(coordinates[:, 0])
+
+
+def test_instants_that_may_have_the_largest_stress_are_all_looked_at(monkeypatch):
+    """In lots, of which there are several here; the bound of another instant may be the largest."""
+    monkeypatch.setattr(revolutions_module, "_INSTANTS_AT_ONCE", 3)
+    rng = np.random.default_rng(5)
+    coordinates = rng.uniform(0.5, 1.0, size=(4, 6, 1))
+    bound = coordinates[..., 0] + rng.uniform(0.3, 0.6, size=(4, 6))
+    stress = _Stress()
+    np.testing.assert_array_equal(largest_stress(stress, coordinates, bound), coordinates[..., 0].max(axis=1))
+    assert max(stress.asked[1:]) == 3
+    assert largest_stress(stress, np.empty((0, 6, 1)), np.empty((0, 6))).shape == (0,)
+
+
+def test_revolutions_last_as_long_as_their_samples(contact):
+    """Time, speed and the orders of both motions of a stage of one speed."""
+    choice = replace(LONG, stress_samples_per_revolution=1) if hasattr(LONG, "stress_samples_per_revolution") else LONG
+    per_revolution = choice.samples_per_revolution
+    angle = 2.0 * np.pi * np.arange(2 * per_revolution) / per_revolution
+    samples = np.zeros((2 * per_revolution, 2, 3))
+    samples[:, 0, revolutions_module._SPECTRA[0]] = 1.0 + 3.0 * np.cos(4.0 * angle)
+    samples[:, 0, revolutions_module._SPECTRA[1]] = 2.0 * np.cos(5.0 * angle)
+    speeds, wear = np.full(len(samples), 100.0), np.zeros(len(samples))
+    collected = revolutions_module._Revolutions(contact, choice, 5, None, False)
+    collected.add(
+        Stage(speeds, samples.reshape(len(samples), -1), wear, np.empty((0, 1)), np.empty(0), np.empty((1, 1)), False)
+    )
+    values = collected.joined()
+    np.testing.assert_allclose(values["speed"], 100.0)
+    np.testing.assert_allclose(values["time"], [2.0 * np.pi / 100.0, 4.0 * np.pi / 100.0])
+    assert values["amplitude"].shape == (2, 2, 6)
+    np.testing.assert_allclose(values["amplitude"][0, 0], [1.0, 0, 0, 0, 3.0, 0], atol=1e-6)
+    np.testing.assert_allclose(values["amplitude"][0, 1], [0, 0, 0, 0, 0, 2.0], atol=1e-6)
+
+
+def test_no_segment_leads_its_mean_speed_by_more_than_allowed():
+    """And the longest come close to it: with many samples a revolution rounding to whole ones is small."""
+    per_revolution, turns = 65536, 20.0
+    rate = (1000.0**2 - 900.0**2) / (4.0 * np.pi * turns)
+    segments = [
+        segment
+        for interval in schedule(RunUp(900.0, 1000.0, turns, 0, 0, worn=False), per_revolution, 0.0)
+        for segment in interval.segments
+    ]
+    lasting = np.array([2.0 * np.pi * segment.samples / per_revolution / segment.speed for segment in segments])
+    lead = rate * lasting.max() ** 2 / 8.0
+    assert 0.95 * schedule_module.LARGEST_LEAD < lead < 1.02 * schedule_module.LARGEST_LEAD

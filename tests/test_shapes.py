@@ -16,17 +16,11 @@ from r37core.exchange.fields import WorstInstant, displacement_of, mode_shapes
 from r37core.explorer import write_page
 from r37core.figures.style import save
 from r37core.io import read_json, write_json
-from r37core.rom.reduce import reduce_blade
 from r37core.shapes import INDEX, PARTS, shapes_contents
 from r37core.shapes.gltf import MovingSurface, write_glb
 from r37core.shapes.moving import LARGEST_SHOWN, write_mode_shapes, write_worst_shapes
 from r37core.shapes.stills import draw_shapes
 from r37core.stress.recovery import stress_operator
-
-
-@pytest.fixture(scope="module")
-def whole(mesh, matrices, choice):
-    return reduce_blade(mesh, matrices, replace(choice, recover_whole_blade=True))
 
 
 def chunks(file):

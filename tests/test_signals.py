@@ -15,7 +15,6 @@ from r37core.dataset_file import read_dataset, write_dataset
 from r37core.exchange.importing.frame import blade_parameters
 from r37core.figures.style import save
 from r37core.io import InputFileError
-from r37core.rom.reduce import reduce_blade
 from r37core.rom.reduced_model import RecoveryNodes
 from r37core.signals.dataset import gather_signals, signals_dataset
 from r37core.signals.figures import draw_orders, draw_spectrograms
@@ -358,11 +357,6 @@ def test_signals_are_drawn(dataset, tmp_path):
     nothing = signals_dataset({}, {}, {}, [], TIP)
     save(draw_orders(nothing, "Ref, direct"), tmp_path / "three.png")
     save(draw_spectrograms(nothing, "Ref, direct"), tmp_path / "four.png")
-
-
-@pytest.fixture(scope="module")
-def whole(mesh, matrices, choice):
-    return reduce_blade(mesh, matrices, replace(choice, recover_whole_blade=True))
 
 
 def test_gauges_of_the_reduced_model(whole, mesh):

@@ -1,5 +1,7 @@
 """The stress of a run: largest of each revolution, and what a run's revolutions say together."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -51,6 +53,13 @@ def test_a_node_that_is_the_worst_in_one_revolution_alone_is_found():
     states[:, 0], states[5] = 1.0, (1.5, 2.0)
     found = largest_of_revolutions(StressOperator(operator, 2, ""), states, np.eye(2), np.empty(0), 4)
     np.testing.assert_allclose(found, [1.0, np.sqrt(3.0) * 2.0, 1.0], rtol=1e-6)
+
+
+def test_a_region_without_elements_is_refused_before_any_simulation(model, steel):
+    """Each simulation reads this operator, so that its job comes before theirs."""
+    nothing = replace(model, stress_elements={}, stress_region="x < 0.15 m")
+    with pytest.raises(ValueError, match=r"the stress submesh \(x < 0\.15 m\) has no elements; enlarge structure\.stress_subm"):
+        stress_operator(nothing, steel)
 
 
 def test_the_operator_survives_its_file(stress, tmp_path):

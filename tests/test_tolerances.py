@@ -33,7 +33,7 @@ from r37core.tolerances.number_ranks import ranking
 from r37core.tolerances.sample import is_of_sample, number_of, sobol_points
 from r37core.tolerances.sensitivity import sobol_indices
 from r37core.tolerances.shares import CONFIDENCE, share_ends
-from r37core.tolerances.table import range_table, ranges
+from r37core.tolerances.table import range_table, ranges, shares_of_members
 
 
 def test_more_members_change_none_that_are_there():
@@ -309,6 +309,14 @@ def test_a_run_says_when_its_members_rank_nothing(root, members, sensitivity, sa
     assert len(remarks) == len(said) and all(f"tolerances: {text}" in one for text, one in zip(said, remarks, strict=True))
     alone = {**given, "of_scenes": {"damping_ratio": numbers["damping_ratio"]}}
     assert not any("rank" in one for one in remarks_of(settings_of(root, alone)) if "Sobol" not in one)
+
+
+def test_a_number_of_one_value_is_told(root):
+    numbers = {"friction.coefficient": {"values": [0.15]}, "damping_ratio": {"uniform_percent": 5}}
+    said = [one for one in remarks_of(settings_of(root, {"members": 2, "of_scenes": numbers})) if "no index" in one]
+    assert said == [
+        "tolerances.of_scenes: friction.coefficient is 0.15 in all members, so it has no index; a wider tolerance gives it one"
+    ]
 
 
 def test_without_numbers_there_are_no_members(settings):
@@ -638,3 +646,58 @@ def test_a_response_that_is_none_is_named(tmp_path):
     write_dataset(xr.Dataset({"status": ("speed", [0])}), tmp_path / "other.nc")
     with pytest.raises(InputFileError, match=r"other\.nc: cannot be read"):
         tolerances_dataset([MemberRun("Ref", "lined", "0", (0.1,), tmp_path / "other.nc")], NUMBERS[:1])
+
+
+def test_ends_and_words_of_a_spread():
+    """The ends are values that are reached: shares of 0 and 1; a list's are its own."""
+    uniform, share = Spread("uniform", (0.5,)), Spread("uniform", (5.0,), percent=True)
+    assert (uniform.ends(2.0), share.ends(2.0)) == ((1.5, 2.5), pytest.approx((1.9, 2.1)))
+    assert Spread("between", (0.8, 1.25)).ends(1.0) == (0.8, 1.25)
+    assert Spread("values", (3.0, 1.0)).ends(2.0) == (3.0, 1.0) and Spread("normal", (1.0,)).ends(2.0) == ()
+    assert [uniform.words, share.words] == ["± 0.5", "± 5%"]
+    assert Spread("normal", (1.0,)).words == "standard deviation 1"
+    assert Spread("between", (0.8, 1.25)).words == "0.8 to 1.25" and Spread("values", (3.0, 1.0)).words == "3 or 1"
+
+
+def test_a_normal_number_has_a_value_at_the_sample_s_borders(monkeypatch):
+    class Corners:
+        def __init__(self, numbers, rng):
+            self.numbers = numbers
+
+        def random_base2(self, _):
+            return np.array([[0.0] * self.numbers, [1.0] * self.numbers])
+
+    monkeypatch.setattr("scipy.stats.qmc.Sobol", Corners)
+    points = sobol_points(1, 2, 0)
+    assert (points["0"], points["1"]) == ((2.0**-40,), (1.0 - 2.0**-40,))
+    assert all(np.isfinite(Spread("normal", (1.0,)).value(0.0, points[name][0])) for name in ("0", "1"))
+
+
+def test_indices_of_no_members_are_none():
+    found = sobol_indices({}, [0], 2)
+    assert found.members == 0 and np.isnan(found.index).all()
+
+
+def test_a_member_at_yield_is_not_above_and_speeds_are_there_in_rpm(tmp_path):
+    one = branch(1700.0)
+    one["max_von_mises"][:] = one["yield_stress"].item()
+    write_dataset(one, tmp_path / "0.nc")
+    dataset = tolerances_dataset([MemberRun("Ref", "abradable", "0", (0.1, 0.2), tmp_path / "0.nc")], NUMBERS)
+    assert (dataset["probability_above_yield"] == 0.0).all()
+    np.testing.assert_allclose(dataset["speed_rpm"], dataset["speed"] * 30.0 / np.pi)
+
+
+def test_each_nominal_interaction_has_its_share_and_members_go_to_the_nearest():
+    nominal = interactions_of((1100.0, 0.01, 3), (1500.0, 0.01, 3))
+    members = {"0": interactions_of((1105.0, 0.01, 3)), "1": interactions_of((1495.0, 0.01, 3)), "2": []}
+    members["3"] = interactions_of((1110.0, 0.01, 3))
+    assert shares_of_members(nominal, members, InteractionChoice()) == [0.5, 0.25]
+    # two that one member could belong to: the nearer one
+    wide = InteractionChoice(below=0.0, above=0.5)
+    assert shares_of_members(nominal, {"0": interactions_of((1450.0, 0.01, 3))}, wide) == [0.0, 1.0]
+
+
+def test_what_no_crossing_explains_is_one_up_to_the_span_itself():
+    low, high = interactions_of((1000.0, 0.01, 3)), interactions_of((1500.0, 0.01, 3))
+    assert shares_of_members(low, {"0": high}, InteractionChoice(below=0.0, above=0.5)) == [1.0]
+    assert shares_of_members(low, {"0": high}, InteractionChoice(below=0.0, above=0.49)) == [0.0]

@@ -154,11 +154,30 @@ def test_the_table_is_made_of_what_is_shipped_and_of_the_members(settings):
         ),
         (
             {"of_scenes": {"friction.coefficient": {"uniform_percent": 500}}},
-            r"of_scenes\.friction\.coefficient: found member \d+: found -.*; allowed: a narrower tolerance",
+            r"of_scenes\.friction\.coefficient: found the end of its range: found -.*; allowed: a narrower tolerance",
+        ),
+        (
+            {"of_scenes": {"casing.rise_fraction": {"between": [0.1, 1.1]}}},
+            r"of_scenes\.casing\.rise_fraction: found the end of its range: found 1\.1.*; allowed: a narrower tolerance",
+        ),
+        (
+            {"of_scenes": {"friction.coefficient": {"uniform_percent": 5}}, "members": 2},
+            None,
         ),
     ],
 )
 def test_what_cannot_spread_is_refused(root, change, message):
+    """Before anything runs; what no member can have before members are drawn."""
     document = command_line_document({"studies": {"validation_ranges": change}})
-    with pytest.raises(ConfigError, match=message):
-        cases(read_settings(root, document))
+    if message is None:
+        assert cases(read_settings(root, document))
+    else:
+        with pytest.raises(ConfigError, match=message):
+            read_settings(root, document)
+
+
+def test_scenes_without_the_study_s_are_not_refused(config_copy):
+    """It may never be asked for."""
+    (config_copy / "config/scenes.yaml").write_text("rigid: { casing: { clearance_m: 3e-4 } }\n")
+    changes = {"scenes": ["rigid"], "studies": {"validation_ranges": {"of_scenes": {"lining.bars": {"uniform": 3}}}}}
+    read_settings(config_copy, command_line_document(changes))

@@ -80,7 +80,9 @@ def test_the_example_runs_to_its_interactions(root, drawn, tmp_path, monkeypatch
     command = re.search(r"^snakemake (.*)$", blocks(root, "sh")[0], re.MULTILINE)[1]
     said = snakemake(project, *shlex.split(command))
     assert re.search(
-        r"Fan.mesh: radius of the tip 0.2\d* m at the leading and 0.2\d* m at the trailing edge, of the root 0.2", said
+        r"Fan.mesh: 0\.\d+ m long and 0\.\d+ m wide along the axis, "
+        r"radius of the tip 0.2\d* m at the leading and 0.2\d* m at the trailing edge, of the root 0.2",
+        said,
     )
     monkeypatch.chdir(project)
     exec(blocks(root, "python")[1], {})

@@ -13,9 +13,13 @@ import signal
 import subprocess
 import sys
 import tempfile
+import threading
+import traceback
+from contextlib import contextmanager, suppress
 from functools import cache
 from importlib import import_module
 from pathlib import Path
+from types import SimpleNamespace
 
 CHECKOUT = Path(__file__).parent.parent
 COMMON = ("jsonschema", "llvmlite", "nbformat", "numpy", "pandas", "pydantic", "scipy", "smart_open", "yaml")
@@ -36,6 +40,13 @@ def run(folder, arguments, environment, seconds, jobs=None):
 
     `jobs`: file for the jobs of the graph, see tests/plans_of_snakemake.py.
     """
+    with started(folder, arguments, environment, seconds, jobs) as (_, end):
+        return end()
+
+
+@contextmanager
+def started(folder, arguments, environment, seconds, jobs=None):
+    """Of a command that runs: its process id, which is that of a group as well, and a function that waits: see `run`."""
     server = _server()
     with tempfile.TemporaryDirectory() as printed:
         files = [str(Path(printed, name)) for name in ("output", "errors")]
@@ -43,9 +54,14 @@ def run(folder, arguments, environment, seconds, jobs=None):
         order |= {"jobs": jobs and str(jobs)}
         server.stdin.write(json.dumps(order) + "\n")
         server.stdin.flush()
-        status, used = server.stdout.readline().split()
-        _used[0] += float(used)
-        return int(status), "".join(Path(file).read_text() for file in files)
+        number = int(server.stdout.readline())
+
+        def end():
+            status, used = server.stdout.readline().split()
+            _used[0] += float(used)
+            return int(status), "".join(Path(file).read_text() for file in files)
+
+        yield number, end
 
 
 @cache
@@ -57,24 +73,33 @@ def _server():
 
 
 def _serve():
-    """Answer each line of JSON, an order, with the exit status and the CPU time (s).
+    """Answer each line of JSON, an order, with its process, and then with the exit status and the CPU time (s).
 
     Returns in the fork, with its order; None at the end.
     """
     for line in sys.stdin:
         child = os.fork()
         if child == 0:
+            os.setpgid(0, 0)
             return json.loads(line)
+        with suppress(PermissionError):
+            # whoever comes first
+            os.setpgid(child, child)
+        print(child, flush=True)
         _, status, used = os.wait4(child, 0)
         print(os.waitstatus_to_exitcode(status), used.ru_utime + used.ru_stime, flush=True)
     return None
 
 
 def _import_package():
-    """What the rules take from the package of the checkout."""
-    for file in [CHECKOUT / "Snakefile", *(CHECKOUT / "workflow/rules").glob("*.smk")]:
-        for name in re.findall(r"^from (r37core\S*) import", file.read_text(), re.MULTILINE):
-            import_module(name)
+    """What the rules take from the package of the checkout, and the modules of their steps and figures."""
+    os.environ.setdefault("MPLBACKEND", "Agg")
+    for file in [CHECKOUT / "Snakefile", *(CHECKOUT / "workflow").rglob("*.smk"), CHECKOUT / "workflow/scripts/simulate.py"]:
+        text = file.read_text()
+        names = re.findall(r"^from (r37core\S*) import", text, re.MULTILINE)
+        for name in {*names, *(f"r37core.{module}" for module in re.findall(r'"(\w+(?:\.\w+)+)\.\w+"', text))}:
+            with suppress(ModuleNotFoundError):
+                import_module(name)
 
 
 def _become(order):
@@ -90,9 +115,34 @@ def _become(order):
     for stream, file in zip((sys.stdin, sys.stdout, sys.stderr), (os.devnull, *order["files"]), strict=True):
         with open(file, stream.mode) as opened:
             os.dup2(opened.fileno(), stream.fileno())
+    if "--dry-run" not in order["arguments"]:
+        _fork_job_server()
     signal.alarm(order["seconds"])
     if order["jobs"]:
         _write_jobs(Path(order["jobs"]))
+
+
+def _fork_job_server():
+    """Let the server of the jobs be a fork, which has imported what most of them need; it waits for its address."""
+    job_server = import_module("r37core.console.job_server")
+    reading, writing = os.pipe()
+    if (number := os.fork()) == 0:
+        os.setsid()
+        os.close(writing)
+        os.dup2(reading, 0)
+        os.close(reading)
+        with open(0) as sys.stdin:
+            if line := sys.stdin.readline():
+                address, script = json.loads(line)
+                job_server.serve(Path(address), script)
+        os._exit(0)
+    os.close(reading)
+
+    def popen(command, **_):
+        os.write(writing, (json.dumps(command[-2:]) + "\n").encode())
+        return SimpleNamespace(pid=number, kill=lambda: os.kill(number, signal.SIGKILL))
+
+    job_server.subprocess = SimpleNamespace(Popen=popen, PIPE=None)
 
 
 def _write_jobs(file):
@@ -120,13 +170,33 @@ def _write_jobs(file):
     DAGApi.execute_workflow = execute_and_write
 
 
+def _end(command):
+    """Run the command and end as Python does, but for taking all apart that was imported: half of a dry run's time."""
+    status = 1
+    try:
+        command()
+        status = 0
+    except SystemExit as end:
+        status = end.code if isinstance(end.code, int) else int(end.code is not None)
+    except BaseException:
+        traceback.print_exc()
+    finally:
+        threading._shutdown()
+        atexit._run_exitfuncs()
+        sys.stdout.flush()
+        sys.stderr.flush()
+        os._exit(status)
+
+
 if __name__ == "__main__":
     for name in COMMON:
         import_module(name)
     _import_package()
+    # plugins are searched for once
+    import_module("snakemake.cli").get_argument_parser()
     gc.collect()
     # what is there for good costs the forks neither a look nor a copy
     gc.freeze()
     if ordered := _serve():
         _become(ordered)
-        sys.exit(import_module("snakemake.cli").main())
+        _end(import_module("snakemake.cli").main)

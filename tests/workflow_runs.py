@@ -2,9 +2,13 @@
 
 import os
 import shutil
+import signal
 import subprocess
 import sys
+import time
 import venv
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import suppress
 from pathlib import Path
 
 import warm_snakemake
@@ -89,10 +93,25 @@ def source(folder):
     return folder / "src"
 
 
-def snakemake(folder, *arguments, check=True, jobs=None):
+def snakemake(folder, *arguments, check=True, jobs=None, full_log="1"):
     """What the command prints. `jobs`: a file for the jobs that it plans (tests/plans_of_snakemake.py)."""
-    environment = {key: value for key, value in os.environ.items() if not key.startswith("SNAKEMAKE")}
-    environment |= {"PYTHONPATH": str(source(folder)), "R37_FULL_LOG": "1"}
+    environment = _environment(folder) | {"R37_FULL_LOG": full_log}
     status, text = warm_snakemake.run(folder, arguments, environment, LONGEST, jobs)
     assert not check or status == 0, text
     return text
+
+
+def kill_snakemake(folder, *arguments, when):
+    """Start the command and kill it with its jobs as soon as `when()` holds, if it has not ended before."""
+    command = warm_snakemake.started(folder, arguments, _environment(folder), LONGEST)
+    with command as (number, end), ThreadPoolExecutor(1) as pool:
+        ended = pool.submit(end)
+        while not ended.done() and not when():
+            time.sleep(0.01)
+        with suppress(ProcessLookupError):
+            os.killpg(number, signal.SIGKILL)
+
+
+def _environment(folder):
+    kept = {key: value for key, value in os.environ.items() if not key.startswith("SNAKEMAKE")}
+    return kept | {"PYTHONPATH": str(source(folder)), "R37_FULL_LOG": "1"}

@@ -49,6 +49,8 @@ _GALLERY_OF_PATCHES = (
     "{snakemake} gallery --configfile config/config.yaml config/patches.yaml",
     f"mv docs/gallery.md {STUDIES}/contact_patches/gallery.md && cp -r build/gallery/. docs/",
 )
+_USER_CODE = ("01_campbell", "02_response", "03_two_blades", "04_spectrum", "05_wear", "06_growth", "07_friction")
+_USER_CODE += ("08_run_ups", "09_tolerances", "10_designs")
 _TOLERANCES = "{snakemake} tolerances --configfile config/config.yaml config/tolerances.yaml --config"
 
 _EXPLORER = tuple(
@@ -140,6 +142,14 @@ CLAIMS = (
         ("make tutorial",),
         minutes=1,
         code=("docs/tutorial.py", "benchmarks/tutorial.py"),
+        numbers=_ALL,
+    ),
+    Claim(
+        "user_code",
+        tuple(Output(f"docs/user_code/{name}.png", None, (f"examples/figures/{name}.py",)) for name in _USER_CODE),
+        ("{python} benchmarks/user_code.py",),
+        minutes=4,
+        code=("benchmarks/user_code.py",),
         numbers=_ALL,
     ),
     # studies

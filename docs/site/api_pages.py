@@ -1,9 +1,12 @@
-"""Pages of the API, docs/api/*.rst: r37, and one page per package or module of r37core with all modules in it."""
+"""Pages of the API, docs/api/*.rst: r37 call by call, and one page per package or module of r37core with all modules in it."""
 
 import re
 from pathlib import Path
 
 CORE = Path(__file__).parent.parent.parent / "src" / "r37core"
+
+INSIDE = "above, check, document, family, with_results"
+"""Members of the classes of r37 that its own calls alone use."""
 
 
 def modules(package):
@@ -30,6 +33,20 @@ def described(module, *options):
     return "\n".join([f".. automodule:: {module}", "   :members:", *(f"   :{option}:" for option in options), ""])
 
 
+def calls_page():
+    """What `import r37` gives: each call under a heading of its own, which the side bar and the search show."""
+    import r37
+
+    objects = {name: getattr(r37, name) for name in r37.__all__ if callable(getattr(r37, name))}
+    classes = [name for name, value in objects.items() if isinstance(value, type)]
+    parts = [heading("r37", "="), ".. automodule:: r37", ""]
+    for name in (*(name for name in objects if name not in classes), *classes):
+        made = [f".. autoclass:: r37.{name}", "   :members:", f"   :exclude-members: {INSIDE}"]
+        call = [f".. autofunction:: r37.{name}"]
+        parts += [heading(f"r37.{name}", "-"), *(made if name in classes else call), ""]
+    return "\n".join(parts)
+
+
 def core_page(package):
     """A package of r37core, module by module; a name stands where it is defined."""
     first, *others = modules(package)
@@ -41,7 +58,7 @@ def core_page(package):
 
 def write_pages(app):
     """Write the pages that differ from what is there, so that a second build reads only what is new."""
-    pages = {"r37": "\n".join([heading("r37", "="), described("r37", "imported-members")])}
+    pages = {"r37": calls_page()}
     pages |= {f"r37core.{name}": core_page(name) for name in packages()}
     folder = Path(app.srcdir) / "api"
     folder.mkdir(exist_ok=True)
@@ -57,8 +74,18 @@ def write_pages(app):
 def as_plain_text(app, what, name, obj, options, lines):
     """Docstrings are plain text with `code`, whatever | * _ mean to docutils; an indented paragraph is shown as it is."""
     paragraphs = re.split(r"\n{2,}", "\n".join(lines))
-    text = "\n\n".join(f"::\n\n{part}" if part.startswith("    ") else escaped(part) for part in paragraphs)
-    lines[:] = [*text.split("\n"), ""]
+    lines[:] = [*"\n\n".join(map(shown, paragraphs)).split("\n"), ""]
+
+
+def shown(paragraph):
+    """A paragraph, or a section of a docstring: its underlined title, then terms with what they are, or an example."""
+    if paragraph.startswith("    "):
+        return f"::\n\n{paragraph}"
+    first, _, rest = paragraph.partition("\n")
+    underline, _, body = rest.partition("\n")
+    if not underline or underline.strip("-"):
+        return escaped(paragraph)
+    return f"**{first}**\n\n{body if body.startswith('>>>') else escaped(body)}"
 
 
 def escaped(text):

@@ -21,6 +21,8 @@ myst_heading_anchors = 4
 nb_execution_mode = "off"
 
 autodoc_member_order = "bysource"
+# types stand in annotations
+autodoc_use_type_comments = False
 # `name` in a docstring is code
 default_role = "code"
 add_module_names = False
@@ -33,6 +35,8 @@ html_static_path = ["style"]
 html_css_files = ["r37.css"]
 # excerpts would be fetched, which browsers refuse to a page on the disk
 html_show_search_summary = False
+# pages and calls before the inside
+html_search_scorer = str(HERE / "search_order.js")
 html_copy_source = False
 html_show_copyright = False
 html_show_sphinx = False

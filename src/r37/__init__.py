@@ -1,21 +1,29 @@
-"""r37 from Python: the Campbell diagram of a blade, and its response while it rubs against the casing.
+"""r37 from Python: what a blade does while it rubs against the casing, from its Campbell diagram to ranges of tolerances.
 
 Blades, scenes and accuracy levels are those of the shipped configuration, or of one's own (`config="config.yaml"`). Datasets
-have the variables, units and attributes of the workflow's files. Speeds are in rad/s, everything is SI. What takes minutes,
-the structure of a blade, is kept in a cache folder (r37.structure_files).
+have the variables, units and attributes of the workflow's files. Speeds are in rad/s unless a name says rpm, everything is SI.
+What takes minutes, the structure of a blade, is kept in a cache folder (r37.structure_files). What a call does meanwhile is
+told by the logger `r37` (r37.stages).
 
-Bad input raises ConfigError, a file that cannot be read InputFileError.
+Bad input raises ConfigError, an argument that a call does not have TypeError, a file that cannot be read InputFileError.
 """
 
-from r37core import __version__
-from r37core.config import ConfigError
-from r37core.io import InputFileError
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
 
-from .choices import BladeChoice, SceneChoice, blade, blades, scene
-from .plots import plot_campbell, plot_response
-from .run_results import RunResults, open_results
-from .simulations import campbell, reduced_model, simulate, sweep
-from .study_folder import SNAKEFILE, init
+from r37core import __version__
+
+if TYPE_CHECKING:
+    from r37core.config import ConfigError
+    from r37core.io import InputFileError
+
+    from .choices import BladeChoice, SceneChoice, blade, blades, scene, scenes
+    from .plots import plot_campbell, plot_designs, plot_response, plot_run_ups, plot_tolerances
+    from .run_results import RunResults, open_results
+    from .run_up_calls import run_up, run_ups
+    from .simulations import campbell, reduced_model, simulate, sweep
+    from .studies import compare, designs, tolerances
+    from .study_folder import SNAKEFILE, init
 
 __all__ = [
     "SNAKEFILE",
@@ -28,12 +36,46 @@ __all__ = [
     "blade",
     "blades",
     "campbell",
+    "compare",
+    "designs",
     "init",
     "open_results",
     "plot_campbell",
+    "plot_designs",
     "plot_response",
+    "plot_run_ups",
+    "plot_tolerances",
     "reduced_model",
+    "run_up",
+    "run_ups",
     "scene",
+    "scenes",
     "simulate",
     "sweep",
+    "tolerances",
 ]
+
+_NAMES_OF = {
+    "r37core.config": ("ConfigError",),
+    "r37core.io": ("InputFileError",),
+    ".choices": ("BladeChoice", "SceneChoice", "blade", "blades", "scene", "scenes"),
+    ".plots": ("plot_campbell", "plot_designs", "plot_response", "plot_run_ups", "plot_tolerances"),
+    ".run_results": ("RunResults", "open_results"),
+    ".run_up_calls": ("run_up", "run_ups"),
+    ".simulations": ("campbell", "reduced_model", "simulate", "sweep"),
+    ".studies": ("compare", "designs", "tolerances"),
+    ".study_folder": ("SNAKEFILE", "init"),
+}
+"""Modules that are imported when one of their names is first used: the command starts in a tenth of a second."""
+
+
+def __getattr__(name: str) -> Any:
+    module = next((module for module, names in _NAMES_OF.items() if name in names), None)
+    if module is None:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    globals()[name] = value = getattr(import_module(module, __name__), name)
+    return value
+
+
+def __dir__() -> list[str]:
+    return __all__

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -10,6 +11,7 @@ from typing import Any
 from r37core.config import ConfigError, Document, Settings, command_line_document, read_document
 from r37core.config.config_file import Config
 from r37core.config.cross_checks import history_speeds_are_run
+from r37core.config.messages import on_one_line
 from r37core.config.reading import together
 from r37core.product.reading import CONFIG, READER
 from r37core.product.wings import WINGS
@@ -66,11 +68,9 @@ def read_configuration(file: Path | str | None = None) -> Configuration:
     Names of files in it start from its folder or, where that is called config, as in the repository, from the one above. Raises
     ConfigError for a file that cannot be read, or that has no keys.
     """
-    path = (_PACKAGE / _FOLDER / "config.yaml" if file is None else Path(file)).absolute()
-    if not path.is_file():
-        raise ConfigError(
-            f"config: found {file}, and there is no such file; allowed: a config.yaml, or none for the shipped one"
-        )
+    path = _PACKAGE / _FOLDER / "config.yaml"
+    if file is not None:
+        path = existing_file("config", file, "a config.yaml, or none for the shipped one").absolute()
     document, root = read_document(path.parent, str(path)), _root_of(path)
     if not isinstance(document.content, Mapping):
         raise document.refusal((), repr(document.content)[:60], "keys and values, as in config/config.yaml")
@@ -78,6 +78,15 @@ def read_configuration(file: Path | str | None = None) -> Configuration:
     files = {key: document.content.get(key, fields[key].default) for key in ("blades_file", "fidelity_file", "scenes_file")}
     absolute = {key: str(root / name) if isinstance(name, str) and name else name for key, name in files.items()}
     return Configuration(replace(document, content={**document.content, **absolute}), root)
+
+
+def existing_file(argument: str, file: Any, allowed: str) -> Path:
+    """The file that an argument of a call names. Raises ConfigError where it is none, whatever was handed over."""
+    if not isinstance(file, str | os.PathLike):
+        raise ConfigError(f"{argument}: found {on_one_line(repr(file))}; allowed: {allowed}")
+    if not os.path.isfile(file):
+        raise ConfigError(f"{argument}: found {on_one_line(str(file))}, and there is no such file; allowed: {allowed}")
+    return Path(file)
 
 
 def _root_of(file: Path) -> Path:

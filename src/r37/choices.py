@@ -2,130 +2,335 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
+import contextlib
+import json
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
-from typing import Any
+from typing import Any, ClassVar
 
 from r37core.config import BladeSettings, ConfigError, Document, SceneEntry, command_line_document, read_document
-from r37core.config.blades import Blades, blade_settings
+from r37core.config.blades import SHARES, Blades, blade_settings
 from r37core.config.families import Designs, with_designs, with_value
+from r37core.config.messages import did_you_mean, on_one_line
 from r37core.config.scenes import Scenes
 
-from .call_configuration import Configuration, read_configuration
+from .arguments import plain_value
+from .call_configuration import Configuration, existing_file, read_configuration
+from .checked import checked_call
 
 
 @dataclass(frozen=True)
-class BladeChoice:
-    """A blade by its `name`, with the `changes` (dotted key -> value) to its entry in blades.yaml."""
+class Choice:
+    """An entry of a file by its `name`, with `changes` (dotted key -> value), under a name of its own if it has a `base`."""
 
     name: str
     changes: Mapping[str, Any]
     configuration: Configuration = field(repr=False)
+    base: str | None = None
+
+    kind: ClassVar[str]
 
     @property
+    def label(self) -> str:
+        """What figures and attributes call it: its name, with the changes where it has none of its own."""
+        unnamed = {} if self.base else self.changes
+        return ", ".join([self.name, *(on_one_line(f"{key}={plain_value(value)}") for key, value in unnamed.items())])
+
+    @property
+    def told(self) -> dict[str, str]:
+        """Attributes of a dataset that say what of the entry was changed; none where nothing was."""
+        if not self.changes and not self.base:
+            return {}
+        base = {"base": self.base} if self.base else {}
+        changes = json.dumps({**base, **{key: plain_value(value) for key, value in self.changes.items()}}, default=str)
+        return {self.kind: self.label, f"{self.kind}_changes": changes}
+
+    @property
+    def file(self) -> str:
+        """The file that it stands in."""
+        return getattr(self.configuration.checked, f"{self.kind}s_file")
+
+    @cached_property
     def above(self) -> Document | None:
-        """The changes as a document that lies on top of blades.yaml."""
-        return _above("blade", self.name, self.changes)
+        """The changes as a document that lies on top of the file. Raises ConfigError."""
+        return self._above(self.changes)
+
+    def _above(self, changes: Mapping[str, Any]) -> Document | None:
+        if not changes and not self.base:
+            return None
+        original, file = self.base or self.name, read_document(Path(self.file).parent, self.file)
+        place, entries = f'r37.{self.kind}("{original}")', file.content if isinstance(file.content, Mapping) else {}
+        if original not in entries:
+            raise _unknown(f"changed {self.kind}", original, entries, file.name)
+        content: dict[str, Any] = {}
+        for key, value in changes.items():
+            content = with_value(content, key.split("."), plain_value(value))
+        changed = command_line_document({self.name: content}, place)
+        if self.base is None:
+            return changed
+        if self.name in entries:
+            raise ConfigError(f"{place}: name: found '{self.name}', which {file.name} has; allowed: another name")
+        content = self._copied(entries[original], original, changes)
+        return command_line_document({self.name: content}, f"{file.name}: {original}").overlaid(changed)
+
+    def _copied(self, entry: Any, original: str, changes: Mapping[str, Any]) -> Any:
+        """The content of an entry under another name."""
+        return entry
+
+    @cached_property
+    def document(self) -> Document:
+        """The file with the changes. Raises ConfigError."""
+        document = read_document(Path(self.file).parent, self.file)
+        return document if self.above is None else document.overlaid(self.above)
+
+    def check(self) -> None:
+        """Raises ConfigError for what the entry cannot be."""
+        raise NotImplementedError
+
+    def refusal(self, error: ConfigError) -> ConfigError:
+        """What was refused, and how a value inside a section is written in Python, where one stands in place of the section."""
+        for key, value in self.changes.items():
+            _, replaced, keys = str(error).partition(f".{key}: found {plain_value(value)!r}; allowed: mapping with the keys ")
+            for inner in map(str.strip, keys.split(",")) if replaced else ():
+                others = {other: kept for other, kept in self.changes.items() if other != key}
+                with contextlib.suppress(ConfigError):
+                    replace(self, changes={**others, f"{key}.{inner}": value}).check()
+                    return ConfigError(f'{error}; of one of them: **{{"{key}.{inner}": {plain_value(value)!r}}}')
+        return error
+
+
+@dataclass(frozen=True)
+class BladeChoice(Choice):
+    """A blade by its `name`, with the `changes` (dotted key -> value) to its entry in blades.yaml.
+
+    `base`: the entry, of one with a name of its own.
+    """
+
+    kind: ClassVar[str] = "blade"
 
     @cached_property
     def settings(self) -> BladeSettings:
         """Shape and material, in the SI. Raises ConfigError."""
-        document = _changed("blade", self.configuration.checked.blades_file, self.name, self.above)
         root = self.configuration.root
-        designs = _designs(document, root)
-        if self.name not in designs.entries:
-            raise _unknown("blade", self.name, designs.entries, document.name)
-        return blade_settings(self.name, designs.entries, root, designs.document)
+        try:
+            designs = _designs(self.document, root)
+            if self.name not in designs.entries:
+                raise _unknown(self.kind, self.name, designs.entries, self.document.name)
+            return blade_settings(self.name, designs.entries, root, designs.document)
+        except ConfigError as error:
+            raise self.refusal(error) from None
+
+    def check(self) -> None:
+        """Raises ConfigError for what the blade cannot be."""
+        _ = self.settings
+
+    def _copied(self, entry: Any, original: str, changes: Mapping[str, Any]) -> Any:
+        if not isinstance(entry, Mapping) or "stacking_table" not in entry:
+            return entry
+        # the table has its row under the original name
+        varied = {**changes, **changes.get("vary", {})}
+        for key in SHARES:
+            if key in varied and key in entry:
+                shared = f"{key} of a copy of {original}, whose table has a share already"
+                raise ConfigError(f"name: found {shared}; allowed: the changed blade without a name")
+        return {"base": original, **{key: entry[key] for key in ("contact",) if key in entry}}
+
+    def family(self, name: str, vary: Mapping[str, Any], combine: str) -> BladeChoice:
+        """A family of this blade's designs, called `name`, as an entry of blades.yaml has it: no blade by itself."""
+        varied = {key: plain_value(values) for key, values in vary.items()}
+        changes = {**self.changes, "vary": varied, "combine": combine}
+        return BladeChoice(name, changes, self.configuration, self.base or self.name)
 
 
 @dataclass(frozen=True)
-class SceneChoice:
-    """A scene by its `name`, with the `changes` (dotted key -> value) to its entry in scenes.yaml."""
+class SceneChoice(Choice):
+    """A scene by its `name`, with the `changes` (dotted key -> value) to its entry in scenes.yaml.
 
-    name: str
-    changes: Mapping[str, Any]
-    configuration: Configuration = field(repr=False)
+    `base`: the entry, of one with a name of its own. `results`: what is wanted of a run, in place of the entry's.
+    """
 
-    @property
+    kind: ClassVar[str] = "scene"
+    results: tuple[str, ...] | None = None
+
+    def check(self) -> None:
+        """Raises ConfigError for what the scene cannot be."""
+        _ = self.entry
+
+    def with_results(self, results: Sequence[str] | None) -> SceneChoice:
+        """The same with other results, where there are any: they are no change of the scene."""
+        return self if results is None else replace(self, results=tuple(results))
+
+    @cached_property
     def above(self) -> Document | None:
-        """The changes as a document that lies on top of scenes.yaml."""
-        return _above("scene", self.name, self.changes)
+        """As of Choice, with the results."""
+        return self._above(self.changes if self.results is None else {**self.changes, "results": list(self.results)})
 
     @cached_property
     def entry(self) -> SceneEntry:
         """The scene's keys, in the units of their names. Raises ConfigError."""
-        document = _changed("scene", self.configuration.checked.scenes_file, self.name, self.above)
-        entries = document.check(Scenes).root
+        try:
+            entries = self.document.check(Scenes).root
+        except ConfigError as error:
+            raise self.refusal(error) from None
         if self.name not in entries:
-            raise _unknown("scene", self.name, entries, document.name)
+            raise _unknown(self.kind, self.name, entries, self.document.name)
         return entries[self.name]
 
 
+@checked_call
 def blades(*, file: Path | str | None = None, config: Path | str | None = None) -> list[str]:
-    """Names of the blades, designs of families included: shipped ones, one's own (`config`), or of a blades.yaml (`file`).
+    """Names of the blades, designs of families included.
 
-    Raises ConfigError for files that cannot be read, or are no blades.
+    Parameters
+    ----------
+    file
+        A blades.yaml in place of the configuration's.
+    config
+        A config.yaml in place of the shipped one.
+
+    Raises
+    ------
+    ConfigError
+        For files that cannot be read, or are no blades.
+
+    Examples
+    --------
+    >>> r37.blades()
+    ['Ref', 'L50', 'L100', 'S50', 'S100', 'CS50', 'CS100']
     """
     chosen = _configuration("blades_file", file, config)
     blades_file = Path(chosen.checked.blades_file)
     return list(_designs(read_document(blades_file.parent, str(blades_file)), chosen.root).entries)
 
 
-def blade(name: str, *, file: Path | str | None = None, config: Path | str | None = None, **changes: Any) -> BladeChoice:
-    """A blade of the shipped configuration, of one's own (`config`), or of one's own blades.yaml (`file`).
+@checked_call
+def scenes(*, file: Path | str | None = None, config: Path | str | None = None) -> list[str]:
+    """Names of the scenes: what a blade may rub on.
 
-    `changes`: values of keys of its entry, in the units of their names, as `**{"material.density_kg_m3": 4430.0}`. Raises
-    ConfigError for an unknown name, an impossible value or shape, and files that cannot be read.
+    Parameters
+    ----------
+    file
+        A scenes.yaml in place of the configuration's.
+    config
+        A config.yaml in place of the shipped one.
+
+    Raises
+    ------
+    ConfigError
+        For files that cannot be read, or are no scenes.
+
+    Examples
+    --------
+    >>> r37.scenes()[:2]
+    ['abradable', 'direct']
     """
-    chosen = BladeChoice(name, changes, _configuration("blades_file", file, config))
-    _ = chosen.settings
+    scenes_file = Path(_configuration("scenes_file", file, config).checked.scenes_file)
+    return list(read_document(scenes_file.parent, str(scenes_file)).check(Scenes).root)
+
+
+@checked_call
+def blade(
+    name_of_entry: str,
+    /,
+    *,
+    name: str | None = None,
+    file: Path | str | None = None,
+    config: Path | str | None = None,
+    **changes: Any,
+) -> BladeChoice:
+    """A blade, as it stands in blades.yaml or with other values.
+
+    Parameters
+    ----------
+    name_of_entry
+        Which blade of the file.
+    name
+        What the changed blade is called in results and figures. Without it these name the changes.
+    file
+        A blades.yaml in place of the configuration's.
+    config
+        A config.yaml in place of the shipped one.
+    **changes
+        Values of keys of its entry, in the units of their names. A dot leads into a section, as in
+        `**{"material.density_kg_m3": 4430.0}`.
+
+    Raises
+    ------
+    ConfigError
+        For an unknown name, an impossible value or shape, and files that cannot be read.
+
+    Examples
+    --------
+    >>> swept = r37.blade("Ref", chordwise_sweep_deg=8)
+    >>> swept.label
+    'Ref, chordwise_sweep_deg=8'
+    >>> r37.blade("Ref", chordwise_sweep_deg=8, name="Swept").label
+    'Swept'
+    """
+    chosen = BladeChoice(*_named(name_of_entry, name, changes, _configuration("blades_file", file, config)))
+    chosen.check()
     return chosen
 
 
-def scene(name: str, *, file: Path | str | None = None, config: Path | str | None = None, **changes: Any) -> SceneChoice:
-    """A scene of the shipped configuration, of one's own (`config`), or of one's own scenes.yaml (`file`).
+@checked_call
+def scene(
+    name_of_entry: str,
+    /,
+    *,
+    name: str | None = None,
+    file: Path | str | None = None,
+    config: Path | str | None = None,
+    **changes: Any,
+) -> SceneChoice:
+    """A scene, as it stands in scenes.yaml or with other values.
 
-    `changes`: values of keys of its entry, in the units of their names, as `**{"friction.coefficient": 0.1}`. Raises
-    ConfigError for an unknown name, an impossible value, and files that cannot be read.
+    Parameters
+    ----------
+    name_of_entry
+        Which scene of the file.
+    name
+        What the changed scene is called in results and figures. Without it these name the changes.
+    file
+        A scenes.yaml in place of the configuration's.
+    config
+        A config.yaml in place of the shipped one.
+    **changes
+        Values of keys of its entry, in the units of their names. A dot leads into a section, as in
+        `**{"friction.coefficient": 0.1}`.
+
+    Raises
+    ------
+    ConfigError
+        For an unknown name, an impossible value, and files that cannot be read.
+
+    Examples
+    --------
+    >>> r37.scene("abradable", **{"friction.coefficient": 0.1}).entry.friction.coefficient
+    0.1
     """
-    chosen = SceneChoice(name, changes, _configuration("scenes_file", file, config))
-    _ = chosen.entry
+    chosen = SceneChoice(*_named(name_of_entry, name, changes, _configuration("scenes_file", file, config)))
+    chosen.check()
     return chosen
+
+
+def _named(entry: str, name: str | None, changes: Mapping[str, Any], configuration: Configuration) -> Any:
+    """What a choice is made of."""
+    return (entry, changes, configuration) if name is None else (name, changes, configuration, entry)
 
 
 def _configuration(key: str, file: Path | str | None, config: Path | str | None) -> Configuration:
     configuration = read_configuration(config)
     if file is None:
         return configuration
-    if not Path(file).is_file():
-        raise ConfigError(f"file: found {file}; allowed: a file that is there")
-    return configuration.with_file(key, file)
+    return configuration.with_file(key, existing_file("file", file, "a file that is there"))
 
 
 def _designs(document: Document, root: Path) -> Designs:
     return with_designs(document.check(Blades).root, root, document)
 
 
-def _above(function: str, name: str, changes: Mapping[str, Any]) -> Document | None:
-    if not changes:
-        return None
-    content: dict[str, Any] = {}
-    for key, value in changes.items():
-        content = with_value(content, key.split("."), value)
-    return command_line_document({name: content}, f'r37.{function}("{name}")')
-
-
-def _changed(kind: str, file: str, name: str, above: Document | None) -> Document:
-    """The file with the changes to what it has under a name; ConfigError where it does not have that."""
-    document = read_document(Path(file).parent, file)
-    if above is None:
-        return document
-    if not isinstance(document.content, Mapping) or name not in document.content:
-        raise _unknown(f"changed {kind}", name, document.content or (), document.name)
-    return document.overlaid(above)
-
-
 def _unknown(kind: str, name: str, known: Iterable[str], file: str) -> ConfigError:
-    return ConfigError(f"{kind}: found '{name}'; allowed: {', '.join(known)} ({file})")
+    names = list(known)
+    return ConfigError(f"{kind}: found '{name}'; allowed: {', '.join(names)} ({file}){did_you_mean(str(name), names)}")

@@ -1,51 +1,66 @@
-"""The command r37: a folder for a study, a Campbell diagram, a response, a look at a configuration, without writing Python."""
+"""The command r37: a folder for a study, a Campbell diagram, a response, a look at a configuration, without writing Python.
+
+What computes is imported when it is asked for, so that a word that computes nothing answers at once.
+"""
 
 from __future__ import annotations
 
 import argparse
+import logging
 import sys
 import tempfile
+import warnings
 from collections.abc import Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
-import pandas as pd
-import xarray as xr
-
-from r37core.config import ConfigError
-from r37core.config.remarks import remarks_on_points
-from r37core.dataset_file import write_dataset
-from r37core.io import InputFileError
-from r37core.plans.extent import extent_of
-from r37core.product.reading import load_settings
-from r37core.product.remarks import remarks
-from r37core.product.sampling import beside
-from r37core.time_integration.status import RunStatus
-
-from .call_configuration import read_configuration
-from .choices import blade, blades
-from .simulations import campbell, sweep
-from .study_folder import init
+if TYPE_CHECKING:
+    import pandas as pd
+    import xarray as xr
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command with these arguments, or those of the process. Gives its exit status: 1 after one line of refusal."""
     options = _parser().parse_args(arguments)
+    # imported here, and below: --version and --help need neither
+    from r37core.io import InputFileError
+
+    logger = logging.getLogger("r37")
+    level = logger.level
     try:
-        options.run(options)
+        with warnings.catch_warnings():
+            warnings.showwarning = _say
+            if options.quiet:
+                logger.setLevel(logging.WARNING)
+            options.run(options)
     except (ValueError, InputFileError) as refusal:
         print(f"r37: {refusal}", file=sys.stderr)
         return 1
+    finally:
+        logger.setLevel(level)
     return 0
+
+
+def _say(message: Warning | str, *_: Any, **__: Any) -> None:
+    """A warning as one line; whoever uses the command did not write the line of code that warns."""
+    print(f"r37: {message}", file=sys.stderr)
 
 
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(prog="r37", description="blade-tip rubbing in a compressor")
+    parser.set_defaults(quiet=False)
+    parser.add_argument("--version", action=_Version, nargs=0, help="print the version and end")
+    parser.add_argument(
+        "--print-completion", action=_Completion, metavar="SHELL", help="print completions for bash, zsh, tcsh or fish"
+    )
     commands = parser.add_subparsers(required=True, metavar="command")
-    common = argparse.ArgumentParser(add_help=False)
-    common.add_argument("--config", help="a config.yaml in place of the shipped one")
+    level = argparse.ArgumentParser(add_help=False)
+    level.add_argument("--config", help="a config.yaml in place of the shipped one")
+    common = argparse.ArgumentParser(add_help=False, parents=[level])
     common.add_argument("--blades", help="a blades.yaml in place of the configuration's")
     common.add_argument("--fidelity", help="an accuracy level in place of the configuration's")
     common.add_argument("--output", type=Path, help="netCDF file to write the dataset to")
+    common.add_argument("--quiet", action="store_true", help="say nothing of the stages")
     diagram = commands.add_parser("campbell", parents=[common], help="natural frequencies and crossings of a blade")
     diagram.set_defaults(run=_campbell)
     response = commands.add_parser("simulate", parents=[common], help="response of a blade in a scene")
@@ -54,6 +69,11 @@ def _parser() -> argparse.ArgumentParser:
     response.add_argument("blade")
     response.add_argument("scene")
     response.add_argument("speeds", nargs="+", type=float, metavar="speed", help="rad/s")
+    response.add_argument("--rpm", action="store_true", help="the speeds are revolutions per minute")
+    for word, names in (("blades", _blades), ("scenes", _scenes)):
+        listed = commands.add_parser(word, parents=[level], help=f"names of the {word}")
+        listed.add_argument("file", nargs="?", help=f"a {word}.yaml in place of the configuration's")
+        listed.set_defaults(run=names)
     check = commands.add_parser("check", help="validate a configuration, and count its simulations")
     check.set_defaults(run=_check)
     check.add_argument("config", nargs="*", help="a config.yaml and files of changes on top; without any the shipped one")
@@ -63,13 +83,52 @@ def _parser() -> argparse.ArgumentParser:
     return parser
 
 
+class _Version(argparse.Action):
+    def __call__(self, parser: argparse.ArgumentParser, *_: Any) -> None:
+        from r37core import __version__
+
+        print(f"r37 {__version__}")
+        parser.exit()
+
+
+class _Completion(argparse.Action):
+    def __call__(self, parser: argparse.ArgumentParser, _: Any, shell: Any, *__: Any) -> None:
+        import shtab
+
+        if shell not in shtab.SUPPORTED_SHELLS:
+            parser.error(f"--print-completion: found {shell!r}; allowed: {', '.join(shtab.SUPPORTED_SHELLS)}")
+        print(shtab.complete(parser, shell))
+        parser.exit()
+
+
+def _blades(options: argparse.Namespace) -> None:
+    from .choices import blades
+
+    print("\n".join(blades(file=options.file, config=options.config)))
+
+
+def _scenes(options: argparse.Namespace) -> None:
+    from .choices import scenes
+
+    print("\n".join(scenes(file=options.file, config=options.config)))
+
+
 def _init(options: argparse.Namespace) -> None:
+    from .study_folder import init
+
     init(options.folder)
     print(f"{options.folder}: edit config/, then, in that folder: snakemake all_blades --cores 2")
 
 
 def _campbell(options: argparse.Namespace) -> None:
+    from r37core.config import ConfigError
+
+    from .choices import blade, blades
+    from .simulations import campbell
+
     is_file = options.blade.endswith((".yaml", ".yml"))
+    if is_file and options.blades is not None:
+        raise ConfigError(f"--blades: found {options.blades} beside the file {options.blade}; allowed: one of them")
     file = options.blade if is_file else options.blades
     _check_output(options.output)
     names = blades(file=file, config=options.config) if is_file else [options.blade]
@@ -86,21 +145,36 @@ def _campbell(options: argparse.Namespace) -> None:
 
 
 def _campbell_table(dataset: xr.Dataset) -> pd.DataFrame:
-    table = pd.DataFrame({"at rest (Hz)": dataset["frequency"].isel(speed=0).values}, index=dataset["mode"].to_index())
-    crossings = dataset["crossing_speed"].sel(mode="1B").dropna("engine_order")
-    for order in crossings["engine_order"].values[:_MOST_ORDERS]:
-        table[f"crosses {order} (rad/s)"] = dataset["crossing_speed"].sel(engine_order=order).values
+    """A row per mode, with the lowest engine orders that it crosses."""
+    import pandas as pd
+
+    frequency = dataset["frequency"]
+    fastest = f"at {frequency['speed'].values[-1]:.6g} rad/s (Hz)"
+    table = pd.DataFrame({"at rest (Hz)": frequency.isel(speed=0).values}, index=dataset["mode"].to_index())
+    table[fastest] = frequency.isel(speed=-1).values
+    crossings = [dataset["crossing_speed"].sel(mode=mode).dropna("engine_order").to_series() for mode in table.index]
+    texts = [[f"{order}: {speed:.6g}" for order, speed in of.items()] for of in crossings]
+    table["crosses engine orders at (rad/s)"] = [", ".join(of[:_MOST_ORDERS]) or "none" for of in texts]
     return table
 
 
-_MOST_ORDERS = 6
-"""Engine orders of the table, from the lowest that 1B crosses; the dataset has all."""
+_MOST_ORDERS = 5
+"""Engine orders in a row of the table, from the lowest that its mode crosses; the dataset has all."""
 
 
 def _simulate(options: argparse.Namespace) -> None:
+    import pandas as pd
+
+    from r37core.time_integration.status import RunStatus
+    from r37core.units import RAD_S
+
+    from .choices import blade
+    from .simulations import sweep
+
     _check_output(options.output)
     chosen = blade(options.blade, file=options.blades, config=options.config)
-    dataset = sweep(chosen, options.scene, options.speeds, fidelity=options.fidelity, config=options.config)
+    speeds = [RAD_S["rpm" if options.rpm else "rad/s"] * speed for speed in options.speeds]
+    dataset = sweep(chosen, options.scene, speeds, fidelity=options.fidelity, config=options.config)
     edge, table = dataset.sel(tip_point="leading_edge"), pd.DataFrame(index=dataset["speed"].to_index().rename("speed (rad/s)"))
     table["rms, normal (mm)"] = 1e3 * edge["rms_normal"].values
     table["rms, tangential (mm)"] = 1e3 * edge["rms_tangential"].values
@@ -112,6 +186,14 @@ def _simulate(options: argparse.Namespace) -> None:
 
 
 def _check(options: argparse.Namespace) -> None:
+    from r37core.config.remarks import remarks_on_points
+    from r37core.plans.extent import extent_of
+    from r37core.product.reading import load_settings
+    from r37core.product.remarks import remarks
+    from r37core.product.sampling import beside
+
+    from .call_configuration import read_configuration
+
     first, *changes = options.config or [None]
     configuration = read_configuration(first).with_changes(changes)
     settings = load_settings(configuration.document, configuration.root)
@@ -133,19 +215,25 @@ def _show(table: pd.DataFrame) -> None:
 
 def _check_output(file: Path | None) -> None:
     """ConfigError for a file that cannot be written, before what takes minutes."""
+    from r37core.config import ConfigError
+
     if file is None:
         return
-    allowed = "allowed: a file in a folder that can be written"
-    if not file.name or file.is_dir():
-        raise ConfigError(f"--output: found {str(file)!r}, a folder; {allowed}")
+    allowed = "allowed: a file in a folder that is there and can be written"
     try:
-        file.parent.mkdir(parents=True, exist_ok=True)
-        with tempfile.NamedTemporaryFile(dir=file.parent, prefix=f".{file.name}"):
+        if not file.name or file.is_dir():
+            raise ConfigError(f"--output: found {str(file)!r}, a folder; {allowed}")
+        # what is moved into the place of a device or a pipe takes it away from others
+        if file.exists() and not file.is_file():
+            raise ConfigError(f"--output: found {file}, a device or a pipe; {allowed}")
+        with tempfile.NamedTemporaryFile(dir=file.parent, prefix=f".{file.name[:100]}"):
             pass
     except OSError as error:
         raise ConfigError(f"--output: found {file}, which cannot be written ({error.strerror}); {allowed}") from None
 
 
 def _write(dataset: xr.Dataset, file: Path | None) -> None:
+    from r37core.dataset_file import write_dataset
+
     if file is not None:
         write_dataset(dataset, file)

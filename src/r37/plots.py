@@ -10,15 +10,38 @@ from typing import TYPE_CHECKING
 
 import xarray as xr
 
+from r37core.config import ConfigError
+
+from .checked import checked_call
+from .run_results import RunResults
+
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
+@checked_call
 def plot_campbell(campbell: xr.Dataset, title: str | None = None) -> Figure:
-    """Campbell diagram and dynamic clearance of one blade, of what `r37.campbell` gives.
+    """Campbell diagram and dynamic clearance of one blade.
 
-    A plain function, as those of matplotlib.pyplot. `title`: in place of the blade's name.
+    Parameters
+    ----------
+    campbell
+        What `r37.campbell` gives.
+    title
+        In place of the blade's name, which says what was changed of it.
+
+    Raises
+    ------
+    ConfigError
+        For another dataset.
+
+    Examples
+    --------
+    >>> figure = r37.plot_campbell(r37.campbell("Ref", fidelity="draft"))
+    >>> figure.axes[0].get_title()
+    'Campbell diagram, blade Ref'
     """
+    _check("campbell", campbell, "frequency", "r37.campbell")
 
     def draw() -> Figure:
         from r37core.figures.campbell_diagram import draw_campbell
@@ -28,12 +51,34 @@ def plot_campbell(campbell: xr.Dataset, title: str | None = None) -> Figure:
     return _drawn(draw)
 
 
+@checked_call
 def plot_response(response: xr.Dataset, campbell: xr.Dataset | None = None, title: str | None = None) -> Figure:
-    """Rms of the leading edge and largest stress over speed, of what `r37.sweep` gives.
+    """Rms of the leading edge and largest stress over speed.
 
-    A plain function, as those of matplotlib.pyplot. `campbell`: what `r37.campbell` gives, to mark the crossings of 1B.
-    `title`: in place of the blade's name.
+    Parameters
+    ----------
+    response
+        What `r37.sweep` gives, or a part of the dataset rms of a run.
+    campbell
+        What `r37.campbell` gives, to mark the crossings of 1B.
+    title
+        In place of the blade's name, which says what was changed of it.
+
+    Raises
+    ------
+    ConfigError
+        For another dataset.
+
+    Examples
+    --------
+    >>> response = r37.sweep("Ref", "abradable", [1150, 1550], fidelity="draft")
+    >>> figure = r37.plot_response(response)
+    >>> figure.axes[0].get_ylabel()
+    'rms, normal (mm)'
     """
+    _check("response", response, "rms_normal", "r37.sweep")
+    if campbell is not None:
+        _check("campbell", campbell, "frequency", "r37.campbell")
     name = title or _label(response, "blade")
     scenes = response.drop_vars("scene", errors="ignore").expand_dims(scene=[_label(response, "scene")])
     if "speed" not in scenes.dims:
@@ -43,6 +88,127 @@ def plot_response(response: xr.Dataset, campbell: xr.Dataset | None = None, titl
         from r37core.figures.response_curves import draw_response
 
         return draw_response(name, campbell, scenes, scenes if "max_von_mises" in scenes else None)
+
+    return _drawn(draw)
+
+
+@checked_call
+def plot_run_ups(run_ups: xr.Dataset, title: str | None = None) -> Figure:
+    """Motion, stress and wear of every revolution of run-ups of one blade in one scene.
+
+    Parameters
+    ----------
+    run_ups
+        What `r37.run_ups` or `r37.run_up` gives.
+    title
+        In place of the names of blade and scene.
+
+    Raises
+    ------
+    ConfigError
+        For another dataset, and for runs of several blades or scenes.
+
+    Examples
+    --------
+    >>> run = r37.run_up("Ref", "abradable", from_rad_s=1540, to_rad_s=1560, revolutions=4, fidelity="draft")
+    >>> r37.plot_run_ups(run).get_suptitle()
+    'run-ups: Ref, abradable, leading edge'
+    """
+    _check("run_ups", run_ups, "rate", "r37.run_ups")
+    several = run_ups if "run" in run_ups.dims else run_ups.expand_dims("run")
+    # a single run has its labels without the dimension
+    several = several.assign_coords(
+        {name: ("run", several[name].values.reshape(-1)) for name in ("blade", "scene", "run_up") if name in several.coords}
+    )
+    pairs = sorted(
+        {(str(blade), str(scene)) for blade, scene in zip(several["blade"].values, several["scene"].values, strict=True)}
+    )
+    if len(pairs) > 1:
+        raise ConfigError(f"run_ups: found runs of {', '.join(map(' in '.join, pairs))}; allowed: of one blade in one scene")
+    ((blade, scene),) = pairs
+
+    def draw() -> Figure:
+        from r37core.run_ups.figures import draw_run_ups
+
+        return draw_run_ups(several, title or f"{blade}, {scene}", blade=blade, scene=scene)
+
+    return _drawn(draw)
+
+
+@checked_call
+def plot_tolerances(results: RunResults, blade: str, scene: str, title: str | None = None) -> Figure:
+    """The band that members lie in, their chance of passing yield, and which number moves what.
+
+    Parameters
+    ----------
+    results
+        What `r37.tolerances` gives, or the results of a run with tolerances.
+    blade, scene
+        Which of them.
+    title
+        In place of their names.
+
+    Raises
+    ------
+    ConfigError
+        For results without tolerances, and for a blade and scene that have none.
+
+    Examples
+    --------
+    >>> spread = {"casing.clearance_m": {"uniform_percent": 2}}
+    >>> results = r37.tolerances("Ref", "abradable", [1150], of_scenes=spread, members=2, fidelity="draft")
+    >>> len(r37.plot_tolerances(results, "Ref", "abradable").axes) > 2
+    True
+    """
+    if "tolerances" not in results:
+        raise ConfigError("results: found none of tolerances; allowed: what r37.tolerances gives")
+    tolerances = results["tolerances"]
+    if blade not in tolerances["blade"].values or scene not in tolerances["scene"].values:
+        known = f"{', '.join(map(str, tolerances['blade'].values))} in {', '.join(map(str, tolerances['scene'].values))}"
+        raise ConfigError(f"tolerances: found none of {blade} in {scene}; allowed: {known}")
+
+    def draw() -> Figure:
+        from r37core.tolerances.figures import draw_tolerances
+
+        return draw_tolerances(
+            tolerances.sel(blade=blade, scene=scene), results.response(blade, scene), title or f"{blade}, {scene}"
+        )
+
+    return _drawn(draw)
+
+
+@checked_call
+def plot_designs(results: RunResults, title: str | None = None) -> Figure:
+    """What each design of a family is, and how robust, over the one key that varies or by name.
+
+    Parameters
+    ----------
+    results
+        What `r37.designs` gives, or the results of a run with one family.
+    title
+        In place of the family's name.
+
+    Raises
+    ------
+    ConfigError
+        For results without designs.
+
+    Examples
+    --------
+    >>> results = r37.designs("S100", "abradable", [1150], vary={"sweep_percent": [50, 100]}, fidelity="draft")
+    >>> r37.plot_designs(results).get_suptitle()
+    'family Design: 2 designs over sweep_percent'
+    """
+    if "designs" not in results.tables:
+        raise ConfigError("results: found none of designs; allowed: what r37.designs gives")
+
+    def draw() -> Figure:
+        from r37core.designs.figures import draw_designs
+        from r37core.designs.table import MEASURES
+
+        table = results.tables["designs"]
+        varied = [name for name in table if name not in ("blade", "scene", *MEASURES)]
+        return draw_designs(title or str(table["blade"][0]).split("_")[0], table, varied)
 
     return _drawn(draw)
 
@@ -59,6 +225,13 @@ def _drawn(draw: Callable[[], Figure]) -> Figure:
 
         plt.rcParams.update(PARAMETERS)
         return draw()
+
+
+def _check(argument: str, dataset: xr.Dataset, needed: str, call: str) -> None:
+    """ConfigError for a dataset that is not what a call gives."""
+    if not isinstance(dataset, xr.Dataset) or needed not in dataset:
+        other = f"a dataset without {needed}" if isinstance(dataset, xr.Dataset) else f"a {type(dataset).__name__}"
+        raise ConfigError(f"{argument}: found {other}; allowed: what {call} gives")
 
 
 def _label(dataset: xr.Dataset, name: str) -> str:

@@ -1,61 +1,146 @@
-"""The results of a finished run of the workflow, from its folder."""
+"""The results of a run of the workflow, from its folder, or of a call that makes the same."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from functools import cached_property
+import os
+from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
+from typing import Generic, TypeVar
 
 import pandas as pd
 import xarray as xr
 
+from r37core.config.messages import did_you_mean
 from r37core.dataset_file import read_dataset
-from r37core.io import InputFileError
+from r37core.io import InputFileError, readable
 from r37core.results.ranking import read_ranking
 from r37core.results.table_file import read_table
 
+from .checked import checked_call
 
-class RunResults(Mapping[str, xr.Dataset]):
-    """Datasets of a run by name (campbell, rms, spectrum, stress, wear, ...), each read when it is first asked for."""
+Content = TypeVar("Content")
 
-    def __init__(self, folder: Path):
-        self.folder = folder
-        self._read: dict[str, xr.Dataset] = {}
 
-    def __getitem__(self, name: str) -> xr.Dataset:
+class FilesByName(Mapping[str, Content], Generic[Content]):
+    """Files of a folder by their names without `suffix`, each read when it is first asked for; `kind`: for messages."""
+
+    def __init__(self, folder: Path, suffix: str, kind: str, read: Callable[[Path], Content]):
+        self._folder, self._suffix, self._kind, self._reader = folder, suffix, kind, read
+        self._read: dict[str, Content] = {}
+
+    def __getitem__(self, name: str) -> Content:
         if name not in set(self):
-            raise KeyError(f"found '{name}'; allowed: {', '.join(self)} (datasets in {self.folder})")
+            told = f"found '{name}'; allowed: {', '.join(self)} ({self._kind} in {self._folder}){did_you_mean(name, self)}"
+            raise KeyError(told + self._elsewhere(name))
         if name not in self._read:
-            self._read[name] = read_dataset(self.folder / f"{name}.nc")
+            self._read[name] = self._reader(self._folder / f"{name}{self._suffix}")
         return self._read[name]
 
     def __iter__(self) -> Iterator[str]:
-        return iter(sorted(file.stem for file in self.folder.glob("[!.]*.nc")))
+        return iter(sorted(file.stem for file in self._folder.glob(f"[!.]*{self._suffix}")))
 
     def __len__(self) -> int:
         return len(list(iter(self)))
 
     def __repr__(self) -> str:
-        return f"RunResults({str(self.folder)!r}): {', '.join(self)}"
+        return f"{type(self).__name__}({str(self._folder)!r}): {', '.join(self)}"
 
-    @cached_property
+    def _elsewhere(self, name: str) -> str:
+        """Where else something of this name is, for a message."""
+        return ""
+
+
+class RunResults(FilesByName[xr.Dataset]):
+    """Datasets of a run by name (campbell, rms, spectrum, stress, wear, run_ups, tolerances, signals, ...), and its `tables`.
+
+    Each is read when it is first asked for. `folder`: where they lie; `temporary`: the same of what a call has made, which is
+    gone with this object.
+    """
+
+    def __init__(self, folder: Path, temporary: object = None):
+        super().__init__(folder, ".nc", "datasets", read_dataset)
+        self.folder, self._temporary = folder, temporary
+        self.tables = FilesByName(folder, ".csv", "tables", _table)
+        """Tables by name (summary, ranking, designs, run_ups, run_up_rates, tolerances, coincidences)."""
+
+    def _elsewhere(self, name: str) -> str:
+        return f'; there is a table of this name: results.tables["{name}"]' if name in self.tables else ""
+
+    @property
     def summary(self) -> pd.DataFrame:
         """summary.csv: one row per interaction. Raises InputFileError where it cannot be read."""
-        return read_table(self.folder / "summary.csv")
+        return self._there("summary")
 
-    @cached_property
+    @property
     def ranking(self) -> pd.DataFrame:
         """ranking.csv: one row per blade and scene, the best blade first. Raises InputFileError where it cannot be read."""
-        return read_ranking(self.folder / "ranking.csv")
+        return self._there("ranking")
+
+    def _there(self, table: str) -> pd.DataFrame:
+        return self.tables[table] if table in self.tables else _table(self.folder / f"{table}.csv")
 
     def response(self, blade: str, scene: str) -> xr.Dataset:
         """response.nc of one blade in one scene, as `r37.sweep` gives it. Raises InputFileError where it cannot be read."""
         return read_dataset(self.folder / blade / scene / "response.nc")
 
+    def signals(self, blade: str, scene: str) -> xr.Dataset:
+        """signals.nc of one blade in one scene: samples over time. Raises InputFileError where it cannot be read."""
+        return read_dataset(self.folder / blade / scene / "signals.nc")
 
+    def tree(self) -> xr.DataTree:
+        """All datasets of the run as one tree: those of all blades at the top, `Ref/campbell`, `Ref/abradable/response` below.
+
+        Values are read when they are used. Raises InputFileError for a file that cannot be read.
+        """
+        names = [f"{name}.nc" for name in self]
+        below = [
+            file for pattern in ("*/campbell.nc", "*/*/response.nc", "*/*/signals.nc") for file in self.folder.glob(pattern)
+        ]
+        files = [*(self.folder / name for name in names), *sorted(below)]
+        return xr.DataTree.from_dict({str(file.relative_to(self.folder).with_suffix("")): _opened(file) for file in files})
+
+
+def _opened(file: Path) -> xr.Dataset:
+    with readable(file):
+        return xr.open_dataset(file, engine="netcdf4")
+
+
+def _table(file: Path) -> pd.DataFrame:
+    return read_ranking(file) if file.stem == "ranking" else read_table(file)
+
+
+@checked_call
 def open_results(folder: Path | str) -> RunResults:
-    """The results of a run: `results`, or `results/runs/<name>`. Raises InputFileError for a folder without datasets."""
-    if not Path(folder).is_dir():
+    """The results of a finished run of the workflow.
+
+    Parameters
+    ----------
+    folder
+        `results`, or `results/runs/<name>`.
+
+    Returns
+    -------
+    RunResults
+        Datasets by name, `tables` by name, each `response`, and all datasets as a `tree`.
+
+    Raises
+    ------
+    InputFileError
+        For a folder without datasets.
+
+    Examples
+    --------
+    >>> results = r37.open_results("results")
+    >>> list(results)
+    ['campbell', 'rms', 'spectrum', 'stress', 'wear']
+    >>> list(results.tables)
+    ['ranking', 'summary']
+    >>> results.tree()["Ref/abradable/response"].sizes["speed"]
+    3
+    """
+    if not isinstance(folder, str | os.PathLike):
+        raise InputFileError(f"results: found {folder!r}; allowed: the folder of a run, such as results")
+    if not os.path.isdir(folder):
         raise InputFileError(f"{folder}: there is no such folder; results of a run lie in results/ or results/runs/<name>/")
     results = RunResults(Path(folder))
     if not results:

@@ -1,78 +1,69 @@
-"""The calls that compute: Campbell diagram, response at one speed, response at several."""
+"""The calls of one blade: its Campbell diagram, its reduced model, its response in a scene at one speed and at several."""
 
 from __future__ import annotations
 
-import tempfile
+import re
 import warnings
 from collections.abc import Iterable, Sequence
 from pathlib import Path
-from types import SimpleNamespace
-from typing import Any
 
-import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike
 
 from r37core.config import ConfigError, Settings, casing_remarks
-from r37core.config.remarks import remarks_on_points
+from r37core.config.remarks import remarks_on_points, remarks_on_speeds
 from r37core.dataset_file import read_dataset
-from r37core.io import FILE_ATTRIBUTES
+from r37core.io import FILE_ATTRIBUTES, Named, scratch_folder
+from r37core.plans import paths
 from r37core.plans.provenance import Provenance
-from r37core.plans.simulation_plan import Simulations
-from r37core.plans.sweep_plan import Sweep
-from r37core.results.response import write_response
-from r37core.rom.contact_model import read_contact_model
-from r37core.stress.operator import read_stress_operator
+from r37core.results.contact_remarks import remarks_on_contact
 from r37core.time_integration.initial_motion import InitialMotion, InitialMotionError
-from r37core.time_integration.speed_file import write_speed
-from r37core.time_integration.speed_run import OF_RUNS, run_speed
 
-from .call_configuration import Configuration, read_configuration
+from .arguments import Speeds, speed_key, speed_keys
+from .calculation import Calculation
+from .call_settings import base_of, chosen_blade, chosen_scene, level, settings_of
+from .checked import checked_call
 from .choices import BladeChoice, SceneChoice
-from .structure_files import StructureFiles
+from .jobs import check_cores, in_parallel
+from .structure_files import Recipe, StructureFiles
 
 
+@checked_call
 def campbell(blade: BladeChoice | str, *, fidelity: str | None = None, config: Path | str | None = None) -> xr.Dataset:
-    """The Campbell diagram of a blade: frequencies (Hz), crossings with engine orders (rad/s), dynamic clearance (m).
+    """The Campbell diagram of a blade, as campbell.nc of a run.
 
-    As campbell.nc of a run: dimensions mode, speed, engine_order, tangential_displacement. `fidelity`: an accuracy level in
-    place of the configuration's. `config`: a config.yaml in place of the shipped one. Raises ConfigError for bad input, and
-    what a shape, mesh or model raises that is impossible.
+    Parameters
+    ----------
+    blade
+        Its name, or what `r37.blade` gives.
+    fidelity
+        An accuracy level in place of the configuration's.
+    config
+        A config.yaml in place of the shipped one, where names are looked up and structure and levels are taken from.
+
+    Returns
+    -------
+    Dataset
+        `frequency` (Hz) over mode and speed, `crossing_speed` (rad/s) over mode and engine order, `dynamic_clearance` (m).
+
+    Raises
+    ------
+    ConfigError
+        For bad input. A shape, mesh or model that is impossible raises a ValueError of its own.
+
+    Examples
+    --------
+    >>> diagram = r37.campbell("Ref", fidelity="draft")
+    >>> crossing = diagram.crossing_speed.sel(mode="1B", engine_order=4).item()  # rad/s
+    >>> 1600 < crossing < 1750
+    True
     """
-    settings = _settings("r37.campbell", blade, None, config, _level(fidelity))
-    (name,) = settings.blade_names
-    made = Provenance(settings).structure(SimpleNamespace(blade=name))
-    return read_dataset(StructureFiles(settings, name).campbell()).assign_attrs(FILE_ATTRIBUTES | dict(made))
+    chosen = chosen_blade(blade, config)
+    settings = settings_of("r37.campbell", base_of(blade, config), [chosen], [], level(fidelity))
+    return _of_structure(settings, chosen, StructureFiles(settings, chosen.name).campbell())
 
 
-def simulate(
-    blade: BladeChoice | str,
-    scene: SceneChoice | str,
-    speed: float,
-    *,
-    fidelity: str | None = None,
-    results: Sequence[str] | None = None,
-    config: Path | str | None = None,
-    initial_displacement: ArrayLike | None = None,
-    initial_velocity: ArrayLike | None = None,
-) -> xr.Dataset:
-    """The response of a blade in a scene at one speed (rad/s): what `sweep` gives of it, without the dimension speed.
-
-    The blade starts at rest, or with a displacement and a velocity (per s) in the coordinates of the reduced model, shape
-    (coordinates,): those of `reduced_model`. What of them lies in modes that are not stepped is left out; the dataset has its
-    share of the energy, and the attribute initial_state. Other arguments and errors as of `sweep`; ConfigError also for a
-    displacement that reaches into casing or lining.
-    """
-    changes = {"speeds": _numbers([speed]), **_level(fidelity)}
-    settings = _settings("r37.simulate", blade, scene, config, changes, results)
-    try:
-        motion = InitialMotion.from_arrays(initial_displacement, initial_velocity)
-        response = _response(settings, motion)
-    except InitialMotionError as error:
-        raise ConfigError(str(error)) from None
-    return response.isel(speed=0).assign_attrs({} if motion is None else motion.attributes)
-
-
+@checked_call
 def reduced_model(
     blade: BladeChoice | str,
     scene: SceneChoice | str | None = None,
@@ -80,101 +71,186 @@ def reduced_model(
     fidelity: str | None = None,
     config: Path | str | None = None,
 ) -> xr.Dataset:
-    """The reduced model of a blade with the contact nodes of a scene, as rom.nc of a run: `mass`, `stiffness` and others.
+    """The reduced model of a blade, as rom.nc of a run.
 
-    Without a scene the contact nodes are those of structure.boundary. Other arguments and errors as of `sweep`.
+    Parameters
+    ----------
+    blade
+        Its name, or what `r37.blade` gives.
+    scene
+        On whose tip line the contact nodes lie; without it on that of structure.boundary.
+    fidelity, config
+        As of `r37.campbell`.
+
+    Returns
+    -------
+    Dataset
+        `mass` (kg), `stiffness` (N/m), `geometric_stiffness` and others over the reduced coordinates.
+
+    Raises
+    ------
+    ConfigError
+        For bad input. A shape, mesh or model that is impossible raises a ValueError of its own.
+
+    Examples
+    --------
+    >>> model = r37.reduced_model("Ref", fidelity="draft")
+    >>> model.mass.shape == model.stiffness.shape
+    True
     """
-    settings = _settings("r37.reduced_model", blade, scene, config, _level(fidelity))
-    (name,) = settings.blade_names
-    chosen = [settings.structure.boundary] if scene is None else settings.scenes.values()
-    (tip_line,) = {choice.tip_line for choice in chosen}
-    made = Provenance(settings).structure(SimpleNamespace(blade=name))
-    model = read_dataset(StructureFiles(settings, name).reduced_model(tip_line))
-    return model.assign_attrs(FILE_ATTRIBUTES | dict(made))
+    chosen, base = chosen_blade(blade, config), base_of(blade, config)
+    scenes = [] if scene is None else [chosen_scene(scene, base)]
+    settings = settings_of("r37.reduced_model", base, [chosen], scenes, level(fidelity))
+    boundaries = [settings.structure.boundary] if scene is None else settings.scenes.values()
+    (tip_line,) = {boundary.tip_line for boundary in boundaries}
+    return _of_structure(settings, chosen, StructureFiles(settings, chosen.name).reduced_model(tip_line))
 
 
-def sweep(
+@checked_call
+def simulate(
     blade: BladeChoice | str,
     scene: SceneChoice | str,
-    speeds: Iterable[float],
+    speed: float | None = None,
     *,
+    speed_rpm: float | None = None,
     fidelity: str | None = None,
     results: Sequence[str] | None = None,
     config: Path | str | None = None,
+    initial_displacement: ArrayLike | None = None,
+    initial_velocity: ArrayLike | None = None,
 ) -> xr.Dataset:
-    """The response of a blade in a scene at several speeds (rad/s), by ascending speed, one after another in this process.
+    """The response of a blade in a scene at one speed: what `r37.sweep` gives of it, without the dimension speed.
 
-    As response.nc of a run: the same variables, units, attributes and numbers. With several threads of the linear algebra
-    library numbers may differ by round-off; OPENBLAS_NUM_THREADS=1, set before Python starts, gives the very bits.
-    `fidelity`: an accuracy level in place of the configuration's. `results`: in place of the scene's. `config`: a config.yaml
-    in place of the shipped one, where names are looked up and from which structure and levels are taken. Raises ConfigError
-    for bad input, and what a shape, mesh, model or time step raises that is impossible.
+    Parameters
+    ----------
+    blade, scene
+        Names, or what `r37.blade` and `r37.scene` give.
+    speed
+        Angular speed (rad/s).
+    speed_rpm
+        The same in revolutions per minute, in place of `speed`.
+    fidelity
+        An accuracy level in place of the configuration's.
+    results
+        What is computed, in place of the scene's list: `["stress", "wear"]`.
+    config
+        A config.yaml in place of the shipped one, where names are looked up and structure and levels are taken from.
+    initial_displacement, initial_velocity
+        Where the blade starts (velocity per s), in the coordinates of `r37.reduced_model`, shape (coordinates,). It starts
+        at rest without them. What of them lies in modes that are not stepped is left out; the dataset has its share of the
+        energy, and the attribute `initial_state`.
+
+    Returns
+    -------
+    Dataset
+        As response.nc of a run: `rms_normal` (m), `max_von_mises` (Pa), `status` and others.
+
+    Raises
+    ------
+    ConfigError
+        For bad input, and for a displacement that reaches into casing or lining. A shape, mesh, model or time step that is
+        impossible raises a ValueError of its own.
+
+    Examples
+    --------
+    >>> response = r37.simulate("Ref", "abradable", 1550, fidelity="draft")
+    >>> response.rms_normal.sel(tip_point="leading_edge").item() > 0.0  # m
+    True
     """
-    changes = {"speeds": _numbers(speeds), **_level(fidelity)}
-    return _response(_settings("r37.sweep", blade, scene, config, changes, results))
+    chosen, base = chosen_blade(blade, config), base_of(blade, config)
+    rubs_on, keys = chosen_scene(scene, base, results), speed_key(speed, speed_rpm)
+    try:
+        settings = settings_of("r37.simulate", base, [chosen], [rubs_on], {**keys, **level(fidelity)})
+    except ConfigError as error:
+        # the one speed stands in a list of them
+        raise ConfigError(re.sub(r"\bspeeds(_rpm)?\.0\b", r"speed\1", str(error))) from None
+    try:
+        motion = InitialMotion.from_arrays(initial_displacement, initial_velocity)
+        response = _response(settings, chosen, rubs_on, 1, motion)
+    except InitialMotionError as error:
+        raise ConfigError(str(error)) from None
+    return response.isel(speed=0).assign_attrs({} if motion is None else motion.attributes)
 
 
-def _numbers(speeds: Iterable[float]) -> list[float]:
-    """Speeds as plain numbers; ConfigError for others. Their bounds are the configuration's."""
-    numbers = [speed.item() if isinstance(speed, np.generic | np.ndarray) and speed.size == 1 else speed for speed in speeds]
-    for speed in numbers:
-        if isinstance(speed, bool) or not isinstance(speed, int | float):
-            raise ConfigError(f"speeds: found {speed!r}; allowed: numbers, in rad/s")
-    return numbers
-
-
-def _level(fidelity: str | None) -> dict[str, Any]:
-    return {} if fidelity is None else {"fidelity": fidelity}
-
-
-def _settings(
-    caller: str,
+@checked_call
+def sweep(
     blade: BladeChoice | str,
-    scene: SceneChoice | str | None,
-    config: Path | str | None,
-    changes: dict[str, Any],
+    scene: SceneChoice | str,
+    speeds: Speeds | None = None,
+    *,
+    speeds_rpm: Speeds | None = None,
+    fidelity: str | None = None,
     results: Sequence[str] | None = None,
-) -> Settings:
-    """Settings of one blade and, where there is one, one scene; structure and levels are of `config`, else of the blade's."""
-    base = blade.configuration if isinstance(blade, BladeChoice) and config is None else read_configuration(config)
-    blade = blade if isinstance(blade, BladeChoice) else BladeChoice(blade, {}, base)
-    _ = blade.settings
-    changes |= {"blades": [blade.name], "blades_file": blade.configuration.checked.blades_file}
-    above = None
-    if scene is not None:
-        scene = scene if isinstance(scene, SceneChoice) else SceneChoice(scene, {}, base)
-        if results is not None:
-            scene = SceneChoice(scene.name, {**scene.changes, "results": list(results)}, scene.configuration)
-        _ = scene.entry
-        changes |= {"scenes": [scene.name], "scenes_file": scene.configuration.checked.scenes_file}
-        above = scene.above
-    return Configuration(base.document, blade.configuration.root).settings(changes, caller, blade.above, above)
+    config: Path | str | None = None,
+    cores: int = 1,
+) -> xr.Dataset:
+    """The response of a blade in a scene at several speeds, as response.nc of a run.
+
+    Parameters
+    ----------
+    blade, scene
+        Names, or what `r37.blade` and `r37.scene` give.
+    speeds
+        Angular speeds (rad/s), or ranges `{"start": 750, "stop": 2000, "step": 20}`. With `"refine_to": 1` the range is sampled
+        adaptively, down to intervals of that.
+    speeds_rpm
+        The same in revolutions per minute, in place of `speeds`.
+    fidelity, results, config
+        As of `r37.simulate`.
+    cores
+        Simulations that run at once, in processes of their own. The numbers do not depend on it.
+
+    Returns
+    -------
+    Dataset
+        The same variables, units, attributes and numbers as of the workflow, by ascending speed.
+
+    Raises
+    ------
+    ConfigError
+        For bad input. A shape, mesh, model or time step that is impossible raises a ValueError of its own.
+
+    Examples
+    --------
+    >>> response = r37.sweep("Ref", "abradable", [1550, 1150], fidelity="draft", results=["stress"])
+    >>> response.speed.values
+    array([1150., 1550.])
+    """
+    chosen, base = chosen_blade(blade, config), base_of(blade, config)
+    rubs_on, keys = chosen_scene(scene, base, results), speed_keys(speeds, speeds_rpm)
+    check_cores(cores)
+    settings = settings_of("r37.sweep", base, [chosen], [rubs_on], {**keys, **level(fidelity)})
+    return _response(settings, chosen, rubs_on, cores)
 
 
-def _response(settings: Settings, motion: InitialMotion | None = None) -> xr.Dataset:
+def _of_structure(settings: Settings, blade: BladeChoice, recipe: Recipe) -> xr.Dataset:
+    """A dataset of the blade's structure."""
+    (file,) = in_parallel([recipe.file], 1)
+    made = Provenance(settings).structure(Named(blade=blade.name))
+    return read_dataset(file).assign_attrs(FILE_ATTRIBUTES | dict(made) | blade.told)
+
+
+def _response(
+    settings: Settings, blade: BladeChoice, scene: SceneChoice, cores: int, motion: InitialMotion | None = None
+) -> xr.Dataset:
     """The response of the one blade in the one scene of the settings, at their speeds, from rest or in `motion`."""
-    ((blade, scene), plan), *_ = settings.speed_plans.items()
-    at, sweep = SimpleNamespace(blade=blade, scene=scene), Sweep(settings)
-    for remark in [*casing_remarks.of_sweep(settings), *remarks_on_points(settings)]:
-        warnings.warn(remark, stacklevel=3)
-    chosen, structure = settings.scenes[scene], StructureFiles(settings, blade)
-    model = read_contact_model(structure.contact_model(chosen.tip_line))
-    stress = read_stress_operator(structure.stress_operator(chosen.tip_line)) if sweep.with_stress(at) else None
-    results = [result for result in sweep.results(at) if result in OF_RUNS]
-    kept = Simulations(sweep).kept
-    with tempfile.TemporaryDirectory() as folder:
-        files = [Path(folder, f"{number}.npz") for number in range(len(plan.certain))]
-        for speed, file in zip(plan.certain, files, strict=True):
-            choice = settings.integration_choice(blade, scene, speed)
-            run = run_speed(model, speed, chosen.scene, choice, results, **kept, stress=stress, motion=motion)
-            write_speed(run, file, {})
-        response = Path(folder, "response.nc")
-        write_response(
-            files,
-            plan.certain,
-            response,
-            stress_history_speeds=sweep.stress_history_speeds(at),
-            yield_stress=sweep.yield_stress(at),
-            provenance=Provenance(settings).sweep(at),
-        )
-        return read_dataset(response)
+    tell(remarks_of(settings))
+    with scratch_folder() as folder:
+        calculation = Calculation(settings, folder, cores)
+        calculation.responses(motion)
+        response = read_dataset(calculation.path(paths.fill(paths.RESPONSE, blade=blade.name, scene=scene.name)))
+    # free flight is what a start in motion may be for
+    if motion is None:
+        tell(remarks_on_contact([(f"{blade.label} in {scene.label}", response["largest_normal_force"].values)]))
+    return response.assign_attrs(blade.told | scene.told)
+
+
+def remarks_of(settings: Settings) -> list[str]:
+    """What a run would remark on."""
+    return [*remarks_on_speeds(settings), *casing_remarks.of_sweep(settings), *remarks_on_points(settings)]
+
+
+def tell(remarks: Iterable[str]) -> None:
+    """Warn the caller of a call of r37, whose function's function calls this."""
+    for remark in remarks:
+        warnings.warn(remark, stacklevel=5)

@@ -2,84 +2,138 @@
 
 from __future__ import annotations
 
-import contextlib
-import io
 import os
 import tempfile
-from dataclasses import dataclass
-from functools import cache
-from importlib import import_module
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import cache, cached_property
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any
 
 import r37core
-from r37core.config import ConfigError, Settings, plain, si_fields
+from r37core.config import BladeSettings, ConfigError, Settings, plain, si_fields
 from r37core.exchange.importing.source import MatricesSource, MeshSource
-from r37core.io import Named
+from r37core.io import Named, room_for, scratch_folder
 from r37core.kept import kept_file, users_cache
 from r37core.plain import to_plain
 from r37core.plans.code import CodeHashes
 from r37core.plans.import_plan import Imported
 from r37core.plans.provenance import Attributes
+from r37core.plans.samples import NOMINAL, Pair, Sample, Samples
 from r37core.plans.structure_plan import Structure
+
+from .jobs import run_step
+from .stages import LOGGER
+
+_STAGES = {
+    "blade.steps.geometry": "shape",
+    "exchange.importing.steps.imported_matrices": "import of the matrices",
+    "exchange.importing.steps.imported_mesh": "import of the mesh",
+    "fem.steps.mesh": "mesh",
+    "results.steps.campbell_of_blade": "Campbell diagram",
+    "rom.steps.contact_model": "contact model",
+    "rom.steps.reduced_model": "matrices and reduced model, the longest stage",
+    "stress.steps.stress_operator": "stress operator",
+}
+"""What a step is called while it works."""
 
 
 @dataclass(frozen=True)
-class _Made:
-    """A file of the cache, and what its content follows from."""
+class Recipe:
+    """How a file of the cache is made: by a step of the workflow, from files with recipes of their own, and parameters."""
 
-    file: Path
-    made_of: object
+    blade: str
+    step: str
+    name: str
+    inputs: Mapping[str, Recipe]
+    params: Mapping[str, Any]
+
+    @cached_property
+    def made_of(self) -> list[Any]:
+        """What its content follows from, as plain values; Attributes do not count."""
+        counting = {key: value for key, value in self.params.items() if not isinstance(value, Attributes)}
+        return to_plain([_code(self.step), [part.made_of for part in self.inputs.values()], counting])
+
+    def file(self) -> Path:
+        """The file, from the cache or made now, which may take minutes. Raises what making it raises."""
+        folder = cache_folder()
+        with room_for(folder / self.name):
+            return kept_file(self.name, self.made_of, self._make, folder)
+
+    def _make(self, file: Path) -> None:
+        files = {key: part.file() for key, part in self.inputs.items()}
+        LOGGER.info("%s: %s", self.blade, _STAGES[self.step])
+        with scratch_folder() as aside:
+            # a mesh is also written for Gmsh
+            output = {file.stem: file, file.suffix[1:]: file, "msh": aside / "mesh.msh"}
+            params = {**self.params, "code": _code(self.step), "provenance": Attributes()}
+            shown = run_step(self.step, files, output, params)
+        if shown:
+            LOGGER.info("%s: %s", self.blade, shown)
 
 
 @dataclass(frozen=True)
 class StructureFiles:
-    """The structure of the blade `name` in `settings`. Methods give files; the first call of one may take minutes."""
+    """Recipes of the structure of the blade `name` in `settings`, or of a `member` of a sample `beside` (see Samples)."""
 
     settings: Settings
     name: str
+    beside: Mapping[str, Mapping[Pair, Sample]] = field(default_factory=dict)
+    member: str = NOMINAL
 
-    def reduced_model(self, tip_line: str) -> Path:
-        """The reduced model (.nc) with contact nodes on this line. Raises what making it raises."""
-        return self._reduced(tip_line).file
-
-    def contact_model(self, tip_line: str) -> Path:
-        """What a simulation starts from (.npz). Raises what making it raises."""
-        return _made("rom.steps.contact_model", "contact.npz", {"rom": self._reduced(tip_line)}, tip_line=tip_line).file
-
-    def stress_operator(self, tip_line: str) -> Path:
-        """The stress per motion of a blade with a mesh (.npz). Raises what making it raises."""
-        material = Structure(self.settings).elastic(self._wildcards())
-        return _made("stress.steps.stress_operator", "stress.npz", {"rom": self._reduced(tip_line)}, material=material).file
-
-    def campbell(self) -> Path:
-        """The Campbell diagram (.nc), without provenance. Raises what making it raises."""
-        structure = self.settings.structure
-        return _made(
-            "results.steps.campbell_of_blade",
-            "campbell.nc",
-            {"rom": self._reduced(structure.boundary.tip_line)},
-            campbell=si_fields(self.settings.config.campbell),
-            maximum_speed=structure.maximum_speed_rad_s,
-            tip_line=structure.boundary.tip_line,
-        ).file
-
-    def _reduced(self, tip_line: str) -> _Made:
-        structure, wildcards = Structure(self.settings), self._wildcards(tip_line=tip_line)
+    def reduced_model(self, tip_line: str) -> Recipe:
+        """The reduced model (.nc) with contact nodes on this line."""
+        structure, wildcards = self._structure, self._wildcards(tip_line=tip_line)
         common = {"reduction": structure.reduction(wildcards), "contact": structure.location_of_contact(wildcards)}
-        if isinstance(self.settings.blades[self.name].definition, MatricesSource):
-            return _made("exchange.importing.steps.imported_matrices", "rom.nc", {}, **self._source(), **common)
-        material, before, inputs = structure.elastic(wildcards), Attributes(file=None), {"mesh": self._mesh()}
-        return _made("rom.steps.reduced_model", "rom.nc", inputs, material=material, made_before=before, **common)
+        if isinstance(self._blade.definition, MatricesSource):
+            return Recipe(self.name, "exchange.importing.steps.imported_matrices", "rom.nc", {}, {**self._source(), **common})
+        material, before = structure.elastic(wildcards), Attributes(file=None)
+        params = {"material": material, "made_before": before, **common}
+        return Recipe(self.name, "rom.steps.reduced_model", "rom.nc", {"mesh": self._mesh()}, params)
 
-    def _mesh(self) -> _Made:
-        definition, name = self.settings.blades[self.name].definition, "mesh.vtu"
-        if isinstance(definition, MeshSource):
-            return _made("exchange.importing.steps.imported_mesh", name, {}, **self._source())
-        shape, edges = to_plain(definition), self.settings.structure.edges
-        geometry = _made("blade.steps.geometry", "geometry.nc", {}, definition=shape, edges=edges)
-        return _made("fem.steps.mesh", name, {"geometry": geometry}, mesh=plain(self.settings.fidelity.mesh))
+    def contact_model(self, tip_line: str) -> Recipe:
+        """What a simulation starts from (.npz)."""
+        inputs = {"rom": self.reduced_model(tip_line)}
+        return Recipe(self.name, "rom.steps.contact_model", "contact.npz", inputs, {"tip_line": tip_line})
+
+    def stress_operator(self, tip_line: str) -> Recipe:
+        """The stress per motion of a blade with a mesh (.npz)."""
+        inputs, material = {"rom": self.reduced_model(tip_line)}, self._structure.elastic(self._wildcards())
+        return Recipe(self.name, "stress.steps.stress_operator", "stress.npz", inputs, {"material": material})
+
+    def campbell(self) -> Recipe:
+        """The Campbell diagram (.nc), without provenance."""
+        structure = self.settings.structure
+        params = {
+            "campbell": si_fields(self.settings.config.campbell),
+            "maximum_speed": structure.maximum_speed_rad_s,
+            "tip_line": structure.boundary.tip_line,
+        }
+        inputs = {"rom": self.reduced_model(structure.boundary.tip_line)}
+        return Recipe(self.name, "results.steps.campbell_of_blade", "campbell.nc", inputs, params)
+
+    def geometry(self) -> Recipe:
+        """The shape of a blade with profiles (.nc)."""
+        # a member whose shape is the nominal one has its mesh, as in the workflow
+        nominal = self._blade.definition == self.settings.blades[self.name].definition
+        wildcards = Named(blade=self.name, member=NOMINAL if nominal else self.member)
+        params = {"definition": self._structure.definition(wildcards), "edges": self.settings.structure.edges}
+        return Recipe(self.name, "blade.steps.geometry", "geometry.nc", {}, params)
+
+    def _mesh(self) -> Recipe:
+        if isinstance(self._blade.definition, MeshSource):
+            return Recipe(self.name, "exchange.importing.steps.imported_mesh", "mesh.vtu", {}, self._source())
+        params = {"mesh": plain(self.settings.fidelity.mesh)}
+        return Recipe(self.name, "fem.steps.mesh", "mesh.vtu", {"geometry": self.geometry()}, params)
+
+    @property
+    def _blade(self) -> BladeSettings:
+        return Samples(self.settings, self.beside).blade(self._wildcards())
+
+    @property
+    def _structure(self) -> Structure:
+        return Structure(self.settings, self.beside)
 
     def _source(self) -> dict[str, Any]:
         """Parameters of an import."""
@@ -87,25 +141,7 @@ class StructureFiles:
         return {"source": imported.source(wildcards), "folder": imported.folder, "locations": imported.locations(wildcards)}
 
     def _wildcards(self, **more: str) -> Named:
-        return Named(blade=self.name, **more)
-
-
-def _made(step: str, name: str, inputs: dict[str, _Made], **params: Any) -> _Made:
-    """The file called `name` that a step makes, from the cache or made now; of `params` Attributes do not count."""
-    counting = {key: value for key, value in params.items() if not isinstance(value, Attributes)}
-    made_of = to_plain([_code(step), [part.made_of for part in inputs.values()], counting])
-
-    def make(file: Path) -> None:
-        module, function = f"{r37core.__name__}.{step}".rsplit(".", 1)
-        files = Named(**{key: part.file for key, part in inputs.items()})
-        with tempfile.TemporaryDirectory() as aside, contextlib.redirect_stdout(io.StringIO()):
-            # a mesh is also written for Gmsh
-            output = Named(**{file.stem: file, file.suffix[1:]: file, "msh": Path(aside) / "mesh.msh"})
-            values = Named(**params, code=_code(step), provenance=Attributes())
-            # imported here: it brings gmsh and VTK, which take seconds to load and are not needed for what is kept
-            getattr(import_module(module), function)(files, output, values)
-
-    return _Made(kept_file(name, made_of, make, cache_folder()), made_of)
+        return Named(blade=self.name, member=self.member, **more)
 
 
 def cache_folder() -> Path:

@@ -9,6 +9,8 @@ from pathlib import Path
 
 from r37core.config import ConfigError
 
+from .checked import checked_call
+
 _PACKAGE = Path(__file__).parent
 
 SNAKEFILE = (_PACKAGE / "Snakefile").resolve()
@@ -17,11 +19,33 @@ SNAKEFILE = (_PACKAGE / "Snakefile").resolve()
 _KEPT_OUT_OF_GIT = "/results/\n/logs/\n/.snakemake/\n"
 
 
+@checked_call
 def init(folder: Path | str) -> Path:
-    """Write the shipped configuration, a Snakefile and a profile into a new folder, and give its path.
+    """Write a folder for a study that the workflow runs: the shipped configuration, a Snakefile and a profile.
 
-    Raises ConfigError for a folder that has something in it, and for one that cannot be written.
+    Parameters
+    ----------
+    folder
+        New or empty.
+
+    Returns
+    -------
+    Path
+        The folder, absolute.
+
+    Raises
+    ------
+    ConfigError
+        For a folder that has something in it, and for one that cannot be written.
+
+    Examples
+    --------
+    >>> study = r37.init("rotor")
+    >>> (study / "config/blades.yaml").is_file()
+    True
     """
+    if not isinstance(folder, str | os.PathLike):
+        raise ConfigError(f"init: found {folder!r}; allowed: a folder that is new or empty")
     path = Path(folder).absolute()
     try:
         if path.exists() and not (path.is_dir() and not any(path.iterdir())):

@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+import errno
 import json
 import os
+import resource
+import shutil
+import tempfile
 from collections.abc import ItemsView, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
@@ -11,35 +15,98 @@ from types import SimpleNamespace
 from typing import Any
 
 from . import __version__
+from .checksums import checksum_file, is_as_written
 
 FILE_ATTRIBUTES = {"Conventions": "CF-1.11", "r37core_version": __version__}
 """Global attributes of every netCDF file."""
+
+
+_FULL = 2**20
+"""Bytes left on a disk that counts as full."""
 
 
 class InputFileError(RuntimeError):
     """A file that is missing, corrupt or of another make; the message names it and the remedy."""
 
 
+class OutputFileError(InputFileError):
+    """A file that has no room; the message names it and the remedy. Who expects a file's error gets this one, too."""
+
+
 @contextmanager
 def atomic_write(file: Path | str) -> Iterator[Path]:
-    """Give a temporary path beside `file`; it becomes `file` when the block ends well and vanishes when it does not."""
+    """Give a temporary path beside `file`; it becomes `file` when the block ends well and vanishes when it does not.
+
+    Raises OutputFileError where there is no room for it.
+    """
     file = Path(file)
-    file.parent.mkdir(parents=True, exist_ok=True)
-    partial = file.with_name(f".{file.stem}.partial{file.suffix}")
+    with room_for(file):
+        file.parent.mkdir(parents=True, exist_ok=True)
+        partial = file.with_name(f".{file.stem}.partial{file.suffix}")
+        try:
+            yield partial
+            os.replace(partial, file)
+        finally:
+            partial.unlink(missing_ok=True)
+
+
+@contextmanager
+def room_for(file: Path) -> Iterator[None]:
+    """Turn what libraries raise on a full disk, each its own, into an OutputFileError that says so."""
     try:
-        yield partial
-        os.replace(partial, file)
-    finally:
-        partial.unlink(missing_ok=True)
+        yield
+    except (OSError, RuntimeError) as error:
+        reason = None if isinstance(error, InputFileError) else _no_room(error, file.parent)
+        if reason is None:
+            raise
+        raise OutputFileError(f"{file}: cannot be written: {reason} ({error}); then give the same command again") from error
+
+
+def _no_room(error: Exception, folder: Path) -> str | None:
+    """What there is no room for, and the remedy; None for an error of another kind."""
+    number = getattr(error, "errno", None)
+    # netCDF has numbers of its own, below 0, which say nothing of the cause
+    unknown = number is None or number < 0
+    limited = resource.getrlimit(resource.RLIMIT_FSIZE)[0] != resource.RLIM_INFINITY
+    if number in (errno.ENOSPC, errno.EDQUOT) or (unknown and folder.is_dir() and shutil.disk_usage(folder).free < _FULL):
+        return "the disk is full; free some space"
+    if number == errno.EFBIG or (unknown and limited):
+        return "files may not be as large here; raise the limit (ulimit -f)"
+    return None
+
+
+def temporary_folder() -> tempfile.TemporaryDirectory[str]:
+    """A folder that goes with the object. Raises OutputFileError where none can be made."""
+    try:
+        return tempfile.TemporaryDirectory(prefix="r37-")
+    except OSError as error:
+        reason = "no temporary folder can be made: free some space, or set TMPDIR to a folder that can be written"
+        raise OutputFileError(f"{reason} ({error})") from error
+
+
+@contextmanager
+def scratch_folder() -> Iterator[Path]:
+    """A folder for files that are gone after the block. Raises OutputFileError where none can be made."""
+    with temporary_folder() as folder:
+        yield Path(folder)
 
 
 @contextmanager
 def readable(file: Path | str) -> Iterator[None]:
-    """Turn whatever goes wrong while reading `file` into an InputFileError that names it and the remedy."""
+    """Turn whatever goes wrong while reading `file` into an InputFileError that names it and the remedy.
+
+    A file that is not as the stage before has written it is refused, too.
+    """
     try:
+        if not is_as_written(Path(file)):
+            raise ValueError(f"it has changed since it was written, {checksum_file(Path(file)).name} says")
         yield
+    except InputFileError:
+        raise
     except Exception as error:
         reason = f"{type(error).__name__}: {error}" if Path(file).exists() else "there is no such file"
+        # NumPy's advice for what it does not know is to run what stands in it
+        reason = "its content is not what results have" if "pickle" in reason else reason
         raise InputFileError(f"{file}: cannot be read ({reason}); if it is a result, delete it and run again") from error
 
 

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import ctypes
 import hashlib
+import logging
 import os
 from collections.abc import Callable
 from functools import cache
@@ -63,7 +64,13 @@ def cached_object(name: str, sources: Sources, about: object, build: Callable[[]
     taken along. What is built is not kept if the sources were edited after this process imported them.
     """
     made_of = (about, sources.digest, _numba_version(), llvmlite.__version__, processor())
-    return kept_bytes(f"{name}.o", made_of, build, lambda: sources.unchanged)
+
+    def told() -> bytes:
+        # the name of the package that people call; whoever calls it shows such lines (r37.stages)
+        logging.getLogger("r37").info("compiling the %s for this processor, up to half a minute", name.replace("_", " "))
+        return build()
+
+    return kept_bytes(f"{name}.o", made_of, told, lambda: sources.unchanged)
 
 
 def object_code(assembly: str, symbol: str, name: str) -> bytes:

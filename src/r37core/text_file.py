@@ -2,10 +2,17 @@
 
 from __future__ import annotations
 
+import errno
+import os
 import re
+import stat
 from pathlib import Path
 
 _MERGE_MARKER = re.compile(r"(<{7}|>{7}|\|{7})( |$)|={7}$")
+
+
+_LARGEST = 2**26
+"""Bytes of a file that people write."""
 
 
 class TextFileError(ValueError):
@@ -19,9 +26,10 @@ class TextFileError(ValueError):
 def read_text(file: Path) -> str:
     """Text of a UTF-8 file, with or without a byte order mark.
 
-    Raises TextFileError for another encoding and for a marker that a merge left behind, OSError as `open` does.
+    Raises TextFileError for another encoding, a marker that a merge left behind and what is too long to be a person's; OSError
+    as `open` does, and for what is no file.
     """
-    data = file.read_bytes()
+    data = _bytes_of(file)
     if data.startswith((b"\xff\xfe", b"\xfe\xff")) or b"\x00" in data[:200]:
         raise TextFileError(1, "found UTF-16 or binary data; allowed: text in UTF-8")
     try:
@@ -35,6 +43,17 @@ def read_text(file: Path) -> str:
         if _MERGE_MARKER.match(line_of_text):
             raise TextFileError(number, f"found a merge marker, {line_of_text[:20]!r}; resolve the conflict")
     return text
+
+
+def _bytes_of(file: Path) -> bytes:
+    """A device may have no end, and a pipe no beginning."""
+    with open(os.open(file, os.O_RDONLY | os.O_NONBLOCK), "rb") as stream:
+        if not stat.S_ISREG(os.fstat(stream.fileno()).st_mode):
+            raise OSError(errno.EINVAL, "it is a folder, a device or a pipe, and no file", str(file))
+        data = stream.read(_LARGEST + 1)
+    if len(data) > _LARGEST:
+        raise TextFileError(1, f"found more than {_LARGEST >> 20} MiB; allowed: a text that somebody has written")
+    return data
 
 
 def with_part(text: str, name: str, part: str, made_with: str | None = None) -> str:

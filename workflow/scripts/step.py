@@ -4,35 +4,22 @@ What it prints goes to the rule's log, a failure ends in one clear message, and 
 """
 
 import sys
-import warnings
-from contextlib import contextmanager, nullcontext
+from contextlib import nullcontext
 from importlib import import_module
 
-from r37core.console.failures import note, reported
-
-
-@contextmanager
-def printed_warnings(locations):
-    """Print what an import is warned of, after the location of its key: in the log, on the screen, and when the run ends."""
-    with warnings.catch_warnings(record=True) as caught:
-        warnings.simplefilter("always")
-        yield
-    location = locations.get("mesh") or locations["matrices"]
-    for warning in caught:
-        print(line := f"{location}: {warning.message}")
-        if issubclass(warning.category, UserWarning):
-            print(line, file=sys.__stderr__)
-            note(line)
+from r37core.checksums import checksummed
+from r37core.console.failures import printed_warnings, reported, show
 
 
 def run(params):
     module, function = params.step.rsplit(".", 1)
     params.address = snakemake.report_href
-    with printed_warnings(params.locations) if hasattr(params, "locations") else nullcontext():
+    warned = printed_warnings(params.locations) if hasattr(params, "locations") else nullcontext()
+    with checksummed(snakemake.output), warned:
         shown = getattr(import_module(module), function)(snakemake.input, snakemake.output, params)
     if shown:
         print(shown)
-        print(shown, file=sys.__stderr__)
+        show(shown, sys.__stderr__)
 
 
 about = "".join(f"{name} {value}, " for name, value in snakemake.wildcards.items() if value)

@@ -38,7 +38,7 @@ class RefinementChoice:
     prominence: float
     change: Annotated[
         float,
-        Key("an interval is halved when rms or stress change by more, as a share of the larger", gt=0, le=10),
+        Key("an interval is halved when rms or stress change by more, as a share of the larger", ge=1e-3, le=10),
     ] = 0.25
     peak: Annotated[
         float,
@@ -49,13 +49,13 @@ class RefinementChoice:
         Key(
             "a change by more is the foot of an interaction narrower than the interval: it is halved down to "
             "steep_prominence; 1: never",
-            gt=0,
+            ge=1e-3,
             le=1,
         ),
     ] = 0.8
     steep_prominence: Annotated[
-        float, Key("height from which a steep change counts, as a share of the largest", gt=0, le=1)
+        float, Key("height from which a steep change counts, as a share of the largest", ge=1e-6, le=1)
     ] = 0.01
     largest_share: Annotated[
-        float, Key("of the finest grid that is run at most; where the response is largest goes first", gt=0, le=1)
+        float, Key("of the finest grid that is run at most; where the response is largest goes first", ge=1e-3, le=1)
     ] = 0.2

@@ -76,4 +76,4 @@ def read_round(file: Path | str) -> Round:
     content = read_json(file)
     with readable(file):
         rows = {row[0]: [math.nan if value is None else value for value in row[1:]] for row in content["measured"]}
-        return Round(tuple(content["new"]), rows)
+        return Round(tuple(map(float, content["new"])), rows)

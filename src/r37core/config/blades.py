@@ -53,12 +53,14 @@ class Variation(Section):
 
     start: float = Field(ge=-1e12, le=1e12, description="first value, in the unit of the key that varies")
     stop: float = Field(ge=-1e12, le=1e12, description="last value, if the step reaches it")
-    step: float = Field(gt=0, le=1e12, description="from value to value")
+    step: float = Field(ge=1e-12, le=1e12, description="from value to value")
 
     @model_validator(mode="after")
     def _forward(self) -> Variation:
         if self.stop < self.start:
             raise refused(("stop",), f"{self.stop:g}", f"not below start ({self.start:g})")
+        if self.step > self.stop - self.start > 0.0:
+            raise refused(("step",), f"{self.step:g}", f"at most stop - start ({self.stop - self.start:g})")
         if (self.stop - self.start) / self.step >= LARGEST_FAMILY:
             raise refused(("step",), f"{self.step:g}", f"at most {LARGEST_FAMILY} values")
         return self

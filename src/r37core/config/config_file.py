@@ -67,7 +67,7 @@ class CampbellSection(Section):
     modes: int = Field(default=10, ge=3, le=30, description="how many are drawn and kept")
     highest_engine_order: int = Field(default=20, ge=1, le=100, description="crossings are looked for up to this order")
     largest_tangential_displacement_m: float = Field(
-        default=0.01, gt=0, le=1, description="how far the leading edge swings in the dynamic clearance"
+        default=0.01, ge=1e-9, le=1, description="how far the leading edge swings in the dynamic clearance"
     )
 
 
@@ -91,7 +91,7 @@ class DirectRefinementSection(Section):
     """What is else in scenes without lining, whose response scatters from speed to speed."""
 
     windows: list[WindowSection] = Field(default=[], description="the same in scenes without lining")
-    largest_share: float = Field(default=0.125, gt=0, le=1, description="the same in scenes without lining")
+    largest_share: float = Field(default=0.125, ge=1e-3, le=1, description="the same in scenes without lining")
 
 
 @declared_by(RefinementChoice)
@@ -183,7 +183,7 @@ class Config(Section):
     refinement: RefinementSection = RefinementSection()
     tolerance: float = Field(
         default=0.05,
-        gt=0,
+        ge=1e-6,
         le=1,
         description="accepted relative error of rms, largest displacement and stress at an interaction; "
         "with fidelity auto it picks the level",

@@ -7,12 +7,13 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, TypeVar
 
+import numpy as np
 from pydantic import BaseModel, ValidationError
 
 from r37core.text_file import TextFileError
 from r37core.yaml_file import KeyPath, load_yaml_with_lines, scalar
 
-from .messages import explain_all, on_one_line
+from .messages import did_you_mean, explain_all, on_one_line
 
 Model = TypeVar("Model", bound=BaseModel)
 Result = TypeVar("Result")
@@ -104,7 +105,8 @@ class Documents:
         allowed = list(entries)
         for name in names:
             if name not in allowed:
-                raise self.config.refusal(path, f"'{name}'", f"{', '.join(allowed)} ({file.name})")
+                meant = did_you_mean(name, allowed)
+                raise self.config.refusal(path, f"'{name}'", f"{', '.join(allowed)} ({file.name}){meant}")
 
 
 def read_document(root: Path, name: str) -> Document:
@@ -121,7 +123,7 @@ def read_document(root: Path, name: str) -> Document:
 
 
 def command_line_document(values: Mapping[str, Any], name: str = "--config") -> Document:
-    """What a command line gives: Snakemake hands numbers inside lists and mappings on as texts."""
+    """What a command line gives, where Snakemake hands numbers inside lists on as texts, or a call, which may have NumPy's."""
     content = _with_numbers(dict(values))
     locations: dict[KeyPath, str] = {}
     _mark(content, (), name, locations)
@@ -133,6 +135,8 @@ def _with_numbers(value: Any) -> Any:
         return {key: _with_numbers(inner) for key, inner in value.items()}
     if isinstance(value, list | tuple):
         return [_with_numbers(inner) for inner in value]
+    if isinstance(value, np.generic):
+        return value.item()
     return scalar(value) if isinstance(value, str) else value
 
 

@@ -24,7 +24,7 @@ class Mesh(Section):
     nodes: int = Field(ge=500, le=500_000, description="wanted number of nodes")
     layers: int = Field(default=1, ge=1, le=8, description="wedges through the thickness")
     tip_elements: int = Field(ge=2, le=500, description="wedges along the tip")
-    minimum_scaled_jacobian: float = Field(default=0.1, gt=0, le=1, description="meshes below are refused")
+    minimum_scaled_jacobian: float = Field(default=0.1, ge=1e-6, le=1, description="meshes below are refused")
 
 
 @declared_by(ReductionChoice, only_listed=True)
@@ -45,7 +45,7 @@ class Measured(Section):
     error_on_points: Annotated[float, Field(ge=0, le=1e6)] | LeftOut = Field(
         default=None, description="the same in direct contact on points, where a run has that"
     )
-    cpu_s_per_run: float = Field(gt=0, le=1e9, description="CPU seconds of a run")
+    cpu_s_per_run: float = Field(ge=1e-6, le=1e9, description="CPU seconds of a run")
 
     def error_of(self, on_points: bool) -> float | None:
         """The error of runs with direct contact on points, or of others; None where that was not measured."""

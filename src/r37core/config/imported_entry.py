@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
-from pydantic import Discriminator, Field, Tag, model_validator
+from pydantic import AfterValidator, Discriminator, Field, Tag, model_validator
 
 from r37core.exchange.importing.source import MatricesSource, MeshSource, digest_of, matrix_files, mesh_files
 from r37core.exchange.importing.where import Where
@@ -16,14 +16,15 @@ from .declaring import DECLARED, declared_by, in_si
 from .section import FileName, LeftOut, Section, refused
 
 Length = Annotated[float, Field(ge=-100, le=100)] | LeftOut
+Radius = Annotated[float, Field(ge=0, le=100)] | LeftOut
 
 
 @declared_by(Where)
 class SurfaceRule(Section):
     """All outer faces within limits; r is the distance from the rotor axis, x radial, z along the axis downstream."""
 
-    r_at_least_m: Length = Field(default=None, description="lower bound of the distance from the rotor axis")
-    r_at_most_m: Length = Field(default=None, description="upper bound of the distance from the rotor axis")
+    r_at_least_m: Radius = Field(default=None, description="lower bound of the distance from the rotor axis")
+    r_at_most_m: Radius = Field(default=None, description="upper bound of the distance from the rotor axis")
     x_at_least_m: Length = Field(default=None, description="lower bound of the radial coordinate")
     x_at_most_m: Length = Field(default=None, description="upper bound of the radial coordinate")
     z_at_least_m: Length = Field(default=None, description="lower bound of the axial coordinate")
@@ -35,6 +36,8 @@ class SurfaceRule(Section):
             raise refused((), "a rule without limits", "a limit such as r_at_least_m, or cone_zr_m")
         if self.cone_zr_m is not None and self.cone_zr_m[0] == self.cone_zr_m[1]:
             raise refused(("cone_zr_m",), "one point twice", "two points [z, r]")
+        if self.cone_zr_m is not None and min(radius for _, radius in self.cone_zr_m) < 0.0:
+            raise refused(("cone_zr_m",), f"{self.cone_zr_m}", "two points [z, r], with radii of 0 or more")
         return self
 
     def _limits(self) -> tuple[tuple[str, str, float], ...]:
@@ -53,10 +56,26 @@ SetOrRule = Annotated[
 ]
 
 
+_LEAST_METRES, _MOST_METRES = 1e-9, 1e3
+
+
+def _quotient(text: str) -> float:
+    """Metres of a unit that is written as a quotient, as 1/2540."""
+    try:
+        above, below = map(float, text.split("/"))
+        metres = above / below
+    except (ValueError, ZeroDivisionError):
+        metres = 0.0
+    if not _LEAST_METRES <= metres <= _MOST_METRES:
+        raise refused((), text, f"a quotient such as 1/2540, from {_LEAST_METRES:g} to {_MOST_METRES:g} metres")
+    return metres
+
+
 LengthUnit = Annotated[
     Annotated[Literal["m", "cm", "mm", "um", "in", "ft"], Tag("name")]
-    | Annotated[float, Field(ge=1e-9, le=1e3), Tag("metres")],
-    Discriminator(lambda value: "name" if isinstance(value, str) else "metres"),
+    | Annotated[str, AfterValidator(_quotient), Tag("quotient")]
+    | Annotated[float, Field(ge=_LEAST_METRES, le=_MOST_METRES), Tag("metres")],
+    Discriminator(lambda value: ("quotient" if "/" in value else "name") if isinstance(value, str) else "metres"),
 ]
 
 
@@ -64,7 +83,9 @@ LengthUnit = Annotated[
 class Oriented(Section):
     """How a file of another program describes space."""
 
-    length_unit: LengthUnit = Field(description="of the file's coordinates, or how many metres their unit is")
+    length_unit: LengthUnit = Field(
+        description="of the file's coordinates, or how many metres their unit is, also as a quotient: 1/2540"
+    )
     rotor_axis: Any = DECLARED
     radial: Any = DECLARED
     rotation: Any = DECLARED

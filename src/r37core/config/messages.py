@@ -60,12 +60,18 @@ def _explained(error: Mapping[str, Any], path: KeyPath, content: Any, model: typ
         known = _keys(_at(schema, tuple(parent), schema, variants), schema)
         if error["type"] == "missing":
             return tuple(parent), tuple(parent), f"missing key {key}; allowed keys: {', '.join(known)}"
-        close = difflib.get_close_matches(str(key), known, 1)
-        meant = f" (did you mean {close[0]}?)" if close else ""
-        return path, tuple(parent), f"found unknown key {on_one_line(str(key))}; allowed keys: {', '.join(known)}{meant}"
+        text = f"found unknown key {on_one_line(str(key))}; allowed keys: {', '.join(known)}{did_you_mean(str(key), known)}"
+        return path, tuple(parent), text
     value = _value(content, path)
     shown = "nothing" if value is None else on_one_line(repr(value))
     return path, path, f"found {shown}; allowed: {describe(_at(schema, path, schema, variants), schema) or error['msg']}"
+
+
+def did_you_mean(name: str, known: Iterable[str]) -> str:
+    """A question in brackets for the end of a message: the known name that is most like this one, whatever its capitals."""
+    by_letters = {other.lower(): other for other in known}
+    close = difflib.get_close_matches(name.lower(), by_letters, 1)
+    return f" (did you mean {by_letters[close[0]]}?)" if close else ""
 
 
 def on_one_line(text: str) -> str:

@@ -16,13 +16,7 @@ def remarks_of_spine(settings: Settings) -> list[str]:
         if error is not None:
             share, cost = 100 * error, measured.cpu_s_per_run
             lines.append(f"fidelity auto: level {settings.fidelity_name}, measured error {share:g}%, {cost:g} CPU s per run")
-    fastest = max(plan.every_speed()[-1] for plan in settings.speed_plans.values())
-    highest = settings.structure.maximum_speed_rad_s
-    if fastest > highest:
-        lines.append(
-            f"speeds: up to {fastest:g} rad/s, and structure.maximum_speed_rad_s is {highest:g}: reduced models and "
-            "Campbell diagrams are made for speeds up to that; raise it to what is run"
-        )
+    lines += remarks_on_speeds(settings)
     lines += casing_remarks.of_sweep(settings)
     lines += casing_remarks.of_left_out_modes(casing_remarks.elastic_casings(settings))
     refining = {pair: plan for pair, plan in settings.speed_plans.items() if plan.refined}
@@ -34,6 +28,19 @@ def remarks_of_spine(settings: Settings) -> list[str]:
             "they are planned round by round, so a dry run shows none of those to come"
         )
     return lines
+
+
+def remarks_on_speeds(settings: Settings) -> list[str]:
+    """What is to be said of speeds beyond those that models are made for: they may be rpm."""
+    fastest = max(plan.every_speed()[-1] for plan in settings.speed_plans.values())
+    highest = settings.structure.maximum_speed_rad_s
+    if fastest <= highest:
+        return []
+    in_rpm = "" if settings.config.speeds_rpm else "; speeds in rpm stand under speeds_rpm"
+    return [
+        f"speeds: up to {fastest:g} rad/s, and structure.maximum_speed_rad_s is {highest:g}: reduced models and "
+        f"Campbell diagrams are made for speeds up to that; raise it to what is run{in_rpm}"
+    ]
 
 
 def remarks_on_points(settings: Settings) -> list[str]:

@@ -59,8 +59,8 @@ class Spread:
 
 
 _KINDS = ("uniform_percent", "uniform", "normal_percent", "normal", "between", "values")
-Width = Annotated[float, Field(gt=0, le=1e15)]
-Percent = Annotated[float, Field(gt=0, le=1000)]
+Width = Annotated[float, Field(ge=1e-12, le=1e15)]
+Percent = Annotated[float, Field(ge=1e-6, le=1000)]
 Number = Annotated[float, Field(ge=-1e15, le=1e15)]
 
 

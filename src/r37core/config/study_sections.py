@@ -37,7 +37,7 @@ class Parameters(Section):
     exact_modal_step: Parameter[Annotated[float, Field(ge=1e-12, le=1e-2)]] | LeftOut = Field(
         default=None, description="exact modal step (s)"
     )
-    static_above: Parameter[Annotated[float, Field(gt=0, le=1e9)]] | LeftOut = Field(
+    static_above: Parameter[Annotated[float, Field(ge=1e-3, le=1e9)]] | LeftOut = Field(
         default=None, description="modes with omega h above it follow statically, with exact_modal"
     )
     revolutions: Parameter[Annotated[int, Field(ge=2, le=20000)]] | LeftOut = Field(default=None, description="length of a run")
@@ -48,7 +48,7 @@ class Parameters(Section):
     fixed_interface_modes: Parameter[Annotated[int, Field(ge=0, le=500)]] | LeftOut = Field(
         default=None, description="fixed-interface modes of the reduced model at each of its speeds"
     )
-    highest_frequency: Parameter[Annotated[float, Field(gt=0, le=1e12)]] | LeftOut = Field(
+    highest_frequency: Parameter[Annotated[float, Field(ge=1, le=1e12)]] | LeftOut = Field(
         default=None, description="highest frequency that is kept (Hz)"
     )
     bars: Parameter[Annotated[int, Field(ge=10, le=10_000_000)]] | LeftOut = Field(

@@ -4,8 +4,12 @@ from __future__ import annotations
 
 import csv
 from collections.abc import Iterable
+from itertools import product
 from pathlib import Path
 
+import numpy as np
+
+from r37core.results.contact_remarks import remarks_on_contact
 from r37core.results.interaction_title import interaction_title
 from r37core.rounding import rounded_to
 from r37core.time_integration.status import RunStatus
@@ -23,7 +27,8 @@ def closing_lines(results: Path, began: float, ended: float, remarks: Iterable[s
         rows = list(csv.DictReader(stream))
     where = f"look at {results}/explorer.html (any browser), {summary}, {results}/figures/"
     ranked = _ranked(results / "ranking.csv")
-    return [_found(rows) + _diverged(results / "rms.nc"), *ranked, *remarks, where, _took(ended - began)]
+    diverged, untouched = _of_runs(results / "rms.nc")
+    return [_found(rows) + diverged, *untouched, *ranked, *remarks, where, _took(ended - began)]
 
 
 def _found(rows: list[dict[str, str]]) -> str:
@@ -88,19 +93,22 @@ def _length(row: dict[str, str]) -> str:
     return f"{rounded_to(length, scatter) if scatter > 0.0 else f'{length:.0f}'} rad/s"
 
 
-def _diverged(file: Path) -> str:
-    """How many runs diverged; nothing where none did."""
+def _of_runs(file: Path) -> tuple[str, list[str]]:
+    """How many runs diverged, and lines on blades and scenes that never touch; nothing where there are none."""
     # not at every start of Snakemake
     import netCDF4
 
     try:
         with netCDF4.Dataset(file) as rms:
-            status = rms["status"][:]
+            status, names = rms["status"][:], [rms[name][:] for name in ("blade", "scene")]
+            forces = np.ma.filled(rms["largest_normal_force"][:], np.nan)
     except OSError:
         # not there, or no dataset, which who reads it is told
-        return ""
+        return "", []
     diverged, runs = (status == RunStatus.DIVERGED).sum(), (status != RunStatus.NOT_RUN).sum()
-    return f"; {diverged} of {runs} runs diverged" if diverged else ""
+    pairs = zip(product(*names), forces.reshape(-1, forces.shape[-1]), strict=True)
+    untouched = remarks_on_contact([(f"{blade} in {scene}", force) for (blade, scene), force in pairs])
+    return f"; {diverged} of {runs} runs diverged" if diverged else "", untouched
 
 
 def _took(seconds: float) -> str:

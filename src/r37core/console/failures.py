@@ -9,8 +9,12 @@ import os
 import shutil
 import sys
 import traceback
-from collections.abc import Iterator
+import warnings
+from collections.abc import Iterator, Mapping
 from pathlib import Path
+from typing import TextIO
+
+from r37core.io import OutputFileError
 
 _NOTES = "R37_FAILURES"
 """Environment variable that names the file, one for each run: several may go on in one folder."""
@@ -34,8 +38,29 @@ def reported(rule: str, log: Path | str, about: str = "") -> Iterator[None]:
             with contextlib.suppress(OSError):
                 traceback.print_exc(file=stream)
                 note(line)
-            print(line, file=sys.stderr)
+            show(line, sys.stderr)
             sys.exit(1)
+
+
+def show(line: str, stream: TextIO | None) -> None:
+    """Write a line of a job to where messages go, if anywhere, in place of the progress that stands there on a terminal."""
+    if stream is None:
+        return
+    print(f"\r\x1b[K{line}" if stream.isatty() else line, file=stream)
+
+
+@contextlib.contextmanager
+def printed_warnings(locations: Mapping[str, str]) -> Iterator[None]:
+    """Print what an import is warned of, after the location of its key: in the log, on the screen, and when the run ends."""
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        yield
+    location = locations.get("mesh") or locations["matrices"]
+    for warning in caught:
+        print(line := f"{location}: {warning.message}")
+        if issubclass(warning.category, UserWarning):
+            show(line, sys.__stderr__)
+            note(line)
 
 
 def begin(run: str) -> None:
@@ -71,6 +96,8 @@ def _file() -> Path | None:
 
 def _explained(error: Exception) -> str:
     text = str(error).strip() or type(error).__name__
+    if isinstance(error, OutputFileError):
+        return text
     full = isinstance(error, OSError) and error.errno in (errno.ENOSPC, errno.EDQUOT)
     if full or shutil.disk_usage(".").free < _FULL:
         return f"the disk is full ({text}); free some space and give the same command again"

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import ast
 import contextlib
+import errno
 import gc
 import importlib
 import os
@@ -23,10 +24,13 @@ import subprocess
 import sys
 import tempfile
 import threading
+import time
 import traceback
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from pathlib import Path
-from typing import NamedTuple, NoReturn
+from typing import Any, NoReturn
+
+from .job_requests import PATIENCE_S, Client, Job
 
 ADDRESS = "R37_JOB_SERVER"
 """Environment variable with the socket's path, for the jobs; relative, because such a path may have a hundred letters."""
@@ -36,58 +40,117 @@ _PACKAGE = (__package__ or "").partition(".")[0]
 _KEPT: list[subprocess.Popen] = []
 """A server whose handle is gone has no standard input any more."""
 
-_PATIENCE_S = 5.0
-"""With a client that has come and does not say what it wants."""
+_FOLDERS = "r37_jobs_"
+"""How the names of the folders of sockets begin."""
+
+_STOPPED_S = 2.0
+"""How long a server may be stopped: who pauses all processes of a machine continues them one after another."""
+
+_MOST_CLIENTS = 128
+"""That are read at once; others wait in the system's queue."""
+
+_LONGEST_SCRIPT = 2**26
+"""Bytes; the copies that Snakemake makes have a job's parameters in them."""
 
 
-def start(script: Path, python: Path) -> bool:
+def start(script: Path, python: Path, say: Callable[[str], object]) -> bool:
     """Start the server of this process, with `script` as that of most jobs; whether it is there.
 
-    There is none where the folder can have no socket.
+    There is none where the folder can have no socket. `say` is called, from another thread, if the server ends before us.
     """
+    os.environ.pop(ADDRESS, None)
     try:
-        folder = tempfile.mkdtemp(prefix="r37_jobs_", dir=".snakemake")
+        _remove_deserted(Path(".snakemake"))
+        folder = Path(tempfile.mkdtemp(prefix=_FOLDERS, dir=".snakemake"))
         address = Path(os.path.relpath(folder)) / "socket"
         # -P: the user's folder may hold a random.py
         command = [str(python), "-P", "-m", __name__, str(address), str(script)]
         # a session of its own: the terminal's interrupt is for Snakemake, which ends the jobs
-        _KEPT.append(subprocess.Popen(command, stdin=subprocess.PIPE, start_new_session=True))
-        os.environ[ADDRESS] = str(address)
+        server = subprocess.Popen(command, stdin=subprocess.PIPE, start_new_session=True)
     except OSError:
-        os.environ.pop(ADDRESS, None)
-    return ADDRESS in os.environ
+        return False
+    _KEPT.append(server)
+    os.environ[ADDRESS] = str(address)
+    threading.Thread(target=_watch, args=(server, folder.absolute(), say), daemon=True).start()
+    return True
+
+
+def _remove_deserted(place: Path) -> None:
+    """Remove the folders of servers that were killed: nobody listens at their sockets."""
+    for address in place.glob(f"{_FOLDERS}*/socket"):
+        with socket.socket(socket.AF_UNIX) as client, contextlib.suppress(OSError):
+            client.settimeout(1.0)
+            if client.connect_ex(os.path.relpath(address)) == errno.ECONNREFUSED:
+                shutil.rmtree(address.parent)
+
+
+def _watch(server: subprocess.Popen, folder: Path, say: Callable[[str], object]) -> None:
+    """Wait until a server ends, and say so unless all is well; one that is stopped is killed, as its clients wait for it."""
+    options = os.WSTOPPED | os.WNOWAIT
+    try:
+        while (end := os.waitid(os.P_PID, server.pid, options | os.WEXITED)) and end.si_code == os.CLD_STOPPED:
+            time.sleep(_STOPPED_S)
+            if os.waitid(os.P_PID, server.pid, options | os.WNOHANG):
+                server.kill()
+    except ChildProcessError:
+        # somebody else has waited for it
+        return
+    if end and end.si_status:
+        shutil.rmtree(folder, ignore_errors=True)
+        say(
+            f"the job server (process {server.pid}) was stopped or killed; no job is lost, but each starts by itself from now "
+            "on, which takes longer; to have it back, end this run and give the same command again"
+        )
 
 
 def serve(address: Path, script: str) -> None:
-    """Fork for every connection until standard input ends; see _Imported for `script`."""
+    """Fork for every client until standard input ends, whatever clients do; see _Imported for `script`."""
     imported = _Imported(script)
+    clients: list[Client] = []
     try:
         with socket.socket(socket.AF_UNIX) as listener:
             listener.bind(str(address))
             listener.listen(256)
             signal.signal(signal.SIGCHLD, signal.SIG_IGN)
-            while sys.stdin not in select.select([listener, sys.stdin], [], [])[0]:
-                connection, _ = listener.accept()
-                # a client that is gone, or says nothing, is done with
-                with connection, contextlib.suppress(OSError), _asked(connection) as job:
-                    if not _is_ours(job.arguments[0], Path(script).parent):
-                        continue
-                    imported.add(job.arguments[0])
-                    imported.make_ready(job.arguments)
-                    if os.fork() == 0:
-                        listener.close()
-                        _answer(connection, job)
+            while sys.stdin not in (ready := _ready(listener, clients)):
+                if listener in ready:
+                    # it may be gone already
+                    with contextlib.suppress(OSError):
+                        clients.append(Client(listener.accept()[0]))
+                for client in clients.copy():
+                    others = [listener, *(other for other in clients if other is not client)]
+                    if _served(client, imported, others) if client.connection in ready else client.is_late():
+                        client.close()
+                        clients.remove(client)
     finally:
         shutil.rmtree(address.parent, ignore_errors=True)
 
 
-class _Job(NamedTuple):
-    """What a client asks for: its folder, its environment, script and arguments, and the files that its output goes to."""
+def _ready(listener: socket.socket, clients: list[Client]) -> list[Any]:
+    """Whom there is to listen to: standard input, new clients unless there are many, and those that say something."""
+    new = [listener] if len(clients) < _MOST_CLIENTS else []
+    watched = [sys.stdin, *new, *(client.connection for client in clients)]
+    return select.select(watched, [], [], PATIENCE_S / 10.0 if clients else None)[0]
 
-    folder: str
-    environment: dict[str, str]
-    arguments: list[str]
-    outputs: list[int]
+
+def _served(client: Client, imported: _Imported, open_here: list[Any]) -> bool:
+    """Listen to a client; whether it is done with: its job is under way, or it has said what no client of ours says.
+
+    `open_here`: what a job has no use for, to be closed in its process.
+    """
+    try:
+        job = client.read()
+        if job is None:
+            return False
+        if _is_ours(job.arguments[0], Path(imported.main).parent):
+            imported.add(job.arguments[0])
+            imported.make_ready(job.arguments)
+            if os.fork() == 0:
+                _answer(client.connection, job, open_here)
+    except Exception:
+        # a client that gets no answer runs its job itself
+        return True
+    return True
 
 
 class _Imported:
@@ -97,19 +160,19 @@ class _Imported:
     """
 
     def __init__(self, main: str):
-        self._main, self._known = main, set[str]()
+        self.main, self._known = main, set[str]()
         self._make_ready: Callable[..., None] | None = None
 
     def add(self, script: str) -> None:
         """Import what a script imports, as far as that is found; what is not is the job's own affair."""
-        needed = {script} if script == self._main else _imports_of(script)
+        needed = {script} if script == self.main else _imports_of(script)
         if not (new := needed - self._known):
             return
         # what is imported may start programs, and asks how they ended
         signal.signal(signal.SIGCHLD, signal.SIG_DFL)
         for name in sorted(new):
-            with contextlib.suppress(Exception):
-                if name == self._main:
+            with contextlib.suppress(Exception, SystemExit):
+                if name == self.main:
                     self._make_ready = runpy.run_path(name).get("make_ready")
                 else:
                     importlib.import_module(name)
@@ -120,7 +183,7 @@ class _Imported:
 
     def make_ready(self, arguments: list[str]) -> None:
         """Let `main`, if it says how, load what a job of it has in common with others; what fails is the job's own affair."""
-        if arguments[0] == self._main and self._make_ready:
+        if arguments[0] == self.main and self._make_ready:
             with contextlib.suppress(Exception):
                 self._make_ready(*arguments[1:])
 
@@ -135,9 +198,19 @@ def _is_ours(script: str, folder: Path) -> bool:
         return True
     try:
         # in the line that Snakemake puts before a copy
-        return f"__file__ = {ours + os.sep!r}"[:-1] in Path(script).read_text(encoding="utf-8")
+        return f"__file__ = {ours + os.sep!r}"[:-1] in _text_of(script)
     except (OSError, ValueError):
         return False
+
+
+def _text_of(script: str) -> str:
+    """Raises OSError for what is no file, and ValueError for one that is too long to be a script."""
+    # not waiting for what others write, as a pipe would
+    with open(os.open(script, os.O_RDONLY | os.O_NONBLOCK), encoding="utf-8") as stream:
+        text = stream.read(_LONGEST_SCRIPT)
+    if len(text) == _LONGEST_SCRIPT:
+        raise ValueError("too long to be a script")
+    return text
 
 
 def _imports_of(script: str) -> set[str]:
@@ -145,7 +218,7 @@ def _imports_of(script: str) -> set[str]:
 
     And those of our package that the job's parameters name, which stand in the line that Snakemake puts before its copy.
     """
-    text = Path(script).read_text(encoding="utf-8")
+    text = _text_of(script)
     names = set(re.findall(rf"{_PACKAGE}(?:\.[a-z_]\w*)+", text))
     for node in ast.parse(text).body:
         if isinstance(node, ast.Import):
@@ -155,31 +228,12 @@ def _imports_of(script: str) -> set[str]:
     return names
 
 
-@contextlib.contextmanager
-def _asked(connection: socket.socket) -> Iterator[_Job]:
-    """What a client asks for; its outputs are closed here in the end. Raises OSError where it says less."""
-    connection.settimeout(_PATIENCE_S)
-    size = int.from_bytes(connection.recv(8, socket.MSG_WAITALL), "little")
-    message, outputs, _, _ = socket.recv_fds(connection, 1, 2)
-    try:
-        while len(message) < size:
-            part = connection.recv(size - len(message))
-            if not part:
-                raise ConnectionError
-            message += part
-        connection.settimeout(None)
-        folder, number, *rest = [os.fsdecode(part) for part in message.split(b"\0")]
-        environment = dict(entry.split("=", 1) for entry in rest[: int(number)])
-        yield _Job(folder, environment, rest[int(number) :], outputs)
-    finally:
-        for output in outputs:
-            os.close(output)
-
-
-def _answer(connection: socket.socket, job: _Job) -> NoReturn:
-    """Run a job in this process, which ends with it, or when its client is gone."""
+def _answer(connection: socket.socket, job: Job, open_here: list[Any]) -> NoReturn:
+    """Run a job in this process, which ends with it, or when its client is gone. `open_here`: what is closed before."""
     status = 1
     try:
+        for other in open_here:
+            other.close()
         signal.signal(signal.SIGCHLD, signal.SIG_DFL)
         for output, number in zip(job.outputs, (1, 2), strict=True):
             os.dup2(output, number)
@@ -214,6 +268,7 @@ def _status_of(script: str) -> int:
 
 
 def _end_with(connection: socket.socket) -> None:
+    """End this process when its client is gone."""
     connection.recv(1)
     os._exit(1)
 

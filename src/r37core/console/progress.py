@@ -80,6 +80,9 @@ class Progress(logging.Filter):
             output: Collection[str] = getattr(record, "output", None) or [""]
             blade = (getattr(record, "wildcards", None) or {}).get("blade", "")
             self._jobs[record.jobid] = (record.rule_name, blade, str(next(iter(output))))  # type: ignore[attr-defined]
+            if not self._simulated and self.stream.isatty():
+                # what takes half a minute is named when it begins, not when it has ended
+                self._write(at_once=True)
         elif event == "job_finished":
             rule, blade, output = self._jobs.pop(record.job_id, ("", "", ""))  # type: ignore[attr-defined]
             if rule == _SIMULATION:
@@ -87,13 +90,18 @@ class Progress(logging.Filter):
                 self._diverged += _diverged(Path(output))
         elif event == "progress":
             self._done, self._known = record.done, record.total  # type: ignore[attr-defined]
-            self._write(last=record.done == record.total)  # type: ignore[attr-defined]
+            self._write(at_once=record.done == record.total, last=record.done == record.total)  # type: ignore[attr-defined]
+
+    @property
+    def _running(self) -> list[str]:
+        """Rule and blade of jobs that have not ended, those that began last."""
+        return [f"{rule} {blade}".strip() for rule, blade, _ in list(self._jobs.values())[-2:]]
 
     def line(self) -> str:
         """What there is to say now."""
         spent = self.clock() - (self.clock() if self._began is None else self._began)
         rate = self._done / spent if spent > 0.0 else 0.0
-        parts = [f"jobs {self._done} of {self._known}"]
+        parts = [f"jobs {self._done} of {self._known}"] if self._known else []
         if self._simulated:
             blades = list(self._simulated.items())
             shown = ", ".join(f"{blade} {number}" for blade, number in blades[-3:])
@@ -102,13 +110,18 @@ class Progress(logging.Filter):
             parts.append(f"simulations {self._simulated.total()}{bound} ({more}{shown})")
             parts.append(f"{self._diverged} diverged")
         if rate > 0.0:
-            parts += [f"{rate:.1f} a second", f"{_duration((self._known - self._done) / rate)} for those known"]
+            parts.append(f"{rate:.1f} a second")
+        if rate > 0.0 and (self._simulated or self._done == self._known):
+            # jobs before the first simulation take a hundred times as long as those after it
+            parts.append(f"{_duration((self._known - self._done) / rate)} for those known")
+        if self._jobs and not self._simulated:
+            parts.append(f"now {', '.join(self._running)}")
         return "; ".join(parts)
 
-    def _write(self, last: bool) -> None:
+    def _write(self, at_once: bool, last: bool = False) -> None:
         terminal = self.stream.isatty()
         now = self.clock()
-        if not last and now - self._written < (_ON_TERMINAL_S if terminal else _ELSEWHERE_S):
+        if not at_once and now - self._written < (_ON_TERMINAL_S if terminal else _ELSEWHERE_S):
             return
         self._written = now
         self.stream.write(f"\r\x1b[K{self.line()}" if terminal else f"{self.line()}\n")

@@ -26,7 +26,7 @@ from r37core.product.reading import settings_of_run
 from r37core.product.remarks import check_asked, remarks
 from r37core.product.sampling import beside
 
-from . import failures, interpreter, job_server, lock
+from . import failures, interpreter, job_server, lock, refusals
 from .closing import closing_lines
 from .progress import Progress, quieten
 
@@ -39,10 +39,14 @@ Refusal = Callable[[str], Exception]
 
 @dataclass(frozen=True)
 class Console:
-    """One run of the `workflow`, with its `settings` and scripts and its package's `source`; `began`: time in s."""
+    """One run of the `workflow`, with its `settings` and scripts and its package's `source`.
+
+    `tell` warns the user; `began`: time in s.
+    """
 
     workflow: Any
     refusal: Refusal
+    tell: Callable[[str], object]
     settings: Settings
     scripts: Path
     source: Path
@@ -57,7 +61,7 @@ class Console:
         # quarter of a core in the default sweep. The limit is for the queues of clusters
         if self.workflow.local_exec:
             self.workflow.scheduler.job_rate_limiter = None
-            if job_server.start(self.scripts / "simulate.py", interpreter.PYTHON):
+            if job_server.start(self.scripts / "simulate.py", interpreter.PYTHON, self.tell):
                 interpreter.through(self.scripts / "start.py")
 
     def succeed(self) -> None:
@@ -72,7 +76,7 @@ class Console:
         _say_last(["", *failures.taken()])
 
 
-def begin(workflow: Any, logger: logging.Logger, refusal: Refusal, root: Path, values: Mapping[str, Any]) -> Console:
+def begin(workflow: Any, logger: logging.Logger, refusal: type[Exception], root: Path, values: Mapping[str, Any]) -> Console:
     """Read the configuration of a run, say what there is to say, and put one line in place of thousands of messages.
 
     `root`: folder of our Snakefile. `values`: configuration that another Snakefile gives its module r37, on top of all.
@@ -81,6 +85,9 @@ def begin(workflow: Any, logger: logging.Logger, refusal: Refusal, root: Path, v
     `refusal` for a configuration that is not allowed.
     """
     began, config, output = time.time(), workflow.config_settings, workflow.output_settings
+    refusal = refusals.without_files(refusal)
+    for handler in logger.handlers:
+        handler.addFilter(refusals.MessageAlone())
     if workflow.is_main_process:
         failures.begin(f"{socket.gethostname()}_{os.getpid()}")
     interpreter.quote()
@@ -99,7 +106,7 @@ def begin(workflow: Any, logger: logging.Logger, refusal: Refusal, root: Path, v
         logger.info(line)
     if not (os.environ.get("R37_FULL_LOG") or output.dryrun or output.verbose):
         quieten(logger.handlers, Progress(extent_of(settings, beside(settings)).at_most))
-    return Console(workflow, refusal, settings, root / "workflow/scripts", source, began)
+    return Console(workflow, refusal, logger.warning, settings, root / "workflow/scripts", source, began)
 
 
 @contextlib.contextmanager

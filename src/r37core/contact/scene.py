@@ -103,6 +103,8 @@ class Scene:
     ] = False
     divergence_limit: Annotated[
         float,
-        Key("a tip displacement beyond it ends the run as diverged; farther no linear model can be asked", "_m", gt=0, le=100),
+        Key(
+            "a tip displacement beyond it ends the run as diverged; farther no linear model can be asked", "_m", ge=1e-6, le=100
+        ),
     ] = 0.1
     rotor: Rotor | None = None

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from dataclasses import dataclass, replace
 from typing import Annotated
 
@@ -12,7 +13,7 @@ from r37core.exchange.importing.raw_mesh import RawMesh
 from r37core.fem.elements import ELEMENTS
 from r37core.mesh.blade_mesh import BladeMesh
 
-from .refusal import ImportRefused
+from .refusal import ImportRefused, MeshWarning
 
 UNITS = {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "um": 1e-6, "in": 0.0254, "ft": 0.3048}
 """Name of a length unit -> metres."""
@@ -20,6 +21,8 @@ UNITS = {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "um": 1e-6, "in": 0.0254, "ft": 0.304
 _SPAN_BETWEEN = (1e-3, 5.0)
 _USUAL_SPAN = 0.1
 _TIP_RADIUS_BETWEEN = (5e-3, 10.0)
+_USUAL_TIP_RADIUS = (0.01, 3.0)
+"""From the smallest turbochargers to the last stages of steam turbines (m)."""
 _RADIAL_WITHIN = np.cos(np.radians(45.0))
 
 
@@ -110,7 +113,19 @@ class Orientation:
                 "length_unit",
             )
         self._check_side(placed, "the contact nodes' middle")
+        self.warn_of_size(placed)
         return placed
+
+    def warn_of_size(self, points: np.ndarray) -> None:
+        """Warn of `points` (m) of the blade's frame, shape (n, 3), that reach as far from the axis as hardly any blade does."""
+        tip, (low, high) = float(np.hypot(points[:, 0], points[:, 1]).max()), _USUAL_TIP_RADIUS
+        if not low <= tip <= high:
+            warnings.warn(
+                f"length_unit {self.length_unit} gives a tip radius of {tip:.3g} m; those of blades are {low:g} to {high:g} m: "
+                "check length_unit, rotor_axis and axis_point",
+                MeshWarning,
+                stacklevel=2,
+            )
 
     def points_to_blade(self, points: np.ndarray) -> np.ndarray:
         """Points of the file, shape (n, 3), in metres and the blade's frame."""

@@ -1,4 +1,4 @@
-"""A picture of the blades' meshes, rendered off screen."""
+"""A picture of the blades, rendered off screen."""
 
 from __future__ import annotations
 
@@ -6,43 +6,56 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+import matplotlib
 import numpy as np
 import pyvista
+from matplotlib.colors import to_rgb
 
 from r37core.io import readable
 
 from .offscreen import look, new_plotter, save_picture
+from .style import blade_styles
 
 _BESIDE = 0.09
 """Of the blade's height: how far a name stands from what it names."""
+_PANEL = (440, 600)
+"""Pixels of one blade."""
+_LETTERS = str(Path(matplotlib.get_data_path(), "fonts/ttf/DejaVuSans.ttf"))
+"""Those of all other figures."""
+_TITLE, _NAME = 18, 24
+"""Sizes of letters."""
 
 
 def draw_blade_shapes(meshes: Mapping[str, Path | str], file: Path | str) -> None:
-    """Draw the meshes (blade name -> .vtu) side by side, coloured by the scaled Jacobian, into a PNG.
+    """Draw the blades (name -> mesh, .vtu) side by side, each in its colour of all figures, into a PNG.
 
     An arrow shows the rotation; leading and trailing edge (LE, TE) and the side that is seen have their names.
     """
-    plotter = new_plotter(len(meshes), (260 * len(meshes), 420))
+    width, height = _PANEL
+    plotter, styles = new_plotter(len(meshes), (width * len(meshes), height)), blade_styles(meshes)
     for i, (name, mesh_file) in enumerate(meshes.items()):
         plotter.subplot(0, i)
         with readable(mesh_file):
             grid = pyvista.read(mesh_file)
             surface = grid.extract_surface(nonlinear_subdivision=1, algorithm="dataset_surface")
-        last = i == len(meshes) - 1
         plotter.add_mesh(
             surface,
-            scalars="scaled_jacobian",
-            clim=(0.0, 1.0),
-            cmap="viridis",
+            color=_light(styles[name]["color"]),
+            ambient=0.35,
+            diffuse=0.65,
             smooth_shading=True,
             split_sharp_edges=True,
-            show_scalar_bar=last,
-            scalar_bar_args={"title": "scaled Jacobian", "width": 0.8, "position_x": 0.1, "n_labels": 2} if last else None,
         )
+        plotter.add_mesh(surface.extract_feature_edges(feature_angle=50.0), color="black", line_width=1.5)
         _mark_sense(plotter, grid)
-        plotter.add_text(name, font_size=10)
+        plotter.add_text(name, font_size=_TITLE, font_file=_LETTERS)
         look(plotter)
     save_picture(plotter, file)
+
+
+def _light(colour: str) -> tuple[float, ...]:
+    """A colour half way to white: black letters stand on it."""
+    return tuple(0.5 + 0.5 * part for part in to_rgb(colour))
 
 
 def _mark_sense(plotter: pyvista.Plotter, grid: Any) -> None:
@@ -63,7 +76,8 @@ def _mark_sense(plotter: pyvista.Plotter, grid: Any) -> None:
     plotter.add_point_labels(
         np.array([*ends, middle, above]),
         ["LE", "TE", side, "rotation"],
-        font_size=10,
+        font_size=_NAME,
+        font_file=_LETTERS,
         show_points=False,
         always_visible=True,
         shape=None,

@@ -15,8 +15,7 @@ CAPTIONS = {
         "with engine orders as grey lines."
     ),
     "blades": (
-        "Meshes of the blades, seen from the side; the colour is the scaled Jacobian of the elements, 1 for an ideal shape. "
-        "The arrow shows the rotation, LE the leading edge."
+        "The blades, seen from the side, each in its colour of all figures. The arrow shows the rotation, LE the leading edge."
     ),
     "response": (
         "Response of blade {blade} over speed in every scene. Above: root mean square of the leading edge's displacement "

@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import hashlib
 import json
+import os
 from collections.abc import Collection, Iterator
 from functools import cache
 from pathlib import Path
@@ -25,7 +26,8 @@ class CodeHashes:
     def __init__(self, source: Path, scripts: Path, packages: Collection[str] = (PACKAGE,)):
         self._source, self._scripts, self._packages = source, scripts, packages
         self._version_file = source / PACKAGE / "__init__.py"
-        self._parts = cache(self._parts_of)
+        # closures share most of their parts
+        self._parts, self._needed, self._order = cache(self._parts_of), cache(self._needed_by), cache(self._order_of)
 
     def __call__(self, *names: str) -> str:
         """Short hash of what has these names, as `step`, `r37core.fem.steps` or `r37core.fem.steps.mesh`, and its imports."""
@@ -58,8 +60,14 @@ class CodeHashes:
             part = waiting.pop()
             if part not in parts:
                 parts.add(part)
-                waiting += [(imported, "") for name in imported_names(*part) for imported in self._files(name)]
-        return sorted(parts - {(self._version_file, "")}, key=lambda part: (part[0].is_relative_to(self._scripts), part))
+                waiting += self._needed(*part)
+        return sorted(parts - {(self._version_file, "")}, key=self._order)
+
+    def _needed_by(self, file: Path, function: str) -> list[tuple[Path, str]]:
+        return list({(imported, ""): None for name in imported_names(file, function) for imported in self._files(name)})
+
+    def _order_of(self, part: tuple[Path, str]) -> tuple[bool, tuple[str, ...], str]:
+        return part[0].is_relative_to(self._scripts), part[0].parts, part[1]
 
     def _named(self, name: str) -> list[tuple[Path, str]]:
         above, _, last = name.rpartition(".")
@@ -75,10 +83,23 @@ class CodeHashes:
 @cache
 def module_files(name: str, roots: tuple[Path, ...]) -> tuple[Path, ...]:
     """Files of a dotted name, which may end in something that is no module: it and the packages above it."""
-    parts = name.split(".")
-    bases = [root.joinpath(*parts[:length]) for root in roots for length in range(1, len(parts) + 1)]
-    candidates = [file for base in bases for file in (base.with_suffix(".py"), base / "__init__.py")]
-    return tuple(file for file in candidates if file.exists())
+    return tuple(file for root in roots for file in _files_below(root, *name.split(".")))
+
+
+def _files_below(folder: Path, name: str, *rest: str) -> list[Path]:
+    entries = _entries(folder)
+    files = [folder / f"{name}.py"] if f"{name}.py" in entries else []
+    if name not in entries:
+        return files
+    below = folder / name
+    files += [below / "__init__.py"] if "__init__.py" in _entries(below) else []
+    return files + (_files_below(below, *rest) if rest else [])
+
+
+@cache
+def _entries(folder: Path) -> frozenset[str]:
+    """Names in a folder, read once: there are more imports than files."""
+    return frozenset(os.listdir(folder)) if folder.is_dir() else frozenset()
 
 
 def imported_names(file: Path, function: str = "") -> tuple[str, ...]:

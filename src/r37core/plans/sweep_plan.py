@@ -71,7 +71,8 @@ class Sweep:
         """Speeds (rad/s) that a round asked for: the same of all members of a sample."""
         assert self.round_file is not None
         member = path_part(folder_and_name(wildcards)[0])
-        return speeds_of_round(self.round_file(member=member, blade=wildcards.blade, scene=wildcards.scene, round=number))
+        file = self.round_file(member=member, blade=wildcards.blade, scene=wildcards.scene, round=number)
+        return speeds_of_round(file, self.speed_plan(wildcards))
 
     def yield_stress(self, wildcards: Any) -> float:
         """Of a blade (Pa)."""
@@ -114,12 +115,25 @@ def speeds_of_rounds(plan: SpeedPlan, new_speeds: Callable[[int], Sequence[float
     return sorted(chain.from_iterable(takewhile(bool, map(new_speeds, count()))) if plan.refined else plan.certain)
 
 
-def speeds_of_round(file: str) -> list[float]:
-    """Speeds (rad/s) that a round asked for. Each member of a sample asks: the file is read once as long as it is the same."""
-    return _speeds_of_round(file, Path(file).stat().st_mtime_ns)
+def speeds_of_round(file: str, plan: SpeedPlan | None = None) -> list[float]:
+    """Speeds (rad/s) that a round asked for, of those that its `plan` may ask for.
+
+    Each member of a sample asks: the file is read once as long as it is the same. Raises InputFileError for a damaged one.
+    """
+    return _speeds_of_round(file, Path(file).stat().st_mtime_ns, plan)
 
 
 @cache
-def _speeds_of_round(file: str, _time: int) -> list[float]:
+def _speeds_of_round(file: str, _time: int, plan: SpeedPlan | None) -> list[float]:
+    content = read_json(file)
     with readable(file):
-        return [float(speed) for speed in read_json(file)["new"]]
+        speeds = [float(speed) for speed in content["new"]]
+        strange = set() if plan is None else set(speeds).difference(_all_of(plan))
+        if strange:
+            raise ValueError(f"it asks for {min(strange):.9g} rad/s, which is no speed of the configuration")
+        return speeds
+
+
+@cache
+def _all_of(plan: SpeedPlan) -> frozenset[float]:
+    return frozenset(plan.every_speed())

@@ -105,7 +105,7 @@ class StressSubmesh:
     as this number exceeds one: there a force on a single node and the clamping give stresses that grow with a finer mesh.
     """
 
-    maximum_x: Annotated[float, Key("upper bound of x", "_m", gt=0, le=100)] = np.inf
+    maximum_x: Annotated[float, Key("upper bound of x", "_m", ge=1e-6, le=100)] = np.inf
     minimum_z: Annotated[float, Key("lower bound of z", "_m", ge=-100, le=100)] = -np.inf
     maximum_z: Annotated[float, Key("upper bound of z", "_m", ge=-100, le=100)] = np.inf
     excluded_layers: Annotated[

@@ -22,7 +22,7 @@ class BucklingError(ValueError):
         super().__init__(
             f"the blade has no stable position at {speed:g} rad/s: its stiffness is not positive there; choose lower speeds "
             "(speeds, those of run-ups, and structure.maximum_speed_rad_s), or a stiffer or lighter material, or less sweep "
-            "and lean"
+            "and lean; of an imported blade check length_unit and the units of its material first"
         )
 
 

@@ -58,11 +58,11 @@ class RunUpChoice:
         Key(
             "change of the speed per second, of a run-down too; or rate_rpm_s; or revolutions",
             "_rad_s2",
-            gt=0,
+            ge=1e-3,
             le=1e9,
             optional=True,
         ),
-        Key("the rate in revolutions per minute per second", "_rpm_s", gt=0, le=1e10, optional=True),
+        Key("the rate in revolutions per minute per second", "_rpm_s", ge=1e-2, le=1e10, optional=True),
     ]
     revolutions: Annotated[
         float | None,
@@ -108,7 +108,7 @@ class RunUpChoice:
         if not fewest <= revolutions <= LONGEST:
             slowest, fastest = (squares / (4.0 * np.pi * number) for number in (LONGEST, fewest))
             raise RunUpError(
-                f"found a change from {start:g} to {stop:g} rad/s within {revolutions:.4g} revolutions; "
+                f"found a change from {start:.15g} to {stop:.15g} rad/s within {revolutions:.4g} revolutions; "
                 f"allowed: {fewest:.3g} to {LONGEST:g} of them (rates from {slowest:.3g} to {fastest:.3g} rad/s2)"
             )
         return RunUp(start, stop, revolutions, self.before, self.after, self.worn)

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Mapping
+from typing import Any, Literal
+
 import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
 import xarray as xr
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 
 from r37core.figures import style
 
@@ -15,7 +19,7 @@ from .tables import CASE
 
 _QUANTITIES = {**style.CURVES, "max_wear": ("largest wear (mm)", 1e3)}
 _FEW_REVOLUTIONS, _FAINT = 60, 1e-5
-_DIRECTIONS = {"up": "-", "down": "--"}
+_DIRECTIONS: dict[str, Literal["-", "--"]] = {"up": "-", "down": "--"}
 _LININGS = {"new": "o", "worn": "x"}
 _RANGE = ["low_speed_rad_s", "high_speed_rad_s"]
 
@@ -23,7 +27,7 @@ _RANGE = ["low_speed_rad_s", "high_speed_rad_s"]
 def draw_run_ups(run_ups: xr.Dataset, title: str, *, blade: str, scene: str) -> Figure:
     """Leading edge's rms, stress and wear of every revolution, over its speed and over the revolutions since the change began.
 
-    Colour is the rate, dashes are run-downs.
+    Colour is the rate, dashes are run-downs, crosses a lining that was worn before.
     """
     runs = sorted(
         runs_of(run_ups, blade=blade, scene=scene), key=lambda run: (float(run["rate"]) < 0.0, abs(float(run["rate"])))
@@ -34,9 +38,9 @@ def draw_run_ups(run_ups: xr.Dataset, title: str, *, blade: str, scene: str) -> 
     size = (style.PAGE, 1.6 * len(shown) + 0.8)
     figure, grid = plt.subplots(len(shown), 2, figsize=size, sharex="col", sharey="row", squeeze=False)
     rates = sorted({abs(float(run["rate"])) for run in runs})
-    colours = dict(zip(rates, plt.get_cmap("turbo")(np.linspace(0.95, 0.05, len(rates))), strict=True))
+    colours = dict(zip(rates, plt.get_cmap("viridis")(np.linspace(0.0, 0.9, len(rates))), strict=True))
     for run in runs:
-        direction = "down" if run["stop_speed"] < run["start_speed"] else "up"
+        marker = "." if run.sizes["revolution"] < _FEW_REVOLUTIONS else None
         since = run["revolution"] - run["revolutions_before"]
         for row, (name, (_, scale)) in zip(grid, shown.items(), strict=True):
             values = run[name].sel(tip_point="leading_edge") if "tip_point" in run[name].dims else run[name]
@@ -45,11 +49,11 @@ def draw_run_ups(run_ups: xr.Dataset, title: str, *, blade: str, scene: str) -> 
                     along,
                     scale * values,
                     color=colours[abs(float(run["rate"]))],
-                    linestyle=_DIRECTIONS[direction],
-                    marker="." if run.sizes["revolution"] < _FEW_REVOLUTIONS else None,
-                    markersize=2,
+                    linestyle=_DIRECTIONS[_direction(run)],
+                    marker=_LININGS["worn"] if run["worn"] else marker,
+                    markevery=0.05 if run["worn"] else None,
+                    markersize=3 if run["worn"] else 2,
                     linewidth=0.9,
-                    label=str(run["run_up"].values),
                 )
     for row, (name, (label, _)) in zip(grid, shown.items(), strict=True):
         row[0].set_ylabel(label)
@@ -66,8 +70,24 @@ def draw_run_ups(run_ups: xr.Dataset, title: str, *, blade: str, scene: str) -> 
         grid[-1, 1].set_xscale("log")
     style.rpm_axis(grid[0, 0], most_ticks=5)
     figure.suptitle(f"run-ups: {title}, leading edge")
-    figure.legend(*style.legend_entries(grid[:, 0]), loc="outside lower center", ncols=6)
+    handles, labels = style.legend_entries(grid[:, 0])
+    keys = _keys(runs, colours)
+    figure.legend([*keys.values(), *handles], [*keys, *labels], loc="outside lower center", ncols=6)
     return figure
+
+
+def _direction(run: xr.Dataset) -> str:
+    return "down" if run["stop_speed"] < run["start_speed"] else "up"
+
+
+def _keys(runs: Iterable[xr.Dataset], colours: Mapping[float, Any]) -> dict[str, Line2D]:
+    """What colours, dashes and crosses of some runs mean, for a legend."""
+    keys = {f"{rate:.4g} rad/s²": Line2D([], [], color=colour) for rate, colour in colours.items()}
+    there = {_direction(run) for run in runs}
+    keys |= {f"run-{name}": Line2D([], [], color="0.3", ls=dashes) for name, dashes in _DIRECTIONS.items() if name in there}
+    if any(run["worn"] for run in runs):
+        keys["worn before"] = Line2D([], [], color="0.3", ls="", marker=_LININGS["worn"], markersize=3)
+    return keys
 
 
 def draw_rates(runs: pd.DataFrame, title: str, *, scene: str) -> Figure:

@@ -102,5 +102,11 @@ def _without_margins(pixels: np.ndarray) -> np.ndarray:
 
 def _words(title: str) -> str:
     """A title as lines that fit a panel."""
+    for long, short in _SHORT.items():
+        title = title.replace(long, short)
     parts = title.replace(" at ", "\nat ").replace(": ", ":\n").replace("; ", "\n").split("\n")
     return "\n".join(line for part in parts for line in textwrap.wrap(part, _LETTERS))
+
+
+_SHORT = {", above yield: outside the linear model": "; above yield, not linear", "displacement ": "shown "}
+"""What breaks badly, in the words of a narrow panel."""

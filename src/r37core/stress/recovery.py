@@ -16,8 +16,8 @@ def stress_operator(model: ReducedModel, material: Material) -> StressOperator:
     """
     if not model.stress_elements:
         raise ValueError(
-            "the stress submesh has no elements; enlarge structure.stress_submesh in config.yaml (of an imported mesh, its "
-            "own stress_submesh in blades.yaml), or use a finer mesh"
+            f"the stress submesh ({model.stress_region}) has no elements; enlarge structure.stress_submesh in config.yaml (of "
+            "an imported mesh, its own stress_submesh in blades.yaml), or use a finer mesh"
         )
     submesh = model.stress_submesh
     operator = nodal_stress(model.stress_elements, submesh.points, submesh.fields, material)

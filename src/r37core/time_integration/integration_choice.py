@@ -42,7 +42,7 @@ class IntegrationChoice:
         Key(
             "faster modes are not stepped: with exact_modal they follow statically, else they are left out",
             "_hz",
-            gt=0,
+            ge=1,
             le=1e12,
         ),
     ] = float("inf")

@@ -11,6 +11,7 @@ from r37core.plain import from_plain
 from r37core.rom.contact_model import ContactModel, read_contact_model
 from r37core.stress.operator import read_stress_operator
 
+from .initial_motion import InitialMotion
 from .integration_choice import IntegrationChoice
 from .problem import Problem
 from .rotor_simulation import RotorSimulation
@@ -21,16 +22,26 @@ from .speed_run import run_speed
 _READY = set[tuple[str, str]]()
 
 
-def run_job(speed: str, output: str, task: str, about: str, model: str, stress: str | None = None) -> None:
+def run_job(
+    speed: str,
+    output: str,
+    task: str,
+    about: str,
+    model: str,
+    stress: str | None = None,
+    *,
+    motion: InitialMotion | None = None,
+) -> None:
     """Simulate at a speed (rad/s) and write the file, with the attributes `about`; `task` is that of a sweep's plan.
 
-    `model`, `stress`: files of the contact model and, where stress is wanted, of its operator.
+    `model`, `stress`: files of the contact model and, where stress is wanted, of its operator. `motion`: that the blade starts
+    in, if not at rest.
 
-    Raises InputFileError, and what Problem raises.
+    Raises InputFileError, and what Problem and `run_speed` raise.
     """
     wanted = json.loads(task)
     operator = read_stress_operator(stress) if stress else None
-    run = run_speed(*_given(model, speed, wanted), wanted["results"], **wanted["kept"], stress=operator)
+    run = run_speed(*_given(model, speed, wanted), wanted["results"], **wanted["kept"], stress=operator, motion=motion)
     write_speed(run, output, json.loads(about))
 
 

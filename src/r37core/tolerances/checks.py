@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 from r37core.config import Settings
 from r37core.config.cross_checks import LARGEST_NUMBER_OF_SIMULATIONS, names_are_there
+from r37core.config.messages import on_one_line
 
+from .member_changes import ImpossibleValueError, changed_scene, scene_numbers
 from .members import members_of, section
 
 
@@ -25,3 +29,29 @@ def members_can_be_drawn(settings: Settings) -> None:
         )
     # draws them, and refuses what is impossible
     _ = members_of(settings).all
+
+
+def members_of_the_study_are_possible(settings: Settings) -> None:
+    """The study of the published numbers names numbers of its two scenes, and none that these cannot have.
+
+    Scenes that this run leaves out matter only when the study is asked for.
+    """
+    study, choices = settings.studies.validation_ranges, settings.studies.modelling_choices
+    names = (choices.lined_scene, choices.direct_scene)
+    if study is None or not settings.scene_entries.keys() >= set(names):
+        return
+    entries = [settings.scene_entries[name] for name in names]
+    known = {key: value for entry in entries for key, value in scene_numbers(entry).items()}
+    path = ("studies", "validation_ranges", "of_scenes")
+    for key, entry in study.of_scenes.items():
+        refusal, spread = partial(settings.documents.config.refusal, (*path, key)), entry.spread()
+        if key not in known:
+            raise refusal(on_one_line(key), f"one of {', '.join(known)}")
+        if spread.percent and known[key] == 0.0:
+            raise refusal(f"percent of {key}, which is 0", "uniform, normal, between or values")
+        for scene in (scene for scene in entries if key in scene_numbers(scene)):
+            for end in spread.ends(known[key]):
+                try:
+                    changed_scene(scene, {key: end})
+                except ImpossibleValueError as error:
+                    raise refusal(f"the end of its range: {error}", "a narrower tolerance") from None

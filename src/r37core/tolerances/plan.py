@@ -159,4 +159,18 @@ def remarks(settings: Settings) -> list[str]:
         return []
     most = extent_of(settings, {FOLDER: samples(settings)}).members
     counted = f"tolerances: {entry.members} members, {most} simulations of theirs at most, beside those of the sweep"
-    return [counted, *remarks_on_rankings(entry.members, len(members.numbers), entry.sensitivity)]
+    return [counted, *_without_width(members), *remarks_on_rankings(entry.members, len(members.numbers), entry.sensitivity)]
+
+
+def _without_width(members: Members) -> list[str]:
+    """Of numbers that have one value in all members, and so no index."""
+    values: dict[tuple[str, str], set[float]] = {number: set() for number in members.numbers}
+    for member in (member for of in members.all.values() for member in of.values()):
+        for number, value in zip(members.numbers, member.values, strict=True):
+            if value is not None:
+                values[number].add(value)
+    return [
+        f"tolerances.{section}: {key} is {min(of):g} in all members, so it has no index; a wider tolerance gives it one"
+        for (section, key), of in values.items()
+        if len(of) == 1
+    ]

@@ -27,7 +27,7 @@ class ToleranceSection(Section):
     blades: AllOrNames = Field(default="all", description="of those that are run")
     scenes: AllOrNames = Field(default="all", description="of those that are run")
     largest_share: float = Field(
-        default=0.2, gt=0, le=1, description="of the finest grid of adaptive speeds that is run at most, by every member"
+        default=0.2, ge=1e-3, le=1, description="of the finest grid of adaptive speeds that is run at most, by every member"
     )
 
     @property

@@ -5,14 +5,14 @@ from __future__ import annotations
 from r37core.plans.wing import Wing
 
 from .captions import CAPTIONS
-from .checks import members_can_be_drawn
+from .checks import members_can_be_drawn, members_of_the_study_are_possible
 from .plan import FOLDER, SAMPLING, remarks, simulated, targets
 from .section import ToleranceSection
 
 WING = Wing(
     name=FOLDER,
     section=(ToleranceSection, ToleranceSection()),
-    checks=(members_can_be_drawn,),
+    checks=(members_can_be_drawn, members_of_the_study_are_possible),
     sampling=SAMPLING,
     simulated=simulated,
     targets=targets,

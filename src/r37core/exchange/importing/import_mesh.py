@@ -41,12 +41,15 @@ def import_mesh(source: MeshSource, folder: Path | str = ".") -> tuple[BladeMesh
         raw = _read(source.file, Path(folder))
     with blamed("mesh", source.file):
         raw, quality = checked(without_free_nodes(raw) if source.drop_free_nodes else raw, source.minimum_scaled_jacobian)
+    placed = None
     try:
         with blamed("rotor_axis", source.file):
             placed = source.orientation.to_blade(raw)
+            source.orientation.warn_of_size(placed.points)
         root, tip, lines = _ends(source, placed)
     except ImportRefused as error:
-        raise ImportRefused(error.reason, error.key, fitting_entry(source, raw)) from None
+        size = "" if placed is None else f"; {_size_before_ends(source, placed)}"
+        raise ImportRefused(f"{error.reason}{size}", error.key, fitting_entry(source, raw)) from None
     raw = placed
     with blamed("mesh", source.file):
         parameters, normals = blade_parameters(raw.points, root, tip, source.pressure_side_forward)
@@ -61,13 +64,21 @@ def import_mesh(source: MeshSource, folder: Path | str = ".") -> tuple[BladeMesh
 
 
 def size_in_words(mesh: BladeMesh) -> str:
-    """Radii of both ends of the tip and of the root, as text, to be compared with the real blade."""
-    radius = np.hypot(mesh.points[:, 0], mesh.points[:, 1])
+    """Length and width, radii of both ends of the tip and of the root, as text, to be compared with the real blade."""
+    radius, size = np.hypot(mesh.points[:, 0], mesh.points[:, 1]), np.ptp(mesh.points, axis=0)
     leading, trailing = (radius[mesh.node_set(f"{name}_edge")].max() for name in ("leading", "trailing"))
     root = radius[mesh.node_set("root")].mean()
     return (
+        f"{size[0]:.4g} m long and {size[2]:.4g} m wide along the axis, "
         f"radius of the tip {leading:.4g} m at the leading and {trailing:.4g} m at the trailing edge, of the root {root:.4g} m"
     )
+
+
+def _size_before_ends(source: MeshSource, mesh: RawMesh) -> str:
+    """How large a refused mesh is: what fits its shape, fits in any unit."""
+    radius = np.hypot(mesh.points[:, 0], mesh.points[:, 1])
+    unit = source.orientation.length_unit
+    return f"with length_unit {unit} the blade reaches from {radius.min():.4g} to {radius.max():.4g} m from the axis"
 
 
 def _ends(source: MeshSource, raw: RawMesh) -> tuple[np.ndarray, np.ndarray, TipLines]:

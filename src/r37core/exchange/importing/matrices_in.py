@@ -27,6 +27,7 @@ from r37core.rom.reduce import contact_nodes, projected
 from r37core.rom.reduced_model import RecoveryNodes, ReducedModel
 from r37core.rom.reduction_choice import AREA_PATCHES, POINTS, BoundaryChoice, BoundaryError, ReductionChoice
 
+from .first_frequency import check_frequency
 from .matrix_file import read_matrix
 from .source import MASS_UNITS, STIFFNESS_UNITS, MatricesSource, matrix_files
 from .tip import arc_length, check_order, check_sense_of_nodes
@@ -71,7 +72,10 @@ def import_matrices(source: MatricesSource, choice: ReductionChoice, folder: Pat
     with blamed("matrices"):
         files = matrix_files(source.folder, Path(folder))
     with blamed("matrices", source.folder):
-        return _reduced(_read(files, source, max(choice.speeds)), choice)
+        matrices = _read(files, source, max(choice.speeds))
+        model = _reduced(matrices, choice)
+        check_frequency(model, arc_length(matrices.points)[-1])
+        return model
 
 
 def _reduced(matrices: _InputMatrices, choice: ReductionChoice) -> ReducedModel:

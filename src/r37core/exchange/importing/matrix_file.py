@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+import zipfile
 from pathlib import Path
 
 import numpy as np
@@ -13,6 +15,9 @@ from r37core.exchange.refusal import ImportRefused
 _SYMMETRIC = 1e-8
 _SHORTEST = {"coordinate": 6, "array": 2}
 """Bytes that an entry of a Matrix Market file has at least: `1 1 1` and a line's end, `1` and one."""
+
+_MOST_NUMBERS = 2**27
+"""In one array: a gigabyte."""
 
 
 def read_matrix(file: Path) -> sp.csr_array:
@@ -47,20 +52,38 @@ def _market(file: Path) -> sp.csr_array:
 
 
 def _archive(file: Path) -> sp.csr_array:
-    with np.load(file) as stored:
-        arrays = dict(stored)
-    if "format" in arrays:
+    headers = _headers(file)
+    for name, (shape, kind) in headers.items():
+        if kind.hasobject:
+            raise ImportRefused(f"found objects of Python in its array {name}; allowed: numbers")
+        if math.prod(shape) > _MOST_NUMBERS:
+            raise ImportRefused(f"found an array of shape {shape}; allowed: at most {_MOST_NUMBERS:,} numbers")
+    if "format" in headers:
         matrix = sp.load_npz(file)
         _check_shape(matrix.shape, matrix.nnz, matrix.dtype.name)
         if hasattr(matrix, "check_format"):
             # indices out of range would end the process, not the call
             matrix.check_format(full_check=True)
         return sp.csr_array(matrix)
-    if len(arrays) != 1:
-        raise ImportRefused(f"found {len(arrays)} arrays ({', '.join(arrays)}); allowed: one, or a sparse matrix of SciPy")
-    (array,) = arrays.values()
-    _check_shape(array.shape, array.size, array.dtype.name)
-    return sp.csr_array(array)
+    if len(headers) != 1:
+        raise ImportRefused(f"found {len(headers)} arrays ({', '.join(headers)}); allowed: one, or a sparse matrix of SciPy")
+    ((name, (shape, kind)),) = headers.items()
+    _check_shape(shape, math.prod(shape), kind.name)
+    with np.load(file) as stored:
+        return sp.csr_array(stored[name])
+
+
+def _headers(file: Path) -> dict[str, tuple[tuple[int, ...], np.dtype]]:
+    """Shape and kind of each array, before any is unpacked: a few bytes may be packed that no memory holds."""
+    headers = {}
+    with zipfile.ZipFile(file) as archive:
+        for member in archive.namelist():
+            with archive.open(member) as stream:
+                version = np.lib.format.read_magic(stream)
+                read = np.lib.format.read_array_header_1_0 if version == (1, 0) else np.lib.format.read_array_header_2_0
+                shape, _, kind = read(stream)
+            headers[member.removesuffix(".npy")] = shape, kind
+    return headers
 
 
 def _check_shape(shape: tuple[int, ...], entries: int, numbers: str) -> None:

@@ -12,6 +12,7 @@ from scipy.sparse.csgraph import connected_components
 from r37core.exchange.refusal import ImportRefused, MeshWarning
 from r37core.fem.elements import ELEMENTS
 from r37core.fem.mesh_quality import scaled_jacobian
+from r37core.fem.surface import Faces, outer_faces
 
 from .raw_mesh import RawMesh
 
@@ -24,7 +25,9 @@ map of the element folds at the corner.
 
 
 def checked(mesh: RawMesh, minimum_scaled_jacobian: float) -> tuple[RawMesh, np.ndarray]:
-    """The mesh, all elements right way out, and the scaled Jacobian of each, shape (elements,); warns of linear elements.
+    """The mesh, all elements right way out, and the scaled Jacobian of each, shape (elements,).
+
+    Warns of linear elements, and of holes and cavities, which a blade may have and which a missing element leaves.
 
     A format of the other winding (MED) is recognised by all elements of a type being inside out. Raises ImportRefused.
     """
@@ -41,6 +44,7 @@ def checked(mesh: RawMesh, minimum_scaled_jacobian: float) -> tuple[RawMesh, np.
         _check_shape(mesh, name, of_block, minimum_scaled_jacobian)
         quality.append(of_block)
     _check_one_order(mesh)
+    _tell_holes(mesh.points, outer_faces(blocks))
     linear = [name for name in blocks if not ELEMENTS[name].quadratic]
     if linear:
         warnings.warn(
@@ -115,6 +119,27 @@ def _check_one_order(mesh: RawMesh) -> None:
             f"found elements of first beside some of second order; the mid-nodes of {len(hanging)} edges, for example between "
             f"the nodes {_some(mesh.labels[hanging[0]])}, belong to one side alone and would come apart from the other: write "
             "all elements in second order"
+        )
+
+
+def _tell_holes(points: np.ndarray, faces: list[Faces]) -> None:
+    """Warn unless the surface is that of a ball: one piece, and corners - edges + faces = 2 (Euler's polyhedron formula)."""
+    edges = np.unique(np.sort(np.concatenate([part.edges()[:, [0, 2]] for part in faces]), axis=1), axis=0)
+    corners, local = np.unique(edges, return_inverse=True)
+    starts, ends = local.reshape(-1, 2).T
+    graph = sp.coo_array((np.ones(len(starts)), (starts, ends)), shape=(len(corners),) * 2)
+    pieces, piece = connected_components(graph, directed=False)
+    characteristic = len(corners) - len(edges) + sum(len(part.nodes) for part in faces)
+    if (pieces, characteristic) != (1, 2):
+        smallest = np.argmin(np.bincount(piece))
+        cavities = f"{pieces - 1} closed inside, one near {_place(points[corners[piece == smallest]].mean(axis=0))}"
+        through = f"corners - edges + faces of its surface is {characteristic} and not {2 * pieces}"
+        holes = [cavities] * (pieces > 1) + [through] * (characteristic != 2 * pieces)
+        warnings.warn(
+            f"the mesh has holes ({'; '.join(holes)}): elements may be missing, and with them mass and stiffness; if the blade "
+            "is hollow, all is well",
+            MeshWarning,
+            stacklevel=2,
         )
 
 

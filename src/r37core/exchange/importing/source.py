@@ -50,12 +50,12 @@ class MeshSource:
             words={"forward": True, "backward": False},
         ),
     ] = True
-    revolution_tolerance: Annotated[float, Key("how far the tip may be from a surface of revolution", "_m", gt=0, le=0.1)] = (
-        1e-4
-    )
+    revolution_tolerance: Annotated[
+        float, Key("how far the tip may be from a surface of revolution", "_m", ge=1e-9, le=0.1)
+    ] = 1e-4
     drop_free_nodes: Annotated[bool, Key("leave out nodes of no solid element instead of refusing them")] = False
     minimum_scaled_jacobian: Annotated[
-        float, Key("meshes with elements below are refused; 1 is ideal, 0 folded", gt=0, le=1)
+        float, Key("meshes with elements below are refused; 1 is ideal, 0 folded", ge=1e-6, le=1)
     ] = 0.02
     end_check: Annotated[bool, Key("refuse a root or tip with side faces, or without a part of the blade's end")] = True
     sense_check: bool = field(kw_only=True)
@@ -110,7 +110,8 @@ def matrix_files(name: str, root: Path) -> dict[str, Path]:
     folder = root / name
     if not os.path.isdir(folder):
         raise ImportRefused(f"there is no folder {name}", "matrices")
-    files = [file for file in sorted(folder.glob("*")) if file.suffix in (".mtx", ".npz") or file.name == "boundary.csv"]
+    ours = (file for file in sorted(folder.glob("*")) if file.suffix in (".mtx", ".npz") or file.name == "boundary.csv")
+    files = [file for file in ours if os.path.isfile(file)]
     by_stem = {file.stem: file for file in files}
     speeds = [stem for stem in by_stem if stem.startswith("K_")]
     missing = [stem for stem in ("M", "boundary") if stem not in by_stem]

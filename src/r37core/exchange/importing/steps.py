@@ -11,6 +11,7 @@ from r37core.plain import from_plain
 from r37core.rom.reduction_choice import ReductionChoice, boundary_located
 from r37core.rom.rom_file import write_reduced_model
 
+from .first_frequency import in_words
 from .import_mesh import import_mesh, size_in_words
 from .matrices_in import import_matrices
 from .source import MatricesSource, MeshSource
@@ -31,8 +32,8 @@ def imported_mesh(input: Any, output: Any, params: Any) -> str:
     return f"{params.locations['mesh']}: {size_in_words(mesh)}"
 
 
-def imported_matrices(input: Any, output: Any, params: Any) -> None:
-    """Reduced model from matrices of another program. Output: rom (nc).
+def imported_matrices(input: Any, output: Any, params: Any) -> str:
+    """Reduced model from matrices of another program; returns a frequency, which shows a wrong unit. Output: rom (nc).
 
     Params: source, folder, locations, reduction, contact, provenance. Raises ImportRefused.
     """
@@ -41,3 +42,4 @@ def imported_matrices(input: Any, output: Any, params: Any) -> None:
         model = import_matrices(from_plain(MatricesSource, params.source), choice, params.folder["folder"])
     print(f"{model.columns} columns, {model.size} independent at {model.tolerance:g}")
     write_reduced_model(model, output.rom, params.provenance)
+    return f"{params.locations['matrices']}: {in_words(model)}"

@@ -32,7 +32,7 @@ class Where:
         tuple[tuple[float, float], tuple[float, float]] | None,
         Key("two points [z, r] of the straight meridian that the faces lie on", "_m", ge=-100, le=100),
     ] = None
-    tolerance: Annotated[float, Key("how far beyond a limit a face may lie", "_m", gt=0, le=0.1)] = 1e-4
+    tolerance: Annotated[float, Key("how far beyond a limit a face may lie", "_m", ge=1e-9, le=0.1)] = 1e-4
 
     def nodes(self, what: str, mesh: RawMesh) -> np.ndarray:
         """Mask over the nodes of `mesh`. Raises ImportRefused, naming `what` is looked for, where there is no such set."""

@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 
 from r37core.config.fidelity import recommended_level
 from r37core.dataset_file import about
-from r37core.figures import style  # noqa: F401  (sets the style)
+from r37core.figures import style
 from r37core.results.measures import leading_edge
 
 from ..checks import energy_share
@@ -278,7 +278,7 @@ def draw_parameter(together: xr.Dataset, parameter: str) -> Figure:
         panels[1, column].tick_params(axis="x", rotation=30)
     panels[0, 0].set_ylabel("relative error of the mean at the peak")
     panels[1, 0].set_ylabel("CPU s per run")
-    panels[0, 0].legend(fontsize=7)
+    figure.legend(*style.legend_entries(panels[0]), loc="outside lower center", ncols=6)
     return figure
 
 
@@ -297,9 +297,11 @@ def draw_pareto(together: xr.Dataset) -> Figure:
             if level:
                 for x, y, name in zip(cases["cpu_s"].values, error, cases["value"].values, strict=True):
                     axes.annotate(str(name), (x, y), fontsize=7, xytext=(4, 4), textcoords="offset points")
+        # names of levels stand to the right of their marks
+        axes.margins(x=0.15)
         axes.set(xlabel="CPU s per run", title=str(scene))
     panels[0, 0].set_ylabel("relative error of the mean normal rms at the peak")
-    panels[0, -1].legend(fontsize=7)
+    figure.legend(*style.legend_entries(panels[0]), loc="outside lower center", ncols=6)
     return figure
 
 

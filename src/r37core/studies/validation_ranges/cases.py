@@ -57,19 +57,8 @@ def _scenes(settings: Settings, kind: str) -> dict[str, Scene]:
 
 
 def _tolerances(settings: Settings) -> Mapping[str, Spread]:
-    """Key of each number -> how it spreads; ConfigError for one that neither scene has."""
-    known = {
-        key: value
-        for kind in ("lined", "direct")
-        for key, value in scene_numbers(scene_entry_of(settings, scene_name(settings, kind))).items()
-    }
-    tolerances = {key: entry.spread() for key, entry in _section(settings).of_scenes.items()}
-    for key, tolerance in tolerances.items():
-        if key not in known:
-            raise _refusal(settings, key, key, f"one of {', '.join(known)}")
-        if tolerance.percent and known[key] == 0.0:
-            raise _refusal(settings, key, f"percent of {key}, which is 0", "uniform, normal, between or values")
-    return tolerances
+    """Key of each number -> how it spreads; tolerances/checks.py has seen that the scenes have them."""
+    return {key: entry.spread() for key, entry in _section(settings).of_scenes.items()}
 
 
 def _sample(settings: Settings, numbers: int) -> dict[str, tuple[float, ...]]:

@@ -1,0 +1,12 @@
+"""Where it does.
+
+Adaptive speeds are close where something happens. Peaks stand somewhat above the crossings, which are dotted.
+"""
+
+import r37
+
+speeds = {"start": 900, "stop": 1800, "step": 20, "refine_to": 2}
+response = r37.sweep("Ref", "abradable", speeds, fidelity="draft", cores=2)
+diagram = r37.campbell("Ref", fidelity="draft")
+
+figure = r37.plot_response(response, diagram)

@@ -1,0 +1,18 @@
+"""Two blades, one scene.
+
+The interaction of the swept blade lies lower, as its first bending mode does.
+"""
+
+import matplotlib.pyplot as plt
+
+import r37
+
+speeds = {"start": 1520, "stop": 1780, "step": 20, "refine_to": 2}
+results = r37.compare(["Ref", "CS50"], "abradable", speeds, fidelity="draft", cores=2)
+
+figure, axes = plt.subplots(layout="constrained")
+for blade in ("Ref", "CS50"):
+    stress = results.response(blade, "abradable").max_von_mises
+    axes.plot(stress.speed, 1e-9 * stress, ".-", label=blade)
+axes.set(xlabel="speed (rad/s)", ylabel="largest von Mises stress (GPa)")
+axes.legend()

@@ -1,0 +1,12 @@
+"""What a run-up leaves of a peak.
+
+The faster the rotor passes the interaction, the less time it has to grow.
+"""
+
+import r37
+
+about = {"crossing": {"mode": "1B", "engine_order": 4, "first": -0.015, "last": 0.07}}
+rates = {f"rate-{rate}": {**about, "rate_rad_s2": rate} for rate in (100, 300, 1000, 3000)}
+run_ups = r37.run_ups("Ref", "abradable", rates, fidelity="draft", cores=2)
+
+figure = r37.plot_run_ups(run_ups)

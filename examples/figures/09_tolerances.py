@@ -1,0 +1,12 @@
+"""How sure it is.
+
+The band that nine tenths of the members lie in, their chance of passing yield, and which number moves what.
+"""
+
+import r37
+
+spread = {"friction.coefficient": {"uniform_percent": 10}, "casing.clearance_m": {"uniform_percent": 5}}
+speeds = {"start": 1660, "stop": 1780, "step": 10}
+results = r37.tolerances("Ref", "abradable", speeds, of_scenes=spread, members=16, fidelity="draft", cores=2)
+
+figure = r37.plot_tolerances(results, "Ref", "abradable")

@@ -1,0 +1,12 @@
+"""What a designer may choose.
+
+Shares of the sweep of S100: the more of it, the less clearance is lost as the blade swings.
+"""
+
+import r37
+
+shares = {"sweep_percent": [0, 25, 50, 75, 100]}
+speeds = {"start": 1550, "stop": 1780, "step": 20, "refine_to": 5}
+results = r37.designs("S100", "abradable", speeds, vary=shares, name="Sweep", fidelity="draft", cores=2)
+
+figure = r37.plot_designs(results)

@@ -1,0 +1,59 @@
+"""What speeds and other numbers may be as arguments of a call."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+import numpy as np
+
+from r37core.config import ConfigError
+
+Speeds = Iterable[float | Mapping[str, float]] | Mapping[str, float]
+"""Numbers, and ranges `{"start": ..., "stop": ..., "step": ..., "refine_to": ...}` as in config.yaml."""
+
+
+def speed_keys(speeds: Any, speeds_rpm: Any) -> dict[str, list[Any]]:
+    """The key of config.yaml that speeds stand under, with plain numbers and ranges. Raises ConfigError.
+
+    One of both is given; their bounds are the configuration's.
+    """
+    if (speeds is None) == (speeds_rpm is None):
+        which = "neither" if speeds is None else "both"
+        raise ConfigError(f"speeds: found {which}; allowed: speeds, in rad/s, or speeds_rpm")
+    key, unit, several = ("speeds", "rad/s", speeds) if speeds_rpm is None else ("speeds_rpm", "rpm", speeds_rpm)
+    if isinstance(several, Mapping):
+        several = [several]
+    if isinstance(several, str) or not isinstance(several, Iterable):
+        raise ConfigError(f"{key}: found {several!r}; allowed: a list of numbers and ranges, in {unit}")
+    return {key: [_range(entry, key, unit) if isinstance(entry, Mapping) else number(entry, key, unit) for entry in several]}
+
+
+def speed_key(speed: Any, speed_rpm: Any) -> dict[str, list[Any]]:
+    """The same of a call that takes one speed."""
+    if (speed is None) == (speed_rpm is None):
+        which = "neither" if speed is None else "both"
+        raise ConfigError(f"speed: found {which}; allowed: speed, in rad/s, or speed_rpm")
+    key, unit, value = ("speed", "rad/s", speed) if speed_rpm is None else ("speed_rpm", "rpm", speed_rpm)
+    if isinstance(value, Iterable) and not isinstance(value, str) and np.ndim(value):  # type: ignore[arg-type]
+        raise ConfigError(f"{key}: found {value!r}; allowed: one number, in {unit}; several are for r37.sweep")
+    return {key.replace("speed", "speeds"): [number(value, key, unit)]}
+
+
+def plain_value(value: Any) -> Any:
+    """The same without the types of NumPy."""
+    if isinstance(value, np.ndarray):
+        return value.item() if value.size == 1 else value.tolist()
+    return value.item() if isinstance(value, np.generic) else value
+
+
+def number(value: Any, key: str, unit: str) -> float:
+    """A plain number of one that may be NumPy's. Raises ConfigError."""
+    plain = plain_value(value)
+    if isinstance(plain, bool) or not isinstance(plain, int | float):
+        raise ConfigError(f"{key}: found {plain!r}; allowed: numbers, in {unit}")
+    return plain
+
+
+def _range(entry: Mapping[str, Any], key: str, unit: str) -> dict[str, float]:
+    return {name: number(value, f"{key}: {name}", unit) for name, value in entry.items()}

@@ -1,0 +1,83 @@
+"""Settings of a call: of the blades and scenes that it names, with what else of config.yaml it says."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from functools import reduce
+from pathlib import Path
+from typing import Any
+
+from r37core.config import ConfigError, Document, Settings
+
+from .call_configuration import Configuration, read_configuration
+from .choices import BladeChoice, Choice, SceneChoice
+
+
+def chosen_blade(blade: BladeChoice | str, config: Path | str | None) -> BladeChoice:
+    """The blade, of the configuration `config` where it is a name. Raises ConfigError."""
+    if not isinstance(blade, BladeChoice | str):
+        raise ConfigError(f"blade: found {blade!r}; allowed: the name of a blade, or what r37.blade gives")
+    chosen = blade if isinstance(blade, BladeChoice) else BladeChoice(blade, {}, read_configuration(config))
+    chosen.check()
+    return chosen
+
+
+def chosen_scene(scene: SceneChoice | str, base: Configuration, results: Sequence[str] | None = None) -> SceneChoice:
+    """The scene, of the configuration `base` where it is a name, with other `results` if there are any. Raises ConfigError."""
+    if not isinstance(scene, SceneChoice | str):
+        raise ConfigError(f"scene: found {scene!r}; allowed: the name of a scene, or what r37.scene gives")
+    chosen = scene if isinstance(scene, SceneChoice) else SceneChoice(scene, {}, base)
+    if results is not None and not isinstance(results, Iterable):
+        raise ConfigError(f"results: found {results!r}; allowed: a list of names")
+    if isinstance(results, str):
+        raise ConfigError(f'results: found "{results}"; allowed: a list, as in results=["{results}"]')
+    chosen = chosen.with_results(results)
+    chosen.check()
+    return chosen
+
+
+def base_of(blade: BladeChoice | str, config: Path | str | None) -> Configuration:
+    """What structure and levels are of: the configuration `config`, else that of the blade."""
+    return blade.configuration if isinstance(blade, BladeChoice) and config is None else read_configuration(config)
+
+
+def settings_of(
+    caller: str,
+    base: Configuration,
+    blades: Sequence[BladeChoice],
+    scenes: Sequence[SceneChoice],
+    keys: Mapping[str, Any],
+) -> Settings:
+    """Settings of blades of one file in scenes of one file, with `keys` of config.yaml on top of `base`. Raises ConfigError."""
+    changes = {**keys, "blades": [blade.name for blade in blades], "blades_file": _one_file("blades", blades)}
+    if scenes:
+        changes |= {"scenes": [scene.name for scene in scenes], "scenes_file": _one_file("scenes", scenes)}
+    configuration = Configuration(base.document, blades[0].configuration.root)
+    return configuration.settings(changes, caller, _above(blades), _above(scenes))
+
+
+def level(fidelity: str | None) -> dict[str, Any]:
+    """The key of an accuracy level, where one is given."""
+    return {} if fidelity is None else {"fidelity": fidelity}
+
+
+def names_of_their_own(several: Sequence[Choice]) -> None:
+    """ConfigError for changed entries without a name where names stand in tables, and for two of one name."""
+    names: set[str] = set()
+    for choice in several:
+        if (choice.changes and not choice.base) or choice.name in names:
+            example = f'r37.{choice.kind}("{choice.base or choice.name}", ..., name="Mine")'
+            raise ConfigError(f"{choice.kind}s: found {choice.label}; allowed: names that differ, as of {example}")
+        names.add(choice.name)
+
+
+def _one_file(key: str, several: Sequence[Choice]) -> str:
+    files = list(dict.fromkeys(choice.file for choice in several))
+    if len(files) > 1:
+        raise ConfigError(f"{key}: found {' and '.join(files)}; allowed: {key} of one file")
+    return files[0]
+
+
+def _above(several: Sequence[Choice]) -> Document | None:
+    documents = [choice.above for choice in several if choice.above]
+    return reduce(Document.overlaid, documents) if documents else None

@@ -1,0 +1,33 @@
+"""What every call of r37 has about it: stages are told, a misspelt argument is named. Light: the command imports it."""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable
+from functools import wraps
+from typing import ParamSpec, TypeVar
+
+from .stages import stages
+
+Arguments = ParamSpec("Arguments")
+Result = TypeVar("Result")
+
+
+def checked_call(call: Callable[Arguments, Result]) -> Callable[Arguments, Result]:
+    """The call, with its stages told, and a TypeError for an unknown keyword argument that says which there are."""
+    parameters = inspect.signature(call).parameters
+    named = [name for name, parameter in parameters.items() if parameter.kind is not parameter.POSITIONAL_ONLY]
+    takes_any = any(parameter.kind is parameter.VAR_KEYWORD for parameter in parameters.values())
+
+    @wraps(call)
+    def checked(*arguments: Arguments.args, **keywords: Arguments.kwargs) -> Result:
+        for name in () if takes_any else keywords.keys() - set(named):
+            from r37core.config.messages import did_you_mean
+
+            raise TypeError(
+                f"r37.{call.__name__}: found the argument {name}; allowed: {', '.join(named)}{did_you_mean(name, named)}"
+            )
+        with stages():
+            return call(*arguments, **keywords)
+
+    return checked

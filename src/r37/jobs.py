@@ -1,0 +1,65 @@
+"""Steps of the workflow called from Python, on one core or on several: the numbers do not depend on how many."""
+
+from __future__ import annotations
+
+import contextlib
+import io
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from importlib import import_module
+from typing import Any, TypeVar
+
+import r37core
+from r37core.config import ConfigError
+from r37core.io import Named
+
+from .stages import bar
+
+Result = TypeVar("Result")
+
+
+def check_cores(cores: int) -> None:
+    """ConfigError for what is no number of cores."""
+    if isinstance(cores, bool) or not isinstance(cores, int) or cores < 1:
+        raise ConfigError(f"cores: found {cores!r}; allowed: a whole number of at least 1")
+
+
+def in_parallel(calls: Sequence[Callable[[], Result]], cores: int, what: str = "", unit: str = "") -> list[Result]:
+    """What the calls give, in their order, on so many processes. Raises what one of them raises.
+
+    Each has one thread of the linear algebra library, so that the numbers are the workflow's to the last bit. With a `unit`,
+    that they are counted by, a bar says how far they are.
+    """
+    # imported here: what computes nothing does not wait for them
+    from joblib import Parallel, delayed, parallel_config
+
+    processes = min(cores, len(calls))
+    if processes <= 1:
+        with _alone():
+            return [call() for call in (bar(calls, what, unit) if unit else calls)]
+    with parallel_config(backend="loky", inner_max_num_threads=1):
+        results = Parallel(n_jobs=processes, return_as="generator")(delayed(_called)(call) for call in calls)
+        shown = bar(calls, what, unit) if unit else calls
+        return [result for _, result in zip(shown, results, strict=True)]
+
+
+def _called(call: Callable[[], Result]) -> Result:
+    with _alone():
+        return call()
+
+
+@contextlib.contextmanager
+def _alone() -> Iterator[None]:
+    """One thread of the linear algebra library; what is printed is for the log of a workflow."""
+    # before the limit, which holds for libraries that are loaded
+    import scipy.linalg  # noqa: F401
+    from threadpoolctl import threadpool_limits
+
+    with threadpool_limits(1), contextlib.redirect_stdout(io.StringIO()):
+        yield
+
+
+def run_step(step: str, input: Mapping[str, Any], output: Mapping[str, Any], params: Mapping[str, Any]) -> Any:
+    """Do a step: a function of a `steps.py` of r37core, by its name as rules have it. Gives and raises what it does."""
+    module, function = f"{r37core.__name__}.{step}".rsplit(".", 1)
+    # imported here: some bring gmsh and VTK, which take seconds to load
+    return getattr(import_module(module), function)(Named(**input), Named(**output), Named(**params))

@@ -1,0 +1,59 @@
+"""What a call says while it works: a line for each stage, and a bar where there are many simulations.
+
+The lines go to the logger `r37` of the standard library. Where nobody listens to it and a person watches, on a terminal or in a
+notebook, they are written there, and bars beside them. `logging.getLogger("r37").setLevel("WARNING")` silences both.
+"""
+
+from __future__ import annotations
+
+import logging
+import sys
+import warnings
+from collections.abc import Collection, Iterable, Iterator
+from contextlib import contextmanager
+from typing import TypeVar
+
+LOGGER = logging.getLogger("r37")
+
+T = TypeVar("T")
+
+
+def _watched() -> bool:
+    """Whether a person sees what is written now, and has not asked for quiet."""
+    if LOGGER.level > logging.INFO or sys.stderr is None:
+        return False
+    return sys.stderr.isatty() or type(sys.stderr).__module__.startswith("ipykernel")
+
+
+@contextmanager
+def stages() -> Iterator[None]:
+    """While this lasts, lines of the logger are written where a person watches and nobody else takes them.
+
+    Serves as a decorator, too: `@stages()`.
+    """
+    taken = LOGGER.isEnabledFor(logging.INFO) and LOGGER.hasHandlers()
+    if taken or not _watched():
+        yield
+        return
+    handler, level, propagate = logging.StreamHandler(sys.stderr), LOGGER.level, LOGGER.propagate
+    LOGGER.addHandler(handler)
+    LOGGER.setLevel(logging.INFO)
+    # handlers that others gave the root would write the line once more
+    LOGGER.propagate = False
+    try:
+        yield
+    finally:
+        LOGGER.removeHandler(handler)
+        LOGGER.setLevel(level)
+        LOGGER.propagate = propagate
+
+
+def bar(items: Collection[T], what: str, unit: str) -> Iterable[T]:
+    """The items one after another, with a bar that says how many are done and how long the others take, where it is watched."""
+    if len(items) < 2 or not _watched():
+        return items
+    with warnings.catch_warnings():
+        # a notebook without ipywidgets has a bar of characters, which is as good
+        warnings.simplefilter("ignore")
+        from tqdm.auto import tqdm
+    return tqdm(items, desc=what, unit=unit, delay=0.5, leave=False, file=sys.stderr)

@@ -1,0 +1,164 @@
+"""Calls of r37 over several runs, what they say of changes, and the examples of all docstrings."""
+
+import doctest
+import inspect
+import json
+from pathlib import Path
+
+import matplotlib.pyplot as plt
+import numpy as np
+import pandas as pd
+import pytest
+import xarray as xr
+from workflow_runs import copy_finished
+
+import r37
+from r37core.dataset_file import write_dataset
+from r37core.results.table_file import write_table
+
+SPEEDS = [750.0, 1150.0, 1550.0]
+CALLS = [name for name in r37.__all__ if inspect.isfunction(getattr(r37, name))]
+
+
+@pytest.fixture(scope="module")
+def finished(small_sweep, tmp_path_factory):
+    """A sweep of the workflow, whose configuration is the shipped one of the calls; structures of r37 lie in its cache."""
+    folder = copy_finished(small_sweep, tmp_path_factory.mktemp("finished") / "sweep")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("R37_CACHE", str(folder / "cache"))
+        patch.setattr("r37.call_configuration._PACKAGE", folder)
+        patch.chdir(folder)
+        yield folder
+
+
+@pytest.mark.slow
+def test_a_comparison_is_the_sweep_of_the_workflow(finished):
+    again = r37.compare(["Ref", "CS100"], ["abradable", "direct"], SPEEDS, cores=2)
+    results = r37.open_results(finished / "results")
+    assert list(again) == list(results) and list(again.tables) == list(results.tables)
+    for name, dataset in results.items():
+        xr.testing.assert_identical(again[name], dataset)
+    for name, table in results.tables.items():
+        pd.testing.assert_frame_equal(again.tables[name], table)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", CALLS)
+def test_the_example_of_a_docstring_runs(finished, name, tmp_path, monkeypatch):
+    """With the small level in place of others: what an example shows holds for both."""
+    (test,) = doctest.DocTestFinder(recurse=False).find(inspect.unwrap(getattr(r37, name)), name, globs={"r37": r37})
+    assert test.examples
+    if name == "init":
+        monkeypatch.chdir(tmp_path)
+    for example in test.examples:
+        example.source = example.source.replace('fidelity="draft"', 'fidelity="tiny"')
+    told = []
+    assert doctest.DocTestRunner(optionflags=doctest.ELLIPSIS).run(test, out=told.append).failed == 0, "".join(told)
+    plt.close("all")
+
+
+@pytest.mark.parametrize("name", CALLS)
+def test_a_docstring_says_what_a_call_takes(name):
+    call = inspect.unwrap(getattr(r37, name))
+    _, _, parameters = inspect.getdoc(call).partition("Parameters\n----------\n")
+    lines = parameters.partition("\n\n")[0].splitlines()
+    described = {part.strip("* ") for line in lines if not line.startswith(" ") for part in line.split(",")}
+    assert described == set(inspect.signature(call).parameters)
+
+
+def test_an_unknown_argument_is_told(finished):
+    with pytest.raises(TypeError, match=r"r37.simulate: found the argument fidelty; .* \(did you mean fidelity\?\)"):
+        r37.simulate("Ref", "abradable", 1150, fidelty="tiny")
+
+
+@pytest.mark.slow
+def test_what_was_changed_is_told(finished):
+    swept = r37.blade("Ref", chordwise_sweep_deg=np.float64(10))
+    smooth = r37.scene("direct", **{"friction.coefficient": 0.05})
+    label = "Ref, chordwise_sweep_deg=10.0"
+    diagram = r37.campbell(swept)
+    assert diagram.attrs["blade"] == label and json.loads(diagram.attrs["blade_changes"]) == {"chordwise_sweep_deg": 10.0}
+    assert r37.plot_campbell(diagram).axes[0].get_title() == f"Campbell diagram, blade {label}"
+    response = r37.simulate(swept, smooth, 1150, results=[])
+    assert response.attrs["blade"] == label and response.attrs["scene"] == "direct, friction.coefficient=0.05"
+    assert label in r37.plot_response(response).axes[0].get_title()
+    run = r37.run_up(swept, "abradable", from_rad_s=1150, to_rad_s=1160, revolutions=2)
+    assert str(run["blade"].values) == run.attrs["blade"] == label
+    assert label in r37.plot_run_ups(run).get_suptitle()
+    # a name changes no number
+    named = r37.blade("Ref", chordwise_sweep_deg=10, name="Swept")
+    assert r37.campbell(named).equals(diagram)
+    assert json.loads(r37.campbell(named).attrs["blade_changes"]) == {"base": "Ref", "chordwise_sweep_deg": 10}
+    assert r37.plot_campbell(r37.campbell(named)).axes[0].get_title().endswith("blade Swept")
+    both = r37.compare(["Ref", named], r37.scene("direct", results=[], name="bare"), [1150])
+    assert both["rms"]["blade"].values.tolist() == ["Ref", "Swept"] and both["rms"]["scene"].values.tolist() == ["bare"]
+    plain = r37.campbell("Ref").attrs
+    assert plain["blade"] == "Ref" and "blade_changes" not in plain
+    plt.close("all")
+
+
+def test_a_named_copy_is_the_blade(finished):
+    for name in ("Ref", "S100", "CS50"):
+        copy, blade = r37.blade(name, name="Copy").settings, r37.blade(name).settings
+        assert (copy.definition.stacking, copy.material, copy.contact) == (
+            blade.definition.stacking,
+            blade.material,
+            blade.contact,
+        )
+    text = (finished / "config/blades.yaml").read_text().replace("S50: {", "S50: { sweep_percent: 50,")
+    Path("halved.yaml").write_text(text)
+    with pytest.raises(r37.ConfigError, match="name: found sweep_percent of a copy of S50, whose table has a share already"):
+        r37.blade("S50", file="halved.yaml", sweep_percent=80, name="Less")
+    assert r37.blade("S50", file="halved.yaml", sweep_percent=80).settings.definition.stacking
+
+
+@pytest.mark.slow
+def test_speeds_may_be_rpm(finished):
+    in_rpm = r37.sweep("Ref", "abradable", speeds_rpm=[11000, 12000])
+    np.testing.assert_allclose(in_rpm["speed"], np.array([11000, 12000]) * np.pi / 30)
+    xr.testing.assert_identical(r37.simulate("Ref", "abradable", speed_rpm=11000), in_rpm.isel(speed=0))
+
+
+def test_rpm_taken_for_rad_s_are_told(finished, monkeypatch):
+    """Before anything is computed."""
+    monkeypatch.setattr("r37.simulations.Calculation", None)
+    told = r"speeds: up to 16234 rad/s, and structure.maximum_speed_rad_s is 2000: .*; speeds in rpm stand under speeds_rpm"
+    with pytest.warns(UserWarning, match=told) as warned, pytest.raises(TypeError):
+        r37.simulate("Ref", "abradable", 16234)
+    assert warned[0].filename == __file__
+    with pytest.warns(UserWarning, match="raise it to what is run$"), pytest.raises(TypeError):
+        r37.sweep("Ref", "abradable", speeds_rpm=[30000])
+
+
+@pytest.mark.slow
+def test_a_design_is_the_changed_blade(finished):
+    results = r37.designs("CS100", "abradable", [1150], vary={"sweep_percent": [50]}, name="Less")
+    assert results.tables["designs"]["blade"].tolist() == ["Less_50"]
+    alone = r37.sweep(r37.blade("CS100", sweep_percent=50), "abradable", [1150])
+    assert alone.equals(results.response("Less_50", "abradable"))
+
+
+@pytest.mark.slow
+def test_all_that_a_run_has_is_reached(finished, tmp_path):
+    """A table or dataset of a wing is one more file: here empty ones beside those of the sweep."""
+    folder = copy_finished(finished / "results", tmp_path / "results")
+    for name in ("run_ups", "tolerances"):
+        write_dataset(xr.Dataset({"x": 1.0}), folder / f"{name}.nc")
+    for name in ("designs", "run_ups"):
+        write_table(pd.DataFrame({"blade": ["1e5"], "x": [1.0]}), folder / f"{name}.csv")
+    write_dataset(xr.Dataset({"x": 2.0}), folder / "Ref/abradable/signals.nc")
+    results = r37.open_results(folder)
+    assert list(results) == ["campbell", "rms", "run_ups", "spectrum", "stress", "tolerances", "wear"]
+    assert list(results.tables) == ["designs", "ranking", "run_ups", "summary"]
+    assert results.tables["designs"]["blade"][0] == "1e5" and results["run_ups"]["x"] == 1.0
+    assert results.signals("Ref", "abradable")["x"] == 2.0
+    assert results.ranking["rank"].dtype == "Int64" and results.summary is results.tables["summary"]
+    with pytest.raises(KeyError, match=r'there is a table of this name: results.tables\["designs"\]'):
+        results["designs"]
+    with pytest.raises(KeyError, match=r"did you mean stress"):
+        results["strss"]
+    tree = results.tree()
+    assert set(tree.children) == {*results, "Ref", "CS100"}
+    assert tree["Ref/abradable/signals"]["x"] == 2.0
+    for blade in ("Ref", "CS100"):
+        xr.testing.assert_identical(tree[f"{blade}/direct/response"].to_dataset().load(), results.response(blade, "direct"))
