@@ -35,7 +35,7 @@ SHARES = np.arange(-0.06, 0.1001, 0.005)
 """Speeds, as shares of the crossing's above it."""
 
 SEEDS = (0, 1, 2)
-MISTUNINGS = (0.2, 1.0, 3.0)
+MISTUNINGS = (1.0, 0.2, 3.0)
 """Standard deviations (%)."""
 
 LONGER = (2e-5, 5e-5)
@@ -47,20 +47,18 @@ GROWN = 0.9
 def rotors(order):
     """Name -> section of all rotors about a crossing; None is a single blade."""
     kinds = {"single": None, "tuned": {"blades": NUMBER}}
-    mistunings = MISTUNINGS if order == ORDERS[0] else (1.0,)
-    for percent in sorted(mistunings, key=lambda percent: percent != 1.0):
-        for seed in SEEDS:
-            kinds[f"mistuned_{percent:g}_{seed}"] = {
-                "blades": NUMBER,
-                "mistuning_spread_percent": {"normal": percent},
-                "seed": seed,
-            }
+    for percent in MISTUNINGS if order == ORDERS[0] else MISTUNINGS[:1]:
+        kinds |= {f"mistuned_{percent:g}_{seed}": mistuned(percent, seed) for seed in SEEDS}
     if order == ORDERS[0]:
-        for longer in LONGER:
-            kinds[f"longer_{1e6 * longer:g}"] = {"blades": NUMBER, "longer_m": {1: longer}}
-        for number in GROWTH[1:-1]:
-            kinds[f"blades_{number}"] = {"blades": number}
+        kinds |= {f"apart_{seed}": {**mistuned(MISTUNINGS[0], seed), "lining": "separate"} for seed in SEEDS}
+        kinds |= {f"blades_{number}": {"blades": number} for number in GROWTH[1:-1]}
+        kinds |= {f"longer_{1e6 * longer:g}": {"blades": NUMBER, "longer_m": {1: longer}} for longer in LONGER}
     return kinds
+
+
+def mistuned(percent, seed):
+    """A rotor whose blades' frequencies differ."""
+    return {"blades": NUMBER, "mistuning_spread_percent": {"normal": percent}, "seed": seed}
 
 
 def crossing(blade, order):
