@@ -228,7 +228,7 @@ def fake_run(model, speed, scene, choice, results, **kept):
 
 def test_a_window_is_followed_to_where_the_stress_is_below_yield(tmp_path, monkeypatch):
     monkeypatch.setattr(runner, "run_speed", fake_run)
-    monkeypatch.setattr(runner, "Simulation", lambda *_: None)
+    monkeypatch.setattr(runner, "prepared", lambda *_: None)
     steel = Material(2e11, 8000.0, 0.3, YIELD)
     choice = IntegrationChoice(1e-7, 3, 62, snapshots_per_revolution=31)
     still = Case("Ref", "pressure_edge", Scene(Casing(1e-4)), choice, (1000.0, 1003.0, 1006.0),

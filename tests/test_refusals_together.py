@@ -25,7 +25,7 @@ def test_mistakes_in_three_files(config_copy):
     edit(config_copy / "config/scenes.yaml", "lobes: 2", "lobes: -2")
     lines = told(config_copy)
     starts(lines, "config/config.yaml:", "config/blades.yaml:", "config/scenes.yaml:")
-    assert lines[0].endswith("tolerance: found 5; allowed: number, more than 0, at most 1")
+    assert lines[0].endswith("tolerance: found 5; allowed: number, at least 1e-06, at most 1")
     assert lines[1].endswith("Ref.material.density_kg_m3: found 0.0; allowed: number, at least 1, at most 100000")
     assert lines[2].endswith(".casing.lobes: found -2; allowed: integer, at least 0, at most 100")
 

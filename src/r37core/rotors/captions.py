@@ -2,8 +2,7 @@
 
 CAPTIONS = {
     "rotor": (
-        "Blade {blade} in scene {scene}, a whole rotor on one lining: rms of the leading edge's normal displacement of every "
-        "blade over speed; the largest stress of any blade, and how many are above yield; growth of the blades at the speed "
-        "of the largest motion; nodal diameters of the blades' motion there."
+        "Blade {blade} in scene {scene}, a whole rotor on one lining. Above: rms of every blade's leading edge over speed, and the "
+        "largest stress of any blade. Below: growth of all blades at the speed of the largest motion, and nodal diameters there."
     ),
 }

@@ -8,7 +8,7 @@ from .problem import Problem
 
 
 def gaps(
-    problem: Problem, clearance: np.ndarray, displacement: np.ndarray, step: int, angle: float = 0.0
+    problem: Problem, clearance: np.ndarray, displacement: np.ndarray, step: int, angle: float
 ) -> tuple[np.ndarray, np.ndarray]:
     """Distance (m) of every node from casing or lining, and the angle (rad) at which it meets it, shape (nodes,) both.
 

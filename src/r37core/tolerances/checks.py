@@ -41,6 +41,9 @@ def members_of_the_study_are_possible(settings: Settings) -> None:
     if study is None or not settings.scene_entries.keys() >= set(names):
         return
     entries = [settings.scene_entries[name] for name in names]
+    if entries[0].lining is None:
+        # refused where the scene is named
+        return
     known = {key: value for entry in entries for key, value in scene_numbers(entry).items()}
     path = ("studies", "validation_ranges", "of_scenes")
     for key, entry in study.of_scenes.items():
