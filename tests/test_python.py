@@ -559,6 +559,15 @@ def test_the_command_refuses_in_one_line(root, capsys, tmp_path):
     assert "level: standard\nsimulations: 896 to about 2842\ntheir CPU time: about 85.3 s" in capsys.readouterr().out
 
 
+def test_an_interrupted_command_says_so_in_a_line(monkeypatch, capsys):
+    def interrupted(**_):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("r37.choices.blades", interrupted)
+    assert main(["blades"]) == 130
+    assert capsys.readouterr().err == "r37: interrupted\n"
+
+
 @pytest.mark.slow
 def test_an_installed_package_needs_no_repository(root, tmp_path):
     """Built as a source distribution and installed from it into an environment of its own, which borrows other packages."""
