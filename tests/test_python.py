@@ -267,6 +267,44 @@ BAD = {
         ),
         r'blades: found Ref, chordwise_sweep_deg=5; allowed: names that differ, as of r37.blade\("Ref", ..., name="Mine"\)',
     ),
+    "no list of blades": (
+        lambda config: r37.compare(3, "direct", [9], config=config),
+        "blades: found 3; allowed: the name of a blade, or what r37.blade gives, or a list of them",
+    ),
+    "no list of scenes": (lambda config: r37.compare("Ref", None, [9], config=config), "scenes: found None; allowed: the name"),
+    "no mapping of what varies": (
+        lambda config: r37.designs("Ref", "direct", [9], vary=[50], config=config),
+        r"vary: found \[50\]; allowed: keys of blades.yaml and their values",
+    ),
+    "no mapping of what spreads": (
+        lambda config: r37.tolerances("Ref", "direct", [9], of_scenes="friction", config=config),
+        "of_scenes: found 'friction'; allowed: dotted keys and how each spreads",
+    ),
+    "a run-up that is a number": (
+        lambda config: r37.run_ups("Ref", "direct", {"slow": 3}, config=config),
+        "run_ups.slow: found 3; allowed: the keys of a run-up",
+    ),
+    "bytes as speeds": (
+        lambda config: r37.sweep("Ref", "direct", b"Ref", config=config),
+        "speeds: found b'Ref'; allowed: a list",
+    ),
+    "a dataset as a speed": (
+        lambda config: r37.simulate("Ref", "direct", xr.Dataset(), config=config),
+        "speed: found <xarray.Dataset>.*; allowed: one number, in rad/s",
+    ),
+    "a list as a name": (
+        lambda config: r37.scene(["direct"], config=config),
+        r"name_of_entry: found \['direct'\]; allowed: a name",
+    ),
+    "a number as a name": (lambda config: r37.blade("Ref", name=3, config=config), "name: found 3; allowed: a name"),
+    "tolerances of nothing": (
+        lambda config: r37.plot_tolerances(None, "Ref", "direct"),
+        "results: found none of tolerances; allowed: what r37.tolerances gives",
+    ),
+    "designs of nothing": (
+        lambda config: r37.plot_designs(3),
+        "results: found none of designs; allowed: what r37.designs gives",
+    ),
     "no blades": (lambda config: r37.compare([], "direct", [9], config=config), "blades: found none"),
     "no scenes": (lambda config: r37.compare("Ref", [], [9], config=config), "scenes: found none"),
     "no cores": (lambda config: r37.sweep("Ref", "direct", [9], cores=0, config=config), "cores: found 0; allowed: a whole"),
@@ -519,6 +557,15 @@ def test_the_command_refuses_in_one_line(root, capsys, tmp_path):
     assert main(["check", "missing.yaml"]) == 1
     assert main(["check", config]) == 0
     assert "level: standard\nsimulations: 896 to about 2842\ntheir CPU time: about 85.3 s" in capsys.readouterr().out
+
+
+def test_an_interrupted_command_says_so_in_a_line(monkeypatch, capsys):
+    def interrupted(**_):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("r37.choices.blades", interrupted)
+    assert main(["blades"]) == 130
+    assert capsys.readouterr().err == "r37: interrupted\n"
 
 
 @pytest.mark.slow

@@ -66,6 +66,13 @@ def test_a_docstring_says_what_a_call_takes(name):
     assert described == set(inspect.signature(call).parameters)
 
 
+def test_blades_of_two_files_are_told_how_to_come_together(root, tmp_path):
+    file = tmp_path / "blades.yaml"
+    file.write_text("Other: { base: Ref }\n" + (root / "config/blades.yaml").read_text().replace("config/", f"{root}/config/"))
+    with pytest.raises(r37.ConfigError, match="blades of one file; write them into one: r37 init <folder> gives the shipped"):
+        r37.compare(["Ref", r37.blade("Other", file=file)], "direct", [9])
+
+
 def test_an_unknown_argument_is_told(finished):
     with pytest.raises(TypeError, match=r"r37.simulate: found the argument fidelty; .* \(did you mean fidelity\?\)"):
         r37.simulate("Ref", "abradable", 1150, fidelty="tiny")

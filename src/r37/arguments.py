@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from r37core.config import ConfigError
+from r37core.config.messages import on_one_line
 
 Speeds = Iterable[float | Mapping[str, float]] | Mapping[str, float]
 """Numbers, and ranges `{"start": ..., "stop": ..., "step": ..., "refine_to": ...}` as in config.yaml."""
@@ -24,8 +25,8 @@ def speed_keys(speeds: Any, speeds_rpm: Any) -> dict[str, list[Any]]:
     key, unit, several = ("speeds", "rad/s", speeds) if speeds_rpm is None else ("speeds_rpm", "rpm", speeds_rpm)
     if isinstance(several, Mapping):
         several = [several]
-    if isinstance(several, str) or not isinstance(several, Iterable):
-        raise ConfigError(f"{key}: found {several!r}; allowed: a list of numbers and ranges, in {unit}")
+    if isinstance(several, str | bytes) or not isinstance(several, Iterable):
+        raise ConfigError(f"{key}: found {on_one_line(repr(several))}; allowed: a list of numbers and ranges, in {unit}")
     return {key: [_range(entry, key, unit) if isinstance(entry, Mapping) else number(entry, key, unit) for entry in several]}
 
 
@@ -35,8 +36,9 @@ def speed_key(speed: Any, speed_rpm: Any) -> dict[str, list[Any]]:
         which = "neither" if speed is None else "both"
         raise ConfigError(f"speed: found {which}; allowed: speed, in rad/s, or speed_rpm")
     key, unit, value = ("speed", "rad/s", speed) if speed_rpm is None else ("speed_rpm", "rpm", speed_rpm)
-    if isinstance(value, Iterable) and not isinstance(value, str) and np.ndim(value):  # type: ignore[arg-type]
-        raise ConfigError(f"{key}: found {value!r}; allowed: one number, in {unit}; several are for r37.sweep")
+    if isinstance(value, Iterable) and not isinstance(value, str) and getattr(value, "ndim", True):
+        told = on_one_line(repr(value))
+        raise ConfigError(f"{key}: found {told}; allowed: one number, in {unit}; several are for r37.sweep")
     return {key.replace("speed", "speeds"): [number(value, key, unit)]}
 
 
@@ -47,11 +49,30 @@ def plain_value(value: Any) -> Any:
     return value.item() if isinstance(value, np.generic) else value
 
 
+def sequence_of(value: Any, single: Any, key: str, what: str) -> list[Any]:
+    """Several of what a call takes, or one of the type `single`, as a list. Raises ConfigError for others and for none."""
+    if isinstance(value, single):
+        return [value]
+    if isinstance(value, bytes) or not isinstance(value, Iterable) or isinstance(value, type):
+        raise ConfigError(f"{key}: found {on_one_line(repr(value))}; allowed: {what}, or a list of them")
+    several = list(value)
+    if not several:
+        raise ConfigError(f"{key}: found none; allowed: at least one")
+    return several
+
+
+def mapping(value: Any, key: str, allowed: str) -> dict[str, Any]:
+    """What has keys and values, of plain types. Raises ConfigError."""
+    if not isinstance(value, Mapping) or not all(isinstance(name, str) for name in value):
+        raise ConfigError(f"{key}: found {on_one_line(repr(value))}; allowed: {allowed}")
+    return {name: plain_value(entry) for name, entry in value.items()}
+
+
 def number(value: Any, key: str, unit: str) -> float:
     """A plain number of one that may be NumPy's. Raises ConfigError."""
     plain = plain_value(value)
     if isinstance(plain, bool) or not isinstance(plain, int | float):
-        raise ConfigError(f"{key}: found {plain!r}; allowed: numbers, in {unit}")
+        raise ConfigError(f"{key}: found {on_one_line(repr(plain))}; allowed: numbers, in {unit}")
     return plain
 
 

@@ -74,7 +74,10 @@ def names_of_their_own(several: Sequence[Choice]) -> None:
 def _one_file(key: str, several: Sequence[Choice]) -> str:
     files = list(dict.fromkeys(choice.file for choice in several))
     if len(files) > 1:
-        raise ConfigError(f"{key}: found {' and '.join(files)}; allowed: {key} of one file")
+        together = (
+            f'write them into one: r37 init <folder> gives the shipped ones in config/; then file="<folder>/config/{key}.yaml"'
+        )
+        raise ConfigError(f"{key}: found {' and '.join(files)}; allowed: {key} of one file; {together}")
     return files[0]
 
 

@@ -316,7 +316,10 @@ def scene(
 
 
 def _named(entry: str, name: str | None, changes: Mapping[str, Any], configuration: Configuration) -> Any:
-    """What a choice is made of."""
+    """What a choice is made of. Raises ConfigError for what is no name."""
+    for key, value in (("name_of_entry", entry), ("name", name)):
+        if not isinstance(value, str | None):
+            raise ConfigError(f"{key}: found {on_one_line(repr(value))}; allowed: a name")
     return (entry, changes, configuration) if name is None else (name, changes, configuration, entry)
 
 

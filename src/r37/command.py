@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import argparse
 import logging
+import signal
 import sys
 import tempfile
 import warnings
@@ -20,8 +21,21 @@ if TYPE_CHECKING:
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run the command with these arguments, or those of the process. Gives its exit status: 1 after one line of refusal."""
-    options = _parser().parse_args(arguments)
+    """Run the command with these arguments, or those of the process.
+
+    Gives its exit status: 1 after one line of refusal, and that of a shell's interrupt after Ctrl-C.
+    """
+    try:
+        return _run(_parser().parse_args(arguments))
+    except KeyboardInterrupt:
+        print("r37: interrupted", file=sys.stderr)
+        return _INTERRUPTED
+
+
+_INTERRUPTED = 128 + signal.SIGINT
+
+
+def _run(options: argparse.Namespace) -> int:
     # imported here, and below: --version and --help need neither
     from r37core.io import InputFileError
 

@@ -8,6 +8,8 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from importlib import import_module
 from typing import Any, TypeVar
 
+import numpy as np
+
 import r37core
 from r37core.config import ConfigError
 from r37core.io import Named
@@ -19,7 +21,7 @@ Result = TypeVar("Result")
 
 def check_cores(cores: int) -> None:
     """ConfigError for what is no number of cores."""
-    if isinstance(cores, bool) or not isinstance(cores, int) or cores < 1:
+    if isinstance(cores, bool) or not isinstance(cores, int | np.integer) or cores < 1:
         raise ConfigError(f"cores: found {cores!r}; allowed: a whole number of at least 1")
 
 

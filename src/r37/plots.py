@@ -160,7 +160,7 @@ def plot_tolerances(results: RunResults, blade: str, scene: str, title: str | No
     >>> len(r37.plot_tolerances(results, "Ref", "abradable").axes) > 2
     True
     """
-    if "tolerances" not in results:
+    if not isinstance(results, RunResults) or "tolerances" not in results:
         raise ConfigError("results: found none of tolerances; allowed: what r37.tolerances gives")
     tolerances = results["tolerances"]
     if blade not in tolerances["blade"].values or scene not in tolerances["scene"].values:
@@ -199,7 +199,7 @@ def plot_designs(results: RunResults, title: str | None = None) -> Figure:
     >>> r37.plot_designs(results).get_suptitle()
     'family Design: 2 designs over sweep_percent'
     """
-    if "designs" not in results.tables:
+    if not isinstance(results, RunResults) or "designs" not in results.tables:
         raise ConfigError("results: found none of designs; allowed: what r37.designs gives")
 
     def draw() -> Figure:

@@ -13,7 +13,7 @@ from r37core.dataset_file import read_dataset
 from r37core.io import Named, scratch_folder
 from r37core.run_ups.plan import RUN_UP, RunUps
 
-from .arguments import plain_value
+from .arguments import mapping
 from .calculation import Calculation
 from .call_settings import base_of, chosen_blade, chosen_scene, level, settings_of
 from .checked import checked_call
@@ -158,7 +158,7 @@ def _run_ups(
     chosen, base = chosen_blade(blade, config), base_of(blade, config)
     rubs_on = chosen_scene(scene, base, results)
     check_cores(cores)
-    entries = {name: {key: plain_value(value) for key, value in entry.items()} for name, entry in several.items()}
+    entries = {name: mapping(entry, f"run_ups.{name}", "the keys of a run-up") for name, entry in several.items()}
     # a run-up's own speeds are checked by its section
     first_speed = {"speeds": [base.checked.structure.maximum_speed_rad_s]}
     keys = {"run_ups": entries, **first_speed, **level(fidelity)}

@@ -6,10 +6,9 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from r37core.config import ConfigError
 from r37core.io import temporary_folder
 
-from .arguments import Speeds, plain_value, speed_keys
+from .arguments import Speeds, mapping, plain_value, sequence_of, speed_keys
 from .calculation import Calculation
 from .call_configuration import read_configuration
 from .call_settings import chosen_blade, chosen_scene, level, names_of_their_own, settings_of
@@ -22,6 +21,8 @@ from .simulations import remarks_of, tell
 
 Blades = BladeChoice | str | Sequence[BladeChoice | str]
 Scenes = SceneChoice | str | Sequence[SceneChoice | str]
+
+_SPREAD = 'dotted keys and how each spreads, as in {"friction.coefficient": {"uniform_percent": 5}}'
 
 
 @checked_call
@@ -113,7 +114,8 @@ def designs(
     >>> results.tables["designs"].blade.tolist()
     ['Design_50', 'Design_100']
     """
-    family = chosen_blade(blade, config).family(name, vary, combine)
+    varied = mapping(vary, "vary", 'keys of blades.yaml and their values, as in {"sweep_percent": [50, 100]}')
+    family = chosen_blade(blade, config).family(name, varied, combine)
     keys = {**speed_keys(speeds, speeds_rpm), **level(fidelity)}
     return _results("r37.designs", [family], scenes, keys, results, config, cores)
 
@@ -173,8 +175,8 @@ def tolerances(
     2
     """
     section = {
-        "of_scenes": dict(of_scenes or {}),
-        "of_blades": dict(of_blades or {}),
+        "of_scenes": {} if of_scenes is None else mapping(of_scenes, "of_scenes", _SPREAD),
+        "of_blades": {} if of_blades is None else mapping(of_blades, "of_blades", _SPREAD),
         "members": plain_value(members),
         "seed": plain_value(seed),
         "sensitivity": sensitivity,
@@ -185,9 +187,7 @@ def tolerances(
 
 
 def _chosen(blades: Blades, config: Path | str | None) -> list[BladeChoice]:
-    several = [blades] if isinstance(blades, BladeChoice | str) else list(blades)
-    if not several:
-        raise ConfigError("blades: found none; allowed: at least one")
+    several = sequence_of(blades, BladeChoice | str, "blades", "the name of a blade, or what r37.blade gives")
     return [chosen_blade(blade, config) for blade in several]
 
 
@@ -203,10 +203,8 @@ def _results(
     """All that a run of these blades and scenes ends in, but its pictures."""
     check_cores(cores)
     base = blades[0].configuration if config is None else read_configuration(config)
-    several = [scenes] if isinstance(scenes, SceneChoice | str) else list(scenes)
+    several = sequence_of(scenes, SceneChoice | str, "scenes", "the name of a scene, or what r37.scene gives")
     rubs_on = [chosen_scene(scene, base, results) for scene in several]
-    if not rubs_on:
-        raise ConfigError("scenes: found none; allowed: at least one")
     names_of_their_own(blades)
     names_of_their_own(rubs_on)
     settings = settings_of(caller, base, blades, rubs_on, keys)
