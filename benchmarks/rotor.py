@@ -47,6 +47,9 @@ MISTUNINGS = (1.0, 0.2, 3.0)
 """Standard deviations (%)."""
 
 LONGER = (2e-5, 5e-5)
+LONGER_OF = ("Ref", "S100", "CS100")
+"""Blades of which one is longer than the others."""
+
 GROWTH = (1, 2, 6, 36)
 GROWN = 0.9
 """Share of its largest motion that a blade has reached when it is said to be grown."""
@@ -206,7 +209,7 @@ def growth_table():
 def longer_table():
     """What one longer blade does in a rotor of equal blades."""
     rows = []
-    for blade in BLADES:
+    for blade in LONGER_OF:
         cells = []
         for kind in ("tuned", *(f"longer_{1e6 * longer:g}" for longer in LONGER)):
             table = read(blade, ORDERS[0], kind)
@@ -301,7 +304,12 @@ TABLES = {
 
 if __name__ == "__main__":
     FOLDER.mkdir(parents=True, exist_ok=True)
-    jobs = [(blade, order, name) for order in ORDERS for name in rotors(order) for blade in BLADES]
+    jobs = [
+        (blade, order, name)
+        for order in ORDERS
+        for name in rotors(order)
+        for blade in (LONGER_OF if name.startswith("longer") else BLADES)
+    ]
     with multiprocessing.get_context("spawn").Pool(int(os.environ.get("CORES", "2"))) as pool:
         for _ in pool.imap_unordered(run_rotor, jobs, chunksize=1):
             pass
