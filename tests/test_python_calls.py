@@ -156,7 +156,8 @@ def test_a_rotor_is_that_of_the_workflow(finished):
     response = together.response("Ref", "mine")
     largest = response["rms_normal"].sel(tip_point="leading_edge")
     np.testing.assert_array_equal(of_scene["blade_rms"].max("blade_number"), largest)
-    np.testing.assert_array_equal(of_scene["blade_max_von_mises"].max("blade_number"), response["max_von_mises"])
+    stress = of_scene["blade_max_von_mises"].max("blade_number")
+    np.testing.assert_allclose(stress, response["max_von_mises"], rtol=1e-6)
     assert "mine: a rotor of 3 blades" in r37.plot_rotor(of_scene.isel(speed=0)).get_suptitle()
     plt.close("all")
 
