@@ -6,7 +6,7 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 
-from r37core.explorer import write_page
+from r37core.explorer import PARTS, write_page
 from r37core.time_integration.status import RunStatus
 
 SPEEDS = np.array([900.0, 1000.25, 1100.0, 1200.0, 1300.0])
@@ -76,9 +76,9 @@ def interaction_rows():
 
 
 @contextmanager
-def beside(page, contents, file, size=(1500, 1400), place="", **more):
-    """Another page in the browser of a page."""
-    write_page(contents, "r37", file)
+def beside(page, contents, file, size=(1500, 1400), place="", parts=PARTS, **more):
+    """Another page in the browser of a page, made of other `parts` where a wing has panels."""
+    write_page(contents, "r37", file, parts)
     other = page.context.browser.new_page(viewport={"width": size[0], "height": size[1]}, **more)
     other.goto(file.as_uri() + place)
     other.wait_for_selector("html[data-ready]", timeout=60_000)

@@ -14,9 +14,11 @@ from overlays import overlay
 from plans_of_snakemake import planned
 from workflow_runs import copy_project
 
-from r37core.explorer import write_page
+from r37core.explorer import FOLDER, with_programs, write_page
 from r37core.explorer.contents import bin_starts, explorer_contents, joined, order_bins, packed, rounded
 from r37core.results.table_file import read_table
+from r37core.rotors.panel import rotor_contents
+from r37core.rotors.wing import WING
 from r37core.time_integration.status import RunStatus
 
 
@@ -161,6 +163,35 @@ def test_contents_have_the_members_of_a_sample(datasets, interactions, tolerance
         assert np.isposinf(band[1, :, 2]).all()
         assert np.isposinf(members[1, 60:, 3]).all()
         assert np.isfinite(members[1, :60, 3]).all()
+
+
+@pytest.fixture
+def rotors():
+    """Two in the lining: of three places, the second one empty, of which the second run diverged; and of four blades."""
+    axes = {"blade_number": [1, 2, 3, 4], "span": [2, 4, 6], "nodal_diameter": [-1, 0, 1, 2]}
+    values = 1e-4 * np.array([[1.0, np.nan, 3.0, np.nan], [np.nan] * 4, [4.0, 1.0, 2.0, 3.0]])
+    growth = values[:, :, None] * np.array([1.0, 2.0, np.nan])
+    growth[2, :, 2] = 5e-4
+    data = {
+        "blade_rms": (("run", "blade_number"), values),
+        "blade_maximum": (("run", "blade_number", "span"), growth),
+        "blade_angle": (("run", "blade_number"), np.where(np.isnan(values[[0, 0, 2]]), np.nan, 0.5)),
+        "leader": ("run", np.array([3, 1, 1])),
+        "nodal_diameter_share": (("run", "nodal_diameter"), np.array([[0.5, 0.2, 0.3, np.nan], [np.nan] * 4, [0, 0, 0, 1]])),
+    }
+    runs = {"speed": [900.0, 1000.25, 900.0], "blade": ["Ref", "Ref", "L<50>"], "scene": ["abradable"] * 3}
+    return xr.Dataset(data, axes | {name: ("run", values) for name, values in runs.items()})
+
+
+def test_contents_have_the_blades_of_rotors(rotors):
+    first, second = rotor_contents(rotors)
+    assert (first["numbers"], first["spans"], first["diameters"]) == ([1, 3], [2, 4], [-1, 0, 1])
+    np.testing.assert_allclose(unpacked(first["rms"]), [[0.1, 0.3], [np.nan] * 2], rtol=1e-4)
+    np.testing.assert_array_equal(unpacked(first["largest"])[0], [3, 1])
+    np.testing.assert_allclose(unpacked(first["growth"])[0], [[0.3, 0.6], [0.1, 0.2], [0.2, 0.4]], rtol=1e-4)
+    np.testing.assert_array_equal(unpacked(second["largest"]), [[1, 4, 3]])
+    assert second["spans"] == [2, 4, 6] and second["blade"] == "L<50>" and second["above_yield"] is None
+    np.testing.assert_array_equal(unpacked(second["shares"]), [[0, 0, 0, 100]])
 
 
 @pytest.fixture(scope="module")
@@ -381,6 +412,25 @@ def test_the_spectrum_shows_every_speed_on_its_own_scale(page, datasets):
 
 
 @pytest.mark.slow
+def test_rotors_have_panels_in_their_scenes(page, datasets, interactions, rotors, tmp_path):
+    assert page.locator("#rotor_map").count() == 0
+    contents = explorer_contents(datasets, interactions) | {"panels": {"rotors": rotor_contents(rotors)}}
+    place, parts = "#blade=Ref&scene=abradable&speed=900", with_programs([FOLDER.parent / WING.panel.program])
+    with beside(page, contents, tmp_path / "explorer.html", place=place, parts=parts) as other:
+        panels = [f"#rotor_{name}" for name in ("map", "leader", "growth", "waves")]
+        assert all(map(other.is_visible, panels))
+        (cells,) = other.evaluate("[document.getElementById('rotor_map').data[0].z]")
+        assert cells[1] == [None, None] and cells[2] == [pytest.approx(np.log10(0.3), abs=1e-4), None]
+        assert "blade 3 leads<br>0.3 mm" in other.evaluate("document.getElementById('rotor_leader').data[0].text[0]")
+        assert [curve["name"] for curve in traces(other, "rotor_growth")] == ["blade 3", "blade 1", "median of all"]
+        np.testing.assert_allclose(traces(other, "rotor_waves")[0]["y"], [50.0, 20.0, 30.0], rtol=1e-4)
+        choose(other, speed="1000.25")
+        assert traces(other, "rotor_waves")[0]["y"] == [0.0, 0.0, 0.0]
+        choose(other, scene="direct")
+        assert not any(map(other.is_visible, panels)) and "Rotor" not in other.text_content("#missing")
+
+
+@pytest.mark.slow
 def test_a_diverged_run_is_marked(page):
     choose(page, blade="Ref", scene="direct", quantity="rms_normal", speed="1200", unit="rad/s", all="false")
     assert "Ref diverged" in [one["name"] for one in traces(page, "response")]
@@ -521,3 +571,11 @@ def test_the_page_is_made_of_the_members_where_there_are_some(root, tmp_path):
     overlay(tmp_path, "config.yaml", f"tolerances: {{ members: 2, blades: [Ref], {ranges} }}")
     assert "tolerances_dataset" in planned(tmp_path, "results/explorer.html")
     assert "tolerances_dataset" not in planned(tmp_path, "results/summary.csv")
+
+
+@pytest.mark.slow
+def test_the_page_is_made_of_the_rotors_where_there_are_some(root, tmp_path):
+    copy_project(root, tmp_path)
+    assert "rotors_dataset" not in planned(tmp_path, "results/explorer.html")
+    overlay(tmp_path, "scenes.yaml", "abradable: { rotor: { blades: 2 }, results: [stress] }")
+    assert "rotors_dataset" in planned(tmp_path, "results/explorer.html")

@@ -146,6 +146,41 @@ def test_a_design_is_the_changed_blade(finished):
 
 
 @pytest.mark.slow
+def test_a_rotor_is_that_of_the_workflow(finished):
+    """Its scene may have it, or the call; numbers of the worst blade are those of the sweep, a comparison has it, too."""
+    rotor = {"blades": 3, "mistuning_percent": {np.int64(2): np.float64(1.0)}, "angles_deg": np.array([0.0, 120.0, 240.0])}
+    scene = r37.scene("abradable", name="mine", results=["stress", "wear"], rotor=rotor)
+    together = r37.compare("Ref", scene, [1150, 1550])
+    of_scene = r37.rotor("Ref", scene, [1550, 1150])
+    xr.testing.assert_identical(of_scene.drop_attrs(deep=False), together.rotor("Ref", "mine").drop_attrs(deep=False))
+    assert of_scene.attrs["input_hash"] == together.rotor("Ref", "mine").attrs["input_hash"]
+    gathered = together["rotor"].set_index(run="speed").rename(run="speed").sel(speed=of_scene["speed"])
+    np.testing.assert_array_equal(gathered["blade_rms"], of_scene["blade_rms"])
+    assert together.tables["rotors"]["blades"].tolist() == [3] and "rotor" in together.tree()["Ref/mine"].children
+    given = r37.rotor("Ref", "abradable", [1550, 1150], rotor=rotor, results=["stress", "wear"], cores=2)
+    xr.testing.assert_equal(given, of_scene)
+    assert given.attrs["scene"].startswith("abradable, rotor=") and of_scene.attrs["scene"] == "mine"
+    response = together.response("Ref", "mine")
+    largest = response["rms_normal"].sel(tip_point="leading_edge")
+    np.testing.assert_array_equal(of_scene["blade_rms"].max("blade_number"), largest)
+    stress = of_scene["blade_max_von_mises"].max("blade_number")
+    np.testing.assert_allclose(stress, response["max_von_mises"], rtol=1e-6)
+    assert "mine: a rotor of 3 blades" in r37.plot_rotor(of_scene.isel(speed=0)).get_suptitle()
+    plt.close("all")
+
+
+def test_a_rotor_that_is_none_is_told(finished):
+    with pytest.raises(r37.ConfigError, match=r'scene: found abradable, without a rotor; allowed: one with it, or rotor=\{"bl'):
+        r37.rotor("Ref", "abradable", [1150])
+    with pytest.raises(r37.ConfigError, match=r'found 36; .*rotor.blades": 36'):
+        r37.rotor("Ref", "abradable", [1150], rotor=36)
+    with pytest.raises(r37.ConfigError, match="results: found signal with a rotor"):
+        r37.rotor("Ref", "abradable", [1150], rotor={"blades": 2}, results=["signal"])
+    with pytest.raises(r37.ConfigError, match=r"rotor: found several runs; allowed: one, as results.rotor"):
+        r37.plot_rotor(xr.Dataset({"blade_rms": ("run", [1.0])}))
+
+
+@pytest.mark.slow
 def test_all_that_a_run_has_is_reached(finished, tmp_path):
     """A table or dataset of a wing is one more file: here empty ones beside those of the sweep."""
     folder = copy_finished(finished / "results", tmp_path / "results")

@@ -18,7 +18,8 @@ if TYPE_CHECKING:
     from r37core.io import InputFileError
 
     from .choices import BladeChoice, SceneChoice, blade, blades, scene, scenes
-    from .plots import plot_campbell, plot_designs, plot_response, plot_run_ups, plot_tolerances
+    from .plots import plot_campbell, plot_designs, plot_response, plot_rotor, plot_run_ups, plot_tolerances
+    from .rotor_calls import rotor
     from .run_results import RunResults, open_results
     from .run_up_calls import run_up, run_ups
     from .simulations import campbell, reduced_model, simulate, sweep
@@ -43,9 +44,11 @@ __all__ = [
     "plot_campbell",
     "plot_designs",
     "plot_response",
+    "plot_rotor",
     "plot_run_ups",
     "plot_tolerances",
     "reduced_model",
+    "rotor",
     "run_up",
     "run_ups",
     "scene",
@@ -59,7 +62,8 @@ _NAMES_OF = {
     "r37core.config": ("ConfigError",),
     "r37core.io": ("InputFileError",),
     ".choices": ("BladeChoice", "SceneChoice", "blade", "blades", "scene", "scenes"),
-    ".plots": ("plot_campbell", "plot_designs", "plot_response", "plot_run_ups", "plot_tolerances"),
+    ".plots": ("plot_campbell", "plot_designs", "plot_response", "plot_rotor", "plot_run_ups", "plot_tolerances"),
+    ".rotor_calls": ("rotor",),
     ".run_results": ("RunResults", "open_results"),
     ".run_up_calls": ("run_up", "run_ups"),
     ".simulations": ("campbell", "reduced_model", "simulate", "sweep"),

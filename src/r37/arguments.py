@@ -43,7 +43,11 @@ def speed_key(speed: Any, speed_rpm: Any) -> dict[str, list[Any]]:
 
 
 def plain_value(value: Any) -> Any:
-    """The same without the types of NumPy."""
+    """The same without the types of NumPy, inside of mappings and lists, too."""
+    if isinstance(value, Mapping):
+        return {plain_value(key): plain_value(inner) for key, inner in value.items()}
+    if isinstance(value, list | tuple):
+        return [*map(plain_value, value)]
     if isinstance(value, np.ndarray):
         return value.item() if value.size == 1 else value.tolist()
     return value.item() if isinstance(value, np.generic) else value

@@ -93,6 +93,41 @@ def plot_response(response: xr.Dataset, campbell: xr.Dataset | None = None, titl
 
 
 @checked_call
+def plot_rotor(rotor: xr.Dataset, title: str | None = None) -> Figure:
+    """A map of a rotor's blades over speed, the worst stress, growth of every blade and nodal diameters at the worst speed.
+
+    Parameters
+    ----------
+    rotor
+        What `r37.rotor` gives, or `rotor` of the results of a run.
+    title
+        In place of the names of blade and scene.
+
+    Raises
+    ------
+    ConfigError
+        For another dataset, and for that of several runs.
+
+    Examples
+    --------
+    >>> rotor = r37.rotor("Ref", "abradable", [1550], rotor={"blades": 3}, fidelity="draft")
+    >>> r37.plot_rotor(rotor, "mine").get_suptitle()
+    'mine: a rotor of 3 blades'
+    """
+    _check("rotor", rotor, "blade_rms", "r37.rotor")
+    if "run" in rotor.dims:
+        raise ConfigError("rotor: found several runs; allowed: one, as results.rotor(blade, scene) of r37.open_results has it")
+    several = rotor if "speed" in rotor.dims else rotor.expand_dims("speed")
+
+    def draw() -> Figure:
+        from r37core.rotors.figures import draw_rotor
+
+        return draw_rotor(several, title or f"{_label(rotor, 'blade')}, {_label(rotor, 'scene')}")
+
+    return _drawn(draw)
+
+
+@checked_call
 def plot_run_ups(run_ups: xr.Dataset, title: str | None = None) -> Figure:
     """Motion, stress and wear of every revolution of run-ups of one blade in one scene.
 

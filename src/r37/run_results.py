@@ -51,7 +51,7 @@ class FilesByName(Mapping[str, Content], Generic[Content]):
 
 
 class RunResults(FilesByName[xr.Dataset]):
-    """Datasets of a run by name (campbell, rms, spectrum, stress, wear, run_ups, tolerances, signals, ...), and its `tables`.
+    """Datasets of a run by name (campbell, rms, spectrum, stress, wear, run_ups, rotor, tolerances, ...), and its `tables`.
 
     Each is read when it is first asked for. `folder`: where they lie; `temporary`: the same of what a call has made, which is
     gone with this object.
@@ -61,7 +61,7 @@ class RunResults(FilesByName[xr.Dataset]):
         super().__init__(folder, ".nc", "datasets", read_dataset)
         self.folder, self._temporary = folder, temporary
         self.tables = FilesByName(folder, ".csv", "tables", _table)
-        """Tables by name (summary, ranking, designs, run_ups, run_up_rates, tolerances, coincidences)."""
+        """Tables by name (summary, ranking, designs, run_ups, run_up_rates, rotors, tolerances, coincidences)."""
 
     def _elsewhere(self, name: str) -> str:
         return f'; there is a table of this name: results.tables["{name}"]' if name in self.tables else ""
@@ -87,15 +87,18 @@ class RunResults(FilesByName[xr.Dataset]):
         """signals.nc of one blade in one scene: samples over time. Raises InputFileError where it cannot be read."""
         return read_dataset(self.folder / blade / scene / "signals.nc")
 
+    def rotor(self, blade: str, scene: str) -> xr.Dataset:
+        """rotor.nc of one blade in one scene, as `r37.rotor` gives it. Raises InputFileError where it cannot be read."""
+        return read_dataset(self.folder / blade / scene / "rotor.nc")
+
     def tree(self) -> xr.DataTree:
         """All datasets of the run as one tree: those of all blades at the top, `Ref/campbell`, `Ref/abradable/response` below.
 
         Values are read when they are used. Raises InputFileError for a file that cannot be read.
         """
         names = [f"{name}.nc" for name in self]
-        below = [
-            file for pattern in ("*/campbell.nc", "*/*/response.nc", "*/*/signals.nc") for file in self.folder.glob(pattern)
-        ]
+        kinds = ("*/campbell.nc", "*/*/response.nc", "*/*/rotor.nc", "*/*/signals.nc")
+        below = [file for pattern in kinds for file in self.folder.glob(pattern)]
         files = [*(self.folder / name for name in names), *sorted(below)]
         return xr.DataTree.from_dict({str(file.relative_to(self.folder).with_suffix("")): _opened(file) for file in files})
 

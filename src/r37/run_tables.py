@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 from r37core.config import plain
@@ -10,9 +11,11 @@ from r37core.io import Named
 from r37core.plans import paths
 from r37core.plans.dataset_plan import Datasets
 from r37core.product.sampling import sampling_of
+from r37core.rotors.plan import ROTOR_OF_RUN, rotor_runs
 from r37core.tolerances.plan import DATASET, TABLE, Tolerances
 
 from .calculation import Calculation
+from .jobs import in_parallel
 
 _CAMPBELL, _SUMMARY = "<results>/campbell.nc", "<results>/summary.csv"
 
@@ -42,6 +45,40 @@ def make_tables(calculation: Calculation) -> None:
         runs=sweep.runs_with("rms"),
     )
     _designs(calculation, ranked)
+    _rotors(calculation)
+
+
+def rotors_of_runs(calculation: Calculation) -> dict[tuple[str, str], str]:
+    """rotor.nc of each blade in each scene with a rotor, of responses that are there. Raises what the steps raise."""
+    runs = {pair: Named(member="", blade=pair[0], scene=pair[1]) for pair in rotor_runs(calculation.sweep)}
+    files = {pair: paths.fill(ROTOR_OF_RUN, **vars(run)) for pair, run in runs.items()}
+    in_parallel([_rotor(calculation, run, files[pair]) for pair, run in runs.items()], calculation.cores)
+    return files
+
+
+def _rotor(calculation: Calculation, run: Named, file: str) -> Callable[[], None]:
+    speed_files = calculation.sweep.speed_files(run)
+    return calculation.task(
+        "rotors.steps.rotor_of_run",
+        {"speeds": speed_files},
+        {"rotor": file},
+        speeds=calculation.sweep.speeds(run, Named(speeds=speed_files)),
+        yield_stress=calculation.sweep.yield_stress(run),
+        provenance=calculation.made.sweep(run),
+    )
+
+
+def _rotors(calculation: Calculation) -> None:
+    files = rotors_of_runs(calculation)
+    if not files:
+        return
+    calculation.step(
+        "rotors.steps.join",
+        {"rotors": list(files.values())},
+        {"dataset": "<results>/rotor.nc", "table": "<results>/rotors.csv"},
+        runs=list(files),
+        fidelity=calculation.settings.fidelity_name,
+    )
 
 
 def _campbell(calculation: Calculation) -> None:

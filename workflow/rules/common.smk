@@ -7,7 +7,7 @@ from snakemake.exceptions import WorkflowError
 from r37core.config import plain, si_fields
 from r37core.console.interpreter import PYTHON
 from r37core.console.snakemake_run import begin
-from r37core.explorer import parts_hash
+from r37core.explorer import parts_hash, with_programs
 from r37core.plans import paths
 from r37core.plans.code import CodeHashes
 from r37core.plans.dataset_plan import Datasets
@@ -19,6 +19,7 @@ from r37core.plans.rounds_plan import Rounds
 from r37core.plans.simulation_plan import Simulations
 from r37core.plans.structure_plan import Structure
 from r37core.plans.sweep_plan import MAPS, Sweep
+from r37core.product.panels import panel_files, panel_parameters
 from r37core.product.reporting import EVERY_SCENE, TOGETHER, captioned, drawing, shown
 from r37core.product.sampling import beside, sampling_of
 from r37core.product.targets import files_of, simulated, targets

@@ -102,10 +102,14 @@ use rule step as coincidences with:
         casings=joined.casings,
 
 
+shown_by_wings = panel_parameters(sweep, code)
+
+
 use rule step as explorer with:
     input:
         **datasets,
         **({"members": sampling.dataset} if sampling else {}),
+        **panel_files(sweep),
         campbell=rules.campbell_of_all.output[0],
         summary=rules.summary.output[0],
         ranking=rules.ranking.output[0],
@@ -119,8 +123,8 @@ use rule step as explorer with:
     resources:
         **needs.of("explorer"),
     params:
-        **step("explorer.steps.explorer"),
+        **shown_by_wings,
         title=f"r37 {settings.config.run.name or ''}".strip(),
         shapes=sweep.runs_with("shapes"),
         benchmark_scenes=joined.benchmark_scenes,
-        parts=parts_hash(),
+        parts=parts_hash(with_programs(shown_by_wings["programs"])),

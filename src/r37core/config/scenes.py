@@ -17,6 +17,9 @@ from .si_fields import si_fields
 from .speed_section import refuse_both_units
 
 TipLine = Literal["pressure_edge", "camber", "suction_edge"]
+OF_ONE_BLADE = ("signal", "shapes")
+"""Results that a scene with a rotor cannot have."""
+
 Result = Literal["spectrum", "signal", "stress", "static_stress", "wear", "energy", "casing", "shapes"]
 
 
@@ -97,7 +100,7 @@ class SceneEntry(Section):
         refusal = refusal_of(self.scene())
         if refusal:
             raise refused(("rotor",), "a rotor in this scene", refusal)
-        for result in ("signal", "shapes"):
+        for result in OF_ONE_BLADE:
             if result in self.results:
                 raise refused(
                     ("results",), f"{result} with a rotor", "results of all blades together; a scene without rotor has it"

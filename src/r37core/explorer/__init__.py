@@ -12,9 +12,23 @@ FOLDER = Path(__file__).parent
 
 PARTS = tuple(
     FOLDER / name
-    for name in ("explorer.html", "explorer.css", "theme.js", "words.js", "ranking.js", "interactions.js", "explorer.js")
+    for name in (
+        "explorer.html",
+        "explorer.css",
+        "theme.js",
+        "words.js",
+        "ranking.js",
+        "interactions.js",
+        "panels.js",
+        "explorer.js",
+    )
 )
 """What the page is put together from, beside its data and plotly: page, style, and its program in the order it runs."""
+
+
+def with_programs(programs: Sequence[Path | str]) -> tuple[Path, ...]:
+    """The parts of a page with panels of wings, whose programs run before the page's own."""
+    return (*PARTS[:-1], *map(Path, programs), PARTS[-1])
 
 
 def parts_hash(parts: Sequence[Path] = PARTS) -> str:

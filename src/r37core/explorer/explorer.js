@@ -472,6 +472,22 @@
   };
   const drawn = {};
 
+  // panels of wings, below the others: hidden where they have nothing to show, and not named as missing
+  const offered = {
+    state, unpack, factor, shown, digits, speedText, axis, speedAxis, layout, draw, colourOf, MAGMA, muted: () => theme.colour("muted"),
+  };
+  for (const [wing, contents] of Object.entries(data.panels ?? {})) {
+    for (const [name, panel] of Object.entries(await panels[wing](contents, offered))) {
+      const section = document.createElement("section");
+      section.append(
+        Object.assign(document.createElement("h2"), { textContent: panel.title }),
+        Object.assign(document.createElement("div"), { id: name, className: "plot" }),
+      );
+      document.getElementById("missing").before(section);
+      DRAWINGS[name] = [panel.draw, panel.of];
+    }
+  }
+
   // plotly draws all anew where it is told of another place, and the line alone where only its opacity is asked for
   function moveCursor(name) {
     const [cursor] = (!missing.has(name) && document.getElementById(name).layout.shapes) || [];

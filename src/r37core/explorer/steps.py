@@ -2,26 +2,36 @@
 
 from __future__ import annotations
 
+from importlib import import_module
 from pathlib import Path
 from typing import Any
+
+import xarray as xr
 
 from r37core.dataset_file import read_dataset
 from r37core.results.ranking import read_ranking
 from r37core.results.table_file import read_table
 
-from . import write_page
+from . import with_programs, write_page
 from .contents import explorer_contents
 
 
 def explorer(input: Any, output: Any, params: Any) -> None:
     """One page to look at all results. Inputs: datasets by kind, summary, ranking. Output: page (html).
 
-    Params: title, shapes, benchmark_scenes, address (of a file in the report).
+    Params: title, shapes, benchmark_scenes, address (of a file in the report); panels: wing -> function that gives what its
+    panels show of the input that is called like it; programs: files that draw them.
     """
     files = dict(input.items())
+    panels = {wing: _called(function, read_dataset(files.pop(wing))) for wing, function in params.panels.items()}
     interactions, ranking = read_table(files.pop("summary")), read_ranking(files.pop("ranking"))
     datasets = {kind: read_dataset(file) for kind, file in files.items()}
     file = Path(output.page)
     in_report = {blade: str(params.address(file.parent / f"shapes/{blade}.html")) for blade, _ in params.shapes}
     contents = explorer_contents(datasets, interactions, params.shapes, in_report, params.benchmark_scenes, ranking)
-    write_page(contents, params.title, file)
+    write_page(contents | {"panels": panels}, params.title, file, with_programs(params.programs))
+
+
+def _called(function: str, dataset: xr.Dataset) -> object:
+    module, name = function.rsplit(".", 1)
+    return getattr(import_module(module), name)(dataset)

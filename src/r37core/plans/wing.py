@@ -21,6 +21,20 @@ def _nothing(_: Sweep) -> dict[str, Wildcards]:
 
 
 @dataclass(frozen=True)
+class Panel:
+    """What a wing shows in the explorer of a run that has its dataset.
+
+    `dataset`: that one file, none in a run without it.
+    `contents`: function of the dataset, as `folder.module.function`, that gives what JSON can carry.
+    `program`: file of this package that draws it (`explorer/panels.js`).
+    """
+
+    dataset: Targets
+    contents: str
+    program: str
+
+
+@dataclass(frozen=True)
 class Wing:
     """One capability: a folder of this package, a file of rules, and a line in the registry.
 
@@ -32,6 +46,7 @@ class Wing:
     `targets`: what is made of them; part of all_blades unless `on_request`.
     `remarks`: what a run should say of it before it starts.
     `captions`: kind of figure -> what is seen in it, with names (blade, scene) in braces.
+    `panel`: what the explorer shows of it.
     """
 
     name: str
@@ -42,6 +57,7 @@ class Wing:
     targets: Targets = _nothing
     remarks: Callable[[Settings], list[str]] = lambda _: []
     captions: Mapping[str, str] = field(default_factory=dict)
+    panel: Panel | None = None
     on_request: bool = False
 
     def all_targets(self, sweep: Sweep) -> dict[str, Wildcards]:

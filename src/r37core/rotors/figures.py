@@ -57,7 +57,7 @@ def _draw_worst(axes: Axes, rotor: xr.Dataset) -> None:
     stress = 1e-9 * rotor["blade_max_von_mises"]
     axes.plot(speeds, stress.max("blade_number"), ".-", markersize=3, label="worst blade")
     axes.plot(speeds, stress.median("blade_number"), "-", color="0.5", label="median blade")
-    style.yield_lines(axes, {"": float(rotor["yield_stress"])}, named=True)
+    style.yield_lines(axes, {"": rotor["yield_stress"].item()}, named=True)
     axes.set_ylabel("largest von Mises (GPa)")
     most = int(np.round(number * float(rotor["blades_above_yield"].max())))
     axes.set_title(f"at most {most} of {number} blades above yield at one speed", fontsize=8)

@@ -19,6 +19,11 @@ def rotor_runs(sweep: Sweep) -> list[tuple[str, str]]:
     return [(blade, scene) for blade in sweep.settings.blade_names for scene in rotor_scenes(sweep.settings)]
 
 
+def joined_dataset(sweep: Sweep) -> dict[str, paths.Wildcards]:
+    """The dataset of all rotors."""
+    return {"<results>/rotor.nc": [{}] if rotor_runs(sweep) else []}
+
+
 def targets(sweep: Sweep) -> dict[str, paths.Wildcards]:
     """The dataset, the table and a figure of each blade and scene."""
     runs = paths.of_runs(rotor_runs(sweep))

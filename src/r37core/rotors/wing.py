@@ -2,9 +2,15 @@
 
 from __future__ import annotations
 
-from r37core.plans.wing import Wing
+from r37core.plans.wing import Panel, Wing
 
 from .captions import CAPTIONS
-from .plan import remarks, targets
+from .plan import joined_dataset, remarks, targets
 
-WING = Wing(name="rotors", targets=targets, remarks=remarks, captions=CAPTIONS)
+WING = Wing(
+    name="rotors",
+    targets=targets,
+    remarks=remarks,
+    captions=CAPTIONS,
+    panel=Panel(joined_dataset, "rotors.panel.rotor_contents", "rotors/panel.js"),
+)

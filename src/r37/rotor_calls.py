@@ -1,0 +1,112 @@
+"""The call of a whole rotor: many blades that wear one lining."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import xarray as xr
+
+from r37core.config import ConfigError, Settings
+from r37core.config.scenes import OF_ONE_BLADE
+from r37core.dataset_file import read_dataset
+from r37core.io import scratch_folder
+
+from .arguments import Speeds, speed_keys
+from .calculation import Calculation
+from .call_configuration import Configuration
+from .call_settings import base_of, chosen_blade, chosen_scene, level, settings_of
+from .checked import checked_call
+from .choices import BladeChoice, SceneChoice
+from .jobs import check_cores
+from .run_tables import rotors_of_runs
+from .simulations import remarks_of, tell
+
+
+@checked_call
+def rotor(
+    blade: BladeChoice | str,
+    scene: SceneChoice | str,
+    speeds: Speeds | None = None,
+    *,
+    rotor: Mapping[str, Any] | None = None,
+    speeds_rpm: Speeds | None = None,
+    fidelity: str | None = None,
+    results: Sequence[str] | None = None,
+    config: Path | str | None = None,
+    cores: int = 1,
+) -> xr.Dataset:
+    """Every blade of a whole rotor in a scene at several speeds, as rotor.nc of a run: all blades wear one lining.
+
+    Parameters
+    ----------
+    blade
+        The shape of all blades: a name, or what `r37.blade` gives.
+    scene
+        A name, or what `r37.scene` gives.
+    speeds, speeds_rpm
+        As of `r37.sweep`.
+    rotor
+        The section `rotor` of the scene, in the units of its keys: `{"blades": 36, "mistuning_spread_percent": {"normal": 1}}`.
+        A scene that has a rotor needs none; its keys stay where this has none of them.
+    fidelity, config
+        As of `r37.simulate`.
+    results
+        What is computed, in place of the scene's list. Where `rotor` is given, it is that list without `signal` and `shapes`,
+        which are of a single blade.
+    cores
+        Simulations that run at once, in processes of their own, one for each speed. The numbers do not depend on it.
+
+    Returns
+    -------
+    Dataset
+        By ascending speed and `blade_number`: `blade_rms` (m), `blade_max_von_mises` (Pa), `blade_maximum` (m) over spans of
+        revolutions, `leader`, `nodal_diameter_share` and others.
+
+    Raises
+    ------
+    ConfigError
+        For bad input, and for a scene without a rotor. A shape, mesh, model or time step that is impossible raises a
+        ValueError of its own.
+
+    Examples
+    --------
+    >>> mistuned = {"blades": 3, "mistuning_percent": {2: 1.0}}
+    >>> all_blades = r37.rotor("Ref", "abradable", [1150, 1550], rotor=mistuned, fidelity="draft")
+    >>> all_blades.blade_rms.sizes["blade_number"]
+    3
+    >>> all_blades.leader.sel(speed=1550).item() in (1, 2, 3)
+    True
+    """
+    chosen, base = chosen_blade(blade, config), base_of(blade, config)
+    rubs_on, keys = _with_rotor(scene, base, rotor, results), speed_keys(speeds, speeds_rpm)
+    check_cores(cores)
+    settings = settings_of("r37.rotor", base, [chosen], [rubs_on], {**keys, **level(fidelity)})
+    return _dataset(settings, cores).assign_attrs(chosen.told | rubs_on.told)
+
+
+def _with_rotor(
+    scene: SceneChoice | str, base: Configuration, rotor: Mapping[str, Any] | None, results: Sequence[str] | None
+) -> SceneChoice:
+    """The scene, with the rotor where one is given. Raises ConfigError."""
+    if rotor is None:
+        chosen = chosen_scene(scene, base, results)
+        if chosen.entry.rotor is None:
+            raise ConfigError(f'scene: found {chosen.label}, without a rotor; allowed: one with it, or rotor={{"blades": 36}}')
+        return chosen
+    single = chosen_scene(scene, base)
+    if results is None:
+        results = [result for result in single.entry.results if result not in OF_ONE_BLADE]
+    return chosen_scene(replace(single, changes={**single.changes, "rotor": rotor}), base, results)
+
+
+def _dataset(settings: Settings, cores: int) -> xr.Dataset:
+    """rotor.nc of the one blade in the one scene of the settings."""
+    tell(remarks_of(settings))
+    with scratch_folder() as folder:
+        calculation = Calculation(settings, folder, cores)
+        calculation.responses()
+        (file,) = rotors_of_runs(calculation).values()
+        return read_dataset(calculation.path(file))
