@@ -74,7 +74,7 @@ def run_rotor(
         "rms": rms.max(axis=0),
         "peak": maxima[:, first:].max(axis=(0, 1)),
         "revolution_maxima": maxima.max(axis=0),
-        "share_of_time_in_contact": np.array((totals["steps_in_contact"] / totals["steps"]).max()),
+        "share_of_time_in_contact": np.array((totals["steps_in_contact"] / np.maximum(totals["steps"], 1.0)).max()),
         "largest_normal_force": np.array(totals["largest_force"].max()),
         "casing_hits": np.array(totals["casing_hits"].sum()),
         "worst_complementarity": np.array(totals["worst_complementarity"].max()),
@@ -129,7 +129,7 @@ def _of_blades(
         "blade_rms": rms[:, 0, 0],
         "blade_peak": maxima[:, first:, 0, 0].max(axis=1),
         "blade_maximum": in_spans(maxima[:, :, 0, 0], span),
-        "blade_contact": totals["steps_in_contact"] / totals["steps"],
+        "blade_contact": totals["steps_in_contact"] / np.maximum(totals["steps"], 1.0),
         "blade_worn": record.worn * simulation.problem.casing.bar_area,
         "span_revolutions": np.array(span),
     }
