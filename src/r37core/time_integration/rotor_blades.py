@@ -15,7 +15,7 @@ from .integration_choice import IntegrationChoice
 from .problem import Problem, stable_problem
 
 NO_COUPLING = "a lining; in direct contact with a rigid casing nothing couples the blades: run a single blade for each"
-NO_ELASTIC_CASING = "a rigid casing; a ring that all blades press at once is not built yet"
+NO_CENTRAL_DIFFERENCES = "an elastic casing under a rotor needs the integrator exact_modal"
 NO_SHARED_RING = "one ring of bars per node (lining.rings: per_node)"
 """What a rotor needs."""
 
@@ -24,10 +24,8 @@ def refusal_of(scene: Scene) -> str | None:
     """What the blades of a scene's rotor need that it does not have, None where they can be run."""
     if scene.rotor is None:
         return None
-    if scene.casing.ring:
-        return NO_ELASTIC_CASING
     if scene.lining is None:
-        return NO_COUPLING
+        return None if scene.casing.ring else NO_COUPLING
     return NO_SHARED_RING if scene.lining.shared_ring else None
 
 
@@ -36,28 +34,38 @@ def blade_problems(
 ) -> tuple[Problem, ...]:
     """One problem for each blade of the rotor, all with the steps of the one that needs the shortest.
 
-    Equal blades have the same. Raises what Problem raises; ValueError for a rotor that cannot be run.
+    Equal blades have the same. In an elastic casing, which has an angle 0 of its own, each stands at its angle; in a rigid one
+    all stand at that of the model. Raises what Problem raises; ValueError for a rotor that cannot be run.
     """
     refused = refusal_of(scene)
     if refused:
         raise ValueError(f"rotor: allowed: {refused}")
+    if scene.casing.ring and not choice.second_order:
+        raise ValueError(NO_CENTRAL_DIFFERENCES)
 
     @cache
-    def problem(factor: float, longer: float) -> Problem:
-        own = replace(scene, rotor=None, casing=replace(scene.casing, longer=longer))
-        return stable_problem(mistuned(model, factor), speed, own, choice)
+    def problem(factor: float, longer: float, angle: float) -> Problem:
+        # how many blades press a casing counts for the step that it bears
+        own = replace(scene, rotor=rotor if scene.casing.ring else None, casing=replace(scene.casing, longer=longer))
+        return stable_problem(turned(mistuned(model, factor), angle), speed, own, choice)
 
-    blades = list(zip(rotor.frequency_factors, rotor.longer, strict=True))
+    angles = rotor.angles if scene.casing.ring else (0.0,) * len(rotor.angles)
+    blades = list(zip(rotor.frequency_factors, rotor.longer, angles, strict=True))
     steps = max(problem(*blade).grid.steps_per_sample for blade in blades)
 
     @cache
-    def with_steps(factor: float, longer: float) -> Problem:
-        own = problem(factor, longer)
+    def with_steps(factor: float, longer: float, angle: float) -> Problem:
+        own = problem(factor, longer, angle)
         if own.grid.steps_per_sample == steps:
             return own
         return Problem(own.model, speed, own.scene, replace(own.choice, steps_per_sample=steps))
 
     return tuple(with_steps(*blade) for blade in blades)
+
+
+def turned(model: ContactModel, angle: float) -> ContactModel:
+    """The model at an angle (rad) beyond its own."""
+    return replace(model, theta=model.theta + angle) if angle else model
 
 
 def mistuned(model: ContactModel, factor: float) -> ContactModel:

@@ -63,9 +63,17 @@ def pressed_ratio(contact: ContactOperators) -> float:
 
     A coupled mode counts as two, with the real and the imaginary part of its shape: the limit is where a motion changes its
     sign in every step, and there the two are not coupled.
+
+    All B blades of a rotor press its elastic casing. Of modes x_b of the blades and y of the casing it is that of a single
+    blade which moves the casing's modes by sqrt(B) times as much: sum_b (x_b, y)^T M_b (x_b, y) with a share 1/B of the
+    casing's own part in each M_b is, in z_b = (x_b, y/sqrt(B)), at most the largest eigenvalue of those times
+    sum_b |z_b|^2 = sum_b |x_b|^2 + |y|^2; blades that press alike reach it.
     """
     of, normal, flexibility = contact.recursion, contact.displacement_operator[0], contact.contact_flexibility[0]
+    moved = np.ones(normal.shape[-1])
+    if contact.blade.scene.rotor is not None:
+        moved[len(contact.blade.frequencies) :] = np.sqrt(len(contact.blade.scene.rotor.numbers))
     if contact.complex_operator is not None:
-        normal = np.hstack([contact.complex_operator[0].real, contact.complex_operator[0].imag])
+        normal, moved = np.hstack([contact.complex_operator[0].real, contact.complex_operator[0].imag]), np.tile(moved, 2)
         of = Recursion(*(np.tile(part, 2) for part in (of.keep, of.pull, of.inverse, of.lost)))
-    return ratio_of_pressed_nodes(of, normal, flexibility)
+    return ratio_of_pressed_nodes(of, normal * moved, flexibility)
