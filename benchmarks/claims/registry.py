@@ -58,6 +58,7 @@ _EXPLORER = tuple(
     for name in ("explorer.html", "explorer.css", "theme.js", "words.js", "ranking.js", "interactions.js", "explorer.js")
 )
 _RINGS = ("rings", "flexibility", "peaks", "direct", "diameters", "coincidences", "causes", "growth", "overtaken", "cost")
+_ROTORS = ("lengths", "worst", "growth", "longer", "ranking", "steps")
 _RANKING = ("", "_statistic", "_direct", "_lined", "_missed", "_cost", "_chances_direct", "_chances_lined")
 _MODELS = " ".join(
     f"{{folder}}/{blade}/{file}_pressure_edge.npz"
@@ -320,6 +321,18 @@ CLAIMS = (
         code=("benchmarks/clearance.py",),
         configuration=(*_BENCHMARK, "config/clearance.yaml", "config/scenes.yaml:growing_abradable"),
         numbers=(*_ALL, "clearance", "stress"),
+    ),
+    Claim(
+        "rotor",
+        (
+            *(Output(f"docs/rotor.md#rotor_{name}", f"{STUDIES}/rotor_{name}.md") for name in _ROTORS),
+            picture("rotor", f"{STUDIES}/rotor/rotor.png", "rotors/figures"),
+        ),
+        (_MAKE, "{python} benchmarks/rotor.py"),
+        minutes=60,
+        code=("benchmarks/rotor.py",),
+        configuration=_BENCHMARK,
+        numbers=("structure", "lined", "stress"),
     ),
     Claim(
         "run_ups",
