@@ -13,6 +13,8 @@ from r37core.rom.contact_model import ContactModel
 
 from .integration_choice import IntegrationChoice
 from .problem import Problem, stable_problem
+from .step_checks import check_rotor_step
+from .step_limit import UnstableStepError
 
 NO_COUPLING = "a lining; in direct contact with a rigid casing nothing couples the blades: run a single blade for each"
 NO_CENTRAL_DIFFERENCES = "an elastic casing under a rotor needs the integrator exact_modal"
@@ -45,8 +47,7 @@ def blade_problems(
 
     @cache
     def problem(factor: float, longer: float, angle: float) -> Problem:
-        # how many blades press a casing counts for the step that it bears
-        own = replace(scene, rotor=rotor if scene.casing.ring else None, casing=replace(scene.casing, longer=longer))
+        own = replace(scene, rotor=None, casing=replace(scene.casing, longer=longer))
         return stable_problem(turned(mistuned(model, factor), angle), speed, own, choice)
 
     angles = rotor.angles if scene.casing.ring else (0.0,) * len(rotor.angles)
@@ -60,7 +61,15 @@ def blade_problems(
             return own
         return Problem(own.model, speed, own.scene, replace(own.choice, steps_per_sample=steps))
 
-    return tuple(with_steps(*blade) for blade in blades)
+    problems = tuple(with_steps(*blade) for blade in blades)
+    if scene.casing.ring:
+        try:
+            check_rotor_step([problem.contact for problem in problems])
+        except UnstableStepError as error:
+            if not choice.shorten:
+                raise
+            return blade_problems(model, speed, scene, rotor, replace(choice, time_step=error.shortened))
+    return problems
 
 
 def turned(model: ContactModel, angle: float) -> ContactModel:
