@@ -33,7 +33,7 @@ def remarks(settings: Settings) -> list[str]:
         rotor = settings.scenes[name].scene.rotor
         assert rotor is not None
         lines.append(
-            f"scene '{name}': {len(rotor.numbers)} blades on one lining cost as many times a single one; rms, stress and tables "
-            "are those of the worst blade (docs/rotor.md)"
+            f"scene '{name}': {len(rotor.numbers)} blades on one lining cost as many times a single one; rms, stress and "
+            "tables are those of the worst blade (docs/rotor.md)"
         )
     return lines

@@ -61,9 +61,7 @@ class RotorSimulation:
         modes = [len(problem.blade.frequencies) for problem in self.problems]
         largest = int(np.argmax(modes))
         first = Simulation.beside(self.problems[largest], None)
-        return [
-            first if place == largest else Simulation.beside(problem, first) for place, problem in enumerate(self.problems)
-        ]
+        return [first if place == largest else Simulation.beside(problem, first) for place, problem in enumerate(self.problems)]
 
     @property
     def problem(self) -> Problem:
@@ -117,9 +115,7 @@ class RotorSimulation:
         total = self.blades[0].energy(states[0])
         for simulation, state in zip(self.blades[1:], states[1:], strict=True):
             own = np.arange(len(state.displacement)) < len(simulation.problem.blade.frequencies)
-            total += simulation.energy(
-                replace(state, displacement=state.displacement * own, increment=state.increment * own)
-            )
+            total += simulation.energy(replace(state, displacement=state.displacement * own, increment=state.increment * own))
         return total
 
     def _start(self, angle: float) -> Start:

@@ -34,9 +34,7 @@ class Lockstep:
         self._addresses = np.array([engines[place].address for place in order], dtype=np.uint64)
         self._program = _program(first.capacity, first.kind)
 
-    def advance(
-        self, states: Sequence[SimulationState], outs: Sequence[SimulationRecord]
-    ) -> tuple[list[int], list[float]]:
+    def advance(self, states: Sequence[SimulationState], outs: Sequence[SimulationRecord]) -> tuple[list[int], list[float]]:
         """Do the steps of every row of the samples; returns the rows done of each, and what each has worn off the bars (m)."""
         passages = []
         for engine, state, out in zip(self._engines, states, outs, strict=True):
