@@ -4,6 +4,8 @@ Blades are coupled by the bars that they wear, and by nothing else. So what coun
 blade passes the casing from angle 0 to angle 0 in one go, and then the blade behind it does: every bar is then met in the order
 of time, by every node that has a ring of bars of its own. Each blade is at the same steps of its revolution as a single one;
 it starts with its first sample after time 0, at rest, where the casing is still round.
+
+In an elastic casing that is not so: all blades move it at once. There all go step by step together, each at its angle.
 """
 
 from __future__ import annotations
