@@ -123,8 +123,8 @@ def _integrate(addresses, blades):
     steps_per_block = first.steps_per_block
     coarse_per_block = (steps_per_block + COARSE - 1) // COARSE
     # any integers for numba: what it gives a plain 0 or 1 to is compiled for just that, too
-    zero, one = int(np.int64(0)), int(np.int64(1))
-    busy, bounded, within, first_stride = False, False, True, one
+    zero, shortest = int(np.int64(0)), int(np.int64(1))
+    busy, bounded, within, first_stride = False, False, True, shortest
     done = kept = zero
     first_block = first.call.first_step // steps_per_block
     place = first.call.first_step % first.steps_per_revolution
@@ -135,7 +135,7 @@ def _integrate(addresses, blades):
         start = first.call.first_step + done * steps_per_block
         remaining = 0.0 if at_once else np.exp(-first.casing.rise * (start + first.call.ahead))
         if place == 0 or done == 0:
-            busy, bounded, first_stride = False, False, one
+            busy, bounded, first_stride = False, False, shortest
             for b in range(blades):
                 m = pointed_at(addresses[b])
                 m.follows = int(list_pressed(m) > 0)
