@@ -363,6 +363,15 @@ def test_what_is_refused_in_scenes_yaml(config_copy, old, new, message):
         read_settings(config_copy)
 
 
+def test_an_elastic_casing_under_a_rotor_is_not_for_central_differences(config_copy):
+    edit(config_copy / "config/scenes.yaml", "elastic_direct:\n", "elastic_direct:\n  rotor: { blades: 4 }\n")
+    changes = {"scenes": ["elastic_direct"]}
+    read_settings(config_copy, command_line_document(changes))
+    message = r"elastic_direct\.rotor: found a rotor in an elastic casing at the level 'paper', .*; allowed: a level of exact"
+    with pytest.raises(ConfigError, match=message):
+        read_settings(config_copy, command_line_document(changes | {"fidelity": "paper"}))
+
+
 def test_a_run_that_would_not_fit_in_memory_is_refused(config_copy):
     edit(config_copy / "config/fidelity.yaml", "revolutions: 100,", "revolutions: 20000, samples_per_stress_instant: 10000,")
     with pytest.raises(

@@ -5,28 +5,40 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from defaults import IntegrationChoice
-from integration_cases import ABRADABLE, DIRECT, random_model, with_static_modes
+from integration_cases import ABRADABLE, DIRECT, assert_same_totals_and_wear, random_model, with_static_modes
 
 from r37core.config import ConfigError, checked_scene
+from r37core.contact.ring import Ring, RingMode
 from r37core.contact.rotor import Rotor
 from r37core.dataset_file import write_dataset
 from r37core.figures.style import plt
 from r37core.plain import from_plain, to_plain
 from r37core.rotors.dataset import gather_rotors, rotor_dataset, rotor_table
 from r37core.rotors.figures import draw_rotor
-from r37core.time_integration.integrators import EXACT_MODAL
-from r37core.time_integration.rotor_blades import mistuned
+from r37core.time_integration.integrators import CENTRAL_DIFFERENCE, EXACT_MODAL
+from r37core.time_integration.rotor_blades import blade_problems, mistuned, on_steps
 from r37core.time_integration.rotor_run import MOST_GROWTH, in_spans, nodal_diameters
 from r37core.time_integration.rotor_simulation import RotorSimulation
 from r37core.time_integration.simulate import Simulation
 from r37core.time_integration.speed_file import write_speed
 from r37core.time_integration.speed_run import run_speed
+from r37core.time_integration.step_checks import pressed_ratio, pressed_ratio_of_rotor
+from r37core.time_integration.step_limit import UnstableStepError
 
 SPEED = 1000.0
 CHOICE = IntegrationChoice(1e-5, 4, 64, integrator=EXACT_MODAL)
 KEPT = {"spectrum_highest_order": 5, "wear_angles": 36}
 STEEP = replace(ABRADABLE, casing=replace(ABRADABLE.casing, lobes=2, amplitude=2.0, rise_fraction=0.2))
 """Lobes that rise in the first revolutions."""
+
+RING = Ring(0.255, 0.002, 0.05, 2.1e11, 7850.0, 0.002, 1e7, 1e6, 11)
+LINED_RING = replace(STEEP, casing=replace(STEEP.casing, ring=RING.modes()))
+FLANGED = replace(
+    STEEP, casing=replace(STEEP.casing, ring=replace(RING, radial_foundation=1e9, tangential_foundation=1e9).modes())
+)
+"""The rotor overtakes none of its waves."""
+
+DIRECT_RING = replace(LINED_RING, lining=None)
 
 
 def a_blade():
@@ -186,11 +198,22 @@ def test_a_wave_of_nodal_diameters_is_found():
         (rotor_of(4, factors=[0.5, 1.5, 0.7, 1.3]), STEEP),
         (rotor_of(2), replace(STEEP, lining=replace(STEEP.lining, thickness=1e-4))),
         (rotor_of(2, longer=[0.0, 5e-4]), STEEP),
+        (rotor_of(3, angles=[0.5] * 3), LINED_RING),
+        (rotor_of(4, factors=[0.5, 1.5, 0.7, 1.3]), FLANGED),
     ],
-    ids=["one angle", "200 blades", "never touches", "half as fast", "worn through", "in the lining"],
+    ids=[
+        "one angle",
+        "200 blades",
+        "never touches",
+        "half as fast",
+        "worn through",
+        "in the lining",
+        "elastic, one angle",
+        "elastic, half as fast",
+    ],
 )
 def test_extremes_are_numbers(rotor, scene, tmp_path):
-    choice = replace(CHOICE, revolutions=2)
+    choice = replace(CHOICE, revolutions=2, shorten=True)
     numbers = run_speed(a_blade(), SPEED, replace(scene, rotor=rotor), choice, ("spectrum", "wear", "energy"), **KEPT)
     assert numbers["status"] == 0
     assert np.isfinite(numbers["blade_rms"]).all() and np.isfinite(numbers["wear"]).all()
@@ -213,6 +236,130 @@ def test_growth_is_kept_in_spans_of_revolutions():
     values = np.arange(12.0).reshape(2, 6)
     np.testing.assert_array_equal(in_spans(values, 4), [[3.0, 5.0], [9.0, 11.0]])
     assert in_spans(np.zeros((1, 20000)), -(-20000 // MOST_GROWTH)).shape == (1, MOST_GROWTH)
+
+
+@pytest.mark.parametrize("scene", [LINED_RING, DIRECT_RING], ids=["lined", "direct"])
+def test_one_blade_in_an_elastic_casing_is_the_blade(scene):
+    single = Simulation(a_blade(), SPEED, scene, CHOICE)
+    state = single.start()
+    alone = single.advance(state, CHOICE.revolutions)
+    _, (of_rotor,), record = run(rotor_of(1), scene)
+    assert state.totals["steps_jumped"] > 0.0 and state.totals["steps_in_contact"] > 0.0
+    np.testing.assert_array_equal(record.blades[0].samples, alone.samples)
+    np.testing.assert_array_equal(record.blades[0].casing, alone.casing)
+    assert of_rotor.totals == state.totals
+
+
+@pytest.mark.parametrize(("scene", "shared"), [(LINED_RING, True), (LINED_RING, False), (DIRECT_RING, True)])
+def test_blades_that_press_one_casing_are_those_of_the_reference(scene, shared):
+    rotor = rotor_of(3, [0.0, 4.1, 2.0], [1.0, 1.03, 0.97], [0.0, 2e-5, 0.0], shared)
+    choice = replace(CHOICE, revolutions=1)
+    _, ours, compiled = run(rotor, scene, choice)
+    _, theirs, reference = run(rotor, scene, replace(choice, engine="reference"))
+    for of in (samples, casings):
+        np.testing.assert_allclose(of(compiled), of(reference), rtol=0, atol=1e-8 * np.abs(of(reference)).max())
+    for one, other in zip(ours, theirs, strict=True):
+        assert_same_totals_and_wear(one, other, within=1e-8)
+    np.testing.assert_allclose(compiled.worn, reference.worn, rtol=1e-6)
+    # each blade has the motion of the one casing
+    for blade in casings(compiled)[1:]:
+        np.testing.assert_array_equal(blade, casings(compiled)[0])
+    alone = casings(run(rotor_of(1), scene, choice)[2])[0]
+    assert np.abs(casings(compiled)[0] - alone).max() > 1e-2 * np.abs(alone).max()
+
+
+def casings(record):
+    return np.array([blade.casing for blade in record.blades])
+
+
+@pytest.mark.parametrize("scene", [LINED_RING, DIRECT_RING], ids=["lined", "direct"])
+def test_a_blade_too_short_to_touch_changes_nothing_for_the_other(scene):
+    """Whichever of the two counts the work of the casing."""
+    choice = replace(CHOICE, revolutions=2)
+    for first in (0.0, 6.0):
+        together, states, record = run(rotor_of(2, [first, 3.0], longer=[0.0, -0.05]), scene, choice)
+        single = Simulation(together.problems[0].model, SPEED, scene, choice)
+        state = single.start()
+        alone = single.advance(state, choice.revolutions)
+        largest = np.abs(alone.samples).max()
+        np.testing.assert_allclose(record.blades[0].samples, alone.samples, rtol=0, atol=1e-9 * largest)
+        np.testing.assert_array_equal(record.blades[1].samples, 0.0)
+        for total in ("work", "loss"):
+            both = sum(of.totals[total] for of in states)
+            assert both == pytest.approx(state.totals[total], rel=1e-9)
+
+
+def test_blades_in_an_elastic_casing_in_another_order_are_the_same_rotor():
+    angles, factors, longer = [0.3, 4.0, 2.0], [1.0, 1.02, 0.97], [0.0, 1e-5, 0.0]
+    other, choice = [2, 0, 1], replace(CHOICE, revolutions=2)
+    first = samples(run(rotor_of(3, angles, factors, longer), DIRECT_RING, choice)[2])
+    turned = rotor_of(3, *([values[place] for place in other] for values in (angles, factors, longer)))
+    np.testing.assert_array_equal(first[other], samples(run(turned, DIRECT_RING, choice)[2]))
+
+
+@pytest.mark.parametrize("engine", ["compiled", "reference"])
+def test_opposite_blades_leave_odd_waves_at_rest(engine):
+    """Two forces half a turn apart push waves of an even number of nodal diameters twice, and odd ones not at all."""
+    choice = replace(CHOICE, revolutions=1, engine=engine)
+    _, _, record = run(rotor_of(2), DIRECT_RING, choice)
+    odd = np.tile([mode.nodal_diameter % 2 == 1 for mode in RING.modes()], 2)
+    moved = np.abs(casings(record)[0]).max(axis=0)
+    assert moved[odd].max() < 1e-9 * moved[~odd].max()
+    alone = np.abs(casings(run(rotor_of(1), DIRECT_RING, choice)[2])[0]).max(axis=0)
+    assert alone[odd].max() > 0.1 * alone[~odd].max()
+
+
+@pytest.mark.parametrize("scene", [LINED_RING, DIRECT_RING], ids=["lined", "direct"])
+def test_energy_of_blades_and_casing_closes(scene):
+    rotor = replace(scene, rotor=rotor_of(3, factors=[1.0, 1.01, 0.99]))
+    numbers = run_speed(a_blade(), SPEED, rotor, CHOICE, ("energy", "casing"), **KEPT)
+    assert abs(numbers["contact_work"]) > 0.0
+    assert abs(numbers["energy_residual"]) < 1e-9 * abs(numbers["damping_loss"])
+    assert numbers["lined"] == (scene.lining is not None)
+    assert np.isfinite(numbers["casing_energy"]).all() and numbers["casing_energy"].max() > 0.0
+
+
+def test_waves_of_one_blade_in_a_rotor_are_those_of_the_blade():
+    alone = run_speed(a_blade(), SPEED, LINED_RING, CHOICE, ("casing", "wear", "energy"), **KEPT)
+    rotor = replace(LINED_RING, rotor=rotor_of(1))
+    numbers = run_speed(a_blade(), SPEED, rotor, CHOICE, ("casing", "wear", "energy"), **KEPT)
+    for name, value in alone.items():
+        np.testing.assert_array_equal(numbers[name], value, err_msg=name)
+
+
+def test_a_casing_of_great_mass_is_rigid_for_all_blades():
+    heavy = tuple(replace(mode, modal_mass=1e12 * mode.modal_mass) for mode in RING.modes())
+    angles = 2.0 * np.pi * np.array([0, 21, 40]) / CHOICE.samples_per_revolution
+    rotor, choice = rotor_of(3, angles, [1.0, 1.03, 0.97]), replace(CHOICE, revolutions=1, engine="reference")
+    rigid = samples(run(rotor, STEEP, choice)[2])
+    for engine in ("compiled", "reference"):
+        scene = replace(LINED_RING, casing=replace(LINED_RING.casing, ring=heavy))
+        elastic = samples(run(rotor, scene, replace(choice, engine=engine))[2])
+        np.testing.assert_allclose(elastic, rigid, rtol=0, atol=1e-6 * np.abs(rigid).max())
+
+
+def test_a_step_of_all_blades_is_told_stable_by_a_bound_of_their_largest_eigenvalue():
+    rotor = rotor_of(4, [0.0, 1.0, 3.0, 3.1], [1.0, 1.02, 0.97, 1.01])
+    light = tuple(replace(mode, modal_mass=0.6 * mode.modal_mass) for mode in RING.modes())
+    scene = replace(LINED_RING, casing=replace(LINED_RING.casing, ring=light))
+    contacts = [problem.contact for problem in blade_problems(a_blade(), SPEED, scene, rotor, replace(CHOICE, time_step=5e-6))]
+    of_ring, blades = len(contacts[0].casing.ring.size), [len(contact.blade.frequencies) for contact in contacts]
+    total = sum(blades) + of_ring
+    matrix, first = np.zeros((total, total)), 0
+    for contact, modes in zip(contacts, blades, strict=True):
+        lanes = np.r_[first : first + modes, total - of_ring : total]
+        pressed = contact.displacement_operator[0] * np.sqrt(contact.recursion.inverse)
+        matrix[np.ix_(lanes, lanes)] += pressed.T @ np.linalg.solve(contact.contact_flexibility[0], pressed)
+        matrix[range(first, first + modes), range(first, first + modes)] += contact.recursion.pull[:modes]
+        first += modes
+    matrix[range(first, total), range(first, total)] += contacts[0].recursion.pull[-of_ring:]
+    largest = np.linalg.eigvalsh(matrix)[-1] / (2.0 + 2.0 * min(contact.recursion.keep.min() for contact in contacts))
+    assert largest > 1.1 * max(map(pressed_ratio, contacts))
+    assert largest <= pressed_ratio_of_rotor(contacts) < 1.2 * largest
+    with pytest.raises(UnstableStepError, match="4 blades pressed on one elastic casing"):
+        run(rotor, scene, CHOICE)
+    shortened = RotorSimulation(a_blade(), SPEED, replace(scene, rotor=rotor), replace(CHOICE, shorten=True))
+    assert shortened.problem.grid.time_step < 0.6 * CHOICE.time_step
 
 
 def lined(**rotor):
@@ -248,7 +395,6 @@ def test_a_rotor_is_drawn_from_a_seed():
         ({"results": ["signal"]}, "results: found signal with a rotor"),
         ({"lining": None}, "run a single blade for each"),
         ({"lining": {"rings": "shared"}}, "one ring of bars per node"),
-        ({"casing": {"ring_modes": [{"nodal_diameter": 3, "frequency_hz": 560, "modal_mass_kg": 0.7}]}}, "a rigid casing"),
     ],
 )
 def test_what_cannot_be_run_is_refused_in_one_line(changes, message):
@@ -268,6 +414,8 @@ def test_no_rotor_is_run_as_a_single_blade():
         Simulation(a_blade(), SPEED, replace(STEEP, rotor=rotor_of(2)), CHOICE)
     with pytest.raises(ValueError, match="nothing couples the blades"):
         RotorSimulation(a_blade(), SPEED, replace(DIRECT, rotor=rotor_of(2)), CHOICE)
+    with pytest.raises(ValueError, match="needs the integrator exact_modal"):
+        run(rotor_of(2), LINED_RING, replace(CHOICE, time_step=1e-7, integrator=CENTRAL_DIFFERENCE))
 
 
 def test_dataset_table_and_figure(tmp_path):
@@ -294,3 +442,20 @@ def test_dataset_table_and_figure(tmp_path):
     figure = draw_rotor(many, "Ref, many")
     assert "6 blades" in figure.get_suptitle()
     plt.close(figure)
+
+
+def test_blades_that_go_on_together_meet_bars_at_the_same_places():
+    """Bars are as wide as a step. Blades at other places of them would wear them deeper, and move as none does alone."""
+    angles = 2.0 * np.pi * (np.arange(3) / 3.0 + 0.001)
+    choice = replace(CHOICE, revolutions=2)
+    passed, together = (
+        run(rotor_of(3, angles), choice=replace(choice, engine=engine))[2] for engine in ("compiled", "reference")
+    )
+    assert together.worn.sum() == pytest.approx(passed.worn.sum(), rel=0.02)
+    assert on_steps(0.1234, 1000) == pytest.approx(20 * 2.0 * np.pi / 1000)
+    elastic = replace(STEEP, casing=replace(STEEP.casing, ring=(RingMode(3, 3500.0, 0.7, 0.01),)))
+    problems = blade_problems(a_blade(), SPEED, elastic, rotor_of(3, angles), choice)
+    steps = (problems[1].casing.tip.theta - problems[0].casing.tip.theta) / (
+        2.0 * np.pi / problems[0].grid.steps_per_revolution
+    )
+    np.testing.assert_allclose(steps, np.round(steps), atol=1e-6)

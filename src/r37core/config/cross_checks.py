@@ -209,14 +209,31 @@ def coriolis_can_be_carried(settings: Settings) -> None:
     """The Coriolis force is wanted with the integrator that carries it, and of runs at constant speed."""
     if not settings.structure.coriolis:
         return
-    document, integrator = settings.documents.config, settings.fidelity.time_integration.integrator
+    integrator = settings.fidelity.time_integration.integrator
     if integrator != EXACT_MODAL:
-        others = [name for name, level in settings.levels.items() if level.time_integration.integrator == EXACT_MODAL]
-        raise document.refusal(
+        raise settings.documents.config.refusal(
             ("structure", "coriolis"),
             f"true at the level '{settings.fidelity_name}', whose integrator {integrator} does not carry the Coriolis force",
-            f"false, or a level of {EXACT_MODAL}" + (f" ({', '.join(others)})" if others else ""),
+            f"false, or {_exact_level(settings)}",
         )
+
+
+def _exact_level(settings: Settings) -> str:
+    """A level with the integrator that carries everything, and which ones there are."""
+    others = [name for name, level in settings.levels.items() if level.time_integration.integrator == EXACT_MODAL]
+    return f"a level of {EXACT_MODAL}" + (f" ({', '.join(others)})" if others else "")
+
+
+def rotors_press_a_casing_that_is_carried(settings: Settings) -> None:
+    """All blades press an elastic casing with the integrator whose forces are those at t_n."""
+    integrator = settings.fidelity.time_integration.integrator
+    for name, chosen in settings.scenes.items():
+        if chosen.scene.rotor is not None and chosen.scene.casing.ring and integrator != EXACT_MODAL:
+            raise settings.documents.scenes.refusal(
+                (name, "rotor"),
+                f"a rotor in an elastic casing at the level '{settings.fidelity_name}', whose integrator is {integrator}",
+                _exact_level(settings),
+            )
 
 
 def clearances_reach_all_speeds(settings: Settings) -> None:
@@ -248,6 +265,7 @@ CHECKS: tuple[Callable[[Settings], None], ...] = (
     matrices_hold_their_terms,
     tips_have_room_for_patches,
     coriolis_can_be_carried,
+    rotors_press_a_casing_that_is_carried,
     clearances_reach_all_speeds,
 )
 """In the order in which refusals are told."""

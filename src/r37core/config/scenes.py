@@ -45,7 +45,9 @@ class SceneEntry(Section):
     casing: CasingSection
     lining: LiningSection | LeftOut = Field(default=None, description="abradable lining; without it the tip meets the casing")
     friction: FrictionSection | LeftOut = Field(default=None, description="friction at the tip; none without it")
-    rotor: RotorSection | LeftOut = Field(default=None, description="a whole rotor on one lining; a single blade without it")
+    rotor: RotorSection | LeftOut = Field(
+        default=None, description="all blades in one casing, on one lining; one blade without it"
+    )
     damping_ratio: Any = DECLARED
     gap: Any = DECLARED
     divergence_limit_m: Any = DECLARED

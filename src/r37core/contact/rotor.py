@@ -9,7 +9,8 @@ import numpy as np
 
 @dataclass(frozen=True)
 class Rotor:
-    """Blades whose roots stand still: all meet the same casing, and are coupled by what they wear of its lining.
+    """Blades whose roots stand still: all meet the same casing, and are coupled by what they wear of its lining and, where it
+    is elastic, by what they bend it.
 
     `numbers` of the blades, from 1; `angles` (rad) at which they stand, in the sense of growing theta: the rotor turns against
     it, so a blade passes the casing after those at smaller angles. `frequency_factors`: all frequencies of a blade over those

@@ -13,9 +13,11 @@ from r37core.rom.contact_model import ContactModel
 
 from .integration_choice import IntegrationChoice
 from .problem import Problem, stable_problem
+from .step_checks import check_rotor_step
+from .step_limit import UnstableStepError
 
 NO_COUPLING = "a lining; in direct contact with a rigid casing nothing couples the blades: run a single blade for each"
-NO_ELASTIC_CASING = "a rigid casing; a ring that all blades press at once is not built yet"
+NO_CENTRAL_DIFFERENCES = "an elastic casing under a rotor needs the integrator exact_modal"
 NO_SHARED_RING = "one ring of bars per node (lining.rings: per_node)"
 """What a rotor needs."""
 
@@ -24,10 +26,8 @@ def refusal_of(scene: Scene) -> str | None:
     """What the blades of a scene's rotor need that it does not have, None where they can be run."""
     if scene.rotor is None:
         return None
-    if scene.casing.ring:
-        return NO_ELASTIC_CASING
     if scene.lining is None:
-        return NO_COUPLING
+        return None if scene.casing.ring else NO_COUPLING
     return NO_SHARED_RING if scene.lining.shared_ring else None
 
 
@@ -36,28 +36,54 @@ def blade_problems(
 ) -> tuple[Problem, ...]:
     """One problem for each blade of the rotor, all with the steps of the one that needs the shortest.
 
-    Equal blades have the same. Raises what Problem raises; ValueError for a rotor that cannot be run.
+    Equal blades have the same. In an elastic casing, which has an angle 0 of its own, each stands at its angle; in a rigid one
+    all stand at that of the model. Raises what Problem raises; ValueError for a rotor that cannot be run.
     """
     refused = refusal_of(scene)
     if refused:
         raise ValueError(f"rotor: allowed: {refused}")
+    if scene.casing.ring and not choice.second_order:
+        raise ValueError(NO_CENTRAL_DIFFERENCES)
 
     @cache
-    def problem(factor: float, longer: float) -> Problem:
+    def problem(factor: float, longer: float, angle: float) -> Problem:
         own = replace(scene, rotor=None, casing=replace(scene.casing, longer=longer))
-        return stable_problem(mistuned(model, factor), speed, own, choice)
+        return stable_problem(turned(mistuned(model, factor), angle), speed, own, choice)
 
-    blades = list(zip(rotor.frequency_factors, rotor.longer, strict=True))
+    angles = rotor.angles if scene.casing.ring else (0.0,) * len(rotor.angles)
+    blades = list(zip(rotor.frequency_factors, rotor.longer, angles, strict=True))
     steps = max(problem(*blade).grid.steps_per_sample for blade in blades)
 
     @cache
-    def with_steps(factor: float, longer: float) -> Problem:
-        own = problem(factor, longer)
+    def with_steps(factor: float, longer: float, angle: float) -> Problem:
+        own = problem(factor, longer, on_steps(angle, steps * choice.samples_per_revolution) if scene.lining else angle)
         if own.grid.steps_per_sample == steps:
             return own
         return Problem(own.model, speed, own.scene, replace(own.choice, steps_per_sample=steps))
 
-    return tuple(with_steps(*blade) for blade in blades)
+    problems = tuple(with_steps(*blade) for blade in blades)
+    if scene.casing.ring:
+        try:
+            check_rotor_step([problem.contact for problem in problems])
+        except UnstableStepError as error:
+            if not choice.shorten:
+                raise
+            return blade_problems(model, speed, scene, rotor, replace(choice, time_step=error.shortened))
+    return problems
+
+
+def turned(model: ContactModel, angle: float) -> ContactModel:
+    """The model at an angle (rad) beyond its own."""
+    return replace(model, theta=model.theta + angle) if angle else model
+
+
+def on_steps(angle: float, steps_per_revolution: int) -> float:
+    """The angle (rad) of the nearest whole step, where blades that go on together meet bars, wide as a step, at the same places.
+
+    At other places the deepest of all wears a bar for all, and 36 blades wear a lining that no blade alone wears so.
+    """
+    step = 2.0 * np.pi / steps_per_revolution
+    return float(np.round(angle / step) * step)
 
 
 def mistuned(model: ContactModel, factor: float) -> ContactModel:

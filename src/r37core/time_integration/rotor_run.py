@@ -14,8 +14,9 @@ from r37core.rom.rotation import rotation_amplitudes
 from r37core.stress.of_revolutions import largest_of_revolutions
 from r37core.stress.operator import StressOperator
 
+from .casing_waves import casing_waves
 from .integration_choice import IntegrationChoice
-from .kept_numbers import KEPT, energy_balance, spectrum, stress_numbers, wear_numbers
+from .kept_numbers import KEPT, energy_balance, spectrum, stress_numbers, wear_numbers, whole
 from .rotor_simulation import RotorRecord, RotorSimulation
 from .simulate import DIRECTIONS, TIP_POINTS
 from .state import SimulationState
@@ -49,7 +50,7 @@ def run_rotor(
     the statistic), in spans. `leader`: number of the leading blade. `nodal_diameter` and `nodal_diameter_share`: see
     nodal_diameters.
     """
-    assert scene.rotor is not None and scene.lining is not None
+    assert scene.rotor is not None
     simulation = RotorSimulation(model, speed, scene, choice)
     states = simulation.start()
     record = simulation.run(states, choice.revolutions)
@@ -70,7 +71,7 @@ def run_rotor(
         "diverged_time": np.array(diverged_at * 2.0 * np.pi / speed),
         "time_step": np.array(simulation.problem.grid.time_step),
         "cone_angle": np.array(simulation.problem.casing.cone_angle),
-        "lined": np.array(1),
+        "lined": np.array(int(scene.lining is not None)),
         "rms": rms.max(axis=0),
         "peak": maxima[:, first:].max(axis=(0, 1)),
         "revolution_maxima": maxima.max(axis=0),
@@ -89,14 +90,25 @@ def run_rotor(
     if "stress" in results:
         numbers |= _stress(simulation, record, stress, "static_stress" in results)
     if "wear" in results:
+        assert scene.lining is not None
         numbers |= wear_numbers(_worn(states), min(wear_angles, scene.lining.bars))
     if "energy" in results:
-        pairs = list(zip(simulation.blades, states, strict=True))
-        work, energy = (
-            sum(of) for of in zip(*((blade.work(state), blade.energy(state)) for blade, state in pairs), strict=True)
-        )
-        numbers |= energy_balance(work, float(totals["loss"].sum()), energy)
+        work = sum(blade.work(state) for blade, state in zip(simulation.blades, states, strict=True))
+        numbers |= energy_balance(work, float(totals["loss"].sum()), simulation.energy(states))
+    if "casing" in results:
+        numbers |= _casing(simulation, record, spectrum_highest_order)
     return numbers
+
+
+def _casing(simulation: RotorSimulation, record: RotorRecord, highest_order: int) -> dict[str, np.ndarray]:
+    """Waves of the elastic casing over the last half, which the record of any blade has."""
+    choice, casing = simulation.problem.choice, record.blades[0].casing
+    ring = simulation.problem.casing.ring
+    assert ring is not None and casing is not None
+    samples = whole(casing, choice.revolutions * choice.samples_per_revolution, record.diverged)
+    half = samples[choice.revolutions // 2 * choice.samples_per_revolution :]
+    revolutions = choice.revolutions - choice.revolutions // 2
+    return casing_waves(half, ring, simulation.problem.speed, revolutions, highest_order)
 
 
 def _samples(record: RotorRecord, choice: IntegrationChoice) -> np.ndarray:

@@ -4,11 +4,13 @@ Blades are coupled by the bars that they wear, and by nothing else. So what coun
 blade passes the casing from angle 0 to angle 0 in one go, and then the blade behind it does: every bar is then met in the order
 of time, by every node that has a ring of bars of its own. Each blade is at the same steps of its revolution as a single one;
 it starts with its first sample after time 0, at rest, where the casing is still round.
+
+In an elastic casing that is not so: all blades move it at once. There all go step by step together, each at its angle.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -16,11 +18,12 @@ from r37core.contact.scene import Scene
 from r37core.rom.contact_model import ContactModel
 
 from .clearance import initial_wear
+from .compiled.lockstep import Lockstep
 from .compiled.passage import Passage, Start
 from .integration_choice import IntegrationChoice
 from .problem import Problem
 from .reference.lockstep import advance_together
-from .rotor_blades import blade_problems
+from .rotor_blades import blade_problems, on_steps
 from .simulate import Simulation
 from .state import Schedule, SimulationRecord, SimulationState
 
@@ -53,14 +56,24 @@ class RotorSimulation:
         assert scene.rotor is not None
         self.rotor = scene.rotor
         self.problems = blade_problems(model, speed, scene, scene.rotor, choice)
-        self.blades: list[Simulation] = []
-        for problem in self.problems:
-            self.blades.append(Simulation.beside(problem, self.blades[0] if self.blades else None))
+        self.blades = self._blades()
+
+    def _blades(self) -> list[Simulation]:
+        """One simulation each; that of the most modes is made first, so that the others have room in its capacity."""
+        modes = [len(problem.blade.frequencies) for problem in self.problems]
+        largest = int(np.argmax(modes))
+        first = Simulation.beside(self.problems[largest], None)
+        return [first if place == largest else Simulation.beside(problem, first) for place, problem in enumerate(self.problems)]
 
     @property
     def problem(self) -> Problem:
         """Of the first blade: grid and casing are those of all."""
         return self.problems[0]
+
+    @property
+    def elastic(self) -> bool:
+        """Whether the blades press an elastic casing, which couples them."""
+        return self.problem.casing.ring is not None
 
     def start(self) -> list[SimulationState]:
         """All blades at rest, in an unworn lining, or in one in which the longest have cut their way."""
@@ -83,11 +96,14 @@ class RotorSimulation:
         """Do so many revolutions from the start, which the `states` are at; they are changed."""
         samples = revolutions * self.problem.choice.samples_per_revolution
         outs = [simulation.room(0, samples) for simulation in self.blades]
+        engines, late = [simulation.engine for simulation in self.blades], np.zeros(len(self.blades))
         if self.problem.choice.engine == "reference":
-            engines = [simulation.engine for simulation in self.blades]
-            angles = [self.rotor.angles[place] for place in range(len(engines))]
+            # in an elastic casing the problems have the angles
+            steps = self.problem.grid.steps_per_revolution
+            angles = [0.0 if self.elastic else on_steps(angle, steps) for angle in self.rotor.angles]
             done, worn = advance_together(engines, states, outs, angles, self.rotor.order)
-            late = np.zeros(len(engines))
+        elif self.elastic:
+            done, worn = Lockstep(engines, self.rotor.order).advance(states, outs)
         else:
             starts = [self._start(angle) for angle in self.rotor.angles]
             done, worn = self._pass_by_pass(states, outs, starts, revolutions)
@@ -96,6 +112,14 @@ class RotorSimulation:
             simulation.recorded(0, out, reached) for simulation, out, reached in zip(self.blades, outs, done, strict=True)
         ]
         return RotorRecord(tuple(records), late, np.array(worn))
+
+    def energy(self, states: list[SimulationState]) -> float:
+        """Energy (J) of the vibration of all blades, and of their elastic casing, which each state has."""
+        total = self.blades[0].energy(states[0])
+        for simulation, state in zip(self.blades[1:], states[1:], strict=True):
+            own = np.arange(len(state.displacement)) < len(simulation.problem.blade.frequencies)
+            total += simulation.energy(replace(state, displacement=state.displacement * own, increment=state.increment * own))
+        return total
 
     def _start(self, angle: float) -> Start:
         """Of a blade that stands at an angle (rad) at time 0: so many samples before it passes angle 0, that are whole."""

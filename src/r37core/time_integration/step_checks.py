@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from .contact_operators import ContactOperators
@@ -69,3 +71,45 @@ def pressed_ratio(contact: ContactOperators) -> float:
         normal = np.hstack([contact.complex_operator[0].real, contact.complex_operator[0].imag])
         of = Recursion(*(np.tile(part, 2) for part in (of.keep, of.pull, of.inverse, of.lost)))
     return ratio_of_pressed_nodes(of, normal, flexibility)
+
+
+def check_rotor_step(contacts: Sequence[ContactOperators]) -> None:
+    """Raises UnstableStepError unless the step is below the limit of all blades that press one elastic casing at once."""
+    choice, step = contacts[0].blade.grid.choice, contacts[0].blade.grid.time_step
+    ratio = pressed_ratio_of_rotor(contacts) / largest_pressed_ratio(contacts[0].blade.scene)
+    if len(contacts) > 1 and not ratio < 1.0:
+        limit = step / np.sqrt(ratio)
+        raise UnstableStepError(
+            f"time_step_s: {choice.time_step:g} s gives steps of {step:.6g} s, not below the limit for {len(contacts)} blades "
+            f"pressed on one elastic casing, about {limit:.6g} s; use a smaller one",
+            float(limit),
+        )
+
+
+def pressed_ratio_of_rotor(contacts: Sequence[ContactOperators]) -> float:
+    """At most how near the limit a step is in which all blades are pressed on one elastic casing: see pressed_ratio.
+
+    M of all modes has a block A for the blades, D for the casing and C between them. Its largest eigenvalue is at most that of
+    [[a, c], [c, d]], with a and d the largest eigenvalues of A and D, and c the largest singular value of C.
+    """
+    of_blades, keep, of_casing, between = 0.0, 1.0, 0.0, 0.0
+    for contact in contacts:
+        stepped, of = len(contact.blade.frequencies), contact.recursion
+        rows = contact.displacement_operator[0] if contact.complex_operator is None else contact.complex_operator[0]
+        pressed, shares = rows * np.sqrt(of.inverse), np.split(of.pull, [stepped])
+        blade, casing = np.split(pressed, [stepped], axis=1)
+        pulls = shares[0]
+        if contact.complex_operator is not None:
+            blade, pulls = np.hstack([blade.real, blade.imag]), np.tile(pulls, 2)
+        casing, flexibility = casing.real, contact.contact_flexibility[0]
+        solved = np.linalg.solve(0.5 * (flexibility + flexibility.T), np.hstack([blade, casing]))
+        on_blade, on_casing = np.split(solved, [blade.shape[1]], axis=1)
+        of_blades = max(of_blades, float(np.linalg.eigvalsh(np.diag(pulls) + blade.T @ on_blade)[-1]))
+        # the casing's own part once, not once per blade
+        of_casing = of_casing + casing.T @ on_casing + np.diag(shares[1]) / len(contacts)
+        across = blade.T @ on_casing
+        between = between + across.T @ across
+        keep = min(keep, float(of.keep.min()))
+    of_ring, coupled = (float(np.linalg.eigvalsh(matrix)[-1]) for matrix in (of_casing, between))
+    largest = 0.5 * (of_blades + of_ring) + np.hypot(0.5 * (of_blades - of_ring), np.sqrt(coupled))
+    return float(largest) / (2.0 * (1.0 + keep))

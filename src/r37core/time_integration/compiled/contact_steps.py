@@ -128,5 +128,6 @@ def keep_forces(m, count):
         wear = numbers_at(m.call.wear)
         for j in range(count):
             k = c.listed[j]
+            m.worn += max(c.wear[k] - wear[c.bar[k]], 0.0)
             wear[c.bar[k]] = max(wear[c.bar[k]], c.wear[k])
     return any_pressed != 0

@@ -57,7 +57,8 @@ class CompiledEngine:
     """The time integration of one problem, compiled for what its scene has: all that its program needs lies in one record.
 
     It goes at the first speed of its `segments` until `take`. Of an engine `before`, of the same scene and choice at another
-    speed, it keeps what fits, and that one must not go on. With one `beside` it shares the tables of the casing, if they fit.
+    speed, it keeps what fits, and that one must not go on. With one `beside` it shares the tables of the casing, if they fit,
+    and has its capacity where that is larger.
     """
 
     record: np.ndarray
@@ -80,13 +81,16 @@ class CompiledEngine:
         self.mode_lanes = padded(blade) + 2 * self._pairs
         firsts = (self.mode_lanes - 2 * self._pairs, self.mode_lanes - self._pairs)
         of_ring = [first + np.arange(pairs) for first in firsts]
+        self.casing_lanes = slice(firsts[0], self.mode_lanes)
         # an array of indices costs more in every segment of a run-up
         self.mode_columns = np.concatenate([np.arange(blade), *of_ring]) if pairs else slice(blade)
         scene, choice = problem.scene, problem.choice
-        self._capacity = capacity_of(self.mode_lanes, self._node_lanes)
+        self.capacity = capacity_of(self.mode_lanes, self._node_lanes)
+        if beside is not None:
+            self.capacity = Capacity(*map(max, self.capacity, beside.capacity))
         coriolis = problem.blade.complex_modes is not None
         follows_sliding = scene.friction is not None and scene.friction.vector
-        self._kind = kind = Kind(
+        self.kind = kind = Kind(
             published=choice.integrator == CENTRAL_DIFFERENCE,
             lined=scene.lining is not None,
             # other friction is rare with the exact gap and the Coriolis force: no program of its own
@@ -94,7 +98,7 @@ class CompiledEngine:
             exact_gap=scene.exact_gap,
             coriolis=coriolis,
         )
-        self._advance = _program(self._capacity, kind)
+        self._advance = _program(self.capacity, kind)
         self._constant_share: np.ndarray | None = None
         self._take_room(before)
         self._lay_out(problem)
@@ -123,12 +127,12 @@ class CompiledEngine:
 
     def _take_room(self, before: CompiledEngine | None) -> None:
         """Make the record, or take that of an engine before."""
-        sizes = (self._capacity, self._kind, self._nodes, self._modes, self.mode_lanes)
-        if before is not None and sizes == (before._capacity, before._kind, before._nodes, before._modes, before.mode_lanes):
+        sizes = (self.capacity, self.kind, self._nodes, self._modes, self.mode_lanes)
+        if before is not None and sizes == (before.capacity, before.kind, before._nodes, before._modes, before.mode_lanes):
             self.record, self._corners = before.record, before._corners
         else:
-            self.record, self._corners = aligned_zeros((1,), integration_record(self._capacity)), {}
-        self._address = self.record.ctypes.data
+            self.record, self._corners = aligned_zeros((1,), integration_record(self.capacity)), {}
+        self.address = self.record.ctypes.data
 
     def _table_of(self, segments: Segments) -> np.ndarray:
         """The segments as they stand in the record, shape (segments,)."""
@@ -140,7 +144,7 @@ class CompiledEngine:
             response = normal if self._constant_share is None else normal + self._constant_share * coupling[:, TANGENTIAL]
             fields |= {"coupling": coupling, "columns": normal, "response": response}
         of_modes = {name: getattr(recursion, name) for name in ("keep", "pull", "inverse", "loss")}
-        if self._kind.coriolis:
+        if self.kind.coriolis:
             of_modes["inverse_keep"] = 1.0 / recursion.keep
         if increments is not None:
             of_modes["increment_by_displacement"] = increments.by_displacement
@@ -151,7 +155,7 @@ class CompiledEngine:
             of_modes |= {"jumps": plan.jumps}
             of_modes |= {"amplitude_by_u": plan.amplitude_rows[:, 0], "amplitude_by_d": plan.amplitude_rows[:, 1]}
         fields |= {name: self._spread(values) for name, values in of_modes.items()}
-        table = aligned_zeros((len(clearance),), constants_record(self.mode_lanes, self._capacity.nodes))
+        table = aligned_zeros((len(clearance),), constants_record(self.mode_lanes, self.capacity.nodes))
         # a node that only pads the vector must not touch
         table["clearance"] = 1.0
         for name, values in fields.items():
@@ -198,16 +202,16 @@ class CompiledEngine:
     @property
     def numbers_of_mode(self) -> int:
         """Of a snapshot: u and, with Coriolis, d."""
-        return 1 + self._kind.coriolis
+        return 1 + self.kind.coriolis
 
     @property
     def snapshot_width(self) -> int:
         """Numbers of a snapshot in whole vectors, the forces on the nodes after those of the modes."""
-        return self.numbers_of_mode * self.mode_lanes + (0 if self._kind.published else 3 * self._node_lanes)
+        return self.numbers_of_mode * self.mode_lanes + (0 if self.kind.published else 3 * self._node_lanes)
 
     def call(self) -> int:
         """Do what the record asks for; returns the blocks done."""
-        return int(self._advance(self._address))
+        return int(self._advance(self.address))
 
     def _lay_out(self, problem: Problem) -> None:
         m = self.record[0]
@@ -282,7 +286,7 @@ class CompiledEngine:
             self._constant_share = share
             self.put(friction_share=np.stack([share[:, 0], np.zeros(self._nodes)]))
             self.put_modes(push_operator=operator[NORMAL] + share * operator[TANGENTIAL])
-            if self._kind.coriolis:
+            if self.kind.coriolis:
                 self.put_modes(increment_push_operator=increments[NORMAL] + share * increments[TANGENTIAL])
 
     def _lay_out_lining(self, problem: Problem, lining: Lining) -> None:

@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from r37core.alignment import Field, aligned_record, padded
+from r37core.alignment import LANES, Field, aligned_record, padded
 from r37core.contact.scene import Lining
 
 from ..jump_numbers import STRIDES
@@ -202,6 +202,10 @@ def integration_record(capacity: Capacity) -> np.dtype:
             ("lining", LINING, ()),
             ("casing", CASING, ()),
             ("totals", TOTALS, ()),
+            # of a blade beside others: work, doubled, and energy lost in a block, and whether there are forces at t_n
+            *_arrays("block_work block_loss", LANES),
+            *_numbers("follows", kind=np.int64),
+            *_numbers("worn"),  # off all bars together, with forces at t_n (m)
             *_numbers("limit friction"),
             # how much of the record is used: vectors of modes and of nodes; numbers
             *_arrays("vectors", 2, kind=np.int64),

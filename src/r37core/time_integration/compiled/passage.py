@@ -68,6 +68,13 @@ class Passage:
 
     def go_on(self, blocks: int) -> int:
         """Do so many more; returns how many were done, fewer when an output passed the limit or is NaN."""
+        self.ask(blocks)
+        done = self._engine.call()
+        self.done += done
+        return done
+
+    def ask(self, blocks: int) -> None:
+        """Have the record say that so many more are to be done."""
         call, first = self._engine.record[0]["call"], self._state.samples
         call["first_step"] = (first + self._start.samples + self.done) * self._grid.steps_per_sample
         call["blocks"] = blocks
@@ -77,9 +84,6 @@ class Passage:
             call["snapshots"] = self._snapshots_at + kept * self._snapshots.strides[0]
         if self._in_parts:
             self._lasting[0] = blocks
-        done = self._engine.call()
-        self.done += done
-        return done
 
     def end(self) -> None:
         """Read the state that is reached, but for the number of samples."""

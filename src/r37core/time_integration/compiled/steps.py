@@ -311,9 +311,18 @@ def push_blade(m, work, lost):
 
     Returns also whether any node is pressed.
     """
+    if not sum_pushes(m):
+        return False, work, lost
+    work, lost = push_lanes(m, 0, mode_lanes(m), work, lost)
+    return True, work, lost
+
+
+@inlined
+def sum_pushes(m):
+    """Put into the pushes what the forces on all pressed nodes are to the modes; returns whether any node is pressed."""
     p, count = m.problem, list_pressed(m)
     if count == 0:
-        return False, work, lost
+        return False
     largest = m.totals.largest_force
     for j in range(count):
         largest = max(largest, -m.force[p.listed[j]])
@@ -322,7 +331,13 @@ def push_blade(m, work, lost):
         add_pushes(m, p.listed[0], p.listed[0], False)
     for j in range(count % 2, count, 2):
         add_pushes(m, p.listed[j], p.listed[j + 1], True)
-    for i in range(0, mode_lanes(m), LANES):
+    return True
+
+
+@inlined
+def push_lanes(m, first, end, work, lost):
+    """Push the modes from the `first` lane to the `end`; adds the work, doubled, and the energy lost."""
+    for i in range(first, end, LANES):
         if CORIOLIS:
             work, lost = kick_complex_modes(m, i, load(m.push, i), load(m.increment_push, i), work, lost)
         else:
@@ -331,7 +346,7 @@ def push_blade(m, work, lost):
         store(m.push, i, 0.0)
         if CORIOLIS:
             store(m.increment_push, i, 0.0)
-    return True, work, lost
+    return work, lost
 
 
 @inlined

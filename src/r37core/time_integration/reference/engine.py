@@ -93,7 +93,7 @@ class ReferenceEngine:
         self._turn(first * problem.grid.steps_per_sample)
         while done < len(out.samples) and bounded:
             for n in range(1, problem.grid.steps_per_sample + 1):
-                motion = self.step(motion, (first + done) * problem.grid.steps_per_sample + n, state)
+                motion = self.step(motion, (first + done) * problem.grid.steps_per_sample + n, state, self.force(state))
             bounded, taken = self.record(motion, first, done, state, SimulationRecord(out.samples, out.snapshots[kept:]))
             done += 1
             kept += taken
@@ -114,9 +114,12 @@ class ReferenceEngine:
             out.snapshots[0] = numbers
         return bool(np.all(np.abs(out.samples[done]) < problem.scene.divergence_limit)), due
 
-    def step(self, before: Any, n: int, state: SimulationState) -> Any:
-        """The motion at t_n from that at t_{n-1}; changes wear, totals and the nodes on the casing."""
-        return (self._second_order_step if self.problem.choice.second_order else self._step)(before, n, state)
+    def step(self, before: Any, n: int, state: SimulationState, force: np.ndarray) -> Any:
+        """The motion at t_n from that at t_{n-1}; changes wear, totals and the nodes on the casing.
+
+        `force`: modal forces at t_{n-1}, of forces at t_n; those of the state, and of other blades in an elastic casing.
+        """
+        return self._pushed_step(before, n, state, force) if self.problem.choice.second_order else self._step(before, n, state)
 
     def _step(self, before: Any, n: int, state: SimulationState) -> Any:
         """With forces that correct the prediction of t_n."""
@@ -138,9 +141,12 @@ class ReferenceEngine:
         self._add_up(state, self.motion.work_and_loss(before, after, force), pressure + multipliers, multipliers > 0.0)
         return after
 
-    def _second_order_step(self, before: Any, n: int, state: SimulationState) -> Any:
-        """The same with the forces at t_{n-1}, which the state has, and those at t_n, for the next step."""
-        force = self._modal(state.contact_force)
+    def force(self, state: SimulationState) -> np.ndarray:
+        """Modal forces of those that the state has."""
+        return self._modal(state.contact_force)
+
+    def _pushed_step(self, before: Any, n: int, state: SimulationState, force: np.ndarray) -> Any:
+        """The same under the modal forces at t_{n-1}; the state gets those on the nodes at t_n."""
         after, slid = self.motion.pushed(self.motion.flown(before), force), self.motion.slid(before)
         self._turn(n)
         gap, theta = self.gap(self.motion.displacement(after), n)

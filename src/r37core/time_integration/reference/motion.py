@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any, Protocol
 
@@ -173,7 +174,11 @@ class MotionWithCasing:
 
     A motion is that of the blade, that of the casing, shape (2, casing modes), and the step it is at. Displacements and forces
     are those of the modes at rest, then of the casing's.
+
+    `counted`: whether work and loss of the casing's modes are; of several blades in one casing those of one blade are.
     """
+
+    counted = True
 
     def __init__(self, blade: RealMotion | CoupledMotion, problem: Problem, recursion: Recursion):
         assert problem.casing.ring is not None
@@ -185,6 +190,11 @@ class MotionWithCasing:
         self.response[:at_rest, :at_rest] = blade.response
         self.response[at_rest:, at_rest:] = np.diag(self._casing.inverse)
         self._at_rest = at_rest
+
+    def pressed_by_all(self, forces: Sequence[np.ndarray]) -> list[np.ndarray]:
+        """Forces of several blades in one casing: on its modes the sum over blades, which each of them has then."""
+        on_casing = np.sum([force[self._at_rest :] for force in forces], axis=0)
+        return [np.append(force[: self._at_rest], on_casing) for force in forces]
 
     def _of_blade(self, state: SimulationState) -> SimulationState:
         """The state of the blade's modes alone: what is written into it is written into the whole."""
@@ -233,6 +243,8 @@ class MotionWithCasing:
     def work_and_loss(self, before: tuple, after: tuple, force: np.ndarray) -> tuple[float, float]:
         """Of a step under a force: see integrators.Recursion, and with a Coriolis force ComplexRecursion, of a kick."""
         work, loss = self._blade.work_and_loss(before[0], after[0], force[: self._at_rest])
+        if not self.counted:
+            return work, loss
         of, on_casing, (u, d) = self._casing, force[self._at_rest :], before[1]
         if isinstance(of, ComplexRecursion):
             kicked = d + of.inverse / of.keep * on_casing

@@ -1,0 +1,72 @@
+"""Compiled engines of blades that press one elastic casing, step by step together. Light: numba is not imported."""
+
+from __future__ import annotations
+
+import ctypes
+from collections.abc import Callable, Sequence
+from functools import cache
+
+import numpy as np
+
+from r37core.native import Sources, cached_object, load_function
+
+from ..jump_numbers import LOSS_DD, LOSS_UD, LOSS_UU
+from ..state import Schedule, SimulationRecord, SimulationState
+from .engine import SOURCES, CompiledEngine
+from .kind import Kind
+from .layout import Capacity
+from .passage import Passage
+
+_SOURCES = Sources(*SOURCES.files, "time_integration/compiled/lockstep_program.py")
+
+
+class Lockstep:
+    """The engines of a rotor's blades, of one capacity, in the `order` in which their forces on the casing are summed.
+
+    Each has the casing's modes; these are made alike to the last bit, and those of the first count for their loss.
+    """
+
+    def __init__(self, engines: Sequence[CompiledEngine], order: Sequence[int]):
+        self._engines, self._order = engines, order
+        first = engines[order[0]]
+        for place in order[1:]:
+            _take_casing(engines[place], first)
+        self._addresses = np.array([engines[place].address for place in order], dtype=np.uint64)
+        self._program = _program(first.capacity, first.kind)
+
+    def advance(self, states: Sequence[SimulationState], outs: Sequence[SimulationRecord]) -> tuple[list[int], list[float]]:
+        """Do the steps of every row of the samples; returns the rows done of each, and what each has worn off the bars (m)."""
+        passages = []
+        for engine, state, out in zip(self._engines, states, outs, strict=True):
+            schedule = Schedule(np.zeros(1), np.zeros(1), len(state.displacement))
+            passages.append(Passage(engine, state, out, schedule, in_parts=True))
+            passages[-1].ask(len(out.samples))
+            engine.put(worn=0.0)
+        done = int(self._program(self._addresses.ctypes.data, len(self._addresses)))
+        for passage in passages:
+            passage.done = done
+            passage.end()
+        return [done] * len(passages), [float(engine.record[0]["worn"]) for engine in self._engines]
+
+
+def _take_casing(engine: CompiledEngine, first: CompiledEngine) -> None:
+    """Give an engine the constants of the casing's modes of another one, but for their loss."""
+    own, other = engine.record[0]["speed"], first.record[0]["speed"]
+    mine, theirs = engine.casing_lanes, first.casing_lanes
+    for name in ("keep", "pull", "inverse", "inverse_keep", "amplitude_by_u", "amplitude_by_d", "jumps"):
+        own[name][..., mine] = other[name][..., theirs]
+    own["loss"][mine] = 0.0
+    own["jumps"][:, [LOSS_UU, LOSS_UD, LOSS_DD], mine] = 0.0
+
+
+@cache
+def _program(capacity: Capacity, kind: Kind) -> Callable:
+    """The program of lockstep_program, compiled if it is not there yet."""
+
+    def build() -> bytes:
+        from .lockstep_program import compile_lockstep
+
+        return compile_lockstep(capacity, kind)
+
+    code = cached_object("rotor_in_an_elastic_casing", _SOURCES, (capacity, kind), build)
+    return load_function(code, "advance", ctypes.c_int64, ctypes.c_void_p, ctypes.c_int64)

@@ -1,0 +1,202 @@
+"""The program of blades that press one elastic casing: all do a step before any does the next. Imports numba.
+
+Every blade has a record, and in it the casing's modes, in the rotor's frame that all share. Between contacts these move by
+themselves, alike in all records. A step's pushes on them are summed over the blades, and each record takes the sum: so the
+casing's motion has the same bits in all. Its work and loss count in the first record; the others are laid out without its loss.
+"""
+
+from __future__ import annotations
+
+import numba
+import numpy as np
+from numba import types
+
+from r37core.alignment import LANES
+from r37core.lanes import OPTIONS, inlined, load, pointed_at, spread, store, sum_of_lanes
+from r37core.native import object_code
+from r37core.program_constants import with_constants
+
+from ..jump_numbers import COARSE, STRIDES
+from .contact_steps import press_contact, release_contact
+from .jump_steps import bound_amplitudes, choose_jump, jump_ahead
+from .kind import Kind
+from .layout import MODAL_ROWS, Capacity, constants_record, integration_record
+from .ring_steps import turn_jump, turn_step
+from .segment_steps import begin_segment, end_segment
+from .steps import leave_casing, list_pressed, measure_gaps, mode_lanes, node_lanes, predict, push_lanes, record, sum_pushes
+
+OTHERS = 0
+"""How many constants of a speed are not of modes."""
+
+
+@inlined
+def _first_of_casing(m):
+    """The first lane of the casing's modes."""
+    return mode_lanes(m) - 2 * m.pairs
+
+
+@inlined
+def _jump_of_all(addresses, blades, interval, first_stride, left, remaining):
+    """Stride of the longest jump that all blades can do, -1 if there is none."""
+    stride = first_stride
+    for b in range(blades):
+        m = pointed_at(addresses[b])
+        stride = choose_jump(m, interval * node_lanes(m), stride, left, remaining)
+        if stride < 0:
+            break
+    return stride
+
+
+@inlined
+def _jump(addresses, blades, stride):
+    """Let all blades do the steps of a jump."""
+    for b in range(blades):
+        m = pointed_at(addresses[b])
+        store(m.block_loss, 0, jump_ahead(m, stride, load(m.block_loss, 0)))
+        turn_jump(m, stride)
+        m.totals.steps_jumped += m.flight.lengths[stride]
+        leave_casing(m)
+
+
+@inlined
+def _fly(addresses, blades):
+    """The free step of all blades, and what the forces on each are to its modes; returns whether there are any."""
+    pushed = False
+    for b in range(blades):
+        m = pointed_at(addresses[b])
+        store(m.block_loss, 0, predict(m, load(m.block_loss, 0)))
+        if m.follows != 0:
+            sum_pushes(m)
+            m.totals.steps_in_contact += 1.0
+            pushed = True
+    return pushed
+
+
+@inlined
+def _share_pushes(addresses, blades):
+    """Give every record the pushes of all blades on the casing's modes."""
+    first = pointed_at(addresses[0])
+    for i in range(0, 2 * first.pairs, LANES):
+        total = spread(0.0)
+        for b in range(blades):
+            m = pointed_at(addresses[b])
+            if m.follows != 0:
+                total += load(m.push, _first_of_casing(m) + i)
+        for b in range(blades):
+            m = pointed_at(addresses[b])
+            store(m.push, _first_of_casing(m) + i, total)
+
+
+@inlined
+def _push(m, counted):
+    """Push a blade and the casing, whose work is `counted` with one of them."""
+    work, lost, casing = load(m.block_work, 0), load(m.block_loss, 0), _first_of_casing(m)
+    if m.follows != 0:
+        work, lost = push_lanes(m, 0, casing, work, lost)
+    work_of_both, lost_of_both = push_lanes(m, casing, mode_lanes(m), work, lost)
+    if counted:
+        work, lost = work_of_both, lost_of_both
+    store(m.block_work, 0, work)
+    store(m.block_loss, 0, lost)
+
+
+@inlined
+def _meet(m, place, lobes):
+    """The forces on a blade after a step; returns whether it is beyond the lining or casing, or there are any."""
+    beyond = measure_gaps(m, place, lobes)
+    if beyond:
+        m.follows = int(press_contact(m, place))
+    elif m.follows != 0:
+        release_contact(m)
+        m.follows = 0
+    else:
+        leave_casing(m)
+    return beyond
+
+
+@inlined
+def _integrate(addresses, blades):
+    """Do the blocks of steps asked for; returns how many were done, fewer when an output passed the limit or is NaN."""
+    first = pointed_at(addresses[0])
+    at_once = np.isinf(first.casing.rise)
+    decay = 0.0 if at_once else np.exp(-first.casing.rise)
+    steps_per_block = first.steps_per_block
+    coarse_per_block = (steps_per_block + COARSE - 1) // COARSE
+    # any integers for numba: what it gives a plain 0 or 1 to is compiled for just that, too
+    zero, shortest = int(np.int64(0)), int(np.int64(1))
+    busy, bounded, within, first_stride = False, False, True, shortest
+    done = kept = zero
+    first_block = first.call.first_step // steps_per_block
+    place = first.call.first_step % first.steps_per_revolution
+    interval = place // steps_per_block * coarse_per_block
+    for b in range(blades):
+        begin_segment(pointed_at(addresses[b]), zero, OTHERS)
+    while done < first.call.blocks and within:
+        start = first.call.first_step + done * steps_per_block
+        remaining = 0.0 if at_once else np.exp(-first.casing.rise * (start + first.call.ahead))
+        if place == 0 or done == 0:
+            busy, bounded, first_stride = False, False, shortest
+            for b in range(blades):
+                m = pointed_at(addresses[b])
+                m.follows = int(list_pressed(m) > 0)
+                busy |= m.follows != 0
+        for b in range(blades):
+            m = pointed_at(addresses[b])
+            store(m.block_work, 0, 0.0)
+            store(m.block_loss, 0, 0.0)
+        position = 0
+        while position < steps_per_block:
+            if position % COARSE == 0 and first.jumping != 0 and not busy:
+                if not bounded:
+                    for b in range(blades):
+                        bound_amplitudes(pointed_at(addresses[b]))
+                    bounded = True
+                left = steps_per_block - position
+                stride = _jump_of_all(addresses, blades, interval + position // COARSE, first_stride, left, remaining)
+                first_stride = max(min(stride + 1, STRIDES - 1), 1)
+                if stride >= 0:
+                    _jump(addresses, blades, stride)
+                    remaining *= first.flight.decay[stride]
+                    position += first.flight.lengths[stride]
+                    continue
+            position += 1
+            remaining *= decay
+            here = place + position if place + position < first.steps_per_revolution else 0
+            lobes = first.casing.amplitude * (1.0 - remaining)
+            pushed = _fly(addresses, blades)
+            if pushed:
+                _share_pushes(addresses, blades)
+                bounded = False
+            busy = False
+            for b in range(blades):
+                m = pointed_at(addresses[b])
+                if pushed:
+                    _push(m, b == 0)
+                turn_step(m)
+                busy |= _meet(m, here, lobes)
+        # of the samples from the first snapshot's revolution on, every so many-th
+        due = first_block + done + 1 - first.samples_before_snapshots
+        taken = first.samples_per_snapshot > 0 and due > 0 and due % first.samples_per_snapshot == 0
+        for b in range(blades):
+            m = pointed_at(addresses[b])
+            m.totals.work += 0.5 * sum_of_lanes(load(m.block_work, 0))
+            m.totals.loss += sum_of_lanes(load(m.block_loss, 0))
+            m.totals.steps += steps_per_block
+            within &= record(m, done, kept if taken else -1, m.follows != 0)
+        kept += taken
+        done += 1
+        place, interval = place + steps_per_block, interval + coarse_per_block
+        if place == first.steps_per_revolution:
+            place = interval = zero
+    for b in range(blades):
+        end_segment(pointed_at(addresses[b]), zero)
+    return done
+
+
+def compile_lockstep(capacity: Capacity, kind: Kind) -> bytes:
+    """Object code of `advance(records, count)`: a function of the records' addresses, that returns the blocks of steps done."""
+    others = constants_record(*capacity).itemsize // 8 - MODAL_ROWS * capacity.modes
+    integrate = with_constants(_integrate, kind.constants | {"OTHERS": others})
+    records = types.CPointer(types.CPointer(numba.from_dtype(integration_record(capacity))))
+    advance = numba.cfunc(types.int64(records, types.int64), **OPTIONS)(integrate.py_func)
+    return object_code(advance.inspect_llvm(), advance.native_name, "advance")
