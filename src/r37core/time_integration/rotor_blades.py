@@ -78,7 +78,7 @@ def turned(model: ContactModel, angle: float) -> ContactModel:
 
 
 def on_steps(angle: float, steps_per_revolution: int) -> float:
-    """The angle (rad) of the nearest whole step, where blades that go on together meet bars, wide as a step, at the same places.
+    """The angle (rad) of the nearest whole step, where blades that go on together meet bars at the same places of them.
 
     At other places the deepest of all wears a bar for all, and 36 blades wear a lining that no blade alone wears so.
     """
