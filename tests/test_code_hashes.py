@@ -158,7 +158,7 @@ def rules(root):
     found = {}
     for block in re.split(r"^(?=rule |checkpoint |use rule )", text, flags=re.MULTILINE)[1:]:
         rule = re.match(r"(?:rule|checkpoint|use rule \w+ as) (\w+)", block)[1]
-        steps = re.findall(r'\*\*step\("([\w.]+)"\)', block)
+        steps = re.findall(r'\*\*step\("([\w.]+)"(?:\)|, \*)', block)
         drawn = re.findall(r'drawing\(\s*code,\s*"([\w.]+)\.\w+"', block)
         needed = re.match(r"use rule (step|figure) as|(?:(?!\nfor )[\s\S])*scripts/step\.py", block) is not None
         assert len(steps) + len(drawn) == (needed and rule not in ("step", "figure")), rule

@@ -102,7 +102,7 @@ use rule step as coincidences with:
         casings=joined.casings,
 
 
-shown_by_wings = panel_parameters(sweep, code)
+shown_by_wings = panel_parameters(sweep)
 
 
 use rule step as explorer with:
@@ -123,6 +123,7 @@ use rule step as explorer with:
     resources:
         **needs.of("explorer"),
     params:
+        **step("explorer.steps.explorer", *panel_modules(sweep)),
         **shown_by_wings,
         title=f"r37 {settings.config.run.name or ''}".strip(),
         shapes=sweep.runs_with("shapes"),

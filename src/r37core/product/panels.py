@@ -5,9 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-from r37core.plans.code import CodeHashes
 from r37core.plans.paths import filled
 from r37core.plans.sweep_plan import Sweep
+from r37core.plans.wing import Panel
 
 from .wings import WINGS
 
@@ -20,12 +20,21 @@ def panel_files(sweep: Sweep) -> dict[str, str]:
     return {name: file for name, (file,) in ((name, several) for name, several in files.items() if several)}
 
 
-def panel_parameters(sweep: Sweep, code: CodeHashes) -> dict[str, Any]:
-    """Parameters of the explorer's step: its code with that of the panels, their functions and their programs, by wing."""
-    panels = {wing.name: wing.panel for wing in WINGS if wing.panel and wing.name in panel_files(sweep)}
-    modules = [panel.contents.rpartition(".")[0] for panel in panels.values()]
+def panel_modules(sweep: Sweep) -> list[str]:
+    """Modules of the functions that make the panels' contents, which the explorer's step imports by name."""
+    return [panel.contents.rpartition(".")[0] for panel in _panels(sweep).values()]
+
+
+def panel_parameters(sweep: Sweep) -> dict[str, Any]:
+    """Parameters of the explorer's step: functions and programs of the panels."""
+    panels = _panels(sweep)
     return {
-        **code.step("explorer.steps.explorer", *modules),
         "panels": {name: f"r37core.{panel.contents}" for name, panel in panels.items()},
         "programs": [str(_PACKAGE / panel.program) for panel in panels.values()],
     }
+
+
+def _panels(sweep: Sweep) -> dict[str, Panel]:
+    """Wing -> its panel, of those that have one in this run."""
+    files = panel_files(sweep)
+    return {wing.name: wing.panel for wing in WINGS if wing.panel and wing.name in files}
