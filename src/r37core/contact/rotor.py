@@ -25,11 +25,6 @@ class Rotor:
     shared_lining: bool = True
 
     @property
-    def pitch(self) -> float:
-        """Angle (rad) between blades of equal angles."""
-        return 2.0 * np.pi / len(self.angles)
-
-    @property
     def order(self) -> tuple[int, ...]:
         """Places of the blades in the order in which they pass the casing; of two at one angle the first goes first."""
         return tuple(map(int, np.argsort(np.mod(self.angles, 2.0 * np.pi), kind="stable")))

@@ -10,8 +10,11 @@ from r37core.rom.rotation import rotation_amplitudes
 from r37core.stress.of_revolutions import largest_of_revolutions
 from r37core.stress.operator import StressOperator
 
-from .simulate import DIRECTIONS, Simulation
+from .casing_waves import casing_waves
+from .problem import Problem
+from .simulate import DIRECTIONS
 from .state import SimulationRecord
+from .status import RunStatus
 
 _WEAR_LOBES = 20
 KEPT = [DIRECTIONS.index("normal"), DIRECTIONS.index("tangential")]
@@ -26,32 +29,70 @@ def whole(samples: np.ndarray, count: int, diverged: bool) -> np.ndarray:
     return np.concatenate([samples[:-1], np.full((missing, *samples.shape[1:]), np.nan)])
 
 
-def stress_numbers(
-    simulation: Simulation, record: SimulationRecord, stress: StressOperator | None, static_stress: bool
+def status_numbers(problem: Problem, reached: float | None) -> dict[str, np.ndarray]:
+    """How a run ended, and what it was made with: see run_speed. `reached`: revolution of a divergence, None without one."""
+    diverged_at = np.nan if reached is None else reached
+    return {
+        "status": np.array(int(RunStatus.COMPLETED if reached is None else RunStatus.DIVERGED)),
+        "speed": np.array(problem.speed),
+        "diverged_revolution": np.array(diverged_at),
+        "diverged_time": np.array(diverged_at * 2.0 * np.pi / problem.speed),
+        "time_step": np.array(problem.grid.time_step),
+        "cone_angle": np.array(problem.casing.cone_angle),
+        "lined": np.array(int(problem.scene.lining is not None)),
+    }
+
+
+def snapshot_numbers(
+    problem: Problem, record: SimulationRecord, stress: StressOperator | None, static_stress: bool
 ) -> dict[str, np.ndarray]:
-    """What is kept of the snapshots of a run: see run_speed."""
-    model, speed, choice = simulation.problem.model, simulation.problem.speed, simulation.problem.choice
-    shapes, per_revolution = model.to_reduced @ simulation.problem.contact.state_shapes, choice.snapshots_per_revolution
-    coordinates = record.snapshots[-per_revolution:] @ shapes.T
+    """What is kept of the snapshots of the last revolution: see run_speed."""
+    shapes = problem.model.to_reduced @ problem.contact.state_shapes
+    coordinates = record.snapshots[-problem.choice.snapshots_per_revolution :] @ shapes.T
     if static_stress:
-        coordinates = with_rotation(coordinates, model, speed)
+        coordinates = with_rotation(coordinates, problem.model, problem.speed)
     # a stress of them differs by 1e-7 of the largest, in two thirds of the file
     coordinates = coordinates.astype(np.float32)
     if stress is None:
         return {"snapshots": coordinates}
-    whole = len(record.snapshots) // per_revolution
-    history = np.full(choice.snapshot_revolutions, np.nan, dtype=np.float32)
-    if whole:
-        rotation = rotation_amplitudes(model.rotation_stiffening, speed) if static_stress else np.empty(0)
-        states = record.snapshots[: whole * per_revolution]
-        history[:whole] = largest_of_revolutions(stress, states, shapes, rotation, per_revolution)
     return {
         "snapshots": coordinates,
         "max_von_mises": np.array(np.nan if record.diverged else stress.max_von_mises(coordinates).max()),
-        "revolution_von_mises": history,
         "stress_region": np.array(stress.region),
         "static_stress": np.array(int(stress.have_rotation(coordinates))),
     }
+
+
+def stress_history(
+    problem: Problem, record: SimulationRecord, stress: StressOperator | None, static_stress: bool
+) -> dict[str, np.ndarray]:
+    """Largest stress of each revolution of the statistic, NaN after a divergence; none without the operator."""
+    if stress is None:
+        return {}
+    per_revolution = problem.choice.snapshots_per_revolution
+    revolutions = len(record.snapshots) // per_revolution
+    history = np.full(problem.choice.snapshot_revolutions, np.nan, dtype=np.float32)
+    if revolutions:
+        shapes = problem.model.to_reduced @ problem.contact.state_shapes
+        states, rotation = record.snapshots[: revolutions * per_revolution], rotation_of(problem, static_stress)
+        history[:revolutions] = largest_of_revolutions(stress, states, shapes, rotation, per_revolution)
+    return {"revolution_von_mises": history}
+
+
+def rotation_of(problem: Problem, static_stress: bool) -> np.ndarray:
+    """Amplitudes of rotation's shapes at the speed, none where its stress is not wanted."""
+    return rotation_amplitudes(problem.model.rotation_stiffening, problem.speed) if static_stress else np.empty(0)
+
+
+def casing_numbers(problem: Problem, record: SimulationRecord, highest_order: int) -> dict[str, np.ndarray]:
+    """Waves of the elastic casing over the last half of a run: see casing_waves."""
+    ring, choice = problem.casing.ring, problem.choice
+    assert ring is not None and record.casing is not None
+    count, first = (
+        revolutions * choice.samples_per_revolution for revolutions in (choice.revolutions, choice.revolutions // 2)
+    )
+    half = whole(record.casing, count, len(record.casing) < count or record.diverged)[first:]
+    return casing_waves(half, ring, problem.speed, choice.revolutions_in_statistic, highest_order)
 
 
 def with_rotation(coordinates: np.ndarray, model: ContactModel, speeds: float | np.ndarray) -> np.ndarray:

@@ -10,17 +10,23 @@ from numpy.fft import rfft
 from r37core.contact.rotor import Rotor
 from r37core.contact.scene import Scene
 from r37core.rom.contact_model import ContactModel
-from r37core.rom.rotation import rotation_amplitudes
 from r37core.stress.of_revolutions import largest_of_revolutions
 from r37core.stress.operator import StressOperator
 
-from .casing_waves import casing_waves
 from .integration_choice import IntegrationChoice
-from .kept_numbers import KEPT, energy_balance, spectrum, stress_numbers, wear_numbers, whole
+from .kept_numbers import (
+    KEPT,
+    casing_numbers,
+    energy_balance,
+    rotation_of,
+    snapshot_numbers,
+    spectrum,
+    status_numbers,
+    wear_numbers,
+)
 from .rotor_simulation import RotorRecord, RotorSimulation
 from .simulate import DIRECTIONS, TIP_POINTS
 from .state import SimulationState
-from .status import RunStatus
 
 MOST_GROWTH = 200
 """Spans of revolutions whose largest motion and stress are kept of each blade: a file stays small with many blades."""
@@ -60,18 +66,10 @@ def run_rotor(
     maxima = np.abs(samples).reshape(len(samples), choice.revolutions, per_revolution, *samples.shape[2:]).max(axis=2)
     rms = np.sqrt(np.mean(half**2, axis=1))
     leader = int(np.nan_to_num(rms[:, 0, 0]).argmax())
-    diverged_at = (
-        min(len(part.samples) for part in record.blades if part.diverged) / per_revolution if record.diverged else np.nan
-    )
+    reached = min((len(part.samples) / per_revolution for part in record.blades if part.diverged), default=None)
     totals = np.array([state.totals for state in states])
-    numbers = {
-        "status": np.array(int(RunStatus.DIVERGED if record.diverged else RunStatus.COMPLETED)),
-        "speed": np.array(speed),
-        "diverged_revolution": np.array(diverged_at),
-        "diverged_time": np.array(diverged_at * 2.0 * np.pi / speed),
-        "time_step": np.array(simulation.problem.grid.time_step),
-        "cone_angle": np.array(simulation.problem.casing.cone_angle),
-        "lined": np.array(int(scene.lining is not None)),
+    numbers = status_numbers(simulation.problem, reached)
+    numbers |= {
         "rms": rms.max(axis=0),
         "peak": maxima[:, first:].max(axis=(0, 1)),
         "revolution_maxima": maxima.max(axis=0),
@@ -96,19 +94,9 @@ def run_rotor(
         work = sum(blade.work(state) for blade, state in zip(simulation.blades, states, strict=True))
         numbers |= energy_balance(work, float(totals["loss"].sum()), simulation.energy(states))
     if "casing" in results:
-        numbers |= _casing(simulation, record, spectrum_highest_order)
+        # the record of any blade has it
+        numbers |= casing_numbers(simulation.problem, record.blades[0], spectrum_highest_order)
     return numbers
-
-
-def _casing(simulation: RotorSimulation, record: RotorRecord, highest_order: int) -> dict[str, np.ndarray]:
-    """Waves of the elastic casing over the last half, which the record of any blade has."""
-    choice, casing = simulation.problem.choice, record.blades[0].casing
-    ring = simulation.problem.casing.ring
-    assert ring is not None and casing is not None
-    samples = whole(casing, choice.revolutions * choice.samples_per_revolution, record.diverged)
-    half = samples[choice.revolutions // 2 * choice.samples_per_revolution :]
-    revolutions = choice.revolutions - choice.revolutions // 2
-    return casing_waves(half, ring, simulation.problem.speed, revolutions, highest_order)
 
 
 def _samples(record: RotorRecord, choice: IntegrationChoice) -> np.ndarray:
@@ -160,10 +148,10 @@ def _worn(states: list[SimulationState]) -> np.ndarray:
 def _stress(
     simulation: RotorSimulation, record: RotorRecord, stress: StressOperator | None, static_stress: bool
 ) -> dict[str, np.ndarray]:
-    """Of the blade with the largest stress what stress_numbers keeps, the largest history of all blades, and that of each."""
+    """Of the blade with the largest stress what snapshot_numbers keeps, the largest history of all blades, and that of each."""
     history = None if stress is None else _histories(simulation, record, stress, static_stress)
     largest = 0 if history is None else int(np.nan_to_num(history[:, -1]).argmax())
-    numbers = stress_numbers(simulation.blades[largest], record.blades[largest], stress, static_stress)
+    numbers = snapshot_numbers(simulation.problems[largest], record.blades[largest], stress, static_stress)
     if history is None:
         return numbers
     if record.diverged:
@@ -183,8 +171,8 @@ def _histories(simulation: RotorSimulation, record: RotorRecord, stress: StressO
     Blades with as many stepped modes are looked at together: their modes have the same shapes, and what follows a force at once
     is in proportion to the flexibility, 1/factor^2.
     """
-    choice, model, speed = simulation.problem.choice, simulation.problem.model, simulation.problem.speed
-    rotation = rotation_amplitudes(model.rotation_stiffening, speed) if static_stress else np.empty(0)
+    choice, model = simulation.problem.choice, simulation.problem.model
+    rotation = rotation_of(simulation.problem, static_stress)
     history = np.full((len(record.blades), choice.snapshot_revolutions), np.nan, dtype=np.float32)
     groups: dict[tuple[int, int], list[int]] = {}
     for place, part in enumerate(record.blades):

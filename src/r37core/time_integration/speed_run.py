@@ -10,13 +10,21 @@ from r37core.contact.scene import Scene
 from r37core.rom.contact_model import ContactModel
 from r37core.stress.operator import StressOperator
 
-from .casing_waves import casing_waves
 from .initial_motion import InitialMotion, InitialMotionError
 from .integration_choice import IntegrationChoice
-from .kept_numbers import KEPT, energy_balance, spectrum, stress_numbers, wear_numbers, whole
+from .kept_numbers import (
+    KEPT,
+    casing_numbers,
+    energy_balance,
+    snapshot_numbers,
+    spectrum,
+    status_numbers,
+    stress_history,
+    wear_numbers,
+    whole,
+)
 from .rotor_run import run_rotor
 from .simulate import DIRECTIONS, TIP_POINTS, Simulation
-from .status import RunStatus
 
 OF_RUNS = ("spectrum", "stress", "static_stress", "wear", "energy", "casing")
 """Results of a scene that its simulations give; others are made of them later."""
@@ -64,16 +72,9 @@ def run_speed(
     maxima = np.abs(samples).reshape(choice.revolutions, per_revolution, *samples.shape[1:]).max(axis=1)
     first = choice.revolutions // 2
     half = samples[first * per_revolution :]
-    diverged_at = len(record.samples) / per_revolution if record.diverged else np.nan
     totals = state.totals
-    numbers = {
-        "status": np.array(int(RunStatus.DIVERGED if record.diverged else RunStatus.COMPLETED)),
-        "speed": np.array(speed),
-        "diverged_revolution": np.array(diverged_at),
-        "diverged_time": np.array(diverged_at * 2.0 * np.pi / speed),
-        "time_step": np.array(simulation.problem.grid.time_step),
-        "cone_angle": np.array(simulation.problem.casing.cone_angle),
-        "lined": np.array(int(scene.lining is not None)),
+    numbers = status_numbers(simulation.problem, len(record.samples) / per_revolution if record.diverged else None)
+    numbers |= {
         "rms": np.sqrt(np.mean(half**2, axis=0)),
         "peak": maxima[first:].max(axis=0),
         "revolution_maxima": maxima,
@@ -89,7 +90,8 @@ def run_speed(
     if "spectrum" in results:
         numbers |= spectrum(half[:, 0, KEPT].T, len(half) // per_revolution, spectrum_highest_order)
     if "stress" in results:
-        numbers |= stress_numbers(simulation, record, stress, "static_stress" in results)
+        wanted = simulation.problem, record, stress, "static_stress" in results
+        numbers |= snapshot_numbers(*wanted) | stress_history(*wanted)
     if "wear" in results:
         assert scene.lining is not None and state.wear is not None
         numbers |= wear_numbers(state.wear, min(wear_angles, scene.lining.bars))
@@ -98,8 +100,5 @@ def run_speed(
         if motion is not None:
             numbers["initial_energy"] = np.array(begun)
     if "casing" in results:
-        ring = simulation.problem.casing.ring
-        assert ring is not None and record.casing is not None
-        casing = whole(record.casing, sample_count, record.diverged)[first * per_revolution :]
-        numbers |= casing_waves(casing, ring, speed, len(casing) // per_revolution, spectrum_highest_order)
+        numbers |= casing_numbers(simulation.problem, record, spectrum_highest_order)
     return numbers
