@@ -141,7 +141,7 @@ class RotorSimulation:
             )
             for simulation, state, out, start in zip(self.blades, states, outs, starts, strict=True)
         ]
-        total, worn = revolutions * per_revolution, [0.0] * len(passages)
+        total = revolutions * per_revolution
         # the first part of those that have not passed angle 0 yet, whole passes, and what is left
         for number in range(revolutions + 1):
             diverged = False
@@ -149,11 +149,9 @@ class RotorSimulation:
                 until = min(total, number * per_revolution + (-starts[place].samples) % per_revolution)
                 blocks = until - passages[place].done
                 if blocks:
-                    before = states[place].worn
                     diverged |= passages[place].go_on(blocks) < blocks
-                    worn[place] += states[place].worn - before
             if diverged:
                 break
         for passage in passages:
             passage.end()
-        return [passage.done for passage in passages], worn
+        return [passage.done for passage in passages], [passage.worn for passage in passages]

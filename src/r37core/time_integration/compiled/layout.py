@@ -205,7 +205,7 @@ def integration_record(capacity: Capacity) -> np.dtype:
             # of a blade beside others: work, doubled, and energy lost in a block, and whether there are forces at t_n
             *_arrays("block_work block_loss", LANES),
             *_numbers("follows", kind=np.int64),
-            *_numbers("worn"),  # off all bars together, with forces at t_n (m)
+            *_numbers("worn"),  # off all bars together (m)
             *_numbers("limit friction"),
             # how much of the record is used: vectors of modes and of nodes; numbers
             *_arrays("vectors", 2, kind=np.int64),

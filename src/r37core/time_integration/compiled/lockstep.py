@@ -41,12 +41,11 @@ class Lockstep:
             schedule = Schedule(np.zeros(1), np.zeros(1), len(state.displacement))
             passages.append(Passage(engine, state, out, schedule, in_parts=True))
             passages[-1].ask(len(out.samples))
-            engine.put(worn=0.0)
         done = int(self._program(self._addresses.ctypes.data, len(self._addresses)))
         for passage in passages:
             passage.done = done
             passage.end()
-        return [done] * len(passages), [float(engine.record[0]["worn"]) for engine in self._engines]
+        return [done] * len(passages), [passage.worn for passage in passages]
 
 
 def _take_casing(engine: CompiledEngine, first: CompiledEngine) -> None:

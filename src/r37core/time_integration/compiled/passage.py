@@ -46,7 +46,7 @@ class Passage:
         self.done = 0
         m = engine.record[0]
         engine.put_modes(u=state.displacement, increment=state.increment)
-        engine.put(on_casing=np.packbits(state.on_casing, bitorder="little"), totals=state.totals)
+        engine.put(worn=0.0, on_casing=np.packbits(state.on_casing, bitorder="little"), totals=state.totals)
         if self._grid.choice.second_order:
             engine.put(force=state.contact_force[NORMAL], friction_force=state.contact_force[TANGENTIAL:])
         addresses = {
@@ -84,6 +84,11 @@ class Passage:
             call["snapshots"] = self._snapshots_at + kept * self._snapshots.strides[0]
         if self._in_parts:
             self._lasting[0] = blocks
+
+    @property
+    def worn(self) -> float:
+        """What the blade has worn off all bars together (m), up to now."""
+        return float(self._engine.record[0]["worn"])
 
     def end(self) -> None:
         """Read the state that is reached, but for the number of samples."""

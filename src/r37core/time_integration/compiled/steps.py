@@ -232,7 +232,9 @@ def press_bars(m, place):
     for j in range(count):
         k = p.listed[j]
         bar = bar_at(m, k, place)
-        stress, wear[bar] = _return_mapping(-p.gap[k], wear[bar], lining.elastic_modulus, lining)
+        before = wear[bar]
+        stress, wear[bar] = _return_mapping(-p.gap[k], before, lining.elastic_modulus, lining)
+        m.worn += wear[bar] - before
         m.force[k] = -stress * lining.area
     return count
 
