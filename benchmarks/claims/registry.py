@@ -49,8 +49,19 @@ _GALLERY_OF_PATCHES = (
     "{snakemake} gallery --configfile config/config.yaml config/patches.yaml",
     f"mv docs/gallery.md {STUDIES}/contact_patches/gallery.md && cp -r build/gallery/. docs/",
 )
-_USER_CODE = ("01_campbell", "02_response", "03_two_blades", "04_spectrum", "05_wear", "06_growth", "07_friction")
-_USER_CODE += ("08_run_ups", "09_tolerances", "10_designs")
+_USER_CODE = dict.fromkeys(("03_two_blades", "04_spectrum", "05_wear", "06_growth", "07_friction"), ())
+_USER_CODE |= {
+    name: ("src/r37core/figures/style.py", f"src/r37core/{module}.py")
+    for name, module in {
+        "01_campbell": "figures/campbell_diagram",
+        "02_response": "figures/response_curves",
+        "08_run_ups": "run_ups/figures",
+        "09_tolerances": "tolerances/figures",
+        "10_designs": "designs/figures",
+    }.items()
+}
+"""Figures of docs/user_code.md, and what draws them where a call of r37 does."""
+
 _TOLERANCES = "{snakemake} tolerances --configfile config/config.yaml config/tolerances.yaml --config"
 
 _EXPLORER = tuple(
@@ -147,7 +158,10 @@ CLAIMS = (
     ),
     Claim(
         "user_code",
-        tuple(Output(f"docs/user_code/{name}.png", None, (f"examples/figures/{name}.py",)) for name in _USER_CODE),
+        tuple(
+            Output(f"docs/user_code/{name}.png", None, (f"examples/figures/{name}.py", *drawn_by))
+            for name, drawn_by in _USER_CODE.items()
+        ),
         ("{python} benchmarks/user_code.py",),
         minutes=4,
         code=("benchmarks/user_code.py",),
