@@ -82,9 +82,9 @@ class Provenance:
 
 
 def _member(member: str) -> dict[str, str]:
-    """Name of a member; nothing of a nominal one."""
-    _, name = folder_and_name(SimpleNamespace(member=member))
-    return {"member": name} if name else {}
+    """Name of a member, or of the folder that a member without a name has of its own; nothing of a nominal one."""
+    folder, name = folder_and_name(SimpleNamespace(member=member))
+    return {"member": name or folder} if folder else {}
 
 
 def shape_hash(settings: Settings, blade: str) -> str:

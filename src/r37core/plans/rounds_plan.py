@@ -33,7 +33,8 @@ class Rounds:
         """What a round looks at: the Campbell diagram, or the runs that the round before it asked for, member by member."""
         number, (folder, _) = int(wildcards.round), folder_and_name(wildcards)
         if number == 0:
-            return {"campbell": paths.fill(paths.CAMPBELL, blade=wildcards.blade)}
+            diagram = self.sweep.samples.sample(wildcards).campbell
+            return {"campbell": paths.fill(paths.CAMPBELL, member=diagram, blade=wildcards.blade)}
         of = {"member": path_part(folder), "blade": wildcards.blade, "scene": wildcards.scene}
         new, names = self.sweep.new_speeds(wildcards, number - 1), self.sweep.samples.sample(wildcards).deciding
         files = [file for name in names for file in paths.speed_files(path_part(folder, name), wildcards, new)]

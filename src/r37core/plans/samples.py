@@ -21,7 +21,7 @@ NOMINAL = ""
 
 @dataclass(frozen=True)
 class Member:
-    """A blade and a scene as runs have them. `model`: name of the member with the same blade whose model they start from."""
+    """A blade and a scene as runs have them. `model`: part `member` of the paths of the model that they start from."""
 
     blade: BladeSettings
     scene: Scene
@@ -33,7 +33,8 @@ class Sample:
     """Members of one blade and scene, by name, that are all run at the same speeds.
 
     `deciding`: those of them that adaptive speeds are decided by, at most at `largest_share` of the finest grid. `results`:
-    what is wanted of each run. `history_speeds` (rad/s): where the stress is kept for every revolution.
+    what is wanted of each run. `history_speeds` (rad/s): where the stress is kept for every revolution. `campbell`: part
+    `member` of the path of the Campbell diagram that adaptive speeds begin with.
     """
 
     members: Mapping[str, Member]
@@ -41,6 +42,7 @@ class Sample:
     largest_share: float
     results: tuple[str, ...]
     history_speeds: tuple[float, ...] = ()
+    campbell: str = NOMINAL
 
 
 @dataclass(frozen=True)
@@ -57,12 +59,29 @@ class Sampling:
     dataset: str
 
 
+class Beside(dict[str, Mapping[Pair, Sample]]):
+    """Samples by the folder that they lie in, and those of folders that are named while a run goes on.
+
+    `later`: first part of such a folder -> the samples of the part after it, as of `search/d0012`. What counts samples before
+    a run, and goes through them, meets those that are known.
+    """
+
+    def __init__(self, known: Mapping[str, Mapping[Pair, Sample]], later: Mapping[str, Callable[[str], Mapping[Pair, Sample]]]):
+        super().__init__(known)
+        self.later = later
+
+    def __missing__(self, folder: str) -> Mapping[Pair, Sample]:
+        first, _, name = folder.partition("/")
+        return self.later[first](name)
+
+
 @dataclass(frozen=True)
 class Samples:
     """All members that are run: the nominal ones, and those of samples `beside` them, by the folder that these lie in.
 
     Methods with `wildcards` take those of rules, with or without a `member`. That is the part of a path before the blade:
-    `folder/name/` of a member, `folder/` of what its sample has together, and nothing of the nominal ones.
+    `folder/name/` of a member, `folder/` of what its sample has together, and nothing of the nominal ones. Names begin with a
+    digit, folders and their parts with a letter.
     """
 
     settings: Settings
@@ -71,7 +90,8 @@ class Samples:
     @property
     def pattern(self) -> str:
         """Pattern of the wildcard `member`."""
-        return rf"(?:(?:{'|'.join(self.beside)})/(?:[^/]+/)?)?"
+        later = [rf"{first}/[a-z][^/]*" for first in getattr(self.beside, "later", ())]
+        return rf"(?:(?:{'|'.join([*self.beside, *later])})/(?:\d[^/]*/)?)?"
 
     def sample(self, wildcards: Any) -> Sample:
         """Of a blade and scene, with the member."""
@@ -85,13 +105,15 @@ class Samples:
 
     def model(self, wildcards: Any) -> str:
         """The part `member` of the paths of the model that a member's runs start from."""
-        model = self.member(wildcards).model
-        return path_part(folder_and_name(wildcards)[0], model) if model else NOMINAL
+        return self.member(wildcards).model
 
     def blade(self, wildcards: Any) -> BladeSettings:
         """The blade of a member, which is the same in all scenes."""
         folder, name = folder_and_name(wildcards)
-        return self._blades[folder, wildcards.blade][name] if folder else self.settings.blades[wildcards.blade]
+        if not folder:
+            return self.settings.blades[wildcards.blade]
+        of_blade = (sample for (blade, _), sample in self.beside[folder].items() if blade == wildcards.blade)
+        return next(sample.members[name].blade for sample in of_blade if name in sample.members)
 
     @cached_property
     def _nominal(self) -> Any:
@@ -108,16 +130,6 @@ class Samples:
             history_speeds=chosen.stress_history_speeds if "stress" in results else (),
         )
 
-    @cached_property
-    def _blades(self) -> dict[tuple[str, str], dict[str, BladeSettings]]:
-        """By folder and blade, and by name."""
-        members_of: dict[tuple[str, str], dict[str, BladeSettings]] = {}
-        for folder, samples in self.beside.items():
-            for (blade, _), sample in samples.items():
-                members = {name: member.blade for name, member in sample.members.items()}
-                members_of.setdefault((folder, blade), {}).update(members)
-        return members_of
-
 
 def member_of(wildcards: Any) -> str:
     """The part `member` of a path; that of the nominal ones where a rule has none."""
@@ -126,8 +138,9 @@ def member_of(wildcards: Any) -> str:
 
 def folder_and_name(wildcards: Any) -> tuple[str, str]:
     """Folder and name of a member; both empty of a nominal one."""
-    folder, _, name = member_of(wildcards).removesuffix("/").partition("/")
-    return folder, name
+    parts = member_of(wildcards).split("/")[:-1]
+    named = bool(parts) and parts[-1][0].isdigit()
+    return "/".join(parts[:-1] if named else parts), parts[-1] if named else NOMINAL
 
 
 def path_part(folder: str, name: str = NOMINAL) -> str:

@@ -37,7 +37,7 @@ class Structure:
         definition, (folder, name) = self._samples.blade(wildcards).definition, folder_and_name(wildcards)
         if folder and isinstance(definition, BladeDefinition):
             # the name is for messages
-            definition = replace(definition, name=f"{wildcards.blade}, member {name} of {folder}")
+            definition = replace(definition, name=f"{wildcards.blade}, {f'member {name} of ' if name else ''}{folder}")
         return to_plain(definition)
 
     def mesh(self, wildcards: Any) -> str:

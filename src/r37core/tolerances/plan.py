@@ -60,14 +60,14 @@ class Tolerances:
 
     @property
     def _models(self) -> dict[str, dict[str, str]]:
-        """Which member's model each member has, by blade: the first of those with the same blade, or the nominal one."""
+        """Whose model each member has, by blade: of the first of those with the same blade, or the nominal one."""
         first: dict[str, dict[BladeSettings, str]] = {}
         models: dict[str, dict[str, str]] = {}
         for (blade, _), members in self._members.all.items():
             known = first.setdefault(blade, {self.settings.blades[blade].elastic: NOMINAL})
             for name, member in members.items():
                 if name not in models.setdefault(blade, {}):
-                    models[blade][name] = known.setdefault(member.blade.elastic, name)
+                    models[blade][name] = known.setdefault(member.blade.elastic, path_part(FOLDER, name))
         return models
 
     @property
@@ -97,8 +97,7 @@ class Tolerances:
         return [paths.fill(paths.CAMPBELL, member=self._model(run), blade=run["blade"]) for run in self.runs_of_sample]
 
     def _model(self, run: dict[str, str]) -> str:
-        model = self.samples[run["blade"], run["scene"]].members[run["member"]].model
-        return path_part(FOLDER, model) if model else NOMINAL
+        return self.samples[run["blade"], run["scene"]].members[run["member"]].model
 
     @property
     def nominal(self) -> dict[str, list[str]]:

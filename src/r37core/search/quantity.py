@@ -1,0 +1,136 @@
+"""Numbers of a design that objectives and constraints are made of: of contact, of its modes, and of its structure."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import xarray as xr
+
+CONTACT_MEASURES = (
+    "length_certain_rad_s",
+    "length_possible_rad_s",
+    "widest_range_rad_s",
+    "largest_median_stress_pa",
+    "largest_rms_m",
+    "diverged_runs",
+)
+"""Of ranking.csv: what is read off the responses of a scene."""
+
+MEASURES = {
+    "length_certain_rad_s": "length of all speeds where half of the revolutions are above yield",
+    "length_possible_rad_s": "the same where one in twenty is",
+    "widest_range_rad_s": "widest of these ranges",
+    "largest_median_stress_pa": "largest median stress over all speeds",
+    "largest_rms_m": "largest motion of the leading edge",
+    "diverged_runs": "runs that diverged",
+    "mass_kg": "mass of the blade",
+    "frequency_hz": "frequency of a mode at rest, or at a speed",
+    "frequency_margin_percent": "distance of a mode's frequency from an engine order at a speed",
+    "crossing_margin_percent": "distance of a mode's crossing with an engine order from a speed",
+    "clearance_loss_m": "largest loss of clearance as the tip swings along a mode",
+    "static_stress_pa": "largest stress by rotation alone, in the region of the stress",
+}
+"""Measure -> what it is, in words."""
+
+NEEDS: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
+    **dict.fromkeys(CONTACT_MEASURES, (("scenes",), ())),
+    "mass_kg": ((), ()),
+    "frequency_hz": (("mode",), ("speed_rad_s",)),
+    "frequency_margin_percent": (("mode", "engine_order", "speed_rad_s"), ()),
+    "crossing_margin_percent": (("mode", "engine_order", "speed_rad_s"), ()),
+    "clearance_loss_m": (("mode",), ()),
+    "static_stress_pa": ((), ("speed_rad_s",)),
+}
+"""Measure -> keys that have to stand beside it, and those that may."""
+
+_RESAMPLES, _SEED = 200, 0
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """A `measure` of a design: of contact the worst of some `scenes`, else of a `mode`, an `engine_order` and a `speed` (rad/s).
+
+    `quantile`: of members under tolerances, in place of the nominal value.
+    """
+
+    measure: str
+    scenes: tuple[str, ...] = ()
+    mode: str | None = None
+    engine_order: int | None = None
+    speed: float | None = None
+    quantile: float | None = None
+
+    @property
+    def of_contact(self) -> bool:
+        """Whether simulations are needed for it."""
+        return self.measure in CONTACT_MEASURES
+
+    @property
+    def unit(self) -> str:
+        """Of its values, as the name of the measure ends."""
+        ends = {"_rad_s": "rad s-1", "_pa": "Pa", "_kg": "kg", "_hz": "Hz", "_m": "m", "_percent": "percent"}
+        return next((unit for end, unit in ends.items() if self.measure.endswith(end)), "1")
+
+
+@dataclass(frozen=True)
+class Structure:
+    """What is known of a design before anything touches it. `volume` (m3), `density` (kg/m3).
+
+    `campbell`: its Campbell diagram; `static_stress` (Pa) by rotation at the speeds (rad/s) that are asked for.
+    """
+
+    volume: float
+    density: float
+    campbell: xr.Dataset
+    static_stress: Mapping[float, float]
+
+
+def of_structure(quantity: Quantity, structure: Structure, highest_speed: float) -> float:
+    """The value of a quantity without contact; `highest_speed` (rad/s): where the static stress is taken that names no speed.
+
+    Raises KeyError for a mode or engine order that the Campbell diagram does not have.
+    """
+    if quantity.measure == "mass_kg":
+        return structure.density * structure.volume
+    if quantity.measure == "static_stress_pa":
+        return structure.static_stress[quantity.speed or highest_speed]
+    of_mode = structure.campbell.sel(mode=quantity.mode)
+    if quantity.measure == "clearance_loss_m":
+        return -float(of_mode["dynamic_clearance"].min())
+    speed = quantity.speed or 0.0
+    if quantity.measure == "crossing_margin_percent":
+        crossing = float(of_mode["crossing_speed"].sel(engine_order=quantity.engine_order))
+        # a mode that never meets the engine order is as far from it as can be
+        return 100.0 * abs(crossing / speed - 1.0) if math.isfinite(crossing) else 100.0
+    frequency = float(np.interp(speed, of_mode["speed"], of_mode["frequency"]))
+    if quantity.measure == "frequency_hz":
+        return frequency
+    assert quantity.engine_order is not None
+    excitation = quantity.engine_order * speed / (2.0 * np.pi)
+    return 100.0 * abs(frequency / excitation - 1.0)
+
+
+def of_contact(
+    quantity: Quantity, nominal: Mapping[str, Mapping[str, float]], members: Mapping[str, Sequence[Mapping[str, float]]]
+) -> tuple[float, float]:
+    """Value of a quantity of contact and its standard deviation, NaN where that is not known: of the worst scene.
+
+    `nominal`: scene -> its robustness; `members`: scene -> those of each member under tolerances. A quantile's standard
+    deviation is that over samples drawn from the members.
+    """
+    of_scenes = []
+    for scene in quantity.scenes:
+        if quantity.quantile is None:
+            scatter = quantity.measure.replace("_rad_s", "_scatter_rad_s")
+            of_scenes.append((nominal[scene][quantity.measure], nominal[scene].get(scatter, math.nan)))
+        else:
+            of_scenes.append(_quantile([member[quantity.measure] for member in members[scene]], quantity.quantile))
+    return max(of_scenes, key=lambda value: value[0])
+
+
+def _quantile(values: Sequence[float], quantile: float) -> tuple[float, float]:
+    drawn = np.random.default_rng(_SEED).choice(values, (_RESAMPLES, len(values)))
+    return float(np.quantile(values, quantile)), float(np.std(np.quantile(drawn, quantile, axis=1)))

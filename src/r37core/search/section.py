@@ -1,0 +1,145 @@
+"""search of config.yaml: a blade that is better than the one at hand."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import AfterValidator, Field, model_validator
+
+from r37core.config.section import LeftOut, Name, Names, Section, Speed, check_names, refused
+from r37core.config.spread import MemberCount, SpreadEntry
+
+from .quantity import CONTACT_MEASURES, MEASURES, NEEDS, Quantity
+
+Bound = Annotated[float, Field(ge=-1e15, le=1e15)]
+Measure = Literal[tuple(MEASURES)]  # type: ignore[valid-type]
+
+
+def _lower_first(bounds: list[float]) -> list[float]:
+    if not bounds[0] < bounds[1]:
+        raise refused((), f"{bounds}", "a lower and a higher value")
+    return bounds
+
+
+Bounds = Annotated[list[Bound], Field(min_length=2, max_length=2), AfterValidator(_lower_first)]
+
+
+class QuantitySection(Section):
+    """A number of a design."""
+
+    measure: Measure = Field(
+        default="length_certain_rad_s",
+        description="what is read off: " + "; ".join(f"{name}, {words}" for name, words in MEASURES.items()),
+    )
+    scenes: Names | LeftOut = Field(default=None, description="of a measure of contact: the worst of these scenes counts")
+    mode: str | LeftOut = Field(default=None, description="of a measure of a mode, such as 1B")
+    engine_order: Annotated[int, Field(ge=1, le=1000)] | LeftOut = Field(default=None, description="of a margin")
+    speed_rad_s: Speed | LeftOut = Field(
+        default=None, description="of a margin; of a static stress, in place of the highest speed of the model"
+    )
+
+    @model_validator(mode="after")
+    def _has_what_it_needs(self) -> QuantitySection:
+        given = [key for key in ("scenes", "mode", "engine_order", "speed_rad_s") if getattr(self, key) is not None]
+        needed, allowed = NEEDS[self.measure]
+        if missing := [key for key in needed if key not in given]:
+            raise refused((), f"{self.measure} without {', '.join(missing)}", f"{' and '.join(needed)} beside it")
+        if strange := [key for key in given if key not in (*needed, *allowed)]:
+            raise refused((strange[0],), f"{strange[0]} with {self.measure}", "the key left out")
+        return self
+
+    def quantity(self) -> Quantity:
+        """What it is computed by."""
+        return Quantity(
+            measure=self.measure,
+            scenes=tuple(self.scenes or ()),
+            mode=self.mode,
+            engine_order=self.engine_order,
+            speed=self.speed_rad_s,
+            quantile=getattr(self, "quantile", None),
+        )
+
+
+class ObjectiveSection(QuantitySection):
+    """What should be small."""
+
+    quantile: Annotated[float, Field(gt=0, lt=1)] | LeftOut = Field(
+        default=None, description="of the members under tolerances, such as 0.9; without it the nominal value counts"
+    )
+
+    @model_validator(mode="after")
+    def _has_members(self) -> ObjectiveSection:
+        if self.quantile is not None and self.measure not in CONTACT_MEASURES:
+            raise refused(("quantile",), f"a quantile of {self.measure}", f"one of {', '.join(CONTACT_MEASURES)}")
+        return self
+
+
+class ConstraintSection(QuantitySection):
+    """What has to be kept; with percent of the value that the start has."""
+
+    at_least: Bound | LeftOut = Field(default=None, description="in the unit of the measure")
+    at_most: Bound | LeftOut = Field(default=None, description="in the unit of the measure")
+    at_least_percent: Bound | LeftOut = Field(default=None, description="of the value of the blade that the search starts at")
+    at_most_percent: Bound | LeftOut = Field(default=None, description="of the value of the blade that the search starts at")
+
+    @model_validator(mode="after")
+    def _is_bounded(self) -> ConstraintSection:
+        for keys in (("at_least", "at_least_percent"), ("at_most", "at_most_percent")):
+            if all(getattr(self, key) is not None for key in keys):
+                raise refused((keys[1],), " and ".join(keys), "one of them")
+        if all(getattr(self, key) is None for key in ("at_least", "at_most", "at_least_percent", "at_most_percent")):
+            raise refused((), "no bound", "at_least or at_most, or one of them in percent of the start")
+        return self
+
+
+class SearchTolerances(Section):
+    """Numbers that spread about those of every design, for objectives that are a quantile."""
+
+    of_scenes: dict[str, SpreadEntry] = Field(default={}, description="by dotted keys of scenes.yaml")
+    of_blades: dict[str, SpreadEntry] = Field(default={}, description="by the keys of tolerances.of_blades")
+    members: MemberCount = Field(default=16, description="of every design, a power of two")
+
+
+def _names_differ(entries: dict[str, object]) -> dict[str, object]:
+    check_names(entries)
+    return entries
+
+
+class SearchSection(Section):
+    """A search for better designs of one blade, in rounds: each asks for some more, by what all before them gave."""
+
+    blade: Name = Field(description="of those that are run: its entry is where the search starts, and what every design has in common")
+    variables: Annotated[dict[str, Bounds], Field(min_length=1)] = Field(
+        description="lowest and highest value of numeric keys of the entry, dotted as in vary: stagger_deg.tip: [-3, 3]"
+    )
+    objectives: Annotated[dict[Name, ObjectiveSection], Field(min_length=1), AfterValidator(_names_differ)] = Field(
+        description="what should be small, by name; with several, designs are sought that none is better than in all of them"
+    )
+    constraints: Annotated[dict[Name, ConstraintSection], AfterValidator(_names_differ)] = Field(
+        default={}, description="what has to be kept, by name"
+    )
+    designs: Annotated[int, Field(ge=2, le=2000)] = Field(default=60, description="how many are tried")
+    first: Annotated[int, Field(ge=2, le=2000)] = Field(
+        default=16, description="of these by a quasi-random sequence, before there is anything to go by"
+    )
+    batch: Annotated[int, Field(ge=1, le=500)] = Field(default=4, description="designs of a round, which are run side by side")
+    method: Literal["surrogate", "quasi_random"] = Field(
+        default="surrogate", description="how designs are proposed; quasi_random: all of them evenly over the bounds, as a yardstick"
+    )
+    seed: int = Field(default=0, ge=0, le=2**31, description="another one gives another search")
+    best: Annotated[int, Field(ge=1, le=50)] = Field(default=3, description="designs that are written as entries and as STEP")
+    tolerances: SearchTolerances | LeftOut = Field(default=None, description="for objectives with a quantile")
+
+    @model_validator(mode="after")
+    def _goes_together(self) -> SearchSection:
+        if self.first > self.designs:
+            raise refused(("first",), f"{self.first}", f"at most designs ({self.designs})")
+        quantiles = [name for name, objective in self.objectives.items() if objective.quantile is not None]
+        spreads = self.tolerances is not None and (self.tolerances.of_scenes or self.tolerances.of_blades)
+        if quantiles and not spreads:
+            raise refused(("objectives", quantiles[0], "quantile"), "a quantile", "tolerances beside it, with numbers that spread")
+        if self.tolerances is not None and not quantiles:
+            raise refused(("tolerances",), "tolerances that no objective needs", "an objective with a quantile, or none of them")
+        if both := [name for name in self.constraints if name in self.objectives]:
+            raise refused(("constraints", both[0]), f"'{both[0]}' twice", "a name that no objective has")
+        return self
