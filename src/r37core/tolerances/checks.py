@@ -5,10 +5,10 @@ from __future__ import annotations
 from functools import partial
 
 from r37core.config import Settings
+from r37core.config.changed_numbers import ImpossibleValueError, changed_scene, scene_numbers
 from r37core.config.cross_checks import LARGEST_NUMBER_OF_SIMULATIONS, names_are_there
 from r37core.config.messages import on_one_line
 
-from .member_changes import ImpossibleValueError, changed_scene, scene_numbers
 from .members import members_of, section
 
 

@@ -8,10 +8,17 @@ from functools import cached_property
 from typing import TypeVar
 
 from r37core.config import BladeSettings, ConfigError, Settings
+from r37core.config.changed_numbers import (
+    BLADE_KEYS,
+    ImpossibleValueError,
+    blade_number,
+    changed_blade,
+    changed_scene,
+    scene_numbers,
+)
 from r37core.config.messages import on_one_line
 from r37core.contact.scene import Scene
 
-from .member_changes import BLADE_KEYS, ImpossibleValueError, blade_number, changed_blade, changed_scene, scene_numbers
 from .sample import drawn, is_of_sample, number_of, sobol_points
 from .section import ToleranceSection
 

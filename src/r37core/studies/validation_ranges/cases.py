@@ -10,12 +10,12 @@ from dataclasses import replace
 from typing import Any
 
 from r37core.config import ConfigError, Settings
+from r37core.config.changed_numbers import ImpossibleValueError, changed_scene, scene_numbers
 from r37core.config.spread import Spread
 from r37core.config.study_sections import ValidationRangesSection
 from r37core.contact.scene import Scene
 from r37core.plans import paths
 from r37core.published import REFERENCE
-from r37core.tolerances.member_changes import ImpossibleValueError, changed_scene, scene_numbers
 from r37core.tolerances.sample import drawn, is_of_sample, sobol_points
 
 from ..case import Case

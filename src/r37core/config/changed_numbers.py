@@ -10,15 +10,16 @@ from typing import Any
 from pydantic import BaseModel, Field, ValidationError
 
 from r37core.blade.definition import BladeDefinition
-from r37core.config import BladeSettings, SceneEntry
-from r37core.config.blade_sections import MaterialSection
-from r37core.config.blades import SHARES, SweepLean
-from r37core.config.families import with_value
-from r37core.config.messages import explain
-from r37core.config.section import Section
 from r37core.contact.scene import Scene
 from r37core.fem.material import Material
 from r37core.units import si_name
+
+from .blade_sections import MaterialSection
+from .blades import SHARES, BladeSettings, SweepLean
+from .families import with_value
+from .messages import explain
+from .scenes import SceneEntry
+from .section import Section
 
 _MATERIAL = "material."
 _SHIFTS = ("sweep_cm", "lean_deg")
