@@ -21,6 +21,7 @@ from r37core.config.document import Document, read_document
 from r37core.fem.matrices import assemble
 from r37core.io import atomic_write, write_text
 from r37core.mesh.generate import generate_mesh
+from r37core.plans.member_values import together
 from r37core.product.reading import read_settings
 from r37core.results.measures import largest_of_run, motion_of_run, range_above_yield
 from r37core.rom.reduce import reduce_blade
@@ -31,7 +32,6 @@ from r37core.time_integration.speed_run import run_speed
 from r37core.tolerances.dataset import INDEXED, QUANTILES
 from r37core.tolerances.members import members_of
 from r37core.tolerances.number_ranks import ranking
-from r37core.tolerances.sample import together
 from r37core.tolerances.sensitivity import sobol_indices
 from r37core.tolerances.shares import CONFIDENCE
 

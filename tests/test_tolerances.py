@@ -18,6 +18,7 @@ from r37core.config.spread import Spread
 from r37core.console.leftovers import leftovers
 from r37core.dataset_file import write_dataset
 from r37core.io import InputFileError
+from r37core.plans.member_values import is_of_sample, number_of, sobol_points
 from r37core.product.reading import read_settings
 from r37core.product.remarks import remarks as remarks_of
 from r37core.results.interactions import COLUMNS, find_interactions
@@ -30,7 +31,6 @@ from r37core.tolerances.dataset import MemberRun, tolerances_dataset
 from r37core.tolerances.figures import draw_tolerances
 from r37core.tolerances.members import members_of
 from r37core.tolerances.number_ranks import ranking
-from r37core.tolerances.sample import is_of_sample, number_of, sobol_points
 from r37core.tolerances.sensitivity import sobol_indices
 from r37core.tolerances.shares import CONFIDENCE, share_ends
 from r37core.tolerances.table import range_table, ranges, shares_of_members

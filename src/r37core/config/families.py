@@ -68,7 +68,7 @@ def with_designs(entries: Mapping[str, AnyEntry], root: Path, document: Document
         for design, values in family.designs.items():
             if design in entries or design in made:
                 raise document.refusal((name,), f"the design '{design}'", "designs that are not named like another blade")
-            made[design] = _design(name, entry, dict(zip(family.keys, values, strict=True)), design, document)
+            made[design] = design_entry(name, entry, dict(zip(family.keys, values, strict=True)), design, document)
             locations |= {(design, *path[1:]): location for path, location in document.locations.items() if path[:1] == (name,)}
         try:
             check_names(made)
@@ -116,7 +116,7 @@ def design_name(family: str, values: Sequence[float]) -> str:
     return "_".join([family, *(exact_text(value).replace(".", "p").replace("+", "") for value in values)])
 
 
-def _design(family: str, entry: BladeEntry, values: Mapping[str, float], design: str, document: Document) -> BladeEntry:
+def design_entry(family: str, entry: BladeEntry, values: Mapping[str, float], design: str, document: Document) -> BladeEntry:
     """The entry of one design, checked like one that a user wrote."""
     content = entry.model_dump(exclude_none=True, exclude_unset=True, exclude=set(FAMILY_KEYS))
     for key, value in values.items():

@@ -9,6 +9,9 @@ from dataclasses import dataclass
 import numpy as np
 import xarray as xr
 
+from r37core.rom.rotation import rotation_amplitudes
+from r37core.stress.operator import StressOperator
+
 CONTACT_MEASURES = (
     "length_certain_rad_s",
     "length_possible_rad_s",
@@ -51,9 +54,9 @@ _RESAMPLES, _SEED = 200, 0
 
 @dataclass(frozen=True)
 class Quantity:
-    """A `measure` of a design: of contact the worst of some `scenes`, else of a `mode`, an `engine_order` and a `speed` (rad/s).
+    """A `measure` of a design: of contact the worst of some `scenes`, else of a `mode`, an `engine_order` and a `speed`.
 
-    `quantile`: of members under tolerances, in place of the nominal value.
+    `speed` in rad/s; `quantile`: of members under tolerances, in place of the nominal value.
     """
 
     measure: str
@@ -86,6 +89,13 @@ class Structure:
     density: float
     campbell: xr.Dataset
     static_stress: Mapping[float, float]
+
+
+def static_stress(stress: StressOperator, stiffening: np.ndarray, speeds: Sequence[float]) -> dict[float, float]:
+    """Largest von Mises stress (Pa) by rotation alone at each of the speeds (rad/s); `stiffening` as rotation_amplitudes has it."""
+    still = np.zeros((len(speeds), stress.coordinates))
+    amplitudes = rotation_amplitudes(stiffening, np.array(speeds))
+    return dict(zip(speeds, stress.max_von_mises(np.concatenate([still, amplitudes], axis=1)).tolist(), strict=True))
 
 
 def of_structure(quantity: Quantity, structure: Structure, highest_speed: float) -> float:

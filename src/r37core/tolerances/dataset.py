@@ -11,6 +11,7 @@ import xarray as xr
 
 from r37core.dataset_file import SPEED_RPM, Variable, about, read_dataset
 from r37core.io import readable
+from r37core.plans.member_values import is_of_sample, number_of
 from r37core.results.measures import largest_stress, leading_edge, peak_of, ratio_to_yield, speeds_above_yield
 from r37core.results.member_ends import ENDS
 from r37core.results.members import MEASURES_RANKED_BY
@@ -21,7 +22,6 @@ from r37core.time_integration.status import RunStatus
 from r37core.units import RPM
 
 from .number_ranks import ranking
-from .sample import is_of_sample, number_of
 from .sensitivity import ORDERS, sobol_indices
 from .shares import CONFIDENCE, share_ends
 

@@ -18,8 +18,8 @@ from r37core.config.changed_numbers import (
 )
 from r37core.config.messages import on_one_line
 from r37core.contact.scene import Scene
+from r37core.plans.member_values import drawn, is_of_sample, number_of, sobol_points
 
-from .sample import drawn, is_of_sample, number_of, sobol_points
 from .section import ToleranceSection
 
 T = TypeVar("T")

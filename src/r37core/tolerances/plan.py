@@ -8,12 +8,12 @@ from functools import cached_property
 from r37core.config import BladeSettings, Settings
 from r37core.plans import paths
 from r37core.plans.extent import extent_of
+from r37core.plans.member_values import is_of_sample
 from r37core.plans.samples import NOMINAL, Member, Pair, Sample, Sampling, path_part
 from r37core.plans.sweep_plan import Sweep
 
 from .fewest import remarks_on_rankings
 from .members import Members, members_of, section
-from .sample import is_of_sample
 
 FOLDER = "tolerances"
 """Of the members' files: the wing's name."""

@@ -11,9 +11,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from r37core.plans.member_values import is_of_sample, together
+
 from .fewest import SOBOL_RANKS
 from .number_ranks import places_of
-from .sample import is_of_sample, together
 from .shares import CONFIDENCE
 
 _FEWEST, _RESAMPLES, _BOOTSTRAP_SEED = 4, 500, 0

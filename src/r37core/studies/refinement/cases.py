@@ -7,10 +7,10 @@ from types import SimpleNamespace
 from typing import Any
 
 from r37core.config import ConfigError, Settings, plain
+from r37core.plans.member_values import is_of_sample
 from r37core.plans.rounds_plan import Rounds
 from r37core.plans.sweep_plan import Sweep
 from r37core.tolerances.members import members_of, section
-from r37core.tolerances.sample import is_of_sample
 
 from ..case import Case
 from ..plan import case_of_sweep

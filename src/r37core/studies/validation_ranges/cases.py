@@ -15,8 +15,8 @@ from r37core.config.spread import Spread
 from r37core.config.study_sections import ValidationRangesSection
 from r37core.contact.scene import Scene
 from r37core.plans import paths
+from r37core.plans.member_values import drawn, is_of_sample, sobol_points
 from r37core.published import REFERENCE
-from r37core.tolerances.sample import drawn, is_of_sample, sobol_points
 
 from ..case import Case
 from ..modelling_choices import cases as modelling_choices

@@ -1,0 +1,132 @@
+"""Designs of a search: the blade that it starts at, with other values of some keys."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+from r37core.config import BladeSettings, ConfigError, Settings
+from r37core.config.blades import BladeEntry, blade_settings
+from r37core.config.changed_numbers import (
+    ImpossibleValueError,
+    blade_number,
+    changed_blade,
+    changed_scene,
+    scene_numbers,
+)
+from r37core.config.families import design_entry
+from r37core.plans.member_values import drawn, is_of_sample, sobol_points
+from r37core.plans.samples import NOMINAL, Member, Pair, Sample, path_part
+
+from .problem import Variable
+from .section import SearchSection
+
+FOLDER = "search"
+"""Of the designs' files: the wing's name."""
+
+_KEPT = ("stress", "static_stress")
+"""Results of a scene that designs have, too: what they are judged by."""
+
+
+def section(settings: Settings) -> SearchSection | None:
+    """The section of config.yaml; None in a run without a search."""
+    return settings.section(FOLDER)
+
+
+def member_part(design: str) -> str:
+    """The part `member` of the paths of a design's files."""
+    return path_part(f"{FOLDER}/{design}")
+
+
+@dataclass(frozen=True)
+class SearchDesigns:
+    """Designs of the search that `settings` ask for."""
+
+    settings: Settings
+
+    @property
+    def entry(self) -> SearchSection:
+        """What is asked for."""
+        entry = section(self.settings)
+        assert entry is not None
+        return entry
+
+    @property
+    def start(self) -> BladeEntry:
+        """The entry of blades.yaml that all designs have in common."""
+        return self.settings.designs.entries[self.entry.blade]
+
+    @property
+    def variables(self) -> tuple[Variable, ...]:
+        """What varies between which bounds, in the units of the keys."""
+        return tuple(Variable(key, *bounds) for key, bounds in self.entry.variables.items())
+
+    @cached_property
+    def scenes(self) -> tuple[str, ...]:
+        """Scenes that the objectives and constraints are of, in the order of the run."""
+        quantities = [*self.entry.objectives.values(), *self.entry.constraints.values()]
+        named = {scene for each in quantities for scene in each.scenes or ()}
+        return tuple(scene for scene in self.settings.scene_names if scene in named)
+
+    def with_values(self, name: str, values: Mapping[str, float]) -> BladeEntry:
+        """The entry with other values of some variables. Raises ConfigError for one that a blade cannot have."""
+        return design_entry(self.entry.blade, self.start, values, name, self.settings.designs.document)
+
+    def blade(self, name: str, values: Sequence[float] | None) -> BladeSettings:
+        """A design as a blade, the start without `values`. Raises ConfigError where its shape is impossible."""
+        blade, designs = self.entry.blade, self.settings.designs
+        if values is None:
+            return self.settings.blades[blade]
+        changed = self.with_values(name, dict(zip(self.entry.variables, values, strict=True)))
+        # under the name of the start, by which tables of sweep and lean know it
+        return blade_settings(blade, {**designs.entries, blade: changed}, self.settings.root, designs.document)
+
+    def samples(self, name: str, values: Sequence[float] | None) -> dict[Pair, Sample]:
+        """A design in each scene: its nominal run, and members under tolerances where an objective has a quantile.
+
+        Raises ConfigError and ImpossibleValueError where one of them is impossible.
+        """
+        blade = self.blade(name, values)
+        return {(self.entry.blade, scene): self._sample(name, blade, scene) for scene in self.scenes}
+
+    def _sample(self, name: str, blade: BladeSettings, scene: str) -> Sample:
+        settings, own = self.settings, member_part(name)
+        chosen = settings.scenes[scene].scene
+        members = {NOMINAL: Member(blade, chosen, own), **self._members(name, blade, scene)}
+        return Sample(
+            members=members,
+            deciding=list(members),
+            largest_share=settings.config.refinement.in_scene(chosen).largest_share,
+            results=tuple(result for result in settings.results_of(self.entry.blade, scene) if result in _KEPT),
+            campbell=own,
+        )
+
+    def _members(self, name: str, blade: BladeSettings, scene: str) -> dict[str, Member]:
+        """Members under tolerances, with a model of their own where the blade is another one."""
+        members = {}
+        for member, changes in self._changes(blade, scene).items():
+            other = changed_blade(blade, changes["of_blades"])
+            own = path_part(f"{FOLDER}/{name}", NOMINAL if other.elastic == blade.elastic else member)
+            members[member] = Member(other, changed_scene(self.settings.scene_entries[scene], changes["of_scenes"]), own)
+        return members
+
+    def _changes(self, blade: BladeSettings, scene: str) -> dict[str, dict[str, dict[str, float]]]:
+        """Member -> section -> key -> value."""
+        tolerances = self.entry.tolerances
+        if tolerances is None:
+            return {}
+        of_scene = scene_numbers(self.settings.scene_entries[scene])
+        keys = [("of_blades", key) for key in tolerances.of_blades] + [("of_scenes", key) for key in tolerances.of_scenes]
+        spreads = [getattr(tolerances, where)[key].spread() for where, key in keys]
+        nominal = [blade_number(blade, key) if where == "of_blades" else of_scene.get(key) for where, key in keys]
+        points = sobol_points(len(keys), tolerances.members, self.entry.seed)
+        changes: dict[str, dict[str, dict[str, float]]] = {}
+        for member, point in points.items():
+            if not is_of_sample(member):
+                continue
+            changes[member] = {"of_blades": {}, "of_scenes": {}}
+            for (where, key), value in zip(keys, drawn(spreads, nominal, point), strict=True):
+                if value is not None:
+                    changes[member][where][key] = value
+        return changes

@@ -1,0 +1,229 @@
+"""The plan of a search: rounds of designs, what each design is judged by, and what is made of all of them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from functools import cache
+from itertools import count, takewhile
+from pathlib import Path
+from typing import Any
+
+from r37core.config import ConfigError, Settings
+from r37core.config.changed_numbers import ImpossibleValueError
+from r37core.config.speed_choice import most_runs
+from r37core.io import read_json
+from r37core.plain import to_plain
+from r37core.plans import paths
+from r37core.plans.samples import NOMINAL, Pair, Sample, path_part
+from r37core.plans.sweep_plan import Sweep
+
+from .choice import START, Constraint, SearchChoice
+from .designs import FOLDER, SearchDesigns, member_part, section
+from .rounds import SearchRound, read_round
+
+ROUND = "<results>/search/round_{round}.json"
+BUILT = "<results>/search/built_{round}.json"
+SHAPE = "<results>/search/{design}/shape.json"
+MEASURES = "<results>/search/{design}/measures.json"
+DATASET, TABLE = "<results>/search.nc", "<results>/search.csv"
+BEST = "<results>/search_best"
+"""Folder of the best designs' entries and STEP files."""
+
+DESIGN_NAME = rf"{START}|d\d{{4}}"
+
+FIGURES = ("search_designs", "search_slices")
+
+RoundFile = Callable[[int], str]
+"""Path of the file of a round; Snakemake's own exception for one that is still to be made."""
+
+
+@dataclass(frozen=True)
+class Search:
+    """Plan of the search that the settings of a `sweep` ask for; methods with `wildcards` are inputs and parameters of rules.
+
+    `round_file`, `built_file`: of a finished round of designs, and of the shapes of its designs.
+    """
+
+    sweep: Sweep
+    round_file: RoundFile
+    built_file: RoundFile
+
+    @property
+    def settings(self) -> Settings:
+        """Of the run."""
+        return self.sweep.settings
+
+    @property
+    def designs(self) -> SearchDesigns:
+        """What designs are made of."""
+        return designs_of(self.settings)
+
+    def choice(self) -> dict[str, Any]:
+        """What is sought, as plain values."""
+        return to_plain(choice_of(self.settings))
+
+    def _round(self, number: int) -> SearchRound:
+        return round_of(self.round_file(number))
+
+    def _built(self, number: int) -> list[str]:
+        """Designs of a round that could be built."""
+        refused = read_json(self.built_file(number))
+        return [name for name in self._round(number).new if name not in refused]
+
+    def round_inputs(self, wildcards: Any) -> dict[str, Any]:
+        """What a round looks at: the round before it, and what its designs gave."""
+        number = int(wildcards.round)
+        if number == 0:
+            return {}
+        before = number - 1
+        return {
+            "before": self.round_file(before),
+            "built": self.built_file(before),
+            "start": paths.fill(MEASURES, design=START),
+            "measures": [paths.fill(MEASURES, design=name) for name in self._built(before)],
+        }
+
+    def shapes(self, wildcards: Any) -> list[str]:
+        """Whether each design of a round can be built."""
+        return [paths.fill(SHAPE, design=name) for name in self._round(int(wildcards.round)).new]
+
+    def shape(self, wildcards: Any) -> dict[str, Any]:
+        """Definition of a design's shape, or why there is none, as plain values."""
+        designs, name = self.designs, wildcards.design
+        try:
+            samples = designs.samples(name, values_of(self.settings, name))
+        except (ConfigError, ImpossibleValueError) as error:
+            return {"definition": None, "refused": str(error)}
+        (blade, *_) = (member.blade for sample in samples.values() for member in sample.members.values())
+        return {"definition": to_plain(blade.definition), "refused": None}
+
+    def measured(self, wildcards: Any) -> dict[str, Any]:
+        """What a design, or the start, is judged by."""
+        own, blade = member_part(wildcards.design), self.designs.entry.blade
+        of = {"member": own, "blade": blade, "tip_line": self.settings.structure.boundary.tip_line}
+        files = {
+            "geometry": paths.GEOMETRY,
+            "campbell": paths.CAMPBELL,
+            "contact": paths.CONTACT_MODEL,
+            "stress": paths.STRESS_OPERATOR,
+        }
+        runs = [
+            {"member": own + path_part("", member), "blade": blade, "scene": scene}
+            for (_, scene), sample in self._samples(wildcards.design).items()
+            for member in sample.members
+        ]
+        return {name: paths.fill(pattern, **of) for name, pattern in files.items()} | {
+            "responses": paths.filled({paths.RESPONSE: runs})
+        }
+
+    def responses_of_scenes(self, wildcards: Any) -> dict[str, int]:
+        """How many of the responses are of each scene, the nominal one first."""
+        return {scene: len(sample.members) for (_, scene), sample in self._samples(wildcards.design).items()}
+
+    def _samples(self, design: str) -> Mapping[Pair, Sample]:
+        return self.sweep.samples.beside[f"{FOLDER}/{design}"]
+
+    def density(self, wildcards: Any) -> float:
+        """Of a design (kg/m3)."""
+        material = next(iter(self._samples(wildcards.design).values())).members[NOMINAL].blade.material
+        assert material is not None
+        return material.density
+
+    def every_round(self) -> Iterator[int]:
+        """Numbers of all rounds that have designs; Snakemake's own exception for one that is still to be made."""
+        return takewhile(lambda number: self._round(number).new, count())
+
+    def last_round(self, wildcards: Any) -> str:
+        """The round that asks for no more."""
+        return paths.fill(ROUND, round=len(list(self.every_round())))
+
+    def shapes_of_all(self, wildcards: Any) -> list[str]:
+        """The shape of every design that could be built, and of the start."""
+        names = [START, *(name for number in self.every_round() for name in self._built(number))]
+        blade = self.designs.entry.blade
+        return [paths.fill(paths.GEOMETRY, member=member_part(name), blade=blade) for name in names]
+
+
+def choice_of(settings: Settings) -> SearchChoice:
+    """What the section of config.yaml asks for."""
+    entry = SearchDesigns(settings).entry
+    constraints = {
+        name: Constraint(
+            each.quantity(), each.at_least, each.at_most, each.at_least_percent, each.at_most_percent
+        )
+        for name, each in entry.constraints.items()
+    }
+    objectives = {name: each.quantity() for name, each in entry.objectives.items()}
+    variables = SearchDesigns(settings).variables
+    return SearchChoice(
+        variables, objectives, constraints, entry.designs, entry.first, entry.batch, entry.method, entry.seed
+    )
+
+
+def designs_of(settings: Settings) -> SearchDesigns:
+    """What the designs of the settings' search are made of."""
+    return settings.made(SearchDesigns)
+
+
+def samples_of(settings: Settings) -> Callable[[str], Mapping[Pair, Sample]]:
+    """Design -> its runs, in the settings' search: of one that a round has proposed, or of the start."""
+
+    @cache
+    def samples(design: str) -> Mapping[Pair, Sample]:
+        return designs_of(settings).samples(design, values_of(settings, design))
+
+    return samples
+
+
+def values_of(settings: Settings, design: str) -> tuple[float, ...] | None:
+    """Values of a design's variables, as the round that proposed it has them; None of the start, which has its own."""
+    if design == START:
+        return None
+    for number in count():
+        file = Path(paths.fill(ROUND, round=number).replace("<results>", str(settings.results)))
+        new = round_of(str(file)).new
+        if design in new:
+            return new[design]
+    raise AssertionError
+
+
+def round_of(file: str) -> SearchRound:
+    """What the file of a round says, read once as long as it is the same. Raises InputFileError for a damaged one."""
+    path = Path(file)
+    return _round_of(file, path.stat().st_mtime_ns if path.exists() else 0)
+
+
+@cache
+def _round_of(file: str, _time: int) -> SearchRound:
+    return read_round(file)
+
+
+def joined_dataset(sweep: Sweep) -> dict[str, paths.Wildcards]:
+    """The dataset of all designs."""
+    return {DATASET: [{}] if is_asked(sweep.settings) else []}
+
+
+def targets(sweep: Sweep) -> dict[str, paths.Wildcards]:
+    """The dataset, the table, the best designs and the figures."""
+    wildcards: paths.Wildcards = [{}] if is_asked(sweep.settings) else []
+    together = dict.fromkeys((DATASET, TABLE, f"{BEST}/blades.yaml"), wildcards)
+    return together | {file: of for name in FIGURES for file, of in paths.pictures(name, wildcards).items()}
+
+
+def is_asked(settings: Settings) -> bool:
+    """Whether this run has a search: a part of the blades may be without the one that it starts at."""
+    entry = section(settings)
+    return entry is not None and entry.blade in settings.blade_names
+
+
+def remarks(settings: Settings) -> list[str]:
+    """How many simulations a search asks for."""
+    if not is_asked(settings):
+        return []
+    designs = designs_of(settings)
+    entry = designs.entry
+    members = 1 + (entry.tolerances.members if entry.tolerances else 0)
+    runs = members * sum(most_runs(settings, entry.blade, scene) for scene in designs.scenes)
+    words = f"{entry.designs} designs of '{entry.blade}' in rounds of {entry.batch}"
+    return [f"search: {words}, at most {runs} simulations of each, beside those of the sweep (docs/search.md)"]

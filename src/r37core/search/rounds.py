@@ -1,0 +1,73 @@
+"""round_*.json of a search: which designs a round asks for, and what those before it gave."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from r37core.io import read_json, readable, write_json
+from r37core.plain import from_plain, to_plain
+
+from .choice import QUASI_RANDOM, Design, SearchChoice, Value
+from .proposal import first_designs, propose
+
+
+@dataclass(frozen=True)
+class SearchRound:
+    """One round: values of the `new` designs, none in the last, and all `tried` before; `start`: quantities of the start."""
+
+    new: Mapping[str, tuple[float, ...]]
+    tried: Mapping[str, Design] = field(default_factory=dict)
+    start: Mapping[str, Value] = field(default_factory=dict)
+
+
+def first_round(choice: SearchChoice) -> SearchRound:
+    """The first designs, evenly over the bounds."""
+    return SearchRound(_named(first_designs(choice.variables, choice.first, choice.seed), 0))
+
+
+def round_after(
+    before: SearchRound,
+    number: int,
+    refused: Mapping[str, str],
+    gave: Mapping[str, Mapping[str, Value]],
+    start: Mapping[str, Value],
+    choice: SearchChoice,
+) -> SearchRound:
+    """Round `number`, after one of whose designs some were `refused`, with a reason, and the others `gave` quantities."""
+    new = {
+        name: Design(values, number - 1, refused.get(name), gave.get(name, {})) for name, values in before.new.items()
+    }
+    tried = {**before.tried, **new}
+    count = min(choice.batch, choice.designs - len(tried))
+    return SearchRound(_named(_proposed(tried, start, count, choice), len(tried)), tried, start)
+
+
+def _proposed(
+    tried: Mapping[str, Design], start: Mapping[str, Value], count: int, choice: SearchChoice
+) -> list[tuple[float, ...]]:
+    if count <= 0:
+        return []
+    if choice.method == QUASI_RANDOM:
+        return first_designs(choice.variables, len(tried) + count, choice.seed)[len(tried) :]
+    evaluated = [design.evaluated(name, choice, start) for name, design in tried.items()]
+    return propose(choice.variables, evaluated, count, choice.seed)
+
+
+def _named(values: list[tuple[float, ...]], before: int) -> dict[str, tuple[float, ...]]:
+    return {f"d{before + place:04d}": each for place, each in enumerate(values)}
+
+
+def write_round(finished: SearchRound, file: Path | str) -> None:
+    """Write it, atomically."""
+    write_json(to_plain(finished), file)
+
+
+def read_round(file: Path | str) -> SearchRound:
+    """What `write_round` wrote; InputFileError when it cannot be read."""
+    content = read_json(file)
+    with readable(file):
+        return from_plain(SearchRound, content)
+
+

@@ -1,0 +1,91 @@
+"""Steps of the workflow (docs/architecture.md): a search, round by round, and what is made of all its designs."""
+
+from __future__ import annotations
+
+import math
+from itertools import islice
+from pathlib import Path
+from typing import Any
+
+from r37core.blade.definition import BladeDefinition
+from r37core.dataset_file import hash_of_parts, read_dataset, write_dataset
+from r37core.io import as_list, read_json, scratch_folder, write_json
+from r37core.plain import from_plain
+from r37core.results.ranking import robustness
+from r37core.results.table_file import write_table
+from r37core.rom.contact_model import read_contact_model
+from r37core.stress.operator import read_stress_operator
+
+from .choice import SearchChoice
+from .quantity import Structure, of_contact, of_structure, static_stress
+from .rounds import first_round, read_round, round_after, write_round
+
+
+def propose_round(input: Any, output: Any, params: Any) -> None:
+    """Ask for designs. Output: round (json). Params: choice, round.
+
+    Inputs after the first round: before (the round before), built (which of its designs could not be), start, measures.
+    """
+    choice = from_plain(SearchChoice, params.choice)
+    if params.round == 0:
+        write_round(first_round(choice), output.round)
+        return
+    refused, before = read_json(input.built), read_round(input.before)
+    names = [name for name in before.new if name not in refused]
+    gave = {name: read_json(file) for name, file in zip(names, as_list(input.measures), strict=True)}
+    write_round(round_after(before, params.round, refused, gave, read_json(input.start), choice), output.round)
+
+
+def shape(input: Any, output: Any, params: Any) -> None:
+    """Whether a design can be built: its shape and its mesh. Output: shape (json). Params: shape, edges, mesh."""
+    # gmsh takes a second to load, which rounds have no use for
+    from r37core.fem.mesh_quality import mesh_quality
+    from r37core.mesh.generate import generate_mesh
+
+    refused, level = params.shape["refused"], params.mesh
+    if refused is None:
+        try:
+            blade = from_plain(BladeDefinition, params.shape["definition"]).build(round_edges=params.edges == "round")
+            mesh = generate_mesh(blade, level["nodes"], level["layers"], level["tip_elements"])
+            mesh_quality(mesh).check(level["minimum_scaled_jacobian"])
+        except ValueError as error:
+            refused = str(error)
+    write_json({"refused": refused}, output.shape)
+
+
+def built(input: Any, output: Any, params: Any) -> None:
+    """Which designs of a round cannot be built, and why. Inputs: shapes. Output: built (json)."""
+    refused = {Path(file).parent.name: read_json(file)["refused"] for file in as_list(input.shapes)}
+    write_json({name: reason for name, reason in refused.items() if reason is not None}, output.built)
+
+
+def measure(input: Any, output: Any, params: Any) -> None:
+    """What a design is judged by. Inputs: geometry, campbell, contact, stress, responses. Output: measures (json).
+
+    Params: choice, scenes (how many of the responses are of each, the nominal one first), density, highest_speed.
+    """
+    choice = from_plain(SearchChoice, params.choice)
+    speeds = {quantity.speed or params.highest_speed for quantity in choice.quantities.values()}
+    stiffening = read_contact_model(input.contact).rotation_stiffening
+    structure = Structure(
+        volume=float(read_dataset(input.geometry)["volume"]),
+        density=params.density,
+        campbell=read_dataset(input.campbell),
+        static_stress=static_stress(read_stress_operator(input.stress), stiffening, sorted(speeds)),
+    )
+    files = iter(as_list(input.responses))
+    nominal, members = {}, {}
+    for scene, number in params.scenes.items():
+        nominal[scene] = robustness(read_dataset(next(files)))
+        members[scene] = [robustness(read_dataset(file), with_scatter=False) for file in islice(files, number - 1)]
+    values = {
+        name: of_contact(quantity, nominal, members)
+        if quantity.of_contact
+        else (of_structure(quantity, structure, params.highest_speed), 0.0)
+        for name, quantity in choice.quantities.items()
+    }
+    write_json({name: [_known(number) for number in value] for name, value in values.items()}, output.measures)
+
+
+def _known(value: float) -> float | None:
+    return value if math.isfinite(value) else None
