@@ -55,7 +55,7 @@ def read_profile_table(file: Path) -> list[ProfileParameters]:
     check_spans([p.span for p in profiles])
     for profile in profiles:
         profile.check()
-    _check_order(profiles)
+    check_profile_order(profiles)
     return profiles
 
 
@@ -122,7 +122,8 @@ def check_spans(spans: Sequence[float]) -> None:
         )
 
 
-def _check_order(profiles: Sequence[ProfileParameters]) -> None:
+def check_profile_order(profiles: Sequence[ProfileParameters]) -> None:
+    """Raise BladeShapeError unless the radii rise from profile to profile, from hub to tip."""
     for below, above in pairwise(profiles):
         for name in ("inlet_radius", "outlet_radius"):
             if not getattr(above, name) > getattr(below, name):

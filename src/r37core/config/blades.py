@@ -13,6 +13,7 @@ from pydantic import Discriminator, Field, RootModel, Tag, model_validator
 from r37core.blade import profile_tables
 from r37core.blade.definition import BladeDefinition
 from r37core.blade.profile import BladeShapeError, ProfileParameters
+from r37core.blade.section_changes import SectionChangeError
 from r37core.blade.sense import check_profile_sense
 from r37core.exchange.importing.source import MatricesSource, MeshSource
 from r37core.exchange.refusal import ImportRefused
@@ -26,6 +27,7 @@ from .declaring import in_si
 from .document import ConfigError, ConfigRefusals, Document
 from .imported_entry import MatricesEntry, MeshEntry
 from .section import FileName, LeftOut, Name, Section, Unique, check_names, refused
+from .section_laws import SECTION_KEYS, Angles, Shares, changed_keys, section_laws, with_section_laws
 from .si_fields import si_fields
 
 Table = TypeVar("Table")
@@ -95,6 +97,20 @@ class BladeEntry(Section):
         default=None, description="share of the table's sweep that is kept, its own or that of its base"
     )
     lean_percent: Annotated[float, Field(ge=-1000, le=1000)] | LeftOut = Field(default=None, description="share of the lean")
+    stagger_deg: Angles | LeftOut = Field(
+        default=None,
+        description="added to the stagger of the profiles, on top of the base: a number, values at hub and tip (linear between "
+        "them), or a table over the span",
+    )
+    camber_deg: Angles | LeftOut = Field(
+        default=None, description="added to the camber kappa_ic - kappa_oc of the profiles, as stagger_deg"
+    )
+    chord_percent: Shares | LeftOut = Field(
+        default=None, description="share of the profiles' chord that is kept, on the same cones, as stagger_deg"
+    )
+    thickness_percent: Shares | LeftOut = Field(
+        default=None, description="share of all thicknesses of the profiles that is kept, as stagger_deg"
+    )
     contact: Contact = Field(default="patches", description=f"{CONTACT_IN_WORDS}; not taken from the base")
     sense_check: bool = Field(default=True, description="refuse a table of which the trailing edge would lead in the rotation")
     material: MaterialSection = MaterialSection()
@@ -197,7 +213,7 @@ def blade_settings(name: str, entries: Mapping[str, Any], root: Path, document: 
     material = _material(chain, entries, document)
     if isinstance(entry, MeshEntry):
         for link in chain[1:]:
-            keys = [key for key in (*SHIFTS, *SHARES) if getattr(entries[link], key) is not None]
+            keys = [key for key in (*SHIFTS, *SHARES, *SECTION_KEYS) if getattr(entries[link], key) is not None]
             if keys := keys if entries[link].sense_check else [*keys, "sense_check"]:
                 raise document.refusal(
                     (link, keys[0]), f"{keys[0]} with the mesh of {first}", "another material, no other shape"
@@ -217,8 +233,11 @@ def blade_settings(name: str, entries: Mapping[str, Any], root: Path, document: 
         shift = _scaled(link, entries[link], shift, document)
     table = entry.profiles
     sense_check = all(entries[link].sense_check for link in chain)
-    profiles = _table(table, first, (first, "profiles"), document, lambda: _profiles(root / table, sense_check))
-    return BladeSettings(BladeDefinition(name, tuple(profiles), **shift), material, entries[name].contact)
+    rows = _table(table, first, (first, "profiles"), document, lambda: _profiles(root / table, sense_check))
+    profiles = tuple(rows)
+    for link in chain:
+        profiles = _changed(link, entries[link], profiles, document)
+    return BladeSettings(BladeDefinition(name, profiles, **shift), material, entries[name].contact)
 
 
 def _profiles(file: Path, sense_check: bool) -> list[ProfileParameters]:
@@ -226,6 +245,17 @@ def _profiles(file: Path, sense_check: bool) -> list[ProfileParameters]:
     if sense_check:
         check_profile_sense(profiles[-1])
     return profiles
+
+
+def _changed(
+    blade: str, entry: BladeEntry, profiles: tuple[ProfileParameters, ...], document: Document
+) -> tuple[ProfileParameters, ...]:
+    """The profiles, which have the changes of the base, with those that the entry of a blade makes on top."""
+    try:
+        return with_section_laws(profiles, section_laws(entry))
+    except SectionChangeError as error:
+        keys = changed_keys(error)
+        raise document.error((blade, keys[0]), f"blade {blade}: {' and '.join(keys)}: {error}") from None
 
 
 def _source(entry: MeshEntry | MatricesEntry, name: str, root: Path, document: Document) -> MeshSource | MatricesSource:

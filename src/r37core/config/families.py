@@ -124,7 +124,9 @@ def design_entry(family: str, entry: BladeEntry, values: Mapping[str, float], de
             content = with_value(content, key.split("."), value)
         except (KeyError, IndexError, TypeError, ValueError):
             raise document.error(
-                (family,), f"design {design}: found no {key} to vary; rows of sweep_lean stand in the entry, counted from 0"
+                (family,),
+                f"design {design}: found no {key} to vary; rows of a table stand in the entry, counted from 0, and hub and "
+                "tip stand where it has no number",
             ) from None
     try:
         return BladeEntry.model_validate(content)

@@ -1,0 +1,153 @@
+"""Profiles with another stagger, camber, chord or thickness, each by a law over the span.
+
+A changed profile is one of the same family: two arcs on the same cone whose angle to the rulings turns at a constant rate
+(`profile.py`). Both arcs and the place of the maximum thickness keep their shares of the centreline's length. Added camber is
+spread evenly over that length: the centreline turns by as much more on each centimetre. Then all three angles are rotated
+alike, and all lengths scaled alike, until the chord line has the wanted direction and length. So stagger, camber and chord are
+changed in one solution, and none of them moves another.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, fields, replace
+
+import numpy as np
+import scipy
+
+from .cone import Cone, ConstantRatePath
+from .profile import BladeShapeError, ProfileParameters
+from .span_law import SpanLaw
+
+
+@dataclass(frozen=True)
+class SectionChange:
+    """What is changed of one profile: angles added to stagger and camber (rad), shares of chord and thickness that are kept."""
+
+    stagger: float = 0.0
+    camber: float = 0.0
+    chord: float = 1.0
+    thickness: float = 1.0
+
+    @property
+    def names(self) -> list[str]:
+        """Of the changes that are not neutral."""
+        return [field.name for field in fields(self) if getattr(self, field.name) != field.default]
+
+
+class SectionChangeError(BladeShapeError):
+    """A profile that cannot be changed so; `names`: the changes of it that are not neutral."""
+
+    def __init__(self, text: str, names: Sequence[str]):
+        super().__init__(text)
+        self.names = tuple(names)
+
+
+def changed_profiles(profiles: Sequence[ProfileParameters], laws: Mapping[str, SpanLaw]) -> tuple[ProfileParameters, ...]:
+    """The profiles with changes by laws over the span, by the names of SectionChange's fields.
+
+    Raises SectionChangeError for a profile that becomes impossible.
+    """
+    spans = [profile.span for profile in profiles]
+    values = {name: law.at(spans) for name, law in laws.items()}
+    return tuple(
+        changed_profile(profile, SectionChange(**{name: float(several[i]) for name, several in values.items()}))
+        for i, profile in enumerate(profiles)
+    )
+
+
+def changed_profile(profile: ProfileParameters, change: SectionChange) -> ProfileParameters:
+    """The profile with one change; neutral parts of it leave every bit. Raises SectionChangeError."""
+    try:
+        if set(change.names) - {"thickness"}:
+            profile = _redrawn(profile, change)
+        if change.thickness != 1.0:
+            thick = {name: change.thickness * getattr(profile, name) for name in _THICKNESSES}
+            profile = replace(profile, **thick)
+        if change.names:
+            profile.check()
+    except BladeShapeError as error:
+        raise SectionChangeError(f"{error}{SMALLER}", change.names) from None
+    return profile
+
+
+SMALLER = "; a smaller change near this span may be possible"
+"""What to try where a changed profile is refused."""
+
+_THICKNESSES = ("inlet_thickness", "maximum_thickness", "outlet_thickness")
+_NO_CHORD = "no two arcs on the cone have this stagger, camber and chord"
+
+
+@dataclass(frozen=True)
+class _Centreline:
+    """Two arcs on a cone: `angles` (rad, inlet, transition, outlet), `lengths` (m) and the `thickest` point's length (m)."""
+
+    cone: Cone
+    angles: np.ndarray
+    lengths: np.ndarray
+    thickest: float
+
+    @classmethod
+    def of(cls, p: ProfileParameters) -> _Centreline:
+        cone = Cone(p.inlet_radius, float(np.arctan2(p.outlet_radius - p.inlet_radius, p.outlet_axial)))
+        slant = np.cos(cone.half_angle)
+        m_thickest, m_transition, m_outlet = (
+            z / slant for z in (p.maximum_thickness_axial, p.transition_axial, p.outlet_axial)
+        )
+        front, front_length = ConstantRatePath.between(cone, 0.0, 0.0, p.inlet_angle, m_transition, p.transition_angle)
+        rear, rear_length = ConstantRatePath.between(cone, m_transition, 0.0, p.transition_angle, m_outlet, p.outlet_angle)
+        in_front = m_thickest < m_transition
+        thickest = front.length_to(m_thickest) if in_front else front_length + rear.length_to(m_thickest)
+        angles = np.array([p.inlet_angle, p.transition_angle, p.outlet_angle])
+        return cls(cone, angles, np.array([front_length, rear_length]), thickest)
+
+    def turned(self, camber: float, rotation: float, scale: float) -> _Centreline:
+        """With added turning, spread evenly over the length, all angles rotated alike and all lengths scaled."""
+        share = np.array([0.0, self.lengths[0], self.lengths.sum()]) / self.lengths.sum()
+        angles = self.angles + camber * (0.5 - share) + rotation
+        return _Centreline(self.cone, angles, scale * self.lengths, scale * self.thickest)
+
+    def paths(self) -> tuple[ConstantRatePath, ConstantRatePath]:
+        rates = np.diff(self.angles) / self.lengths
+        front = ConstantRatePath(self.cone, 0.0, 0.0, self.angles[0], rates[0])
+        m, theta = (float(coordinate) for coordinate in front.point(self.lengths[0]))
+        return front, ConstantRatePath(self.cone, m, theta, self.angles[1], rates[1])
+
+    def chord(self) -> np.ndarray:
+        """Direction (rad) and length (m) of the chord line: its angle to the axis, as `Profile.stagger`, and on the
+        unrolled cone."""
+        m, theta = self.paths()[1].point(self.lengths[1])
+        # seen from half-way between the ends, where Profile.stagger has the centre of area
+        rise = (self.cone.inlet_radius + self.cone.radius(m)) * np.sin(theta / 2.0)
+        return np.array([np.arctan2(rise, self.cone.axial(m)), np.hypot(*self.cone.unroll(0.0, 0.0, m, theta))])
+
+    def positions(self) -> dict[str, float]:
+        """Axial positions and the outlet radius (m), by their fields in ProfileParameters."""
+        front, rear = self.paths()
+        beyond = self.thickest - self.lengths[0]
+        m_thickest = front.meridional(self.thickest) if beyond < 0.0 else rear.meridional(beyond)
+        m_outlet = rear.meridional(self.lengths[1])
+        return {
+            "maximum_thickness_axial": float(self.cone.axial(m_thickest)),
+            "transition_axial": float(self.cone.axial(rear.m)),
+            "outlet_axial": float(self.cone.axial(m_outlet)),
+            "outlet_radius": float(self.cone.radius(m_outlet)),
+        }
+
+
+def _redrawn(profile: ProfileParameters, change: SectionChange) -> ProfileParameters:
+    """With another stagger, camber and chord. Raises BladeShapeError where no arcs have them."""
+    line = _Centreline.of(profile)
+    direction, length = line.chord()
+    wanted = np.array([direction + change.stagger, change.chord * length])
+
+    def miss(unknowns: np.ndarray) -> np.ndarray:
+        ends = line.turned(change.camber, *unknowns).chord()
+        return np.array([ends[0] - wanted[0], ends[1] / wanted[1] - 1.0])
+
+    solution = scipy.optimize.root(miss, np.array([change.stagger, change.chord]), tol=1e-14)
+    if not np.max(np.abs(miss(solution.x))) < 1e-9 or not solution.x[1] > 0.0:
+        raise BladeShapeError(f"{profile.label}: {_NO_CHORD}")
+    drawn = line.turned(change.camber, *solution.x)
+    angles = dict(zip(("inlet_angle", "transition_angle", "outlet_angle"), map(float, drawn.angles), strict=True))
+    return replace(profile, **angles, **drawn.positions())
