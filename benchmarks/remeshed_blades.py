@@ -21,7 +21,7 @@ from mesh_step import mesh_step
 
 from r37core.config.imported_entry import MeshEntry
 from r37core.exchange.importing.import_mesh import import_mesh
-from r37core.exports.step import write_step
+from r37core.exchange.step_file import write_step
 from r37core.fem.matrices import assemble
 from r37core.fem.solver import lowest_modes
 from r37core.io import read_json, write_json, write_text

@@ -8,6 +8,7 @@ from typing import Any
 from r37core.blade.geometry_file import read_geometry
 from r37core.exchange.fields import Target, worst_instants, write_modes, write_stress
 from r37core.exchange.orientation import Orientation
+from r37core.exchange.step_file import write_step
 from r37core.exchange.write_mesh import write_mesh
 from r37core.fem.abaqus_deck import write_abaqus
 from r37core.fem.material import Material
@@ -19,7 +20,6 @@ from r37core.rom.rom_file import read_reduced_model
 from r37core.stress.recovery import stress_operator
 
 from .matrices_out import table_nodes, write_full_matrices, write_reduced_matrices
-from .step import write_step
 
 
 def mesh(input: Any, output: Any, params: Any) -> None:

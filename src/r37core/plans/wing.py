@@ -9,7 +9,7 @@ from typing import Any
 from r37core.config import Settings
 
 from .paths import Wildcards
-from .samples import Sampling
+from .samples import Pair, Sample, Sampling
 from .sweep_plan import Sweep
 
 Targets = Callable[[Sweep], dict[str, Wildcards]]
@@ -42,6 +42,7 @@ class Wing:
     `section`: type and default of that section, as pydantic's `create_model` takes them; none without one.
     `checks`: what no model of the section alone can check; each raises ConfigError.
     `sampling`: members that it has run beside the sweep, and what is made of them.
+    `later`: of samples that are named while a run goes on, by the part of their folder below one of the wing's name.
     `simulated`: files of its own simulations in the folders of the blades, which other machines may make.
     `targets`: what is made of them; part of all_blades unless `on_request`.
     `remarks`: what a run should say of it before it starts.
@@ -53,6 +54,7 @@ class Wing:
     section: tuple[Any, Any] | None = None
     checks: tuple[Callable[[Settings], None], ...] = ()
     sampling: Sampling | None = None
+    later: Callable[[Settings], Callable[[str], Mapping[Pair, Sample]]] | None = None
     simulated: Targets = _nothing
     targets: Targets = _nothing
     remarks: Callable[[Settings], list[str]] = lambda _: []

@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 from r37core.config import Settings
-from r37core.plans.samples import Pair, Sample, Sampling
+from r37core.plans.samples import Beside, Sampling
 
 from .wings import WINGS
 
 
-def beside(settings: Settings) -> dict[str, dict[Pair, Sample]]:
+def beside(settings: Settings) -> Beside:
     """Samples of each wing that has some, by the folder of its results."""
-    return {wing.name: dict(wing.sampling.samples(settings)) for wing in WINGS if wing.sampling}
+    return Beside(
+        {wing.name: dict(wing.sampling.samples(settings)) for wing in WINGS if wing.sampling},
+        later={wing.name: wing.later(settings) for wing in WINGS if wing.later},
+    )
 
 
 def sampling_of(settings: Settings) -> Sampling | None:

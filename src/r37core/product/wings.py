@@ -14,6 +14,7 @@ _FOLDERS = (
     "rotors",
     "designs",
     "tolerances",
+    "search",
 )
 """In the order of their sections in docs/configuration.md."""
 

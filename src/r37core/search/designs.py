@@ -5,17 +5,18 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
-from r37core.config import BladeSettings, ConfigError, Settings
-from r37core.config.blades import BladeEntry, blade_settings
+from r37core.config import BladeSettings, Settings
+from r37core.config.blades import SHARES, BladeEntry, blade_settings
 from r37core.config.changed_numbers import (
-    ImpossibleValueError,
     blade_number,
     changed_blade,
     changed_scene,
     scene_numbers,
 )
 from r37core.config.families import design_entry
+from r37core.config.section_laws import SECTION_KEYS
 from r37core.plans.member_values import drawn, is_of_sample, sobol_points
 from r37core.plans.samples import NOMINAL, Member, Pair, Sample, path_part
 
@@ -55,7 +56,15 @@ class SearchDesigns:
     @property
     def start(self) -> BladeEntry:
         """The entry of blades.yaml that all designs have in common."""
-        return self.settings.designs.entries[self.entry.blade]
+        return self.chain[0]
+
+    @property
+    def chain(self) -> list[BladeEntry]:
+        """The start and the bases that it has, each after the one that is based on it."""
+        entries, names = self.settings.designs.entries, [self.entry.blade]
+        while (base := getattr(entries[names[-1]], "base", None)) is not None:
+            names.append(base)
+        return [entry for name in names if isinstance(entry := entries[name], BladeEntry)]
 
     @property
     def variables(self) -> tuple[Variable, ...]:
@@ -68,6 +77,11 @@ class SearchDesigns:
         quantities = [*self.entry.objectives.values(), *self.entry.constraints.values()]
         named = {scene for each in quantities for scene in each.scenes or ()}
         return tuple(scene for scene in self.settings.scene_names if scene in named)
+
+    @property
+    def start_values(self) -> list[float | None]:
+        """Values of the variables that the start has; None where neither its entry says nor a key that is left out."""
+        return [start_value(self.chain, key) for key in self.entry.variables]
 
     def with_values(self, name: str, values: Mapping[str, float]) -> BladeEntry:
         """The entry with other values of some variables. Raises ConfigError for one that a blade cannot have."""
@@ -130,3 +144,21 @@ class SearchDesigns:
                 if value is not None:
                     changes[member][where][key] = value
         return changes
+
+
+def start_value(chain: Sequence[BladeEntry], key: str) -> float | None:
+    """Value of a dotted key of the first of some entries, the others its bases; None where it has none.
+
+    A share, or a law over the span, that is left out has the value that changes nothing.
+    """
+    first, *others = key.split(".")
+    several = chain if first in SECTION_KEYS else chain[:1]
+    inner: Any = next((value for entry in several if (value := getattr(entry, first, None)) is not None), None)
+    if inner is None and (first in SECTION_KEYS or key in SHARES):
+        return 100.0 if first.endswith("_percent") else 0.0
+    for step in others:
+        if isinstance(inner, list):
+            inner = inner[int(step)] if int(step) < len(inner) else None
+        else:
+            inner = getattr(inner, step, None)
+    return float(inner) if isinstance(inner, int | float) else None

@@ -27,7 +27,7 @@ BUILT = "<results>/search/built_{round}.json"
 SHAPE = "<results>/search/{design}/shape.json"
 MEASURES = "<results>/search/{design}/measures.json"
 DATASET, TABLE = "<results>/search.nc", "<results>/search.csv"
-BEST = "<results>/search_best"
+BEST = "<results>/search/best"
 """Folder of the best designs' entries and STEP files."""
 
 DESIGN_NAME = rf"{START}|d\d{{4}}"
@@ -59,7 +59,7 @@ class Search:
         """What designs are made of."""
         return designs_of(self.settings)
 
-    def choice(self) -> dict[str, Any]:
+    def choice(self, wildcards: Any) -> dict[str, Any]:
         """What is sought, as plain values."""
         return to_plain(choice_of(self.settings))
 
@@ -139,26 +139,37 @@ class Search:
         return paths.fill(ROUND, round=len(list(self.every_round())))
 
     def shapes_of_all(self, wildcards: Any) -> list[str]:
-        """The shape of every design that could be built, and of the start."""
-        names = [START, *(name for number in self.every_round() for name in self._built(number))]
+        """The shape of every design that could be built."""
         blade = self.designs.entry.blade
+        names = (name for number in self.every_round() for name in self._built(number))
         return [paths.fill(paths.GEOMETRY, member=member_part(name), blade=blade) for name in names]
+
+    def entries(self, wildcards: Any) -> dict[str, Any]:
+        """Entries of blades.yaml that the designs start at, as plain values: the bases first, the start last."""
+        entries, chain = self.settings.designs.entries, [self.designs.entry.blade]
+        while (base := getattr(entries[chain[0]], "base", None)) is not None:
+            chain.insert(0, base)
+        return {name: entries[name].model_dump(exclude_none=True, exclude_unset=True) for name in chain}
+
+    def start_values(self, wildcards: Any) -> list[float | None]:
+        """Values of the variables that the start has; None where its entry does not say."""
+        return self.designs.start_values
+
+    def number_of_best(self, wildcards: Any) -> int:
+        """How many designs are written as entries."""
+        return self.designs.entry.best
 
 
 def choice_of(settings: Settings) -> SearchChoice:
     """What the section of config.yaml asks for."""
     entry = SearchDesigns(settings).entry
     constraints = {
-        name: Constraint(
-            each.quantity(), each.at_least, each.at_most, each.at_least_percent, each.at_most_percent
-        )
+        name: Constraint(each.quantity(), each.at_least, each.at_most, each.at_least_percent, each.at_most_percent)
         for name, each in entry.constraints.items()
     }
     objectives = {name: each.quantity() for name, each in entry.objectives.items()}
     variables = SearchDesigns(settings).variables
-    return SearchChoice(
-        variables, objectives, constraints, entry.designs, entry.first, entry.batch, entry.method, entry.seed
-    )
+    return SearchChoice(variables, objectives, constraints, entry.designs, entry.first, entry.batch, entry.method, entry.seed)
 
 
 def designs_of(settings: Settings) -> SearchDesigns:
@@ -207,7 +218,7 @@ def joined_dataset(sweep: Sweep) -> dict[str, paths.Wildcards]:
 def targets(sweep: Sweep) -> dict[str, paths.Wildcards]:
     """The dataset, the table, the best designs and the figures."""
     wildcards: paths.Wildcards = [{}] if is_asked(sweep.settings) else []
-    together = dict.fromkeys((DATASET, TABLE, f"{BEST}/blades.yaml"), wildcards)
+    together = dict.fromkeys((DATASET, TABLE, BEST), wildcards)
     return together | {file: of for name in FIGURES for file, of in paths.pictures(name, wildcards).items()}
 
 

@@ -36,9 +36,7 @@ def round_after(
     choice: SearchChoice,
 ) -> SearchRound:
     """Round `number`, after one of whose designs some were `refused`, with a reason, and the others `gave` quantities."""
-    new = {
-        name: Design(values, number - 1, refused.get(name), gave.get(name, {})) for name, values in before.new.items()
-    }
+    new = {name: Design(values, number - 1, refused.get(name), gave.get(name, {})) for name, values in before.new.items()}
     tried = {**before.tried, **new}
     count = min(choice.batch, choice.designs - len(tried))
     return SearchRound(_named(_proposed(tried, start, count, choice), len(tried)), tried, start)
@@ -69,5 +67,3 @@ def read_round(file: Path | str) -> SearchRound:
     content = read_json(file)
     with readable(file):
         return from_plain(SearchRound, content)
-
-

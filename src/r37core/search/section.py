@@ -12,7 +12,6 @@ from r37core.config.spread import MemberCount, SpreadEntry
 from .quantity import CONTACT_MEASURES, MEASURES, NEEDS, Quantity
 
 Bound = Annotated[float, Field(ge=-1e15, le=1e15)]
-Measure = Literal[tuple(MEASURES)]  # type: ignore[valid-type]
 
 
 def _lower_first(bounds: list[float]) -> list[float]:
@@ -27,7 +26,7 @@ Bounds = Annotated[list[Bound], Field(min_length=2, max_length=2), AfterValidato
 class QuantitySection(Section):
     """A number of a design."""
 
-    measure: Measure = Field(
+    measure: Literal[tuple(MEASURES)] = Field(  # type: ignore[valid-type]
         default="length_certain_rad_s",
         description="what is read off: " + "; ".join(f"{name}, {words}" for name, words in MEASURES.items()),
     )
@@ -108,7 +107,9 @@ def _names_differ(entries: dict[str, object]) -> dict[str, object]:
 class SearchSection(Section):
     """A search for better designs of one blade, in rounds: each asks for some more, by what all before them gave."""
 
-    blade: Name = Field(description="of those that are run: its entry is where the search starts, and what every design has in common")
+    blade: Name = Field(
+        description="of those that are run: its entry is where the search starts, and what every design has in common"
+    )
     variables: Annotated[dict[str, Bounds], Field(min_length=1)] = Field(
         description="lowest and highest value of numeric keys of the entry, dotted as in vary: stagger_deg.tip: [-3, 3]"
     )
@@ -124,7 +125,8 @@ class SearchSection(Section):
     )
     batch: Annotated[int, Field(ge=1, le=500)] = Field(default=4, description="designs of a round, which are run side by side")
     method: Literal["surrogate", "quasi_random"] = Field(
-        default="surrogate", description="how designs are proposed; quasi_random: all of them evenly over the bounds, as a yardstick"
+        default="surrogate",
+        description="how designs are proposed; quasi_random: all of them evenly over the bounds, as a yardstick",
     )
     seed: int = Field(default=0, ge=0, le=2**31, description="another one gives another search")
     best: Annotated[int, Field(ge=1, le=50)] = Field(default=3, description="designs that are written as entries and as STEP")
@@ -137,9 +139,13 @@ class SearchSection(Section):
         quantiles = [name for name, objective in self.objectives.items() if objective.quantile is not None]
         spreads = self.tolerances is not None and (self.tolerances.of_scenes or self.tolerances.of_blades)
         if quantiles and not spreads:
-            raise refused(("objectives", quantiles[0], "quantile"), "a quantile", "tolerances beside it, with numbers that spread")
+            raise refused(
+                ("objectives", quantiles[0], "quantile"), "a quantile", "tolerances beside it, with numbers that spread"
+            )
         if self.tolerances is not None and not quantiles:
-            raise refused(("tolerances",), "tolerances that no objective needs", "an objective with a quantile, or none of them")
+            raise refused(
+                ("tolerances",), "tolerances that no objective needs", "an objective with a quantile, or none of them"
+            )
         if both := [name for name in self.constraints if name in self.objectives]:
             raise refused(("constraints", both[0]), f"'{both[0]}' twice", "a name that no objective has")
         return self

@@ -8,8 +8,10 @@ from pathlib import Path
 from typing import Any
 
 from r37core.blade.definition import BladeDefinition
-from r37core.dataset_file import hash_of_parts, read_dataset, write_dataset
-from r37core.io import as_list, read_json, scratch_folder, write_json
+from r37core.blade.geometry_file import read_geometry
+from r37core.dataset_file import read_dataset, recipe_of, write_dataset
+from r37core.exchange.step_file import write_step
+from r37core.io import as_list, read_json, write_json
 from r37core.plain import from_plain
 from r37core.results.ranking import robustness
 from r37core.results.table_file import write_table
@@ -17,6 +19,8 @@ from r37core.rom.contact_model import read_contact_model
 from r37core.stress.operator import read_stress_operator
 
 from .choice import SearchChoice
+from .dataset import search_dataset, search_table
+from .entries import entries_of, write_entries
 from .quantity import Structure, of_contact, of_structure, static_stress
 from .rounds import first_round, read_round, round_after, write_round
 
@@ -89,3 +93,24 @@ def measure(input: Any, output: Any, params: Any) -> None:
 
 def _known(value: float) -> float | None:
     return value if math.isfinite(value) else None
+
+
+def join(input: Any, output: Any, params: Any) -> None:
+    """All designs in one dataset and table. Input: round, the last. Params: choice, start. Outputs: dataset (nc), table (csv)."""
+    made = {"fidelity": params.fidelity, "input_hash": recipe_of([input.round])}
+    dataset = search_dataset(read_round(input.round), from_plain(SearchChoice, params.choice), params.start)
+    write_dataset(dataset, output.dataset, made)
+    write_table(search_table(dataset), output.table, digits=6)
+
+
+def best(input: Any, output: Any, params: Any) -> None:
+    """The best designs as entries and STEP. Inputs: dataset, shapes (geometry of all). Params: entries, number. Output: folder."""
+    search, folder = read_dataset(input.dataset), Path(output.folder)
+    order = search["order"].where(search["order"] > 0).dropna("design").sortby(search["order"].where(search["order"] > 0))
+    start = list(params.entries)[-1]
+    made = entries_of(search, order["design"].values[: params.number].tolist(), start, params.entries)
+    folder.mkdir(parents=True)
+    write_entries(search, made, params.entries, folder / "blades.yaml")
+    files = {Path(file).parent.parent.name: file for file in as_list(input.shapes)}
+    for name in made:
+        write_step(read_geometry(files[name.rpartition("_")[2]]), folder / f"{name}.step")

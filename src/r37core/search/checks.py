@@ -1,0 +1,75 @@
+"""What the section of a search alone cannot check."""
+
+from __future__ import annotations
+
+from importlib.util import find_spec
+
+from r37core.config import ConfigError, Settings
+from r37core.config.blades import BladeEntry
+from r37core.config.changed_numbers import BLADE_KEYS, ImpossibleValueError, scene_numbers
+from r37core.config.messages import on_one_line
+
+from .designs import SearchDesigns, section
+from .plan import designs_of, is_asked
+from .proposal import LIBRARY
+
+
+def search_can_be_run(settings: Settings) -> None:
+    """The blade, the scenes and the variables are there, and the library is installed that proposes designs."""
+    entry, document = section(settings), settings.documents.config
+    if entry is None or (settings.config.run.part is not None and not is_asked(settings)):
+        return
+    if entry.blade not in settings.blade_names:
+        raise document.refusal(("search", "blade"), f"'{entry.blade}'", f"one that is run ({', '.join(settings.blade_names)})")
+    designs = designs_of(settings)
+    if not isinstance(settings.designs.entries[entry.blade], BladeEntry):
+        raise document.refusal(("search", "blade"), f"'{entry.blade}', an imported blade", "a blade with profiles")
+    _scenes_are_run(settings)
+    for key, bounds in entry.variables.items():
+        for value in bounds:
+            try:
+                designs.with_values("of the search", {key: value})
+            except ConfigError as error:
+                raise document.error(("search", "variables", key), str(error)) from None
+    _tolerances_are_possible(settings, designs)
+    if find_spec(LIBRARY) is None:
+        raise document.error(
+            ("search",), f"designs are proposed by {LIBRARY}, which is not installed: pip install 'r37[search]'"
+        )
+
+
+def _scenes_are_run(settings: Settings) -> None:
+    entry, document = designs_of(settings).entry, settings.documents.config
+    highest = settings.config.campbell.highest_engine_order
+    for where in ("objectives", "constraints"):
+        for name, quantity in getattr(entry, where).items():
+            path = ("search", where, name)
+            for scene in quantity.scenes or ():
+                if scene not in settings.scene_names:
+                    allowed = f"scenes that are run ({', '.join(settings.scene_names)})"
+                    raise document.refusal((*path, "scenes"), f"'{scene}'", allowed)
+                if "stress" not in settings.results_of(entry.blade, scene):
+                    raise document.refusal(
+                        (*path, "scenes"), f"'{scene}', without stress", "scenes with stress among their results"
+                    )
+            if quantity.engine_order is not None and quantity.engine_order > highest:
+                allowed = f"at most campbell.highest_engine_order ({highest})"
+                raise document.refusal((*path, "engine_order"), f"{quantity.engine_order}", allowed)
+    if not designs_of(settings).scenes:
+        raise document.refusal(("search", "objectives"), "no scene", "an objective or constraint of contact, with scenes")
+
+
+def _tolerances_are_possible(settings: Settings, designs: SearchDesigns) -> None:
+    tolerances, document = designs.entry.tolerances, settings.documents.config
+    if tolerances is None:
+        return
+    path = ("search", "tolerances")
+    known = {key for scene in designs.scenes for key in scene_numbers(settings.scene_entries[scene])}
+    for where, allowed in (("of_blades", BLADE_KEYS), ("of_scenes", sorted(known))):
+        for key in getattr(tolerances, where):
+            if key not in allowed:
+                raise document.refusal((*path, where, key), on_one_line(key), f"one of {', '.join(allowed)}")
+    try:
+        designs.samples("of the search", None)
+    except (ImpossibleValueError, ValueError) as error:
+        raise document.error(path, f"{error}; or a narrower tolerance") from None

@@ -1,0 +1,119 @@
+"""search.nc and search.csv: every design of a search, and what its objectives depend on."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+import pandas as pd
+import xarray as xr
+
+from r37core.dataset_file import about
+
+from .choice import START, Design, SearchChoice, number
+from .pareto import best_designs, not_dominated
+from .problem import Evaluated
+from .rounds import SearchRound
+from .surrogate import sensitivity, slices
+
+POINTS = 41
+"""Of a slice."""
+
+
+def search_dataset(last: SearchRound, choice: SearchChoice, start_values: Sequence[float | None]) -> xr.Dataset:
+    """All designs of a search, the start first, from its last round; `start_values`: of the variables, None where unknown."""
+    start = Design(tuple(number(value) for value in start_values), -1, None, last.start)
+    designs = {START: start, **last.tried}
+    evaluated = {name: design.evaluated(name, choice, last.start) for name, design in designs.items()}
+    known = [each for each in evaluated.values() if not np.isnan(each.values).any()]
+    best = best_designs([each for each in evaluated.values() if each.name != START])
+    dataset = xr.Dataset(coords=_coordinates(list(designs), choice))
+    dataset = dataset.assign(_of_designs(designs, evaluated, choice)).assign(_of_bounds(choice, last))
+    front = not_dominated(list(evaluated.values()))
+    dataset["not_dominated"] = ("design", np.array([name in front for name in designs], "i1"), _NOT_DOMINATED)
+    dataset["order"] = ("design", np.array([best.index(name) + 1 if name in best else 0 for name in designs], "i4"), _ORDER)
+    return dataset.assign(_of_surrogate(known, choice, last.tried[best[0]].values)) if best else dataset
+
+
+_NOT_DOMINATED = about("1", "whether the design keeps all constraints and no other that does is better in all objectives")
+_ORDER = about("1", "place among the best designs, 1 the first; 0 for one that cannot be built or breaks a constraint")
+
+
+def _coordinates(designs: list[str], choice: SearchChoice) -> dict[str, object]:
+    objectives, constraints = choice.objectives.values(), [each.quantity for each in choice.constraints.values()]
+    return {
+        "design": designs,
+        "variable": [variable.key for variable in choice.variables],
+        "objective": list(choice.objectives),
+        "constraint": list(choice.constraints),
+        "objective_unit": ("objective", [quantity.unit for quantity in objectives]),
+        "objective_measure": ("objective", [quantity.measure for quantity in objectives]),
+        "constraint_unit": ("constraint", [quantity.unit for quantity in constraints]),
+    }
+
+
+def _of_designs(designs: dict[str, Design], evaluated: dict[str, Evaluated], choice: SearchChoice) -> dict[str, object]:
+    def quantities(names: Sequence[str], place: int) -> np.ndarray:
+        rows = [[number(design.quantities.get(name, (None, None))[place]) for name in names] for design in designs.values()]
+        return np.array(rows, float).reshape(len(designs), len(names))
+
+    feasible = [each.status == "done" and all(margin >= 0.0 for margin in each.margins) for each in evaluated.values()]
+    objectives, constraints = list(choice.objectives), list(choice.constraints)
+    return {
+        "value": (("design", "variable"), [design.values for design in designs.values()], about("1", "in the unit of the key")),
+        "round": (
+            "design",
+            [design.round for design in designs.values()],
+            about("1", "that proposed the design; -1 of the start"),
+        ),
+        "refused": ("design", [design.refused or "" for design in designs.values()], {"long_name": "why it cannot be built"}),
+        "feasible": ("design", np.array(feasible, "i1"), about("1", "whether it can be built and keeps all constraints")),
+        "objective_value": (("design", "objective"), quantities(objectives, 0), about("1", "in the unit of the objective")),
+        "objective_scatter": (("design", "objective"), quantities(objectives, 1), about("1", "standard deviation by chance")),
+        "constraint_value": (("design", "constraint"), quantities(constraints, 0), about("1", "in the unit of the constraint")),
+    }
+
+
+def _of_bounds(choice: SearchChoice, last: SearchRound) -> dict[str, object]:
+    bounds = [constraint.bounds(number(last.start[name][0])) for name, constraint in choice.constraints.items()]
+    lowest, highest = np.array(bounds, float).reshape(-1, 2).T
+    return {
+        "lowest": ("variable", [variable.lowest for variable in choice.variables], about("1", "bound of the variable")),
+        "highest": ("variable", [variable.highest for variable in choice.variables], about("1", "bound of the variable")),
+        "constraint_lowest": ("constraint", lowest, about("1", "what has to be reached, in the unit of the constraint")),
+        "constraint_highest": ("constraint", highest, about("1", "what may not be passed, in the unit of the constraint")),
+    }
+
+
+def _of_surrogate(known: list[Evaluated], choice: SearchChoice, at: Sequence[float]) -> dict[str, object]:
+    """Slices through the best design, and what each variable does."""
+    cut = slices(choice.variables, known, at, POINTS)
+    indices = sensitivity(choice.variables, known, choice.seed)
+    axes = ("objective", "variable")
+    return {
+        "slice_value": (("variable", "point"), cut.values, about("1", "values of the variable, through the best design")),
+        "slice_mean": ((*axes, "point"), cut.mean, about("1", "mean of the surrogate of the objective")),
+        "slice_deviation": ((*axes, "point"), cut.deviation, about("1", "standard deviation of the surrogate")),
+        "sensitivity_first": (axes, indices.first, about("1", "share of the surrogate's variance by the variable alone")),
+        "sensitivity_total": (axes, indices.total, about("1", "share in which the variable has a part")),
+        "surrogate_q2": (
+            "objective",
+            indices.q2,
+            about("1", "share of the designs' variance that the surrogate foretells, left out"),
+        ),
+    }
+
+
+def search_table(search: xr.Dataset) -> pd.DataFrame:
+    """A row for each design: values, objectives with their scatter, constraints, round, and why it was refused."""
+    table = pd.DataFrame({"design": search["design"].values, "round": search["round"].values})
+    for key in search["variable"].values:
+        table[str(key)] = search["value"].sel(variable=key).values
+    for name in search["objective"].values:
+        table[str(name)] = search["objective_value"].sel(objective=name).values
+        table[f"{name}_scatter"] = search["objective_scatter"].sel(objective=name).values
+    for name in search["constraint"].values:
+        table[str(name)] = search["constraint_value"].sel(constraint=name).values
+    for name in ("feasible", "not_dominated", "order", "refused"):
+        table[name] = search[name].values
+    return table

@@ -1,0 +1,27 @@
+"""A search for better designs as a wing."""
+
+from __future__ import annotations
+
+from pydantic import Field
+
+from r37core.config.section import LeftOut
+from r37core.plans.wing import Wing
+
+from .captions import CAPTIONS
+from .checks import search_can_be_run
+from .designs import FOLDER
+from .plan import remarks, samples_of, targets
+from .section import SearchSection
+
+WING = Wing(
+    name=FOLDER,
+    section=(
+        SearchSection | LeftOut,
+        Field(default=None, description="designs of one blade that are better than it is (docs/search.md)"),
+    ),
+    checks=(search_can_be_run,),
+    later=samples_of,
+    targets=targets,
+    remarks=remarks,
+    captions=CAPTIONS,
+)

@@ -1,0 +1,135 @@
+# A search for better designs, in rounds: each proposes some by what all before them gave, until the budget is spent. A design's
+# models and runs are made by the rules of the structure and the sweep, as members of samples are.
+from r37core.search.plan import BUILT, DATASET, DESIGN_NAME, MEASURES, SHAPE, TABLE, BEST, Search, is_asked
+from r37core.search.plan import ROUND as SEARCH_ROUND
+
+search = Search(
+    sweep,
+    lambda number: checkpoints.search_round.get(round=number).output[0],
+    lambda number: checkpoints.search_built.get(round=number).output[0],
+)
+
+
+wildcard_constraints:
+    design=DESIGN_NAME,
+
+
+checkpoint search_round:
+    input:
+        unpack(search.round_inputs),
+    output:
+        round=SEARCH_ROUND,
+    log:
+        "<logs>/search/round_{round}.log",
+    wildcard_constraints:
+        round=r"\d+",
+    priority: 4
+    conda:
+        ENVIRONMENT
+    params:
+        **step("search.steps.propose_round"),
+        choice=search.choice,
+        round=lambda wildcards: int(wildcards.round),
+    script:
+        "../scripts/step.py"
+
+
+# a design that cannot be built is a result, so it is tried before its model is planned
+use rule step as search_shape with:
+    output:
+        shape=SHAPE,
+    log:
+        "<logs>/search/{design}/shape.log",
+    priority: 3
+    resources:
+        **needs.of("mesh"),
+    params:
+        **step("search.steps.shape"),
+        shape=search.shape,
+        edges=settings.structure.edges,
+        mesh=plain(settings.fidelity.mesh),
+
+
+checkpoint search_built:
+    input:
+        shapes=search.shapes,
+    output:
+        built=BUILT,
+    log:
+        "<logs>/search/built_{round}.log",
+    wildcard_constraints:
+        round=r"\d+",
+    priority: 4
+    conda:
+        ENVIRONMENT
+    params:
+        **step("search.steps.built"),
+    script:
+        "../scripts/step.py"
+
+
+use rule step as search_measures with:
+    input:
+        unpack(search.measured),
+    output:
+        measures=MEASURES,
+    log:
+        "<logs>/search/{design}/measures.log",
+    priority: 5
+    params:
+        **step("search.steps.measure"),
+        choice=search.choice,
+        scenes=search.responses_of_scenes,
+        density=search.density,
+        highest_speed=settings.structure.maximum_speed_rad_s,
+
+
+use rule step as search_dataset with:
+    input:
+        round=search.last_round,
+    output:
+        dataset=DATASET,
+        table=report(TABLE, **shown(PACKAGE / "search/report.rst", "Search", EVERY_SCENE, figure="designs of the search")),
+    log:
+        "<logs>/search_dataset.log",
+    params:
+        **step("search.steps.join"),
+        choice=search.choice,
+        start=search.start_values,
+        fidelity=settings.fidelity_name,
+
+
+use rule step as search_best with:
+    input:
+        dataset=rules.search_dataset.output.dataset,
+        shapes=search.shapes_of_all,
+    output:
+        folder=directory(BEST),
+    log:
+        "<logs>/search_best.log",
+    params:
+        **step("search.steps.best"),
+        entries=search.entries,
+        number=search.number_of_best,
+
+
+use rule figure as search_designs_figure with:
+    input:
+        search=rules.search_dataset.output.dataset,
+    output:
+        **pictures("search_designs", "Search", EVERY_SCENE, "designs"),
+    log:
+        "<logs>/figures/search_designs.log",
+    params:
+        **drawing(code, "search.figures.draw_designs", "search_designs"),
+
+
+use rule figure as search_slices_figure with:
+    input:
+        search=rules.search_dataset.output.dataset,
+    output:
+        **pictures("search_slices", "Search", EVERY_SCENE, "slices"),
+    log:
+        "<logs>/figures/search_slices.log",
+    params:
+        **drawing(code, "search.figures.draw_slices", "search_slices"),
