@@ -86,7 +86,7 @@ $(VENV)/.ready: pyproject.toml $(LOCK) envs/system_libraries.sh
 # the newest versions that pyproject.toml allows, of all packages that the commands here install, for everyone after
 lock:
 	'$(PYTHON)' -m venv --clear build/lock
-	build/lock/bin/python -m pip install --quiet --disable-pip-version-check '.[test,mutants,docs,ansys]'
+	build/lock/bin/python -m pip install --quiet --disable-pip-version-check '.[test,mutants,docs,ansys,search]'
 	{ echo "# written by make lock: what pip installed"; build/lock/bin/python -m pip freeze --exclude r37; } > $(LOCK).new
 	mv $(LOCK).new $(LOCK)
 	rm -rf build/lock

@@ -1,0 +1,143 @@
+"""Gaussian processes of scikit-learn, the extra package `search`, on points of the unit cube: of numbers and of a yes or no.
+
+Every fit runs on one thread of linear algebra, for the same bits on any number of cores.
+"""
+
+from __future__ import annotations
+
+import math
+import warnings
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from types import ModuleType
+from typing import Any
+
+import numpy as np
+from threadpoolctl import threadpool_limits
+
+RESTARTS = 1
+"""Fits from other hyperparameters than the usual, the likeliest of all is taken."""
+
+_LENGTHS = 0.05, 20.0
+_NOISES = 1e-6, 0.3
+
+
+class SearchPackageMissing(ImportError):
+    """The extra package of a search is not installed; the message says how to install it."""
+
+
+def library() -> ModuleType:
+    """`sklearn.gaussian_process`; raises SearchPackageMissing."""
+    try:
+        import sklearn.gaussian_process
+    except ImportError:
+        raise SearchPackageMissing(
+            "a search needs the extra package scikit-learn: pip install 'r37[search]', or '.[search]' in the project's folder"
+        ) from None
+    return sklearn.gaussian_process
+
+
+@dataclass(frozen=True)
+class Fit:
+    """A Gaussian process of one number, or that number where it is the same everywhere (`process` is None)."""
+
+    process: Any
+    mean: float
+    scale: float
+    noise: float
+    points: np.ndarray
+    numbers: np.ndarray
+    variances: np.ndarray
+
+    @property
+    def is_constant(self) -> bool:
+        """Whether all numbers are equal, so that nothing was fitted."""
+        return self.process is None
+
+    def at(self, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Mean and standard deviation [point] of the number itself, without its noise."""
+        if self.process is None:
+            return np.full(len(points), self.mean), np.zeros(len(points))
+        with _quiet():
+            mean, deviation = self.process.predict(points, return_std=True)
+        # the process counts the noise of a new value, too
+        latent = np.sqrt(np.maximum(deviation**2 - self.noise, 1e-12))
+        return self.mean + self.scale * mean, self.scale * latent
+
+    def believing(self, point: np.ndarray) -> Fit:
+        """The same process, had `point` turned out as expected: what a batch knows of its earlier designs."""
+        if self.process is None:
+            return self
+        expected = self.at(point[None])[0]
+        points, numbers = np.vstack([self.points, point]), np.append(self.numbers, expected)
+        variances = np.append(self.variances, 1e-8)
+        process = _regressor(self.process.kernel_, variances, optimizer=None)
+        with _quiet():
+            process.fit(points, (numbers - self.mean) / self.scale)
+        return Fit(process, self.mean, self.scale, self.noise, points, numbers, variances)
+
+    def without(self, index: int) -> tuple[float, float]:
+        """Mean and standard deviation where one number is left out, at its point, with the hyperparameters of all."""
+        if self.process is None:
+            return self.mean, 0.0
+        kept = np.arange(len(self.points)) != index
+        process = _regressor(self.process.kernel_, self.variances[kept], optimizer=None)
+        with _quiet():
+            process.fit(self.points[kept], (self.numbers[kept] - self.mean) / self.scale)
+        rest = Fit(process, self.mean, self.scale, self.noise, self.points[kept], self.numbers[kept], self.variances[kept])
+        mean, deviation = rest.at(self.points[index : index + 1])
+        return float(mean[0]), float(deviation[0])
+
+
+def fit(points: np.ndarray, numbers: np.ndarray, scatters: np.ndarray, seed: int) -> Fit:
+    """The process through `numbers` at `points` [point, variable].
+
+    `scatters` are standard deviations of the numbers; to them, and where they are 0 or NaN, the likelihood adds a noise of its
+    own, equal at all points. Matern kernel of order 5/2 with a length for each variable.
+    Source: Rasmussen and Williams (2006), Gaussian Processes for Machine Learning, chapters 2 and 5.
+    """
+    mean, scale = float(numbers.mean()), float(numbers.std())
+    if scale <= 1e-12 * max(1.0, abs(mean)):
+        return Fit(None, mean, 0.0, 0.0, points, numbers, np.zeros(len(points)))
+    kernels = library().kernels
+    variances = 1e-8 + (np.nan_to_num(scatters, nan=0.0) / scale) ** 2
+    kernel = kernels.ConstantKernel(1.0, (0.05, 50.0)) * _matern(points.shape[1]) + kernels.WhiteKernel(1e-3, _NOISES)
+    process = _regressor(kernel, variances, n_restarts_optimizer=RESTARTS, random_state=seed)
+    with _quiet():
+        process.fit(points, (numbers - mean) / scale)
+    return Fit(process, mean, scale, float(process.kernel_.k2.noise_level), points, numbers, variances)
+
+
+def fit_chance(points: np.ndarray, holds: np.ndarray, seed: int) -> Callable[[np.ndarray], np.ndarray]:
+    """Probability [point] that something holds at points, from where it did [point] and did not; 1 where it always did."""
+    if holds.all() or not holds.any():
+        chance = 1.0 if holds.all() else 0.5
+        return lambda others: np.full(len(others), chance)
+    gp = library()
+    kernel = gp.kernels.ConstantKernel(4.0, (0.5, 100.0)) * _matern(points.shape[1])
+    classifier = gp.GaussianProcessClassifier(kernel, random_state=seed)
+    with _quiet():
+        classifier.fit(points, holds)
+
+    def chance_at(others: np.ndarray) -> np.ndarray:
+        with _quiet():
+            return classifier.predict_proba(others)[:, 1]
+
+    return chance_at
+
+
+def _matern(variables: int) -> Any:
+    return library().kernels.Matern([0.5 * math.sqrt(variables)] * variables, _LENGTHS, nu=2.5)
+
+
+def _regressor(kernel: Any, variances: np.ndarray, **options: Any) -> Any:
+    return library().GaussianProcessRegressor(kernel, alpha=variances, **options)
+
+
+@contextmanager
+def _quiet() -> Iterator[None]:
+    """One thread of linear algebra, and no warning of a hyperparameter at its bound: few designs do not tell all of them."""
+    with threadpool_limits(1), warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        yield
