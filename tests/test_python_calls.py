@@ -117,6 +117,9 @@ def test_a_named_copy_is_the_blade(finished):
     with pytest.raises(r37.ConfigError, match="name: found sweep_percent of a copy of S50, whose table has a share already"):
         r37.blade("S50", file="halved.yaml", sweep_percent=80, name="Less")
     assert r37.blade("S50", file="halved.yaml", sweep_percent=80).settings.definition.stacking
+    Path("turned.yaml").write_text(text.replace("sweep_percent: 50,", "stagger_deg: { tip: 1 },"))
+    with pytest.raises(r37.ConfigError, match="stagger_deg of a copy of S50, which has a value of it already"):
+        r37.blade("S50", file="turned.yaml", **{"stagger_deg.tip": 2}, name="More")
 
 
 @pytest.mark.slow

@@ -6,10 +6,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+import r37
 from r37core.blade.profile import Profile
 from r37core.blade.section_changes import SectionChange, SectionChangeError, changed_profile, changed_profiles
 from r37core.blade.span_law import SpanLaw
 from r37core.config import ConfigError
+from r37core.config.changed_numbers import ImpossibleValueError, blade_number, changed_blade
 from r37core.product.reading import read_settings
 
 
@@ -253,3 +255,38 @@ def test_laws_vary_in_families_and_tables(read):
 def test_refusals_name_blade_key_and_span(read, text, message):
     with pytest.raises(ConfigError, match=re.escape(message)):
         read(f"Mine: {{ base: Ref, {text} }}\n")
+
+
+def test_python_takes_laws_as_yaml_does(root):
+    config = root / "config/config.yaml"
+    turned = r37.blade("S100", config=config, stagger_deg={"hub": 0, "tip": 2}, camber_deg=1, name="Turned").settings
+    dotted = r37.blade("S100", config=config, **{"stagger_deg.tip": np.float64(2)}, camber_deg=1.0).settings
+    assert turned.definition.profiles == dotted.definition.profiles
+    assert stagger(shapes(turned))[-1] - stagger(shapes(r37.blade("S100", config=config).settings))[-1] == pytest.approx(
+        2.0, abs=0.011
+    )
+
+
+def test_members_have_changes_on_top_of_the_blade_s(root):
+    blade = r37.blade("S100", config=root / "config/config.yaml", stagger_deg=1, thickness_percent={"tip": 90}).settings
+    changes = {"stagger_deg": 0.5, "stagger_deg.tip": 1.0, "chord_percent.hub": 104.0, "thickness_percent": 110.0}
+    member, nominal = changed_blade(blade, changes), shapes(blade)
+    spans = of_each(nominal, lambda profile: profile.parameters.span)
+    np.testing.assert_allclose(stagger(shapes(member)) - stagger(nominal), 0.5 + spans, atol=0.02)
+    np.testing.assert_allclose(chord(shapes(member)), (1.04 - 0.04 * spans) * chord(nominal), rtol=1e-9)
+    np.testing.assert_allclose(thickness(shapes(member)), 1.1 * thickness(nominal), rtol=1e-12)
+    assert changed_blade(blade, {key: blade_number(blade, key) for key in changes}) == blade
+
+
+@pytest.mark.parametrize(
+    ("changes", "key", "message"),
+    [
+        ({"stagger_deg.hub": 45.0, "sweep_cm": 1.0}, "stagger_deg.hub", "span 0%: inlet_angle is 9"),
+        ({"camber_deg": 80.0, "stagger_deg": 5.0}, "camber_deg", "camber_deg and stagger_deg: span 0%"),
+        ({"chord_percent.tip": 5.0}, "chord_percent.tip", "found 5.0; allowed: number, at least 10"),
+    ],
+)
+def test_an_impossible_member_names_its_number(root, changes, key, message):
+    with pytest.raises(ImpossibleValueError, match=message) as refusal:
+        changed_blade(r37.blade("Ref", config=root / "config/config.yaml").settings, changes)
+    assert refusal.value.key == key

@@ -15,6 +15,7 @@ from r37core.config.blades import SHARES, Blades, blade_settings
 from r37core.config.families import Designs, with_designs, with_value
 from r37core.config.messages import did_you_mean, on_one_line
 from r37core.config.scenes import Scenes
+from r37core.config.section_laws import SECTION_KEYS
 
 from .arguments import plain_value
 from .call_configuration import Configuration, existing_file, read_configuration
@@ -130,10 +131,11 @@ class BladeChoice(Choice):
         if not isinstance(entry, Mapping) or "stacking_table" not in entry:
             return entry
         # the table has its row under the original name
-        varied = {**changes, **changes.get("vary", {})}
-        for key in SHARES:
+        varied = {key.split(".")[0] for key in (*changes, *changes.get("vary", {}))}
+        for key in (*SHARES, *SECTION_KEYS):
             if key in varied and key in entry:
-                shared = f"{key} of a copy of {original}, whose table has a share already"
+                has = "whose table has a share already" if key in SHARES else "which has a value of it already"
+                shared = f"{key} of a copy of {original}, {has}"
                 raise ConfigError(f"name: found {shared}; allowed: the changed blade without a name")
         return {"base": original, **{key: entry[key] for key in ("contact",) if key in entry}}
 
@@ -254,7 +256,7 @@ def blade(
         A config.yaml in place of the shipped one.
     **changes
         Values of keys of its entry, in the units of their names. A dot leads into a section, as in
-        `**{"material.density_kg_m3": 4430.0}`.
+        `**{"material.density_kg_m3": 4430.0}`; a law over the span may also be a dictionary, or a list of its rows.
 
     Raises
     ------
@@ -268,6 +270,8 @@ def blade(
     'Ref, chordwise_sweep_deg=8'
     >>> r37.blade("Ref", chordwise_sweep_deg=8, name="Swept").label
     'Swept'
+    >>> r37.blade("Ref", stagger_deg={"hub": 0, "tip": 2}, thickness_percent=105, name="Turned").label
+    'Turned'
     """
     chosen = BladeChoice(*_named(name_of_entry, name, changes, _configuration("blades_file", file, config)))
     chosen.check()

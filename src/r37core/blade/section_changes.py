@@ -17,6 +17,7 @@ import scipy
 
 from .cone import Cone, ConstantRatePath
 from .profile import BladeShapeError, ProfileParameters
+from .profile_tables import check_profile_order
 from .span_law import SpanLaw
 
 
@@ -46,14 +47,19 @@ class SectionChangeError(BladeShapeError):
 def changed_profiles(profiles: Sequence[ProfileParameters], laws: Mapping[str, SpanLaw]) -> tuple[ProfileParameters, ...]:
     """The profiles with changes by laws over the span, by the names of SectionChange's fields.
 
-    Raises SectionChangeError for a profile that becomes impossible.
+    Raises SectionChangeError for a profile that becomes impossible or crosses another.
     """
     spans = [profile.span for profile in profiles]
     values = {name: law.at(spans) for name, law in laws.items()}
-    return tuple(
-        changed_profile(profile, SectionChange(**{name: float(several[i]) for name, several in values.items()}))
-        for i, profile in enumerate(profiles)
-    )
+    changes = [SectionChange(**{name: float(several[i]) for name, several in values.items()}) for i in range(len(spans))]
+    changed = tuple(changed_profile(profile, change) for profile, change in zip(profiles, changes, strict=True))
+    names = {name for change in changes for name in change.names} - {"thickness"}
+    if names:
+        try:
+            check_profile_order(changed)
+        except BladeShapeError as error:
+            raise SectionChangeError(f"{error}{SMALLER}", sorted(names)) from None
+    return changed
 
 
 def changed_profile(profile: ProfileParameters, change: SectionChange) -> ProfileParameters:

@@ -10,6 +10,7 @@ from typing import Any
 from pydantic import BaseModel, Field, ValidationError
 
 from r37core.blade.definition import BladeDefinition
+from r37core.blade.section_changes import SectionChangeError
 from r37core.contact.scene import Scene
 from r37core.fem.material import Material
 from r37core.units import si_name
@@ -20,6 +21,16 @@ from .families import with_value
 from .messages import explain
 from .scenes import SceneEntry
 from .section import Section
+from .section_laws import (
+    SECTION_KEYS,
+    Angle,
+    AngleEnds,
+    Share,
+    ShareEnds,
+    changed_keys,
+    span_law,
+    with_section_laws,
+)
 
 _MATERIAL = "material."
 _SHIFTS = ("sweep_cm", "lean_deg")
@@ -32,7 +43,19 @@ class _Shape(Section):
     lean_percent: float = Field(default=100.0, ge=-1000, le=1000)
     sweep_cm: float = Field(default=0.0, ge=-100, le=100)
     lean_deg: float = Field(default=0.0, gt=-90, lt=90)
-    thickness_percent: float = Field(default=100.0, ge=10, le=1000)
+    stagger_deg: Angle = 0.0
+    camber_deg: Angle = 0.0
+    chord_percent: Share = 100.0
+    thickness_percent: Share = 100.0
+
+
+_ENDS: dict[str, type[AngleEnds | ShareEnds]] = {
+    "stagger_deg": AngleEnds,
+    "camber_deg": AngleEnds,
+    "chord_percent": ShareEnds,
+    "thickness_percent": ShareEnds,
+}
+"""Changes of profiles that a member may also have linear in the span, by dotted keys."""
 
 
 class ImpossibleValueError(ValueError):
@@ -43,11 +66,14 @@ class ImpossibleValueError(ValueError):
         self.key = key
 
 
-_SHAPE: dict[str, float] = {name: field.default for name, field in _Shape.model_fields.items()}
+_SHAPE: dict[str, float] = {name: field.default for name, field in _Shape.model_fields.items()} | {
+    f"{key}.{end}": field.default for key, ends in _ENDS.items() for end, field in ends.model_fields.items()
+}
 """Keys of a blade's shape and their nominal values."""
 
 BLADE_KEYS = (*(_MATERIAL + key for key in MaterialSection.model_fields), *_SHAPE)
-"""What may vary of a blade. `sweep_cm` and `lean_deg` are added at the tip, and below in proportion to the span."""
+"""What may vary of a blade. `sweep_cm` and `lean_deg` are added at the tip, and below in proportion to the span. What the
+entry of a blade changes of its profiles is there already, and stands under these changes."""
 
 
 def scene_numbers(entry: SceneEntry) -> dict[str, float]:
@@ -96,15 +122,21 @@ def _changed_material(nominal: Material, changes: Mapping[str, float]) -> Materi
 
 
 def _changed_shape(definition: BladeDefinition, changes: Mapping[str, float]) -> BladeDefinition:
-    shape: _Shape = _checked(_Shape, dict(changes))
-    profiles = tuple(
-        replace(profile, **{name: 0.01 * shape.thickness_percent * getattr(profile, name) for name in _THICKNESSES})
-        for profile in definition.profiles
-    )
+    shape: _Shape = _checked(_Shape, {key: value for key, value in changes.items() if key in _Shape.model_fields})
+    constant = {key: getattr(shape, key) for key in SECTION_KEYS}
+    ends = {}
+    for key, model in _ENDS.items():
+        content = {end: changes[f"{key}.{end}"] for end in model.model_fields if f"{key}.{end}" in changes}
+        ends[key] = _checked(model, content, f"{key}.")
+    profiles = definition.profiles
+    try:
+        for laws in (constant, ends):
+            profiles = with_section_laws(profiles, {key: span_law(key, law) for key, law in laws.items()})
+    except SectionChangeError as error:
+        blamed = [key for key in changes if key.split(".")[0] in changed_keys(error)]
+        text = str(error) if len(blamed) == 1 else f"{' and '.join(blamed)}: {error}"
+        raise ImpossibleValueError(blamed[0], text) from None
     return replace(definition, profiles=profiles, stacking=_changed_stacking(definition.stacking, shape))
-
-
-_THICKNESSES = ("inlet_thickness", "maximum_thickness", "outlet_thickness")
 
 
 def _changed_stacking(

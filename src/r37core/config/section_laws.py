@@ -8,8 +8,8 @@ from typing import Annotated, Any
 from pydantic import Discriminator, Field, Tag
 
 from r37core.blade.profile import BladeShapeError, ProfileParameters
-from r37core.blade.profile_tables import check_profile_order, check_spans
-from r37core.blade.section_changes import SMALLER, SectionChangeError, changed_profiles
+from r37core.blade.profile_tables import check_spans
+from r37core.blade.section_changes import SectionChangeError, changed_profiles
 from r37core.blade.span_law import SpanLaw
 from r37core.units import si_name
 
@@ -19,36 +19,36 @@ SECTION_KEYS = ("stagger_deg", "camber_deg", "chord_percent", "thickness_percent
 """Keys of the changes of a blade's profiles."""
 
 _Span = Annotated[float, Field(ge=0, le=100, description="from the hub (0) to the tip (100)")]
-_Angle = Annotated[float, Field(ge=-90, le=90)]
-_Share = Annotated[float, Field(ge=10, le=1000)]
+Angle = Annotated[float, Field(ge=-90, le=90)]
+Share = Annotated[float, Field(ge=10, le=1000)]
 
 
 class AngleEnds(Section):
     """An added angle, linear from hub to tip."""
 
-    hub: _Angle = Field(default=0.0, description="at the hub, in the unit of the key")
-    tip: _Angle = Field(default=0.0, description="at the tip")
+    hub: Angle = Field(default=0.0, description="at the hub, in the unit of the key")
+    tip: Angle = Field(default=0.0, description="at the tip")
 
 
 class ShareEnds(Section):
     """A share that is kept, linear from hub to tip."""
 
-    hub: _Share = Field(default=100.0, description="at the hub, in the unit of the key")
-    tip: _Share = Field(default=100.0, description="at the tip")
+    hub: Share = Field(default=100.0, description="at the hub, in the unit of the key")
+    tip: Share = Field(default=100.0, description="at the tip")
 
 
 class AngleRow(Section):
     """An added angle at one span."""
 
     span_percent: _Span
-    value: _Angle = Field(description="there, in the unit of the key")
+    value: Angle = Field(description="there, in the unit of the key")
 
 
 class ShareRow(Section):
     """A share that is kept at one span."""
 
     span_percent: _Span
-    value: _Share = Field(description="there, in the unit of the key")
+    value: Share = Field(description="there, in the unit of the key")
 
 
 def _form(law: Any) -> str:
@@ -58,13 +58,13 @@ def _form(law: Any) -> str:
 
 
 Angles = Annotated[
-    Annotated[_Angle, Tag("number")]
+    Annotated[Angle, Tag("number")]
     | Annotated[AngleEnds, Tag("ends")]
     | Annotated[list[AngleRow], Field(min_length=2), Tag("table")],
     Discriminator(_form),
 ]
 Shares = Annotated[
-    Annotated[_Share, Tag("number")]
+    Annotated[Share, Tag("number")]
     | Annotated[ShareEnds, Tag("ends")]
     | Annotated[list[ShareRow], Field(min_length=2), Tag("table")],
     Discriminator(_form),
@@ -74,10 +74,11 @@ Shares = Annotated[
 def section_laws(entry: Section) -> dict[str, SpanLaw]:
     """Laws of an entry by key, in the SI. Raises SectionChangeError for a table whose spans do not rise from 0 to 100%."""
     laws = {key: getattr(entry, key) for key in SECTION_KEYS}
-    return {key: _span_law(key, law) for key, law in laws.items() if law is not None}
+    return {key: span_law(key, law) for key, law in laws.items() if law is not None}
 
 
-def _span_law(key: str, law: Any) -> SpanLaw:
+def span_law(key: str, law: Any) -> SpanLaw:
+    """A checked value of one of SECTION_KEYS in the SI. Raises as section_laws."""
     factor = si_name(key)[1] or 1.0
     if isinstance(law, AngleEnds | ShareEnds):
         return SpanLaw.linear(law.hub * factor, law.tip * factor)
@@ -93,12 +94,7 @@ def _span_law(key: str, law: Any) -> SpanLaw:
 
 def with_section_laws(profiles: Sequence[ProfileParameters], laws: Mapping[str, SpanLaw]) -> tuple[ProfileParameters, ...]:
     """The profiles, changed by laws of SECTION_KEYS. Raises SectionChangeError for impossible ones and for those that cross."""
-    changed = changed_profiles(profiles, {si_name(key)[0]: law for key, law in laws.items()})
-    try:
-        check_profile_order(changed)
-    except BladeShapeError as error:
-        raise SectionChangeError(f"{error}{SMALLER}", [si_name(key)[0] for key in laws]) from None
-    return changed
+    return changed_profiles(profiles, {si_name(key)[0]: law for key, law in laws.items()})
 
 
 def changed_keys(error: SectionChangeError) -> list[str]:
