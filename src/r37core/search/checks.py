@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-from importlib.util import find_spec
-
 from r37core.config import ConfigError, Settings
 from r37core.config.blades import BladeEntry
 from r37core.config.changed_numbers import BLADE_KEYS, ImpossibleValueError, scene_numbers
 from r37core.config.messages import on_one_line
 
 from .designs import SearchDesigns, section
+from .gaussian_processes import SearchPackageMissing, library
 from .plan import designs_of, is_asked
-from .proposal import LIBRARY
 
 
 def search_can_be_run(settings: Settings) -> None:
@@ -32,10 +30,10 @@ def search_can_be_run(settings: Settings) -> None:
             except ConfigError as error:
                 raise document.error(("search", "variables", key), str(error)) from None
     _tolerances_are_possible(settings, designs)
-    if find_spec(LIBRARY) is None:
-        raise document.error(
-            ("search",), f"designs are proposed by {LIBRARY}, which is not installed: pip install 'r37[search]'"
-        )
+    try:
+        library()
+    except SearchPackageMissing as error:
+        raise document.error(("search",), str(error)) from None
 
 
 def _scenes_are_run(settings: Settings) -> None:
