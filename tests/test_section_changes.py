@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import r37
-from r37core.blade.profile import Profile
+from r37core.blade.profile import BladeShapeError, Profile
 from r37core.blade.section_changes import SectionChange, SectionChangeError, changed_profile, changed_profiles
 from r37core.blade.span_law import SpanLaw
 from r37core.config import ConfigError
@@ -290,3 +290,19 @@ def test_an_impossible_member_names_its_number(root, changes, key, message):
     with pytest.raises(ImpossibleValueError, match=message) as refusal:
         changed_blade(r37.blade("Ref", config=root / "config/config.yaml").settings, changes)
     assert refusal.value.key == key
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"stagger_deg": 25}, "blade Ref: span 100%: no suction-side arc .*; where the blade's entry has stagger_deg, "),
+        (
+            {"chord_percent": {"tip": 200}},
+            "blade Ref: span 100%: the plane section .* thickness_percent, a smaller change near",
+        ),
+    ],
+)
+def test_a_shape_that_cannot_be_built_names_span_and_remedy(root, changes, message):
+    definition = r37.blade("Ref", config=root / "config/config.yaml", **changes).settings.definition
+    with pytest.raises(BladeShapeError, match=message):
+        definition.build(round_edges=True)
