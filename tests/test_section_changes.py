@@ -241,7 +241,7 @@ def test_laws_vary_in_families_and_tables(read):
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("stagger_deg: 40", "blades.yaml:25: Mine.stagger_deg: blade Mine: stagger_deg: span 0%: inlet_angle is 92.4"),
+        ("stagger_deg: 40", ": Mine.stagger_deg: blade Mine: stagger_deg: span 0%: inlet_angle is 92.4"),
         ("stagger_deg: { hub: 100 }", "Mine.stagger_deg.hub: found 100; allowed: number, at least -90, at most 90"),
         ("stagger_deg: { top: 1 }", "found unknown key top; allowed keys: hub, tip"),
         ("chord_percent: [{ span_percent: 0, value: 90 }, { span_percent: 60, value: 90 }]",
@@ -298,7 +298,7 @@ def test_an_impossible_member_names_its_number(root, changes, key, message):
         ({"stagger_deg": 25}, "blade Ref: span 100%: no suction-side arc .*; where the blade's entry has stagger_deg, "),
         (
             {"chord_percent": {"tip": 200}},
-            "blade Ref: span 100%: the plane section .* thickness_percent, a smaller change near",
+            "blade Ref: span 100%: the plane section .* or thickness_percent, a smaller",
         ),
     ],
 )
