@@ -145,9 +145,12 @@ def test_matrices_that_cannot_be_meant(settings_with, changes, message):
         settings_with(MATRICES | changes)
 
 
-def test_bases_that_cannot_be_meant(settings_with):
-    with pytest.raises(ConfigError, match=r"Other\.chordwise_sweep_deg: found chordwise_sweep_deg with the mesh of Fan"):
-        settings_with(MESH, {"Other": {"base": "Fan", "chordwise_sweep_deg": 3}}, blades=("Other",))
+@pytest.mark.parametrize(
+    ("key", "value"), [("chordwise_sweep_deg", 3), ("stagger_deg", {"tip": 2}), ("thickness_percent", 100)]
+)
+def test_bases_that_cannot_be_meant(settings_with, key, value):
+    with pytest.raises(ConfigError, match=rf"Other\.{key}: found {key} with the mesh of Fan"):
+        settings_with(MESH, {"Other": {"base": "Fan", key: value}}, blades=("Other",))
 
 
 def test_matrices_are_no_base(settings_with):

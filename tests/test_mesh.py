@@ -60,8 +60,9 @@ def test_same_mesh_every_time(blade, mesh):
 def test_quality_check_names_the_key(mesh):
     quality = mesh_quality(mesh)
     assert quality.minimum <= quality.one_percent_quantile <= 1.0
-    with pytest.raises(MeshQualityError, match="minimum_scaled_jacobian"):
+    with pytest.raises(MeshQualityError, match=r"^span \d+\.\d%: element \d+ has .* minimum_scaled_jacobian .*, chord_percent"):
         quality.check(0.9)
+    assert 0.0 < quality.spans.min() < 0.1 and 0.9 < quality.spans.max() < 1.0
 
 
 def test_vtu_round_trip(mesh, tmp_path):

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import r37
-from r37core.blade.profile import Profile
+from r37core.blade.profile import BladeShapeError, Profile
 from r37core.blade.section_changes import SectionChange, SectionChangeError, changed_profile, changed_profiles
 from r37core.blade.span_law import SpanLaw
 from r37core.config import ConfigError
@@ -241,7 +241,7 @@ def test_laws_vary_in_families_and_tables(read):
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("stagger_deg: 40", "blades.yaml:25: Mine.stagger_deg: blade Mine: stagger_deg: span 0%: inlet_angle is 92.4"),
+        ("stagger_deg: 40", ": Mine.stagger_deg: blade Mine: stagger_deg: span 0%: inlet_angle is 92.4"),
         ("stagger_deg: { hub: 100 }", "Mine.stagger_deg.hub: found 100; allowed: number, at least -90, at most 90"),
         ("stagger_deg: { top: 1 }", "found unknown key top; allowed keys: hub, tip"),
         ("chord_percent: [{ span_percent: 0, value: 90 }, { span_percent: 60, value: 90 }]",
@@ -290,3 +290,19 @@ def test_an_impossible_member_names_its_number(root, changes, key, message):
     with pytest.raises(ImpossibleValueError, match=message) as refusal:
         changed_blade(r37.blade("Ref", config=root / "config/config.yaml").settings, changes)
     assert refusal.value.key == key
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"stagger_deg": 25}, "blade Ref: span 100%: no suction-side arc .*; where the blade's entry has stagger_deg, "),
+        (
+            {"chord_percent": {"tip": 200}},
+            "blade Ref: span 100%: the plane section .* or thickness_percent, a smaller",
+        ),
+    ],
+)
+def test_a_shape_that_cannot_be_built_names_span_and_remedy(root, changes, message):
+    definition = r37.blade("Ref", config=root / "config/config.yaml", **changes).settings.definition
+    with pytest.raises(BladeShapeError, match=message):
+        definition.build(round_edges=True)

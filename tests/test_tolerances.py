@@ -343,6 +343,11 @@ def test_without_numbers_there_are_no_members(settings):
         ({"of_blades": {"thickness": {"uniform": 1.0}}}, "found thickness; allowed: one of material.youngs_modulus_pa"),
         ({"of_blades": {"lean_deg": {"uniform_percent": 1.0}}}, "percent of lean_deg, which is 0"),
         ({"of_blades": {"thickness_percent": {"uniform": 150.0}}}, r"thickness_percent: the end of its range of Ref.*least 10"),
+        (
+            {"of_blades": {"stagger_deg.hub": {"uniform": 45.0}}},
+            "of_blades.stagger_deg.hub: the end of its range of Ref in abradable: span 0%: inlet_angle is .*narrower tolerance",
+        ),
+        ({"of_blades": {"camber_deg": {"uniform_percent": 1.0}}}, "percent of camber_deg, which is 0"),
         ({"of_blades": {"material.poissons_ratio": {"values": [0.3, 0.5]}}}, r"poissons_ratio: the end of its .*less than 0.5"),
         ({"of_blades": {"sweep_cm": {"uniform": 300.0}}}, "of_blades.sweep_cm: .*at least -100"),
         ({"of_blades": {"lean_deg": {"values": [89.0, 90.0]}}}, "of_blades.lean_deg: .*less than 90"),

@@ -10,6 +10,11 @@ from .blade_surface import Blade
 from .profile import BladeShapeError, Profile, ProfileParameters
 from .stacking import chordwise_sweep, plane_section_stacking, sweep_and_lean
 
+SMALLER_CHANGES = (
+    "; where the blade's entry has stagger_deg, camber_deg, chord_percent or thickness_percent, a smaller change near this span"
+)
+"""What may help a shape that cannot be built, or is meshed badly, beside what its message says."""
+
 
 @dataclass(frozen=True)
 class BladeDefinition:
@@ -35,4 +40,4 @@ class BladeDefinition:
                 placement += chordwise_sweep(profiles, self.chordwise_sweep_angle)
             return Blade(profiles, placement, round_edges)
         except BladeShapeError as error:
-            raise BladeShapeError(f"blade {self.name}: {error}") from None
+            raise BladeShapeError(f"blade {self.name}: {error}{SMALLER_CHANGES}") from None

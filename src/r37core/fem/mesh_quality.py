@@ -7,6 +7,7 @@ from itertools import combinations
 
 import numpy as np
 
+from r37core.blade.definition import SMALLER_CHANGES
 from r37core.mesh.blade_mesh import BladeMesh
 
 from .assembly import typed_blocks
@@ -19,9 +20,13 @@ class MeshQualityError(ValueError):
 
 @dataclass(frozen=True)
 class MeshQuality:
-    """Scaled Jacobian of a mesh: smallest over each element's integration points, shape (elements,); 1 is ideal."""
+    """Scaled Jacobian of a mesh: smallest over each element's integration points, shape (elements,); 1 is ideal.
+
+    `spans`: of the middle of each element, from the root (0) to the tip (1), shape (elements,).
+    """
 
     per_element: np.ndarray
+    spans: np.ndarray
 
     @property
     def minimum(self) -> float:
@@ -38,15 +43,17 @@ class MeshQuality:
         if not self.minimum >= allowed_minimum:
             worst = int(np.argmin(self.per_element))
             raise MeshQualityError(
-                f"element {worst + 1} has a scaled Jacobian of {self.minimum:.3g}, below minimum_scaled_jacobian "
-                f"({allowed_minimum:g}); use a finer or less layered mesh, blunt edges, or a smoother blade"
+                f"span {100 * self.spans[worst]:.1f}%: element {worst + 1} has a scaled Jacobian of {self.minimum:.3g}, below "
+                f"minimum_scaled_jacobian ({allowed_minimum:g}); use a finer or less layered mesh, blunt edges, or a smoother "
+                f"blade{SMALLER_CHANGES}"
             )
 
 
 def mesh_quality(mesh: BladeMesh) -> MeshQuality:
     """Scaled Jacobian of every element, block after block."""
-    parts = [scaled_jacobian(element, coordinates) for _, element, coordinates in typed_blocks(mesh.blocks, mesh.points)]
-    return MeshQuality(np.concatenate(parts))
+    per_block = [scaled_jacobian(element, coordinates) for _, element, coordinates in typed_blocks(mesh.blocks, mesh.points)]
+    spans = [mesh.parameters[nodes, 1].mean(axis=1) for nodes in mesh.blocks.values()]
+    return MeshQuality(np.concatenate(per_block), np.concatenate(spans))
 
 
 def scaled_jacobian(element: Element, coordinates: np.ndarray) -> np.ndarray:

@@ -17,7 +17,8 @@ class ToleranceSection(Section):
     of_blades: dict[str, SpreadEntry] = Field(
         default={},
         description="by material.<key>, sweep_percent and lean_percent of the table, sweep_cm and lean_deg added at the tip "
-        "(in proportion to the span), thickness_percent of all profiles",
+        "(in proportion to the span), stagger_deg, camber_deg, chord_percent and thickness_percent of all profiles, also with "
+        ".hub or .tip",
     )
     members: MemberCount = Field(default=32, description="a power of two; more of them change none that are there")
     seed: int = Field(default=0, ge=0, le=2**31, description="another one gives another sample")
