@@ -17,10 +17,7 @@ import numpy as np
 import scipy
 
 from .gaussian_processes import Fit, fit, fit_chance
-from .problem import Evaluated, Variable, designs_at, shares
-
-FEWEST_DONE = 3
-"""With fewer designs that could be built nothing is fitted: proposals stay away from all that was tried."""
+from .problem import FEWEST_DONE, Evaluated, Variable, designs_at, shares
 
 NEAR = 0.01
 """Two designs differ by at least this share of the range of some variable, as long as there is room for it."""

@@ -1,0 +1,97 @@
+"""What the tried designs say about those between them: slices of each objective with a band, and which variables decide it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import scipy
+
+from .gaussian_processes import Fit, fit
+from .problem import FEWEST_DONE, Evaluated, Variable, shares
+
+_SAMPLE = 1024
+
+
+@dataclass(frozen=True)
+class Slices:
+    """Objectives along each variable through a design, in their own units; NaN where too few designs could be built.
+
+    `values` [variable, point]; `mean` and `deviation` (standard, of the surrogate) [objective, variable, point].
+    """
+
+    values: np.ndarray
+    mean: np.ndarray
+    deviation: np.ndarray
+
+
+@dataclass(frozen=True)
+class Sensitivity:
+    """Sobol' indices of each objective's surrogate over the ranges, and how far the surrogate can be believed.
+
+    `first` and `total` [objective, variable]. `left_out` [objective] is the root mean square error of the surrogate at designs
+    it was not told of, in the objective's unit; `predicted` [objective] the share of the variance that it predicts there, 1 at
+    best, 0 or less where the indices mean nothing. NaN where all designs have the same objective, or too few could be built.
+    """
+
+    first: np.ndarray
+    total: np.ndarray
+    left_out: np.ndarray
+    predicted: np.ndarray
+
+
+def slices(
+    variables: Sequence[Variable], evaluated: Sequence[Evaluated], at: Sequence[float], points: int, seed: int = 0
+) -> Slices:
+    """Mean and standard deviation of each objective at `points` values of each variable, the others as in the design `at`."""
+    along = np.linspace(0.0, 1.0, points)
+    centre = shares(variables, [at])[0]
+    places = np.tile(centre, (len(variables), points, 1))
+    for number in range(len(variables)):
+        places[number, :, number] = along
+    fits = objective_fits(variables, evaluated, seed)
+    bands = np.full((2, _objectives(evaluated), len(variables), points), np.nan)
+    for number, process in enumerate(fits):
+        bands[:, number] = np.reshape(process.at(places.reshape(-1, len(variables))), (2, len(variables), points))
+    values = [variable.lowest + along * (variable.highest - variable.lowest) for variable in variables]
+    return Slices(np.array(values), *bands)
+
+
+def sensitivity(variables: Sequence[Variable], evaluated: Sequence[Evaluated], seed: int) -> Sensitivity:
+    """First-order and total Sobol' indices of each objective, the variables being uniform over their ranges.
+
+    Designs are left out one at a time with the hyperparameters of all. Source: Saltelli et al. (2010), Comput. Phys. Commun.
+    181, 259-270, in scipy.stats.sobol_indices; Q2 as in Marrel et al. (2009), Reliab. Eng. Syst. Saf. 94, 742-751.
+    """
+    objectives = _objectives(evaluated)
+    indices = np.full((2, objectives, len(variables)), np.nan)
+    errors = np.full((2, objectives), np.nan)
+    for number, process in enumerate(objective_fits(variables, evaluated, seed)):
+        if process.is_constant:
+            continue
+        dists = [scipy.stats.uniform()] * len(variables)
+        sobol = scipy.stats.sobol_indices(func=_mean_of(process), n=_SAMPLE, dists=dists, rng=seed)
+        indices[:, number] = sobol.first_order, sobol.total_order
+        misses = process.numbers - [process.without(index)[0] for index in range(len(process.numbers))]
+        errors[:, number] = np.sqrt(np.mean(misses**2)), 1.0 - np.mean(misses**2) / np.var(process.numbers)
+    return Sensitivity(*indices, *errors)
+
+
+def objective_fits(variables: Sequence[Variable], evaluated: Sequence[Evaluated], seed: int) -> list[Fit]:
+    """The process of each objective over shares of the ranges; none where fewer than `FEWEST_DONE` designs could be built."""
+    known = sorted((design for design in evaluated if design.is_done), key=lambda design: (design.values, design.name))
+    if len(known) < FEWEST_DONE:
+        return []
+    points = shares(variables, [design.values for design in known])
+    objectives = np.array([design.objectives for design in known]).T
+    scatters = np.array([design.scatters for design in known]).T
+    return [fit(points, *each, seed) for each in zip(objectives, scatters, strict=True)]
+
+
+def _objectives(evaluated: Sequence[Evaluated]) -> int:
+    return len(evaluated[0].objectives) if evaluated else 0
+
+
+def _mean_of(process: Fit) -> Callable[[np.ndarray], np.ndarray]:
+    return lambda points: process.at(points.T)[0]
