@@ -11,7 +11,7 @@ import xarray as xr
 from r37core.dataset_file import about
 
 from .choice import START, Design, SearchChoice, number
-from .pareto import best_designs, not_dominated
+from .pareto import best_first, not_dominated
 from .problem import Evaluated
 from .rounds import SearchRound
 from .surrogate import sensitivity, slices
@@ -26,13 +26,30 @@ def search_dataset(last: SearchRound, choice: SearchChoice, start_values: Sequen
     designs = {START: start, **last.tried}
     evaluated = {name: design.evaluated(name, choice, last.start) for name, design in designs.items()}
     known = [each for each in evaluated.values() if not np.isnan(each.values).any()]
-    best = best_designs([each for each in evaluated.values() if each.name != START])
+    tried = [each for each in evaluated.values() if each.name != START]
+    order, front = _best(tried, evaluated[START]), {each.name for each in not_dominated(list(evaluated.values()))}
     dataset = xr.Dataset(coords=_coordinates(list(designs), choice))
     dataset = dataset.assign(_of_designs(designs, evaluated, choice)).assign(_of_bounds(choice, last))
-    front = not_dominated(list(evaluated.values()))
     dataset["not_dominated"] = ("design", np.array([name in front for name in designs], "i1"), _NOT_DOMINATED)
-    dataset["order"] = ("design", np.array([best.index(name) + 1 if name in best else 0 for name in designs], "i4"), _ORDER)
-    return dataset.assign(_of_surrogate(known, choice, last.tried[best[0]].values)) if best else dataset
+    places = [order.index(name) + 1 if name in order else 0 for name in designs]
+    dataset["order"] = ("design", np.array(places, "i4"), _ORDER)
+    return dataset.assign(_of_surrogate(known, choice, last.tried[order[0]].values)) if order else dataset
+
+
+def _best(tried: Sequence[Evaluated], start: Evaluated) -> list[str]:
+    """Names of the feasible designs, the best first: by the one objective; of several those that no other beats come first.
+
+    These are in the order of the sum of their objectives, each as a share of the start's, so that what the start has least of
+    counts most; where that is 0, as a share of the largest.
+    """
+    ordered = best_first(tried)
+    if len(start.objectives) == 1:
+        return [each.name for each in ordered]
+    largest = np.max([each.objectives for each in ordered], axis=0, initial=0.0)
+    scales = np.where(np.array(start.objectives) > 0.0, start.objectives, np.where(largest > 0.0, largest, 1.0))
+    front = {each.name for each in not_dominated(tried)}
+    ranked = sorted(ordered, key=lambda each: (each.name not in front, float(np.sum(each.objectives / scales))))
+    return [each.name for each in ranked]
 
 
 _NOT_DOMINATED = about("1", "whether the design keeps all constraints and no other that does is better in all objectives")
@@ -96,11 +113,7 @@ def _of_surrogate(known: list[Evaluated], choice: SearchChoice, at: Sequence[flo
         "slice_deviation": ((*axes, "point"), cut.deviation, about("1", "standard deviation of the surrogate")),
         "sensitivity_first": (axes, indices.first, about("1", "share of the surrogate's variance by the variable alone")),
         "sensitivity_total": (axes, indices.total, about("1", "share in which the variable has a part")),
-        "surrogate_q2": (
-            "objective",
-            indices.q2,
-            about("1", "share of the designs' variance that the surrogate foretells, left out"),
-        ),
+        "surrogate_q2": ("objective", indices.predicted, about("1", "share of the variance that it predicts, each left out")),
     }
 
 

@@ -96,7 +96,10 @@ def _known(value: float) -> float | None:
 
 
 def join(input: Any, output: Any, params: Any) -> None:
-    """All designs in one dataset and table. Input: round, the last. Params: choice, start. Outputs: dataset (nc), table (csv)."""
+    """All designs in one dataset and table. Input: round, the last. Params: choice, start, fidelity.
+
+    Outputs: dataset (nc), table (csv).
+    """
     made = {"fidelity": params.fidelity, "input_hash": recipe_of([input.round])}
     dataset = search_dataset(read_round(input.round), from_plain(SearchChoice, params.choice), params.start)
     write_dataset(dataset, output.dataset, made)
@@ -104,7 +107,10 @@ def join(input: Any, output: Any, params: Any) -> None:
 
 
 def best(input: Any, output: Any, params: Any) -> None:
-    """The best designs as entries and STEP. Inputs: dataset, shapes (geometry of all). Params: entries, number. Output: folder."""
+    """The best designs as entries and STEP. Inputs: dataset, shapes (geometry of all). Output: folder.
+
+    Params: entries, number.
+    """
     search, folder = read_dataset(input.dataset), Path(output.folder)
     order = search["order"].where(search["order"] > 0).dropna("design").sortby(search["order"].where(search["order"] > 0))
     start = list(params.entries)[-1]
