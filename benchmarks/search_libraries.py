@@ -22,12 +22,12 @@ from pathlib import Path
 import numpy as np
 
 from r37core.search import proposal
-from r37core.search.problem import DONE, REFUSED, Evaluated, Variable, shares
+from r37core.search.problem import DONE, REFUSED, Evaluated, SearchVariable, shares
 from r37core.search.proposal import first_designs
 
 EVALUATIONS, BATCH = 60, 6
 TABLE = Path(__file__).with_suffix(".md")
-Proposer = Callable[[Sequence[Variable], list[Evaluated], int, int], list[tuple[float, ...]]]
+Proposer = Callable[[Sequence[SearchVariable], list[Evaluated], int, int], list[tuple[float, ...]]]
 
 
 @dataclass(frozen=True)
@@ -35,7 +35,7 @@ class Problem:
     """A function to be minimised where `margin` is at least 0; designs where `fails` holds have no values."""
 
     name: str
-    variables: tuple[Variable, ...]
+    variables: tuple[SearchVariable, ...]
     first: int
     noise: float
     objective: Callable[[np.ndarray], float]
@@ -77,7 +77,7 @@ PROBLEMS = (
     # the minimum at (9.4, 2.5) breaks the constraint, that at (-3.1, 12.3) cannot be built
     Problem(
         "Branin",
-        (Variable("a", -5.0, 10.0), Variable("b", 0.0, 15.0)),
+        (SearchVariable("a", -5.0, 10.0), SearchVariable("b", 0.0, 15.0)),
         12,
         2.0,
         branin,
@@ -88,7 +88,7 @@ PROBLEMS = (
     # its minimum at (0.20, 0.15, 0.48, 0.28, 0.31, 0.66) is allowed and can be built
     Problem(
         "Hartmann-6",
-        tuple(Variable(f"v{number}", 0.0, 1.0) for number in range(6)),
+        tuple(SearchVariable(f"v{number}", 0.0, 1.0) for number in range(6)),
         18,
         0.05,
         hartmann,
@@ -99,12 +99,14 @@ PROBLEMS = (
 )
 
 
-def plain(variables: Sequence[Variable], evaluated: list[Evaluated], batch: int, seed: int) -> list[tuple[float, ...]]:
+def plain(variables: Sequence[SearchVariable], evaluated: list[Evaluated], batch: int, seed: int) -> list[tuple[float, ...]]:
     """More points of the first designs' sequence."""
     return first_designs(variables, len(evaluated) + batch, seed)[len(evaluated) :]
 
 
-def with_egobox(variables: Sequence[Variable], evaluated: list[Evaluated], batch: int, seed: int) -> list[tuple[float, ...]]:
+def with_egobox(
+    variables: Sequence[SearchVariable], evaluated: list[Evaluated], batch: int, seed: int
+) -> list[tuple[float, ...]]:
     """Expected improvement with constraints, a batch by believing.
 
     Its `suggest` takes no failed designs (it panics, whatever its strategy for them): being built is a second constraint here,
@@ -126,7 +128,9 @@ def with_egobox(variables: Sequence[Variable], evaluated: list[Evaluated], batch
     return [tuple(row) for row in optimiser.suggest(points, numbers, seed=seed + len(evaluated)).tolist()]
 
 
-def with_optuna(variables: Sequence[Variable], evaluated: list[Evaluated], batch: int, seed: int) -> list[tuple[float, ...]]:
+def with_optuna(
+    variables: Sequence[SearchVariable], evaluated: list[Evaluated], batch: int, seed: int
+) -> list[tuple[float, ...]]:
     """Its tree of Parzen estimators; its Gaussian process would need PyTorch, which is not weighed here."""
     import optuna
 
@@ -190,7 +194,7 @@ def smt_fit(points: np.ndarray, numbers: np.ndarray, scatters: np.ndarray, seed:
     return SmtFit(model, points, numbers, scatters, seed, float(numbers.mean()), float(numbers.std()))
 
 
-def with_smt(variables: Sequence[Variable], evaluated: list[Evaluated], batch: int, seed: int) -> list[tuple[float, ...]]:
+def with_smt(variables: Sequence[SearchVariable], evaluated: list[Evaluated], batch: int, seed: int) -> list[tuple[float, ...]]:
     """The acquisition of r37core on the surrogate of SMT."""
     own, proposal.fit = proposal.fit, smt_fit
     try:

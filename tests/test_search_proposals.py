@@ -12,11 +12,11 @@ from r37core.plain import from_plain, to_plain
 from r37core.search import gaussian_processes
 from r37core.search.gaussian_processes import SearchPackageMissing
 from r37core.search.pareto import best_first, not_dominated
-from r37core.search.problem import Evaluated, Variable, designs_at, shares
+from r37core.search.problem import Evaluated, SearchVariable, designs_at, shares
 from r37core.search.proposal import NEAR, first_designs, propose
 from r37core.search.surrogate import sensitivity, slices
 
-SQUARE = (Variable("a", -2.0, 2.0), Variable("b", 0.0, 8.0))
+SQUARE = (SearchVariable("a", -2.0, 2.0), SearchVariable("b", 0.0, 8.0))
 BEST = np.array([0.6, 5.6])
 NOTHING = (math.nan,)
 
@@ -151,7 +151,7 @@ def test_without_a_feasible_design_the_next_ones_come_nearer():
 
 
 def test_one_variable_has_room_for_few_designs():
-    line = (Variable("a", 0.0, 1.0),)
+    line = (SearchVariable("a", 0.0, 1.0),)
     known = with_objectives(first_designs(line, 64, 0), lambda values: (values[0],))
     proposed = propose(line, known, 6, 0)
     assert len({*proposed, *(design.values for design in known)}) == 70
@@ -173,11 +173,11 @@ def test_of_two_objectives_the_whole_front_is_proposed():
 
 
 def test_designs_have_few_digits_and_lie_in_the_ranges():
-    variables = (Variable("small", -1e-3 / 3, 1e-3 / 3), Variable("large", 10_000.0, 10_020.0))
+    variables = (SearchVariable("small", -1e-3 / 3, 1e-3 / 3), SearchVariable("large", 10_000.0, 10_020.0))
     values = designs_at(variables, np.array([[0.0, 0.123456789], [1.0, 1.0]]))
     assert values == [(-0.00033333, 10_002.469), (0.00033333, 10_020.0)]
     with pytest.raises(ValueError, match="sweep: found 2"):
-        Variable("sweep", 2.0, 2.0)
+        SearchVariable("sweep", 2.0, 2.0)
 
 
 def test_designs_of_another_search_are_refused():

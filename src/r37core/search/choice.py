@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from .problem import Evaluated, Variable
+from .problem import Evaluated, SearchVariable
 from .quantity import Quantity
 
 SURROGATE, QUASI_RANDOM = "surrogate", "quasi_random"
@@ -42,7 +42,7 @@ class Constraint:
 class SearchChoice:
     """Variables, objectives and constraints by name, and how the search goes on; see SearchSection."""
 
-    variables: tuple[Variable, ...]
+    variables: tuple[SearchVariable, ...]
     objectives: Mapping[str, Quantity]
     constraints: Mapping[str, Constraint]
     designs: int

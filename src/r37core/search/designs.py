@@ -20,7 +20,7 @@ from r37core.config.section_laws import SECTION_KEYS
 from r37core.plans.member_values import drawn, is_of_sample, sobol_points
 from r37core.plans.samples import NOMINAL, Member, Pair, Sample, path_part
 
-from .problem import Variable
+from .problem import SearchVariable
 from .section import SearchSection
 
 FOLDER = "search"
@@ -67,9 +67,9 @@ class SearchDesigns:
         return [entry for name in names if isinstance(entry := entries[name], BladeEntry)]
 
     @property
-    def variables(self) -> tuple[Variable, ...]:
+    def variables(self) -> tuple[SearchVariable, ...]:
         """What varies between which bounds, in the units of the keys."""
-        return tuple(Variable(key, *bounds) for key, bounds in self.entry.variables.items())
+        return tuple(SearchVariable(key, *bounds) for key, bounds in self.entry.variables.items())
 
     @cached_property
     def scenes(self) -> tuple[str, ...]:

@@ -18,7 +18,7 @@ FEWEST_DONE = 3
 
 
 @dataclass(frozen=True)
-class Variable:
+class SearchVariable:
     """A number of the blade and the range that is searched; any unit. Raises ValueError for a range without a width."""
 
     key: str
@@ -57,13 +57,13 @@ class Evaluated:
         return self.is_done and all(margin >= 0 for margin in self.margins)
 
 
-def shares(variables: Sequence[Variable], values: Sequence[Sequence[float]]) -> np.ndarray:
+def shares(variables: Sequence[SearchVariable], values: Sequence[Sequence[float]]) -> np.ndarray:
     """Where designs [design, variable] lie in the ranges: 0 at the lowest values, 1 at the highest."""
     lowest, width = _ranges(variables)
     return (np.asarray(values, dtype=float).reshape(-1, len(variables)) - lowest) / width
 
 
-def designs_at(variables: Sequence[Variable], points: np.ndarray) -> list[tuple[float, ...]]:
+def designs_at(variables: Sequence[SearchVariable], points: np.ndarray) -> list[tuple[float, ...]]:
     """Values of the designs at `points` (shares of the ranges), in decimal steps of at most 1e-4 of each range, within it."""
     lowest, width = _ranges(variables)
     # a range of 20 has steps of 0.001, one of 0.3 of 0.00001
@@ -77,6 +77,6 @@ def designs_at(variables: Sequence[Variable], points: np.ndarray) -> list[tuple[
     ]
 
 
-def _ranges(variables: Sequence[Variable]) -> tuple[np.ndarray, np.ndarray]:
+def _ranges(variables: Sequence[SearchVariable]) -> tuple[np.ndarray, np.ndarray]:
     lowest = np.array([variable.lowest for variable in variables])
     return lowest, np.array([variable.highest for variable in variables]) - lowest

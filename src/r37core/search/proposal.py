@@ -17,7 +17,7 @@ import numpy as np
 import scipy
 
 from .gaussian_processes import Fit, fit, fit_chance
-from .problem import FEWEST_DONE, Evaluated, Variable, designs_at, shares
+from .problem import FEWEST_DONE, Evaluated, SearchVariable, designs_at, shares
 
 NEAR = 0.01
 """Two designs differ by at least this share of the range of some variable, as long as there is room for it."""
@@ -27,12 +27,14 @@ _DRAWS = 64
 _SMALLEST = 1e-300
 
 
-def first_designs(variables: Sequence[Variable], number: int, seed: int) -> list[tuple[float, ...]]:
+def first_designs(variables: Sequence[SearchVariable], number: int, seed: int) -> list[tuple[float, ...]]:
     """The first `number` designs of a scrambled Sobol sequence: more of them change none. This is plain sampling, too."""
     return designs_at(variables, _sobol(len(variables), number, seed))
 
 
-def propose(variables: Sequence[Variable], evaluated: Sequence[Evaluated], batch: int, seed: int) -> list[tuple[float, ...]]:
+def propose(
+    variables: Sequence[SearchVariable], evaluated: Sequence[Evaluated], batch: int, seed: int
+) -> list[tuple[float, ...]]:
     """The next `batch` designs, values in the order of `variables`.
 
     They depend on nothing but the arguments: neither on the order of `evaluated` nor on the number of cores. Raises ValueError
@@ -197,7 +199,7 @@ def _sobol(variables: int, number: int, seed: int) -> np.ndarray:
     return scipy.stats.qmc.Sobol(variables, rng=seed).random_base2(doublings)[:number]
 
 
-def _check(variables: Sequence[Variable], evaluated: Sequence[Evaluated]) -> None:
+def _check(variables: Sequence[SearchVariable], evaluated: Sequence[Evaluated]) -> None:
     lengths = {(len(design.objectives), len(design.margins)) for design in evaluated if design.is_done}
     if len(lengths) > 1:
         raise ValueError(f"designs with different numbers of objectives and margins: {sorted(lengths)}")

@@ -79,7 +79,7 @@ class Quantity:
 
 
 @dataclass(frozen=True)
-class Structure:
+class DesignStructure:
     """What is known of a design before anything touches it. `volume` (m3), `density` (kg/m3).
 
     `campbell`: its Campbell diagram; `static_stress` (Pa) by rotation at the speeds (rad/s) that are asked for.
@@ -101,7 +101,7 @@ def static_stress(stress: StressOperator, stiffening: np.ndarray, speeds: Sequen
     return dict(zip(speeds, stress.max_von_mises(np.concatenate([still, amplitudes], axis=1)).tolist(), strict=True))
 
 
-def of_structure(quantity: Quantity, structure: Structure, highest_speed: float) -> float:
+def of_structure(quantity: Quantity, structure: DesignStructure, highest_speed: float) -> float:
     """The value of a quantity without contact; `highest_speed` (rad/s): where the static stress is taken that names no speed.
 
     Raises KeyError for a mode or engine order that the Campbell diagram does not have.

@@ -21,7 +21,7 @@ from r37core.stress.operator import read_stress_operator
 from .choice import SearchChoice
 from .dataset import search_dataset, search_table
 from .entries import entries_of, write_entries
-from .quantity import Structure, of_contact, of_structure, static_stress
+from .quantity import DesignStructure, of_contact, of_structure, static_stress
 from .rounds import first_round, read_round, round_after, write_round
 
 
@@ -71,7 +71,7 @@ def measure(input: Any, output: Any, params: Any) -> None:
     choice = from_plain(SearchChoice, params.choice)
     speeds = {quantity.speed or params.highest_speed for quantity in choice.quantities.values()}
     stiffening = read_contact_model(input.contact).rotation_stiffening
-    structure = Structure(
+    structure = DesignStructure(
         volume=float(read_dataset(input.geometry)["volume"]),
         density=params.density,
         campbell=read_dataset(input.campbell),

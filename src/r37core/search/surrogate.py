@@ -9,7 +9,7 @@ import numpy as np
 import scipy
 
 from .gaussian_processes import Fit, fit
-from .problem import FEWEST_DONE, Evaluated, Variable, shares
+from .problem import FEWEST_DONE, Evaluated, SearchVariable, shares
 
 _SAMPLE = 1024
 
@@ -27,7 +27,7 @@ class Slices:
 
 
 @dataclass(frozen=True)
-class Sensitivity:
+class SurrogateSensitivity:
     """Sobol' indices of each objective's surrogate over the ranges, and how far the surrogate can be believed.
 
     `first` and `total` [objective, variable]. `left_out` [objective] is the root mean square error of the surrogate at designs
@@ -42,7 +42,7 @@ class Sensitivity:
 
 
 def slices(
-    variables: Sequence[Variable], evaluated: Sequence[Evaluated], at: Sequence[float], points: int, seed: int = 0
+    variables: Sequence[SearchVariable], evaluated: Sequence[Evaluated], at: Sequence[float], points: int, seed: int = 0
 ) -> Slices:
     """Mean and standard deviation of each objective at `points` values of each variable, the others as in the design `at`."""
     along = np.linspace(0.0, 1.0, points)
@@ -58,7 +58,7 @@ def slices(
     return Slices(np.array(values), *bands)
 
 
-def sensitivity(variables: Sequence[Variable], evaluated: Sequence[Evaluated], seed: int) -> Sensitivity:
+def sensitivity(variables: Sequence[SearchVariable], evaluated: Sequence[Evaluated], seed: int) -> SurrogateSensitivity:
     """First-order and total Sobol' indices of each objective, the variables being uniform over their ranges.
 
     Designs are left out one at a time with the hyperparameters of all. Source: Saltelli et al. (2010), Comput. Phys. Commun.
@@ -75,10 +75,10 @@ def sensitivity(variables: Sequence[Variable], evaluated: Sequence[Evaluated], s
         indices[:, number] = sobol.first_order, sobol.total_order
         misses = process.numbers - [process.without(index)[0] for index in range(len(process.numbers))]
         errors[:, number] = np.sqrt(np.mean(misses**2)), 1.0 - np.mean(misses**2) / np.var(process.numbers)
-    return Sensitivity(*indices, *errors)
+    return SurrogateSensitivity(*indices, *errors)
 
 
-def objective_fits(variables: Sequence[Variable], evaluated: Sequence[Evaluated], seed: int) -> list[Fit]:
+def objective_fits(variables: Sequence[SearchVariable], evaluated: Sequence[Evaluated], seed: int) -> list[Fit]:
     """The process of each objective over shares of the ranges; none where fewer than `FEWEST_DONE` designs could be built."""
     known = sorted((design for design in evaluated if design.is_done), key=lambda design: (design.values, design.name))
     if len(known) < FEWEST_DONE:
