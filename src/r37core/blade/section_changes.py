@@ -143,6 +143,9 @@ class _Centreline:
 
 def _redrawn(profile: ProfileParameters, change: SectionChange) -> ProfileParameters:
     """With another stagger, camber and chord. Raises BladeShapeError where no arcs have them."""
+    if not change.chord > 0.0:
+        # a spline through shares may pass below them
+        raise BladeShapeError(f"{profile.label}: the share of the chord is {100 * change.chord:g}%; it must be positive")
     line = _Centreline.of(profile)
     direction, length = line.chord()
     wanted = np.array([direction + change.stagger, change.chord * length])
