@@ -56,15 +56,9 @@ class SearchDesigns:
     @property
     def start(self) -> BladeEntry:
         """The entry of blades.yaml that all designs have in common."""
-        return self.chain[0]
-
-    @property
-    def chain(self) -> list[BladeEntry]:
-        """The start and the bases that it has, each after the one that is based on it."""
-        entries, names = self.settings.designs.entries, [self.entry.blade]
-        while (base := getattr(entries[names[-1]], "base", None)) is not None:
-            names.append(base)
-        return [entry for name in names if isinstance(entry := entries[name], BladeEntry)]
+        entry = self.settings.designs.entries[self.entry.blade]
+        assert isinstance(entry, BladeEntry)
+        return entry
 
     @property
     def variables(self) -> tuple[SearchVariable, ...]:
@@ -81,7 +75,7 @@ class SearchDesigns:
     @property
     def start_values(self) -> list[float | None]:
         """Values of the variables that the start has; None where neither its entry says nor a key that is left out."""
-        return [start_value(self.chain, key) for key in self.entry.variables]
+        return [start_value(self.start, key) for key in self.entry.variables]
 
     def with_values(self, name: str, values: Mapping[str, float]) -> BladeEntry:
         """The entry with other values of some variables. Raises ConfigError for one that a blade cannot have."""
@@ -146,14 +140,13 @@ class SearchDesigns:
         return changes
 
 
-def start_value(chain: Sequence[BladeEntry], key: str) -> float | None:
-    """Value of a dotted key of the first of some entries, the others its bases; None where it has none.
+def start_value(entry: BladeEntry, key: str) -> float | None:
+    """Value of a dotted key of an entry; None where it has none.
 
     A share, or a law over the span, that is left out has the value that changes nothing.
     """
     first, *others = key.split(".")
-    several = chain if first in SECTION_KEYS else chain[:1]
-    inner: Any = next((value for entry in several if (value := getattr(entry, first, None)) is not None), None)
+    inner: Any = getattr(entry, first, None)
     if inner is None and (first in SECTION_KEYS or key in SHARES):
         return 100.0 if first.endswith("_percent") else 0.0
     for step in others:

@@ -39,11 +39,11 @@ class QuantitySection(Section):
 
     @model_validator(mode="after")
     def _has_what_it_needs(self) -> QuantitySection:
-        given = [key for key in ("scenes", "mode", "engine_order", "speed_rad_s") if getattr(self, key) is not None]
+        named = [key for key in ("scenes", "mode", "engine_order", "speed_rad_s") if getattr(self, key) is not None]
         needed, allowed = NEEDS[self.measure]
-        if missing := [key for key in needed if key not in given]:
+        if missing := [key for key in needed if key not in named]:
             raise refused((), f"{self.measure} without {', '.join(missing)}", f"{' and '.join(needed)} beside it")
-        if strange := [key for key in given if key not in (*needed, *allowed)]:
+        if strange := [key for key in named if key not in (*needed, *allowed)]:
             raise refused((strange[0],), f"{strange[0]} with {self.measure}", "the key left out")
         return self
 
