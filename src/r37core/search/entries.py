@@ -12,6 +12,8 @@ import yaml
 from r37core.config.families import with_value
 from r37core.io import write_text
 
+from .choice import START
+
 _HEADER = """\
 # The best designs of a search: entries to paste into your blades.yaml, or a file of its own with the blades they start from. To
 # run them at another level, with tolerances or in other scenes:
@@ -21,36 +23,35 @@ _HEADER = """\
 
 
 def entries_of(search: xr.Dataset, designs: Sequence[str], start: str, entries: Mapping[str, Any]) -> dict[str, Any]:
-    """Name -> entry of some designs; `entries`: those that they start at, of which `start` is the last.
+    """Name -> entry of some designs, the best first: the start's name with _best1, _best2, ...
 
-    A name is that of the start and of the design.
+    `entries`: those that they start at, of which `start` is the last.
     """
     made: dict[str, Any] = {}
-    for design in designs:
+    for place, design in enumerate(designs, 1):
         content = dict(entries[start])
         for key, value in zip(search["variable"].values, search["value"].sel(design=design).values, strict=True):
             content = with_value(content, str(key).split("."), float(value))
-        made[f"{start}_{design}"] = content
+        made[f"{start}_best{place}"] = content
     return made
 
 
-def write_entries(search: xr.Dataset, made: Mapping[str, Any], entries: Mapping[str, Any], file: Path | str) -> None:
-    """Write the entries as YAML, each with what it gave, after those that they start at."""
-    parts = [_HEADER.format(file=file, names=", ".join(made)), _text(entries)]
-    for entry, content in made.items():
-        of = search.sel(design=entry.rpartition("_")[2])
-        values = [
-            f"{objective} {float(value):.4g} {unit}"
-            for objective, value, unit in zip(
-                of["objective"].values, of["objective_value"].values, of["objective_unit"].values, strict=True
-            )
-        ]
-        parts.append(f"# {', '.join(values)} (the start: {_start(search)})\n{_text({entry: content})}")
+def write_entries(
+    search: xr.Dataset, made: Mapping[str, Any], designs: Sequence[str], entries: Mapping[str, Any], file: Path | str
+) -> None:
+    """Write the entries of the `designs` as YAML, each with what it gave, after those that they start at."""
+    parts = [_HEADER.format(file=file, names=", ".join([list(entries)[-1], *made])), _text(entries)]
+    for (name, content), design in zip(made.items(), designs, strict=True):
+        parts.append(
+            f"# {design}: {_objectives(search, design)}; the start: {_objectives(search, START)}\n{_text({name: content})}"
+        )
     write_text("\n".join(parts), file)
 
 
-def _start(search: xr.Dataset) -> str:
-    return ", ".join(f"{float(value):.4g}" for value in search["objective_value"].sel(design="start").values)
+def _objectives(search: xr.Dataset, design: str) -> str:
+    of = search.sel(design=design)
+    values = zip(of["objective"].values, of["objective_value"].values, of["objective_unit"].values, strict=True)
+    return ", ".join(f"{name} {float(value):.4g} {unit}" for name, value, unit in values)
 
 
 def _text(entries: Mapping[str, Any]) -> str:

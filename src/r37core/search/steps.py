@@ -112,11 +112,13 @@ def best(input: Any, output: Any, params: Any) -> None:
     Params: entries, number.
     """
     search, folder = read_dataset(input.dataset), Path(output.folder)
-    order = search["order"].where(search["order"] > 0).dropna("design").sortby(search["order"].where(search["order"] > 0))
-    start = list(params.entries)[-1]
-    made = entries_of(search, order["design"].values[: params.number].tolist(), start, params.entries)
+    best_first = sorted(
+        (int(order), str(name)) for name, order in zip(search["design"].values, search["order"].values, strict=True)
+    )
+    designs = [name for order, name in best_first if order > 0][: params.number]
+    made = entries_of(search, designs, list(params.entries)[-1], params.entries)
     folder.mkdir(parents=True)
-    write_entries(search, made, params.entries, folder / "blades.yaml")
+    write_entries(search, made, designs, params.entries, folder / "blades.yaml")
     files = {Path(file).parent.parent.name: file for file in as_list(input.shapes)}
-    for name in made:
-        write_step(read_geometry(files[name.rpartition("_")[2]]), folder / f"{name}.step")
+    for name, design in zip(made, designs, strict=True):
+        write_step(read_geometry(files[design]), folder / f"{name}.step")
