@@ -69,6 +69,11 @@ _EXPLORER = tuple(
     for name in ("explorer.html", "explorer.css", "theme.js", "words.js", "ranking.js", "interactions.js", "explorer.js")
 )
 _RINGS = ("rings", "flexibility", "peaks", "direct", "diameters", "coincidences", "causes", "growth", "overtaken", "cost")
+_SEARCH = ("compared", "best", "confirmed", "ranks", "depends")
+_OTHER_SEARCHES = (("surrogate", 1), ("surrogate", 2), *(("quasi_random", seed) for seed in range(3)))
+_PROPOSING = ("gaussian_processes", "proposal", "quantity", "dataset", "pareto", "surrogate")
+_OF_SEARCH = "--configfile config/config.yaml"
+_SEARCHED = f"{{snakemake}} search {_OF_SEARCH}"
 _ROTORS = ("lengths", "worst", "growth", "longer", "ranking", "steps")
 _RANKING = ("", "_statistic", "_direct", "_lined", "_missed", "_cost", "_chances_direct", "_chances_lined")
 _MODELS = " ".join(
@@ -347,6 +352,36 @@ CLAIMS = (
         code=("benchmarks/rotor.py",),
         configuration=_BENCHMARK,
         numbers=("structure", "lined", "stress"),
+    ),
+    Claim(
+        "search",
+        (
+            *(Output(f"docs/search.md#search_{name}", f"{STUDIES}/search_{name}.md") for name in _SEARCH),
+            picture("search_designs", "results/runs/search/figures/search_designs.png", "search/figures"),
+            picture("search_slices", "results/runs/search/figures/search_slices.png", "search/figures"),
+        ),
+        (
+            f"{_SEARCHED} config/search.yaml",
+            *(
+                f"{_SEARCHED} config/search.yaml --config run='{{name: search_{method}_{seed}}}' "
+                f"search='{{method: {method}, seed: {seed}}}'"
+                for method, seed in _OTHER_SEARCHES
+            ),
+            "{python} benchmarks/search.py designs",
+            f"{{snakemake}} results/runs/search_ranks/ranking.csv {_OF_SEARCH} config/search.yaml --config "
+            "fidelity=standard blades=all "
+            "run='{name: search_ranks}' blades_file=results/studies/search/designs.yaml",
+            f"{_MAKE} {_OF_SEARCH} config/search_best.yaml",
+            "{python} benchmarks/search.py",
+        ),
+        minutes=150,
+        code=("benchmarks/search.py", *(f"src/r37core/search/{name}.py" for name in _PROPOSING)),
+        configuration=(
+            *("config/search.yaml", "config/search_blades.yaml", "config/search_best.yaml"),
+            *("config/profiles/rotor37.csv", _STRUCTURE, _LINED, _DIRECT, "config/scenes.yaml:rotor_abradable"),
+            *_levels("draft", "standard"),
+        ),
+        numbers=(*_ALL, "stress"),
     ),
     Claim(
         "run_ups",
