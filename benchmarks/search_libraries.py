@@ -2,9 +2,9 @@
 
     python benchmarks/search_libraries.py [SEEDS]
 
-writes benchmarks/search_libraries.md. The candidates are not in envs/lock.txt: pip install egobox smt optuna openturns pymoo. SMT and
-scikit-learn are surrogates under the acquisition of r37core.search; egobox and Optuna propose by themselves. OpenTURNS and pymoo
-are weighed only: the first proposes one design at a time, the second evolves populations of many more evaluations.
+writes benchmarks/search_libraries.md. The candidates are not in envs/lock.txt: pip install egobox smt optuna openturns pymoo.
+SMT and scikit-learn are surrogates under the acquisition of r37core.search; egobox and Optuna propose by themselves. OpenTURNS
+and pymoo are weighed only: the first runs the function itself, the second evolves populations over many more evaluations.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from pathlib import Path
 import numpy as np
 
 from r37core.search import proposal
-from r37core.search.problem import DONE, REFUSED, Evaluated, SearchVariable, shares
+from r37core.search.problem import DONE, REFUSED, Evaluated, SearchVariable
 from r37core.search.proposal import first_designs
 
 EVALUATIONS, BATCH = 60, 6
@@ -205,7 +205,7 @@ def with_smt(variables: Sequence[SearchVariable], evaluated: list[Evaluated], ba
 
 @dataclass(frozen=True)
 class Candidate:
-    """What proposes (None: only weighed), its distributions that r37 has not anyway, its last release and what it says it does."""
+    """What proposes (None: only weighed), its distributions that r37 lacks, its last release and what it says it does."""
 
     name: str
     propose: Proposer | None

@@ -69,6 +69,7 @@ class Models:
             self,
             objectives=tuple(each.believing(point) for each in self.objectives),
             margins=tuple(each.believing(point) for each in self.margins),
+            feasible=np.vstack([self.feasible, point]) if len(self.feasible) else self.feasible,
         )
 
     def log_chance(self, points: np.ndarray) -> np.ndarray:
