@@ -1,11 +1,322 @@
-"""stub"""
+"""A search: how good its designs became, the objectives against each other, and what each variable does."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import combinations
+from typing import Any, NamedTuple
 
 import matplotlib.pyplot as plt
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.ticker import FixedLocator, FuncFormatter, MaxNLocator, NullLocator
+
+from r37core.figures import style
+
+from .choice import START
+from .shown import in_lines, shown_unit, with_unit
+
+_START_LOOK: dict[str, Any] = {"color": "0.15", "marker": "s", "markersize": 5, "linestyle": "none", "zorder": 5}
+_BEST_LOOK: dict[str, Any] = {"color": style.COLOURS[1], "marker": "*", "markersize": 8, "linestyle": "none", "zorder": 6}
+_KEEPS = "keeps all constraints"
+_BREAKS = "breaks a constraint"
+
+_SKEWED = 0.1
+"""Values of at least 0, the smallest below this share of the largest, are drawn on a square-root scale."""
+
+_MOST_NAMED = 8
+"""Designs that none is better than, with their names beside them."""
+
+_MOST_COLUMNS = 5
+"""Panels of slices beside each other."""
 
 
-def draw_designs(search):
-    return plt.figure()
+class _Objective(NamedTuple):
+    """What is drawn of an objective: label of its axis, and values and scatter [design] in its shown unit."""
+
+    label: str
+    values: np.ndarray
+    scatter: np.ndarray
+
+    @property
+    def is_skewed(self) -> bool:
+        known = self.values[np.isfinite(self.values)]
+        return bool(known.size) and known.min() >= 0.0 and known.min() < _SKEWED * known.max()
+
+    @property
+    def axis_label(self) -> str:
+        return f"{self.label}\nsquare-root scale" if self.is_skewed else self.label
 
 
-def draw_slices(search):
-    return plt.figure()
+def draw_designs(search: xr.Dataset) -> Figure:
+    """Best value of each objective over the number of designs; objectives against each other, a single one over the rounds."""
+    objectives = [_objective(search, name) for name in search["objective"].values]
+    pairs = list(combinations(objectives, 2))
+    rows, columns = _grid(max(len(pairs), 1))
+    heights = max(1.7 * len(objectives), (3.2 if len(pairs) <= 1 else 2.4) * rows)
+    figure = plt.figure(figsize=(style.PAGE, heights + 0.6))
+    parts: Any = figure.subfigures(1, 2, width_ratios=[1.0, 1.15 if columns == 1 else 1.7])
+    left, right = parts
+    panels_of_best = _panels(left, len(objectives), 1)
+    for number, (axes, objective) in enumerate(zip(panels_of_best, objectives, strict=True)):
+        _draw_best(axes, search, objective, style.COLOURS[number % len(style.COLOURS)])
+    panels_of_best[-1].set_xlabel("designs tried; dotted: the first designs end")
+    panels = _panels(right, rows, columns)
+    if pairs:
+        for axes, (one, other) in zip(panels, pairs, strict=False):
+            _draw_pair(axes, search, one, other, joined=len(pairs) == 1)
+    else:
+        _draw_rounds(panels[0], search, objectives[0])
+    for axes in panels[max(len(pairs), 1) :]:
+        axes.set_axis_off()
+    figure.legend(*style.legend_entries(panels), loc="outside lower center", ncols=5)
+    figure.suptitle(_title(search))
+    return figure
+
+
+def draw_slices(search: xr.Dataset) -> Figure:
+    """Surrogate of each objective along each variable through the best design, with the designs; see the captions."""
+    names, variables = search["objective"].values, search["variable"].values
+    columns = min(len(variables), _MOST_COLUMNS)
+    rows_of_one = -(-len(variables) // columns)
+    rows = rows_of_one * len(names)
+    figure = plt.figure(figsize=(style.PAGE, 1.45 * rows + 1.0))
+    grid = figure.subplots(rows, columns, squeeze=False, sharey=False)
+    for number, name in enumerate(names):
+        panels = grid[number * rows_of_one : (number + 1) * rows_of_one].ravel()
+        objective = _objective(search, name)
+        limits = _limits(objective.values)
+        for place, (axes, key) in enumerate(zip(panels, variables, strict=False)):
+            _draw_slice(axes, search.sel(objective=name, variable=key), objective)
+            axes.set_ylim(limits)
+            if place % columns:
+                axes.tick_params(labelleft=False)
+            else:
+                axes.set_ylabel(objective.label + _quality(search, name))
+            if rows_of_one > 1 or number == len(names) - 1:
+                axes.set_xlabel(in_lines(str(key)), fontsize=7)
+            else:
+                axes.tick_params(labelbottom=False)
+        for axes in panels[len(variables) :]:
+            axes.set_axis_off()
+    figure.legend(*style.legend_entries(grid.flat), loc="outside lower center", ncols=6)
+    known = "slice_mean" in search and bool(search["slice_mean"].notnull().any())
+    figure.suptitle(_title(search) if known else f"{_title(search)}; too few for a surrogate")
+    return figure
+
+
+def _objective(search: xr.Dataset, name: str) -> _Objective:
+    of_objective = search.sel(objective=name)
+    unit, factor = shown_unit(of_objective["objective_unit"].item())
+    values, scatter = (factor * of_objective[f"objective_{part}"].values for part in ("value", "scatter"))
+    return _Objective(with_unit(str(name), unit), values, scatter)
+
+
+def _title(search: xr.Dataset) -> str:
+    """How many designs there are, and how many of them are of use."""
+    designs = search.isel(design=_tried(search))
+    feasible, refused = int(designs["feasible"].sum()), int(np.sum(designs["refused"].values != ""))
+    built = f", {refused} cannot be built" if refused else ""
+    constraints = f", {feasible} keep all constraints" if search.sizes["constraint"] else ""
+    return f"search: {designs.sizes['design']} designs{constraints}{built}"
+
+
+def _is_start(search: xr.Dataset) -> np.ndarray:
+    return search["design"].values == START
+
+
+def _tried(search: xr.Dataset) -> np.ndarray:
+    """Places of all designs but the start."""
+    return np.flatnonzero(~_is_start(search))
+
+
+def _is_feasible(search: xr.Dataset) -> np.ndarray:
+    return search["feasible"].values.astype(bool)
+
+
+def _grid(number: int) -> tuple[int, int]:
+    """Rows and columns of so many panels."""
+    columns = 1 if number <= 3 else 2
+    return -(-number // columns), columns
+
+
+def _panels(figure: Any, rows: int, columns: int) -> list[Axes]:
+    return list(figure.subplots(rows, columns, squeeze=False).flat)
+
+
+def _draw_best(axes: Axes, search: xr.Dataset, objective: _Objective, colour: str) -> None:
+    """Best feasible value so far over the number of designs, the start as a line, and where the first designs end."""
+    tried = _tried(search)
+    values = np.where(_is_feasible(search), objective.values, np.inf)[tried]
+    best = np.minimum.accumulate(np.where(np.isnan(values), np.inf, values))
+    numbers = np.arange(1, len(tried) + 1)
+    if np.isfinite(best).any():
+        axes.plot(numbers, np.where(np.isfinite(best), best, np.nan), drawstyle="steps-post", color=colour)
+        axes.plot(numbers[-1], best[-1], "o", color=colour, markersize=4, clip_on=False)
+        near: dict[str, Any] = {"textcoords": "offset points", "ha": "right", "va": "bottom", "fontsize": 7}
+        axes.annotate(f"{best[-1]:.4g}", (numbers[-1], best[-1]), (-3, 4), color=colour, **near)
+    else:
+        style.say(axes, "no design keeps all constraints" if search.sizes["constraint"] else "no design could be built")
+    start = objective.values[_is_start(search)]
+    if np.isfinite(start).all():
+        (level,) = start
+        axes.axhline(level, color=_START_LOOK["color"], linewidth=0.9, linestyle="--")
+        near = {"transform": axes.get_yaxis_transform(), "va": "bottom", "ha": "right", "fontsize": 7}
+        axes.text(1.0, level, f"start {level:.4g}", color=_START_LOOK["color"], **near)
+    first = int(np.sum(search["round"].values[tried] == 0))
+    if first < len(tried):
+        axes.axvline(first + 0.5, color="0.5", linewidth=0.8, linestyle=":")
+    axes.set_xlim(0.0, len(tried) + 1.0)
+    axes.xaxis.set_major_locator(MaxNLocator(integer=True))
+    shown = objective._replace(values=np.append(best[np.isfinite(best)], start))
+    axes.set_ylabel(f"best {shown.axis_label}")
+    _scale(axes, "y", shown)
+
+
+def _draw_pair(axes: Axes, search: xr.Dataset, one: _Objective, other: _Objective, joined: bool) -> None:
+    """An objective against another: lower left is better."""
+    start = _is_start(search)
+    for kept, look in _kinds(search):
+        _bars(axes, one, other, kept & ~start)
+        axes.plot(one.values[kept & ~start], other.values[kept & ~start], **look)
+    front = search["not_dominated"].values.astype(bool)
+    order = np.flatnonzero(front)[np.lexsort((other.values[front], one.values[front]))]
+    line = "-" if joined else "none"
+    look = {
+        "color": style.COLOURS[1],
+        "marker": "o",
+        "markersize": 4.5,
+        "zorder": 4,
+        "label": "none is better in all objectives",
+    }
+    axes.plot(one.values[order], other.values[order], drawstyle="steps-post", linestyle=line, clip_on=False, **look)
+    if len(order) <= _MOST_NAMED:
+        for index in order[~start[order]]:
+            at = one.values[index], other.values[index]
+            axes.annotate(str(search["design"].values[index]), at, (4, 3), textcoords="offset points", fontsize=6, color="0.2")
+    axes.plot(one.values[start], other.values[start], label=START, clip_on=False, **_START_LOOK)
+    axes.set_xlabel(one.axis_label)
+    axes.set_ylabel(other.axis_label)
+    _scale(axes, "x", one)
+    _scale(axes, "y", other)
+
+
+def _draw_rounds(axes: Axes, search: xr.Dataset, objective: _Objective) -> None:
+    """The single objective over the rounds, the start before the first."""
+    start, rounds = _is_start(search), search["round"].values
+    for kept, look in _kinds(search):
+        at = kept & ~start
+        _bars(axes, _Objective("", rounds.astype(float), np.full(len(rounds), np.nan)), objective, at)
+        axes.plot(rounds[at], objective.values[at], **look)
+    best = search["order"].values == 1
+    axes.plot(rounds[best], objective.values[best], label="best", **_BEST_LOOK)
+    axes.plot(rounds[start], objective.values[start], label=START, **_START_LOOK)
+    axes.set_xlabel("round, 0 the first designs")
+    axes.set_ylabel(objective.axis_label)
+    axes.xaxis.set_major_locator(MaxNLocator(integer=True))
+    axes.xaxis.set_major_formatter(FuncFormatter(lambda round, _: START if round == -1 else f"{round:.0f}"))
+    _scale(axes, "y", objective)
+
+
+def _draw_slice(axes: Axes, search: xr.Dataset, objective: _Objective) -> None:
+    """One objective along one variable."""
+    values, start = search["value"].values, _is_start(search)
+    for kept, look in _kinds(search):
+        axes.plot(values[kept & ~start], objective.values[kept & ~start], **{**look, "markersize": 2.5, "alpha": 0.5})
+    if "slice_mean" in search and search["slice_mean"].notnull().any():
+        factor = shown_unit(search["objective_unit"].item())[1]
+        along, mean, deviation = (search[f"slice_{part}"].values for part in ("value", "mean", "deviation"))
+        low, middle, high = (factor * (mean + number * deviation) for number in (-2.0, 0.0, 2.0))
+        band = "band of two standard deviations"
+        axes.fill_between(along, low, high, color=style.COLOURS[4], alpha=0.3, linewidth=0.0, label=band)
+        axes.plot(along, middle, color=style.COLOURS[0], label="surrogate")
+        share = float(search["sensitivity_total"])
+        if np.isfinite(share):
+            axes.set_title(f"total {max(share, 0.0):.2f}", fontsize=7, pad=2)
+    best = search["order"].values == 1
+    axes.plot(values[start], objective.values[start], label=START, **{**_START_LOOK, "markersize": 4})
+    axes.plot(values[best], objective.values[best], label="best", **_BEST_LOOK)
+    lowest, highest = float(search["lowest"]), float(search["highest"])
+    room = 0.04 * (highest - lowest)
+    axes.set_xlim(lowest - room, highest + room)
+    axes.xaxis.set_major_locator(MaxNLocator(3))
+
+
+def _kinds(search: xr.Dataset) -> Iterator[tuple[np.ndarray, dict[str, Any]]]:
+    """Which designs break a constraint, and which keep all of them, and how they are drawn; only what there is."""
+    feasible = _is_feasible(search)
+    common: dict[str, Any] = {"marker": "o", "linestyle": "none", "markersize": 4, "clip_on": False}
+    pale = {**common, "color": "0.72", "markerfacecolor": "none", "markeredgewidth": 0.7, "zorder": 2, "label": _BREAKS}
+    plain = {**common, "color": style.COLOURS[0], "markeredgewidth": 0.0, "zorder": 3, "label": _KEEPS}
+    if not search.sizes.get("constraint", 1):
+        plain["label"] = "designs"
+    for kept, look in ((~feasible, pale), (feasible, plain)):
+        if (kept & ~_is_start(search)).any():
+            yield kept, look
+
+
+def _bars(axes: Axes, one: _Objective, other: _Objective, kept: np.ndarray) -> None:
+    """A standard deviation by chance either way, where it is known."""
+    widths = [np.where(np.isfinite(of.scatter) & kept, of.scatter, 0.0) for of in (one, other)]
+    there = kept & ((widths[0] > 0.0) | (widths[1] > 0.0))
+    if there.any():
+        across, along = (width[there] for width in widths)
+        look: dict[str, Any] = {"linestyle": "none", "ecolor": "0.6", "elinewidth": 0.6, "zorder": 1}
+        axes.errorbar(one.values[there], other.values[there], along, across, label="standard deviation by chance", **look)
+
+
+def _quality(search: xr.Dataset, name: str) -> str:
+    """How much of the designs' variance the surrogate of an objective foretells."""
+    if "surrogate_q2" not in search:
+        return ""
+    share = float(search["surrogate_q2"].sel(objective=name))
+    return f"\n$Q^2$ {share:.2f}" if np.isfinite(share) else ""
+
+
+def _limits(values: np.ndarray) -> tuple[float, float]:
+    """Of an axis on which all designs are seen, however wide the band is."""
+    known = values[np.isfinite(values)]
+    low, high = (float(known.min()), float(known.max())) if known.size else (0.0, 1.0)
+    room = 0.12 * (high - low) or 0.1 * abs(high) or 1.0
+    return low - room, high + room
+
+
+def _scale(axes: Axes, which: str, objective: _Objective) -> None:
+    """Limits of an axis, and the square-root scale of a skewed objective: near 0, where the good designs are, it is wide."""
+    of_axis = axes.xaxis if which == "x" else axes.yaxis
+    set_limits = axes.set_xlim if which == "x" else axes.set_ylim
+    known = objective.values[np.isfinite(objective.values)]
+    if not known.size:
+        return
+    if not objective.is_skewed:
+        set_limits(*_limits(known))
+        return
+    top = float(known.max()) or 1.0
+    set_scale = axes.set_xscale if which == "x" else axes.set_yscale
+    set_scale("function", functions=(_root, _square))
+    # a little below 0, so that points there are seen whole
+    set_limits(-(0.04**2) * top, 1.12 * top)
+    of_axis.set_major_locator(FixedLocator(_ticks(top)))
+    of_axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    of_axis.set_minor_locator(NullLocator())
+
+
+def _root(values: np.ndarray) -> np.ndarray:
+    return np.sign(values) * np.sqrt(np.abs(values))
+
+
+def _square(values: np.ndarray) -> np.ndarray:
+    return np.sign(values) * np.square(values)
+
+
+def _ticks(top: float) -> list[float]:
+    """Round numbers up to `top` that do not touch each other on a square-root scale, and 0."""
+    decade = np.floor(np.log10(top))
+    ticks: list[float] = []
+    for value in (digit * 10.0 ** (decade - down) for down in range(4) for digit in (5.0, 2.0, 1.0)):
+        before = np.sqrt(ticks[-1]) if ticks else np.inf
+        if value <= 1.12 * top and min(before - np.sqrt(value), np.sqrt(value)) > 0.13 * np.sqrt(top):
+            ticks.append(value)
+    return [*ticks, 0.0]
