@@ -71,7 +71,7 @@ def draw_designs(search: xr.Dataset) -> Figure:
         _draw_rounds(panels[0], search, objectives[0])
     for axes in panels[max(len(pairs), 1) :]:
         axes.set_axis_off()
-    figure.legend(*style.legend_entries(panels), loc="outside lower center", ncols=5)
+    figure.legend(*style.legend_entries(panels), loc="outside lower center", ncols=3)
     figure.suptitle(_title(search))
     return figure
 
@@ -101,7 +101,7 @@ def draw_slices(search: xr.Dataset) -> Figure:
                 axes.tick_params(labelbottom=False)
         for axes in panels[len(variables) :]:
             axes.set_axis_off()
-    figure.legend(*style.legend_entries(grid.flat), loc="outside lower center", ncols=6)
+    figure.legend(*style.legend_entries(grid.flat), loc="outside lower center", ncols=4)
     known = "slice_mean" in search and bool(search["slice_mean"].notnull().any())
     figure.suptitle(_title(search) if known else f"{_title(search)}; too few for a surrogate")
     return figure
