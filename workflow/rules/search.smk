@@ -89,7 +89,9 @@ use rule step as search_dataset with:
         round=search.last_round,
     output:
         dataset=DATASET,
-        table=report(TABLE, **shown(PACKAGE / "search/report.rst", "Search", EVERY_SCENE, figure="designs of the search")),
+        table=report(
+            TABLE, **shown(PACKAGE / "search/report.rst", "Search", EVERY_SCENE, figure="designs of the search")
+        ),
     log:
         "<logs>/search_dataset.log",
     params:
