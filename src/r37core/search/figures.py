@@ -65,8 +65,8 @@ def draw_designs(search: xr.Dataset) -> Figure:
     panels_of_best[-1].set_xlabel("designs tried; dotted: the first designs end")
     panels = _panels(right, rows, columns)
     if pairs:
-        for axes, (one, other) in zip(panels, pairs, strict=False):
-            _draw_pair(axes, search, one, other, joined=len(pairs) == 1)
+        for axes, (across, up) in zip(panels, pairs, strict=False):
+            _draw_pair(axes, search, across, up, joined=len(pairs) == 1)
     else:
         _draw_rounds(panels[0], search, objectives[0])
     for axes in panels[max(len(pairs), 1) :]:
@@ -176,14 +176,14 @@ def _draw_best(axes: Axes, search: xr.Dataset, objective: _Objective, colour: st
     _scale(axes, "y", shown)
 
 
-def _draw_pair(axes: Axes, search: xr.Dataset, one: _Objective, other: _Objective, joined: bool) -> None:
+def _draw_pair(axes: Axes, search: xr.Dataset, across: _Objective, up: _Objective, joined: bool) -> None:
     """An objective against another: lower left is better."""
     start = _is_start(search)
     for kept, look in _kinds(search):
-        _bars(axes, one, other, kept & ~start)
-        _points(axes, one.values[kept & ~start], other.values[kept & ~start], **look)
+        _bars(axes, across, up, kept & ~start)
+        _points(axes, across.values[kept & ~start], up.values[kept & ~start], **look)
     front = search["not_dominated"].values.astype(bool)
-    order = np.flatnonzero(front)[np.lexsort((other.values[front], one.values[front]))]
+    order = np.flatnonzero(front)[np.lexsort((up.values[front], across.values[front]))]
     line = "-" if joined else "none"
     look = {
         "color": style.COLOURS[1],
@@ -192,16 +192,16 @@ def _draw_pair(axes: Axes, search: xr.Dataset, one: _Objective, other: _Objectiv
         "zorder": 4,
         "label": "none is better in all objectives",
     }
-    _points(axes, one.values[order], other.values[order], drawstyle="steps-post", linestyle=line, clip_on=False, **look)
+    _points(axes, across.values[order], up.values[order], drawstyle="steps-post", linestyle=line, clip_on=False, **look)
     if len(order) <= _MOST_NAMED:
         for index in order[~start[order]]:
-            at = one.values[index], other.values[index]
+            at = across.values[index], up.values[index]
             axes.annotate(str(search["design"].values[index]), at, (4, 3), textcoords="offset points", fontsize=6, color="0.2")
-    _points(axes, one.values[start], other.values[start], label=START, clip_on=False, **_START_LOOK)
-    axes.set_xlabel(one.axis_label)
-    axes.set_ylabel(other.axis_label)
-    _scale(axes, "x", one)
-    _scale(axes, "y", other)
+    _points(axes, across.values[start], up.values[start], label=START, clip_on=False, **_START_LOOK)
+    axes.set_xlabel(across.axis_label)
+    axes.set_ylabel(up.axis_label)
+    _scale(axes, "x", across)
+    _scale(axes, "y", up)
 
 
 def _draw_rounds(axes: Axes, search: xr.Dataset, objective: _Objective) -> None:
@@ -265,14 +265,14 @@ def _points(axes: Axes, x: np.ndarray, y: np.ndarray, **look: Any) -> None:
         axes.plot(x[known], y[known], **look)
 
 
-def _bars(axes: Axes, one: _Objective, other: _Objective, kept: np.ndarray) -> None:
+def _bars(axes: Axes, across: _Objective, up: _Objective, kept: np.ndarray) -> None:
     """A standard deviation by chance either way, where it is known."""
-    widths = [np.where(np.isfinite(of.scatter) & kept, of.scatter, 0.0) for of in (one, other)]
+    widths = [np.where(np.isfinite(of.scatter) & kept, of.scatter, 0.0) for of in (across, up)]
     there = kept & ((widths[0] > 0.0) | (widths[1] > 0.0))
     if there.any():
-        across, along = (width[there] for width in widths)
+        width, height = (of[there] for of in widths)
         look: dict[str, Any] = {"linestyle": "none", "ecolor": "0.6", "elinewidth": 0.6, "zorder": 1}
-        axes.errorbar(one.values[there], other.values[there], along, across, label="standard deviation by chance", **look)
+        axes.errorbar(across.values[there], up.values[there], height, width, label="standard deviation by chance", **look)
 
 
 def _quality(search: xr.Dataset, name: str) -> str:
