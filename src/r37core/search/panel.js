@@ -1,6 +1,7 @@
 // a search: its objectives against each other, all numbers of each design on parallel axes, and a table of the best
 panels.search = (search, page) => {
   const MOST_BEST = 10;
+  const NARROW = 700;
   const { digits, axis, layout, draw } = page;
   const { designs, objectives, constraints, variables } = search;
   const all = designs.map((_, at) => at);
@@ -42,11 +43,11 @@ panels.search = (search, page) => {
     const dimension = ({ label, values }) => ({ label: plain(label), values: places.map((at) => values[at]) });
     const [{ values }] = objectives;
     const trace = {
-      type: "parcoords", dimensions: [...variables, ...objectives, ...constraints].map(dimension), labelfont: { size: 10 }, tickfont: { size: 9 },
+      type: "parcoords", dimensions: [...variables, ...objectives].map(dimension), labelfont: { size: 9 }, tickfont: { size: 9 },
       line: { color: places.map((at) => Math.sqrt(Math.max(values[at], 0))), colorscale: "Viridis", reversescale: true },
-      labelangle: -20,
+      labelangle: -30,
     };
-    const plan = layout(axis(""), axis(""), { shapes: [], margin: { l: 50, r: 50, t: 70, b: 20 } });
+    const plan = layout(axis(""), axis(""), { shapes: [], margin: { l: 60, r: 40, t: 90, b: 20 } });
     draw("search_designs", places.length ? [trace] : [], plan, false);
   }
 
@@ -56,7 +57,9 @@ panels.search = (search, page) => {
     const columns = [
       ["design", places.map((at) => designs[at])],
       ...objectives.map((quantity) => [quantity.label, places.map((at) => scattered(quantity, at))]),
-      ...[...constraints, ...variables].map(({ label, values }) => [plain(label), places.map((at) => value(values[at]))]),
+      ...constraints.map(({ label, values }) => [label, places.map((at) => value(values[at]))]),
+      // on a narrow screen the numbers of a design are in the plot above
+      ...(window.innerWidth < NARROW ? [] : variables).map(({ label, values }) => [label.replace("\n", "<br>"), places.map((at) => value(values[at]))]),
     ];
     const look = { align: "left", line: { color: page.muted() }, fill: { color: layout(axis(""), axis("")).paper_bgcolor } };
     const font = { color: layout(axis(""), axis("")).font.color, size: 11 };
