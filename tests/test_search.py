@@ -2,6 +2,7 @@
 
 import json
 import math
+from re import fullmatch
 from types import SimpleNamespace
 
 import numpy as np
@@ -121,15 +122,13 @@ def test_what_the_start_does_not_have_can_neither_vary_nor_spread(folder):
     file = folder / "config/config.yaml"
     content = yaml.safe_load(file.read_text())
     content["search"]["variables"] = {"sweep_percent": [50, 150]}
-    file.write_text(yaml.safe_dump(content))
+    file.write_text(yaml.safe_dump(content, sort_keys=False))
     with pytest.raises(ConfigError, match=r"search.variables.sweep_percent: .*has no table of sweep and lean"):
         read_settings(folder)
     content["search"]["variables"] = {"stagger_deg.tip": [-1, 1]}
-    file.write_text(yaml.safe_dump(content))
+    file.write_text(yaml.safe_dump(content, sort_keys=False))
     overlay(folder, "config.yaml", f"search: {{ {TOLERANCES} of_blades: {{ sweep_percent: {{ uniform: 5 }} }} }} }}")
-    with pytest.raises(
-        ConfigError, match=r"tolerances.of_blades.sweep_percent: found sweep_percent, which 'Ref' does not have"
-    ):
+    with pytest.raises(ConfigError, match=r"of_blades.sweep_percent: found sweep_percent, which 'Ref' does not have"):
         read_settings(folder)
 
 
@@ -275,8 +274,6 @@ def test_members_of_a_design_have_models_of_their_own_where_the_blade_changes(fo
 def test_folders_of_members_are_told_apart(folder):
     settings = read_settings(folder)
     samples = Samples(settings, beside(settings))
-    from re import fullmatch
-
     for part in ("", "search/d0001/", "search/d0001/3/", "search/start/", "tolerances/", "tolerances/3/"):
         assert fullmatch(samples.pattern, part), part
     for part in ("search/", "search/3/", "Free/", "search/d0001"):
@@ -294,7 +291,7 @@ def test_a_best_design_is_the_blade_that_its_entry_gives(folder, start):
     file = folder / "config/config.yaml"
     content = yaml.safe_load(file.read_text())
     content["search"]["variables"] = {"stagger_deg.tip": [-3, 3], "material.density_kg_m3": [7000, 9000]}
-    file.write_text(yaml.safe_dump(content))
+    file.write_text(yaml.safe_dump(content, sort_keys=False))
     settings = read_settings(folder)
     wanted = designs_of(settings)
     values = (1.2345, 8100.0)
@@ -306,7 +303,9 @@ def test_a_best_design_is_the_blade_that_its_entry_gives(folder, start):
     made = entries_of(search, ["d0004"], start, entries)
     write_entries(search, made, ["d0004"], entries, folder / "config/best.yaml")
     del content["search"]
-    file.write_text(yaml.safe_dump(content | {"blades_file": "config/best.yaml", "blades": [start, f"{start}_best1"]}))
+    file.write_text(
+        yaml.safe_dump(content | {"blades_file": "config/best.yaml", "blades": [start, f"{start}_best1"]}, sort_keys=False)
+    )
     pasted = read_settings(folder).blades
     for blade, expected in ((pasted[start], settings.blades[start]), (pasted[f"{start}_best1"], wanted.blade("d0004", values))):
         assert (blade.material, blade.contact) == (expected.material, expected.contact)

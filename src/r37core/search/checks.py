@@ -36,8 +36,8 @@ def search_can_be_run(settings: Settings) -> None:
     table = settings.blades[entry.blade].definition
     for key in SHARES:
         if key in entry.variables and isinstance(table, BladeDefinition) and table.stacking is None:
-            found = f"{key} of '{entry.blade}', which has no table of sweep and lean"
-            raise document.refusal(("search", "variables", key), found, "a blade with one, or other variables")
+            without = f"{key} of '{entry.blade}', which has no table of sweep and lean"
+            raise document.refusal(("search", "variables", key), without, "a blade with one, or other variables")
     _tolerances_are_possible(settings, designs)
     try:
         library()
