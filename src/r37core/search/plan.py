@@ -64,6 +64,22 @@ class Search:
         """What is sought, as plain values."""
         return to_plain(choice_of(self.settings))
 
+    def quantities(self, wildcards: Any) -> dict[str, Any]:
+        """What a design is judged by, as plain values."""
+        return to_plain(choice_of(self.settings).quantities)
+
+    def number_of_designs(self, wildcards: Any) -> int:
+        """Designs of a round."""
+        entry, number = self.designs.entry, int(wildcards.round)
+        return (
+            entry.first if number == 0 else max(0, min(entry.batch, entry.designs - entry.first - (number - 1) * entry.batch))
+        )
+
+    def budget(self, wildcards: Any) -> list[int]:
+        """All that says how many designs each round has."""
+        entry = self.designs.entry
+        return [entry.designs, entry.first, entry.batch]
+
     def _round(self, number: int) -> SearchRound:
         return round_of(self.round_file(number))
 
@@ -175,8 +191,7 @@ def choice_of(settings: Settings) -> SearchChoice:
         for name, each in entry.constraints.items()
     }
     objectives = {name: each.quantity() for name, each in entry.objectives.items()}
-    variables = SearchDesigns(settings).variables
-    return SearchChoice(variables, objectives, constraints, entry.designs, entry.first, entry.batch, entry.method, entry.seed)
+    return SearchChoice(SearchDesigns(settings).variables, objectives, constraints, entry.method, entry.seed)
 
 
 def designs_of(settings: Settings) -> SearchDesigns:
@@ -226,6 +241,9 @@ def targets(sweep: Sweep) -> dict[str, paths.Wildcards]:
     """The dataset, the table, the best designs and the figures."""
     wildcards: paths.Wildcards = [{}] if is_asked(sweep.settings) else []
     together = dict.fromkeys((DATASET, TABLE, BEST), wildcards)
+    if not wildcards:
+        # what an earlier search has left
+        together |= dict.fromkeys((ROUND, BUILT, SHAPE, MEASURES), wildcards)
     return together | {file: of for name in FIGURES for file, of in paths.pictures(name, wildcards).items()}
 
 
