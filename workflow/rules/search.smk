@@ -98,7 +98,7 @@ use rule step as search_dataset with:
     params:
         **step("search.steps.join"),
         choice=search.choice,
-        # a round that is not there yet makes nothing anew that is there
+        # another number of rounds, whose files may all be there
         budget=search.budget,
         start=search.start_values,
         fidelity=settings.fidelity_name,

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cache
-from itertools import count, takewhile
+from itertools import count
 from pathlib import Path
 from typing import Any
 
@@ -147,18 +147,20 @@ class Search:
         assert material is not None
         return material.density
 
-    def every_round(self) -> Iterator[int]:
-        """Numbers of all rounds that have designs; Snakemake's own exception for one that is still to be made."""
-        return takewhile(lambda number: self._round(number).new, count())
+    @property
+    def rounds(self) -> range:
+        """Numbers of all rounds that have designs."""
+        entry = self.designs.entry
+        return range(1 + -(-(entry.designs - entry.first) // entry.batch))
 
     def last_round(self, wildcards: Any) -> str:
-        """The round that asks for no more."""
-        return paths.fill(ROUND, round=len(list(self.every_round())))
+        """The round that asks for no more: known before, for what waits for a checkpoint forgets why it has to run."""
+        return paths.fill(ROUND, round=len(self.rounds))
 
     def shapes_of_all(self, wildcards: Any) -> list[str]:
         """The shape of every design that could be built."""
         blade = self.designs.entry.blade
-        names = (name for number in self.every_round() for name in self._built(number))
+        names = (name for number in self.rounds for name in self._built(number))
         return [paths.fill(paths.GEOMETRY, member=member_part(name), blade=blade) for name in names]
 
     def entries(self, wildcards: Any) -> dict[str, Any]:
