@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from itertools import count
 from pathlib import Path
@@ -31,16 +31,20 @@ from .structure_files import Recipe, StructureFiles
 
 @dataclass(frozen=True)
 class Calculation:
-    """What the workflow makes of `settings`, made in `folder` on so many `cores`; structures come from the cache."""
+    """What the workflow makes of `settings`, made in `folder` on so many `cores`; structures come from the cache.
+
+    `only`: folders of samples, such as `search/d0003`, that are made in place of the nominal sweep and those beside it.
+    """
 
     settings: Settings
     folder: Path
     cores: int
+    only: tuple[str, ...] | None = None
 
     @cached_property
     def samples(self) -> Mapping[str, Mapping[Pair, Sample]]:
         """Members of samples, by the folder that they lie in."""
-        return beside(self.settings)
+        return beside(self.settings, self.folder)
 
     @cached_property
     def sweep(self) -> Sweep:
@@ -64,7 +68,8 @@ class Calculation:
     @property
     def groups(self) -> Iterator[Named]:
         """Wildcards of all samples: the nominal ones first, then those of members."""
-        for folder, pairs in {NOMINAL: self.settings.speed_plans, **self.samples}.items():
+        every = {NOMINAL: self.settings.speed_plans, **self.samples}
+        for folder, pairs in every.items() if self.only is None else ((name, self.samples[name]) for name in self.only):
             for blade, scene in pairs:
                 yield Named(member=path_part(folder), blade=blade, scene=scene)
 
@@ -96,14 +101,35 @@ class Calculation:
             files, tip_line = self._structure(run), self.settings.scenes[run.scene].tip_line
             wanted[self.sweep.contact_model(run)] = files.contact_model(tip_line)
             wanted |= {file: files.stress_operator(tip_line) for file in self.sweep.stress_operator(run)}
+        self._linked(wanted)
+
+    def of_samples(self, folders: Iterable[str]) -> Calculation:
+        """The same in the same folder, of samples in some folders `only`."""
+        return replace(self, only=tuple(folders))
+
+    def models_of_designs(self) -> None:
+        """Shape, contact model, stress operator and Campbell diagram of each of the folders `only`, as a search asks for them."""
+        tip_line, wanted = self.settings.structure.boundary.tip_line, dict[str, Recipe]()
+        for group in self.groups:
+            files = self._structure(group)
+            wanted[paths.fill(paths.GEOMETRY, **vars(group))] = files.geometry()
+            wanted[paths.fill(paths.CONTACT_MODEL, tip_line=tip_line, **vars(group))] = files.contact_model(tip_line)
+            wanted[paths.fill(paths.STRESS_OPERATOR, tip_line=tip_line, **vars(group))] = files.stress_operator(tip_line)
+        self._linked(wanted)
+        self.campbells()
+
+    def _linked(self, wanted: Mapping[str, Recipe]) -> None:
+        """Files of the cache under their names in the folder."""
         for name, file in self._kept(wanted).items():
             link = Path(self.path(name))
-            link.parent.mkdir(parents=True, exist_ok=True)
-            link.symlink_to(file)
+            if not link.exists():
+                link.parent.mkdir(parents=True, exist_ok=True)
+                link.symlink_to(file)
 
     def campbells(self) -> None:
-        """Campbell diagrams of all blades and members. Raises what making them raises."""
-        models = {(run.blade, self.sweep.samples.model(run)): run for run in self.runs}
+        """Campbell diagrams of all blades and members; of samples `only`, theirs alone. Raises what making them raises."""
+        runs = self.runs if self.only is None else self.groups
+        models = {(run.blade, self.sweep.samples.model(run)): run for run in runs}
         wanted = {
             paths.fill(paths.CAMPBELL, blade=blade, member=model): self._structure(run).campbell()
             for (blade, model), run in models.items()
