@@ -64,10 +64,15 @@ def read_stacking_table(file: Path, blade: str) -> tuple[tuple[float, float, flo
 
     Raises BladeShapeError as `stacking_rows` does, and when the table has no row for the blade.
     """
+    return stacking_rows(stacking_table_rows(file, blade))
+
+
+def stacking_table_rows(file: Path, blade: str) -> list[dict[str, float]]:
+    """The same as they stand there, with STACKING_COLUMNS. Raises BladeShapeError when the table has none for the blade."""
     rows = [row for row in _read_rows(file, STACKING_COLUMNS, text_columns=("blade",)) if row["blade"] == blade]
     if not rows:
         raise BladeShapeError(f"no row of the table has '{blade}' in its column 'blade'")
-    return stacking_rows(rows)
+    return [{column: float(row[column]) for column in STACKING_COLUMNS} for row in rows]
 
 
 def read_designs(file: Path) -> tuple[tuple[str, ...], dict[str, tuple[float, ...]]]:

@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+from r37core.blade.definition import BladeDefinition
 from r37core.config import ConfigError, Settings
-from r37core.config.blades import BladeEntry
-from r37core.config.changed_numbers import BLADE_KEYS, ImpossibleValueError, scene_numbers
+from r37core.config.blades import SHARES, BladeEntry
+from r37core.config.changed_numbers import BLADE_KEYS, ImpossibleValueError, blade_number, scene_numbers
+from r37core.config.document import Document
 from r37core.config.messages import on_one_line
+from r37core.rom.naming import NAMED_MODES
+from r37core.yaml_file import KeyPath
 
 from .designs import SearchDesigns, section
 from .gaussian_processes import SearchPackageMissing, library
@@ -25,10 +29,15 @@ def search_can_be_run(settings: Settings) -> None:
     _scenes_are_run(settings)
     for key, bounds in entry.variables.items():
         for value in bounds:
-            try:
-                designs.with_values("of the search", {key: value})
-            except ConfigError as error:
-                raise document.error(("search", "variables", key), str(error)) from None
+            _has_values(designs, document, ("search", "variables", key), {key: value})
+    for place in (0, 1):
+        together = {key: bounds[place] for key, bounds in entry.variables.items()}
+        _has_values(designs, document, ("search", "variables"), together)
+    table = settings.blades[entry.blade].definition
+    for key in SHARES:
+        if key in entry.variables and isinstance(table, BladeDefinition) and table.stacking is None:
+            without = f"{key} of '{entry.blade}', which has no table of sweep and lean"
+            raise document.refusal(("search", "variables", key), without, "a blade with one, or other variables")
     _tolerances_are_possible(settings, designs)
     try:
         library()
@@ -36,9 +45,18 @@ def search_can_be_run(settings: Settings) -> None:
         raise document.error(("search",), str(error)) from None
 
 
+def _has_values(designs: SearchDesigns, document: Document, path: KeyPath, values: dict[str, float]) -> None:
+    """ConfigError, at `path`, where the entry cannot have these values of some variables."""
+    try:
+        designs.with_values("of the search", values)
+    except ConfigError as error:
+        raise document.error(path, str(error)) from None
+
+
 def _scenes_are_run(settings: Settings) -> None:
     entry, document = designs_of(settings).entry, settings.documents.config
     highest = settings.config.campbell.highest_engine_order
+    modes = (*NAMED_MODES, *map(str, range(len(NAMED_MODES) + 1, settings.config.campbell.modes + 1)))
     for where in ("objectives", "constraints"):
         for name, quantity in getattr(entry, where).items():
             path = ("search", where, name)
@@ -50,6 +68,9 @@ def _scenes_are_run(settings: Settings) -> None:
                     raise document.refusal(
                         (*path, "scenes"), f"'{scene}', without stress", "scenes with stress among their results"
                     )
+            if quantity.mode is not None and quantity.mode not in modes:
+                allowed = f"one of the Campbell diagram, {', '.join(modes)} (campbell.modes)"
+                raise document.refusal((*path, "mode"), on_one_line(quantity.mode), allowed)
             if quantity.engine_order is not None and quantity.engine_order > highest:
                 allowed = f"at most campbell.highest_engine_order ({highest})"
                 raise document.refusal((*path, "engine_order"), f"{quantity.engine_order}", allowed)
@@ -67,7 +88,16 @@ def _tolerances_are_possible(settings: Settings, designs: SearchDesigns) -> None
         for key in getattr(tolerances, where):
             if key not in allowed:
                 raise document.refusal((*path, where, key), on_one_line(key), f"one of {', '.join(allowed)}")
+    blade = settings.blades[designs.entry.blade]
+    for key in tolerances.of_blades:
+        try:
+            nominal = blade_number(blade, key)
+        except ValueError as error:
+            raise document.refusal((*path, "of_blades", key), str(error), "other numbers") from None
+        if nominal is None:
+            raise document.refusal((*path, "of_blades", key), f"{key}, which '{designs.entry.blade}' does not have", "others")
     try:
         designs.samples("of the search", None)
-    except (ImpossibleValueError, ValueError) as error:
-        raise document.error(path, f"{error}; or a narrower tolerance") from None
+    except ImpossibleValueError as error:
+        where = "of_blades" if error.key in tolerances.of_blades else "of_scenes"
+        raise document.error((*path, where, error.key), f"a member of the start: {error}; or a narrower tolerance") from None

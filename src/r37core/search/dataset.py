@@ -74,7 +74,7 @@ def _of_designs(designs: dict[str, Design], evaluated: dict[str, Evaluated], cho
         rows = [[number(design.quantities.get(name, (None, None))[place]) for name in names] for design in designs.values()]
         return np.array(rows, float).reshape(len(designs), len(names))
 
-    feasible = [each.status == "done" and all(margin >= 0.0 for margin in each.margins) for each in evaluated.values()]
+    feasible = [each.is_feasible for each in evaluated.values()]
     objectives, constraints = list(choice.objectives), list(choice.constraints)
     return {
         "value": (("design", "variable"), [design.values for design in designs.values()], about("1", "in the unit of the key")),

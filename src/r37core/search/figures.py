@@ -65,8 +65,8 @@ def draw_designs(search: xr.Dataset) -> Figure:
     panels_of_best[-1].set_xlabel("designs tried; dotted: the first designs end")
     panels = _panels(right, rows, columns)
     if pairs:
-        for axes, (one, other) in zip(panels, pairs, strict=False):
-            _draw_pair(axes, search, one, other, joined=len(pairs) == 1)
+        for axes, (across, up) in zip(panels, pairs, strict=False):
+            _draw_pair(axes, search, across, up, joined=len(pairs) == 1)
     else:
         _draw_rounds(panels[0], search, objectives[0])
     for axes in panels[max(len(pairs), 1) :]:
@@ -103,7 +103,7 @@ def draw_slices(search: xr.Dataset) -> Figure:
             axes.set_axis_off()
     figure.legend(*style.legend_entries(grid.flat), loc="outside lower center", ncols=4)
     known = "slice_mean" in search and bool(search["slice_mean"].notnull().any())
-    figure.suptitle(_title(search) if known else f"{_title(search)}; too few for a surrogate")
+    figure.suptitle(_title(search) if known else f"{_title(search)}; no surrogate")
     return figure
 
 
@@ -158,7 +158,8 @@ def _draw_best(axes: Axes, search: xr.Dataset, objective: _Objective, colour: st
         near: dict[str, Any] = {"textcoords": "offset points", "ha": "right", "va": "bottom", "fontsize": 7}
         axes.annotate(f"{best[-1]:.4g}", (numbers[-1], best[-1]), (-3, 4), color=colour, **near)
     else:
-        style.say(axes, "no design keeps all constraints" if search.sizes["constraint"] else "no design could be built")
+        why = "no design keeps all constraints" if search.sizes["constraint"] else "no design could be built"
+        axes.set_title(why, fontsize=7)
     start = objective.values[_is_start(search)]
     if np.isfinite(start).all():
         (level,) = start
@@ -175,14 +176,14 @@ def _draw_best(axes: Axes, search: xr.Dataset, objective: _Objective, colour: st
     _scale(axes, "y", shown)
 
 
-def _draw_pair(axes: Axes, search: xr.Dataset, one: _Objective, other: _Objective, joined: bool) -> None:
+def _draw_pair(axes: Axes, search: xr.Dataset, across: _Objective, up: _Objective, joined: bool) -> None:
     """An objective against another: lower left is better."""
     start = _is_start(search)
     for kept, look in _kinds(search):
-        _bars(axes, one, other, kept & ~start)
-        axes.plot(one.values[kept & ~start], other.values[kept & ~start], **look)
+        _bars(axes, across, up, kept & ~start)
+        _points(axes, across.values[kept & ~start], up.values[kept & ~start], **look)
     front = search["not_dominated"].values.astype(bool)
-    order = np.flatnonzero(front)[np.lexsort((other.values[front], one.values[front]))]
+    order = np.flatnonzero(front)[np.lexsort((up.values[front], across.values[front]))]
     line = "-" if joined else "none"
     look = {
         "color": style.COLOURS[1],
@@ -191,16 +192,16 @@ def _draw_pair(axes: Axes, search: xr.Dataset, one: _Objective, other: _Objectiv
         "zorder": 4,
         "label": "none is better in all objectives",
     }
-    axes.plot(one.values[order], other.values[order], drawstyle="steps-post", linestyle=line, clip_on=False, **look)
+    _points(axes, across.values[order], up.values[order], drawstyle="steps-post", linestyle=line, clip_on=False, **look)
     if len(order) <= _MOST_NAMED:
         for index in order[~start[order]]:
-            at = one.values[index], other.values[index]
+            at = across.values[index], up.values[index]
             axes.annotate(str(search["design"].values[index]), at, (4, 3), textcoords="offset points", fontsize=6, color="0.2")
-    axes.plot(one.values[start], other.values[start], label=START, clip_on=False, **_START_LOOK)
-    axes.set_xlabel(one.axis_label)
-    axes.set_ylabel(other.axis_label)
-    _scale(axes, "x", one)
-    _scale(axes, "y", other)
+    _points(axes, across.values[start], up.values[start], label=START, clip_on=False, **_START_LOOK)
+    axes.set_xlabel(across.axis_label)
+    axes.set_ylabel(up.axis_label)
+    _scale(axes, "x", across)
+    _scale(axes, "y", up)
 
 
 def _draw_rounds(axes: Axes, search: xr.Dataset, objective: _Objective) -> None:
@@ -209,10 +210,10 @@ def _draw_rounds(axes: Axes, search: xr.Dataset, objective: _Objective) -> None:
     for kept, look in _kinds(search):
         at = kept & ~start
         _bars(axes, _Objective("", rounds.astype(float), np.full(len(rounds), np.nan)), objective, at)
-        axes.plot(rounds[at], objective.values[at], **look)
+        _points(axes, rounds[at], objective.values[at], **look)
     best = search["order"].values == 1
-    axes.plot(rounds[best], objective.values[best], label="best", **_BEST_LOOK)
-    axes.plot(rounds[start], objective.values[start], label=START, **_START_LOOK)
+    _points(axes, rounds[best], objective.values[best], label="best", **_BEST_LOOK)
+    _points(axes, rounds[start], objective.values[start], label=START, **_START_LOOK)
     axes.set_xlabel("round, 0 the first designs")
     axes.set_ylabel(objective.axis_label)
     axes.xaxis.set_major_locator(MaxNLocator(integer=True))
@@ -224,7 +225,7 @@ def _draw_slice(axes: Axes, search: xr.Dataset, objective: _Objective) -> None:
     """One objective along one variable."""
     values, start = search["value"].values, _is_start(search)
     for kept, look in _kinds(search):
-        axes.plot(values[kept & ~start], objective.values[kept & ~start], **{**look, "markersize": 2.5, "alpha": 0.5})
+        _points(axes, values[kept & ~start], objective.values[kept & ~start], **{**look, "markersize": 2.5, "alpha": 0.5})
     if "slice_mean" in search and search["slice_mean"].notnull().any():
         factor = shown_unit(search["objective_unit"].item())[1]
         along, mean, deviation = (search[f"slice_{part}"].values for part in ("value", "mean", "deviation"))
@@ -236,8 +237,8 @@ def _draw_slice(axes: Axes, search: xr.Dataset, objective: _Objective) -> None:
         if np.isfinite(share):
             axes.set_title(f"total {max(share, 0.0):.2f}", fontsize=7, pad=2)
     best = search["order"].values == 1
-    axes.plot(values[start], objective.values[start], label=START, **{**_START_LOOK, "markersize": 4})
-    axes.plot(values[best], objective.values[best], label="best", **_BEST_LOOK)
+    _points(axes, values[start], objective.values[start], label=START, **{**_START_LOOK, "markersize": 4})
+    _points(axes, values[best], objective.values[best], label="best", **_BEST_LOOK)
     lowest, highest = float(search["lowest"]), float(search["highest"])
     room = 0.04 * (highest - lowest)
     axes.set_xlim(lowest - room, highest + room)
@@ -257,14 +258,21 @@ def _kinds(search: xr.Dataset) -> Iterator[tuple[np.ndarray, dict[str, Any]]]:
             yield kept, look
 
 
-def _bars(axes: Axes, one: _Objective, other: _Objective, kept: np.ndarray) -> None:
+def _points(axes: Axes, x: np.ndarray, y: np.ndarray, **look: Any) -> None:
+    """Designs whose numbers are known; without any neither mark nor legend, which an unclipped empty line would spoil."""
+    known = np.isfinite(x) & np.isfinite(y)
+    if known.any():
+        axes.plot(x[known], y[known], **look)
+
+
+def _bars(axes: Axes, across: _Objective, up: _Objective, kept: np.ndarray) -> None:
     """A standard deviation by chance either way, where it is known."""
-    widths = [np.where(np.isfinite(of.scatter) & kept, of.scatter, 0.0) for of in (one, other)]
+    widths = [np.where(np.isfinite(of.scatter) & kept, of.scatter, 0.0) for of in (across, up)]
     there = kept & ((widths[0] > 0.0) | (widths[1] > 0.0))
     if there.any():
-        across, along = (width[there] for width in widths)
+        width, height = (of[there] for of in widths)
         look: dict[str, Any] = {"linestyle": "none", "ecolor": "0.6", "elinewidth": 0.6, "zorder": 1}
-        axes.errorbar(one.values[there], other.values[there], along, across, label="standard deviation by chance", **look)
+        axes.errorbar(across.values[there], up.values[there], height, width, label="standard deviation by chance", **look)
 
 
 def _quality(search: xr.Dataset, name: str) -> str:

@@ -9,6 +9,7 @@ from itertools import count, takewhile
 from pathlib import Path
 from typing import Any
 
+from r37core.blade.profile_tables import stacking_table_rows
 from r37core.config import ConfigError, Settings
 from r37core.config.changed_numbers import ImpossibleValueError
 from r37core.config.speed_choice import most_runs
@@ -144,11 +145,17 @@ class Search:
         return [paths.fill(paths.GEOMETRY, member=member_part(name), blade=blade) for name in names]
 
     def entries(self, wildcards: Any) -> dict[str, Any]:
-        """Entries of blades.yaml that the designs start at, as plain values: the bases first, the start last."""
+        """Entries of blades.yaml that the designs start at, as plain values: the bases first, the start last.
+
+        A table of sweep and lean, whose rows have the name of the start, stands in its entry.
+        """
         entries, chain = self.settings.designs.entries, [self.designs.entry.blade]
         while (base := getattr(entries[chain[0]], "base", None)) is not None:
             chain.insert(0, base)
-        return {name: entries[name].model_dump(exclude_none=True, exclude_unset=True) for name in chain}
+        plain = {name: entries[name].model_dump(exclude_none=True, exclude_unset=True) for name in chain}
+        if (table := plain[chain[-1]].pop("stacking_table", None)) is not None:
+            plain[chain[-1]]["sweep_lean"] = stacking_table_rows(self.settings.root / table, chain[-1])
+        return plain
 
     def start_values(self, wildcards: Any) -> list[float | None]:
         """Values of the variables that the start has; None where its entry does not say."""

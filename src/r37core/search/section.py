@@ -11,6 +11,9 @@ from r37core.config.spread import MemberCount, SpreadEntry
 
 from .quantity import CONTACT_MEASURES, MEASURES, NEEDS, Quantity
 
+COLUMNS = ("design", "round", "feasible", "not_dominated", "order", "refused")
+"""Of search.csv, beside those of variables, objectives and constraints."""
+
 Bound = Annotated[float, Field(ge=-1e15, le=1e15)]
 
 
@@ -86,6 +89,10 @@ class ConstraintSection(QuantitySection):
         for keys in (("at_least", "at_least_percent"), ("at_most", "at_most_percent")):
             if all(getattr(self, key) is not None for key in keys):
                 raise refused((keys[1],), " and ".join(keys), "one of them")
+        for lowest, highest in (("at_least", "at_most"), ("at_least_percent", "at_most_percent")):
+            low, high = getattr(self, lowest), getattr(self, highest)
+            if low is not None and high is not None and low > high:
+                raise refused((lowest,), f"{low:g}", f"not above {highest} ({high:g})")
         if all(getattr(self, key) is None for key in ("at_least", "at_most", "at_least_percent", "at_most_percent")):
             raise refused((), "no bound", "at_least or at_most, or one of them in percent of the start")
         return self
@@ -146,6 +153,17 @@ class SearchSection(Section):
             raise refused(
                 ("tolerances",), "tolerances that no objective needs", "an objective with a quantile, or none of them"
             )
-        if both := [name for name in self.constraints if name in self.objectives]:
-            raise refused(("constraints", both[0]), f"'{both[0]}' twice", "a name that no objective has")
+        for key in self.variables:
+            if inner := next((other for other in self.variables if other.startswith(f"{key}.")), None):
+                raise refused(("variables", inner), f"{inner} beside {key}", "one of them: the other would replace it")
+        self._columns_differ()
         return self
+
+    def _columns_differ(self) -> None:
+        """Objectives and constraints are columns of one table, beside those of the designs."""
+        taken = {name.lower() for name in (*COLUMNS, *self.variables)}
+        for where, names in (("objectives", self.objectives), ("constraints", self.constraints)):
+            for name in names:
+                if name.lower() in taken:
+                    raise refused((where, name), f"'{name}' twice", "a name that no other column of search.csv has")
+                taken |= {name.lower(), f"{name.lower()}_scatter"} if where == "objectives" else {name.lower()}

@@ -5,12 +5,12 @@ from __future__ import annotations
 from pydantic import Field
 
 from r37core.config.section import LeftOut
-from r37core.plans.wing import Wing
+from r37core.plans.wing import Panel, Wing
 
 from .captions import CAPTIONS
 from .checks import search_can_be_run
 from .designs import FOLDER
-from .plan import remarks, samples_of, targets
+from .plan import joined_dataset, remarks, samples_of, targets
 from .section import SearchSection
 
 WING = Wing(
@@ -24,4 +24,5 @@ WING = Wing(
     targets=targets,
     remarks=remarks,
     captions=CAPTIONS,
+    panel=Panel(joined_dataset, "search.panel.search_contents", "search/panel.js"),
 )

@@ -1,0 +1,45 @@
+"""What the explorer shows of a search: objectives against each other, all numbers of each design beside each other, the best."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import xarray as xr
+
+from .shown import in_lines, shown_unit, with_unit
+
+_DIGITS = 5
+"""Of a number on the page."""
+
+
+def search_contents(search: xr.Dataset) -> dict[str, object]:
+    """Of each design of `search.nc` its numbers in the units that are shown; None for what is not known."""
+    objectives = [_quantity(search, "objective", name) for name in search["objective"].values]
+    constraints = [_quantity(search, "constraint", name) for name in search["constraint"].values]
+    variables = [
+        {"label": in_lines(str(key)), "values": _numbers(search["value"].sel(variable=key).values)}
+        for key in search["variable"].values
+    ]
+    return {
+        "designs": [str(name) for name in search["design"].values],
+        "objectives": objectives,
+        "constraints": constraints,
+        "variables": variables,
+        "feasible": search["feasible"].values.astype(bool).tolist(),
+        "front": search["not_dominated"].values.astype(bool).tolist(),
+        "order": search["order"].values.tolist(),
+        "round": search["round"].values.tolist(),
+        "refused": [str(reason) for reason in search["refused"].values],
+    }
+
+
+def _quantity(search: xr.Dataset, kind: str, name: str) -> dict[str, object]:
+    of = search.sel({kind: name})
+    unit, factor = shown_unit(of[f"{kind}_unit"].item())
+    scatter = {"scatter": _numbers(factor * of["objective_scatter"].values)} if kind == "objective" else {}
+    return {"label": with_unit(str(name), unit), "values": _numbers(factor * of[f"{kind}_value"].values), **scatter}
+
+
+def _numbers(values: np.ndarray) -> list[float | None]:
+    return [float(f"{value:.{_DIGITS}g}") if math.isfinite(value) else None for value in values.tolist()]

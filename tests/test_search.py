@@ -1,0 +1,336 @@
+"""A search: its section and what it refuses, rounds, quantities, designs, and what the best become."""
+
+import json
+import math
+from re import fullmatch
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+import xarray as xr
+import yaml
+from overlays import overlay
+
+from r37core.config import ConfigError
+from r37core.plans.samples import Samples, folder_and_name
+from r37core.plans.sweep_plan import Sweep
+from r37core.product.reading import read_settings
+from r37core.product.sampling import beside
+from r37core.search import checks
+from r37core.search.choice import Constraint, Design, SearchChoice
+from r37core.search.dataset import search_dataset, search_table
+from r37core.search.entries import entries_of, write_entries
+from r37core.search.gaussian_processes import SearchPackageMissing
+from r37core.search.plan import Search, designs_of
+from r37core.search.problem import SearchVariable
+from r37core.search.proposal import first_designs
+from r37core.search.quantity import DesignStructure, Quantity, of_contact, of_structure
+from r37core.search.rounds import SearchRound, first_round, read_round, round_after, write_round
+
+BLADES = """
+Free:
+  base: Ref
+  sweep_lean:
+    - { span_percent: 0, sweep_cm: 0, lean_deg: 0 }
+    - { span_percent: 100, sweep_cm: 0, lean_deg: 0 }
+"""
+SEARCH = """
+blades: [Free]
+scenes: [abradable, direct]
+fidelity: draft
+speeds: [{ start: 750, stop: 1600, step: 400 }]
+search:
+  blade: Free
+  variables: { sweep_lean.1.sweep_cm: [-1, 1], stagger_deg.tip: [-3, 3] }
+  objectives: { lined: { scenes: [abradable] } }
+  designs: 5
+  first: 2
+  batch: 2
+"""
+TOLERANCES = "objectives: { lined: { quantile: 0.9 } }, tolerances: { members: 4, "
+
+
+@pytest.fixture
+def folder(config_copy):
+    overlay(config_copy, "blades.yaml", BLADES)
+    overlay(config_copy, "config.yaml", SEARCH)
+    return config_copy
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ("{ blade: Nope }", "search.blade: found 'Nope'; allowed: one that is run .Free."),
+        ("{ blade: Ref }", "search.blade: found 'Ref'; allowed: one that is run .Free."),
+        ("{ variables: { nothing: [0, 1] } }", "search.variables.nothing: .*found unknown key nothing"),
+        ("{ variables: { stagger_deg.middle: [0, 1] } }", "search.variables.stagger_deg.middle: .*allowed keys: hub, tip"),
+        ("{ variables: { sweep_lean.7.sweep_cm: [0, 1] } }", "sweep_lean.7.sweep_cm: .*counted from 0"),
+        ("{ variables: { stagger_deg.tip: [-300, 1] } }", "search.variables.stagger_deg.tip: .*at least -90, at most 90"),
+        ("{ variables: { stagger_deg.tip: [2, 1] } }", "search.variables.stagger_deg.tip: .*a lower and a higher value"),
+        ("{ variables: { stagger_deg: [-1, 1] } }", "variables.stagger_deg.tip: found stagger_deg.tip beside stagger_deg"),
+        ("{ variables: { chordwise_sweep_deg: [-1, 1] } }", "chordwise_sweep_deg: .*at most one of"),
+        (
+            "{ objectives: { lined: { scenes: [nope] } } }",
+            "objectives.lined.scenes: found 'nope'; allowed: scenes that",
+        ),
+        ("{ objectives: { other: { measure: speed } } }", "objectives.other.measure: found 'speed'; allowed: one of length_"),
+        ("{ objectives: { other: { measure: frequency_hz } } }", "objectives.other: .*without mode; allowed: mode beside it"),
+        (
+            "{ objectives: { other: { measure: frequency_hz, mode: 1b } } }",
+            "other.mode: found 1b; allowed: one of the Campbell diagram, 1B, 1T, 2B, 4, .*campbell.modes",
+        ),
+        ("{ objectives: { other: { measure: mass_kg, mode: 1B } } }", "other.mode: found mode with mass_kg; .*left out"),
+        (
+            "{ objectives: { other: { measure: crossing_margin_percent, mode: 1B, engine_order: 21, speed_rad_s: 9 } } }",
+            "other.engine_order: found 21; allowed: at most campbell.highest_engine_order",
+        ),
+        ("{ objectives: { Lined: { measure: mass_kg } } }", "names that differ in more than capitals"),
+        ("{ objectives: { other: { measure: mass_kg, quantile: 0.9 } } }", "other.quantile: found a quantile of mass_kg"),
+        ("{ objectives: { lined: { quantile: 0.9 } } }", "lined.quantile: found a quantile; allowed: tolerances beside it"),
+        ("{ constraints: { Lined: { measure: mass_kg, at_most: 1 } } }", "constraints.Lined: found 'Lined' twice"),
+        ("{ constraints: { round: { measure: mass_kg, at_most: 1 } } }", "constraints.round: .*column of search.csv"),
+        ("{ constraints: { lined_scatter: { measure: mass_kg, at_most: 1 } } }", "constraints.lined_scatter: .*search.csv"),
+        ("{ constraints: { mass: { measure: mass_kg } } }", "constraints.mass: found no bound; allowed: at_least or at_most"),
+        (
+            "{ constraints: { mass: { measure: mass_kg, at_most: 1, at_most_percent: 9 } } }",
+            "at_most_percent: .*one of them",
+        ),
+        (
+            "{ constraints: { mass: { measure: mass_kg, at_most: 1, at_least: 3 } } }",
+            "at_least: found 3; .*not above",
+        ),
+        ("{ first: 6 }", "search.first: found 6; allowed: at most designs"),
+        ("{ tolerances: { members: 4 } }", "search.tolerances: found tolerances that no objective needs"),
+        (f"{{ {TOLERANCES} }} }}", "lined.quantile: found a quantile; allowed: tolerances beside it, with numbers that spread"),
+        (f"{{ {TOLERANCES} of_scenes: {{ nope: {{ uniform: 1 }} }} }} }}", "tolerances.of_scenes.nope: found nope; allowed"),
+        (f"{{ {TOLERANCES} of_blades: {{ nope: {{ uniform: 1 }} }} }} }}", "tolerances.of_blades.nope: found nope; allowed"),
+        (
+            f"{{ {TOLERANCES} of_blades: {{ thickness_percent: {{ uniform_percent: 200 }} }} }} }}",
+            "tolerances.of_blades.thickness_percent: a member of the start: .*a narrower tolerance",
+        ),
+    ],
+)
+def test_what_cannot_be_searched_is_refused_in_one_line(folder, changes, message):
+    overlay(folder, "config.yaml", f"search: {changes}")
+    with pytest.raises(ConfigError, match=rf"^config/config.yaml:\d+: .*{message}") as refusal:
+        read_settings(folder)
+    assert "\n" not in str(refusal.value)
+
+
+def test_what_the_start_does_not_have_can_neither_vary_nor_spread(folder):
+    overlay(folder, "config.yaml", "{ blades: [Ref], search: { blade: Ref } }")
+    file = folder / "config/config.yaml"
+    content = yaml.safe_load(file.read_text())
+    content["search"]["variables"] = {"sweep_percent": [50, 150]}
+    file.write_text(yaml.safe_dump(content, sort_keys=False))
+    with pytest.raises(ConfigError, match=r"search.variables.sweep_percent: .*has no table of sweep and lean"):
+        read_settings(folder)
+    content["search"]["variables"] = {"stagger_deg.tip": [-1, 1]}
+    file.write_text(yaml.safe_dump(content, sort_keys=False))
+    overlay(folder, "config.yaml", f"search: {{ {TOLERANCES} of_blades: {{ sweep_percent: {{ uniform: 5 }} }} }} }}")
+    with pytest.raises(ConfigError, match=r"of_blades.sweep_percent: found sweep_percent, which 'Ref' does not have"):
+        read_settings(folder)
+
+
+def test_without_contact_or_stress_or_the_package_nothing_starts(folder, monkeypatch):
+    overlay(folder, "scenes.yaml", "abradable: { results: [spectrum] }")
+    with pytest.raises(ConfigError, match=r"lined.scenes: found 'abradable', without stress"):
+        read_settings(folder)
+    overlay(folder, "scenes.yaml", "abradable: { results: [stress] }")
+
+    def missing():
+        raise SearchPackageMissing("pip install 'r37[search]'")
+
+    monkeypatch.setattr(checks, "library", missing)
+    with pytest.raises(ConfigError, match=r"config.yaml:\d+: search: pip install"):
+        read_settings(folder)
+
+
+VARIABLES = (SearchVariable("stagger_deg.tip", -3.0, 3.0), SearchVariable("sweep_lean.1.sweep_cm", -1.0, 1.0))
+START = {"lined": (40.0, 1.0), "mass": (2.0, 0.0)}
+
+
+def choice(method="quasi_random", designs=7, seed=0):
+    constraints = {"mass": Constraint(Quantity("mass_kg"), None, None, 95.0, 110.0)}
+    return SearchChoice(
+        VARIABLES, {"lined": Quantity("length_certain_rad_s", ("s",))}, constraints, designs, 3, 2, method, seed
+    )
+
+
+def gave(values):
+    return {"lined": (10.0 + values[0] ** 2, 0.5), "mass": (2.0 + 0.2 * values[1], 0.0)}
+
+
+def searched(wanted):
+    """All rounds; the second design is refused, and of the third nothing is known."""
+    rounds = [first_round(wanted)]
+    while rounds[-1].new:
+        refused = {"d0001": "crossed"} if "d0001" in rounds[-1].new else {}
+        known = {name: gave(values) for name, values in rounds[-1].new.items() if name not in refused}
+        known |= {"d0002": {"lined": (None, None), "mass": (2.0, 0.0)}} if "d0002" in known else {}
+        rounds.append(round_after(rounds[-1], len(rounds), refused, known, START, wanted))
+    return rounds
+
+
+@pytest.mark.parametrize("method", ["quasi_random", "surrogate"])
+def test_rounds_spend_the_budget_in_batches_and_the_same_seed_gives_the_same(method):
+    rounds = searched(choice(method))
+    assert [list(each.new) for each in rounds] == [["d0000", "d0001", "d0002"], ["d0003", "d0004"], ["d0005", "d0006"], []]
+    assert searched(choice(method)) == rounds != searched(choice(method, seed=1))
+    tried = rounds[-1].tried
+    assert [design.round for design in tried.values()] == [0, 0, 0, 1, 1, 2, 2]
+    assert tried["d0001"].refused == "crossed" and tried["d0001"].quantities == {}
+    assert tried["d0001"].evaluated("d0001", choice(), START).status == "refused"
+    # a larger budget changes no design that is there
+    assert list(searched(choice(method, designs=8))[-1].tried.items())[:7] == list(tried.items())
+
+
+def test_plain_sampling_goes_on_with_its_sequence():
+    assert [design.values for design in searched(choice())[-1].tried.values()] == first_designs(VARIABLES, 7, 0)
+
+
+def test_margins_are_of_the_start_in_percent():
+    wanted = choice()
+    assert wanted.margins({"mass": (2.1, 0.0)}, START) == pytest.approx([2.1 - 1.9, 2.2 - 2.1])
+    assert all(math.isnan(margin) for margin in wanted.margins({"mass": (None, None)}, START))
+    assert Constraint(Quantity("mass_kg"), 1.0, None, None, 50.0).bounds(8.0) == (1.0, 4.0)
+
+
+def test_a_round_is_read_as_it_was_written(tmp_path):
+    for finished in searched(choice()):
+        write_round(finished, tmp_path / "round.json")
+        assert read_round(tmp_path / "round.json") == finished
+    assert isinstance(finished, SearchRound) and finished.tried["d0002"].quantities["lined"] == (None, None)
+
+
+@pytest.mark.parametrize("content", ["", "{", "[]", '{"new": 3}', '{"new": {"d0000": "x"}}'])
+def test_a_damaged_round_names_its_file(tmp_path, content):
+    (tmp_path / "round_0.json").write_text(content)
+    with pytest.raises(RuntimeError, match=r"round_0\.json"):
+        read_round(tmp_path / "round_0.json")
+
+
+def structure():
+    campbell = xr.Dataset(
+        {
+            "frequency": (("mode", "speed"), [[100.0, 140.0]]),
+            "crossing_speed": (("mode", "engine_order"), [[900.0, math.nan]]),
+            "dynamic_clearance": (("mode", "displacement"), [[0.0, -3e-4, 1e-4]]),
+        },
+        coords={"mode": ["1B"], "speed": [0.0, 1000.0], "engine_order": [1, 2]},
+    )
+    return DesignStructure(2.0, 8000.0, campbell, {1000.0: 5e8, 500.0: 2e8})
+
+
+@pytest.mark.parametrize(
+    ("quantity", "expected"),
+    [
+        (Quantity("mass_kg"), 16000.0),
+        (Quantity("frequency_hz", mode="1B"), 100.0),
+        (Quantity("frequency_hz", mode="1B", speed=500.0), 120.0),
+        (Quantity("frequency_margin_percent", mode="1B", engine_order=2, speed=500.0), 100.0 * (1.0 - 120.0 * math.pi / 500.0)),
+        (Quantity("crossing_margin_percent", mode="1B", engine_order=1, speed=1000.0), 10.0),
+        # which no speed has
+        (Quantity("crossing_margin_percent", mode="1B", engine_order=2, speed=1000.0), 100.0),
+        (Quantity("clearance_loss_m", mode="1B"), 3e-4),
+        (Quantity("static_stress_pa"), 5e8),
+        (Quantity("static_stress_pa", speed=500.0), 2e8),
+    ],
+)
+def test_quantities_of_a_structure(quantity, expected):
+    assert of_structure(quantity, structure(), 1000.0) == pytest.approx(abs(expected))
+
+
+def test_the_worst_of_several_scenes_counts_and_a_quantile_is_of_the_members():
+    nominal = {
+        "a": {"length_certain_rad_s": 3.0, "length_certain_scatter_rad_s": 0.1},
+        "b": {"length_certain_rad_s": 5.0, "length_certain_scatter_rad_s": 0.2},
+    }
+    members = {"a": [{"length_certain_rad_s": float(value)} for value in range(11)], "b": [{"length_certain_rad_s": 7.0}] * 4}
+    assert of_contact(Quantity("length_certain_rad_s", ("a", "b")), nominal, {}) == (5.0, 0.2)
+    value, scatter = of_contact(Quantity("length_certain_rad_s", ("a", "b"), quantile=0.9), nominal, members)
+    assert value == pytest.approx(9.0) and 0.2 < scatter < 3.0
+    assert of_contact(Quantity("length_certain_rad_s", ("b",), quantile=0.5), nominal, members) == (7.0, 0.0)
+
+
+def test_the_start_has_values_of_what_its_entry_leaves_out(folder):
+    variables = "{ sweep_lean.0.lean_deg: [-1, 1], chord_percent.hub: [90, 110], material.density_kg_m3: [7000, 9000] }"
+    overlay(folder, "config.yaml", f"search: {{ variables: {variables} }}")
+    assert designs_of(read_settings(folder)).start_values == [0.0, 0.0, 0.0, 100.0, None]
+
+
+def test_members_of_a_design_have_models_of_their_own_where_the_blade_changes(folder):
+    of_scenes = "of_scenes: { friction.coefficient: { uniform_percent: 5 } }"
+    overlay(folder, "config.yaml", f"search: {{ {TOLERANCES} {of_scenes} }} }}")
+    same = designs_of(read_settings(folder)).samples("d0003", (0.5, 1.0))["Free", "abradable"]
+    assert list(same.members) == ["", "0", "1", "2", "3"] == same.deciding
+    assert {member.model for member in same.members.values()} == {same.campbell} == {"search/d0003/"}
+    assert len({member.scene.friction.coefficient for member in same.members.values()}) == 5
+    overlay(folder, "config.yaml", "search: { tolerances: { of_blades: { thickness_percent: { uniform_percent: 2 } } } }")
+    other = designs_of(read_settings(folder)).samples("d0003", (0.5, 1.0))["Free", "abradable"]
+    assert [member.model for member in other.members.values()] == ["search/d0003/", *(f"search/d0003/{n}/" for n in range(4))]
+
+
+def test_folders_of_members_are_told_apart(folder):
+    settings = read_settings(folder)
+    samples = Samples(settings, beside(settings))
+    for part in ("", "search/d0001/", "search/d0001/3/", "search/start/", "tolerances/", "tolerances/3/"):
+        assert fullmatch(samples.pattern, part), part
+    for part in ("search/", "search/3/", "Free/", "search/d0001"):
+        assert not fullmatch(samples.pattern, part), part
+    parts = {
+        part: folder_and_name(SimpleNamespace(member=part)) for part in ("search/d0001/3/", "search/d0001/", "tolerances/3/")
+    }
+    assert list(parts.values()) == [("search/d0001", "3"), ("search/d0001", ""), ("tolerances", "3")]
+
+
+@pytest.mark.parametrize("start", ["Free", "Ref", "S100"])
+def test_a_best_design_is_the_blade_that_its_entry_gives(folder, start):
+    """Whether the start has rows, no table, or rows of its name in a file."""
+    overlay(folder, "config.yaml", f"{{ blades: [{start}], search: {{ blade: {start} }} }}")
+    file = folder / "config/config.yaml"
+    content = yaml.safe_load(file.read_text())
+    content["search"]["variables"] = {"stagger_deg.tip": [-3, 3], "material.density_kg_m3": [7000, 9000]}
+    file.write_text(yaml.safe_dump(content, sort_keys=False))
+    settings = read_settings(folder)
+    wanted = designs_of(settings)
+    values = (1.2345, 8100.0)
+    search = xr.Dataset(
+        {"value": (("design", "variable"), [values, values]), "objective_value": (("design", "objective"), [[3.0], [2.0]])},
+        coords={"design": ["start", "d0004"], "variable": list(wanted.entry.variables), "objective": ["lined"]},
+    ).assign_coords(objective_unit=("objective", ["rad s-1"]))
+    entries = Search(Sweep(settings), str, str).entries(None)
+    made = entries_of(search, ["d0004"], start, entries)
+    write_entries(search, made, ["d0004"], entries, folder / "config/best.yaml")
+    del content["search"]
+    file.write_text(
+        yaml.safe_dump(content | {"blades_file": "config/best.yaml", "blades": [start, f"{start}_best1"]}, sort_keys=False)
+    )
+    pasted = read_settings(folder).blades
+    for blade, expected in ((pasted[start], settings.blades[start]), (pasted[f"{start}_best1"], wanted.blade("d0004", values))):
+        assert (blade.material, blade.contact) == (expected.material, expected.contact)
+        assert blade.definition.profiles == expected.definition.profiles
+        assert blade.definition.stacking == expected.definition.stacking
+
+
+def test_a_design_without_a_number_is_neither_feasible_nor_among_the_best():
+    last = searched(choice())[-1]
+    search = search_dataset(last, choice(), [0.0, 0.0])
+    table = search_table(search).set_index("design")
+    assert list(table.index) == ["start", *last.tried]
+    assert table.loc["d0001", "refused"] == "crossed" and not table.loc["d0001", "feasible"]
+    assert not table.loc["d0002", "feasible"] and table.loc["d0002", "order"] == 0
+    best = table[table["order"] > 0].sort_values("order")
+    assert best["lined"].is_monotonic_increasing and best["feasible"].all() and len(best) >= 2
+    assert np.isfinite(search["surrogate_q2"]).all() or search.sizes["design"] < 9
+
+
+def test_a_search_of_which_nothing_is_feasible_has_a_table():
+    designs = {
+        "d0000": Design((0.0, 0.0), 0, "crossed", {}),
+        "d0001": Design((1.0, 0.5), 0, None, {"lined": (1.0, 0.0), "mass": (9.0, 0.0)}),
+    }
+    search = search_dataset(SearchRound({}, designs, START), choice(), [None, 0.0])
+    assert search["order"].values.tolist() == [0, 0, 0] and "slice_mean" not in search
+    assert search_table(search)["feasible"].tolist() == [1, 0, 0]
+    json.dumps(search_table(search).to_dict("list"))
