@@ -157,7 +157,7 @@ def _search(calculation: Calculation) -> None:
         asked = _round(calculation, search, number)
         if not asked.new:
             break
-        LOGGER.info("search: round %d, %d designs", number, len(asked.new))
+        LOGGER.info("search: round %d, %d design%s", number, len(asked.new), "s" if len(asked.new) > 1 else "")
         _shapes(calculation, search, number, list(asked.new))
         refused = read_json(built_file(number))
         built = [name for name in asked.new if name not in refused]
@@ -201,11 +201,11 @@ def _tell(search: Search, asked: SearchRound) -> None:
         told = f"{len(not_dominated(evaluated))} that none is better than in all objectives"
     else:
         ((objective, quantity),) = choice.objectives.items()
-        found = best_first(evaluated)[:1]
-        told = "".join(f"best {each.name}, {objective} {each.objectives[0]:.4g} {quantity.unit}" for each in found)
+        ahead = best_first(evaluated)[:1]
+        told = "".join(f"best {each.name}, {objective} {each.objectives[0]:.4g} {quantity.unit}" for each in ahead)
     refused = sum(design.refused is not None for design in asked.tried.values())
     cannot = f", {refused} of them cannot be built" if refused else ""
-    LOGGER.info("search: %d of %d designs%s; %s", len(evaluated), entry.designs, cannot, told or "none keeps all constraints")
+    LOGGER.info("search: %d of %d designs%s; %s", len(evaluated), entry.designs, cannot, told or "none can be built and keeps all constraints")
 
 
 def _shapes(calculation: Calculation, search: Search, number: int, designs: Sequence[str]) -> None:
