@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property, partial
 from itertools import count
 from pathlib import Path
@@ -101,25 +101,10 @@ class Calculation:
             files, tip_line = self._structure(run), self.settings.scenes[run.scene].tip_line
             wanted[self.sweep.contact_model(run)] = files.contact_model(tip_line)
             wanted |= {file: files.stress_operator(tip_line) for file in self.sweep.stress_operator(run)}
-        self._linked(wanted)
+        self.linked(wanted)
 
-    def of_samples(self, folders: Iterable[str]) -> Calculation:
-        """The same in the same folder, of samples in some folders `only`."""
-        return replace(self, only=tuple(folders))
-
-    def models_of_designs(self) -> None:
-        """Shape, contact model, stress operator and Campbell diagram of each of the folders `only`, as a search asks for them."""
-        tip_line, wanted = self.settings.structure.boundary.tip_line, dict[str, Recipe]()
-        for group in self.groups:
-            files = self._structure(group)
-            wanted[paths.fill(paths.GEOMETRY, **vars(group))] = files.geometry()
-            wanted[paths.fill(paths.CONTACT_MODEL, tip_line=tip_line, **vars(group))] = files.contact_model(tip_line)
-            wanted[paths.fill(paths.STRESS_OPERATOR, tip_line=tip_line, **vars(group))] = files.stress_operator(tip_line)
-        self._linked(wanted)
-        self.campbells()
-
-    def _linked(self, wanted: Mapping[str, Recipe]) -> None:
-        """Files of the cache under their names in the folder."""
+    def linked(self, wanted: Mapping[str, Recipe]) -> None:
+        """Give files of the cache their names in the folder. Raises what making them raises."""
         for name, file in self._kept(wanted).items():
             link = Path(self.path(name))
             if not link.exists():
@@ -137,11 +122,6 @@ class Calculation:
         for (name, file), (blade, model) in zip(self._kept(wanted).items(), models, strict=True):
             provenance = self.made.structure(Named(blade=blade, member=model))
             write_dataset(read_dataset(file), self.path(name), provenance)
-
-    def geometries(self, blades: Iterable[str]) -> list[str]:
-        """Shapes of blades. Raises what making them raises."""
-        of = {paths.fill(paths.GEOMETRY, blade=blade): StructureFiles(self.settings, blade).geometry() for blade in blades}
-        return [str(file) for file in self._kept(of).values()]
 
     def _structure(self, run: Named) -> StructureFiles:
         return StructureFiles(self.settings, run.blade, self.samples, self.sweep.samples.model(run))

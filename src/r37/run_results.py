@@ -51,7 +51,7 @@ class FilesByName(Mapping[str, Content], Generic[Content]):
 
 
 class RunResults(FilesByName[xr.Dataset]):
-    """Datasets of a run by name (campbell, rms, spectrum, stress, wear, run_ups, rotor, tolerances, search, ...), and its `tables`.
+    """Datasets of a run by name (campbell, rms, stress, wear, run_ups, rotor, tolerances, search, ...), and its `tables`.
 
     Each is read when it is first asked for. `folder`: where they lie; `temporary`: the same of what a call has made, which is
     gone with this object.

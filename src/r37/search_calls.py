@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from itertools import count
 from pathlib import Path
 from typing import Any
@@ -25,6 +26,7 @@ from .jobs import check_cores, in_parallel
 from .run_results import RunResults
 from .simulations import remarks_of, tell
 from .stages import LOGGER
+from .structure_files import Recipe, StructureFiles
 
 _BOUNDS = 'dotted keys of blades.yaml and their bounds, as in {"stagger_deg.tip": [-3, 3]}'
 _OBJECTIVES = 'names and what is read off, as in {"lined": {"scenes": ["abradable"]}}'
@@ -205,7 +207,8 @@ def _tell(search: Search, asked: SearchRound) -> None:
         told = "".join(f"best {each.name}, {objective} {each.objectives[0]:.4g} {quantity.unit}" for each in ahead)
     refused = sum(design.refused is not None for design in asked.tried.values())
     cannot = f", {refused} of them cannot be built" if refused else ""
-    LOGGER.info("search: %d of %d designs%s; %s", len(evaluated), entry.designs, cannot, told or "none can be built and keeps all constraints")
+    told = told or "none can be built and keeps all constraints"
+    LOGGER.info("search: %d of %d designs%s; %s", len(evaluated), entry.designs, cannot, told)
 
 
 def _shapes(calculation: Calculation, search: Search, number: int, designs: Sequence[str]) -> None:
@@ -228,12 +231,25 @@ def _shapes(calculation: Calculation, search: Search, number: int, designs: Sequ
     )
 
 
+def _structures(of_designs: Calculation) -> None:
+    """What designs are judged by that is no simulation."""
+    settings, wanted = of_designs.settings, dict[str, Recipe]()
+    tip_line = settings.structure.boundary.tip_line
+    for group in of_designs.groups:
+        files, of = StructureFiles(settings, group.blade, of_designs.samples, group.member), vars(group)
+        wanted[paths.fill(paths.GEOMETRY, **of)] = files.geometry()
+        wanted[paths.fill(paths.CONTACT_MODEL, tip_line=tip_line, **of)] = files.contact_model(tip_line)
+        wanted[paths.fill(paths.STRESS_OPERATOR, tip_line=tip_line, **of)] = files.stress_operator(tip_line)
+    of_designs.linked(wanted)
+    of_designs.campbells()
+
+
 def _measures(calculation: Calculation, search: Search, designs: Sequence[str]) -> None:
     """Models, simulations and measures of designs that can be built."""
     if not designs:
         return
-    of_designs = calculation.of_samples([f"{FOLDER}/{name}" for name in designs])
-    of_designs.models_of_designs()
+    of_designs = replace(calculation, only=tuple(f"{FOLDER}/{name}" for name in designs))
+    _structures(of_designs)
     of_designs.responses()
     tasks = [
         calculation.task(
