@@ -249,6 +249,8 @@ def test_the_worst_of_several_scenes_counts_and_a_quantile_is_of_the_members():
     value, scatter = of_contact(Quantity("length_certain_rad_s", ("a", "b"), quantile=0.9), nominal, members)
     assert value == pytest.approx(9.0) and 0.2 < scatter < 3.0
     assert of_contact(Quantity("length_certain_rad_s", ("b",), quantile=0.5), nominal, members) == (7.0, 0.0)
+    value, scatter = of_contact(Quantity("largest_rms_m", ("a",)), {"a": {"largest_rms_m": 2.0}}, {})
+    assert value == 2.0 and np.isnan(scatter)
 
 
 def test_the_start_has_values_of_what_its_entry_leaves_out(folder):

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from .rotor_calls import rotor
     from .run_results import RunResults, open_results
     from .run_up_calls import run_up, run_ups
+    from .search_calls import search
     from .simulations import campbell, reduced_model, simulate, sweep
     from .studies import compare, designs, tolerances
     from .study_folder import SNAKEFILE, init
@@ -53,6 +54,7 @@ __all__ = [
     "run_ups",
     "scene",
     "scenes",
+    "search",
     "simulate",
     "sweep",
     "tolerances",
@@ -66,6 +68,7 @@ _NAMES_OF = {
     ".rotor_calls": ("rotor",),
     ".run_results": ("RunResults", "open_results"),
     ".run_up_calls": ("run_up", "run_ups"),
+    ".search_calls": ("search",),
     ".simulations": ("campbell", "reduced_model", "simulate", "sweep"),
     ".studies": ("compare", "designs", "tolerances"),
     ".study_folder": ("SNAKEFILE", "init"),

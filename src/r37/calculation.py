@@ -31,16 +31,20 @@ from .structure_files import Recipe, StructureFiles
 
 @dataclass(frozen=True)
 class Calculation:
-    """What the workflow makes of `settings`, made in `folder` on so many `cores`; structures come from the cache."""
+    """What the workflow makes of `settings`, made in `folder` on so many `cores`; structures come from the cache.
+
+    `only`: folders of samples, such as `search/d0003`, that are made in place of the nominal sweep and those beside it.
+    """
 
     settings: Settings
     folder: Path
     cores: int
+    only: tuple[str, ...] | None = None
 
     @cached_property
     def samples(self) -> Mapping[str, Mapping[Pair, Sample]]:
         """Members of samples, by the folder that they lie in."""
-        return beside(self.settings)
+        return beside(self.settings, self.folder)
 
     @cached_property
     def sweep(self) -> Sweep:
@@ -64,7 +68,8 @@ class Calculation:
     @property
     def groups(self) -> Iterator[Named]:
         """Wildcards of all samples: the nominal ones first, then those of members."""
-        for folder, pairs in {NOMINAL: self.settings.speed_plans, **self.samples}.items():
+        every = {NOMINAL: self.settings.speed_plans, **self.samples}
+        for folder, pairs in every.items() if self.only is None else ((name, self.samples[name]) for name in self.only):
             for blade, scene in pairs:
                 yield Named(member=path_part(folder), blade=blade, scene=scene)
 
@@ -96,14 +101,20 @@ class Calculation:
             files, tip_line = self._structure(run), self.settings.scenes[run.scene].tip_line
             wanted[self.sweep.contact_model(run)] = files.contact_model(tip_line)
             wanted |= {file: files.stress_operator(tip_line) for file in self.sweep.stress_operator(run)}
+        self.linked(wanted)
+
+    def linked(self, wanted: Mapping[str, Recipe]) -> None:
+        """Give files of the cache their names in the folder. Raises what making them raises."""
         for name, file in self._kept(wanted).items():
             link = Path(self.path(name))
-            link.parent.mkdir(parents=True, exist_ok=True)
-            link.symlink_to(file)
+            if not link.exists():
+                link.parent.mkdir(parents=True, exist_ok=True)
+                link.symlink_to(file)
 
     def campbells(self) -> None:
-        """Campbell diagrams of all blades and members. Raises what making them raises."""
-        models = {(run.blade, self.sweep.samples.model(run)): run for run in self.runs}
+        """Campbell diagrams of all blades and members; of samples `only`, theirs alone. Raises what making them raises."""
+        runs = self.runs if self.only is None else self.groups
+        models = {(run.blade, self.sweep.samples.model(run)): run for run in runs}
         wanted = {
             paths.fill(paths.CAMPBELL, blade=blade, member=model): self._structure(run).campbell()
             for (blade, model), run in models.items()
@@ -111,11 +122,6 @@ class Calculation:
         for (name, file), (blade, model) in zip(self._kept(wanted).items(), models, strict=True):
             provenance = self.made.structure(Named(blade=blade, member=model))
             write_dataset(read_dataset(file), self.path(name), provenance)
-
-    def geometries(self, blades: Iterable[str]) -> list[str]:
-        """Shapes of blades. Raises what making them raises."""
-        of = {paths.fill(paths.GEOMETRY, blade=blade): StructureFiles(self.settings, blade).geometry() for blade in blades}
-        return [str(file) for file in self._kept(of).values()]
 
     def _structure(self, run: Named) -> StructureFiles:
         return StructureFiles(self.settings, run.blade, self.samples, self.sweep.samples.model(run))

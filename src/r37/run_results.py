@@ -51,7 +51,7 @@ class FilesByName(Mapping[str, Content], Generic[Content]):
 
 
 class RunResults(FilesByName[xr.Dataset]):
-    """Datasets of a run by name (campbell, rms, spectrum, stress, wear, run_ups, rotor, tolerances, ...), and its `tables`.
+    """Datasets of a run by name (campbell, rms, stress, wear, run_ups, rotor, tolerances, search, ...), and its `tables`.
 
     Each is read when it is first asked for. `folder`: where they lie; `temporary`: the same of what a call has made, which is
     gone with this object.
@@ -61,7 +61,7 @@ class RunResults(FilesByName[xr.Dataset]):
         super().__init__(folder, ".nc", "datasets", read_dataset)
         self.folder, self._temporary = folder, temporary
         self.tables = FilesByName(folder, ".csv", "tables", _table)
-        """Tables by name (summary, ranking, designs, run_ups, run_up_rates, rotors, tolerances, coincidences)."""
+        """Tables by name (summary, ranking, designs, run_ups, run_up_rates, rotors, tolerances, search, coincidences)."""
 
     def _elsewhere(self, name: str) -> str:
         return f'; there is a table of this name: results.tables["{name}"]' if name in self.tables else ""
@@ -90,6 +90,17 @@ class RunResults(FilesByName[xr.Dataset]):
     def rotor(self, blade: str, scene: str) -> xr.Dataset:
         """rotor.nc of one blade in one scene, as `r37.rotor` gives it. Raises InputFileError where it cannot be read."""
         return read_dataset(self.folder / blade / scene / "rotor.nc")
+
+    def best_values(self) -> dict[str, float]:
+        """Variables of the best design of a search, as in `r37.blade("Ref", name="Better", **results.best_values())`.
+
+        Raises KeyError for results without a search, ValueError where no design keeps all constraints.
+        """
+        search = self["search"]
+        best = search["value"].values[search["order"].values == 1]
+        if not len(best):
+            raise ValueError(f"search: no design of {self.folder} keeps all constraints; the table search has what each gave")
+        return dict(zip(search["variable"].values.tolist(), best[0].tolist(), strict=True))
 
     def tree(self) -> xr.DataTree:
         """All datasets of the run as one tree: those of all blades at the top, `Ref/campbell`, `Ref/abradable/response` below.

@@ -16,6 +16,7 @@ from r37core.tolerances.plan import DATASET, TABLE, Tolerances
 
 from .calculation import Calculation
 from .jobs import in_parallel
+from .structure_files import StructureFiles
 
 _CAMPBELL, _SUMMARY = "<results>/campbell.nc", "<results>/summary.csv"
 
@@ -105,17 +106,19 @@ def _dataset(calculation: Calculation, kind: str, file: str) -> None:
 
 
 def _designs(calculation: Calculation, ranked: dict[str, str]) -> None:
-    families = Families(calculation.settings)
+    settings = calculation.settings
+    families = Families(settings)
     if not families.designs:
         return
-    geometry = calculation.geometries(families.designs)
+    geometry = {paths.fill(paths.GEOMETRY, blade=name): StructureFiles(settings, name).geometry() for name in families.designs}
+    calculation.linked(geometry)
     calculation.step(
         "designs.steps.tabulate",
-        {**ranked, "campbell": _CAMPBELL, "summary": _SUMMARY, "geometry": geometry},
+        {**ranked, "campbell": _CAMPBELL, "summary": _SUMMARY, "geometry": list(geometry)},
         {"table": "<results>/designs.csv"},
         designs=families.designs,
         densities=families.densities,
-        scenes=list(calculation.settings.scenes),
+        scenes=list(settings.scenes),
     )
 
 

@@ -87,20 +87,20 @@ class StructureFiles:
         structure, wildcards = self._structure, self._wildcards(tip_line=tip_line)
         common = {"reduction": structure.reduction(wildcards), "contact": structure.location_of_contact(wildcards)}
         if isinstance(self._blade.definition, MatricesSource):
-            return Recipe(self.name, "exchange.importing.steps.imported_matrices", "rom.nc", {}, {**self._source(), **common})
+            return Recipe(self._label, "exchange.importing.steps.imported_matrices", "rom.nc", {}, {**self._source(), **common})
         material, before = structure.elastic(wildcards), Attributes(file=None)
         params = {"material": material, "made_before": before, **common}
-        return Recipe(self.name, "rom.steps.reduced_model", "rom.nc", {"mesh": self._mesh()}, params)
+        return Recipe(self._label, "rom.steps.reduced_model", "rom.nc", {"mesh": self._mesh()}, params)
 
     def contact_model(self, tip_line: str) -> Recipe:
         """What a simulation starts from (.npz)."""
         inputs = {"rom": self.reduced_model(tip_line)}
-        return Recipe(self.name, "rom.steps.contact_model", "contact.npz", inputs, {"tip_line": tip_line})
+        return Recipe(self._label, "rom.steps.contact_model", "contact.npz", inputs, {"tip_line": tip_line})
 
     def stress_operator(self, tip_line: str) -> Recipe:
         """The stress per motion of a blade with a mesh (.npz)."""
         inputs, material = {"rom": self.reduced_model(tip_line)}, self._structure.elastic(self._wildcards())
-        return Recipe(self.name, "stress.steps.stress_operator", "stress.npz", inputs, {"material": material})
+        return Recipe(self._label, "stress.steps.stress_operator", "stress.npz", inputs, {"material": material})
 
     def campbell(self) -> Recipe:
         """The Campbell diagram (.nc), without provenance."""
@@ -111,7 +111,7 @@ class StructureFiles:
             "tip_line": structure.boundary.tip_line,
         }
         inputs = {"rom": self.reduced_model(structure.boundary.tip_line)}
-        return Recipe(self.name, "results.steps.campbell_of_blade", "campbell.nc", inputs, params)
+        return Recipe(self._label, "results.steps.campbell_of_blade", "campbell.nc", inputs, params)
 
     def geometry(self) -> Recipe:
         """The shape of a blade with profiles (.nc)."""
@@ -119,13 +119,17 @@ class StructureFiles:
         nominal = self._blade.definition == self.settings.blades[self.name].definition
         wildcards = Named(blade=self.name, member=NOMINAL if nominal else self.member)
         params = {"definition": self._structure.definition(wildcards), "edges": self.settings.structure.edges}
-        return Recipe(self.name, "blade.steps.geometry", "geometry.nc", {}, params)
+        return Recipe(self._label, "blade.steps.geometry", "geometry.nc", {}, params)
 
     def _mesh(self) -> Recipe:
         if isinstance(self._blade.definition, MeshSource):
-            return Recipe(self.name, "exchange.importing.steps.imported_mesh", "mesh.vtu", {}, self._source())
+            return Recipe(self._label, "exchange.importing.steps.imported_mesh", "mesh.vtu", {}, self._source())
         params = {"mesh": plain(self.settings.fidelity.mesh)}
-        return Recipe(self.name, "fem.steps.mesh", "mesh.vtu", {"geometry": self.geometry()}, params)
+        return Recipe(self._label, "fem.steps.mesh", "mesh.vtu", {"geometry": self.geometry()}, params)
+
+    @property
+    def _label(self) -> str:
+        return ", ".join(part for part in (self.name, self.member.rstrip("/")) if part)
 
     @property
     def _blade(self) -> BladeSettings:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Any
 
 from r37core.config import Settings
@@ -42,7 +43,8 @@ class Wing:
     `section`: type and default of that section, as pydantic's `create_model` takes them; none without one.
     `checks`: what no model of the section alone can check; each raises ConfigError.
     `sampling`: members that it has run beside the sweep, and what is made of them.
-    `later`: of samples that are named while a run goes on, by the part of their folder below one of the wing's name.
+    `later`: of samples that are named while a run goes on, by the part of their folder below one of the wing's name; takes the
+    folder of the results.
     `simulated`: files of its own simulations in the folders of the blades, which other machines may make.
     `targets`: what is made of them; part of all_blades unless `on_request`.
     `remarks`: what a run should say of it before it starts.
@@ -54,7 +56,7 @@ class Wing:
     section: tuple[Any, Any] | None = None
     checks: tuple[Callable[[Settings], None], ...] = ()
     sampling: Sampling | None = None
-    later: Callable[[Settings], Callable[[str], Mapping[Pair, Sample]]] | None = None
+    later: Callable[[Settings, Path], Callable[[str], Mapping[Pair, Sample]]] | None = None
     simulated: Targets = _nothing
     targets: Targets = _nothing
     remarks: Callable[[Settings], list[str]] = lambda _: []

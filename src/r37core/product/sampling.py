@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 from r37core.config import Settings
 from r37core.plans.samples import Beside, Sampling
 
 from .wings import WINGS
 
 
-def beside(settings: Settings) -> Beside:
-    """Samples of each wing that has some, by the folder of its results."""
+def beside(settings: Settings, results: Path | None = None) -> Beside:
+    """Samples of each wing that has some, by the folder of its results; `results`: in place of the workflow's."""
     return Beside(
         {wing.name: dict(wing.sampling.samples(settings)) for wing in WINGS if wing.sampling},
-        later={wing.name: wing.later(settings) for wing in WINGS if wing.later},
+        later={wing.name: wing.later(settings, results or settings.results) for wing in WINGS if wing.later},
     )
 
 

@@ -107,9 +107,8 @@ class Search:
 
     def shape(self, wildcards: Any) -> dict[str, Any]:
         """Definition of a design's shape, or why there is none, as plain values."""
-        designs, name = self.designs, wildcards.design
         try:
-            samples = designs.samples(name, values_of(self.settings, name))
+            samples = self._samples(wildcards.design)
         except (ConfigError, ImpossibleValueError) as error:
             return {"definition": None, "refused": str(error)}
         (blade, *_) = (member.blade for sample in samples.values() for member in sample.members.values())
@@ -201,22 +200,22 @@ def designs_of(settings: Settings) -> SearchDesigns:
     return settings.made(SearchDesigns)
 
 
-def samples_of(settings: Settings) -> Callable[[str], Mapping[Pair, Sample]]:
-    """Design -> its runs, in the settings' search: of one that a round has proposed, or of the start."""
+def samples_of(settings: Settings, results: Path) -> Callable[[str], Mapping[Pair, Sample]]:
+    """Design -> its runs, in the settings' search: of one that a round in `results` has proposed, or of the start."""
 
     @cache
     def samples(design: str) -> Mapping[Pair, Sample]:
-        return designs_of(settings).samples(design, values_of(settings, design))
+        return designs_of(settings).samples(design, values_of(results, design))
 
     return samples
 
 
-def values_of(settings: Settings, design: str) -> tuple[float, ...] | None:
+def values_of(results: Path, design: str) -> tuple[float, ...] | None:
     """Values of a design's variables, as the round that proposed it has them; None of the start, which has its own."""
     if design == START:
         return None
     for number in count():
-        file = Path(paths.fill(ROUND, round=number).replace("<results>", str(settings.results)))
+        file = Path(paths.fill(ROUND, round=number).replace("<results>", str(results)))
         new = round_of(str(file)).new
         if design in new:
             return new[design]

@@ -137,7 +137,7 @@ def of_contact(
     of_scenes = []
     for scene in quantity.scenes:
         if quantity.quantile is None:
-            scatter = quantity.measure.replace("_rad_s", "_scatter_rad_s")
+            scatter = f"{quantity.measure.removesuffix('_rad_s')}_scatter_rad_s"
             of_scenes.append((nominal[scene][quantity.measure], nominal[scene].get(scatter, math.nan)))
         else:
             of_scenes.append(_quantile([member[quantity.measure] for member in members[scene]], quantity.quantile))

@@ -1,0 +1,114 @@
+"""The call of a search: it gives what the workflow gives, a design that cannot be built is a result, and bad input is told."""
+
+import re
+import sys
+
+import numpy as np
+import pandas as pd
+import pytest
+import xarray as xr
+import yaml
+from overlays import overlay
+from workflow_runs import copy_finished, copy_project, snakemake
+
+import r37
+from r37core.io import write_json
+from r37core.results.ranking import robustness
+
+SPEEDS = [1150, 1550]
+SEARCH = {
+    "variables": {"stagger_deg.tip": [-2, 2], "chordwise_sweep_deg": [0, 20]},
+    "objectives": {"lined": {"measure": "largest_rms_m", "scenes": ["abradable"]}},
+    "constraints": {"first": {"measure": "frequency_hz", "mode": "1B", "at_least_percent": 60}},
+    "designs": 3,
+    "first": 2,
+    "batch": 1,
+}
+
+
+@pytest.fixture(scope="module", autouse=True)
+def cache(tmp_path_factory):
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("R37_CACHE", str(tmp_path_factory.mktemp("cache")))
+        yield
+
+
+@pytest.fixture(scope="module")
+def config(root, tmp_path_factory):
+    """The config.yaml of a small sweep without a search."""
+    folder = tmp_path_factory.mktemp("study")
+    copy_project(root, folder)
+    return folder / "config/config.yaml"
+
+
+@pytest.fixture(scope="module")
+def searched(small_sweep, tmp_path_factory):
+    """The small sweep with a search of the workflow."""
+    folder = copy_finished(small_sweep, tmp_path_factory.mktemp("searched") / "sweep")
+    changes = {"blades": ["Ref"], "scenes": ["abradable"], "speeds": SPEEDS, "search": {"blade": "Ref", **SEARCH}}
+    overlay(folder, "config.yaml", yaml.safe_dump(changes, sort_keys=False))
+    snakemake(folder, "results/search.nc", "results/search/best", "--cores", "2")
+    return folder
+
+
+@pytest.mark.slow
+def test_a_search_is_that_of_the_workflow_and_its_best_design_that_blade(searched, config, caplog):
+    """To the last bit, on one core and on two."""
+    results = r37.open_results(searched / "results")
+    with caplog.at_level("INFO", "r37"):
+        again = r37.search("Ref", "abradable", SPEEDS, **SEARCH, config=config, cores=2)
+    for search in (again, r37.search("Ref", "abradable", SPEEDS, **SEARCH, config=config)):
+        xr.testing.assert_identical(search["search"], results["search"])
+        pd.testing.assert_frame_equal(search.tables["search"], results.tables["search"])
+    told = [message for message in caplog.messages if message.startswith("search: ")]
+    assert len(told) == 4 and told[::2] == ["search: round 0, 2 designs", "search: round 1, 1 design"]
+    best = again["search"].isel(design=again["search"].order.values == 1)
+    name, value = str(best.design.item()), float(best.objective_value.item())
+    assert told[-1] == f"search: 3 of 3 designs; best {name}, lined {value:.4g} m"
+    entries = (again.folder / "search/best/blades.yaml").read_text().split("\n", 5)[5]
+    assert (searched / "results/search/best/blades.yaml").read_text().endswith(entries)
+    better = r37.blade("Ref", name="Better", config=config, **again.best_values())
+    response = r37.sweep(better, "abradable", SPEEDS, config=config)
+    assert robustness(response)["largest_rms_m"] == value
+
+
+@pytest.mark.slow
+def test_designs_that_cannot_be_built_are_results(config, monkeypatch, caplog):
+    def shape(input, output, params):
+        write_json({"refused": "crossed"}, output.shape)
+
+    monkeypatch.setattr("r37core.search.steps.shape", shape)
+    with caplog.at_level("INFO", "r37"):
+        results = r37.search("Ref", "abradable", SPEEDS, **SEARCH, method="quasi_random", config=config)
+    assert results.tables["search"].refused.tolist()[1:] == ["crossed"] * 3
+    assert np.isfinite(results["search"].objective_value.sel(design="start")).all()
+    assert "search: 3 of 3 designs, 3 of them cannot be built; none can be built and keeps all constraints" in caplog.messages
+    with pytest.raises(ValueError, match="keeps all constraints; the table search has what each gave"):
+        results.best_values()
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"variables": ["stagger_deg"]}, r"variables: found \['stagger_deg'\]; allowed: dotted keys of blades.yaml and their"),
+        ({"objectives": "lined"}, "objectives: found 'lined'; allowed: names and what is read off, as in"),
+        ({"constraints": 3}, "constraints: found 3; allowed: names and what is kept"),
+        ({"tolerances": 5}, "tolerances: found 5; allowed: of_scenes, of_blades and members"),
+        ({"variables": {"stagger_deg.tip": [2, -2]}}, "r37.search: search.variables.stagger_deg.tip: found .*a lower and a h"),
+        ({"objectives": {"lined": {"scenes": ["direct"]}}}, "r37.search: search.objectives.lined.scenes: found 'direct'"),
+        ({"designs": 1, "first": 1}, "r37.search: search.designs: found 1; allowed"),
+        ({"blade": r37.blade("Ref", chordwise_sweep_deg=5)}, 'differ, as of r37.blade."Ref", ..., name="Mine"'),
+        ({"cores": 0}, "cores: found 0"),
+    ],
+)
+def test_what_cannot_be_searched_is_told(config, changes, message):
+    arguments = {"blade": "Ref", "scenes": "abradable", "speeds": SPEEDS, "config": config, **SEARCH, **changes}
+    with pytest.raises(r37.ConfigError, match=message):
+        r37.search(**arguments)
+
+
+def test_the_missing_package_is_named_in_one_line(config, monkeypatch):
+    monkeypatch.setitem(sys.modules, "sklearn.gaussian_process", None)
+    with pytest.raises(r37.ConfigError) as refused:
+        r37.search("Ref", "abradable", SPEEDS, **SEARCH, config=config)
+    assert re.fullmatch(r"r37.search: search: .* extra package scikit-learn: pip install 'r37\[search\]'.*", str(refused.value))
