@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from itertools import count
 from pathlib import Path
 from typing import Any
 
@@ -155,7 +154,7 @@ def _search(calculation: Calculation) -> None:
         return calculation.path(paths.fill(BUILT, round=number))
 
     search = Search(calculation.sweep, round_file, built_file)
-    for number in count():
+    for number in (*search.rounds, len(search.rounds)):
         asked = _round(calculation, search, number)
         if not asked.new:
             break
@@ -186,7 +185,12 @@ def _round(calculation: Calculation, search: Search, number: int) -> SearchRound
     """A round, as what all before it gave proposes it."""
     at, file = Named(round=number), paths.fill(ROUND, round=number)
     calculation.step(
-        "search.steps.propose_round", search.round_inputs(at), {"round": file}, choice=search.choice(at), round=number
+        "search.steps.propose_round",
+        search.round_inputs(at),
+        {"round": file},
+        choice=search.choice(at),
+        round=number,
+        number=search.number_of_designs(at),
     )
     asked = read_round(calculation.path(file))
     if asked.tried:
@@ -256,7 +260,7 @@ def _measures(calculation: Calculation, search: Search, designs: Sequence[str]) 
             "search.steps.measure",
             search.measured(at),
             {"measures": paths.fill(MEASURES, design=at.design)},
-            choice=search.choice(at),
+            quantities=search.quantities(at),
             scenes=search.responses_of_scenes(at),
             density=search.density(at),
             highest_speed=calculation.settings.structure.maximum_speed_rad_s,
