@@ -33,6 +33,20 @@ if snakemake.params.step == "r37core.adaptive.steps.refine":
     Path(snakemake.output[0]).write_text(json.dumps({"new": new, "measured": []}))
 """
 
+# designs are proposed by the real steps; what they gave follows from their names, and one cannot be built
+_SEARCH_STUB = """
+if snakemake.params.step in ("r37core.search.steps.propose_round", "r37core.search.steps.built"):
+    from r37core.search import steps
+
+    getattr(steps, snakemake.params.step.rsplit(".", 1)[1])(snakemake.input, snakemake.output, snakemake.params)
+elif snakemake.params.step == "r37core.search.steps.shape":
+    refused = "it folds" if snakemake.wildcards.design == "d0001" else None
+    Path(snakemake.output[0]).write_text(json.dumps({"refused": refused}))
+elif snakemake.params.step == "r37core.search.steps.measure":
+    values = {name: [float(snakemake.wildcards.design.strip("dstar") or 0), None] for name in snakemake.params.quantities}
+    Path(snakemake.output[0]).write_text(json.dumps(values))
+"""
+
 
 def copy_stubbed(root, to):
     """A copy with the small sweep of copy_project, its scripts replaced."""
@@ -42,7 +56,7 @@ def copy_stubbed(root, to):
         # the imports stay: they decide what code a job depends on
         imports = [line for line in script.read_text().splitlines() if re.match(r"from r37core\S* import \w+(, \w+)*$", line)]
         lazy = "\n".join(["def _imports():", *(f"    {line}" for line in imports), "    return None"])
-        script.write_text(f"{lazy}\n{_STUB}{_REFINE_STUB if script.name == 'step.py' else ''}")
+        script.write_text(f"{lazy}\n{_STUB}{_REFINE_STUB + _SEARCH_STUB if script.name == 'step.py' else ''}")
 
 
 def edit(project, name, old, new):

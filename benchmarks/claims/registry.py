@@ -354,6 +354,13 @@ CLAIMS = (
         numbers=("structure", "lined", "stress"),
     ),
     Claim(
+        "search_libraries",
+        (Output("docs/search.md#search_libraries", "benchmarks/search_libraries.md"),),
+        by_hand="pip install egobox smt optuna openturns pymoo; python benchmarks/search_libraries.py",
+        minutes=10,
+        code=("benchmarks/search_libraries.py",),
+    ),
+    Claim(
         "search",
         (
             *(Output(f"docs/search.md#search_{name}", f"{STUDIES}/search_{name}.md") for name in _SEARCH),

@@ -30,6 +30,7 @@ checkpoint search_round:
         **step("search.steps.propose_round"),
         choice=search.choice,
         round=lambda wildcards: int(wildcards.round),
+        number=search.number_of_designs,
     script:
         "../scripts/step.py"
 
@@ -78,7 +79,7 @@ use rule step as search_measures with:
     priority: 5
     params:
         **step("search.steps.measure"),
-        choice=search.choice,
+        quantities=search.quantities,
         scenes=search.responses_of_scenes,
         density=search.density,
         highest_speed=settings.structure.maximum_speed_rad_s,
@@ -97,6 +98,8 @@ use rule step as search_dataset with:
     params:
         **step("search.steps.join"),
         choice=search.choice,
+        # another number of rounds, whose files may all be there
+        budget=search.budget,
         start=search.start_values,
         fidelity=settings.fidelity_name,
 

@@ -40,14 +40,14 @@ class Constraint:
 
 @dataclass(frozen=True)
 class SearchChoice:
-    """Variables, objectives and constraints by name, and how the search goes on; see SearchSection."""
+    """Variables, objectives and constraints by name, and how designs are proposed; see SearchSection.
+
+    How many are proposed is not part of it, so that more of them make none of those before anew.
+    """
 
     variables: tuple[SearchVariable, ...]
     objectives: Mapping[str, Quantity]
     constraints: Mapping[str, Constraint]
-    designs: int
-    first: int
-    batch: int
     method: str
     seed: int
 

@@ -1,4 +1,4 @@
-"""What the explorer shows of a search: objectives against each other, all numbers of each design side by side, the best."""
+"""What the explorer shows of a search: objectives against each other, all numbers of each design, and the best ones."""
 
 from __future__ import annotations
 

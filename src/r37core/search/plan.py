@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cache
-from itertools import count, takewhile
+from itertools import count
 from pathlib import Path
 from typing import Any
 
@@ -63,6 +63,22 @@ class Search:
     def choice(self, wildcards: Any) -> dict[str, Any]:
         """What is sought, as plain values."""
         return to_plain(choice_of(self.settings))
+
+    def quantities(self, wildcards: Any) -> dict[str, Any]:
+        """What a design is judged by, as plain values."""
+        return to_plain(choice_of(self.settings).quantities)
+
+    def number_of_designs(self, wildcards: Any) -> int:
+        """Designs of a round."""
+        entry, number = self.designs.entry, int(wildcards.round)
+        return (
+            entry.first if number == 0 else max(0, min(entry.batch, entry.designs - entry.first - (number - 1) * entry.batch))
+        )
+
+    def budget(self, wildcards: Any) -> list[int]:
+        """All that says how many designs each round has."""
+        entry = self.designs.entry
+        return [entry.designs, entry.first, entry.batch]
 
     def _round(self, number: int) -> SearchRound:
         return round_of(self.round_file(number))
@@ -130,18 +146,20 @@ class Search:
         assert material is not None
         return material.density
 
-    def every_round(self) -> Iterator[int]:
-        """Numbers of all rounds that have designs; Snakemake's own exception for one that is still to be made."""
-        return takewhile(lambda number: self._round(number).new, count())
+    @property
+    def rounds(self) -> range:
+        """Numbers of all rounds that have designs."""
+        entry = self.designs.entry
+        return range(1 + -(-(entry.designs - entry.first) // entry.batch))
 
     def last_round(self, wildcards: Any) -> str:
-        """The round that asks for no more."""
-        return paths.fill(ROUND, round=len(list(self.every_round())))
+        """The round that asks for no more: known before, for what waits for a checkpoint forgets why it has to run."""
+        return paths.fill(ROUND, round=len(self.rounds))
 
     def shapes_of_all(self, wildcards: Any) -> list[str]:
         """The shape of every design that could be built."""
         blade = self.designs.entry.blade
-        names = (name for number in self.every_round() for name in self._built(number))
+        names = (name for number in self.rounds for name in self._built(number))
         return [paths.fill(paths.GEOMETRY, member=member_part(name), blade=blade) for name in names]
 
     def entries(self, wildcards: Any) -> dict[str, Any]:
@@ -174,8 +192,7 @@ def choice_of(settings: Settings) -> SearchChoice:
         for name, each in entry.constraints.items()
     }
     objectives = {name: each.quantity() for name, each in entry.objectives.items()}
-    variables = SearchDesigns(settings).variables
-    return SearchChoice(variables, objectives, constraints, entry.designs, entry.first, entry.batch, entry.method, entry.seed)
+    return SearchChoice(SearchDesigns(settings).variables, objectives, constraints, entry.method, entry.seed)
 
 
 def designs_of(settings: Settings) -> SearchDesigns:
@@ -225,6 +242,9 @@ def targets(sweep: Sweep) -> dict[str, paths.Wildcards]:
     """The dataset, the table, the best designs and the figures."""
     wildcards: paths.Wildcards = [{}] if is_asked(sweep.settings) else []
     together = dict.fromkeys((DATASET, TABLE, BEST), wildcards)
+    if not wildcards:
+        # what an earlier search has left
+        together |= dict.fromkeys((ROUND, BUILT, SHAPE, MEASURES), wildcards)
     return together | {file: of for name in FIGURES for file, of in paths.pictures(name, wildcards).items()}
 
 

@@ -22,9 +22,9 @@ class SearchRound:
     start: Mapping[str, Value] = field(default_factory=dict)
 
 
-def first_round(choice: SearchChoice) -> SearchRound:
-    """The first designs, evenly over the bounds."""
-    return SearchRound(_named(first_designs(choice.variables, choice.first, choice.seed), 0))
+def first_round(count: int, choice: SearchChoice) -> SearchRound:
+    """The first `count` designs, evenly over the bounds."""
+    return SearchRound(_named(first_designs(choice.variables, count, choice.seed), 0))
 
 
 def round_after(
@@ -33,12 +33,15 @@ def round_after(
     refused: Mapping[str, str],
     gave: Mapping[str, Mapping[str, Value]],
     start: Mapping[str, Value],
+    count: int,
     choice: SearchChoice,
 ) -> SearchRound:
-    """Round `number`, after one of whose designs some were `refused`, with a reason, and the others `gave` quantities."""
+    """Round `number`, of `count` designs.
+
+    Of those of the round `before` some were `refused`, each with a reason, and the others `gave` quantities.
+    """
     new = {name: Design(values, number - 1, refused.get(name), gave.get(name, {})) for name, values in before.new.items()}
     tried = {**before.tried, **new}
-    count = min(choice.batch, choice.designs - len(tried))
     return SearchRound(_named(_proposed(tried, start, count, choice), len(tried)), tried, start)
 
 

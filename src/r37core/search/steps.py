@@ -21,23 +21,24 @@ from r37core.stress.operator import read_stress_operator
 from .choice import SearchChoice
 from .dataset import search_dataset, search_table
 from .entries import entries_of, write_entries
-from .quantity import DesignStructure, of_contact, of_structure, static_stress
+from .quantity import DesignStructure, Quantity, of_contact, of_structure, static_stress
 from .rounds import first_round, read_round, round_after, write_round
 
 
 def propose_round(input: Any, output: Any, params: Any) -> None:
-    """Ask for designs. Output: round (json). Params: choice, round.
+    """Ask for designs. Output: round (json). Params: choice, round, number (of its designs).
 
     Inputs after the first round: before (the round before), built (which of its designs could not be), start, measures.
     """
     choice = from_plain(SearchChoice, params.choice)
     if params.round == 0:
-        write_round(first_round(choice), output.round)
+        write_round(first_round(params.number, choice), output.round)
         return
     refused, before = read_json(input.built), read_round(input.before)
     names = [name for name in before.new if name not in refused]
     gave = {name: read_json(file) for name, file in zip(names, as_list(input.measures), strict=True)}
-    write_round(round_after(before, params.round, refused, gave, read_json(input.start), choice), output.round)
+    after = round_after(before, params.round, refused, gave, read_json(input.start), params.number, choice)
+    write_round(after, output.round)
 
 
 def shape(input: Any, output: Any, params: Any) -> None:
@@ -66,10 +67,10 @@ def built(input: Any, output: Any, params: Any) -> None:
 def measure(input: Any, output: Any, params: Any) -> None:
     """What a design is judged by. Inputs: geometry, campbell, contact, stress, responses. Output: measures (json).
 
-    Params: choice, scenes (how many of the responses are of each, the nominal one first), density, highest_speed.
+    Params: quantities, scenes (how many of the responses are of each, the nominal one first), density, highest_speed.
     """
-    choice = from_plain(SearchChoice, params.choice)
-    speeds = {quantity.speed or params.highest_speed for quantity in choice.quantities.values()}
+    quantities = from_plain(dict[str, Quantity], params.quantities)
+    speeds = {quantity.speed or params.highest_speed for quantity in quantities.values()}
     stiffening = read_contact_model(input.contact).rotation_stiffening
     structure = DesignStructure(
         volume=float(read_dataset(input.geometry)["volume"]),
@@ -86,7 +87,7 @@ def measure(input: Any, output: Any, params: Any) -> None:
         name: of_contact(quantity, nominal, members)
         if quantity.of_contact
         else (of_structure(quantity, structure, params.highest_speed), 0.0)
-        for name, quantity in choice.quantities.items()
+        for name, quantity in quantities.items()
     }
     write_json({name: [_known(number) for number in value] for name, value in values.items()}, output.measures)
 
