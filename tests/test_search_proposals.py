@@ -255,3 +255,11 @@ def test_the_missing_library_is_named(monkeypatch):
     with pytest.raises(SearchPackageMissing, match=r"pip install 'r37\[search\]'"):
         gaussian_processes.library()
     assert len(first_designs(SQUARE, 4, 0)) == 4
+
+
+def test_all_of_the_variance_is_of_a_single_variable():
+    single = (SearchVariable("a", -2.0, 2.0),)
+    evaluated = with_objectives([(-1.0,), (0.0,), (0.7,), (1.2,)], lambda values: (values[0] ** 2,))
+    indices = sensitivity(single, evaluated, 0)
+    assert indices.first.tolist() == indices.total.tolist() == [[1.0]]
+    assert np.isfinite(slices(single, evaluated, (0.7,), 5).mean).all()

@@ -70,9 +70,7 @@ def sensitivity(variables: Sequence[SearchVariable], evaluated: Sequence[Evaluat
     for number, process in enumerate(objective_fits(variables, evaluated, seed)):
         if process.is_constant:
             continue
-        dists = [scipy.stats.uniform()] * len(variables)
-        sobol = scipy.stats.sobol_indices(func=_mean_of(process), n=_SAMPLE, dists=dists, rng=seed)
-        indices[:, number] = sobol.first_order, sobol.total_order
+        indices[:, number] = _indices(process, len(variables), seed)
         misses = process.numbers - [process.without(index)[0] for index in range(len(process.numbers))]
         errors[:, number] = np.sqrt(np.mean(misses**2)), 1.0 - np.mean(misses**2) / np.var(process.numbers)
     return SurrogateSensitivity(*indices, *errors)
@@ -87,6 +85,16 @@ def objective_fits(variables: Sequence[SearchVariable], evaluated: Sequence[Eval
     objectives = np.array([design.objectives for design in known]).T
     scatters = np.array([design.scatters for design in known]).T
     return [fit(points, *each, seed) for each in zip(objectives, scatters, strict=True)]
+
+
+def _indices(process: Fit, variables: int, seed: int) -> np.ndarray:
+    """First-order and total index of each variable [2, variable]."""
+    if variables == 1:
+        # all of the variance is of the one variable, for which scipy has no indices
+        return np.ones((2, 1))
+    dists = [scipy.stats.uniform()] * variables
+    sobol = scipy.stats.sobol_indices(func=_mean_of(process), n=_SAMPLE, dists=dists, rng=seed)
+    return np.array([sobol.first_order, sobol.total_order])
 
 
 def _objectives(evaluated: Sequence[Evaluated]) -> int:
