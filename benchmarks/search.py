@@ -117,8 +117,10 @@ def confirmed() -> pd.DataFrame:
     for blade in rotors.index:
         row: dict[str, object] = {"blade": blade}
         for scene, words in (("abradable", "lining"), ("direct", "without")):
-            low, value, high = (float(ranking.loc[(blade, scene), name]) for name in MEMBERS)
-            row |= {f"{words} (rad/s)": round(value), f"{words}, 90% of the members": f"{low:.0f} to {high:.0f}"}
+            low, value, high = (float(ranking.loc[(blade, scene)].get(name, np.nan)) for name in MEMBERS)
+            possible = float(ranking.loc[(blade, scene), "length_possible_rad_s"])
+            row |= {f"{words} (rad/s)": round(value), f"{words}, possible": round(possible)}
+            row[f"{words}, four members"] = f"{low:.0f} to {high:.0f}" if np.isfinite(low) else "not run"
         row["36 blades, lining (rad/s)"] = round(float(rotors.loc[blade, "length_with_any_blade_above_yield_rad_s"]))
         rows.append(row)
     return pd.DataFrame(rows)

@@ -235,12 +235,12 @@ def test_slices_and_indices_of_a_known_function():
     few = with_objectives(DESIGNS, lambda values: (bowl(values),))
     process = objective_fits(SQUARE, few, 0)[0]
     assert abs(process.without(0)[0] - process.numbers[0]) > 10 * abs(process.at(process.points[:1])[0][0] - process.numbers[0])
-    through = slices(SQUARE, evaluated, (1.0, 6.0), 5)
+    through = slices(SQUARE, evaluated, (1.0, 6.0), 5, 0)
     assert through.values[1].tolist() == [0.0, 2.0, 4.0, 6.0, 8.0]
     assert through.mean[0, 0] == pytest.approx(through.values[0] + 6.0, abs=0.1)
     assert through.mean[0, 1] == pytest.approx(through.values[1] + 1.0, abs=0.1)
     assert (through.deviation[0] > 0).all() and (through.deviation[1] == 0).all()
-    assert np.isnan(slices(SQUARE, evaluated[:2], (1.0, 6.0), 5).mean).all()
+    assert np.isnan(slices(SQUARE, evaluated[:2], (1.0, 6.0), 5, 0).mean).all()
 
 
 def test_a_surrogate_of_noise_alone_says_so():
@@ -262,4 +262,4 @@ def test_all_of_the_variance_is_of_a_single_variable():
     evaluated = with_objectives([(-1.0,), (0.0,), (0.7,), (1.2,)], lambda values: (values[0] ** 2,))
     indices = sensitivity(single, evaluated, 0)
     assert indices.first.tolist() == indices.total.tolist() == [[1.0]]
-    assert np.isfinite(slices(single, evaluated, (0.7,), 5).mean).all()
+    assert np.isfinite(slices(single, evaluated, (0.7,), 5, 0).mean).all()

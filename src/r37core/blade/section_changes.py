@@ -20,15 +20,18 @@ from .profile import BladeShapeError, ProfileParameters
 from .profile_tables import check_profile_order
 from .span_law import SpanLaw
 
+_NO_ANGLE, _WHOLE = 0.0, 1.0
+"""What changes nothing: no angle is added, the whole of a length is kept."""
+
 
 @dataclass(frozen=True)
 class SectionChange:
     """What is changed of one profile: angles added to stagger and camber (rad), shares of chord and thickness that are kept."""
 
-    stagger: float = 0.0
-    camber: float = 0.0
-    chord: float = 1.0
-    thickness: float = 1.0
+    stagger: float = _NO_ANGLE
+    camber: float = _NO_ANGLE
+    chord: float = _WHOLE
+    thickness: float = _WHOLE
 
     @property
     def names(self) -> list[str]:

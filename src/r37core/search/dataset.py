@@ -104,7 +104,7 @@ def _of_bounds(choice: SearchChoice, last: SearchRound) -> dict[str, object]:
 
 def _of_surrogate(known: list[Evaluated], choice: SearchChoice, at: Sequence[float]) -> dict[str, object]:
     """Slices through the best design, and what each variable does."""
-    cut = slices(choice.variables, known, at, POINTS)
+    cut = slices(choice.variables, known, at, POINTS, choice.seed)
     indices = sensitivity(choice.variables, known, choice.seed)
     axes = ("objective", "variable")
     return {

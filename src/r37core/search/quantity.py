@@ -5,12 +5,16 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
-import xarray as xr
 
 from r37core.rom.rotation import rotation_amplitudes
 from r37core.stress.operator import StressOperator
+
+if TYPE_CHECKING:
+    # the workflow imports it before it knows whether there is a search
+    import xarray as xr
 
 CONTACT_MEASURES = (
     "length_certain_rad_s",

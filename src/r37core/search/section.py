@@ -65,7 +65,7 @@ class QuantitySection(Section):
 class ObjectiveSection(QuantitySection):
     """What should be small."""
 
-    quantile: Annotated[float, Field(gt=0, lt=1)] | LeftOut = Field(
+    quantile: Annotated[float, Field(ge=1e-3, le=0.999)] | LeftOut = Field(
         default=None, description="of the members under tolerances, such as 0.9; without it the nominal value counts"
     )
 

@@ -42,7 +42,7 @@ class SurrogateSensitivity:
 
 
 def slices(
-    variables: Sequence[SearchVariable], evaluated: Sequence[Evaluated], at: Sequence[float], points: int, seed: int = 0
+    variables: Sequence[SearchVariable], evaluated: Sequence[Evaluated], at: Sequence[float], points: int, seed: int
 ) -> Slices:
     """Mean and standard deviation of each objective at `points` values of each variable, the others as in the design `at`."""
     along = np.linspace(0.0, 1.0, points)
