@@ -12,10 +12,13 @@ import yaml
 from overlays import overlay
 
 from r37core.config import ConfigError
+from r37core.io import Named
+from r37core.plain import to_plain
 from r37core.plans.samples import Samples, folder_and_name
 from r37core.plans.sweep_plan import Sweep
 from r37core.product.reading import read_settings
 from r37core.product.sampling import beside
+from r37core.rom.reduction_choice import StressSubmesh
 from r37core.search import checks
 from r37core.search.choice import Constraint, Design, SearchChoice
 from r37core.search.dataset import search_dataset, search_table
@@ -26,6 +29,7 @@ from r37core.search.problem import SearchVariable
 from r37core.search.proposal import first_designs
 from r37core.search.quantity import DesignStructure, Quantity, of_contact, of_structure
 from r37core.search.rounds import SearchRound, first_round, read_round, round_after, write_round
+from r37core.search.steps import shape
 
 BLADES = """
 Free:
@@ -334,3 +338,15 @@ def test_a_search_of_which_nothing_is_feasible_has_a_table():
     assert search["order"].values.tolist() == [0, 0, 0] and "slice_mean" not in search
     assert search_table(search)["feasible"].tolist() == [1, 0, 0]
     json.dumps(search_table(search).to_dict("list"))
+
+
+def test_a_shape_without_anything_where_stress_is_looked_for_is_refused(folder, tmp_path):
+    settings = read_settings(folder)
+    definition, level = settings.blades["Free"].definition, {"nodes": 1500, "layers": 1, "tip_elements": 14}
+    params = {"edges": "round", "mesh": {**level, "minimum_scaled_jacobian": 0.1}, "shape": {"refused": None}}
+    params["shape"]["definition"] = to_plain(definition)
+    for maximum, reason in ((0.2, None), (0.1, "the stress submesh")):
+        submesh = to_plain(StressSubmesh(maximum_x=maximum))
+        shape(Named(), Named(shape=tmp_path / "shape.json"), Named(**params, stress_submesh=submesh))
+        refused = json.loads((tmp_path / "shape.json").read_text())["refused"]
+        assert refused is reason or refused.startswith(reason)

@@ -226,6 +226,7 @@ def _shapes(calculation: Calculation, search: Search, number: int, designs: Sequ
             shape=search.shape(Named(design=name)),
             edges=settings.structure.edges,
             mesh=plain(settings.fidelity.mesh),
+            stress_submesh=search.stress_submesh(Named(design=name)),
         )
         for name in designs
     ]

@@ -49,6 +49,7 @@ use rule step as search_shape with:
         shape=search.shape,
         edges=settings.structure.edges,
         mesh=plain(settings.fidelity.mesh),
+        stress_submesh=search.stress_submesh,
 
 
 checkpoint search_built:

@@ -114,6 +114,10 @@ class Search:
         (blade, *_) = (member.blade for sample in samples.values() for member in sample.members.values())
         return {"definition": to_plain(blade.definition), "refused": None}
 
+    def stress_submesh(self, wildcards: Any) -> dict[str, Any]:
+        """Where the stress of a design is looked for, as plain values."""
+        return to_plain(self.settings.reduction_choice(self.designs.entry.blade).stress_submesh)
+
     def measured(self, wildcards: Any) -> dict[str, Any]:
         """What a design, or the start, is judged by."""
         own, blade = member_part(wildcards.design), self.designs.entry.blade

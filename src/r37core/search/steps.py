@@ -7,6 +7,8 @@ from itertools import islice
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from r37core.blade.definition import BladeDefinition
 from r37core.blade.geometry_file import read_geometry
 from r37core.dataset_file import read_dataset, recipe_of, write_dataset
@@ -16,6 +18,7 @@ from r37core.plain import from_plain
 from r37core.results.ranking import robustness
 from r37core.results.table_file import write_table
 from r37core.rom.contact_model import read_contact_model
+from r37core.rom.reduction_choice import StressSubmesh
 from r37core.stress.operator import read_stress_operator
 
 from .choice import SearchChoice
@@ -42,7 +45,10 @@ def propose_round(input: Any, output: Any, params: Any) -> None:
 
 
 def shape(input: Any, output: Any, params: Any) -> None:
-    """Whether a design can be built: its shape and its mesh. Output: shape (json). Params: shape, edges, mesh."""
+    """Whether a design can be built: its shape, its mesh, and something of it where stress is looked for.
+
+    Output: shape (json). Params: shape, edges, mesh, stress_submesh.
+    """
     # gmsh takes a second to load, which rounds have no use for
     from r37core.fem.mesh_quality import mesh_quality
     from r37core.mesh.generate import generate_mesh
@@ -53,6 +59,10 @@ def shape(input: Any, output: Any, params: Any) -> None:
             blade = from_plain(BladeDefinition, params.shape["definition"]).build(round_edges=params.edges == "round")
             mesh = generate_mesh(blade, level["nodes"], level["layers"], level["tip_elements"])
             mesh_quality(mesh).check(level["minimum_scaled_jacobian"])
+            submesh = from_plain(StressSubmesh, params.stress_submesh)
+            # elements next to contact nodes, which are known with the model, count here
+            if not submesh.elements(mesh, np.empty(0, dtype=int)):
+                raise ValueError(f"the stress submesh ({submesh.in_words()}) has no elements")
         except ValueError as error:
             refused = str(error)
     write_json({"refused": refused}, output.shape)
