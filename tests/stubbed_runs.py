@@ -36,9 +36,11 @@ if snakemake.params.step == "r37core.adaptive.steps.refine":
 # designs are proposed by the real steps; what they gave follows from their names, and one cannot be built
 _SEARCH_STUB = """
 if snakemake.params.step in ("r37core.search.steps.propose_round", "r37core.search.steps.built"):
-    from r37core.search import steps
+    # as step.py does: an import by name would be part of the code of every rule
+    from importlib import import_module
 
-    getattr(steps, snakemake.params.step.rsplit(".", 1)[1])(snakemake.input, snakemake.output, snakemake.params)
+    module, function = snakemake.params.step.rsplit(".", 1)
+    getattr(import_module(module), function)(snakemake.input, snakemake.output, snakemake.params)
 elif snakemake.params.step == "r37core.search.steps.shape":
     refused = "it folds" if snakemake.wildcards.design == "d0001" else None
     Path(snakemake.output[0]).write_text(json.dumps({"refused": refused}))
