@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from r37core.config import plain
-from r37core.io import Named, read_json, temporary_folder
+from r37core.io import Named, read_json
 from r37core.plans import paths
 from r37core.search.choice import START
 from r37core.search.designs import FOLDER, section
@@ -16,16 +16,16 @@ from r37core.search.pareto import best_first, not_dominated
 from r37core.search.plan import BEST, BUILT, DATASET, MEASURES, ROUND, SHAPE, TABLE, Search, choice_of
 from r37core.search.rounds import SearchRound, read_round
 
-from .arguments import Speeds, mapping, plain_value, sequence_of, speed_keys
+from .arguments import Speeds, mapping, plain_value, speed_keys
 from .calculation import Calculation
-from .call_settings import base_of, chosen_blade, chosen_scene, level, names_of_their_own, settings_of
+from .call_settings import chosen_blade, level
 from .checked import checked_call
-from .choices import BladeChoice, SceneChoice
-from .jobs import check_cores, in_parallel
+from .choices import BladeChoice
+from .jobs import in_parallel
 from .run_results import RunResults
-from .simulations import remarks_of, tell
 from .stages import LOGGER
 from .structure_files import Recipe, StructureFiles
+from .studies import Scenes, results_of
 
 _BOUNDS = 'dotted keys of blades.yaml and their bounds, as in {"stagger_deg.tip": [-3, 3]}'
 _OBJECTIVES = 'names and what is read off, as in {"lined": {"scenes": ["abradable"]}}'
@@ -36,7 +36,7 @@ _SPREAD = 'of_scenes, of_blades and members, as in {"of_scenes": {"friction.coef
 @checked_call
 def search(
     blade: BladeChoice | str,
-    scenes: SceneChoice | str | Sequence[SceneChoice | str],
+    scenes: Scenes,
     speeds: Speeds | None = None,
     *,
     variables: Mapping[str, Sequence[float]],
@@ -118,30 +118,9 @@ def search(
     }
     if tolerances is not None:
         entry["tolerances"] = mapping(tolerances, "tolerances", _SPREAD)
-    keys = {FOLDER: plain_value(entry), **speed_keys(speeds, speeds_rpm), **level(fidelity)}
-    return _results(blade, scenes, keys, results, config, cores)
-
-
-def _results(
-    blade: BladeChoice | str,
-    scenes: SceneChoice | str | Sequence[SceneChoice | str],
-    keys: dict[str, Any],
-    results: Sequence[str] | None,
-    config: Path | str | None,
-    cores: int,
-) -> RunResults:
-    check_cores(cores)
-    chosen, base = chosen_blade(blade, config), base_of(blade, config)
-    several = sequence_of(scenes, SceneChoice | str, "scenes", "the name of a scene, or what r37.scene gives")
-    rubs_on = [chosen_scene(scene, base, results) for scene in several]
-    names_of_their_own([chosen])
-    names_of_their_own(rubs_on)
-    keys = {**keys, FOLDER: {"blade": chosen.name, **keys[FOLDER]}}
-    settings = settings_of("r37.search", base, [chosen], rubs_on, keys)
-    tell(remarks_of(settings))
-    folder = temporary_folder()
-    _search(Calculation(settings, Path(folder.name), cores))
-    return RunResults(Path(folder.name), folder)
+    chosen = chosen_blade(blade, config)
+    keys = {FOLDER: {"blade": chosen.name, **plain_value(entry)}, **speed_keys(speeds, speeds_rpm), **level(fidelity)}
+    return results_of("r37.search", [chosen], scenes, keys, results, config, cores, _search)
 
 
 def _search(calculation: Calculation) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -63,7 +63,7 @@ def compare(
     ['CS100', 'Ref']
     """
     keys = {**speed_keys(speeds, speeds_rpm), **level(fidelity)}
-    return _results("r37.compare", _chosen(blades, config), scenes, keys, results, config, cores)
+    return results_of("r37.compare", _chosen(blades, config), scenes, keys, results, config, cores)
 
 
 @checked_call
@@ -117,7 +117,7 @@ def designs(
     varied = mapping(vary, "vary", 'keys of blades.yaml and their values, as in {"sweep_percent": [50, 100]}')
     family = chosen_blade(blade, config).family(name, varied, combine)
     keys = {**speed_keys(speeds, speeds_rpm), **level(fidelity)}
-    return _results("r37.designs", [family], scenes, keys, results, config, cores)
+    return results_of("r37.designs", [family], scenes, keys, results, config, cores)
 
 
 @checked_call
@@ -183,7 +183,7 @@ def tolerances(
         "largest_share": largest_share,
     }
     keys = {"tolerances": section, **speed_keys(speeds, speeds_rpm), **level(fidelity)}
-    return _results("r37.tolerances", _chosen(blades, config), scenes, keys, results, config, cores)
+    return results_of("r37.tolerances", _chosen(blades, config), scenes, keys, results, config, cores)
 
 
 def _chosen(blades: Blades, config: Path | str | None) -> list[BladeChoice]:
@@ -191,7 +191,13 @@ def _chosen(blades: Blades, config: Path | str | None) -> list[BladeChoice]:
     return [chosen_blade(blade, config) for blade in several]
 
 
-def _results(
+def _all_results(calculation: Calculation) -> None:
+    """All that a run ends in, but its pictures."""
+    calculation.responses()
+    make_tables(calculation)
+
+
+def results_of(
     caller: str,
     blades: Sequence[BladeChoice],
     scenes: Scenes,
@@ -199,8 +205,9 @@ def _results(
     results: Sequence[str] | None,
     config: Path | str | None,
     cores: int,
+    make: Callable[[Calculation], None] = _all_results,
 ) -> RunResults:
-    """All that a run of these blades and scenes ends in, but its pictures."""
+    """What `make` makes of a run of these blades and scenes. Remarks point at the line that called the caller of this."""
     check_cores(cores)
     base = blades[0].configuration if config is None else read_configuration(config)
     several = sequence_of(scenes, SceneChoice | str, "scenes", "the name of a scene, or what r37.scene gives")
@@ -210,7 +217,5 @@ def _results(
     settings = settings_of(caller, base, blades, rubs_on, keys)
     tell(remarks_of(settings))
     folder = temporary_folder()
-    calculation = Calculation(settings, Path(folder.name), cores)
-    calculation.responses()
-    make_tables(calculation)
+    make(Calculation(settings, Path(folder.name), cores))
     return RunResults(Path(folder.name), folder)
