@@ -102,3 +102,26 @@ class SpreadEntry(Section):
         numbers = getattr(self, key)
         numbers = tuple(numbers) if isinstance(numbers, list) else (numbers,)
         return Spread(key.removesuffix("_percent"), numbers, key.endswith("_percent"))  # type: ignore[arg-type]
+
+
+class Spreads(Section):
+    """Numbers that spread, of scenes and of blades."""
+
+    of_scenes: dict[str, SpreadEntry] = Field(
+        default={}, description="by dotted keys of scenes.yaml, such as lining.elastic_modulus_pa"
+    )
+    of_blades: dict[str, SpreadEntry] = Field(
+        default={},
+        description="by material.<key>, sweep_percent and lean_percent of the table, sweep_cm and lean_deg added at the tip "
+        "(in proportion to the span), stagger_deg, camber_deg, chord_percent and thickness_percent of all profiles, also with "
+        ".hub or .tip",
+    )
+
+    @property
+    def spreads(self) -> dict[tuple[str, str], Spread]:
+        """Section and key of each number -> how it spreads, in the order of the sample."""
+        return {
+            (section, key): entry.spread()
+            for section in ("of_blades", "of_scenes")
+            for key, entry in getattr(self, section).items()
+        }

@@ -9,12 +9,7 @@ from typing import Any
 
 from r37core.config import BladeSettings, Settings
 from r37core.config.blades import SHARES, BladeEntry, blade_settings
-from r37core.config.changed_numbers import (
-    blade_number,
-    changed_blade,
-    changed_scene,
-    scene_numbers,
-)
+from r37core.config.changed_numbers import blade_number, changed_blade, changed_scene, scene_numbers
 from r37core.config.families import design_entry
 from r37core.config.section_laws import SECTION_KEYS
 from r37core.plans.member_values import drawn, is_of_sample, sobol_points
@@ -125,16 +120,15 @@ class SearchDesigns:
         if tolerances is None:
             return {}
         of_scene = scene_numbers(self.settings.scene_entries[scene])
-        keys = [("of_blades", key) for key in tolerances.of_blades] + [("of_scenes", key) for key in tolerances.of_scenes]
-        spreads = [getattr(tolerances, where)[key].spread() for where, key in keys]
-        nominal = [blade_number(blade, key) if where == "of_blades" else of_scene.get(key) for where, key in keys]
-        points = sobol_points(len(keys), tolerances.members, self.entry.seed)
+        spreads = tolerances.spreads
+        nominal = [blade_number(blade, key) if where == "of_blades" else of_scene.get(key) for where, key in spreads]
+        points = sobol_points(len(spreads), tolerances.members, self.entry.seed)
         changes: dict[str, dict[str, dict[str, float]]] = {}
         for member, point in points.items():
             if not is_of_sample(member):
                 continue
             changes[member] = {"of_blades": {}, "of_scenes": {}}
-            for (where, key), value in zip(keys, drawn(spreads, nominal, point), strict=True):
+            for (where, key), value in zip(spreads, drawn(spreads.values(), nominal, point), strict=True):
                 if value is not None:
                     changes[member][where][key] = value
         return changes

@@ -7,7 +7,7 @@ from typing import Annotated, Literal
 from pydantic import AfterValidator, Field, model_validator
 
 from r37core.config.section import LeftOut, Name, Names, Section, Speed, check_names, refused
-from r37core.config.spread import MemberCount, SpreadEntry
+from r37core.config.spread import MemberCount, Spreads
 
 from .quantity import CONTACT_MEASURES, MEASURES, NEEDS, Quantity
 
@@ -98,11 +98,9 @@ class ConstraintSection(QuantitySection):
         return self
 
 
-class SearchTolerances(Section):
+class SearchTolerances(Spreads):
     """Numbers that spread about those of every design, for objectives that are a quantile."""
 
-    of_scenes: dict[str, SpreadEntry] = Field(default={}, description="by dotted keys of scenes.yaml")
-    of_blades: dict[str, SpreadEntry] = Field(default={}, description="by the keys of tolerances.of_blades")
     members: MemberCount = Field(default=16, description="of every design, a power of two")
 
 
@@ -144,8 +142,7 @@ class SearchSection(Section):
         if self.first > self.designs:
             raise refused(("first",), f"{self.first}", f"at most designs ({self.designs})")
         quantiles = [name for name, objective in self.objectives.items() if objective.quantile is not None]
-        spreads = self.tolerances is not None and (self.tolerances.of_scenes or self.tolerances.of_blades)
-        if quantiles and not spreads:
+        if quantiles and not (self.tolerances and self.tolerances.spreads):
             raise refused(
                 ("objectives", quantiles[0], "quantile"), "a quantile", "tolerances beside it, with numbers that spread"
             )
