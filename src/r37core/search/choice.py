@@ -6,10 +6,11 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from .problem import Evaluated, SearchVariable
+from .problem import DONE, REFUSED, Evaluated, SearchVariable
 from .quantity import Quantity
 
-SURROGATE, QUASI_RANDOM = "surrogate", "quasi_random"
+QUASI_RANDOM = "quasi_random"
+"""Method without a surrogate."""
 
 START = "start"
 """Name of the design that the search starts at."""
@@ -30,12 +31,13 @@ class Constraint:
 
     def bounds(self, start: float) -> tuple[float, float]:
         """Lowest and highest value, infinite without a bound, where the start has the value `start`."""
-        lowest, highest = -math.inf, math.inf
-        if self.lowest is not None or self.lowest_percent is not None:
-            lowest = self.lowest if self.lowest is not None else 0.01 * (self.lowest_percent or 0.0) * start
-        if self.highest is not None or self.highest_percent is not None:
-            highest = self.highest if self.highest is not None else 0.01 * (self.highest_percent or 0.0) * start
-        return lowest, highest
+
+        def bound(value: float | None, percent: float | None, none: float) -> float:
+            if percent is not None:
+                return 0.01 * percent * start
+            return none if value is None else value
+
+        return bound(self.lowest, self.lowest_percent, -math.inf), bound(self.highest, self.highest_percent, math.inf)
 
 
 @dataclass(frozen=True)
@@ -86,7 +88,7 @@ class Design:
         if self.refused is not None:
             missing = (math.nan,) * len(choice.objectives)
             bounds = len(choice.margins(start, start))
-            return Evaluated(name, self.values, missing, missing, (math.nan,) * bounds, "refused")
+            return Evaluated(name, self.values, missing, missing, (math.nan,) * bounds, REFUSED)
         of = [self.quantities[objective] for objective in choice.objectives]
         return Evaluated(
             name,
@@ -94,7 +96,7 @@ class Design:
             tuple(number(value) for value, _ in of),
             tuple(number(scatter) for _, scatter in of),
             tuple(choice.margins(self.quantities, start)),
-            "done",
+            DONE,
         )
 
 

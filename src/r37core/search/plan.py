@@ -190,13 +190,14 @@ class Search:
 
 def choice_of(settings: Settings) -> SearchChoice:
     """What the section of config.yaml asks for."""
-    entry = SearchDesigns(settings).entry
+    designs = designs_of(settings)
+    entry = designs.entry
     constraints = {
         name: Constraint(each.quantity(), each.at_least, each.at_most, each.at_least_percent, each.at_most_percent)
         for name, each in entry.constraints.items()
     }
     objectives = {name: each.quantity() for name, each in entry.objectives.items()}
-    return SearchChoice(SearchDesigns(settings).variables, objectives, constraints, entry.method, entry.seed)
+    return SearchChoice(designs.variables, objectives, constraints, entry.method, entry.seed)
 
 
 def designs_of(settings: Settings) -> SearchDesigns:
@@ -206,24 +207,17 @@ def designs_of(settings: Settings) -> SearchDesigns:
 
 def samples_of(settings: Settings, results: Path) -> Callable[[str], Mapping[Pair, Sample]]:
     """Design -> its runs, in the settings' search: of one that a round in `results` has proposed, or of the start."""
-
-    @cache
-    def samples(design: str) -> Mapping[Pair, Sample]:
-        return designs_of(settings).samples(design, values_of(results, design))
-
-    return samples
+    # a round that is made anew may give the name to other values
+    samples = cache(designs_of(settings).samples)
+    return lambda design: samples(design, values_of(results, design))
 
 
 def values_of(results: Path, design: str) -> tuple[float, ...] | None:
     """Values of a design's variables, as the round that proposed it has them; None of the start, which has its own."""
     if design == START:
         return None
-    for number in count():
-        file = Path(paths.fill(ROUND, round=number).replace("<results>", str(results)))
-        new = round_of(str(file)).new
-        if design in new:
-            return new[design]
-    raise AssertionError
+    files = (paths.fill(ROUND, round=number).replace("<results>", str(results)) for number in count())
+    return next(new[design] for new in (round_of(file).new for file in files) if design in new)
 
 
 def round_of(file: str) -> SearchRound:

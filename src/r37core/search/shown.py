@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-_UNITS = {"rad s-1": ("rad/s", 1.0), "Pa": ("MPa", 1e-6), "m": ("mm", 1e3), "percent": ("%", 1.0), "1": ("", 1.0)}
+from r37core.explorer.contents import SHOWN
+
+_UNITS = {**SHOWN, "rad s-1": ("rad/s", 1.0), "percent": ("%", 1.0), "1": ("", 1.0)}
 _LONGEST = 14
 """Characters of a name in one line."""
 

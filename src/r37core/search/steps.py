@@ -123,10 +123,8 @@ def best(input: Any, output: Any, params: Any) -> None:
     Params: entries, number.
     """
     search, folder = read_dataset(input.dataset), Path(output.folder)
-    best_first = sorted(
-        (int(order), str(name)) for name, order in zip(search["design"].values, search["order"].values, strict=True)
-    )
-    designs = [name for order, name in best_first if order > 0][: params.number]
+    ordered = search.isel(design=np.flatnonzero(search["order"].values > 0)).sortby("order")
+    designs = ordered["design"].values[: params.number].tolist()
     made = entries_of(search, designs, list(params.entries)[-1], params.entries)
     folder.mkdir(parents=True)
     write_entries(search, made, designs, params.entries, folder / "blades.yaml")
