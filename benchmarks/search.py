@@ -119,7 +119,9 @@ def confirmed() -> pd.DataFrame:
         for scene, words in (("abradable", "lining"), ("direct", "without")):
             low, value, high = (float(ranking.loc[(blade, scene)].get(name, np.nan)) for name in MEMBERS)
             possible = float(ranking.loc[(blade, scene), "length_possible_rad_s"])
-            row |= {f"{words} (rad/s)": round(value), f"{words}, possible": round(possible)}
+            scatter = float(ranking.loc[(blade, scene), "length_certain_scatter_rad_s"])
+            certain = f"{value:.0f}" if np.isnan(scatter) else f"{value:.0f} ± {scatter:.0f}"
+            row |= {f"{words} (rad/s)": certain, f"{words}, possible": round(possible)}
             row[f"{words}, four members"] = f"{low:.0f} to {high:.0f}" if np.isfinite(low) else "not run"
         row["36 blades, lining (rad/s)"] = round(float(rotors.loc[blade, "length_with_any_blade_above_yield_rad_s"]))
         rows.append(row)
