@@ -200,6 +200,11 @@ def test_the_image_runs_the_two_commands(root, readme):
     assert 'CMD ["make", "all_blades"]' in image and "RUN make setup" in image and "\nsetup:" in (root / "Makefile").read_text()
 
 
+def test_no_page_is_called_like_one_that_the_site_makes_itself(root):
+    """Sphinx writes these over ours, without a word."""
+    assert not {file.stem for file in (root / "docs").glob("*.md")} & {"search", "genindex", "py-modindex", "modindex"}
+
+
 def test_readme_is_short(readme):
     assert len(readme.split()) <= 700
 

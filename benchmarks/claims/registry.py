@@ -355,7 +355,7 @@ CLAIMS = (
     ),
     Claim(
         "search_libraries",
-        (Output("docs/search.md#search_libraries", "benchmarks/search_libraries.md"),),
+        (Output("docs/better_blade.md#search_libraries", "benchmarks/search_libraries.md"),),
         by_hand="pip install egobox smt optuna openturns pymoo; python benchmarks/search_libraries.py",
         minutes=10,
         code=("benchmarks/search_libraries.py",),
@@ -363,7 +363,7 @@ CLAIMS = (
     Claim(
         "search",
         (
-            *(Output(f"docs/search.md#search_{name}", f"{STUDIES}/search_{name}.md") for name in _SEARCH),
+            *(Output(f"docs/better_blade.md#search_{name}", f"{STUDIES}/search_{name}.md") for name in _SEARCH),
             picture("search_designs", "results/runs/search/figures/search_designs.png", "search/figures"),
             picture("search_slices", "results/runs/search/figures/search_slices.png", "search/figures"),
         ),

@@ -261,4 +261,4 @@ def remarks(settings: Settings) -> list[str]:
     members = 1 + (entry.tolerances.members if entry.tolerances else 0)
     runs = members * sum(most_runs(settings, entry.blade, scene) for scene in designs.scenes)
     words = f"{entry.designs} designs of '{entry.blade}' in rounds of {entry.batch}"
-    return [f"search: {words}, at most {runs} simulations of each, beside those of the sweep (docs/search.md)"]
+    return [f"search: {words}, at most {runs} simulations of each, beside those of the sweep (docs/better_blade.md)"]

@@ -17,7 +17,7 @@ WING = Wing(
     name=FOLDER,
     section=(
         SearchSection | LeftOut,
-        Field(default=None, description="designs of one blade that are better than it is (docs/search.md)"),
+        Field(default=None, description="designs of one blade that are better than it is (docs/better_blade.md)"),
     ),
     checks=(search_can_be_run,),
     later=samples_of,
