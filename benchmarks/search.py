@@ -1,4 +1,4 @@
-"""Tables of docs/better_blade.md: a search from Ref, plain sampling, the best designs looked at again, and what draft says wrongly.
+"""Tables of docs/better_blade.md: a search from Ref, plain sampling, the best designs looked at again, and errors of draft.
 
 Run: make claims ONLY=search, or step by step (its commands). Without an argument it writes the tables; `designs` writes the
 blades of which draft and standard are compared.
