@@ -1,17 +1,31 @@
 """Scenes and models that the tests of the time integration share."""
 
+import hashlib
+import platform
 from dataclasses import replace
 
 import numpy as np
 import pytest
-from defaults import Casing, Friction, Lining, Scene
+from defaults import Casing, Friction, IntegrationChoice, Lining, Scene
 
+from r37core import native
+from r37core.contact.ring import Ring
+from r37core.contact.rotor import Rotor
 from r37core.rom.contact_model import ContactModel
+from r37core.time_integration.integrators import EXACT_MODAL
+from r37core.time_integration.rotor_simulation import RotorSimulation
+from r37core.time_integration.simulate import Simulation
+
+FUSED = platform.machine() != "x86_64" or "+fma" in native.processor()[1]
+"""Whether this processor rounds a product and what is added to it once."""
 
 LINING = Lining(5e-3, 20e9, 5e9, 1.5, bar_width=0.03)
 AT_ONCE = Casing(0.356e-3, rise_fraction=0.0)
 ABRADABLE = Scene(AT_ONCE, LINING, Friction(0.15))
 DIRECT = Scene(AT_ONCE, None, Friction(0.15))
+
+RING = Ring(0.255, 0.002, 0.05, 2.1e11, 7850.0, 0.002, 1e7, 1e6, 11)
+"""Of steel, with eleven modes: more pairs than a vector has numbers."""
 
 
 def held(nodes):
@@ -74,6 +88,41 @@ def with_static_modes(model, flexibility, frequency=1e8):
         to_reduced=last_axis(model.to_reduced),
         coriolis=None if model.coriolis is None else np.pad(model.coriolis, (0, more)),
     )
+
+
+def bits_of_programs():
+    """SHA-256 of samples, totals and wear of a run of every sort of program: name of the run -> digits.
+
+    The elastic ring shares the program of the lining.
+    """
+    blade, ring = with_static_modes(random_model(8), 1e-9), replace(AT_ONCE, ring=RING.modes())
+    coupling = 3.0 * np.random.default_rng(9).standard_normal((24, 24))
+    turning = with_static_modes(replace(random_model(8), coriolis=coupling - coupling.T), 1e-9)
+    choice = IntegrationChoice(2e-7, 2, 31, integrator=EXACT_MODAL)
+    scenes = {
+        "lined": (blade, ABRADABLE),
+        "direct": (blade, DIRECT),
+        "elastic ring": (blade, replace(ABRADABLE, casing=ring)),
+        "coriolis": (turning, DIRECT),
+    }
+    bits = {}
+    for name, (model, scene) in scenes.items():
+        simulation = Simulation(model, 12_000.0, scene, choice)
+        state = simulation.start()
+        bits[name] = _hash_of([simulation.advance(state, choice.revolutions)], [state])
+    blades = Rotor((1, 2), (0.0, np.pi), (1.0, 1.0), (0.0, 0.0), True)
+    rotor = RotorSimulation(blade, 12_000.0, Scene(ring, LINING, Friction(0.15), rotor=blades), choice)
+    states = rotor.start()
+    return bits | {"rotor in an elastic casing": _hash_of(rotor.run(states, choice.revolutions).blades, states)}
+
+
+def _hash_of(records, states):
+    digest = hashlib.sha256()
+    for record, state in zip(records, states, strict=True):
+        assert state.totals["steps_in_contact"] > 100
+        for array in (record.samples, state.totals, state.wear):
+            digest.update(b"" if array is None else array.tobytes())
+    return digest.hexdigest()
 
 
 def assert_same_totals_and_wear(ours, theirs, within=1e-10):

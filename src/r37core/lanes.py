@@ -21,15 +21,14 @@ from numba.extending import intrinsic, lower_builtin, models, register_model, ty
 
 from .alignment import LANES
 
-OPTIONS: dict[str, Any] = {"fastmath": {"contract", "nsz", "arcp"}, "error_model": "numpy"}
-"""Sums are made in the order in which they stand, contracted; NaN and infinity keep their meaning, and a division by zero is
-no error. Were sums reordered, their bits would change with what is compiled around them."""
+OPTIONS: dict[str, Any] = {"error_model": "numpy"}
+"""A division by zero is no error. Nothing lets the optimiser choose how numbers are rounded (numba's `fastmath`): what it chose
+would change with the processor, and with what is compiled around a sum."""
 
 # wrappers for Python and C would be optimised and emitted, too, a quarter of all work, and nothing calls them
 inlined = njit(**OPTIONS, forceinline=True, no_cpython_wrapper=True, no_cfunc_wrapper=True)
 """Compiles a function into those that call it."""
 
-_FAST = tuple(sorted(OPTIONS["fastmath"]))
 _INTEGER = ir.IntType(32)
 _NUMBERS, _TRUTHS = ir.VectorType(ir.DoubleType(), LANES), ir.VectorType(ir.IntType(1), LANES)
 
@@ -98,14 +97,39 @@ def _intrinsic_of_llvm(name: str) -> Callable:
     return build
 
 
-for _symbols, _name in {
-    (operator.add, operator.iadd): "fadd",
-    (operator.sub, operator.isub): "fsub",
-    (operator.mul, operator.imul): "fmul",
-    (operator.truediv,): "fdiv",
+def _fused(builder: Any, product: Any, negative: bool, addend: Any) -> Any:
+    """A product, or its negative, and what is added to it, rounded once; twice on a processor that cannot."""
+    first, second = product.operands
+    kind = ir.FunctionType(_NUMBERS, [_NUMBERS] * 3)
+    function = cgutils.get_or_insert_function(builder.module, kind, f"llvm.fmuladd.v{LANES}f64")
+    return builder.call(function, [builder.fneg(first) if negative else first, second, addend])
+
+
+def _is_product(value: Any) -> bool:
+    return isinstance(value, ir.Instruction) and value.opname == "fmul"
+
+
+def _add(builder: Any, a: Any, b: Any) -> Any:
+    if _is_product(a):
+        return _fused(builder, a, False, b)
+    return _fused(builder, b, False, a) if _is_product(b) else builder.fadd(a, b)
+
+
+def _subtract(builder: Any, a: Any, b: Any) -> Any:
+    if _is_product(a):
+        return _fused(builder, a, False, builder.fneg(b))
+    return _fused(builder, b, True, a) if _is_product(b) else builder.fsub(a, b)
+
+
+for _symbols, _build in {
+    (operator.add, operator.iadd): _add,
+    (operator.sub, operator.isub): _subtract,
+    (operator.mul, operator.imul): lambda builder, a, b: builder.fmul(a, b),
+    (operator.truediv,): lambda builder, a, b: builder.fdiv(a, b),
 }.items():
     for _symbol in _symbols:
-        _of_lanes(_symbol, _lanes, 2, lambda builder, a, b, name=_name: getattr(builder, name)(a, b, flags=_FAST))
+        _of_lanes(_symbol, _lanes, 2, _build)
+_of_lanes(operator.neg, _lanes, 1, lambda builder, a: builder.fneg(a))
 _of_lanes(operator.lt, _flags, 2, lambda builder, a, b: builder.fcmp_ordered("<", a, b))
 _of_lanes(operator.gt, _flags, 2, lambda builder, a, b: builder.fcmp_ordered(">", a, b))
 _of_lanes(np.maximum, _lanes, 2, lambda builder, a, b: builder.select(builder.fcmp_ordered(">", a, b), a, b))

@@ -30,7 +30,7 @@ class ObjectCodeError(RuntimeError):
 def processor() -> tuple[str, str]:
     """Name and features that code is made for: this machine's, or numba's NUMBA_CPU_NAME and NUMBA_CPU_FEATURES."""
     named = os.environ.get("NUMBA_CPU_NAME")
-    own_name, own_features = this_processor() if named in (None, "host") else (str(named), "")
+    own_name, own_features = this_processor() if named is None else (named, "")
     features = os.environ.get("NUMBA_CPU_FEATURES")
     return own_name, own_features if features is None else features
 

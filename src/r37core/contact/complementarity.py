@@ -40,7 +40,7 @@ def _solve(p, columns, count):
     for g in range(0, nodes, LANES):
         for j in range(count):
             store(p.left, (j, g), load(columns, (p.listed[j], g)))
-        store(p.left, (count, g), 0.0 - load(p.gap, g))
+        store(p.left, (count, g), -load(p.gap, g))
     sound = True
     for k in range(count):
         node = p.listed[k]

@@ -100,7 +100,7 @@ def sweep_nodes(c, count, largest_gap, thickness, lined):
 @inlined
 def wear_bars(c, g, lining):
     """Wear of the bars of the eight nodes from g on under the forces found; which of the nodes reach the casing behind them."""
-    penetration, thickness = 0.0 - load(c.opened, g), lining.thickness
+    penetration, thickness = -load(c.opened, g), lining.thickness
     reaches = bits_of(penetration > thickness * (1.0 - 1e-9)) & c.found[g // LANES]
     store(c.wear, g, _worn(np.where(penetration < thickness, penetration, thickness), load(c.wear, g), lining))
     return reaches

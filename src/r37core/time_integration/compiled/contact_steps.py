@@ -51,7 +51,7 @@ def press_contact(m, place):
             set_column(m, c.listed[j])
         for g in range(0, node_lanes(m), LANES):
             # from the forces a step ago
-            store(c.pressure, g, np.where(flags_of(c.found[g // LANES]), 0.0 - load(m.force, g), 0.0))
+            store(c.pressure, g, np.where(flags_of(c.found[g // LANES]), -load(m.force, g), 0.0))
         count = joined
         set_laws(c, count, m.lining, LINED)
         violation = sweep_nodes(c, count, largest_gap, thickness, LINED)
@@ -112,7 +112,7 @@ def keep_forces(m, count):
     c = m.contact
     any_pressed = 0
     for g in range(0, node_lanes(m), LANES):
-        normal = 0.0 - load(c.pressure, g)
+        normal = -load(c.pressure, g)
         store(m.force, g, normal)
         store(m.friction_force, (0, g), normal * load(m.friction_share, (0, g)))
         store(m.friction_force, (1, g), normal * load(m.friction_share, (1, g)))

@@ -142,7 +142,7 @@ def set_friction(m, g, tangential, meridional):
     if m.follows_sliding == 0:
         return
     # a normal force is negative
-    along_tangent, along_meridian = _friction_direction(load(m.rotation, g) + tangential, meridional, 0.0 - m.friction)
+    along_tangent, along_meridian = _friction_direction(load(m.rotation, g) + tangential, meridional, -m.friction)
     store(m.friction_share, (0, g), along_tangent)
     store(m.friction_share, (1, g), along_meridian)
 
