@@ -5,7 +5,8 @@ have the variables, units and attributes of the workflow's files. Speeds are in 
 What takes minutes, the structure of a blade, is kept in a cache folder (r37.structure_files). What a call does meanwhile is
 told by the logger `r37` (r37.stages).
 
-Bad input raises ConfigError, an argument that a call does not have TypeError, a file that cannot be read InputFileError.
+Bad input raises ConfigError, an argument that a call does not have TypeError, a file that cannot be read InputFileError,
+a blade that its load buckles at a speed BucklingError.
 """
 
 from importlib import import_module
@@ -16,6 +17,8 @@ from r37core import __version__
 if TYPE_CHECKING:
     from r37core.config import ConfigError
     from r37core.io import InputFileError
+    from r37core.netcdf_access import NETCDF_LOCK
+    from r37core.rom.rotation import BucklingError
 
     from .choices import BladeChoice, SceneChoice, blade, blades, scene, scenes
     from .plots import plot_campbell, plot_designs, plot_response, plot_rotor, plot_run_ups, plot_tolerances
@@ -28,8 +31,10 @@ if TYPE_CHECKING:
     from .study_folder import SNAKEFILE, init
 
 __all__ = [
+    "NETCDF_LOCK",
     "SNAKEFILE",
     "BladeChoice",
+    "BucklingError",
     "ConfigError",
     "InputFileError",
     "RunResults",
@@ -63,6 +68,8 @@ __all__ = [
 _NAMES_OF = {
     "r37core.config": ("ConfigError",),
     "r37core.io": ("InputFileError",),
+    "r37core.netcdf_access": ("NETCDF_LOCK",),
+    "r37core.rom.rotation": ("BucklingError",),
     ".choices": ("BladeChoice", "SceneChoice", "blade", "blades", "scene", "scenes"),
     ".plots": ("plot_campbell", "plot_designs", "plot_response", "plot_rotor", "plot_run_ups", "plot_tolerances"),
     ".rotor_calls": ("rotor",),

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-import contextlib
-import io
-from collections.abc import Callable, Iterator, Mapping, Sequence
+import threading
+from collections.abc import Callable, Mapping, Sequence
+from contextlib import AbstractContextManager
 from importlib import import_module
 from typing import Any, TypeVar
 
@@ -13,6 +13,7 @@ import numpy as np
 import r37core
 from r37core.config import ConfigError
 from r37core.io import Named
+from r37core.process_wide import ProcessWide
 
 from .stages import bar
 
@@ -38,7 +39,7 @@ def in_parallel(calls: Sequence[Callable[[], Result]], cores: int, what: str = "
     if processes <= 1:
         with _alone():
             return [call() for call in (bar(calls, what, unit) if unit else calls)]
-    with parallel_config(backend="loky", inner_max_num_threads=1):
+    with _POOL, parallel_config(backend="loky", inner_max_num_threads=1):
         results = Parallel(n_jobs=processes, return_as="generator")(delayed(_called)(call) for call in calls)
         shown = bar(calls, what, unit) if unit else calls
         return [result for _, result in zip(shown, results, strict=True)]
@@ -49,15 +50,19 @@ def _called(call: Callable[[], Result]) -> Result:
         return call()
 
 
-@contextlib.contextmanager
-def _alone() -> Iterator[None]:
-    """One thread of the linear algebra library; what is printed is for the log of a workflow."""
+def _limit() -> AbstractContextManager[object]:
     # before the limit, which holds for libraries that are loaded
     import scipy.linalg  # noqa: F401
     from threadpoolctl import threadpool_limits
 
-    with threadpool_limits(1), contextlib.redirect_stdout(io.StringIO()):
-        yield
+    return threadpool_limits(1)
+
+
+_alone = ProcessWide(_limit)
+"""While `_alone()` lasts, the linear algebra library has one thread."""
+
+_POOL = threading.Lock()
+"""Held by the thread that the worker processes work for: joblib has one set of them."""
 
 
 def run_step(step: str, input: Mapping[str, Any], output: Mapping[str, Any], params: Mapping[str, Any]) -> Any:

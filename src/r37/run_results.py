@@ -12,7 +12,8 @@ import xarray as xr
 
 from r37core.config.messages import did_you_mean
 from r37core.dataset_file import read_dataset
-from r37core.io import InputFileError, readable
+from r37core.io import InputFileError
+from r37core.netcdf_access import lazy_dataset
 from r37core.results.ranking import read_ranking
 from r37core.results.table_file import read_table
 
@@ -111,12 +112,7 @@ class RunResults(FilesByName[xr.Dataset]):
         kinds = ("*/campbell.nc", "*/*/response.nc", "*/*/rotor.nc", "*/*/signals.nc")
         below = [file for pattern in kinds for file in self.folder.glob(pattern)]
         files = [*(self.folder / name for name in names), *sorted(below)]
-        return xr.DataTree.from_dict({str(file.relative_to(self.folder).with_suffix("")): _opened(file) for file in files})
-
-
-def _opened(file: Path) -> xr.Dataset:
-    with readable(file):
-        return xr.open_dataset(file, engine="netcdf4")
+        return xr.DataTree.from_dict({str(file.relative_to(self.folder).with_suffix("")): lazy_dataset(file) for file in files})
 
 
 def _table(file: Path) -> pd.DataFrame:

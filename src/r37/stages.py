@@ -13,6 +13,8 @@ from collections.abc import Collection, Iterable, Iterator
 from contextlib import contextmanager
 from typing import TypeVar
 
+from r37core.process_wide import ProcessWide
+
 LOGGER = logging.getLogger("r37")
 
 T = TypeVar("T")
@@ -26,11 +28,7 @@ def _watched() -> bool:
 
 
 @contextmanager
-def stages() -> Iterator[None]:
-    """While this lasts, lines of the logger are written where a person watches and nobody else takes them.
-
-    Serves as a decorator, too: `@stages()`.
-    """
+def _written() -> Iterator[None]:
     taken = LOGGER.isEnabledFor(logging.INFO) and LOGGER.hasHandlers()
     if taken or not _watched():
         yield
@@ -46,6 +44,10 @@ def stages() -> Iterator[None]:
         LOGGER.removeHandler(handler)
         LOGGER.setLevel(level)
         LOGGER.propagate = propagate
+
+
+stages = ProcessWide(_written)
+"""While `stages()` lasts, lines of the logger are written where a person watches and nobody else takes them."""
 
 
 def bar(items: Collection[T], what: str, unit: str) -> Iterable[T]:

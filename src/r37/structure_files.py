@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import tempfile
+import threading
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cache, cached_property
@@ -39,6 +40,10 @@ _STAGES = {
 """What a step is called while it works."""
 
 
+_MAKING = threading.RLock()
+"""Held by the thread that makes structures: gmsh, and what reads meshes of others, serve one at a time."""
+
+
 @dataclass(frozen=True)
 class Recipe:
     """How a file of the cache is made: by a step of the workflow, from files with recipes of their own, and parameters."""
@@ -58,7 +63,7 @@ class Recipe:
     def file(self) -> Path:
         """The file, from the cache or made now, which may take minutes. Raises what making it raises."""
         folder = cache_folder()
-        with room_for(folder / self.name):
+        with _MAKING, room_for(folder / self.name):
             return kept_file(self.name, self.made_of, self._make, folder)
 
     def _make(self, file: Path) -> None:

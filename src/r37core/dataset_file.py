@@ -10,11 +10,11 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-import netCDF4
 import numpy as np
 import xarray as xr
 
-from .io import FILE_ATTRIBUTES, InputFileError, atomic_write, readable
+from .io import FILE_ATTRIBUTES, InputFileError, atomic_write
+from .netcdf_access import NETCDF_LOCK, open_dataset, open_netcdf
 from .units import RPM
 
 
@@ -79,7 +79,7 @@ def write_dataset(dataset: xr.Dataset, file: Path | str, provenance: Mapping[str
         encoding[str(name)] = {"_FillValue": np.nan if filled else None}
         if variable.ndim and variable.size and variable.dtype.kind in "fiu":
             encoding[str(name)]["fletcher32"] = True
-    with atomic_write(file) as partial:
+    with NETCDF_LOCK, atomic_write(file) as partial:
         dataset.to_netcdf(partial, engine="netcdf4", encoding=encoding)
 
 
@@ -88,7 +88,7 @@ def read_dataset(file: Path | str, part: Mapping[str, object] | None = None) -> 
 
     `part`: labels of dimensions, as far as the file has these, at which alone it is read.
     """
-    with readable(file), xr.open_dataset(file, engine="netcdf4") as dataset:
+    with open_dataset(file) as dataset:
         return dataset.sel({name: label for name, label in (part or {}).items() if name in dataset.dims}).load()
 
 
@@ -126,7 +126,7 @@ def hash_of_parts(files: Iterable[Path | str]) -> str:
     """
     attributes = []
     for file in files:
-        with readable(file), netCDF4.Dataset(file) as dataset:
+        with open_netcdf(file) as dataset:
             names = sorted(set(dataset.ncattrs()) - set(FILE_ATTRIBUTES))
             attributes.append([(name, str(dataset.getncattr(name))) for name in names])
     return hashlib.sha256(repr(sorted(attributes)).encode()).hexdigest()[:16]

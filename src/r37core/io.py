@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import errno
 import json
+import logging
 import os
 import resource
 import shutil
@@ -20,6 +21,9 @@ from .checksums import checksum_file, is_as_written
 FILE_ATTRIBUTES = {"Conventions": "CF-1.11", "r37core_version": __version__}
 """Global attributes of every netCDF file."""
 
+
+JOB_LOG = logging.getLogger("r37core")
+"""What a step says for the log of its job; from Python nobody hears it who does not ask for this logger's level DEBUG."""
 
 _FULL = 2**20
 """Bytes left on a disk that counts as full."""

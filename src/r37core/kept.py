@@ -1,8 +1,8 @@
 """What takes long to make, in files by a hash of all that their content follows from; each is checked when it is read.
 
 They lie beside the package, or in the user's cache folder where the package cannot be written, or where a caller says. A
-file that is cut short or damaged is made again; all may be removed at any time. Of several processes that need the same one
-makes it and the others wait, so that a core is not busy twice with one thing. Light: the simulation jobs import it.
+file that is cut short or damaged is made again; all may be removed at any time. Of several processes and threads that need
+the same one makes it and the others wait, so that a core is not busy twice with one thing. Light: simulation jobs import it.
 """
 
 from __future__ import annotations
@@ -14,6 +14,7 @@ import tempfile
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
+from typing import BinaryIO
 
 _PACKAGE = Path(__file__).parent
 
@@ -79,12 +80,29 @@ def _hashed(name: str, made_of: object) -> str:
 
 @contextmanager
 def _alone(file: Path) -> Iterator[None]:
-    """Wait for other processes that make this file; where the file system has no locks, several may make it."""
-    with open(file.with_name("making.lock"), "ab") as lock:
-        with suppress(OSError):
-            # a byte of its own for each name
-            fcntl.lockf(lock, fcntl.LOCK_EX, 1, int(hashlib.sha256(file.name.encode()).hexdigest()[:7], 16))
-        yield
+    """Wait for others that make this file, threads too; where the file system has no locks, several may make it."""
+    name = file.with_name(f".{file.name}.lock")
+    while True:
+        with open(name, "ab") as lock:
+            with suppress(OSError):
+                # no lockf: all locks of a process on a file end when it closes the file once
+                fcntl.flock(lock, fcntl.LOCK_EX)
+            if not _is_at(lock, name):
+                # who had it before has removed it
+                continue
+            try:
+                yield
+            finally:
+                name.unlink(missing_ok=True)
+            return
+
+
+def _is_at(opened: BinaryIO, name: Path) -> bool:
+    """Whether an opened file still has this name."""
+    try:
+        return os.path.samestat(os.fstat(opened.fileno()), name.stat())
+    except FileNotFoundError:
+        return False
 
 
 def _put(made: Path, file: Path) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import errno
 import json
+import logging
 import os
 import shutil
 import sys
@@ -14,7 +15,7 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import TextIO
 
-from r37core.io import OutputFileError
+from r37core.io import JOB_LOG, OutputFileError
 
 _NOTES = "R37_FAILURES"
 """Environment variable that names the file, one for each run: several may go on in one folder."""
@@ -31,7 +32,7 @@ def reported(rule: str, log: Path | str, about: str = "") -> Iterator[None]:
     """
     with open(log, "w", encoding="utf-8") as stream:
         try:
-            with contextlib.redirect_stdout(stream), contextlib.redirect_stderr(stream):
+            with contextlib.redirect_stdout(stream), contextlib.redirect_stderr(stream), _steps_heard(stream):
                 yield
         except Exception as error:
             line = f"rule {rule}: {_explained(error)} ({about}details in {log})"
@@ -40,6 +41,19 @@ def reported(rule: str, log: Path | str, about: str = "") -> Iterator[None]:
                 note(line)
             show(line, sys.stderr)
             sys.exit(1)
+
+
+@contextlib.contextmanager
+def _steps_heard(stream: TextIO) -> Iterator[None]:
+    """Write there what steps say for the log."""
+    handler, level = logging.StreamHandler(stream), JOB_LOG.level
+    JOB_LOG.addHandler(handler)
+    JOB_LOG.setLevel(logging.DEBUG)
+    try:
+        yield
+    finally:
+        JOB_LOG.removeHandler(handler)
+        JOB_LOG.setLevel(level)
 
 
 def show(line: str, stream: TextIO | None) -> None:

@@ -13,7 +13,7 @@ from r37core.exchange.write_mesh import write_mesh
 from r37core.fem.abaqus_deck import write_abaqus
 from r37core.fem.material import Material
 from r37core.fem.matrices import assemble
-from r37core.io import as_list
+from r37core.io import JOB_LOG, as_list
 from r37core.mesh.mesh_files import read_vtu
 from r37core.plain import from_plain
 from r37core.rom.rom_file import read_reduced_model
@@ -54,7 +54,7 @@ def stress(input: Any, output: Any, params: Any) -> None:
     operator = stress_operator(model, material)
     instants = worst_instants(as_list(input.speeds), params.speeds, operator, params.only_worst)
     for speed, instant in instants.items():
-        print(f"{speed:g} rad/s: largest von Mises stress of the submesh {instant.largest:.6g} Pa")
+        JOB_LOG.debug(f"{speed:g} rad/s: largest von Mises stress of the submesh {instant.largest:.6g} Pa")
     write_stress(read_vtu(input.mesh), model, material, instants, _target(output, params))
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from r37core.blade.geometry_file import read_geometry
-from r37core.io import atomic_write
+from r37core.io import JOB_LOG, atomic_write
 from r37core.mesh.generate import generate_mesh
 from r37core.mesh.mesh_files import read_vtu, write_vtu
 from r37core.plain import from_plain
@@ -24,8 +24,8 @@ def mesh(input: Any, output: Any, params: Any) -> None:
     with atomic_write(output.msh) as msh_file:
         made = generate_mesh(read_geometry(input.geometry), level["nodes"], level["layers"], level["tip_elements"], msh_file)
         quality = mesh_quality(made)
-        print(f"{len(made.points)} nodes, {made.element_count} wedges")
-        print(f"scaled Jacobian: minimum {quality.minimum:.3f}, 1% quantile {quality.one_percent_quantile:.3f}")
+        JOB_LOG.debug(f"{len(made.points)} nodes, {made.element_count} wedges")
+        JOB_LOG.debug(f"scaled Jacobian: minimum {quality.minimum:.3f}, 1% quantile {quality.one_percent_quantile:.3f}")
         quality.check(level["minimum_scaled_jacobian"])
     write_vtu(made, output.vtu, quality.per_element)
 

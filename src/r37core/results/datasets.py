@@ -10,7 +10,8 @@ import numpy as np
 import xarray as xr
 
 from r37core.dataset_file import Variable
-from r37core.io import FILE_ATTRIBUTES, InputFileError, atomic_write, readable
+from r37core.io import InputFileError
+from r37core.netcdf_access import new_netcdf, open_netcdf
 from r37core.time_integration.simulate import TIP_POINTS
 from r37core.time_integration.status import RunStatus
 
@@ -34,14 +35,13 @@ def write_sweep_dataset(
     blades = list(dict.fromkeys(blade for blade, _ in responses))
     scenes = list(dict.fromkeys(scene for _, scene in responses))
     _check_numerics(responses)
-    with atomic_write(file) as partial, netCDF4.Dataset(partial, "w") as target:
-        target.setncatts(FILE_ATTRIBUTES | {name: str(value) for name, value in provenance.items()})
+    with new_netcdf(file, provenance) as target:
         axes = _axes(responses)
         for name, labels in (("blade", blades), ("scene", scenes), ("tip_point", TIP_POINTS)):
             create_labels(target, name, labels)
         contacts: dict[str, dict[str, None]] = {}
         for (blade, scene), source in responses.items():
-            with readable(source), netCDF4.Dataset(source) as response:
+            with open_netcdf(source) as response:
                 contacts.setdefault(getattr(response, "contact", "unknown"), {})[blade] = None
                 _copy(response, target, kind, (blades.index(blade), scenes.index(scene)), axes)
         target.setncattr("contact", "; ".join(f"{contact}: {', '.join(of)}" for contact, of in contacts.items()))
@@ -63,7 +63,7 @@ def response_of(datasets: Mapping[str, xr.Dataset], blade: str, scene: str) -> x
 def _check_numerics(responses: Mapping[tuple[str, str], Path | str]) -> None:
     first_with: dict[str, Path | str] = {}
     for source in responses.values():
-        with readable(source), netCDF4.Dataset(source) as response:
+        with open_netcdf(source) as response:
             first_with.setdefault(getattr(response, "numerics", "unknown numerics"), source)
     if len(first_with) > 1:
         (first, file), (other, another), *_ = first_with.items()
@@ -77,7 +77,7 @@ def _axes(responses: Mapping[tuple[str, str], Path | str]) -> dict[str, np.ndarr
     """Union of each numeric axis over the responses."""
     axes: dict[str, np.ndarray] = {}
     for source in responses.values():
-        with readable(source), netCDF4.Dataset(source) as response:
+        with open_netcdf(source) as response:
             for name in AXES:
                 if name in response.variables:
                     axes[name] = np.union1d(axes.get(name, np.empty(0)), response[name][:].filled(np.nan))

@@ -1,4 +1,4 @@
-"""response.nc: all speeds of one blade and scene, written row by row so that memory does not grow with the speeds."""
+"""response.nc: all speeds of one blade and scene, written in blocks so that memory does not grow with the speeds."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import Any
 import netCDF4
 import numpy as np
 
-from r37core.io import FILE_ATTRIBUTES, atomic_write
+from r37core.netcdf_access import new_netcdf
 from r37core.stress.statistic import stress_statistic
 from r37core.time_integration.simulate import DIRECTIONS, TIP_POINTS
 from r37core.time_integration.speed_file import read_speed
@@ -17,6 +17,9 @@ from r37core.time_integration.speed_file import read_speed
 from .measures import first_yield
 from .netcdf import create_axis, create_labels, create_variable, status_flags
 from .variables import AXES, HISTORIES, OF_ALL_SPEEDS, OF_STRESS, VARIABLES
+
+_BLOCK = 32
+"""Speeds that are in memory at once, since writing takes as long for one as for many."""
 
 
 def write_response(
@@ -28,17 +31,19 @@ def write_response(
     yield_stress: float,
     provenance: Mapping[str, object],
 ) -> None:
-    """Reduce the files of the `speeds` (rad/s, ascending), in the same order, to one file; one is in memory at a time.
+    """Reduce the files of the `speeds` (rad/s, ascending), in the same order, to one file; _BLOCK are in memory at a time.
 
     Speeds in `stress_history_speeds`, which have recorded it, keep the largest stress of every revolution. `yield_stress`: of
     the blade's material (Pa). Raises InputFileError for a file that cannot be read.
     """
     history_speeds = [speed for speed in speeds if speed in stress_history_speeds]
-    with atomic_write(file) as partial, netCDF4.Dataset(partial, "w") as dataset:
-        dataset.setncatts(FILE_ATTRIBUTES | {name: str(value) for name, value in provenance.items()})
-        for row, (speed, source) in enumerate(zip(speeds, files, strict=True)):
-            values = _row(read_speed(source), yield_stress)
-            if row == 0:
+    with new_netcdf(file, provenance) as dataset:
+        runs = list(zip(speeds, files, strict=True))
+        for first in range(0, len(runs), _BLOCK):
+            block = slice(first, first + _BLOCK)
+            rows = {speed: _row(read_speed(file), yield_stress) for speed, file in runs[block]}
+            values = next(iter(rows.values()))
+            if first == 0:
                 _create(dataset, speeds, values, history_speeds)
                 of_all: dict[str, Any] = values | {"casing_cone_angle": values["cone_angle"], "yield_stress": yield_stress}
                 for name, variable in OF_ALL_SPEEDS.items():
@@ -47,9 +52,9 @@ def write_response(
                         create_variable(dataset, name, variable)[...] = str(value) if variable.dtype == "str" else value
             for name in VARIABLES:
                 if name in values:
-                    dataset[name][row] = values[name]
-            if speed in history_speeds:
-                history, number = values["revolution_von_mises"], history_speeds.index(speed)
+                    dataset[name][block] = np.stack([row[name] for row in rows.values()])
+            for speed in rows.keys() & history_speeds:
+                history, number = rows[speed]["revolution_von_mises"], history_speeds.index(speed)
                 dataset["max_von_mises_history"][number] = history
                 dataset["first_yield_revolution"][number] = first_yield(history, yield_stress)
 

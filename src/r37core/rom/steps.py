@@ -7,6 +7,7 @@ from typing import Any
 from r37core.dataset_file import recipe_of, taken_over
 from r37core.fem.material import Material
 from r37core.fem.matrices import assemble
+from r37core.io import JOB_LOG
 from r37core.mesh.mesh_files import read_vtu
 from r37core.plain import from_plain
 
@@ -25,14 +26,14 @@ def reduced_model(input: Any, output: Any, params: Any) -> None:
     recipe = recipe_of([input.mesh], params.material, params.reduction, params.code, dict(params.provenance))
     before = params.made_before["file"]
     if taken_over(recipe, before, output.rom):
-        print(f"copy of {before}, which was made of the same")
+        JOB_LOG.debug(f"copy of {before}, which was made of the same")
         return
     mesh = read_vtu(input.mesh)
     matrices = assemble(mesh, from_plain(Material, params.material))
-    print(f"mass {matrices.total_mass:.6g} kg, {3 * len(matrices.free_nodes)} free degrees of freedom")
+    JOB_LOG.debug(f"mass {matrices.total_mass:.6g} kg, {3 * len(matrices.free_nodes)} free degrees of freedom")
     with boundary_located(params.contact["location"]):
         model = reduce_blade(mesh, matrices, from_plain(ReductionChoice, params.reduction))
-    print(f"{model.columns} columns, {model.size} independent at {model.tolerance:g}")
+    JOB_LOG.debug(f"{model.columns} columns, {model.size} independent at {model.tolerance:g}")
     write_reduced_model(model, output.rom, params.provenance | {"recipe": recipe})
 
 

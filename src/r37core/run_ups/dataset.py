@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 
-import netCDF4
 import numpy as np
 import xarray as xr
 
 from r37core.dataset_file import Variable
-from r37core.io import FILE_ATTRIBUTES, atomic_write, readable
+from r37core.io import readable
+from r37core.netcdf_access import new_netcdf
 from r37core.results.netcdf import create_axis, create_labels, create_variable, status_flags
 from r37core.results.variables import AXES
 from r37core.time_integration.simulate import DIRECTIONS, TIP_POINTS
@@ -67,8 +67,7 @@ def write_run_ups(files: Mapping[tuple[str, str, str], Path | str], file: Path |
         revolutions = max(revolutions, len(values["speed"]))
         orders = max(orders, values["amplitude"].shape[-1] if "amplitude" in values else 0)
         names |= set(values)
-    with atomic_write(file) as partial, netCDF4.Dataset(partial, "w") as target:
-        target.setncatts(FILE_ATTRIBUTES | {name: str(value) for name, value in provenance.items()})
+    with new_netcdf(file, provenance) as target:
         target.createDimension("run", len(files))
         create_labels(target, "tip_point", TIP_POINTS)
         create_axis(target, "revolution", np.arange(1, revolutions + 1), AXES["revolution"])

@@ -16,6 +16,8 @@ from typing import Any
 import numpy as np
 from threadpoolctl import threadpool_limits
 
+from r37core.process_wide import ProcessWide
+
 RESTARTS = 1
 """Fits from other hyperparameters than the usual, the likeliest of all is taken."""
 
@@ -33,7 +35,7 @@ def library() -> ModuleType:
         import sklearn.gaussian_process
     except ImportError:
         raise SearchPackageMissing(
-            "a search needs the extra package scikit-learn: pip install 'r37[search]', or '.[search]' in the project's folder"
+            "a search needs the extra package scikit-learn: pip install '.[search]' in the folder of the copy of r37"
         ) from None
     return sklearn.gaussian_process
 
@@ -136,8 +138,11 @@ def _regressor(kernel: Any, variances: np.ndarray, **options: Any) -> Any:
 
 
 @contextmanager
-def _quiet() -> Iterator[None]:
-    """One thread of linear algebra, and no warning of a hyperparameter at its bound: few designs do not tell all of them."""
+def _without_warnings() -> Iterator[None]:
     with threadpool_limits(1), warnings.catch_warnings():
         warnings.simplefilter("ignore")
         yield
+
+
+_quiet = ProcessWide(_without_warnings)
+"""One thread of linear algebra, and no warning of a hyperparameter at its bound: few designs do not tell all of them."""

@@ -10,8 +10,8 @@ import netCDF4
 import numpy as np
 import xarray as xr
 
-from r37core.dataset_file import SPEED, SPEED_RPM, Variable, dataset_of
-from r37core.io import FILE_ATTRIBUTES, atomic_write, readable
+from r37core.dataset_file import SPEED, SPEED_RPM, Variable, dataset_of, read_dataset
+from r37core.netcdf_access import new_netcdf, open_dataset
 from r37core.results.netcdf import create_axis, create_labels, create_variable, status_flags
 from r37core.rom.reduced_model import RecoveryNodes
 from r37core.time_integration.simulate import TIP_POINTS
@@ -98,8 +98,7 @@ def gather_signals(files: Mapping[tuple[str, str], Path | str], file: Path | str
     Runs that kept fewer revolutions have NaN before and after them. Raises InputFileError for a file that cannot be read.
     """
     axes = _union(files)
-    with atomic_write(file) as partial, netCDF4.Dataset(partial, "w") as target:
-        target.setncatts(FILE_ATTRIBUTES | {name: str(value) for name, value in provenance.items()})
+    with new_netcdf(file, provenance) as target:
         create_labels(target, "tip_point", TIP_POINTS)
         create_labels(target, "axis", _BLADE_AXES)
         for name, values in axes.items():
@@ -117,9 +116,9 @@ def gather_signals(files: Mapping[tuple[str, str], Path | str], file: Path | str
                 create_variable(target, name, variable, ("run",), coordinates=_COORDINATES)
         target["status"].setncatts(status_flags())
         for (blade, scene), source in files.items():
-            with readable(source), xr.open_dataset(source) as dataset:
-                if dataset.sizes["speed"]:
-                    _append(target, dataset.load(), blade, scene, axes)
+            dataset = read_dataset(source)
+            if dataset.sizes["speed"]:
+                _append(target, dataset, blade, scene, axes)
 
 
 _COORDINATES = "blade scene speed speed_rpm interaction"
@@ -128,7 +127,7 @@ _COORDINATES = "blade scene speed speed_rpm interaction"
 def _union(files: Mapping[tuple[str, str], Path | str]) -> dict[str, np.ndarray]:
     axes: dict[str, np.ndarray] = {}
     for source in files.values():
-        with readable(source), xr.open_dataset(source) as dataset:
+        with open_dataset(source) as dataset:
             for name in (axis for axis in ("gauge", *AXES) if axis in dataset.dims):
                 axes[name] = np.union1d(axes[name], dataset[name].values) if name in axes else dataset[name].values
     return axes

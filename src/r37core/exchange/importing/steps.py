@@ -6,6 +6,7 @@ from typing import Any
 
 from r37core.exchange.refusal import located
 from r37core.exchange.write_mesh import write_mesh
+from r37core.io import JOB_LOG
 from r37core.mesh.mesh_files import write_vtu
 from r37core.plain import from_plain
 from r37core.rom.reduction_choice import ReductionChoice, boundary_located
@@ -24,9 +25,9 @@ def imported_mesh(input: Any, output: Any, params: Any) -> str:
     """
     with located(params.locations):
         mesh, quality = import_mesh(from_plain(MeshSource, params.source), params.folder["folder"])
-    print(f"{len(mesh.points)} nodes, " + ", ".join(f"{len(nodes)} {name}" for name, nodes in mesh.blocks.items()))
-    print(f"root: {len(mesh.node_set('root'))} nodes, tip: {len(mesh.node_set('tip'))} nodes")
-    print(f"scaled Jacobian: minimum {quality.min():.3f}")
+    JOB_LOG.debug(f"{len(mesh.points)} nodes, " + ", ".join(f"{len(nodes)} {name}" for name, nodes in mesh.blocks.items()))
+    JOB_LOG.debug(f"root: {len(mesh.node_set('root'))} nodes, tip: {len(mesh.node_set('tip'))} nodes")
+    JOB_LOG.debug(f"scaled Jacobian: minimum {quality.min():.3f}")
     write_mesh(mesh, output.msh)
     write_vtu(mesh, output.vtu, quality)
     return f"{params.locations['mesh']}: {size_in_words(mesh)}"
@@ -40,6 +41,6 @@ def imported_matrices(input: Any, output: Any, params: Any) -> str:
     choice = from_plain(ReductionChoice, params.reduction)
     with boundary_located(params.contact["location"]), located(params.locations):
         model = import_matrices(from_plain(MatricesSource, params.source), choice, params.folder["folder"])
-    print(f"{model.columns} columns, {model.size} independent at {model.tolerance:g}")
+    JOB_LOG.debug(f"{model.columns} columns, {model.size} independent at {model.tolerance:g}")
     write_reduced_model(model, output.rom, params.provenance)
     return f"{params.locations['matrices']}: {in_words(model)}"

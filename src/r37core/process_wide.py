@@ -1,0 +1,29 @@
+"""A setting of the whole process that several threads want for a while: the first one makes it, the last one takes it back."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable, Iterator
+from contextlib import AbstractContextManager, ExitStack, contextmanager
+
+
+class ProcessWide:
+    """The context that `make` gives, entered once for all threads that are within; to be called in a `with`."""
+
+    def __init__(self, make: Callable[[], AbstractContextManager[object]]):
+        self._make, self._lock, self._within, self._stack = make, threading.Lock(), 0, ExitStack()
+
+    @contextmanager
+    def __call__(self) -> Iterator[None]:
+        """Be within."""
+        with self._lock:
+            if not self._within:
+                self._stack.enter_context(self._make())
+            self._within += 1
+        try:
+            yield
+        finally:
+            with self._lock:
+                self._within -= 1
+                if not self._within:
+                    self._stack.close()
