@@ -25,6 +25,7 @@ from r37core.run_ups.integration import RunUpIntegration, Stage, resolved_proble
 from r37core.run_ups.revolutions import largest_stress, record_run_up
 from r37core.run_ups.schedule import RunUp, schedule
 from r37core.run_ups.tables import rate_table, run_up_table
+from r37core.time_integration import run_length
 from r37core.time_integration.integrators import EXACT_MODAL
 from r37core.time_integration.problem import Problem, stable_problem
 from r37core.time_integration.simulate import Simulation
@@ -73,6 +74,17 @@ def test_at_one_speed_a_run_up_is_the_run_at_that_speed(contact, engine):
     expected = run.advance(run.start(), 6).samples
     integration = RunUpIntegration(contact, NARROW, choice, RunUp(1600.0, 1600.0, 1.5, 4, 0, worn=False))
     np.testing.assert_array_equal(samples_of(integration), expected)
+
+
+def test_a_slow_run_up_is_the_same_in_many_calls(contact, monkeypatch):
+    run_up = RunUp(1600.0, 1605.0, 8.5, 4, 0, worn=False)
+    whole = list(RunUpIntegration(contact, NARROW, LONG, run_up).stages())
+    monkeypatch.setattr(run_length, "STEPS_AT_ONCE", 1)
+    stages = list(RunUpIntegration(contact, NARROW, LONG, run_up).stages())
+    assert len(stages) > len(whole)
+    for name in ("samples", "speeds", "wear"):
+        several, few = (np.concatenate([getattr(stage, name) for stage in each]) for each in (stages, whole))
+        np.testing.assert_array_equal(several, few)
 
 
 @pytest.mark.parametrize("start", [1600.0, 1700.0])

@@ -1,5 +1,8 @@
 """The time integration against exact solutions and its plain reference."""
 
+import signal
+import threading
+import time
 from dataclasses import replace
 
 import numpy as np
@@ -19,6 +22,7 @@ from integration_cases import (
 from r37core.contact.casing import casing_axes
 from r37core.rom.contact_model import read_contact_model, write_contact_model
 from r37core.rom.reduced_model import contact_model
+from r37core.time_integration import run_length
 from r37core.time_integration.integrators import CENTRAL_DIFFERENCE, EXACT_MODAL
 from r37core.time_integration.problem import Problem, UnstableStepError
 from r37core.time_integration.simulate import Simulation
@@ -163,6 +167,47 @@ def test_split_run_is_the_whole_run(contact, scene):
     np.testing.assert_array_equal(state.totals, whole.totals)
     if scene.lining:
         np.testing.assert_array_equal(state.wear, whole.wear)
+
+
+@pytest.mark.parametrize(
+    "scene", [ABRADABLE, DIRECT, replace(DIRECT, divergence_limit=2e-5)], ids=["lined", "direct", "diverged"]
+)
+def test_a_run_in_many_calls_is_the_run_in_one(contact, scene, monkeypatch):
+    choice = IntegrationChoice(2e-7, 4, 62, snapshots_per_revolution=31, snapshot_revolutions=3)
+    simulation = Simulation(contact, 1000.0, scene, choice)
+    calls, advance, runs = [], simulation.engine.advance, []
+    monkeypatch.setattr(simulation.engine, "advance", lambda *arguments: calls.append(1) or advance(*arguments))
+    for at_once in (run_length.STEPS_AT_ONCE, 1):
+        monkeypatch.setattr(run_length, "STEPS_AT_ONCE", at_once)
+        state = simulation.start()
+        # from a sample inside of a revolution, too
+        runs.append((state, simulation.advance_samples(state, 20), simulation.advance_samples(state, 4 * 62 - 20)))
+    (whole, *records), (state, *others) = runs
+    diverges = scene.divergence_limit < 1e-4
+    assert any(record.diverged for record in others) == diverges and (len(calls) > 4 or diverges)
+    for record, other in zip(records, others, strict=True):
+        assert other.diverged == record.diverged
+        np.testing.assert_array_equal(other.samples, record.samples)
+        np.testing.assert_array_equal(other.snapshots, record.snapshots)
+    np.testing.assert_array_equal(state.displacement, whole.displacement)
+    np.testing.assert_array_equal(state.totals, whole.totals)
+    assert state.samples == whole.samples
+
+
+def test_a_slow_run_can_be_interrupted(contact):
+    """A second of compiled code at most, where the whole run takes a minute."""
+    simulation = Simulation(contact, 1.0, DIRECT, IntegrationChoice(3.2e-6, 300, 62, integrator=EXACT_MODAL))
+    state = simulation.start()
+    # a test before this one may have run what takes interrupts
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    threading.Timer(0.3, signal.raise_signal, [signal.SIGINT]).start()
+    begun = time.perf_counter()
+    try:
+        with pytest.raises(KeyboardInterrupt):
+            simulation.advance(state, 300)
+    finally:
+        signal.signal(signal.SIGINT, before)
+    assert time.perf_counter() - begun < 5.0
 
 
 @pytest.mark.parametrize("scene", [ABRADABLE, DIRECT], ids=["abradable", "direct"])

@@ -6,7 +6,6 @@ refused meets the same refusal in `Settings`, and that is told once.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Iterable
 from typing import Any
 
@@ -18,11 +17,13 @@ from r37core.exchange.importing.source import MatricesSource
 from r37core.rom.reduction_choice import AREA_PATCHES, PATCHES, POINTS, BoundaryError, check_patches
 from r37core.time_integration.integration_choice import LARGEST_TABLE
 from r37core.time_integration.integrators import EXACT_MODAL
+from r37core.time_integration.run_length import MOST_STEPS
 from r37core.units import RPM
 from r37core.yaml_file import KeyPath
 
 from .document import ConfigRefusals, Document
 from .settings import Settings
+from .speed_choice import RunLength, fastest_of, length_of_run, slowest_speeds
 from .study_sections import TradeoffSection
 
 LARGEST_NUMBER_OF_SIMULATIONS = 200_000
@@ -149,22 +150,23 @@ def history_speeds_are_run(settings: Settings) -> None:
                 raise settings.documents.scenes.refusal((name, key), f"{value:g}", allowed)
 
 
-def slowest_speed_fits_in_memory(settings: Settings) -> None:
-    """The revolution of the slowest speed of the sweep has not too many steps."""
-    revolution_fits(settings, min(plan.certain[0] for plan in settings.speed_plans.values()), ("speeds",))
+def slowest_speeds_can_be_run(settings: Settings) -> None:
+    """Neither the slowest run of each scene nor its revolution has too many steps."""
+    for scene, speed in slowest_speeds(settings).items():
+        slow_run_can_be_done(length_of_run(settings, scene, speed), settings, ("speeds",))
 
 
-def revolution_fits(settings: Settings, speed: float, path: KeyPath) -> None:
-    """ConfigError for a speed (rad/s), at `path` of config.yaml, whose revolutions have too many steps."""
-    steps, lined = settings.fidelity.time_integration, {each.scene.lining is not None for each in settings.scenes.values()}
-    nodes, step = padded(settings.structure.boundary.nodes), min(map(steps.largest_step, lined))
-    size = 8 * nodes * 2.0 * math.pi / speed / step
-    if size > LARGEST_TABLE:
+def slow_run_can_be_done(run: RunLength, settings: Settings, path: KeyPath) -> None:
+    """ConfigError for a run, whose speed stands at `path` of config.yaml, that has too many steps, or its revolution."""
+    size = 8 * padded(settings.structure.boundary.nodes) * run.steps_per_revolution
+    excess = max(size / LARGEST_TABLE, run.steps / MOST_STEPS)
+    if excess > 1.0:
         raise settings.documents.config.refusal(
             path,
-            f"{speed:g} rad/s, a revolution of {size / 8 / nodes:.3g} steps of {step:g} s",
-            f"speeds from {speed * size / LARGEST_TABLE:.3g} rad/s with this step (the casing's shape at every step has to "
-            "fit in memory)",
+            f"{run.speed:g} rad/s, a revolution of {run.steps_per_revolution:.3g} steps of {run.time_step:g} s, {run.in_words}",
+            f"speeds from {run.speed * excess:.3g} rad/s with this step and as many revolutions: a run has at most "
+            f"{MOST_STEPS:.0e} steps, and the casing's shape at every step of a revolution takes at most "
+            f"{LARGEST_TABLE / 2**20:.0f} MiB",
         )
 
 
@@ -238,12 +240,14 @@ def rotors_press_a_casing_that_is_carried(settings: Settings) -> None:
 
 def clearances_reach_all_speeds(settings: Settings) -> None:
     """The growth of a casing is given up to the highest speed; the blades' own follows from their mesh."""
-    highest, document = settings.structure.maximum_speed_rad_s, settings.documents.scenes
+    document = settings.documents.scenes
     matrices = [name for name, blade in settings.blades.items() if isinstance(blade.definition, MatricesSource)]
     for name, chosen in settings.scenes.items():
         casing, path = chosen.scene.casing, (name, "casing", "clearance")
+        of_models, run = settings.structure.maximum_speed_rad_s, fastest_of(settings, name)
+        highest, what = (run, "the fastest of its speeds") if run > of_models else (of_models, "structure.maximum_speed_rad_s")
         if not casing.knows(highest):
-            allowed = f"up to structure.maximum_speed_rad_s, {highest:g} rad/s ({highest * RPM:.6g} rpm)"
+            allowed = f"up to {what}, {highest:g} rad/s ({highest * RPM:.6g} rpm)"
             raise document.refusal((*path, "casing_growth"), f"growth up to {casing.growth_speeds[-1]:g} rad/s", allowed)
         if casing.centrifugal and matrices:
             raise document.refusal(
@@ -261,7 +265,7 @@ CHECKS: tuple[Callable[[Settings], None], ...] = (
     simulations_can_be_planned,
     windows_have_crossings,
     history_speeds_are_run,
-    slowest_speed_fits_in_memory,
+    slowest_speeds_can_be_run,
     matrices_hold_their_terms,
     tips_have_room_for_patches,
     coriolis_can_be_carried,

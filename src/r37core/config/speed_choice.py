@@ -2,7 +2,60 @@
 
 from __future__ import annotations
 
+import math
+from dataclasses import dataclass
+
+from r37core.time_integration.run_length import SECONDS_PER_STEP
+
 from .settings import Settings
+
+
+@dataclass(frozen=True)
+class RunLength:
+    """A run at a `speed` (rad/s): of so many `revolutions` and `blades`, in steps of `time_step` (s) by an `engine`."""
+
+    speed: float
+    revolutions: float
+    blades: int
+    time_step: float
+    engine: str
+
+    @property
+    def steps_per_revolution(self) -> float:
+        """Of one blade."""
+        return 2.0 * math.pi / (self.speed * self.time_step)
+
+    @property
+    def steps(self) -> float:
+        """Of all blades together."""
+        return self.revolutions * self.blades * self.steps_per_revolution
+
+    @property
+    def cpu_time(self) -> float:
+        """About how long it takes (s)."""
+        return self.steps * SECONDS_PER_STEP[self.engine]
+
+    @property
+    def in_words(self) -> str:
+        """How many steps it has."""
+        of_blades = f" of {self.blades} blades" if self.blades > 1 else ""
+        return f"a run of {self.steps:.3g} steps ({self.revolutions:.6g} revolutions{of_blades})"
+
+
+def length_of_run(settings: Settings, scene: str, speed: float, revolutions: float | None = None) -> RunLength:
+    """Of a run in a scene at a speed (rad/s), of the level's revolutions unless they are given."""
+    steps, chosen = settings.fidelity.time_integration, settings.scenes[scene].scene
+    blades = 1 if chosen.rotor is None else len(chosen.rotor.numbers)
+    step = steps.largest_step(chosen.lining is not None)
+    return RunLength(speed, steps.revolutions if revolutions is None else revolutions, blades, step, steps.engine)
+
+
+def slowest_speeds(settings: Settings) -> dict[str, float]:
+    """The lowest speed (rad/s) of each scene's simulations in the sweep."""
+    slowest: dict[str, float] = {}
+    for (_, scene), plan in settings.speed_plans.items():
+        slowest[scene] = min(plan.certain[0], slowest.get(scene, plan.certain[0]))
+    return slowest
 
 
 def most_runs(settings: Settings, blade: str, scene: str) -> int:

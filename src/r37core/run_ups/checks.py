@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import math
+
 from r37core.config import Settings
-from r37core.config.cross_checks import names_are_there, revolution_fits
+from r37core.config.cross_checks import names_are_there, slow_run_can_be_done
 from r37core.config.document import ConfigRefusals
+from r37core.config.speed_choice import length_of_run
 from r37core.yaml_file import KeyPath
 
 from .choice import RunUpError, check_highest
@@ -45,11 +48,19 @@ def _can_be_done(settings: Settings, name: str, entry: RunUpEntry) -> None:
             )
 
 
-def slowest_speeds_fit_in_memory(settings: Settings) -> None:
-    """The revolution of the slowest speed of a run-up has not too many steps."""
+def slowest_speeds_can_be_run(settings: Settings) -> None:
+    """Neither the run-up nor a revolution at its slowest speed, whose steps all have, has too many steps."""
     for name, entry in entries(settings).items():
-        if entry.crossing is None:
-            revolution_fits(settings, min(entry.choice(1).start, entry.choice(1).stop), ("run_ups", name))
+        if entry.crossing is not None:
+            continue
+        choice = entry.choice(settings.fidelity.time_integration.revolutions)
+        squares, changing = abs(choice.stop**2 - choice.start**2), choice.revolutions or 0.0
+        if choice.rate is not None:
+            changing = squares / (4.0 * math.pi * choice.rate)
+        for scene in settings.scenes:
+            revolutions = choice.before + changing + choice.after
+            run = length_of_run(settings, scene, min(choice.start, choice.stop), revolutions)
+            slow_run_can_be_done(run, settings, ("run_ups", name))
 
 
 def no_rotors(settings: Settings) -> None:

@@ -19,6 +19,7 @@ from r37core.time_integration.integration_choice import IntegrationChoice
 from r37core.time_integration.integrators import CENTRAL_DIFFERENCE, Recursion
 from r37core.time_integration.kept_numbers import energy_balance
 from r37core.time_integration.problem import Problem, stable_problem
+from r37core.time_integration.run_length import revolutions_at_once
 from r37core.time_integration.simulate import Simulation
 from r37core.time_integration.state import Schedule
 from r37core.time_integration.step_limit import UnstableStepError
@@ -26,7 +27,7 @@ from r37core.time_integration.step_limit import UnstableStepError
 from .schedule import ModalInterval, RunUp, schedule
 
 _AT_ONCE = 64
-"""Revolutions that the engine does in one call."""
+"""Revolutions that the engine does in one call, fewer where they have many steps."""
 
 
 @dataclass(frozen=True)
@@ -124,7 +125,8 @@ class RunUpIntegration:
         assert increments is not None
         simulation.engine.take(begun)
         state.increment[:] = increments.increment(begun, state.displacement, self.velocity)
-        for segments in interval.at_once(_AT_ONCE * self._choice.samples_per_revolution):
+        at_once = min(_AT_ONCE, revolutions_at_once(problem.grid.steps_per_revolution))
+        for segments in interval.at_once(at_once * self._choice.samples_per_revolution):
             speed_indices, lasting = interval.distinct_speeds.of_segments[segments], interval.lasting[segments]
             call, first = Schedule(speed_indices, lasting, len(state.displacement)), state.samples
             record = simulation.follow(state, call)

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from r37core.config import Settings
-from r37core.config.cross_checks import revolution_fits
+from r37core.config.cross_checks import slow_run_can_be_done
+from r37core.config.speed_choice import length_of_run
 
 from .plan import section
 
@@ -17,7 +18,8 @@ def signals_have_runs(settings: Settings) -> None:
     if speeds is None:
         return
     if isinstance(speeds, list):
-        revolution_fits(settings, speeds[0], ("signals", wanted.key_of_speeds))
+        for name in settings.scenes:
+            slow_run_can_be_done(length_of_run(settings, name, speeds[0]), settings, ("signals", wanted.key_of_speeds))
     with_signal = {name: scene for name, scene in settings.scenes.items() if "signal" in scene.results}
     if not with_signal:
         raise documents.config.refusal(

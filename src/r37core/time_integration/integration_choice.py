@@ -9,8 +9,8 @@ from r37core.declared import Key
 
 from .integrators import CENTRAL_DIFFERENCE, EXACT_MODAL, INTEGRATORS
 
-LARGEST_TABLE = 2**30
-"""Bytes of the casing's shape at every step of a revolution."""
+LARGEST_TABLE = 2**28
+"""Bytes of the casing's shape at every step of a revolution: every core has one, and a revolution can take no interrupt."""
 
 
 @dataclass(frozen=True)
@@ -42,7 +42,7 @@ class IntegrationChoice:
         Key(
             "faster modes are not stepped: with exact_modal they follow statically, else they are left out",
             "_hz",
-            ge=1,
+            ge=100,
             le=1e12,
         ),
     ] = float("inf")

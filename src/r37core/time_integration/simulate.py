@@ -15,6 +15,7 @@ from .initial_motion import InitialMotion
 from .integration_choice import IntegrationChoice
 from .problem import Problem, stable_problem
 from .reference.engine import ReferenceEngine
+from .run_length import revolutions_at_once
 from .segments import Segments, own_segment, segments_at
 from .state import Schedule, SimulationRecord, SimulationState
 
@@ -80,7 +81,18 @@ class Simulation:
 
     def advance_samples(self, state: SimulationState, samples: int) -> SimulationRecord:
         """The same by a number of samples."""
-        return self.follow(state, Schedule(np.zeros(1), np.array([samples]), len(state.displacement)))
+        first, done, reached, per_revolution = state.samples, 0, True, self.problem.choice.samples_per_revolution
+        out = self.room(first, samples)
+        at_once = revolutions_at_once(self.problem.grid.steps_per_revolution) * per_revolution
+        while done < samples and reached:
+            part = min(samples - done, at_once - (first + done) % per_revolution)
+            kept = self._snapshots(first, done)
+            rows = SimulationRecord(out.samples[done : done + part], out.snapshots[kept : self._snapshots(first, done + part)])
+            state.samples = first + done
+            advanced = self.engine.advance(state, rows, Schedule.of_one_speed(part, len(state.displacement)))
+            done, reached = done + advanced, advanced == part
+        state.samples = first + samples
+        return self.recorded(first, out, done)
 
     def follow(self, state: SimulationState, schedule: Schedule) -> SimulationRecord:
         """The same in the constant-speed segments of a schedule."""
@@ -97,13 +109,15 @@ class Simulation:
 
     def recorded(self, first: int, out: SimulationRecord, done: int) -> SimulationRecord:
         """What an engine has left in that room when it has `done` so many samples."""
-        limit = self.problem.scene.divergence_limit
-        diverged = done > 0 and not (np.abs(out.samples[done - 1]) < limit).all()
         of_tip = len(TIP_POINTS) * len(DIRECTIONS)
         casing = None if self.problem.casing.ring is None else out.samples[:done, of_tip:]
         return SimulationRecord(
-            out.samples[:done, :of_tip], out.snapshots[: self._snapshots(first, done)], bool(diverged), casing
+            out.samples[:done, :of_tip], out.snapshots[: self._snapshots(first, done)], self.diverged(out, done), casing
         )
+
+    def diverged(self, out: SimulationRecord, done: int) -> bool:
+        """Whether the last of so many samples is beyond the limit, or is NaN."""
+        return done > 0 and not np.abs(out.samples[done - 1]).max() < self.problem.scene.divergence_limit
 
     def _snapshots(self, first: int, samples: int) -> int:
         """How many there are in so many samples after the `first`."""

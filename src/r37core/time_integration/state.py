@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from .totals import TOTALS
 
@@ -40,9 +41,15 @@ class Schedule:
     (segments,), the largest by its end.
     """
 
-    def __init__(self, speed_indices: np.ndarray, samples: np.ndarray, modes: int):
+    def __init__(self, speed_indices: ArrayLike, samples: ArrayLike, modes: int):
         self.speed_indices, self.samples = (np.ascontiguousarray(part, dtype=np.int64) for part in (speed_indices, samples))
-        self.ends, self.wear = np.empty((len(speed_indices), 2, 2, modes)), np.zeros(len(speed_indices))
+        segments = len(self.samples)
+        self.ends, self.wear = np.empty((segments, 2, 2, modes)), np.zeros(segments)
+
+    @classmethod
+    def of_one_speed(cls, samples: int, modes: int) -> Schedule:
+        """The schedule of one segment at the first speed."""
+        return cls([0], [samples], modes)
 
 
 @dataclass(frozen=True)

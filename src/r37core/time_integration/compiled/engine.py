@@ -53,6 +53,10 @@ SOURCES = Sources(
 """What the compiled time integration is made from: a change in one of these compiles it anew."""
 
 
+_ROWS_AT_ONCE = 2**17
+"""Steps whose casing is computed at once."""
+
+
 class CompiledEngine:
     """The time integration of one problem, compiled for what its scene has: all that its program needs lies in one record.
 
@@ -311,8 +315,12 @@ class _CasingTables:
     """f(theta) of the casing at every step of a revolution, for whole vectors of nodes."""
 
     def __init__(self, problem: Problem, nodes: int):
-        shape = problem.scene.casing.shape(problem.casing.theta(np.arange(problem.grid.steps_per_revolution)[:, None]))
-        self.shape, self._of = aligned_copy(shape, nodes), problem
+        steps, self._of = problem.grid.steps_per_revolution, problem
+        self.shape = aligned_zeros((steps, nodes))
+        # in parts, between which Python sees an interrupt
+        for first in range(0, steps, _ROWS_AT_ONCE):
+            theta = problem.casing.theta(np.arange(first, min(first + _ROWS_AT_ONCE, steps))[:, None])
+            self.shape[first : first + _ROWS_AT_ONCE, : theta.shape[1]] = problem.scene.casing.shape(theta)
 
     @cached_property
     def nearest(self) -> np.ndarray:

@@ -11,6 +11,7 @@ import numpy as np
 from r37core.native import Sources, cached_object, load_function
 
 from ..jump_numbers import LOSS_DD, LOSS_UD, LOSS_UU
+from ..run_length import revolutions_at_once
 from ..state import Schedule, SimulationRecord, SimulationState
 from .engine import SOURCES, CompiledEngine
 from .kind import Kind
@@ -38,12 +39,20 @@ class Lockstep:
         """Do the steps of every row of the samples; returns the rows done of each, and what each has worn off the bars (m)."""
         passages = []
         for engine, state, out in zip(self._engines, states, outs, strict=True):
-            schedule = Schedule(np.zeros(1), np.zeros(1), len(state.displacement))
+            schedule = Schedule.of_one_speed(0, len(state.displacement))
             passages.append(Passage(engine, state, out, schedule, in_parts=True))
-            passages[-1].ask(len(out.samples))
-        done = int(self._program(self._addresses.ctypes.data, len(self._addresses)))
+        done, samples, grid, blades = 0, len(outs[0].samples), self._engines[0].problem.grid, len(self._engines)
+        blocks = revolutions_at_once(blades * grid.steps_per_revolution) * grid.choice.samples_per_revolution
+        reached = blocks
+        while done < samples and reached == blocks:
+            blocks = min(blocks, samples - done)
+            for passage in passages:
+                passage.ask(blocks)
+            reached = int(self._program(self._addresses.ctypes.data, blades))
+            done += reached
+            for passage in passages:
+                passage.done = done
         for passage in passages:
-            passage.done = done
             passage.end()
         return [done] * len(passages), [passage.worn for passage in passages]
 

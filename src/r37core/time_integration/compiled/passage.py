@@ -40,7 +40,9 @@ class Passage:
     ):
         self._engine, self._state, self._out, self._schedule = engine, state, out, schedule
         self._grid, self._start = engine.problem.grid, start
-        self._snapshots = np.empty((len(out.snapshots), engine.snapshot_width))
+        # where nothing pads the vectors the program writes into `out` itself
+        padded = out.snapshots.shape[1] != engine.snapshot_width or not isinstance(engine.mode_columns, slice)
+        self._snapshots = np.empty((len(out.snapshots), engine.snapshot_width)) if padded else out.snapshots
         self._ends = np.empty((*schedule.ends.shape[:-1], engine.mode_lanes))
         self._lasting, self._in_parts = schedule.samples, in_parts
         self.done = 0
@@ -98,13 +100,16 @@ class Passage:
         self._schedule.ends[:] = self._ends[..., columns]
         state.on_casing[:] = np.unpackbits(m["on_casing"].astype(np.uint8), bitorder="little")[:nodes]
         state.totals[()] = m["totals"]
-        of_mode = engine.numbers_of_mode
-        numbers, kept = of_mode * modes, of_mode * len(state.displacement)
-        snapshots, out = self._snapshots, self._out.snapshots
-        of_modes = snapshots[:, :numbers].reshape(len(snapshots), of_mode, modes)[:, :, columns]
-        out[:, :kept] = of_modes.reshape(len(snapshots), kept)
         if self._grid.choice.second_order:
             state.contact_force[NORMAL] = m["force"][:nodes]
             state.contact_force[TANGENTIAL:] = m["friction_force"][:, :nodes]
+        snapshots, out = self._snapshots, self._out.snapshots
+        if snapshots is out:
+            return
+        of_mode = engine.numbers_of_mode
+        numbers, kept = of_mode * modes, of_mode * len(state.displacement)
+        of_modes = snapshots[:, :numbers].reshape(len(snapshots), of_mode, modes)[:, :, columns]
+        out[:, :kept] = of_modes.reshape(len(snapshots), kept)
+        if self._grid.choice.second_order:
             forces = snapshots[:, numbers:].reshape(len(snapshots), 3, (snapshots.shape[1] - numbers) // 3)
             out[:, kept:] = forces[:, :, :nodes].reshape(len(snapshots), 3 * nodes)
