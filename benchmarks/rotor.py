@@ -56,8 +56,8 @@ GROWN = 0.9
 
 
 def rotors(order):
-    """Name -> section of all rotors about a crossing; None is a single blade."""
-    kinds = {"single": None, "tuned": {"blades": NUMBER}}
+    """Name -> section of all rotors about a crossing."""
+    kinds = {"single": {"blades": 1}, "tuned": {"blades": NUMBER}}
     for percent in MISTUNINGS if order == ORDERS[0] else MISTUNINGS[:1]:
         kinds |= {f"mistuned_{percent:g}_{seed}": mistuned(percent, seed) for seed in seeds(order, percent)}
     if order == ORDERS[0]:
@@ -89,9 +89,7 @@ def run_rotor(job):
     if file.exists():
         return
     settings = read_settings(Path())
-    scene, section = settings.scenes[SCENE].scene, rotors(order)[name]
-    if section is not None:
-        scene = replace(scene, rotor=RotorSection.model_validate(section).rotor())
+    scene = replace(settings.scenes[SCENE].scene, rotor=RotorSection.model_validate(rotors(order)[name]).rotor())
     model = read_contact_model(RESULTS / blade / "contact_pressure_edge.npz")
     stress = read_stress_operator(RESULTS / blade / "stress_pressure_edge.npz")
     limit, rows = settings.blades[blade].material.yield_stress, []
@@ -99,10 +97,8 @@ def run_rotor(job):
         speed = crossing(blade, order) * (1.0 + share)
         choice = settings.integration_choice(blade, SCENE, speed)
         run = run_speed(model, speed, scene, choice, ("stress",), stress=stress, spectrum_highest_order=1, wear_angles=1)
-        maxima = run["blade_maximum"] if section else run["revolution_maxima"][None, :, 0, 0]
-        last = run["blade_max_von_mises"] if section else np.array([float(run["max_von_mises"])])
-        rms = run["blade_rms"] if section else run["rms"][:1, 0]
-        largest = maxima[int(np.nan_to_num(rms).argmax())]
+        last, motion = run["blade_max_von_mises"], run["blade_rms"]
+        largest = run["blade_maximum"][scene.rotor.numbers.index(int(run["leader"]))]
         rows.append(
             {
                 "speed": speed,
@@ -110,9 +106,9 @@ def run_rotor(job):
                 "stress": float(np.nanmax(last)) / limit,
                 "ever": float(np.nanmax(run["revolution_von_mises"])) / limit,
                 "above": int(np.sum(last > limit)),
-                "rms": float(np.nanmax(rms)),
-                "median_rms": float(np.median(rms)),
-                "leader": int(run["leader"]) if section else 1,
+                "motion": float(np.nanmax(motion)),
+                "median_motion": float(np.median(motion)),
+                "leader": int(run["leader"]),
                 "grown": int(np.argmax(largest >= GROWN * np.nanmax(largest))) + 1,
                 "history": json.dumps([float(f"{value:.4g}") for value in largest]),
             }
@@ -174,7 +170,7 @@ def worst_table():
                     span(lengths(blade, order, f"mistuned_{MISTUNINGS[0]:g}")),
                     f"{max(row['stress'] for row in worst):.1f}",
                     "none" if above.empty else f"{above.median():.0f} (1 to {above.max():.0f})",
-                    f"{max(row['rms'] / max(row['median_rms'], 1e-12) for row in worst):.0f}",
+                    f"{max(row['motion'] / max(row['median_motion'], 1e-12) for row in worst):.0f}",
                 ]
             )
     heads = [
@@ -184,7 +180,7 @@ def worst_table():
         "1% of mistuning",
         "largest stress over yield",
         f"blades of {NUMBER} above yield at once, median (range)",
-        "leader's rms over the median blade's",
+        "leader's motion over the median blade's",
     ]
     return markdown_table(heads, rows)
 

@@ -1,23 +1,17 @@
-"""A whole rotor on one lining: limits that are single blades, symmetry, order, energy, the step-by-step formulation, files."""
+"""A whole rotor on one lining: limits that are single blades, symmetry, order, energy, the step-by-step formulation."""
 
 from dataclasses import replace
 
 import numpy as np
 import pytest
 from defaults import IntegrationChoice
-from integration_cases import ABRADABLE, DIRECT, assert_same_totals_and_wear, random_model, with_static_modes
+from integration_cases import ABRADABLE, DIRECT, RING, assert_same_totals_and_wear, random_model, with_static_modes
 
-from r37core.config import ConfigError, checked_scene
-from r37core.contact.ring import Ring, RingMode
+from r37core.contact.ring import RingMode
 from r37core.contact.rotor import Rotor
-from r37core.dataset_file import write_dataset
-from r37core.figures.style import plt
-from r37core.plain import from_plain, to_plain
-from r37core.rotors.dataset import gather_rotors, rotor_dataset, rotor_table
-from r37core.rotors.figures import draw_rotor
+from r37core.time_integration import run_length
 from r37core.time_integration.integrators import CENTRAL_DIFFERENCE, EXACT_MODAL
 from r37core.time_integration.rotor_blades import blade_problems, mistuned, on_steps
-from r37core.time_integration.rotor_run import MOST_GROWTH, in_spans, nodal_diameters
 from r37core.time_integration.rotor_simulation import RotorSimulation
 from r37core.time_integration.simulate import Simulation
 from r37core.time_integration.speed_file import write_speed
@@ -31,7 +25,6 @@ KEPT = {"spectrum_highest_order": 5, "wear_angles": 36}
 STEEP = replace(ABRADABLE, casing=replace(ABRADABLE.casing, lobes=2, amplitude=2.0, rise_fraction=0.2))
 """Lobes that rise in the first revolutions."""
 
-RING = Ring(0.255, 0.002, 0.05, 2.1e11, 7850.0, 0.002, 1e7, 1e6, 11)
 LINED_RING = replace(STEEP, casing=replace(STEEP.casing, ring=RING.modes()))
 FLANGED = replace(
     STEEP, casing=replace(STEEP.casing, ring=replace(RING, radial_foundation=1e9, tangential_foundation=1e9).modes())
@@ -70,12 +63,16 @@ def samples(record):
 
 
 def test_a_rotor_of_one_blade_is_the_blade():
-    single = Simulation(a_blade(), SPEED, STEEP, CHOICE)
+    """The blade passes the casing in parts, each of which has snapshots."""
+    choice = replace(CHOICE, snapshots_per_revolution=4, snapshot_revolutions=CHOICE.revolutions - 1)
+    single = Simulation(a_blade(), SPEED, STEEP, choice)
     state = single.start()
-    alone = single.advance(state, CHOICE.revolutions)
-    _, (of_rotor,), record = run(rotor_of(1))
+    alone = single.advance(state, choice.revolutions)
+    _, (of_rotor,), record = run(rotor_of(1), choice=choice)
     assert np.abs(alone.samples).max() > 1e-5
     np.testing.assert_array_equal(record.blades[0].samples, alone.samples)
+    assert len(alone.snapshots) == 12
+    np.testing.assert_array_equal(record.blades[0].snapshots, alone.snapshots)
     np.testing.assert_array_equal(of_rotor.wear, state.wear)
     assert of_rotor.totals == state.totals
 
@@ -175,20 +172,6 @@ def test_a_longer_blade_meets_the_lining_before_the_others():
     assert record.worn.sum() == pytest.approx(states[0].wear.sum(), rel=1e-9)
 
 
-def test_a_wave_of_nodal_diameters_is_found():
-    """x_b(t) = cos(w t - n theta_b), seen by blades whose samples are not those of the same instants."""
-    rotor, count = rotor_of(12), 256
-    late = np.random.default_rng(0).random(12)
-    time = 2.0 * np.pi * (np.arange(count) + late[:, None]) / count
-    for diameters in (-5, 0, 3, 6):
-        motion = np.cos(9.0 * time - diameters * np.array(rotor.angles)[:, None]) + 0.5
-        found = nodal_diameters(motion, late, rotor)
-        share = dict(zip(found["nodal_diameter"].tolist(), found["nodal_diameter_share"], strict=True))
-        assert share[diameters] == pytest.approx(1.0, abs=1e-9)
-        assert sum(share.values()) == pytest.approx(1.0)
-    assert np.isnan(nodal_diameters(np.zeros((12, count)), late, rotor)["nodal_diameter_share"]).all()
-
-
 @pytest.mark.parametrize(
     ("rotor", "scene"),
     [
@@ -225,19 +208,6 @@ def test_extremes_are_numbers(rotor, scene, tmp_path):
     assert (tmp_path / "speed.npz").stat().st_size < 1_000_000
 
 
-def test_a_blade_that_diverges_ends_the_rotor():
-    scene = replace(STEEP, divergence_limit=1e-5, rotor=rotor_of(3, longer=[0.0, 5e-5, 0.0]))
-    numbers = run_speed(a_blade(), SPEED, scene, CHOICE, ("spectrum", "wear", "energy"), **KEPT)
-    assert numbers["status"] == 1 and 0.0 < numbers["diverged_revolution"] < CHOICE.revolutions
-    assert np.isnan(numbers["rms"]).all() and numbers["leader"] in (1, 2, 3)
-
-
-def test_growth_is_kept_in_spans_of_revolutions():
-    values = np.arange(12.0).reshape(2, 6)
-    np.testing.assert_array_equal(in_spans(values, 4), [[3.0, 5.0], [9.0, 11.0]])
-    assert in_spans(np.zeros((1, 20000)), -(-20000 // MOST_GROWTH)).shape == (1, MOST_GROWTH)
-
-
 @pytest.mark.parametrize("scene", [LINED_RING, DIRECT_RING], ids=["lined", "direct"])
 def test_one_blade_in_an_elastic_casing_is_the_blade(scene):
     single = Simulation(a_blade(), SPEED, scene, CHOICE)
@@ -248,6 +218,17 @@ def test_one_blade_in_an_elastic_casing_is_the_blade(scene):
     np.testing.assert_array_equal(record.blades[0].samples, alone.samples)
     np.testing.assert_array_equal(record.blades[0].casing, alone.casing)
     assert of_rotor.totals == state.totals
+
+
+@pytest.mark.parametrize("scene", [LINED_RING, DIRECT_RING], ids=["lined", "direct"])
+def test_a_rotor_in_an_elastic_casing_is_the_same_in_many_calls(scene, monkeypatch):
+    rotor = rotor_of(3, [0.0, 4.1, 2.0], [1.0, 1.03, 0.97])
+    _, whole, record = run(rotor, scene)
+    monkeypatch.setattr(run_length, "STEPS_AT_ONCE", 1)
+    _, states, other = run(rotor, scene)
+    np.testing.assert_array_equal(samples(other), samples(record))
+    np.testing.assert_array_equal(other.worn, record.worn)
+    assert [state.totals for state in states] == [state.totals for state in whole]
 
 
 @pytest.mark.parametrize(("scene", "shared"), [(LINED_RING, True), (LINED_RING, False), (DIRECT_RING, True)])
@@ -362,53 +343,6 @@ def test_a_step_of_all_blades_is_told_stable_by_a_bound_of_their_largest_eigenva
     assert shortened.problem.grid.time_step < 0.6 * CHOICE.time_step
 
 
-def lined(**rotor):
-    casing = {"clearance_m": 3.56e-4}
-    lining = {"thickness_m": 5e-3, "elastic_modulus_pa": 2e10, "plastic_modulus_pa": 5e9, "yield_stress_pa": 1.5}
-    return {"casing": casing, "lining": lining, "results": ["stress"], "rotor": rotor}
-
-
-def test_a_rotor_is_drawn_from_a_seed():
-    spread = {"mistuning_spread_percent": {"normal": 1.0}, "longer_spread_m": {"uniform": 2e-5}}
-    rotor = checked_scene(lined(blades=36, **spread)).rotor
-    assert rotor == checked_scene(lined(blades=36, **spread)).rotor == from_plain(Rotor, to_plain(rotor))
-    assert rotor != checked_scene(lined(blades=36, seed=1, **spread)).rotor
-    assert 0.5 < 100.0 * np.std(rotor.frequency_factors) < 1.5 and 1e-5 < np.max(np.abs(rotor.longer)) < 2e-5
-    # a blade keeps its draw where another one is missing or has a value of its own
-    fewer = checked_scene(lined(blades=36, missing=[2], mistuning_percent={1: 3.0}, **spread)).rotor
-    assert fewer.numbers == (1, *range(3, 37)) and fewer.frequency_factors[0] == 1.03
-    assert fewer.frequency_factors[1:] == rotor.frequency_factors[2:] and fewer.angles[1] == rotor.angles[2]
-
-
-@pytest.mark.parametrize(
-    ("changes", "message"),
-    [
-        ({"rotor": {"blades": 0}}, "rotor.blades: found 0"),
-        ({"rotor": {"blades": 4, "missing": [5]}}, "rotor.missing: found blade 5; allowed: 1 to 4"),
-        ({"rotor": {"blades": 2, "missing": [1, 2]}}, "rotor.missing: found all blades"),
-        ({"rotor": {"blades": 4, "angles_deg": [0.0]}}, "rotor.angles_deg: found 1 angles; allowed: 4"),
-        (
-            {"rotor": {"blades": 4, "longer_spread_m": {"normal_percent": 1.0}}},
-            "rotor.longer_spread_m: found a spread in percent",
-        ),
-        ({"rotor": {"blades": 36, "mistuning_spread_percent": {"normal": 50.0}}}, "a narrower spread, a uniform one"),
-        ({"results": ["signal"]}, "results: found signal with a rotor"),
-        ({"lining": None}, "run a single blade for each"),
-        ({"lining": {"rings": "shared"}}, "one ring of bars per node"),
-    ],
-)
-def test_what_cannot_be_run_is_refused_in_one_line(changes, message):
-    entry = lined(blades=4)
-    for key, value in changes.items():
-        if value is None:
-            del entry[key]
-        else:
-            entry[key] = {**entry[key], **value} if isinstance(value, dict) and key != "rotor" else value
-    with pytest.raises(ConfigError, match=message.replace("(", r"\(")) as refusal:
-        checked_scene(entry)
-    assert "\n" not in str(refusal.value)
-
-
 def test_no_rotor_is_run_as_a_single_blade():
     with pytest.raises(ValueError, match="RotorSimulation"):
         Simulation(a_blade(), SPEED, replace(STEEP, rotor=rotor_of(2)), CHOICE)
@@ -416,32 +350,6 @@ def test_no_rotor_is_run_as_a_single_blade():
         RotorSimulation(a_blade(), SPEED, replace(DIRECT, rotor=rotor_of(2)), CHOICE)
     with pytest.raises(ValueError, match="needs the integrator exact_modal"):
         run(rotor_of(2), LINED_RING, replace(CHOICE, time_step=1e-7, integrator=CENTRAL_DIFFERENCE))
-
-
-def test_dataset_table_and_figure(tmp_path):
-    files, speeds = {}, [990.0, 1000.0, 1010.0]
-    for name, blades in (("many", 6), ("few", 2)):
-        rotor = rotor_of(blades, factors=list(np.linspace(0.99, 1.01, blades)))
-        written = []
-        for speed in speeds:
-            written.append(tmp_path / f"{name}_{speed}.npz")
-            numbers = run_speed(
-                a_blade(), speed, replace(STEEP, rotor=rotor), replace(CHOICE, revolutions=2), ("wear",), **KEPT
-            )
-            write_speed(numbers, written[-1], {})
-        files["Ref", name] = tmp_path / f"{name}.nc"
-        write_dataset(rotor_dataset(written, speeds, 1e9), files["Ref", name])
-    together = gather_rotors(files)
-    assert together.sizes["run"] == 6 and together.sizes["blade_number"] == 6
-    of_few = together["blade_rms"].sel(run=together["scene"] == "few")
-    assert np.isfinite(of_few).sum() == 6
-    table = rotor_table(files)
-    assert table["blades"].tolist() == [6, 2]
-    assert table["leader"].between(1, 6).all() and set(table["worst_speed_rad_s"]) <= set(speeds)
-    many = rotor_dataset([tmp_path / f"many_{speed}.npz" for speed in speeds], speeds, 1e9)
-    figure = draw_rotor(many, "Ref, many")
-    assert "6 blades" in figure.get_suptitle()
-    plt.close(figure)
 
 
 def test_blades_that_go_on_together_meet_bars_at_the_same_places():

@@ -62,8 +62,9 @@ def rotor(
     Returns
     -------
     Dataset
-        By ascending speed and `blade_number`: `blade_rms` (m), `blade_max_von_mises` (Pa), `blade_maximum` (m) over spans of
-        revolutions, `leader`, `nodal_diameter_share` and others.
+        By ascending speed and `blade_number`: `blade_rms` (m) and, over spans of revolutions, `blade_maximum` (m), of the
+        leading edge's displacement, normal and tangential together; `leader`, the blade with the largest `blade_rms`;
+        `blade_max_von_mises` (Pa), `nodal_diameter_share` and others.
 
     Raises
     ------

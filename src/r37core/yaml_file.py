@@ -1,4 +1,7 @@
-"""YAML as users expect it: 1e-1 is a number, 010 is ten, a key given twice is an error, and every key knows its line."""
+"""YAML as users expect it: 1e-1 is a number, 010 is ten, a key given twice is an error, and every key knows its line.
+
+A whole number as a key is the text that stands there: `{ 1: 0.4 }` and `{ "1": 0.4 }` are the same.
+"""
 
 from __future__ import annotations
 
@@ -39,6 +42,9 @@ def _mapping(loader: _Loader, node: yaml.MappingNode) -> dict[Hashable, Any]:
     content: dict[Hashable, Any] = {}
     for key_node, value in node.value:
         key = loader.construct_object(key_node, deep=True)
+        if type(key) is int:
+            # of a table by numbers; what has names refuses it as it refuses this text
+            key = key_node.value
         if not isinstance(key, str):
             shown = key_node.value if isinstance(key_node, yaml.ScalarNode) else "?"
             raise _refusal(key_node, f"found the key '{shown}', which is {_kind(key)} in YAML; allowed: a name")

@@ -80,6 +80,14 @@ def worn(penetration: Any, wear: Any, lining: Any) -> Any:
     return np.maximum(wear, yielding * (1.0 / (lining.elastic_modulus + lining.plastic_modulus)))
 
 
+def wear_at_the_casing(lining: Any) -> float:
+    """Wear (m) of a bar that is pressed to the casing behind the lining, by all of its thickness: the largest there is.
+
+    Less than the thickness e, for the elastic part springs back: e (E - yield stress)/(E + plastic modulus).
+    """
+    return float(worn(lining.thickness, 0.0, lining))
+
+
 def friction_direction(tangential: Any, meridional: Any, length: Any = 1.0) -> tuple[Any, Any]:
     """Vectors of a `length`, opposite to the sliding of nodes over the casing, as friction is; zero where nothing slides.
 

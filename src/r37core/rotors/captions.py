@@ -2,8 +2,8 @@
 
 CAPTIONS = {
     "rotor": (
-        "Blade {blade} in scene {scene}, a whole rotor on one lining. Above: rms of every blade's leading edge over speed, "
-        "and the largest stress of any blade. Below: growth of all blades at the speed of the largest motion, and nodal "
-        "diameters there."
+        "Blade {blade} in scene {scene}, a whole rotor on one lining. Above: motion of every blade's leading edge, normal and "
+        "tangential together, over speed, and the largest stress of any blade; red crosses: the blade that diverged first. "
+        "Below: growth of all blades at the speed of the largest motion, and nodal diameters there."
     ),
 }

@@ -13,24 +13,28 @@ from r37core.dataset_file import SPEED, Variable, dataset_of, read_dataset
 from r37core.results.measures import range_above_yield
 from r37core.results.netcdf import status_flags
 from r37core.time_integration.speed_file import read_speed
+from r37core.time_integration.status import RunStatus
 
 _BLADES = ("blade_number",)
+_MOTION = "the leading edge's displacement, normal and tangential together,"
 
 VARIABLES = {
-    "blade_rms": Variable(_BLADES, "m", "rms of the leading edge's normal displacement over the last half of the run"),
-    "blade_peak": Variable(_BLADES, "m", "largest normal displacement of the leading edge over the last half of the run"),
-    "blade_maximum": Variable((*_BLADES, "span"), "m", "largest normal displacement of the leading edge in the span", "f4"),
+    "blade_rms": Variable(_BLADES, "m", f"rms of {_MOTION} over the last half of the run"),
+    "blade_peak": Variable(_BLADES, "m", f"largest value of {_MOTION} over the last half of the run"),
+    "blade_maximum": Variable((*_BLADES, "span"), "m", f"largest value of {_MOTION} in the span", "f4"),
     "blade_contact": Variable(_BLADES, "1", "share of the steps with a contact force"),
     "blade_worn": Variable(_BLADES, "m3", "volume of lining that the blade has worn off, of bars of the scene's width"),
     "blade_max_von_mises": Variable(_BLADES, "Pa", "largest von Mises stress on the submesh in the last revolution"),
     "blade_von_mises": Variable((*_BLADES, "stress_span"), "Pa", "largest von Mises stress in the span", "f4"),
-    "leader": Variable((), "1", "number of the blade with the largest rms", "i4"),
+    "leader": Variable((), "1", "number of the blade with the largest blade_rms; where the run diverged, that did first", "i4"),
     "blades_above_yield": Variable((), "1", "share of the blades above yield in the last revolution"),
     "blades_ever_above_yield": Variable((), "1", "share of the blades above yield in any revolution of the last half"),
     "wear_harmonic": Variable(("lobes",), "m", "amplitude of the wear profile's lobes"),
     "max_wear": Variable((), "m", "largest wear of the lining at the end"),
     "nodal_diameter_share": Variable(
-        ("nodal_diameter",), "1", "share of the blades' motion that runs round the rotor as a wave of so many nodal diameters"
+        ("nodal_diameter",),
+        "1",
+        "share of the blades' motion, normal and tangential, that runs round the rotor as a wave of so many nodal diameters",
     ),
     "status": Variable((), "1", "how the run ended", "i1"),
     "diverged_revolution": Variable((), "1", "revolution at which the first blade diverged"),
@@ -84,8 +88,9 @@ def _row(run: dict[str, np.ndarray], yield_stress: float) -> dict[str, np.ndarra
         row["lobes"] = np.arange(len(run["wear_harmonic"]))
     if "blade_von_mises" in run:
         row["stress_span"] = _ends(run["blade_von_mises"], run["stress_span_revolutions"], revolutions)
-        row["blades_above_yield"] = np.array(np.mean(run["blade_max_von_mises"] > yield_stress))
-        row["blades_ever_above_yield"] = np.array(np.mean(run["blade_von_mises"].max(axis=1) > yield_stress))
+        last, ever = run["blade_max_von_mises"], run["blade_von_mises"].max(axis=1)
+        for name, stress in (("blades_above_yield", last), ("blades_ever_above_yield", ever)):
+            row[name] = np.array(np.nan if run["status"] == RunStatus.DIVERGED else np.mean(stress > yield_stress))
     return row
 
 
@@ -107,32 +112,43 @@ def gather_rotors(files: Mapping[tuple[str, str], Path | str]) -> xr.Dataset:
 
 
 def rotor_table(files: Mapping[tuple[str, str], Path | str]) -> pd.DataFrame:
-    """A row for each blade and scene: how far any blade is above yield, at which speed most, and which blade leads there."""
+    """A row for each blade and scene: how far any blade is above yield, at which speed most, and which blade leads there.
+
+    Motion is `blade_rms`. A run that diverged is above yield, and counts as the worst where none ended.
+    """
     rows = []
     for (blade, scene), file in files.items():
         dataset = read_dataset(file)
         speeds = dataset["speed"].values
+        diverged = dataset["status"].values == RunStatus.DIVERGED
         row = {"blade": blade, "scene": scene, "blades": dataset.sizes["blade_number"], "speeds": len(speeds)}
+        row["diverged_speeds"] = int(diverged.sum())
         worst = int(np.nan_to_num(dataset["blade_rms"].max("blade_number").values).argmax())
         if "blade_max_von_mises" in dataset:
             stress = dataset["blade_max_von_mises"].max("blade_number").values
             worst = int(np.nan_to_num(stress).argmax())
+            ratio = np.where(diverged, np.inf, stress / float(dataset["yield_stress"]))
             row |= {
-                "length_with_any_blade_above_yield_rad_s": range_above_yield(
-                    speeds, stress / float(dataset["yield_stress"])
-                ).length,
+                "length_with_any_blade_above_yield_rad_s": range_above_yield(speeds, ratio).length,
                 "max_von_mises_pa": float(stress[worst]),
                 "blades_above_yield_at_once": float(dataset["blades_above_yield"].max() * dataset.sizes["blade_number"]),
             }
         at = dataset.isel(speed=worst)
+        row |= {"worst_speed_rad_s": float(speeds[worst]), "leader_by_motion": int(at["leader"])}
+        if "blade_max_von_mises" in dataset:
+            row["leader_by_stress"] = _number_of_largest(at["blade_max_von_mises"])
         shares = at["nodal_diameter_share"]
         row |= {
-            "worst_speed_rad_s": float(speeds[worst]),
-            "leader": int(at["leader"]),
-            "rms_of_leader_m": float(at["blade_rms"].max()),
-            "median_rms_m": float(at["blade_rms"].median()),
-            "nodal_diameter": int(shares["nodal_diameter"].values[np.nan_to_num(shares.values).argmax()]),
+            "leader_motion_m": float(at["blade_rms"].max()),
+            "median_motion_m": float(at["blade_rms"].median()),
+            "nodal_diameter": _number_of_largest(shares),
             "nodal_diameter_share": float(shares.max()),
         }
         rows.append(row)
     return pd.DataFrame(rows)
+
+
+def _number_of_largest(values: xr.DataArray) -> float:
+    """Coordinate of the largest of values along one dimension; NaN where all are NaN, as of a run that diverged."""
+    numbers = values[values.dims[0]].values
+    return float(numbers[np.nanargmax(values)]) if values.notnull().any() else np.nan

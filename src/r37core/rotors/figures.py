@@ -1,4 +1,7 @@
-"""A whole rotor over speed: a map of its blades, the worst stress and who leads, growth, and nodal diameters."""
+"""A whole rotor over speed: a map of its blades, the worst stress, growth, and nodal diameters.
+
+Motion is the leading edge's displacement, normal and tangential together.
+"""
 
 from __future__ import annotations
 
@@ -11,7 +14,9 @@ from matplotlib.figure import Figure
 
 from r37core.figures import style
 from r37core.figures.cells import draw_cells
+from r37core.time_integration.status import RunStatus
 
+_MOTION = "rms of the motion (mm)"
 _DECADES = 3.0
 _NAMED = 3
 
@@ -29,20 +34,25 @@ def draw_rotor(rotor: xr.Dataset, title: str) -> Figure:
 
 
 def _draw_map(axes: Axes, rotor: xr.Dataset) -> None:
-    """rms of every blade over speed."""
-    values = 1e3 * np.nan_to_num(rotor["blade_rms"].transpose("blade_number", "speed").values)
-    speeds = rotor["speed"].values
-    top = max(float(values.max()), 1e-12)
-    if len(speeds) < 2 or len(values) < 2:
+    """Motion of every blade over speed; red crosses: the blade that diverged first."""
+    values = 1e3 * rotor["blade_rms"].transpose("blade_number", "speed").values
+    speeds, diverged = rotor["speed"].values, rotor["status"].values == RunStatus.DIVERGED
+    top = max(float(np.nan_to_num(values).max()), 1e-12)
+    alone = len(speeds) < 2 or len(values) < 2
+    if alone:
         axes.plot(speeds, values.T, ".-")
-        axes.set_ylabel("rms, normal (mm)")
+        axes.set_ylabel(_MOTION)
     else:
         norm = LogNorm(top / 10**_DECADES, top, clip=True)
         numbers = rotor["blade_number"].values.astype(float)
         picture = draw_cells(axes, speeds, numbers, np.maximum(values, 1e-30), norm=norm, cmap="magma")
-        axes.figure.colorbar(picture, ax=axes, label="rms, normal (mm)")
+        axes.figure.colorbar(picture, ax=axes, label=_MOTION)
         axes.set_ylabel("blade")
         axes.grid(False)
+    if diverged.any():
+        places = np.zeros(len(speeds)) if alone else rotor["leader"].values
+        axes.plot(speeds[diverged], places[diverged], "rx", label="diverged")
+        axes.legend(loc="upper left", fontsize=6)
     axes.set_xlabel("speed (rad/s)")
 
 
@@ -52,29 +62,29 @@ def _draw_worst(axes: Axes, rotor: xr.Dataset) -> None:
     axes.set_xlabel("speed (rad/s)")
     if "blade_max_von_mises" not in rotor:
         axes.plot(speeds, 1e3 * rotor["blade_rms"].max("blade_number"), ".-", markersize=3)
-        axes.set_ylabel("rms, normal, largest (mm)")
+        axes.set_ylabel(f"largest {_MOTION}")
         return
     stress = 1e-9 * rotor["blade_max_von_mises"]
     axes.plot(speeds, stress.max("blade_number"), ".-", markersize=3, label="worst blade")
     axes.plot(speeds, stress.median("blade_number"), "-", color="0.5", label="median blade")
     style.yield_lines(axes, {"": rotor["yield_stress"].item()}, named=True)
     axes.set_ylabel("largest von Mises (GPa)")
-    most = int(np.round(number * float(rotor["blades_above_yield"].max())))
-    axes.set_title(f"at most {most} of {number} blades above yield at one speed", fontsize=8)
+    most = int(np.round(number * np.nan_to_num(float(rotor["blades_above_yield"].max()))))
+    lost = int(np.sum(rotor["status"].values == RunStatus.DIVERGED))
+    diverged = f"; {lost} of {len(speeds)} speeds diverged" if lost else ""
+    axes.set_title(f"at most {most} of {number} blades above yield at one speed{diverged}", fontsize=8)
     axes.legend(loc="upper left", fontsize=6)
 
 
 def _draw_growth(axes: Axes, run: xr.Dataset) -> None:
     """Largest displacement of every blade in each span of revolutions, the largest by name."""
-    growth = 1e3 * run["blade_maximum"]
-    order = np.argsort(-np.nan_to_num(run["blade_rms"].values))
-    for rank, row in enumerate(order[::-1]):
-        named = len(order) - 1 - rank < min(_NAMED, len(order))
-        look = {"linewidth": 1.2, "zorder": 3} if named else {"color": "0.75", "linewidth": 0.6, "zorder": 2}
-        label = f"blade {int(run['blade_number'][row])}" if named else "_"
-        axes.plot(run["span"], growth.isel(blade_number=int(row)), label=label, **look)
+    growth = 1e3 * run["blade_maximum"].transpose("span", "blade_number").values
+    order = np.argsort(-np.nan_to_num(run["blade_rms"].values), kind="stable")
+    axes.plot(run["span"], growth[:, order[_NAMED:]], color="0.75", linewidth=0.6)
+    for row in order[:_NAMED]:
+        axes.plot(run["span"], growth[:, row], label=f"blade {int(run['blade_number'][row])}")
     axes.set_xlabel(f"revolution at {float(run['speed']):g} rad/s")
-    axes.set_ylabel("largest normal displacement (mm)")
+    axes.set_ylabel("largest displacement (mm)")
     axes.legend(fontsize=6)
 
 

@@ -1,4 +1,5 @@
-// whole rotors: every blade over speed, who leads, and growth and waves at the chosen speed
+// whole rotors: every blade over speed, who leads, and growth and waves at the chosen speed; motion is the leading edge's
+// displacement, normal and tangential together
 panels.rotors = async (contents, page) => {
   const DECADES = 3;
   const { state, digits, speedText, axis, layout, draw } = page;
@@ -13,7 +14,7 @@ panels.rotors = async (contents, page) => {
   const largest = (values) => values.filter(Number.isFinite).reduce((most, value) => Math.max(most, value), 0);
   const placesAxis = (numbers) => axis("blade", { range: [0.5, largest(numbers) + 0.5] });
   const sense = (diameters) => ["against growing theta", "standing", "with growing theta"][Math.sign(diameters) + 1];
-  const millimetres = (value) => `${digits(value, 3)} mm`;
+  const millimetres = (value) => (Number.isFinite(value) ? `${digits(value, 3)} mm` : "diverged");
 
   // what is there of the chosen rotor, or nothing
   const drawing = (name, made, clicks) => () => {
@@ -25,6 +26,7 @@ panels.rotors = async (contents, page) => {
   );
   const leaderText = ({ leader, rms, numbers, aboveYield, speeds }, at) => {
     const of = rms.row(at);
+    if (!of.some(Number.isFinite)) return `${speedText(speeds.values[at])}<br>blade ${leader.values[at]} diverged first`;
     const above = aboveYield && Number.isFinite(aboveYield[at]) ? `<br>${digits(aboveYield[at])} of ${numbers.length} blades above yield` : "";
     return `${speedText(speeds.values[at])}<br>blade ${leader.values[at]} leads<br>${millimetres(largest(of))}, median ${millimetres(median(of))}${above}`;
   };
@@ -40,7 +42,7 @@ panels.rotors = async (contents, page) => {
       type: "heatmap", x: page.shown(speeds), y: places, colorscale: page.MAGMA, zmin: top - DECADES, zmax: top, zsmooth: false, hoverinfo: "text",
       z: rows((at, row) => (row < 0 || !Number.isFinite(rms.row(at)[row]) ? null : Math.log10(Math.max(rms.row(at)[row], 1e-30)))),
       text: rows((at, row, place) => `${speedText(speeds[at])}<br>blade ${place}<br>${row < 0 ? "not there" : millimetres(rms.row(at)[row])}`),
-      colorbar: { title: { text: "rms, normal (mm)", side: "right" }, thickness: 12, tickvals: ticks, ticktext: ticks.map((tick) => digits(10 ** tick, 2)) },
+      colorbar: { title: { text: "rms of the motion (mm)", side: "right" }, thickness: 12, tickvals: ticks, ticktext: ticks.map((tick) => digits(10 ** tick, 2)) },
     };
     const plan = layout(page.speedAxis(), placesAxis(numbers), { showlegend: false });
     // on dark colours
@@ -48,7 +50,7 @@ panels.rotors = async (contents, page) => {
     return [[trace], plan];
   }
 
-  // in the colour of how far it leads
+  // in the colour of how far it leads; a cross where it diverged
   function leaders(rotor) {
     const { speeds: { values: speeds }, rms, leader, numbers } = rotor;
     const ahead = speeds.map((_, at) => Math.log10(largest(rms.row(at)) / median(rms.row(at))));
@@ -58,8 +60,8 @@ panels.rotors = async (contents, page) => {
     const trace = {
       x: page.shown(speeds), y: leader.values, mode: "markers", cliponaxis: false, hoverinfo: "text", text: speeds.map((_, at) => leaderText(rotor, at)),
       marker: {
-        size: 8, color: colour, cmin: 0, cmax: top, colorscale: "Viridis", showscale: true,
-        colorbar: { title: { text: "its rms over the median", side: "right" }, thickness: 12, tickvals: ticks, ticktext: ticks.map((tick) => `${10 ** tick}`) },
+        size: 8, symbol: speeds.map((_, at) => (rms.row(at).some(Number.isFinite) ? "circle" : "x")), color: colour, cmin: 0, cmax: top, colorscale: "Viridis", showscale: true,
+        colorbar: { title: { text: "its motion over the median", side: "right" }, thickness: 12, tickvals: ticks, ticktext: ticks.map((tick) => `${10 ** tick}`) },
       },
     };
     return [[trace], layout(page.speedAxis(), placesAxis(numbers), { showlegend: false })];
@@ -77,7 +79,7 @@ panels.rotors = async (contents, page) => {
       };
     });
     const x = axis(`revolution at ${digits(rotor.speeds.values[at] * page.factor())} ${state.unit}`);
-    return [traces, layout(x, axis("largest normal displacement (mm)"), { shapes: [] })];
+    return [traces, layout(x, axis("largest displacement (mm)"), { shapes: [] })];
   }
 
   function waves(rotor) {
@@ -93,8 +95,8 @@ panels.rotors = async (contents, page) => {
 
   const over = ["blade", "scene", "unit"];
   return {
-    rotor_map: { title: "Rotor: all blades", draw: drawing("rotor_map", map), of: over },
-    rotor_leader: { title: "Rotor: who leads", draw: drawing("rotor_leader", leaders), of: over },
+    rotor_map: { title: "Rotor: motion of all blades", draw: drawing("rotor_map", map), of: over },
+    rotor_leader: { title: "Rotor: who leads by motion", draw: drawing("rotor_leader", leaders), of: over },
     rotor_growth: { title: "Rotor: growth", draw: drawing("rotor_growth", growth, false), of: [...over, "speed"] },
     rotor_waves: { title: "Rotor: waves", draw: drawing("rotor_waves", waves, false), of: [...over, "speed"] },
   };

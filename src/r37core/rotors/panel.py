@@ -11,11 +11,14 @@ MOST_SPANS = 40
 """Spans of revolutions in a curve of growth; beyond it neighbours are joined by their maximum."""
 
 NAMED = 3
-"""Blades whose growth is shown, those with the largest rms; of all others the median is."""
+"""Blades whose growth is shown, those of the largest motion; of all others the median is."""
 
 
 def rotor_contents(rotors: xr.Dataset) -> list[dict[str, object]]:
-    """Each rotor of `rotor.nc` (blade, scene) by ascending speed (rad/s), displacements in mm; NaN where a run diverged."""
+    """Each rotor of `rotor.nc` (blade, scene) by ascending speed (rad/s), displacements in mm; NaN where a run diverged.
+
+    Displacements are the motion of the leading edge, normal and tangential together.
+    """
     names = list(dict.fromkeys(zip(rotors["blade"].values.tolist(), rotors["scene"].values.tolist(), strict=True)))
     return [_contents(rotors, blade, scene) for blade, scene in names]
 

@@ -12,5 +12,6 @@ WING = Wing(
     targets=targets,
     remarks=remarks,
     captions=CAPTIONS,
+    closing="rotors.closing.closing",
     panel=Panel(joined_dataset, "rotors.panel.rotor_contents", "rotors/panel.js"),
 )

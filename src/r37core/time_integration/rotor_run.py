@@ -46,15 +46,18 @@ def run_rotor(
     """Simulate one speed (rad/s) of a rotor: what run_speed keeps, of all blades together, and numbers of each blade.
 
     Of all blades: the largest of rms, peak, maxima, forces and stresses; the sum of hits and energies; the
-    spectrum of the leading blade, the snapshots of the one with the largest stress. The leading blade has the largest rms of
-    the leading edge's normal displacement. `status` is that of the rotor: all blades end when one diverges.
+    spectrum of the leading blade, the snapshots of the one with the largest stress. `status` is that of the rotor: all blades
+    end when one diverges, whose snapshots are kept then.
+
+    The motion of a blade is the displacement of its leading edge, normal and tangential together (KEPT): a blade in resonance
+    may move along the tangent alone. `leader`: number of the blade with the largest motion; of a diverged run, of the one that
+    diverged first.
 
     Of each blade, shape (blades,) first: `blade_number`, `blade_angle` (rad), `blade_frequency_factor`, `blade_longer` (m),
-    `blade_rms` and `blade_peak` (m), of the leading edge's normal displacement over the last half, `blade_maximum` (m), shape
-    (blades, spans), in spans of `span_revolutions` each, `blade_contact`, share of the time, `blade_worn` (m3), of the lining,
-    and with stress `blade_max_von_mises` (Pa) in the last revolution and `blade_von_mises` (Pa), shape (blades, revolutions of
-    the statistic), in spans. `leader`: number of the leading blade. `nodal_diameter` and `nodal_diameter_share`: see
-    nodal_diameters.
+    `blade_rms` and `blade_peak` (m), of its motion over the last half, `blade_maximum` (m), shape (blades, spans), in spans of
+    `span_revolutions` each, `blade_contact`, share of the time, `blade_worn` (m3), of the lining, and with stress
+    `blade_max_von_mises` (Pa) in the last revolution and `blade_von_mises` (Pa), shape (blades, spans of the statistic's
+    revolutions). `nodal_diameter` and `nodal_diameter_share`: see nodal_diameters.
     """
     assert scene.rotor is not None
     simulation = RotorSimulation(model, speed, scene, choice)
@@ -64,13 +67,14 @@ def run_rotor(
     per_revolution, first = choice.samples_per_revolution, choice.revolutions // 2
     half = samples[:, first * per_revolution :]
     maxima = np.abs(samples).reshape(len(samples), choice.revolutions, per_revolution, *samples.shape[2:]).max(axis=2)
-    rms = np.sqrt(np.mean(half**2, axis=1))
-    leader = int(np.nan_to_num(rms[:, 0, 0]).argmax())
-    reached = min((len(part.samples) / per_revolution for part in record.blades if part.diverged), default=None)
+    motion = np.linalg.norm(samples[:, :, 0, KEPT], axis=2)
+    rms = np.sqrt(np.mean(motion[:, first * per_revolution :] ** 2, axis=1))
+    ended = record.first_diverged
+    leader = int(rms.argmax()) if ended is None else ended
     totals = np.array([state.totals for state in states])
-    numbers = status_numbers(simulation.problem, reached)
+    numbers = status_numbers(simulation.problem, None if ended is None else len(record.blades[ended].samples) / per_revolution)
     numbers |= {
-        "rms": rms.max(axis=0),
+        "rms": np.sqrt(np.mean(half**2, axis=1)).max(axis=0),
         "peak": maxima[:, first:].max(axis=(0, 1)),
         "revolution_maxima": maxima.max(axis=0),
         "share_of_time_in_contact": np.array((totals["steps_in_contact"] / np.maximum(totals["steps"], 1.0)).max()),
@@ -80,16 +84,16 @@ def run_rotor(
     }
     if scene.casing.changes_with_speed:
         numbers["clearance"] = np.min([problem.casing.clearance for problem in simulation.problems], axis=0)
-    numbers |= _of_blades(simulation, states, record, maxima, rms, first)
-    numbers["leader"] = np.array(scene.rotor.numbers[leader])
-    numbers |= nodal_diameters(half[:, :, 0, 0], record.late, scene.rotor)
+    numbers |= _of_blades(simulation, states, record, motion.reshape(*maxima.shape[:2], per_revolution).max(axis=2), first)
+    numbers |= {"blade_rms": rms, "leader": np.array(scene.rotor.numbers[leader])}
+    numbers |= nodal_diameters(half[:, :, 0, KEPT], record.late, scene.rotor)
     if "spectrum" in results:
         numbers |= spectrum(half[leader, :, 0, KEPT], len(half[leader]) // per_revolution, spectrum_highest_order)
     if "stress" in results:
         numbers |= _stress(simulation, record, stress, "static_stress" in results)
     if "wear" in results:
         assert scene.lining is not None
-        numbers |= wear_numbers(_worn(states), min(wear_angles, scene.lining.bars))
+        numbers |= wear_numbers(_worn(states), min(wear_angles, scene.lining.bars), scene.lining)
     if "energy" in results:
         work = sum(blade.work(state) for blade, state in zip(simulation.blades, states, strict=True))
         numbers |= energy_balance(work, float(totals["loss"].sum()), simulation.energy(states))
@@ -115,29 +119,32 @@ def _of_blades(
     states: list[SimulationState],
     record: RotorRecord,
     maxima: np.ndarray,
-    rms: np.ndarray,
     first: int,
 ) -> dict[str, np.ndarray]:
-    """Numbers of each blade: see run_rotor."""
+    """Numbers of each blade: see run_rotor. `maxima` (m), shape (blades, revolutions), of its motion."""
     rotor, totals = simulation.rotor, np.array([state.totals for state in states])
-    span = -(-maxima.shape[1] // MOST_GROWTH)
+    growth, span = in_spans(maxima)
     return {
         "blade_number": np.array(rotor.numbers),
         "blade_angle": np.array(rotor.angles),
         "blade_frequency_factor": np.array(rotor.frequency_factors),
         "blade_longer": np.array(rotor.longer),
-        "blade_rms": rms[:, 0, 0],
-        "blade_peak": maxima[:, first:, 0, 0].max(axis=1),
-        "blade_maximum": in_spans(maxima[:, :, 0, 0], span),
+        "blade_peak": maxima[:, first:].max(axis=1),
+        "blade_maximum": growth,
         "blade_contact": totals["steps_in_contact"] / np.maximum(totals["steps"], 1.0),
         "blade_worn": record.worn * simulation.problem.casing.bar_area,
         "span_revolutions": np.array(span),
     }
 
 
-def in_spans(values: np.ndarray, span: int) -> np.ndarray:
-    """The largest of every `span` revolutions along the last axis, the last span may be shorter; single precision."""
-    return np.maximum.reduceat(values, np.arange(0, values.shape[-1], span), axis=-1).astype(np.float32)
+def in_spans(values: np.ndarray) -> tuple[np.ndarray, int]:
+    """The largest of every span of revolutions along the last axis, in single precision, and how many revolutions it has.
+
+    There are at most MOST_GROWTH spans; the last one may be shorter.
+    """
+    revolutions = values.shape[-1]
+    span = -(-revolutions // MOST_GROWTH)
+    return np.maximum.reduceat(values, np.arange(0, revolutions, span), axis=-1).astype(np.float32), span
 
 
 def _worn(states: list[SimulationState]) -> np.ndarray:
@@ -151,16 +158,16 @@ def _stress(
     """Of the blade with the largest stress what snapshot_numbers keeps, the largest history of all blades, and that of each."""
     history = None if stress is None else _histories(simulation, record, stress, static_stress)
     largest = 0 if history is None else int(np.nan_to_num(history[:, -1]).argmax())
-    numbers = snapshot_numbers(simulation.problems[largest], record.blades[largest], stress, static_stress)
+    # a blade that another one ends may have no snapshots
+    shown = largest if record.first_diverged is None else record.first_diverged
+    numbers = snapshot_numbers(simulation.problems[shown], record.blades[shown], stress, static_stress)
     if history is None:
         return numbers
-    if record.diverged:
-        numbers["max_von_mises"] = np.array(np.nan)
-    span = -(-history.shape[1] // MOST_GROWTH)
+    of_blades, span = in_spans(history)
     return numbers | {
         "revolution_von_mises": history.max(axis=0),
         "blade_max_von_mises": history[:, -1],
-        "blade_von_mises": in_spans(history, span),
+        "blade_von_mises": of_blades,
         "stress_span_revolutions": np.array(span),
     }
 
@@ -195,20 +202,20 @@ def _histories(simulation: RotorSimulation, record: RotorRecord, stress: StressO
 def nodal_diameters(displacement: np.ndarray, late: np.ndarray, rotor: Rotor) -> dict[str, np.ndarray]:
     """How the motion of the blades is made of waves that run round the rotor.
 
-    `displacement` (m), shape (blades, samples), of whole revolutions; `late`, shape (blades,): see RotorRecord. A wave of n
-    nodal diameters at frequency w is x_b(t) = Re(X exp(i(w t - n theta_b))), positive n in the sense of growing theta. With
-    the Fourier transform X_b(w) of each blade's motion the share of n is
+    `displacement` (m), shape (blades, samples, directions), of whole revolutions; `late`, shape (blades,): see RotorRecord. A
+    wave of n nodal diameters at frequency w is x_b(t) = Re(X exp(i(w t - n theta_b))), positive n in the sense of growing
+    theta. With the Fourier transform X_bd(w) of each blade's motion along the direction d the share of n is
 
-        P_n = sum_w |sum_b X_b(w) exp(i n theta_b)|^2 / (B sum_w sum_b |X_b(w)|^2),
+        P_n = sum_d,w |sum_b X_bd(w) exp(i n theta_b)|^2 / (B sum_d,w,b |X_bd(w)|^2),
 
     over positive frequencies. For equal angles the shares add up to 1 (Parseval). `nodal_diameter`: from -(B-1)//2 to B//2.
     """
-    blades, samples = displacement.shape
+    blades, samples = displacement.shape[:2]
     diameters = np.arange(-((blades - 1) // 2), blades // 2 + 1)
     waves = rfft(displacement, axis=1)[:, 1:]
-    waves = waves * np.exp(-2j * np.pi / samples * late[:, None] * np.arange(1, waves.shape[1] + 1))
+    waves = waves * np.exp(-2j * np.pi / samples * late[:, None] * np.arange(1, waves.shape[1] + 1))[..., None]
     with np.errstate(invalid="ignore"):  # blades that stand still have no share
         power = np.sum(np.abs(waves) ** 2)
-        of_diameter = np.exp(1j * np.outer(diameters, rotor.angles)) @ waves
+        of_diameter = np.exp(1j * np.outer(diameters, rotor.angles)) @ waves.reshape(blades, -1)
         share = np.sum(np.abs(of_diameter) ** 2, axis=1) / (blades * power)
     return {"nodal_diameter": diameters, "nodal_diameter_share": share}

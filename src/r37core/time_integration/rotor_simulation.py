@@ -41,9 +41,10 @@ class RotorRecord:
     worn: np.ndarray
 
     @property
-    def diverged(self) -> bool:
-        """Whether any blade did; all end in the revolution in which the first does."""
-        return any(record.diverged for record in self.blades)
+    def first_diverged(self) -> int | None:
+        """Place of the blade that diverged first, None where none did; the others end within a revolution after it."""
+        samples = {place: len(part.samples) for place, part in enumerate(self.blades) if part.diverged}
+        return min(samples, key=samples.__getitem__, default=None)
 
 
 class RotorSimulation:
@@ -136,22 +137,20 @@ class RotorSimulation:
         """Let blade after blade pass the casing; returns the samples done of each, and what each has worn off (m)."""
         per_revolution = self.problem.choice.samples_per_revolution
         passages = [
-            Passage(
-                simulation.engine, state, out, Schedule(np.zeros(1), np.zeros(1), len(state.displacement)), start, in_parts=True
-            )
+            Passage(simulation.engine, state, out, Schedule.of_one_speed(0, len(state.displacement)), start, in_parts=True)
             for simulation, state, out, start in zip(self.blades, states, outs, starts, strict=True)
         ]
         total = revolutions * per_revolution
         # the first part of those that have not passed angle 0 yet, whole passes, and what is left
         for number in range(revolutions + 1):
-            diverged = False
             for place in self.rotor.order:
                 until = min(total, number * per_revolution + (-starts[place].samples) % per_revolution)
                 blocks = until - passages[place].done
-                if blocks:
-                    diverged |= passages[place].go_on(blocks) < blocks
-            if diverged:
-                break
+                if blocks > 0:
+                    passages[place].go_on(blocks)
+                    if self.blades[place].diverged(outs[place], passages[place].done):
+                        # the others go on until then: one of them may diverge before
+                        total = passages[place].done
         for passage in passages:
             passage.end()
         return [passage.done for passage in passages], [passage.worn for passage in passages]

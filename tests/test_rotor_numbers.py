@@ -1,0 +1,394 @@
+"""Numbers of a whole rotor: who leads, waves, growth, runs that diverge; their dataset, table, figure and plan."""
+
+from dataclasses import replace
+from functools import cache
+
+import numpy as np
+import pytest
+import xarray as xr
+from test_explorer import unpacked
+from test_rotor import CHOICE, KEPT, LINED_RING, RING, SPEED, STEEP, a_blade, rotor_of, run, samples
+
+from r37core.config import command_line_document
+from r37core.dataset_file import hash_of_parts, read_dataset, write_dataset
+from r37core.figures.style import plt
+from r37core.io import Named
+from r37core.plans import paths
+from r37core.plans.sweep_plan import Sweep
+from r37core.product.reading import load_settings
+from r37core.results.table_file import read_table
+from r37core.rotors.dataset import gather_rotors, rotor_dataset, rotor_table
+from r37core.rotors.figures import draw_rotor
+from r37core.rotors.panel import MOST_SPANS, rotor_contents
+from r37core.rotors.plan import joined_dataset, remarks, rotor_runs, targets
+from r37core.rotors.steps import join, rotor_of_run
+from r37core.stress.operator import StressOperator
+from r37core.time_integration.kept_numbers import KEPT as KEPT_DIRECTIONS
+from r37core.time_integration.kept_numbers import amplitudes
+from r37core.time_integration.rotor_blades import mistuned
+from r37core.time_integration.rotor_run import MOST_GROWTH, in_spans, nodal_diameters
+from r37core.time_integration.speed_file import write_speed
+from r37core.time_integration.speed_run import run_speed
+
+
+def test_a_wave_of_nodal_diameters_is_found():
+    """x_b(t) = cos(w t - n theta_b), seen by blades whose samples are not those of the same instants."""
+    rotor, count = rotor_of(12), 256
+    late = np.random.default_rng(0).random(12)
+    time = 2.0 * np.pi * (np.arange(count) + late[:, None]) / count
+    for diameters in (-5, 0, 3, 6):
+        motion = np.cos(9.0 * time - diameters * np.array(rotor.angles)[:, None]) + 0.5
+        found = nodal_diameters(motion[..., None], late, rotor)
+        share = dict(zip(found["nodal_diameter"].tolist(), found["nodal_diameter_share"], strict=True))
+        assert share[diameters] == pytest.approx(1.0, abs=1e-9)
+        assert sum(share.values()) == pytest.approx(1.0)
+    # a wave of twice the size along another direction has four fifths
+    other = 2.0 * np.cos(9.0 * time - 2.0 * np.array(rotor.angles)[:, None])
+    both = nodal_diameters(np.stack([motion, other], axis=-1), late, rotor)
+    share = dict(zip(both["nodal_diameter"].tolist(), both["nodal_diameter_share"], strict=True))
+    assert (share[2], share[6]) == (pytest.approx(0.8), pytest.approx(0.2))
+    assert np.isnan(nodal_diameters(np.zeros((12, count, 1)), late, rotor)["nodal_diameter_share"]).all()
+
+
+def test_growth_is_kept_in_spans_of_revolutions():
+    values = np.arange(2.0 * (2 * MOST_GROWTH + 1)).reshape(2, -1)
+    spans, span = in_spans(values)
+    assert span == 3 and spans.shape == (2, 134) and spans.dtype == np.float32
+    np.testing.assert_array_equal(spans[:, [0, 1, -2, -1]], [[2, 5, 398, 400], [403, 406, 799, 801]])
+    for revolutions, length in ((1, 1), (MOST_GROWTH, 1), (MOST_GROWTH + 1, 2), (20000, 100)):
+        spans, span = in_spans(np.zeros((1, revolutions)))
+        assert span == length and spans.shape[-1] == -(-revolutions // length) <= MOST_GROWTH
+
+
+HEAVY = replace(
+    STEEP,
+    casing=replace(STEEP.casing, ring=tuple(replace(mode, modal_mass=1e6 * mode.modal_mass) for mode in RING.modes())),
+)
+CASINGS = {"rigid": STEEP, "elastic": HEAVY, "elastic, no lining": replace(HEAVY, lining=None)}
+RECORDED = replace(CHOICE, snapshots_per_revolution=16, snapshot_revolutions=2)
+RESULTS = ("spectrum", "stress", "energy")
+STRESS = StressOperator(np.random.default_rng(0).random((6, 5, len(a_blade().to_reduced))), len(a_blade().to_reduced), "tip")
+
+
+def numbers_of(scene, rotor, choice=RECORDED):
+    results = (*RESULTS, *(["wear"] if scene.lining else []), *(["casing"] if scene.casing.ring else []))
+    return run_speed(a_blade(), SPEED, replace(scene, rotor=rotor), choice, results, stress=STRESS, **KEPT)
+
+
+@cache
+def undisturbed(casing, longest):
+    """Rotor of three blades of which one is longer, and the largest displacement of each in every sample."""
+    rotor = rotor_of(3, longer=[1e-4 if place == longest else 0.0 for place in range(3)])
+    return rotor, np.abs(samples(run(rotor, CASINGS[casing])[2])).max(axis=-1)
+
+
+@pytest.mark.parametrize("late", [False, True], ids=["first revolution", "later"])
+@pytest.mark.parametrize("longest", [0, 1, 2])
+@pytest.mark.parametrize("casing", CASINGS)
+def test_any_blade_may_diverge_first(casing, longest, late, tmp_path):
+    """The run ends as a result that says so, with the number of the blade and when it did."""
+    rotor, sizes = undisturbed(casing, longest)
+    own, others = sizes[longest], np.delete(sizes, longest, axis=0).max()
+    first = own[: CHOICE.samples_per_revolution].max()
+    limit = 0.5 * (first + (own.max() if late else others))
+    numbers = numbers_of(replace(CASINGS[casing], divergence_limit=limit), rotor)
+    assert numbers["status"] == 1 and numbers["leader"] == longest + 1
+    reached = (np.argmax(own > limit) + 1) / CHOICE.samples_per_revolution
+    assert numbers["diverged_revolution"] == reached and (reached > 1.0) == late
+    for name in ("rms", "peak", "amplitude", "blade_rms", "blade_peak", "nodal_diameter_share"):
+        assert np.isnan(numbers[name]).all(), name
+    assert np.isnan(numbers["max_von_mises"]) and np.isnan(numbers["blade_max_von_mises"][longest])
+    assert np.isfinite(numbers["blade_worn"]).all() and (numbers["blade_maximum"][longest, 0] > 0.0) == late
+    write_speed(numbers, tmp_path / "speed.npz", {})
+    dataset = rotor_dataset([tmp_path / "speed.npz"], [SPEED], 1e9)
+    assert dataset["status"] == 1 and dataset["leader"] == longest + 1
+    assert np.isnan(dataset["blades_above_yield"]) and np.isnan(dataset["blades_ever_above_yield"])
+
+
+@pytest.mark.parametrize("engine", ["compiled", "reference"])
+@pytest.mark.parametrize("casing", CASINGS)
+def test_both_engines_end_where_a_blade_diverges(casing, engine):
+    rotor, sizes = undisturbed(casing, 1)
+    first = sizes[1, : CHOICE.samples_per_revolution].max()
+    scene = replace(CASINGS[casing], divergence_limit=0.5 * (first + np.delete(sizes, 1, axis=0).max()))
+    numbers = numbers_of(scene, rotor, replace(RECORDED, revolutions=2, snapshot_revolutions=1, engine=engine))
+    assert numbers["status"] == 1 and numbers["leader"] == 2 and 0.0 < numbers["diverged_revolution"] < 1.0
+    assert np.isnan(numbers["blade_max_von_mises"]).all()
+
+
+@pytest.mark.parametrize("engine", ["compiled", "reference"])
+def test_all_blades_may_diverge_at_once(engine):
+    """A casing beyond the limit is a divergence of all blades; the first one stands for them."""
+    scene = replace(LINED_RING, divergence_limit=1e-5)
+    choice = replace(RECORDED, revolutions=2, snapshot_revolutions=1, engine=engine)
+    assert all(part.diverged for part in run(rotor_of(3), scene, choice)[2].blades)
+    numbers = numbers_of(scene, rotor_of(3), choice)
+    assert numbers["status"] == 1 and numbers["leader"] == 1 and np.isnan(numbers["blade_rms"]).all()
+
+
+def test_of_blades_that_diverge_in_one_pass_the_first_in_time_leads():
+    """Blade after blade passes the casing: the third is beyond the limit before the first, which is so earlier, has begun."""
+    rotor, sizes = undisturbed("rigid", 2)
+    limit = 0.5 * sizes.max(axis=1).min()
+    ends = np.argmax(sizes > limit, axis=1) + 1
+    record = run(rotor, replace(STEEP, divergence_limit=limit))[2]
+    assert [part.diverged for part in record.blades] == [True, False, True] and ends[0] < ends[2] < ends[1]
+    assert record.first_diverged == 0 and len(record.blades[0].samples) == ends[0]
+    numbers = numbers_of(replace(STEEP, divergence_limit=limit), rotor)
+    assert numbers["leader"] == 1 and numbers["diverged_revolution"] == ends[0] / CHOICE.samples_per_revolution
+
+
+def test_a_blade_that_diverges_ends_the_rotor():
+    scene = replace(STEEP, divergence_limit=1e-5, rotor=rotor_of(3, longer=[0.0, 5e-5, 0.0]))
+    numbers = run_speed(a_blade(), SPEED, scene, CHOICE, ("spectrum", "wear", "energy"), **KEPT)
+    assert numbers["status"] == 1 and 0.0 < numbers["diverged_revolution"] < CHOICE.revolutions
+    assert np.isnan(numbers["rms"]).all() and numbers["leader"] in (1, 2, 3)
+
+
+def test_dataset_table_and_figure(tmp_path):
+    """The steps of the workflow, of two rotors of which one has its stress recorded."""
+    runs, files, speeds = [("Ref", "many"), ("Ref", "few")], [], [990.0, 1000.0, 1010.0]
+    for (_, name), blades, choice in zip(runs, (6, 2), (replace(RECORDED, revolutions=3), CHOICE), strict=True):
+        rotor = rotor_of(blades, factors=list(np.linspace(0.99, 1.01, blades)), longer=[1e-5] * blades)
+        written = [str(tmp_path / f"{name}_{speed}.npz") for speed in speeds]
+        for speed, file in zip(speeds, written, strict=True):
+            results = ("wear", "stress") if name == "many" else ("wear",)
+            scene = replace(STEEP, rotor=rotor)
+            write_speed(run_speed(a_blade(), speed, scene, choice, results, stress=STRESS, **KEPT), file, {})
+        files.append(str(tmp_path / f"{name}.nc"))
+        params = Named(speeds=speeds, yield_stress=2e-5, provenance={"made": name})
+        rotor_of_run(Named(speeds=written), Named(rotor=files[-1]), params)
+    made = Named(dataset=tmp_path / "rotor.nc", table=tmp_path / "rotors.csv")
+    join(Named(rotors=files), made, Named(runs=runs, fidelity="draft"))
+    together, table, many = read_dataset(made.dataset), read_table(made.table), read_dataset(files[0])
+    assert together.attrs["fidelity"] == "draft" and together.attrs["input_hash"] == hash_of_parts(files)
+    assert many.attrs["made"] == "many" and many["status"].attrs["flag_meanings"].startswith("completed diverged")
+    assert together.sizes["run"] == 6 and together.sizes["blade_number"] == 6
+    assert together["blade"].values.tolist() == ["Ref"] * 6 and together["speed"].values.tolist() == 2 * speeds
+    of_few = together["blade_rms"].sel(run=together["scene"] == "few")
+    assert np.isfinite(of_few).sum() == 6
+    assert table["blades"].tolist() == [6, 2]
+    assert table["leader_by_motion"].between(1, 6).all() and set(table["worst_speed_rad_s"]) <= set(speeds)
+    assert table["leader_by_stress"].isna().tolist() == [False, True] and table["diverged_speeds"].tolist() == [0, 0]
+    # what no speed changes has no dimension of it, and spans end with the run
+    assert many["blade_longer"].values.tolist() == [1e-5] * 6 and many["yield_stress"] == 2e-5
+    assert many["span"].values.tolist() == [1, 2, 3] and many["stress_span"].values.tolist() == [2, 3]
+    assert many["lobes"].values.tolist() == list(range(many.sizes["lobes"])) and many.sizes["lobes"] > 3
+    above = many["blade_max_von_mises"] > 2e-5
+    np.testing.assert_allclose(many["blades_above_yield"], above.mean("blade_number"))
+    ever = (many["blade_von_mises"] > 2e-5).any("stress_span")
+    np.testing.assert_allclose(many["blades_ever_above_yield"], ever.mean("blade_number"))
+    assert 0.0 < many["blades_above_yield"].mean() < many["blades_ever_above_yield"].mean() < 1.0
+    figure = draw_rotor(many, "Ref, many")
+    assert "6 blades" in figure.get_suptitle()
+    plt.close(figure)
+
+
+def test_stress_of_mistuned_blades_is_that_of_single_ones():
+    """Blades that are looked at together follow their forces as their own flexibility says."""
+    factors = [1.0, 1.2, 0.8, 1.1]
+    rotor = rotor_of(4, np.pi * np.arange(4), factors, shared=False)
+    numbers = numbers_of(STEEP, rotor)
+    for place, factor in enumerate(factors):
+        alone = run_speed(mistuned(a_blade(), factor), SPEED, STEEP, RECORDED, ("stress",), stress=STRESS, **KEPT)
+        assert numbers["blade_max_von_mises"][place] == pytest.approx(float(alone["max_von_mises"]), rel=1e-4)
+        np.testing.assert_allclose(numbers["blade_von_mises"][place], alone["revolution_von_mises"], rtol=1e-4)
+
+
+def test_spans_of_a_long_run_end_with_it(tmp_path):
+    revolutions = 2 * MOST_GROWTH + 1
+    choice = replace(RECORDED, revolutions=revolutions, snapshot_revolutions=MOST_GROWTH + 1)
+    numbers = numbers_of(STEEP, rotor_of(1), choice)
+    assert numbers["span_revolutions"] == 3 and numbers["stress_span_revolutions"] == 2
+    write_speed(numbers, tmp_path / "speed.npz", {})
+    dataset = rotor_dataset([tmp_path / "speed.npz"], [SPEED], 1e9)
+    assert dataset["span"][[0, -2, -1]].values.tolist() == [2, revolutions - 3, revolutions]
+    assert dataset["stress_span"][[0, -2, -1]].values.tolist() == [201, revolutions - 2, revolutions]
+
+
+def test_the_leader_moves_most_in_both_directions_together():
+    """The third blade moves most along the normal, the second one along the tangent, by more."""
+    rotor = rotor_of(3, longer=[0.0, 1e-4, 0.0])
+    motion = samples(run(rotor)[2]).reshape(3, CHOICE.revolutions, -1, 2, 3)[:, :, :, 0, KEPT_DIRECTIONS]
+    half = motion[:, CHOICE.revolutions // 2 :].reshape(3, -1, 2)
+    numbers = run_speed(a_blade(), SPEED, replace(STEEP, rotor=rotor), CHOICE, ("spectrum",), **KEPT)
+    assert np.argmax(np.sum(half**2, axis=1), axis=0).tolist() == [2, 1] and numbers["leader"] == 2
+    np.testing.assert_allclose(numbers["blade_rms"], np.sqrt(np.mean(np.sum(half**2, axis=2), axis=1)), rtol=1e-12)
+    np.testing.assert_allclose(numbers["blade_peak"], np.hypot(*half.T).T.max(axis=1), rtol=1e-12)
+    np.testing.assert_allclose(numbers["blade_maximum"], np.hypot(*motion.T).T.max(axis=2), rtol=1e-6)
+    of_leader = amplitudes(half[1].T)[:, : len(numbers["engine_order"])]
+    np.testing.assert_allclose(numbers["amplitude"], of_leader, rtol=1e-5)
+    found = nodal_diameters(half, run(rotor)[2].late, rotor)
+    np.testing.assert_array_equal(numbers["nodal_diameter_share"], found["nodal_diameter_share"])
+
+
+def a_rotor(rms, stress=None, status=None, leader=None):
+    """rotor.nc at speeds of 900, 910, ... rad/s, of blades 1, 3, 5, ...; stresses in GPa and in a yield stress of 1 GPa.
+
+    The motion in spans of two revolutions is a tenth of the rms, two tenths and so on.
+    """
+    rms, numbers = np.array(rms, dtype=float), 1 + 2 * np.arange(len(rms[0]))
+    speeds, spans = 900.0 + 10.0 * np.arange(len(rms)), np.arange(1, MOST_SPANS + 2)
+    by_blade, one = ("speed", "blade_number"), np.ones(len(numbers))
+    data = {
+        "blade_rms": (by_blade, rms),
+        "blade_maximum": ((*by_blade, "span"), 0.1 * rms[:, :, None] * spans),
+        "leader": ("speed", numbers[np.nan_to_num(rms).argmax(axis=1)] if leader is None else leader),
+        "status": ("speed", np.zeros(len(rms), int) if status is None else status),
+        "nodal_diameter_share": (("speed", "nodal_diameter"), np.where(np.isnan(rms[:, :1]), np.nan, [[0.1, 0.2, 0.7]])),
+        "yield_stress": 1e9,
+        **{name: ("blade_number", one) for name in ("blade_angle", "blade_frequency_factor", "blade_longer")},
+    }
+    if stress is not None:
+        of_blades = 1e9 * np.array(stress)
+        above = np.where(np.isnan(of_blades[:, 0]), np.nan, np.mean(of_blades > 1e9, axis=1))
+        data |= {"blade_max_von_mises": (by_blade, of_blades), "blades_above_yield": ("speed", above)}
+    axes = {"speed": speeds, "speed_rpm": ("speed", 9.55 * speeds), "blade_number": numbers, "span": 2 * spans}
+    return xr.Dataset(data, axes | {"nodal_diameter": [-1, 0, 1]})
+
+
+def files_of(tmp_path, rotors):
+    files = {("Ref", name): tmp_path / f"{name}.nc" for name in rotors}
+    for name, rotor in rotors.items():
+        write_dataset(rotor, files["Ref", name])
+    return files
+
+
+def rows_of(tmp_path, **rotors):
+    return rotor_table(files_of(tmp_path, rotors)).set_index("scene")
+
+
+def test_the_table_has_the_worst_speed_and_who_leads_there(tmp_path):
+    rms = [[1.0, 2.0, 4.0], [8.0, 3.0, 1.0], [2.0, 9.0, 1.0]]
+    stress = [[0.5, 0.5, 0.5], [1.5, 2.5, 0.5], [1.0, 2.0, 0.5]]
+    table = rows_of(tmp_path, stressed=a_rotor(rms, stress), moving=a_rotor(rms))
+    row = table.loc["stressed"]
+    assert (row["worst_speed_rad_s"], row["leader_by_motion"], row["leader_by_stress"]) == (910.0, 1, 3)
+    assert (row["leader_motion_m"], row["median_motion_m"], row["max_von_mises_pa"]) == (8.0, 3.0, 2.5e9)
+    assert (row["blades"], row["speeds"], row["diverged_speeds"]) == (3, 3, 0)
+    assert row["blades_above_yield_at_once"] == pytest.approx(2.0)
+    assert row["length_with_any_blade_above_yield_rad_s"] == pytest.approx(10.0 + 10.0 * 1.5 / 2.0)
+    assert (row["nodal_diameter"], row["nodal_diameter_share"]) == (1, 0.7)
+    row = table.loc["moving"]
+    assert (row["worst_speed_rad_s"], row["leader_by_motion"], row["median_motion_m"]) == (920.0, 3, 2.0)
+    assert np.isnan(row["leader_by_stress"]) and np.isnan(row["max_von_mises_pa"])
+
+
+def test_speeds_that_diverged_are_above_yield_in_the_table(tmp_path):
+    lost, status = [np.nan] * 2, [0, 1, 0]
+    part = a_rotor([[1.0, 2.0], lost, [3.0, 1.0]], [[0.4, 0.5], lost, [0.5, 0.6]], status, [3, 1, 1])
+    none = a_rotor([lost, lost], [lost, lost], [1, 1], [3, 1])
+    table = rows_of(tmp_path, part=part, none=none)
+    row = table.loc["part"]
+    assert (row["diverged_speeds"], row["worst_speed_rad_s"], row["leader_by_motion"], row["leader_by_stress"]) == (
+        1,
+        920.0,
+        1,
+        3,
+    )
+    # of a run that diverged nothing of the way to the next speed counts
+    assert row["length_with_any_blade_above_yield_rad_s"] == 0.0 and row["blades_above_yield_at_once"] == 0.0
+    row = table.loc["none"]
+    assert (row["diverged_speeds"], row["leader_by_motion"], row["length_with_any_blade_above_yield_rad_s"]) == (2, 3, 10.0)
+    assert row[["leader_by_stress", "nodal_diameter", "max_von_mises_pa", "leader_motion_m"]].isna().all()
+
+
+def test_the_figure_shows_all_blades_and_names_those_that_move_most():
+    rms = 1e-3 * np.array([[3.0, 1.0, 4.0, 2.0, 5.0], [1.0, 1.0, 1.0, 1.0, 2.0]])
+    figure = draw_rotor(a_rotor(rms, [[0.5, 2.0, 3.0, 0.1, 0.2], [0.1, 0.2, 0.3, 0.4, 0.5]]), "Ref")
+    blades, stress, growth, waves = figure.axes[:4]
+    (cells,) = blades.images
+    np.testing.assert_allclose(cells.get_array(), 1e3 * rms.T)
+    assert (cells.norm.vmin, cells.norm.vmax) == (pytest.approx(5e-3), 5.0)
+    worst, median = stress.lines[:2]
+    np.testing.assert_allclose(worst.get_ydata(), [3.0, 0.5])
+    np.testing.assert_allclose(median.get_ydata(), [0.5, 0.3])
+    assert [line.get_label() for line in stress.lines[:2]] == ["worst blade", "median blade"]
+    assert "yield stress" in [text.get_text() for text in stress.get_legend().get_texts()]
+    assert stress.get_title() == "at most 2 of 5 blades above yield at one speed"
+    names = [line.get_label() for line in growth.lines]
+    assert names[2:] == ["blade 9", "blade 5", "blade 1"] and all(name.startswith("_") for name in names[:2])
+    for line, size in zip(growth.lines, (2.0, 1.0, 5.0, 4.0, 3.0), strict=True):
+        np.testing.assert_allclose(line.get_ydata(), 0.1 * size * np.arange(1, MOST_SPANS + 2))
+    assert 0.0 < growth.lines[0].get_linewidth() < growth.lines[2].get_linewidth() and "at 900 rad/s" in growth.get_xlabel()
+    assert [bar.get_height() for bar in waves.patches] == pytest.approx([10.0, 20.0, 70.0])
+    assert [bar.get_x() + 0.5 * bar.get_width() for bar in waves.patches] == pytest.approx([-1.0, 0.0, 1.0])
+    assert all(0.5 < bar.get_width() < 1.0 for bar in waves.patches)
+    plt.close(figure)
+
+
+def test_the_figure_of_one_speed_or_without_stress_has_lines():
+    rms = 1e-3 * np.array([[3.0, 1.0], [4.0, 2.0]])
+    figure = draw_rotor(a_rotor(rms), "Ref")
+    np.testing.assert_allclose(figure.axes[1].lines[0].get_ydata(), [3.0, 4.0])
+    assert len(figure.axes[0].images) == 1 and "at 910 rad/s" in figure.axes[2].get_xlabel()
+    plt.close(figure)
+    for rotor in (a_rotor(rms[:1]), a_rotor(rms[:, :1])):
+        figure = draw_rotor(rotor, "Ref")
+        lines = figure.axes[0].lines
+        np.testing.assert_allclose([line.get_ydata() for line in lines], 1e3 * rotor["blade_rms"].values.T)
+        assert not figure.axes[0].images and figure.axes[0].get_ylabel() == "rms of the motion (mm)"
+        plt.close(figure)
+    lost = a_rotor([[np.nan, np.nan]], None, [1], [3])
+    figure = draw_rotor(lost, "Ref")
+    assert figure.axes[0].lines[-1].get_ydata().tolist() == [0.0]
+    plt.close(figure)
+
+
+def test_the_panel_shows_the_growth_of_the_blades_that_move_most(tmp_path):
+    lost = [np.nan] * 5
+    many = a_rotor([[3.0, 1.0, 4.0, 2.0, 5.0], lost], [[0.5, 2.0, 3.0, 0.1, 0.2], lost], [0, 1], [9, 3])
+    files = files_of(tmp_path, {"many": many, "few": a_rotor([[1.0, 2.0]])})
+    contents = {rotor["scene"]: rotor for rotor in rotor_contents(gather_rotors(files))}
+    rotor = contents["many"]
+    assert (rotor["blade"], rotor["numbers"], rotor["diameters"]) == ("Ref", [1, 3, 5, 7, 9], [-1, 0, 1])
+    np.testing.assert_allclose(unpacked(rotor["rms"]), 1e3 * many["blade_rms"], rtol=1e-4)
+    np.testing.assert_array_equal(unpacked(rotor["speeds"]), [900.0, 910.0])
+    np.testing.assert_array_equal(unpacked(rotor["largest"]), [[9, 5, 1], [1, 3, 5]])
+    np.testing.assert_array_equal(unpacked(rotor["leader"]), [9, 3])
+    np.testing.assert_array_equal(unpacked(rotor["above_yield"]), [2, np.nan])
+    np.testing.assert_allclose(unpacked(rotor["shares"]), [[10, 20, 70], [np.nan] * 3], rtol=1e-4)
+    # neighbouring spans are joined: the last one has no neighbour
+    assert rotor["spans"] == [*range(4, 2 * MOST_SPANS + 1, 4), 2 * MOST_SPANS + 2]
+    growth = unpacked(rotor["growth"])
+    assert growth.shape == (2, 4, MOST_SPANS // 2 + 1) and np.isnan(growth[1]).all()
+    np.testing.assert_allclose(growth[0, :, 0], 0.2 * 1e3 * np.array([5.0, 4.0, 3.0, 3.0]), rtol=1e-4)
+    np.testing.assert_allclose(growth[0, :, -1], 0.1 * 1e3 * (MOST_SPANS + 1) * np.array([5.0, 4.0, 3.0, 3.0]), rtol=1e-4)
+    # another blade shape in the same scene
+    both = gather_rotors(files | {("S100", "many"): files["Ref", "few"]})
+    assert [(rotor["blade"], rotor["numbers"]) for rotor in rotor_contents(both)][1:] == [("Ref", [1, 3]), ("S100", [1, 3])]
+    rotor = contents["few"]
+    assert rotor["numbers"] == [1, 3] and unpacked(rotor["largest"]).tolist() == [[3, 1]]
+    assert np.isnan(unpacked(rotor["above_yield"])).all()
+
+
+@pytest.mark.parametrize("diverged", [[0, 1, 0], [1, 1, 1]])
+@pytest.mark.parametrize("stressed", [True, False])
+def test_speeds_that_diverged_are_crosses_in_the_figure(diverged, stressed):
+    lost = np.where(np.array(diverged)[:, None] > 0, np.nan, [[1.0, 2.0]])
+    rotor = a_rotor(lost, lost if stressed else None, diverged, [3, 3, 1])
+    figure = draw_rotor(rotor, "Ref")
+    (crosses,) = (line for line in figure.axes[0].lines if line.get_label() == "diverged")
+    np.testing.assert_array_equal(crosses.get_xdata(), 900.0 + 10.0 * np.flatnonzero(diverged))
+    np.testing.assert_array_equal(crosses.get_ydata(), np.array([3, 3, 1])[np.array(diverged) > 0])
+    told = f"; {sum(diverged)} of 3 speeds diverged"
+    most = 1 - min(diverged)
+    assert figure.axes[1].get_title() == (f"at most {most} of 2 blades above yield at one speed{told}" if stressed else "")
+    plt.close(figure)
+
+
+def test_a_rotor_has_a_dataset_a_table_and_figures_where_there_is_one(root):
+    chosen = {"blades": ["Ref", "S100"], "scenes": ["abradable", "direct"], "fidelity": "draft"}
+    sweep = Sweep(load_settings(chosen, root))
+    assert not rotor_runs(sweep) and remarks(sweep.settings) == []
+    assert not any(targets(sweep).values()) and not any(joined_dataset(sweep).values())
+    above = command_line_document({"abradable": {"rotor": {"blades": 5, "missing": [2]}, "results": ["stress"]}})
+    sweep = Sweep(load_settings(chosen, root, scenes_above=above))
+    assert rotor_runs(sweep) == [("Ref", "abradable"), ("S100", "abradable")]
+    assert joined_dataset(sweep) == {"<results>/rotor.nc": [{}]}
+    figures = {
+        f"<results>/figures/rotor_{{blade}}__{{scene}}.{suffix}": paths.of_runs(rotor_runs(sweep)) for suffix in ("png", "pdf")
+    }
+    assert targets(sweep) == {"<results>/rotor.nc": [{}], "<results>/rotors.csv": [{}]} | figures
+    (remark,) = remarks(sweep.settings)
+    assert remark.startswith("scene 'abradable': 4 blades on one lining cost as many times a single one")

@@ -1,0 +1,169 @@
+"""The section rotor of a scene: tables by number of a blade from files and from Python, what is drawn, and what is refused."""
+
+import json
+
+import jsonschema
+import numpy as np
+import pytest
+from test_refusals import edit
+
+import r37
+from r37core.config import ConfigError, checked_scene
+from r37core.config.changed_numbers import changed_scene, scene_numbers
+from r37core.config.rotor_section import RotorSection
+from r37core.contact.rotor import Rotor
+from r37core.plain import from_plain, to_plain
+from r37core.product.reading import read_settings
+from r37core.yaml_file import load_yaml
+
+
+def lined(**rotor):
+    casing = {"clearance_m": 3.56e-4}
+    lining = {"thickness_m": 5e-3, "elastic_modulus_pa": 2e10, "plastic_modulus_pa": 5e9, "yield_stress_pa": 1.5}
+    return {"casing": casing, "lining": lining, "results": ["stress"], "rotor": rotor}
+
+
+def test_a_rotor_is_drawn_from_a_seed():
+    spread = {"mistuning_spread_percent": {"normal": 1.0}, "longer_spread_m": {"uniform": 2e-5}}
+    rotor = checked_scene(lined(blades=36, **spread)).rotor
+    assert rotor == checked_scene(lined(blades=36, **spread)).rotor == from_plain(Rotor, to_plain(rotor))
+    assert rotor != checked_scene(lined(blades=36, seed=1, **spread)).rotor
+    assert 0.5 < 100.0 * np.std(rotor.frequency_factors) < 1.5 and 1e-5 < np.max(np.abs(rotor.longer)) < 2e-5
+    # a blade keeps its draw where another one is missing or has a value of its own
+    fewer = checked_scene(lined(blades=36, missing=[2], mistuning_percent={1: 3.0}, **spread)).rotor
+    assert fewer.numbers == (1, *range(3, 37)) and fewer.frequency_factors[0] == 1.03
+    assert fewer.frequency_factors[1:] == rotor.frequency_factors[2:] and fewer.angles[1] == rotor.angles[2]
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"rotor": {"blades": 0}}, "rotor.blades: found 0"),
+        ({"rotor": {"blades": 4, "missing": [5]}}, "rotor.missing: found blade 5; allowed: 1 to 4"),
+        ({"rotor": {"blades": 2, "missing": [1, 2]}}, "rotor.missing: found all blades"),
+        ({"rotor": {"blades": 4, "angles_deg": [0.0]}}, "rotor.angles_deg: found 1 angles; allowed: 4"),
+        (
+            {"rotor": {"blades": 4, "longer_spread_m": {"normal_percent": 1.0}}},
+            "rotor.longer_spread_m: found a spread in percent",
+        ),
+        ({"rotor": {"blades": 36, "mistuning_spread_percent": {"normal": 50.0}}}, "a narrower spread, a uniform one"),
+        ({"results": ["signal"]}, "results: found signal with a rotor"),
+        ({"lining": None}, "run a single blade for each"),
+        ({"lining": {"rings": "shared"}}, "one ring of bars per node"),
+    ],
+)
+def test_what_cannot_be_run_is_refused_in_one_line(changes, message):
+    entry = lined(blades=4)
+    for key, value in changes.items():
+        if value is None:
+            del entry[key]
+        else:
+            entry[key] = {**entry[key], **value} if isinstance(value, dict) and key != "rotor" else value
+    with pytest.raises(ConfigError, match=message.replace("(", r"\(")) as refusal:
+        checked_scene(entry)
+    assert "\n" not in str(refusal.value)
+
+
+TABLES = ["{ 1: 0.4, 3: -0.7 }", '{ "1": 0.4, "3": -0.7 }', "{ 01: 0.4, '3': -0.7 }"]
+
+
+@pytest.mark.parametrize("table", TABLES)
+def test_tables_by_number_stand_in_a_file(config_copy, table):
+    """The number of a blade is a number or a text there, and the schema for editors allows both."""
+    scenes = config_copy / "config/scenes.yaml"
+    rotor = f"rotor: {{ blades: 4, mistuning_percent: {table}, longer_m: {table.replace('0.', '0.0')} }}"
+    edit(scenes, "abradable:\n", f"abradable:\n  {rotor}\n")
+    edit(scenes, "results: [spectrum, signal, stress, wear, energy]", "results: [stress]")
+    of_file = read_settings(config_copy).scenes["abradable"].scene.rotor
+    assert of_file.frequency_factors == (1.004, 1.0, 0.993, 1.0)
+    assert of_file.longer == (0.04, 0.0, -0.07, 0.0)
+    schema = json.loads((config_copy / "config/schemas/scenes.schema.json").read_text())
+    jsonschema.validate(load_yaml(scenes), schema)
+    edit(scenes, "0.4", "4000")
+    with pytest.raises(jsonschema.ValidationError, match="4000 is greater than the maximum"):
+        jsonschema.validate(load_yaml(scenes), schema)
+    with pytest.raises(ConfigError, match=r"^config/scenes\.yaml:\d+: abradable\.rotor\.mistuning_percent\.0?1: found 4000"):
+        read_settings(config_copy)
+
+
+@pytest.mark.parametrize(
+    "rotor",
+    [
+        {"rotor": {"blades": 4, "mistuning_percent": {1: 0.4, 3: -0.7}}},
+        {"rotor": {"blades": 4, "mistuning_percent": {"1": 0.4, "03": -0.7}}},
+        {"rotor": {"blades": 4, "mistuning_percent": {np.int64(1): 0.4, np.int8(3): np.float32(-0.7)}}},
+        {"rotor.blades": 4, "rotor.mistuning_percent.1": 0.4, "rotor.mistuning_percent.3": -0.7},
+    ],
+)
+def test_tables_by_number_are_given_in_python(rotor):
+    scene = r37.scene("abradable", results=["stress"], **rotor)
+    np.testing.assert_allclose(scene.entry.scene().rotor.frequency_factors, (1.004, 1.0, 0.993, 1.0), rtol=1e-8)
+
+
+def test_a_blade_of_a_file_has_another_value_in_python(config_copy):
+    scenes = config_copy / "config/scenes.yaml"
+    edit(scenes, "abradable:\n", "abradable:\n  rotor: { blades: 3, longer_m: { 1: 2.0e-5, 2: 3.0e-5 } }\n")
+    edit(scenes, "results: [spectrum, signal, stress, wear, energy]", "results: [stress]")
+    changed = r37.scene("abradable", file=scenes, rotor={"longer_m": {2: -1e-5, 3: 5e-6}})
+    assert changed.entry.scene().rotor.longer == (2e-5, -1e-5, 5e-6)
+
+
+def test_a_member_of_a_sample_has_another_value_of_one_blade():
+    entry = r37.scene("abradable", results=["stress"], rotor={"blades": 2, "longer_m": {2: 3e-5}}).entry
+    assert scene_numbers(entry)["rotor.longer_m.2"] == 3e-5
+    assert changed_scene(entry, {"rotor.longer_m.2": 4e-5}).rotor.longer == (0.0, 4e-5)
+
+
+BLADES = "the number of a blade, from 1 to 1000"
+BOUNDS = "at least -0.1, at most 0.1"
+REFUSALS = [
+    ({"longer_m": {"a": 1e-5}}, rf"longer_m\.a: found the key 'a'; allowed: {BLADES}"),
+    ({"longer_m": {0: 1e-5}}, rf"longer_m\.0: found the key 0; allowed: {BLADES}"),
+    ({"longer_m": {"-1": 1e-5}}, rf"longer_m\.-1: found the key '-1'; allowed: {BLADES}"),
+    ({"longer_m": {1001: 1e-5}}, rf"longer_m\.1001: found the key 1001; allowed: {BLADES}"),
+    ({"longer_m": {1.5: 1e-5}}, rf"longer_m: found the key 1\.5; allowed: {BLADES}"),
+    ({"longer_m": {True: 1e-5}}, rf"longer_m\.1: found the key True; allowed: {BLADES}"),
+    ({"longer_m": {"9" * 5000: 1e-5}}, rf"longer_m\.9+ \.\.\.: found the key '9+ \.\.\.; allowed: {BLADES}"),
+    ({"longer_m": {5: 1e-5}}, r"longer_m\.5: found blade 5; allowed: 1 to 4, the number of blades"),
+    ({"longer_m": {"1": 1e-5, 1: 2e-5}}, r"longer_m: found blade 1 twice; allowed: each blade once"),
+    ({"longer_m": [1e-5]}, r"longer_m: found \[1e-05\]; allowed: a value for each number of a blade, as in"),
+    ({"longer_m": {1: "x"}}, rf"longer_m\.1: found 'x'; allowed: number, {BOUNDS}"),
+    ({"longer_m": {1: None}}, rf"longer_m\.1: found nothing; allowed: number, {BOUNDS}"),
+    ({"longer_m": {1: 0.2}}, rf"longer_m\.1: found 0\.2; allowed: number, {BOUNDS}"),
+    ({"longer_m": {1: float("nan")}}, rf"longer_m\.1: found nan; allowed: number, {BOUNDS}"),
+    ({"mistuning_percent": {1: -96.0}}, r"mistuning_percent\.1: found -96\.0; allowed: number, at least -95, at most 1000"),
+    ({"longer_spread_m": {"uniform": 1e12}}, r"longer_spread_m\.uniform: found 1e\+12; allowed: at most 0\.1$"),
+    ({"longer_spread_m": {"normal": 1e12}}, r"longer_spread_m\.normal: found 1e\+12; allowed: at most 0\.1$"),
+    ({"longer_spread_m": {"between": [-0.2, 0.0]}}, rf"longer_spread_m\.between: found -0\.2; allowed: {BOUNDS}$"),
+    ({"longer_spread_m": {"between": [0.0, 0.2]}}, rf"longer_spread_m\.between: found 0\.2; allowed: {BOUNDS}$"),
+    ({"longer_spread_m": {"values": [0.0, 1e12]}}, rf"longer_spread_m\.values: found 1e\+12; allowed: {BOUNDS}$"),
+    ({"longer_spread_m": {"normal": 0.1}}, rf"longer_spread_m: found -?0\.1\d* of blade \d; allowed: {BOUNDS}; a narrower"),
+    ({"mistuning_spread_percent": {"uniform": 96.0}}, r"mistuning_spread_percent\.uniform: found 96; allowed: at most 95$"),
+    (
+        {"mistuning_spread_percent": {"values": [1e12]}},
+        r"mistuning_spread_percent\.values: found 1e\+12; allowed: at least -95, ",
+    ),
+    ({"angles_deg": [5.0] * 4}, r"angles_deg\.1: found 5, and blade 1 at 5; allowed: at least 0\.1 degrees between blades"),
+    ({"angles_deg": [0.0, 90.0, 180.0, 359.95]}, r"angles_deg\.0: found 0, and blade 4 at 359\.95; allowed: at least 0\.1 deg"),
+    ({"angles_deg": [-180.0, 90.0, 540.0, 0.0]}, r"angles_deg\.2: found 540, and blade 1 at -180; allowed: at least 0\.1 deg"),
+]
+
+
+@pytest.mark.parametrize(("keys", "message"), REFUSALS)
+def test_what_no_rotor_has_is_refused_in_one_line(keys, message):
+    with pytest.raises(ConfigError, match=rf"^scenes\.yaml: rotor\.{message}") as refusal:
+        checked_scene(lined(blades=4, **keys))
+    assert "\n" not in str(refusal.value)
+
+
+def test_what_is_at_a_bound_is_a_rotor():
+    """A blade may stand where a missing one would, and the widest spreads are drawn within the bounds."""
+    angles = [0.0, 0.0, 0.1, 180.0]
+    assert len(checked_scene(lined(blades=4, missing=[2], angles_deg=angles)).rotor.numbers) == 3
+    assert checked_scene(lined(blades=1, angles_deg=[7.0])).rotor.angles == (np.radians(7.0),)
+    spreads = {"longer_spread_m": {"uniform": 0.1}, "mistuning_spread_percent": {"between": [-95.0, 1000.0]}}
+    rotor = checked_scene(lined(blades=1000, mistuning_percent={1000: 1000.0, 1: -95.0}, **spreads)).rotor
+    assert min(rotor.frequency_factors) == pytest.approx(0.05) and max(rotor.frequency_factors) == 11.0
+    assert 0.0999 < max(map(abs, rotor.longer)) <= 0.1
+    section = RotorSection(blades=2, longer_spread_m={"values": [0.1]}, mistuning_percent={2: 1.0})
+    assert section.rotor().longer == (0.1, 0.1) and section.rotor().frequency_factors == (1.0, 1.01)
