@@ -5,10 +5,12 @@ import shutil
 import numpy as np
 import pytest
 import yaml
+from overlays import overlay
 
 from r37core.config import ConfigError, plain
+from r37core.config.remarks import remarks_of_spine, remarks_on_laws
 from r37core.plans.provenance import structure_hash
-from r37core.product.reading import load_settings
+from r37core.product.reading import load_settings, read_settings
 from r37core.text_file import TextFileError
 from r37core.yaml_file import load_yaml
 
@@ -185,3 +187,25 @@ def test_numbers_without_a_dot_are_numbers(tmp_path):
     (tmp_path / "b.yaml").write_text("a: 1\na: 2\n")
     with pytest.raises(TextFileError, match=r"line 2: .*'a' is given twice"):
         load_yaml(tmp_path / "b.yaml")
+
+
+@pytest.mark.parametrize(
+    ("scene", "changes", "said"),
+    [
+        ("physical_direct", {"friction": {"coefficient": 0.2}}, None),
+        ("physical_direct", {"friction": {"coefficient": 0.25}}, "friction.coefficient is 0.25; above 0.2 exact_modal and"),
+        # both integrators agree on a lining
+        ("physical_abradable", {"friction": {"coefficient": 0.6}}, None),
+        ("physical_abradable", {"lining": {"plastic_modulus_pa": 1.0e3}}, None),
+        ("physical_abradable", {"lining": {"plastic_modulus_pa": 0}}, "lining.plastic_modulus_pa is 0: bars do not harden"),
+    ],
+)
+def test_laws_beyond_what_a_run_can_bear_are_remarked_on(config_copy, scene, changes, said):
+    """Scenes that are not run say nothing."""
+    others = {name: {"friction": {"coefficient": 5}} for name in {"physical_direct", "elastic_direct"} - {scene}}
+    overlay(config_copy, "scenes.yaml", yaml.safe_dump({scene: changes, **others}))
+    overlay(config_copy, "config.yaml", f"scenes: [{scene}]")
+    remarks = remarks_on_laws(read_settings(config_copy))
+    begins = f"scene '{scene}': {said}"
+    assert [remark[: len(begins)] for remark in remarks] == ([begins] if said else [])
+    assert set(remarks) <= set(remarks_of_spine(read_settings(config_copy)))

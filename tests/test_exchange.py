@@ -16,7 +16,7 @@ from scipy import constants
 from r37core.config.imported_entry import LengthUnit
 from r37core.exchange.importing.abaqus_reader import read_abaqus
 from r37core.exchange.importing.import_mesh import _READERS, import_mesh
-from r37core.exchange.importing.meshio_reader import quietly
+from r37core.exchange.importing.meshio_reader import quietly, read_with_meshio
 from r37core.exchange.importing.source import MASS_UNITS, STIFFNESS_UNITS, SUFFIXES, digest_of, mesh_files
 from r37core.exchange.orientation import UNITS
 from r37core.exchange.refusal import ImportRefused, MeshWarning, located
@@ -148,6 +148,27 @@ def test_files_written_by_gmsh(tmp_path, suffix):
     first, last = mesh.points[mesh.node_set("tip_pressure_edge")[[0, -1]]]
     np.testing.assert_allclose(first, [0.26, -0.002, 0.0], atol=1e-9)
     np.testing.assert_allclose(last, [0.26, -0.002, 0.03], atol=1e-9)
+
+
+@pytest.mark.parametrize("grouped", [False, True])
+def test_meshes_of_gmsh_have_no_set_of_bounding_entities(tmp_path, grouped):
+    """meshio has one of a 4.1 file, with gmsh's own numbers of surfaces in it."""
+    gmsh.initialize(interruptible=False)
+    try:
+        gmsh.option.setNumber("General.Terminal", 0)
+        gmsh.model.occ.addBox(0, -2, 200, 30, 4, 60)
+        gmsh.model.occ.synchronize()
+        if grouped:
+            gmsh.model.addPhysicalGroup(3, [1], name="blade")
+        gmsh.option.setNumber("Mesh.ElementOrder", 2)
+        gmsh.option.setNumber("Mesh.MeshSizeMax", 15)
+        gmsh.model.mesh.generate(3)
+        gmsh.write(str(tmp_path / "plate.msh"))
+    finally:
+        gmsh.finalize()
+    mesh = read_with_meshio(tmp_path / "plate.msh")
+    assert list(mesh.blocks) == ["tetra10"] and not any("bounding" in name for name in mesh.sets)
+    assert ("blade" in mesh.sets) == grouped
 
 
 def test_the_edges_of_the_tip_keep_their_arc_length(files):
@@ -337,6 +358,10 @@ def test_all_elements_of_the_other_winding_are_turned(tmp_path):
         ),
         ({"orientation": replace(OURS, radial=(0, 1, 0))}, r"-90 degrees round the axis from `radial`"),
         ({"orientation": replace(OURS, radial=(0, 0, 2))}, "must be two directions, not parallel"),
+        (
+            {"orientation": replace(OURS, axis_point=(-1e6, 0, 0.0))},
+            r"would reach to 1\.\d+e\+06 m from the rotor axis \(allowed: 10 m",
+        ),
         ({"orientation": replace(OURS, axis_point=(0.23, 0, 0.0))}, "passes through the blade|from `radial`"),
         ({"orientation": replace(OURS, rotor_axis=(0, 1, 0))}, "revolution|tell"),
         ({"tip": Where("root")}, r"a radius of 0\.2 m and a tip at 0\.2 m"),

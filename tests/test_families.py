@@ -8,6 +8,8 @@ from overlays import overlay
 from plans_of_snakemake import planned_outputs
 from stubbed_runs import copy_stubbed
 
+from r37core.blade import section_changes
+from r37core.blade.profile import ProfileParameters
 from r37core.config import ConfigError, command_line_document
 from r37core.config.families import design_name
 from r37core.designs.figures import draw_designs
@@ -43,6 +45,33 @@ def test_a_range_becomes_blades_with_readable_names(read):
     np.testing.assert_allclose(tips, [(1.0, -0.003, 0.0), (1.0, 0.003, 0.0), (1.0, 0.009, 0.0)])
     # half the sweep of S100 is the benchmark's S50
     np.testing.assert_allclose(settings.blades["Sweep_50"].definition.stacking, settings.blades["S50"].definition.stacking)
+
+
+def test_a_family_is_refused_once(read):
+    rows = "".join(f"D{number},{number / 100}\n" for number in range(200))
+    with pytest.raises(ConfigError) as refusal:
+        read(
+            "Mine: { base: L50, chord_percent: 1000, designs: config/designs.csv }\n",
+            f"blade,stagger_deg\n{rows}",
+            blades=["Mine"],
+        )
+    assert len(str(refusal.value).splitlines()) == 1 and "D0" in str(refusal.value)
+
+
+def test_the_tables_of_a_family_are_read_once(read, monkeypatch):
+    rows = "".join(f"D{number},80{number / 100}\n" for number in range(200))
+    checked, profiles = [], ProfileParameters.check
+    monkeypatch.setattr(ProfileParameters, "check", lambda profile: checked.append(profile) or profiles(profile))
+    table = f"blade,material.density_kg_m3\n{rows}"
+    assert len(read("Mine: { base: S50, designs: config/designs.csv }\n", table, blades=["Mine"]).blades) == 200
+    assert len(checked) < 100
+
+
+def test_profiles_of_a_design_are_changed_once(read, config_copy, monkeypatch):
+    text = "Turned: { base: Ref, vary: { stagger_deg: [1.125, 2.125] } }\n"
+    first = read(text, blades=["Turned"]).blades
+    monkeypatch.setattr(section_changes, "_redrawn", None)
+    assert read_settings(config_copy, command_line_document({"blades": ["Turned"]})).blades == first
 
 
 def test_run_ups_of_a_family_are_those_of_its_designs(read):
@@ -100,6 +129,11 @@ def test_a_family_of_which_nothing_is_run_is_not_compared(read):
         (GRID.replace("[8000, 4500]", "[8000]") + "  combine: pairs\n", r"yaml:\d+: Grid\.vary: found chordwise_sweep_deg 2"),
         (GRID.replace("5]", "70]"), r"Grid\.chordwise_sweep_deg: design Grid_70_8000: found 70\.0; allowed: .*than 60"),
         (GRID.replace("chordwise_sweep_deg", "chordwise"), r"design Grid_-2p5_8000: found unknown key chordwise; allowed"),
+        (GRID.replace("chordwise_sweep_deg", "sweep"), r"found unknown key sweep; .* \(did you mean sweep_percent\?\)"),
+        (
+            GRID.replace("chordwise_sweep_deg", "casing.clearance_m"),
+            r"found unknown key casing\.clearance_m; .* \(a number of a scene varies under tolerances\.of_scenes",
+        ),
         (GRID.replace("density_kg_m3", "density"), r"yaml:\d+: Grid.*: found unknown key density; allowed keys: youngs"),
         (GRID.replace("[-2.5, 5]", "[5, 5]"), r"Grid\.vary\.chordwise_sweep_deg\.1: found 5\.0 twice; allowed: each once"),
         (GRID.replace("[-2.5, 5]", "[]"), r"Grid\.vary\.chordwise_sweep_deg: found \[\]; allowed: .*at least 1"),
@@ -123,6 +157,8 @@ def test_family_refusals(read, text, message):
     ("table", "message"),
     [
         ("blade,chordwise_sweep_deg\nA,x\n", r"csv: family Mine: line 2, column chordwise_sweep_deg: 'x' is not"),
+        (f"blade,chordwise_sweep_deg\nA,{'1' * 131_073}\n", r"csv: family Mine: line 1: not readable as a table"),
+        (f"blade,{'x' * 131_073}\nA,1\n", r"csv: family Mine: line 0: not readable as a table .*: field larger"),
         ("blade,chordwise_sweep_deg\nA,1\nA,2\n", r"designs\.csv: family Mine: the blade 'A' is given twice"),
         ("chordwise_sweep_deg\n1\n", r"family Mine: line 1: the table lacks the columns blade"),
         ("blade,chordwise_sweep_deg\n", r"family Mine: the table has no designs"),

@@ -1,17 +1,19 @@
 """What a new user meets with a mesh of another program: the refusal of the first attempt says what the second must have."""
 
 import re
+import time
 import warnings
 from dataclasses import replace
 
 import numpy as np
 import pytest
 import yaml
-from box_mesh import plate
+from box_mesh import box_mesh, plate
 from defaults import MeshSource, Orientation, Where
 
-from r37core.config.imported_entry import MeshEntry
+from r37core.config.imported_entry import MeshEntry, SurfaceRule
 from r37core.exchange.importing.abaqus_reader import read_abaqus
+from r37core.exchange.importing.file_material import ignored_material
 from r37core.exchange.importing.import_mesh import import_mesh
 from r37core.exchange.importing.source import mesh_files
 from r37core.exchange.orientation import OURS
@@ -338,6 +340,36 @@ def test_a_deck_may_include_a_file_twice(deck):
     read(folder)
 
 
+def test_a_deck_whose_files_include_each_other_often_is_read_once(deck):
+    """Each of 21 files includes the next one twice: two to the 20th readings, if they were done."""
+    folder = deck(lambda text: text + "*INCLUDE, INPUT=0.inc\n")
+    for number in range(20):
+        (folder / f"{number}.inc").write_text(f"*INCLUDE, INPUT={number + 1}.inc\n" * 2)
+    (folder / "20.inc").write_text("*NSET, NSET=EXTRA\n1\n")
+    begun = time.process_time()
+    read(folder)
+    assert time.process_time() - begun < 20.0
+
+
+def test_a_long_chain_of_included_files(deck):
+    folder = deck(lambda text: text + "*INCLUDE, INPUT=0.inc\n")
+    for number in range(2000):
+        (folder / f"{number}.inc").write_text(f"*INCLUDE, INPUT={number + 1}.inc\n")
+    with pytest.raises(ImportRefused, match=r"^\S+\.inc is included over 50 files; put what it holds into fewer files"):
+        mesh_files("mesh.inp", folder)
+
+
+def test_bulk_data_that_begins_after_its_end(tmp_path):
+    """meshio waited for ever for a card after BEGIN BULK."""
+    write_mesh(plate(), tmp_path / "mesh.bdf")
+    with open(tmp_path / "mesh.bdf", "a") as stream:
+        stream.write("BEGIN BULK\n")
+    text = (tmp_path / "mesh.bdf").read_text().replace("BEGIN BULK\n", "", 1)
+    (tmp_path / "mesh.bdf").write_text(text)
+    with pytest.raises(ImportRefused, match=r"mesh\.bdf: found no GRID after BEGIN BULK; the file is empty, cut short"):
+        read(tmp_path, "mesh.bdf")
+
+
 @pytest.mark.parametrize(("share", "lacking"), [(0.0, "GRID"), (0.1, "ENDDATA"), (0.9, "ENDDATA")])
 def test_bulk_data_that_is_cut_short(tmp_path, share, lacking):
     """Without a card meshio waits for one for ever."""
@@ -346,3 +378,52 @@ def test_bulk_data_that_is_cut_short(tmp_path, share, lacking):
     (tmp_path / "mesh.bdf").write_text(text[: int(share * len(text))])
     with pytest.raises(ImportRefused, match=rf"mesh\.bdf: found no {lacking}; the file is empty, cut short, or no bulk data"):
         read(tmp_path, "mesh.bdf")
+
+
+def flat_tipped(folder):
+    """A plate at 45 degrees to the axis, whose ends are planes."""
+    mesh = box_mesh(0.06, 0.004, 0.03, (6, 1, 6), origin=(0.2, -0.002, -0.015), element="hexahedron20")
+    y, z = mesh.points[:, 1], mesh.points[:, 2]
+    points = np.stack([mesh.points[:, 0], np.sqrt(0.5) * (y + z), np.sqrt(0.5) * (z - y)], axis=1)
+    write_mesh(replace(mesh, points=points), folder / "flat.vtu")
+    unknown = Where("?", tolerance=0.0)
+    return MeshSource("flat.vtu", OURS, unknown, unknown, sense_check=True)
+
+
+def test_the_first_answer_recognises_a_flat_tip(tmp_path):
+    """And what it proposes is taken by the next run."""
+    source = flat_tipped(tmp_path)
+    with pytest.raises(ImportRefused, match=r"root: found no set '\?'; and tip: found no set '\?'; the file has: ") as refusal:
+        import_mesh(source, tmp_path)
+    assert str(refusal.value).count("the file has") == 1
+    entry = yaml.safe_load("\n".join(f"{key}: {value}" for key, value in refusal.value.fitting.items()))
+    assert 1.37e-4 < entry["revolution_tolerance_m"] < 1.6e-4
+    ends = {what: SurfaceRule.model_validate(entry[what]).where() for what in ("root", "tip")}
+    with pytest.raises(ImportRefused, match="no surface of revolution"):
+        import_mesh(replace(source, **ends), tmp_path)
+    import_mesh(replace(source, **ends, revolution_tolerance=entry["revolution_tolerance_m"]), tmp_path)
+
+
+def test_empty_sets_are_not_listed(deck):
+    folder = deck(lambda text: text + "*NSET, NSET=NOTHING\n")
+    with pytest.raises(ImportRefused) as refusal:
+        read(folder, tip="?")
+    assert "NOTHING" not in str(refusal.value)
+
+
+@pytest.mark.parametrize(
+    ("file", "text", "found"),
+    [
+        ("a.inp", "*NODE\n1, 0, 0, 0\n*MATERIAL, NAME=A\n*ELASTIC\n115000., 0.32\n*DENSITY\n4.4e-9\n", None),
+        ("a.inp", "*NODE\n1, 0, 0, 0\n*MATERIAL, NAME=A\n*ELASTIC\n210000., 0.3\n*DENSITY\n7.85e-9\n", 210000.0),
+        ("a.inp", "*NODE\n1, 0, 0, 0\n*MATERIAL, NAME=A\n*ELASTIC\n115e9, 0.32\n", None),
+        ("a.inp", "*NODE\n1, 0, 0, 0\n", None),
+        ("a.bdf", "MAT1,1,2.1+11,,.3,7850.\n", 2.1e11),
+        ("a.bdf", "MAT1           1  1.15+5             .324.4-9    \n", None),
+        ("a.bdf", "MAT1*                  1         2.1+11                              .3\n*                 7850.\n", 2.1e11),
+    ],
+)
+def test_a_material_of_the_file_that_is_not_used(tmp_path, file, text, found):
+    (tmp_path / file).write_text(text)
+    other = ignored_material(file, tmp_path, TITANIUM)
+    assert other is None if found is None else other.youngs_modulus == found

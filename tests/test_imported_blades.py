@@ -54,6 +54,11 @@ def settings_with(config_copy):
     return read
 
 
+def test_a_file_that_cannot_be_read(settings_with):
+    with pytest.raises(ConfigError, match=r"blades\.yaml:\d+: Fan\.mesh: /proc/self/mem cannot be read: Input/output error"):
+        settings_with(MESH | {"mesh": "/proc/self/mem"})
+
+
 @pytest.mark.parametrize(
     ("other", "message"),
     [

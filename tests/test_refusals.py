@@ -8,6 +8,7 @@ import pytest
 
 from r37core import text_file
 from r37core.config import ConfigError, Document, command_line_document
+from r37core.config.remarks import remarks_on_speeds
 from r37core.product.reading import read_settings
 from r37core.product.schemas import MODELS
 from r37core.speeds import LARGEST_NUMBER, SpeedError, exact_text, plan_speeds
@@ -259,7 +260,7 @@ CONFIG_REFUSALS = [
     (
         "speeds_for: []",
         "speeds_for: [{ scenes: [direct], speeds: [0.01] }]",
-        r"speeds: found 0\.01 rad/s, a revolution of 1\.31e\+08 steps .*; allowed: speeds from 0\.078 rad/s",
+        r"speeds: found 0\.01 rad/s, a revolution of 1\.31e\+08 steps .*; allowed: speeds from 0\.312 rad/s",
     ),
     ("start: 750, ", "start: 0, ", r"speeds\.0\.start: found 0; allowed: number, at least 0\.001"),
     (
@@ -300,7 +301,8 @@ def test_what_is_refused_in_config_yaml(config_copy, old, new, message):
 
 
 BLADE_REFUSALS = [
-    ("50: {base: Ref}", r"found the key '50', which is a number in YAML; allowed: a name"),
+    ("50: {base: Ref}", r"50: found '50'; allowed: a name of .* that is neither 'all' nor a number"),
+    ("5.5: {base: Ref}", r"found the key '5\.5', which is a number in YAML; allowed: a name"),
     ("'50': {base: Ref}", r"50: found '50'; allowed: a name of .* that is neither 'all' nor a number"),
     ("'1e5': {base: Ref}", r"found '1e5'; allowed: a name"),
     ("all: {base: Ref}", r"all: found 'all'; allowed: a name"),
@@ -327,6 +329,11 @@ BLADE_REFUSALS = [
         "X: {base: Ref, sweep_lean: [{span_percent: 0, sweep_cm: 0, lean_deg: 0}, "
         "{span_percent: 100, sweep_cm: 1e9, lean_deg: 0}]}",
         r"X\.sweep_lean\.1\.sweep_cm: found 1000000000\.0; allowed: number, at least -100",
+    ),
+    (
+        "X: {base: Ref, sweep_lean: [{span_percent: 0, sweep_cm: 100, lean_deg: 0}, "
+        "{span_percent: 100, sweep_cm: 0, lean_deg: 0}]}",
+        r"X\.sweep_lean: blade X: span 0%: found a sweep of 100 cm; allowed: up to the height of the blade, 7\.",
     ),
 ]
 
@@ -370,6 +377,21 @@ def test_an_elastic_casing_under_a_rotor_is_not_for_central_differences(config_c
     message = r"elastic_direct\.rotor: found a rotor in an elastic casing at the level 'paper', .*; allowed: a level of exact"
     with pytest.raises(ConfigError, match=message):
         read_settings(config_copy, command_line_document(changes | {"fidelity": "paper"}))
+
+
+def test_a_run_of_too_many_steps_is_refused_and_a_long_one_says_so(config_copy):
+    edit(config_copy / "config/fidelity.yaml", "revolutions: 100,", "revolutions: 5000,")
+    message = (
+        r"speeds: found 4\.9 rad/s, a revolution of 2e\+05 steps of 6\.4e-06 s, a run of 1e\+09 steps \(5000 revolutions\); "
+        r"allowed: speeds from 4\.91 rad/s with this step and as many revolutions: a run has at most 1e\+09 steps"
+    )
+    with pytest.raises(ConfigError, match=message):
+        read_settings(config_copy, command_line_document({"fidelity": "draft", "speeds": [4.9]}))
+    settings = read_settings(config_copy, command_line_document({"fidelity": "draft", "speeds": [5]}))
+    assert remarks_on_speeds(settings) == [
+        "speeds: at 5 rad/s a run of 9.82e+08 steps (5000 revolutions) takes about 98 s of CPU time"
+    ]
+    assert not remarks_on_speeds(read_settings(config_copy, command_line_document({"fidelity": "draft", "speeds": [60]})))
 
 
 def test_a_run_that_would_not_fit_in_memory_is_refused(config_copy):
@@ -459,6 +481,15 @@ def test_numbers_are_read_alike_everywhere(tmp_path):
     file = tmp_path / "a.yaml"
     file.write_text("[1e-1, 010, .5, -3., 1E+3, 12:30, 1_000, 0x10, 2020-01-01, +7]")
     assert load_yaml(file) == [0.1, 10, 0.5, -3.0, 1000.0, "12:30", "1_000", "0x10", "2020-01-01", 7]
+
+
+def test_a_whole_number_as_a_key_is_its_text(tmp_path):
+    file = tmp_path / "a.yaml"
+    file.write_text("{ 1: 0.4, 010: 2, '3': 1, -4: x }")
+    assert load_yaml(file) == {"1": 0.4, "010": 2, "3": 1, "-4": "x"}
+    file.write_text("{ 1: 0.4, '1': 0.4 }")
+    with pytest.raises(TextFileError, match="the key '1' is given twice"):
+        load_yaml(file)
 
 
 @pytest.mark.parametrize("text", ["a: [" * 2000, "a: \x07", "a: &a [*a]", "a: 1\n---\nb: 2", "a: !!python/name:os.x"])

@@ -2,6 +2,7 @@
 
 import json
 import math
+from dataclasses import replace
 from re import fullmatch
 from types import SimpleNamespace
 
@@ -24,7 +25,7 @@ from r37core.search.choice import Constraint, Design, SearchChoice
 from r37core.search.dataset import search_dataset, search_table
 from r37core.search.entries import entries_of, write_entries
 from r37core.search.gaussian_processes import SearchPackageMissing
-from r37core.search.plan import Search, designs_of
+from r37core.search.plan import Search, choice_of, designs_of, is_asked
 from r37core.search.problem import SearchVariable
 from r37core.search.proposal import first_designs
 from r37core.search.quantity import DesignStructure, Quantity, of_contact, of_structure
@@ -68,6 +69,10 @@ def folder(config_copy):
         ("{ blade: Ref }", "search.blade: found 'Ref'; allowed: one that is run .Free."),
         ("{ variables: { nothing: [0, 1] } }", "search.variables.nothing: .*found unknown key nothing"),
         ("{ variables: { stagger_deg.middle: [0, 1] } }", "search.variables.stagger_deg.middle: .*allowed keys: hub, tip"),
+        (
+            "{ variables: { sweep_lean.1.sweep_cm: [-90, 1] } }",
+            r"sweep_lean\.1\.sweep_cm: .*found a sweep of -90 cm; allowed: up to",
+        ),
         ("{ variables: { sweep_lean.7.sweep_cm: [0, 1] } }", "sweep_lean.7.sweep_cm: .*counted from 0"),
         ("{ variables: { stagger_deg.tip: [-300, 1] } }", "search.variables.stagger_deg.tip: .*at least -90, at most 90"),
         ("{ variables: { stagger_deg.tip: [2, 1] } }", "search.variables.stagger_deg.tip: .*a lower and a higher value"),
@@ -81,7 +86,7 @@ def folder(config_copy):
         ("{ objectives: { other: { measure: frequency_hz } } }", "objectives.other: .*without mode; allowed: mode beside it"),
         (
             "{ objectives: { other: { measure: frequency_hz, mode: 1b } } }",
-            "other.mode: found 1b; allowed: one of the Campbell diagram, 1B, 1T, 2B, 4, .*campbell.modes",
+            r"other.mode: found 1b; allowed: one of the Campbell diagram, 1B, 1T, 2B, 4, 5, 6, 7, 8, 9, 10 \(campbell.modes\)",
         ),
         ("{ objectives: { other: { measure: mass_kg, mode: 1B } } }", "other.mode: found mode with mass_kg; .*left out"),
         (
@@ -121,6 +126,23 @@ def test_what_cannot_be_searched_is_refused_in_one_line(folder, changes, message
     assert "\n" not in str(refusal.value)
 
 
+def test_a_part_of_the_blades_has_a_search_where_it_has_the_start(folder):
+    overlay(folder, "config.yaml", "{ blades: [Ref, Free], run: { part: 1/2 } }")
+    assert not is_asked(read_settings(folder))
+    overlay(folder, "config.yaml", "{ run: { part: 2/2 }, search: { objectives: { lined: { scenes: [nope] } } } }")
+    with pytest.raises(ConfigError, match=r"lined.scenes: found 'nope'"):
+        read_settings(folder)
+
+
+def test_all_designs_may_be_of_the_first_round(folder):
+    overlay(folder, "config.yaml", "search: { first: 5 }")
+    settings = read_settings(folder)
+    search = Search(Sweep(settings), str, str)
+    assert [search.number_of_designs(SimpleNamespace(round=number)) for number in (0, 1)] == [5, 0]
+    assert search.last_round(None).endswith("round_1.json")
+    assert choice_of(settings).objectives == {"lined": Quantity("length_certain_rad_s", ("abradable",))}
+
+
 def test_what_the_start_does_not_have_can_neither_vary_nor_spread(folder):
     overlay(folder, "config.yaml", "{ blades: [Ref], search: { blade: Ref } }")
     file = folder / "config/config.yaml"
@@ -143,7 +165,7 @@ def test_without_contact_or_stress_or_the_package_nothing_starts(folder, monkeyp
     overlay(folder, "scenes.yaml", "abradable: { results: [stress] }")
 
     def missing():
-        raise SearchPackageMissing("pip install 'r37[search]'")
+        raise SearchPackageMissing("pip install '.[search]'")
 
     monkeypatch.setattr(checks, "library", missing)
     with pytest.raises(ConfigError, match=r"config.yaml:\d+: search: pip install"):
@@ -196,6 +218,11 @@ def test_margins_are_of_the_start_in_percent():
     assert wanted.margins({"mass": (2.1, 0.0)}, START) == pytest.approx([2.1 - 1.9, 2.2 - 2.1])
     assert all(math.isnan(margin) for margin in wanted.margins({"mass": (None, None)}, START))
     assert Constraint(Quantity("mass_kg"), 1.0, None, None, 50.0).bounds(8.0) == (1.0, 4.0)
+    for bounds, margin in (((1.5, None), 0.5), ((None, 3.0), 1.0)):
+        one = {"mass": Constraint(Quantity("mass_kg"), *bounds, None, None)}
+        assert replace(wanted, constraints=one).margins(START, START) == [margin]
+    # percent of what is not known bound nothing
+    assert wanted.margins({"mass": (2.1, 0.0)}, {"mass": (None, None)}) == []
 
 
 def test_a_round_is_read_as_it_was_written(tmp_path):
@@ -246,10 +273,10 @@ def test_quantities_of_a_structure(quantity, expected):
 def test_the_worst_of_several_scenes_counts_and_a_quantile_is_of_the_members():
     nominal = {
         "a": {"length_certain_rad_s": 3.0, "length_certain_scatter_rad_s": 0.1},
-        "b": {"length_certain_rad_s": 5.0, "length_certain_scatter_rad_s": 0.2},
+        "b": {"length_certain_rad_s": 5.0, "length_certain_scatter_rad_s": 0.05},
     }
     members = {"a": [{"length_certain_rad_s": float(value)} for value in range(11)], "b": [{"length_certain_rad_s": 7.0}] * 4}
-    assert of_contact(Quantity("length_certain_rad_s", ("a", "b")), nominal, {}) == (5.0, 0.2)
+    assert of_contact(Quantity("length_certain_rad_s", ("a", "b")), nominal, {}) == (5.0, 0.05)
     value, scatter = of_contact(Quantity("length_certain_rad_s", ("a", "b"), quantile=0.9), nominal, members)
     assert value == pytest.approx(9.0) and 0.2 < scatter < 3.0
     assert of_contact(Quantity("length_certain_rad_s", ("b",), quantile=0.5), nominal, members) == (7.0, 0.0)
@@ -322,11 +349,35 @@ def test_a_design_without_a_number_is_neither_feasible_nor_among_the_best():
     search = search_dataset(last, choice(), [0.0, 0.0])
     table = search_table(search).set_index("design")
     assert list(table.index) == ["start", *last.tried]
+    assert table.loc["start", ["round", "lined", "mass"]].tolist() == [-1, 40.0, 2.0]
     assert table.loc["d0001", "refused"] == "crossed" and not table.loc["d0001", "feasible"]
     assert not table.loc["d0002", "feasible"] and table.loc["d0002", "order"] == 0
     best = table[table["order"] > 0].sort_values("order")
     assert best["lined"].is_monotonic_increasing and best["feasible"].all() and len(best) >= 2
     assert np.isfinite(search["surrogate_q2"]).all() or search.sizes["design"] < 9
+    # of the start's 2 kg
+    np.testing.assert_allclose([search["constraint_lowest"], search["constraint_highest"]], [[0.95 * 2.0], [1.1 * 2.0]])
+
+
+@pytest.mark.parametrize(
+    ("start", "lengths", "order"),
+    [
+        (0.4, (0.1, 0.4, 0.8, 0.4), [0, 1, 2, 3]),
+        # what the start does not have, or nothing is known of, counts by the largest
+        (0.0, (0.1, 0.4, 0.8, 0.4), [1, 2, 0, 3]),
+        (None, (0.1, 0.4, 0.8, 0.4), [1, 2, 0, 3]),
+        (0.0, (0.0, 0.0, 0.0, 0.0), [2, 1, 3, 0]),
+    ],
+)
+def test_of_two_objectives_designs_that_none_beats_come_first_by_their_shares_of_the_start(start, lengths, order):
+    """The second beats the last. Sums of shares: of 0.4 and 2 1.35, 1.6 and 2.15; of 0.8 and 2 1.225, 1.1 and 1.15."""
+    wanted = replace(choice(), objectives={**choice().objectives, "mass": Quantity("mass_kg")}, constraints={})
+    gave = [{"lined": (length, 0.0), "mass": (mass, 0.0)} for length, mass in zip(lengths, (2.2, 1.2, 0.3, 1.25), strict=True)]
+    tried = {f"d{n:04d}": Design((0.5 * n, 0.2 * n), 0, None, of) for n, of in enumerate(gave)}
+    search = search_dataset(SearchRound({}, tried, {"lined": (start, 0.0), "mass": (2.0, 0.0)}), wanted, [0.0, 0.0])
+    assert [search["design"].values[1:][search["order"].values[1:] == place + 1].item() for place in range(4)] == [
+        f"d{n:04d}" for n in order
+    ]
 
 
 def test_a_search_of_which_nothing_is_feasible_has_a_table():

@@ -128,5 +128,6 @@ def test_what_is_missing_is_left_out_and_all_has_room(search):
 
 
 def test_units_and_long_keys():
-    assert [shown_unit(unit)[0] for unit in ("rad s-1", "Pa", "m", "Hz", "1")] == ["rad/s", "MPa", "mm", "Hz", ""]
+    shown = [("rad/s", 1.0), ("MPa", 1e-6), ("mm", 1e3), ("Hz", 1.0), ("%", 1.0), ("", 1.0)]
+    assert [shown_unit(unit) for unit in ("rad s-1", "Pa", "m", "Hz", "percent", "1")] == shown
     assert in_lines("stagger_deg") == "stagger_deg"

@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy.interpolate import CubicSpline
 
 import r37
 from r37core.blade.blade_surface import Blade
@@ -171,6 +172,8 @@ def test_laws_over_the_span():
     assert SpanLaw.linear(0.0, 2.0).at([0.5]) == [1.0]
     cubic = SpanLaw((0.0, 0.3, 0.5, 1.0), tuple(spans**3))
     np.testing.assert_allclose(cubic.at([0.7]), [0.7**3])
+    stations, values = (0.0, 0.2, 0.5, 0.7, 1.0), (0.0, 1.0, 0.0, 1.0, 0.0)
+    np.testing.assert_allclose(SpanLaw(stations, values).at(spans), CubicSpline(stations, values)(spans), atol=1e-12)
     np.testing.assert_array_equal(SpanLaw((0.0, 0.3, 1.0), (1.1, 1.1, 1.1)).at(spans), 1.1)
 
 
@@ -179,6 +182,9 @@ def test_an_impossible_profile_names_its_changes(profiles):
     with pytest.raises(SectionChangeError, match="span 0%: inlet_angle is 9") as refusal:
         changed_profiles(rows, {"stagger": SpanLaw.constant(np.radians(40.0)), "chord": SpanLaw.constant(1.0)})
     assert refusal.value.names == ("stagger",)
+    for share in (0.0, -0.5):
+        with pytest.raises(SectionChangeError, match=f"the share of the chord is {100 * share:g}%; it must be positive"):
+            changed_profile(rows[0], SectionChange(chord=share))
 
 
 NEUTRAL = """

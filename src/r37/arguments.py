@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from itertools import islice
 from typing import Any
 
 import numpy as np
 
 from r37core.config import ConfigError
 from r37core.config.messages import on_one_line
+from r37core.speeds import LARGEST_NUMBER
 
 Speeds = Iterable[float | Mapping[str, float]] | Mapping[str, float]
 """Numbers, and ranges `{"start": ..., "stop": ..., "step": ..., "refine_to": ...}` as in config.yaml."""
@@ -27,7 +29,8 @@ def speed_keys(speeds: Any, speeds_rpm: Any) -> dict[str, list[Any]]:
         several = [several]
     if isinstance(several, str | bytes) or not isinstance(several, Iterable):
         raise ConfigError(f"{key}: found {on_one_line(repr(several))}; allowed: a list of numbers and ranges, in {unit}")
-    return {key: [_range(entry, key, unit) if isinstance(entry, Mapping) else number(entry, key, unit) for entry in several]}
+    entries = finite(several, key)
+    return {key: [_range(entry, key, unit) if isinstance(entry, Mapping) else number(entry, key, unit) for entry in entries]}
 
 
 def speed_key(speed: Any, speed_rpm: Any) -> dict[str, list[Any]]:
@@ -59,10 +62,18 @@ def sequence_of(value: Any, single: Any, key: str, what: str) -> list[Any]:
         return [value]
     if isinstance(value, bytes) or not isinstance(value, Iterable) or isinstance(value, type):
         raise ConfigError(f"{key}: found {on_one_line(repr(value))}; allowed: {what}, or a list of them")
-    several = list(value)
+    several = finite(value, key)
     if not several:
         raise ConfigError(f"{key}: found none; allowed: at least one")
     return several
+
+
+def finite(several: Iterable[Any], key: str) -> list[Any]:
+    """The items of what may have no end. Raises ConfigError for more than there can be speeds."""
+    items = list(islice(several, LARGEST_NUMBER + 1))
+    if len(items) > LARGEST_NUMBER:
+        raise ConfigError(f"{key}: found more than {LARGEST_NUMBER} values; allowed: at most as many")
+    return items
 
 
 def mapping(value: Any, key: str, allowed: str) -> dict[str, Any]:

@@ -9,6 +9,7 @@ from typing import Any
 
 from r37core.config import ConfigError, Document, Settings
 
+from .arguments import finite
 from .call_configuration import Configuration, read_configuration
 from .choices import BladeChoice, Choice, SceneChoice
 
@@ -31,7 +32,7 @@ def chosen_scene(scene: SceneChoice | str, base: Configuration, results: Sequenc
         raise ConfigError(f"results: found {results!r}; allowed: a list of names")
     if isinstance(results, str):
         raise ConfigError(f'results: found "{results}"; allowed: a list, as in results=["{results}"]')
-    chosen = chosen.with_results(results)
+    chosen = chosen.with_results(None if results is None else finite(results, "results"))
     chosen.check()
     return chosen
 

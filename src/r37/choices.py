@@ -12,6 +12,7 @@ from typing import Any, ClassVar
 
 from r37core.config import BladeSettings, ConfigError, Document, SceneEntry, command_line_document, read_document
 from r37core.config.blades import SHARES, Blades, blade_settings
+from r37core.config.document import Without
 from r37core.config.families import Designs, with_designs, with_value
 from r37core.config.messages import did_you_mean, on_one_line
 from r37core.config.scenes import Scenes
@@ -67,7 +68,7 @@ class Choice:
             raise _unknown(f"changed {self.kind}", original, entries, file.name)
         content: dict[str, Any] = {}
         for key, value in changes.items():
-            content = with_value(content, key.split("."), plain_value(value))
+            content = with_value(content, key.split("."), Without.KEY if value is None else plain_value(value))
         changed = command_line_document({self.name: content}, place)
         if self.base is None:
             return changed
@@ -256,7 +257,8 @@ def blade(
         A config.yaml in place of the shipped one.
     **changes
         Values of keys of its entry, in the units of their names. A dot leads into a section, as in
-        `**{"material.density_kg_m3": 4430.0}`; a law over the span may also be a dictionary, or a list of its rows.
+        `**{"material.density_kg_m3": 4430.0}`; a law over the span may also be a dictionary, or a list of its rows. None leaves
+        a key out.
 
     Raises
     ------
@@ -302,7 +304,7 @@ def scene(
         A config.yaml in place of the shipped one.
     **changes
         Values of keys of its entry, in the units of their names. A dot leads into a section, as in
-        `**{"friction.coefficient": 0.1}`.
+        `**{"friction.coefficient": 0.1}`. None leaves a key out: `lining=None` is the bare casing.
 
     Raises
     ------

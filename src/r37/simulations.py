@@ -10,8 +10,8 @@ from pathlib import Path
 import xarray as xr
 from numpy.typing import ArrayLike
 
-from r37core.config import ConfigError, Settings, casing_remarks
-from r37core.config.remarks import remarks_on_points, remarks_on_speeds
+from r37core.config import ConfigError, Settings
+from r37core.config.remarks import remarks_on_input, remarks_on_points
 from r37core.dataset_file import read_dataset
 from r37core.io import FILE_ATTRIBUTES, Named, scratch_folder
 from r37core.plans import paths
@@ -247,7 +247,7 @@ def _response(
 
 def remarks_of(settings: Settings) -> list[str]:
     """What a run would remark on."""
-    return [*remarks_on_speeds(settings), *casing_remarks.of_sweep(settings), *remarks_on_points(settings)]
+    return [*remarks_on_input(settings), *remarks_on_points(settings)]
 
 
 def tell(remarks: Iterable[str]) -> None:

@@ -5,7 +5,9 @@ from __future__ import annotations
 import csv
 import io
 import re
+from collections import Counter
 from collections.abc import Iterable, Sequence
+from functools import lru_cache
 from itertools import pairwise
 from pathlib import Path
 
@@ -46,7 +48,13 @@ def read_profile_table(file: Path) -> list[ProfileParameters]:
     Raises BladeShapeError for missing columns, unreadable numbers, spans out of order or not reaching 0 and 100%,
     impossible rows and profiles that cross; TextFileError for a file that is no UTF-8 text.
     """
-    rows = _read_rows(file, PROFILE_COLUMNS)
+    return list(_profiles(read_text(file)))
+
+
+@lru_cache(maxsize=8)
+def _profiles(text: str) -> tuple[ProfileParameters, ...]:
+    """Profiles of a table's text, read once for all designs of a family."""
+    rows = _rows(text, PROFILE_COLUMNS)
     profiles = [ProfileParameters(**{name: _in_si(row, column) for column, name in PROFILE_COLUMNS.items()}) for row in rows]
     if len(profiles) > 1 and profiles[0].span > profiles[-1].span:
         profiles.reverse()
@@ -56,7 +64,7 @@ def read_profile_table(file: Path) -> list[ProfileParameters]:
     for profile in profiles:
         profile.check()
     check_profile_order(profiles)
-    return profiles
+    return tuple(profiles)
 
 
 def read_stacking_table(file: Path, blade: str) -> tuple[tuple[float, float, float], ...]:
@@ -69,10 +77,16 @@ def read_stacking_table(file: Path, blade: str) -> tuple[tuple[float, float, flo
 
 def stacking_table_rows(file: Path, blade: str) -> list[dict[str, float]]:
     """The same as they stand there, with STACKING_COLUMNS. Raises BladeShapeError when the table has none for the blade."""
-    rows = [row for row in _read_rows(file, STACKING_COLUMNS, text_columns=("blade",)) if row["blade"] == blade]
+    rows = [row for row in _stacking_rows(read_text(file)) if row["blade"] == blade]
     if not rows:
         raise BladeShapeError(f"no row of the table has '{blade}' in its column 'blade'")
     return [{column: float(row[column]) for column in STACKING_COLUMNS} for row in rows]
+
+
+@lru_cache(maxsize=8)
+def _stacking_rows(text: str) -> tuple[dict, ...]:
+    """Rows of the text of a sweep and lean table, read once for all designs of a family."""
+    return tuple(_rows(text, STACKING_COLUMNS, text_columns=("blade",)))
 
 
 def read_designs(file: Path) -> tuple[tuple[str, ...], dict[str, tuple[float, ...]]]:
@@ -80,17 +94,15 @@ def read_designs(file: Path) -> tuple[tuple[str, ...], dict[str, tuple[float, ..
 
     Raises BladeShapeError for missing columns, unreadable numbers and a name given twice; TextFileError as for others.
     """
-    first = next(csv.reader(io.StringIO(read_text(file), newline="")), [])
-    keys = tuple(column.strip() for column in first if column.strip() != "blade")
-    rows = _read_rows(file, keys, text_columns=("blade",))
-    if not keys or not rows:
+    rows = _rows(read_text(file), None, text_columns=("blade",))
+    keys = tuple(column for column in rows[0] if column != "blade") if rows else ()
+    if not keys:
         raise BladeShapeError(
             "the table has no designs; it needs the column blade, one more for each key, and a row for each blade"
         )
-    names = [row["blade"] for row in rows]
-    twice = next((name for name in names if names.count(name) > 1), None)
-    if twice is not None:
-        raise BladeShapeError(f"the blade '{twice}' is given twice")
+    twice = [name for name, times in Counter(row["blade"] for row in rows).items() if times > 1]
+    if twice:
+        raise BladeShapeError(f"the blade '{twice[0]}' is given twice")
     return keys, {row["blade"]: tuple(row[key] for key in keys) for row in rows}
 
 
@@ -110,6 +122,17 @@ def stacking_rows(rows: Sequence[dict]) -> tuple[tuple[float, float, float], ...
                 "allowed: up to 100 cm, less than 90 degrees"
             )
     return table
+
+
+def check_sweep(stacking: Sequence[tuple[float, float, float]], profiles: Sequence[ProfileParameters]) -> None:
+    """Raise BladeShapeError for rows of sweep and lean that shift a profile by more than the blade is high."""
+    height = profiles[-1].inlet_radius - profiles[0].inlet_radius
+    for span, sweep, _ in stacking:
+        if abs(sweep) > height:
+            raise BladeShapeError(
+                f"span {100 * span:g}%: found a sweep of {100 * sweep:g} cm; allowed: up to the height of the blade, "
+                f"{100 * height:.3g} cm"
+            )
 
 
 def _in_si(row: dict, column: str) -> float:
@@ -138,11 +161,14 @@ def check_profile_order(profiles: Sequence[ProfileParameters]) -> None:
                 )
 
 
-def _read_rows(file: Path, number_columns: Iterable[str], text_columns: tuple[str, ...] = ()) -> list[dict]:
-    wanted = [*text_columns, *number_columns]
-    reader = csv.DictReader(io.StringIO(read_text(file), newline=""), strict=True)
+def _rows(text: str, number_columns: Iterable[str] | None, text_columns: tuple[str, ...] = ()) -> list[dict]:
+    """Rows by column; without `number_columns` all but the texts are numbers."""
+    reader = csv.DictReader(io.StringIO(text, newline=""), strict=True)
     try:
         reader.fieldnames = header = [column.strip() for column in reader.fieldnames or []]
+        if number_columns is None:
+            number_columns = [column for column in header if column not in text_columns]
+        wanted = [*text_columns, *number_columns]
         missing = [column for column in wanted if column not in header]
         if missing:
             raise BladeShapeError(

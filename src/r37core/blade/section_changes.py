@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, fields, replace
+from functools import lru_cache
 
 import numpy as np
 import scipy
@@ -52,6 +53,8 @@ def changed_profiles(profiles: Sequence[ProfileParameters], laws: Mapping[str, S
 
     Raises SectionChangeError for a profile that becomes impossible or crosses another.
     """
+    if not laws:
+        return tuple(profiles)
     spans = [profile.span for profile in profiles]
     values = {name: law.at(spans) for name, law in laws.items()}
     changes = [SectionChange(**{name: float(several[i]) for name, several in values.items()}) for i in range(len(spans))]
@@ -65,8 +68,12 @@ def changed_profiles(profiles: Sequence[ProfileParameters], laws: Mapping[str, S
     return changed
 
 
+@lru_cache(maxsize=2**15)
 def changed_profile(profile: ProfileParameters, change: SectionChange) -> ProfileParameters:
-    """The profile with one change; neutral parts of it leave every bit. Raises SectionChangeError."""
+    """The profile with one change; neutral parts of it leave every bit. Raises SectionChangeError.
+
+    It takes a millisecond, and a call of r37 reads the designs of a family several times.
+    """
     try:
         if set(change.names) - {"thickness"}:
             profile = _redrawn(profile, change)

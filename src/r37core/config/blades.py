@@ -186,14 +186,22 @@ class BladeSettings:
         return self if self.material is None else replace(self, material=replace(self.material, yield_stress=math.inf))
 
 
-def all_blades(names: Iterable[str], entries: Mapping[str, Any], root: Path, document: Document) -> dict[str, BladeSettings]:
-    """The blades of these names. Raises the ConfigErrors of all of them, but not of one whose base is refused before it."""
+def all_blades(
+    names: Iterable[str], entries: Mapping[str, Any], family_of: Mapping[str, str], root: Path, document: Document
+) -> dict[str, BladeSettings]:
+    """The blades of these names. Raises the ConfigErrors of all of them, but not of one whose base is refused before it.
+
+    Of designs of one family, `family_of` design -> family, the first refusal is enough: they have nearly all in common.
+    """
     refusals = ConfigRefusals()
     blades: dict[str, BladeSettings | None] = {}
+    refused_families: set[str] = set()
     for name in names:
-        base = getattr(entries[name], "base", None)
-        known = base not in blades or blades[base] is not None
+        base, family = getattr(entries[name], "base", None), family_of.get(name, "")
+        known = (base not in blades or blades[base] is not None) and family not in refused_families
         blades[name] = refusals.of(blade_settings, name, entries, root, document) if known else None
+        if family and blades[name] is None:
+            refused_families.add(family)
     refusals.tell()
     return {name: blade for name, blade in blades.items() if blade is not None}
 
@@ -226,9 +234,11 @@ def blade_settings(name: str, entries: Mapping[str, Any], root: Path, document: 
             _source(entry, first, root, document), material, entries[name].contact, in_si(StressSubmesh, entry.stress_submesh)
         )
     shift: dict[str, Any] = {}
+    place = name, "base"
     for link in chain:
         for key in SHIFTS:
             if getattr(entries[link], key) is not None:
+                place = link, key
                 shift = _shift(link, key, getattr(entries[link], key), root, document)
         shift = _scaled(link, entries[link], shift, document)
     table = entry.profiles
@@ -237,6 +247,10 @@ def blade_settings(name: str, entries: Mapping[str, Any], root: Path, document: 
     profiles = tuple(rows)
     for link in chain:
         profiles = _changed(link, entries[link], profiles, document)
+    try:
+        profile_tables.check_sweep(shift.get("stacking") or (), profiles)
+    except BladeShapeError as error:
+        raise document.error(place, f"blade {name}: {error}") from None
     return BladeSettings(BladeDefinition(name, profiles, **shift), material, entries[name].contact)
 
 
@@ -265,6 +279,9 @@ def _source(entry: MeshEntry | MatricesEntry, name: str, root: Path, document: D
         return entry.source(root)
     except ImportRefused as error:
         raise document.error((name, error.key or "mesh"), str(error)) from None
+    except OSError as error:
+        key = "mesh" if isinstance(entry, MeshEntry) else "matrices"
+        raise document.error((name, key), f"{error.filename or getattr(entry, key)} cannot be read: {error.strerror}") from None
 
 
 def _material(chain: Sequence[str], entries: Mapping[str, Any], document: Document) -> fem_material.Material:

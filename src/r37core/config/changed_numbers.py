@@ -10,6 +10,8 @@ from typing import Any
 from pydantic import BaseModel, Field, ValidationError
 
 from r37core.blade.definition import BladeDefinition
+from r37core.blade.profile import BladeShapeError
+from r37core.blade.profile_tables import check_sweep
 from r37core.blade.section_changes import SectionChangeError
 from r37core.contact.scene import Scene
 from r37core.fem.material import Material
@@ -136,7 +138,12 @@ def _changed_shape(definition: BladeDefinition, changes: Mapping[str, float]) ->
         blamed = [key for key in changes if key.split(".")[0] in changed_keys(error)]
         text = str(error) if len(blamed) == 1 else f"{' and '.join(blamed)}: {error}"
         raise ImpossibleValueError(blamed[0], text) from None
-    return replace(definition, profiles=profiles, stacking=_changed_stacking(definition.stacking, shape))
+    stacking = _changed_stacking(definition.stacking, shape)
+    try:
+        check_sweep(stacking or (), profiles)
+    except BladeShapeError as error:
+        raise ImpossibleValueError(next((key for key in changes if "sweep" in key), next(iter(changes))), str(error)) from None
+    return replace(definition, profiles=profiles, stacking=stacking)
 
 
 def _changed_stacking(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
+from enum import Enum
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -20,6 +21,12 @@ Result = TypeVar("Result")
 
 _MOST_LINES = 20
 """Of a message with several refusals."""
+
+
+class Without(Enum):
+    """In place of a value, in a document that lies on top of another: the key is left out."""
+
+    KEY = "left out"
 
 
 class ConfigError(ValueError):
@@ -132,7 +139,8 @@ def command_line_document(values: Mapping[str, Any], name: str = "--config") -> 
 
 def _with_numbers(value: Any) -> Any:
     if isinstance(value, Mapping):
-        return {key: _with_numbers(inner) for key, inner in value.items()}
+        # a table by numbers, as a file has it
+        return {str(key) if type(key) is int else key: _with_numbers(inner) for key, inner in value.items()}
     if isinstance(value, list | tuple):
         return [_with_numbers(inner) for inner in value]
     if isinstance(value, np.generic):
@@ -155,5 +163,8 @@ def _overlay(below: Any, above: Any, path: KeyPath, locations: dict[KeyPath, str
         return above
     joined = dict(below)
     for key, value in above.items():
-        joined[key] = _overlay(below[key], value, (*path, key), locations) if key in below else value
+        if value is Without.KEY:
+            joined.pop(key, None)
+        else:
+            joined[key] = _overlay(below[key], value, (*path, key), locations) if key in below else value
     return joined

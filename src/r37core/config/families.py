@@ -17,17 +17,27 @@ from r37core.blade.profile_tables import read_designs
 from r37core.speeds import exact_text
 from r37core.text_file import TextFileError
 
-from .blades import LARGEST_FAMILY, BladeEntry, Variation
+from .blade_sections import MaterialSection
+from .blades import LARGEST_FAMILY, SHARES, BladeEntry, Variation
 from .document import ConfigError, Document
 from .imported_entry import MatricesEntry, MeshEntry
-from .messages import explain
+from .messages import did_you_mean, explain, on_one_line
+from .scenes import SceneEntry
 from .section import check_name, check_names
+from .section_laws import SECTION_KEYS
 
 AnyEntry = BladeEntry | MeshEntry | MatricesEntry
 """One blade, or one family."""
 
 FAMILY_KEYS = ("vary", "combine", "designs")
 """Keys of an entry that make it a family; its other keys are those of every design."""
+
+
+VARIED = (
+    *("chordwise_sweep_deg", *SHARES, *SECTION_KEYS, *(f"{key}.{end}" for key in SECTION_KEYS for end in ("hub", "tip"))),
+    *(f"material.{key}" for key in MaterialSection.model_fields),
+)
+"""Keys with a number that may vary in a family, besides those in the rows of a table."""
 
 
 @dataclass(frozen=True)
@@ -48,6 +58,11 @@ class Designs:
     entries: dict[str, AnyEntry]
     families: dict[str, Family]
     document: Document
+
+    @property
+    def family_of(self) -> dict[str, str]:
+        """Design -> family."""
+        return {design: name for name, family in self.families.items() for design in family.designs}
 
     def named(self, names: Iterable[str]) -> list[str]:
         """Each of the blades, and of the families' designs, once."""
@@ -120,6 +135,7 @@ def design_entry(family: str, entry: BladeEntry, values: Mapping[str, float], de
     """The entry of one design, checked like one that a user wrote."""
     content = entry.model_dump(exclude_none=True, exclude_unset=True, exclude=set(FAMILY_KEYS))
     for key, value in values.items():
+        _check_varies(key, family, design, document)
         try:
             content = with_value(content, key.split("."), value)
         except (KeyError, IndexError, TypeError, ValueError):
@@ -136,7 +152,20 @@ def design_entry(family: str, entry: BladeEntry, values: Mapping[str, float], de
         raise document.error(at, f"design {design}: {text}", (family, *named)) from None
 
 
-def with_value(content: dict[str, Any], path: Sequence[str], value: float) -> dict[str, Any]:
+def _check_varies(key: str, family: str, design: str, document: Document) -> None:
+    """ConfigError for a key that does not begin like one of VARIED."""
+    first = key.split(".")[0]
+    if first in BladeEntry.model_fields:
+        return
+    hint = did_you_mean(key, VARIED)
+    if first in SceneEntry.model_fields:
+        hint = " (a number of a scene varies under tolerances.of_scenes, or as several scenes)"
+    raise document.error(
+        (family,), f"design {design}: found unknown key {on_one_line(key)}; allowed keys: {', '.join(VARIED)}{hint}"
+    )
+
+
+def with_value(content: dict[str, Any], path: Sequence[str], value: Any) -> dict[str, Any]:
     """A copy of the content with one value set; sections that are not there are made, rows of a list are not."""
     changed = copy.deepcopy(content)
     inner: Any = changed

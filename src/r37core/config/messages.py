@@ -71,6 +71,8 @@ def did_you_mean(name: str, known: Iterable[str]) -> str:
     """A question in brackets for the end of a message: the known name that is most like this one, whatever its capitals."""
     by_letters = {other.lower(): other for other in known}
     close = difflib.get_close_matches(name.lower(), by_letters, 1)
+    # of long names the beginning is enough
+    close = close or [other for other in by_letters if len(name) > 2 and other.startswith(name.lower())]
     return f" (did you mean {by_letters[close[0]]}?)" if close else ""
 
 
@@ -160,9 +162,7 @@ def _at(part: Mapping[str, Any], path: KeyPath, schema: Mapping[str, Any], varia
         if match:
             return match
     step, *rest = path
-    if isinstance(step, int):
-        inner = part.get("items")
-    else:
-        inner = part.get("properties", {}).get(step) or next(iter(part.get("patternProperties", {}).values()), None)
-        inner = inner or part.get("additionalProperties")
+    inner = part.get("items") if isinstance(step, int) else part.get("properties", {}).get(step)
+    # of a table by numbers a call may have numbers as keys
+    inner = inner or next(iter(part.get("patternProperties", {}).values()), None) or part.get("additionalProperties")
     return _at(inner, tuple(rest), schema, variants) if isinstance(inner, Mapping) else {}

@@ -2,9 +2,18 @@
 
 from __future__ import annotations
 
+from r37core.exchange.importing.file_material import ignored_material
+from r37core.exchange.importing.source import MeshSource
+
 from . import casing_remarks
 from .settings import Settings
-from .speed_choice import most_runs
+from .speed_choice import length_of_run, most_runs, slowest_speeds
+
+LONG_RUN = 10.0
+"""CPU time (s) of one simulation from which on it is said before a run starts."""
+
+LARGE_FRICTION = 0.2
+"""Coefficient up to which the two integrators agree within 2% in direct contact on patches, where the motion is settled."""
 
 
 def remarks_of_spine(settings: Settings) -> list[str]:
@@ -16,8 +25,7 @@ def remarks_of_spine(settings: Settings) -> list[str]:
         if error is not None:
             share, cost = 100 * error, measured.cpu_s_per_run
             lines.append(f"fidelity auto: level {settings.fidelity_name}, measured error {share:g}%, {cost:g} CPU s per run")
-    lines += remarks_on_speeds(settings)
-    lines += casing_remarks.of_sweep(settings)
+    lines += remarks_on_input(settings)
     lines += casing_remarks.of_left_out_modes(casing_remarks.elastic_casings(settings))
     refining = {pair: plan for pair, plan in settings.speed_plans.items() if plan.refined}
     if refining:
@@ -30,7 +38,26 @@ def remarks_of_spine(settings: Settings) -> list[str]:
     return lines
 
 
+def remarks_on_input(settings: Settings) -> list[str]:
+    """What is to be said of speeds, materials, contact laws and casings before any run, of the workflow or of a call."""
+    lines = [*remarks_on_speeds(settings), *remarks_on_materials(settings), *remarks_on_laws(settings)]
+    return [*lines, *casing_remarks.of_sweep(settings)]
+
+
 def remarks_on_speeds(settings: Settings) -> list[str]:
+    """What is to be said of speeds at which a run takes long, and of those beyond what models are made for."""
+    return [*_remarks_on_slow_runs(settings), *_remarks_on_fast_speeds(settings)]
+
+
+def _remarks_on_slow_runs(settings: Settings) -> list[str]:
+    """What is to be said of a simulation that takes long."""
+    run = max((length_of_run(settings, *of_scene) for of_scene in slowest_speeds(settings).items()), key=lambda run: run.steps)
+    if run.cpu_time < LONG_RUN:
+        return []
+    return [f"speeds: at {run.speed:g} rad/s {run.in_words} takes about {run.cpu_time:.2g} s of CPU time"]
+
+
+def _remarks_on_fast_speeds(settings: Settings) -> list[str]:
     """What is to be said of speeds beyond those that models are made for: they may be rpm."""
     fastest = max(plan.every_speed()[-1] for plan in settings.speed_plans.values())
     highest = settings.structure.maximum_speed_rad_s
@@ -41,6 +68,41 @@ def remarks_on_speeds(settings: Settings) -> list[str]:
         f"speeds: up to {fastest:g} rad/s, and structure.maximum_speed_rad_s is {highest:g}: reduced models and "
         f"Campbell diagrams are made for speeds up to that; raise it to what is run{in_rpm}"
     ]
+
+
+def remarks_on_materials(settings: Settings) -> list[str]:
+    """What is to be said of a density or a yield stress that no alloy has, and of a mesh file with another material."""
+    blades: dict[str, list[str]] = {}
+    for name, blade in settings.blades.items():
+        for key, (value, (low, high)) in ({} if blade.material is None else blade.material.unusual).items():
+            text = f"material.{key}: found {value:g}; alloys and composites have {low:g} to {high:g}: check its unit"
+            blades.setdefault(text, []).append(name)
+        if isinstance(blade.definition, MeshSource) and blade.material is not None:
+            other = ignored_material(blade.definition.file, settings.root, blade.material)
+            if other is not None:
+                text = f"{blade.definition.file} has a material of its own ({other.in_words}, in its units); it is not used"
+                blades.setdefault(f"{text}, and differs from that of blades.yaml", []).append(name)
+    return [f"{', '.join(names[:3])}{', ...' if len(names) > 3 else ''}: {text}" for text, names in blades.items()]
+
+
+def remarks_on_laws(settings: Settings) -> list[str]:
+    """What is to be said of friction under which no integrator is sure, and of a lining that resists with next to nothing."""
+    lines = []
+    for name, chosen in settings.scenes.items():
+        friction, lining = chosen.scene.friction, chosen.scene.lining
+        if friction is not None and lining is None and friction.coefficient > LARGE_FRICTION:
+            lines.append(
+                f"scene '{name}': friction.coefficient is {friction.coefficient:g}; above {LARGE_FRICTION:g} exact_modal and "
+                "central_difference differ in direct contact, at any step: CS50 by 6% at 0.25, Ref by a fifth and more from "
+                "0.5 on; compare fidelity standard with paper (docs/accuracy.md#steps-and-modes-on-seven-blades)"
+            )
+        if lining is not None and lining.plastic_modulus == 0.0:
+            lines.append(
+                f"scene '{name}': lining.plastic_modulus_pa is 0: bars do not harden, and resist with no more than "
+                f"lining.yield_stress_pa, {lining.yield_stress:g} Pa, until they are worn through; where that is little, the "
+                "blade does not move, and numbers of 0 are no result"
+            )
+    return lines
 
 
 def remarks_on_points(settings: Settings) -> list[str]:

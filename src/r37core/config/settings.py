@@ -29,8 +29,10 @@ from .study_sections import StudiesSection
 
 T = TypeVar("T")
 
-RESULTS = Path("results")
-"""Folder of the results of a run without a name."""
+
+def results_folder(run: str | None) -> Path:
+    """Folder of the results of a run with this name, or without one."""
+    return Path("results", "runs", run) if run else Path("results")
 
 
 @dataclass(frozen=True)
@@ -97,7 +99,7 @@ class Settings:
     @cached_property
     def blades(self) -> dict[str, BladeSettings]:
         """Blades to run. Raises ConfigError for tables or files that cannot be read, and shapes that are impossible."""
-        return all_blades(self.blade_names, self.designs.entries, self.root, self.documents.blades)
+        return all_blades(self.blade_names, self.designs.entries, self.designs.family_of, self.root, self.documents.blades)
 
     @cached_property
     def scene_names(self) -> list[str]:
@@ -165,7 +167,7 @@ class Settings:
     @property
     def results(self) -> Path:
         """Folder of the results."""
-        return RESULTS / "runs" / self.config.run.name if self.config.run.name else RESULTS
+        return results_folder(self.config.run.name)
 
     @property
     def logs(self) -> Path:

@@ -161,6 +161,12 @@ class Orientation:
                 "length_unit",
             )
         self._check_side(points, "the blade's middle")
+        if radius.max() > _TIP_RADIUS_BETWEEN[1]:
+            raise ImportRefused(
+                f"the blade would reach to {radius.max():.3g} m from the rotor axis (allowed: {_TIP_RADIUS_BETWEEN[1]:g} m); "
+                "check axis_point, rotor_axis and length_unit",
+                "axis_point",
+            )
         if radius.min() < 1e-3 * span:
             raise ImportRefused("the rotor axis passes through the blade; check rotor_axis and axis_point")
 

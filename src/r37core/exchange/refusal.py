@@ -53,7 +53,11 @@ class Refusals:
     def tell(self) -> None:
         """Raise what was kept as one ImportRefused, which blames the first one's key."""
         if self._kept:
-            reasons = dict.fromkeys(error.reason for error in self._kept)
+            reasons = list(dict.fromkeys(error.reason for error in self._kept))
+            beginnings, ends = zip(*(reason.partition("; ")[::2] for reason in reasons), strict=True)
+            if len(reasons) > 1 and len(set(ends)) == 1:
+                # what helps all of them, such as the sets of the file, is said once
+                reasons = [*beginnings[:-1], f"{beginnings[-1]}; {ends[0]}"]
             raise ImportRefused(f"{self._file}: " + "; and ".join(reasons), self._kept[0].key)
 
 

@@ -11,6 +11,7 @@ from r37core.declared import Key
 
 _SOUND_BETWEEN = (300.0, 20000.0)
 _STIFFNESS_BETWEEN = (1e8, 2e12)
+_DENSITIES, _YIELD_STRESSES = (1000.0, 20000.0), (1e7, 5e9)
 
 
 @dataclass(frozen=True)
@@ -29,6 +30,16 @@ class Material:
         """Lame's first constant and the shear modulus (Pa)."""
         shear = self.youngs_modulus / (2.0 * (1.0 + self.poissons_ratio))
         return 2.0 * shear * self.poissons_ratio / (1.0 - 2.0 * self.poissons_ratio), shear
+
+    @property
+    def unusual(self) -> dict[str, tuple[float, tuple[float, float]]]:
+        """Key -> value and usual range, in the key's unit, of what lies outside that of alloys and composites."""
+        numbers = {"density_kg_m3": (self.density, _DENSITIES), "yield_stress_pa": (self.yield_stress, _YIELD_STRESSES)}
+        return {
+            key: (value, usual)
+            for key, (value, usual) in numbers.items()
+            if np.isfinite(value) and not usual[0] <= value <= usual[1]
+        }
 
     def check_units(self) -> None:
         """Raise ValueError for a stiffness and density that no solid has in SI units: N, mm and t mixed with m and kg."""

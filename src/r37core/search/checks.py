@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from r37core.blade.definition import BladeDefinition
+from r37core.blade.profile import BladeShapeError
+from r37core.blade.profile_tables import check_sweep, stacking_rows
 from r37core.config import ConfigError, Settings
 from r37core.config.blades import SHARES, BladeEntry
 from r37core.config.changed_numbers import BLADE_KEYS, ImpossibleValueError, blade_number, scene_numbers
@@ -30,9 +32,8 @@ def search_can_be_run(settings: Settings) -> None:
     for key, bounds in entry.variables.items():
         for value in bounds:
             _has_values(designs, document, ("search", "variables", key), {key: value})
-    for place in (0, 1):
-        together = {key: bounds[place] for key, bounds in entry.variables.items()}
-        _has_values(designs, document, ("search", "variables"), together)
+    # keys that exclude each other do so at any value
+    _has_values(designs, document, ("search", "variables"), {key: lowest for key, (lowest, _) in entry.variables.items()})
     table = settings.blades[entry.blade].definition
     for key in SHARES:
         if key in entry.variables and isinstance(table, BladeDefinition) and table.stacking is None:
@@ -48,8 +49,11 @@ def search_can_be_run(settings: Settings) -> None:
 def _has_values(designs: SearchDesigns, document: Document, path: KeyPath, values: dict[str, float]) -> None:
     """ConfigError, at `path`, where the entry cannot have these values of some variables."""
     try:
-        designs.with_values("of the search", values)
-    except ConfigError as error:
+        design = designs.with_values("of the search", values)
+        start = designs.blade("of the search", None).definition
+        if design.sweep_lean and isinstance(start, BladeDefinition):
+            check_sweep(stacking_rows([row.model_dump() for row in design.sweep_lean]), start.profiles)
+    except (ConfigError, BladeShapeError) as error:
         raise document.error(path, str(error)) from None
 
 

@@ -37,14 +37,12 @@ def search_dataset(last: SearchRound, choice: SearchChoice, start_values: Sequen
 
 
 def _best(tried: Sequence[Evaluated], start: Evaluated) -> list[str]:
-    """Names of the feasible designs, the best first: by the one objective; of several those that no other beats come first.
+    """Names of the feasible designs, the best first: those that no other beats, then the others.
 
-    These are in the order of the sum of their objectives, each as a share of the start's, so that what the start has least of
-    counts most; where that is 0, as a share of the largest.
+    Both are in the order of the sum of their objectives, each as a share of the start's, so that what the start has least of
+    counts most; where that is 0 or not known, as a share of the largest.
     """
     ordered = best_first(tried)
-    if len(start.objectives) == 1:
-        return [each.name for each in ordered]
     largest = np.max([each.objectives for each in ordered], axis=0, initial=0.0)
     scales = np.where(np.array(start.objectives) > 0.0, start.objectives, np.where(largest > 0.0, largest, 1.0))
     front = {each.name for each in not_dominated(tried)}

@@ -144,8 +144,5 @@ def start_value(entry: BladeEntry, key: str) -> float | None:
     if inner is None and (first in SECTION_KEYS or key in SHARES):
         return 100.0 if first.endswith("_percent") else 0.0
     for step in others:
-        if isinstance(inner, list):
-            inner = inner[int(step)] if int(step) < len(inner) else None
-        else:
-            inner = getattr(inner, step, None)
+        inner = inner[int(step)] if isinstance(inner, list) else getattr(inner, step, None)
     return float(inner) if isinstance(inner, int | float) else None

@@ -48,7 +48,7 @@ def round_after(
 def _proposed(
     tried: Mapping[str, Design], start: Mapping[str, Value], count: int, choice: SearchChoice
 ) -> list[tuple[float, ...]]:
-    if count <= 0:
+    if not count:
         return []
     if choice.method == QUASI_RANDOM:
         return first_designs(choice.variables, len(tried) + count, choice.seed)[len(tried) :]

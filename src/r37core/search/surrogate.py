@@ -98,7 +98,7 @@ def _indices(process: Fit, variables: int, seed: int) -> np.ndarray:
 
 
 def _objectives(evaluated: Sequence[Evaluated]) -> int:
-    return len(evaluated[0].objectives) if evaluated else 0
+    return len(evaluated[0].objectives)
 
 
 def _mean_of(process: Fit) -> Callable[[np.ndarray], np.ndarray]:

@@ -24,5 +24,6 @@ WING = Wing(
     targets=targets,
     remarks=remarks,
     captions=CAPTIONS,
+    closing="search.closing.closing",
     panel=Panel(joined_dataset, "search.panel.search_contents", "search/panel.js"),
 )

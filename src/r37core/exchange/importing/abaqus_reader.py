@@ -60,7 +60,7 @@ def read_abaqus(file: Path) -> RawMesh:
     Raises ImportRefused for decks with several parts or instances, and for what cannot be read.
     """
     deck = _Deck()
-    for keyword, options, rows in _blocks(file):
+    for keyword, options, rows in _blocks(file, set()):
         _take(deck, keyword, options, rows)
     labels = np.array(list(deck.points), dtype=np.int64)
     number = {label: i for i, label in enumerate(deck.points)}
@@ -74,8 +74,11 @@ def read_abaqus(file: Path) -> RawMesh:
     return RawMesh(points, labels, solid_blocks(cells), sets)
 
 
-def _blocks(file: Path) -> Iterator[tuple[str, dict[str, str], list[list[str]]]]:
-    """Keyword, options and data rows of every block, comments left out and included files read in place."""
+def _blocks(file: Path, known: set[Path]) -> Iterator[tuple[str, dict[str, str], list[list[str]]]]:
+    """Keyword, options and data rows of every block, comments left out and included files read in place.
+
+    A file that is included again is among the `known` ones: it would say the same once more.
+    """
     keyword = ""
     options: dict[str, str] = {}
     rows: list[list[str]] = []
@@ -86,7 +89,9 @@ def _blocks(file: Path) -> Iterator[tuple[str, dict[str, str], list[list[str]]]]
         yield keyword, options, rows
         (keyword, options), rows = keyword_and_options(line), []
         if keyword == "INCLUDE":
-            yield from _blocks(included(file, options))
+            if (other := included(file, options)) not in known:
+                known.add(other)
+                yield from _blocks(other, known)
             keyword = ""
     yield keyword, options, rows
 

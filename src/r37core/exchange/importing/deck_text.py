@@ -50,10 +50,14 @@ def keyword_and_options(line: str) -> tuple[str, dict[str, str]]:
     return keyword.upper(), {key.strip().upper(): value.strip().strip('"') for key, _, value in pairs}
 
 
+_DEEPEST = 50
+"""Files of which each includes the next."""
+
+
 def included_files(deck: Path) -> list[Path]:
     """The files that a deck includes, directly or not, each once.
 
-    Raises ImportRefused for a file that is not there, and for one that includes itself.
+    Raises ImportRefused for a file that is not there, for one that includes itself, and for a long chain of files.
     """
     files: dict[Path, None] = {}
     _include(deck, [], files)
@@ -71,6 +75,8 @@ def included(deck: Path, options: Mapping[str, str]) -> Path:
 
 def _include(deck: Path, above: list[Path], files: dict[Path, None]) -> None:
     above = [*above, deck.resolve()]
+    if len(above) > _DEEPEST:
+        raise ImportRefused(f"{deck.name} is included over {_DEEPEST} files; put what it holds into fewer files", "mesh")
     for line in deck_lines(deck):
         keyword, options = keyword_and_options(line)
         if keyword != "INCLUDE":

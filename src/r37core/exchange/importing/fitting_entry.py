@@ -14,7 +14,9 @@ from .axes import find_axes
 from .ends import End, caught_root, caught_tip, check_end, find_end
 from .raw_mesh import RawMesh
 from .source import MeshSource
+from .tip import is_flat, off_revolution
 
+_FLAT = 0.1  # of how far a tip is from a surface of revolution: a plane catches it that much better
 _SAME_AXES = 0.2  # difference of unit vectors: radial may point anywhere within the blade
 
 
@@ -48,7 +50,19 @@ def fitting_entry(source: MeshSource, raw: RawMesh) -> dict[str, str]:
         end = find_end(what, mesh.points, surface)
         if end is not None and not _catches(what, source, mesh, surface, end):
             entry[what] = end.rule.as_yaml()
+        if what == "tip" and end is not None:
+            entry |= _tolerance_of_flat_tip(mesh.points[end.nodes], source.revolution_tolerance)
     return entry
+
+
+def _tolerance_of_flat_tip(tip: np.ndarray, tolerance: float) -> dict[str, str]:
+    """What lets a flat tip pass, nodes at `tip` (m), shape (n, 3), where that is farther than `tolerance` (m) from a cone."""
+    off = float(np.abs(off_revolution(tip)).max())
+    if off <= tolerance or not is_flat(tip, _FLAT * off):
+        return {}
+    needed = np.ceil(1e5 * 1.05 * off) / 1e5
+    remark = f"# the tip is flat, up to {1e3 * off:.3g} mm off the casing's shape; better turn it to that"
+    return {"revolution_tolerance_m": f"{needed:g} {remark}"}
 
 
 def _fitting_unit(orientation: Orientation, raw: RawMesh) -> str | float | None:

@@ -33,11 +33,17 @@ def read_nastran(file: Path) -> RawMesh:
     Raises ImportRefused for a file without nodes or without its end.
     """
     text = file.read_text(encoding="utf-8", errors="replace")
-    # meshio waits for ever for the first card of a file without one
+    begin = re.search(r"^[ \t]*BEGIN[ \t]+BULK.*$", text, re.MULTILINE | re.IGNORECASE)
+    bulk = text if begin is None else text[begin.end() :]
+    # meshio waits for ever for the first card and the end of a file without them
     for card in ("GRID", "ENDDATA"):
-        if not re.search(rf"^{card}", text, re.MULTILINE | re.IGNORECASE):
-            raise ImportRefused(f"found no {card}; the file is empty, cut short, or no bulk data of Nastran: write it again")
-    if "BEGIN BULK" in text.upper():
+        line = re.compile(rf"^{card}", re.MULTILINE | re.IGNORECASE)
+        if not line.search(bulk):
+            after = " after BEGIN BULK" if line.search(text) else ""
+            raise ImportRefused(
+                f"found no {card}{after}; the file is empty, cut short, or no bulk data of Nastran: write it again"
+            )
+    if begin is not None:
         return read_with_meshio(file)
     with tempfile.TemporaryDirectory() as folder:
         whole = Path(folder) / file.with_suffix(".bdf").name
@@ -91,6 +97,8 @@ def _sets(mesh: Any) -> Iterator[tuple[str, np.ndarray]]:
             yield name, _nodes_where(mesh, "gmsh:physical", number, int(dimension))
     elif not getattr(mesh, "cell_tags", None):
         for name, members in mesh.cell_sets.items():
+            if name == _NO_SET:
+                continue
             pairs = zip(mesh.cells, members, strict=True)
             parts = [block.data[np.asarray(some, dtype=int)].ravel() for block, some in pairs if some is not None]
             yield name, np.concatenate([np.empty(0, dtype=int), *parts])
@@ -121,3 +129,4 @@ def _fields(mesh: Any) -> Iterator[tuple[str, np.ndarray]]:
 
 
 _MOST_VALUES = 100
+_NO_SET = "gmsh:bounding_entities"  # of which meshio has numbers of gmsh's surfaces, not of cells

@@ -37,21 +37,34 @@ class TipLines:
 
 
 def check_revolution(points: np.ndarray, tolerance: float) -> None:
-    """Refuse a tip, nodes `points`, shape (n, 3), farther than `tolerance` (m) from every surface of revolution about z.
+    """Refuse a tip, nodes `points`, shape (n, 3), farther than `tolerance` (m) from every surface of revolution about z."""
+    off = off_revolution(points)
+    worst = int(np.argmax(np.abs(off)))
+    if abs(off[worst]) > tolerance:
+        raise ImportRefused(
+            f"tip: no surface of revolution about the rotor axis: at z = {points[worst, 2]:.5g} m the radius "
+            f"{np.hypot(*points[worst, :2]):.6g} m is {1e3 * off[worst]:+.3g} mm off the meridian through all its nodes "
+            f"(allowed: revolution_tolerance_m, {1e3 * tolerance:g} mm); turn the tip to the casing's shape, or check "
+            "rotor_axis and the rule for the tip"
+        )
 
-    The meridian is fitted: radius as a parabola of z, a constant where the tip has no axial length.
+
+def off_revolution(points: np.ndarray) -> np.ndarray:
+    """By how much (m) the radius of `points`, shape (n, 3), differs from the meridian through all of them, shape (n,).
+
+    The meridian is fitted: radius as a parabola of z, a constant where the points have no axial length.
     """
     radius, z = np.hypot(points[:, 0], points[:, 1]), points[:, 2]
     size = np.ptp(points, axis=0).max()
     degree = min(2, len(np.unique(np.round(z / (1e-3 * size)))) - 1) if np.ptp(z) > 0.02 * size else 0
-    off = radius - np.polynomial.Polynomial.fit(z, radius, degree)(z)
-    worst = int(np.argmax(np.abs(off)))
-    if abs(off[worst]) > tolerance:
-        raise ImportRefused(
-            f"tip: no surface of revolution about the rotor axis: at z = {z[worst]:.5g} m the radius {radius[worst]:.6g} m is "
-            f"{1e3 * off[worst]:+.3g} mm off the meridian through all its nodes (allowed: revolution_tolerance_m, "
-            f"{1e3 * tolerance:g} mm); turn the tip to the casing's shape, or check rotor_axis and the rule for the tip"
-        )
+    return radius - np.polynomial.Polynomial.fit(z, radius, degree)(z)
+
+
+def is_flat(points: np.ndarray, within: float) -> bool:
+    """Whether `points`, shape (n, 3), lie on a plane to `within` (m)."""
+    offsets = points - points.mean(axis=0)
+    _, _, axes = np.linalg.svd(offsets, full_matrices=False)
+    return float(np.abs(offsets @ axes[-1]).max()) <= within
 
 
 def check_order(points: np.ndarray) -> None:

@@ -84,7 +84,7 @@ def _of_set(what: str, name: str, mesh: RawMesh) -> np.ndarray:
     """Mask over the nodes of a set, whose name may differ in capitals."""
     names = {known.upper(): known for known in mesh.sets}
     if name.upper() not in names:
-        known = [f"{known} ({len(mesh.sets[known])} nodes)" for known in sorted(mesh.sets)]
+        known = [f"{known} ({len(nodes)} nodes)" for known, nodes in sorted(mesh.sets.items()) if len(nodes)]
         more = f", and {len(known) - _MOST_NAMES} more" if len(known) > _MOST_NAMES else ""
         raise ImportRefused(f"{what}: found no set '{name}'; the file has: {', '.join(known[:_MOST_NAMES]) or 'none'}{more}")
     members = np.zeros(len(mesh.points), dtype=bool)
