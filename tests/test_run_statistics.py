@@ -8,8 +8,10 @@ import pytest
 from defaults import Casing, IntegrationChoice, Scene
 from integration_cases import DIRECT, LINING, oscillator
 
+from r37core.contact.laws import wear_at_the_casing
 from r37core.time_integration.casing_of_run import CasingOfRun
 from r37core.time_integration.initial_motion import InitialMotion
+from r37core.time_integration.kept_numbers import wear_numbers
 from r37core.time_integration.problem import Problem, UnstableStepError
 from r37core.time_integration.simulate import Simulation
 from r37core.time_integration.speed_run import run_speed
@@ -97,7 +99,10 @@ def test_either_edge_of_the_tip_can_diverge(edge):
 
 
 def test_wear_is_that_of_the_most_worn_ring(monkeypatch):
-    """A ring worn by a + b cos(3 theta): its largest depth, its profile and its harmonics; another ring is worn less."""
+    """A ring worn by a + b cos(3 theta): its largest depth, its profile and its harmonics; another ring is worn less.
+
+    Bars count as worn through that are worn as far as the casing behind them allows: to round-off none, or a twelfth.
+    """
     bars = 720
     theta = 2.0 * np.pi * np.arange(bars) / bars
     worn = 2e-4 + 1e-4 * np.cos(3.0 * theta) + 2e-5 * np.cos(7.0 * theta + 0.3)
@@ -132,6 +137,13 @@ def test_wear_is_that_of_the_most_worn_ring(monkeypatch):
     harmonics = np.zeros(21)
     harmonics[[0, 3, 7]] = 2e-4, 1e-4, 2e-5
     np.testing.assert_allclose(kept["wear_harmonic"], harmonics, atol=1e-15)
+    assert kept["worn_through_share"] == 0.0
+    largest = wear_at_the_casing(lining)
+    assert largest == pytest.approx(lining.thickness * 20.0 / 25.0, rel=1e-6)
+    for share, reached in ((1.0 / 12.0, largest), (1.0 / 12.0, largest * (1.0 - 1e-12)), (0.0, largest * (1.0 - 1e-6))):
+        rings = np.zeros((2, bars))
+        rings[1, : bars // 12] = reached
+        assert wear_numbers(rings, 90, lining)["worn_through_share"] == share
 
 
 def test_step_limit_of_a_lining_is_four_thirds():

@@ -40,6 +40,7 @@ def test_rotation_s_stress_is_in_it(model, stress):
     states, shapes = motion(model)
     rotation = np.full(model.stress_submesh.rotation_shapes.shape[2], 2e6)
     both = np.hstack([states @ shapes.T, np.broadcast_to(rotation, (len(states), len(rotation)))])
+    assert stress.have_rotation(both) and not stress.have_rotation(states @ shapes.T)
     found = largest_of_revolutions(stress, states, shapes, rotation, INSTANTS)
     np.testing.assert_allclose(found, in_full(stress, both), rtol=2e-6)
     assert np.all(found != largest_of_revolutions(stress, states, shapes, np.empty(0), INSTANTS))
@@ -49,9 +50,9 @@ def test_a_node_that_is_the_worst_in_one_revolution_alone_is_found():
     """Node 1 answers the second coordinate alone, which moves in one revolution; the last revolution does not know of it."""
     operator = np.zeros((6, 2, 2))
     operator[0, 0, 0], operator[3, 1, 1] = 1.0, 1.0
-    states = np.zeros((3 * 4, 2))
-    states[:, 0], states[5] = 1.0, (1.5, 2.0)
-    found = largest_of_revolutions(StressOperator(operator, 2, ""), states, np.eye(2), np.empty(0), 4)
+    states = np.zeros((3 * 3, 2))
+    states[:, 0], states[4] = 1.0, (1.5, 2.0)
+    found = largest_of_revolutions(StressOperator(operator, 2, ""), states, np.eye(2), np.empty(0), 3)
     np.testing.assert_allclose(found, [1.0, np.sqrt(3.0) * 2.0, 1.0], rtol=1e-6)
 
 

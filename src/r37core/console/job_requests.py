@@ -52,11 +52,14 @@ class Client:
             raise ValueError("no message of a job")
         if len(self._said) < _HEAD or missing > 0:
             return None
-        folder, number, *rest = [os.fsdecode(text) for text in bytes(self._said[_HEAD:]).split(b"\0")]
-        entries, arguments = rest[: int(number)], rest[int(number) :]
-        if missing or not arguments or len(self._outputs) != 2:
+        if missing or len(self._outputs) != 2:
             raise ValueError("no message of a job")
-        return Job(folder, dict(entry.split("=", 1) for entry in entries), arguments, self._outputs)
+        return _job_of(bytes(self._said[_HEAD:]), self._outputs)
+
+    def pass_on(self, to: socket.socket) -> None:
+        """Hand the client with all that it has said over to the process that reads it with `passed_on`."""
+        socket.send_fds(to, [self._said[:1]], [self.connection.fileno(), *self._outputs])
+        to.sendall(self._said[1:])
 
     def is_late(self) -> bool:
         """Whether it has had all the time that it gets."""
@@ -67,3 +70,23 @@ class Client:
         self.connection.close()
         while self._outputs:
             os.close(self._outputs.pop())
+
+
+def passed_on(source: socket.socket) -> tuple[Client, Job] | None:
+    """The next client that another process passes on, and its job; None where that process has ended. Waits for it."""
+    first, files, _, _ = socket.recv_fds(source, 1, 3)
+    if not first:
+        return None
+    size = int.from_bytes(first + source.recv(_HEAD - 1, socket.MSG_WAITALL), "little")
+    connection, *outputs = files
+    client = Client(socket.socket(fileno=connection), _outputs=outputs)
+    return client, _job_of(source.recv(size, socket.MSG_WAITALL), outputs)
+
+
+def _job_of(message: bytes, outputs: list[int]) -> Job:
+    """Raises ValueError for what no client of ours says."""
+    folder, number, *rest = [os.fsdecode(text) for text in message.split(b"\0")]
+    entries, arguments = rest[: int(number)], rest[int(number) :]
+    if not arguments:
+        raise ValueError("no message of a job")
+    return Job(folder, dict(entry.split("=", 1) for entry in entries), arguments, outputs)

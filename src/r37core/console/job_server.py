@@ -2,13 +2,15 @@
 
 Importing takes longer than a simulation, and as long as drawing a figure. Jobs reach the server through
 `workflow/scripts/start.py`, which hands over their arguments and its output, waits, and passes the exit status on; where no
-server answers, the job runs by itself. Only its owner can talk to it: the socket is in a folder of mode 0700. It ends when its
-standard input does, which Snakemake holds.
+server answers, the job runs by itself. Simulations are forked from the server, which stays light. A process of its own has
+imported what all other jobs need. Only its owner can talk to the server: the socket is in a folder of mode 0700. It ends when
+its standard input does, which Snakemake holds, and before Snakemake does unless that is killed.
 """
 
 from __future__ import annotations
 
 import ast
+import atexit
 import contextlib
 import errno
 import gc
@@ -30,7 +32,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any, NoReturn
 
-from .job_requests import PATIENCE_S, Client, Job
+from .job_requests import PATIENCE_S, Client, Job, passed_on
 
 ADDRESS = "R37_JOB_SERVER"
 """Environment variable with the socket's path, for the jobs; relative, because such a path may have a hundred letters."""
@@ -45,6 +47,9 @@ _FOLDERS = "r37_jobs_"
 
 _STOPPED_S = 2.0
 """How long a server may be stopped: who pauses all processes of a machine continues them one after another."""
+
+_END_S = 20.0
+"""How long Snakemake waits for the end of its server, which may be importing something."""
 
 _MOST_CLIENTS = 128
 """That are read at once; others wait in the system's queue."""
@@ -72,7 +77,19 @@ def start(script: Path, python: Path, say: Callable[[str], object]) -> bool:
     _KEPT.append(server)
     os.environ[ADDRESS] = str(address)
     threading.Thread(target=_watch, args=(server, folder.absolute(), say), daemon=True).start()
+    atexit.register(_end, server, folder.absolute())
     return True
+
+
+def _end(server: subprocess.Popen, folder: Path) -> None:
+    """End a server; when this returns its folder is gone, which whoever copies or removes a finished project counts on."""
+    with contextlib.suppress(OSError):
+        server.stdin.close()  # type: ignore[union-attr]
+    try:
+        server.wait(_END_S)
+    except subprocess.TimeoutExpired:
+        server.kill()
+    shutil.rmtree(folder, ignore_errors=True)
 
 
 def _remove_deserted(place: Path) -> None:
@@ -95,7 +112,7 @@ def _watch(server: subprocess.Popen, folder: Path, say: Callable[[str], object])
     except ChildProcessError:
         # somebody else has waited for it
         return
-    if end and end.si_status:
+    if end and end.si_status and not server.stdin.closed:  # type: ignore[union-attr]
         shutil.rmtree(folder, ignore_errors=True)
         say(
             f"the job server (process {server.pid}) was stopped or killed; no job is lost, but each starts by itself from now "
@@ -105,12 +122,14 @@ def _watch(server: subprocess.Popen, folder: Path, say: Callable[[str], object])
 
 def serve(address: Path, script: str) -> None:
     """Fork for every client until standard input ends, whatever clients do; see _Imported for `script`."""
-    imported = _Imported(script)
+    imported, steps = _Imported(script), _Steps(script)
     clients: list[Client] = []
     try:
         with socket.socket(socket.AF_UNIX) as listener:
-            listener.bind(str(address))
+            # a socket that nobody listens at yet is taken for that of a killed server
+            listener.bind(new := str(address.with_name("new")))
             listener.listen(256)
+            os.rename(new, address)
             signal.signal(signal.SIGCHLD, signal.SIG_IGN)
             while sys.stdin not in (ready := _ready(listener, clients)):
                 if listener in ready:
@@ -119,7 +138,7 @@ def serve(address: Path, script: str) -> None:
                         clients.append(Client(listener.accept()[0]))
                 for client in clients.copy():
                     others = [listener, *(other for other in clients if other is not client)]
-                    if _served(client, imported, others) if client.connection in ready else client.is_late():
+                    if _served(client, imported, steps, others) if client.connection in ready else client.is_late():
                         client.close()
                         clients.remove(client)
     finally:
@@ -133,7 +152,7 @@ def _ready(listener: socket.socket, clients: list[Client]) -> list[Any]:
     return select.select(watched, [], [], PATIENCE_S / 10.0 if clients else None)[0]
 
 
-def _served(client: Client, imported: _Imported, open_here: list[Any]) -> bool:
+def _served(client: Client, imported: _Imported, steps: _Steps, open_here: list[Any]) -> bool:
     """Listen to a client; whether it is done with: its job is under way, or it has said what no client of ours says.
 
     `open_here`: what a job has no use for, to be closed in its process.
@@ -142,15 +161,66 @@ def _served(client: Client, imported: _Imported, open_here: list[Any]) -> bool:
         job = client.read()
         if job is None:
             return False
-        if _is_ours(job.arguments[0], Path(imported.main).parent):
-            imported.add(job.arguments[0])
+        if os.path.abspath(job.arguments[0]) == os.path.abspath(imported.main):
             imported.make_ready(job.arguments)
             if os.fork() == 0:
-                _answer(client.connection, job, open_here)
+                _answer(client.connection, job, [*open_here, steps])
+        elif _is_ours(job.arguments[0], Path(imported.main).parent):
+            steps.take(client, open_here)
     except Exception:
         # a client that gets no answer runs its job itself
         return True
     return True
+
+
+class _Steps:
+    """A process that forks for the jobs of all scripts but the main one, begun with the first of them.
+
+    What these import, of VTK and others, would make the fork and the end of each simulation twenty milliseconds longer.
+    """
+
+    def __init__(self, main: str):
+        self._main = main
+        self._connection: socket.socket | None = None
+
+    def take(self, client: Client, open_here: list[Any]) -> None:
+        """Pass a client on; `open_here`: what that process has no use for. Raises OSError where it has been killed."""
+        ours = self._connection
+        if ours is None:
+            ours, theirs = socket.socketpair()
+            if os.fork() == 0:
+                for other in (*open_here, client, ours):
+                    other.close()
+                _serve_steps(theirs, self._main)
+            theirs.close()
+            self._connection = ours
+        try:
+            client.pass_on(ours)
+        except OSError:
+            self.close()
+            raise
+
+    def close(self) -> None:
+        """Leave the process, which ends when all have left it; the next client begins another one."""
+        if self._connection is not None:
+            self._connection.close()
+            self._connection = None
+
+
+def _serve_steps(source: socket.socket, main: str) -> NoReturn:
+    """Fork for every client that the server passes on, until it ends."""
+    imported = _Imported(main)
+    try:
+        while passed := passed_on(source):
+            client, job = passed
+            # a client that gets no answer runs its job itself
+            with contextlib.suppress(Exception):
+                imported.add(job.arguments[0])
+                if os.fork() == 0:
+                    _answer(client.connection, job, [source])
+            client.close()
+    finally:
+        os._exit(0)
 
 
 class _Imported:
@@ -182,8 +252,9 @@ class _Imported:
         self._known |= new
 
     def make_ready(self, arguments: list[str]) -> None:
-        """Let `main`, if it says how, load what a job of it has in common with others; what fails is the job's own affair."""
-        if arguments[0] == self.main and self._make_ready:
+        """Import `main` and let it load, if it says how, what its jobs have in common; what fails is the job's own affair."""
+        self.add(self.main)
+        if self._make_ready:
             with contextlib.suppress(Exception):
                 self._make_ready(*arguments[1:])
 
@@ -275,3 +346,5 @@ def _end_with(connection: socket.socket) -> None:
 
 if __name__ == "__main__":
     serve(Path(sys.argv[1]), sys.argv[2])
+    # Snakemake waits, and taking apart what was imported takes longer than all else
+    os._exit(0)

@@ -16,8 +16,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, TextIO
 
-import numpy as np
-
+from r37core.io import InputFileError
+from r37core.time_integration.speed_file import read_speed
 from r37core.time_integration.status import RunStatus
 
 QUIET_EVENTS = frozenset({"job_info", "job_started", "job_finished", "progress", "shellcmd", "resources_info"})
@@ -146,9 +146,8 @@ def quieten(handlers: Collection[logging.Handler], progress: Progress) -> bool:
 
 def _diverged(file: Path) -> bool:
     try:
-        with np.load(file) as run:
-            return int(run["status"]) == RunStatus.DIVERGED
-    except (OSError, ValueError, KeyError):
+        return int(read_speed(file)["status"]) == RunStatus.DIVERGED
+    except (InputFileError, KeyError):
         return False
 
 

@@ -1,13 +1,11 @@
 """The largest stress of each of many revolutions, of those nodes and instants that may have it. Light: jobs import it.
 
-With the deviatoric parts a to e below the von Mises stress is the length of a vector that is linear in the motion:
-
-    a = sqrt(3)/2 (xx - yy),  b = zz - (xx + yy)/2,  c, d, e = sqrt(3) (xy, yz, zx);  von Mises^2 = a^2 + b^2 + c^2 + d^2 + e^2
-
 All nodes at all instants of a hundred revolutions would take ten times as long as the simulation.
 """
 
 from __future__ import annotations
+
+from functools import reduce
 
 import numpy as np
 
@@ -26,15 +24,14 @@ def largest_of_revolutions(
     each revolution that is the worst so far, until neither gives another one. A node that is the worst at another instant
     alone is missed. In single precision.
     """
-    parts = _deviatoric(stress.operator).astype(np.float32)
-    per_number = parts[:, :, : len(shapes)] @ shapes.astype(np.float32)
-    still = parts[:, :, len(shapes) : len(shapes) + len(rotation)] @ rotation.astype(np.float32)
+    of_vibration, of_rotation = np.split(stress.deviatoric[:, :, : len(shapes) + len(rotation)], [len(shapes)], axis=2)
+    per_number, still = of_vibration @ shapes.astype(np.float32), of_rotation @ rotation.astype(np.float32)
     states = states.astype(np.float32)
 
     def squares(instants: np.ndarray | slice, nodes: np.ndarray | slice) -> np.ndarray:
-        rows = per_number[nodes]
-        values = states[instants] @ rows.reshape(-1, rows.shape[2]).T + still[nodes].ravel()
-        return np.square(values, out=values).reshape(len(values), len(rows), rows.shape[1]).sum(axis=2)
+        # part by part: a sum over a short last axis takes several times as long
+        chosen, parts = states[instants], zip(per_number[:, nodes], still[:, nodes], strict=True)
+        return reduce(np.add, (np.square(chosen @ rows.T + constant) for rows, constant in parts))
 
     everything, revolutions = slice(None), np.arange(len(states) // per_revolution)
     nodes = np.unique(squares(slice(-per_revolution, None), everything).argmax(axis=1))
@@ -50,10 +47,3 @@ def largest_of_revolutions(
         new = np.setdiff1d(at_worst.argmax(axis=1), nodes)
         nodes = np.union1d(nodes, new)
     return np.sqrt(largest.reshape(-1, per_revolution).max(axis=1).astype(float))
-
-
-def _deviatoric(operator: np.ndarray) -> np.ndarray:
-    """The parts a to e per coordinate, shape (nodes, 5, coordinates), of an operator of shape (6, nodes, coordinates)."""
-    xx, yy, zz, xy, yz, zx = operator
-    root = np.sqrt(3.0)
-    return np.stack([0.5 * root * (xx - yy), zz - 0.5 * (xx + yy), root * xy, root * yz, root * zx], axis=1)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 
 import numpy as np
@@ -22,6 +23,17 @@ class StressOperator:
     operator: np.ndarray
     coordinates: int
     region: str
+
+    @cached_property
+    def deviatoric(self) -> np.ndarray:
+        """Parts a to e per coordinate, whose length is the von Mises stress: shape (5, nodes, coordinates + shapes), float32.
+
+        a = sqrt(3)/2 (xx - yy),  b = zz - (xx + yy)/2,  (c, d, e) = sqrt(3) (xy, yz, zx)
+        """
+        xx, yy, zz, xy, yz, zx = self.operator
+        root = np.sqrt(3.0)
+        parts = (0.5 * root * (xx - yy), zz - 0.5 * (xx + yy), root * xy, root * yz, root * zx)
+        return np.stack(parts).astype(np.float32)
 
     def have_rotation(self, coordinates: np.ndarray) -> bool:
         """Whether the coordinates, shape (instants, coordinates), have the amplitudes of rotation's shapes."""

@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import json
-from typing import Any
+import os
+from collections.abc import Callable
+from functools import lru_cache
+from typing import Any, TypeVar
 
 from r37core.contact.scene import Scene
-from r37core.io import as_list
+from r37core.io import JOB_LOG, as_list, readable
 from r37core.plain import from_plain
 from r37core.rom.contact_model import ContactModel, read_contact_model
 from r37core.stress.operator import read_stress_operator
@@ -19,6 +22,7 @@ from .simulate import Simulation
 from .speed_file import write_speed
 from .speed_run import run_speed
 
+_Model = TypeVar("_Model")
 _READY = set[tuple[str, str]]()
 
 
@@ -40,7 +44,7 @@ def run_job(
     Raises InputFileError, and what Problem and `run_speed` raise.
     """
     wanted = json.loads(task)
-    operator = read_stress_operator(stress) if stress else None
+    operator = _kept(read_stress_operator, stress) if stress else None
     run = run_speed(*_given(model, speed, wanted), wanted["results"], **wanted["kept"], stress=operator, motion=motion)
     write_speed(run, output, json.loads(about))
 
@@ -53,7 +57,7 @@ def prepare(input: Any, output: Any, params: Any) -> None:
     scene, choice = from_plain(Scene, params.scene), from_plain(IntegrationChoice, params.choice)
     problem = prepared(read_contact_model(as_list(input.models)[0]), params.speed, scene, choice)
     highest, step = problem.blade.frequencies[-1], problem.grid.time_step
-    print(f"{params.speed:g} rad/s: highest mode {highest:.6g} rad/s, steps of {step:.6g} s")
+    JOB_LOG.debug(f"{params.speed:g} rad/s: highest mode {highest:.6g} rad/s, steps of {step:.6g} s")
 
 
 def make_ready(speed: str, output: str, log: str, task: str, about: str, model: str, stress: str | None = None) -> None:
@@ -62,6 +66,8 @@ def make_ready(speed: str, output: str, log: str, task: str, about: str, model: 
         return
     _READY.add((model, task))
     prepared(*_given(model, speed, json.loads(task)))
+    if stress:
+        _ = _kept(read_stress_operator, stress).deviatoric
 
 
 def prepared(model: ContactModel, speed: float, scene: Scene, choice: IntegrationChoice) -> Problem:
@@ -72,4 +78,17 @@ def prepared(model: ContactModel, speed: float, scene: Scene, choice: Integratio
 def _given(model: str, speed: str, wanted: dict[str, Any]) -> tuple[ContactModel, float, Scene, IntegrationChoice]:
     """What a simulation is made of."""
     scene, choice = from_plain(Scene, wanted["scene"]), from_plain(IntegrationChoice, wanted["choice"])
-    return read_contact_model(model), float(speed), scene, choice
+    return _kept(read_contact_model, model), float(speed), scene, choice
+
+
+def _kept(read: Callable[[str], _Model], file: str) -> _Model:
+    """The model of a file, read once for all runs of this process and of those forked from it. Raises InputFileError."""
+    with readable(file):
+        status = os.stat(file)
+    return _read_as_of(read, os.path.abspath(file), status.st_mtime_ns, status.st_size)
+
+
+@lru_cache(maxsize=32)
+def _read_as_of(read: Callable[[str], _Model], file: str, changed: int, size: int) -> _Model:
+    """`changed` and `size` tell a file from one that is written in its place."""
+    return read(file)

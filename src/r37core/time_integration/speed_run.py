@@ -16,6 +16,7 @@ from .kept_numbers import (
     KEPT,
     casing_numbers,
     energy_balance,
+    largest_of_each,
     snapshot_numbers,
     spectrum,
     status_numbers,
@@ -69,7 +70,7 @@ def run_speed(
     per_revolution = choice.samples_per_revolution
     sample_count = choice.revolutions * per_revolution
     samples = whole(record.samples.reshape(-1, len(TIP_POINTS), len(DIRECTIONS)), sample_count, record.diverged)
-    maxima = np.abs(samples).reshape(choice.revolutions, per_revolution, *samples.shape[1:]).max(axis=1)
+    maxima = largest_of_each(choice.revolutions, samples)
     first = choice.revolutions // 2
     half = samples[first * per_revolution :]
     totals = state.totals
@@ -94,7 +95,7 @@ def run_speed(
         numbers |= snapshot_numbers(*wanted) | stress_history(*wanted)
     if "wear" in results:
         assert scene.lining is not None and state.wear is not None
-        numbers |= wear_numbers(state.wear, min(wear_angles, scene.lining.bars))
+        numbers |= wear_numbers(state.wear, min(wear_angles, scene.lining.bars), scene.lining)
     if "energy" in results:
         numbers |= energy_balance(simulation.work(state), float(totals["loss"]), simulation.energy(state) - begun)
         if motion is not None:
