@@ -26,14 +26,29 @@ def rising(speeds):
     return np.clip((speeds - 1000.0) / 100.0, 0.0, 1.0) * (speeds < 1300.0)
 
 
+# direct contact of S100 as shipped, at the adaptive speeds of the default sweep (rad/s); from 1400 rad/s on each share is 1
+S100_SPEEDS = (
+    *range(750, 851, 20), 860, *range(870, 991, 20), *range(1000, 1031, 10), *range(1035, 1081, 5), 1090, 1110, 1120, 1130,
+    1150, 1170, 1180, 1185, 1190, 1195, 1200, 1210, 1230, 1240, 1245, 1250, 1270, 1280, 1285, 1290, *range(1310, 1391, 20),
+    1395, 1400, 2000,
+)  # fmt: skip
+S100_SHARES = {1195: 0.91, 1250: 0.68, 1270: 0.25, 1280: 0.08, 1285: 0.75, 1290: 0.76, 1400: 1.0, 2000: 1.0}
+
+
 def test_ranges_are_of_straight_lines():
     speeds = np.array([0.0, 10.0, 20.0, 30.0, 40.0])
     assert ranges_above(speeds, np.array([0.0, 1.0, 0.0, 0.0, 1.0]), 0.5) == [
         SpeedRange(5.0, 15.0, truncated=False), SpeedRange(35.0, 40.0, truncated=True),
     ]  # fmt: skip
+    assert ranges_above(speeds, np.array([1.0, 0.0, 0.0, 0.0, 0.0]), 0.5) == [SpeedRange(0.0, 5.0, truncated=True)]
     assert ranges_above(speeds, np.full(5, 0.5), 0.5) == []
+    assert ranges_above(speeds, np.array([1.0, 4.0, np.inf, 2.0, 1.0]), 3.0) == [
+        SpeedRange(pytest.approx(20.0 / 3.0), 20.0, truncated=False)
+    ]
     both = [SpeedRange(5.0, 9.0, truncated=False), SpeedRange(0.0, 6.0, truncated=True), SpeedRange(9.5, 10.0, truncated=False)]
     assert joined(both) == [SpeedRange(0.0, 9.0, truncated=True), SpeedRange(9.5, 10.0, truncated=False)]
+    touching = [SpeedRange(low, high, truncated=False) for low, high in ((0.0, 1.0), (2.0, 5.0), (3.0, 4.0), (5.0, 6.0))]
+    assert joined(touching) == [SpeedRange(0.0, 1.0, truncated=False), SpeedRange(2.0, 6.0, truncated=False)]
 
 
 @pytest.mark.parametrize("step", [1.0, 5.0, 10.0])
@@ -55,10 +70,56 @@ def test_borders_are_found_again_within_their_scatter(step):
 def test_shares_count_for_the_length_that_is_nearest_to_them():
     """Ten speeds close together are not ten times one far off: the smoothed share is a mean over speed."""
     speeds = np.concatenate([[1000.0], 1005.0 + 0.1 * np.arange(10), [1011.0]])
-    shares = np.concatenate([[0.0], np.ones(10), [0.0]])
+    shares = np.concatenate([[0.1], np.full(10, 0.9), [0.1]])
     smoothed = Exceedance(speeds, shares, chance=True).smoothed
-    assert 0.3 < smoothed[0] < 0.6
+    assert 0.3 < (smoothed[0] - 0.1) / 0.8 < 0.6
     np.testing.assert_allclose(Exceedance(speeds, np.full(12, 0.3), chance=True).smoothed, 0.3)
+
+
+def test_weights_of_neighbours():
+    """Straight lines to a reach of 30, 30, 60 and 60 rad/s, times the length nearest to each speed: 10, 15, 25 and 20."""
+    speeds = np.array([0.0, 20.0, 30.0, 70.0])
+    expected = [
+        [10.0, 15.0 / 3.0, 0.0, 0.0],
+        [10.0 / 3.0, 15.0, 50.0 / 3.0, 0.0],
+        [5.0, 12.5, 25.0, 20.0 / 3.0],
+        [0.0, 2.5, 25.0 / 3.0, 20.0],
+    ]
+    weights = Exceedance(speeds, np.full(4, 0.3), chance=True).weights
+    np.testing.assert_allclose(weights, [np.array(row) / sum(row) for row in expected])
+    np.testing.assert_allclose(Exceedance(speeds[:1], np.array([0.3]), chance=True).smoothed, [0.3])
+    np.testing.assert_allclose(Exceedance(np.array([0.0, 5.0]), np.array([0.2, 0.5]), chance=True).smoothed, [0.3, 0.4])
+
+
+def test_a_share_of_none_or_all_revolutions_is_smoothed_with_what_chance_may_give_alone():
+    speeds = np.array([1000.0, 1005.0])
+    for shares, smoothed in (
+        ((0.0, 0.2), (0.2 / 3.0, 0.4 / 3.0)), ((0.0, 0.21), (0.0, 0.21)),
+        ((1.0, 0.79), (1.0, 0.79)), ((0.01, 0.97), (0.33, 0.65)),
+    ):  # fmt: skip
+        np.testing.assert_allclose(Exceedance(speeds, np.array(shares), chance=True).smoothed, smoothed)
+
+
+def test_a_motion_that_repeats_itself_is_not_above_yield_beyond_its_borders():
+    """Above yield from 1002.5 to 1057.5 and from 1072.5 to 1102.5 rad/s in each revolution, every 5 rad/s."""
+    speeds = np.arange(900.0, 1301.0, 5.0)
+    above = ((speeds > 1002.5) & (speeds < 1057.5)) | ((speeds > 1072.5) & (speeds < 1102.5))
+    found = Exceedance(speeds, above.astype(float), chance=True)
+    assert found.length(CERTAIN) == pytest.approx(85.0)
+    # a line between the speeds of a border is above a twentieth for 0.45 of 5 rad/s more
+    assert found.length(POSSIBLE) == pytest.approx(85.0 + 4.0 * 0.45 * 5.0)
+    assert found.scatter_of_length(CERTAIN) == found.scatter_of_length(POSSIBLE) == 0.0
+
+
+def test_the_length_of_s100_is_not_widened():
+    """Smoothing all shares gave 1068 rad/s; the shares themselves give 937."""
+    speeds = np.array(S100_SPEEDS, float)
+    shares = np.array([S100_SHARES.get(speed, float(870 <= speed <= 1110)) for speed in S100_SPEEDS])
+    found = Exceedance(speeds, shares, chance=True)
+    of_shares = sum(part.length for part in ranges_above(speeds, shares, POSSIBLE))
+    assert of_shares == pytest.approx(937.0, abs=0.5)
+    assert found.length(POSSIBLE) == pytest.approx(of_shares, abs=2.0)
+    assert 0.0 < found.scatter_of_length(POSSIBLE) < 5.0
 
 
 def test_a_lined_blade_s_shares_are_taken_as_they_are():
@@ -72,21 +133,27 @@ def test_a_lined_blade_s_shares_are_taken_as_they_are():
 def test_a_border_that_chance_makes_or_the_speeds_cut_has_no_scatter():
     """Beside a range that is always there, one that chance has made: its border is not that of the other one."""
     speeds = np.arange(900.0, 1400.1, 20.0)
-    shares = np.where(speeds > 1200.0, 1.0, 0.0)
+    shares = np.where(speeds > 1200.0, 0.9, 0.01)
     shares[5] = 0.3
     found = Exceedance(speeds, shares, chance=True)
     small, large = found.ranges(POSSIBLE)
     assert not found.scatter_of_border(POSSIBLE, small, begins=True) > 60.0
     assert 0.0 < found.scatter_of_border(POSSIBLE, large, begins=True) < 30.0
     assert np.isnan(found.scatter_of_border(POSSIBLE, large, begins=False))
+    two = Exceedance(speeds, np.where(np.abs(np.abs(speeds - 1150.0) - 150.0) < 70.0, 0.9, 0.1), chance=True)
+    before, after = two.ranges(CERTAIN)
+    assert 0.0 < two.scatter_of_border(CERTAIN, before, begins=False) < 30.0
+    assert 0.0 < two.scatter_of_border(CERTAIN, after, begins=True) < 30.0
+    from_the_first = Exceedance(speeds, shares[::-1], chance=True)
+    assert np.isnan(from_the_first.scatter_of_border(POSSIBLE, from_the_first.ranges(POSSIBLE)[0], begins=True))
 
 
-def response(speeds, shares, motion, *, lined=0, last=None, status=None):
+def response(speeds, shares, motion, *, lined=0, last=None, status=None, tangential=None):
     shares = np.asarray(shares)
     of_speed = {
         "status": np.zeros(len(speeds), int) if status is None else status,
         "rms_normal": np.asarray(motion, float),
-        "rms_tangential": np.asarray(motion, float),
+        "rms_tangential": np.asarray(motion if tangential is None else tangential, float),
         "share_of_revolutions_above_yield": shares,
         "max_von_mises_median": 1e9 * (0.5 + shares),
         "max_von_mises_high": 1.1e9 * (0.5 + shares),
@@ -139,6 +206,63 @@ def test_the_fall_of_a_branch_and_its_scatter():
     (row,) = with_ranges_above_yield(response(speeds, np.where(speeds < 1060.0, 1.0, 0.0), motion), [])
     assert (row.peak_motion.fall_speed_rad_s, row.peak_motion.fall_speed_scatter_rad_s) == (1053.0, 3.0)
     assert 0.0 < row.peak_motion.peak_motion_scatter_m < 0.3
+
+
+def test_the_motion_falls_where_it_stays_down():
+    """Down at the next speed; and back up at most 24 rad/s, of which the range of chance is, above the first that is down."""
+    speeds = np.arange(1000.0, 1101.0, 2.0)
+    down = np.where(speeds <= 1050.0, 1.0 + 1e-3 * speeds, 0.3)
+    for loud, fall in ((), (1051.0, 1.0)), ((1076.0,), (1064.0, 14.0)), ((1078.0,), (1051.0, 1.0)):
+        (row,) = with_ranges_above_yield(
+            response(speeds, np.where(speeds < 1060.0, 1.0, 0.0), np.where(np.isin(speeds, loud), 1.5, down)), []
+        )
+        assert (row.peak_motion.fall_speed_rad_s, row.peak_motion.fall_speed_scatter_rad_s) == fall
+
+
+def test_the_scatter_of_a_peak_is_of_the_five_nearest_speeds_or_of_those_within_ten():
+    """The distance from the line between the neighbours, which here lie at uneven speeds; only the peak is above yield."""
+    random = np.random.default_rng(5)
+    steps = random.uniform(12.0, 30.0, 16)
+    for scale, within in ((1.0, 5), (0.2, None)):
+        speeds, level = 1000.0 + scale * np.cumsum(steps), random.uniform(1.0, 2.0, 16)
+        level[8] = 3.0
+        one = response(speeds, np.arange(16) == 8, level / np.sqrt(2.0), lined=1)
+        (row,) = with_ranges_above_yield(one, [])
+        off = [abs(level[i] - np.interp(speeds[i], speeds[[i - 1, i + 1]], level[[i - 1, i + 1]])) for i in range(1, 15)]
+        away = np.abs(speeds[1:-1] - speeds[8])
+        nearest = np.argsort(away)[: within or np.count_nonzero(away <= 10.0)]
+        assert len(nearest) >= 5
+        expected = 1.4826 * np.median(np.array(off)[nearest]) / np.sqrt(1.5)
+        assert row.peak_motion.peak_motion_scatter_m == pytest.approx(expected)
+    (few,) = with_ranges_above_yield(response(speeds[:3], np.ones(3), np.array([1.0, 2.0, 4.0]) / np.sqrt(2.0)), [])
+    share = (speeds[1] - speeds[0]) / (speeds[2] - speeds[0])
+    assert few.peak_motion.peak_motion_scatter_m == pytest.approx(1.4826 / np.sqrt(1.5) * abs(1.0 - 3.0 * share))
+    (two,) = with_ranges_above_yield(response(speeds[:2], np.ones(2), np.ones(2)), [])
+    assert np.isnan(two.peak_motion.peak_motion_scatter_m)
+
+
+def test_the_row_of_a_range_is_of_its_own_speeds_and_has_the_direction_of_its_peak():
+    """Two ranges, the lower motion in the first; and a peak below yield, whose row is its speed."""
+    speeds = np.arange(1000.0, 1101.0, 2.0)
+    normal = 1e-3 * (1.0 + np.exp(-(((speeds - 1020.0) / 4.0) ** 2)) + 2.0 * np.exp(-(((speeds - 1080.0) / 4.0) ** 2)))
+    shares = np.where(np.abs(speeds - 1020.0) <= 6.0, 1.0, np.where(np.abs(speeds - 1080.0) <= 6.0, 1.0, 0.0))
+    aside = np.roll(normal, 1)
+    for tangential, direction in ((normal, "both"), (0.1 * aside, "normal")):
+        rows = with_ranges_above_yield(response(speeds, shares, normal, tangential=tangential), [])
+        assert [row.peak.peak_speed_rad_s for row in rows] == [1020.0, 1080.0]
+        assert [row.crossing.direction for row in rows] == [direction, direction]
+    (row, _) = with_ranges_above_yield(response(speeds, shares, 0.1 * aside, tangential=normal), [])
+    assert row.crossing.direction == "tangential"
+    # neither direction has its own peak where both together have theirs
+    to_and_fro = [1e-3 * np.exp(-(((speeds - peak) / 4.0) ** 2)) for peak in (1018.0, 1022.0)]
+    (row,) = with_ranges_above_yield(
+        response(speeds, np.abs(speeds - 1020.0) <= 6.0, to_and_fro[0], tangential=to_and_fro[1]), []
+    )
+    assert (row.peak.peak_speed_rad_s, row.crossing.direction) == (1020.0, "both")
+    below = find_interactions(response(speeds, np.zeros(len(speeds)), normal), None, CHOICE)
+    assert [row.peak.peak_speed_rad_s for row in below] == [1020.0, 1080.0]
+    assert below[1].peak_motion.fall_speed_rad_s == 1085.0
+    assert all(np.isnan(row.all_revolutions.possible_from_rad_s) for row in below)
 
 
 def test_a_lined_row_has_both_widths():
@@ -196,6 +320,8 @@ def test_robustness_counts_diverged_runs_as_above_yield():
     assert found["length_certain_rad_s"] == 10.0
     assert found["largest_gap_rad_s"] == 10.0
     assert set(found) == set(ROBUSTNESS)
+    assert found["widest_range_rad_s"] == 10.0
+    assert robustness(response(speeds, np.zeros(11), np.ones(11), lined=1))["widest_range_rad_s"] == 0.0
 
 
 def of(certain, possible=0.0, stress=1e9):
@@ -213,6 +339,7 @@ def test_the_ranking_goes_scene_by_scene_with_ties_by_what_is_possible():
         ("B", "y"): of(np.nan),
     }
     table = ranking_table(found)
+    assert list(table.columns[:4]) == ["blade", "scene", "rank", ROBUSTNESS[0]]
     assert list(zip(table["scene"], table["blade"], table["rank"], strict=True)) == [
         ("x", "C", 1), ("x", "B", 2), ("x", "A", 3), ("y", "A", 1), ("y", "B", pd.NA),
     ]  # fmt: skip
@@ -221,6 +348,10 @@ def test_the_ranking_goes_scene_by_scene_with_ties_by_what_is_possible():
 def test_lengths_have_the_digits_that_their_scatter_bears():
     table = ranking_table({("A", "x"): of(854.189) | {"length_certain_scatter_rad_s": 21.1}, ("A", "y"): of(13.1602)})
     assert as_scatter_bears(table)["length_certain_rad_s"].tolist() == [850.0, 13.2]
+    repeated = ranking_table({("A", "x"): of(854.189) | {"length_certain_scatter_rad_s": 0.0}})
+    assert as_scatter_bears(repeated)["length_certain_rad_s"].tolist() == [854.2]
+    ranged = table.assign(length_certain_rad_s_low=[844.0, np.nan], length_certain_rad_s_high=[856.0, np.nan])
+    assert as_scatter_bears(ranged)["length_certain_rad_s"].tolist() == [854.0, 13.2]
 
 
 def test_the_chance_to_be_better_is_of_common_members():

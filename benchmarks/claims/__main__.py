@@ -1,6 +1,6 @@
 """Lists the claims that are older than what makes them, and makes them again. Run: make claims [ONLY=name] [LIST=yes].
 
-A name is that of a claim, of a page or picture (growth.png), or of a table (accuracy.md#levels). Files of results that a
+A name is that of a claim, of a page or picture (growth.png), or of a table (accuracy.md#growth). Files of results that a
 command does not renew are not taken, unless Snakemake made them: it knows itself what is out of date.
 """
 
@@ -42,7 +42,7 @@ def named(name: str) -> list[Claim]:
     claims = [claim for claim in CLAIMS if name == claim.name or any(_is(output, name) for output in claim.outputs)]
     if not claims:
         allowed = ", ".join(claim.name for claim in CLAIMS)
-        raise ValueError(f"ONLY: found '{name}'; allowed: {allowed}, or a file or table of docs/, as accuracy.md#levels")
+        raise ValueError(f"ONLY: found '{name}'; allowed: {allowed}, or a file or table of docs/, as accuracy.md#growth")
     return claims
 
 

@@ -2,7 +2,9 @@
 
 In direct contact one revolution's largest stress scatters by a tenth on most blades, from revolution to revolution and from
 speed to speed, so that a speed is above yield or below it by chance. The share of a hundred revolutions, smoothed over
-neighbouring speeds, has borders that can be found again. A lined blade repeats itself: its shares are taken as they are.
+neighbouring speeds, has borders that can be found again. Smoothing would widen the ranges of a motion that repeats itself,
+whose shares are 0 or 1: such a share is smoothed with those alone from which chance may tell it apart. A lined blade
+repeats itself: its shares are taken as they are.
 """
 
 from __future__ import annotations
@@ -26,6 +28,9 @@ HALF_WIDTH = 10.0
 _INTERVALS = 1.5
 """The same, in intervals between speeds, where these are farther apart."""
 
+_BY_CHANCE = 0.2
+"""Difference of two shares that chance may make: three standard deviations where half of a hundred revolutions are above."""
+
 _DRAWS, _SEED = 200, 0
 
 
@@ -45,7 +50,8 @@ class Exceedance:
         """Weight of each speed's share in the smoothed one of each speed, shape (speeds, speeds); the sum of a row is 1.
 
         A straight line falls from 1 at the speed itself to 0 at HALF_WIDTH, or farther off where speeds are few; each speed
-        counts for the length of the range that is nearest to it.
+        counts for the length of the range that is nearest to it. Two shares of which one is 0 or 1, and which differ by more
+        than chance, have no weight in each other's mean.
         """
         if not self.chance or len(self.speeds) < 2:
             return np.eye(len(self.speeds))
@@ -54,7 +60,9 @@ class Exceedance:
         reach = np.maximum(HALF_WIDTH, _INTERVALS * np.maximum(before, after))
         distance = np.abs(self.speeds[:, None] - self.speeds)
         nearest = 0.5 * (np.concatenate([[0.0], steps]) + np.concatenate([steps, [0.0]]))
-        weights = np.maximum(0.0, 1.0 - distance / reach[:, None]) * nearest
+        by_chance = (self.shares > 0.0) & (self.shares < 1.0)
+        alike = by_chance[:, None] & by_chance | (np.abs(self.shares[:, None] - self.shares) <= _BY_CHANCE)
+        weights = np.maximum(0.0, 1.0 - distance / reach[:, None]) * nearest * alike
         return weights / weights.sum(axis=1, keepdims=True)
 
     @cached_property

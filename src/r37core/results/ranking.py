@@ -113,11 +113,12 @@ def as_scatter_bears(table: pd.DataFrame) -> pd.DataFrame:
     """The table with lengths of as many digits as the range of the members bears, or the scatter, or a step of 1 rad/s."""
     rounded = table.copy()
     for name in (f"length_{kind}_rad_s" for kind in ("certain", "possible") if f"length_{kind}_rad_s" in table):
-        scatter = table.get(name.replace("_rad_s", "_scatter_rad_s"), table[name] * np.nan)
+        scatter = pd.Series(table.get(name.replace("_rad_s", "_scatter_rad_s"), np.nan), table.index)
         spread = (2.0 * scatter).fillna(_STEP)
         if f"{name}_low" in table:
             spread = (table[f"{name}_high"] - table[f"{name}_low"]).fillna(spread)
-        rounded[name] = [float(rounded_to(*value) or np.nan) for value in zip(table[name], spread, strict=True)]
+        values = zip(table[name], spread.clip(lower=_STEP), strict=True)
+        rounded[name] = [float(rounded_to(*value) or np.nan) for value in values]
     return rounded
 
 
