@@ -1,78 +1,79 @@
 # Two commands: `make all_blades` runs the main job, `make test` the tests. Both make the virtual environment themselves.
-# `make campbell` does the structural half alone. CORES=8 uses more cores, FIDELITY=paper another accuracy level.
+# `make` alone lists all of them: what stands behind ## is their line. CORES=8 uses more cores, FIDELITY=paper another accuracy level.
 PYTHON ?= python3
 CORES ?= 2
-VENV := .venv
+# another one for another Python: make test-fast PYTHON=python3.13 VENV=build/python3.13
+VENV ?= .venv
 BIN := $(VENV)/bin
 LOCK := envs/lock.txt
 # programs are run as modules: in a folder with a blank in its name, pip writes scripts that a shell reads, and runs `$()` in the name
 
 PIP_INSTALL := $(BIN)/python -m pip install --quiet --disable-pip-version-check --constraint $(LOCK)
 
-.PHONY: all_blades campbell report test test-fast test-slurm mutants lint bench claims fingerprint site tutorial setup lock clean clean-results
+.DEFAULT_GOAL := help
+.PHONY: help all_blades campbell report test test-fast test-slurm mutants lint bench claims fingerprint site tutorial setup lock clean clean-results
 
+help: ## this list
+	@awk -F ': .*## ' '/^[a-z][a-z_-]*:.*## / {printf "make %-14s %s\n", $$1, $$2}' Makefile
+
+all_blades: ## the main job, all blades: simulations, figures, ranking, explorer; CORES=8, FIDELITY=draft
+campbell: ## only the Campbell diagrams, without simulations
 all_blades campbell: $(VENV)/.ready
 	$(BIN)/python -m snakemake $@ --cores $(CORES) $(if $(FIDELITY),--config fidelity=$(FIDELITY))
 
-# figures, tables, workflow and run times of a finished run in one file, for a colleague; RESULTS=results/runs/<name> of one with a name
 RESULTS ?= results
-report: $(VENV)/.ready
-	@$(BIN)/python -m snakemake all_blades --report '$(RESULTS)/report.zip' $(if $(FIDELITY),--config fidelity=$(FIDELITY)) || \
-		{ echo "the report is made of a finished run: make all_blades, then make report" >&2; exit 1; }
+report: $(VENV)/.ready ## a finished run in one file, for a colleague: report.zip; RESULTS=results/runs/NAME of a run with a name
+	@$(BIN)/python -m r37core.console.report '$(RESULTS)'
 
 # the files of tests spread over the cores, in the order of tests/conftest.py
-test: $(VENV)/.ready
-	$(BIN)/python -m pytest --numprocesses $(CORES) --dist loadfile --no-loadscope-reorder
+SPREAD := --numprocesses $(CORES) --dist loadfile --no-loadscope-reorder
+test: $(VENV)/.ready ## all tests
+	$(BIN)/python -m pytest $(SPREAD)
 
-# without those that run Snakemake or build larger models
-test-fast: $(VENV)/.ready
-	$(BIN)/python -m pytest -q -m 'not slow'
+test-fast: $(VENV)/.ready ## the tests that neither run Snakemake nor build larger models
+	$(BIN)/python -m pytest -q -m 'not slow' $(SPREAD)
 
-# parts of a sweep on a Slurm of one node, which the test starts; needs root, and installs Slurm where there is apt-get
-test-slurm: $(VENV)/.ready
+# needs root, and installs Slurm where there is apt-get
+test-slurm: $(VENV)/.ready ## parts of a sweep on a Slurm of one node, which the test starts
 	sh envs/slurm.sh
 	R37_SLURM=1 $(BIN)/python -m pytest tests/test_slurm.py
 
-# whether the tests notice small changes of the code: a sample, about half an hour, and what they missed; MUTANTS='results/stress_recovery.py --each 20' for one module
-mutants: $(VENV)/.ready
+# a sample, and what they missed; MUTANTS='results/stress_recovery.py --each 20' for one module
+mutants: $(VENV)/.ready ## whether the tests notice small changes of the code: about half an hour
 	$(PIP_INSTALL) --editable '.[test,mutants]'
 	$(BIN)/python benchmarks/mutants.py $(MUTANTS)
 
-lint: $(VENV)/.ready
+lint: $(VENV)/.ready ## ruff, snakefmt, mypy, snakemake --lint
 	$(BIN)/python -m ruff check .
 	$(BIN)/python -m ruff format --check .
 	$(BIN)/python -m snakefmt --check Snakefile workflow src/r37/study.smk
 	$(BIN)/python -m mypy
 	$(BIN)/python -m snakemake --lint
 
-# the time integration against plainer ways to write it
-bench: $(VENV)/.ready
+bench: $(VENV)/.ready ## time of the integration against plainer ways to write it
 	$(BIN)/python -m snakemake results/Ref/contact_pressure_edge.npz --cores $(CORES) $(if $(FIDELITY),--config fidelity=$(FIDELITY))
 	$(BIN)/python benchmarks/integration_speed.py $(BENCH)
 
-# tables and pictures of README and docs/ that are older than what makes them: lists them with their minutes and makes them again, which
-# may take hours; LIST=yes only lists, ONLY='growth.png accuracy.md' makes these, TAKEN=yes takes results that were just made by hand, SAME=yes renews
-# the hashes alone, where code was rearranged and the results are the same
-claims: $(VENV)/.ready
+# ONLY='growth.png accuracy.md' makes these, TAKEN=yes takes results that were just made by hand, SAME=yes renews the hashes alone, where
+# code was rearranged and the results are the same
+claims: $(VENV)/.ready ## regenerate outdated tables and pictures of the pages, which may take hours; LIST=yes only lists them
 	PYTHONPATH=benchmarks $(BIN)/python -m claims $(ONLY) --cores $(CORES) $(if $(LIST),--list) $(if $(TAKEN),--taken) $(if $(SAME),--same)
 
-# the numbers that stand for the engine in the hashes of the claims, after a change of them
-fingerprint: $(VENV)/.ready
+fingerprint: $(VENV)/.ready ## renew the numbers that stand for the engine in the hashes of the claims
 	PYTHONPATH=benchmarks $(BIN)/python -m claims.numbers
 
-# the documentation as a site that opens from the disk: site/index.html; a warning is an error
-site: $(VENV)/.docs
+# a warning is an error
+site: $(VENV)/.docs ## the documentation as a site that opens from the disk: site/index.html
 	$(BIN)/python -m sphinx --quiet --fail-on-warning --keep-going --conf-dir docs/site docs site
 
-# docs/tutorial.ipynb of docs/tutorial.py, run; about a minute
-tutorial: $(VENV)/.docs
+tutorial: $(VENV)/.docs ## docs/tutorial.ipynb of docs/tutorial.py, run; about a minute
 	$(BIN)/python benchmarks/tutorial.py
 
 $(VENV)/.docs: $(VENV)/.ready
 	$(PIP_INSTALL) --editable '.[docs]'
 	@touch $@
 
-setup: $(VENV)/.ready
+setup: $(VENV)/.ready ## the virtual environment .venv, which all others make where it is missing
 
 $(VENV)/.ready: pyproject.toml $(LOCK) envs/system_libraries.sh
 	@'$(PYTHON)' -c 'import sys; sys.exit(sys.version_info < (3, 11))' || \
@@ -83,17 +84,15 @@ $(VENV)/.ready: pyproject.toml $(LOCK) envs/system_libraries.sh
 	sh envs/system_libraries.sh $(BIN)/python
 	@touch $@
 
-# the newest versions that pyproject.toml allows, of all packages that the commands here install, for everyone after
-lock:
+lock: ## the newest versions that pyproject.toml allows, of all packages that these commands install: envs/lock.txt
 	'$(PYTHON)' -m venv --clear build/lock
 	build/lock/bin/python -m pip install --quiet --disable-pip-version-check '.[test,mutants,docs,ansys,search]'
 	{ echo "# written by make lock: what pip installed"; build/lock/bin/python -m pip freeze --exclude r37; } > $(LOCK).new
 	mv $(LOCK).new $(LOCK)
 	rm -rf build/lock
 
-# what the configuration no longer asks for: lists it; REMOVE=yes removes it
-clean: $(VENV)/.ready
+clean: $(VENV)/.ready ## list results that the configuration no longer asks for; REMOVE=yes removes them
 	$(BIN)/python -m r37core.console.leftovers $(if $(REMOVE),--remove)
 
-clean-results:
+clean-results: ## remove results/ and logs/
 	rm -rf results logs

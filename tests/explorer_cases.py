@@ -55,6 +55,7 @@ def sweep():
             {
                 "wear": ((*dims, "angle"), over(360)[:, :1]),
                 "max_wear": (dims, over()[:, :1]),
+                "worn_through_share": (dims, np.where(missing, np.nan, SPEEDS == 1200.0)[:, :1] / 8.0),
             },
             axes | {"scene": ["abradable"], "angle": np.radians(np.arange(360))},
         ),

@@ -217,13 +217,14 @@ with_members = pytest.mark.parametrize("page", ["members"], indirect=True)
 def choose(page, **state):
     words = "&".join(f"{name}={value}" for name, value in state.items())
     page.evaluate("words => { window.location.hash = words; }", words)
-    page.wait_for_function("words => decodeURIComponent(window.location.hash).includes(words)", arg=words.split("&")[-1])
-    page.wait_for_timeout(200)
+    # once all is drawn the page writes its whole state there
+    page.wait_for_function("given => new URLSearchParams(window.location.hash.slice(1)).size > given", arg=len(state))
+    page.evaluate("() => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))")
 
 
 def traces(page, plot):
     return page.evaluate(
-        "name => document.getElementById(name).data.map(one => ({ name: one.name, y: Array.from(one.y) }))", plot
+        "name => document.getElementById(name).data.map(({ name, x, y, text }) => ({ name, x, y: Array.from(y), text }))", plot
     )
 
 
@@ -305,13 +306,37 @@ def test_choices_change_what_is_drawn(page, datasets):
 
 @pytest.mark.slow
 @pytest.mark.parametrize(("place", "speed"), [("", "1100 rad/s"), ("#speed=1200", "1200 rad/s")])
-def test_it_opens_at_the_strongest_interaction(page, datasets, interactions, tmp_path, place, speed):
-    """The largest stress counts, not the largest motion; what the address says goes before it."""
-    weaker = interactions.assign(max_von_mises_pa=1e9, peak_rms_normal_m=2e-3)
-    stronger = weaker.iloc[[0]].assign(blade="L<50>", peak_speed_rad_s=1100.0, max_von_mises_pa=2e9, peak_rms_normal_m=1e-3)
-    contents = explorer_contents(datasets, pd.concat([weaker, stronger]))
+@pytest.mark.parametrize("scene", SCENES)
+def test_it_opens_at_the_strongest_interaction(page, datasets, interactions, tmp_path, scene, place, speed):
+    """The largest stress of all scenes counts, not the largest motion nor what rows have; the address goes before it."""
+    rms, stress = datasets["rms"].copy(), datasets["stress"].copy(deep=True)
+    rms["status"] = rms["status"].where(rms["status"] != RunStatus.DIVERGED, RunStatus.COMPLETED)
+    stress["max_von_mises"].loc[{"blade": "L<50>", "scene": scene, "speed": 1000.25}] = 4.1e10
+    # a row of direct contact has no stress, and the one at hand has the largest peak of all
+    weaker = interactions.assign(max_von_mises_pa=[7e8, np.nan], peak_rms_normal_m=2e-3)
+    rows = [weaker.iloc[[1]].assign(blade="L<50>", scene=scene, peak_speed_rad_s=peak) for peak in (1300.0, 1100.0)]
+    contents = explorer_contents(datasets | {"rms": rms, "stress": stress}, pd.concat([weaker, *rows]))
     with beside(page, contents, tmp_path / "explorer.html", place=place) as other:
-        assert other.text_content("#now").startswith(f"L<50>, abradable, {speed}")
+        assert other.text_content("#now").startswith(f"L<50>, {scene}, {speed}")
+
+
+@pytest.mark.slow
+def test_without_stress_it_opens_at_the_largest_motion(page, datasets, interactions, tmp_path):
+    rms = datasets["rms"].copy(deep=True)
+    rms["status"] = rms["status"].where(rms["status"] != RunStatus.DIVERGED, RunStatus.COMPLETED)
+    rms["rms_normal"].loc[{"blade": "L<50>", "scene": "direct", "speed": 900.0}] = 1.0
+    contents = explorer_contents({"rms": rms, "campbell": datasets["campbell"]}, interactions)
+    with beside(page, contents, tmp_path / "explorer.html") as other:
+        assert other.text_content("#now").startswith("L<50>, direct, 900 rad/s")
+
+
+@pytest.mark.slow
+def test_it_opens_at_a_run_that_diverged(page, datasets, interactions, tmp_path):
+    """Which is worse than any number."""
+    with beside(page, explorer_contents(datasets, interactions), tmp_path / "explorer.html") as other:
+        assert other.text_content("#now").startswith(
+            "Ref, direct, 1200 rad/s, 11459 rpm, diverged: beyond all that has a number"
+        )
 
 
 @pytest.mark.slow
@@ -319,7 +344,7 @@ def test_it_opens_at_the_strongest_interaction(page, datasets, interactions, tmp
 def test_it_fits_the_screen(page, datasets, tolerances, ranged, tmp_path, width):
     """Without scrolling sideways, and with plotly's buttons clear of what is drawn."""
     contents = explorer_contents(datasets | {"members": tolerances}, ranged, [("Ref", "abradable")])
-    place = "#quantity=share_of_time_in_contact&all=true"
+    place = "#scene=abradable&quantity=share_of_time_in_contact&all=true"
     with beside(page, contents, tmp_path / "explorer.html", (width, 844), place) as other:
         assert other.evaluate("document.documentElement.scrollWidth") <= width
         for name in ("campbell", "response", "spectrum", "wear", "stress"):
@@ -382,7 +407,7 @@ def test_stress_above_yield_is_marked_as_outside_the_linear_model(page, datasets
     stressed = interactions.assign(max_von_mises_pa=5e8)
     contents = explorer_contents(datasets | {"stress": datasets["stress"].assign(yield_stress=limits)}, stressed)
     outside = "above yield: outside the linear model"
-    with beside(page, contents, tmp_path / "explorer.html", place="#speed=1000.25") as other:
+    with beside(page, contents, tmp_path / "explorer.html", place="#scene=abradable&speed=1000.25") as other:
         stress = 1e-6 * float(datasets["stress"]["max_von_mises"].sel(blade="Ref", scene="abradable", speed=1000.25))
         assert other.text_content("#now").endswith(f"completed, stress at this speed {stress:.5g} MPa, {outside}")
         other.select_option("#quantity", "max_von_mises")
@@ -432,9 +457,51 @@ def test_rotors_have_panels_in_their_scenes(page, datasets, interactions, rotors
 
 @pytest.mark.slow
 def test_a_diverged_run_is_marked(page):
-    choose(page, blade="Ref", scene="direct", quantity="rms_normal", speed="1200", unit="rad/s", all="false")
-    assert "Ref diverged" in [one["name"] for one in traces(page, "response")]
-    assert page.text_content("#now").endswith("none mm, diverged")
+    """Above all that has a number, by its scene's or its blade's name; in a map, too."""
+    for every, name in (("false", "direct diverged"), ("true", "Ref diverged")):
+        choose(page, blade="Ref", scene="direct", quantity="rms_normal", speed="1200", unit="rad/s", all=every)
+        drawn = {one["name"]: one for one in traces(page, "response")}
+        finite = [y for other, one in drawn.items() if other != name for y in one["y"] if y is not None]
+        assert drawn[name]["x"] == [1200] and drawn[name]["y"][0] > max(finite)
+        assert drawn[name]["text"][0].endswith("diverged: beyond all that has a number")
+    assert page.text_content("#now").endswith("rpm, diverged: beyond all that has a number")
+    _, crosses = traces(page, "spectrum")
+    assert crosses["x"] == [1200] and crosses["y"] == [4.0] and crosses["text"][0].endswith("<br>diverged")
+    # a quantity that the scene does not compute has no runs at all
+    choose(page, blade="Ref", scene="direct", quantity="max_wear", speed="1200", unit="rad/s", all="false")
+    assert [one["name"] for one in traces(page, "response")] == ["abradable"]
+
+
+@pytest.mark.slow
+def test_a_lining_that_is_worn_through_is_marked(page, datasets, interactions, tmp_path):
+    """In the map, in the table, and as a quantity of its own."""
+    rows = interactions.assign(max_wear_m=[4e-3, np.nan], worn_through_share=[0.125, np.nan])
+    place = "#scene=abradable&quantity=worn_through_share"
+    with beside(page, explorer_contents(datasets, rows), tmp_path / "explorer.html", place=place) as other:
+        _, triangles = traces(other, "wear")
+        assert (triangles["name"], triangles["x"]) == ("worn through", [1200])
+        assert triangles["text"][0].endswith("worn through to the casing on 12.5% of the circumference")
+        cells = other.locator("#interactions tbody tr td").all_text_contents()
+        assert "4 \u2020" in cells and "12.5" in cells
+        assert other.text_content("#note") == "\u2020 worn through: the tip has reached the casing behind the lining"
+        assert "0.125" in other.evaluate("document.getElementById('response').data[0].text[3]")
+        other.select_option("#scene", "direct")
+        assert other.text_content("#note") == ""
+
+
+@pytest.mark.slow
+def test_a_scene_of_which_every_run_diverged_is_drawn(page, datasets, interactions, tmp_path):
+    rms = datasets["rms"].copy(deep=True)
+    everywhere = {"blade": "L<50>", "scene": "direct"}
+    rms["status"].loc[everywhere] = RunStatus.DIVERGED
+    for name in ("rms_normal", "rms_tangential", "peak_normal"):
+        rms[name].loc[everywhere] = np.nan
+    stress = datasets["stress"].copy(deep=True)
+    stress["max_von_mises"].loc[everywhere] = np.nan
+    contents = explorer_contents(datasets | {"rms": rms, "stress": stress}, interactions)
+    with beside(page, contents, tmp_path / "explorer.html", place="#blade=L%3C50%3E&scene=direct") as other:
+        drawn = {one["name"]: one for one in traces(other, "response")}
+        assert drawn["direct diverged"]["x"] == SPEEDS.tolist()
 
 
 @pytest.mark.slow
@@ -466,14 +533,14 @@ def test_without_members_nothing_speaks_of_them(page):
         assert not page.is_visible(f"#{name}")
         assert f"{name}=" not in page.url
     assert "members" not in page.inner_text("body")
-    assert [one["name"] for one in traces(page, "response")] == ["abradable", "direct", "Ref diverged"]
+    assert [one["name"] for one in traces(page, "response")] == ["abradable", "direct", "direct diverged"]
 
 
 @pytest.mark.slow
 @with_members
 def test_band_and_members_are_switched(page):
     choose(page, blade="Ref", scene="abradable", quantity="rms_normal", speed="900", unit="rad/s", all="false")
-    curves = ["abradable", "direct", "Ref diverged"]
+    curves = ["abradable", "direct", "direct diverged"]
 
     def drawn():
         return [one["name"] for one in traces(page, "response")]

@@ -55,6 +55,7 @@ def datasets():
     spectra = {name: ((*dims, "engine_order"), spectrum) for name in ("amplitude", "amplitude_tangential")}
     angle = np.linspace(0.0, 2 * np.pi, 30)
     wear = {"wear": ((*dims, "angle"), np.repeat(values[..., None], 30, axis=-1))}
+    wear["worn_through_share"] = (dims, np.where(values > 0.9 * np.nanmax(values), 0.1, 0.0 * values))
     return {
         "campbell": campbell,
         "rms": rms,
@@ -99,6 +100,31 @@ def test_a_map_of_runs_that_all_diverged_says_so(datasets, draw, kind, panels):
     figure = draw(np.nan * of_scene, datasets["campbell"].sel(blade="Ref"), "Ref, abradable")
     figure.canvas.draw()
     assert [text.get_text() for axes in figure.axes for text in axes.texts] == ["every run diverged"] * panels
+    plt.close(figure)
+
+
+def test_a_map_of_wear_marks_speeds_at_which_the_lining_is_worn_through(datasets):
+    wear = datasets["wear"].sel(blade="Ref", scene="abradable")
+    figure = maps.draw_wear_map(wear, datasets["campbell"].sel(blade="Ref"), "Ref, abradable")
+    (triangles,) = (line for line in figure.axes[0].lines if line.get_marker() == "v")
+    worn_through = wear["speed"].values[wear["worn_through_share"].values > 0.0]
+    assert 0 < len(worn_through) < wear.sizes["speed"]
+    np.testing.assert_array_equal(triangles.get_xdata(), worn_through)
+    plt.close(figure)
+
+
+def test_runs_that_diverged_are_marked_at_the_upper_edge(datasets):
+    """Whatever the scale: no number is worse."""
+    blade = BLADES[1]
+    of = {kind: data.sel(blade=blade) for kind, data in datasets.items()}
+    figure = response.draw_response(blade, of["campbell"], of["rms"], of["stress"])
+    crosses = [
+        line for axes in figure.axes for line in axes.lines if line.get_marker() == "x" and line.get_label() == "diverged"
+    ]
+    assert crosses
+    for line in crosses:
+        height = line.axes.transAxes.inverted().transform(line.get_transform().transform(line.get_xydata()))[:, 1]
+        assert (height > 0.9).all() and (height < 1.0).all()
     plt.close(figure)
 
 

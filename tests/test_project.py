@@ -4,6 +4,7 @@ import ast
 import contextlib
 import os
 import re
+import subprocess
 import tomllib
 from collections import Counter
 from graphlib import TopologicalSorter
@@ -26,6 +27,8 @@ LAYERS = [
     "io",
     "plain",
     "units",
+    "process_wide",
+    "netcdf_access",
     "dataset_file",
     "alignment",
     "lanes",
@@ -72,6 +75,18 @@ def test_the_lock_has_a_version_of_all_that_is_asked_for(root):
     installing = [line for line in commands.splitlines() if "pip install" in line]
     assert len(installing) == 1 and "--constraint $(LOCK)" in installing[0]
     assert "--constraint lock.txt" in commands
+
+
+def test_make_alone_lists_every_target(root):
+    """And starts nothing."""
+    targets = re.search(r"^\.PHONY: (.*)$", (root / "Makefile").read_text(), re.MULTILINE)[1].split()
+    # what `make test` hands on to the make of this test
+    own = {name: value for name, value in os.environ.items() if name not in ("MAKEFLAGS", "MAKELEVEL", "MFLAGS")}
+    for command in (["make"], ["make", "help"]):
+        lines = subprocess.run(command, cwd=root, env=own, capture_output=True, text=True, check=True).stdout.splitlines()
+        listed = [re.fullmatch(r"make (\S+) +(\S.{5,120})", line)[1] for line in lines]
+        assert sorted(listed) == sorted(targets)
+    assert not (root / ".venv").exists()
 
 
 def test_installed_is_what_is_locked(root):

@@ -213,7 +213,6 @@ def test_every_blade_and_scene_has_its_own_slab(sweep, tmp_path):
     """Two blades by two scenes at different speeds, each with numbers of its own."""
     source, _ = sweep
     run = read_speed(source / "abradable_900.npz")
-    run.pop("parameters")
     files, factors = {}, {}
     for number, key in enumerate((blade, scene) for blade in ("A", "B") for scene in ("near", "far")):
         factors[key] = number + 1.0

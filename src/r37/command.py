@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import argparse
 import logging
+import os
 import signal
 import sys
 import tempfile
@@ -23,16 +24,20 @@ if TYPE_CHECKING:
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command with these arguments, or those of the process.
 
-    Gives its exit status: 1 after one line of refusal, and that of a shell's interrupt after Ctrl-C.
+    Gives its exit status: 1 after one line of refusal, and as a shell has it after Ctrl-C or where nobody reads on.
     """
     try:
-        return _run(_parser().parse_args(arguments))
+        try:
+            return _run(_parser().parse_args(arguments))
+        finally:
+            sys.stdout.flush()
     except KeyboardInterrupt:
         print("r37: interrupted", file=sys.stderr)
-        return _INTERRUPTED
-
-
-_INTERRUPTED = 128 + signal.SIGINT
+        return 128 + signal.SIGINT
+    except BrokenPipeError:
+        # head, or a pager, has read enough; Python would flush what is left when it ends
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 128 + signal.SIGPIPE
 
 
 def _run(options: argparse.Namespace) -> int:
@@ -82,7 +87,7 @@ def _parser() -> argparse.ArgumentParser:
     diagram.add_argument("blade", help="its name, or a blades.yaml: each blade of it")
     response.add_argument("blade")
     response.add_argument("scene")
-    response.add_argument("speeds", nargs="+", type=float, metavar="speed", help="rad/s")
+    response.add_argument("speeds", nargs="+", type=float, metavar="speed", help="rad/s, or rpm with --rpm")
     response.add_argument("--rpm", action="store_true", help="the speeds are revolutions per minute")
     for word, names in (("blades", _blades), ("scenes", _scenes)):
         listed = commands.add_parser(word, parents=[level], help=f"names of the {word}")
@@ -187,9 +192,13 @@ def _simulate(options: argparse.Namespace) -> None:
 
     _check_output(options.output)
     chosen = blade(options.blade, file=options.blades, config=options.config)
-    speeds = [RAD_S["rpm" if options.rpm else "rad/s"] * speed for speed in options.speeds]
+    unit = "rpm" if options.rpm else "rad/s"
+    speeds = [RAD_S[unit] * speed for speed in options.speeds]
     dataset = sweep(chosen, options.scene, speeds, fidelity=options.fidelity, config=options.config)
-    edge, table = dataset.sel(tip_point="leading_edge"), pd.DataFrame(index=dataset["speed"].to_index().rename("speed (rad/s)"))
+    edge, rad_s = dataset.sel(tip_point="leading_edge"), dataset["speed"].values
+    table = pd.DataFrame(index=pd.Index(rad_s / RAD_S[unit], name=f"speed ({unit})"))
+    if options.rpm:
+        table["speed (rad/s)"] = rad_s
     table["rms, normal (mm)"] = 1e3 * edge["rms_normal"].values
     table["rms, tangential (mm)"] = 1e3 * edge["rms_tangential"].values
     if "max_von_mises" in dataset:

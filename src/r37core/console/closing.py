@@ -15,11 +15,19 @@ from r37core.rounding import rounded_to
 from r37core.time_integration.status import RunStatus
 
 
-def closing_lines(results: Path, began: float, ended: float, remarks: Iterable[str] = ()) -> list[str]:
+def closing_lines(
+    results: Path, began: float, ended: float, remarks: Iterable[str] = (), of_wings: Iterable[str] = ()
+) -> list[str]:
     """What the folder `results` has: interactions, runs that diverged, `remarks` on them, where to look, and how long it took.
 
-    None if it is older than the run's start. `began` and `ended`: times in s, as file times are.
+    Of what is older than the run's start nothing is said. `began` and `ended`: times in s, as file times are. `of_wings`: what
+    the wings have made in the run.
     """
+    lines = [*_of_sweep(results, began, remarks), *of_wings]
+    return [*lines, _took(ended - began)] if lines else []
+
+
+def _of_sweep(results: Path, began: float, remarks: Iterable[str]) -> list[str]:
     summary = results / "summary.csv"
     if not summary.exists() or summary.stat().st_mtime < began:
         return []
@@ -28,23 +36,30 @@ def closing_lines(results: Path, began: float, ended: float, remarks: Iterable[s
     where = f"look at {results}/explorer.html (any browser), {summary}, {results}/figures/"
     ranked = _ranked(results / "ranking.csv")
     diverged, untouched = _of_runs(results / "rms.nc")
-    return [_found(rows) + diverged, *untouched, *ranked, *remarks, where, _took(ended - began)]
+    return [_found(rows) + diverged, *untouched, *ranked, *remarks, where]
 
 
 def _found(rows: list[dict[str, str]]) -> str:
     if not rows:
         return "found no interaction"
+    worn_through = sum(_number(row, "worn_through_share") > 0.0 for row in rows)
     above = [row for row in rows if _number(row, "width_above_yield_rad_s") > 0.0 or row.get("certain_from_rad_s")]
     text = f"found {len(rows)} interaction{'s' * (len(rows) > 1)}, {len(above)} of them above yield"
+    if worn_through:
+        text += f", {worn_through} with the lining worn through to the casing"
     if above:
-        worst = max(above, key=lambda row: _number(row, "max_von_mises_pa"))
-        if _number(worst, "max_von_mises_pa") > 0.0:
+        worst = max(above, key=_largest_stress)
+        if _largest_stress(worst) > 0.0:
             title = interaction_title(worst["mode"], worst["engine_order"])
-            text += (
-                f"; the largest stress {_stress(worst)}, {worst['blade']} in {worst['scene']} "
-                f"at {float(worst['max_von_mises_speed_rad_s']):.6g} rad/s ({title})"
-            )
+            at = worst["max_von_mises_speed_rad_s"]
+            where = f"at {float(at):.6g}" if at else f"about {_number(worst, 'peak_speed_rad_s'):.6g}"
+            text += f"; the largest stress {_stress(worst)}, {worst['blade']} in {worst['scene']} {where} rad/s ({title})"
     return text
+
+
+def _largest_stress(row: dict[str, str]) -> float:
+    """Stress (Pa) of the last revolution; of direct contact, where that is chance, what nine tenths of them stay below."""
+    return _number(row, "max_von_mises_pa") or _number(row, "high_von_mises_pa")
 
 
 def _number(row: dict[str, str], column: str) -> float:
@@ -54,7 +69,7 @@ def _number(row: dict[str, str], column: str) -> float:
 
 def _stress(row: dict[str, str]) -> str:
     """The largest stress; where members give it a range, with as many digits as that bears, and the range beside it."""
-    stress = 1e-9 * float(row["max_von_mises_pa"])
+    stress = 1e-9 * _largest_stress(row)
     ends = [row.get(f"max_von_mises_pa_{end}") for end in ("low", "high")]
     if not all(ends):
         return f"{stress:.2f} GPa"

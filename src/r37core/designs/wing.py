@@ -8,4 +8,10 @@ from .captions import CAPTIONS
 from .checks import families_have_shapes
 from .plan import targets
 
-WING = Wing(name="designs", checks=(families_have_shapes,), targets=targets, captions=CAPTIONS)
+WING = Wing(
+    name="designs",
+    checks=(families_have_shapes,),
+    targets=targets,
+    captions=CAPTIONS,
+    closing="designs.closing.closing",
+)

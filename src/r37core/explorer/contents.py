@@ -22,6 +22,7 @@ CURVES = (
     ("rms", "peak_normal"),
     ("stress", "max_von_mises"),
     ("wear", "max_wear"),
+    ("wear", "worn_through_share"),
     ("rms", "share_of_time_in_contact"),
 )
 """Dataset and variable; of the leading edge where a variable has tip points."""

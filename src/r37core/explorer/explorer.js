@@ -8,6 +8,7 @@
   const MAGMA = ["#000004", "#1c1044", "#4f127b", "#812581", "#b5367a", "#e55064", "#fb8761", "#fec287", "#fcfdbf"]
     .map((colour, at, all) => [at / (all.length - 1), colour]);
   const STATUS = ["completed", "diverged", "not run"];
+  const DIVERGED = STATUS.indexOf("diverged");
   const RPM = 30 / Math.PI;
   const PLOTS = ["campbell", "response", "spectrum", "wear", "stress"];
   // plotly's own choice has a button that uploads; explorer.css puts the bar beside the heading
@@ -106,8 +107,9 @@
   function pointText(curve, blade, scene, at) {
     const value = curve.values.row(blade, scene)[at];
     const number = status.row(blade, scene)[at];
-    return `${data.blades[blade]}, ${data.scenes[scene]}<br>${speedText(speeds[at])}<br>`
-      + `${quantityText(value, curve.unit)}<br>${STATUS[number]}${yieldText(curve, blade, scene, at)}`;
+    const where = `${data.blades[blade]}, ${data.scenes[scene]}<br>${speedText(speeds[at])}<br>`;
+    if (number === DIVERGED) return `${where}diverged: beyond all that has a number`;
+    return `${where}${quantityText(value, curve.unit)}<br>${STATUS[number]}${yieldText(curve, blade, scene, at)}`;
   }
 
   function layout(x, y, more = {}) {
@@ -321,10 +323,13 @@
     const scenes = state.all ? [scene] : data.scenes.map((_, number) => number);
     const traces = [];
     const below = [];
+    const crosses = [];
     blades.forEach((blade) => scenes.forEach((number) => {
       const places = ran(blade, number);
       const values = curve.values.row(blade, number);
-      if (!places.some((at) => Number.isFinite(values[at]))) return;
+      const lost = places.filter((at) => status.row(blade, number)[at] === DIVERGED);
+      // what has no number at all is not computed, unless every run diverged
+      if (!places.some((at) => Number.isFinite(values[at])) && (!lost.length || lost.length < places.length)) return;
       const rank = state.all ? blade : number;
       const name = state.all ? data.blades[blade] : data.scenes[number];
       const colour = colourOf(rank);
@@ -338,22 +343,25 @@
         marker: { size: 4, symbol: MARKERS[Math.floor(rank / COLOURS.length) % MARKERS.length] },
         text: places.map((at) => pointText(curve, blade, number, at)),
       });
-      const lost = places.filter((at) => status.row(blade, number)[at] === 1);
       if (lost.length) {
-        traces.push({
-          x: shown(lost.map((at) => speeds[at])), y: lost.map(() => 0), mode: "markers", name: `${data.blades[blade]} diverged`,
+        crosses.push({
+          x: shown(lost.map((at) => speeds[at])), mode: "markers", name: `${name} diverged`,
           marker: { symbol: "x", size: 9, color: colour }, hoverinfo: "text", ...(sample && { uid: `${together.uid}-diverged` }),
           text: lost.map((at) => pointText(curve, blade, number, at)),
         });
       }
     }));
+    // above all that has a number: nothing is worse
+    const top = 1.08 * [...below, ...traces].flatMap(({ y }) => y).filter(Number.isFinite).reduce((most, y) => Math.max(most, y), 0) || 1;
+    traces.push(...crosses.map((cross) => ({ ...cross, y: cross.x.map(() => top) })));
     const plan = layout(speedAxis(), axis(broken(labelText(curve)), { automargin: true, title: { text: broken(labelText(curve)), font: { size: 12 } } }));
     markPublished(plan);
     if (state.quantity === "max_von_mises" && yieldStress) markStress(plan, [...below, ...traces], blades, scene);
     draw("response", [...below, ...traces], plan);
   }
 
-  function drawMap(name, { title, unit, say, colorscale, scaled = (column) => column }) {
+  // `marks`: speeds that are marked above the map, with a name, a look and a text
+  function drawMap(name, { title, unit, say, colorscale, scaled = (column) => column, marks = [] }) {
     const map = maps[name];
     const here = [bladeIndex(), sceneIndex()];
     const values = map && map.values.row(...here);
@@ -372,7 +380,18 @@
     const plan = layout(speedAxis(), axis(title), { showlegend: false });
     // on dark colours
     plan.shapes[0].line.color = "#fff";
-    return draw(name, [trace], plan);
+    const marked = ({ mark, of, look, text }) => {
+      const at = ran(...here).filter((place) => of(place));
+      return at.length ? [{
+        type: "scatter", mode: "markers", name: mark, x: shown(at.map((place) => speeds[place])), y: at.map(() => map.other[across - 1]), hoverinfo: "text",
+        text: at.map((place) => `${speedText(speeds[place])}<br>${text(place)}`), marker: { size: 9, ...look }, cliponaxis: false,
+      }] : [];
+    };
+    const diverged = {
+      mark: "diverged", of: (at) => status.row(...here)[at] === DIVERGED, text: () => "diverged",
+      look: { symbol: "x", color: theme.colour("warning") },
+    };
+    return draw(name, [trace, ...[diverged, ...marks].flatMap(marked)], plan);
   }
 
   // below the largest at the same speed: beside a resonance all else would be dark; order 0, the mean, does not count
@@ -380,6 +399,9 @@
     const largest = Math.max(...column.slice(1).filter(Number.isFinite));
     return column.map((value) => Math.max(20 * Math.log10(value / largest), -SPECTRUM_DECIBELS));
   }
+
+  // share of the circumference, of the run at a place among the speeds
+  const wornThrough = (at) => curves.find((curve) => curve.name === "worn_through_share").values.row(bladeIndex(), sceneIndex())[at];
 
   const sayAmplitude = (map, number, at, value) => {
     const order = map.other[number];
@@ -428,13 +450,18 @@
     return digits(value * (unit === "rad/s" ? factor() : toUnit), name.includes("speed") ? 5 : 4);
   }
   const page = {
-    state, set, valueText, mark: (row, { name }) => (STRESSES.includes(name) && outside(row, name) ? " *" : ""),
+    state, set, valueText,
+    mark: (row, { name }) => (STRESSES.includes(name) && outside(row, name) ? " *" : "") + (name === "max_wear_m" && row.worn_through_share > 0 ? " \u2020" : ""),
     link: data.shapes.length ? shapeLink : null,
   };
 
   function drawTable() {
     const rows = drawInteractions(data, page);
-    document.getElementById("note").textContent = rows.some((row) => STRESSES.some((name) => outside(row, name))) ? `* ${OUTSIDE}, a flag and no prediction` : "";
+    const notes = [
+      rows.some((row) => STRESSES.some((name) => outside(row, name))) && `* ${OUTSIDE}, a flag and no prediction`,
+      rows.some((row) => row.worn_through_share > 0) && "\u2020 worn through: the tip has reached the casing behind the lining",
+    ];
+    document.getElementById("note").textContent = notes.filter(Boolean).join("; ");
   }
 
   // the stress of the chosen interaction, which is not that of its peak speed alone
@@ -466,8 +493,13 @@
     spectrum: [() => drawMap("spectrum", {
       title: "engine order", unit: "dB below the largest at that speed", say: sayAmplitude, colorscale: MAGMA, scaled: decibels,
     }), ["blade", "scene", "unit"]],
-    wear: [() => drawMap("wear", { title: "angle (degrees)", unit: maps.wear && broken(labelText(maps.wear)), say: sayWear, colorscale: "Viridis" }),
-      ["blade", "scene", "unit"]],
+    wear: [() => drawMap("wear", {
+      title: "angle (degrees)", unit: maps.wear && broken(labelText(maps.wear)), say: sayWear, colorscale: "Viridis",
+      marks: [{
+        mark: "worn through", of: (at) => wornThrough(at) > 0, look: { symbol: "triangle-down", color: theme.colour("text") },
+        text: (at) => `worn through to the casing on ${digits(100 * wornThrough(at), 3)}% of the circumference`,
+      }],
+    }), ["blade", "scene", "unit"]],
     stress: [drawStress, ["blade", "scene", "speed"]],
   };
   const drawn = {};
@@ -567,14 +599,25 @@
     theme.onChange(drawAll);
   }
 
-  // the interaction with the largest stress, or motion where there is no stress: what the page opens at
+  // the worst run of all blades and scenes: one that diverged, else the largest stress, or motion where there is no stress
+  function worstRun() {
+    const loads = ["max_von_mises", "rms_normal"].map((name) => curves.find((curve) => curve.name === name)).filter(Boolean);
+    let worst = { load: [] };
+    data.blades.forEach((blade, row) => data.scenes.forEach((scene, column) => ran(row, column).forEach((at) => {
+      const diverged = status.row(row, column)[at] === DIVERGED;
+      const load = [diverged ? 1 : 0, ...loads.map((curve) => curve.values.row(row, column)[at])].map((value) => (Number.isFinite(value) ? value : 0));
+      const differs = load.findIndex((value, number) => value !== (worst.load[number] ?? -1));
+      if (differs >= 0 && load[differs] > (worst.load[differs] ?? -1)) worst = { load, blade, scene, speed: speeds[at], diverged };
+    })));
+    return worst;
+  }
+
+  // what the page opens at: the worst run if it diverged, else the peak of the interaction next to it
   function strongest() {
-    const larger = (one, other) => ["max_von_mises_pa", "peak_rms_normal_m"]
-      .reduce((found, name) => found || (one[name] ?? 0) - (other[name] ?? 0), 0) > 0;
-    const [first, ...others] = data.interactions;
-    if (!first) return { speed: speeds[0] };
-    const { blade, scene, peak_speed_rad_s: speed } = others.reduce((found, one) => (larger(one, found) ? one : found), first);
-    return { blade, scene, speed };
+    const { blade, scene, speed, diverged } = worstRun();
+    if (blade === undefined) return { speed: speeds[0] };
+    const peaks = data.interactions.filter((row) => row.blade === blade && row.scene === scene && !diverged).map((row) => row.peak_speed_rad_s);
+    return { blade, scene, speed: peaks.reduce((near, peak) => (Math.abs(peak - speed) < Math.abs(near - speed) ? peak : near), peaks[0] ?? speed) };
   }
 
   // what the address asks for, as far as the data have it

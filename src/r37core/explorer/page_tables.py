@@ -49,6 +49,7 @@ COLUMNS = (
     "max_von_mises_pa",
     "max_von_mises_speed_rad_s",
     "max_wear_m",
+    "worn_through_share",
     "status",
 )
 """Columns of the table of interactions, in this order; those that summary.csv does not have are left out."""

@@ -13,5 +13,6 @@ WING = Wing(
     section=(ExportSection, ExportSection()),
     checks=(exported_speeds_are_run,),
     targets=targets,
+    look_at="<results>/exports",
     on_request=True,
 )

@@ -41,7 +41,8 @@ CAPTIONS = {
     ),
     "wear": (
         "Wear of the lining at the end of the run, over speed and the angle round the casing, for blade {blade} in scene "
-        "{scene}. Dotted: crossings of 1B with engine orders; an interaction wears as many lobes as its engine order."
+        "{scene}. Dotted: crossings of 1B with engine orders; an interaction wears as many lobes as its engine order. White "
+        "triangles: speeds at which the lining is worn through to the casing behind it."
     ),
     "waterfall": (
         "Waterfall of blade {blade} in scene {scene}: spectra of the leading edge's motion, normal to the casing (left) "

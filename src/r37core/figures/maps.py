@@ -87,17 +87,25 @@ def _write_on_dark(axes: Axes, text: str, share: float, height: float, **where: 
 
 
 def draw_wear_map(maps: xr.Dataset, campbell: xr.Dataset, title: str) -> Figure:
-    """Wear over speed and angle of one blade and scene; ticks mark the crossings of 1B with engine orders."""
+    """Wear over speed and angle of one blade and scene, with the crossings of 1B, and speeds at which it is worn through."""
     wear = maps["wear"].dropna("speed", how="all")
     figure, axes = plt.subplots(figsize=(style.COLUMN * 1.4, 3.4))
     if wear.sizes["speed"]:
         _draw_wear(axes, wear, campbell)
+        _mark_worn_through(axes, maps["worn_through_share"])
     else:
         style.say(axes, style.ALL_DIVERGED)
     axes.set(xlabel="speed (rad/s)", ylabel="angle round the casing (degrees)", title=f"wear: {title}")
     style.rpm_axis(axes)
     axes.grid(False)
     return figure
+
+
+def _mark_worn_through(axes: Axes, share: xr.DataArray) -> None:
+    """Triangles at the upper edge, at speeds at which some of the lining is worn through."""
+    speeds = share["speed"].values[share.values > 0.0]
+    look: dict[str, Any] = {"color": "white", "markeredgecolor": "black", "markersize": 5, "markeredgewidth": 0.5}
+    axes.plot(speeds, np.full(len(speeds), 0.97), "v", transform=axes.get_xaxis_transform(), **look)
 
 
 def _draw_wear(axes: Axes, wear: xr.DataArray, campbell: xr.Dataset) -> None:

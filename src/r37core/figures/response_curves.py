@@ -66,10 +66,11 @@ def draw_response_overview(rms: xr.Dataset) -> Figure:
 
 
 def _mark_diverged(axes: Axes, runs: xr.Dataset) -> None:
-    """Red crosses on the axis at speeds whose run diverged."""
+    """Red crosses at the upper edge, worse than any number, at speeds whose run diverged."""
     diverged = runs["speed"].values[runs["status"].values == RunStatus.DIVERGED]
     if len(diverged):
-        axes.plot(diverged, np.zeros(len(diverged)), "x", color="red", label="diverged")
+        where = axes.get_xaxis_transform()
+        axes.plot(diverged, np.full(len(diverged), 0.97), "x", color="red", label="diverged", transform=where)
 
 
 def _mark_crossings(axes: Axes, campbell: xr.Dataset | None) -> None:

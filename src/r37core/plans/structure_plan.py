@@ -10,7 +10,7 @@ from typing import Any
 from r37core.blade.definition import BladeDefinition
 from r37core.config import Settings
 from r37core.config.key_locations import location_of_contact
-from r37core.config.settings import RESULTS
+from r37core.config.settings import results_folder
 from r37core.plain import to_plain
 
 from .paths import MESH, REDUCED_MODEL, WHOLE_BLADE_MODEL, fill
@@ -61,7 +61,7 @@ class Structure:
         """Of a run with a name, where the reduced model lies in the results without one; that it is there re-runs nothing."""
         if self.settings.config.run.name is None:
             return Attributes(file=None)
-        pattern = REDUCED_MODEL.replace("<results>", str(RESULTS))
+        pattern = REDUCED_MODEL.replace("<results>", str(results_folder(None)))
         return Attributes(file=fill(pattern, member=member_of(wildcards), blade=wildcards.blade, tip_line=wildcards.tip_line))
 
     def location_of_contact(self, wildcards: Any) -> Attributes:

@@ -50,6 +50,10 @@ class Wing:
     `remarks`: what a run should say of it before it starts.
     `captions`: kind of figure -> what is seen in it, with names (blade, scene) in braces.
     `panel`: what the explorer shows of it.
+    `closing`: function of the folder of the results, as `folder.module.function`, that says in a line what was found; without
+    one, how many files were made is said.
+    `look_at`: file or folder that a run names first when it ends, as a pattern without wildcards but `<results>`; without one
+    the first page, else picture, else table among the targets.
     """
 
     name: str
@@ -62,6 +66,8 @@ class Wing:
     remarks: Callable[[Settings], list[str]] = lambda _: []
     captions: Mapping[str, str] = field(default_factory=dict)
     panel: Panel | None = None
+    closing: str = ""
+    look_at: str = ""
     on_request: bool = False
 
     def all_targets(self, sweep: Sweep) -> dict[str, Wildcards]:

@@ -18,7 +18,7 @@ RESERVED = ("figures", "studies", "runs", *(wing.name for wing in WINGS))
 
 def blades_are_no_other_folders(settings: Settings) -> None:
     """No blade, nor design of a family, is called like a folder of something else."""
-    family_of = {design: name for name, family in settings.designs.families.items() for design in family.designs}
+    family_of = settings.designs.family_of
     for name in settings.designs.entries:
         if name.lower() in RESERVED:
             what = f"the {'design' if name in family_of else 'blade'} '{name}'"

@@ -86,6 +86,13 @@ INTERACTIONS = {
     "max_wear_m": Word(
         "largest wear", "largest wear of the lining at any speed of the interaction; empty without a lining", "mm", 1e3
     ),
+    "worn_through_share": Word(
+        "worn through",
+        "largest share of the circumference, at any speed of the interaction, at which the tip has reached the casing behind "
+        "the lining; its wear is there less than its thickness, whose elastic part springs back; empty without a lining",
+        "%",
+        100.0,
+    ),
     "status": Word("status", "`completed`, or `diverged` where any run of the interaction did"),
     "width_ever_above_yield_rad_s": Word(
         "width ever above yield", "as the width above yield, of any revolution in the last half of the run", _SPEED
@@ -99,7 +106,9 @@ INTERACTIONS = {
         "median stress", f"largest median over the {_REVOLUTIONS} of their von Mises stress", "MPa", 1e-6
     ),
     "high_von_mises_pa": Word("high stress", f"the same of what 90% of the {_REVOLUTIONS} stay below", "MPa", 1e-6),
-    "peak_motion_m": Word("rms", "rms of the leading edge at the peak speed, normal and tangential together", "mm", 1e3),
+    "peak_motion_m": Word(
+        "rms, both directions", "rms of the leading edge at the peak speed, normal and tangential together", "mm", 1e3
+    ),
     "fall_speed_rad_s": Word("falls at", "speed above the peak at which the motion falls below half of it", _SPEED),
     "note": Word("note", "why columns of the row are empty"),
     "share_of_members": Word("members", "where members are run: how many of them show the interaction", "%", 100.0),
@@ -123,7 +132,10 @@ RANKING = {
         "widest range certainly above yield", f"width of the widest range of speeds at which {_CERTAIN}", _SPEED
     ),
     "largest_rms_m": Word(
-        "largest rms", "largest rms of the leading edge over all speeds, normal and tangential together", "mm", 1e3
+        "largest rms, both directions",
+        "largest rms of the leading edge over all speeds, normal and tangential together",
+        "mm",
+        1e3,
     ),
     "largest_rms_speed_rad_s": Word("speed of the largest rms", "speed at which the rms is largest", _SPEED),
     "drop": INTERACTIONS["drop"],

@@ -101,6 +101,7 @@ class Interaction:
     peak: Peak
     last_revolution: LastRevolution
     max_wear_m: float
+    worn_through_share: float
     status: str
     all_revolutions: AllRevolutions
     peak_motion: PeakMotion
@@ -163,6 +164,7 @@ def interaction_row(
         Peak(speed, speed - crossing.campbell_speed_rad_s, normal, tangential, drop),
         LastRevolution(**last_revolution, stress_region=region),
         _largest(reach, "max_wear"),
+        _largest(reach, "worn_through_share"),
         RunStatus(int(reach["status"].max())).text,
         AllRevolutions(
             **all_revolutions,

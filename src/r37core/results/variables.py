@@ -40,6 +40,7 @@ VARIABLES = {
     ),
     "wear": Variable(("angle",), "m", "wear of the lining, largest over the rings, at the end", "f4"),
     "max_wear": Variable((), "m", "largest wear of the lining at the end"),
+    "worn_through_share": Variable((), "1", "share of the circumference at which the lining is worn through, at the end"),
     "wear_harmonic": Variable(("lobes",), "m", "amplitude of the wear profile's lobes"),
     "casing_amplitude": Variable(
         ("casing_mode", "casing_order"),
@@ -134,7 +135,7 @@ DATASETS = {
         "max_von_mises_history",
         "first_yield_revolution",
     ),
-    "wear": ("wear", "max_wear", "wear_harmonic"),
+    "wear": ("wear", "max_wear", "worn_through_share", "wear_harmonic"),
     "casing": (*OF_CASING, "casing_rms_forward", "casing_rms_backward", "casing_energy", "casing_amplitude"),
 }
 """Dataset -> its variables, where a response has them; each also carries those of FLAGS."""

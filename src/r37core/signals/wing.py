@@ -16,4 +16,5 @@ WING = Wing(
     simulated=simulated,
     targets=targets,
     captions=CAPTIONS,
+    closing="signals.closing.closing",
 )

@@ -18,4 +18,5 @@ WING = Wing(
     targets=targets,
     remarks=remarks,
     captions=CAPTIONS,
+    closing="tolerances.closing.closing",
 )

@@ -1,0 +1,129 @@
+"""The last lines of a run on its wings: what was found and the file to look at, without a word of the wing's own, too."""
+
+import os
+
+import numpy as np
+import pandas as pd
+import pytest
+import xarray as xr
+
+from r37core.designs import closing as designs
+from r37core.plans.sweep_plan import Sweep
+from r37core.plans.wing import Wing
+from r37core.product.closing import line_of_wing
+from r37core.product.wings import WINGS
+from r37core.rotors import closing as rotors
+from r37core.run_ups import closing as run_ups
+from r37core.search import closing as search
+from r37core.signals import closing as signals
+from r37core.tolerances import closing as tolerances
+
+
+def wing(*files, **more):
+    return Wing(name="mine", targets=lambda sweep: {f"<results>/{name}": [{}] for name in files}, **more)
+
+
+@pytest.fixture
+def line(settings, tmp_path):
+    """What is said of a wing whose targets are all there, made at 1000 s, in a run that began then."""
+
+    def of(wing, began=1000.0):
+        for name in wing.targets(None):
+            file = tmp_path / name.removeprefix("<results>/")
+            file.touch()
+            os.utime(file, (1000.0, 1000.0))
+        return line_of_wing(wing, Sweep(settings), tmp_path, began).replace(str(tmp_path), "results")
+
+    return of
+
+
+def test_a_wing_without_a_word_names_what_a_person_opens_first(line, tmp_path):
+    assert line(wing("mine.nc", "mine.csv")) == "mine: 2 files made; look at results/mine.csv"
+    assert line(wing("mine.nc", "a.pdf", "a.png", "mine.csv")) == "mine: 4 files made; look at results/a.png"
+    assert line(wing("mine.csv", "a.png", "mine.html")).endswith("look at results/mine.html")
+    assert line(wing("mine.inp")) == "mine: 1 file made; look at results/mine.inp"
+    assert line(wing("mine.inp", "mine.csv", look_at="<results>/mine")).endswith("look at results/mine")
+    # of what is older, or is not there, nothing is said
+    assert line(wing("mine.csv"), began=1001.0) == ""
+    os.utime(tmp_path / "mine.csv", (2000.0, 2000.0))
+    assert line_of_wing(wing("other.csv"), Sweep(None), tmp_path, 0.0) == ""
+
+
+def test_a_wing_s_own_word(line, tmp_path):
+    pd.DataFrame({"run": [1]}).to_csv(tmp_path / "rotors.csv", index=False)
+    said = line(wing("rotor.png", closing="rotors.closing.closing"))
+    assert said == "mine: 1 rotor; look at results/rotor.png"
+
+
+@pytest.mark.parametrize("wing", WINGS, ids=lambda wing: wing.name)
+def test_the_words_of_the_shipped_wings_are_there(wing):
+    if wing.closing:
+        module = __import__(f"r37core.{wing.closing.rpartition('.')[0]}", fromlist=["closing"])
+        assert callable(module.closing)
+
+
+def table(folder, name, **columns):
+    pd.DataFrame(columns).to_csv(folder / name, index=False)
+
+
+WHERE = {"blade": ["Ref", "NA"], "scene": ["lined", "lined"]}
+STRESS = {"max_von_mises_pa": [2.314e9, np.nan]}
+
+
+def test_run_ups(tmp_path):
+    numbers = {
+        "status": ["completed", "diverged"],
+        "yield_stress_pa": [1.38e9] * 2,
+        "max_von_mises_speed_rad_s": [1718.2, np.nan],
+    }
+    table(tmp_path, "run_ups.csv", **WHERE, **STRESS, **numbers)
+    largest = "the largest stress 2.31 GPa, Ref in lined at 1718.2 rad/s"
+    assert run_ups.closing(tmp_path) == f"2 run-ups, 1 of them above yield, 1 diverged; {largest}"
+    table(tmp_path, "run_ups.csv", **WHERE, status=["completed"] * 2)
+    assert run_ups.closing(tmp_path) == "2 run-ups"
+
+
+def test_rotors(tmp_path):
+    table(tmp_path, "rotors.csv", **WHERE, **STRESS, worst_speed_rad_s=[1640.0, 1650.0])
+    assert rotors.closing(tmp_path) == "2 rotors; the largest stress 2.31 GPa, Ref in lined at 1640 rad/s"
+
+
+def test_designs(tmp_path):
+    lengths = {"length_certain_rad_s": [40.0, 13.2, np.nan], "length_possible_rad_s": [50.0, 20.0, np.nan]}
+    more = {"diverged_runs": [0, 1, 0], "largest_median_stress_pa": [1e9] * 3}
+    table(tmp_path, "designs.csv", blade=["A", "B", "A"], scene=["lined", "lined", "quiet"], **lengths, **more)
+    assert designs.closing(tmp_path) == "2 designs; lined: B is above yield at the fewest speeds (13 rad/s)"
+
+
+def test_tolerances(tmp_path):
+    ends = {"max_von_mises_pa_low": [2.02e9, np.nan], "max_von_mises_pa_high": [1.41e10, np.nan]}
+    table(tmp_path, "tolerances.csv", **WHERE, members=[32, 32], robust=[True, False], **ends)
+    said = (
+        "2 interactions in up to 32 members, 1 of them in at least half of those; the largest stress 2 to 14 GPa, Ref in lined"
+    )
+    assert tolerances.closing(tmp_path) == said
+    table(tmp_path, "tolerances.csv", **{name: [] for name in (*WHERE, "members", "robust", *ends)})
+    assert tolerances.closing(tmp_path).startswith("0 interactions in up to 0 members")
+
+
+def test_signals(tmp_path):
+    for speeds, said in (([1725.0], "1 signal at 1725 rad/s"), ([1725.0, 1330.0], "2 signals at 1330 to 1725 rad/s")):
+        xr.Dataset({"speed": ("run", speeds)}).to_netcdf(tmp_path / "signals.nc")
+        assert signals.closing(tmp_path) == said
+    xr.Dataset().to_netcdf(tmp_path / "signals.nc")
+    assert signals.closing(tmp_path) == "no signal, for no interaction was found"
+
+
+def test_search(tmp_path):
+    axes = ("design", "objective")
+    values = {"objective_value": (axes, [[70.6, 2.0], [13.24, 2.1], [90.0, 1.0]])}
+    values |= {"objective_scatter": (axes, [[0.6, 0.0], [0.5, 0.0], [1.0, 0.0]]), "feasible": ("design", [1, 1, 0])}
+    units = {"objective_unit": ("objective", ["rad s-1", "kg"])}
+    names = {"design": ["start", "d0001", "d0002"], "objective": ["lined", "mass"]}
+    found = xr.Dataset(values | {"order": ("design", [0, 1, 0])}, names | units)
+    found.to_netcdf(tmp_path / "search.nc")
+    said = search.closing(tmp_path).replace(str(tmp_path), "results")
+    best = "the best, d0001: lined 13.2 rad/s (the start 70.6), mass 2.1 kg (the start 2)"
+    assert said == f"2 designs, 1 of them keep all constraints; {best}; entries and STEP files in results/search/best"
+    found.assign(order=("design", [0, 0, 0])).to_netcdf(tmp_path / "search.nc")
+    assert search.closing(tmp_path) == "2 designs, 1 of them keep all constraints"
