@@ -236,6 +236,55 @@ RULES_OF_MODULES = {
 }
 
 
+def planned_after_a_touch(project, files, *arguments):
+    """What runs again when these files have a new time and the same content; their times are put back."""
+    times = {file: file.stat().st_mtime_ns for file in files}
+    for file in files:
+        os.utime(file)
+    jobs = planned_outputs(project, "all_blades", *arguments)
+    for file, time in times.items():
+        os.utime(file, ns=(time, time))
+    return jobs
+
+
+@pytest.mark.parametrize("profile", ["profiles/default", "profiles/node"])
+def test_a_new_time_of_any_file_of_ours_runs_nothing(project, profile):
+    """As after a checkout."""
+    own_package(project)
+    chosen = "--workflow-profile", profile
+    files = [
+        file
+        for folder in ("workflow", "src", "envs", "profiles", "Snakefile")
+        for file in [project / folder, *(project / folder).rglob("*")]
+        if file.is_file() and not {"__pycache__", "config"} & set(file.parts)
+    ]
+    assert {"step.py", "simulate.py", "start.py", "sweep.smk", "laws.py"} <= {file.name for file in files}
+    if planned_after_a_touch(project, files, *chosen):
+        # one by one, to name those at fault
+        assert [file.relative_to(project) for file in files if planned_after_a_touch(project, [file], *chosen)] == []
+
+
+@pytest.mark.parametrize(
+    ("file", "old", "new", "first", "simulated"),
+    [
+        # how the lining is worn
+        ("src/r37core/contact/laws.py", "wear + thickness * excess", "wear + excess", "prepare_time_integration", runs()),
+        ("src/r37core/stress/statistic.py", "HIGH = 0.9", "HIGH = 0.8", "response", set()),
+        ("workflow/scripts/simulate.py", "return None", "return 0", "simulate", runs()),
+        ("workflow/scripts/step.py", "return None", "return 0", "geometry", runs()),
+    ],
+)
+def test_a_changed_line_runs_what_depends_on_it(project, file, old, new, first, simulated):
+    own_package(project)
+    text = (project / file).read_text()
+    assert text.count(old) == 1
+    (project / file).write_text(text.replace(old, new))
+    jobs = planned_outputs(project)
+    assert jobs["response"] == per_run("response.nc")
+    assert jobs.get("simulate", set()) == simulated
+    assert first in jobs and (first == "geometry" or not {"geometry", "mesh", "reduced_model"} & set(jobs))
+
+
 def add_to_modules(project, modules, line):
     if (project / "src").is_symlink():
         own_package(project)

@@ -2,9 +2,14 @@
 
 import contextlib
 import hashlib
+import json
 import re
 import shutil
+import subprocess
+import sys
+import zipfile
 from collections import Counter
+from pathlib import Path
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -15,11 +20,12 @@ import yaml
 from browser import opened
 from overlays import overlay
 from plans_of_snakemake import plan, planned, planned_outputs
-from workflow_runs import copy_odd_project, run_in_odd_project, snakemake
+from workflow_runs import LONGEST, copy_odd_project, run_in_odd_project, snakemake
 
 from r37core.config import ConfigError
 from r37core.product.captions import caption
 from r37core.product.reading import read_settings
+from r37core.time_integration.speed_file import read_speed
 from r37core.yaml_file import load_yaml
 
 pytestmark = pytest.mark.slow
@@ -112,6 +118,8 @@ def shapes_in_the_report(project, speed):
     more = {"reduced_motion": "reduce"}
     with opened(explorer, {"width": 1400, "height": 900}, lambda text: False, **more) as page:
         page.wait_for_selector("html[data-ready]", timeout=60_000)
+        # those of all scenes: only one of them has shapes
+        page.check("#every")
         page.locator("#interactions a").first.click()
         page.wait_for_selector("html[data-ready=yes]", timeout=60_000)
         assert f"{speed} rad/s" in page.text_content("#now")
@@ -119,7 +127,8 @@ def shapes_in_the_report(project, speed):
             page.locator("#files a").click()
         assert download.value.suggested_filename == f"stress_{speed}.glb"
         page.click("#explorer")
-        page.wait_for_selector("#interactions table")
+        # hidden where the scene that it opens at has no interactions
+        page.wait_for_selector("#interactions table", state="attached")
 
 
 def test_run_ups_of_a_finished_run(sweep_copy):
@@ -244,8 +253,8 @@ def test_only_what_a_scene_requires(project, structure_copy):
     assert not {"simulate", "prepare_time_integration", "contact_model", "response"} & set(campbell)
     shutil.copytree(project / "config", structure_copy / "config", dirs_exist_ok=True)
     snakemake(structure_copy, "results/Ref/abradable/response.nc", "results/Ref/direct/response.nc", "--cores", "2")
-    with np.load(structure_copy / "results/Ref/abradable/speed_900.npz") as run:
-        assert not {"wear", "snapshots", "amplitude", "contact_work"} & set(run.files)
+    run = read_speed(structure_copy / "results/Ref/abradable/speed_900.npz")
+    assert not {"wear", "snapshots", "amplitude", "contact_work"} & set(run)
     with xr.open_dataset(structure_copy / "results/Ref/abradable/response.nc") as dataset:
         assert not {"max_von_mises", "wear", "amplitude", "yield_stress", "angle", "lobes", "engine_order"} & set(
             dataset.variables
@@ -328,6 +337,36 @@ def test_one_core_gives_the_same_bits_in_any_folder(root, small_sweep, tmp_path)
         return {str(f.relative_to(folder)): hashlib.sha256(f.read_bytes()).hexdigest() for f in files}
 
     assert digests(project) == digests(small_sweep)
+
+
+def test_report_of_a_run_by_its_own_configuration(sweep_copy):
+    """Whatever config.yaml says since, or a command line said then; a folder without a run is refused with what there is."""
+    results = sweep_copy / "results/runs/first"
+    (sweep_copy / "results").rename(sweep_copy / "first")
+    results.parent.mkdir(parents=True)
+    (sweep_copy / "first").rename(results)
+    configuration = json.loads((results / "configuration.json").read_text())
+    configuration["config"]["run"]["name"] = "first"
+    (results / "configuration.json").write_text(json.dumps(configuration))
+    overlay(sweep_copy, "config.yaml", "{ blades: [S100], speeds: [1000] }")
+
+    def report(folder):
+        command = [sys.executable, "-m", "r37core.console.report", folder]
+        return subprocess.run(command, cwd=sweep_copy, capture_output=True, text=True, timeout=LONGEST, check=False)
+
+    for folder in ("results", "results/runs/frist"):
+        refused = report(folder)
+        assert refused.returncode == 1
+        assert f"RESULTS: found {folder}, where no configuration.json of a run lies" in refused.stderr
+        assert refused.stderr.endswith("finished runs with a name: results/runs/first\n")
+    done = report("results/runs/first")
+    assert done.returncode == 0, done.stderr
+    with zipfile.ZipFile(results / "report.zip") as archive:
+        names = {Path(name).name for name in archive.namelist()}
+    assert names >= {"report.html", "summary.csv", "response_CS100.png"} and "response_S100.png" not in names
+    shutil.copytree(results, sweep_copy / "results/runs/copy")
+    refused = report("results/runs/copy")
+    assert "found results/runs/copy, a copy of the results in results/runs/first" in refused.stderr
 
 
 # of the libraries that Snakemake's page is made with

@@ -16,7 +16,7 @@ import tempfile
 import threading
 import traceback
 from contextlib import contextmanager, suppress
-from functools import cache
+from functools import cache, partial
 from importlib import import_module
 from pathlib import Path
 from types import SimpleNamespace
@@ -139,10 +139,12 @@ def _fork_job_server():
     os.close(reading)
 
     def popen(command, **_):
-        os.write(writing, (json.dumps(command[-2:]) + "\n").encode())
-        return SimpleNamespace(pid=number, kill=lambda: os.kill(number, signal.SIGKILL))
+        stdin = os.fdopen(writing, "w")
+        print(json.dumps(command[-2:]), file=stdin, flush=True)
+        kill = partial(os.kill, number, signal.SIGKILL)
+        return SimpleNamespace(pid=number, stdin=stdin, kill=kill, wait=lambda _: os.waitpid(number, 0))
 
-    job_server.subprocess = SimpleNamespace(Popen=popen, PIPE=None)
+    job_server.subprocess = SimpleNamespace(Popen=popen, PIPE=None, TimeoutExpired=subprocess.TimeoutExpired)
 
 
 def _write_jobs(file):
