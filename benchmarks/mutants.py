@@ -1,8 +1,8 @@
 """Whether the tests notice small changes of the code: a sample of mutations by cosmic-ray, and the score.
 
-Run: make mutants [MUTANTS='--each 20 stress/of_revolutions.py']. A mutation is an operator, number, comparison or the like
-changed at one place; it is killed when a test of its module fails. The sample is drawn with a fixed seed, so that it can be
-repeated.
+Run: make mutants [MUTANTS='--each 20 stress/of_revolutions.py results/']. A folder stands for each of its modules. A mutation
+is an operator, number, comparison or the like changed at one place; it is killed when a test of its module fails. The sample is
+drawn with a fixed seed, so that it can be repeated.
 """
 
 from __future__ import annotations
@@ -22,41 +22,72 @@ from cosmic_ray.work_item import TestOutcome, WorkerOutcome, WorkItem, WorkResul
 ROOT = Path(__file__).parent.parent
 
 TESTS = {
+    "blade/section_changes.py": "test_section_changes.py",
+    "blade/span_law.py": "test_section_changes.py",
     "blade/stacking.py": "test_blade.py",
     "contact/casing.py": "test_contact.py test_cone_contact.py",
     "contact/laws.py": "test_contact.py",
     "fem/matrices.py": "test_fem.py",
     "results/campbell.py": "test_campbell.py",
+    "results/contact_ranges.py": "test_exceedance.py",
     "results/datasets.py": "test_results.py",
-    "results/interactions.py": "test_results.py",
+    "results/exceedance.py": "test_exceedance.py",
+    "results/interactions.py": "test_interactions.py test_results.py",
+    "results/ranking.py": "test_exceedance.py",
     "results/response.py": "test_results.py",
-    "stress/operator.py": "test_results.py",
-    "stress/recovery.py": "test_results.py",
-    "stress/of_revolutions.py": "test_stress.py",
-    "stress/statistic.py": "test_stress.py",
+    "results/speed_ranges.py": "test_exceedance.py",
     "rom/reduced_model.py": "test_rom.py test_time_integration.py",
     "rom/craig_bampton.py": "test_rom.py",
+    "config/blade_table.py": "test_rotor_section.py",
+    "config/rotor_section.py": "test_rotor_section.py",
     "speeds.py": "test_results.py test_config.py",
     "studies/runner.py": "test_studies.py test_modelling_choices.py",
     "time_integration/integrators.py": "test_integrators.py test_time_integration.py",
     "time_integration/gyroscopic.py": "test_coriolis.py",
     "time_integration/jump_plan.py": "test_jumps.py",
+    "time_integration/rotor_run.py": "test_rotor_numbers.py test_rotor.py",
     "time_integration/problem.py": "test_run_statistics.py test_time_integration.py",
     "time_integration/speed_run.py": "test_run_statistics.py",
     "console/leftovers.py": "test_reliability.py",
     "plans/sweep_plan.py": "test_workflow_plans.py",
+    "results/": "test_results.py test_exceedance.py test_interactions.py test_measures.py test_campbell.py "
+    "test_elastic_casing.py test_explorer_tables.py test_tolerances.py",
+    "rotors/": "test_rotor_numbers.py",
+    "search/": "test_search.py test_search_steps.py test_search_figures.py test_search_calls.py",
+    "search/gaussian_processes.py": "test_search_proposals.py",
+    "search/pareto.py": "test_search_proposals.py",
+    "search/problem.py": "test_search_proposals.py",
+    "search/proposal.py": "test_search_proposals.py",
+    "search/surrogate.py": "test_search_proposals.py",
+    "stress/": "test_stress.py test_results.py",
 }
-"""Module -> the test files that are to notice."""
+"""Module, or folder with the rest of its modules, -> the test files that are to notice."""
 
 EQUIVALENT = "BitOr"
 """In this code mostly the bar between types, which nothing evaluates."""
+
+
+def tests_of(module: str) -> str:
+    """The test files of a module: its own, or those of its folder."""
+    return TESTS.get(module) or TESTS[f"{Path(module).parent.as_posix()}/"]
+
+
+def modules_of(name: str) -> list[str]:
+    """The module, or those of a folder. Raises ValueError where there is none, and where no tests are known."""
+    package = ROOT / "src/r37core"
+    files = sorted((package / name).glob("*.py")) if (package / name).is_dir() else [package / name]
+    modules = [file.relative_to(package).as_posix() for file in files if file.name != "__init__.py"]
+    for module in modules:
+        if not (package / module).is_file() or not ({module, f"{Path(module).parent.as_posix()}/"} & TESTS.keys()):
+            raise ValueError(f"{name}: found no such module, or no tests of it; allowed: {', '.join(TESTS)}")
+    return modules
 
 
 def mutants_of(module: str, folder: Path, each: int, seconds: float) -> list[tuple[WorkItem, WorkResult]]:
     """Draw `each` mutations of a module in the copy `folder` of the project, and run its tests on every one."""
     session, settings = folder / "mutants.sqlite", folder / "mutants.toml"
     session.unlink(missing_ok=True)
-    tests = " ".join(f"tests/{name}" for name in TESTS[module].split())
+    tests = " ".join(f"tests/{name}" for name in tests_of(module).split())
     settings.write_text(
         f'[cosmic-ray]\nmodule-path = "src/r37core/{module}"\ntimeout = {seconds}\nexcluded-modules = []\n'
         f"test-command = \"{sys.executable} -m pytest -x -q -p no:cacheprovider -m 'not slow' {tests}\"\n"
@@ -95,7 +126,9 @@ def score(results: dict[str, list[tuple[WorkItem, WorkResult]]]) -> str:
     """The score of every module, and the mutations that no test noticed."""
     number = sum(map(len, results.values()))
     killed = number - sum(survived(result) for several in results.values() for _, result in several)
-    lines = [f"{killed} of {number} killed.", "", "| module | mutations | killed |", "|---|---|---|"]
+    unnoticed = 100 * (number - killed) / max(number, 1)
+    head = f"{killed} of {number} killed, {unnoticed:.1f}% unnoticed."
+    lines = [head, "", "| module | mutations | killed |", "|---|---|---|"]
     for module, several in results.items():
         lines.append(f"| `{module}` | {len(several)} | {sum(not survived(result) for _, result in several)} |")
     lines += ["", "Survivors:", ""]
@@ -116,18 +149,22 @@ def _lines_of(diff: str) -> tuple[str, str]:
 def main() -> None:
     """Run the sample and print the score."""
     parser = argparse.ArgumentParser(description="Whether the tests notice small changes of the code.")
-    parser.add_argument("modules", nargs="*", default=list(TESTS), help="modules of src/r37core; all without it")
+    parser.add_argument("modules", nargs="*", default=list(TESTS), help="modules or folders of src/r37core")
     parser.add_argument("--each", type=int, default=6, help="mutations of each module")
     parser.add_argument("--seconds", type=float, default=300.0, help="longest time of one test run")
     chosen = parser.parse_args()
+    try:
+        modules = list(dict.fromkeys(module for name in chosen.modules for module in modules_of(name)))
+    except ValueError as error:
+        parser.error(str(error))
     results = {}
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         tracked = subprocess.run(["git", "ls-files", "-z"], cwd=ROOT, capture_output=True, text=True, check=True).stdout
         for file in filter(None, tracked.split("\0")):
             (folder / file).parent.mkdir(parents=True, exist_ok=True)
-            shutil.copy(ROOT / file, folder / file)
-        for module in chosen.modules:
+            shutil.copy(ROOT / file, folder / file, follow_symlinks=False)
+        for module in modules:
             results[module] = mutants_of(module, folder, chosen.each, chosen.seconds)
             print(
                 f"{module}: {sum(not survived(result) for _, result in results[module])} of {len(results[module])} killed",

@@ -40,7 +40,8 @@ def test_a_stranger_adds_a_capability_by_the_page_alone(root, sweep_copy):
 
     # it is part of all_blades, and nothing that was made before is made again
     assert set(planned(sweep_copy)) == {"largest_stress_table", "all_blades"}
-    snakemake(sweep_copy, "largest_stress", "--cores", "1")
+    said = snakemake(sweep_copy, "largest_stress", "--cores", "1")
+    assert "largest_stress: 1 file made; look at results/largest_stress.csv\n" in said
     table = pd.read_csv(sweep_copy / "results/largest_stress.csv")
     stress = r37.open_results(sweep_copy / "results")["stress"]
     assert list(table["blade"]) == list(stress["blade"].values)

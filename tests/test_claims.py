@@ -249,7 +249,7 @@ def test_rearranged_code_renews_hashes_but_not_of_what_is_older(copy):
 def test_names_of_claims():
     from claims.__main__ import named
 
-    for name in ("tradeoff", "growth.png", "docs/growth.png", "accuracy.md#levels", "accuracy_tables.md#tradeoff"):
+    for name in ("tradeoff", "growth.png", "docs/growth.png", "accuracy_tables.md#levels", "accuracy_tables.md#tradeoff"):
         assert [claim.name for claim in named(name)] == ["tradeoff"], name
     assert len(named("accuracy.md")) > 3
     with pytest.raises(ValueError, match="ONLY: found 'growht'; allowed: rules, "):

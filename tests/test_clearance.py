@@ -412,6 +412,9 @@ def test_growth_of_a_casing_reaches_the_highest_speed(config_copy):
     found = r"growing_abradable\.casing\.clearance\.casing_growth: found growth up to 942\.478 rad/s; allowed: up to "
     with pytest.raises(ConfigError, match=rf"{found}structure\.maximum_speed_rad_s, 2000 rad/s \(19098\.6 rpm\)"):
         load_settings(config, config_copy)
+    fast = config | {"speeds": [900, 950], "structure": config["structure"] | {"maximum_speed_rad_s": 900}}
+    with pytest.raises(ConfigError, match=rf"{found}the fastest of its speeds, 950 rad/s"):
+        load_settings(fast, config_copy)
 
 
 def test_stress_of_rotation_is_part_of_the_stress():

@@ -1,6 +1,7 @@
 """Casing, lining, friction and the complementarity solve, each against hand or brute-force answers."""
 
 import itertools
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -12,7 +13,7 @@ from scipy.optimize import brentq
 
 from r37core.contact import laws
 from r37core.contact.casing import casing_axes
-from r37core.contact.laws import displaced_position, lobe_shape
+from r37core.contact.laws import displaced_position, lobe_shape, wear_at_the_casing
 
 BAR = Lining(5e-3, 20e9, 5e9, 1e6, bar_width=1e-3)
 
@@ -78,6 +79,15 @@ def test_wear_never_shrinks_and_a_bar_never_pulls(pushes, elastic, plastic, yiel
         assert stress >= 0.0
         assert wear <= new <= 5e-3
         wear = new
+
+
+@pytest.mark.parametrize("plastic", [0.0, 5e9])
+def test_a_bar_at_the_casing_is_worn_as_far_as_it_can_be(plastic):
+    """By less than its thickness where it hardens: its elastic part springs back."""
+    lining = replace(BAR, plastic_modulus=plastic)
+    stress, worn = return_mapping(lining.thickness, 0.0, lining)
+    assert wear_at_the_casing(lining) == pytest.approx(worn, rel=1e-12) and worn <= lining.thickness
+    assert worn + lining.thickness * stress / lining.elastic_modulus == pytest.approx(lining.thickness, rel=1e-12)
 
 
 def test_friction_opposes_sliding():
@@ -155,10 +165,11 @@ def test_more_nodes_than_a_vector_holds():
     assert np.abs(opened * multipliers).max() < 1e-8
 
 
-def test_a_pivot_that_all_but_cancels():
-    """Two nodes that push each other as much as themselves."""
-    matrix = np.array([[1.0, 1.0], [1.0, 1.0 + 1e-8]])
-    multipliers, violation = solve_complementarity(matrix, -matrix @ [1.0, 1.0])
+@pytest.mark.parametrize("nodes", [2, 8])
+def test_a_pivot_that_all_but_cancels(nodes):
+    """Nodes that push each other as much as themselves: two of them, and as many as a problem has room for."""
+    matrix = np.ones((nodes, nodes)) + 1e-8 * np.diag(np.arange(nodes))
+    multipliers, violation = solve_complementarity(matrix, -matrix.sum(axis=1))
     assert violation == 0.0
     np.testing.assert_allclose(multipliers, 1.0, rtol=1e-6)
 

@@ -46,9 +46,9 @@ def readme(root):
 @pytest.fixture(scope="module")
 def measured(pages):
     """Level -> error (%) in all but direct contact on points, error in that, and CPU seconds per run."""
-    page = pages["accuracy"]
-    costs = dict(re.findall(r"^\| `(\w+)` \| [\d.]+% \| ([\d.]+) \|", section(page, "levels"), re.MULTILINE))
-    worst = re.findall(r"^\| `(\w+)` \| (\w+) \| `(\w+)` \|.* ([\d.]+) \|$", section(page, "patches_levels"), re.MULTILINE)
+    costly, by_blade = section(pages["accuracy_tables"], "levels"), section(pages["accuracy"], "patches_levels")
+    costs = dict(re.findall(r"^\| `(\w+)` \| [\d.]+% \| ([\d.]+) \|", costly, re.MULTILINE))
+    worst = re.findall(r"^\| `(\w+)` \| (\w+) \| `(\w+)` \|.* ([\d.]+) \|$", by_blade, re.MULTILINE)
     errors: dict[str, dict[bool, list[float]]] = {}
     for name, contact, scene, error in worst:
         errors.setdefault(name, {}).setdefault((contact, scene) == ("points", "direct"), []).append(float(error))

@@ -8,6 +8,7 @@ import pytest
 import xarray as xr
 from defaults import Casing, Friction, IntegrationChoice, Lining, Scene
 from integration_cases import ABRADABLE, DIRECT, assert_same_totals_and_wear, oscillator, random_model, with_static_modes
+from integration_cases import RING as STEEL
 from scipy.integrate import solve_ivp
 from test_coriolis import SCENES, coupled_model
 
@@ -22,7 +23,7 @@ from r37core.contact.elastic_casing import (
     shortest_met,
     slowest_wave,
 )
-from r37core.contact.ring import Ring, RingMode, RingMotion, critical_speed
+from r37core.contact.ring import RingMode, RingMotion, critical_speed
 from r37core.figures.campbell_diagram import draw_campbell
 from r37core.figures.maps import draw_map
 from r37core.figures.style import plt
@@ -43,9 +44,6 @@ from r37core.time_integration.speed_file import write_speed
 from r37core.time_integration.speed_run import run_speed
 
 CHOICE = IntegrationChoice(2e-7, 1, 62, integrator=EXACT_MODAL)
-
-STEEL = Ring(0.255, 0.002, 0.05, 2.1e11, 7850.0, 0.002, 1e7, 1e6, 11)
-"""Eleven modes: more pairs than a vector has numbers."""
 
 FLANGED = replace(STEEL, radial_foundation=1e9, tangential_foundation=1e9)
 """The shipped ring but for its damping."""

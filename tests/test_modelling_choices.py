@@ -304,9 +304,14 @@ def test_survey_counts_responses_beside_the_interactions():
     checks = {check.name: check for check in survey_checks(survey, shipped)}
     assert [name for name, check in checks.items() if not check.agrees] == []
     assert any(check.detail == "3 and 2" for check in checks.values())
+    # the median is counted once, of the radial displacement, and the normal one is named
+    survey["Ref_direct"]["rms_normal"][:] = 0.234e-3
+    medians = [check for check in survey_checks(survey, shipped) if "median rms, radial" in check.name]
+    assert [check.shown for check in medians] == ["0.02 (normal to the casing 0.02)", "0.13 (normal to the casing 0.23)"]
+    assert all(check.agrees for check in medians)
     survey["Ref_lined"]["rms_radial"].loc[{"speed": 1345.0}] = 0.9e-3
     differing = [check.name for check in survey_checks(survey, shipped) if not check.agrees]
-    assert differing == ["Ref lined, 750 to 2000: no other radial rms above 0.8 mm"]
+    assert differing == ["Ref lined, 750 to 2000: no other rms above 0.8 mm, radial"]
 
 
 def test_a_median_does_not_depend_on_where_speeds_lie_close():

@@ -11,6 +11,7 @@ from workflow_runs import snakemake
 
 from r37core.console.failures import show
 from r37core.console.progress import Progress, quieten
+from r37core.time_integration.speed_file import write_speed
 from r37core.time_integration.status import RunStatus
 
 
@@ -111,7 +112,7 @@ def test_a_message_of_a_job_takes_the_place_of_the_line(clock):
 
 def test_diverged_runs_are_counted(clock, tmp_path):
     for name, status in (("a", RunStatus.COMPLETED), ("b", RunStatus.DIVERGED)):
-        np.savez(tmp_path / f"{name}.npz", status=int(status))
+        write_speed({"status": np.array(int(status))}, tmp_path / f"{name}.npz", {})
     (tmp_path / "c.npz").write_text("no archive")
     progress = Progress(10, io.StringIO(), clock)
     for number, name in enumerate("abc", 1):

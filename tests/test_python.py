@@ -1,5 +1,6 @@
 """The package r37: what it gives is what the workflow gives, what takes long is kept, and bad input has one clear message."""
 
+import itertools
 import os
 import re
 import runpy
@@ -206,6 +207,29 @@ BAD = {
         "r37.sweep: speeds: found 5 rad/s twice",
     ),
     "no speed": (lambda config: r37.sweep("Ref", "direct", [], config=config), "speeds: found .*; allowed: .* at least 1"),
+    "speeds without end": (
+        lambda config: r37.sweep("Ref", "direct", itertools.count(1), config=config),
+        "speeds: found more than 100000 values; allowed: at most as many",
+    ),
+    "blades without end": (
+        lambda config: r37.compare(itertools.cycle(["Ref"]), "direct", [900], config=config),
+        "blades?: found more than 100000 values; allowed: at most as many",
+    ),
+    "a bare casing whose lining wears": (
+        lambda config: r37.scene("abradable", config=config, lining=None),
+        "abradable.results: found wear; allowed: only in a scene with a lining",
+    ),
+    "a number of a scene in a search": (
+        lambda config: r37.search(
+            "S100",
+            "direct",
+            [900],
+            variables={"casing.clearance_m": [1e-4, 2e-4]},
+            objectives={"stress": {"measure": "largest_rms_m", "scenes": ["direct"]}},
+            config=config,
+        ),
+        r"unknown key casing\.clearance_m; .* \(a number of a scene varies under tolerances\.of_scenes",
+    ),
     "a speed in words": (
         lambda config: r37.simulate("Ref", "direct", "fast", config=config),
         "speed: found 'fast'; allowed: num",
@@ -391,11 +415,16 @@ def test_what_fails_leaves_nothing_in_the_cache(monkeypatch, tmp_path):
 
     with pytest.raises(ValueError, match="impossible"):
         kept_file("model.nc", [1.0], make, cache_folder())
-    assert [path.name for path in (tmp_path / "cache").iterdir()] == ["making.lock"]
+    assert list((tmp_path / "cache").iterdir()) == []
 
 
-def test_another_process_may_be_faster(monkeypatch, tmp_path):
+def test_another_process_may_be_faster_where_there_are_no_locks(monkeypatch, tmp_path):
     monkeypatch.setenv("R37_CACHE", str(tmp_path / "cache"))
+
+    def flock(file, operation):
+        raise OSError("no locks available")
+
+    monkeypatch.setattr("fcntl.flock", flock)
 
     def make(file):
         if not list((tmp_path / "cache").glob("model-*")):

@@ -488,7 +488,7 @@ def test_environments_of_conda_are_refused_before_one_is_made(root, tmp_path):
 def test_a_killed_run_goes_on_with_the_same_command(root, tmp_path, wait):
     copy_stubbed(root, tmp_path)
     slow = tmp_path / "workflow/scripts/step.py"
-    slow.write_text("import time\ntime.sleep(30)\n" + slow.read_text())
+    slow.write_text("import time\ntime.sleep(1000)\n" + slow.read_text())
     command = ("results/Ref/geometry.nc", "--cores", "1")
 
     def begun():
@@ -497,7 +497,7 @@ def test_a_killed_run_goes_on_with_the_same_command(root, tmp_path, wait):
         return locked
 
     kill_snakemake(tmp_path, *command, when=begun)
-    slow.write_text(slow.read_text().replace("time.sleep(30)", ""))
+    slow.write_text(slow.read_text().replace("time.sleep(1000)", ""))
     text = snakemake(tmp_path, *command)
     assert "the last run here was killed" in text
     assert (tmp_path / "results/Ref/geometry.nc").exists()

@@ -3,10 +3,14 @@
 import ast
 import io
 import logging
+import os
+import signal
+import subprocess
 import sys
 import types
 
 import pytest
+import xarray as xr
 
 import r37
 from r37.command import main
@@ -115,3 +119,29 @@ def test_the_command_takes_rpm_and_tells_a_warning_in_a_line(monkeypatch, capsys
     monkeypatch.setitem(sys.modules, "r37.simulations", types.SimpleNamespace(sweep=sweep))
     assert main(["simulate", "Ref", "direct", f"{1700.0 / RAD_S['rpm']}", "--rpm", "--quiet"]) == 1
     assert capsys.readouterr().err == "r37: enough\n" and LOGGER.level == logging.NOTSET
+
+
+def test_the_command_answers_in_the_unit_of_the_speeds(monkeypatch, capsys):
+    values = {"rms_normal": (("speed", "tip_point"), [[1e-3]]), "rms_tangential": (("speed", "tip_point"), [[2e-3]])}
+    found = xr.Dataset(values | {"status": ("speed", [0])}, {"speed": [1700.0], "tip_point": ["leading_edge"]})
+    monkeypatch.setitem(sys.modules, "r37.simulations", types.SimpleNamespace(sweep=lambda *_, **__: found))
+    assert main(["simulate", "Ref", "direct", "1700", "--quiet"]) == 0
+    assert [line.split() for line in capsys.readouterr().out.splitlines()[1:]] == [
+        ["speed", "(rad/s)"],
+        ["1700.0", "1", "2", "completed"],
+    ]
+    assert main(["simulate", "Ref", "direct", f"{1700.0 / RAD_S['rpm']}", "--rpm", "--quiet"]) == 0
+    head, name, row = capsys.readouterr().out.splitlines()
+    assert head.split()[:2] == ["speed", "(rad/s)"] and name.strip() == "speed (rpm)"
+    assert row.startswith("16233.80419") and row.split()[1:] == ["1700", "1", "2", "completed"]
+
+
+@pytest.mark.parametrize("words", [["--print-completion", "bash"], ["blades"]])
+def test_nobody_reads_on(words):
+    """What is printed goes to a pipe that is closed: no traceback, and the status that a shell gives."""
+    reading, writing = os.pipe()
+    os.close(reading)
+    command = f"import sys; from r37.command import main; sys.exit(main({words}))"
+    done = subprocess.run([sys.executable, "-c", command], stdout=writing, stderr=subprocess.PIPE, text=True, check=False)
+    os.close(writing)
+    assert (done.returncode, done.stderr) == (128 + signal.SIGPIPE, "")

@@ -349,6 +349,10 @@ def test_without_numbers_there_are_no_members(settings):
         ),
         ({"of_blades": {"camber_deg": {"uniform_percent": 1.0}}}, "percent of camber_deg, which is 0"),
         ({"of_blades": {"material.poissons_ratio": {"values": [0.3, 0.5]}}}, r"poissons_ratio: the end of its .*less than 0.5"),
+        (
+            {"of_blades": {"sweep_cm": {"uniform": 50.0}}},
+            r"of_blades\.sweep_cm: .*found a sweep of .*up to the height of the blade",
+        ),
         ({"of_blades": {"sweep_cm": {"uniform": 300.0}}}, "of_blades.sweep_cm: .*at least -100"),
         ({"of_blades": {"lean_deg": {"values": [89.0, 90.0]}}}, "of_blades.lean_deg: .*less than 90"),
         ({"of_blades": {"sweep_percent": {"values": [100.0, 1e9]}}, "blades": ["S100"]}, "sweep_percent: .*at most 1000"),
