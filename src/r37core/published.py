@@ -72,10 +72,10 @@ TORSION = 1630.0
 """About where the lined scene shows a response of the first torsion mode."""
 
 LARGEST_ELSEWHERE = 0.8e-3
-"""Nothing but the four interactions has a larger rms (m, radial, lined, 750 to 2000 rad/s)."""
+"""Nothing but the four interactions has a larger rms (m, of the radial displacement, lined, 750 to 2000 rad/s)."""
 
 MEDIAN = {"lined": 0.02e-3, "direct": 0.13e-3}
-"""Median rms (m, radial) over 750 to 2000 rad/s."""
+"""Median rms (m, of the radial displacement) over 750 to 2000 rad/s."""
 
 AREAS_CM2 = {0: 1.8427, 30: 1.4094, 50: 1.1842, 70: 0.9806, 100: 0.7059}
 """Span (%) -> area of the reference blade's profile."""

@@ -57,4 +57,5 @@ def members_of_the_study_are_possible(settings: Settings) -> None:
                 try:
                     changed_scene(scene, {key: end})
                 except ImpossibleValueError as error:
-                    raise refusal(f"the end of its range: {error}", "a narrower tolerance") from None
+                    text = f"the end of its range: {error}; or a narrower tolerance"
+                    raise settings.documents.config.error((*path, key), text) from None

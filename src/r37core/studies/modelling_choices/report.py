@@ -78,7 +78,11 @@ def _cells(name: str, runs: Runs) -> list[str]:
     lined = [*speeds, largest, score(drops), _ours(checks, "Ref lined at 1717: first yield")]
     direct = [
         _ours(checks, name)
-        for name in ("direct: largest rms", "direct: last speed before the drop", "direct at 1344: first yield, shortly before")
+        for name in (
+            "direct: largest rms, normal and tangential together",
+            "direct: last speed before the drop",
+            "direct at 1344: first yield, shortly before",
+        )
     ]
     return [CHOICES[name].what, *lined, *direct, score(list(checks.values()))]
 

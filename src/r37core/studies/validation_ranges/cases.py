@@ -52,7 +52,11 @@ def _scenes(settings: Settings, kind: str) -> dict[str, Scene]:
         try:
             scenes[member] = changed_scene(entry, {key: value for key, value in values.items() if value is not None})
         except ImpossibleValueError as error:
-            raise _refusal(settings, error.key, f"member {member}: {error}", "a narrower tolerance") from None
+            path, text = (
+                ("studies", "validation_ranges", "of_scenes", error.key),
+                f"member {member}: {error}; or a narrower tolerance",
+            )
+            raise settings.documents.config.error(path, text) from None
     return scenes
 
 
@@ -74,10 +78,6 @@ def _section(settings: Settings) -> ValidationRangesSection:
             "config.yaml: studies.validation_ranges: missing; the study needs its tolerances, as in the shipped file"
         )
     return section
-
-
-def _refusal(settings: Settings, key: str, value: str, allowed: str) -> ConfigError:
-    return settings.documents.config.refusal(("studies", "validation_ranges", "of_scenes", key), value, allowed)
 
 
 def inputs(settings: Settings) -> dict[str, Any]:
