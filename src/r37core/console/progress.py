@@ -17,7 +17,7 @@ from pathlib import Path
 from typing import Any, TextIO
 
 from r37core.io import InputFileError
-from r37core.time_integration.speed_file import read_speed
+from r37core.time_integration.speed_file import read_status
 from r37core.time_integration.status import RunStatus
 
 QUIET_EVENTS = frozenset({"job_info", "job_started", "job_finished", "progress", "shellcmd", "resources_info"})
@@ -146,8 +146,8 @@ def quieten(handlers: Collection[logging.Handler], progress: Progress) -> bool:
 
 def _diverged(file: Path) -> bool:
     try:
-        return int(read_speed(file)["status"]) == RunStatus.DIVERGED
-    except (InputFileError, KeyError):
+        return read_status(file) == RunStatus.DIVERGED
+    except InputFileError:
         return False
 
 
