@@ -50,7 +50,7 @@ def test_a_wing_without_a_word_names_what_a_person_opens_first(line, tmp_path):
 
 
 def test_a_wing_s_own_word(line, tmp_path):
-    pd.DataFrame({"run": [1]}).to_csv(tmp_path / "rotors.csv", index=False)
+    pd.DataFrame({"diverged_speeds": [0]}).to_csv(tmp_path / "rotors.csv", index=False)
     said = line(wing("rotor.png", closing="rotors.closing.closing"))
     assert said == "mine: 1 rotor; look at results/rotor.png"
 
@@ -84,8 +84,10 @@ def test_run_ups(tmp_path):
 
 
 def test_rotors(tmp_path):
-    table(tmp_path, "rotors.csv", **WHERE, **STRESS, worst_speed_rad_s=[1640.0, 1650.0])
-    assert rotors.closing(tmp_path) == "2 rotors; the largest stress 2.31 GPa, Ref in lined at 1640 rad/s"
+    numbers = {"worst_speed_rad_s": [1640.0, 1650.0], "speeds": [2, 3]}
+    for diverged, said in (([0, 0], ""), ([0, 3], ", 3 of 5 runs diverged")):
+        table(tmp_path, "rotors.csv", **WHERE, **STRESS, **numbers, diverged_speeds=diverged)
+        assert rotors.closing(tmp_path) == f"2 rotors{said}; the largest stress 2.31 GPa, Ref in lined at 1640 rad/s"
 
 
 def test_designs(tmp_path):
@@ -97,9 +99,11 @@ def test_designs(tmp_path):
 
 def test_tolerances(tmp_path):
     ends = {"max_von_mises_pa_low": [2.02e9, np.nan], "max_von_mises_pa_high": [1.41e10, np.nan]}
+    xr.Dataset({"status": (("member", "speed"), [[0, 1, 2], [0, 0, 2]])}).to_netcdf(tmp_path / "tolerances.nc")
     table(tmp_path, "tolerances.csv", **WHERE, members=[32, 32], robust=[True, False], **ends)
     said = (
-        "2 interactions in up to 32 members, 1 of them in at least half of those; the largest stress 2 to 14 GPa, Ref in lined"
+        "2 interactions in up to 32 members, 1 of them in at least half of those; 1 of 4 runs diverged; "
+        "the largest stress 2 to 14 GPa, Ref in lined"
     )
     assert tolerances.closing(tmp_path) == said
     table(tmp_path, "tolerances.csv", **{name: [] for name in (*WHERE, "members", "robust", *ends)})

@@ -272,6 +272,21 @@ def test_comparison_is_over_each_blade_s_own_crossing(datasets):
     plt.close(figure)
 
 
+def test_comparison_marks_runs_that_diverged(datasets):
+    """Also of a blade none of whose runs ended."""
+    of_scene = datasets["rms"].sel(scene="abradable").copy(deep=True)
+    of_scene["status"][1] = RunStatus.DIVERGED
+    of_scene["rms_normal"][1] = of_scene["rms_tangential"][1] = np.nan
+    figure = draw_comparison(datasets["campbell"], of_scene, None, "abradable")
+    for axes in figure.axes:
+        (crosses,) = (line for line in axes.lines if line.get_marker() == "x")
+        x = crosses.get_xdata()
+        assert len(x) == 5 and -2.0 <= x.min() and x.max() <= 6.0
+        assert crosses.get_color() == style.blade_styles(BLADES)[BLADES[1]]["color"]
+    assert {BLADES[1], "diverged"} <= {text.get_text() for text in figure.legends[0].get_texts()}
+    plt.close(figure)
+
+
 def test_nothing_run_is_drawn_as_nothing(datasets):
     empty = datasets["spectrum"].sel(blade="Ref", scene="direct").where(False)
     plt.close(waterfall.draw_waterfall(empty, datasets["campbell"].sel(blade="Ref"), "Ref, direct"))

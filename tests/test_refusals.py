@@ -260,7 +260,7 @@ CONFIG_REFUSALS = [
     (
         "speeds_for: []",
         "speeds_for: [{ scenes: [direct], speeds: [0.01] }]",
-        r"speeds: found 0\.01 rad/s, a revolution of 1\.31e\+08 steps .*; allowed: speeds from 0\.312 rad/s",
+        r"speeds: found 0\.01 rad/s, a revolution of 1\.31e\+08 steps .*; allowed: speeds from 0\.313 rad/s with",
     ),
     ("start: 750, ", "start: 0, ", r"speeds\.0\.start: found 0; allowed: number, at least 0\.001"),
     (
@@ -387,6 +387,11 @@ def test_a_run_of_too_many_steps_is_refused_and_a_long_one_says_so(config_copy):
     )
     with pytest.raises(ConfigError, match=message):
         read_settings(config_copy, command_line_document({"fidelity": "draft", "speeds": [4.9]}))
+    # what is named as allowed is allowed; in the unit and the place that the speed was given in
+    read_settings(config_copy, command_line_document({"fidelity": "draft", "speeds": [4.91]}))
+    message = r"^r37\.sweep: speeds_rpm: found 4\.9\d* rad/s, .*; allowed: speeds from 4\.91 rad/s \(46\.9 rpm\) with"
+    with pytest.raises(ConfigError, match=message):
+        read_settings(config_copy, command_line_document({"fidelity": "draft", "speeds_rpm": [46.8]}, "r37.sweep"))
     settings = read_settings(config_copy, command_line_document({"fidelity": "draft", "speeds": [5]}))
     assert remarks_on_speeds(settings) == [
         "speeds: at 5 rad/s a run of 9.82e+08 steps (5000 revolutions) takes about 98 s of CPU time"

@@ -371,7 +371,7 @@ def test_speeds_that_diverged_are_crosses_in_the_figure(diverged, stressed):
     (crosses,) = (line for line in figure.axes[0].lines if line.get_label() == "diverged")
     np.testing.assert_array_equal(crosses.get_xdata(), 900.0 + 10.0 * np.flatnonzero(diverged))
     np.testing.assert_array_equal(crosses.get_ydata(), np.array([3, 3, 1])[np.array(diverged) > 0])
-    told = f"; {sum(diverged)} of 3 speeds diverged"
+    told = f"\n{sum(diverged)} of 3 speeds diverged"
     most = 1 - min(diverged)
     assert figure.axes[1].get_title() == (f"at most {most} of 2 blades above yield at one speed{told}" if stressed else "")
     plt.close(figure)

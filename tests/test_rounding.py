@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from r37core.rounding import rounded_to
+from r37core.rounding import rounded_to, rounded_up
 
 
 @pytest.mark.parametrize(
@@ -50,3 +50,8 @@ def test_rounding_moves_a_number_by_at_most_a_sixth_of_its_spread_and_keeps_no_d
         # a multiple of the longest digit that is allowed
         in_digits = float(text) / 10.0 ** math.floor(math.log10(spread / 3.0))
         assert math.isclose(in_digits, round(in_digits), abs_tol=1e-6)
+
+
+@pytest.mark.parametrize(("value", "text"), [(0.23401, "0.235"), (0.234, "0.234"), (1234.0, "1240"), (5.0, "5"), (9.991, "10")])
+def test_a_lower_bound_is_never_rounded_below_itself(value, text):
+    assert rounded_up(value) == text and float(text) >= value

@@ -280,8 +280,20 @@ def test_the_worst_of_several_scenes_counts_and_a_quantile_is_of_the_members():
     value, scatter = of_contact(Quantity("length_certain_rad_s", ("a", "b"), quantile=0.9), nominal, members)
     assert value == pytest.approx(9.0) and 0.2 < scatter < 3.0
     assert of_contact(Quantity("length_certain_rad_s", ("b",), quantile=0.5), nominal, members) == (7.0, 0.0)
-    value, scatter = of_contact(Quantity("largest_rms_m", ("a",)), {"a": {"largest_rms_m": 2.0}}, {})
+    value, scatter = of_contact(Quantity("largest_rms_m", ("a",)), {"a": {"largest_rms_m": 2.0, "diverged_runs": 0.0}}, {})
     assert value == 2.0 and np.isnan(scatter)
+
+
+@pytest.mark.parametrize("measure", ["largest_rms_m", "largest_median_stress_pa"])
+def test_a_design_is_not_better_for_runs_that_diverged(measure):
+    """They have neither motion nor stress."""
+    ended, diverged = ({measure: 2.0, "diverged_runs": float(number)} for number in (0, 1))
+    value, scatter = of_contact(Quantity(measure, ("a", "b")), {"a": ended, "b": diverged}, {})
+    assert value == np.inf and np.isnan(scatter)
+    members = {"a": [ended] * 8 + [diverged] * 2}
+    for quantile, expected in ((0.5, 2.0), (0.9, np.inf)):
+        value, scatter = of_contact(Quantity(measure, ("a",), quantile=quantile), {}, members)
+        assert value == expected and np.isnan(scatter)
 
 
 def test_the_start_has_values_of_what_its_entry_leaves_out(folder):

@@ -347,6 +347,8 @@ def test_report_of_a_run_by_its_own_configuration(sweep_copy):
     (sweep_copy / "first").rename(results)
     configuration = json.loads((results / "configuration.json").read_text())
     configuration["config"]["run"]["name"] = "first"
+    # of a run whose files do not have what the studies name by default
+    configuration["config"]["studies"] = {"convergence": {"blade": "Mine", "lined_scene": "mine"}}
     (results / "configuration.json").write_text(json.dumps(configuration))
     overlay(sweep_copy, "config.yaml", "{ blades: [S100], speeds: [1000] }")
 
@@ -358,7 +360,7 @@ def test_report_of_a_run_by_its_own_configuration(sweep_copy):
         refused = report(folder)
         assert refused.returncode == 1
         assert f"RESULTS: found {folder}, where no configuration.json of a run lies" in refused.stderr
-        assert refused.stderr.endswith("finished runs with a name: results/runs/first\n")
+        assert refused.stderr.endswith("; runs with a name: results/runs/first\n")
     done = report("results/runs/first")
     assert done.returncode == 0, done.stderr
     with zipfile.ZipFile(results / "report.zip") as archive:

@@ -11,7 +11,7 @@ import xarray as xr
 from numpy.typing import ArrayLike
 
 from r37core.config import ConfigError, Settings
-from r37core.config.remarks import remarks_on_input, remarks_on_points
+from r37core.config.remarks import remarks_on_input, remarks_on_materials, remarks_on_points
 from r37core.dataset_file import read_dataset
 from r37core.io import FILE_ATTRIBUTES, Named, scratch_folder
 from r37core.plans import paths
@@ -225,6 +225,7 @@ def sweep(
 
 def _of_structure(settings: Settings, blade: BladeChoice, recipe: Recipe) -> xr.Dataset:
     """A dataset of the blade's structure."""
+    tell(remarks_on_materials(settings))
     (file,) = in_parallel([recipe.file], 1)
     made = Provenance(settings).structure(Named(blade=blade.name))
     return read_dataset(file).assign_attrs(FILE_ATTRIBUTES | dict(made) | blade.told)

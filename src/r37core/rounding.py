@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from decimal import ROUND_HALF_UP, Decimal
+from decimal import ROUND_CEILING, ROUND_HALF_UP, Context, Decimal
 
 _PARTS = 3.0
 """Of a spread, that the last digit must not be longer than: rounding then moves a number by at most a sixth of its spread."""
@@ -13,6 +13,11 @@ _DIGITS = 6
 
 _LEAST = 1e-9
 """Share of a number, below which a spread is round-off and no spread."""
+
+
+def rounded_up(value: float) -> str:
+    """A positive `value` as text with three digits, never below it: what is allowed from there on."""
+    return f"{float(Decimal(repr(float(value))).normalize(Context(prec=3, rounding=ROUND_CEILING))):g}"
 
 
 def rounded_to(value: float, spread: float) -> str:

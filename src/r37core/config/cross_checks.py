@@ -15,6 +15,7 @@ from r37core.alignment import padded
 from r37core.blade.definition import BladeDefinition
 from r37core.exchange.importing.source import MatricesSource
 from r37core.rom.reduction_choice import AREA_PATCHES, PATCHES, POINTS, BoundaryError, check_patches
+from r37core.rounding import rounded_up
 from r37core.time_integration.integration_choice import LARGEST_TABLE
 from r37core.time_integration.integrators import EXACT_MODAL
 from r37core.time_integration.run_length import MOST_STEPS
@@ -24,6 +25,7 @@ from r37core.yaml_file import KeyPath
 from .document import ConfigRefusals, Document
 from .settings import Settings
 from .speed_choice import RunLength, fastest_of, length_of_run, slowest_speeds
+from .speed_section import key_of_speeds
 from .study_sections import TradeoffSection
 
 LARGEST_NUMBER_OF_SIMULATIONS = 200_000
@@ -153,7 +155,7 @@ def history_speeds_are_run(settings: Settings) -> None:
 def slowest_speeds_can_be_run(settings: Settings) -> None:
     """Neither the slowest run of each scene nor its revolution has too many steps."""
     for scene, speed in slowest_speeds(settings).items():
-        slow_run_can_be_done(length_of_run(settings, scene, speed), settings, ("speeds",))
+        slow_run_can_be_done(length_of_run(settings, scene, speed), settings, (key_of_speeds(settings.config),))
 
 
 def slow_run_can_be_done(run: RunLength, settings: Settings, path: KeyPath) -> None:
@@ -161,10 +163,12 @@ def slow_run_can_be_done(run: RunLength, settings: Settings, path: KeyPath) -> N
     size = 8 * padded(settings.structure.boundary.nodes) * run.steps_per_revolution
     excess = max(size / LARGEST_TABLE, run.steps / MOST_STEPS)
     if excess > 1.0:
+        lowest = run.speed * excess
+        in_rpm = f" ({rounded_up(RPM * lowest)} rpm)" if str(path[-1]).endswith("_rpm") else ""
         raise settings.documents.config.refusal(
             path,
             f"{run.speed:g} rad/s, a revolution of {run.steps_per_revolution:.3g} steps of {run.time_step:g} s, {run.in_words}",
-            f"speeds from {run.speed * excess:.3g} rad/s with this step and as many revolutions: a run has at most "
+            f"speeds from {rounded_up(lowest)} rad/s{in_rpm} with this step and as many revolutions: a run has at most "
             f"{MOST_STEPS:.0e} steps, and the casing's shape at every step of a revolution takes at most "
             f"{LARGEST_TABLE / 2**20:.0f} MiB",
         )

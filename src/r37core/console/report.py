@@ -39,11 +39,13 @@ def configuration_of(results: Path) -> Mapping[str, Any]:
     """What config.yaml and the command line said of the run in the folder `results`; ValueError where no run lies there."""
     file = results / CONFIGURATION
     try:
-        config: Mapping[str, Any] = json.loads(file.read_text(encoding="utf-8"))["config"]
+        config: dict[str, Any] = json.loads(file.read_text(encoding="utf-8"))["config"]
         folder = results_folder(config["run"].get("name"))
+        # the defaults of what nobody asked for name blades and scenes that this run need not have
+        config.pop("studies", None)
     except (OSError, ValueError, KeyError, TypeError, AttributeError):
         runs = sorted(str(path.parent) for path in Path().glob(f"{results_folder('*')}/{CONFIGURATION}"))
-        others = f"; finished runs with a name: {', '.join(runs)}" if runs else ""
+        others = f"; runs with a name: {', '.join(runs)}" if runs else ""
         raise ValueError(
             f"RESULTS: found {results}, where no {CONFIGURATION} of a run lies; allowed: the folder of a run, as in: "
             f"make all_blades, then make report; or make report RESULTS={results_folder('NAME')}{others}"

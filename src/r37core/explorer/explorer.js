@@ -74,8 +74,8 @@
   const factor = () => (state.unit === "rpm" ? RPM : 1);
   const shown = (values) => values.map((value) => value * factor());
   const digits = (value, count = 5) => (Number.isFinite(value) ? Number(value.toPrecision(count)).toString() : "none");
-  // a number with its unit; of what has none, the number
-  const quantityText = (value, unit) => (unit === "1" ? digits(value) : `${digits(value)} ${unit}`);
+  // a number with its unit; of what has none, and where there is no number, without
+  const quantityText = (value, unit) => (unit === "1" || !Number.isFinite(value) ? digits(value) : `${digits(value)} ${unit}`);
   const speedText = (speed) => `${digits(speed)} rad/s, ${digits(speed * RPM)} rpm`;
   const ran = (blade, scene) => speeds.map((_, at) => at).filter((at) => status.row(blade, scene)[at] !== 2);
   const axis = (title, more = {}) => ({ ...theme.axis(), title: { text: title }, zeroline: false, ...more });

@@ -53,7 +53,8 @@ CAPTIONS = {
     "comparison": (
         "All blades in scene {scene} around the same interaction: 1B with the engine order that most of them meet. Over "
         "the speed above each blade's own crossing: rms of the leading edge, normal to the casing and tangential, and "
-        "largest stress, tinted above yield. Contact stiffens a blade, so peaks lie above the crossing."
+        "largest stress, tinted above yield. Contact stiffens a blade, so peaks lie above the crossing. Crosses at the upper "
+        "edge: runs that diverged."
     ),
     "clearance": (
         "Clearance of the round casing over speed, of all blades in scene {scene}, at the first contact node (leading "

@@ -7,6 +7,8 @@ import numpy as np
 import xarray as xr
 from matplotlib.figure import Figure
 
+from r37core.time_integration.status import RunStatus
+
 from . import style
 
 
@@ -32,7 +34,8 @@ def draw_comparison(
     """All blades in one scene about their crossing of 1B with the engine order that most of them meet.
 
     Speeds are those above the crossing, as shares of it: the crossings of the blades lie hundreds of rad/s apart. The
-    picture reaches from `below` to `above` the crossing, as shares too: where peaks are looked for.
+    picture reaches from `below` to `above` the crossing, as shares too: where peaks are looked for. Runs that diverged are
+    crosses of the blade's colour at the upper edge.
     """
     styles = style.blade_styles(rms["blade"].values)
     order = shared_order(campbell, float(rms["speed"].min()), float(rms["speed"].max()))
@@ -44,17 +47,14 @@ def draw_comparison(
     for axes, (label, values) in zip(panels, panels_of.items(), strict=True):
         for blade in values["blade"].values if order else []:
             crossing = float(campbell["crossing_speed"].sel(blade=blade, mode="1B", engine_order=order))
-            curve = values.sel(blade=blade).dropna("speed")
-            curve = curve.sel(speed=slice((1.0 - below) * crossing, (1.0 + above) * crossing))
-            if curve.size:
-                axes.plot(
-                    100 * (curve["speed"] / crossing - 1.0),
-                    curve,
-                    marker=".",
-                    markersize=3,
-                    label=str(blade),
-                    **styles[str(blade)],
-                )
+            about = slice((1.0 - below) * crossing, (1.0 + above) * crossing)
+            curve = values.sel(blade=blade, speed=about).dropna("speed")
+            status = rms["status"].sel(blade=blade, speed=about)
+            diverged = status["speed"].values[status.values == RunStatus.DIVERGED]
+            if curve.size or len(diverged):
+                above_crossing = 100 * (curve["speed"] / crossing - 1.0)
+                axes.plot(above_crossing, curve, marker=".", markersize=3, label=str(blade), **styles[str(blade)])
+                style.mark_diverged(axes, 100 * (diverged / crossing - 1.0), styles[str(blade)]["color"])
         axes.axvline(0.0, color="0.5", linewidth=0.8, linestyle=":")
         axes.set_ylabel(label)
     if stress is not None:

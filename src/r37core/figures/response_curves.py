@@ -23,7 +23,7 @@ def draw_response(title: str, campbell: xr.Dataset | None, rms: xr.Dataset, stre
         for scene in rms["scene"].values:
             response = rms[f"rms_{part}"].sel(scene=scene, tip_point="leading_edge").dropna("speed")
             axes.plot(response["speed"], 1e3 * response, ".-", markersize=3, label=str(scene))
-            _mark_diverged(axes, rms.sel(scene=scene))
+            style.mark_diverged(axes, _diverged(rms.sel(scene=scene)))
         axes.set_ylabel(f"rms, {part} (mm)")
     if rms.sizes["speed"] > 1:
         panels[0].set_xlim(float(rms["speed"].min()), float(rms["speed"].max()))
@@ -54,7 +54,7 @@ def draw_response_overview(rms: xr.Dataset) -> Figure:
             for scene in rms["scene"].values:
                 response = rms[f"rms_{direction}"].sel(blade=blade, scene=scene, tip_point="leading_edge").dropna("speed")
                 axes.plot(response["speed"], 1e3 * response, ".-", markersize=3, label=str(scene))
-                _mark_diverged(axes, rms.sel(blade=blade, scene=scene))
+                style.mark_diverged(axes, _diverged(rms.sel(blade=blade, scene=scene)))
         row[0].set_ylabel(str(blade))
     for axes, title in zip(grid[0], ("normal to the casing", "tangential"), strict=True):
         axes.set_title(f"rms, {title}, leading edge (mm)")
@@ -65,12 +65,10 @@ def draw_response_overview(rms: xr.Dataset) -> Figure:
     return figure
 
 
-def _mark_diverged(axes: Axes, runs: xr.Dataset) -> None:
-    """Red crosses at the upper edge, worse than any number, at speeds whose run diverged."""
-    diverged = runs["speed"].values[runs["status"].values == RunStatus.DIVERGED]
-    if len(diverged):
-        where = axes.get_xaxis_transform()
-        axes.plot(diverged, np.full(len(diverged), 0.97), "x", color="red", label="diverged", transform=where)
+def _diverged(runs: xr.Dataset) -> np.ndarray:
+    """Speeds whose run diverged."""
+    speeds: np.ndarray = runs["speed"].values[runs["status"].values == RunStatus.DIVERGED]
+    return speeds
 
 
 def _mark_crossings(axes: Axes, campbell: xr.Dataset | None) -> None:

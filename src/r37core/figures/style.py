@@ -118,6 +118,13 @@ def legend_entries(panels: Iterable[Axes]) -> tuple[list[Any], list[str]]:
     return list(entries.values()), list(entries)
 
 
+def mark_diverged(axes: Axes, places: np.ndarray, colour: str = "red") -> None:
+    """Crosses at the upper edge, worse than any number, at the places on the x axis where a run diverged."""
+    if len(places):
+        where = axes.get_xaxis_transform()
+        axes.plot(places, np.full(len(places), 0.97), "x", color=colour, label="diverged", transform=where)
+
+
 ALL_DIVERGED = "every run diverged"
 
 

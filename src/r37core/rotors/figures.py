@@ -71,7 +71,7 @@ def _draw_worst(axes: Axes, rotor: xr.Dataset) -> None:
     axes.set_ylabel("largest von Mises (GPa)")
     most = int(np.round(number * np.nan_to_num(float(rotor["blades_above_yield"].max()))))
     lost = int(np.sum(rotor["status"].values == RunStatus.DIVERGED))
-    diverged = f"; {lost} of {len(speeds)} speeds diverged" if lost else ""
+    diverged = f"\n{lost} of {len(speeds)} speeds diverged" if lost else ""
     axes.set_title(f"at most {most} of {number} blades above yield at one speed{diverged}", fontsize=8)
     axes.legend(loc="upper left", fontsize=6)
 

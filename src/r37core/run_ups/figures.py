@@ -64,6 +64,9 @@ def draw_run_ups(run_ups: xr.Dataset, title: str, *, blade: str, scene: str) -> 
         if name == "max_von_mises":
             for axes in row:
                 style.yield_lines(axes, {blade: float(runs[0]["yield_stress"])}, named=True)
+    if not there:
+        for axes in grid.flat:
+            style.say(axes, style.ALL_DIVERGED)
     grid[-1, 0].set_xlabel("mean speed of the revolution (rad/s)")
     grid[-1, 1].set_xlabel("revolutions since the change began")
     if there:

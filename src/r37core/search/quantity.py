@@ -53,6 +53,9 @@ NEEDS: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
 }
 """Measure -> keys that have to stand beside it, and those that may."""
 
+OF_ENDED_RUNS = ("largest_median_stress_pa", "largest_rms_m")
+"""Measures in which a run that diverged has no number: with one they are infinite, so that divergence is never better."""
+
 _RESAMPLES, _SEED = 200, 0
 
 
@@ -142,12 +145,20 @@ def of_contact(
     for scene in quantity.scenes:
         if quantity.quantile is None:
             scatter = f"{quantity.measure.removesuffix('_rad_s')}_scatter_rad_s"
-            of_scenes.append((nominal[scene][quantity.measure], nominal[scene].get(scatter, math.nan)))
+            of_scenes.append((_of_run(quantity.measure, nominal[scene]), nominal[scene].get(scatter, math.nan)))
         else:
-            of_scenes.append(_quantile([member[quantity.measure] for member in members[scene]], quantity.quantile))
+            of_members = [_of_run(quantity.measure, member) for member in members[scene]]
+            of_scenes.append(_quantile(of_members, quantity.quantile))
     return max(of_scenes, key=lambda value: value[0])
 
 
+def _of_run(measure: str, robustness: Mapping[str, float]) -> float:
+    return math.inf if measure in OF_ENDED_RUNS and robustness["diverged_runs"] else robustness[measure]
+
+
 def _quantile(values: Sequence[float], quantile: float) -> tuple[float, float]:
+    if not all(map(math.isfinite, values)):
+        # one of the values: between infinite ones there is none
+        return float(np.quantile(values, quantile, method="inverted_cdf")), math.nan
     drawn = np.random.default_rng(_SEED).choice(values, (_RESAMPLES, len(values)))
     return float(np.quantile(values, quantile)), float(np.std(np.quantile(drawn, quantile, axis=1)))
