@@ -24,6 +24,9 @@ def written(folder, *rows, time=1000.0):
 
 
 def test_found_where_and_how_long(tmp_path):
+    assert closing_lines(written(tmp_path, *ROWS), 400.0, 1210.0)[1] == f"look at {tmp_path}/summary.csv"
+    (tmp_path / "explorer.html").touch()
+    (tmp_path / "figures").mkdir()
     found, where, took = closing_lines(written(tmp_path, *ROWS), 400.0, 1210.0)
     what, worst = found.split("; ")
     assert what == "found 4 interactions, 2 of them above yield"

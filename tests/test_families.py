@@ -161,6 +161,7 @@ def test_family_refusals(read, text, message):
         (f"blade,{'x' * 131_073}\nA,1\n", r"csv: family Mine: line 0: not readable as a table .*: field larger"),
         ("blade,chordwise_sweep_deg\nA,1\nA,2\n", r"designs\.csv: family Mine: the blade 'A' is given twice"),
         ("chordwise_sweep_deg\n1\n", r"family Mine: line 1: the table lacks the columns blade"),
+        ("blade,chordwise_sweep_deg\n" + "".join(f"A{n},1\n" for n in range(10_001)), "Mine.*: found 10001 designs"),
         ("blade,chordwise_sweep_deg\n", r"family Mine: the table has no designs"),
         ("blade,chordwise_sweep_deg\nA__b,1\n", r"yaml:\d+: Mine: found 'A__b'; allowed: a name of letters"),
         ("blade,chordwise_sweep_deg\nAb,1\nab,2\n", r"Mine: found 'ab' beside 'Ab'; allowed: names that differ in more"),

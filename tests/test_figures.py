@@ -281,7 +281,7 @@ def test_comparison_marks_runs_that_diverged(datasets):
     for axes in figure.axes:
         (crosses,) = (line for line in axes.lines if line.get_marker() == "x")
         x = crosses.get_xdata()
-        assert len(x) == 5 and -2.0 <= x.min() and x.max() <= 6.0
+        assert len(x) == 5 and x.min() >= -2.0 and x.max() <= 6.0
         assert crosses.get_color() == style.blade_styles(BLADES)[BLADES[1]]["color"]
     assert {BLADES[1], "diverged"} <= {text.get_text() for text in figure.legends[0].get_texts()}
     plt.close(figure)

@@ -334,6 +334,8 @@ def test_a_deck_that_includes_itself(deck, called):
 
 
 def test_a_deck_may_include_a_file_twice(deck):
+    with pytest.raises(ImportRefused, match=r"mesh\.inp has a line \*INCLUDE that names no file; allowed: \*INCLUDE, INPUT="):
+        mesh_files("mesh.inp", deck(lambda text: text + "*INCLUDE\n"))
     folder = deck(lambda text: text + "*INCLUDE, INPUT=a.inc\n*INCLUDE, INPUT=a.inc\n")
     (folder / "a.inc").write_text("*NSET, NSET=EXTRA\n1\n")
     assert [file.name for file in mesh_files("mesh.inp", folder)] == ["mesh.inp", "a.inc"]

@@ -134,6 +134,23 @@ def test_a_scene_may_leave_out_its_lining():
     assert bare.entry.lining is None and bare.entry.friction is not None
     assert r37.scene("abradable", lining=None, results=["stress"], name="Bare").entry == bare.entry
     assert "lining=None" in bare.label
+    # one that is left out already
+    assert r37.scene("direct", lining=None).entry == r37.scene("direct").entry
+    assert r37.blade("Ref", **{"stagger_deg.tip": None}).settings == r37.blade("Ref").settings
+
+
+@pytest.mark.parametrize(
+    ("changes", "told"),
+    [
+        ({"linning": None}, r'r37\.scene\("direct"\): direct: found unknown key linning; .* \(did you mean lining\?\)'),
+        ({"rotor.blades": None}, r"direct\.rotor: missing key blades"),
+        ({"rotor": {"blades": 3, "longer_m": {1: 1e-5, "1": 2e-5}}}, "found the key 1 twice, as a number and a text"),
+        ({"rotor": {"blades": 3, "longer_m": {(1, 2): 1e-5}}}, r"found the key \(1, 2\); allowed: a name or a whole number"),
+    ],
+)
+def test_keys_that_no_scene_has_are_told(changes, told):
+    with pytest.raises(r37.ConfigError, match=told):
+        _ = r37.scene("direct", **changes).entry
 
 
 @pytest.mark.parametrize(

@@ -48,7 +48,7 @@ def speed_key(speed: Any, speed_rpm: Any) -> dict[str, list[Any]]:
 def plain_value(value: Any) -> Any:
     """The same without the types of NumPy, inside of mappings and lists, too."""
     if isinstance(value, Mapping):
-        return {plain_value(key): plain_value(inner) for key, inner in value.items()}
+        return {key.item() if isinstance(key, np.generic) else key: plain_value(inner) for key, inner in value.items()}
     if isinstance(value, list | tuple):
         return [*map(plain_value, value)]
     if isinstance(value, np.ndarray):

@@ -12,10 +12,10 @@ from typing import Any, ClassVar
 
 from r37core.config import BladeSettings, ConfigError, Document, SceneEntry, command_line_document, read_document
 from r37core.config.blades import SHARES, Blades, blade_settings
-from r37core.config.document import Without
 from r37core.config.families import Designs, with_designs, with_value
 from r37core.config.messages import did_you_mean, on_one_line
 from r37core.config.scenes import Scenes
+from r37core.config.section import Without
 from r37core.config.section_laws import SECTION_KEYS
 
 from .arguments import plain_value

@@ -23,10 +23,13 @@ Content = TypeVar("Content")
 
 
 class FilesByName(Mapping[str, Content], Generic[Content]):
-    """Files of a folder by their names without `suffix`, each read when it is first asked for; `kind`: for messages."""
+    """Files of a folder by their names without `suffix`, each read when it is first asked for; `kind`: for messages.
 
-    def __init__(self, folder: Path, suffix: str, kind: str, read: Callable[[Path], Content]):
-        self._folder, self._suffix, self._kind, self._reader = folder, suffix, kind, read
+    `temporary`: the folder of what a call has made, which is gone with the last object that holds it.
+    """
+
+    def __init__(self, folder: Path, suffix: str, kind: str, read: Callable[[Path], Content], temporary: object = None):
+        self._folder, self._suffix, self._kind, self._reader, self._temporary = folder, suffix, kind, read, temporary
         self._read: dict[str, Content] = {}
 
     def __getitem__(self, name: str) -> Content:
@@ -54,14 +57,14 @@ class FilesByName(Mapping[str, Content], Generic[Content]):
 class RunResults(FilesByName[xr.Dataset]):
     """Datasets of a run by name (campbell, rms, stress, wear, run_ups, rotor, tolerances, search, ...), and its `tables`.
 
-    Each is read when it is first asked for. `folder`: where they lie; `temporary`: the same of what a call has made, which is
-    gone with this object.
+    Each is read when it is first asked for. `folder`: where they lie; of what a call has made it is gone with this object and
+    its `tables`.
     """
 
     def __init__(self, folder: Path, temporary: object = None):
-        super().__init__(folder, ".nc", "datasets", read_dataset)
-        self.folder, self._temporary = folder, temporary
-        self.tables = FilesByName(folder, ".csv", "tables", _table)
+        super().__init__(folder, ".nc", "datasets", read_dataset, temporary)
+        self.folder = folder
+        self.tables = FilesByName(folder, ".csv", "tables", _table, temporary)
         """Tables by name (summary, ranking, designs, run_ups, run_up_rates, rotors, tolerances, search, coincidences)."""
 
     def _elsewhere(self, name: str) -> str:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
-from enum import Enum
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -15,18 +14,13 @@ from r37core.text_file import TextFileError
 from r37core.yaml_file import KeyPath, load_yaml_with_lines, scalar
 
 from .messages import did_you_mean, explain_all, on_one_line
+from .section import Without
 
 Model = TypeVar("Model", bound=BaseModel)
 Result = TypeVar("Result")
 
 _MOST_LINES = 20
 """Of a message with several refusals."""
-
-
-class Without(Enum):
-    """In place of a value, in a document that lies on top of another: the key is left out."""
-
-    KEY = "left out"
 
 
 class ConfigError(ValueError):
@@ -130,19 +124,29 @@ def read_document(root: Path, name: str) -> Document:
 
 
 def command_line_document(values: Mapping[str, Any], name: str = "--config") -> Document:
-    """What a command line gives, where Snakemake hands numbers inside lists on as texts, or a call, which may have NumPy's."""
-    content = _with_numbers(dict(values))
+    """What a command line gives, where Snakemake hands numbers inside lists on as texts, or a call, which may have NumPy's.
+
+    Raises ConfigError for a key that no file can have.
+    """
+    content = _with_numbers(dict(values), name)
     locations: dict[KeyPath, str] = {}
     _mark(content, (), name, locations)
     return Document(name, content, locations)
 
 
-def _with_numbers(value: Any) -> Any:
+def _with_numbers(value: Any, name: str) -> Any:
     if isinstance(value, Mapping):
-        # a table by numbers, as a file has it
-        return {str(key) if type(key) is int else key: _with_numbers(inner) for key, inner in value.items()}
+        content: dict[str, Any] = {}
+        for key, inner in value.items():
+            if not isinstance(key, str) and type(key) is not int:
+                raise ConfigError(f"{name}: found the key {on_one_line(repr(key))}; allowed: a name or a whole number")
+            # a table by numbers, as a file has it
+            if str(key) in content:
+                raise ConfigError(f"{name}: found the key {on_one_line(str(key))} twice, as a number and a text; allowed: one")
+            content[str(key)] = _with_numbers(inner, name)
+        return content
     if isinstance(value, list | tuple):
-        return [_with_numbers(inner) for inner in value]
+        return [_with_numbers(inner, name) for inner in value]
     if isinstance(value, np.generic):
         return value.item()
     return scalar(value) if isinstance(value, str) else value
@@ -163,8 +167,8 @@ def _overlay(below: Any, above: Any, path: KeyPath, locations: dict[KeyPath, str
         return above
     joined = dict(below)
     for key, value in above.items():
-        if value is Without.KEY:
-            joined.pop(key, None)
+        if value is Without.KEY and key in joined:
+            del joined[key]
         else:
             joined[key] = _overlay(below[key], value, (*path, key), locations) if key in below else value
     return joined

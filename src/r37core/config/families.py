@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import copy
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence, Sized
 from dataclasses import dataclass, replace
 from itertools import product
 from pathlib import Path
@@ -109,9 +109,13 @@ def _family(name: str, entry: BladeEntry, root: Path, document: Document) -> Fam
         rows = list(zip(*values.values(), strict=True))
     else:
         rows = list(product(*values.values()))
-    if len(rows) > LARGEST_FAMILY:
-        raise document.refusal((name, "vary"), f"{len(rows)} designs", f"at most {LARGEST_FAMILY}")
+    _check_size(rows, name, "vary", document)
     return Family(tuple(values), {design_name(name, row): tuple(row) for row in rows})
+
+
+def _check_size(designs: Sized, family: str, key: str, document: Document) -> None:
+    if len(designs) > LARGEST_FAMILY:
+        raise document.refusal((family, key), f"{len(designs)} designs", f"at most {LARGEST_FAMILY}")
 
 
 def _from_table(name: str, file: str, root: Path, document: Document) -> Family:
@@ -123,6 +127,7 @@ def _from_table(name: str, file: str, root: Path, document: Document) -> Family:
         raise document.error((name, "designs"), f"{file} cannot be read: {error.strerror}") from None
     except (TextFileError, BladeShapeError) as error:
         raise ConfigError(f"{file}: family {name}: {error}") from None
+    _check_size(rows, name, "designs", document)
     return Family(keys, rows)
 
 

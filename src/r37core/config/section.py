@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
+from enum import Enum
 from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeVar
 
 from pydantic import (
@@ -25,6 +26,12 @@ from r37core.yaml_file import KeyPath, scalar
 T = TypeVar("T")
 
 
+class Without(Enum):
+    """In place of a value, in a document that lies on top of another: the key is left out, which it may be already."""
+
+    KEY = "left out"
+
+
 class Section(BaseModel):
     """A mapping of a configuration file: only declared keys, no null, no text for a number, nothing infinite."""
 
@@ -41,6 +48,7 @@ class Section(BaseModel):
             for key, value in data.items():
                 if value is None and key in cls.model_fields:
                     raise refused((key,), "nothing", "a value, or the key left out")
+            return {key: value for key, value in data.items() if value is not Without.KEY or key not in cls.model_fields}
         return data
 
 

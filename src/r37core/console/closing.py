@@ -33,7 +33,10 @@ def _of_sweep(results: Path, began: float, remarks: Iterable[str]) -> list[str]:
         return []
     with open(summary, newline="", encoding="utf-8") as stream:
         rows = list(csv.DictReader(stream))
-    where = f"look at {results}/explorer.html (any browser), {summary}, {results}/figures/"
+    # a run asked for a table alone makes nothing else
+    places = {"explorer.html": " (any browser)", "summary.csv": "", "figures": "/"}
+    there = (f"{results / name}{more}" for name, more in places.items() if (results / name).exists())
+    where = f"look at {', '.join(there)}"
     ranked = _ranked(results / "ranking.csv")
     diverged, untouched = _of_runs(results / "rms.nc")
     return [_found(rows) + diverged, *untouched, *ranked, *remarks, where]

@@ -66,7 +66,9 @@ def included_files(deck: Path) -> list[Path]:
 
 def included(deck: Path, options: Mapping[str, str]) -> Path:
     """The file that a line *INCLUDE of a deck names. Raises ImportRefused where it is not there."""
-    called = options.get("INPUT", "")
+    called = options.get("INPUT")
+    if not called:
+        raise ImportRefused(f"{deck.name} has a line *INCLUDE that names no file; allowed: *INCLUDE, INPUT=FILE", "mesh")
     file = deck.parent / called
     if not os.path.isfile(file):
         raise ImportRefused(f"there is no file {called}, which {deck.name} includes", "mesh")
