@@ -116,7 +116,7 @@ def verdict(checks: Sequence[Check]) -> str:
         parts.append(_listed(f"**Agrees** ({len(agreeing)} of {len(scored)}):", items))
     if differing:
         parts.append(_listed("**Does not agree**:", [_one(check) for check in differing]))
-    alone = [f"{check.name} {check.shown}{_unit(check)}" for check in checks if check.published is None]
+    alone = [f"{check.name} {_with_unit(check)}" for check in checks if check.published is None]
     if alone:
         parts.append(_listed("Ours alone:", alone))
     return "\n\n".join(parts)
@@ -129,7 +129,7 @@ def _listed(head: str, items: Sequence[str]) -> str:
 def _one(check: Check) -> str:
     if isinstance(check.published, str):
         return check.name + (f" ({check.detail})" if check.detail else "")
-    return f"{check.name} {check.shown}{_unit(check)} (published {number(check.published)})"
+    return f"{check.name} {_with_unit(check)} (published {number(check.published)})"
 
 
 def _summed(checks: Sequence[Check]) -> str:
@@ -145,8 +145,10 @@ def _summed(checks: Sequence[Check]) -> str:
     return " and ".join(parts)
 
 
-def _unit(check: Check) -> str:
-    return f" {check.unit}" if check.unit else ""
+def _with_unit(check: Check) -> str:
+    """Our number with its unit, then the detail."""
+    unit = f" {check.unit}" if check.unit else ""
+    return number(check.ours) + unit + (f" ({check.detail})" if check.detail else "")
 
 
 def gallery_page(data: GalleryData, geometry: xr.Dataset, nodes: int, fidelity: str) -> str:
