@@ -78,7 +78,7 @@ def interaction_rows():
 
 @contextmanager
 def beside(page, contents, file, size=(1500, 1400), place="", parts=PARTS, **more):
-    """Another page in the browser of a page, made of other `parts` where a wing has panels."""
+    """Another page in the browser of a page, made of other `parts` where an extension has panels."""
     write_page(contents, "r37", file, parts)
     other = page.context.browser.new_page(viewport={"width": size[0], "height": size[1]}, **more)
     other.goto(file.as_uri() + place)

@@ -10,7 +10,7 @@ from workflow_runs import own_package, snakemake
 
 import r37
 
-REGISTRY = "src/r37core/product/wings.py"
+REGISTRY = "src/r37core/product/extensions.py"
 
 
 def blocks_of(page):

@@ -8,7 +8,7 @@ import yaml
 from overlays import overlay
 
 from r37core.config import ConfigError, plain
-from r37core.config.remarks import remarks_of_spine, remarks_on_laws
+from r37core.config.remarks import remarks_of_pipeline, remarks_on_laws
 from r37core.plans.provenance import structure_hash
 from r37core.product.reading import load_settings, read_settings
 from r37core.text_file import TextFileError
@@ -208,4 +208,4 @@ def test_laws_beyond_what_a_run_can_bear_are_remarked_on(config_copy, scene, cha
     remarks = remarks_on_laws(read_settings(config_copy))
     begins = f"scene '{scene}': {said}"
     assert [remark[: len(begins)] for remark in remarks] == ([begins] if said else [])
-    assert set(remarks) <= set(remarks_of_spine(read_settings(config_copy)))
+    assert set(remarks) <= set(remarks_of_pipeline(read_settings(config_copy)))

@@ -14,7 +14,7 @@ from test_coriolis import SCENES, coupled_model
 
 from r37core.config import ConfigError, checked_scene, command_line_document
 from r37core.config.casing_remarks import of_left_out_modes, of_speeds
-from r37core.config.remarks import remarks_of_spine
+from r37core.config.remarks import remarks_of_pipeline
 from r37core.contact.elastic_casing import (
     ElasticCasing,
     flexibility,
@@ -482,7 +482,7 @@ RING = {"radius_m": 0.255, "thickness_m": 0.002, "width_m": 0.05, "elastic_modul
 def test_a_run_above_a_critical_speed_says_so(root, speed, ending):
     """That of the shipped ring is of 28 nodal diameters, more than its simulations have."""
     changes = {"scenes": ["elastic_abradable", "abradable"], "speeds": [speed]}
-    remarks = [one for one in remarks_of_spine(read_settings(root, command_line_document(changes))) if "overtakes" in one]
+    remarks = [one for one in remarks_of_pipeline(read_settings(root, command_line_document(changes))) if "overtakes" in one]
     begins = f"scene elastic_abradable: speeds up to {speed:g} rad/s; above 1809 the rotor overtakes waves of the casing, which"
     assert remarks == ([] if ending is None else [f"{begins} may then grow without bound{ending}"])
 

@@ -20,7 +20,7 @@ from packaging.utils import canonicalize_name
 import r37
 from r37core import __version__
 from r37core.io import FILE_ATTRIBUTES
-from r37core.product.wings import WINGS
+from r37core.product.extensions import EXTENSIONS
 
 LAYERS = [
     "checksums",
@@ -55,7 +55,7 @@ LAYERS = [
     "plans",
     "figures",
     "explorer",
-    *(wing.name for wing in WINGS),
+    *(extension.name for extension in EXTENSIONS),
     "product",
     "console",
     "studies",
@@ -198,8 +198,8 @@ def test_one_name_one_thing(root):
     twice = {name for name, number in classes.items() if number > 1}
     assert len(twice) < 5, twice
     files = [*modules.values(), *(root / "workflow/scripts").glob("*.py")]
-    wings = {wing.name for wing in WINGS}
-    named_by_folder = [file for file in files if file.parent.parent.name == "studies" or file.parent.name in wings]
+    extensions = {extension.name for extension in EXTENSIONS}
+    named_by_folder = [file for file in files if file.parent.parent.name == "studies" or file.parent.name in extensions]
     of_folders = ("__init__.py", "steps.py")
     stems = Counter(file.stem for file in files if file.name not in of_folders and file not in named_by_folder)
     twice = {stem for stem, number in stems.items() if number > 1}
@@ -227,16 +227,16 @@ def test_no_modules_import_each_other_in_a_circle(root):
     tuple(TopologicalSorter(graph).static_order())
 
 
-def test_a_wing_is_one_place(root):
+def test_an_extension_is_one_place(root):
     """Its folder, its file of rules and its line in the registry: nothing else in the package or the workflow knows it."""
-    for wing in WINGS:
-        assert (root / f"workflow/rules/{wing.name}.smk").exists()
+    for extension in EXTENSIONS:
+        assert (root / f"workflow/rules/{extension.name}.smk").exists()
         for file in [*(root / "src/r37core").rglob("*.py"), *(root / "workflow/rules").glob("*.smk"), root / "Snakefile"]:
-            own = file.parent.name == wing.name or file.name in (f"{wing.name}.smk", "wings.py")
+            own = file.parent.name == extension.name or file.name in (f"{extension.name}.smk", "extensions.py")
             names = imports_of(file) if file.suffix == ".py" else re.findall(r"^from ([\w.]+) import", file.read_text(), re.M)
             # studies take what they need of the product
             if not own and "studies" not in file.parts:
-                assert not [name for name in names if name.startswith(f"r37core.{wing.name}.")], file
+                assert not [name for name in names if name.startswith(f"r37core.{extension.name}.")], file
 
 
 VAGUE, MOST_VAGUE = ("found", "one", "given"), 1

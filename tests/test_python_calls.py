@@ -228,7 +228,7 @@ def test_a_rotor_that_is_none_is_told(finished):
 
 @pytest.mark.slow
 def test_all_that_a_run_has_is_reached(finished, tmp_path):
-    """A table or dataset of a wing is one more file: here empty ones beside those of the sweep."""
+    """A table or dataset of an extension is one more file: here empty ones beside those of the sweep."""
     folder = copy_finished(finished / "results", tmp_path / "results")
     for name in ("run_ups", "tolerances"):
         write_dataset(xr.Dataset({"x": 1.0}), folder / f"{name}.nc")

@@ -245,9 +245,9 @@ TOLERANCES = {
 
 
 @pytest.fixture(scope="module")
-def with_wings(real, tmp_path_factory):
+def with_extensions(real, tmp_path_factory):
     """The same with run-ups and tolerances."""
-    folder = copy_finished(real, tmp_path_factory.mktemp("wings") / "project")
+    folder = copy_finished(real, tmp_path_factory.mktemp("extensions") / "project")
     overlay(
         folder,
         "config.yaml",
@@ -260,10 +260,13 @@ def with_wings(real, tmp_path_factory):
 
 @pytest.mark.slow
 @pytest.mark.parametrize("cores", [1, 2])
-def test_python_has_the_same_rounds_members_and_run_ups(with_wings, cores, monkeypatch):
+def test_python_has_the_same_rounds_members_and_run_ups(with_extensions, cores, monkeypatch):
     """To the last bit, on one core and on two."""
-    monkeypatch.setenv("R37_CACHE", str(with_wings / "cache"))
-    results, common = r37.open_results(with_wings / "results"), {"config": with_wings / "config/config.yaml", "cores": cores}
+    monkeypatch.setenv("R37_CACHE", str(with_extensions / "cache"))
+    results, common = (
+        r37.open_results(with_extensions / "results"),
+        {"config": with_extensions / "config/config.yaml", "cores": cores},
+    )
     speeds = {"start": 1000, "stop": 1240, "step": 80, "refine_to": 20}
     again = r37.tolerances("CS100", "abradable", speeds, **TOLERANCES, **common)
     xr.testing.assert_identical(again.response("CS100", "abradable"), results.response("CS100", "abradable"))

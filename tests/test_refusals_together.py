@@ -56,7 +56,7 @@ def test_names_that_are_not_there_are_told_once_each(config_copy):
     )
 
 
-def test_mistakes_of_the_spine_and_of_wings(config_copy):
+def test_mistakes_of_the_pipeline_and_of_extensions(config_copy):
     run_ups = {"a": {"from_rad_s": 900, "to_rad_s": 2100, "revolutions": 5}, "b": {"blades": ["Reff"]}}
     run_ups["b"] |= run_ups["a"]
     lines = told(config_copy, speeds=[900, 900], run_ups=run_ups, signals={"speeds_rad_s": [900], "blades": ["Reff"]})

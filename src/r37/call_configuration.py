@@ -13,14 +13,14 @@ from r37core.config.config_file import Config
 from r37core.config.cross_checks import history_speeds_are_run
 from r37core.config.messages import on_one_line
 from r37core.config.reading import together
+from r37core.product.extensions import EXTENSIONS
 from r37core.product.reading import CONFIG, READER
-from r37core.product.wings import WINGS
 
 _PACKAGE = Path(__file__).parent
 _FOLDER = "config"
 """Of the repository and of this package, where it is a link or, once installed, a copy."""
 
-_OF_A_RUN = ("run", "speeds", "speeds_rpm", "speeds_for", "studies", *(wing.name for wing in WINGS))
+_OF_A_RUN = ("run", "speeds", "speeds_rpm", "speeds_for", "studies", *(extension.name for extension in EXTENSIONS))
 """Sections of config.yaml that say what a run of the workflow makes, and nothing of a single simulation."""
 
 _READER = replace(READER, checks=tuple(check for check in READER.checks if check is not history_speeds_are_run))

@@ -35,7 +35,7 @@ PACKAGE = console.source / "r37core"
 code = CodeHashes(console.source, SCRIPTS)
 # for the parameters of rules: a step, which is a function of r37core, and the hash of its code
 step = code.step
-# members of samples that wings have run beside the sweep, and what is made of them
+# members of samples that extensions have run beside the sweep, and what is made of them
 samples, sampling = beside(settings), sampling_of(settings)
 made = Provenance(settings, samples)
 structure = Structure(settings, samples)

@@ -102,7 +102,7 @@ use rule step as coincidences with:
         casings=joined.casings,
 
 
-shown_by_wings = panel_parameters(sweep)
+shown_by_extensions = panel_parameters(sweep)
 
 
 use rule step as explorer with:
@@ -124,8 +124,8 @@ use rule step as explorer with:
         **needs.of("explorer"),
     params:
         **step("explorer.steps.explorer", *panel_modules(sweep)),
-        **shown_by_wings,
+        **shown_by_extensions,
         title=f"r37 {settings.config.run.name or ''}".strip(),
         shapes=sweep.runs_with("shapes"),
         benchmark_scenes=joined.benchmark_scenes,
-        parts=parts_hash(with_programs(shown_by_wings["programs"])),
+        parts=parts_hash(with_programs(shown_by_extensions["programs"])),

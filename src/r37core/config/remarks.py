@@ -1,4 +1,4 @@
-"""What a run of the spine says before it starts, and at its end."""
+"""What a run of the pipeline says before it starts, and at its end."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ LARGE_FRICTION = 0.2
 """Coefficient up to which the two integrators agree within 2% in direct contact on patches, where the motion is settled."""
 
 
-def remarks_of_spine(settings: Settings) -> list[str]:
+def remarks_of_pipeline(settings: Settings) -> list[str]:
     """What a run should say before it starts."""
     lines = []
     measured = settings.fidelity.measured

@@ -66,13 +66,13 @@ class Settings:
         """Geometry and reduced model."""
         return self.config.structure
 
-    def section(self, wing: str) -> Any:
-        """The section of config.yaml that a wing has brought, of the type that this says."""
-        return getattr(self.config, wing)
+    def section(self, extension: str) -> Any:
+        """The section of config.yaml that an extension has brought, of the type that this says."""
+        return getattr(self.config, extension)
 
     @cached_property
     def made(self) -> Callable[[Callable[[Settings], Any]], Any]:
-        """Gives what a function makes of these settings, made once: for a wing's own part of them that takes long."""
+        """Gives what a function makes of these settings, made once: for an extension's own part of them that takes long."""
         return cache(lambda make: make(self))
 
     @property

@@ -16,14 +16,14 @@ from r37core.time_integration.status import RunStatus
 
 
 def closing_lines(
-    results: Path, began: float, ended: float, remarks: Iterable[str] = (), of_wings: Iterable[str] = ()
+    results: Path, began: float, ended: float, remarks: Iterable[str] = (), of_extensions: Iterable[str] = ()
 ) -> list[str]:
     """What the folder `results` has: interactions, runs that diverged, `remarks` on them, where to look, and how long it took.
 
-    Of what is older than the run's start nothing is said. `began` and `ended`: times in s, as file times are. `of_wings`: what
-    the wings have made in the run.
+    Of what is older than the run's start nothing is said. `began` and `ended`: times in s, as file times are.
+    `of_extensions`: what the extensions have made in the run.
     """
-    lines = [*_of_sweep(results, began, remarks), *of_wings]
+    lines = [*_of_sweep(results, began, remarks), *of_extensions]
     return [*lines, _took(ended - began)] if lines else []
 
 

@@ -22,7 +22,7 @@ from r37core.config import ConfigError, Settings
 from r37core.config.remarks import remarks_on_points
 from r37core.plans.extent import extent_of
 from r37core.plans.run import check_part, replaced_level, source_folder
-from r37core.product.closing import lines_of_wings
+from r37core.product.closing import lines_of_extensions
 from r37core.product.reading import settings_of_run
 from r37core.product.remarks import check_asked, remarks
 from r37core.product.sampling import beside
@@ -68,8 +68,8 @@ class Console:
     def succeed(self) -> None:
         """After the last job: nothing is said where there is nothing to say."""
         lock.release()
-        of_wings = lines_of_wings(self.settings, self.began)
-        lines = closing_lines(self.settings.results, self.began, time.time(), remarks_on_points(self.settings), of_wings)
+        of_extensions = lines_of_extensions(self.settings, self.began)
+        lines = closing_lines(self.settings.results, self.began, time.time(), remarks_on_points(self.settings), of_extensions)
         _say_last([*failures.taken(), *lines])
 
     def fail(self) -> None:

@@ -27,7 +27,7 @@ PARTS = tuple(
 
 
 def with_programs(programs: Sequence[Path | str]) -> tuple[Path, ...]:
-    """The parts of a page with panels of wings, whose programs run before the page's own."""
+    """The parts of a page with panels of extensions, whose programs run before the page's own."""
     return (*PARTS[:-1], *map(Path, programs), PARTS[-1])
 
 

@@ -19,11 +19,11 @@ from .contents import explorer_contents
 def explorer(input: Any, output: Any, params: Any) -> None:
     """One page to look at all results. Inputs: datasets by kind, summary, ranking. Output: page (html).
 
-    Params: title, shapes, benchmark_scenes, address (of a file in the report); panels: wing -> function that gives what its
-    panels show of the input that is called like it; programs: files that draw them.
+    Params: title, shapes, benchmark_scenes, address (of a file in the report); panels: extension -> function that gives what
+    its panels show of the input that is called like it; programs: files that draw them.
     """
     files = dict(input.items())
-    panels = {wing: _called(function, read_dataset(files.pop(wing))) for wing, function in params.panels.items()}
+    panels = {extension: _called(function, read_dataset(files.pop(extension))) for extension, function in params.panels.items()}
     interactions, ranking = read_table(files.pop("summary")), read_ranking(files.pop("ranking"))
     datasets = {kind: read_dataset(file) for kind, file in files.items()}
     file = Path(output.page)

@@ -1,1 +1,1 @@
-"""The spine and its wings together: configuration, targets, captions and remarks of all capabilities."""
+"""The pipeline and its extensions together: configuration, targets, captions and remarks of all capabilities."""

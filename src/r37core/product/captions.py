@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from r37core.figures import captions
 
-from .wings import WINGS
+from .extensions import EXTENSIONS
 
-CAPTIONS: dict[str, str] = captions.CAPTIONS | {figure: text for wing in WINGS for figure, text in wing.captions.items()}
+CAPTIONS: dict[str, str] = captions.CAPTIONS | {
+    figure: text for extension in EXTENSIONS for figure, text in extension.captions.items()
+}
 """Kind of figure -> text."""
 
 

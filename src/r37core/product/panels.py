@@ -1,22 +1,22 @@
-"""What the wings show in the explorer, as inputs and parameters of its rule."""
+"""What the extensions show in the explorer, as inputs and parameters of its rule."""
 
 from __future__ import annotations
 
 from pathlib import Path
 from typing import Any
 
+from r37core.plans.extension import Panel
 from r37core.plans.paths import filled
 from r37core.plans.sweep_plan import Sweep
-from r37core.plans.wing import Panel
 
-from .wings import WINGS
+from .extensions import EXTENSIONS
 
 _PACKAGE = Path(__file__).parent.parent
 
 
 def panel_files(sweep: Sweep) -> dict[str, str]:
-    """Wing -> the dataset that its panels show; those of wings that have one in this run."""
-    files = {wing.name: filled(wing.panel.dataset(sweep)) for wing in WINGS if wing.panel}
+    """Extension -> the dataset that its panels show; those of extensions that have one in this run."""
+    files = {extension.name: filled(extension.panel.dataset(sweep)) for extension in EXTENSIONS if extension.panel}
     return {name: file for name, (file,) in ((name, several) for name, several in files.items() if several)}
 
 
@@ -35,6 +35,6 @@ def panel_parameters(sweep: Sweep) -> dict[str, Any]:
 
 
 def _panels(sweep: Sweep) -> dict[str, Panel]:
-    """Wing -> its panel, of those that have one in this run."""
+    """Extension -> its panel, of those that have one in this run."""
     files = panel_files(sweep)
-    return {wing.name: wing.panel for wing in WINGS if wing.panel and wing.name in files}
+    return {extension.name: extension.panel for extension in EXTENSIONS if extension.panel and extension.name in files}

@@ -1,4 +1,4 @@
-"""Configuration with the sections and checks of all wings."""
+"""Configuration with the sections and checks of all extensions."""
 
 from __future__ import annotations
 
@@ -7,12 +7,12 @@ from r37core.config.config_file import Config, with_sections
 from r37core.config.cross_checks import CHECKS
 from r37core.config.reading import Reader
 
-from .wings import WINGS
+from .extensions import EXTENSIONS
 
-CONFIG: type[Config] = with_sections({wing.name: wing.section for wing in WINGS if wing.section})
-"""config.yaml with the section of each wing."""
+CONFIG: type[Config] = with_sections({extension.name: extension.section for extension in EXTENSIONS if extension.section})
+"""config.yaml with the section of each extension."""
 
-RESERVED = ("figures", "studies", "runs", *(wing.name for wing in WINGS))
+RESERVED = ("figures", "studies", "runs", *(extension.name for extension in EXTENSIONS))
 """Folders of the results beside those of the blades."""
 
 
@@ -26,6 +26,8 @@ def blades_are_no_other_folders(settings: Settings) -> None:
             raise settings.documents.blades.refusal((family_of.get(name, name),), what, allowed)
 
 
-READER = Reader(CONFIG, (blades_are_no_other_folders, *CHECKS, *(check for wing in WINGS for check in wing.checks)))
+READER = Reader(
+    CONFIG, (blades_are_no_other_folders, *CHECKS, *(check for extension in EXTENSIONS for check in extension.checks))
+)
 
 read_settings, settings_of_run, load_settings = READER.read_settings, READER.settings_of_run, READER.load_settings

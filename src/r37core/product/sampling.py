@@ -1,4 +1,4 @@
-"""Members of samples that the wings have run beside the sweep."""
+"""Members of samples that the extensions have run beside the sweep."""
 
 from __future__ import annotations
 
@@ -7,17 +7,23 @@ from pathlib import Path
 from r37core.config import Settings
 from r37core.plans.samples import Beside, Sampling
 
-from .wings import WINGS
+from .extensions import EXTENSIONS
 
 
 def beside(settings: Settings, results: Path | None = None) -> Beside:
-    """Samples of each wing that has some, by the folder of its results; `results`: in place of the workflow's."""
+    """Samples of each extension that has some, by the folder of its results; `results`: in place of the workflow's."""
     return Beside(
-        {wing.name: dict(wing.sampling.samples(settings)) for wing in WINGS if wing.sampling},
-        later={wing.name: wing.later(settings, results or settings.results) for wing in WINGS if wing.later},
+        {extension.name: dict(extension.sampling.samples(settings)) for extension in EXTENSIONS if extension.sampling},
+        later={
+            extension.name: extension.later(settings, results or settings.results)
+            for extension in EXTENSIONS
+            if extension.later
+        },
     )
 
 
 def sampling_of(settings: Settings) -> Sampling | None:
-    """That of the wing of which this run has members; none where it has none. Tables have ranges of one wing's members."""
-    return next((wing.sampling for wing in WINGS if wing.sampling and wing.sampling.samples(settings)), None)
+    """That of the extension of which this run has members; none where it has none. Tables have ranges of one sample."""
+    return next(
+        (extension.sampling for extension in EXTENSIONS if extension.sampling and extension.sampling.samples(settings)), None
+    )

@@ -1,40 +1,42 @@
-"""What the rule all_blades makes where the configuration asks for it, and what each wing adds."""
+"""What the rule all_blades makes where the configuration asks for it, and what each extension adds."""
 
 from __future__ import annotations
 
 from r37core.config.casing_remarks import elastic_casings
+from r37core.plans.extension import Extension
 from r37core.plans.paths import Wildcards, filled, of, of_runs, pictures
 from r37core.plans.sweep_plan import KINDS, MAPS, Sweep
-from r37core.plans.wing import Wing
 
-from .wings import WINGS
+from .extensions import EXTENSIONS
 
 
 def targets(sweep: Sweep) -> dict[str, Wildcards]:
     """Pattern of files -> wildcards of each that is asked for; none where a configuration does without."""
-    targets = _of_spine(sweep)
-    for wing in WINGS:
-        if not wing.on_request:
-            targets |= wing.all_targets(sweep)
+    targets = _of_pipeline(sweep)
+    for extension in EXTENSIONS:
+        if not extension.on_request:
+            targets |= extension.all_targets(sweep)
     return targets
 
 
 def everything(sweep: Sweep) -> dict[str, Wildcards]:
     """The same with what is made on request alone."""
-    return targets(sweep) | {pattern: files for wing in WINGS for pattern, files in wing.all_targets(sweep).items()}
+    return targets(sweep) | {
+        pattern: files for extension in EXTENSIONS for pattern, files in extension.all_targets(sweep).items()
+    }
 
 
 def simulated(sweep: Sweep) -> list[str]:
-    """Files of the wings' own simulations."""
-    return [file for wing in WINGS for file in filled(wing.simulated(sweep))]
+    """Files of the extensions' own simulations."""
+    return [file for extension in EXTENSIONS for file in filled(extension.simulated(sweep))]
 
 
-def files_of(wing: Wing, sweep: Sweep) -> list[str]:
-    """All files of a wing that are asked for."""
-    return filled(wing.all_targets(sweep))
+def files_of(extension: Extension, sweep: Sweep) -> list[str]:
+    """All files of an extension that are asked for."""
+    return filled(extension.all_targets(sweep))
 
 
-def _of_spine(sweep: Sweep) -> dict[str, Wildcards]:
+def _of_pipeline(sweep: Sweep) -> dict[str, Wildcards]:
     settings = sweep.settings
     growing = [name for name, chosen in settings.scenes.items() if chosen.scene.casing.changes_with_speed]
     ranked: Wildcards = [{}] if "stress" in sweep.kinds else []

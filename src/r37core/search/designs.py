@@ -19,7 +19,7 @@ from .problem import SearchVariable
 from .section import SearchSection
 
 FOLDER = "search"
-"""Of the designs' files: the wing's name."""
+"""Of the designs' files: the extension's name."""
 
 _KEPT = ("stress", "static_stress")
 """Results of a scene that designs have, too: what they are judged by."""

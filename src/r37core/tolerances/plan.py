@@ -16,7 +16,7 @@ from .fewest import remarks_on_rankings
 from .members import Members, members_of, section
 
 FOLDER = "tolerances"
-"""Of the members' files: the wing's name."""
+"""Of the members' files: the extension's name."""
 
 DATASET, TABLE = "<results>/tolerances.nc", "<results>/tolerances.csv"
 _RESPONSE = paths.RESPONSE.replace("{member}", path_part(FOLDER, "{member}"))

@@ -1,4 +1,4 @@
-"""A wing: what one capability adds to the spine, as plain data. `r37core.product.wings` names all of them."""
+"""An extension: what one capability adds to the pipeline, as plain data. `r37core.product.extensions` names all of them."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ def _nothing(_: Sweep) -> dict[str, Wildcards]:
 
 @dataclass(frozen=True)
 class Panel:
-    """What a wing shows in the explorer of a run that has its dataset.
+    """What an extension shows in the explorer of a run that has its dataset.
 
     `dataset`: that one file, none in a run without it.
     `contents`: function of the dataset, as `folder.module.function`, that gives what JSON can carry.
@@ -36,15 +36,15 @@ class Panel:
 
 
 @dataclass(frozen=True)
-class Wing:
+class Extension:
     """One capability: a folder of this package, a file of rules, and a line in the registry.
 
     `name`: of the folder, of the rule that makes all of it, and of its section of config.yaml.
     `section`: type and default of that section, as pydantic's `create_model` takes them; none without one.
     `checks`: what no model of the section alone can check; each raises ConfigError.
     `sampling`: members that it has run beside the sweep, and what is made of them.
-    `later`: of samples that are named while a run goes on, by the part of their folder below one of the wing's name; takes the
-    folder of the results.
+    `later`: of samples that are named while a run goes on, by the part of their folder below one of the extension's name; takes
+    the folder of the results.
     `simulated`: files of its own simulations in the folders of the blades, which other machines may make.
     `targets`: what is made of them; part of all_blades unless `on_request`.
     `remarks`: what a run should say of it before it starts.

@@ -1,4 +1,4 @@
-"""The last lines of a run on its wings: what was found and the file to look at, without a word of the wing's own, too."""
+"""The last lines of a run on its extensions: what was found and the file to look at."""
 
 import os
 
@@ -8,10 +8,10 @@ import pytest
 import xarray as xr
 
 from r37core.designs import closing as designs
+from r37core.plans.extension import Extension
 from r37core.plans.sweep_plan import Sweep
-from r37core.plans.wing import Wing
-from r37core.product.closing import line_of_wing
-from r37core.product.wings import WINGS
+from r37core.product.closing import line_of_extension
+from r37core.product.extensions import EXTENSIONS
 from r37core.rotors import closing as rotors
 from r37core.run_ups import closing as run_ups
 from r37core.search import closing as search
@@ -19,46 +19,46 @@ from r37core.signals import closing as signals
 from r37core.tolerances import closing as tolerances
 
 
-def wing(*files, **more):
-    return Wing(name="mine", targets=lambda sweep: {f"<results>/{name}": [{}] for name in files}, **more)
+def extension(*files, **more):
+    return Extension(name="mine", targets=lambda sweep: {f"<results>/{name}": [{}] for name in files}, **more)
 
 
 @pytest.fixture
 def line(settings, tmp_path):
-    """What is said of a wing whose targets are all there, made at 1000 s, in a run that began then."""
+    """What is said of an extension whose targets are all there, made at 1000 s, in a run that began then."""
 
-    def of(wing, began=1000.0):
-        for name in wing.targets(None):
+    def of(extension, began=1000.0):
+        for name in extension.targets(None):
             file = tmp_path / name.removeprefix("<results>/")
             file.touch()
             os.utime(file, (1000.0, 1000.0))
-        return line_of_wing(wing, Sweep(settings), tmp_path, began).replace(str(tmp_path), "results")
+        return line_of_extension(extension, Sweep(settings), tmp_path, began).replace(str(tmp_path), "results")
 
     return of
 
 
-def test_a_wing_without_a_word_names_what_a_person_opens_first(line, tmp_path):
-    assert line(wing("mine.nc", "mine.csv")) == "mine: 2 files made; look at results/mine.csv"
-    assert line(wing("mine.nc", "a.pdf", "a.png", "mine.csv")) == "mine: 4 files made; look at results/a.png"
-    assert line(wing("mine.csv", "a.png", "mine.html")).endswith("look at results/mine.html")
-    assert line(wing("mine.inp")) == "mine: 1 file made; look at results/mine.inp"
-    assert line(wing("mine.inp", "mine.csv", look_at="<results>/mine")).endswith("look at results/mine")
+def test_an_extension_without_a_word_names_what_a_person_opens_first(line, tmp_path):
+    assert line(extension("mine.nc", "mine.csv")) == "mine: 2 files made; look at results/mine.csv"
+    assert line(extension("mine.nc", "a.pdf", "a.png", "mine.csv")) == "mine: 4 files made; look at results/a.png"
+    assert line(extension("mine.csv", "a.png", "mine.html")).endswith("look at results/mine.html")
+    assert line(extension("mine.inp")) == "mine: 1 file made; look at results/mine.inp"
+    assert line(extension("mine.inp", "mine.csv", look_at="<results>/mine")).endswith("look at results/mine")
     # of what is older, or is not there, nothing is said
-    assert line(wing("mine.csv"), began=1001.0) == ""
+    assert line(extension("mine.csv"), began=1001.0) == ""
     os.utime(tmp_path / "mine.csv", (2000.0, 2000.0))
-    assert line_of_wing(wing("other.csv"), Sweep(None), tmp_path, 0.0) == ""
+    assert line_of_extension(extension("other.csv"), Sweep(None), tmp_path, 0.0) == ""
 
 
-def test_a_wing_s_own_word(line, tmp_path):
+def test_an_extension_s_own_word(line, tmp_path):
     pd.DataFrame({"diverged_speeds": [0]}).to_csv(tmp_path / "rotors.csv", index=False)
-    said = line(wing("rotor.png", closing="rotors.closing.closing"))
+    said = line(extension("rotor.png", closing="rotors.closing.closing"))
     assert said == "mine: 1 rotor; look at results/rotor.png"
 
 
-@pytest.mark.parametrize("wing", WINGS, ids=lambda wing: wing.name)
-def test_the_words_of_the_shipped_wings_are_there(wing):
-    if wing.closing:
-        module = __import__(f"r37core.{wing.closing.rpartition('.')[0]}", fromlist=["closing"])
+@pytest.mark.parametrize("extension", EXTENSIONS, ids=lambda extension: extension.name)
+def test_the_words_of_the_shipped_extensions_are_there(extension):
+    if extension.closing:
+        module = __import__(f"r37core.{extension.closing.rpartition('.')[0]}", fromlist=["closing"])
         assert callable(module.closing)
 
 

@@ -1,11 +1,11 @@
-"""A search for better designs as a wing."""
+"""A search for better designs as an extension."""
 
 from __future__ import annotations
 
 from pydantic import Field
 
 from r37core.config.section import LeftOut
-from r37core.plans.wing import Panel, Wing
+from r37core.plans.extension import Extension, Panel
 
 from .captions import CAPTIONS
 from .checks import search_can_be_run
@@ -13,7 +13,7 @@ from .designs import FOLDER
 from .plan import joined_dataset, remarks, samples_of, targets
 from .section import SearchSection
 
-WING = Wing(
+EXTENSION = Extension(
     name=FOLDER,
     section=(
         SearchSection | LeftOut,

@@ -1,13 +1,13 @@
-"""Whole rotors as a wing."""
+"""Whole rotors as an extension."""
 
 from __future__ import annotations
 
-from r37core.plans.wing import Panel, Wing
+from r37core.plans.extension import Extension, Panel
 
 from .captions import CAPTIONS
 from .plan import joined_dataset, remarks, targets
 
-WING = Wing(
+EXTENSION = Extension(
     name="rotors",
     targets=targets,
     remarks=remarks,

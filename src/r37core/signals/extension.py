@@ -1,15 +1,15 @@
-"""Time signals as a wing."""
+"""Time signals as an extension."""
 
 from __future__ import annotations
 
-from r37core.plans.wing import Wing
+from r37core.plans.extension import Extension
 
 from .captions import CAPTIONS
 from .checks import signals_have_runs
 from .plan import simulated, targets
 from .section import SignalSection
 
-WING = Wing(
+EXTENSION = Extension(
     name="signals",
     section=(SignalSection, SignalSection()),
     checks=(signals_have_runs,),

@@ -1,10 +1,10 @@
-"""The registry of the wings: each capability is one folder of this package, one file of rules, and one line here."""
+"""The registry of the extensions: each capability is one folder of this package, one file of rules, and one line here."""
 
 from __future__ import annotations
 
 from importlib import import_module
 
-from r37core.plans.wing import Wing
+from r37core.plans.extension import Extension
 
 _FOLDERS = (
     "exports",
@@ -18,5 +18,5 @@ _FOLDERS = (
 )
 """In the order of their sections in docs/configuration.md."""
 
-WINGS: tuple[Wing, ...] = tuple(import_module(f"r37core.{folder}.wing").WING for folder in _FOLDERS)
+EXTENSIONS: tuple[Extension, ...] = tuple(import_module(f"r37core.{folder}.extension").EXTENSION for folder in _FOLDERS)
 """All of them."""

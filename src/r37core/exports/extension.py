@@ -1,14 +1,14 @@
-"""Files for other programs as a wing."""
+"""Files for other programs as an extension."""
 
 from __future__ import annotations
 
-from r37core.plans.wing import Wing
+from r37core.plans.extension import Extension
 
 from .checks import exported_speeds_are_run
 from .plan import targets
 from .section import ExportSection
 
-WING = Wing(
+EXTENSION = Extension(
     name="exports",
     section=(ExportSection, ExportSection()),
     checks=(exported_speeds_are_run,),

@@ -1,15 +1,15 @@
-"""Tolerances as a wing."""
+"""Tolerances as an extension."""
 
 from __future__ import annotations
 
-from r37core.plans.wing import Wing
+from r37core.plans.extension import Extension
 
 from .captions import CAPTIONS
 from .checks import members_can_be_drawn, members_of_the_study_are_possible
 from .plan import FOLDER, SAMPLING, remarks, simulated, targets
 from .section import ToleranceSection
 
-WING = Wing(
+EXTENSION = Extension(
     name=FOLDER,
     section=(ToleranceSection, ToleranceSection()),
     checks=(members_can_be_drawn, members_of_the_study_are_possible),

@@ -1,0 +1,12 @@
+# Each extension's rules, and one more that makes all of it and nothing else: snakemake run_ups
+from r37core.product.extensions import EXTENSIONS
+
+for extension in EXTENSIONS:
+
+    include: f"{extension.name}.smk"
+
+    rule:
+        name:
+            extension.name
+        input:
+            files_of(extension, sweep),
