@@ -28,6 +28,15 @@ include: "workflow/rules/extensions.smk"
 include: "workflow/rules/studies.smk"
 
 
+# what r37.run makes
+rule tables:
+    input:
+        rules.campbell_of_all.output,
+        rules.configuration.output,
+        rules.summary.output,
+        tables(sweep),
+
+
 rule all_blades:
     default_target: True
     input:

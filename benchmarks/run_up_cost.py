@@ -70,7 +70,7 @@ def row(settings, model, scene, rate):
 
     def change():
         integration = RunUpIntegration(model, scene_of, choice, run_up)
-        for _ in integration.stages():
+        for _ in integration.segments():
             pass
         return integration.state.totals
 

@@ -244,7 +244,7 @@ def test_at_one_speed_a_run_up_is_the_run_at_that_speed(engine):
     simulation = Simulation(model, 1000.0, growing(NARROW), choice)
     expected = simulation.advance(simulation.start(), 3).samples
     integration = RunUpIntegration(model, growing(NARROW), choice, RunUp(1000.0, 1000.0, 1.0, 1, 1, worn=False))
-    np.testing.assert_array_equal(np.concatenate([stage.samples for stage in integration.stages()]), expected)
+    np.testing.assert_array_equal(np.concatenate([stage.samples for stage in integration.segments()]), expected)
 
 
 def test_the_clearance_follows_the_speed():
@@ -252,7 +252,7 @@ def test_the_clearance_follows_the_speed():
     model = replace(random_blade(1), rotation_shapes=np.array([[[1e-10]], [[0.0]], [[0.0]]]), tip_cone_angle=0.0)
     scene = growing(NARROW, clearance=1.21e-4, lobes=0)
     integration = RunUpIntegration(model, scene, replace(SHORT, time_step=2e-6), RunUp(1000.0, 1200.0, 20.0, 1, 1, worn=False))
-    touching = np.concatenate([stage.speeds[stage.wear > 0.0] for stage in integration.stages()])
+    touching = np.concatenate([stage.speeds[stage.wear > 0.0] for stage in integration.segments()])
     assert touching.min() == pytest.approx(1100.0, abs=2.0)
     with pytest.raises(NoRoomError, match="at 1200 rad/s"):
         RunUpIntegration(

@@ -14,7 +14,13 @@ import pytest
 from r37core import kept
 from r37core.plans import code as code_module
 from r37core.plans.code import CodeHashes, fingerprint
+from r37core.plans.provenance import Provenance
+from r37core.plans.stages import structure_stages, sweep_stages
+from r37core.plans.structure_plan import Structure
+from r37core.plans.sweep_plan import Sweep
+from r37core.product.reading import read_settings
 from r37core.product.reporting import drawing
+from r37core.run_ups.plan import RunUps
 
 SCRIPT = "from job import run\nfrom r37core.a import f\n"
 
@@ -155,10 +161,14 @@ def test_of_a_step_only_what_it_uses_counts(tree, file, old, new, first, second)
 def rules(root):
     """Rule -> names of its code, from the rules' files: of a figure, the step that draws and the module of its function."""
     text = "".join(file.read_text() for file in sorted((root / "workflow/rules").rglob("*.smk")))
+    settings = read_settings(root)
+    structure, made, sweep = Structure(settings), Provenance(settings), Sweep(settings)
+    shared = {**structure_stages(structure, made), **sweep_stages(sweep, made), "run_up": RunUps(sweep).stage(made)}
     found = {}
     for block in re.split(r"^(?=rule |checkpoint |use rule )", text, flags=re.MULTILINE)[1:]:
         rule = re.match(r"(?:rule|checkpoint|use rule \w+ as) (\w+)", block)[1]
         steps = re.findall(r'\*\*step\("([\w.]+)"(?:\)|, \*)', block)
+        steps += [shared[rule].step] if "**stage(" in block else []
         drawn = re.findall(r'drawing\(\s*code,\s*"([\w.]+)\.\w+"', block)
         needed = re.match(r"use rule (step|figure) as|(?:(?!\nfor )[\s\S])*scripts/step\.py", block) is not None
         assert len(steps) + len(drawn) == (needed and rule not in ("step", "figure")), rule

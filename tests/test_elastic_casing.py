@@ -285,7 +285,7 @@ def test_a_run_up_of_no_rate_is_the_run_at_constant_speed():
     integration = RunUpIntegration(
         model, scene, choice, RunUp(3000.0, 3000.0 * (1.0 + 1e-12), 3, before=0, after=0, worn=False)
     )
-    samples = np.concatenate([stage.samples for stage in integration.stages()])
+    samples = np.concatenate([stage.samples for stage in integration.segments()])
     np.testing.assert_allclose(samples, record.samples, rtol=0, atol=1e-8 * np.abs(record.samples).max())
 
 
@@ -295,7 +295,7 @@ def test_a_run_up_with_an_elastic_casing_keeps_its_balance(engine):
     integration = RunUpIntegration(
         random_blade(), ELASTIC_SCENES["abradable"], choice, RunUp(3000.0, 3100.0, 2, before=0, after=0, worn=False)
     )
-    for _ in integration.stages():
+    for _ in integration.segments():
         pass
     balance = integration.balance()
     work, loss = balance["contact_work"], balance["damping_loss"]
@@ -311,7 +311,7 @@ def test_a_run_up_of_many_segments_is_that_of_the_reference(name):
     for engine in ("compiled", "reference"):
         run_up = RunUp(3000.0, 3300.0, 1.3, before=0, after=0, worn=False)
         integration = RunUpIntegration(random_blade(), ELASTIC_SCENES[name], replace(choice, engine=engine), run_up)
-        found.append(np.concatenate([stage.samples for stage in integration.stages()]))
+        found.append(np.concatenate([stage.samples for stage in integration.segments()]))
     assert max(len(interval.segments) for interval in integration.intervals) > 10
     np.testing.assert_allclose(found[0], found[1], rtol=0, atol=1e-10 * np.abs(found[1]).max())
 

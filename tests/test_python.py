@@ -23,7 +23,7 @@ from workflow_runs import copy_finished, copy_project, own_package
 import r37
 from r37 import structure_files
 from r37.command import main
-from r37.structure_files import StructureFiles, cache_folder
+from r37.structure_files import cache_folder, recipe
 from r37core.config import command_line_document
 from r37core.dataset_file import read_dataset
 from r37core.exports.matrices_out import write_reduced_matrices
@@ -145,7 +145,7 @@ def test_blades_of_other_programs(root, config, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     runpy.run_path("draw.py")
     settings = read_settings(config.parent.parent)
-    model = read_reduced_model(StructureFiles(settings, "Ref").reduced_model("pressure_edge").file())
+    model = read_reduced_model(recipe(settings, "Ref", "reduced_model").file())
     write_reduced_matrices(model, [0.0, 1000.0, 2000.0], tmp_path / "matrices")
     entry = {"matrices": "matrices", "mass_unit": "kg", "stiffness_unit": "N/m", "length_unit": "m", "rotation": "negative"}
     frame = {"rotor_axis": [0, 0, 1], "radial": [1, 0, 0]}

@@ -32,6 +32,7 @@ from r37core.console.leftovers import leftovers
 from r37core.dataset_file import SPEED, Variable, about, read_dataset, write_dataset
 from r37core.io import InputFileError, OutputFileError, atomic_write, readable, scratch_folder, write_json
 from r37core.plans.run import replaced_level, source_folder
+from r37core.plans.stages import Stage
 from r37core.plans.sweep_plan import speeds_of_round
 from r37core.product.reading import read_settings
 from r37core.results.campbell_dataset import campbell_dataset
@@ -144,7 +145,7 @@ def test_a_full_disk_is_one_line_in_python(tmp_path, monkeypatch, error, free, o
         with pytest.MonkeyPatch.context() as patch:
             patch.setenv("R37_CACHE", str(tmp_path / "cache"))
             patch.setattr(structure_files, "kept_file", fails)
-            structure_files.Recipe("Ref", "rom.steps.reduced_model", "a.nc", {}, {}).file()
+            structure_files.Recipe("Ref", Stage("rom.steps.reduced_model", {}), "a.nc", {}, {}).file()
 
     for write in (written, made):
         with pytest.raises(outcome) as raised:

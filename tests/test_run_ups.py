@@ -21,7 +21,7 @@ from r37core.run_ups import schedule as schedule_module
 from r37core.run_ups.choice import Crossing, RunUpChoice, RunUpError, check_highest
 from r37core.run_ups.dataset import runs_of, write_run_ups
 from r37core.run_ups.figures import draw_rates, draw_run_ups
-from r37core.run_ups.integration import RunUpIntegration, Stage, resolved_problem
+from r37core.run_ups.integration import IntegratedSegments, RunUpIntegration, resolved_problem
 from r37core.run_ups.revolutions import largest_stress, record_run_up
 from r37core.run_ups.schedule import RunUp, schedule
 from r37core.run_ups.tables import rate_table, run_up_table
@@ -38,7 +38,7 @@ FREE = Scene(Casing(1.0, lobes=0))
 
 
 def samples_of(integration):
-    return np.concatenate([stage.samples for stage in integration.stages()])
+    return np.concatenate([stage.samples for stage in integration.segments()])
 
 
 @pytest.mark.parametrize(("start", "stop"), [(1300.0, 1800.0), (1800.0, 1300.0), (100.0, 101.0)])
@@ -78,9 +78,9 @@ def test_at_one_speed_a_run_up_is_the_run_at_that_speed(contact, engine):
 
 def test_a_slow_run_up_is_the_same_in_many_calls(contact, monkeypatch):
     run_up = RunUp(1600.0, 1605.0, 8.5, 4, 0, worn=False)
-    whole = list(RunUpIntegration(contact, NARROW, LONG, run_up).stages())
+    whole = list(RunUpIntegration(contact, NARROW, LONG, run_up).segments())
     monkeypatch.setattr(run_length, "STEPS_AT_ONCE", 1)
-    stages = list(RunUpIntegration(contact, NARROW, LONG, run_up).stages())
+    stages = list(RunUpIntegration(contact, NARROW, LONG, run_up).segments())
     assert len(stages) > len(whole)
     for name in ("samples", "speeds", "wear"):
         several, few = (np.concatenate([getattr(stage, name) for stage in each]) for each in (stages, whole))
@@ -122,7 +122,7 @@ def test_it_does_not_matter_how_many_segments_the_engine_does_at_once(contact, m
     for revolutions in (64, 1):
         monkeypatch.setattr(integration_module, "_AT_ONCE", revolutions)
         integration = RunUpIntegration(contact, NARROW, LONG, RunUp(1600.0, 1650.0, 5.3, 1, 1, worn=False))
-        stages = list(integration.stages())
+        stages = list(integration.segments())
         found.append({name: np.concatenate([getattr(one, name) for one in stages]) for name in ("samples", "speeds", "wear")})
     assert len(stages) > len(integration.intervals)
     one, other = found
@@ -158,7 +158,7 @@ def test_the_stiffness_works_half_of_its_change_times_the_squared_displacement(i
         )
         integration.state.displacement[:] = 1e-3
         integration.energy = 0.5 * 3000.0**2 * 1e-6 + 0.5 * 2.0 * 1000.0**2 * 1e-6
-        first, stages = integration.energy, list(integration.stages())
+        first, stages = integration.energy, list(integration.segments())
         speeds, samples = (np.concatenate([getattr(stage, of) for stage in stages]) for of in ("speeds", "samples"))
         work = np.sum(np.diff(speeds**2, prepend=1000.0**2) * np.append(1e-3, samples[:-1, 0]) ** 2)
         errors.append(abs(integration.energy - first - work) / abs(work))
@@ -551,7 +551,9 @@ def test_revolutions_last_as_long_as_their_samples(contact):
     speeds, wear = np.full(len(samples), 100.0), np.zeros(len(samples))
     collected = revolutions_module._Revolutions(contact, choice, 5, None, False)
     collected.add(
-        Stage(speeds, samples.reshape(len(samples), -1), wear, np.empty((0, 1)), np.empty(0), np.empty((1, 1)), False)
+        IntegratedSegments(
+            speeds, samples.reshape(len(samples), -1), wear, np.empty((0, 1)), np.empty(0), np.empty((1, 1)), False
+        )
     )
     values = collected.joined()
     np.testing.assert_allclose(values["speed"], 100.0)

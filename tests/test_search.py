@@ -29,7 +29,7 @@ from r37core.search.plan import Search, choice_of, designs_of, is_asked
 from r37core.search.problem import SearchVariable
 from r37core.search.proposal import first_designs
 from r37core.search.quantity import DesignStructure, Quantity, of_contact, of_structure
-from r37core.search.rounds import SearchRound, first_round, read_round, round_after, write_round
+from r37core.search.rounds import SearchRound, first_round, read_round, round_after, tried_after, write_round
 from r37core.search.steps import shape
 
 BLADES = """
@@ -192,7 +192,8 @@ def searched(wanted, counts=(3, 2, 2, 0)):
         refused = {"d0001": "crossed"} if "d0001" in rounds[-1].new else {}
         known = {name: gave(values) for name, values in rounds[-1].new.items() if name not in refused}
         known |= {"d0002": {"lined": (None, None), "mass": (2.0, 0.0)}} if "d0002" in known else {}
-        rounds.append(round_after(rounds[-1], len(rounds), refused, known, START, count, wanted))
+        tried = tried_after(rounds[-1], len(rounds), refused, known)
+        rounds.append(round_after(tried, START, count, wanted))
     return rounds
 
 

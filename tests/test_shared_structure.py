@@ -1,6 +1,4 @@
-"""A run with a name takes reduced models over from the results of a run without one, where they are made of the same."""
-
-from types import SimpleNamespace
+"""Blades that are made of the same have one reduced model, in the user's cache, whichever run or call asks for it."""
 
 import numpy as np
 import pytest
@@ -8,65 +6,43 @@ import xarray as xr
 from overlays import overlay
 from workflow_runs import snakemake
 
-from r37core.config import command_line_document
-from r37core.dataset_file import read_dataset, recipe_of, taken_over, write_dataset
-from r37core.plans.structure_plan import Structure
-from r37core.product.reading import read_settings
+from r37core import user_cache
+from r37core.dataset_file import read_dataset
 
 
-def test_a_recipe_is_of_contents_and_values(tmp_path):
-    first, same, other = (tmp_path / name for name in ("a", "b", "c"))
-    first.write_text("mesh")
-    same.write_text("mesh")
-    other.write_text("another mesh")
-    recipe = recipe_of([first], {"density": 1.0}, "code")
-    assert recipe_of([same], {"density": 1.0}, "code") == recipe
-    different = [
-        ([other], {"density": 1.0}, "code"),
-        ([first], {"density": 2.0}, "code"),
-        ([first], {"density": 1.0}, "edited"),
-    ]
-    assert len({recipe, *(recipe_of(*one) for one in different)}) == 4
+def test_what_cannot_be_kept_is_made_where_it_is_needed(tmp_path, monkeypatch):
+    """A cache folder that cannot be written is no failure of a run; what making raises is."""
+    monkeypatch.setenv("R37_CACHE", str(tmp_path / "file" / "cache"))
+    (tmp_path / "file").write_text("")
+    assert user_cache.kept_for_user("a.txt", "made of", lambda file: file.write_text("a")) is None
+    monkeypatch.setenv("R37_CACHE", str(tmp_path / "cache"))
+    file = user_cache.kept_for_user("a.txt", "made of", lambda file: file.write_text("a"))
+    assert file.read_text() == "a" and file.parent == tmp_path / "cache"
+    assert user_cache.kept_for_user("a.txt", "made of", None) == file
+    with pytest.raises(ValueError, match="impossible"):
+        user_cache.kept_for_user("a.txt", "others", lambda file: (_ for _ in ()).throw(ValueError("impossible")))
 
 
-def test_only_a_sound_file_of_the_same_recipe_is_taken_over(tmp_path):
-    file, copy = tmp_path / "rom.nc", tmp_path / "copy.nc"
-    assert not taken_over("one", None, copy)
-    assert not taken_over("one", file, copy)
-    write_dataset(xr.Dataset({"mass": ("row", np.arange(1000.0))}), file, {"recipe": "one"})
-    assert not taken_over("two", file, copy)
-    assert not copy.exists()
-    assert taken_over("one", file, copy)
-    assert copy.read_bytes() == file.read_bytes()
-    copy.unlink()
-    content = file.read_bytes()
-    place = content.index(np.arange(500.0, 504.0).tobytes())
-    file.write_bytes(content[:place] + b"\xff" + content[place + 1 :])
-    assert not taken_over("one", file, copy)
-    file.write_text("no dataset")
-    assert not taken_over("one", file, copy)
-    assert not copy.exists()
-
-
-def test_only_runs_with_a_name_look_for_others(config_copy):
-    wildcards = SimpleNamespace(blade="Ref", tip_line="camber")
-    assert Structure(read_settings(config_copy)).made_before(wildcards)["file"] is None
-    named = read_settings(config_copy, command_line_document({"run": {"name": "thin"}}))
-    assert named.results.as_posix() == "results/runs/thin"
-    assert Structure(named).made_before(wildcards)["file"] == "results/Ref/rom_camber.nc"
+def test_other_processors_and_libraries_make_other_numbers():
+    here = user_cache.numerics("numpy", "no such library")
+    assert here[:2] == [np.__version__, ""] and all(here[2:])
 
 
 @pytest.mark.slow
-def test_a_run_with_a_name_reduces_nothing_again(structure_copy):
-    for name, made in (("same", "copy of results/Ref/rom_pressure_edge.nc"), ("heavy", "independent at")):
+def test_a_run_with_a_name_reduces_nothing_again(structure_copy, monkeypatch):
+    """Nor does it where the first run had no cache, once one has made the model; another density is another model."""
+    monkeypatch.setenv("R37_CACHE", str(structure_copy / "cache"))
+    for name, reduced in (("first", True), ("same", False), ("heavy", True)):
         if name == "heavy":
             overlay(structure_copy, "blades.yaml", "Ref: { material: { density_kg_m3: 8001 } }")
         file = f"results/runs/{name}/Ref/rom_pressure_edge.nc"
         snakemake(structure_copy, file, "--cores", "1", "--config", f"run={{name: {name}}}")
-        assert made in (structure_copy / f"logs/runs/{name}/Ref/reduced_model_pressure_edge.log").read_text()
-    before, same, heavy = (
+        log = (structure_copy / f"logs/runs/{name}/Ref/reduced_model_pressure_edge.log").read_text()
+        assert f"kept as {structure_copy}/cache/rom-" in log and ("independent at" in log) == reduced
+    before, first, same, heavy = (
         read_dataset(structure_copy / f"results/{folder}Ref/rom_pressure_edge.nc")
-        for folder in ("", "runs/same/", "runs/heavy/")
+        for folder in ("", "runs/first/", "runs/same/", "runs/heavy/")
     )
-    xr.testing.assert_identical(before, same)
+    xr.testing.assert_identical(before, first)
+    xr.testing.assert_identical(first, same)
     assert not before["mass"].equals(heavy["mass"])

@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from .rotor_calls import rotor
     from .run_results import RunResults, open_results
     from .run_up_calls import run_up, run_ups
+    from .runs import run
     from .search_calls import search
     from .simulations import campbell, reduced_model, simulate, sweep
     from .studies import compare, designs, tolerances
@@ -55,6 +56,7 @@ __all__ = [
     "plot_tolerances",
     "reduced_model",
     "rotor",
+    "run",
     "run_up",
     "run_ups",
     "scene",
@@ -75,6 +77,7 @@ _NAMES_OF = {
     ".rotor_calls": ("rotor",),
     ".run_results": ("RunResults", "open_results"),
     ".run_up_calls": ("run_up", "run_ups"),
+    ".runs": ("run",),
     ".search_calls": ("search",),
     ".simulations": ("campbell", "reduced_model", "simulate", "sweep"),
     ".studies": ("compare", "designs", "tolerances"),

@@ -4,13 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from itertools import islice
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from r37core.config import ConfigError
 from r37core.config.messages import on_one_line
+from r37core.io import write_text
 from r37core.speeds import LARGEST_NUMBER
+from r37core.user_cache import kept_for_user, named_folder
 
 Speeds = Iterable[float | Mapping[str, float]] | Mapping[str, float]
 """Numbers, and ranges `{"start": ..., "stop": ..., "step": ..., "refine_to": ...}` as in config.yaml."""
@@ -46,7 +49,9 @@ def speed_key(speed: Any, speed_rpm: Any) -> dict[str, list[Any]]:
 
 
 def plain_value(value: Any) -> Any:
-    """The same without the types of NumPy, inside of mappings and lists, too."""
+    """The same without the types of NumPy, inside of mappings and lists, too; in place of a DataFrame a file with it."""
+    if hasattr(value, "to_csv"):
+        return str(_table_file(value.to_csv(index=False)))
     if isinstance(value, Mapping):
         return {key.item() if isinstance(key, np.generic) else key: plain_value(inner) for key, inner in value.items()}
     if isinstance(value, list | tuple):
@@ -54,6 +59,16 @@ def plain_value(value: Any) -> Any:
     if isinstance(value, np.ndarray):
         return value.item() if value.size == 1 else value.tolist()
     return value.item() if isinstance(value, np.generic) else value
+
+
+def _table_file(text: str) -> Path:
+    """A file of the user's cache with a table, for a key of blades.yaml. Raises ConfigError where none can be written."""
+    file = kept_for_user("table.csv", text, lambda file: write_text(text, file))
+    if file is None:
+        raise ConfigError(
+            f"R37_CACHE: found {named_folder()}, which cannot be written; allowed: a folder for tables from Python"
+        )
+    return file
 
 
 def sequence_of(value: Any, single: Any, key: str, what: str) -> list[Any]:

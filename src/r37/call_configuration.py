@@ -20,7 +20,9 @@ _PACKAGE = Path(__file__).parent
 _FOLDER = "config"
 """Of the repository and of this package, where it is a link or, once installed, a copy."""
 
-_OF_A_RUN = ("run", "speeds", "speeds_rpm", "speeds_for", "studies", *(extension.name for extension in EXTENSIONS))
+_SPEEDS = ("speeds", "speeds_rpm", "speeds_for")
+
+_OF_A_RUN = ("run", *_SPEEDS, "studies", *(extension.name for extension in EXTENSIONS))
 """Sections of config.yaml that say what a run of the workflow makes, and nothing of a single simulation."""
 
 _READER = replace(READER, checks=tuple(check for check in READER.checks if check is not history_speeds_are_run))
@@ -50,14 +52,21 @@ class Configuration:
         return Configuration(document, _root_of(path) if key == "blades_file" else self.root)
 
     def settings(
-        self, keys: Mapping[str, Any], caller: str, blades_above: Document | None = None, scenes_above: Document | None = None
+        self,
+        keys: Mapping[str, Any],
+        caller: str,
+        blades_above: Document | None = None,
+        scenes_above: Document | None = None,
+        whole: bool = False,
     ) -> Settings:
         """Checked settings of these `keys` on top of this configuration; a message names the `caller` as its place.
 
-        `blades_above`, `scenes_above`: changes on top of these files. Raises ConfigError.
+        `blades_above`, `scenes_above`: changes on top of these files. What the configuration says of a run counts if it is
+        taken `whole`, but for a name of the run and a part of it. Raises ConfigError.
         """
-        content = {key: value for key, value in self.document.content.items() if key not in _OF_A_RUN}
-        locations = {path: line for path, line in self.document.locations.items() if not path or path[0] not in _OF_A_RUN}
+        left_out = {"run", *(_SPEEDS if keys.keys() & set(_SPEEDS) else ())} if whole else set(_OF_A_RUN)
+        content = {key: value for key, value in self.document.content.items() if key not in left_out}
+        locations = {path: line for path, line in self.document.locations.items() if not path or path[0] not in left_out}
         document = replace(self.document, content=content, locations=locations).overlaid(command_line_document(keys, caller))
         return _READER.load_settings(document, self.root, blades_above=blades_above, scenes_above=scenes_above)
 

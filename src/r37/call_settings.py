@@ -1,9 +1,10 @@
-"""Settings of a call: of the blades and scenes that it names, with what else of config.yaml it says."""
+"""What a call asks for: its blades and scenes, with what else of config.yaml it says."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from functools import reduce
+from dataclasses import dataclass
+from functools import cached_property, reduce
 from pathlib import Path
 from typing import Any
 
@@ -12,6 +13,40 @@ from r37core.config import ConfigError, Document, Settings
 from .arguments import finite
 from .call_configuration import Configuration, read_configuration
 from .choices import BladeChoice, Choice, SceneChoice
+
+
+@dataclass(frozen=True)
+class Call:
+    """Blades of one file in scenes of one file, with `keys` of config.yaml on top of `base`; `name`: of the call, for messages.
+
+    Without blades or scenes those of `base` are taken. `whole`: what `base` says of a run counts, too.
+    """
+
+    name: str
+    base: Configuration
+    blades: Sequence[BladeChoice]
+    scenes: Sequence[SceneChoice]
+    keys: Mapping[str, Any]
+    whole: bool = False
+
+    @cached_property
+    def settings(self) -> Settings:
+        """Checked settings. Raises ConfigError."""
+        changes = dict(self.keys)
+        for kind, several in (("blades", self.blades), ("scenes", self.scenes)):
+            if several:
+                changes |= {kind: [choice.name for choice in several], f"{kind}_file": _one_file(kind, several)}
+        return self.configuration.settings(changes, self.name, self.blades_above, above(self.scenes), self.whole)
+
+    @property
+    def configuration(self) -> Configuration:
+        """What the keys lie on, with names of files as those of the blades start from."""
+        return Configuration(self.base.document, self.blades[0].configuration.root) if self.blades else self.base
+
+    @property
+    def blades_above(self) -> Document | None:
+        """What is changed of blades, on top of their file."""
+        return above(self.blades)
 
 
 def chosen_blade(blade: BladeChoice | str, config: Path | str | None) -> BladeChoice:
@@ -42,21 +77,6 @@ def base_of(blade: BladeChoice | str, config: Path | str | None) -> Configuratio
     return blade.configuration if isinstance(blade, BladeChoice) and config is None else read_configuration(config)
 
 
-def settings_of(
-    caller: str,
-    base: Configuration,
-    blades: Sequence[BladeChoice],
-    scenes: Sequence[SceneChoice],
-    keys: Mapping[str, Any],
-) -> Settings:
-    """Settings of blades of one file in scenes of one file, with `keys` of config.yaml on top of `base`. Raises ConfigError."""
-    changes = {**keys, "blades": [blade.name for blade in blades], "blades_file": _one_file("blades", blades)}
-    if scenes:
-        changes |= {"scenes": [scene.name for scene in scenes], "scenes_file": _one_file("scenes", scenes)}
-    configuration = Configuration(base.document, blades[0].configuration.root)
-    return configuration.settings(changes, caller, _above(blades), _above(scenes))
-
-
 def level(fidelity: str | None) -> dict[str, Any]:
     """The key of an accuracy level, where one is given."""
     return {} if fidelity is None else {"fidelity": fidelity}
@@ -82,6 +102,7 @@ def _one_file(key: str, several: Sequence[Choice]) -> str:
     return files[0]
 
 
-def _above(several: Sequence[Choice]) -> Document | None:
+def above(several: Sequence[Choice]) -> Document | None:
+    """The changes of some entries as one document."""
     documents = [choice.above for choice in several if choice.above]
     return reduce(Document.overlaid, documents) if documents else None

@@ -5,7 +5,7 @@ from __future__ import annotations
 import inspect
 from collections.abc import Callable
 from functools import wraps
-from typing import ParamSpec, TypeVar
+from typing import ParamSpec, TypeVar, get_args
 
 from .stages import stages
 
@@ -13,11 +13,24 @@ Arguments = ParamSpec("Arguments")
 Result = TypeVar("Result")
 
 
+def arguments_of(call: Callable[..., object]) -> list[str] | None:
+    """Names of what a call takes by name, those of its `**options: Unpack[...]` included; None where it takes any."""
+    names: list[str] = []
+    for name, parameter in inspect.signature(call).parameters.items():
+        if parameter.kind is parameter.VAR_KEYWORD:
+            options = get_args(eval(parameter.annotation, call.__globals__))
+            if not options:
+                return None
+            names += options[0].__annotations__
+        elif parameter.kind is not parameter.POSITIONAL_ONLY:
+            names.append(name)
+    return names
+
+
 def checked_call(call: Callable[Arguments, Result]) -> Callable[Arguments, Result]:
     """The call, with its stages told, and a TypeError for an unknown keyword argument that says which there are."""
-    parameters = inspect.signature(call).parameters
-    named = [name for name, parameter in parameters.items() if parameter.kind is not parameter.POSITIONAL_ONLY]
-    takes_any = any(parameter.kind is parameter.VAR_KEYWORD for parameter in parameters.values())
+    named = arguments_of(call) or []
+    takes_any = not named
 
     @wraps(call)
     def checked(*arguments: Arguments.args, **keywords: Arguments.kwargs) -> Result:

@@ -140,11 +140,9 @@ class BladeChoice(Choice):
                 raise ConfigError(f"name: found {shared}; allowed: the changed blade without a name")
         return {"base": original, **{key: entry[key] for key in ("contact",) if key in entry}}
 
-    def family(self, name: str, vary: Mapping[str, Any], combine: str) -> BladeChoice:
-        """A family of this blade's designs, called `name`, as an entry of blades.yaml has it: no blade by itself."""
-        varied = {key: plain_value(values) for key, values in vary.items()}
-        changes = {**self.changes, "vary": varied, "combine": combine}
-        return BladeChoice(name, changes, self.configuration, self.base or self.name)
+    def family(self, name: str, entry: Mapping[str, Any]) -> BladeChoice:
+        """A family of this blade's designs, called `name`: no blade by itself. `entry`: keys of a family, as in blades.yaml."""
+        return BladeChoice(name, {**self.changes, **entry}, self.configuration, self.base or self.name)
 
 
 @dataclass(frozen=True)
@@ -229,8 +227,7 @@ def scenes(*, file: Path | str | None = None, config: Path | str | None = None) 
     >>> r37.scenes()[:2]
     ['abradable', 'direct']
     """
-    scenes_file = Path(_configuration("scenes_file", file, config).checked.scenes_file)
-    return list(read_document(scenes_file.parent, str(scenes_file)).check(Scenes).root)
+    return _scenes_of(_configuration("scenes_file", file, config))
 
 
 @checked_call
@@ -319,6 +316,17 @@ def scene(
     chosen = SceneChoice(*_named(name_of_entry, name, changes, _configuration("scenes_file", file, config)))
     chosen.check()
     return chosen
+
+
+def scenes_named(configuration: Configuration) -> list[str]:
+    """Names of the scenes that a configuration runs. Raises ConfigError."""
+    named = configuration.checked.scenes
+    return _scenes_of(configuration) if named == "all" else list(named)
+
+
+def _scenes_of(configuration: Configuration) -> list[str]:
+    file = Path(configuration.checked.scenes_file)
+    return list(read_document(file.parent, str(file)).check(Scenes).root)
 
 
 def _named(entry: str, name: str | None, changes: Mapping[str, Any], configuration: Configuration) -> Any:

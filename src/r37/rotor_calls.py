@@ -1,28 +1,24 @@
-"""The call of a whole rotor: many blades that wear one lining."""
+"""The call of whole rotors: every blade of a shape, on one lining."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from pathlib import Path
-from typing import Any
+from typing import Any, Unpack
 
 import xarray as xr
 
-from r37core.config import ConfigError, Settings
+from r37core.config import ConfigError
 from r37core.config.scenes import OF_ONE_BLADE
-from r37core.dataset_file import read_dataset
-from r37core.io import scratch_folder
+from r37core.plans.paths import fill
+from r37core.rotors.plan import ROTOR_OF_RUN
 
 from .arguments import Speeds, speed_keys
-from .calculation import Calculation
 from .call_configuration import Configuration
-from .call_settings import base_of, chosen_blade, chosen_scene, level, settings_of
+from .call_settings import chosen_blade, chosen_scene
 from .checked import checked_call
 from .choices import BladeChoice, SceneChoice
-from .jobs import check_cores
-from .run_tables import rotors_of_runs
-from .simulations import remarks_of, tell
+from .runs import SweepOptions, base_of_run, run_of
 
 
 @checked_call
@@ -32,11 +28,7 @@ def rotor(
     speeds: Speeds | None = None,
     *,
     rotor: Mapping[str, Any] | None = None,
-    speeds_rpm: Speeds | None = None,
-    fidelity: str | None = None,
-    results: Sequence[str] | None = None,
-    config: Path | str | None = None,
-    cores: int = 1,
+    **options: Unpack[SweepOptions],
 ) -> xr.Dataset:
     """Every blade of a whole rotor in a scene at several speeds, as rotor.nc of a run: all blades wear one lining.
 
@@ -51,13 +43,11 @@ def rotor(
     rotor
         The section `rotor` of the scene, in the units of its keys: `{"blades": 36, "mistuning_spread_percent": {"normal": 1}}`.
         A scene that has a rotor needs none; its keys stay where this has none of them.
-    fidelity, config
-        As of `r37.simulate`.
+    fidelity, config, cores, folder
+        As of `r37.run`.
     results
         What is computed, in place of the scene's list. Where `rotor` is given, it is that list without `signal` and `shapes`,
         which are of a single blade.
-    cores
-        Simulations that run at once, in processes of their own, one for each speed. The numbers do not depend on it.
 
     Returns
     -------
@@ -81,11 +71,11 @@ def rotor(
     >>> all_blades.leader.sel(speed=1550).item() in (1, 2, 3)
     True
     """
-    chosen, base = chosen_blade(blade, config), base_of(blade, config)
-    rubs_on, keys = _with_rotor(scene, base, rotor, results), speed_keys(speeds, speeds_rpm)
-    check_cores(cores)
-    settings = settings_of("r37.rotor", base, [chosen], [rubs_on], {**keys, **level(fidelity)})
-    return _dataset(settings, cores).assign_attrs(chosen.told | rubs_on.told)
+    chosen = chosen_blade(blade, options.get("config"))
+    rubs_on = _with_rotor(scene, base_of_run([chosen], options), rotor, options.get("results"))
+    keys, file = speed_keys(speeds, options.get("speeds_rpm")), fill(ROTOR_OF_RUN, blade=chosen.name, scene=rubs_on.name)
+    results = run_of("r37.rotor", [chosen], [rubs_on], keys, options, file.replace("<results>", "results"))
+    return results.rotor(chosen.name, rubs_on.name).assign_attrs(chosen.told | rubs_on.told)
 
 
 def _with_rotor(
@@ -101,13 +91,3 @@ def _with_rotor(
     if results is None:
         results = [result for result in single.entry.results if result not in OF_ONE_BLADE]
     return chosen_scene(replace(single, changes={**single.changes, "rotor": rotor}), base, results)
-
-
-def _dataset(settings: Settings, cores: int) -> xr.Dataset:
-    """rotor.nc of the one blade in the one scene of the settings."""
-    tell(remarks_of(settings))
-    with scratch_folder() as folder:
-        calculation = Calculation(settings, folder, cores)
-        calculation.responses()
-        (file,) = rotors_of_runs(calculation).values()
-        return read_dataset(calculation.path(file))

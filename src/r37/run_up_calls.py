@@ -4,45 +4,49 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, TypedDict, Unpack
 
 import xarray as xr
 
 from r37core.config import ConfigError
 from r37core.dataset_file import read_dataset
 from r37core.io import Named, scratch_folder
+from r37core.run_ups.dataset import write_run_ups
 from r37core.run_ups.plan import RUN_UP, RunUps
 
 from .arguments import mapping
 from .calculation import Calculation
-from .call_settings import base_of, chosen_blade, chosen_scene, level, settings_of
+from .call_settings import Call, chosen_blade, chosen_scene, level
 from .checked import checked_call
 from .choices import BladeChoice, SceneChoice
-from .jobs import check_cores, in_parallel
-from .simulations import remarks_of, tell
+from .remarks import remarks_of, tell
+from .runs import RunOptions, base_of_run, run_of
 
-_DATASET = "<results>/run_ups.nc"
+
+class RunUpOptions(TypedDict, total=False):
+    """What `run_up` takes by name: keys of a run-up, and what other calls of one blade take."""
+
+    from_rad_s: float
+    to_rad_s: float
+    from_rpm: float
+    to_rpm: float
+    crossing: Mapping[str, Any]
+    rate_rad_s2: float
+    rate_rpm_s: float
+    revolutions: float
+    revolutions_before: int
+    revolutions_after: int
+    lining: str
+    fidelity: str | None
+    results: Sequence[str] | None
+    config: Path | str | None
 
 
 @checked_call
 def run_up(
     blade: BladeChoice | str,
     scene: SceneChoice | str,
-    *,
-    from_rad_s: float | None = None,
-    to_rad_s: float | None = None,
-    from_rpm: float | None = None,
-    to_rpm: float | None = None,
-    crossing: Mapping[str, Any] | None = None,
-    rate_rad_s2: float | None = None,
-    rate_rpm_s: float | None = None,
-    revolutions: float | None = None,
-    revolutions_before: int | None = None,
-    revolutions_after: int | None = None,
-    lining: str | None = None,
-    fidelity: str | None = None,
-    results: Sequence[str] | None = None,
-    config: Path | str | None = None,
+    **options: Unpack[RunUpOptions],
 ) -> xr.Dataset:
     """A run-up, or run-down, of a blade in a scene, as a run of run_ups.nc.
 
@@ -82,21 +86,22 @@ def run_up(
     >>> bool(run.speed[-1] > run.speed[0])
     True
     """
-    asked = {
-        "from_rad_s": from_rad_s,
-        "to_rad_s": to_rad_s,
-        "from_rpm": from_rpm,
-        "to_rpm": to_rpm,
-        "crossing": crossing,
-        "rate_rad_s2": rate_rad_s2,
-        "rate_rpm_s": rate_rpm_s,
-        "revolutions": revolutions,
-        "revolutions_before": revolutions_before,
-        "revolutions_after": revolutions_after,
-        "lining": lining,
-    }
-    entry = {key: value for key, value in asked.items() if value is not None}
-    return _run_ups("r37.run_up", blade, scene, {"run_up": entry}, fidelity, results, config, 1).isel(run=0)
+    entry = {key: value for key, value in options.items() if key not in RunOptions.__annotations__ and value is not None}
+    call = _call("r37.run_up", blade, scene, {"run_up": entry}, options)
+    tell(remarks_of(call.settings))
+    with scratch_folder() as folder:
+        calculation = Calculation(call.settings, folder, 1)
+        planned, run = RunUps(calculation.sweep), Named(**vars(calculation.run), run_up="run_up")
+        calculation.models()
+        inputs = {key: file for key, file in planned.inputs(run).items() if key != "prepared"}
+        if "campbell" in inputs:
+            calculation.campbell()
+        file = RUN_UP.format(**vars(run))
+        calculation.do(planned.stage(calculation.made), inputs, {"run_up": file}, run_up="run_up")
+        joined = calculation.path("<results>/run_ups.nc")
+        write_run_ups({planned.runs[0]: calculation.path(file)}, joined, {"fidelity": call.settings.fidelity_name})
+        dataset = read_dataset(joined)
+    return _labelled(dataset, call).isel(run=0)
 
 
 @checked_call
@@ -104,11 +109,7 @@ def run_ups(
     blade: BladeChoice | str,
     scene: SceneChoice | str,
     several: Mapping[str, Mapping[str, Any]],
-    *,
-    fidelity: str | None = None,
-    results: Sequence[str] | None = None,
-    config: Path | str | None = None,
-    cores: int = 1,
+    **options: Unpack[RunOptions],
 ) -> xr.Dataset:
     """Several run-ups of a blade in a scene, as run_ups.nc of a run.
 
@@ -118,10 +119,8 @@ def run_ups(
         Names, or what `r37.blade` and `r37.scene` give.
     several
         Name -> what `r37.run_up` takes of it, as under run_ups of config.yaml.
-    fidelity, results, config
-        As of `r37.simulate`.
-    cores
-        Run-ups that run at once, in processes of their own. The numbers do not depend on it.
+    fidelity, results, config, cores, folder
+        As of `r37.run`.
 
     Returns
     -------
@@ -142,66 +141,25 @@ def run_ups(
     """
     if not isinstance(several, Mapping) or not several:
         raise ConfigError(f"run_ups: found {several!r}; allowed: names and what each run-up is")
-    return _run_ups("r37.run_ups", blade, scene, several, fidelity, results, config, cores)
+    call = _call("r37.run_ups", blade, scene, several, options)
+    results = run_of(call.name, call.blades, call.scenes, call.keys, options, "results/run_ups.nc")
+    return _labelled(results["run_ups"], call)
 
 
-def _run_ups(
-    caller: str,
-    blade: BladeChoice | str,
-    scene: SceneChoice | str,
-    several: Mapping[str, Mapping[str, Any]],
-    fidelity: str | None,
-    results: Sequence[str] | None,
-    config: Path | str | None,
-    cores: int,
-) -> xr.Dataset:
-    chosen, base = chosen_blade(blade, config), base_of(blade, config)
-    rubs_on = chosen_scene(scene, base, results)
-    check_cores(cores)
+def _call(
+    caller: str, blade: BladeChoice | str, scene: SceneChoice | str, several: Mapping[str, Any], options: Mapping[str, Any]
+) -> Call:
+    """The call of these run-ups of a blade in a scene."""
+    chosen = chosen_blade(blade, options.get("config"))
+    base = base_of_run([chosen], options)
     entries = {name: mapping(entry, f"run_ups.{name}", "the keys of a run-up") for name, entry in several.items()}
     # a run-up's own speeds are checked by its section
-    first_speed = {"speeds": [base.checked.structure.maximum_speed_rad_s]}
-    keys = {"run_ups": entries, **first_speed, **level(fidelity)}
-    settings = settings_of(caller, base, [chosen], [rubs_on], keys)
-    tell(remarks_of(settings))
-    with scratch_folder() as folder:
-        dataset = _dataset(Calculation(settings, folder, cores))
-    labels = {"blade": chosen.label, "scene": rubs_on.label}
-    coordinates = {name: ("run", [label] * dataset.sizes["run"]) for name, label in labels.items()}
-    return dataset.assign_coords(coordinates).assign_attrs(chosen.told | rubs_on.told)
+    keys = {"run_ups": entries, "speeds": [base.checked.structure.maximum_speed_rad_s], **level(options.get("fidelity"))}
+    return Call(caller, base, [chosen], [chosen_scene(scene, base, options.get("results"))], keys)
 
 
-def _dataset(calculation: Calculation) -> xr.Dataset:
-    """run_ups.nc of the calculation's settings."""
-    planned = RunUps(calculation.sweep)
-    calculation.models()
-    if any(choice.crossing for named in planned.choices.values() for choice in named.values()):
-        calculation.campbells()
-    runs = [Named(member="", **run) for run in planned.files]
-    in_parallel([_run_up(calculation, planned, run) for run in runs], calculation.cores)
-    files = [RUN_UP.format(**vars(run)) for run in runs]
-    calculation.step(
-        "run_ups.steps.join",
-        {"run_ups": files},
-        {"dataset": _DATASET},
-        runs=planned.runs,
-        fidelity=calculation.settings.fidelity_name,
-    )
-    return read_dataset(calculation.path(_DATASET))
-
-
-def _run_up(calculation: Calculation, planned: RunUps, run: Named) -> Any:
-    inputs = {key: file for key, file in planned.inputs(run).items() if key != "prepared"}
-    return calculation.task(
-        "run_ups.steps.record",
-        inputs,
-        {"run_up": RUN_UP.format(**vars(run))},
-        name=run.run_up,
-        scene=calculation.simulations.plain_scene(run),
-        choice=planned.choice(run),
-        run_up=planned.run_up(run),
-        results=planned.results(run),
-        highest_order=calculation.settings.fidelity.time_integration.spectrum_highest_order,
-        yield_stress=calculation.sweep.yield_stress(run),
-        provenance=calculation.made.sweep(run),
-    )
+def _labelled(dataset: xr.Dataset, call: Call) -> xr.Dataset:
+    """The dataset with what was changed of blade and scene in the place of their names."""
+    (blade,), (scene,) = call.blades, call.scenes
+    labels = {name: ("run", [choice.label] * dataset.sizes["run"]) for name, choice in (("blade", blade), ("scene", scene))}
+    return dataset.assign_coords(labels).assign_attrs(blade.told | scene.told)

@@ -3,34 +3,36 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
-from pathlib import Path
-from typing import Any
+from typing import Any, Unpack
 
-from r37core.config import plain
-from r37core.io import Named, read_json
-from r37core.plans import paths
-from r37core.search.choice import START
-from r37core.search.designs import FOLDER, section
-from r37core.search.pareto import best_first, not_dominated
-from r37core.search.plan import BEST, BUILT, DATASET, MEASURES, ROUND, SHAPE, TABLE, Search, choice_of
-from r37core.search.rounds import SearchRound, read_round
+from r37core.search.designs import FOLDER
+from r37core.search.plan import BEST, DATASET, TABLE
 
 from .arguments import Speeds, mapping, plain_value, speed_keys
-from .calculation import Calculation
-from .call_settings import chosen_blade, level
 from .checked import checked_call
 from .choices import BladeChoice
-from .jobs import in_parallel
 from .run_results import RunResults
-from .stages import LOGGER
-from .structure_files import Recipe, StructureFiles
-from .studies import Scenes, results_of
+from .runs import Scenes, SweepOptions, blades_of, run_of, scenes_of_run
 
 _BOUNDS = 'dotted keys of blades.yaml and their bounds, as in {"stagger_deg.tip": [-3, 3]}'
-_OBJECTIVES = 'names and what is read off, as in {"lined": {"scenes": ["abradable"]}}'
-_CONSTRAINTS = 'names and what is kept, as in {"mass": {"measure": "mass_kg", "at_most_percent": 100}}'
-_SPREAD = 'of_scenes, of_blades and members, as in {"of_scenes": {"friction.coefficient": {"uniform_percent": 5}}}'
+_MAPPINGS = {
+    "objectives": 'names and what is read off, as in {"lined": {"scenes": ["abradable"]}}',
+    "constraints": 'names and what is kept, as in {"mass": {"measure": "mass_kg", "at_most_percent": 100}}',
+    "tolerances": 'of_scenes, of_blades and members, as in {"of_scenes": {"friction.coefficient": {"uniform_percent": 5}}}',
+}
+
+
+class SearchOptions(SweepOptions, total=False):
+    """What `search` takes by name."""
+
+    constraints: Mapping[str, Any] | None
+    designs: int
+    first: int
+    batch: int
+    method: str
+    seed: int
+    tolerances: Mapping[str, Any] | None
+    best: int
 
 
 @checked_call
@@ -41,19 +43,7 @@ def search(
     *,
     variables: Mapping[str, Sequence[float]],
     objectives: Mapping[str, Any],
-    constraints: Mapping[str, Any] | None = None,
-    designs: int = 60,
-    first: int = 16,
-    batch: int = 4,
-    method: str = "surrogate",
-    seed: int = 0,
-    tolerances: Mapping[str, Any] | None = None,
-    best: int = 3,
-    speeds_rpm: Speeds | None = None,
-    fidelity: str | None = None,
-    results: Sequence[str] | None = None,
-    config: Path | str | None = None,
-    cores: int = 1,
+    **options: Unpack[SearchOptions],
 ) -> RunResults:
     """Designs of a blade that are better than it is, proposed in rounds by what all designs before them gave.
 
@@ -84,8 +74,8 @@ def search(
         `{"of_scenes": ..., "of_blades": ..., "members": 16}` about every design, for objectives with a quantile.
     best
         Designs that are written as entries and as STEP.
-    speeds, speeds_rpm, fidelity, results, config, cores
-        As of `r37.sweep`.
+    speeds, speeds_rpm, fidelity, results, config, cores, folder
+        As of `r37.run`.
 
     Returns
     -------
@@ -110,141 +100,11 @@ def search(
     >>> r37.blade("Ref", name="Better", **results.best_values()).label
     'Better'
     """
-    entry = {
-        "variables": mapping(variables, "variables", _BOUNDS),
-        "objectives": mapping(objectives, "objectives", _OBJECTIVES),
-        "constraints": {} if constraints is None else mapping(constraints, "constraints", _CONSTRAINTS),
-        **{"designs": designs, "first": first, "batch": batch, "method": method, "seed": seed, "best": best},
-    }
-    if tolerances is not None:
-        entry["tolerances"] = mapping(tolerances, "tolerances", _SPREAD)
-    chosen = chosen_blade(blade, config)
-    keys = {FOLDER: {"blade": chosen.name, **plain_value(entry)}, **speed_keys(speeds, speeds_rpm), **level(fidelity)}
-    return results_of("r37.search", [chosen], scenes, keys, results, config, cores, _search)
-
-
-def _search(calculation: Calculation) -> None:
-    """All rounds of a search, and what is made of them. Raises what the steps raise."""
-
-    def round_file(number: int) -> str:
-        return calculation.path(paths.fill(ROUND, round=number))
-
-    def built_file(number: int) -> str:
-        return calculation.path(paths.fill(BUILT, round=number))
-
-    search = Search(calculation.sweep, round_file, built_file)
-    for number in (*search.rounds, len(search.rounds)):
-        asked = _round(calculation, search, number)
-        if not asked.new:
-            break
-        LOGGER.info("search: round %d, %d design%s", number, len(asked.new), "s" if len(asked.new) > 1 else "")
-        _shapes(calculation, search, number, list(asked.new))
-        refused = read_json(built_file(number))
-        built = [name for name in asked.new if name not in refused]
-        _measures(calculation, search, built if number else [START, *built])
-    last = Named()
-    calculation.step(
-        "search.steps.join",
-        {"round": search.last_round(last)},
-        {"dataset": DATASET, "table": TABLE},
-        choice=search.choice(last),
-        start=search.start_values(last),
-        fidelity=calculation.settings.fidelity_name,
-    )
-    calculation.step(
-        "search.steps.best",
-        {"dataset": DATASET, "shapes": search.shapes_of_all(last)},
-        {"folder": BEST},
-        entries=search.entries(last),
-        number=search.number_of_best(last),
-    )
-
-
-def _round(calculation: Calculation, search: Search, number: int) -> SearchRound:
-    """A round, as what all before it gave proposes it."""
-    at, file = Named(round=number), paths.fill(ROUND, round=number)
-    calculation.step(
-        "search.steps.propose_round",
-        search.round_inputs(at),
-        {"round": file},
-        choice=search.choice(at),
-        round=number,
-        number=search.number_of_designs(at),
-    )
-    asked = read_round(calculation.path(file))
-    if asked.tried:
-        _tell(search, asked)
-    return asked
-
-
-def _tell(search: Search, asked: SearchRound) -> None:
-    """How far the search is, and what is the best so far."""
-    choice, entry = choice_of(search.settings), section(search.settings)
-    assert entry is not None
-    evaluated = [design.evaluated(name, choice, asked.start) for name, design in asked.tried.items()]
-    if len(choice.objectives) > 1:
-        told = f"{len(not_dominated(evaluated))} that none is better than in all objectives"
-    else:
-        ((objective, quantity),) = choice.objectives.items()
-        ahead = best_first(evaluated)[:1]
-        told = "".join(f"best {each.name}, {objective} {each.objectives[0]:.4g} {quantity.unit}" for each in ahead)
-    refused = sum(design.refused is not None for design in asked.tried.values())
-    cannot = f", {refused} of them cannot be built" if refused else ""
-    told = told or "none can be built and keeps all constraints"
-    LOGGER.info("search: %d of %d designs%s; %s", len(evaluated), entry.designs, cannot, told)
-
-
-def _shapes(calculation: Calculation, search: Search, number: int, designs: Sequence[str]) -> None:
-    """Which designs of a round can be built."""
-    settings = calculation.settings
-    tasks = [
-        calculation.task(
-            "search.steps.shape",
-            {},
-            {"shape": paths.fill(SHAPE, design=name)},
-            shape=search.shape(Named(design=name)),
-            edges=settings.structure.edges,
-            mesh=plain(settings.fidelity.mesh),
-            stress_submesh=search.stress_submesh(Named(design=name)),
-        )
-        for name in designs
-    ]
-    in_parallel(tasks, calculation.cores, "shapes", "design")
-    calculation.step(
-        "search.steps.built", {"shapes": search.shapes(Named(round=number))}, {"built": paths.fill(BUILT, round=number)}
-    )
-
-
-def _structures(of_designs: Calculation) -> None:
-    """What designs are judged by that is no simulation."""
-    settings, wanted = of_designs.settings, dict[str, Recipe]()
-    tip_line = settings.structure.boundary.tip_line
-    for group in of_designs.groups:
-        files, of = StructureFiles(settings, group.blade, of_designs.samples, group.member), vars(group)
-        wanted[paths.fill(paths.GEOMETRY, **of)] = files.geometry()
-        wanted[paths.fill(paths.CONTACT_MODEL, tip_line=tip_line, **of)] = files.contact_model(tip_line)
-        wanted[paths.fill(paths.STRESS_OPERATOR, tip_line=tip_line, **of)] = files.stress_operator(tip_line)
-    of_designs.linked(wanted)
-    of_designs.campbells()
-
-
-def _measures(calculation: Calculation, search: Search, designs: Sequence[str]) -> None:
-    """Models, simulations and measures of designs that can be built."""
-    if not designs:
-        return
-    of_designs = replace(calculation, only=tuple(f"{FOLDER}/{name}" for name in designs))
-    _structures(of_designs)
-    of_designs.responses()
-    tasks = [
-        calculation.task(
-            "search.steps.measure",
-            search.measured(at),
-            {"measures": paths.fill(MEASURES, design=at.design)},
-            quantities=search.quantities(at),
-            scenes=search.responses_of_scenes(at),
-            density=search.density(at),
-            highest_speed=calculation.settings.structure.maximum_speed_rad_s,
-        )
-        for at in (Named(design=name) for name in designs)
-    ]
-    in_parallel(tasks, calculation.cores)
+    own = {name: value for name, value in options.items() if name not in SweepOptions.__annotations__ and value is not None}
+    entry = {"objectives": objectives, **own}
+    entry |= {name: mapping(entry[name], name, allowed) for name, allowed in _MAPPINGS.items() if name in entry}
+    chosen = blades_of(blade, options)
+    section = {"blade": chosen[0].name, "variables": mapping(variables, "variables", _BOUNDS), **plain_value(entry)}
+    keys = {FOLDER: section, **speed_keys(speeds, options.get("speeds_rpm"))}
+    files = [file.replace("<results>", "results") for file in (DATASET, TABLE, BEST)]
+    return run_of("r37.search", chosen, scenes_of_run(scenes, chosen, options), keys, options, files)

@@ -3,29 +3,28 @@
 from __future__ import annotations
 
 import re
-import warnings
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 
 import xarray as xr
 from numpy.typing import ArrayLike
 
-from r37core.config import ConfigError, Settings
-from r37core.config.remarks import remarks_on_input, remarks_on_materials, remarks_on_points
+from r37core.config import ConfigError
+from r37core.config.remarks import remarks_on_materials
 from r37core.dataset_file import read_dataset
 from r37core.io import FILE_ATTRIBUTES, Named, scratch_folder
-from r37core.plans import paths
 from r37core.plans.provenance import Provenance
 from r37core.results.contact_remarks import remarks_on_contact
 from r37core.time_integration.initial_motion import InitialMotion, InitialMotionError
 
 from .arguments import Speeds, speed_key, speed_keys
 from .calculation import Calculation
-from .call_settings import base_of, chosen_blade, chosen_scene, level, settings_of
+from .call_settings import Call, base_of, chosen_blade, chosen_scene, level
 from .checked import checked_call
 from .choices import BladeChoice, SceneChoice
 from .jobs import check_cores, in_parallel
-from .structure_files import Recipe, StructureFiles
+from .remarks import remarks_of, tell
+from .structure_files import recipe
 
 
 @checked_call
@@ -58,9 +57,8 @@ def campbell(blade: BladeChoice | str, *, fidelity: str | None = None, config: P
     >>> 1600 < crossing < 1750
     True
     """
-    chosen = chosen_blade(blade, config)
-    settings = settings_of("r37.campbell", base_of(blade, config), [chosen], [], level(fidelity))
-    return _of_structure(settings, chosen, StructureFiles(settings, chosen.name).campbell())
+    call = Call("r37.campbell", base_of(blade, config), [chosen_blade(blade, config)], [], level(fidelity))
+    return _of_structure(call, "campbell_of_blade")
 
 
 @checked_call
@@ -100,10 +98,9 @@ def reduced_model(
     """
     chosen, base = chosen_blade(blade, config), base_of(blade, config)
     scenes = [] if scene is None else [chosen_scene(scene, base)]
-    settings = settings_of("r37.reduced_model", base, [chosen], scenes, level(fidelity))
-    boundaries = [settings.structure.boundary] if scene is None else settings.scenes.values()
-    (tip_line,) = {boundary.tip_line for boundary in boundaries}
-    return _of_structure(settings, chosen, StructureFiles(settings, chosen.name).reduced_model(tip_line))
+    call = Call("r37.reduced_model", base, [chosen], scenes, level(fidelity))
+    tip_line = call.settings.scenes[scenes[0].name].tip_line if scenes else None
+    return _of_structure(call, "reduced_model", tip_line)
 
 
 @checked_call
@@ -159,14 +156,15 @@ def simulate(
     """
     chosen, base = chosen_blade(blade, config), base_of(blade, config)
     rubs_on, keys = chosen_scene(scene, base, results), speed_key(speed, speed_rpm)
+    call = Call("r37.simulate", base, [chosen], [rubs_on], {**keys, **level(fidelity)})
     try:
-        settings = settings_of("r37.simulate", base, [chosen], [rubs_on], {**keys, **level(fidelity)})
+        _ = call.settings
     except ConfigError as error:
         # the one speed stands in a list of them
         raise ConfigError(re.sub(r"\bspeeds(_rpm)?\.0\b", r"speed\1", str(error))) from None
     try:
         motion = InitialMotion.from_arrays(initial_displacement, initial_velocity)
-        response = _response(settings, chosen, rubs_on, 1, motion)
+        response = _response(call, 1, motion)
     except InitialMotionError as error:
         raise ConfigError(str(error)) from None
     return response.isel(speed=0).assign_attrs({} if motion is None else motion.attributes)
@@ -219,39 +217,25 @@ def sweep(
     chosen, base = chosen_blade(blade, config), base_of(blade, config)
     rubs_on, keys = chosen_scene(scene, base, results), speed_keys(speeds, speeds_rpm)
     check_cores(cores)
-    settings = settings_of("r37.sweep", base, [chosen], [rubs_on], {**keys, **level(fidelity)})
-    return _response(settings, chosen, rubs_on, cores)
+    return _response(Call("r37.sweep", base, [chosen], [rubs_on], {**keys, **level(fidelity)}), cores)
 
 
-def _of_structure(settings: Settings, blade: BladeChoice, recipe: Recipe) -> xr.Dataset:
-    """A dataset of the blade's structure."""
+def _of_structure(call: Call, stage: str, tip_line: str | None = None) -> xr.Dataset:
+    """A dataset of the structure of the call's one blade."""
+    settings, (blade,) = call.settings, call.blades
     tell(remarks_on_materials(settings))
-    (file,) = in_parallel([recipe.file], 1)
+    (file,) = in_parallel([recipe(settings, blade.name, stage, tip_line).file], 1)
     made = Provenance(settings).structure(Named(blade=blade.name))
     return read_dataset(file).assign_attrs(FILE_ATTRIBUTES | dict(made) | blade.told)
 
 
-def _response(
-    settings: Settings, blade: BladeChoice, scene: SceneChoice, cores: int, motion: InitialMotion | None = None
-) -> xr.Dataset:
-    """The response of the one blade in the one scene of the settings, at their speeds, from rest or in `motion`."""
-    tell(remarks_of(settings))
+def _response(call: Call, cores: int, motion: InitialMotion | None = None) -> xr.Dataset:
+    """The response of the call's one blade in its one scene, at the speeds of its settings, from rest or in `motion`."""
+    tell(remarks_of(call.settings))
+    (blade,), (scene,) = call.blades, call.scenes
     with scratch_folder() as folder:
-        calculation = Calculation(settings, folder, cores)
-        calculation.responses(motion)
-        response = read_dataset(calculation.path(paths.fill(paths.RESPONSE, blade=blade.name, scene=scene.name)))
+        response = read_dataset(Calculation(call.settings, folder, cores).response(motion))
     # free flight is what a start in motion may be for
     if motion is None:
         tell(remarks_on_contact([(f"{blade.label} in {scene.label}", response["largest_normal_force"].values)]))
     return response.assign_attrs(blade.told | scene.told)
-
-
-def remarks_of(settings: Settings) -> list[str]:
-    """What a run would remark on."""
-    return [*remarks_on_input(settings), *remarks_on_points(settings)]
-
-
-def tell(remarks: Iterable[str]) -> None:
-    """Warn the caller of a call of r37, whose function's function calls this."""
-    for remark in remarks:
-        warnings.warn(remark, stacklevel=5)

@@ -11,9 +11,12 @@ import sys
 import warnings
 from collections.abc import Collection, Iterable, Iterator
 from contextlib import contextmanager
-from typing import TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from r37core.process_wide import ProcessWide
+
+if TYPE_CHECKING:
+    from r37core.config import Settings
 
 LOGGER = logging.getLogger("r37")
 
@@ -52,10 +55,36 @@ stages = ProcessWide(_written)
 
 def bar(items: Collection[T], what: str, unit: str) -> Iterable[T]:
     """The items one after another, with a bar that says how many are done and how long the others take, where it is watched."""
-    if len(items) < 2 or not _watched():
-        return items
+    return items if len(items) < 2 or not _watched() else _tqdm(items, desc=what, unit=unit)
+
+
+class BarOfJobs:
+    """A bar of the jobs of a workflow, of which more become known while it runs, where it is watched."""
+
+    def __init__(self) -> None:
+        self._bar = _tqdm(desc="jobs", unit="job") if _watched() else None
+
+    def reach(self, done: int, total: int) -> None:
+        """So many of those that are known are done."""
+        if self._bar is not None:
+            self._bar.total = total
+            self._bar.update(done - self._bar.n)
+
+    def close(self) -> None:
+        """Take it away."""
+        if self._bar is not None:
+            self._bar.close()
+
+
+def _tqdm(items: Iterable[Any] | None = None, **more: str) -> Any:
     with warnings.catch_warnings():
         # a notebook without ipywidgets has a bar of characters, which is as good
         warnings.simplefilter("ignore")
         from tqdm.auto import tqdm
-    return tqdm(items, desc=what, unit=unit, delay=0.5, leave=False, file=sys.stderr)
+    return tqdm(items, delay=0.5, leave=False, file=sys.stderr, **more)
+
+
+def simulations_in_words(settings: Settings, blade: str, scene: str, number: str) -> str:
+    """The line of a stage that simulates."""
+    plural = "" if number == "1" else "s"
+    return f"{blade} in {scene}: {number} simulation{plural}, level {settings.fidelity_name}"

@@ -65,6 +65,11 @@ def _fill(folder: Path) -> None:
     # files that the user's own configuration keeps out of Git stay with the user
     ours = shutil.ignore_patterns("my*.yaml", "own")
     shutil.copytree(_PACKAGE / "config", folder / "config", ignore=ours)
-    shutil.copytree(_PACKAGE / "profiles" / "default", folder / "profiles" / "default")
+    add_workflow(folder)
+
+
+def add_workflow(folder: Path) -> None:
+    """Write what Snakemake needs beside a configuration: Snakefile and profile."""
+    shutil.copytree(_PACKAGE / "profiles" / "default", folder / "profiles" / "default", dirs_exist_ok=True)
     shutil.copyfile(_PACKAGE / "study.smk", folder / "Snakefile")
     (folder / ".gitignore").write_text(_KEPT_OUT_OF_GIT)

@@ -36,7 +36,7 @@ def checksummed(files: Iterable[str]) -> Iterator[None]:
     for file in paths:
         if file.suffix in _SUFFIXES:
             partial = checksum_file(file).with_suffix(".partial")
-            partial.write_text(f"{_digest(file)}  {file.name}\n", encoding="utf-8")
+            partial.write_text(f"{content_digest(file)}  {file.name}\n", encoding="utf-8")
             os.replace(partial, checksum_file(file))
 
 
@@ -48,9 +48,10 @@ def is_as_written(file: Path) -> bool:
         written = checksum_file(file).read_text(encoding="utf-8", errors="replace")
     except FileNotFoundError:
         return True
-    return written.partition(" ")[0] == _digest(file)
+    return written.partition(" ")[0] == content_digest(file)
 
 
-def _digest(file: Path) -> str:
+def content_digest(file: Path | str) -> str:
+    """SHA-256 of a file's content."""
     with open(file, "rb") as stream:
         return hashlib.file_digest(stream, "sha256").hexdigest()

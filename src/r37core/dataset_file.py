@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import hashlib
-import json
-import shutil
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -13,7 +11,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from .io import FILE_ATTRIBUTES, InputFileError, atomic_write
+from .io import FILE_ATTRIBUTES, atomic_write
 from .netcdf_access import NETCDF_LOCK, open_dataset, open_netcdf
 from .units import RPM
 
@@ -90,33 +88,6 @@ def read_dataset(file: Path | str, part: Mapping[str, object] | None = None) -> 
     """
     with open_dataset(file) as dataset:
         return dataset.sel({name: label for name, label in (part or {}).items() if name in dataset.dims}).load()
-
-
-def recipe_of(inputs: Iterable[Path | str], *made_of: object) -> str:
-    """Hash of what a file follows from: the content of the `inputs`, and plain values. Files of one recipe hold the same."""
-    digest = hashlib.sha256(json.dumps(made_of, sort_keys=True).encode())
-    for file in inputs:
-        with open(file, "rb") as stream:
-            digest.update(hashlib.file_digest(stream, "sha256").digest())
-    return digest.hexdigest()[:32]
-
-
-def taken_over(recipe: str, other: Path | str | None, file: Path | str) -> bool:
-    """Whether `other` says that it was made by this recipe, and is sound: then `file` is a copy of it.
-
-    `recipe`: of `recipe_of`, an attribute of this name of `other`.
-    """
-    if other is None or not Path(other).is_file():
-        return False
-    try:
-        made_by = read_dataset(other).attrs.get("recipe")
-    except InputFileError:
-        return False
-    if made_by != recipe:
-        return False
-    with atomic_write(file) as partial:
-        shutil.copyfile(other, partial)
-    return True
 
 
 def hash_of_parts(files: Iterable[Path | str]) -> str:

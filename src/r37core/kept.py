@@ -16,6 +16,8 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import BinaryIO
 
+from .checksums import content_digest
+
 _PACKAGE = Path(__file__).parent
 
 
@@ -107,7 +109,7 @@ def _is_at(opened: BinaryIO, name: Path) -> bool:
 
 def _put(made: Path, file: Path) -> None:
     """Move a finished file into place, and then its digest: until both are there it counts as damaged."""
-    (digest := made.with_name("digest")).write_text(_digest(made))
+    (digest := made.with_name("digest")).write_text(content_digest(made))
     os.replace(made, file)
     os.replace(digest, _digest_of(file))
 
@@ -115,18 +117,13 @@ def _put(made: Path, file: Path) -> None:
 def _sound(file: Path) -> bool:
     """Whether a file is there as it was written."""
     try:
-        return _digest_of(file).read_text() == _digest(file)
+        return _digest_of(file).read_text() == content_digest(file)
     except (OSError, UnicodeDecodeError):
         return False
 
 
 def _digest_of(file: Path) -> Path:
     return file.with_name(f"{file.name}.sha256")
-
-
-def _digest(file: Path) -> str:
-    with open(file, "rb") as stream:
-        return hashlib.file_digest(stream, "sha256").hexdigest()
 
 
 def _folder() -> Path:

@@ -91,6 +91,25 @@ def load_yaml_with_lines(file: Path) -> tuple[Any, dict[KeyPath, int]]:
         raise TextFileError(1, "not readable as YAML: nested too deeply") from None
 
 
+def yaml_text(content: Any) -> str:
+    """Plain values as the text of a YAML file, which `load_yaml` reads as the same values."""
+    return yaml.dump(content, Dumper=_Dumper, sort_keys=False, width=120, default_flow_style=None, allow_unicode=True)
+
+
+class _Dumper(yaml.SafeDumper):
+    """Texts that are none without quotes have them, and nothing is an alias."""
+
+    def ignore_aliases(self, data: Any) -> bool:
+        return True
+
+
+def _quoted(dumper: _Dumper, text: str) -> yaml.ScalarNode:
+    return dumper.represent_scalar("tag:yaml.org,2002:str", text, style=None if isinstance(scalar(text), str) else '"')
+
+
+_Dumper.add_representer(str, _quoted)
+
+
 def scalar(text: str) -> Any:
     """What a plain text is in YAML: a number, true or false, nothing, or the text itself."""
     loader = _Loader("")

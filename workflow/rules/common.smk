@@ -16,13 +16,14 @@ from r37core.plans.import_plan import Imported
 from r37core.plans.provenance import Provenance
 from r37core.plans.resources import Needs
 from r37core.plans.rounds_plan import Rounds
+from r37core.plans.stages import Stage, structure_stages, sweep_stages
 from r37core.plans.simulation_plan import Simulations
 from r37core.plans.structure_plan import Structure
 from r37core.plans.sweep_plan import MAPS, Sweep
 from r37core.product.panels import panel_files, panel_modules, panel_parameters
 from r37core.product.reporting import EVERY_SCENE, TOGETHER, captioned, drawing, shown
 from r37core.product.sampling import beside, sampling_of
-from r37core.product.targets import files_of, simulated, targets
+from r37core.product.targets import files_of, simulated, tables, targets
 
 ROOT = Path(workflow.current_basedir).parent.parent
 ENVIRONMENT = ROOT / "envs" / "r37.yaml"
@@ -42,7 +43,13 @@ structure = Structure(settings, samples)
 imported = Imported(settings)
 sweep = Sweep(settings, lambda **wildcards: checkpoints.refine.get(**wildcards).output[0], samples)
 simulations, rounds, joined = Simulations(sweep), Rounds(sweep), Datasets(sweep)
+stages = {**structure_stages(structure, made), **sweep_stages(sweep, made)}
 needs = Needs(settings, extent_of(settings, samples).most)
+
+
+def stage(made: Stage):
+    """Parameters of the rule of a stage that Python's single calls do, too (r37core.plans.stages)."""
+    return {**step(made.step), **made.params}
 
 
 def pictures(name, category, subcategory, figure):

@@ -16,15 +16,7 @@ use rule step as run_up with:
     resources:
         **needs.of("run_up"),
     params:
-        **step("run_ups.steps.record"),
-        name="{run_up}",
-        scene=simulations.plain_scene,
-        choice=run_ups.choice,
-        run_up=run_ups.run_up,
-        results=run_ups.results,
-        highest_order=settings.fidelity.time_integration.spectrum_highest_order,
-        yield_stress=sweep.yield_stress,
-        provenance=made.sweep,
+        **stage(run_ups.stage(made)),
 
 
 use rule step as run_ups_dataset with:

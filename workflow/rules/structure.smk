@@ -15,10 +15,7 @@ use rule step as geometry with:
     resources:
         **needs.of("geometry"),
     params:
-        **step("blade.steps.geometry"),
-        definition=structure.definition,
-        edges=settings.structure.edges,
-        provenance=made.shape,
+        **stage(stages["geometry"]),
 
 
 use rule step as mesh with:
@@ -36,8 +33,7 @@ use rule step as mesh with:
     resources:
         **needs.of("mesh"),
     params:
-        **step("fem.steps.mesh"),
-        mesh=plain(settings.fidelity.mesh),
+        **stage(stages["mesh"]),
 
 
 use rule step as imported_mesh with:
@@ -55,10 +51,7 @@ use rule step as imported_mesh with:
     resources:
         **needs.of("mesh"),
     params:
-        **step("exchange.importing.steps.imported_mesh"),
-        source=imported.source,
-        folder=imported.folder,
-        locations=imported.locations,
+        **stage(stages["imported_mesh"]),
 
 
 use rule step as abaqus_deck with:
@@ -89,12 +82,7 @@ use rule step as reduced_model with:
     resources:
         **needs.of("reduced_model"),
     params:
-        **step("rom.steps.reduced_model"),
-        material=structure.elastic,
-        reduction=structure.reduction,
-        contact=structure.location_of_contact,
-        made_before=structure.made_before,
-        provenance=made.structure,
+        **stage(stages["reduced_model"]),
 
 
 # recovered on every node, for who asks for shapes, gauges or files for other programs
@@ -106,6 +94,7 @@ use rule reduced_model as whole_blade_model with:
     priority: 0
     params:
         reduction=structure.whole_blade_reduction,
+        kept=False,
 
 
 use rule step as imported_matrices with:
@@ -121,13 +110,7 @@ use rule step as imported_matrices with:
     resources:
         **needs.of("reduced_model"),
     params:
-        **step("exchange.importing.steps.imported_matrices"),
-        source=imported.source,
-        folder=imported.folder,
-        locations=imported.locations,
-        reduction=structure.reduction,
-        contact=structure.location_of_contact,
-        provenance=made.structure,
+        **stage(stages["imported_matrices"]),
 
 
 use rule step as campbell_of_blade with:
@@ -140,11 +123,7 @@ use rule step as campbell_of_blade with:
     resources:
         **needs.of("campbell_of_blade"),
     params:
-        **step("results.steps.campbell_of_blade"),
-        campbell=si_fields(settings.config.campbell),
-        maximum_speed=settings.structure.maximum_speed_rad_s,
-        tip_line=settings.structure.boundary.tip_line,
-        provenance=made.structure,
+        **stage(stages["campbell_of_blade"]),
 
 
 use rule step as campbell_of_all with:

@@ -13,8 +13,7 @@ use rule step as contact_model with:
     resources:
         **needs.of("contact_model"),
     params:
-        **step("rom.steps.contact_model"),
-        tip_line="{tip_line}",
+        **stage(stages["contact_model"]),
 
 
 use rule step as stress_operator with:
@@ -28,8 +27,7 @@ use rule step as stress_operator with:
     resources:
         **needs.of("contact_model"),
     params:
-        **step("stress.steps.stress_operator"),
-        material=structure.elastic,
+        **stage(stages["stress_operator"]),
 
 
 use rule step as prepare_time_integration with:
@@ -46,10 +44,7 @@ use rule step as prepare_time_integration with:
     resources:
         **needs.of("prepare_time_integration"),
     params:
-        **step("time_integration.speed_job.prepare"),
-        scene=simulations.plain_scene,
-        speed=settings.structure.maximum_speed_rad_s,
-        choice=simulations.choice_of_scene,
+        **stage(stages["prepare_time_integration"]),
 
 
 # of jobs that the server runs; paths and no texts: another place is no reason to run again
@@ -101,10 +96,7 @@ checkpoint refine:
     resources:
         **needs.of("response"),
     params:
-        **step("adaptive.steps.refine"),
-        plan=rounds.refined_plan,
-        choice=rounds.refinement_choice,
-        yields=rounds.yields_of_round,
+        **stage(stages["refine"]),
     script:
         "../scripts/step.py"
 
@@ -120,8 +112,4 @@ use rule step as response with:
     resources:
         **needs.of("response"),
     params:
-        **step("results.steps.response"),
-        speeds=sweep.speeds,
-        stress_history_speeds=sweep.stress_history_speeds,
-        yield_stress=sweep.yield_stress,
-        provenance=made.sweep,
+        **stage(stages["response"]),

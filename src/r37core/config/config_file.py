@@ -141,8 +141,7 @@ class Run(Section):
 
     name: Name | LeftOut = Field(
         default=None,
-        description="a run with a name has its results in results/runs/<name>, beside those of others; reduced models made of "
-        "the same are copied from results/",
+        description="a run with a name has its results in results/runs/<name>, beside those of others",
     )
     part: Part | LeftOut = Field(
         default=None,

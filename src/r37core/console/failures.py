@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import base64
 import contextlib
 import errno
 import json
 import logging
 import os
+import pickle
 import shutil
 import sys
 import traceback
@@ -38,7 +40,7 @@ def reported(rule: str, log: Path | str, about: str = "") -> Iterator[None]:
             line = f"rule {rule}: {_explained(error)} ({about}details in {log})"
             with contextlib.suppress(OSError):
                 traceback.print_exc(file=stream)
-                note(line)
+                note(line, error)
             show(line, sys.stderr)
             sys.exit(1)
 
@@ -84,21 +86,43 @@ def begin(run: str) -> None:
     os.environ[_NOTES] = str(file)
 
 
-def note(line: str) -> None:
-    """Keep the line for the end of the run; several lines become one, unless some are indented, to be copied as they are."""
+def note(line: str, error: Exception | None = None) -> None:
+    """Keep the line for the end of the run; several lines become one, unless some are indented, to be copied as they are.
+
+    `error`: of a failure, kept for a Python call that raises it again.
+    """
     file = _file()
     if file is not None and file.parent.is_dir():
+        kept = {"line": line if "\n  " in line else line.replace("\n", " ")}
+        # an error that cannot be carried is told by its line
+        with contextlib.suppress(Exception):
+            kept |= {} if error is None else {"error": base64.b64encode(pickle.dumps(error)).decode()}
         with open(file, "a", encoding="utf-8") as stream:
-            stream.write(json.dumps(line if "\n  " in line else line.replace("\n", " ")) + "\n")
+            stream.write(json.dumps(kept) + "\n")
+
+
+def error_of(failure: dict[str, str]) -> Exception:
+    """The error of a failure as `notes` gives it; a RuntimeError with its line where the error could not be carried."""
+    with contextlib.suppress(Exception):
+        error: Exception = pickle.loads(base64.b64decode(failure["error"]))
+        error.add_note(failure["line"])
+        return error
+    return RuntimeError(failure["line"])
+
+
+def notes() -> list[dict[str, str]]:
+    """What is kept of this run, in the order of time: each line, with its error if it has one. It is not kept any longer."""
+    file = _file()
+    if file is None or not file.exists():
+        return []
+    kept = list(map(json.loads, file.read_text(encoding="utf-8").splitlines()))
+    file.unlink()
+    return kept
 
 
 def taken(most: int = 5) -> list[str]:
     """The lines kept of this run, each once; they are not kept any longer."""
-    file = _file()
-    if file is None or not file.exists():
-        return []
-    lines = list(dict.fromkeys(map(json.loads, file.read_text(encoding="utf-8").splitlines())))
-    file.unlink()
+    lines = list(dict.fromkeys(note["line"] for note in notes()))
     more = [f"... and {len(lines) - most} more, see the logs"] if len(lines) > most else []
     return [*lines[:most], *more]
 

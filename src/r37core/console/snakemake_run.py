@@ -28,6 +28,7 @@ from r37core.product.remarks import check_asked, remarks
 from r37core.product.sampling import beside
 
 from . import failures, interpreter, job_server, lock, refusals
+from .caller import Caller
 from .closing import closing_lines
 from .progress import Progress, quieten
 
@@ -42,7 +43,7 @@ Refusal = Callable[[str], Exception]
 class Console:
     """One run of the `workflow`, with its `settings` and scripts and its package's `source`.
 
-    `tell` warns the user; `began`: time in s.
+    `tell` warns the user; `began`: time in s; `caller`: of a run that a Python call has started, which says all itself.
     """
 
     workflow: Any
@@ -52,6 +53,7 @@ class Console:
     scripts: Path
     source: Path
     began: float
+    caller: Caller | None
 
     def start(self) -> None:
         """Before the first job, when the targets are known."""
@@ -68,6 +70,8 @@ class Console:
     def succeed(self) -> None:
         """After the last job: nothing is said where there is nothing to say."""
         lock.release()
+        if self.caller:
+            return
         of_extensions = lines_of_extensions(self.settings, self.began)
         lines = closing_lines(self.settings.results, self.began, time.time(), remarks_on_points(self.settings), of_extensions)
         _say_last([*failures.taken(), *lines])
@@ -75,7 +79,10 @@ class Console:
     def fail(self) -> None:
         """After a failure: what matters comes last."""
         lock.release()
-        _say_last(["", *failures.taken()])
+        if self.caller:
+            self.caller.failed(failures.notes())
+        else:
+            _say_last(["", *failures.taken()])
 
 
 def begin(workflow: Any, logger: logging.Logger, refusal: type[Exception], root: Path, values: Mapping[str, Any]) -> Console:
@@ -87,9 +94,11 @@ def begin(workflow: Any, logger: logging.Logger, refusal: type[Exception], root:
     `refusal` for a configuration that is not allowed.
     """
     began, config, output = time.time(), workflow.config_settings, workflow.output_settings
-    refusal = refusals.without_files(refusal)
+    refusal, caller = refusals.without_files(refusal), Caller.of_this_run()
     for handler in logger.handlers:
         handler.addFilter(refusals.MessageAlone())
+        if caller:
+            handler.addFilter(caller)
     if workflow.is_main_process:
         failures.begin(f"{socket.gethostname()}_{os.getpid()}")
     interpreter.quote()
@@ -106,9 +115,9 @@ def begin(workflow: Any, logger: logging.Logger, refusal: type[Exception], root:
     lifted = lock.enter() if workflow.is_main_process else []
     for line in [*lifted, *remarks(settings), *replaced_level(settings)]:
         logger.info(line)
-    if not (os.environ.get("R37_FULL_LOG") or output.dryrun or output.verbose):
+    if not (caller or os.environ.get("R37_FULL_LOG") or output.dryrun or output.verbose):
         quieten(logger.handlers, Progress(extent_of(settings, beside(settings)).at_most))
-    return Console(workflow, refusal, logger.warning, settings, root / "workflow/scripts", source, began)
+    return Console(workflow, refusal, logger.warning, settings, root / "workflow/scripts", source, began, caller)
 
 
 @contextlib.contextmanager

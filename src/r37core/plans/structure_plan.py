@@ -10,10 +10,9 @@ from typing import Any
 from r37core.blade.definition import BladeDefinition
 from r37core.config import Settings
 from r37core.config.key_locations import location_of_contact
-from r37core.config.settings import results_folder
 from r37core.plain import to_plain
 
-from .paths import MESH, REDUCED_MODEL, WHOLE_BLADE_MODEL, fill
+from .paths import MESH, WHOLE_BLADE_MODEL, fill
 from .provenance import Attributes
 from .samples import NOMINAL, Pair, Sample, Samples, folder_and_name, member_of
 
@@ -57,12 +56,9 @@ class Structure:
         """What a blade's reduced model is made of, with contact nodes as config.yaml has them."""
         return to_plain(self.settings.reduction_choice(wildcards.blade))
 
-    def made_before(self, wildcards: Any) -> Attributes:
-        """Of a run with a name, where the reduced model lies in the results without one; that it is there re-runs nothing."""
-        if self.settings.config.run.name is None:
-            return Attributes(file=None)
-        pattern = REDUCED_MODEL.replace("<results>", str(results_folder(None)))
-        return Attributes(file=fill(pattern, member=member_of(wildcards), blade=wildcards.blade, tip_line=wildcards.tip_line))
+    def kept(self, wildcards: Any) -> bool:
+        """Whether the user's cache keeps a blade's reduced model: those of members are used once."""
+        return member_of(wildcards) == NOMINAL
 
     def location_of_contact(self, wildcards: Any) -> Attributes:
         """Where stands what a blade's contact acts on; another line re-runs nothing."""

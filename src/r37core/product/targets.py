@@ -19,6 +19,11 @@ def targets(sweep: Sweep) -> dict[str, Wildcards]:
     return targets
 
 
+def tables(sweep: Sweep) -> list[str]:
+    """Files of `targets` that are no pictures or pages: what Python opens."""
+    return [file for file in filled(targets(sweep)) if not file.startswith("<results>/figures/") and not file.endswith(".html")]
+
+
 def everything(sweep: Sweep) -> dict[str, Wildcards]:
     """The same with what is made on request alone."""
     return targets(sweep) | {

@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Any
 
-from r37core.dataset_file import recipe_of, taken_over
+from r37core.checksums import content_digest
 from r37core.fem.material import Material
 from r37core.fem.matrices import assemble
 from r37core.io import JOB_LOG
 from r37core.mesh.mesh_files import read_vtu
 from r37core.plain import from_plain
+from r37core.user_cache import kept_for_user, numerics
 
 from .contact_model import write_contact_model
 from .reduce import reduce_blade
+from .reduced_model import ReducedModel
 from .reduced_model import contact_model as contact_model_of
 from .reduction_choice import ReductionChoice, boundary_located
 from .rom_file import read_reduced_model, write_reduced_model
@@ -21,20 +24,30 @@ from .rom_file import read_reduced_model, write_reduced_model
 def reduced_model(input: Any, output: Any, params: Any) -> None:
     """Assemble and reduce a blade. Input: mesh (vtu). Output: rom (nc).
 
-    Params: material, reduction, contact, made_before (a model that is copied if it was made of the same), provenance, code.
+    Params: material, reduction, contact, kept (whether the user's cache has a copy, for all that is made of the same),
+    provenance, code.
     """
-    recipe = recipe_of([input.mesh], params.material, params.reduction, params.code, dict(params.provenance))
-    before = params.made_before["file"]
-    if taken_over(recipe, before, output.rom):
-        JOB_LOG.debug(f"copy of {before}, which was made of the same")
-        return
-    mesh = read_vtu(input.mesh)
+
+    def make(file: Path) -> None:
+        write_reduced_model(_reduced(input.mesh, params), file)
+
+    kept = None
+    if params.kept:
+        made_of = content_digest(input.mesh), params.material, params.reduction, params.code, numerics("numpy", "scipy")
+        kept = kept_for_user("rom.nc", made_of, make)
+        JOB_LOG.debug(f"kept as {kept}")
+    model = read_reduced_model(kept) if kept else _reduced(input.mesh, params)
+    write_reduced_model(model, output.rom, params.provenance)
+
+
+def _reduced(mesh_file: str, params: Any) -> ReducedModel:
+    mesh = read_vtu(mesh_file)
     matrices = assemble(mesh, from_plain(Material, params.material))
     JOB_LOG.debug(f"mass {matrices.total_mass:.6g} kg, {3 * len(matrices.free_nodes)} free degrees of freedom")
     with boundary_located(params.contact["location"]):
         model = reduce_blade(mesh, matrices, from_plain(ReductionChoice, params.reduction))
     JOB_LOG.debug(f"{model.columns} columns, {model.size} independent at {model.tolerance:g}")
-    write_reduced_model(model, output.rom, params.provenance | {"recipe": recipe})
+    return model
 
 
 def contact_model(input: Any, output: Any, params: Any) -> None:

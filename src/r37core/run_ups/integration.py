@@ -31,7 +31,7 @@ _AT_ONCE = 64
 
 
 @dataclass(frozen=True)
-class Stage:
+class IntegratedSegments:
     """What some segments leave behind: `samples` and `snapshots` as a simulation records them; `diverged`.
 
     `speeds` (rad/s), shape (samples,); `wear` (m), shape (samples,): the largest by the end of a sample's segment; `shapes`,
@@ -98,7 +98,7 @@ class RunUpIntegration:
         loss = float(self.state.totals["loss"])
         return energy_balance(self._simulation.work(self.state), loss, self.energy + held, self.stiffness_work)
 
-    def stages(self) -> Iterator[Stage]:
+    def segments(self) -> Iterator[IntegratedSegments]:
         """Do all segments; ends with a stage that says so when the run diverges."""
         modes = None
         for interval in self.intervals:
@@ -113,12 +113,12 @@ class RunUpIntegration:
                 # there may be more of them or fewer, where the fastest are left out
                 self.state.increment = np.zeros_like(self.state.displacement)
             modes = simulation.problem.blade.modes
-            for stage in self._stages_of(simulation, interval):
+            for stage in self._segments_of(simulation, interval):
                 yield stage
                 if stage.diverged:
                     return
 
-    def _stages_of(self, simulation: Simulation, interval: ModalInterval) -> Iterator[Stage]:
+    def _segments_of(self, simulation: Simulation, interval: ModalInterval) -> Iterator[IntegratedSegments]:
         state, problem, constants = self.state, simulation.problem, simulation.segments
         shapes = problem.contact.state_shapes
         increments, begun = constants.increments, interval.distinct_speeds.of_segments[0]
@@ -136,7 +136,7 @@ class RunUpIntegration:
             self._balance(constants.recursion[speed_indices[:reached]], call.ends[:reached])
             speeds = np.repeat(interval.distinct_speeds.speeds[speed_indices], lasted)
             instants = problem.grid.snapshots_between(first, first + len(speeds))
-            yield Stage(
+            yield IntegratedSegments(
                 speeds,
                 record.samples,
                 np.repeat(call.wear, lasted),

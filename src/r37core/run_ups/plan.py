@@ -11,6 +11,9 @@ from r37core.config import Settings, casing_remarks
 from r37core.config.speed_choice import fastest_of
 from r37core.plain import to_plain
 from r37core.plans import paths
+from r37core.plans.provenance import Provenance
+from r37core.plans.simulation_plan import Simulations
+from r37core.plans.stages import Stage
 from r37core.plans.sweep_plan import Sweep
 from r37core.time_integration.integration_choice import IntegrationChoice
 
@@ -76,6 +79,22 @@ class RunUps:
         if self._choice(wildcards).crossing:
             files["campbell"] = paths.fill(paths.CAMPBELL, blade=wildcards.blade)
         return files
+
+    def stage(self, made: Provenance) -> Stage:
+        """One run-up."""
+        return Stage(
+            "run_ups.steps.record",
+            {
+                "name": lambda wildcards: wildcards.run_up,
+                "scene": Simulations(self.sweep).plain_scene,
+                "choice": self.choice,
+                "run_up": self.run_up,
+                "results": self.results,
+                "highest_order": self.sweep.settings.fidelity.time_integration.spectrum_highest_order,
+                "yield_stress": self.sweep.yield_stress,
+                "provenance": made.sweep,
+            },
+        )
 
     def run_up(self, wildcards: Any) -> dict[str, Any]:
         """Speeds and revolutions, as plain values."""

@@ -16,7 +16,7 @@ from r37core.time_integration.kept_numbers import amplitudes, with_rotation
 from r37core.time_integration.simulate import DIRECTIONS, TIP_POINTS
 from r37core.time_integration.status import RunStatus
 
-from .integration import RunUpIntegration, Stage
+from .integration import IntegratedSegments, RunUpIntegration
 from .schedule import RunUp
 
 _AT_ONCE, _INSTANTS_AT_ONCE = 32, 256
@@ -70,7 +70,7 @@ def record_run_up(
 def _done(integration: RunUpIntegration, revolutions: _Revolutions) -> tuple[RunUpIntegration, dict[str, np.ndarray]]:
     """The integration when it is done, and what it left behind."""
     diverged, samples = False, 0
-    for stage in integration.stages():
+    for stage in integration.segments():
         diverged, samples = stage.diverged, samples + len(stage.samples)
         revolutions.add(stage)
     return integration, revolutions.joined() | {
@@ -95,7 +95,7 @@ class _Revolutions:
     lasted: float = 0.0
     shapes: np.ndarray | None = None
 
-    def add(self, stage: Stage) -> None:
+    def add(self, stage: IntegratedSegments) -> None:
         """Add a stage; the last sample of one that diverged, which may be infinite, is left out."""
         count = len(stage.samples) - stage.diverged
         self._wait(

@@ -7,10 +7,10 @@ from pathlib import Path
 from typing import Any
 
 import xarray as xr
-import yaml
 
 from r37core.config.families import with_value
 from r37core.io import write_text
+from r37core.yaml_file import yaml_text
 
 from .choice import START
 
@@ -40,10 +40,10 @@ def write_entries(
     search: xr.Dataset, made: Mapping[str, Any], designs: Sequence[str], entries: Mapping[str, Any], file: Path | str
 ) -> None:
     """Write the entries of the `designs` as YAML, each with what it gave, after those that they start at."""
-    parts = [_HEADER.format(file=file, names=", ".join([list(entries)[-1], *made])), _text(entries)]
+    parts = [_HEADER.format(file=file, names=", ".join([list(entries)[-1], *made])), yaml_text(dict(entries))]
     for (name, content), design in zip(made.items(), designs, strict=True):
         parts.append(
-            f"# {design}: {_objectives(search, design)}; the start: {_objectives(search, START)}\n{_text({name: content})}"
+            f"# {design}: {_objectives(search, design)}; the start: {_objectives(search, START)}\n{yaml_text({name: content})}"
         )
     write_text("\n".join(parts), file)
 
@@ -52,7 +52,3 @@ def _objectives(search: xr.Dataset, design: str) -> str:
     of = search.sel(design=design)
     values = zip(of["objective"].values, of["objective_value"].values, of["objective_unit"].values, strict=True)
     return ", ".join(f"{name} {float(value):.4g} {unit}" for name, value, unit in values)
-
-
-def _text(entries: Mapping[str, Any]) -> str:
-    return yaml.safe_dump(dict(entries), sort_keys=False, width=120, default_flow_style=None)

@@ -27,21 +27,19 @@ def first_round(count: int, choice: SearchChoice) -> SearchRound:
     return SearchRound(_named(first_designs(choice.variables, count, choice.seed), 0))
 
 
-def round_after(
-    before: SearchRound,
-    number: int,
-    refused: Mapping[str, str],
-    gave: Mapping[str, Mapping[str, Value]],
-    start: Mapping[str, Value],
-    count: int,
-    choice: SearchChoice,
-) -> SearchRound:
-    """Round `number`, of `count` designs.
+def tried_after(
+    before: SearchRound, number: int, refused: Mapping[str, str], gave: Mapping[str, Mapping[str, Value]]
+) -> dict[str, Design]:
+    """All designs tried in rounds before round `number`.
 
-    Of those of the round `before` some were `refused`, each with a reason, and the others `gave` quantities.
+    Of those of the round `before` it some were `refused`, each with a reason, and the others `gave` quantities.
     """
     new = {name: Design(values, number - 1, refused.get(name), gave.get(name, {})) for name, values in before.new.items()}
-    tried = {**before.tried, **new}
+    return {**before.tried, **new}
+
+
+def round_after(tried: Mapping[str, Design], start: Mapping[str, Value], count: int, choice: SearchChoice) -> SearchRound:
+    """The round of `count` designs that what was `tried` asks for."""
     return SearchRound(_named(_proposed(tried, start, count, choice), len(tried)), tried, start)
 
 

@@ -11,7 +11,8 @@ import numpy as np
 
 from r37core.blade.definition import BladeDefinition
 from r37core.blade.geometry_file import read_geometry
-from r37core.dataset_file import read_dataset, recipe_of, write_dataset
+from r37core.checksums import content_digest
+from r37core.dataset_file import read_dataset, write_dataset
 from r37core.exchange.step_file import write_step
 from r37core.io import as_list, read_json, write_json
 from r37core.plain import from_plain
@@ -24,24 +25,26 @@ from r37core.stress.operator import read_stress_operator
 from .choice import SearchChoice
 from .dataset import search_dataset, search_table
 from .entries import entries_of, write_entries
+from .progress import progress
 from .quantity import DesignStructure, Quantity, of_contact, of_structure, static_stress
-from .rounds import first_round, read_round, round_after, write_round
+from .rounds import first_round, read_round, round_after, tried_after, write_round
 
 
-def propose_round(input: Any, output: Any, params: Any) -> None:
-    """Ask for designs. Output: round (json). Params: choice, round, number (of its designs).
+def propose_round(input: Any, output: Any, params: Any) -> str:
+    """Ask for designs, and say how far the search is. Output: round (json). Params: choice, round, number (of its designs).
 
     Inputs after the first round: before (the round before), built (which of its designs could not be), start, measures.
     """
     choice = from_plain(SearchChoice, params.choice)
     if params.round == 0:
-        write_round(first_round(params.number, choice), output.round)
-        return
+        write_round(asked := first_round(params.number, choice), output.round)
+        return progress(asked, choice, 0)
     refused, before = read_json(input.built), read_round(input.before)
     names = [name for name in before.new if name not in refused]
     gave = {name: read_json(file) for name, file in zip(names, as_list(input.measures), strict=True)}
-    after = round_after(before, params.round, refused, gave, read_json(input.start), params.number, choice)
-    write_round(after, output.round)
+    tried = tried_after(before, params.round, refused, gave)
+    write_round(asked := round_after(tried, read_json(input.start), params.number, choice), output.round)
+    return progress(asked, choice, params.round)
 
 
 def shape(input: Any, output: Any, params: Any) -> None:
@@ -111,7 +114,7 @@ def join(input: Any, output: Any, params: Any) -> None:
 
     Outputs: dataset (nc), table (csv).
     """
-    made = {"fidelity": params.fidelity, "input_hash": recipe_of([input.round])}
+    made = {"fidelity": params.fidelity, "input_hash": content_digest(input.round)[:32]}
     dataset = search_dataset(read_round(input.round), from_plain(SearchChoice, params.choice), params.start)
     write_dataset(dataset, output.dataset, made)
     write_table(search_table(dataset), output.table, digits=6)

@@ -26,6 +26,7 @@ from .passage import Passage
 
 SOURCES = Sources(
     "alignment.py",
+    "checksums.py",
     "kept.py",
     "lanes.py",
     "native.py",

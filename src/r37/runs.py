@@ -1,0 +1,158 @@
+"""The one door to runs of the workflow: any blades, scenes, speeds and sections of the configuration."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any, TypedDict
+
+from r37core.io import temporary_folder
+
+from .arguments import Speeds, plain_value, sequence_of, speed_keys
+from .call_configuration import Configuration, read_configuration
+from .call_settings import Call, chosen_blade, chosen_scene, level, names_of_their_own
+from .checked import checked_call
+from .choices import BladeChoice, SceneChoice, scenes_named
+from .jobs import check_cores
+from .remarks import remarks_of, tell
+from .run_folder import run_folder, write_run
+from .run_results import RunResults
+from .workflow_process import run_workflow, snakemake_targets
+
+Blades = BladeChoice | str | Sequence[BladeChoice | str]
+Scenes = SceneChoice | str | Sequence[SceneChoice | str]
+
+
+class RunOptions(TypedDict, total=False):
+    """What every call of many runs takes by name; see `run`."""
+
+    fidelity: str | None
+    results: Sequence[str] | None
+    config: Path | str | None
+    cores: int
+    folder: Path | str | None
+
+
+class SweepOptions(RunOptions, total=False):
+    """The same of a call that takes speeds."""
+
+    speeds_rpm: Speeds | None
+
+
+@checked_call
+def run(
+    blades: Blades | None = None,
+    scenes: Scenes | None = None,
+    speeds: Speeds | None = None,
+    *,
+    speeds_rpm: Speeds | None = None,
+    fidelity: str | None = None,
+    results: Sequence[str] | None = None,
+    config: Path | str | None = None,
+    cores: int = 1,
+    folder: Path | str | None = None,
+    targets: str | Sequence[str] = "tables",
+    **sections: Any,
+) -> RunResults:
+    """A run of the workflow: all that `snakemake` makes of a configuration, as datasets and tables.
+
+    Parameters
+    ----------
+    blades, scenes
+        Names, or what `r37.blade` and `r37.scene` give, changed ones with a `name`. Without them those of the configuration.
+    speeds
+        As of `r37.sweep`. Without them those of the configuration.
+    speeds_rpm
+        The same in revolutions per minute, in place of `speeds`.
+    fidelity
+        An accuracy level in place of the configuration's.
+    results
+        What is computed, in place of the scenes' lists: `["stress", "wear"]`.
+    config
+        A config.yaml in place of the shipped one. All of it counts that no other argument replaces.
+    cores
+        Jobs that run at once. The numbers do not depend on it.
+    folder
+        Where the run has its files: new, empty, or of an earlier call, which goes on where it was. `snakemake` in that folder
+        runs the same. Without it they are gone with what is returned.
+    targets
+        Rules or files, as Snakemake takes them: `"all_blades"` draws all figures, `["tables", "exports"]` makes more.
+    **sections
+        Sections of config.yaml by name, in the units of their keys, those of extensions among them:
+        `tolerances={"of_scenes": {"friction.coefficient": {"uniform_percent": 5}}}`.
+
+    Returns
+    -------
+    RunResults
+        As of `r37.open_results`.
+
+    Raises
+    ------
+    ConfigError
+        For bad input. A shape, mesh, model or time step that is impossible raises a ValueError of its own.
+
+    Examples
+    --------
+    >>> results = r37.run("Ref", "abradable", [1150, 1550], fidelity="draft", interactions={"prominence": 0.3})
+    >>> results["rms"].speed.values
+    array([1150., 1550.])
+    """
+    keys = {name: plain_value(section) for name, section in sections.items()}
+    if speeds is not None or speeds_rpm is not None:
+        keys |= speed_keys(speeds, speeds_rpm)
+    options: RunOptions = {"fidelity": fidelity, "results": results, "config": config, "cores": cores, "folder": folder}
+    chosen = [] if blades is None else blades_of(blades, options)
+    if scenes is None and results is not None:
+        # what is wanted is a key of each scene
+        scenes = scenes_named(base_of_run(chosen, options))
+    rubs_on = [] if scenes is None else scenes_of_run(scenes, chosen, options)
+    return run_of("r37.run", chosen, rubs_on, keys, options, targets, whole=True)
+
+
+def run_of(
+    caller: str,
+    blades: Sequence[BladeChoice],
+    scenes: Sequence[SceneChoice],
+    keys: Mapping[str, Any],
+    options: Mapping[str, Any],
+    targets: str | Sequence[str] = "tables",
+    *,
+    whole: bool = False,
+) -> RunResults:
+    """The `targets` of a run with these `keys` of config.yaml; `options` as of RunOptions, without speeds.
+
+    `whole`: what the configuration says of a run counts, too. Remarks point at the line that called the caller of this.
+    """
+    check_cores(cores := options.get("cores", 1))
+    wanted = snakemake_targets(targets)
+    base = base_of_run(blades, options)
+    call = Call(caller, base, blades, scenes, {**keys, **level(options.get("fidelity"))}, whole)
+    tell(remarks_of(call.settings))
+    temporary = temporary_folder() if options.get("folder") is None else None
+    place = Path(temporary.name) if temporary else run_folder(options["folder"])
+    write_run(call, place)
+    run_workflow(call.settings, place, wanted, cores)
+    return RunResults(place / "results", temporary)
+
+
+def blades_of(blades: Blades, options: Mapping[str, Any]) -> list[BladeChoice]:
+    """The blades of a run. Raises ConfigError."""
+    several = sequence_of(blades, BladeChoice | str, "blades", "the name of a blade, or what r37.blade gives")
+    chosen = [chosen_blade(blade, options.get("config")) for blade in several]
+    names_of_their_own(chosen)
+    return chosen
+
+
+def scenes_of_run(scenes: Scenes, blades: Sequence[BladeChoice], options: Mapping[str, Any]) -> list[SceneChoice]:
+    """The scenes of a run of these blades. Raises ConfigError."""
+    base = base_of_run(blades, options)
+    several = sequence_of(scenes, SceneChoice | str, "scenes", "the name of a scene, or what r37.scene gives")
+    chosen = [chosen_scene(scene, base, options.get("results")) for scene in several]
+    names_of_their_own(chosen)
+    return chosen
+
+
+def base_of_run(blades: Sequence[BladeChoice], options: Mapping[str, Any]) -> Configuration:
+    """The configuration that a run is made with: the one that is named, else that of its blades."""
+    config = options.get("config")
+    return blades[0].configuration if blades and config is None else read_configuration(config)

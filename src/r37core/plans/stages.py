@@ -1,0 +1,112 @@
+"""Stages that rules and single calls from Python share: what does each, and with which parameters."""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from r37core.config import plain, si_fields
+
+from .import_plan import Imported
+from .provenance import Provenance
+from .rounds_plan import Rounds
+from .simulation_plan import Simulations
+from .structure_plan import Structure
+from .sweep_plan import Sweep
+
+
+@dataclass(frozen=True)
+class Stage:
+    """A step, as `fem.steps.mesh`, with its parameters: plain values, and functions of wildcards as rules have them.
+
+    `title`: what the stage is called while it works. `reads`: name of an input -> stage of the same blade that makes it.
+    """
+
+    step: str
+    params: Mapping[str, Any]
+    title: str = ""
+    reads: Mapping[str, str] = field(default_factory=dict)
+
+    def values(self, wildcards: Any, input: Any = None) -> dict[str, Any]:
+        """The parameters of one job."""
+        arguments = {"wildcards": wildcards, "input": input}
+
+        def value(param: Any) -> Any:
+            return param(*(arguments[name] for name in inspect.signature(param).parameters)) if callable(param) else param
+
+        return {name: value(param) for name, param in self.params.items()}
+
+
+def structure_stages(structure: Structure, made: Provenance) -> dict[str, Stage]:
+    """From blade shape to Campbell diagram, by the names of their rules."""
+    settings, imported = structure.settings, Imported(structure.settings)
+    source = {"source": imported.source, "folder": imported.folder, "locations": imported.locations}
+    reduction = {"reduction": structure.reduction, "contact": structure.location_of_contact, "provenance": made.structure}
+    return {
+        "geometry": Stage(
+            "blade.steps.geometry",
+            {"definition": structure.definition, "edges": settings.structure.edges, "provenance": made.shape},
+            "shape",
+        ),
+        "mesh": Stage("fem.steps.mesh", {"mesh": plain(settings.fidelity.mesh)}, "mesh", {"geometry": "geometry"}),
+        "imported_mesh": Stage("exchange.importing.steps.imported_mesh", source, "import of the mesh"),
+        "imported_matrices": Stage(
+            "exchange.importing.steps.imported_matrices", {**source, **reduction}, "import of the matrices"
+        ),
+        "reduced_model": Stage(
+            "rom.steps.reduced_model",
+            {"material": structure.elastic, "kept": structure.kept, **reduction},
+            "matrices and reduced model, the longest stage",
+            {"mesh": "mesh"},
+        ),
+        "contact_model": Stage(
+            "rom.steps.contact_model",
+            {"tip_line": lambda wildcards: wildcards.tip_line},
+            "contact model",
+            {"rom": "reduced_model"},
+        ),
+        "stress_operator": Stage(
+            "stress.steps.stress_operator", {"material": structure.elastic}, "stress operator", {"rom": "reduced_model"}
+        ),
+        "campbell_of_blade": Stage(
+            "results.steps.campbell_of_blade",
+            {
+                "campbell": si_fields(settings.config.campbell),
+                "maximum_speed": settings.structure.maximum_speed_rad_s,
+                "tip_line": settings.structure.boundary.tip_line,
+                "provenance": made.structure,
+            },
+            "Campbell diagram",
+            {"rom": "reduced_model"},
+        ),
+    }
+
+
+def sweep_stages(sweep: Sweep, made: Provenance) -> dict[str, Stage]:
+    """From a reduced model to the response over speed, by the names of their rules."""
+    simulations, rounds = Simulations(sweep), Rounds(sweep)
+    return {
+        "prepare_time_integration": Stage(
+            "time_integration.speed_job.prepare",
+            {
+                "scene": simulations.plain_scene,
+                "speed": sweep.settings.structure.maximum_speed_rad_s,
+                "choice": simulations.choice_of_scene,
+            },
+        ),
+        "refine": Stage(
+            "adaptive.steps.refine",
+            {"plan": rounds.refined_plan, "choice": rounds.refinement_choice, "yields": rounds.yields_of_round},
+        ),
+        "response": Stage(
+            "results.steps.response",
+            {
+                "speeds": sweep.speeds,
+                "stress_history_speeds": sweep.stress_history_speeds,
+                "yield_stress": sweep.yield_stress,
+                "provenance": made.sweep,
+            },
+        ),
+    }
