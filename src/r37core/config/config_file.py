@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable
 from typing import Annotated, Any, Literal
 
 from pydantic import AfterValidator, Field, create_model, model_validator
@@ -16,7 +16,7 @@ from r37core.rom.reduction_choice import BoundaryChoice, ReductionChoice, Stress
 from .blade_sections import CONTACT_IN_WORDS, Contact, Submesh
 from .declaring import DECLARED, declared_by, in_si
 from .fidelity import Reduction
-from .section import AllOrNames, FileName, LeftOut, Name, Section, Speed, refused
+from .section import AllOrNames, ExtensionSection, FileName, LeftOut, Name, Section, Speed, refused
 from .speed_section import RpmList, SpeedList, SpeedRange, SpeedRule, refuse_both_units
 from .study_sections import StudiesSection
 
@@ -198,6 +198,7 @@ class Config(Section):
         return self
 
 
-def with_sections(sections: Mapping[str, tuple[Any, Any]]) -> type[Config]:
-    """config.yaml with more sections: name -> type and default, as `create_model` takes them."""
-    return create_model("Config", __base__=Config, __doc__=Config.__doc__, **sections)  # type: ignore[call-overload]
+def with_sections(sections: Iterable[ExtensionSection[Any]]) -> type[Config]:
+    """config.yaml with the sections of extensions."""
+    fields = {section.name: (section.kind, section.default) for section in sections}
+    return create_model("Config", __base__=Config, __doc__=Config.__doc__, **fields)  # type: ignore[call-overload]

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
+from dataclasses import dataclass
 from enum import Enum
-from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeVar
+from typing import TYPE_CHECKING, Annotated, Any, Generic, Literal, TypeVar
 
 from pydantic import (
     AfterValidator,
@@ -24,6 +25,15 @@ from pydantic_core import PydanticCustomError
 from r37core.yaml_file import KeyPath, scalar
 
 T = TypeVar("T")
+
+
+@dataclass(frozen=True)
+class ExtensionSection(Generic[T]):
+    """A section of config.yaml that an extension brings: its `name`, and `kind` and `default` as pydantic takes them."""
+
+    name: str
+    kind: type[T]
+    default: Any
 
 
 class Without(Enum):

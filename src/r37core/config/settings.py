@@ -24,6 +24,7 @@ from .document import ConfigRefusals, Document, Documents
 from .families import Designs
 from .fidelity import Level, cheapest_level
 from .scenes import SceneEntry
+from .section import ExtensionSection
 from .speed_section import UNITS, SpeedRule, key_of_speeds, planned
 from .study_sections import StudiesSection
 
@@ -66,9 +67,10 @@ class Settings:
         """Geometry and reduced model."""
         return self.config.structure
 
-    def section(self, extension: str) -> Any:
-        """The section of config.yaml that an extension has brought, of the type that this says."""
-        return getattr(self.config, extension)
+    def section(self, declared: ExtensionSection[T]) -> T:
+        """The section of config.yaml that an extension has brought."""
+        value: T = getattr(self.config, declared.name)
+        return value
 
     @cached_property
     def made(self) -> Callable[[Callable[[Settings], Any]], Any]:

@@ -2,16 +2,35 @@
 
 from __future__ import annotations
 
+from r37core.blade.definition import BladeDefinition
+from r37core.config import Settings
 from r37core.plans.extension import Extension
 
-from .captions import CAPTIONS
-from .checks import families_have_shapes
-from .plan import targets
+from .plan import families, targets
+
+
+def families_have_shapes(settings: Settings) -> None:
+    """No family is of an imported blade: what is compared of designs needs their shape."""
+    for name, family in families(settings).items():
+        members = [settings.blades[design] for design in family.designs if design in settings.blades]
+        if any(not isinstance(blade.definition, BladeDefinition) for blade in members):
+            raise settings.documents.blades.refusal(
+                (name,), "a family of an imported blade", "families of blades with profiles"
+            )
+
+
+_CAPTIONS = {
+    "designs": (
+        "Family {family}: what each design is and how robust, over what varies. Frequencies, largest loss of clearance as "
+        "the tip swings along free modes, where interactions lie, speeds certainly and possibly above yield, largest stress."
+    ),
+}
+"""Kind of figure -> what is seen in it."""
 
 EXTENSION = Extension(
     name="designs",
     checks=(families_have_shapes,),
     targets=targets,
-    captions=CAPTIONS,
+    captions=_CAPTIONS,
     closing="designs.closing.closing",
 )

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from r37core.blade.definition import BladeDefinition
-from r37core.config import Settings, si_fields
+from r37core.config import si_fields
 from r37core.exchange.importing.source import MeshSource
 from r37core.exchange.orientation import OURS
 from r37core.plain import to_plain
@@ -16,18 +16,13 @@ from r37core.plans.import_plan import Imported
 from r37core.plans.sweep_plan import Sweep
 from r37core.speeds import exact_text
 
-from .section import ExportSection
+from .section import SECTION
 
 EXPORTED_MESH = "<results>/exports/{blade}/mesh.{format}"
 EXPORTED_SURFACE = "<results>/exports/{blade}/surface.step"
 EXPORTED_MODES = "<results>/exports/{blade}/modes"
 EXPORTED_STRESS = "<results>/exports/{blade}/stress_{scene}"
 EXPORTED_MATRICES = "<results>/exports/{blade}/matrices"
-
-
-def section(settings: Settings) -> ExportSection:
-    """Of config.yaml."""
-    return settings.section("exports")
 
 
 @dataclass(frozen=True)
@@ -41,7 +36,7 @@ class Exports:
     def choice(self) -> dict[str, Any]:
         """The section of config.yaml, with the speeds (rad/s) of modes and matrices."""
         settings = self.imported.settings
-        exported, highest = section(settings), settings.structure.maximum_speed_rad_s
+        exported, highest = settings.section(SECTION), settings.structure.maximum_speed_rad_s
         return {
             "formats": tuple(exported.result_formats),
             "modes": exported.modes,
@@ -60,18 +55,18 @@ class Exports:
         settings = self.imported.settings
         tip_line = settings.structure.boundary.tip_line
         files = {"rom": paths.fill(paths.REDUCED_MODEL, blade=wildcards.blade, tip_line=tip_line)}
-        if section(settings).full_matrices and wildcards.blade in self.imported.with_mesh:
+        if settings.section(SECTION).full_matrices and wildcards.blade in self.imported.with_mesh:
             files |= {"mesh": paths.fill(paths.MESH, blade=wildcards.blade)}
         return files
 
     def only_worst(self, wildcards: Any) -> bool:
         """Whether the speed with the largest stress is written alone."""
-        return section(self.imported.settings).only_worst()
+        return self.imported.settings.section(SECTION).only_worst()
 
     def speed_files(self, wildcards: Any) -> list[str]:
         """The simulations among which worst instants are looked for."""
         files = self.sweep.speed_files(wildcards)
-        chosen = section(self.imported.settings).stress_speeds()
+        chosen = self.imported.settings.section(SECTION).stress_speeds()
         if chosen is None:
             return files
         wanted = {f"speed_{exact_text(speed)}.npz" for speed in chosen}
@@ -81,7 +76,7 @@ class Exports:
 def targets(sweep: Sweep) -> dict[str, paths.Wildcards]:
     """Files and folders that this run's configuration asks for."""
     settings = sweep.settings
-    imported, formats = Imported(settings), section(settings).mesh_formats
+    imported, formats = Imported(settings), settings.section(SECTION).mesh_formats
     return {
         EXPORTED_MESH: [{"blade": blade, "format": name} for blade in imported.with_mesh for name in formats],
         EXPORTED_MODES: paths.of("blade", imported.with_mesh),

@@ -7,7 +7,7 @@ from typing import Annotated, Literal
 from pydantic import Discriminator, Field, Tag, model_validator
 
 from r37core.config import si_fields
-from r37core.config.section import LeftOut, Rpm, Section, Speed, Unique
+from r37core.config.section import ExtensionSection, LeftOut, Rpm, Section, Speed, Unique
 from r37core.config.speed_section import refuse_both_units
 
 ModeSpeed = Annotated[float, Field(ge=0, le=1e6)]
@@ -54,3 +54,6 @@ class ExportSection(Section):
     def only_worst(self) -> bool:
         """Whether the speed with the largest stress is written alone."""
         return self.stress_speeds() is None and self.stress_speeds_rad_s == "worst"
+
+
+SECTION = ExtensionSection("exports", ExportSection, ExportSection())

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from r37core.config import Settings
+from r37core.config.section import ExtensionSection
 
 from .paths import Wildcards
 from .samples import Pair, Sample, Sampling
@@ -40,7 +41,7 @@ class Extension:
     """One capability: a folder of this package, a file of rules, and a line in the registry.
 
     `name`: of the folder, of the rule that makes all of it, and of its section of config.yaml.
-    `section`: type and default of that section, as pydantic's `create_model` takes them; none without one.
+    `section`: that section; none without one.
     `checks`: what no model of the section alone can check; each raises ConfigError.
     `sampling`: members that it has run beside the sweep, and what is made of them.
     `later`: of samples that are named while a run goes on, by the part of their folder below one of the extension's name; takes
@@ -57,7 +58,7 @@ class Extension:
     """
 
     name: str
-    section: tuple[Any, Any] | None = None
+    section: ExtensionSection[Any] | None = None
     checks: tuple[Callable[[Settings], None], ...] = ()
     sampling: Sampling | None = None
     later: Callable[[Settings, Path], Callable[[str], Mapping[Pair, Sample]]] | None = None

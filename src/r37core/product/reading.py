@@ -9,7 +9,7 @@ from r37core.config.reading import Reader
 
 from .extensions import EXTENSIONS
 
-CONFIG: type[Config] = with_sections({extension.name: extension.section for extension in EXTENSIONS if extension.section})
+CONFIG: type[Config] = with_sections([extension.section for extension in EXTENSIONS if extension.section])
 """config.yaml with the section of each extension."""
 
 RESERVED = ("figures", "studies", "runs", *(extension.name for extension in EXTENSIONS))

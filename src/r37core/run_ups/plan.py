@@ -18,14 +18,14 @@ from r37core.plans.sweep_plan import Sweep
 from r37core.time_integration.integration_choice import IntegrationChoice
 
 from .choice import RunUpChoice
-from .section import RunUpEntry
+from .section import SECTION, RunUpEntry
 
 RUN_UP = "<results>/{blade}/{scene}/run_up_{run_up}.npz"
 
 
 def entries(settings: Settings) -> dict[str, RunUpEntry]:
     """The section of config.yaml."""
-    return settings.section("run_ups")
+    return settings.section(SECTION)
 
 
 @dataclass(frozen=True)

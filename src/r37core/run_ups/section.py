@@ -7,7 +7,7 @@ from typing import Annotated, Any
 from pydantic import AfterValidator, Field, model_validator
 
 from r37core.config.declaring import DECLARED, declared_by, in_si
-from r37core.config.section import AllOrNames, LeftOut, Name, Section, check_names, refused
+from r37core.config.section import AllOrNames, ExtensionSection, LeftOut, Name, Section, check_names, refused
 
 from .choice import Crossing, RunUpChoice
 
@@ -68,8 +68,8 @@ def _names_differ(entries: dict[str, RunUpEntry]) -> dict[str, RunUpEntry]:
     return entries
 
 
-RUN_UP_SECTION: tuple[Any, Any] = (
-    Annotated[dict[Name, RunUpEntry], AfterValidator(_names_differ)],
+SECTION: ExtensionSection[dict[str, RunUpEntry]] = ExtensionSection(
+    "run_ups",
+    Annotated[dict[Name, RunUpEntry], AfterValidator(_names_differ)],  # type: ignore[arg-type]
     Field(default={}, description="run-ups and run-downs by name"),
 )
-"""Type and default of the section."""

@@ -13,14 +13,15 @@ from r37core.config.messages import on_one_line
 from r37core.rom.naming import NAMED_MODES
 from r37core.yaml_file import KeyPath
 
-from .designs import SearchDesigns, section
+from .designs import SearchDesigns
 from .gaussian_processes import SearchPackageMissing, library
 from .plan import designs_of, is_asked
+from .section import SECTION
 
 
 def search_can_be_run(settings: Settings) -> None:
     """The blade, the scenes and the variables are there, and the library is installed that proposes designs."""
-    entry, document = section(settings), settings.documents.config
+    entry, document = settings.section(SECTION), settings.documents.config
     if entry is None or (settings.config.run.part is not None and not is_asked(settings)):
         return
     if entry.blade not in settings.blade_names:

@@ -16,18 +16,13 @@ from r37core.plans.member_values import drawn, is_of_sample, sobol_points
 from r37core.plans.samples import NOMINAL, Member, Pair, Sample, path_part
 
 from .problem import SearchVariable
-from .section import SearchSection
+from .section import SECTION, SearchSection
 
-FOLDER = "search"
+FOLDER = SECTION.name
 """Of the designs' files: the extension's name."""
 
 _KEPT = ("stress", "static_stress")
 """Results of a scene that designs have, too: what they are judged by."""
-
-
-def section(settings: Settings) -> SearchSection | None:
-    """The section of config.yaml; None in a run without a search."""
-    return settings.section(FOLDER)
 
 
 def member_part(design: str) -> str:
@@ -44,7 +39,7 @@ class SearchDesigns:
     @property
     def entry(self) -> SearchSection:
         """What is asked for."""
-        entry = section(self.settings)
+        entry = self.settings.section(SECTION)
         assert entry is not None
         return entry
 

@@ -20,8 +20,9 @@ from r37core.plans.samples import NOMINAL, Pair, Sample, path_part
 from r37core.plans.sweep_plan import Sweep
 
 from .choice import START, Constraint, SearchChoice
-from .designs import FOLDER, SearchDesigns, member_part, section
+from .designs import FOLDER, SearchDesigns, member_part
 from .rounds import SearchRound, read_round
+from .section import SECTION
 
 ROUND = "<results>/search/round_{round}.json"
 BUILT = "<results>/search/built_{round}.json"
@@ -248,7 +249,7 @@ def targets(sweep: Sweep) -> dict[str, paths.Wildcards]:
 
 def is_asked(settings: Settings) -> bool:
     """Whether this run has a search: a part of the blades may be without the one that it starts at."""
-    entry = section(settings)
+    entry = settings.section(SECTION)
     return entry is not None and entry.blade in settings.blade_names
 
 

@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 
 from pydantic import AfterValidator, Field, model_validator
 
-from r37core.config.section import LeftOut, Name, Names, Section, Speed, check_names, refused
+from r37core.config.section import ExtensionSection, LeftOut, Name, Names, Section, Speed, check_names, refused
 from r37core.config.spread import MemberCount, Spreads
 
 from .quantity import CONTACT_MEASURES, MEASURES, NEEDS, Quantity
@@ -164,3 +164,10 @@ class SearchSection(Section):
                 if name.lower() in taken:
                     raise refused((where, name), f"'{name}' twice", "a name that no other column of search.csv has")
                 taken |= {name.lower(), f"{name.lower()}_scatter"} if where == "objectives" else {name.lower()}
+
+
+SECTION: ExtensionSection[SearchSection | None] = ExtensionSection(
+    "search",
+    SearchSection | LeftOut,  # type: ignore[arg-type]
+    Field(default=None, description="designs of one blade that are better than it is (docs/better_blade.md)"),
+)

@@ -4,8 +4,19 @@ from __future__ import annotations
 
 from r37core.plans.extension import Extension
 
-from .captions import CAPTIONS
 from .plan import targets
-from .section import ShapeSection
+from .section import SECTION
 
-EXTENSION = Extension(name="shapes", section=(ShapeSection, ShapeSection()), targets=targets, captions=CAPTIONS)
+_CAPTIONS = {
+    "mode_shapes": (
+        "The first modes of blade {blade} at rest, each moved by its shape from the blade as it is (black outline). The "
+        "colour is the displacement as a share of its largest. The page of the blade's shapes moves them."
+    ),
+    "worst_shapes": (
+        "Blade {blade} in scene {scene} at the worst instant of each interaction, displaced as the title says (black "
+        "outline: as it is). Colours are the von Mises stress, each on a scale of its own."
+    ),
+}
+"""Kind of figure -> what is seen in it."""
+
+EXTENSION = Extension(name="shapes", section=SECTION, targets=targets, captions=_CAPTIONS)

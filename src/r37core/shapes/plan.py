@@ -8,6 +8,8 @@ from typing import Any
 from r37core.plans import paths
 from r37core.plans.sweep_plan import Sweep
 
+from .section import SECTION
+
 MODE_SHAPES = "<results>/shapes/{blade}/modes"
 WORST_SHAPES = "<results>/shapes/{blade}/stress_{scene}"
 
@@ -21,7 +23,7 @@ class Shapes:
     @property
     def modes(self) -> int:
         """How many modes of each blade."""
-        return self.sweep.settings.section("shapes").modes
+        return self.sweep.settings.section(SECTION).modes
 
     @property
     def runs(self) -> list[tuple[str, str]]:

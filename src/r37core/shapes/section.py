@@ -4,10 +4,13 @@ from __future__ import annotations
 
 from pydantic import Field
 
-from r37core.config.section import Section
+from r37core.config.section import ExtensionSection, Section
 
 
 class ShapeSection(Section):
     """Modes and worst instants as files that move."""
 
     modes: int = Field(default=6, ge=1, le=30, description="how many modes of each blade, at rest")
+
+
+SECTION = ExtensionSection("shapes", ShapeSection, ShapeSection())

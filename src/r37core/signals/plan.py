@@ -5,21 +5,16 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-from r37core.config import Settings, in_si
+from r37core.config import in_si
 from r37core.plain import to_plain
 from r37core.plans import paths
 from r37core.plans.import_plan import Imported
 from r37core.plans.sweep_plan import Sweep
 
 from .gauge import Gauge
-from .section import SignalSection
+from .section import SECTION, SignalSection
 
 SIGNALS_OF_RUN = "<results>/{blade}/{scene}/signals.nc"
-
-
-def section(settings: Settings) -> SignalSection:
-    """Of config.yaml."""
-    return settings.section("signals")
 
 
 @dataclass(frozen=True)
@@ -31,7 +26,7 @@ class Signals:
 
     @property
     def _section(self) -> SignalSection:
-        return section(self.sweep.settings)
+        return self.sweep.settings.section(SECTION)
 
     @property
     def runs(self) -> list[tuple[str, str]]:

@@ -8,7 +8,7 @@ from pydantic import AfterValidator, Discriminator, Field, Tag, model_validator
 
 from r37core.config import si_fields
 from r37core.config.declaring import declared_by
-from r37core.config.section import AllOrNames, LeftOut, Name, Rpm, Section, Speed, Unique, refused
+from r37core.config.section import AllOrNames, ExtensionSection, LeftOut, Name, Rpm, Section, Speed, Unique, refused
 from r37core.config.speed_section import refuse_both_units
 
 from .gauge import Gauge
@@ -70,3 +70,6 @@ class SignalSection(Section):
         """Speeds (rad/s), ascending, or the word for those of interactions; None where no signals are asked for."""
         speeds = si_fields(self).get("speeds")
         return sorted(speeds) if speeds else "interactions" if self.speeds_rad_s else None
+
+
+SECTION = ExtensionSection("signals", SignalSection, SignalSection())

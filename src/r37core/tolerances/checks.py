@@ -9,12 +9,13 @@ from r37core.config.changed_numbers import ImpossibleValueError, changed_scene, 
 from r37core.config.cross_checks import LARGEST_NUMBER_OF_SIMULATIONS, names_are_there
 from r37core.config.messages import on_one_line
 
-from .members import members_of, section
+from .members import members_of
+from .section import SECTION
 
 
 def members_can_be_drawn(settings: Settings) -> None:
     """Tolerances name blades, scenes and numbers that are there, no member is impossible, and all can be planned."""
-    entry, documents, path = section(settings), settings.documents, ("tolerances",)
+    entry, documents, path = settings.section(SECTION), settings.documents, ("tolerances",)
     names_are_there(settings, path, entry)
     # the configuration that a run keeps has the empty section written out
     if entry != type(entry)() and not members_of(settings).numbers:

@@ -20,7 +20,7 @@ from r37core.config.messages import on_one_line
 from r37core.contact.scene import Scene
 from r37core.plans.member_values import drawn, is_of_sample, number_of, sobol_points
 
-from .section import ToleranceSection
+from .section import SECTION
 
 T = TypeVar("T")
 
@@ -34,16 +34,11 @@ class Member:
     values: tuple[float | None, ...]
 
 
-def section(settings: Settings) -> ToleranceSection:
-    """The section of config.yaml."""
-    return settings.section("tolerances")
-
-
 class Members:
     """The members of all blades and scenes that have tolerances. `numbers`: section and key of each -> its tolerance."""
 
     def __init__(self, settings: Settings):
-        self._settings, self._entry = settings, section(settings)
+        self._settings, self._entry = settings, settings.section(SECTION)
         self.numbers = self._entry.spreads
 
     @cached_property

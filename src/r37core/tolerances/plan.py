@@ -13,7 +13,8 @@ from r37core.plans.samples import NOMINAL, Member, Pair, Sample, Sampling, path_
 from r37core.plans.sweep_plan import Sweep
 
 from .fewest import remarks_on_rankings
-from .members import Members, members_of, section
+from .members import Members, members_of
+from .section import SECTION
 
 FOLDER = "tolerances"
 """Of the members' files: the extension's name."""
@@ -52,7 +53,7 @@ class Tolerances:
             (blade, scene): Sample(
                 members={name: Member(of.blade, of.scene, models[blade][name]) for name, of in members.items()},
                 deciding=[name for name in members if is_of_sample(name)],
-                largest_share=section(settings).largest_share,
+                largest_share=settings.section(SECTION).largest_share,
                 results=tuple(result for result in settings.results_of(blade, scene) if result in _KEPT),
             )
             for (blade, scene), members in self._members.all.items()
@@ -153,7 +154,7 @@ def targets(sweep: Sweep) -> dict[str, paths.Wildcards]:
 
 def remarks(settings: Settings) -> list[str]:
     """How many members there are, and whether these rank the numbers."""
-    members, entry = members_of(settings), section(settings)
+    members, entry = members_of(settings), settings.section(SECTION)
     if not members.pairs:
         return []
     most = extent_of(settings, {FOLDER: samples(settings)}).members

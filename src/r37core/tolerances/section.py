@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pydantic import Field
 
-from r37core.config.section import AllOrNames
+from r37core.config.section import AllOrNames, ExtensionSection
 from r37core.config.spread import MemberCount, Spreads
 
 
@@ -21,3 +21,6 @@ class ToleranceSection(Spreads):
     largest_share: float = Field(
         default=0.2, ge=1e-3, le=1, description="of the finest grid of adaptive speeds that is run at most, by every member"
     )
+
+
+SECTION = ExtensionSection("tolerances", ToleranceSection, ToleranceSection())

@@ -10,7 +10,8 @@ from r37core.config import ConfigError, Settings, plain
 from r37core.plans.member_values import is_of_sample
 from r37core.plans.rounds_plan import Rounds
 from r37core.plans.sweep_plan import Sweep
-from r37core.tolerances.members import members_of, section
+from r37core.tolerances.members import members_of
+from r37core.tolerances.section import SECTION
 
 from ..case import Case
 from ..plan import case_of_sweep
@@ -50,7 +51,7 @@ def cases(settings: Settings) -> dict[str, Case]:
 
 def adaptive_members(settings: Settings) -> dict[str, dict[str, str]]:
     """Cases of the members of each adaptive sweep, by its name and the member's; ConfigError where their blades differ."""
-    of_blades = section(settings).of_blades
+    of_blades = settings.section(SECTION).of_blades
     if of_blades:
         raise settings.documents.config.refusal(
             ("tolerances", "of_blades"), ", ".join(of_blades), "of_scenes alone: the study runs the nominal models"
