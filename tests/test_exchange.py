@@ -18,7 +18,6 @@ from r37core.exchange.importing.abaqus_reader import read_abaqus
 from r37core.exchange.importing.import_mesh import _READERS, import_mesh
 from r37core.exchange.importing.meshio_reader import quietly, read_with_meshio
 from r37core.exchange.importing.source import MASS_UNITS, STIFFNESS_UNITS, SUFFIXES, digest_of, mesh_files
-from r37core.exchange.orientation import UNITS
 from r37core.exchange.refusal import ImportRefused, MeshWarning, located
 from r37core.exchange.write_mesh import write_mesh
 from r37core.fem.abaqus_deck import write_abaqus
@@ -31,6 +30,7 @@ from r37core.fem.surface import faces_within, outer_faces
 from r37core.mesh.generate import generate_mesh
 from r37core.mesh.mesh_files import write_vtu
 from r37core.rom.naming import ideal_shapes
+from r37core.units import LENGTH_UNITS
 
 OURS = Orientation("m", rotor_axis=(0, 0, 1), radial=(1, 0, 0), rotation="negative")
 TITANIUM = Material(115e9, 4400.0, 0.32, 9e8)
@@ -404,7 +404,7 @@ def test_a_blade_larger_than_any_is_told():
 
 
 def test_units_are_those_of_si():
-    assert pytest.approx(UNITS, rel=1e-15) == {
+    assert pytest.approx(LENGTH_UNITS, rel=1e-15) == {
         "m": 1.0,
         "cm": constants.centi,
         "mm": constants.milli,

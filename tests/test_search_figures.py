@@ -6,7 +6,8 @@ import pytest
 import xarray as xr
 
 from r37core.search.figures import draw_designs, draw_slices
-from r37core.search.shown import in_lines, shown_unit
+from r37core.search.shown import in_lines
+from r37core.units import shown_unit
 
 KEYS = ("sweep_lean.1.sweep_cm", "stagger_deg.tip")
 UNITS = {"lined": "rad s-1", "stress": "Pa", "mass": "kg"}

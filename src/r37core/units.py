@@ -31,6 +31,23 @@ SUFFIXES = {
 """End of a key or of a table's column -> what one of its unit is in the SI."""
 
 
+LENGTH_UNITS = {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "um": 1e-6, "in": 0.0254, "ft": 0.3048}
+"""Name of a length unit -> metres."""
+
+MASS_UNITS = {"kg": 1.0, "g": 1e-3, "t": 1e3}
+"""Name of a unit of mass -> kg."""
+
+STIFFNESS_UNITS = {"N/m": 1.0, "N/mm": 1e3}
+"""Name of a unit of stiffness -> N/m."""
+
+_SHOWN = {"m": ("mm", 1e3), "Pa": ("MPa", 1e-6), "rad s-1": ("rad/s", 1.0), "percent": ("%", 1.0), "1": ("", 1.0)}
+
+
+def shown_unit(unit: str) -> tuple[str, float]:
+    """Unit that values of a dataset's `unit` are shown in to people, "" for a plain number, and the factor to it."""
+    return _SHOWN.get(unit, (unit, 1.0))
+
+
 def si_name(key: str) -> tuple[str, float | None]:
     """The key without its unit, and what one of that is in the SI; None for a key without a unit."""
     ends = [end for end in SUFFIXES if key.endswith(end)]

@@ -4,7 +4,8 @@ from .blades import BladeSettings
 from .declaring import in_si
 from .document import ConfigError, Document, command_line_document, read_document
 from .scenes import SceneEntry
-from .settings import SceneSettings, Settings, checked_scene, plain
+from .section import plain
+from .settings import SceneSettings, Settings, checked_scene
 from .si_fields import si_fields
 
 __all__ = [

@@ -26,7 +26,7 @@ from .blade_sections import CONTACT_IN_WORDS, Contact, MaterialSection
 from .declaring import in_si
 from .document import ConfigError, ConfigRefusals, Document
 from .imported_entry import MatricesEntry, MeshEntry
-from .section import FileName, LeftOut, Name, Section, Unique, check_names, refused
+from .section import FileName, LeftOut, Name, Section, Unique, check_names, plain, refused
 from .section_laws import SECTION_KEYS, Angles, Shares, changed_keys, section_laws, with_section_laws
 from .si_fields import si_fields
 
@@ -287,7 +287,7 @@ def _source(entry: MeshEntry | MatricesEntry, name: str, root: Path, document: D
 def _material(chain: Sequence[str], entries: Mapping[str, Any], document: Document) -> fem_material.Material:
     material: dict[str, float] = {}
     for link in chain:
-        material |= entries[link].material.model_dump(exclude_none=True)
+        material |= plain(entries[link].material)
     missing = [key for key in MaterialSection.model_fields if key not in material]
     if missing:
         raise document.error((chain[-1], "material"), f"missing key {', '.join(missing)} (give it here or in the base)")

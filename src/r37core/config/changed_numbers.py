@@ -22,7 +22,7 @@ from .blades import SHARES, BladeSettings, SweepLean
 from .families import with_value
 from .messages import explain
 from .scenes import SceneEntry
-from .section import Section
+from .section import Section, plain
 from .section_laws import (
     SECTION_KEYS,
     Angle,
@@ -80,7 +80,7 @@ entry of a blade changes of its profiles is there already, and stands under thes
 
 def scene_numbers(entry: SceneEntry) -> dict[str, float]:
     """Dotted key -> value of all numbers of a scene but those that count something or stop a run."""
-    return {key: value for key, value in _numbers(_plain(entry), "").items() if key != "divergence_limit_m"}
+    return {key: value for key, value in _numbers(plain(entry), "").items() if key != "divergence_limit_m"}
 
 
 def blade_number(blade: BladeSettings, key: str) -> float | None:
@@ -100,7 +100,7 @@ def blade_number(blade: BladeSettings, key: str) -> float | None:
 
 def changed_scene(entry: SceneEntry, changes: Mapping[str, float]) -> Scene:
     """The scene with values at dotted keys replaced. Raises ImpossibleValueError."""
-    content = _plain(entry)
+    content = plain(entry)
     for key, value in changes.items():
         content = with_value(content, key.split("."), value)
     return _checked(SceneEntry, content).scene()
@@ -120,7 +120,7 @@ def changed_blade(blade: BladeSettings, changes: Mapping[str, float]) -> BladeSe
 
 def _changed_material(nominal: Material, changes: Mapping[str, float]) -> Material:
     section = _checked(MaterialSection, dict(changes), _MATERIAL)
-    return replace(nominal, **{si_name(key)[0]: value for key, value in section.model_dump(exclude_none=True).items()})
+    return replace(nominal, **{si_name(key)[0]: value for key, value in plain(section).items()})
 
 
 def _changed_shape(definition: BladeDefinition, changes: Mapping[str, float]) -> BladeDefinition:
@@ -169,10 +169,6 @@ def _checked(model: type[BaseModel], content: dict[str, Any], above: str = "") -
     except ValidationError as error:
         path, _, text = explain(error, content, model)
         raise ImpossibleValueError(above + ".".join(map(str, path)), text) from None
-
-
-def _plain(entry: SceneEntry) -> dict[str, Any]:
-    return entry.model_dump(exclude_none=True)
 
 
 def _numbers(content: Mapping[str, Any], path: str) -> dict[str, float]:

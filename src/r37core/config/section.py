@@ -62,6 +62,11 @@ class Section(BaseModel):
         return data
 
 
+def plain(section: BaseModel) -> dict[str, Any]:
+    """A section as a dictionary of plain values, which Snakemake can compare and a job can read without the models."""
+    return section.model_dump(exclude_none=True)
+
+
 def refused(at: KeyPath, value: str, allowed: str) -> PydanticCustomError:
     """The error of a validator that compares several keys; `at` is the one to blame, seen from the validated section."""
     return PydanticCustomError("refused", "found {found}; allowed: {allowed}", {"at": at, "found": value, "allowed": allowed})

@@ -8,8 +8,6 @@ from functools import cache, cached_property
 from pathlib import Path
 from typing import Any, TypeVar
 
-from pydantic import BaseModel
-
 from r37core.contact.scene import Scene
 from r37core.exchange.importing.source import MatricesSource
 from r37core.plain import to_plain
@@ -24,7 +22,7 @@ from .document import ConfigRefusals, Document, Documents
 from .families import Designs
 from .fidelity import Level, cheapest_level
 from .scenes import SceneEntry
-from .section import ExtensionSection
+from .section import ExtensionSection, plain
 from .speed_section import UNITS, SpeedRule, key_of_speeds, planned
 from .study_sections import StudiesSection
 
@@ -227,11 +225,6 @@ def _planned(document: Document, path: KeyPath, section: Config | SpeedRule, ste
         return planned(section, step)
     except SpeedError as error:
         raise document.error((*path, key_of_speeds(section)), str(error)) from None
-
-
-def plain(section: BaseModel) -> dict[str, Any]:
-    """A section as a dictionary of plain values, which Snakemake can compare and a job can read without the models."""
-    return section.model_dump(exclude_none=True)
 
 
 def checked_scene(entry: Mapping[str, Any]) -> Scene:

@@ -9,7 +9,7 @@ from pydantic import Discriminator, Field, Tag, model_validator
 
 from r37core.speeds import SpeedPlan, plan_speeds
 
-from .section import LeftOut, Names, Rpm, Section, Speed, refused
+from .section import LeftOut, Names, Rpm, Section, Speed, plain, refused
 
 UNITS = {"speeds": "rad/s", "speeds_rpm": "rpm"}
 """Keys that give speeds, of which a section has one, and their units."""
@@ -91,5 +91,5 @@ def planned(section: Any, default_step: float) -> SpeedPlan:
     """The plan (rad/s) that a section's speeds ask for; `default_step` in rad/s. Raises SpeedError."""
     key = key_of_speeds(section)
     entries: Sequence[float | SpeedRange] = getattr(section, key)
-    ranges = [entry.model_dump(exclude_none=True) if isinstance(entry, SpeedRange) else entry for entry in entries]
+    ranges = [plain(entry) if isinstance(entry, SpeedRange) else entry for entry in entries]
     return plan_speeds(ranges, default_step, UNITS[key])

@@ -12,11 +12,9 @@ from r37core.declared import Key
 from r37core.exchange.importing.raw_mesh import RawMesh
 from r37core.fem.elements import ELEMENTS
 from r37core.mesh.blade_mesh import BladeMesh
+from r37core.units import LENGTH_UNITS
 
 from .refusal import ImportRefused, MeshWarning
-
-UNITS = {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "um": 1e-6, "in": 0.0254, "ft": 0.3048}
-"""Name of a length unit -> metres."""
 
 _SPAN_BETWEEN = (1e-3, 5.0)
 _USUAL_SPAN = 0.1
@@ -28,7 +26,7 @@ _RADIAL_WITHIN = np.cos(np.radians(45.0))
 
 def fitting_units(span: float) -> list[str]:
     """Units in which a blade of this span, in its file's numbers, has a plausible size; the likeliest first."""
-    sizes = {name: span * metres for name, metres in UNITS.items()}
+    sizes = {name: span * metres for name, metres in LENGTH_UNITS.items()}
     plausible = [name for name, size in sizes.items() if _SPAN_BETWEEN[0] < size < _SPAN_BETWEEN[1]]
     return sorted(plausible, key=lambda name: abs(np.log(sizes[name] / _USUAL_SPAN)))
 
@@ -37,7 +35,7 @@ def fitting_units(span: float) -> list[str]:
 class Orientation:
     """How a file describes space.
 
-    `length_unit`: a key of UNITS, or metres per unit.
+    `length_unit`: a key of LENGTH_UNITS, or metres per unit.
 
     The blade's frame has z downstream, x radial, and a rotor that turns towards negative theta. A blade that turns the other
     way is mirrored: in an isotropic material its mirror image has the same motion, and every sign keeps its meaning.
@@ -68,7 +66,7 @@ class Orientation:
     @property
     def metres_per_unit(self) -> float:
         """Length of the file's unit (m)."""
-        return UNITS[self.length_unit] if isinstance(self.length_unit, str) else self.length_unit
+        return LENGTH_UNITS[self.length_unit] if isinstance(self.length_unit, str) else self.length_unit
 
     def check(self) -> None:
         """Raise ImportRefused where the two directions are none or parallel."""
@@ -153,7 +151,7 @@ class Orientation:
         low, high = _SPAN_BETWEEN
         if not low < span < high:
             own = span / self.metres_per_unit
-            fitting = [f"{name} ({own * UNITS[name]:.3g} m)" for name in fitting_units(own)]
+            fitting = [f"{name} ({own * LENGTH_UNITS[name]:.3g} m)" for name in fitting_units(own)]
             raise ImportRefused(
                 f"the blade would be {sizes} m in size (radial, tangential, axial) with a span of {span:.3g} m (allowed: "
                 f"{low:g} to {high:g} m); length_unit {self.length_unit} or rotor_axis does not fit the file; "

@@ -13,6 +13,7 @@ import xarray as xr
 from r37core.results.ranges import as_ranges_bear
 from r37core.results.variables import VARIABLES
 from r37core.time_integration.status import RunStatus
+from r37core.units import shown_unit
 
 from .page_tables import interaction_table, published_peaks, ranking_rows
 
@@ -26,9 +27,6 @@ CURVES = (
     ("rms", "share_of_time_in_contact"),
 )
 """Dataset and variable; of the leading edge where a variable has tip points."""
-
-SHOWN = {"m": ("mm", 1e3), "Pa": ("MPa", 1e-6)}
-"""SI unit of a variable -> unit it is shown in, and factor to it; others are shown as they are."""
 
 MOST_SPEEDS = 400
 """Speeds of a map; beyond it neighbours are joined by their maximum. Curves keep every speed."""
@@ -100,8 +98,8 @@ def _campbell(campbell: xr.Dataset) -> dict[str, object]:
 def _described(values: xr.DataArray) -> tuple[dict[str, object], float]:
     """Name, label and shown unit of a variable, from its attributes, and the factor from SI to that unit."""
     attributes = VARIABLES[str(values.name)].attributes | values.attrs
-    unit, factor = SHOWN.get(attributes["units"], (attributes["units"], 1.0))
-    return {"name": values.name, "label": attributes["long_name"], "unit": unit}, factor
+    unit, factor = shown_unit(attributes["units"])
+    return {"name": values.name, "label": attributes["long_name"], "unit": unit or "1"}, factor
 
 
 def _curve(variable: xr.DataArray) -> dict[str, object]:

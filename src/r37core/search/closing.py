@@ -9,9 +9,9 @@ import xarray as xr
 from r37core.dataset_file import read_dataset
 from r37core.results.closing import counted
 from r37core.rounding import rounded_to
+from r37core.units import shown_unit
 
 from .plan import BEST, DATASET
-from .shown import shown_unit
 
 
 def closing(results: Path) -> str:

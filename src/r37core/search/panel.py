@@ -7,7 +7,9 @@ import math
 import numpy as np
 import xarray as xr
 
-from .shown import in_lines, shown_unit, with_unit
+from r37core.units import shown_unit
+
+from .shown import in_lines, with_unit
 
 _DIGITS = 5
 """Of a number on the page."""

@@ -2,16 +2,8 @@
 
 from __future__ import annotations
 
-from r37core.explorer.contents import SHOWN
-
-_UNITS = {**SHOWN, "rad s-1": ("rad/s", 1.0), "percent": ("%", 1.0), "1": ("", 1.0)}
 _LONGEST = 14
 """Characters of a name in one line."""
-
-
-def shown_unit(unit: str) -> tuple[str, float]:
-    """Unit that values of `unit` are shown in, "" for a plain number, and the factor to it."""
-    return _UNITS.get(unit, (unit, 1.0))
 
 
 def with_unit(name: str, unit: str) -> str:

@@ -26,10 +26,11 @@ from r37core.rom.naming import NAMED_MODES
 from r37core.rom.reduce import contact_nodes, projected
 from r37core.rom.reduced_model import RecoveryNodes, ReducedModel
 from r37core.rom.reduction_choice import AREA_PATCHES, POINTS, BoundaryChoice, BoundaryError, ReductionChoice
+from r37core.units import MASS_UNITS, STIFFNESS_UNITS
 
 from .first_frequency import check_frequency
 from .matrix_file import read_matrix
-from .source import MASS_UNITS, STIFFNESS_UNITS, MatricesSource, matrix_files
+from .source import MatricesSource, matrix_files
 from .tip import arc_length, check_order, check_sense_of_nodes
 
 COLUMNS = ("x", "y", "z", "dof_x", "dof_y", "dof_z")

@@ -12,6 +12,7 @@ from typing import Annotated
 from r37core.declared import Key
 from r37core.exchange.orientation import Orientation
 from r37core.exchange.refusal import ImportRefused
+from r37core.units import MASS_UNITS, STIFFNESS_UNITS
 
 from .deck_text import included_files, is_deck
 from .where import Where
@@ -21,13 +22,6 @@ DECK = ".inp"
 
 SUFFIXES = (DECK, ".msh", ".vtu", ".med", ".bdf", ".nas", ".cdb")
 """Of mesh files that can be read."""
-
-
-MASS_UNITS = {"kg": 1.0, "g": 1e-3, "t": 1e3}
-"""Name of a unit of mass -> kg."""
-
-STIFFNESS_UNITS = {"N/m": 1.0, "N/mm": 1e3}
-"""Name of a unit of stiffness -> N/m."""
 
 
 @dataclass(frozen=True)
