@@ -76,6 +76,15 @@ def test_at_one_speed_a_run_up_is_the_run_at_that_speed(contact, engine):
     np.testing.assert_array_equal(samples_of(integration), expected)
 
 
+def test_the_reference_slides_with_the_speed_of_each_segment(contact):
+    problem = Simulation(contact, 1600.0, NARROW, replace(LONG, engine="reference")).problem
+    engine = Simulation.at_speeds(problem, np.array([1590.0, 1610.0]), None).engine
+    for place, speed in enumerate((1590.0, 1610.0)):
+        engine.take(place)
+        np.testing.assert_allclose(engine.rotation_velocity, problem.casing.rotation_velocity * speed / 1600.0, rtol=1e-14)
+        assert engine.time_step == pytest.approx(2.0 * np.pi / speed / problem.grid.steps_per_revolution, rel=1e-14)
+
+
 def test_a_slow_run_up_is_the_same_in_many_calls(contact, monkeypatch):
     run_up = RunUp(1600.0, 1605.0, 8.5, 4, 0, worn=False)
     whole = list(RunUpIntegration(contact, NARROW, LONG, run_up).segments())

@@ -16,11 +16,12 @@ from .problem import Problem
 
 
 class Segments(NamedTuple):
-    """What of a problem changes with the speed while its modes are held: all with a first axis of speeds.
+    """What of a problem changes with the speed while its modes are held: all with a first axis of `speeds` (rad/s).
 
     `coupling`: of central differences alone. `increments`: None of a single speed.
     """
 
+    speeds: np.ndarray
     recursion: Recursion
     coupling: np.ndarray | None
     jumps: JumpPlan | None
@@ -32,7 +33,8 @@ def own_segment(problem: Problem) -> Segments:
     """Of the problem's own speed alone."""
     several = problem.contact.recursion[None]
     coupling = None if problem.choice.second_order else problem.contact.coupling[None]
-    return Segments(several, coupling, _jumps(problem, several), problem.casing.clearance[None], None)
+    speeds = np.array([problem.speed])
+    return Segments(speeds, several, coupling, _jumps(problem, several), problem.casing.clearance[None], None)
 
 
 def segments_at(problem: Problem, speeds: np.ndarray) -> Segments:
@@ -46,7 +48,7 @@ def segments_at(problem: Problem, speeds: np.ndarray) -> Segments:
     rooms = clearances(problem.model, problem.scene, speeds)
     of_modes = increments(problem.choice.integrator, *motion)
     coupling = None if problem.choice.second_order else problem.contact.coupling_of(several.inverse)
-    return Segments(several, coupling, _jumps(problem, several), rooms, of_modes)
+    return Segments(speeds, several, coupling, _jumps(problem, several), rooms, of_modes)
 
 
 def _jumps(problem: Problem, recursion: Recursion) -> JumpPlan | None:

@@ -51,6 +51,10 @@ class ReferenceEngine:
         blade = (RealMotion if self.problem.blade.complex_modes is None else CoupledMotion)(self.problem, recursion)
         self.motion: Motion = blade if self.problem.casing.ring is None else MotionWithCasing(blade, self.problem, recursion)
         self.clearance = self._segments.clearance[speed_index]
+        # a revolution has as many steps at every speed
+        faster = self._segments.speeds[speed_index] / self.problem.speed
+        self.time_step = self.problem.grid.time_step / faster
+        self.rotation_velocity = self.problem.casing.rotation_velocity * faster
 
     def _turn(self, n: int) -> None:
         """Take the rows of the nodes where they are at t_n: of the blade's modes at rest, and of an elastic casing's."""
@@ -183,10 +187,9 @@ class ReferenceEngine:
         if friction is None:
             return np.array([towards_axis, 0.0 * towards_axis, 0.0 * towards_axis])
         # sliding velocity over the casing: that of the rotation plus, in vector form, that of the vibration
-        along, across = self.problem.casing.rotation_velocity, np.zeros(len(self.normal))
+        along, across = self.rotation_velocity, np.zeros(len(self.normal))
         if friction.vector:
-            step = self.problem.grid.time_step
-            along, across = along + self.tangential @ d / step, self.meridional @ d / step
+            along, across = along + self.tangential @ d / self.time_step, self.meridional @ d / self.time_step
         # Coulomb: mu times the normal force, opposite to the sliding
         share = -friction.coefficient / np.hypot(along, across)
         return np.array([towards_axis, share * along, share * across])
