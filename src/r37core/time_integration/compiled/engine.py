@@ -141,7 +141,7 @@ class CompiledEngine:
 
     def _table_of(self, segments: Segments) -> np.ndarray:
         """The segments as they stand in the record, shape (segments,)."""
-        recursion, coupling, plan, clearance, increments = segments
+        _, recursion, coupling, plan, clearance, increments = segments
         fields = {"clearance": clearance}
         if coupling is not None:
             normal = coupling[:, NORMAL]
