@@ -297,7 +297,7 @@ def test_a_run_up_with_an_elastic_casing_keeps_its_balance(engine):
     )
     for _ in integration.segments():
         pass
-    balance = integration.balance()
+    balance = integration.balance
     work, loss = balance["contact_work"], balance["damping_loss"]
     missing = balance["energy_change"] - integration.stiffness_work - work + loss
     assert work != 0.0

@@ -146,7 +146,7 @@ def test_energy_closes_with_the_work_of_the_changing_stiffness(contact, scene):
     choice = replace(LONG, time_step=3.2e-6 if scene.lining else 8e-7)
     integration = RunUpIntegration(contact, scene, choice, RunUp(1500.0, 1900.0, 3.2, 1, 0, worn=False))
     samples_of(integration)
-    balance = integration.balance()
+    balance = integration.balance
     work, loss = balance["contact_work"], balance["damping_loss"]
     assert loss > 0.0
     assert abs(integration.stiffness_work) > 1e-6 * abs(work)

@@ -16,15 +16,15 @@ from r37core.contact.scene import Scene
 from r37core.rom.contact_model import ContactModel
 from r37core.time_integration.clearance import check_room
 from r37core.time_integration.integration_choice import IntegrationChoice
-from r37core.time_integration.integrators import CENTRAL_DIFFERENCE, Recursion
+from r37core.time_integration.integrators import CENTRAL_DIFFERENCE
 from r37core.time_integration.kept_numbers import energy_balance
 from r37core.time_integration.problem import Problem, stable_problem
 from r37core.time_integration.run_length import revolutions_at_once
-from r37core.time_integration.simulate import Simulation
+from r37core.time_integration.simulate import Simulation, at_rest
 from r37core.time_integration.state import Schedule
 from r37core.time_integration.step_limit import UnstableStepError
 
-from .schedule import ModalInterval, RunUp, schedule
+from .schedule import RunUp, schedule
 
 _AT_ONCE = 64
 """Revolutions that the engine does in one call, fewer where they have many steps."""
@@ -68,29 +68,22 @@ class RunUpIntegration:
         self._model, self._scene = model, scene
         self._choice = replace(coarsest.choice, shorten=False, steps_per_sample=coarsest.grid.steps_per_sample)
         # between two speeds with a stable position there are only such
+        self._of_ends: dict[float, Problem] = {}
         self._of_ends = {high: self._problem(high), low: coarsest}
         stiffening = model.stiffness_per_square[0, 0] / model.squared_frequencies[0]
         self.intervals = schedule(run_up, choice.samples_per_revolution, float(stiffening))
-        self._interval: ModalInterval | None = None
         self._simulation: Simulation | None = None
-        self.state = self._of(self.intervals[0]).start()
+        self.state = at_rest(self._problem(self.intervals[0].speed))
         if wear is not None:
             assert self.state.wear is not None
             self.state.wear[:] = wear
         self.velocity = np.zeros(len(self.state.displacement))
         self.energy = self.stiffness_work = 0.0
 
-    def _of(self, interval: ModalInterval) -> Simulation:
-        """The simulation of an interval, in the memory of that of the interval before."""
-        if self._simulation is None or interval is not self._interval:
-            problem = self._of_ends.get(interval.speed) or self._problem(interval.speed)
-            self._simulation = Simulation.at_speeds(problem, interval.distinct_speeds.speeds, self._simulation)
-            self._interval = interval
-        return self._simulation
-
     def _problem(self, speed: float) -> Problem:
-        return Problem(self._model, speed, self._scene, self._choice)
+        return self._of_ends.get(speed) or Problem(self._model, speed, self._scene, self._choice)
 
+    @property
     def balance(self) -> dict[str, np.ndarray]:
         """Work, loss and energy (J) of all stages together: see energy_balance."""
         assert self._simulation is not None
@@ -99,58 +92,54 @@ class RunUpIntegration:
         return energy_balance(self._simulation.work(self.state), loss, self.energy + held, self.stiffness_work)
 
     def segments(self) -> Iterator[IntegratedSegments]:
-        """Do all segments; ends with a stage that says so when the run diverges."""
-        modes = None
+        """Do all segments; ends with some that say so when the run diverges."""
+        state, modes = self.state, None
         for interval in self.intervals:
-            simulation = self._of(interval)
+            problem, distinct = self._problem(interval.speed), interval.distinct_speeds
+            # in the memory of the one before
+            self._simulation = simulation = Simulation.at_speeds(problem, distinct.speeds, self._simulation)
+            constants, increments = simulation.segments, simulation.segments.increments
+            assert increments is not None
             if modes is not None:
-                turned = simulation.problem.blade.modes.T @ modes
-                # an elastic casing's modes, which come after the blade's, stay as they are
-                self.state.displacement, self.velocity = (
-                    np.concatenate([turned @ values[: modes.shape[1]], values[modes.shape[1] :]])
-                    for values in (self.state.displacement, self.velocity)
+                self._project(problem.blade.modes.T @ modes)
+            modes = problem.blade.modes
+            simulation.engine.take(distinct.of_segments[0])
+            state.increment[:] = increments.increment(distinct.of_segments[0], state.displacement, self.velocity)
+            at_once = min(_AT_ONCE, revolutions_at_once(problem.grid.steps_per_revolution))
+            for part in interval.at_once(at_once * self._choice.samples_per_revolution):
+                indices, lasting = distinct.of_segments[part], interval.lasting[part]
+                call, first = Schedule(indices, lasting, len(state.displacement)), state.samples
+                record = simulation.follow(state, call)
+                lasted = np.diff(np.cumsum(lasting).clip(max=len(record.samples)), prepend=0)
+                reached = np.count_nonzero(lasted)
+                self.velocity = increments.velocity(indices[reached - 1], state.displacement, state.increment)
+                begun, ended = (
+                    constants.recursion[indices[:reached]].energy(*call.ends[:reached, end].swapaxes(0, 1)) for end in range(2)
                 )
-                # there may be more of them or fewer, where the fastest are left out
-                self.state.increment = np.zeros_like(self.state.displacement)
-            modes = simulation.problem.blade.modes
-            for stage in self._segments_of(simulation, interval):
-                yield stage
-                if stage.diverged:
+                self.stiffness_work += float(begun[0] - self.energy + np.sum(begun[1:] - ended[:-1]))
+                self.energy = float(ended[-1])
+                speeds = np.repeat(distinct.speeds[indices], lasted)
+                yield IntegratedSegments(
+                    speeds,
+                    record.samples,
+                    np.repeat(call.wear, lasted),
+                    record.snapshots,
+                    speeds[list(problem.grid.snapshots_between(first, first + len(speeds)))],
+                    problem.contact.state_shapes,
+                    record.diverged,
+                )
+                if record.diverged:
                     return
 
-    def _segments_of(self, simulation: Simulation, interval: ModalInterval) -> Iterator[IntegratedSegments]:
-        state, problem, constants = self.state, simulation.problem, simulation.segments
-        shapes = problem.contact.state_shapes
-        increments, begun = constants.increments, interval.distinct_speeds.of_segments[0]
-        assert increments is not None
-        simulation.engine.take(begun)
-        state.increment[:] = increments.increment(begun, state.displacement, self.velocity)
-        at_once = min(_AT_ONCE, revolutions_at_once(problem.grid.steps_per_revolution))
-        for segments in interval.at_once(at_once * self._choice.samples_per_revolution):
-            speed_indices, lasting = interval.distinct_speeds.of_segments[segments], interval.lasting[segments]
-            call, first = Schedule(speed_indices, lasting, len(state.displacement)), state.samples
-            record = simulation.follow(state, call)
-            lasted = np.diff(np.cumsum(lasting).clip(max=len(record.samples)), prepend=0)
-            reached = np.count_nonzero(lasted)
-            self.velocity = increments.velocity(speed_indices[reached - 1], state.displacement, state.increment)
-            self._balance(constants.recursion[speed_indices[:reached]], call.ends[:reached])
-            speeds = np.repeat(interval.distinct_speeds.speeds[speed_indices], lasted)
-            instants = problem.grid.snapshots_between(first, first + len(speeds))
-            yield IntegratedSegments(
-                speeds,
-                record.samples,
-                np.repeat(call.wear, lasted),
-                record.snapshots,
-                speeds[list(instants)],
-                shapes,
-                record.diverged,
-            )
-
-    def _balance(self, recursions: Recursion, ends: np.ndarray) -> None:
-        """Add up the energies of segments; `ends`, shape (segments, 2, 2, modes): see Schedule."""
-        begun, ended = (recursions.energy(ends[:, end, 0], ends[:, end, 1]) for end in range(2))
-        self.stiffness_work += float(begun[0] - self.energy + np.sum(begun[1:] - ended[:-1]))
-        self.energy = float(ended[-1])
+    def _project(self, turned: np.ndarray) -> None:
+        """Take displacement and velocity over into other modes; `turned`, shape (new modes, modes): the old in the new ones."""
+        before = turned.shape[1]
+        # an elastic casing's modes, which come after the blade's, stay as they are
+        self.state.displacement, self.velocity = (
+            np.concatenate([turned @ values[:before], values[before:]]) for values in (self.state.displacement, self.velocity)
+        )
+        # there may be more of them or fewer, where the fastest are left out
+        self.state.increment = np.zeros_like(self.state.displacement)
 
 
 _LARGEST_TURN = 3.0

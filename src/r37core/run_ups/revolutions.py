@@ -4,15 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from functools import partial
 
 import numpy as np
+from scipy.linalg import block_diag
 
 from r37core.contact.scene import Scene
 from r37core.rom.contact_model import ContactModel
+from r37core.rom.rotation import rotation_amplitudes
 from r37core.stress.operator import StressOperator
 from r37core.time_integration.integration_choice import IntegrationChoice
-from r37core.time_integration.kept_numbers import amplitudes, with_rotation
+from r37core.time_integration.kept_numbers import amplitudes
 from r37core.time_integration.simulate import DIRECTIONS, TIP_POINTS
 from r37core.time_integration.status import RunStatus
 
@@ -20,7 +21,7 @@ from .integration import IntegratedSegments, RunUpIntegration
 from .schedule import RunUp
 
 _AT_ONCE, _INSTANTS_AT_ONCE = 32, 256
-"""Revolutions that wait at most before they are reduced, beside those of a stage; instants whose stresses are in memory."""
+"""Revolutions that wait at most before they are reduced; instants whose stresses are in memory together."""
 
 _SPECTRA = [DIRECTIONS.index("normal"), DIRECTIONS.index("tangential")]
 
@@ -46,11 +47,22 @@ def record_run_up(
     the lining as new. Raises what RunUpIntegration raises.
     """
     orders = highest_order if "spectrum" in results else None
-    empty = partial(_Revolutions, model, choice, orders, stress, "static_stress" in results)
-    integration, result = _done(RunUpIntegration(model, scene, choice, run_up), empty())
-    if run_up.worn and not result["status"]:
-        integration, result = _done(RunUpIntegration(model, scene, choice, run_up, integration.state.wear), empty())
-    result |= {
+    wear, diverged = None, False
+    for _ in range(1 + run_up.worn):
+        integration, reached = RunUpIntegration(model, scene, choice, run_up, wear), 0
+        revolutions = _Revolutions(model, choice, orders, stress, "static_stress" in results)
+        for segments in integration.segments():
+            diverged, reached = segments.diverged, reached + len(segments.samples)
+            revolutions.add(segments)
+        if diverged:
+            break
+        wear = integration.state.wear
+    totals = integration.state.totals
+    result = revolutions.joined() | {
+        "status": np.array(int(RunStatus.DIVERGED if diverged else RunStatus.COMPLETED)),
+        "diverged_revolution": np.array(reached / choice.samples_per_revolution if diverged else np.nan),
+        "largest_normal_force": np.array(totals["largest_force"]),
+        "casing_hits": np.array(totals["casing_hits"]),
         "start_speed": np.array(run_up.start),
         "stop_speed": np.array(run_up.stop),
         "rate": np.array(run_up.rate(choice.samples_per_revolution)),
@@ -62,28 +74,13 @@ def record_run_up(
     if "wear" not in results:
         del result["max_wear"]
     if "energy" in results:
-        result |= integration.balance()
-        result["stiffness_work"] = np.array(integration.stiffness_work)
+        result |= integration.balance | {"stiffness_work": np.array(integration.stiffness_work)}
     return result
-
-
-def _done(integration: RunUpIntegration, revolutions: _Revolutions) -> tuple[RunUpIntegration, dict[str, np.ndarray]]:
-    """The integration when it is done, and what it left behind."""
-    diverged, samples = False, 0
-    for stage in integration.segments():
-        diverged, samples = stage.diverged, samples + len(stage.samples)
-        revolutions.add(stage)
-    return integration, revolutions.joined() | {
-        "status": np.array(int(RunStatus.DIVERGED if diverged else RunStatus.COMPLETED)),
-        "diverged_revolution": np.array(samples / revolutions.choice.samples_per_revolution if diverged else np.nan),
-        "largest_normal_force": np.array(integration.state.totals["largest_force"]),
-        "casing_hits": np.array(integration.state.totals["casing_hits"]),
-    }
 
 
 @dataclass
 class _Revolutions:
-    """Stages, reduced as soon as they make up some whole revolutions."""
+    """Segments, reduced as soon as they make up some whole revolutions."""
 
     model: ContactModel
     choice: IntegrationChoice
@@ -95,27 +92,25 @@ class _Revolutions:
     lasted: float = 0.0
     shapes: np.ndarray | None = None
 
-    def add(self, stage: IntegratedSegments) -> None:
-        """Add a stage; the last sample of one that diverged, which may be infinite, is left out."""
-        count = len(stage.samples) - stage.diverged
+    def add(self, segments: IntegratedSegments) -> None:
+        """Add some segments; the last sample of those that diverged, which may be infinite, is left out."""
+        count = len(segments.samples) - segments.diverged
         self._wait(
-            samples=stage.samples[:count].reshape(count, len(TIP_POINTS), len(DIRECTIONS)),
-            interval=2.0 * np.pi / self.choice.samples_per_revolution / stage.speeds[:count],
-            wear=stage.wear[:count],
+            samples=segments.samples[:count].reshape(count, len(TIP_POINTS), len(DIRECTIONS)),
+            interval=2.0 * np.pi / self.choice.samples_per_revolution / segments.speeds[:count],
+            wear=segments.wear[:count],
         )
         if self.stress is not None:
-            if stage.shapes is not self.shapes:
-                self.shapes, self._to_reduced = stage.shapes, self.model.to_reduced @ stage.shapes
-                self._stress_of_shapes = self.stress.max_von_mises(self._to_reduced.T)
-            coordinates = stage.snapshots @ self._to_reduced.T
-            # of a sum of shapes the stress is no more than the sum of theirs
-            bound = np.abs(stage.snapshots) @ self._stress_of_shapes
+            if segments.shapes is not self.shapes:
+                self.shapes, to_reduced = segments.shapes, self.model.to_reduced @ segments.shapes
+                rotation = np.eye(len(self.model.rotation_stiffening) if self.static_stress else 0)
+                self._to_stressed = block_diag(to_reduced, rotation)
+                self._stress_of_shapes = self.stress.max_von_mises(self._to_stressed.T)
+            numbers = segments.snapshots
             if self.static_stress:
-                speeds, of_instants = np.unique(stage.snapshot_speeds, return_inverse=True)
-                still = with_rotation(np.zeros((len(speeds), len(self._to_reduced))), self.model, speeds)
-                bound += self.stress.max_von_mises(still)[of_instants]
-                coordinates = with_rotation(coordinates, self.model, stage.snapshot_speeds)
-            self._wait(coordinates=coordinates, bound=bound)
+                numbers = np.hstack([numbers, rotation_amplitudes(self.model.rotation_stiffening, segments.snapshot_speeds)])
+            # of a sum of shapes the stress is no more than the sum of theirs
+            self._wait(coordinates=numbers @ self._to_stressed.T, bound=np.abs(numbers) @ self._stress_of_shapes)
         waiting = sum(map(len, self.waiting["interval"])) // self.choice.samples_per_revolution
         if waiting >= _AT_ONCE:
             self._reduce(waiting)

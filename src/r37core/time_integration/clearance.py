@@ -21,9 +21,10 @@ def clearances(model: ContactModel, scene: Scene, speeds: np.ndarray) -> np.ndar
 
     The casing's own, with its growth, less what rotation and a longer blade bring the node nearer to it. Raises BucklingError.
     """
-    casing = scene.casing
-    undeformed = np.repeat((casing.clearance + casing.opening(speeds) - casing.longer)[:, None], len(model.theta), axis=1)
-    return undeformed - growth(model, speeds, casing.angle(model.tip_cone_angle)) if casing.centrifugal else undeformed
+    casing, nearer = scene.casing, np.zeros((len(speeds), len(model.theta)))
+    if casing.centrifugal:
+        nearer = growth(model, speeds, casing.angle(model.tip_cone_angle))
+    return (casing.clearance + casing.opening(speeds) - casing.longer)[:, None] - nearer
 
 
 def growth(model: ContactModel, speeds: np.ndarray, cone_angle: float) -> np.ndarray:

@@ -64,15 +64,9 @@ class Simulation:
 
         Raises what InitialMotion.put raises.
         """
-        problem = self.problem
-        directions, nodes, modes = problem.contact.displacement_operator.shape
-        wear = None if problem.scene.lining is None else np.zeros((problem.casing.rings, problem.casing.bars))
-        if wear is not None and problem.scene.casing.changes_with_speed:
-            wear += initial_wear(problem.casing.clearance, problem.casing.rings)
-        forces = np.zeros((directions, nodes))
-        state = SimulationState(np.zeros(modes), np.zeros(modes), wear, np.zeros(nodes, dtype=bool), forces)
+        state = at_rest(self.problem)
         if motion is not None:
-            motion.put(problem, state)
+            motion.put(self.problem, state)
         return state
 
     def advance(self, state: SimulationState, revolutions: int) -> SimulationRecord:
@@ -131,3 +125,13 @@ class Simulation:
     def work(self, state: SimulationState) -> float:
         """Work (J) of the contact forces since the start: on the stepped modes, and all that the static ones hold."""
         return float(state.totals["work"]) + self.problem.contact.static_energy(state.contact_force)
+
+
+def at_rest(problem: Problem) -> SimulationState:
+    """A blade at rest, in an unworn lining, or in one that it has cut its way into."""
+    directions, nodes, modes = problem.contact.displacement_operator.shape
+    wear = None if problem.scene.lining is None else np.zeros((problem.casing.rings, problem.casing.bars))
+    if wear is not None and problem.scene.casing.changes_with_speed:
+        wear += initial_wear(problem.casing.clearance, problem.casing.rings)
+    forces = np.zeros((directions, nodes))
+    return SimulationState(np.zeros(modes), np.zeros(modes), wear, np.zeros(nodes, dtype=bool), forces)
