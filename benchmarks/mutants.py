@@ -45,7 +45,7 @@ TESTS = {
     "time_integration/integrators.py": "test_integrators.py test_time_integration.py",
     "time_integration/gyroscopic.py": "test_coriolis.py",
     "time_integration/jump_plan.py": "test_jumps.py",
-    "time_integration/rotor_run.py": "test_rotor_numbers.py test_rotor.py",
+    "time_integration/rotor_numbers.py": "test_rotor_numbers.py test_rotor.py",
     "time_integration/problem.py": "test_run_statistics.py test_time_integration.py",
     "time_integration/speed_run.py": "test_run_statistics.py",
     "console/leftovers.py": "test_reliability.py",

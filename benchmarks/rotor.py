@@ -28,7 +28,7 @@ from r37core.rotors.figures import draw_rotor
 from r37core.stress.operator import read_stress_operator
 from r37core.studies.tables import markdown_table
 from r37core.time_integration.compiled.passage import Passage
-from r37core.time_integration.rotor_simulation import RotorSimulation
+from r37core.time_integration.rotor_simulation import BladesSimulation
 from r37core.time_integration.simulate import Simulation
 from r37core.time_integration.speed_file import write_speed
 from r37core.time_integration.speed_run import run_speed
@@ -262,7 +262,7 @@ def steps_table():
         finer = replace(choice, time_step=choice.time_step / parts)
         alone = Simulation(model, speed, scene, finer)
         record = alone.advance(alone.start(), finer.revolutions)
-        together = RotorSimulation(model, speed, rotor, finer)
+        together = BladesSimulation(model, speed, rotor, finer)
         passed = together.run(together.start(), finer.revolutions)
         grid = [one_time_grid(model, speed, scene, finer, number) for number in (32, NUMBER)]
         values = [_tangential(record.samples), _tangential(passed.blades[5].samples), *grid]

@@ -13,7 +13,7 @@ from r37core.contact.ring import Ring
 from r37core.contact.rotor import Rotor
 from r37core.rom.contact_model import ContactModel
 from r37core.time_integration.integrators import EXACT_MODAL
-from r37core.time_integration.rotor_simulation import RotorSimulation
+from r37core.time_integration.rotor_simulation import BladesSimulation
 from r37core.time_integration.simulate import Simulation
 
 FUSED = platform.machine() != "x86_64" or "+fma" in native.processor()[1]
@@ -111,7 +111,7 @@ def bits_of_programs():
         state = simulation.start()
         bits[name] = _hash_of([simulation.advance(state, choice.revolutions)], [state])
     blades = Rotor((1, 2), (0.0, np.pi), (1.0, 1.0), (0.0, 0.0), True)
-    rotor = RotorSimulation(blade, 12_000.0, Scene(ring, LINING, Friction(0.15), rotor=blades), choice)
+    rotor = BladesSimulation(blade, 12_000.0, Scene(ring, LINING, Friction(0.15), rotor=blades), choice)
     states = rotor.start()
     return bits | {"rotor in an elastic casing": _hash_of(rotor.run(states, choice.revolutions).blades, states)}
 

@@ -12,7 +12,7 @@ from r37core.contact.rotor import Rotor
 from r37core.time_integration import run_length
 from r37core.time_integration.integrators import CENTRAL_DIFFERENCE, EXACT_MODAL
 from r37core.time_integration.rotor_blades import blade_problems, mistuned, on_steps
-from r37core.time_integration.rotor_simulation import RotorSimulation
+from r37core.time_integration.rotor_simulation import BladesSimulation
 from r37core.time_integration.simulate import Simulation
 from r37core.time_integration.speed_file import write_speed
 from r37core.time_integration.speed_run import run_speed
@@ -53,7 +53,7 @@ def rotor_of(blades, angles=None, factors=None, longer=None, shared=True):
 
 
 def run(rotor, scene=STEEP, choice=CHOICE):
-    simulation = RotorSimulation(a_blade(), SPEED, replace(scene, rotor=rotor), choice)
+    simulation = BladesSimulation(a_blade(), SPEED, replace(scene, rotor=rotor), choice)
     states = simulation.start()
     return simulation, states, simulation.run(states, choice.revolutions)
 
@@ -339,15 +339,15 @@ def test_a_step_of_all_blades_is_told_stable_by_a_bound_of_their_largest_eigenva
     assert largest <= pressed_ratio_of_rotor(contacts) < 1.2 * largest
     with pytest.raises(UnstableStepError, match="4 blades pressed on one elastic casing"):
         run(rotor, scene, CHOICE)
-    shortened = RotorSimulation(a_blade(), SPEED, replace(scene, rotor=rotor), replace(CHOICE, shorten=True))
+    shortened = BladesSimulation(a_blade(), SPEED, replace(scene, rotor=rotor), replace(CHOICE, shorten=True))
     assert shortened.problem.grid.time_step < 0.6 * CHOICE.time_step
 
 
 def test_no_rotor_is_run_as_a_single_blade():
-    with pytest.raises(ValueError, match="RotorSimulation"):
+    with pytest.raises(ValueError, match="BladesSimulation"):
         Simulation(a_blade(), SPEED, replace(STEEP, rotor=rotor_of(2)), CHOICE)
     with pytest.raises(ValueError, match="nothing couples the blades"):
-        RotorSimulation(a_blade(), SPEED, replace(DIRECT, rotor=rotor_of(2)), CHOICE)
+        BladesSimulation(a_blade(), SPEED, replace(DIRECT, rotor=rotor_of(2)), CHOICE)
     with pytest.raises(ValueError, match="needs the integrator exact_modal"):
         run(rotor_of(2), LINED_RING, replace(CHOICE, time_step=1e-7, integrator=CENTRAL_DIFFERENCE))
 

@@ -26,7 +26,7 @@ from r37core.stress.operator import StressOperator
 from r37core.time_integration.kept_numbers import KEPT as KEPT_DIRECTIONS
 from r37core.time_integration.kept_numbers import amplitudes
 from r37core.time_integration.rotor_blades import mistuned
-from r37core.time_integration.rotor_run import MOST_GROWTH, in_spans, nodal_diameters
+from r37core.time_integration.rotor_numbers import MOST_GROWTH, in_spans, nodal_diameters
 from r37core.time_integration.speed_file import write_speed
 from r37core.time_integration.speed_run import run_speed
 

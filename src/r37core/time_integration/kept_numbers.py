@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from numpy.fft import rfft  # NumPy imports it when it is used, which would be in each of a server's jobs
 
@@ -26,11 +28,12 @@ KEPT = [DIRECTIONS.index("normal"), DIRECTIONS.index("tangential")]
 
 
 def whole(samples: np.ndarray, count: int, diverged: bool) -> np.ndarray:
-    """As many samples as were asked for: NaN after a divergence, and in place of the last one, which may be infinite."""
-    if not diverged:
+    """As many samples as were asked for: NaN from where a run ended, and in place of the last one that diverged."""
+    # which may be infinite
+    reached = len(samples) - diverged
+    if reached == count:
         return samples
-    missing = count - len(samples) + 1
-    return np.concatenate([samples[:-1], np.full((missing, *samples.shape[1:]), np.nan)])
+    return np.concatenate([samples[:reached], np.full((count - reached, *samples.shape[1:]), np.nan)])
 
 
 def largest_of_each(revolutions: int, samples: np.ndarray) -> np.ndarray:
@@ -74,20 +77,38 @@ def snapshot_numbers(
     }
 
 
-def stress_history(
-    problem: Problem, record: SimulationRecord, stress: StressOperator | None, static_stress: bool
-) -> dict[str, np.ndarray]:
-    """Largest stress of each revolution of the statistic, NaN after a divergence; none without the operator."""
-    if stress is None:
-        return {}
-    per_revolution = problem.choice.snapshots_per_revolution
-    revolutions = len(record.snapshots) // per_revolution
-    history = np.full(problem.choice.snapshot_revolutions, np.nan, dtype=np.float32)
-    if revolutions:
-        shapes = problem.model.to_reduced @ problem.contact.state_shapes
-        states, rotation = record.snapshots[: revolutions * per_revolution], rotation_of(problem, static_stress)
-        history[:revolutions] = largest_of_revolutions(stress, states, shapes, rotation, per_revolution)
-    return {"revolution_von_mises": history}
+def stress_histories(
+    problems: Sequence[Problem],
+    records: Sequence[SimulationRecord],
+    factors: Sequence[float],
+    stress: StressOperator,
+    static_stress: bool,
+) -> np.ndarray:
+    """Largest stress (Pa) of each blade in each revolution of the statistic, shape (blades, revolutions); NaN where it ended.
+
+    `factors`: of the blades' frequencies. Blades with as many stepped modes are looked at together: their modes have the same
+    shapes, and what follows a force at once is in proportion to the flexibility, 1/factor^2.
+    """
+    choice, per_revolution = problems[0].choice, problems[0].choice.snapshots_per_revolution
+    rotation = rotation_of(problems[0], static_stress)
+    history = np.full((len(records), choice.snapshot_revolutions), np.nan, dtype=np.float32)
+    groups: dict[tuple[int, int], list[int]] = {}
+    for place, record in enumerate(records):
+        revolutions = len(record.snapshots) // per_revolution
+        if revolutions:
+            groups.setdefault((record.snapshots.shape[1], revolutions), []).append(place)
+    for (_, revolutions), places in groups.items():
+        instants, contact = revolutions * per_revolution, problems[places[0]].contact
+        states = [records[place].snapshots[:instants] for place in places]
+        stepped = contact.state_shapes.shape[1] - contact.static_shapes.shape[1]
+        for row, place in enumerate(places[1:], 1):
+            states[row] = states[row].copy()
+            states[row][:, stepped:] *= (factors[places[0]] / factors[place]) ** 2
+        shapes = problems[0].model.to_reduced @ contact.state_shapes
+        joined = states[0] if len(states) == 1 else np.concatenate(states)
+        largest = largest_of_revolutions(stress, joined, shapes, rotation, per_revolution)
+        history[places, :revolutions] = largest.reshape(len(places), revolutions)
+    return history
 
 
 def rotation_of(problem: Problem, static_stress: bool) -> np.ndarray:

@@ -1,15 +1,16 @@
-"""The time integration of a whole rotor: blades that meet one casing and wear one lining.
+"""The time integration of the blades that a scene has: one, or those of a rotor, which meet one casing and wear one lining.
 
-Blades are coupled by the bars that they wear, and by nothing else. So what counts is the order in which they pass a bar. A
-blade passes the casing from angle 0 to angle 0 in one go, and then the blade behind it does: every bar is then met in the order
-of time, by every node that has a ring of bars of its own. Each blade is at the same steps of its revolution as a single one;
-it starts with its first sample after time 0, at rest, where the casing is still round.
+Blades of a rotor are coupled by the bars that they wear, and by nothing else. So what counts is the order in which they pass
+a bar. A blade passes the casing from angle 0 to angle 0 in one go, and then the blade behind it does: every bar is then met in
+the order of time, by every node that has a ring of bars of its own. Each blade is at the same steps of its revolution as a
+single one; it starts with its first sample after time 0, at rest, where the casing is still round.
 
 In an elastic casing that is not so: all blades move it at once. There all go step by step together, each at its angle.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -20,6 +21,7 @@ from r37core.rom.contact_model import ContactModel
 from .clearance import initial_wear
 from .compiled.lockstep import Lockstep
 from .compiled.passage import Passage, Start
+from .initial_motion import InitialMotion, InitialMotionError
 from .integration_choice import IntegrationChoice
 from .problem import Problem
 from .reference.lockstep import advance_together
@@ -29,7 +31,7 @@ from .state import Schedule, SimulationRecord, SimulationState
 
 
 @dataclass(frozen=True)
-class RotorRecord:
+class BladesRecord:
     """What the blades leave behind: a record of each, and where the samples lie in time.
 
     `late`, shape (blades,): time of a blade's samples after those of a blade at angle 0, in samples; `worn` (m), shape
@@ -47,37 +49,43 @@ class RotorRecord:
         return min(samples, key=samples.__getitem__, default=None)
 
 
-class RotorSimulation:
-    """The time integration of a rotor at one speed (rad/s); the scene says which blades it has.
+class BladesSimulation:
+    """The time integration of all blades of a scene at one speed (rad/s): of one, or of those of its `rotor`.
 
-    Raises what blade_problems raises.
+    Raises what Problem and blade_problems raise.
     """
 
     def __init__(self, model: ContactModel, speed: float, scene: Scene, choice: IntegrationChoice):
-        assert scene.rotor is not None
         self.rotor = scene.rotor
-        self.problems = blade_problems(model, speed, scene, scene.rotor, choice)
-        self.blades = self._blades()
+        if self.rotor is None:
+            self.blades = [Simulation(model, speed, scene, choice)]
+        else:
+            self.blades = _beside_each_other(blade_problems(model, speed, scene, self.rotor, choice))
 
-    def _blades(self) -> list[Simulation]:
-        """One simulation each; that of the most modes is made first, so that the others have room in its capacity."""
-        modes = [len(problem.blade.frequencies) for problem in self.problems]
-        largest = int(np.argmax(modes))
-        first = Simulation.beside(self.problems[largest], None)
-        return [first if place == largest else Simulation.beside(problem, first) for place, problem in enumerate(self.problems)]
+    @property
+    def problems(self) -> list[Problem]:
+        """Of each blade."""
+        return [simulation.problem for simulation in self.blades]
 
     @property
     def problem(self) -> Problem:
         """Of the first blade: grid and casing are those of all."""
-        return self.problems[0]
+        return self.blades[0].problem
 
     @property
     def elastic(self) -> bool:
         """Whether the blades press an elastic casing, which couples them."""
         return self.problem.casing.ring is not None
 
-    def start(self) -> list[SimulationState]:
-        """All blades at rest, in an unworn lining, or in one in which the longest have cut their way."""
+    def start(self, motion: InitialMotion | None = None) -> list[SimulationState]:
+        """All blades at rest, in an unworn lining, or in one in which the longest have cut their way; one blade in `motion`.
+
+        Raises what InitialMotion.put raises, and InitialMotionError for a rotor in motion.
+        """
+        if self.rotor is None:
+            return [self.blades[0].start(motion)]
+        if motion is not None:
+            raise InitialMotionError("initial_displacement, initial_velocity: the blades of a rotor start at rest")
         states = [simulation.start() for simulation in self.blades]
         if self.problem.scene.lining is None:
             return states
@@ -93,8 +101,10 @@ class RotorSimulation:
                 np.maximum(state.wear, own, out=state.wear)
         return states
 
-    def run(self, states: list[SimulationState], revolutions: int) -> RotorRecord:
+    def run(self, states: list[SimulationState], revolutions: int) -> BladesRecord:
         """Do so many revolutions from the start, which the `states` are at; they are changed."""
+        if self.rotor is None:
+            return BladesRecord((self.blades[0].advance(states[0], revolutions),), np.zeros(1), np.array([states[0].worn]))
         samples = revolutions * self.problem.choice.samples_per_revolution
         outs = [simulation.room(0, samples) for simulation in self.blades]
         engines, late = [simulation.engine for simulation in self.blades], np.zeros(len(self.blades))
@@ -107,12 +117,12 @@ class RotorSimulation:
             done, worn = Lockstep(engines, self.rotor.order).advance(states, outs)
         else:
             starts = [self._start(angle) for angle in self.rotor.angles]
-            done, worn = self._pass_by_pass(states, outs, starts, revolutions)
+            done, worn = self._pass_by_pass(states, outs, starts, self.rotor.order, revolutions)
             late = np.array([start.late for start in starts])
         records = [
             simulation.recorded(0, out, reached) for simulation, out, reached in zip(self.blades, outs, done, strict=True)
         ]
-        return RotorRecord(tuple(records), late, np.array(worn))
+        return BladesRecord(tuple(records), late, np.array(worn))
 
     def energy(self, states: list[SimulationState]) -> float:
         """Energy (J) of the vibration of all blades, and of their elastic casing, which each state has."""
@@ -132,9 +142,14 @@ class RotorSimulation:
         return Start((per_revolution - whole) % per_revolution, left - whole)
 
     def _pass_by_pass(
-        self, states: list[SimulationState], outs: list[SimulationRecord], starts: list[Start], revolutions: int
+        self,
+        states: list[SimulationState],
+        outs: list[SimulationRecord],
+        starts: list[Start],
+        order: Sequence[int],
+        revolutions: int,
     ) -> tuple[list[int], list[float]]:
-        """Let blade after blade pass the casing; returns the samples done of each, and what each has worn off (m)."""
+        """Let blade after blade pass the casing in this order; returns the samples done of each, and its wear (m)."""
         per_revolution = self.problem.choice.samples_per_revolution
         passages = [
             Passage(simulation.engine, state, out, Schedule.of_one_speed(0, len(state.displacement)), start, in_parts=True)
@@ -143,7 +158,7 @@ class RotorSimulation:
         total = revolutions * per_revolution
         # the first part of those that have not passed angle 0 yet, whole passes, and what is left
         for number in range(revolutions + 1):
-            for place in self.rotor.order:
+            for place in order:
                 until = min(total, number * per_revolution + (-starts[place].samples) % per_revolution)
                 blocks = until - passages[place].done
                 if blocks > 0:
@@ -154,3 +169,10 @@ class RotorSimulation:
         for passage in passages:
             passage.end()
         return [passage.done for passage in passages], [passage.worn for passage in passages]
+
+
+def _beside_each_other(problems: Sequence[Problem]) -> list[Simulation]:
+    """One simulation each; that of the most modes is made first, so that the others have room in its capacity."""
+    largest = int(np.argmax([len(problem.blade.frequencies) for problem in problems]))
+    first = Simulation.beside(problems[largest], None)
+    return [first if place == largest else Simulation.beside(problem, first) for place, problem in enumerate(problems)]

@@ -33,7 +33,7 @@ class Simulation:
 
     def __init__(self, model: ContactModel, speed: float, scene: Scene, choice: IntegrationChoice):
         if scene.rotor is not None:
-            raise ValueError("a scene with a rotor: see RotorSimulation")
+            raise ValueError("a scene with a rotor: see BladesSimulation")
         problem = stable_problem(model, speed, scene, choice)
         self._take(problem, own_segment(problem), None)
 

@@ -17,8 +17,7 @@ from r37core.stress.operator import read_stress_operator
 from .initial_motion import InitialMotion
 from .integration_choice import IntegrationChoice
 from .problem import Problem
-from .rotor_simulation import RotorSimulation
-from .simulate import Simulation
+from .rotor_simulation import BladesSimulation
 from .speed_file import write_speed
 from .speed_run import run_speed
 
@@ -26,25 +25,16 @@ _Model = TypeVar("_Model")
 _READY = set[tuple[str, str]]()
 
 
-def run_job(
-    speed: str,
-    output: str,
-    task: str,
-    about: str,
-    model: str,
-    stress: str | None = None,
-    *,
-    motion: InitialMotion | None = None,
-) -> None:
+def run_job(speed: str, output: str, task: str, about: str, *models: str, motion: InitialMotion | None = None) -> None:
     """Simulate at a speed (rad/s) and write the file, with the attributes `about`; `task` is that of a sweep's plan.
 
-    `model`, `stress`: files of the contact model and, where stress is wanted, of its operator. `motion`: that the blade starts
-    in, if not at rest.
+    `models`: files of the contact model and, where stress is wanted, of its operator. `motion`: that the blade starts in, if
+    not at rest.
 
     Raises InputFileError, and what Problem and `run_speed` raise.
     """
-    wanted = json.loads(task)
-    operator = _kept(read_stress_operator, stress) if stress else None
+    wanted, (model, *stress) = json.loads(task), models
+    operator = _kept(read_stress_operator, *stress) if stress else None
     run = run_speed(*_given(model, speed, wanted), wanted["results"], **wanted["kept"], stress=operator, motion=motion)
     write_speed(run, output, json.loads(about))
 
@@ -60,19 +50,20 @@ def prepare(input: Any, output: Any, params: Any) -> None:
     JOB_LOG.debug(f"{params.speed:g} rad/s: highest mode {highest:.6g} rad/s, steps of {step:.6g} s")
 
 
-def make_ready(speed: str, output: str, log: str, task: str, about: str, model: str, stress: str | None = None) -> None:
+def make_ready(speed: str, output: str, log: str, task: str, about: str, *models: str) -> None:
     """Load what all jobs of a model and task have in common, once, for a server that forks them. Raises what the job would."""
+    model, *stress = models
     if (model, task) in _READY:
         return
     _READY.add((model, task))
     prepared(*_given(model, speed, json.loads(task)))
     if stress:
-        _ = _kept(read_stress_operator, stress).deviatoric
+        _ = _kept(read_stress_operator, *stress).deviatoric
 
 
 def prepared(model: ContactModel, speed: float, scene: Scene, choice: IntegrationChoice) -> Problem:
     """The problem of a simulation, of a rotor's first blade, with its program compiled. Raises what Problem raises."""
-    return (RotorSimulation if scene.rotor else Simulation)(model, speed, scene, choice).problem
+    return BladesSimulation(model, speed, scene, choice).problem
 
 
 def _given(model: str, speed: str, wanted: dict[str, Any]) -> tuple[ContactModel, float, Scene, IntegrationChoice]:

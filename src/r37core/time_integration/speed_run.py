@@ -10,7 +10,7 @@ from r37core.contact.scene import Scene
 from r37core.rom.contact_model import ContactModel
 from r37core.stress.operator import StressOperator
 
-from .initial_motion import InitialMotion, InitialMotionError
+from .initial_motion import InitialMotion
 from .integration_choice import IntegrationChoice
 from .kept_numbers import (
     KEPT,
@@ -20,12 +20,13 @@ from .kept_numbers import (
     snapshot_numbers,
     spectrum,
     status_numbers,
-    stress_history,
+    stress_histories,
     wear_numbers,
     whole,
 )
-from .rotor_run import run_rotor
-from .simulate import DIRECTIONS, TIP_POINTS, Simulation
+from .rotor_numbers import rotor_numbers, stress_of_blades
+from .rotor_simulation import BladesRecord, BladesSimulation
+from .simulate import DIRECTIONS, TIP_POINTS
 
 OF_RUNS = ("spectrum", "stress", "static_stress", "wear", "energy", "casing")
 """Results of a scene that its simulations give; others are made of them later."""
@@ -53,53 +54,75 @@ def run_speed(
     rotation's shapes. With a `stress` operator: `max_von_mises` (Pa) in the last revolution, `revolution_von_mises` (Pa), the
     largest of each of the last `choice.snapshot_revolutions`, `stress_region` and `static_stress`, 1 where rotation's is in
     them. `casing_...`: see casing_waves. A diverged run has NaN where a number would need the rest of the run.
-    With a rotor the numbers are those of all its blades: see run_rotor. With `motion` the blade starts in it and not at rest:
-    `initial_energy_left_out`, see InitialMotion, and of the energies `initial_energy` (J).
+    With a rotor: the largest of all blades' rms, peaks, maxima, forces and stresses; the sum of hits and energies; the spectrum
+    of the leading blade, the snapshots of the one with the largest stress; and numbers of each blade, see rotor_numbers and
+    stress_of_blades. `status` is that of the rotor: all blades end when one diverges, whose snapshots are kept then. With
+    `motion` the blade starts in it and not at rest: `initial_energy_left_out`, see InitialMotion, and of the energies
+    `initial_energy` (J).
     Raises what Problem raises, and InitialMotionError.
     """
-    if scene.rotor is not None:
-        if motion is not None:
-            raise InitialMotionError("initial_displacement, initial_velocity: the blades of a rotor start at rest")
-        kept = {"spectrum_highest_order": spectrum_highest_order, "wear_angles": wear_angles}
-        return run_rotor(model, speed, scene, choice, results, **kept, stress=stress)
-    simulation = Simulation(model, speed, scene, choice)
+    simulation = BladesSimulation(model, speed, scene, choice)
     left_out = None if motion is None else motion.left_out(simulation.problem)
-    state = simulation.start(motion)
-    begun = simulation.energy(state)
-    record = simulation.advance(state, choice.revolutions)
-    per_revolution = choice.samples_per_revolution
-    sample_count = choice.revolutions * per_revolution
-    samples = whole(record.samples.reshape(-1, len(TIP_POINTS), len(DIRECTIONS)), sample_count, record.diverged)
-    maxima = largest_of_each(choice.revolutions, samples)
-    first = choice.revolutions // 2
-    half = samples[first * per_revolution :]
-    totals = state.totals
-    numbers = status_numbers(simulation.problem, len(record.samples) / per_revolution if record.diverged else None)
+    states = simulation.start(motion)
+    begun = simulation.energy(states)
+    record = simulation.run(states, choice.revolutions)
+    totals = np.array([state.totals for state in states])
+    per_revolution, first, ended = choice.samples_per_revolution, choice.revolutions // 2, record.first_diverged
+    samples = [
+        whole(part.samples.reshape(-1, len(TIP_POINTS), len(DIRECTIONS)), choice.revolutions * per_revolution, part.diverged)
+        for part in record.blades
+    ]
+    half = [part[first * per_revolution :] for part in samples]
+    maxima = [largest_of_each(choice.revolutions, part) for part in samples]
+    numbers = status_numbers(simulation.problem, None if ended is None else len(record.blades[ended].samples) / per_revolution)
     numbers |= {
-        "rms": np.sqrt(np.mean(half**2, axis=0)),
-        "peak": maxima[first:].max(axis=0),
-        "revolution_maxima": maxima,
-        "share_of_time_in_contact": np.array(totals["steps_in_contact"] / totals["steps"]),
-        "largest_normal_force": np.array(totals["largest_force"]),
-        "casing_hits": np.array(totals["casing_hits"]),
-        "worst_complementarity": np.array(totals["worst_complementarity"]),
+        "rms": np.max([np.sqrt(np.mean(part**2, axis=0)) for part in half], axis=0),
+        "peak": np.max([part[first:].max(axis=0) for part in maxima], axis=0),
+        "revolution_maxima": np.max(maxima, axis=0),
+        "share_of_time_in_contact": np.array((totals["steps_in_contact"] / np.maximum(totals["steps"], 1.0)).max()),
+        "largest_normal_force": np.array(totals["largest_force"].max()),
+        "casing_hits": np.array(totals["casing_hits"].sum()),
+        "worst_complementarity": np.array(totals["worst_complementarity"].max()),
     }
+    leader = 0
+    if simulation.rotor is not None:
+        numbers |= rotor_numbers(simulation, record, samples, totals)
+        leader = simulation.rotor.numbers.index(int(numbers["leader"]))
     if left_out is not None:
         numbers["initial_energy_left_out"] = np.array(left_out)
     if scene.casing.changes_with_speed:
-        numbers["clearance"] = simulation.problem.casing.clearance
+        numbers["clearance"] = np.min([problem.casing.clearance for problem in simulation.problems], axis=0)
     if "spectrum" in results:
-        numbers |= spectrum(half[:, 0, KEPT].T, len(half) // per_revolution, spectrum_highest_order)
+        numbers |= spectrum(half[leader][:, 0, KEPT].T, len(half[leader]) // per_revolution, spectrum_highest_order)
     if "stress" in results:
-        wanted = simulation.problem, record, stress, "static_stress" in results
-        numbers |= snapshot_numbers(*wanted) | stress_history(*wanted)
+        numbers |= _stress(simulation, record, stress, "static_stress" in results)
     if "wear" in results:
-        assert scene.lining is not None and state.wear is not None
-        numbers |= wear_numbers(state.wear, min(wear_angles, scene.lining.bars), scene.lining)
+        assert scene.lining is not None
+        wear = np.max([state.wear for state in states if state.wear is not None], axis=0)
+        numbers |= wear_numbers(wear, min(wear_angles, scene.lining.bars), scene.lining)
     if "energy" in results:
-        numbers |= energy_balance(simulation.work(state), float(totals["loss"]), simulation.energy(state) - begun)
+        work = sum(blade.work(state) for blade, state in zip(simulation.blades, states, strict=True))
+        numbers |= energy_balance(work, float(totals["loss"].sum()), simulation.energy(states) - begun)
         if motion is not None:
             numbers["initial_energy"] = np.array(begun)
     if "casing" in results:
-        numbers |= casing_numbers(simulation.problem, record, spectrum_highest_order)
+        # the record of any blade has it
+        numbers |= casing_numbers(simulation.problem, record.blades[0], spectrum_highest_order)
     return numbers
+
+
+def _stress(
+    simulation: BladesSimulation, record: BladesRecord, stress: StressOperator | None, static_stress: bool
+) -> dict[str, np.ndarray]:
+    """Of the blade with the largest stress what snapshot_numbers keeps, the largest history of all, and that of a rotor's."""
+    shown, history, rotor = record.first_diverged or 0, None, simulation.rotor
+    if stress is not None:
+        factors = rotor.frequency_factors if rotor else (1.0,)
+        history = stress_histories(simulation.problems, record.blades, factors, stress, static_stress)
+        if record.first_diverged is None:
+            shown = int(np.nan_to_num(history[:, -1]).argmax())
+    # a blade that another one ends may have no snapshots: of a diverged run they are of the one that diverged
+    numbers = snapshot_numbers(simulation.problems[shown], record.blades[shown], stress, static_stress)
+    if history is None:
+        return numbers
+    return numbers | {"revolution_von_mises": history.max(axis=0)} | (stress_of_blades(history) if rotor else {})

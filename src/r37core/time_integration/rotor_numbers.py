@@ -1,0 +1,94 @@
+"""Numbers of each blade of a rotor, beside those of all its blades together."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.fft import rfft
+
+from r37core.contact.rotor import Rotor
+
+from .kept_numbers import KEPT
+from .rotor_simulation import BladesRecord, BladesSimulation
+
+MOST_GROWTH = 200
+"""Spans of revolutions whose largest motion and stress are kept of each blade: a file stays small with many blades."""
+
+
+def rotor_numbers(
+    simulation: BladesSimulation, record: BladesRecord, samples: list[np.ndarray], totals: np.ndarray
+) -> dict[str, np.ndarray]:
+    """Numbers of each blade, shape (blades,) first, of the motion of its leading edge, normal and tangential together (KEPT).
+
+    `samples` (m): displacement of each blade, shape (samples, 2, 3); `totals`, shape (blades,): see TOTALS.
+
+    `blade_number`, `blade_angle` (rad), `blade_frequency_factor`, `blade_longer` (m), `blade_rms` and `blade_peak` (m) over the
+    last half, `blade_maximum` (m), shape (blades, spans), in spans of `span_revolutions` each, `blade_contact`, share of the
+    time, and `blade_worn` (m3), of the lining. `leader`: number of the blade with the largest motion; of a diverged run, of the
+    one that diverged first. `nodal_diameter` and `nodal_diameter_share`: see nodal_diameters.
+    """
+    rotor, choice = simulation.rotor, simulation.problem.choice
+    assert rotor is not None
+    half = np.array([part[choice.revolutions // 2 * choice.samples_per_revolution :, 0, KEPT] for part in samples])
+    maxima = np.array([_motion(part[:, 0, KEPT]).reshape(choice.revolutions, -1).max(axis=1) for part in samples])
+    rms = np.sqrt(np.mean(_motion(half) ** 2, axis=1))
+    growth, span = in_spans(maxima)
+    return {
+        "blade_number": np.array(rotor.numbers),
+        "blade_angle": np.array(rotor.angles),
+        "blade_frequency_factor": np.array(rotor.frequency_factors),
+        "blade_longer": np.array(rotor.longer),
+        "blade_rms": rms,
+        "blade_peak": maxima[:, choice.revolutions // 2 :].max(axis=1),
+        "blade_maximum": growth,
+        "blade_contact": totals["steps_in_contact"] / np.maximum(totals["steps"], 1.0),
+        "blade_worn": record.worn * simulation.problem.casing.bar_area,
+        "span_revolutions": np.array(span),
+        "leader": np.array(rotor.numbers[int(rms.argmax()) if record.first_diverged is None else record.first_diverged]),
+        **nodal_diameters(half, record.late, rotor),
+    }
+
+
+def stress_of_blades(history: np.ndarray) -> dict[str, np.ndarray]:
+    """Of each blade the largest stress of the last revolution and of spans; `history` (Pa), shape (blades, revolutions)."""
+    of_blades, span = in_spans(history)
+    return {
+        "blade_max_von_mises": history[:, -1],
+        "blade_von_mises": of_blades,
+        "stress_span_revolutions": np.array(span),
+    }
+
+
+def _motion(displacement: np.ndarray) -> np.ndarray:
+    return np.linalg.norm(displacement, axis=-1)
+
+
+def in_spans(values: np.ndarray) -> tuple[np.ndarray, int]:
+    """The largest of every span of revolutions along the last axis, in single precision, and how many revolutions it has.
+
+    There are at most MOST_GROWTH spans; the last one may be shorter.
+    """
+    revolutions = values.shape[-1]
+    span = -(-revolutions // MOST_GROWTH)
+    return np.maximum.reduceat(values, np.arange(0, revolutions, span), axis=-1).astype(np.float32), span
+
+
+def nodal_diameters(displacement: np.ndarray, late: np.ndarray, rotor: Rotor) -> dict[str, np.ndarray]:
+    """How the motion of the blades is made of waves that run round the rotor.
+
+    `displacement` (m), shape (blades, samples, directions), of whole revolutions; `late`, shape (blades,): see RotorRecord. A
+    wave of n nodal diameters at frequency w is x_b(t) = Re(X exp(i(w t - n theta_b))), positive n in the sense of growing
+    theta. With the Fourier transform X_bd(w) of each blade's motion along the direction d the share of n is
+
+        P_n = sum_d,w |sum_b X_bd(w) exp(i n theta_b)|^2 / (B sum_d,w,b |X_bd(w)|^2),
+
+    over positive frequencies. For equal angles the shares add up to 1 (Parseval). `nodal_diameter`: from -(B-1)//2 to B//2.
+    """
+    blades, samples = displacement.shape[:2]
+    diameters = np.arange(-((blades - 1) // 2), blades // 2 + 1)
+    waves = rfft(displacement, axis=1)[:, 1:]
+    waves = waves * np.exp(-2j * np.pi / samples * late[:, None] * np.arange(1, waves.shape[1] + 1))[..., None]
+    with np.errstate(invalid="ignore"):  # blades that stand still have no share
+        power = np.sum(np.abs(waves) ** 2)
+        of_diameter = np.exp(1j * np.outer(diameters, rotor.angles)) @ waves.reshape(blades, -1)
+        share = np.sum(np.abs(of_diameter) ** 2, axis=1) / (blades * power)
+    return {"nodal_diameter": diameters, "nodal_diameter_share": share}
