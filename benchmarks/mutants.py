@@ -51,7 +51,7 @@ TESTS = {
     "console/leftovers.py": "test_reliability.py",
     "plans/sweep_plan.py": "test_workflow_plans.py",
     "results/": "test_results.py test_exceedance.py test_interactions.py test_measures.py test_campbell.py "
-    "test_elastic_casing.py test_explorer_tables.py test_tolerances.py",
+    "test_elastic_casing.py test_explorer_tables.py test_tolerances.py test_closing.py test_captions.py test_project.py",
     "rotors/": "test_rotor_numbers.py",
     "search/": "test_search.py test_search_steps.py test_search_figures.py test_search_calls.py",
     "search/gaussian_processes.py": "test_search_proposals.py",

@@ -6,13 +6,21 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property, reduce
 from pathlib import Path
-from typing import Any
+from typing import Any, TypedDict
 
 from r37core.config import ConfigError, Document, Settings
 
 from .arguments import finite
 from .call_configuration import Configuration, read_configuration
 from .choices import BladeChoice, Choice, SceneChoice
+
+
+class OneOptions(TypedDict, total=False):
+    """What every call of one blade in a scene takes by name, as of `r37.simulate`."""
+
+    fidelity: str | None
+    results: Sequence[str] | None
+    config: Path | str | None
 
 
 @dataclass(frozen=True)
@@ -72,9 +80,23 @@ def chosen_scene(scene: SceneChoice | str, base: Configuration, results: Sequenc
     return chosen
 
 
-def base_of(blade: BladeChoice | str, config: Path | str | None) -> Configuration:
-    """What structure and levels are of: the configuration `config`, else that of the blade."""
-    return blade.configuration if isinstance(blade, BladeChoice) and config is None else read_configuration(config)
+def base_of(blades: Sequence[BladeChoice], config: Path | str | None) -> Configuration:
+    """What structure and levels are of: the configuration `config`, else that of the blades."""
+    return blades[0].configuration if blades and config is None else read_configuration(config)
+
+
+def call_of_one(
+    caller: str,
+    blade: BladeChoice | str,
+    scenes: Sequence[SceneChoice | str],
+    keys: Mapping[str, Any],
+    options: Mapping[str, Any],
+) -> Call:
+    """The call of one blade, in one scene or none; `options` as of OneOptions. Raises ConfigError."""
+    config, chosen = options.get("config"), chosen_blade(blade, options.get("config"))
+    base = base_of([chosen], config)
+    rubs_on = [chosen_scene(scene, base, options.get("results")) for scene in scenes]
+    return Call(caller, base, [chosen], rubs_on, {**keys, **level(options.get("fidelity"))})
 
 
 def level(fidelity: str | None) -> dict[str, Any]:

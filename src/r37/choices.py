@@ -212,10 +212,8 @@ def scenes(*, file: Path | str | None = None, config: Path | str | None = None) 
 
     Parameters
     ----------
-    file
-        A scenes.yaml in place of the configuration's.
-    config
-        A config.yaml in place of the shipped one.
+    file, config
+        As of `r37.blades`, a scenes.yaml.
 
     Raises
     ------
@@ -291,17 +289,8 @@ def scene(
 
     Parameters
     ----------
-    name_of_entry
-        Which scene of the file.
-    name
-        What the changed scene is called in results and figures. Without it these name the changes.
-    file
-        A scenes.yaml in place of the configuration's.
-    config
-        A config.yaml in place of the shipped one.
-    **changes
-        Values of keys of its entry, in the units of their names. A dot leads into a section, as in
-        `**{"friction.coefficient": 0.1}`. None leaves a key out: `lining=None` is the bare casing.
+    name_of_entry, name, file, config, **changes
+        As of `r37.blade`, of a scenes.yaml. `lining=None` leaves the lining out: the bare casing.
 
     Raises
     ------

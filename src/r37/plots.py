@@ -5,7 +5,8 @@ They are the workflow's pictures. Matplotlib's parameters and backend stay those
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 import xarray as xr
@@ -42,13 +43,10 @@ def plot_campbell(campbell: xr.Dataset, title: str | None = None) -> Figure:
     'Campbell diagram, blade Ref'
     """
     _check("campbell", campbell, "frequency", "r37.campbell")
-
-    def draw() -> Figure:
+    with _style():
         from r37core.figures.campbell_diagram import draw_campbell
 
         return draw_campbell(campbell, title or _label(campbell, "blade"))
-
-    return _drawn(draw)
 
 
 @checked_call
@@ -62,12 +60,12 @@ def plot_response(response: xr.Dataset, campbell: xr.Dataset | None = None, titl
     campbell
         What `r37.campbell` gives, to mark the crossings of 1B.
     title
-        In place of the blade's name, which says what was changed of it.
+        As of `r37.plot_campbell`.
 
     Raises
     ------
     ConfigError
-        For another dataset.
+        For other datasets.
 
     Examples
     --------
@@ -83,13 +81,10 @@ def plot_response(response: xr.Dataset, campbell: xr.Dataset | None = None, titl
     scenes = response.drop_vars("scene", errors="ignore").expand_dims(scene=[_label(response, "scene")])
     if "speed" not in scenes.dims:
         scenes = scenes.expand_dims("speed")
-
-    def draw() -> Figure:
+    with _style():
         from r37core.figures.response_curves import draw_response
 
         return draw_response(name, campbell, scenes, scenes if "max_von_mises" in scenes else None)
-
-    return _drawn(draw)
 
 
 @checked_call
@@ -118,13 +113,10 @@ def plot_rotor(rotor: xr.Dataset, title: str | None = None) -> Figure:
     if "run" in rotor.dims:
         raise ConfigError("rotor: found several runs; allowed: one, as results.rotor(blade, scene) of r37.open_results has it")
     several = rotor if "speed" in rotor.dims else rotor.expand_dims("speed")
-
-    def draw() -> Figure:
+    with _style():
         from r37core.rotors.figures import draw_rotor
 
         return draw_rotor(several, title or f"{_label(rotor, 'blade')}, {_label(rotor, 'scene')}")
-
-    return _drawn(draw)
 
 
 @checked_call
@@ -161,13 +153,10 @@ def plot_run_ups(run_ups: xr.Dataset, title: str | None = None) -> Figure:
     if len(pairs) > 1:
         raise ConfigError(f"run_ups: found runs of {', '.join(map(' in '.join, pairs))}; allowed: of one blade in one scene")
     ((blade, scene),) = pairs
-
-    def draw() -> Figure:
+    with _style():
         from r37core.run_ups.figures import draw_run_ups
 
         return draw_run_ups(several, title or f"{blade}, {scene}", blade=blade, scene=scene)
-
-    return _drawn(draw)
 
 
 @checked_call
@@ -201,15 +190,12 @@ def plot_tolerances(results: RunResults, blade: str, scene: str, title: str | No
     if blade not in tolerances["blade"].values or scene not in tolerances["scene"].values:
         known = f"{', '.join(map(str, tolerances['blade'].values))} in {', '.join(map(str, tolerances['scene'].values))}"
         raise ConfigError(f"tolerances: found none of {blade} in {scene}; allowed: {known}")
-
-    def draw() -> Figure:
+    with _style():
         from r37core.tolerances.figures import draw_tolerances
 
         return draw_tolerances(
             tolerances.sel(blade=blade, scene=scene), results.response(blade, scene), title or f"{blade}, {scene}"
         )
-
-    return _drawn(draw)
 
 
 @checked_call
@@ -236,8 +222,7 @@ def plot_designs(results: RunResults, title: str | None = None) -> Figure:
     """
     if not isinstance(results, RunResults) or "designs" not in results.tables:
         raise ConfigError("results: found none of designs; allowed: what r37.designs gives")
-
-    def draw() -> Figure:
+    with _style():
         from r37core.designs.figures import draw_designs
         from r37core.designs.table import MEASURES
 
@@ -245,11 +230,10 @@ def plot_designs(results: RunResults, title: str | None = None) -> Figure:
         varied = [name for name in table if name not in ("blade", "scene", *MEASURES)]
         return draw_designs(title or str(table["blade"][0]).split("_")[0], table, varied)
 
-    return _drawn(draw)
 
-
-def _drawn(draw: Callable[[], Figure]) -> Figure:
-    """What `draw` gives in the workflow's style."""
+@contextmanager
+def _style() -> Iterator[None]:
+    """While it lasts, figures are drawn in the workflow's style."""
     import matplotlib
     import matplotlib.pyplot as plt
 
@@ -259,7 +243,7 @@ def _drawn(draw: Callable[[], Figure]) -> Figure:
         from r37core.figures.style import PARAMETERS
 
         plt.rcParams.update(PARAMETERS)
-        return draw()
+        yield
 
 
 def _check(argument: str, dataset: xr.Dataset, needed: str, call: str) -> None:

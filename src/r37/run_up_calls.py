@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from pathlib import Path
-from typing import Any, TypedDict, Unpack
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import Any, Unpack
 
 import xarray as xr
 
@@ -16,14 +16,14 @@ from r37core.run_ups.plan import RUN_UP, RunUps
 
 from .arguments import mapping
 from .calculation import Calculation
-from .call_settings import Call, chosen_blade, chosen_scene, level
+from .call_settings import Call, OneOptions, call_of_one
 from .checked import checked_call
 from .choices import BladeChoice, SceneChoice
 from .remarks import remarks_of, tell
-from .runs import RunOptions, base_of_run, run_of
+from .runs import RunOptions, run_of
 
 
-class RunUpOptions(TypedDict, total=False):
+class RunUpOptions(OneOptions, total=False):
     """What `run_up` takes by name: keys of a run-up, and what other calls of one blade take."""
 
     from_rad_s: float
@@ -37,17 +37,10 @@ class RunUpOptions(TypedDict, total=False):
     revolutions_before: int
     revolutions_after: int
     lining: str
-    fidelity: str | None
-    results: Sequence[str] | None
-    config: Path | str | None
 
 
 @checked_call
-def run_up(
-    blade: BladeChoice | str,
-    scene: SceneChoice | str,
-    **options: Unpack[RunUpOptions],
-) -> xr.Dataset:
+def run_up(blade: BladeChoice | str, scene: SceneChoice | str, **options: Unpack[RunUpOptions]) -> xr.Dataset:
     """A run-up, or run-down, of a blade in a scene, as a run of run_ups.nc.
 
     Parameters
@@ -86,7 +79,7 @@ def run_up(
     >>> bool(run.speed[-1] > run.speed[0])
     True
     """
-    entry = {key: value for key, value in options.items() if key not in RunOptions.__annotations__ and value is not None}
+    entry = {key: value for key, value in options.items() if key not in OneOptions.__annotations__ and value is not None}
     call = _call("r37.run_up", blade, scene, {"run_up": entry}, options)
     tell(remarks_of(call.settings))
     with scratch_folder() as folder:
@@ -106,17 +99,14 @@ def run_up(
 
 @checked_call
 def run_ups(
-    blade: BladeChoice | str,
-    scene: SceneChoice | str,
-    several: Mapping[str, Mapping[str, Any]],
-    **options: Unpack[RunOptions],
+    blade: BladeChoice | str, scene: SceneChoice | str, several: Mapping[str, Mapping[str, Any]], **options: Unpack[RunOptions]
 ) -> xr.Dataset:
     """Several run-ups of a blade in a scene, as run_ups.nc of a run.
 
     Parameters
     ----------
     blade, scene
-        Names, or what `r37.blade` and `r37.scene` give.
+        As of `r37.run_up`.
     several
         Name -> what `r37.run_up` takes of it, as under run_ups of config.yaml.
     fidelity, results, config, cores, folder
@@ -129,8 +119,8 @@ def run_ups(
 
     Raises
     ------
-    ConfigError
-        For bad input. A crossing that is not there raises a ValueError of its own.
+    ConfigError, ValueError
+        As of `r37.run_up`.
 
     Examples
     --------
@@ -150,12 +140,10 @@ def _call(
     caller: str, blade: BladeChoice | str, scene: SceneChoice | str, several: Mapping[str, Any], options: Mapping[str, Any]
 ) -> Call:
     """The call of these run-ups of a blade in a scene."""
-    chosen = chosen_blade(blade, options.get("config"))
-    base = base_of_run([chosen], options)
     entries = {name: mapping(entry, f"run_ups.{name}", "the keys of a run-up") for name, entry in several.items()}
+    call = call_of_one(caller, blade, [scene], {"run_ups": entries}, options)
     # a run-up's own speeds are checked by its section
-    keys = {"run_ups": entries, "speeds": [base.checked.structure.maximum_speed_rad_s], **level(options.get("fidelity"))}
-    return Call(caller, base, [chosen], [chosen_scene(scene, base, options.get("results"))], keys)
+    return replace(call, keys={**call.keys, "speeds": [call.base.checked.structure.maximum_speed_rad_s]})
 
 
 def _labelled(dataset: xr.Dataset, call: Call) -> xr.Dataset:

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any, TypedDict
+from typing import Any
 
 from r37core.io import temporary_folder
 
 from .arguments import Speeds, plain_value, sequence_of, speed_keys
-from .call_configuration import Configuration, read_configuration
-from .call_settings import Call, chosen_blade, chosen_scene, level, names_of_their_own
+from .call_settings import Call, OneOptions, base_of, chosen_blade, chosen_scene, level, names_of_their_own
 from .checked import checked_call
 from .choices import BladeChoice, SceneChoice, scenes_named
 from .jobs import check_cores
@@ -23,12 +22,9 @@ Blades = BladeChoice | str | Sequence[BladeChoice | str]
 Scenes = SceneChoice | str | Sequence[SceneChoice | str]
 
 
-class RunOptions(TypedDict, total=False):
+class RunOptions(OneOptions, total=False):
     """What every call of many runs takes by name; see `run`."""
 
-    fidelity: str | None
-    results: Sequence[str] | None
-    config: Path | str | None
     cores: int
     folder: Path | str | None
 
@@ -104,7 +100,7 @@ def run(
     chosen = [] if blades is None else blades_of(blades, options)
     if scenes is None and results is not None:
         # what is wanted is a key of each scene
-        scenes = scenes_named(base_of_run(chosen, options))
+        scenes = scenes_named(base_of(chosen, config))
     rubs_on = [] if scenes is None else scenes_of_run(scenes, chosen, options)
     return run_of("r37.run", chosen, rubs_on, keys, options, targets, whole=True)
 
@@ -125,7 +121,7 @@ def run_of(
     """
     check_cores(cores := options.get("cores", 1))
     wanted = snakemake_targets(targets)
-    base = base_of_run(blades, options)
+    base = base_of(blades, options.get("config"))
     call = Call(caller, base, blades, scenes, {**keys, **level(options.get("fidelity"))}, whole)
     tell(remarks_of(call.settings))
     temporary = temporary_folder() if options.get("folder") is None else None
@@ -145,14 +141,23 @@ def blades_of(blades: Blades, options: Mapping[str, Any]) -> list[BladeChoice]:
 
 def scenes_of_run(scenes: Scenes, blades: Sequence[BladeChoice], options: Mapping[str, Any]) -> list[SceneChoice]:
     """The scenes of a run of these blades. Raises ConfigError."""
-    base = base_of_run(blades, options)
+    base = base_of(blades, options.get("config"))
     several = sequence_of(scenes, SceneChoice | str, "scenes", "the name of a scene, or what r37.scene gives")
     chosen = [chosen_scene(scene, base, options.get("results")) for scene in several]
     names_of_their_own(chosen)
     return chosen
 
 
-def base_of_run(blades: Sequence[BladeChoice], options: Mapping[str, Any]) -> Configuration:
-    """The configuration that a run is made with: the one that is named, else that of its blades."""
-    config = options.get("config")
-    return blades[0].configuration if blades and config is None else read_configuration(config)
+def named_run(
+    caller: str,
+    blades: Blades,
+    scenes: Scenes,
+    speeds: Speeds | None,
+    options: Mapping[str, Any],
+    keys: Mapping[str, Any] | None = None,
+    targets: str | Sequence[str] = "tables",
+) -> RunResults:
+    """A run of a call by another name; `options` as of SweepOptions."""
+    several = blades_of(blades, options)
+    keys = {**(keys or {}), **speed_keys(speeds, options.get("speeds_rpm"))}
+    return run_of(caller, several, scenes_of_run(scenes, several, options), keys, options, targets)

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
 from pathlib import Path
+from typing import Unpack
 
 import xarray as xr
 from numpy.typing import ArrayLike
@@ -19,12 +19,27 @@ from r37core.time_integration.initial_motion import InitialMotion, InitialMotion
 
 from .arguments import Speeds, speed_key, speed_keys
 from .calculation import Calculation
-from .call_settings import Call, base_of, chosen_blade, chosen_scene, level
+from .call_settings import Call, OneOptions, call_of_one
 from .checked import checked_call
 from .choices import BladeChoice, SceneChoice
 from .jobs import check_cores, in_parallel
 from .remarks import remarks_of, tell
 from .structure_files import recipe
+
+
+class SimulateOptions(OneOptions, total=False):
+    """What `simulate` takes by name."""
+
+    speed_rpm: float | None
+    initial_displacement: ArrayLike | None
+    initial_velocity: ArrayLike | None
+
+
+class SpeedsOptions(OneOptions, total=False):
+    """What `sweep` takes by name."""
+
+    speeds_rpm: Speeds | None
+    cores: int
 
 
 @checked_call
@@ -57,7 +72,7 @@ def campbell(blade: BladeChoice | str, *, fidelity: str | None = None, config: P
     >>> 1600 < crossing < 1750
     True
     """
-    call = Call("r37.campbell", base_of(blade, config), [chosen_blade(blade, config)], [], level(fidelity))
+    call = call_of_one("r37.campbell", blade, [], {}, {"fidelity": fidelity, "config": config})
     return _of_structure(call, "campbell_of_blade")
 
 
@@ -87,8 +102,8 @@ def reduced_model(
 
     Raises
     ------
-    ConfigError
-        For bad input. A shape, mesh or model that is impossible raises a ValueError of its own.
+    ConfigError, ValueError
+        As of `r37.campbell`.
 
     Examples
     --------
@@ -96,25 +111,15 @@ def reduced_model(
     >>> model.mass.shape == model.stiffness.shape
     True
     """
-    chosen, base = chosen_blade(blade, config), base_of(blade, config)
-    scenes = [] if scene is None else [chosen_scene(scene, base)]
-    call = Call("r37.reduced_model", base, [chosen], scenes, level(fidelity))
-    tip_line = call.settings.scenes[scenes[0].name].tip_line if scenes else None
+    scenes = [] if scene is None else [scene]
+    call = call_of_one("r37.reduced_model", blade, scenes, {}, {"fidelity": fidelity, "config": config})
+    tip_line = call.settings.scenes[call.scenes[0].name].tip_line if call.scenes else None
     return _of_structure(call, "reduced_model", tip_line)
 
 
 @checked_call
 def simulate(
-    blade: BladeChoice | str,
-    scene: SceneChoice | str,
-    speed: float | None = None,
-    *,
-    speed_rpm: float | None = None,
-    fidelity: str | None = None,
-    results: Sequence[str] | None = None,
-    config: Path | str | None = None,
-    initial_displacement: ArrayLike | None = None,
-    initial_velocity: ArrayLike | None = None,
+    blade: BladeChoice | str, scene: SceneChoice | str, speed: float | None = None, **options: Unpack[SimulateOptions]
 ) -> xr.Dataset:
     """The response of a blade in a scene at one speed: what `r37.sweep` gives of it, without the dimension speed.
 
@@ -154,16 +159,14 @@ def simulate(
     >>> response.rms_normal.sel(tip_point="leading_edge").item() > 0.0  # m
     True
     """
-    chosen, base = chosen_blade(blade, config), base_of(blade, config)
-    rubs_on, keys = chosen_scene(scene, base, results), speed_key(speed, speed_rpm)
-    call = Call("r37.simulate", base, [chosen], [rubs_on], {**keys, **level(fidelity)})
+    call = call_of_one("r37.simulate", blade, [scene], speed_key(speed, options.get("speed_rpm")), options)
     try:
         _ = call.settings
     except ConfigError as error:
         # the one speed stands in a list of them
         raise ConfigError(re.sub(r"\bspeeds(_rpm)?\.0\b", r"speed\1", str(error))) from None
     try:
-        motion = InitialMotion.from_arrays(initial_displacement, initial_velocity)
+        motion = InitialMotion.from_arrays(options.get("initial_displacement"), options.get("initial_velocity"))
         response = _response(call, 1, motion)
     except InitialMotionError as error:
         raise ConfigError(str(error)) from None
@@ -172,28 +175,18 @@ def simulate(
 
 @checked_call
 def sweep(
-    blade: BladeChoice | str,
-    scene: SceneChoice | str,
-    speeds: Speeds | None = None,
-    *,
-    speeds_rpm: Speeds | None = None,
-    fidelity: str | None = None,
-    results: Sequence[str] | None = None,
-    config: Path | str | None = None,
-    cores: int = 1,
+    blade: BladeChoice | str, scene: SceneChoice | str, speeds: Speeds | None = None, **options: Unpack[SpeedsOptions]
 ) -> xr.Dataset:
     """The response of a blade in a scene at several speeds, as response.nc of a run.
 
     Parameters
     ----------
-    blade, scene
-        Names, or what `r37.blade` and `r37.scene` give.
     speeds
         Angular speeds (rad/s), or ranges `{"start": 750, "stop": 2000, "step": 20}`. With `"refine_to": 1` the range is sampled
         adaptively, down to intervals of that.
     speeds_rpm
         The same in revolutions per minute, in place of `speeds`.
-    fidelity, results, config
+    blade, scene, fidelity, results, config
         As of `r37.simulate`.
     cores
         Simulations that run at once, in processes of their own. The numbers do not depend on it.
@@ -205,8 +198,8 @@ def sweep(
 
     Raises
     ------
-    ConfigError
-        For bad input. A shape, mesh, model or time step that is impossible raises a ValueError of its own.
+    ConfigError, ValueError
+        As of `r37.simulate`.
 
     Examples
     --------
@@ -214,10 +207,9 @@ def sweep(
     >>> response.speed.values
     array([1150., 1550.])
     """
-    chosen, base = chosen_blade(blade, config), base_of(blade, config)
-    rubs_on, keys = chosen_scene(scene, base, results), speed_keys(speeds, speeds_rpm)
-    check_cores(cores)
-    return _response(Call("r37.sweep", base, [chosen], [rubs_on], {**keys, **level(fidelity)}), cores)
+    check_cores(cores := options.get("cores", 1))
+    keys = speed_keys(speeds, options.get("speeds_rpm"))
+    return _response(call_of_one("r37.sweep", blade, [scene], keys, options), cores)
 
 
 def _of_structure(call: Call, stage: str, tip_line: str | None = None) -> xr.Dataset:

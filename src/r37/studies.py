@@ -7,12 +7,12 @@ from typing import Any, Unpack
 
 import pandas as pd
 
-from .arguments import Speeds, mapping, plain_value, speed_keys
+from .arguments import Speeds, mapping, plain_value
 from .call_settings import chosen_blade
 from .checked import checked_call
 from .choices import BladeChoice
 from .run_results import RunResults
-from .runs import Blades, Scenes, SweepOptions, blades_of, run_of, scenes_of_run
+from .runs import Blades, Scenes, SweepOptions, named_run
 
 _SPREAD = 'dotted keys and how each spreads, as in {"friction.coefficient": {"uniform_percent": 5}}'
 
@@ -36,12 +36,7 @@ class ToleranceOptions(SweepOptions, total=False):
 
 
 @checked_call
-def compare(
-    blades: Blades,
-    scenes: Scenes,
-    speeds: Speeds | None = None,
-    **options: Unpack[SweepOptions],
-) -> RunResults:
+def compare(blades: Blades, scenes: Scenes, speeds: Speeds | None = None, **options: Unpack[SweepOptions]) -> RunResults:
     """Several blades in several scenes: which is the most robust, and what the workflow makes of their responses.
 
     Parameters
@@ -58,8 +53,8 @@ def compare(
 
     Raises
     ------
-    ConfigError
-        For bad input. A shape, mesh, model or time step that is impossible raises a ValueError of its own.
+    ConfigError, ValueError
+        As of `r37.run`.
 
     Examples
     --------
@@ -67,9 +62,7 @@ def compare(
     >>> sorted(results.ranking.blade)
     ['CS100', 'Ref']
     """
-    keys = speed_keys(speeds, options.get("speeds_rpm"))
-    several = blades_of(blades, options)
-    return run_of("r37.compare", several, scenes_of_run(scenes, several, options), keys, options)
+    return named_run("r37.compare", blades, scenes, speeds, options)
 
 
 @checked_call
@@ -121,23 +114,17 @@ def designs(
         example = 'keys of blades.yaml and their values, as in {"sweep_percent": [50, 100]}'
         entry = {"vary": mapping(vary, "vary", example), "combine": options.get("combine", "grid")}
     family = chosen_blade(blade, options.get("config")).family(options.get("name", "Design"), entry)
-    keys = speed_keys(speeds, options.get("speeds_rpm"))
-    return run_of("r37.designs", [family], scenes_of_run(scenes, [family], options), keys, options)
+    return named_run("r37.designs", family, scenes, speeds, options)
 
 
 @checked_call
-def tolerances(
-    blades: Blades,
-    scenes: Scenes,
-    speeds: Speeds | None = None,
-    **options: Unpack[ToleranceOptions],
-) -> RunResults:
+def tolerances(blades: Blades, scenes: Scenes, speeds: Speeds | None = None, **options: Unpack[ToleranceOptions]) -> RunResults:
     """Numbers that are not known exactly: what members of a sample give that is drawn of them.
 
     Parameters
     ----------
     blades, scenes
-        Names, or what `r37.blade` and `r37.scene` give; changed ones with a `name`.
+        As of `r37.compare`.
     of_scenes, of_blades
         Dotted key -> how the number spreads, as in `{"friction.coefficient": {"uniform_percent": 5}}`.
     members
@@ -171,6 +158,4 @@ def tolerances(
     section = {name: plain_value(value) for name, value in options.items() if name not in SweepOptions.__annotations__}
     for name in ("of_scenes", "of_blades"):
         section[name] = mapping(section.get(name, {}), name, _SPREAD)
-    keys = {"tolerances": section, **speed_keys(speeds, options.get("speeds_rpm"))}
-    several = blades_of(blades, options)
-    return run_of("r37.tolerances", several, scenes_of_run(scenes, several, options), keys, options)
+    return named_run("r37.tolerances", blades, scenes, speeds, options, {"tolerances": section})
