@@ -221,9 +221,8 @@ SPEEDS = (0.0, 1000.0, 2000.0)
 def directory(mesh, matrices, patched, tmp_path_factory):
     """Full matrices of the blade on patches, with all nodes of its edge in boundary.csv."""
     folder = tmp_path_factory.mktemp("matrices")
-    nodes = table_nodes(patched, "pressure_edge")
-    np.testing.assert_array_equal(nodes, mesh.node_set("tip_pressure_edge"))
-    write_full_matrices(matrices, mesh, nodes, SPEEDS, folder, spin_softening=False, coriolis=False)
+    np.testing.assert_array_equal(table_nodes(patched, "pressure_edge").nodes, mesh.node_set("tip_pressure_edge"))
+    write_full_matrices(matrices, patched, "pressure_edge", SPEEDS, folder)
     return folder
 
 

@@ -36,11 +36,9 @@ FOREIGN = Orientation("mm", (0.6, 0.8, 0), (0, 0, 1), "positive", (5.0, 6.0, 7.0
 
 
 @pytest.fixture(scope="module")
-def directory(mesh, matrices, model, tmp_path_factory):
+def directory(matrices, model, tmp_path_factory):
     folder = tmp_path_factory.mktemp("matrices")
-    write_full_matrices(
-        matrices, mesh, model.contact_nodes.nodes, (0.0, 1000.0, 2000.0), folder, spin_softening=False, coriolis=False
-    )
+    write_full_matrices(matrices, model, "pressure_edge", (0.0, 1000.0, 2000.0), folder)
     return folder
 
 
@@ -174,10 +172,10 @@ def test_the_reduced_coriolis_matrix(turning, choice, tmp_path):
     np.testing.assert_allclose(again.modes(1400.0, 12)[0], replace(turning, coriolis=None).modes(1400.0, 12)[0], rtol=1e-8)
 
 
-def test_the_full_coriolis_matrix(mesh, matrices, turning, choice, tmp_path):
+def test_the_full_coriolis_matrix(matrices, turning, choice, tmp_path):
     """The mass that moves across the axis, at right angles to its velocity; its shifts of the frequencies."""
-    speed, nodes = 2000.0, turning.contact_nodes.nodes
-    write_full_matrices(matrices, mesh, nodes, (0.0, 1000.0, speed), tmp_path, spin_softening=False, coriolis=True)
+    speed = 2000.0
+    write_full_matrices(matrices, turning, "pressure_edge", (0.0, 1000.0, speed), tmp_path)
     mass, stiffness, coriolis = (sp.csr_array(scipy.io.mmread(tmp_path / f"{name}.mtx")) for name in ("M", "K_2000", "G"))
     # 2 Omega x velocity, Omega along -z
     across = sp.kron(sp.eye_array(mass.shape[0] // 3), np.array([[0.0, 2.0, 0.0], [-2.0, 0.0, 0.0], [0.0, 0.0, 0.0]]))

@@ -13,8 +13,7 @@ import scipy.sparse as sp
 from r37core.exchange.importing.matrices_in import COLUMNS
 from r37core.fem.matrices import StructuralMatrices
 from r37core.io import atomic_write
-from r37core.mesh.blade_mesh import BladeMesh
-from r37core.rom.reduced_model import CORIOLIS_TERM, ReducedModel
+from r37core.rom.reduced_model import CORIOLIS_TERM, RecoveryNodes, ReducedModel
 from r37core.rom.reduction_choice import POINTS
 from r37core.speeds import exact_text
 
@@ -35,31 +34,26 @@ def write_reduced_matrices(model: ReducedModel, speeds: Sequence[float], folder:
     _write(content, model.coriolis, points, np.arange(3 * len(points)).reshape(-1, 3), folder)
 
 
-def table_nodes(model: ReducedModel, tip_line: str) -> np.ndarray:
-    """Mesh nodes that boundary.csv of the full matrices names: the contact nodes, of patches all nodes of `tip_line`."""
-    return (model.contact_nodes if model.contact == POINTS else model.tip_lines[tip_line]).nodes
+def table_nodes(model: ReducedModel, tip_line: str) -> RecoveryNodes:
+    """Nodes that boundary.csv of the full matrices names: the contact nodes, of patches all nodes of `tip_line`."""
+    return model.contact_nodes if model.contact == POINTS else model.tip_lines[tip_line]
 
 
 def write_full_matrices(
-    matrices: StructuralMatrices,
-    mesh: BladeMesh,
-    nodes: np.ndarray,
-    speeds: Sequence[float],
-    folder: Path,
-    spin_softening: bool,
-    coriolis: bool,
+    matrices: StructuralMatrices, model: ReducedModel, tip_line: str, speeds: Sequence[float], folder: Path
 ) -> None:
-    """Write the full M and K_<speed> at `speeds` (rad/s) with boundary.csv, which names the mesh's `nodes`.
+    """Write the full M and K_<speed> at `speeds` (rad/s) with boundary.csv, which names `table_nodes` of the model.
 
-    Rows are x y z of the unclamped nodes, in m and the blade's frame; with geometric stiffness and, where asked for, spin
-    softening, and G, the Coriolis matrix per speed: see CORIOLIS_TERM.
+    Rows are x y z of the unclamped nodes, in m and the blade's frame; with geometric stiffness and, where the reduced model
+    has them, spin softening, and G, the Coriolis matrix per speed: see CORIOLIS_TERM.
     """
     stiffness, per_square = matrices.stiffness(), matrices.geometric_stiffness()
-    if spin_softening:
+    if model.spin_softening is not None:
         per_square = sp.csr_array(per_square + matrices.spin_softening())
     content = {"M": matrices.mass()} | {f"K_{exact_text(speed)}": stiffness + speed**2 * per_square for speed in speeds}
-    rows = 3 * np.searchsorted(matrices.free_nodes, nodes)[:, None] + np.arange(3)
-    _write(content, matrices.coriolis() if coriolis else None, mesh.points[nodes], rows, folder)
+    table = table_nodes(model, tip_line)
+    rows = 3 * np.searchsorted(matrices.free_nodes, table.nodes)[:, None] + np.arange(3)
+    _write(content, None if model.coriolis is None else matrices.coriolis(), table.points, rows, folder)
 
 
 def _write(

@@ -42,7 +42,6 @@ class Exports:
             "modes": exported.modes,
             "mode_speeds": si_fields(exported).get("mode_speeds", (0.0, highest)),
             "matrix_speeds": (0.0, 0.5 * highest, highest),
-            "spin_softening": settings.structure.spin_softening,
         }
 
     def orientation(self, wildcards: Any) -> Any:

@@ -19,7 +19,7 @@ from r37core.plain import from_plain
 from r37core.rom.rom_file import read_reduced_model
 from r37core.stress.recovery import stress_operator
 
-from .matrices_out import table_nodes, write_full_matrices, write_reduced_matrices
+from .matrices_out import write_full_matrices, write_reduced_matrices
 
 
 def mesh(input: Any, output: Any, params: Any) -> None:
@@ -65,11 +65,8 @@ def matrices(input: Any, output: Any, params: Any) -> None:
     """
     model, speeds, folder = read_reduced_model(input.rom), params.choice["matrix_speeds"], Path(output.folder)
     if hasattr(input, "mesh"):
-        blade_mesh = read_vtu(input.mesh)
-        full = assemble(blade_mesh, from_plain(Material, params.material))
-        nodes = table_nodes(model, params.tip_line)
-        with_coriolis = model.coriolis is not None
-        write_full_matrices(full, blade_mesh, nodes, speeds, folder, params.choice["spin_softening"], with_coriolis)
+        full = assemble(read_vtu(input.mesh), from_plain(Material, params.material))
+        write_full_matrices(full, model, params.tip_line, speeds, folder)
     else:
         write_reduced_matrices(model, speeds, folder)
 
