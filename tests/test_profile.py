@@ -52,7 +52,7 @@ def test_thickness_is_the_maximum_thickness_where_printed(profiles):
     hub = profiles[0]
     p = hub.parameters
     m_thickest = p.maximum_thickness_axial / np.cos(hub.cone.half_angle)
-    rear = hub.centreline[2]
+    rear = hub.centreline.rear
     s = rear.length_to(m_thickest)
     m, theta = rear.point(s)
     for side in (PRESSURE, SUCTION):

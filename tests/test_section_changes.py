@@ -45,15 +45,15 @@ def chord(profiles):
     """Distance of the centreline's ends on the unrolled cone."""
 
     def length(profile):
-        _, _, rear, rear_length = profile.centreline
-        return np.hypot(*profile.cone.unroll(0.0, 0.0, *rear.point(rear_length)))
+        line = profile.centreline
+        return np.hypot(*profile.cone.unroll(0.0, 0.0, *line.rear.point(line.rear_length)))
 
     return of_each(profiles, length)
 
 
 def centreline(profiles):
     """Length of the centreline."""
-    return of_each(profiles, lambda profile: profile.centreline[1] + profile.centreline[3])
+    return of_each(profiles, lambda profile: profile.centreline.length)
 
 
 def area(profiles):
@@ -96,20 +96,19 @@ def test_camber_turns_more_between_the_same_ends(profiles):
 
 def test_added_camber_is_spread_evenly_over_the_length(profiles):
     hub, bent = profiles[0], changed(profiles, camber=0.1)[0]
-    for arc, length in ((0, 1), (2, 3)):
-        added = bent.centreline[arc].rate * centreline([bent]) - hub.centreline[arc].rate * centreline([hub])
-        np.testing.assert_allclose(added, -0.1, rtol=1e-9)
-        share = bent.centreline[length] / hub.centreline[length]
+    for arc, length in (("front", "front_length"), ("rear", "rear_length")):
+        after, before = (getattr(profile.centreline, arc).rate * centreline([profile]) for profile in (bent, hub))
+        np.testing.assert_allclose(after - before, -0.1, rtol=1e-9)
+        share = getattr(bent.centreline, length) / getattr(hub.centreline, length)
         np.testing.assert_allclose(share, centreline([bent]) / centreline([hub]), rtol=1e-9)
 
 
 def test_the_place_of_the_maximum_thickness_keeps_its_share_of_the_length(profiles):
     def place(profile):
-        front, front_length, rear, _ = profile.centreline
-        p = profile.parameters
+        line, p = profile.centreline, profile.parameters
         m = p.maximum_thickness_axial / np.cos(profile.cone.half_angle)
         in_front = p.maximum_thickness_axial < p.transition_axial
-        return (front.length_to(m) if in_front else front_length + rear.length_to(m)) / centreline([profile])[0]
+        return (line.front.length_to(m) if in_front else line.front_length + line.rear.length_to(m)) / line.length
 
     both = changed(profiles, stagger=-0.1, camber=0.2, chord=1.2)
     np.testing.assert_allclose(of_each(both, place), of_each(profiles, place), rtol=1e-9)

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from .profile import PRESSURE, SUCTION, BladeShapeError, Profile
-from .stacking import Placement, SpanLoft
+from .stacking import Placement, span_weights
 
 _BULGE_REACH = 4.0  # in edge radii: how far from a round edge the lines chord = const are bent
 
@@ -28,13 +28,13 @@ class Blade:
         self.placement = placement
         self.spans = np.array([p.parameters.span for p in self.profiles])
         self.round_edges = round_edges
-        self._loft = SpanLoft(self.spans)
+        self._weights = span_weights(self.spans)
         self._check_orientation()
 
     def position(self, chord, span, thickness) -> np.ndarray:
         """Cartesian coordinates (m), shape (points, 3), of parameter points given as arrays of one shape (points,)."""
         chord, span, thickness = (np.atleast_1d(np.asarray(a, dtype=float)) for a in (chord, span, thickness))
-        weights = self._loft.weights(span)
+        weights = self._weights(span)
         # points share few chords: along the span of a grid, through the thickness of a mesh
         chords, inverse = np.unique(chord, return_inverse=True)
         cylindrical = np.zeros((3, len(chord)))
@@ -83,20 +83,16 @@ class Blade:
             for edge, end in ((profile.leading_edge, 0.0), (profile.trailing_edge, 1.0)):
                 length = profile.surfaces[PRESSURE].length
                 fade = np.clip(1.0 - np.abs(chord - end) * length / (_BULGE_REACH * edge.radius), 0.0, None) ** 2
-                corner_pressure = np.array(edge.point(-1.0))[:, None]
-                corner_suction = np.array(edge.point(1.0))[:, None]
-                straight = (1.0 - share) * corner_pressure + share * corner_suction
+                at_pressure, at_suction = (np.array(edge.point(side))[:, None] for side in (-1.0, 1.0))
+                straight = (1.0 - share) * at_pressure + share * at_suction
                 point = point + fade * (np.array(edge.point(thickness)) - straight)
         return point
 
     def _determinant(self, chord: np.ndarray, span: np.ndarray, thickness: np.ndarray) -> np.ndarray:
         step = 1e-5
-        columns = []
-        for axis in range(3):
-            ahead, behind = ([chord, span, thickness] for _ in range(2))
-            ahead[axis] = ahead[axis] + step
-            behind[axis] = behind[axis] - step
-            columns.append((self.position(*ahead) - self.position(*behind)) / (2.0 * step))
+        place = np.array([chord, span, thickness])
+        shifts = step * np.eye(3)[:, :, None]
+        columns = [(self.position(*(place + shift)) - self.position(*(place - shift))) / (2.0 * step) for shift in shifts]
         return np.linalg.det(np.stack(columns, axis=2))
 
     def _check_orientation(self) -> None:
@@ -104,12 +100,8 @@ class Blade:
 
         (chord, span, thickness) point along (z, x, y), a right-handed order, so the determinant is positive.
         """
-        chord, span, thickness = (
-            a.ravel()
-            for a in np.meshgrid(
-                np.linspace(0.001, 0.999, 21), np.linspace(0.005, 0.995, 60), [-0.99, 0.0, 0.99], indexing="ij"
-            )
-        )
+        axes = np.linspace(0.001, 0.999, 21), np.linspace(0.005, 0.995, 60), [-0.99, 0.0, 0.99]
+        chord, span, thickness = (a.ravel() for a in np.meshgrid(*axes, indexing="ij"))
         determinant = self._determinant(chord, span, thickness)
         if np.any(determinant <= 0.0):
             at = int(np.argmin(determinant))

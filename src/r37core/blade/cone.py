@@ -104,6 +104,11 @@ class ConstantRatePath:
         theta = self.theta + 0.5 * s * (integrand @ _GAUSS_WEIGHTS)
         return self.meridional(s), theta
 
+    def started_at(self, s: float) -> ConstantRatePath:
+        """The same path, begun at its path length `s` (m)."""
+        m, theta = (float(coordinate) for coordinate in self.point(s))
+        return ConstantRatePath(self.cone, m, theta, float(self.angle(s)), self.rate)
+
     def length_to(self, m: float) -> float:
         """Path length (m) from the start to meridional distance `m`; sin(kappa) is linear in m."""
         sine = np.sin(self.kappa) + self.rate * (m - self.m)

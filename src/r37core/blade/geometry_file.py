@@ -17,19 +17,20 @@ from .profile import PRESSURE, SUCTION, Profile, ProfileParameters
 from .stacking import Placement, conical_stacking
 
 _UNITS = {"span": "1", "inlet_angle": "rad", "transition_angle": "rad", "outlet_angle": "rad"}
-_SAMPLES = 41
+_STEPS = np.linspace(0.0, 1.0, 41)
+"""Shares of chord and span at which the surfaces are sampled."""
+_COLUMNS = [field.name for field in fields(ProfileParameters)]
 
 
 def write_geometry(blade: Blade, file: Path | str, provenance: Mapping[str, object] | None = None) -> None:
     """Write the blade: table rows, placement, section properties, surface rates, volume, and both surfaces sampled."""
-    names = [field.name for field in fields(ProfileParameters)]
     data: dict = {
         name: (
             "profile",
             [getattr(p.parameters, name) for p in blade.profiles],
             {"units": _UNITS.get(name, "m"), "long_name": name.replace("_", " ")},
         )
-        for name in names
+        for name in _COLUMNS
     }
     conical = conical_stacking(blade.profiles)
     data |= {
@@ -51,13 +52,12 @@ def write_geometry(blade: Blade, file: Path | str, provenance: Mapping[str, obje
             about("m", "points of the pressure and suction surfaces"),
         ),
     }
-    steps = np.linspace(0.0, 1.0, _SAMPLES)
     coordinates = {
         "side": ["pressure", "suction"],
         "segment": ["inlet", "outlet"],
         "axis": ["x", "y", "z"],
-        "chord": ("chord", steps, about("1", "fraction of the surface's length from the leading edge")),
-        "span_sample": ("span_sample", steps, about("1", "fraction of the span from the hub")),
+        "chord": ("chord", _STEPS, about("1", "fraction of the surface's length from the leading edge")),
+        "span_sample": ("span_sample", _STEPS, about("1", "fraction of the span from the hub")),
     }
     dataset = xr.Dataset(data, coordinates, attrs={"edges": "round" if blade.round_edges else "blunt"})
     write_dataset(dataset, file, provenance)
@@ -67,9 +67,8 @@ def read_geometry(file: Path | str) -> Blade:
     """The blade of a geometry.nc; InputFileError when the file cannot be read."""
     dataset = read_dataset(file)
     with readable(file):
-        names = [field.name for field in fields(ProfileParameters)]
         profiles = [
-            Profile(ProfileParameters(**{name: float(dataset[name][i]) for name in names}))
+            Profile(ProfileParameters(**{name: float(dataset[name][i]) for name in _COLUMNS}))
             for i in range(dataset.sizes["profile"])
         ]
         placement = Placement(dataset["axial_placement"].values, dataset["rotation"].values)
@@ -77,7 +76,6 @@ def read_geometry(file: Path | str) -> Blade:
 
 
 def _sampled_surfaces(blade: Blade) -> np.ndarray:
-    steps = np.linspace(0.0, 1.0, _SAMPLES)
-    chord, span = (a.ravel() for a in np.meshgrid(steps, steps, indexing="ij"))
+    chord, span = (a.ravel() for a in np.meshgrid(_STEPS, _STEPS, indexing="ij"))
     sides = [blade.position(chord, span, np.full_like(chord, side)) for side in (PRESSURE, SUCTION)]
-    return np.array(sides).reshape(2, _SAMPLES, _SAMPLES, 3)
+    return np.array(sides).reshape(2, len(_STEPS), len(_STEPS), 3)

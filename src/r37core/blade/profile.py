@@ -6,7 +6,7 @@ engines: numerical benchmark and design guidelines based on NASA rotor 37".
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -15,6 +15,7 @@ import scipy
 from .cone import Cone, ConstantRatePath
 
 SUCTION, PRESSURE = 1, -1
+_SIDES = {SUCTION: "suction", PRESSURE: "pressure"}
 _QUARTER_TURN = np.pi / 2.0
 
 
@@ -67,10 +68,10 @@ class ProfileParameters:
 
 
 @dataclass(frozen=True)
-class Surface:
-    """One side of a profile between its two edge circles: two constant-rate paths joined at `front_length`.
+class DoubleArc:
+    """Two constant-rate paths, `rear` from the end of `front`, and their lengths (m).
 
-    `front` starts at the leading-edge tangent point, `rear` at the junction; lengths in m.
+    The centreline of a profile, between the centres of its edge circles, or one of its sides, between the tangent points.
     """
 
     front: ConstantRatePath
@@ -80,11 +81,11 @@ class Surface:
 
     @property
     def length(self) -> float:
-        """Length from the leading-edge to the trailing-edge tangent point (m)."""
+        """Length of both paths (m)."""
         return self.front_length + self.rear_length
 
     def point(self, chord):
-        """(m, theta) at the fraction `chord` (0 leading, 1 trailing edge) of the surface's length."""
+        """(m, theta) at the fraction `chord` (0 leading, 1 trailing edge) of the length."""
         s = np.asarray(chord, dtype=float) * self.length
         in_front = s <= self.front_length
         front = self.front.point(np.where(in_front, s, self.front_length))
@@ -118,11 +119,20 @@ class EdgeCircle:
         return self.cone.offset(self.m, self.theta, direction, self.radius)
 
 
+def centreline(p: ProfileParameters) -> DoubleArc:
+    """The centreline on the profile's cone, from (m, theta) = (0, 0) at the centre of the leading-edge circle."""
+    cone = Cone(p.inlet_radius, float(np.arctan2(p.outlet_radius - p.inlet_radius, p.outlet_axial)))
+    m_transition, m_outlet = (axial / np.cos(cone.half_angle) for axial in (p.transition_axial, p.outlet_axial))
+    front, front_length = ConstantRatePath.between(cone, 0.0, 0.0, p.inlet_angle, m_transition, p.transition_angle)
+    theta = float(front.point(front_length)[1])
+    rear, rear_length = ConstantRatePath.between(cone, m_transition, theta, p.transition_angle, m_outlet, p.outlet_angle)
+    return DoubleArc(front, front_length, rear, rear_length)
+
+
 class Profile:
     """A profile on its cone, built from its table row.
 
-    Attributes: `cone`, `centreline` (front path, its length, rear path, its length), `surfaces` by side
-    (`SUCTION`, `PRESSURE`), `leading_edge` and `trailing_edge` circles.
+    Attributes: `cone`, `centreline`, `surfaces` by side (`SUCTION`, `PRESSURE`), `leading_edge` and `trailing_edge` circles.
 
     Raises BladeShapeError where a thickness is not positive, a point is out of order or |sin kappa| passes 1.
     """
@@ -130,31 +140,17 @@ class Profile:
     def __init__(self, parameters: ProfileParameters):
         self.parameters = parameters
         parameters.check()
-        rise = parameters.outlet_radius - parameters.inlet_radius
-        self.cone = Cone(parameters.inlet_radius, float(np.arctan2(rise, parameters.outlet_axial)))
-        self._build_centreline()
+        self.centreline = centreline(parameters)
+        self.cone = self.centreline.front.cone
+        self._m_outlet = parameters.outlet_axial / np.cos(self.cone.half_angle)
+        self._theta_outlet = float(self.centreline.rear.point(self.centreline.rear_length)[1])
         self.surfaces = {side: self._build_surface(side) for side in (PRESSURE, SUCTION)}
         self.leading_edge, self.trailing_edge = self._build_edges()
 
-    def _build_centreline(self) -> None:
-        p, slant = self.parameters, np.cos(self.cone.half_angle)
-        self._m_transition = p.transition_axial / slant
-        self._m_outlet = p.outlet_axial / slant
-        front, front_length = ConstantRatePath.between(
-            self.cone, 0.0, 0.0, p.inlet_angle, self._m_transition, p.transition_angle
-        )
-        _, theta_transition = front.point(front_length)
-        rear, rear_length = ConstantRatePath.between(
-            self.cone, self._m_transition, float(theta_transition), p.transition_angle, self._m_outlet, p.outlet_angle
-        )
-        self.centreline = (front, front_length, rear, rear_length)
-        self._theta_outlet = float(rear.point(rear_length)[1])
-
-    def _build_surface(self, side: int) -> Surface:
+    def _build_surface(self, side: int) -> DoubleArc:
         p = self.parameters
-        front, _, rear, _ = self.centreline
         thickest_in_front = p.maximum_thickness_axial < p.transition_axial
-        carrier = front if thickest_in_front else rear
+        carrier = self.centreline.front if thickest_in_front else self.centreline.rear
         m_thickest = p.maximum_thickness_axial / np.cos(self.cone.half_angle)
         s = carrier.length_to(m_thickest)
         m_centre, theta_centre = (float(v) for v in carrier.point(s))
@@ -166,20 +162,11 @@ class Profile:
         to_outlet = (self._m_outlet, self._theta_outlet, p.outlet_thickness / 2.0)
         first, first_end = self._path_tangent_to(start, side, *(to_inlet if thickest_in_front else to_outlet))
         junction = self._length_to_transition_normal(first, side)
-        m, theta = (float(v) for v in first.point(junction))
-        start = ConstantRatePath(self.cone, m, theta, float(first.angle(junction)), 0.0)
-        second, second_end = self._path_tangent_to(start, side, *(to_outlet if thickest_in_front else to_inlet))
+        beyond = first.started_at(junction)
+        second, second_end = self._path_tangent_to(beyond, side, *(to_outlet if thickest_in_front else to_inlet))
         if thickest_in_front:
-            return self._join(first, first_end, junction, second, 0.0, second_end)
-        return self._join(second, second_end, 0.0, first, junction, first_end)
-
-    @staticmethod
-    def _join(front, front_start, front_end, rear, rear_start, rear_end) -> Surface:
-        def moved(path, s):
-            m, theta = (float(v) for v in path.point(s))
-            return ConstantRatePath(path.cone, m, theta, float(path.angle(s)), path.rate)
-
-        return Surface(moved(front, front_start), front_end - front_start, moved(rear, rear_start), rear_end - rear_start)
+            return DoubleArc(first.started_at(first_end), junction - first_end, second, second_end)
+        return DoubleArc(second.started_at(second_end), -second_end, beyond, first_end - junction)
 
     def _path_tangent_to(self, start: ConstantRatePath, side: int, m: float, theta: float, radius: float):
         """The path from `start` that ends tangent to the circle (m, theta, radius). Returns (path, end length).
@@ -188,11 +175,8 @@ class Profile:
         """
         scale = abs(m - start.m)
 
-        def path_of(unknowns) -> ConstantRatePath:
-            return ConstantRatePath(self.cone, start.m, start.theta, start.kappa, unknowns[0] / scale)
-
         def miss(unknowns):
-            path, s = path_of(unknowns), unknowns[1] * scale
+            path, s = replace(start, rate=unknowns[0] / scale), unknowns[1] * scale
             m_end, theta_end = path.point(s)
             back = self.cone.offset(m_end, theta_end, path.angle(s) - side * _QUARTER_TURN, radius)
             along, across = self.cone.unroll(m, theta, *back)
@@ -200,22 +184,19 @@ class Profile:
 
         guess = np.array([0.0, (m - start.m) / (scale * np.cos(start.kappa))])
         solution = scipy.optimize.root(miss, guess, tol=1e-14)
-        path, end = path_of(solution.x), float(solution.x[1] * scale)
+        path, end = replace(start, rate=solution.x[0] / scale), float(solution.x[1] * scale)
         if np.max(np.abs(miss(solution.x))) > 1e-10 or not abs(path.angle(end)) < _QUARTER_TURN:
-            name = "suction" if side == SUCTION else "pressure"
             raise BladeShapeError(
-                f"{self.parameters.label}: no {name}-side arc with |sin kappa| < 1 runs from the point of maximum "
+                f"{self.parameters.label}: no {_SIDES[side]}-side arc with |sin kappa| < 1 runs from the point of maximum "
                 "thickness to the edge circle; check the angles, thicknesses and axial positions of this row"
             )
         return path, end
 
     def _length_to_transition_normal(self, path: ConstantRatePath, side: int) -> float:
-        p = self.parameters
-        m_transition = self._m_transition
-        theta_transition = self.centreline[2].theta
+        p, rear = self.parameters, self.centreline.rear
 
         def ahead(s: float) -> float:
-            along, across = self.cone.unroll(m_transition, theta_transition, *path.point(s))
+            along, across = self.cone.unroll(rear.m, rear.theta, *path.point(s))
             return float(along * np.cos(p.transition_angle) + across * np.sin(p.transition_angle))
 
         guess = -ahead(0.0)
@@ -223,9 +204,8 @@ class Profile:
         try:
             return float(scipy.optimize.brentq(ahead, guess - margin, guess + margin, xtol=1e-15))
         except ValueError:
-            name = "suction" if side == SUCTION else "pressure"
             raise BladeShapeError(
-                f"{p.label}: the {name} side never meets the normal at the transition point; "
+                f"{p.label}: the {_SIDES[side]} side never meets the normal at the transition point; "
                 "check z_mc_cm, z_tc_cm and the thicknesses of this row"
             ) from None
 

@@ -18,8 +18,6 @@ from r37core.units import si_name
 
 from .profile import BladeShapeError, ProfileParameters
 
-_LARGEST_SWEEP, _LARGEST_LEAN = 1.0, 0.5 * np.pi
-
 PROFILE_COLUMNS = {
     "span_percent": "span",
     "r_ic_cm": "inlet_radius",
@@ -116,7 +114,7 @@ def stacking_rows(rows: Sequence[dict]) -> tuple[tuple[float, float, float], ...
         raise BladeShapeError("a sweep and lean table needs at least two rows, for 0 and 100% span")
     check_spans([row[0] for row in table])
     for span, sweep, lean in table:
-        if abs(sweep) > _LARGEST_SWEEP or abs(lean) >= _LARGEST_LEAN:
+        if abs(sweep) > 1.0 or abs(lean) >= 0.5 * np.pi:
             raise BladeShapeError(
                 f"span {100 * span:g}%: found a sweep of {100 * sweep:g} cm and a lean of {np.degrees(lean):g} degrees; "
                 "allowed: up to 100 cm, less than 90 degrees"

@@ -17,22 +17,22 @@ import numpy as np
 import scipy
 
 from .cone import Cone, ConstantRatePath
-from .profile import BladeShapeError, ProfileParameters
+from .profile import BladeShapeError, ProfileParameters, centreline
 from .profile_tables import check_profile_order
 from .span_law import SpanLaw
-
-_NO_ANGLE, _WHOLE = 0.0, 1.0
-"""What changes nothing: no angle is added, the whole of a length is kept."""
 
 
 @dataclass(frozen=True)
 class SectionChange:
-    """What is changed of one profile: angles added to stagger and camber (rad), shares of chord and thickness that are kept."""
+    """What is changed of one profile: angles added to stagger and camber (rad), shares of chord and thickness that are kept.
 
-    stagger: float = _NO_ANGLE
-    camber: float = _NO_ANGLE
-    chord: float = _WHOLE
-    thickness: float = _WHOLE
+    The defaults change nothing.
+    """
+
+    stagger: float = 0.0
+    camber: float = 0.0
+    chord: float = 1.0
+    thickness: float = 1.0
 
     @property
     def names(self) -> list[str]:
@@ -41,10 +41,10 @@ class SectionChange:
 
 
 class SectionChangeError(BladeShapeError):
-    """A profile that cannot be changed so; `names`: the changes of it that are not neutral."""
+    """A profile that cannot be changed so, because of `error`; `names`: the changes of it that are not neutral."""
 
-    def __init__(self, text: str, names: Sequence[str]):
-        super().__init__(text)
+    def __init__(self, error: BladeShapeError, names: Sequence[str]):
+        super().__init__(f"{error}; a smaller change near this span may be possible")
         self.names = tuple(names)
 
 
@@ -64,7 +64,7 @@ def changed_profiles(profiles: Sequence[ProfileParameters], laws: Mapping[str, S
         try:
             check_profile_order(changed)
         except BladeShapeError as error:
-            raise SectionChangeError(f"{error}{SMALLER}", sorted(names)) from None
+            raise SectionChangeError(error, sorted(names)) from None
     return changed
 
 
@@ -78,20 +78,13 @@ def changed_profile(profile: ProfileParameters, change: SectionChange) -> Profil
         if set(change.names) - {"thickness"}:
             profile = _redrawn(profile, change)
         if change.thickness != 1.0:
-            thick = {name: change.thickness * getattr(profile, name) for name in _THICKNESSES}
-            profile = replace(profile, **thick)
+            names = ("inlet_thickness", "maximum_thickness", "outlet_thickness")
+            profile = replace(profile, **{name: change.thickness * getattr(profile, name) for name in names})
         if change.names:
             profile.check()
     except BladeShapeError as error:
-        raise SectionChangeError(f"{error}{SMALLER}", change.names) from None
+        raise SectionChangeError(error, change.names) from None
     return profile
-
-
-SMALLER = "; a smaller change near this span may be possible"
-"""What to try where a changed profile is refused."""
-
-_THICKNESSES = ("inlet_thickness", "maximum_thickness", "outlet_thickness")
-_NO_CHORD = "no two arcs on the cone have this stagger, camber and chord"
 
 
 @dataclass(frozen=True)
@@ -105,17 +98,12 @@ class _Centreline:
 
     @classmethod
     def of(cls, p: ProfileParameters) -> _Centreline:
-        cone = Cone(p.inlet_radius, float(np.arctan2(p.outlet_radius - p.inlet_radius, p.outlet_axial)))
-        slant = np.cos(cone.half_angle)
-        m_thickest, m_transition, m_outlet = (
-            z / slant for z in (p.maximum_thickness_axial, p.transition_axial, p.outlet_axial)
-        )
-        front, front_length = ConstantRatePath.between(cone, 0.0, 0.0, p.inlet_angle, m_transition, p.transition_angle)
-        rear, rear_length = ConstantRatePath.between(cone, m_transition, 0.0, p.transition_angle, m_outlet, p.outlet_angle)
-        in_front = m_thickest < m_transition
-        thickest = front.length_to(m_thickest) if in_front else front_length + rear.length_to(m_thickest)
-        angles = np.array([p.inlet_angle, p.transition_angle, p.outlet_angle])
-        return cls(cone, angles, np.array([front_length, rear_length]), thickest)
+        line = centreline(p)
+        cone, lengths = line.front.cone, np.array([line.front_length, line.rear_length])
+        m_thickest = p.maximum_thickness_axial / np.cos(cone.half_angle)
+        in_front = m_thickest < line.rear.m
+        thickest = line.front.length_to(m_thickest) if in_front else line.front_length + line.rear.length_to(m_thickest)
+        return cls(cone, np.array([p.inlet_angle, p.transition_angle, p.outlet_angle]), lengths, thickest)
 
     def turned(self, camber: float, rotation: float, scale: float) -> _Centreline:
         """With added turning, spread evenly over the length, all angles rotated alike and all lengths scaled."""
@@ -166,7 +154,7 @@ def _redrawn(profile: ProfileParameters, change: SectionChange) -> ProfileParame
 
     solution = scipy.optimize.root(miss, np.array([change.stagger, change.chord]), tol=1e-14)
     if not np.max(np.abs(miss(solution.x))) < 1e-9 or not solution.x[1] > 0.0:
-        raise BladeShapeError(f"{profile.label}: {_NO_CHORD}")
+        raise BladeShapeError(f"{profile.label}: no two arcs on the cone have this stagger, camber and chord")
     drawn = line.turned(change.camber, *solution.x)
     angles = dict(zip(("inlet_angle", "transition_angle", "outlet_angle"), map(float, drawn.angles), strict=True))
     return replace(profile, **angles, **drawn.positions())

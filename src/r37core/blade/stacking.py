@@ -12,13 +12,12 @@ from dataclasses import dataclass
 import numpy as np
 import scipy
 
-from .profile import BladeShapeError, Profile, area_and_centroid
+from .profile import BladeShapeError, Profile, ProfileParameters, area_and_centroid
 
 _TOLERANCE = 1e-9  # m
 _POINTS_PER_SIDE = 400
 _NEAREST = 0.04
-"""Span between the profiles whose sections are cut: next to an end a section is cut through the spline's continuation, which
-goes astray when the last profiles are close to each other."""
+"""Span between cut sections: those near an end are cut through the spline's continuation, which close profiles lead astray."""
 
 
 @dataclass(frozen=True)
@@ -32,30 +31,16 @@ class Placement:
         return Placement(self.axial + other.axial, self.rotation + other.rotation)
 
 
-class SpanLoft:
-    """Cubic spline through the profiles, as weights: value(span) = sum over profiles of weight * profile value.
+def span_weights(spans: np.ndarray) -> scipy.interpolate.CubicSpline:
+    """Not-a-knot spline, span fractions (points,) -> weights, shape (points, profiles), of profiles at ascending `spans`.
 
-    `spans` are the profiles' span fractions, ascending; beyond them the end polynomials go on.
+    A value at a span is the sum of weight * profile value; beyond the profiles the end polynomials go on.
     """
-
-    def __init__(self, spans: np.ndarray):
-        self._spline = scipy.interpolate.CubicSpline(spans, np.eye(len(spans)), bc_type="not-a-knot", extrapolate=True)
-        self._slope = self._spline.derivative()
-
-    def weights(self, span: np.ndarray) -> np.ndarray:
-        """Weight of each profile, shape (points, profiles)."""
-        return self._spline(span)
-
-    def slopes(self, span: np.ndarray) -> np.ndarray:
-        """Derivative of the weights with respect to the span fraction, shape (points, profiles)."""
-        return self._slope(span)
+    return scipy.interpolate.CubicSpline(spans, np.eye(len(spans)))
 
 
 def conical_stacking(profiles: Sequence[Profile]) -> Placement:
-    """Placement that aligns the profiles' centres of area on their cones; the hub profile keeps its axial position.
-
-    `profiles` run from hub to tip. The stacking line is theta = 0.
-    """
+    """Placement of profiles (hub to tip) with their centres of area, on their cones, at theta = 0 and the hub's axial place."""
     axial = np.array([p.cone.axial(p.centroid[0]) for p in profiles])
     rotation = np.array([-p.centroid[1] for p in profiles])
     return Placement(axial[0] - axial, rotation)
@@ -74,7 +59,7 @@ def plane_section_stacking(profiles: Sequence[Profile]) -> Placement:
     sectioned = _apart(spans)
     start = conical_stacking(profiles)
     moves = _moves_of_sections([profiles[i] for i in sectioned], Placement(start.axial[sectioned], start.rotation[sectioned]))
-    weights = SpanLoft(spans[sectioned]).weights(spans)
+    weights = span_weights(spans[sectioned])(spans)
     return start + Placement(weights @ moves.axial, weights @ moves.rotation)
 
 
@@ -89,7 +74,7 @@ def _apart(spans: np.ndarray) -> np.ndarray:
 
 def _moves_of_sections(profiles: Sequence[Profile], start: Placement) -> Placement:
     """What is to be added to the placement `start` so that the centre of area of every profile's section is on one line."""
-    loft = SpanLoft(np.array([p.parameters.span for p in profiles]))
+    weights = span_weights(np.array([p.parameters.span for p in profiles]))
     outlines = _outlines(profiles)
     heights = np.array([p.cone.radius(p.centroid[0]) for p in profiles])
 
@@ -103,7 +88,7 @@ def _moves_of_sections(profiles: Sequence[Profile], start: Placement) -> Placeme
         placed = outlines + np.stack([0.0 * heights, placement.rotation, placement.axial], axis=1)[:, :, None]
         centroids = np.array(
             [
-                _plane_section_centroid(loft, placed, p.parameters.span, height, p.parameters.label)
+                _plane_section_centroid(weights, placed, p.parameters, height)
                 for p, height in zip(profiles, heights, strict=True)
             ]
         )
@@ -127,22 +112,19 @@ def _moves_of_sections(profiles: Sequence[Profile], start: Placement) -> Placeme
 
 def _outlines(profiles: Sequence[Profile]) -> np.ndarray:
     """Outlines in cylindrical coordinates (r, theta, z), shape (profiles, 3, points)."""
-    outlines = []
-    for profile in profiles:
-        m, theta = profile.outline(_POINTS_PER_SIDE)
-        outlines.append([profile.cone.radius(m), theta, profile.cone.axial(m)])
-    return np.array(outlines)
+    drawn = [(profile.cone, *profile.outline(_POINTS_PER_SIDE)) for profile in profiles]
+    return np.array([[cone.radius(m), theta, cone.axial(m)] for cone, m, theta in drawn])
 
 
 def _plane_section_centroid(
-    loft: SpanLoft, outlines: np.ndarray, span: float, height: float, label: str
+    weights: scipy.interpolate.CubicSpline, outlines: np.ndarray, parameters: ProfileParameters, height: float
 ) -> tuple[float, float]:
     """Centre of area (y, z) of the section x = height; each outline point runs along the span until it meets the plane."""
-    v = np.full(outlines.shape[2], span)
+    v = np.full(outlines.shape[2], parameters.span)
+    slopes = weights.derivative()
     for _ in range(50):
-        weights, slopes = loft.weights(v), loft.slopes(v)
-        radius, theta, axial = np.einsum("np,pcn->cn", weights, outlines)
-        d_radius, d_theta, _ = np.einsum("np,pcn->cn", slopes, outlines)
+        radius, theta, axial = np.einsum("np,pcn->cn", weights(v), outlines)
+        d_radius, d_theta, _ = np.einsum("np,pcn->cn", slopes(v), outlines)
         x = radius * np.cos(theta)
         slope = d_radius * np.cos(theta) - radius * np.sin(theta) * d_theta
         step = (height - x) / slope
@@ -151,7 +133,7 @@ def _plane_section_centroid(
             _, y, z = area_and_centroid(radius * np.sin(theta), axial)
             return y, z
     raise BladeShapeError(
-        f"{label}: the plane section through this profile's centre of area cannot be cut; "
+        f"{parameters.label}: the plane section through this profile's centre of area cannot be cut; "
         "neighbouring profiles cross or differ too much in radius"
     )
 
@@ -162,8 +144,7 @@ def sweep_and_lean(spans: np.ndarray, table: np.ndarray) -> Placement:
     Interpolated by the cubic B-spline through the table's rows (lower order with fewer than four). Sweep is positive
     downstream; lean is positive in the direction of rotation, which is towards negative theta.
     """
-    order = min(3, len(table) - 1)
-    spline = scipy.interpolate.make_interp_spline(table[:, 0], table[:, 1:], k=order)
+    spline = scipy.interpolate.make_interp_spline(table[:, 0], table[:, 1:], k=min(3, len(table) - 1))
     sweep, lean = spline(spans).T
     return Placement(sweep, -lean)
 

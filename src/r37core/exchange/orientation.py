@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import warnings
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Annotated
 
@@ -15,6 +16,8 @@ from r37core.mesh.blade_mesh import BladeMesh
 from r37core.units import LENGTH_UNITS
 
 from .refusal import ImportRefused, MeshWarning
+
+Vector = tuple[float, float, float]
 
 _SPAN_BETWEEN = (1e-3, 5.0)
 _USUAL_SPAN = 0.1
@@ -42,14 +45,8 @@ class Orientation:
     """
 
     length_unit: str | float
-    rotor_axis: Annotated[
-        tuple[float, float, float],
-        Key("direction of the rotor's axis in the file's axes, downstream", ge=-1e9, le=1e9),
-    ]
-    radial: Annotated[
-        tuple[float, float, float],
-        Key("direction from the axis to the blade, in the file's axes", ge=-1e9, le=1e9),
-    ]
+    rotor_axis: Annotated[Vector, Key("direction of the rotor's axis in the file's axes, downstream", ge=-1e9, le=1e9)]
+    radial: Annotated[Vector, Key("direction from the axis to the blade, in the file's axes", ge=-1e9, le=1e9)]
     rotation: Annotated[
         str,
         Key(
@@ -57,11 +54,7 @@ class Orientation:
             one_of=("positive", "negative"),
         ),
     ]
-    axis_point: Annotated[tuple[float, float, float], Key("a point of the axis, in the file's unit", ge=-1e9, le=1e9)] = (
-        0.0,
-        0.0,
-        0.0,
-    )
+    axis_point: Annotated[Vector, Key("a point of the axis, in the file's unit", ge=-1e9, le=1e9)] = (0.0, 0.0, 0.0)
 
     @property
     def metres_per_unit(self) -> float:
@@ -92,12 +85,9 @@ class Orientation:
 
     def to_blade(self, mesh: RawMesh) -> RawMesh:
         """The mesh in metres and the blade's frame. Raises ImportRefused for a blade of no plausible size or place."""
-        rows = self.rows
         points = self.points_to_blade(mesh.points)
         self._check(points)
-        if np.linalg.det(rows) > 0.0:
-            return replace(mesh, points=points)
-        return replace(mesh, points=points, blocks={n: nodes[:, ELEMENTS[n].mirrored] for n, nodes in mesh.blocks.items()})
+        return replace(mesh, points=points, blocks=self._mirrored(mesh.blocks))
 
     def contact_nodes_to_blade(self, points: np.ndarray) -> np.ndarray:
         """Contact nodes at the tip, shape (n, 3), in metres and the blade's frame. Raises ImportRefused as `to_blade`."""
@@ -131,7 +121,7 @@ class Orientation:
 
     def to_file(self, points: np.ndarray) -> np.ndarray:
         """Points (m) of the blade's frame, shape (n, 3), in the file's unit and axes."""
-        return points @ self.rows / self.metres_per_unit + np.array(self.axis_point, dtype=float)
+        return self.vectors_to_file(points) + np.array(self.axis_point, dtype=float)
 
     def vectors_to_file(self, vectors: np.ndarray) -> np.ndarray:
         """Displacements (m) of the blade's frame, shape (n, 3), in the file's unit and axes."""
@@ -139,10 +129,13 @@ class Orientation:
 
     def mesh_to_file(self, mesh: BladeMesh) -> BladeMesh:
         """The blade's mesh in the file's unit and axes, its elements the right way out there."""
-        blocks = mesh.blocks
-        if np.linalg.det(self.rows) < 0.0:
-            blocks = {name: nodes[:, ELEMENTS[name].mirrored] for name, nodes in blocks.items()}
-        return replace(mesh, points=self.to_file(mesh.points), blocks=blocks)
+        return replace(mesh, points=self.to_file(mesh.points), blocks=self._mirrored(mesh.blocks))
+
+    def _mirrored(self, blocks: Mapping[str, np.ndarray]) -> Mapping[str, np.ndarray]:
+        """The elements the right way out on the other side, from the file to the blade's frame or back."""
+        if np.linalg.det(self.rows) > 0.0:
+            return blocks
+        return {name: nodes[:, ELEMENTS[name].mirrored] for name, nodes in blocks.items()}
 
     def _check(self, points: np.ndarray) -> None:
         radius = np.hypot(points[:, 0], points[:, 1])

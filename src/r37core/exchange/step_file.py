@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -20,6 +20,16 @@ _SPAN = np.linspace(0.0, 1.0, 33)
 _THICKNESS = np.sin(np.linspace(-0.5, 0.5, 13) * np.pi)
 # dense at the ends, where the sections close round the edges
 _CHORD = 0.5 - 0.5 * np.cos(np.linspace(0.0, np.pi, 61))
+_START, _END = np.zeros(1), np.ones(1)
+_FACES = (
+    (_CHORD, _SPAN, -_END),
+    (_CHORD, _SPAN, _END),
+    (_START, _SPAN, _THICKNESS),
+    (_END, _SPAN, _THICKNESS),
+    (_CHORD, _START, _THICKNESS),
+    (_CHORD, _END, _THICKNESS),
+)
+"""Chord, span and thickness on pressure side, suction side, both edges, root and tip."""
 _MILLIMETRES = 1e3
 _SEWING = 1e-3  # mm
 _DEGREE = 3
@@ -32,8 +42,8 @@ def write_step(blade: Blade, file: Path | str) -> None:
     Raises RuntimeError when OpenCASCADE cannot close the faces to a solid.
     """
     with quiet_gmsh(), atomic_write(file) as partial:
-        for points in _sampled(blade):
-            _face(points)
+        for axes in _FACES:
+            _add_face(blade, axes)
         occ = gmsh.model.occ
         occ.remove(occ.getEntities(0))  # the poles
         occ.healShapes(tolerance=_SEWING, sewFaces=True, makeSolids=True)
@@ -58,45 +68,23 @@ def _nothing_printed() -> Iterator[None]:
         os.close(nowhere)
 
 
-def _sampled(blade: Blade) -> list[np.ndarray]:
-    """Points (mm) on pressure side, suction side, both edges, root and tip, shape (u, v, 3) each."""
-    end = np.ones(1)
-    grids = [
-        (_CHORD, _SPAN, -end),
-        (_CHORD, _SPAN, end),
-        (0.0 * end, _SPAN, _THICKNESS),
-        (end, _SPAN, _THICKNESS),
-        (_CHORD, 0.0 * end, _THICKNESS),
-        (_CHORD, end, _THICKNESS),
-    ]
-    faces = []
-    for axes in grids:
-        chord, span, thickness = (axis.ravel() for axis in np.meshgrid(*axes, indexing="ij"))
-        shape = [len(axis) for axis in axes if len(axis) > 1]
-        faces.append(_MILLIMETRES * blade.position(chord, span, thickness).reshape(*shape, 3))
-    return faces
-
-
-def _parameters(count: int) -> np.ndarray:
-    return next(axis for axis in (_CHORD, _SPAN, _THICKNESS) if len(axis) == count)
-
-
-def _face(points: np.ndarray) -> int:
-    """Tag of the B-spline surface through a grid of points, shape (u, v, 3)."""
-    along_u = make_interp_spline(_parameters(points.shape[0]), points, k=_DEGREE, axis=0)
-    along_v = make_interp_spline(_parameters(points.shape[1]), along_u.c, k=_DEGREE, axis=1)
+def _add_face(blade: Blade, axes: Sequence[np.ndarray]) -> None:
+    """Add the B-spline surface through the blade's points on a grid of chord, span and thickness."""
+    chord, span, thickness = (axis.ravel() for axis in np.meshgrid(*axes, indexing="ij"))
+    u, v = (axis for axis in axes if len(axis) > 1)
+    points = _MILLIMETRES * blade.position(chord, span, thickness).reshape(len(u), len(v), 3)
+    along_u = make_interp_spline(u, points, k=_DEGREE, axis=0)
+    along_v = make_interp_spline(v, along_u.c, k=_DEGREE, axis=1)
     # the axis of interpolation comes first in the coefficients: u runs fastest
     tags = [gmsh.model.occ.addPoint(*pole) for pole in along_v.c.reshape(-1, 3)]
-    knots = [np.unique(spline.t, return_counts=True) for spline in (along_u, along_v)]
-    return int(
-        gmsh.model.occ.addBSplineSurface(
-            tags,
-            points.shape[0],
-            degreeU=_DEGREE,
-            degreeV=_DEGREE,
-            knotsU=knots[0][0],
-            knotsV=knots[1][0],
-            multiplicitiesU=knots[0][1],
-            multiplicitiesV=knots[1][1],
-        )
+    (knots_u, counts_u), (knots_v, counts_v) = (np.unique(spline.t, return_counts=True) for spline in (along_u, along_v))
+    gmsh.model.occ.addBSplineSurface(
+        tags,
+        len(u),
+        degreeU=_DEGREE,
+        degreeV=_DEGREE,
+        knotsU=knots_u,
+        knotsV=knots_v,
+        multiplicitiesU=counts_u,
+        multiplicitiesV=counts_v,
     )

@@ -74,21 +74,23 @@ def find_end(what: str, points: np.ndarray, surface: list[Faces]) -> End | None:
     return End(nodes, faces, mask, rule, straight) if is_exact else None
 
 
-def caught_root(where: Where, mesh: RawMesh, surface: list[Faces]) -> Caught:
-    """What is clamped: all nodes of a set, or those of the outer faces that a rule catches.
+def caught_by(where: Where, what: str, mesh: RawMesh, surface: list[Faces]) -> Caught:
+    """The outer faces whose nodes are all in a set, or keep a rule, for the end `what`; a set as the root has all its nodes.
 
     Raises ImportRefused where there are none.
     """
-    members = where.nodes("root", mesh)
-    if where.set_name is not None and members.any():
-        mask = mask_within(surface, members)
-        return Caught(np.flatnonzero(members), chosen(surface, mask), mask)
-    return _faces("root", where, members, surface)
-
-
-def caught_tip(where: Where, mesh: RawMesh, surface: list[Faces]) -> Caught:
-    """The outer faces whose nodes are all in a set, or keep a rule. Raises ImportRefused where there are none."""
-    return _faces("tip", where, where.nodes("tip", mesh), surface)
+    members = where.nodes(what, mesh)
+    mask = mask_within(surface, members)
+    faces = chosen(surface, mask)
+    if what == "root" and where.set_name is not None and members.any():
+        return Caught(np.flatnonzero(members), faces, mask)
+    if not mask.any():
+        of_set = "" if where.set_name is None else f", which has {members.sum()} nodes"
+        raise ImportRefused(
+            f"{what}: no outer face has all its nodes within {where.describe()}{of_set}; give another set or rule, or a wider "
+            f"tolerance_m"
+        )
+    return Caught(nodes_of(faces), faces, mask)
 
 
 def check_end(what: str, where: Where, caught: Caught, end: End | None) -> None:
@@ -121,19 +123,6 @@ def check_root(points: np.ndarray, root: np.ndarray, tip: np.ndarray) -> None:
         )
     if both := len(np.intersect1d(root, tip)):
         raise ImportRefused(f"root: {both} of its {len(root)} nodes are the tip's too; allowed: root and tip apart")
-
-
-def _faces(what: str, where: Where, members: np.ndarray, surface: list[Faces]) -> Caught:
-    """The outer faces that have no other nodes than `members`, a mask over the mesh's nodes."""
-    mask = mask_within(surface, members)
-    if not mask.any():
-        of_set = "" if where.set_name is None else f", which has {members.sum()} nodes"
-        raise ImportRefused(
-            f"{what}: no outer face has all its nodes within {where.describe()}{of_set}; give another set or rule, or a wider "
-            f"tolerance_m"
-        )
-    faces = chosen(surface, mask)
-    return Caught(nodes_of(faces), faces, mask)
 
 
 def _cone(points: np.ndarray) -> Where:

@@ -11,7 +11,7 @@ from r37core.exchange.refusal import ImportRefused
 from r37core.fem.surface import Faces, outer_faces
 
 from .axes import find_axes
-from .ends import End, caught_root, caught_tip, check_end, find_end
+from .ends import End, caught_by, check_end, find_end
 from .raw_mesh import RawMesh
 from .source import MeshSource
 from .tip import is_flat, off_revolution
@@ -91,8 +91,8 @@ def _catches(what: str, source: MeshSource, mesh: RawMesh, surface: list[Faces],
     """Whether the set or rule of the entry catches this end, or may well be meant otherwise."""
     try:
         if what == "root":
-            check_end(what, source.root, caught_root(source.root, mesh, surface), end)
+            check_end(what, source.root, caught_by(source.root, what, mesh, surface), end)
             return True
-        return np.array_equal(caught_tip(source.tip, mesh, surface).mask, end.mask)
+        return np.array_equal(caught_by(source.tip, what, mesh, surface).mask, end.mask)
     except ImportRefused:
         return False

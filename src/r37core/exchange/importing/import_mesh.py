@@ -12,7 +12,7 @@ from r37core.fem.surface import outer_faces
 from r37core.mesh.blade_mesh import NODE_SETS, BladeMesh
 
 from .abaqus_reader import read_abaqus
-from .ends import Caught, caught_root, caught_tip, check_end, check_root, find_end
+from .ends import Caught, caught_by, check_end, check_root, find_end
 from .fitting_entry import fitting_entry
 from .frame import blade_parameters
 from .mesh_checks import checked, without_free_nodes
@@ -55,10 +55,11 @@ def import_mesh(source: MeshSource, folder: Path | str = ".") -> tuple[BladeMesh
         parameters, normals = blade_parameters(raw.points, root, tip, source.pressure_side_forward)
     sets = dict.fromkeys(NODE_SETS, np.empty(0, dtype=np.int64)) | {"root": root, "tip": tip}
     # the edges come last: nodes that they share with the camber line count by their place on the edge
-    for name, (nodes, fractions) in reversed(lines.lines.items()):
+    for name, (nodes, fractions) in reversed(lines.items()):
         sets[name] = nodes
         parameters[nodes, 0] = fractions
-    sets["leading_edge"], sets["trailing_edge"] = (np.array([node]) for node in lines.corners)
+    edge = sets["tip_pressure_edge"]
+    sets["leading_edge"], sets["trailing_edge"] = edge[:1], edge[-1:]
     parameters[root, 1], parameters[tip, 1] = 0.0, 1.0
     return BladeMesh(raw.points, raw.blocks, parameters, normals, sets), quality
 
@@ -87,39 +88,33 @@ def _ends(source: MeshSource, raw: RawMesh) -> tuple[np.ndarray, np.ndarray, Tip
     Raises ImportRefused for ends that cannot be meant: one message with all that is wrong, so that one change mends it.
     """
     surface = outer_faces(raw.blocks)
-    hub, casing = (find_end(what, raw.points, surface) for what in ("root", "tip"))
+    rules = {"root": source.root, "tip": source.tip}
+    ends = {what: find_end(what, raw.points, surface) for what in rules}
     refusals = Refusals(source.file)
-    root = tip = None
-    with refusals.of("root"):
-        root = caught_root(source.root, raw, surface)
-    with refusals.of("tip"):
-        tip = caught_tip(source.tip, raw, surface)
-    if root is not None and tip is not None:
+    caught: dict[str, Caught] = {}
+    for what, where in rules.items():
+        with refusals.of(what):
+            caught[what] = caught_by(where, what, raw, surface)
+    if len(caught) == len(rules):
         with blamed("root", source.file):
-            check_root(raw.points, root.nodes, tip.nodes)
+            check_root(raw.points, caught["root"].nodes, caught["tip"].nodes)
+    tip = caught.get("tip")
     if source.end_check:
-        for what, where, caught, end in (("root", source.root, root, hub), ("tip", source.tip, tip, casing)):
-            if caught is not None:
-                with refusals.of(what):
-                    check_end(what, where, caught, end)
+        for what, part in caught.items():
+            with refusals.of(what):
+                check_end(what, rules[what], part, ends[what])
         # where the rule for the tip is refused, the sense is still judged by the faces that it should have caught
+        casing = ends["tip"]
         tip = casing if casing is not None and casing.straight else tip
-    lines = None
     if tip is not None:
         with refusals.of("tip"):
-            lines = _tip_lines(source, raw.points, tip)
+            check_revolution(raw.points[tip.nodes], source.revolution_tolerance)
+            lines = find_tip_lines(raw.points, tip.faces, source.pressure_side_forward)
+            if source.sense_check:
+                check_sense(raw.points, lines, source.pressure_side_forward)
+    # ends here where a part was not caught
     refusals.tell()
-    assert root is not None and tip is not None and lines is not None
-    return root.nodes, tip.nodes, lines
-
-
-def _tip_lines(source: MeshSource, points: np.ndarray, tip: Caught) -> TipLines:
-    """Lines along the faces of the tip; ImportRefused where contact or rotation make no sense there."""
-    check_revolution(points[tip.nodes], source.revolution_tolerance)
-    lines = find_tip_lines(points, tip.faces, source.pressure_side_forward)
-    if source.sense_check:
-        check_sense(points, lines, source.pressure_side_forward)
-    return lines
+    return caught["root"].nodes, caught["tip"].nodes, lines
 
 
 def _read(name: str, root: Path) -> RawMesh:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import warnings
-from dataclasses import dataclass
 
 import numpy as np
 from scipy.spatial import cKDTree
@@ -20,20 +19,8 @@ _DOWNSTREAM = 0.02  # of the chord: how far the trailing edge lies downstream at
 _OVERRIDE = "sense_check: false takes the blade as it is"
 
 
-@dataclass(frozen=True)
-class TipLines:
-    """Nodes along the tip from leading to trailing edge, and the fraction of the line's length of each.
-
-    `lines`: name of the node set -> (nodes, fractions), both shape (n,).
-    """
-
-    lines: dict[str, tuple[np.ndarray, np.ndarray]]
-
-    @property
-    def corners(self) -> tuple[int, int]:
-        """The node at the leading and at the trailing edge, on the pressure side."""
-        nodes, _ = self.lines["tip_pressure_edge"]
-        return int(nodes[0]), int(nodes[-1])
+TipLines = dict[str, tuple[np.ndarray, np.ndarray]]
+"""Name of a node set along the tip -> nodes from leading to trailing edge, fraction of the line's length of each."""
 
 
 def check_revolution(points: np.ndarray, tolerance: float) -> None:
@@ -105,10 +92,10 @@ def check_sense(points: np.ndarray, lines: TipLines, pressure_forward: bool) -> 
     What the tip does not tell is warned of.
     """
     steps = np.linspace(0.0, 1.0, _SAMPLES)
-    sides = [_at(points[lines.lines[name][0]], steps) for name in ("tip_pressure_edge", "tip_suction_edge")]
+    sides = [_at(points[lines[name][0]], steps) for name in ("tip_pressure_edge", "tip_suction_edge")]
     sense = sense_of_line(0.5 * (sides[0] + sides[1]))
     fits = sense.fits(pressure_forward)
-    _check_lead(points[list(lines.corners)], sense, fits)
+    _check_lead(sides[0][[0, -1]], sense, fits)
     if fits is False:
         side, other = ("along", "backward") if pressure_forward else ("against", "forward")
         raise ImportRefused(
@@ -178,7 +165,8 @@ def find_tip_lines(points: np.ndarray, faces: list[Faces], pressure_forward: boo
         raise ImportRefused(f"tip: its faces are {count} patches that do not touch; allowed: one")
     outlines = loops(faces)
     outline = max(outlines, key=lambda loop: arc_length(points[np.append(loop, loop[0])])[-1])
-    first, last = _farthest(points[outline])
+    distance = np.linalg.norm(points[outline][:, None] - points[outline], axis=2)
+    first, last = np.unravel_index(np.argmax(distance), distance.shape)
     if points[outline[first], 2] > points[outline[last], 2]:
         first, last = last, first
     ends = points[outline[[first, last]]]
@@ -190,9 +178,8 @@ def find_tip_lines(points: np.ndarray, faces: list[Faces], pressure_forward: boo
     sides.sort(key=lambda line: _middle_angle(points, line))
     pressure, suction = sides if pressure_forward else sides[::-1]
     lines = {"tip_pressure_edge": pressure, "tip_suction_edge": suction}
-    fractions = {name: (line, _fractions(points[line])) for name, line in lines.items()}
-    fractions["tip_camber_line"] = _camber(points, nodes_of(faces), pressure, suction)
-    return TipLines(fractions)
+    camber = _camber(points, nodes_of(faces), pressure, suction)
+    return {name: (line, _fractions(points[line])) for name, line in lines.items()} | {"tip_camber_line": camber}
 
 
 def _camber(points: np.ndarray, tip: np.ndarray, pressure: np.ndarray, suction: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -218,12 +205,6 @@ def _between_corners(points: np.ndarray, line: np.ndarray, thickness: float) -> 
     start = max(sharp[length[sharp] <= reach], default=0)
     end = min(sharp[length[-1] - length[sharp] <= reach], default=len(line) - 1)
     return line[start : end + 1]
-
-
-def _farthest(points: np.ndarray) -> tuple[int, int]:
-    distance = np.linalg.norm(points[:, None] - points[None], axis=2)
-    first, last = np.unravel_index(np.argmax(distance), distance.shape)
-    return int(first), int(last)
 
 
 def _middle_angle(points: np.ndarray, line: np.ndarray) -> float:
