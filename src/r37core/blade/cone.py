@@ -42,10 +42,7 @@ class Cone:
         return np.asarray(m) * np.cos(self.half_angle)
 
     def offset(self, m, theta, angle, distance):
-        """Go straight (on the unrolled cone) by `distance` in the direction `angle` from the local ruling.
-
-        Returns (m, theta) of the end point.
-        """
+        """(m, theta) after going straight, on the unrolled cone, by `distance` at `angle` to the local ruling."""
         sine = np.sin(self.half_angle)
         radius = self.radius(m)
         along, across = distance * np.cos(angle), distance * np.sin(angle)

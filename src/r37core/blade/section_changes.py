@@ -24,10 +24,7 @@ from .span_law import SpanLaw
 
 @dataclass(frozen=True)
 class SectionChange:
-    """What is changed of one profile: angles added to stagger and camber (rad), shares of chord and thickness that are kept.
-
-    The defaults change nothing.
-    """
+    """Angles added to a profile's stagger and camber (rad), shares of its chord and thickness; the defaults change nothing."""
 
     stagger: float = 0.0
     camber: float = 0.0
@@ -68,12 +65,10 @@ def changed_profiles(profiles: Sequence[ProfileParameters], laws: Mapping[str, S
     return changed
 
 
+# it takes a millisecond, and a call of r37 reads the designs of a family several times
 @lru_cache(maxsize=2**15)
 def changed_profile(profile: ProfileParameters, change: SectionChange) -> ProfileParameters:
-    """The profile with one change; neutral parts of it leave every bit. Raises SectionChangeError.
-
-    It takes a millisecond, and a call of r37 reads the designs of a family several times.
-    """
+    """The profile with one change; neutral parts of it leave every bit. Raises SectionChangeError."""
     try:
         if set(change.names) - {"thickness"}:
             profile = _redrawn(profile, change)

@@ -11,9 +11,6 @@ from .geometry_file import write_geometry
 
 
 def geometry(input: Any, output: Any, params: Any) -> None:
-    """Build a blade given by profiles. Params: definition, edges, provenance. Output: geometry (nc).
-
-    Raises BladeShapeError for an impossible shape.
-    """
+    """Build a blade, or raise BladeShapeError. Params: definition (profiles), edges, provenance. Output: geometry (nc)."""
     definition = from_plain(BladeDefinition, params.definition)
     write_geometry(definition.build(round_edges=params.edges == "round"), output.geometry, params.provenance)

@@ -64,11 +64,9 @@ def explorer_contents(
         "status": packed(rms["status"].values),
         "campbell": _campbell(campbell.sel(blade=blades)),
         "curves": [_curve(_like(datasets[kind], rms)[name]) for kind, name in CURVES if kind in datasets],
-        "yield_stress": _yield_stress(datasets.get("stress"), rms),
-        "stress_region": _stress_region(datasets.get("stress"), blades),
-        "history": _history(datasets.get("stress"), rms),
-        "spectrum": _spectrum(datasets.get("spectrum"), rms),
-        "wear": _wear(datasets.get("wear"), rms),
+        **_stress(datasets.get("stress"), rms),
+        "spectrum": _spectrum(datasets["spectrum"], rms) if "spectrum" in datasets else None,
+        "wear": _wear(datasets["wear"], rms) if "wear" in datasets else None,
         **interaction_table(as_ranges_bear(interactions), benchmark_scenes),
         **ranking_rows(ranking),
         "shapes": [list(pair) for pair in shapes],
@@ -107,30 +105,24 @@ def _curve(variable: xr.DataArray) -> dict[str, object]:
     return about | {"values": packed(factor * variable.transpose("blade", "scene", "speed").values)}
 
 
-def _yield_stress(stress: xr.Dataset | None, rms: xr.Dataset) -> dict[str, object] | None:
-    """In MPa, (blade, scene)."""
+def _stress(stress: xr.Dataset | None, rms: xr.Dataset) -> dict[str, object]:
+    """Yield stress and, for the speeds that have it, largest stress of every revolution (MPa); each blade's region in words."""
     if stress is None:
-        return None
-    values = stress["yield_stress"].reindex(blade=rms["blade"], scene=rms["scene"])
-    return packed(1e-6 * values.transpose("blade", "scene").values)
+        return {"yield_stress": None, "stress_region": {}, "history": None}
 
+    def in_mpa(name: str, *dims: str) -> dict[str, object]:
+        values = stress[name].reindex(blade=rms["blade"], scene=rms["scene"])
+        return packed(1e-6 * values.transpose("blade", "scene", *dims).values)
 
-def _stress_region(stress: xr.Dataset | None, blades: Iterable[str]) -> dict[str, str]:
-    """Where the stress of each blade is looked for, in words; of those that have one."""
-    if stress is None:
-        return {}
-    texts = {blade: stress["stress_region"].sel(blade=blade).values for blade in blades if blade in stress["blade"].values}
-    return {blade: max(map(str, of_scenes)) for blade, of_scenes in texts.items()}
-
-
-def _history(stress: xr.Dataset | None, rms: xr.Dataset) -> dict[str, object] | None:
-    """Largest stress (MPa) of every revolution, (blade, scene, history speed, revolution), for the speeds that have it."""
-    if stress is None or "max_von_mises_history" not in stress:
-        return None
-    values = stress["max_von_mises_history"].reindex(blade=rms["blade"], scene=rms["scene"])
+    history = None
+    if "max_von_mises_history" in stress:
+        values = in_mpa("max_von_mises_history", "history_speed", "revolution")
+        history = {"speeds": packed(stress["history_speed"].values, 64), "values": values}
+    known = [blade for blade in map(str, rms["blade"].values) if blade in stress["blade"].values]
     return {
-        "speeds": packed(stress["history_speed"].values, 64),
-        "values": packed(1e-6 * values.transpose("blade", "scene", "history_speed", "revolution").values),
+        "yield_stress": in_mpa("yield_stress"),
+        "stress_region": {blade: max(map(str, stress["stress_region"].sel(blade=blade).values)) for blade in known},
+        "history": history,
     }
 
 
@@ -147,18 +139,14 @@ def _map(variable: xr.DataArray, over: str, across: np.ndarray, other: np.ndarra
     }
 
 
-def _spectrum(spectrum: xr.Dataset | None, rms: xr.Dataset) -> dict[str, object] | None:
+def _spectrum(spectrum: xr.Dataset, rms: xr.Dataset) -> dict[str, object]:
     """Amplitude of the leading edge's normal motion (mm) over engine order."""
-    if spectrum is None:
-        return None
     starts = order_bins(spectrum["engine_order"].values)
     return _map(_like(spectrum, rms)["amplitude"], "engine_order", starts, ORDERS_PER_STEP * np.arange(len(starts)))
 
 
-def _wear(wear: xr.Dataset | None, rms: xr.Dataset) -> dict[str, object] | None:
+def _wear(wear: xr.Dataset, rms: xr.Dataset) -> dict[str, object]:
     """Wear (mm) over the angle (degrees) round the casing."""
-    if wear is None:
-        return None
     starts = bin_starts(wear.sizes["angle"], MOST_ANGLES)
     return _map(_like(wear, rms)["wear"], "angle", starts, np.degrees(wear["angle"].values[starts]))
 

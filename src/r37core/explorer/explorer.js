@@ -41,29 +41,20 @@
     return { shape, values: Array.from(values), row };
   }
 
-  const speeds = (await unpack(data.speeds)).values;
-  const status = await unpack(data.status);
-  const campbell = data.campbell;
-  const campbellSpeeds = (await unpack(campbell.speeds)).values;
-  const frequency = await unpack(campbell.frequency);
-  const crossing = await unpack(campbell.crossing);
-  const curves = await Promise.all(data.curves.map(async (curve) => ({ ...curve, values: await unpack(curve.values) })));
-  const unpackMap = async (map) => map && {
-    ...map, speeds: (await unpack(map.speeds)).values, other: (await unpack(map.other)).values, values: await unpack(map.values),
-  };
-  const maps = { spectrum: await unpackMap(data.spectrum), wear: await unpackMap(data.wear) };
-  const yieldStress = data.yield_stress && await unpack(data.yield_stress);
-  const history = data.history
-    && { speeds: (await unpack(data.history.speeds)).values, values: await unpack(data.history.values) };
-
-  async function unpackSample({ curves: spreads, ...kept }) {
-    const unpackSpread = async ([name, { band, members }]) => [name, { band: await unpack(band), members: await unpack(members) }];
-    return {
-      ...kept, speeds: (await unpack(kept.speeds)).values,
-      curves: Object.fromEntries(await Promise.all(Object.entries(spreads).map(unpackSpread))),
-    };
+  // a part of the data with all its arrays unpacked
+  async function unpackAll(part) {
+    if (typeof part !== "object" || part === null) return part;
+    if ("base64" in part) return unpack(part);
+    const unpacked = await Promise.all(Object.values(part).map(unpackAll));
+    return Array.isArray(part) ? unpacked : Object.fromEntries(Object.keys(part).map((name, at) => [name, unpacked[at]]));
   }
-  const sample = data.sample && await unpackSample(data.sample);
+
+  const { values: speeds } = await unpack(data.speeds);
+  const [status, campbell, curves, yieldStress, history, sample] = await Promise.all(
+    [data.status, data.campbell, data.curves, data.yield_stress, data.history, data.sample].map(unpackAll),
+  );
+  const { frequency, crossing, speeds: { values: campbellSpeeds } } = campbell;
+  const maps = await unpackAll({ spectrum: data.spectrum, wear: data.wear });
 
   // and what they are where the address does not say
   const SWITCHES = { all: false, every: false, ...(sample && { band: true, members: false }) };
@@ -251,10 +242,10 @@
   }
 
   // places of the speeds that members of a pair ran at: the values of others are NaN
-  const ranOfMembers = (values) => sample.speeds.map((_, at) => at).filter((at) => !Number.isNaN(values[at]));
+  const ranOfMembers = (values) => sample.speeds.values.map((_, at) => at).filter((at) => !Number.isNaN(values[at]));
   // a line, with gaps where runs diverged
   const lineOfMembers = (places, values) => ({
-    x: shown(places.map((at) => sample.speeds[at])), y: places.map((at) => (Number.isFinite(values[at]) ? values[at] : null)),
+    x: shown(places.map((at) => sample.speeds.values[at])), y: places.map((at) => (Number.isFinite(values[at]) ? values[at] : null)),
   });
 
   // edges of the band, place and value, with gaps where its lower end diverged; an upper end that did is above all else
@@ -277,7 +268,7 @@
     const edge = edges(places, low, high);
     return [
       {
-        ...look, x: shown(edge.map(([at]) => sample.speeds[at])), y: edge.map(([, y]) => y), text: edge.map(([at]) => text(at)),
+        ...look, x: shown(edge.map(([at]) => sample.speeds.values[at])), y: edge.map(([, y]) => y), text: edge.map(([at]) => text(at)),
         name: "band", uid: `${uid}-band`, fill: "toself", hoveron: "points", fillcolor: `${colour}2b`,
         line: { color: `${colour}66`, width: 0.5 },
       },
@@ -291,7 +282,7 @@
   // all members' lines in one trace, with a gap between them
   function memberTrace(pair, curve, say, { colour, uid, ...look }) {
     const { members } = sample.curves[curve.name];
-    const said = sample.speeds.map((_, at) => say(at));
+    const said = sample.speeds.values.map((_, at) => say(at));
     const points = sample.numbers.flatMap((number, row) => {
       const values = members.row(pair, row);
       const places = ranOfMembers(values);
@@ -308,7 +299,7 @@
     if (!sample?.curves[curve.name]) return [];
     const pair = sample.pairs.findIndex(([one, other]) => one === data.blades[blade] && other === data.scenes[scene]);
     if (pair < 0) return [];
-    const say = (at) => `${data.blades[blade]}, ${data.scenes[scene]}<br>${speedText(sample.speeds[at])}`;
+    const say = (at) => `${data.blades[blade]}, ${data.scenes[scene]}<br>${speedText(sample.speeds.values[at])}`;
     const look = { ...given, mode: "lines", showlegend: false, hoverinfo: "text" };
     return [
       ...(state.band ? bandTraces(pair, curve, say, look) : []),
@@ -366,15 +357,16 @@
     const here = [bladeIndex(), sceneIndex()];
     const values = map && map.values.row(...here);
     if (!map || !values.some(Number.isFinite)) return draw(name, [], null);
-    const across = map.other.length;
+    const { values: other } = map.other;
+    const across = other.length;
     // where other blades were run and this one was not there is no column; a cell reaches half-way to its neighbours
-    const places = map.speeds.map((_, at) => at).filter((at) => values.slice(at * across, (at + 1) * across).some(Number.isFinite));
+    const places = map.speeds.values.map((_, at) => at).filter((at) => values.slice(at * across, (at + 1) * across).some(Number.isFinite));
     const columns = places.map((at) => values.slice(at * across, (at + 1) * across));
-    const rows = (of) => map.other.map((_, number) => of.map((column) => column[number]));
+    const rows = (of) => other.map((_, number) => of.map((column) => column[number]));
     const trace = {
-      type: "heatmap", x: shown(places.map((at) => map.speeds[at])), y: map.other, colorscale, zsmooth: false, hoverinfo: "text",
+      type: "heatmap", x: shown(places.map((at) => map.speeds.values[at])), y: other, colorscale, zsmooth: false, hoverinfo: "text",
       z: rows(columns.map(scaled)),
-      text: rows(columns).map((row, number) => row.map((value, place) => say(map, number, places[place], value))),
+      text: rows(columns).map((row, number) => row.map((value, place) => say(map.speeds.values[places[place]], other[number], value))),
       colorbar: { title: { text: unit, side: "right" }, thickness: 12 },
     };
     const plan = layout(speedAxis(), axis(title), { showlegend: false });
@@ -383,7 +375,7 @@
     const marked = ({ mark, of, look, text }) => {
       const at = ran(...here).filter((place) => of(place));
       return at.length ? [{
-        type: "scatter", mode: "markers", name: mark, x: shown(at.map((place) => speeds[place])), y: at.map(() => map.other[across - 1]), hoverinfo: "text",
+        type: "scatter", mode: "markers", name: mark, x: shown(at.map((place) => speeds[place])), y: at.map(() => other[across - 1]), hoverinfo: "text",
         text: at.map((place) => `${speedText(speeds[place])}<br>${text(place)}`), marker: { size: 9, ...look }, cliponaxis: false,
       }] : [];
     };
@@ -403,19 +395,16 @@
   // share of the circumference, of the run at a place among the speeds
   const wornThrough = (at) => curves.find((curve) => curve.name === "worn_through_share").values.row(bladeIndex(), sceneIndex())[at];
 
-  const sayAmplitude = (map, number, at, value) => {
-    const order = map.other[number];
-    return `${speedText(map.speeds[at])}<br>engine order ${digits(order)}, ${digits(order * map.speeds[at] / 2 / Math.PI)} Hz`
-      + `<br>${digits(value, 4)} mm`;
-  };
-  const sayWear = (map, number, at, value) => `${speedText(map.speeds[at])}<br>${digits(map.other[number])} degrees<br>${digits(value, 4)} mm`;
+  const sayAmplitude = (speed, order, value) => `${speedText(speed)}<br>engine order ${digits(order)}, ${digits(order * speed / 2 / Math.PI)} Hz`
+    + `<br>${digits(value, 4)} mm`;
+  const sayWear = (speed, degrees, value) => `${speedText(speed)}<br>${digits(degrees)} degrees<br>${digits(value, 4)} mm`;
 
   function drawStress() {
     const here = [bladeIndex(), sceneIndex()];
     const traces = [];
     const plan = layout(axis("revolution"), axis("largest von Mises stress (MPa)"), { shapes: [] });
     if (history) {
-      history.speeds.forEach((speed, number) => {
+      history.speeds.values.forEach((speed, number) => {
         const values = history.values.row(...here, number);
         if (!values.some(Number.isFinite)) return;
         const near = Math.abs(speed - state.speed) < 1e-6 * speed;
@@ -623,11 +612,9 @@
   // what the address asks for, as far as the data have it
   function fromAddress() {
     const told = Object.fromEntries(new URLSearchParams(window.location.hash.slice(1)));
+    const known = { blade: data.blades, scene: data.scenes, quantity: curves.map(({ name }) => name), unit: ["rad/s", "rpm"] };
     const wanted = {};
-    if (data.blades.includes(told.blade)) wanted.blade = told.blade;
-    if (data.scenes.includes(told.scene)) wanted.scene = told.scene;
-    if (curves.some((one) => one.name === told.quantity)) wanted.quantity = told.quantity;
-    if (["rad/s", "rpm"].includes(told.unit)) wanted.unit = told.unit;
+    for (const [name, values] of Object.entries(known)) if (values.includes(told[name])) wanted[name] = told[name];
     if (Number.isFinite(Number.parseFloat(told.speed))) wanted.speed = Number.parseFloat(told.speed);
     if (told.sort === "" || data.columns.some(({ name }) => name === told.sort?.replace(/^-/, ""))) wanted.sort = told.sort;
     for (const [name, usual] of Object.entries(SWITCHES)) wanted[name] = name in told ? told[name] === "true" : usual;

@@ -12,7 +12,6 @@ const words = (() => {
     return element;
   }
   // with the unit in which it is shown; speeds are in that of the page
-  const unitOf = ({ unit }, speedUnit) => (unit === "rad/s" ? speedUnit : unit);
-  const headed = (word, speedUnit) => (word.unit ? `${word.title} (${unitOf(word, speedUnit)})` : word.title);
-  return { button, headed, unitOf };
+  const headed = ({ title, unit }, speedUnit) => (unit ? `${title} (${unit === "rad/s" ? speedUnit : unit})` : title);
+  return { button, headed };
 })();

@@ -59,10 +59,7 @@ def stress(input: Any, output: Any, params: Any) -> None:
 
 
 def matrices(input: Any, output: Any, params: Any) -> None:
-    """Write matrices as Matrix Market. Inputs: rom, and mesh for full ones. Output: folder.
-
-    Params: choice, tip_line, material.
-    """
+    """Write matrices. Inputs: rom, and mesh for full ones. Params: choice, tip_line, material. Output: folder (of .mtx)."""
     model, speeds, folder = read_reduced_model(input.rom), params.choice["matrix_speeds"], Path(output.folder)
     if hasattr(input, "mesh"):
         full = assemble(read_vtu(input.mesh), from_plain(Material, params.material))

@@ -35,10 +35,7 @@ class BladeMesh:
     node_sets: Mapping[str, np.ndarray]
 
     def node_set(self, name: str) -> np.ndarray:
-        """Node numbers of a named set; lines along the tip run from the leading to the trailing edge.
-
-        Raises KeyError for a name not in NODE_SETS.
-        """
+        """Node numbers of a set, lines of the tip from leading to trailing edge; KeyError for a name not in NODE_SETS."""
         return self.node_sets[name]
 
     @property

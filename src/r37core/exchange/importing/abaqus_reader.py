@@ -109,9 +109,8 @@ def _take(deck: _Deck, keyword: str, options: dict[str, str], rows: list[list[st
     elif keyword == "NODE" and deck.scope == "ASSEMBLY":
         return  # reference points, numbered from 1 once more
     elif keyword == "NODE":
-        _define(
-            deck.points, "node", [(int(row[0]), ([float(cell) for cell in row[1:] if cell] + [0.0] * 3)[:3]) for row in rows]
-        )
+        nodes = [(int(row[0]), ([float(cell) for cell in row[1:] if cell] + [0.0] * 3)[:3]) for row in rows]
+        _define(deck.points, "node", nodes)
         _add(deck.node_sets, options.get("NSET"), [int(row[0]) for row in rows])
     elif keyword == "ELEMENT":
         _take_elements(deck, options, rows)
@@ -120,8 +119,8 @@ def _take(deck: _Deck, keyword: str, options: dict[str, str], rows: list[list[st
     elif keyword in ("NSET", "ELSET"):
         sets = deck.node_sets if keyword == "NSET" else deck.element_sets
         _add(sets, options.get(keyword), _members(sets, "GENERATE" in options, rows))
-    elif keyword == "BOUNDARY":
-        deck.held += [(row[0], _directions_held(row)) for row in rows] if _of_displacement(options) else []
+    elif keyword == "BOUNDARY" and _of_displacement(options):
+        deck.held += [(row[0], _directions_held(row)) for row in rows]
     elif keyword == "SURFACE" and options.get("TYPE", "ELEMENT").upper() == "ELEMENT":
         deck.surfaces[options.get("NAME", "")] = [(row[0], row[1].upper() if len(row) > 1 else "") for row in rows]
 
@@ -202,9 +201,8 @@ def _members(sets: dict[str, list[int]], generated: bool, rows: list[list[str]])
                     f"at most {_MOST_GENERATED} numbers"
                 )
             members += range(first, last + 1, step)
-            continue
-        for cell in cells:
-            members += _named(sets, cell)
+        else:
+            members += [number for cell in cells for number in _named(sets, cell)]
     return members
 
 
@@ -216,9 +214,8 @@ def _named(sets: dict[str, list[int]], cell: str) -> list[int]:
 
 def _of_displacement(options: dict[str, str]) -> bool:
     """Whether a block *BOUNDARY prescribes displacements, not velocities or those of another model."""
-    return options.get("TYPE", "DISPLACEMENT").upper() == "DISPLACEMENT" and not {"SUBMODEL", "USER", "AMPLITUDE"} & set(
-        options
-    )
+    of_type = options.get("TYPE", "DISPLACEMENT").upper() == "DISPLACEMENT"
+    return of_type and options.keys().isdisjoint(("SUBMODEL", "USER", "AMPLITUDE"))
 
 
 def _directions_held(row: list[str]) -> range:
@@ -258,10 +255,7 @@ def _node_lists(deck: _Deck) -> Iterator[tuple[str, list[int]]]:
 
 
 def _face_nodes(surface: str, nodes: list[int], face: str) -> list[int]:
-    """Corners and mid-nodes of face S1, S2, ... of a solid element, all its nodes where no face is named.
-
-    Raises ImportRefused for a face that the element lacks.
-    """
+    """Nodes of face S1, S2, ... of a solid element, all of it where no face is named; ImportRefused for a face it lacks."""
     if not face:
         return nodes
     element = next(e for e in ELEMENTS.values() if len(e.nodes) == len(nodes))

@@ -29,7 +29,8 @@ def find_axes(mesh: RawMesh, like: Orientation) -> Orientation | None:
     surface = outer_faces(mesh.blocks)
     candidates = [(_SIZE, like)]
     for axis in np.eye(3):
-        radial = _nearest_direction((mesh.points.mean(axis=0) - like.axis_point) * (1.0 - axis))
+        middle = (mesh.points.mean(axis=0) - like.axis_point) * (1.0 - axis)
+        radial = tuple(np.where(np.arange(3) == np.argmax(np.abs(middle)), np.sign(middle), 0.0).tolist())
         tried = replace(like, length_unit=_SIZE / size, rotor_axis=tuple(axis), radial=radial, rotation="negative")
         placed = tried.points_to_blade(mesh.points)
         hub, casing = (find_end(what, placed, surface) for what in ("root", "tip"))
@@ -44,12 +45,6 @@ def find_axes(mesh: RawMesh, like: Orientation) -> Orientation | None:
         if _makes_sense(mesh, turned := _turned(best, sign, rotation))
     ]
     return replace(fitting[0], length_unit=like.length_unit) if len(fitting) == 1 else None
-
-
-def _nearest_direction(vector: np.ndarray) -> tuple[float, float, float]:
-    """The direction along an axis of the file that is nearest to a vector."""
-    along = int(np.argmax(np.abs(vector)))
-    return tuple(float(np.sign(vector[along])) if i == along else 0.0 for i in range(3))  # type: ignore[return-value]
 
 
 def _turned(orientation: Orientation, sign: float, rotation: str) -> Orientation:

@@ -39,10 +39,7 @@ def deck_lines(file: Path) -> Iterator[str]:
 
 
 def keyword_and_options(line: str) -> tuple[str, dict[str, str]]:
-    """The keyword of a line `*KEYWORD, OPTION=value, ...` and its options; keyword and names of options in capitals.
-
-    A line of data has an empty keyword.
-    """
+    """Keyword, "" of a line of data, and options of `*KEYWORD, OPTION=value, ...`; keyword and names of options in capitals."""
     if not line.startswith("*"):
         return "", {}
     keyword, *words = [word.strip() for word in line[1:].split(",")]

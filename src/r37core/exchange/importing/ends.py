@@ -23,10 +23,7 @@ _LOOKS = {"root": "towards the axis", "tip": "towards the casing"}
 
 @dataclass(frozen=True)
 class Caught:
-    """A part of the blade's surface: its `nodes`, its `faces` and a `mask` over all outer faces.
-
-    A set as the root may have more nodes than its faces.
-    """
+    """A part of the blade's surface: its `nodes` (of a set as the root, all), `faces` and their `mask` over all outer faces."""
 
     nodes: np.ndarray
     faces: list[Faces]

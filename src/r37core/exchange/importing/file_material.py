@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import astuple, dataclass
 from pathlib import Path
 
 import numpy as np
@@ -30,7 +30,7 @@ class FileMaterial:
 
     def agrees(self, material: Material) -> bool:
         """Whether this is the same material, in one of the usual systems of units, as far as the file tells."""
-        own = np.array([self.youngs_modulus, self.poissons_ratio, self.density])
+        own = np.array(astuple(self))
         blade, present = np.array([material.youngs_modulus, material.poissons_ratio, material.density]), np.isfinite(own)
         factors = ([modulus, 1.0, density] for modulus, density in _UNITS)
         return any(np.allclose((own * factor)[present], blade[present], rtol=_ALIKE, atol=0.0) for factor in factors)
@@ -38,22 +38,15 @@ class FileMaterial:
     @property
     def in_words(self) -> str:
         """Its numbers as the file has them."""
-        numbers = {
-            "Young's modulus": self.youngs_modulus,
-            "Poisson's ratio": self.poissons_ratio,
-            "density": self.density,
-        }
-        return ", ".join(f"{name} {value:g}" for name, value in numbers.items() if np.isfinite(value))
+        numbers = zip(("Young's modulus", "Poisson's ratio", "density"), astuple(self), strict=True)
+        return ", ".join(f"{name} {value:g}" for name, value in numbers if np.isfinite(value))
 
 
 def ignored_material(name: str, root: Path, material: Material) -> FileMaterial | None:
     """The first material of the mesh file `name` in the folder `root` that is not the blade's; None without one."""
     files = mesh_files(name, root)
-    kind = kind_of(files[0])
-    if kind == DECK:
-        materials = [each for file in files for each in _of_deck(file)]
-    else:
-        materials = list(_of_bulk_data(files[0])) if kind in (".bdf", ".nas") else []
+    kind, readers = kind_of(files[0]), {DECK: _of_deck, ".bdf": _of_bulk_data, ".nas": _of_bulk_data}
+    materials = [each for file in files for each in readers[kind](file)] if kind in readers else []
     return next((each for each in materials if not each.agrees(material)), None)
 
 

@@ -48,7 +48,14 @@ def import_mesh(source: MeshSource, folder: Path | str = ".") -> tuple[BladeMesh
             source.orientation.warn_of_size(placed.points)
         root, tip, lines = _ends(source, placed)
     except ImportRefused as error:
-        size = "" if placed is None else f"; {_size_before_ends(source, placed)}"
+        size = ""
+        if placed is not None:
+            # what fits its shape, fits in any unit
+            radius = np.hypot(placed.points[:, 0], placed.points[:, 1])
+            size = (
+                f"; with length_unit {source.orientation.length_unit} the blade reaches from {radius.min():.4g} to "
+                f"{radius.max():.4g} m from the axis"
+            )
         raise ImportRefused(f"{error.reason}{size}", error.key, fitting_entry(source, raw)) from None
     raw = placed
     with blamed("mesh", source.file):
@@ -73,13 +80,6 @@ def size_in_words(mesh: BladeMesh) -> str:
         f"{size[0]:.4g} m long and {size[2]:.4g} m wide along the axis, "
         f"radius of the tip {leading:.4g} m at the leading and {trailing:.4g} m at the trailing edge, of the root {root:.4g} m"
     )
-
-
-def _size_before_ends(source: MeshSource, mesh: RawMesh) -> str:
-    """How large a refused mesh is: what fits its shape, fits in any unit."""
-    radius = np.hypot(mesh.points[:, 0], mesh.points[:, 1])
-    unit = source.orientation.length_unit
-    return f"with length_unit {unit} the blade reaches from {radius.min():.4g} to {radius.max():.4g} m from the axis"
 
 
 def _ends(source: MeshSource, raw: RawMesh) -> tuple[np.ndarray, np.ndarray, TipLines]:

@@ -87,10 +87,7 @@ def _headers(file: Path) -> dict[str, tuple[tuple[int, ...], np.dtype]]:
 
 
 def _check_shape(shape: tuple[int, ...], entries: int, numbers: str) -> None:
-    """Refuse what cannot be a mass or stiffness, before anything of its size is made.
-
-    `numbers`: of SciPy or NumPy, what kind the entries are.
-    """
+    """Refuse what cannot be a mass or stiffness before anything of its size is made; `numbers`: the kind of the entries."""
     if len(shape) != 2 or shape[0] != shape[1]:
         raise ImportRefused(f"found an array of shape {shape}; allowed: a square matrix")
     if not numbers.startswith(("real", "integer", "unsigned-integer", "float", "int", "uint")):

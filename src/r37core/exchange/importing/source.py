@@ -83,10 +83,7 @@ def mesh_files(name: str, root: Path) -> list[Path]:
 
 
 def kind_of(file: Path) -> str:
-    """The ending, one of SUFFIXES, that says how a mesh file is read: DECK where its text is Abaqus's.
-
-    Raises ImportRefused for a file of an unknown kind.
-    """
+    """How a mesh file is read, one of SUFFIXES: DECK where its text is Abaqus's, else its ending; ImportRefused for others."""
     if is_deck(file):
         return DECK
     suffix = file.suffix.lower()

@@ -14,7 +14,7 @@ from r37core.fem.surface import Faces, loops, nodes_of, patches
 _CORNER = np.cos(np.radians(40.0))
 _NEAR_END = 1.2  # mean thicknesses of the tip: a corner this near to the farthest point ends the edge's line
 _NEAR_CAMBER = 0.3  # of the local thickness: tip nodes that count as on the camber line
-_SAMPLES = 201
+_STEPS = np.linspace(0.0, 1.0, 201)  # fractions of the edges at which they are compared
 _DOWNSTREAM = 0.02  # of the chord: how far the trailing edge lies downstream at least
 _OVERRIDE = "sense_check: false takes the blade as it is"
 
@@ -91,8 +91,7 @@ def check_sense(points: np.ndarray, lines: TipLines, pressure_forward: bool) -> 
     `points`: shape (nodes, 3), in the blade's frame; `pressure_forward`: whether the pressure side looks along the rotation.
     What the tip does not tell is warned of.
     """
-    steps = np.linspace(0.0, 1.0, _SAMPLES)
-    sides = [_at(points[lines[name][0]], steps) for name in ("tip_pressure_edge", "tip_suction_edge")]
+    sides = [_at(points[lines[name][0]], _STEPS) for name in ("tip_pressure_edge", "tip_suction_edge")]
     sense = sense_of_line(0.5 * (sides[0] + sides[1]))
     fits = sense.fits(pressure_forward)
     _check_lead(sides[0][[0, -1]], sense, fits)
@@ -184,14 +183,13 @@ def find_tip_lines(points: np.ndarray, faces: list[Faces], pressure_forward: boo
 
 def _camber(points: np.ndarray, tip: np.ndarray, pressure: np.ndarray, suction: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Tip nodes near the line half-way between the edges, and their fractions along it."""
-    steps = np.linspace(0.0, 1.0, _SAMPLES)
-    sides = [_at(points[line], steps) for line in (pressure, suction)]
+    sides = [_at(points[line], _STEPS) for line in (pressure, suction)]
     middle, across = 0.5 * (sides[0] + sides[1]), np.linalg.norm(sides[1] - sides[0], axis=1)
     distance, nearest = cKDTree(middle).query(points[tip])
     spacing = np.linalg.norm(np.diff(middle, axis=0), axis=1).max()
     near = distance <= np.maximum(_NEAR_CAMBER * across[nearest], 0.5 * spacing)
-    order = np.argsort(steps[nearest[near]], kind="stable")
-    return tip[near][order], steps[nearest[near]][order]
+    order = np.argsort(nearest[near], kind="stable")
+    return tip[near][order], _STEPS[nearest[near]][order]
 
 
 def _between_corners(points: np.ndarray, line: np.ndarray, thickness: float) -> np.ndarray:
