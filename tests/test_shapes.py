@@ -127,7 +127,7 @@ def instant(whole, steel):
     revolution = 2e-4 * (np.outer(np.sin(3 * angle), shapes[0]) + 0.2 * np.outer(np.cos(2 * angle), shapes[1]))
     stress = stress_operator(whole, steel).max_von_mises(revolution)
     number = int(np.argmax(stress))
-    return WorstInstant(revolution[number], float(stress[number]), revolution, number)
+    return WorstInstant(float(stress[number]), revolution, number)
 
 
 @pytest.mark.parametrize(("share", "said"), [(0.99, ", above yield: outside the linear model;"), (1.01, " MPa;")])

@@ -51,10 +51,7 @@ class Cone:
         return new_m, theta + _arctan_over(sine, across / (radius + sine * along))
 
     def unroll(self, m0, theta0, m, theta):
-        """Plane coordinates of (m, theta) on the unrolled cone, seen from (m0, theta0).
-
-        Returns (along, across): distance along the ruling through (m0, theta0), and normal to it.
-        """
+        """Distances on the unrolled cone from (m0, theta0) to (m, theta): along the ruling of the first, and normal to it."""
         sine = np.sin(self.half_angle)
         turn = theta - theta0
         radius = self.radius(m)

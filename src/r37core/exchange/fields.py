@@ -38,13 +38,11 @@ class Target:
 
 @dataclass(frozen=True)
 class WorstInstant:
-    """The instant of the last revolution with the largest stress on the submesh.
+    """The instant `number` of the last revolution: that with the largest von Mises stress on the submesh, `largest` (Pa).
 
-    `coordinates`, reduced, shape (coordinates,); `largest` (Pa), of von Mises on the submesh; `revolution`: the coordinates at
-    all instants of that revolution, shape (instants, coordinates), and `number`, which of them is the worst.
+    `revolution`: the reduced coordinates at all its instants, shape (instants, coordinates).
     """
 
-    coordinates: np.ndarray
     largest: float
     revolution: np.ndarray
     number: int
@@ -52,11 +50,7 @@ class WorstInstant:
 
 @dataclass(frozen=True)
 class ModeShapes:
-    """Modes at one speed.
-
-    `names`; `frequencies` (Hz), shape (modes,); `displacement` of all nodes (kg^-1/2, mass-normalised), shape
-    (modes, nodes, 3).
-    """
+    """Modes at one speed: `frequencies` (Hz), mass-normalised `displacement` of all nodes (kg^-1/2), shape (modes, nodes, 3)."""
 
     names: tuple[str, ...]
     frequencies: np.ndarray
@@ -104,7 +98,7 @@ def worst_instants(
         revolution = run["snapshots"]
         largest = stress.max_von_mises(revolution)
         instant = int(np.argmax(largest))
-        instants[speed] = WorstInstant(revolution[instant], float(largest[instant]), revolution, instant)
+        instants[speed] = WorstInstant(float(largest[instant]), revolution, instant)
     worst = max(instants, key=lambda speed: instants[speed].largest, default=None)
     return {worst: instants[worst]} if only_worst and worst is not None else instants
 
@@ -133,7 +127,7 @@ def write_stress(
 
 def stress_of(mesh: BladeMesh, model: ReducedModel, material: Material, instant: WorstInstant) -> tuple[np.ndarray, np.ndarray]:
     """Displacement (m), shape (nodes, 3), and stress (Pa), shape (6, nodes), on the whole blade."""
-    displacement = displacement_of(model, instant.coordinates[None])[0]
+    displacement = displacement_of(model, instant.revolution[[instant.number]])[0]
     return displacement, nodal_stress(mesh.blocks, mesh.points, displacement[:, :, None], material)[:, :, 0]
 
 

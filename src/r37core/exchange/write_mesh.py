@@ -36,8 +36,7 @@ def _vtu(mesh: BladeMesh, file: Path) -> None:
 def _msh(mesh: BladeMesh, file: Path) -> None:
     cells, groups = _grouped(mesh)
     data = {"gmsh:physical": groups, "gmsh:geometrical": groups}
-    dimensions = {"blade": 3, "root": 2, "tip": 2}
-    names = {name: np.array([number, dimensions[name]]) for name, number in GROUPS.items()}
+    names = {name: np.array([number, 3 if name == "blade" else 2]) for name, number in GROUPS.items()}
     meshio.Mesh(mesh.points, cells, cell_data=data, field_data=names).write(file, file_format="gmsh22", binary=False)
 
 

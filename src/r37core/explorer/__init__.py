@@ -23,7 +23,10 @@ PARTS = tuple(
         "explorer.js",
     )
 )
-"""What the page is put together from, beside its data and plotly: page, style, and its program in the order it runs."""
+"""What the page is put together from, beside its data and plotly: body, style, and its program in the order it runs."""
+
+_FRAME = FOLDER / "frame.html"
+"""What stands round the body of every page."""
 
 
 def with_programs(programs: Sequence[Path | str]) -> tuple[Path, ...]:
@@ -33,18 +36,19 @@ def with_programs(programs: Sequence[Path | str]) -> tuple[Path, ...]:
 
 def parts_hash(parts: Sequence[Path] = PARTS) -> str:
     """Hash of the parts: with it as a rule's parameter an edited part makes the page anew."""
-    return hashlib.sha256(b"\0".join(part.read_bytes() for part in parts)).hexdigest()[:16]
+    return hashlib.sha256(b"\0".join(part.read_bytes() for part in (_FRAME, *parts))).hexdigest()[:16]
 
 
 def write_page(contents: object, title: str, file: Path | str, parts: Sequence[Path] = PARTS) -> None:
-    """Write the page made of `parts` (page, style, programs) and its contents, by default the explorer, atomically."""
+    """Write the page made of `parts` (body, style, programs) and its contents, by default the explorer, atomically."""
     # heavy, and rules import this module for its parts
     from plotly.offline import get_plotlyjs
 
-    page, style, *programs = (part.read_text(encoding="utf-8") for part in parts)
+    page, body, style, *programs = (part.read_text(encoding="utf-8") for part in (_FRAME, *parts))
     # "<" would end the script that carries the data, if a name had it
     data = json.dumps(contents, allow_nan=False).replace("<", "\\u003c")
     for mark, text in (
+        ("body", body),
         ("title", html.escape(title)),
         ("style", style),
         ("plotly", get_plotlyjs()),

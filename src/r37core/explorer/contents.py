@@ -193,15 +193,12 @@ def rounded(values: np.ndarray) -> np.ndarray:
 
 def joined(values: np.ndarray, axis: int, starts: np.ndarray) -> np.ndarray:
     """Largest of `values` in each bin along an axis; `starts`: where the bins begin. NaN where all are."""
-    filled = np.where(np.isnan(values), -np.inf, values)
-    largest = np.maximum.reduceat(filled, starts, axis=axis)
-    return np.where(np.isneginf(largest), np.nan, largest)
+    return np.fmax.reduceat(values, starts, axis=axis)
 
 
 def bin_starts(number: int, most: int) -> np.ndarray:
     """Where bins of equal length begin, at most `most` of them."""
-    length = -(-number // most)
-    return np.arange(0, number, length)
+    return np.arange(0, number, -(-number // most))
 
 
 def order_bins(orders: np.ndarray) -> np.ndarray:

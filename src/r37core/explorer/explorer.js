@@ -403,18 +403,16 @@
     const here = [bladeIndex(), sceneIndex()];
     const traces = [];
     const plan = layout(axis("revolution"), axis("largest von Mises stress (MPa)"), { shapes: [] });
-    if (history) {
-      history.speeds.values.forEach((speed, number) => {
-        const values = history.values.row(...here, number);
-        if (!values.some(Number.isFinite)) return;
-        const near = Math.abs(speed - state.speed) < 1e-6 * speed;
-        traces.push({
-          x: values.map((_, at) => at + 1), y: values, name: `${digits(speed)} rad/s`, mode: "lines", hoverinfo: "text",
-          line: { color: colourOf(number), width: near ? 3 : 1.2, dash: DASHES[Math.floor(number / 7) % 4] },
-          text: values.map((value, at) => `${speedText(speed)}<br>revolution ${at + 1}<br>${digits(value)} MPa`),
-        });
+    history?.speeds.values.forEach((speed, number) => {
+      const values = history.values.row(...here, number);
+      if (!values.some(Number.isFinite)) return;
+      const near = Math.abs(speed - state.speed) < 1e-6 * speed;
+      traces.push({
+        x: values.map((_, at) => at + 1), y: values, name: `${digits(speed)} rad/s`, mode: "lines", hoverinfo: "text",
+        line: { color: colourOf(number), width: near ? 3 : 1.2, dash: DASHES[Math.floor(number / 7) % 4] },
+        text: values.map((value, at) => `${speedText(speed)}<br>revolution ${at + 1}<br>${digits(value)} MPa`),
       });
-    }
+    });
     if (traces.length) markStress(plan, traces, [here[0]], here[1]);
     draw("stress", traces, plan, false);
   }

@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from importlib import import_module
 from pathlib import Path
+from pkgutil import resolve_name
 from typing import Any
-
-import xarray as xr
 
 from r37core.dataset_file import read_dataset
 from r37core.results.ranking import read_ranking
@@ -23,15 +21,10 @@ def explorer(input: Any, output: Any, params: Any) -> None:
     its panels show of the input that is called like it; programs: files that draw them.
     """
     files = dict(input.items())
-    panels = {extension: _called(function, read_dataset(files.pop(extension))) for extension, function in params.panels.items()}
+    panels = {name: resolve_name(function)(read_dataset(files.pop(name))) for name, function in params.panels.items()}
     interactions, ranking = read_table(files.pop("summary")), read_ranking(files.pop("ranking"))
     datasets = {kind: read_dataset(file) for kind, file in files.items()}
     file = Path(output.page)
     in_report = {blade: str(params.address(file.parent / f"shapes/{blade}.html")) for blade, _ in params.shapes}
     contents = explorer_contents(datasets, interactions, params.shapes, in_report, params.benchmark_scenes, ranking)
     write_page(contents | {"panels": panels}, params.title, file, with_programs(params.programs))
-
-
-def _called(function: str, dataset: xr.Dataset) -> object:
-    module, name = function.rsplit(".", 1)
-    return getattr(import_module(module), name)(dataset)

@@ -10,7 +10,7 @@ from r37core.io import read_json, readable
 FOLDER = Path(__file__).parent
 
 PARTS = (FOLDER / "shapes.html", EXPLORER / "explorer.css", EXPLORER / "theme.js", FOLDER / "shapes.js")
-"""What the page of a blade is put together from, beside its data and plotly: page, style, program."""
+"""What the page of a blade is put together from, beside its data and plotly: body, style, program."""
 
 INDEX = "shapes.json"
 """In each folder of shapes: what its .glb files show."""

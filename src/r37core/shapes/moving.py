@@ -119,8 +119,7 @@ def _few_targets(motion: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
     The left singular vectors of the motion: with all but _LEFT_OUT of its size, as long as they are not too many.
     """
-    flat = motion.reshape(len(motion), -1)
-    weights, size, shapes = np.linalg.svd(flat, full_matrices=False)
+    weights, size, shapes = np.linalg.svd(motion.reshape(len(motion), -1), full_matrices=False)
     left = np.sqrt(np.cumsum(size[::-1] ** 2)[::-1] / max(np.sum(size**2), 1e-300))
     count = int(np.clip(np.count_nonzero(left > _LEFT_OUT), 1, _MOST_TARGETS))
     weights = weights[:, :count] * size[:count]

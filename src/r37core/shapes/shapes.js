@@ -9,7 +9,7 @@
   const phase = document.getElementById("phase");
   const state = { shape: null, time: 0, playing: !window.matchMedia("(prefers-reduced-motion: reduce)").matches, last: null };
 
-  // the parts of a .glb file that src/r37core/exchange/gltf.py writes, turned back to the blade's axes
+  // the parts of a .glb file that src/r37core/shapes/gltf.py writes, turned back to the blade's axes
   function read(base64) {
     const bytes = Uint8Array.from(atob(base64), (letter) => letter.charCodeAt(0));
     const length = new DataView(bytes.buffer).getUint32(12, true);

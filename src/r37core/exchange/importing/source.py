@@ -28,8 +28,7 @@ SUFFIXES = (DECK, ".msh", ".vtu", ".med", ".bdf", ".nas", ".cdb")
 class MeshSource:
     """Where a blade's mesh is and how to read it.
 
-    `file`; its `orientation`; where `root` and `tip` are; `sense_check`: whether a tip that contradicts rotation or pressure
-    side is refused; `digest`: hash of the files.
+    `sense_check`: whether a tip that contradicts rotation or pressure side is refused; `digest`: hash of the files.
     """
 
     file: str
