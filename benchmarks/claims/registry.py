@@ -66,7 +66,16 @@ _TOLERANCES = "{snakemake} tolerances --configfile config/config.yaml config/tol
 
 _EXPLORER = tuple(
     f"src/r37core/explorer/{name}"
-    for name in "frame.html explorer.html explorer.css theme.js words.js ranking.js interactions.js explorer.js".split()
+    for name in (
+        "frame.html",
+        "explorer.html",
+        "explorer.css",
+        "theme.js",
+        "words.js",
+        "ranking.js",
+        "interactions.js",
+        "explorer.js",
+    )
 )
 _RINGS = ("rings", "flexibility", "peaks", "direct", "diameters", "coincidences", "causes", "growth", "overtaken", "cost")
 _SEARCH = ("compared", "best", "confirmed", "ranks", "depends")

@@ -65,16 +65,8 @@ def _profiles(text: str) -> tuple[ProfileParameters, ...]:
     return tuple(profiles)
 
 
-def read_stacking_table(file: Path, blade: str) -> tuple[tuple[float, float, float], ...]:
-    """Rows of one blade from a sweep and lean CSV with a `blade` column; as (span, sweep (m), lean (rad)).
-
-    Raises BladeShapeError as `stacking_rows` does, and when the table has no row for the blade.
-    """
-    return stacking_rows(stacking_table_rows(file, blade))
-
-
 def stacking_table_rows(file: Path, blade: str) -> list[dict[str, float]]:
-    """The same as they stand there, with STACKING_COLUMNS. Raises BladeShapeError when the table has none for the blade."""
+    """Rows of one blade, by STACKING_COLUMNS, from a sweep and lean CSV with a column `blade`; BladeShapeError without any."""
     rows = [row for row in _stacking_rows(read_text(file)) if row["blade"] == blade]
     if not rows:
         raise BladeShapeError(f"no row of the table has '{blade}' in its column 'blade'")

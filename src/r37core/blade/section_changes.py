@@ -21,6 +21,8 @@ from .profile import BladeShapeError, ProfileParameters, centreline
 from .profile_tables import check_profile_order
 from .span_law import SpanLaw
 
+_SMALLER = "; a smaller change near this span may be possible"
+
 
 @dataclass(frozen=True)
 class SectionChange:
@@ -38,10 +40,10 @@ class SectionChange:
 
 
 class SectionChangeError(BladeShapeError):
-    """A profile that cannot be changed so, because of `error`; `names`: the changes of it that are not neutral."""
+    """A profile that cannot be changed so; `names`: the changes of it that are not neutral."""
 
-    def __init__(self, error: BladeShapeError, names: Sequence[str]):
-        super().__init__(f"{error}; a smaller change near this span may be possible")
+    def __init__(self, text: str, names: Sequence[str]):
+        super().__init__(text)
         self.names = tuple(names)
 
 
@@ -61,7 +63,7 @@ def changed_profiles(profiles: Sequence[ProfileParameters], laws: Mapping[str, S
         try:
             check_profile_order(changed)
         except BladeShapeError as error:
-            raise SectionChangeError(error, sorted(names)) from None
+            raise SectionChangeError(f"{error}{_SMALLER}", sorted(names)) from None
     return changed
 
 
@@ -78,7 +80,7 @@ def changed_profile(profile: ProfileParameters, change: SectionChange) -> Profil
         if change.names:
             profile.check()
     except BladeShapeError as error:
-        raise SectionChangeError(error, change.names) from None
+        raise SectionChangeError(f"{error}{_SMALLER}", change.names) from None
     return profile
 
 

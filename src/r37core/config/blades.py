@@ -10,9 +10,9 @@ from typing import Annotated, Any, Literal, TypeVar
 
 from pydantic import Discriminator, Field, RootModel, Tag, model_validator
 
-from r37core.blade import profile_tables
 from r37core.blade.definition import BladeDefinition
 from r37core.blade.profile import BladeShapeError, ProfileParameters
+from r37core.blade.profile_tables import check_sweep, read_profile_table, stacking_rows, stacking_table_rows
 from r37core.blade.section_changes import SectionChangeError
 from r37core.blade.sense import check_profile_sense
 from r37core.exchange.importing.source import MatricesSource, MeshSource
@@ -248,14 +248,14 @@ def blade_settings(name: str, entries: Mapping[str, Any], root: Path, document: 
     for link in chain:
         profiles = _changed(link, entries[link], profiles, document)
     try:
-        profile_tables.check_sweep(shift.get("stacking") or (), profiles)
+        check_sweep(shift.get("stacking") or (), profiles)
     except BladeShapeError as error:
         raise document.error(place, f"blade {name}: {error}") from None
     return BladeSettings(BladeDefinition(name, profiles, **shift), material, entries[name].contact)
 
 
 def _profiles(file: Path, sense_check: bool) -> list[ProfileParameters]:
-    profiles = profile_tables.read_profile_table(file)
+    profiles = read_profile_table(file)
     if sense_check:
         check_profile_sense(profiles[-1])
     return profiles
@@ -310,10 +310,10 @@ def _shift(blade: str, key: str, value: Any, root: Path, document: Document) -> 
     if key == "chordwise_sweep_deg":
         return {"chordwise_sweep_angle": si_fields([(key, value)])["chordwise_sweep"], "stacking": None}
     if key == "stacking_table":
-        rows = _table(value, blade, (blade, key), document, lambda: profile_tables.read_stacking_table(root / value, blade))
+        rows = _table(value, blade, (blade, key), document, lambda: stacking_rows(stacking_table_rows(root / value, blade)))
     else:
         try:
-            rows = profile_tables.stacking_rows([row.model_dump() for row in value])
+            rows = stacking_rows([row.model_dump() for row in value])
         except BladeShapeError as error:
             raise document.error((blade, key), f"blade {blade}: {error}") from None
     return {"stacking": rows, "chordwise_sweep_angle": None}

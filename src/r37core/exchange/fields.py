@@ -50,7 +50,7 @@ class WorstInstant:
 
 @dataclass(frozen=True)
 class ModeShapes:
-    """Modes at one speed: `frequencies` (Hz), mass-normalised `displacement` of all nodes (kg^-1/2), shape (modes, nodes, 3)."""
+    """Modes at one speed: `frequencies` (Hz) and mass-normalised `displacement` (kg^-1/2), shape (modes, nodes, 3)."""
 
     names: tuple[str, ...]
     frequencies: np.ndarray

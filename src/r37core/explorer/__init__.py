@@ -10,19 +10,9 @@ from r37core.io import atomic_write
 
 FOLDER = Path(__file__).parent
 
-PARTS = tuple(
-    FOLDER / name
-    for name in (
-        "explorer.html",
-        "explorer.css",
-        "theme.js",
-        "words.js",
-        "ranking.js",
-        "interactions.js",
-        "panels.js",
-        "explorer.js",
-    )
-)
+_PROGRAMS = ("theme", "words", "ranking", "interactions", "panels", "explorer")
+
+PARTS = (FOLDER / "explorer.html", FOLDER / "explorer.css", *(FOLDER / f"{name}.js" for name in _PROGRAMS))
 """What the page is put together from, beside its data and plotly: body, style, and its program in the order it runs."""
 
 _FRAME = FOLDER / "frame.html"

@@ -7,11 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-TIP_LINES = {
-    "pressure_edge": "tip_pressure_edge",
-    "camber": "tip_camber_line",
-    "suction_edge": "tip_suction_edge",
-}
+TIP_LINES = {"pressure_edge": "tip_pressure_edge", "camber": "tip_camber_line", "suction_edge": "tip_suction_edge"}
 """Name of a line of the tip -> its node set."""
 
 NODE_SETS = ("root", "tip", "tip_pressure_edge", "tip_suction_edge", "tip_camber_line", "leading_edge", "trailing_edge")

@@ -119,18 +119,16 @@ def _write_msh(mesh: BladeMesh, tags: np.ndarray, volume: int, file: Path) -> No
     """Write the mapped mesh; physical groups: the volume `blade`, and faces or curves for the node sets."""
     for tag, point in zip(tags.tolist(), mesh.points.tolist(), strict=True):
         gmsh.model.mesh.setNode(tag, point, [])
-    groups = {(3, "blade"): [volume]}
+    gmsh.model.addPhysicalGroup(3, [volume], name="blade")
     for name in ("root", "tip", "leading_edge", "trailing_edge"):
-        groups[(2, name)] = [_entity_of(2, tags[mesh.node_set(name)])]
+        gmsh.model.addPhysicalGroup(2, [_entity_of(2, tags[mesh.node_set(name)])], name=name)
     for name in ("tip_pressure_edge", "tip_suction_edge"):
-        groups[(1, name)] = [_entity_of(1, tags[mesh.node_set(name)])]
+        gmsh.model.addPhysicalGroup(1, [_entity_of(1, tags[mesh.node_set(name)])], name=name)
     camber = tags[mesh.node_set("tip_camber_line")]
     if len(camber) > 1:
         line = gmsh.model.addDiscreteEntity(1)
         gmsh.model.mesh.addElementsByType(line, _LINE2, [], np.stack([camber[:-1], camber[1:]], axis=1).ravel())
-        groups[(1, "tip_camber_line")] = [line]
-    for (dimension, name), entities in groups.items():
-        gmsh.model.addPhysicalGroup(dimension, entities, name=name)
+        gmsh.model.addPhysicalGroup(1, [line], name="tip_camber_line")
     gmsh.write(str(file))
 
 

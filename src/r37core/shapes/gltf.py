@@ -6,6 +6,7 @@ Only what this needs of glTF 2.0 (Khronos Group, ISO/IEC 12113:2022); no library
 from __future__ import annotations
 
 import json
+import struct
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -115,6 +116,5 @@ def _linear(colours: np.ndarray) -> np.ndarray:
 def _container(text: bytes, data: bytes) -> bytes:
     """Header, JSON chunk padded with spaces, binary chunk."""
     text += b" " * (-len(text) % 4)
-    parts = [len(text).to_bytes(4, "little"), b"JSON", text, len(data).to_bytes(4, "little"), b"BIN\0", data]
-    length = 12 + sum(map(len, parts))
-    return b"".join([b"glTF", (2).to_bytes(4, "little"), length.to_bytes(4, "little"), *parts])
+    chunks = struct.pack("<I4s", len(text), b"JSON") + text + struct.pack("<I4s", len(data), b"BIN\0") + data
+    return struct.pack("<4sII", b"glTF", 2, 12 + len(chunks)) + chunks

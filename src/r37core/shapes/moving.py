@@ -9,15 +9,7 @@ from typing import Final
 import numpy as np
 from matplotlib import colormaps
 
-from r37core.exchange.fields import (
-    Target,
-    WorstInstant,
-    displacement_of,
-    mode_shapes,
-    stress_of,
-    write_modes,
-    write_stress,
-)
+from r37core.exchange.fields import Target, WorstInstant, displacement_of, mode_shapes, stress_of, write_modes, write_stress
 from r37core.fem.material import Material
 from r37core.fem.surface import outer_faces
 from r37core.io import write_json

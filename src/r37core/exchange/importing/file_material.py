@@ -52,24 +52,17 @@ def ignored_material(name: str, root: Path, material: Material) -> FileMaterial 
 
 def _of_deck(file: Path) -> Iterator[FileMaterial]:
     """Materials of Abaqus and CalculiX: the first row of *ELASTIC and of *DENSITY after each *MATERIAL."""
-    known: dict[str, list[float]] = {}
+    materials: list[dict[str, list[float]]] = [{}]
     keyword = ""
     for line in deck_lines(file):
-        if not line.startswith("*"):
-            if keyword in ("ELASTIC", "DENSITY"):
-                known.setdefault(keyword, _numbers(line.split(",")))
-            continue
-        keyword, _ = keyword_and_options(line)
-        if keyword == "MATERIAL" and known:
-            yield _material(known)
-            known = {}
-    if known:
-        yield _material(known)
-
-
-def _material(known: dict[str, list[float]]) -> FileMaterial:
-    modulus, ratio = [*known.get("ELASTIC", []), np.nan, np.nan][:2]
-    return FileMaterial(modulus, ratio, [*known.get("DENSITY", []), np.nan][0])
+        if line.startswith("*"):
+            keyword, _ = keyword_and_options(line)
+            materials += [{}] if keyword == "MATERIAL" else []
+        elif keyword in ("ELASTIC", "DENSITY"):
+            materials[-1].setdefault(keyword, _numbers(line.split(",")))
+    for known in filter(None, materials):
+        modulus, ratio = [*known.get("ELASTIC", []), np.nan, np.nan][:2]
+        yield FileMaterial(modulus, ratio, [*known.get("DENSITY", []), np.nan][0])
 
 
 def _of_bulk_data(file: Path) -> Iterator[FileMaterial]:

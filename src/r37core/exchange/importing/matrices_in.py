@@ -267,7 +267,7 @@ def _ideal_shapes(matrices: _InputMatrices) -> dict[str, np.ndarray]:
     chord = _fractions(matrices.points)
     boundary = 3 * len(chord)
     bending = np.outer(np.ones(len(chord)), normal).ravel()
-    torsion = np.outer(chord - 0.5 if len(chord) > 1 else 0.0 * chord, normal).ravel()
+    torsion = np.outer(chord - 0.5, normal).ravel()
     if len(chord) == 1:
         torsion = np.cross(normal, radial / np.linalg.norm(radial))
     inner, coupling = matrices.stiffness[boundary:, boundary:], matrices.stiffness[boundary:, :boundary]
