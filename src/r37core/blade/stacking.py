@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 import scipy
 
-from .profile import BladeShapeError, Profile, ProfileParameters, area_and_centroid
+from .profile import BladeShapeError, Profile, area_and_centroid
 
 _TOLERANCE = 1e-9  # m
 _POINTS_PER_SIDE = 400
@@ -86,12 +86,7 @@ def _moves_of_sections(profiles: Sequence[Profile], start: Placement) -> Placeme
         """Offset of every section's centre of area from the stacking line (m), axial then tangential."""
         placement = start + added(moves)
         placed = outlines + np.stack([0.0 * heights, placement.rotation, placement.axial], axis=1)[:, :, None]
-        centroids = np.array(
-            [
-                _plane_section_centroid(weights, placed, p.parameters, height)
-                for p, height in zip(profiles, heights, strict=True)
-            ]
-        )
+        centroids = np.array([_section_centroid(weights, placed, *each) for each in zip(profiles, heights, strict=True)])
         # the hub does not shift: its own entry only pins the line, through the unused first move
         axial = centroids[:, 1] - centroids[0, 1]
         axial[0] = moves[0]
@@ -116,11 +111,11 @@ def _outlines(profiles: Sequence[Profile]) -> np.ndarray:
     return np.array([[cone.radius(m), theta, cone.axial(m)] for cone, m, theta in drawn])
 
 
-def _plane_section_centroid(
-    weights: scipy.interpolate.CubicSpline, outlines: np.ndarray, parameters: ProfileParameters, height: float
+def _section_centroid(
+    weights: scipy.interpolate.CubicSpline, outlines: np.ndarray, profile: Profile, height: float
 ) -> tuple[float, float]:
     """Centre of area (y, z) of the section x = height; each outline point runs along the span until it meets the plane."""
-    v = np.full(outlines.shape[2], parameters.span)
+    v = np.full(outlines.shape[2], profile.parameters.span)
     slopes = weights.derivative()
     for _ in range(50):
         radius, theta, axial = np.einsum("np,pcn->cn", weights(v), outlines)
@@ -133,7 +128,7 @@ def _plane_section_centroid(
             _, y, z = area_and_centroid(radius * np.sin(theta), axial)
             return y, z
     raise BladeShapeError(
-        f"{parameters.label}: the plane section through this profile's centre of area cannot be cut; "
+        f"{profile.parameters.label}: the plane section through this profile's centre of area cannot be cut; "
         "neighbouring profiles cross or differ too much in radius"
     )
 

@@ -79,8 +79,7 @@ def interaction_table(interactions: pd.DataFrame, benchmark_scenes: Sequence[str
     keys = zip(table["blade"], table["scene"], titles, strict=True)
     table = table.assign(interaction=titles)
     if published:
-        table["published_peak_speed_rad_s"] = [published.get(key) for key in keys]
-        table = table.astype(object).where(table.notna(), None)
+        table["published_peak_speed_rad_s"] = pd.Series([published.get(key) for key in keys], table.index, dtype=object)
     return {"interactions": table.to_dict("records"), "columns": _columns([name for name in COLUMNS if name in table], WORDS)}
 
 
