@@ -8,8 +8,7 @@ import scipy.linalg as la
 import xarray as xr
 
 from r37core.results.campbell import Campbell, campbell_diagram, dynamic_clearance, modal_assurance
-from r37core.results.campbell_dataset import campbell_dataset
-from r37core.results.gather import gather_blades
+from r37core.results.campbell_dataset import campbell_dataset, gather_blades
 
 PUBLISHED = {7: 806.0, 6: 965.0, 5: 1213.0, 4: 1672.0}
 
@@ -107,8 +106,7 @@ def test_dataset_and_gathering(model, tmp_path):
 
     dataset = campbell_dataset(
         model,
-        maximum_speed=2000.0,
-        speed_step=100.0,
+        speeds=np.linspace(0.0, 2000.0, 21),
         modes=10,
         highest_engine_order=16,
         largest_tangential_displacement=0.01,

@@ -1,17 +1,19 @@
-"""The Campbell diagram of one blade as a dataset."""
+"""The Campbell diagram of one blade as a dataset, and those of all blades joined."""
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+
 import numpy as np
+import pandas as pd
 import xarray as xr
 
-from r37core.dataset_file import SPEED, Variable, dataset_of
+from r37core.dataset_file import SPEED, Variable, dataset_of, read_dataset
 from r37core.rom.reduced_model import ReducedModel
 from r37core.rom.rotation import BucklingError
 
 from .campbell import campbell_diagram, dynamic_clearance
-
-_CLEARANCE_POINTS = 41
 
 VARIABLES = {
     "frequency": Variable(("mode", "speed"), "Hz", "natural frequency"),
@@ -38,32 +40,29 @@ AXES = {
 def campbell_dataset(
     model: ReducedModel,
     *,
-    maximum_speed: float,
-    speed_step: float,
+    speeds: np.ndarray,
     modes: int,
     highest_engine_order: int,
     largest_tangential_displacement: float,
     tip_line: str,
 ) -> xr.Dataset:
-    """Frequencies from 0 to `maximum_speed` (rad/s), crossings with engine orders, dynamic clearance at rest.
+    """Frequencies at ascending `speeds` (rad/s) from 0, crossings with engine orders, dynamic clearance at rest.
 
-    Speeds and the step in rad/s, displacement in m; `tip_line` carries the leading-edge node of the dynamic clearance.
+    The displacement in m; `tip_line` carries the leading-edge node of the dynamic clearance.
     Raises ValueError for more modes than the model has coordinates, BucklingError where it has no stable position.
     """
     if modes > model.size:
         raise ValueError(f"campbell.modes in config.yaml: found {modes}; allowed: up to {model.size}, the reduced model's size")
-    speeds = np.linspace(0.0, maximum_speed, max(4, round(maximum_speed / speed_step) + 1))
     diagram = campbell_diagram(model, speeds, modes)
     unstable = np.flatnonzero((diagram.frequencies <= 0.0).any(axis=0))
     if len(unstable):
         raise BucklingError(speeds[unstable[0]])
     orders = np.arange(1, highest_engine_order + 1)
-    displacement = np.linspace(-1.0, 1.0, _CLEARANCE_POINTS) * largest_tangential_displacement
-    clearance = dynamic_clearance(model, diagram.shapes[:, 0].T, tip_line, displacement)
+    displacement = np.linspace(-1.0, 1.0, 41) * largest_tangential_displacement
     values = {
         "frequency": diagram.frequencies,
         "crossing_speed": diagram.crossing_speeds(orders),
-        "dynamic_clearance": clearance,
+        "dynamic_clearance": dynamic_clearance(model, diagram.shapes[:, 0].T, tip_line, displacement),
         "smallest_mac": diagram.continuity,
         "speed": speeds,
         "engine_order": orders,
@@ -73,3 +72,9 @@ def campbell_dataset(
     return dataset.assign_attrs(
         dynamic_clearance_tip_line=tip_line, tip_cone_angle_deg=float(np.degrees(model.tip_lines[tip_line].cone_angle))
     )
+
+
+def gather_blades(blades: Sequence[str], files: Iterable[Path | str]) -> xr.Dataset:
+    """One dataset with the dimension `blade` from one file per blade; the files' coordinates must agree."""
+    datasets = [read_dataset(file).drop_attrs(deep=False) for file in files]
+    return xr.concat(datasets, pd.Index(blades, name="blade"), join="exact", combine_attrs="override")

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 import xarray as xr
 
 from .exceedance import HALF_WIDTH, POSSIBLE, Exceedance, exceedance_of
 from .interaction import Crossing, Interaction, interaction_row, range_columns
-from .measures import DROP_WITHIN, drop_after, motion, ratio_to_yield, strongest_order
+from .measures import DROP_WITHIN, motion, ratio_to_yield, strongest_order
 from .speed_ranges import SpeedRange, joined, ranges_above
 
 NOTE = "direct contact: matches with modes and the stress of one revolution are chance"
@@ -44,12 +43,11 @@ def ranges_without_peak(response: xr.Dataset, rows: Sequence[Interaction]) -> li
     if "share_of_revolutions_above_yield" not in response:
         return []
     exceedance, possible = exceedance_of(response), [row.all_revolutions for row in rows]
-    alone = [
-        within
+    return [
+        _row(response, exceedance, within, note=NO_PEAK)
         for within in _ranges(response, exceedance)
         if not any(of.possible_from_rad_s <= within.end and of.possible_to_rad_s >= within.begin for of in possible)
     ]
-    return [_row(response, exceedance, within, note=NO_PEAK) for within in alone]
 
 
 def _ranges(response: xr.Dataset, exceedance: Exceedance | None) -> list[SpeedRange]:
@@ -67,39 +65,20 @@ def _row(
     speeds, level = response["speed"].values, motion(response)
     inside = np.flatnonzero((speeds >= within.begin) & (speeds <= within.end))
     at = int(np.argmax(level[inside]))
-    peak_index = int(inside[at])
-    peak, reach = response.isel(speed=peak_index), response.isel(speed=inside)
+    index = int(inside[at])
+    peak = response.isel(speed=index)
     largest = [name for name in ("normal", "tangential") if np.argmax(response[f"rms_{name}"].fillna(0.0).values[inside]) == at]
     ended = bool(np.isfinite(peak["rms_normal"]))
     order = round(strongest_order(peak["amplitude"])) if ended and "amplitude" in peak else None
-    return interaction_row(
-        reach,
-        peak,
-        Crossing("", order, largest[0] if len(largest) == 1 else "both"),
-        drop_after(response, peak_index),
-        last_revolution={},
-        all_revolutions=_range_columns(exceedance, within, peak_alone),
-        peak_motion=_motion_columns(speeds, level, peak_index) if ended else {},
-        note=note,
-    )
-
-
-def _range_columns(exceedance: Exceedance | None, within: SpeedRange, peak_alone: bool) -> dict[str, Any]:
-    """Borders of the row itself, which may be those of single speeds, and of what is certain in it; none without stress."""
-    if exceedance is None:
-        return {}
-    columns = range_columns(exceedance, within)
-    return columns if peak_alone else columns | {"possible_from_rad_s": within.begin, "possible_to_rad_s": within.end}
-
-
-def _motion_columns(speeds: np.ndarray, level: np.ndarray, peak_index: int) -> dict[str, Any]:
-    """Scatter of the motion at a peak, and where it falls below half of that above the peak."""
-    fall, scatter = _fall(speeds, level, peak_index)
-    return {
-        "peak_motion_scatter_m": _scatter(speeds, level, peak_index),
-        "fall_speed_rad_s": fall,
-        "fall_speed_scatter_rad_s": scatter,
-    }
+    columns = range_columns(exceedance, within) if exceedance else {}
+    if exceedance and not peak_alone:
+        # those of the row itself, which may be single speeds
+        columns |= {"possible_from_rad_s": within.begin, "possible_to_rad_s": within.end}
+    if ended:
+        columns["peak_motion_scatter_m"] = _scatter(speeds, level, index)
+        columns["fall_speed_rad_s"], columns["fall_speed_scatter_rad_s"] = _fall(speeds, level, index)
+    crossing = Crossing("", order, largest[0] if len(largest) == 1 else "both")
+    return interaction_row(response, index, response.isel(speed=inside), crossing, columns, note)
 
 
 def _scatter(speeds: np.ndarray, level: np.ndarray, index: int) -> float:
@@ -119,9 +98,8 @@ def _fall(speeds: np.ndarray, level: np.ndarray, peak_index: int) -> tuple[float
     quiet = np.flatnonzero(~loud)
     if not len(quiet):
         return np.nan, np.nan
-    first, last = int(quiet[0]), int(quiet[0])
-    again = np.flatnonzero(loud & (speeds[peak_index:] <= speeds[peak_index + first] + DROP_WITHIN))
-    last = max(last, int(again[-1]) + 1) if again[-1] > first else last
-    low = float(speeds[peak_index + first - 1])
-    high = float(speeds[min(peak_index + last, len(speeds) - 1)])
+    first = peak_index + int(quiet[0])
+    again = np.flatnonzero(loud & (speeds[peak_index:] <= speeds[first] + DROP_WITHIN))
+    last = max(first, peak_index + int(again[-1]) + 1)
+    low, high = float(speeds[first - 1]), float(speeds[min(last, len(speeds) - 1)])
     return 0.5 * (low + high), 0.5 * (high - low)

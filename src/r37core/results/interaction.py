@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, fields, is_dataclass
-from typing import Any, get_type_hints
+from typing import Any, TypeVar, get_type_hints
 
 import numpy as np
 import xarray as xr
@@ -13,6 +13,7 @@ from r37core.time_integration.status import RunStatus
 
 from .exceedance import CERTAIN, POSSIBLE, Exceedance
 from .interaction_title import interaction_title
+from .measures import drop_after
 from .speed_ranges import SpeedRange
 
 
@@ -141,37 +142,37 @@ def range_columns(exceedance: Exceedance, within: SpeedRange) -> dict[str, Any]:
     return columns
 
 
-def interaction_row(
-    reach: xr.Dataset,
-    peak: xr.Dataset,
-    crossing: Crossing,
-    drop: float,
-    *,
-    last_revolution: dict[str, float],
-    all_revolutions: dict[str, float],
-    peak_motion: dict[str, float],
-    note: str = "",
-) -> Interaction:
-    """The row of a response's `reach` that has its `peak` there; other columns of the parts, where there are some, by name.
+_Part = TypeVar("_Part", LastRevolution, AllRevolutions, PeakMotion)
 
-    The largest of everything, and how its runs ended, are those of all its speeds.
+
+def interaction_row(
+    response: xr.Dataset, index: int, reach: xr.Dataset, crossing: Crossing, more: Mapping[str, Any], note: str = ""
+) -> Interaction:
+    """The row of a `response` with its peak at an `index` among the speeds; `more`: other columns of the parts, by name.
+
+    The largest of everything, and how its runs ended, are those of all speeds of its `reach`.
     """
-    normal, tangential = float(peak["rms_normal"]), float(peak["rms_tangential"])
-    speed = float(peak["speed"])
-    region = str(reach["stress_region"].item()) if "stress_region" in reach else ""
+    speed, normal, tangential = (float(response[name][index]) for name in ("speed", "rms_normal", "rms_tangential"))
+    columns = {
+        "stress_region": str(reach["stress_region"].item()) if "stress_region" in reach else "",
+        "median_von_mises_pa": _largest(reach, "max_von_mises_median"),
+        "high_von_mises_pa": _largest(reach, "max_von_mises_high"),
+        "peak_motion_m": float(np.hypot(normal, tangential)),
+        **more,
+    }
+
+    def part(kind: type[_Part]) -> _Part:
+        return kind(**{field.name: columns[field.name] for field in fields(kind) if field.name in columns})
+
     return Interaction(
         crossing,
-        Peak(speed, speed - crossing.campbell_speed_rad_s, normal, tangential, drop),
-        LastRevolution(**last_revolution, stress_region=region),
+        Peak(speed, speed - crossing.campbell_speed_rad_s, normal, tangential, drop_after(response, index)),
+        part(LastRevolution),
         _largest(reach, "max_wear"),
         _largest(reach, "worn_through_share"),
         RunStatus(int(reach["status"].max())).text,
-        AllRevolutions(
-            **all_revolutions,
-            median_von_mises_pa=_largest(reach, "max_von_mises_median"),
-            high_von_mises_pa=_largest(reach, "max_von_mises_high"),
-        ),
-        PeakMotion(float(np.hypot(normal, tangential)), **peak_motion),
+        part(AllRevolutions),
+        part(PeakMotion),
         note,
     )
 

@@ -19,7 +19,7 @@ from .datasets import response_of
 from .exceedance import exceedance_of, is_lined
 from .interaction import COLUMNS, Crossing, Interaction, interaction_row, range_columns
 from .interaction_choice import InteractionChoice
-from .measures import DROP_WITHIN, drop_after, largest_stress, leading_edge, motion, speeds_above_yield, strongest_order
+from .measures import DROP_WITHIN, largest_stress, leading_edge, motion, speeds_above_yield, strongest_order
 from .speed_ranges import SpeedRange
 
 QUIET = 0.1
@@ -68,12 +68,10 @@ def find_interactions(response: xr.Dataset, campbell: xr.Dataset, choice: Intera
 def _interactions(response: xr.Dataset, campbell: xr.Dataset | None, choice: InteractionChoice) -> list[Interaction]:
     """Those of the peaks alone; without a Campbell diagram none is matched with a mode."""
     speed, level = response["speed"].values, motion(response)
-    groups = _groups(
-        [peak for direction in SPECTRA for peak in _peaks(response, campbell, direction, choice)], speed, level, choice
-    )
+    peaks = [peak for direction in SPECTRA for peak in _peaks(response, campbell, direction, choice)]
+    groups = sorted(_groups(peaks, speed, level, choice), key=lambda group: _strongest(group, level))
     if not groups:
         return []
-    groups.sort(key=lambda group: _strongest(group, level))
     peak_indices = [_strongest(group, level) for group in groups]
     lowest = [first + int(np.argmin(level[first : last + 1])) for first, last in pairwise(peak_indices)]
     interactions = []
@@ -81,8 +79,7 @@ def _interactions(response: xr.Dataset, campbell: xr.Dataset | None, choice: Int
         if any(peak.inner for peak in group):
             begin, end = _loud(speed[low : high + 1], level[low : high + 1], peak_index - low)
             reach = response.isel(speed=slice(low + begin, low + end + 1))
-            drop = drop_after(response.isel(speed=slice(high + 1)), peak_index)
-            interactions.append(_interaction(reach, response.isel(speed=peak_index), group, peak_index, drop))
+            interactions.append(_interaction(response.isel(speed=slice(high + 1)), peak_index, reach, group))
     return interactions
 
 
@@ -114,9 +111,9 @@ def _nearest_crossing(
     campbell: xr.Dataset | None, speed: float, strongest: int | None, choice: InteractionChoice
 ) -> tuple[str, int | None, float]:
     """Mode, engine order and speed of the nearest Campbell crossing in the allowed window, of the strongest order if known."""
-    candidates: list[tuple[float, str, int, float]] = []
     if campbell is None:
         return "", strongest, float("nan")
+    candidates: list[tuple[float, str, int, float]] = []
     for mode in NAMED_MODES:
         for order, crossing in campbell["crossing_speed"].sel(mode=mode).to_series().dropna().items():
             fits = strongest is None or order == strongest
@@ -173,15 +170,15 @@ def _strongest(group: list[_Peak], level: np.ndarray) -> int:
     return max(group, key=lambda peak: (peak.inner, level[peak.index])).index
 
 
-def _interaction(reach: xr.Dataset, peak: xr.Dataset, group: list[_Peak], index: int, drop: float) -> Interaction:
-    """The row of a group, from the response within its reach and at its `peak`, the `index` of that, and its drop."""
+def _interaction(response: xr.Dataset, index: int, reach: xr.Dataset, group: list[_Peak]) -> Interaction:
+    """The row of a group, from the response up to where it drops, the `index` of its peak, and the response in its reach."""
     first = group[0]
-    directions = {peak_of_group.direction for peak_of_group in group if peak_of_group.index == index}
+    directions = {peak.direction for peak in group if peak.index == index}
     direction = "both" if len(directions) == len(SPECTRA) else min(directions)
-    last, every = {}, {}
+    columns: dict[str, float] = {}
     if "max_von_mises" in reach:
         above, (largest, at) = speeds_above_yield(reach), largest_stress(reach)
-        last = {
+        columns = {
             "first_yield_speed_rad_s": above.first,
             "width_above_yield_rad_s": above.width,
             "share_above_yield": above.share,
@@ -190,10 +187,10 @@ def _interaction(reach: xr.Dataset, peak: xr.Dataset, group: list[_Peak], index:
         }
     if "share_of_revolutions_above_yield" in reach:
         ends = SpeedRange(float(reach["speed"][0]), float(reach["speed"][-1]), truncated=False)
-        every = range_columns(exceedance_of(reach), ends)
-        every["width_ever_above_yield_rad_s"] = speeds_above_yield(reach, "max_von_mises_ever").width
+        columns |= range_columns(exceedance_of(reach), ends)
+        columns["width_ever_above_yield_rad_s"] = speeds_above_yield(reach, "max_von_mises_ever").width
     crossing = Crossing(first.mode, first.engine_order, direction, first.crossing)
-    return interaction_row(reach, peak, crossing, drop, last_revolution=last, all_revolutions=every, peak_motion={})
+    return interaction_row(response, index, reach, crossing, columns)
 
 
 def summarise(datasets: Mapping[str, xr.Dataset], choice: InteractionChoice) -> pd.DataFrame:

@@ -19,13 +19,8 @@ RANGED = ("peak_speed_rad_s", "width_above_yield_rad_s", "first_yield_speed_rad_
 RANGES = tuple(f"{name}_{end}" for name in RANGED for end in ENDS)
 
 KEY = ["blade", "scene", "mode", "engine_order"]
-COLUMNS = [
-    *KEY,
-    "members",
-    "share_of_members",
-    "robust",
-    *(name for key in RANGED for name in (key, *(f"{key}_{end}" for end in ENDS))),
-]
+_WITH_RANGES = [name for key in RANGED for name in (key, *(f"{key}_{end}" for end in ENDS))]
+COLUMNS = [*KEY, "members", "share_of_members", "robust", *_WITH_RANGES]
 """Columns of the table: those without an end are of the nominal run."""
 
 
@@ -35,7 +30,7 @@ def read_ranges(file: Path | str) -> pd.DataFrame:
     with readable(file):
         if list(table.columns) != COLUMNS:
             raise ValueError(f"its columns are not {', '.join(COLUMNS)}")
-        kinds = {"engine_order": "Int64", "robust": bool, **dict.fromkeys([*RANGED, *RANGES], float)}
+        kinds = {"engine_order": "Int64", "robust": bool, **dict.fromkeys(_WITH_RANGES, float)}
         # what no crossing explains has no mode
         return table.fillna({"mode": ""}).astype(kinds)
 
@@ -58,6 +53,5 @@ def with_ranges(summary: pd.DataFrame, table: pd.DataFrame) -> pd.DataFrame:
     """summary.csv with the share of members and the ranges of each interaction; empty for those without members."""
     beside = table[table["peak_speed_rad_s"].notna()][[*KEY, "peak_speed_rad_s", "share_of_members", "robust", *RANGES]]
     # an empty table has columns of no type
-    return summary.astype({"peak_speed_rad_s": float, "engine_order": "Int64"}).merge(
-        beside, "left", [*KEY, "peak_speed_rad_s"]
-    )
+    summary = summary.astype({"peak_speed_rad_s": float, "engine_order": "Int64"})
+    return summary.merge(beside, "left", [*KEY, "peak_speed_rad_s"])

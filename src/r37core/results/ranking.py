@@ -18,6 +18,9 @@ from .measures import drop_after, motion, peak_of
 from .member_ends import ENDS
 from .table_file import read_table
 
+MeasuresOfMembers = dict[tuple[str, str], dict[str, dict[str, float]]]
+"""(blade, scene) -> member -> what it is ranked by -> value."""
+
 ROBUSTNESS = (
     "length_certain_rad_s",
     "length_certain_scatter_rad_s",
@@ -35,14 +38,18 @@ ROBUSTNESS = (
 )
 """What is read off a response, the same for blades, designs and members; in words: glossary.RANKING."""
 
-RANKED_BY = ("length_certain_rad_s", "length_possible_rad_s", "diverged_runs", "largest_median_stress_pa")
-"""Less of the first is better, of the next where that is the same."""
+MEASURES_RANKED_BY = {
+    "length_certain_rad_s": "length_certain",
+    "length_possible_rad_s": "length_possible",
+    "diverged_runs": "diverged_runs",
+    "largest_median_stress_pa": "largest_median_stress",
+}
+"""What blades are ranked by -> measure of members. Less of the first is better, of the next where that is the same."""
+
+RANKED_BY = tuple(MEASURES_RANKED_BY)
 
 _STEP = 1.0
 """What lengths (rad/s) are told apart by where nothing scatters: the distance of the closest speeds."""
-
-_RANGE = ("low", "high")
-"""Ends of the members' range that stand in the table."""
 
 
 def robustness(response: xr.Dataset, *, with_scatter: bool = True) -> dict[str, float]:
@@ -54,13 +61,13 @@ def robustness(response: xr.Dataset, *, with_scatter: bool = True) -> dict[str, 
     measures = dict.fromkeys(ROBUSTNESS, np.nan)
     if not response.sizes["speed"]:
         return measures
-    peak, speeds = peak_of(response), response["speed"].values
     ended = response["status"].values == RunStatus.COMPLETED
     if ended.any():
-        measures["largest_rms_m"], measures["largest_rms_speed_rad_s"] = float(motion(response).max()), float(peak["speed"])
+        measures["largest_rms_m"] = float(motion(response).max())
+        measures["largest_rms_speed_rad_s"] = float(peak_of(response)["speed"])
         measures["drop"] = drop_after(response)
     measures["diverged_runs"] = float(np.count_nonzero(~ended))
-    measures["largest_gap_rad_s"] = float(np.diff(speeds).max(initial=0.0))
+    measures["largest_gap_rad_s"] = float(np.diff(response["speed"].values).max(initial=0.0))
     if "share_of_revolutions_above_yield" in response:
         exceedance = exceedance_of(response)
         for name, share in (("certain", CERTAIN), ("possible", POSSIBLE)):
@@ -74,9 +81,20 @@ def robustness(response: xr.Dataset, *, with_scatter: bool = True) -> dict[str, 
     return measures
 
 
+def measures_of_members(members: xr.Dataset) -> MeasuresOfMembers:
+    """What blades are ranked by of each blade and scene, member by member; `members`: a dataset of them."""
+    by_pair: MeasuresOfMembers = {}
+    for blade in members["blade"].values.tolist():
+        for scene in members["scene"].values.tolist():
+            part = members[list(MEASURES_RANKED_BY.values())].sel(blade=blade, scene=scene).dropna("member", how="all")
+            rows = part.to_dataframe()[list(MEASURES_RANKED_BY.values())].set_axis(list(RANKED_BY), axis=1)
+            if len(rows):
+                by_pair[blade, scene] = {str(member): values for member, values in rows.to_dict("index").items()}
+    return by_pair
+
+
 def ranking_table(
-    measures: Mapping[tuple[str, str], Mapping[str, float]],
-    members: Mapping[tuple[str, str], Mapping[str, Mapping[str, float]]] | None = None,
+    measures: Mapping[tuple[str, str], Mapping[str, float]], members: MeasuresOfMembers | None = None
 ) -> pd.DataFrame:
     """One row for each blade and scene, scene by scene with the best blade first; equal ones have the same rank.
 
@@ -104,9 +122,8 @@ def read_ranking(file: Path | str) -> pd.DataFrame:
         missing = [name for name in ("blade", "scene", "rank", *ROBUSTNESS) if name not in table]
         if missing:
             raise ValueError(f"without the columns {', '.join(missing)}")
-        return table.astype(dict.fromkeys([name for name in table if name not in ("blade", "scene")], float)).astype(
-            {"rank": "Int64"}
-        )
+        numbers = dict.fromkeys(table.columns.drop(["blade", "scene"]), float)
+        return table.astype(numbers).astype({"rank": "Int64"})
 
 
 def as_scatter_bears(table: pd.DataFrame) -> pd.DataFrame:
@@ -122,15 +139,13 @@ def as_scatter_bears(table: pd.DataFrame) -> pd.DataFrame:
     return rounded
 
 
-def _of_members(
-    pair: tuple[str, str], members: Mapping[tuple[str, str], Mapping[str, Mapping[str, float]]]
-) -> dict[str, float]:
+def _of_members(pair: tuple[str, str], members: MeasuresOfMembers) -> dict[str, float]:
     blade, scene = pair
     own = members.get(pair, {})
     row: dict[str, float] = {"members": len(own)}
     for name in RANKED_BY:
         values = [measures[name] for measures in own.values()]
-        for end in _RANGE:
+        for end in ("low", "high"):
             row[f"{name}_{end}"] = float(np.quantile(values, ENDS[end], method="inverted_cdf")) if values else np.nan
     for other in dict.fromkeys(name for name, of in members if of == scene):
         if other != blade:
@@ -144,7 +159,6 @@ def chance_to_be_better(own: Mapping[str, Mapping[str, float]], others: Mapping[
     def key(measures: Mapping[str, float]) -> tuple[float, ...]:
         return tuple(np.inf if np.isnan(measures[name]) else measures[name] for name in RANKED_BY)
 
-    wins = [
-        0.5 * ((key(own[name]) < key(others[name])) + (key(own[name]) <= key(others[name]))) for name in own if name in others
-    ]
+    pairs = [(key(own[name]), key(others[name])) for name in own if name in others]
+    wins = [0.5 * ((ours < theirs) + (ours <= theirs)) for ours, theirs in pairs]
     return float(np.mean(wins)) if wins else np.nan

@@ -4,20 +4,20 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
+
 from r37core.contact.elastic_casing import ElasticCasing
 from r37core.dataset_file import hash_of_parts, read_dataset, write_dataset
 from r37core.io import as_list, write_json
 from r37core.plain import from_plain
 from r37core.rom.rom_file import read_reduced_model
 
-from .campbell_dataset import campbell_dataset
+from .campbell_dataset import campbell_dataset, gather_blades
 from .casing_coincidence import coincidence_table
 from .datasets import response_of, write_sweep_dataset
-from .gather import gather_blades
 from .interactions import InteractionChoice, summarise
-from .members import measures_of_members
 from .ranges import read_ranges, with_ranges
-from .ranking import ranking_table, robustness
+from .ranking import measures_of_members, ranking_table, robustness
 from .response import write_response
 from .table_file import write_table
 
@@ -29,8 +29,9 @@ def configuration(input: Any, output: Any, params: Any) -> None:
 
 def campbell_of_blade(input: Any, output: Any, params: Any) -> None:
     """Campbell diagram of a blade. Input: rom. Params: campbell, maximum_speed, tip_line, provenance. Output: campbell (nc)."""
-    model = read_reduced_model(input.rom)
-    dataset = campbell_dataset(model, maximum_speed=params.maximum_speed, tip_line=params.tip_line, **params.campbell)
+    choice = dict(params.campbell)
+    speeds = np.linspace(0.0, params.maximum_speed, max(4, round(params.maximum_speed / choice.pop("speed_step")) + 1))
+    dataset = campbell_dataset(read_reduced_model(input.rom), speeds=speeds, tip_line=params.tip_line, **choice)
     write_dataset(dataset, output.campbell, params.provenance)
 
 

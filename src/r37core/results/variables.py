@@ -8,9 +8,12 @@ from r37core.stress.statistic import HIGH
 _TIP = ("tip_point",)
 _OF_REVOLUTIONS = "largest von Mises stress of each revolution of the last half of the run"
 
-VARIABLES = {
+_STATUS = {
     "status": Variable((), "1", "how the run ended", "i1"),
     "diverged_revolution": Variable((), "1", "revolution at which the run diverged"),
+}
+
+_MOTION = {
     **{
         f"{kind}_{direction}": Variable(_TIP, "m", f"{measure} {direction} displacement over the last half of the run{note}")
         for kind, measure in (("rms", "rms of the"), ("peak", "largest"))
@@ -26,11 +29,20 @@ VARIABLES = {
     "damping_loss": Variable((), "J", "energy lost to damping"),
     "energy_change": Variable((), "J", "energy of the vibration at the end, less that at the start"),
     "energy_residual": Variable((), "J", "energy change minus contact work plus damping loss"),
+    "revolution_maximum": Variable(("revolution", "tip_point"), "m", "largest normal displacement of each revolution", "f4"),
+}
+
+_GIVEN_MOTION = {
     "initial_energy": Variable((), "J", "energy of the vibration at the start"),
     "initial_energy_left_out": Variable((), "1", "share of the given motion's energy that lies in modes which are not stepped"),
-    "revolution_maximum": Variable(("revolution", "tip_point"), "m", "largest normal displacement of each revolution", "f4"),
+}
+
+_SPECTRUM = {
     "amplitude": Variable(("engine_order",), "m", "amplitude of the leading edge's normal displacement", "f4"),
     "amplitude_tangential": Variable(("engine_order",), "m", "amplitude of the leading edge's tangential displacement", "f4"),
+}
+
+_STRESS = {
     "max_von_mises": Variable((), "Pa", "largest von Mises stress on the submesh in the last revolution"),
     "max_von_mises_ever": Variable((), "Pa", f"{_OF_REVOLUTIONS}: largest"),
     "max_von_mises_median": Variable((), "Pa", f"{_OF_REVOLUTIONS}: median"),
@@ -38,15 +50,18 @@ VARIABLES = {
     "share_of_revolutions_above_yield": Variable(
         (), "1", "share of the revolutions of the last half of the run whose largest stress exceeds yield"
     ),
+}
+
+_WEAR = {
     "wear": Variable(("angle",), "m", "wear of the lining, largest over the rings, at the end", "f4"),
     "max_wear": Variable((), "m", "largest wear of the lining at the end"),
     "worn_through_share": Variable((), "1", "share of the circumference at which the lining is worn through, at the end"),
     "wear_harmonic": Variable(("lobes",), "m", "amplitude of the wear profile's lobes"),
+}
+
+_WAVES = {
     "casing_amplitude": Variable(
-        ("casing_mode", "casing_order"),
-        "m",
-        "amplitude of the waves of the casing's modes, which does not turn",
-        "f4",
+        ("casing_mode", "casing_order"), "m", "amplitude of the waves of the casing's modes, which does not turn", "f4"
     ),
     **{
         f"casing_rms_{wave}": Variable(
@@ -56,6 +71,9 @@ VARIABLES = {
     },
     "casing_energy": Variable(("casing_mode",), "J", "mean energy of the casing's modes over the last half of the run", "f4"),
 }
+
+VARIABLES = _STATUS | _MOTION | _GIVEN_MOTION | _SPECTRUM | _STRESS | _WEAR | _WAVES
+"""Those over the speeds of a response."""
 
 OF_CASING = {
     "casing_nodal_diameter": Variable(("casing_mode",), "1", "nodal diameters of the casing's mode"),
@@ -100,44 +118,12 @@ AXES = {
 """Numeric axes, of which a dataset has what its responses have together."""
 
 DATASETS = {
-    "rms": (
-        "lined",
-        "casing_cone_angle",
-        "time_step",
-        "clearance",
-        "rms_normal",
-        "rms_radial",
-        "rms_tangential",
-        "peak_normal",
-        "peak_radial",
-        "peak_tangential",
-        "share_of_time_in_contact",
-        "largest_normal_force",
-        "casing_hits",
-        "worst_complementarity",
-        "contact_work",
-        "damping_loss",
-        "energy_change",
-        "energy_residual",
-        "revolution_maximum",
-    ),
-    "spectrum": ("amplitude", "amplitude_tangential"),
-    "stress": (
-        "lined",
-        "max_von_mises",
-        "max_von_mises_ever",
-        "max_von_mises_median",
-        "max_von_mises_high",
-        "share_of_revolutions_above_yield",
-        "stress_region",
-        "static_stress",
-        "yield_stress",
-        "max_von_mises_history",
-        "first_yield_revolution",
-    ),
-    "wear": ("wear", "max_wear", "worn_through_share", "wear_harmonic"),
-    "casing": (*OF_CASING, "casing_rms_forward", "casing_rms_backward", "casing_energy", "casing_amplitude"),
+    "rms": ("lined", "casing_cone_angle", *_MOTION),
+    "spectrum": tuple(_SPECTRUM),
+    "stress": ("lined", *_STRESS, *OF_STRESS, *HISTORIES),
+    "wear": tuple(_WEAR),
+    "casing": (*OF_CASING, *_WAVES),
 }
 """Dataset -> its variables, where a response has them; each also carries those of FLAGS."""
 
-FLAGS = ("status", "diverged_revolution")
+FLAGS = tuple(_STATUS)

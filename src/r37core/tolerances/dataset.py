@@ -14,9 +14,8 @@ from r37core.io import readable
 from r37core.plans.member_values import is_of_sample, number_of
 from r37core.results.measures import largest_stress, leading_edge, peak_of, ratio_to_yield, speeds_above_yield
 from r37core.results.member_ends import ENDS
-from r37core.results.members import MEASURES_RANKED_BY
 from r37core.results.netcdf import status_flags
-from r37core.results.ranking import robustness
+from r37core.results.ranking import MEASURES_RANKED_BY, robustness
 from r37core.results.variables import VARIABLES
 from r37core.time_integration.status import RunStatus
 from r37core.units import RPM
