@@ -123,7 +123,7 @@ def test_arrivals_of_a_harmonic_motion():
         return amplitude * np.sin(pulsation * t + lag)
 
     probes, turns = np.radians([0.0, 77.0, 200.0, 359.0]), np.arange(1, 11)
-    arrived, rigid = arrival_times(times, u(times), radius, theta, SPEED, probes, turns)
+    arrived, rigid = arrival_times(times, u(times), radius, SPEED, theta - probes, turns)
     late = arrived - rigid
     for i, probe in enumerate(probes):
         for j, turn in enumerate(turns):
@@ -138,7 +138,7 @@ def test_arrivals_of_a_harmonic_motion():
 def test_an_undisturbed_tip_is_on_time():
     """The rotor turns towards negative theta: from theta = 0.5 a probe at 0.2 comes after 0.3 rad."""
     times = np.linspace(0.0, 4 * np.pi / SPEED, 500)
-    arrived, rigid = arrival_times(times, np.zeros(500), 0.25, 0.5, SPEED, np.array([0.2]), np.array([1, 2]))
+    arrived, rigid = arrival_times(times, np.zeros(500), 0.25, SPEED, np.array([0.5 - 0.2]), np.array([1, 2]))
     np.testing.assert_allclose(rigid, [[0.3 / SPEED, (0.3 + 2.0 * np.pi) / SPEED]], rtol=1e-12)
     np.testing.assert_allclose(arrived, rigid, rtol=1e-12)
 
@@ -148,7 +148,7 @@ def test_a_tip_that_comes_back_counts_when_it_first_comes():
     times = np.linspace(0.0, 2.0 * np.pi / SPEED, 2000)
     motion = 0.05 * np.sin(12.0 * SPEED * times)
     wanted = 10.0 * np.pi / 12.0
-    arrived, _ = arrival_times(times, motion, 0.25, 3.0, SPEED, np.array([3.0 - wanted]), np.array([1, 2]))
+    arrived, _ = arrival_times(times, motion, 0.25, SPEED, np.array([wanted]), np.array([1, 2]))
     turned = SPEED * times - motion / 0.25
     assert np.sum(np.diff(np.sign(turned - wanted)) != 0) == 3
     assert arrived[0, 0] == pytest.approx(times[np.argmax(turned >= wanted)], abs=times[1])

@@ -18,12 +18,8 @@ from .style import blade_styles
 
 _BESIDE = 0.09
 """Of the blade's height: how far a name stands from what it names."""
-_PANEL = (440, 600)
-"""Pixels of one blade."""
 _LETTERS = str(Path(matplotlib.get_data_path(), "fonts/ttf/DejaVuSans.ttf"))
 """Those of all other figures."""
-_TITLE, _NAME = 18, 24
-"""Sizes of letters."""
 
 
 def draw_blade_shapes(meshes: Mapping[str, Path | str], file: Path | str) -> None:
@@ -31,31 +27,20 @@ def draw_blade_shapes(meshes: Mapping[str, Path | str], file: Path | str) -> Non
 
     An arrow shows the rotation; leading and trailing edge (LE, TE) and the side that is seen have their names.
     """
-    width, height = _PANEL
-    plotter, styles = new_plotter(len(meshes), (width * len(meshes), height)), blade_styles(meshes)
+    plotter, styles = new_plotter(len(meshes), (440 * len(meshes), 600)), blade_styles(meshes)
     for i, (name, mesh_file) in enumerate(meshes.items()):
         plotter.subplot(0, i)
         with readable(mesh_file):
             grid = pyvista.read(mesh_file)
             surface = grid.extract_surface(nonlinear_subdivision=1, algorithm="dataset_surface")
-        plotter.add_mesh(
-            surface,
-            color=_light(styles[name]["color"]),
-            ambient=0.35,
-            diffuse=0.65,
-            smooth_shading=True,
-            split_sharp_edges=True,
-        )
+        # half way to white: black letters stand on it
+        light = [0.5 + 0.5 * part for part in to_rgb(styles[name]["color"])]
+        plotter.add_mesh(surface, color=light, ambient=0.35, diffuse=0.65, smooth_shading=True, split_sharp_edges=True)
         plotter.add_mesh(surface.extract_feature_edges(feature_angle=50.0), color="black", line_width=1.5)
         _mark_sense(plotter, grid)
-        plotter.add_text(name, font_size=_TITLE, font_file=_LETTERS)
+        plotter.add_text(name, font_size=18, font_file=_LETTERS)
         look(plotter)
     save_picture(plotter, file)
-
-
-def _light(colour: str) -> tuple[float, ...]:
-    """A colour half way to white: black letters stand on it."""
-    return tuple(0.5 + 0.5 * part for part in to_rgb(colour))
 
 
 def _mark_sense(plotter: pyvista.Plotter, grid: Any) -> None:
@@ -76,7 +61,7 @@ def _mark_sense(plotter: pyvista.Plotter, grid: Any) -> None:
     plotter.add_point_labels(
         np.array([*ends, middle, above]),
         ["LE", "TE", side, "rotation"],
-        font_size=_NAME,
+        font_size=24,
         font_file=_LETTERS,
         show_points=False,
         always_visible=True,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from itertools import cycle
 from typing import Any
 
 import matplotlib.pyplot as plt
@@ -47,8 +48,7 @@ def draw_campbell(campbell: xr.Dataset, title: str, casings: Mapping[str, Any] |
         clearance = campbell["dynamic_clearance"].sel(mode=name)
         along = 1e3 * clearance["tangential_displacement"]
         right.plot(along, 1e3 * clearance, label=name, color=style.mode_colour(campbell, name))
-    right.set(xlabel="tangential displacement (mm)", ylabel="change of clearance (mm)")
-    right.set_title("dynamic clearance, leading edge")
+    right.set(xlabel="tangential displacement (mm)", ylabel="change of clearance (mm)", title="dynamic clearance, leading edge")
     right.legend()
     return figure
 
@@ -72,20 +72,14 @@ def draw_campbell_overview(campbell: xr.Dataset) -> Figure:
     return figure
 
 
-_PALE = 0.4
-"""Waves that no simulation has."""
-
-_OF_CASINGS = ("#8C510A", "#762A83", "#01665E")
-
-
 def _draw_casings(axes: Axes, campbell: xr.Dataset, casings: Mapping[str, Any]) -> None:
     """Waves of elastic casings, those that scenes share once, and where named modes of the blade meet them."""
     scenes: dict[ElasticCasing, list[str]] = {}
     for scene, casing in casings.items():
         scenes.setdefault(from_plain(ElasticCasing, casing), []).append(scene)
-    for number, (elastic, names) in enumerate(scenes.items()):
+    for (elastic, names), colour in zip(scenes.items(), cycle(("#8C510A", "#762A83", "#01665E")), strict=False):
         whose = "casing" if len(scenes) == 1 else f"casing of {', '.join(names)}"
-        _draw_casing(axes, campbell, elastic, whose, _OF_CASINGS[number % len(_OF_CASINGS)])
+        _draw_casing(axes, campbell, elastic, whose, colour)
 
 
 def _draw_casing(axes: Axes, campbell: xr.Dataset, casing: ElasticCasing, whose: str, colour: str) -> None:
@@ -96,22 +90,12 @@ def _draw_casing(axes: Axes, campbell: xr.Dataset, casing: ElasticCasing, whose:
         seen = np.abs(seen_from_rotor(mode, wave, speeds))
         if seen.min() > highest:
             continue
-        simulated = mode in casing.modes
-        label = f"{whose}, {wave}" if simulated else f"{whose}, not simulated"
-        axes.plot(
-            speeds,
-            seen,
-            color=colour,
-            linewidth=0.5,
-            dashes=dashes[wave],
-            zorder=1,
-            alpha=1.0 if simulated else _PALE,
-            label="_" if label in named else label,
-        )
-        named.add(label)
+        what, alpha = (wave, 1.0) if mode in casing.modes else ("not simulated", 0.4)
+        label = "_" if what in named else f"{whose}, {what}"
+        named.add(what)
+        axes.plot(speeds, seen, color=colour, linewidth=0.5, dashes=dashes[wave], zorder=1, alpha=alpha, label=label)
         for name in NAMED_MODES:
             for crossing in coincidences(campbell["frequency"].sel(mode=name), mode, wave):
-                alpha = 1.0 if simulated else _PALE
                 axes.plot(*crossing, "D", color=colour, markersize=2.5, markerfacecolor="white", zorder=4, alpha=alpha)
 
 

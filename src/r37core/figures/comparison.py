@@ -23,13 +23,7 @@ def shared_order(campbell: xr.Dataset, low: float, high: float) -> int | None:
 
 
 def draw_comparison(
-    campbell: xr.Dataset,
-    rms: xr.Dataset,
-    stress: xr.Dataset | None = None,
-    title: str = "",
-    *,
-    below: float,
-    above: float,
+    campbell: xr.Dataset, rms: xr.Dataset, stress: xr.Dataset | None = None, title: str = "", *, below: float, above: float
 ) -> Figure:
     """All blades in one scene about their crossing of 1B with the engine order that most of them meet.
 
@@ -59,9 +53,8 @@ def draw_comparison(
         axes.set_ylabel(label)
     if stress is not None:
         style.yield_lines(panels[-1], stress["yield_stress"].to_series(), named=True)
-    panels[-1].set_xlabel(
-        f"speed above the crossing of 1B with engine order {order} (%)" if order else "no crossing of 1B was run"
-    )
+    label = f"speed above the crossing of 1B with engine order {order} (%)" if order else "no crossing of 1B was run"
+    panels[-1].set_xlabel(label)
     panels[0].set_title(f"blades in scene {title}")
     if panels[0].lines[:-1]:
         figure.legend(*style.legend_entries(panels), loc="outside lower center", ncols=5)

@@ -37,14 +37,11 @@ def draw_spectral_map(maps: xr.Dataset, campbell: xr.Dataset, title: str) -> Fig
     In decibels below the largest amplitude at the same speed, so that what is not resonant is seen, too; that largest amplitude
     (mm) stands above the map. Order 0, the mean, does not count.
     """
-    size, ratios = (style.PAGE, 4.4), [1.0, 4.0]
-    figure, grid = plt.subplots(2, 2, figsize=size, sharex=True, sharey="row", height_ratios=ratios)
+    figure, grid = plt.subplots(2, 2, figsize=(style.PAGE, 4.4), sharex=True, sharey="row", height_ratios=[1.0, 4.0])
     figure.suptitle(f"spectrum: {title}, leading edge")
-    pictures = [
-        _draw_spectrum(strip, axes, maps[name].dropna("speed", how="all"), campbell)
-        for strip, axes, name in zip(*grid, DIRECTIONS, strict=True)
-    ]
-    for strip, direction in zip(grid[0], DIRECTIONS.values(), strict=True):
+    pictures = []
+    for strip, axes, (name, direction) in zip(*grid, DIRECTIONS.items(), strict=True):
+        pictures.append(_draw_spectrum(strip, axes, maps[name].dropna("speed", how="all"), campbell))
         strip.set_title(direction)
     grid[0, 0].set_ylabel("largest (mm)")
     grid[1, 0].set_ylabel("engine order")
@@ -60,9 +57,8 @@ def _draw_spectrum(strip: Axes, axes: Axes, amplitude: xr.DataArray, campbell: x
         strip.set_axis_off()
         return None
     speed = amplitude["speed"].values
-    order, values = largest_of_bins(
-        amplitude["engine_order"].values, 1e3 * amplitude.transpose("speed", "engine_order").values, _MOST_BINS
-    )
+    millimetres = 1e3 * amplitude.transpose("speed", "engine_order").values
+    order, values = largest_of_bins(amplitude["engine_order"].values, millimetres, _MOST_BINS)
     largest = np.maximum(values[:, 1:].max(axis=1), 1e-12)
     decibels = 20.0 * np.log10(np.maximum(values / largest[:, None], 1e-30))
     strip.semilogy(speed, largest, linewidth=0.8)
@@ -92,20 +88,16 @@ def draw_wear_map(maps: xr.Dataset, campbell: xr.Dataset, title: str) -> Figure:
     figure, axes = plt.subplots(figsize=(style.COLUMN * 1.4, 3.4))
     if wear.sizes["speed"]:
         _draw_wear(axes, wear, campbell)
-        _mark_worn_through(axes, maps["worn_through_share"])
+        # triangles at the upper edge, where some of the lining is worn through
+        worn = maps["speed"].values[maps["worn_through_share"].values > 0.0]
+        look: dict[str, Any] = {"color": "white", "markeredgecolor": "black", "markersize": 5, "markeredgewidth": 0.5}
+        axes.plot(worn, np.full(len(worn), 0.97), "v", transform=axes.get_xaxis_transform(), **look)
     else:
         style.say(axes, style.ALL_DIVERGED)
     axes.set(xlabel="speed (rad/s)", ylabel="angle round the casing (degrees)", title=f"wear: {title}")
     style.rpm_axis(axes)
     axes.grid(False)
     return figure
-
-
-def _mark_worn_through(axes: Axes, share: xr.DataArray) -> None:
-    """Triangles at the upper edge, at speeds at which some of the lining is worn through."""
-    speeds = share["speed"].values[share.values > 0.0]
-    look: dict[str, Any] = {"color": "white", "markeredgecolor": "black", "markersize": 5, "markeredgewidth": 0.5}
-    axes.plot(speeds, np.full(len(speeds), 0.97), "v", transform=axes.get_xaxis_transform(), **look)
 
 
 def _draw_wear(axes: Axes, wear: xr.DataArray, campbell: xr.Dataset) -> None:

@@ -15,17 +15,13 @@ import pyvista
 
 from r37core.io import atomic_write
 
-Point = tuple[float, float, float]
-SEEN_FROM: Point = (0.25, -1.0, 0.9)
-"""Where pictures of blades are mostly seen from."""
-
 
 def new_plotter(columns: int, size: tuple[int, int], rows: int = 1) -> pyvista.Plotter:
     """An off-screen plotter with `columns` panels side by side in each of `rows` and a window of `size` pixels."""
     return pyvista.Plotter(shape=(rows, columns), off_screen=True, window_size=list(size), border=False)
 
 
-def look(plotter: pyvista.Plotter, seen_from: Point = SEEN_FROM, zoom: float = 1.3) -> None:
+def look(plotter: pyvista.Plotter, seen_from: tuple[float, float, float] = (0.25, -1.0, 0.9), zoom: float = 1.3) -> None:
     """Show all of the current panel from a direction, the machine's axis upright."""
     plotter.camera_position = [seen_from, (0.0, 0.0, 0.0), (1.0, 0.0, 0.0)]
     plotter.reset_camera()  # type: ignore[call-arg]  # the wrapper hides the method from mypy

@@ -11,7 +11,6 @@ from matplotlib.figure import Figure
 from . import style
 
 _CERTAIN, _POSSIBLE = "length_certain_rad_s", "length_possible_rad_s"
-_COLUMNS = 2
 
 
 def draw_ranking(ranking: pd.DataFrame) -> Figure:
@@ -19,21 +18,15 @@ def draw_ranking(ranking: pd.DataFrame) -> Figure:
     scenes = list(dict.fromkeys(ranking["scene"]))
     first = ranking[ranking["scene"] == scenes[0]].sort_values("rank", kind="stable")["blade"]
     blades = list(dict.fromkeys([*first, *ranking["blade"]]))
-    columns = min(len(scenes), _COLUMNS)
-    rows_of_panels = -(-len(scenes) // columns)
-    figure, panels = plt.subplots(
-        rows_of_panels,
-        columns,
-        figsize=(style.PAGE, 0.5 + rows_of_panels * (0.4 + 0.34 * max(len(blades), 3))),
-        sharey=True,
-        squeeze=False,
-    )
+    columns = min(len(scenes), 2)
+    rows = -(-len(scenes) // columns)
+    size = (style.PAGE, 0.5 + rows * (0.4 + 0.34 * max(len(blades), 3)))
+    figure, panels = plt.subplots(rows, columns, figsize=size, sharey=True, squeeze=False)
     for axes in panels.flat[len(scenes) :]:
         axes.set_visible(False)
     for axes, scene in zip(panels.flat, scenes, strict=False):
         _draw(axes, ranking[ranking["scene"] == scene].set_index("blade").reindex(blades))
-        axes.set_title(scene)
-        axes.set_xlabel("speeds above yield (rad/s)")
+        axes.set(title=scene, xlabel="speeds above yield (rad/s)")
     panels[0][0].set_yticks(np.arange(len(blades)), blades)
     panels[0][0].invert_yaxis()
     figure.legend(*style.legend_entries(list(panels.flat)), loc="outside lower center", ncols=3)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import matplotlib.pyplot as plt
-import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -19,12 +18,9 @@ def draw_response(title: str, campbell: xr.Dataset | None, rms: xr.Dataset, stre
     `campbell`: where 1B crosses engine orders, None to leave that out.
     """
     figure, panels = plt.subplots(2 if stress is None else 3, 1, figsize=(style.PAGE, 6.4), sharex=True)
-    for axes, part in zip(panels, ("normal", "tangential"), strict=False):
-        for scene in rms["scene"].values:
-            response = rms[f"rms_{part}"].sel(scene=scene, tip_point="leading_edge").dropna("speed")
-            axes.plot(response["speed"], 1e3 * response, ".-", markersize=3, label=str(scene))
-            style.mark_diverged(axes, _diverged(rms.sel(scene=scene)))
-        axes.set_ylabel(f"rms, {part} (mm)")
+    for axes, direction in zip(panels, ("normal", "tangential"), strict=False):
+        _draw_scenes(axes, rms, direction)
+        axes.set_ylabel(f"rms, {direction} (mm)")
     if rms.sizes["speed"] > 1:
         panels[0].set_xlim(float(rms["speed"].min()), float(rms["speed"].max()))
     for axes in panels:
@@ -51,10 +47,7 @@ def draw_response_overview(rms: xr.Dataset) -> Figure:
     )
     for row, blade in zip(grid, blades, strict=True):
         for axes, direction in zip(row, ("normal", "tangential"), strict=True):
-            for scene in rms["scene"].values:
-                response = rms[f"rms_{direction}"].sel(blade=blade, scene=scene, tip_point="leading_edge").dropna("speed")
-                axes.plot(response["speed"], 1e3 * response, ".-", markersize=3, label=str(scene))
-                style.mark_diverged(axes, _diverged(rms.sel(blade=blade, scene=scene)))
+            _draw_scenes(axes, rms.sel(blade=blade), direction)
         row[0].set_ylabel(str(blade))
     for axes, title in zip(grid[0], ("normal to the casing", "tangential"), strict=True):
         axes.set_title(f"rms, {title}, leading edge (mm)")
@@ -65,10 +58,12 @@ def draw_response_overview(rms: xr.Dataset) -> Figure:
     return figure
 
 
-def _diverged(runs: xr.Dataset) -> np.ndarray:
-    """Speeds whose run diverged."""
-    speeds: np.ndarray = runs["speed"].values[runs["status"].values == RunStatus.DIVERGED]
-    return speeds
+def _draw_scenes(axes: Axes, rms: xr.Dataset, direction: str) -> None:
+    for scene in rms["scene"].values:
+        runs = rms.sel(scene=scene)
+        response = runs[f"rms_{direction}"].sel(tip_point="leading_edge").dropna("speed")
+        axes.plot(response["speed"], 1e3 * response, ".-", markersize=3, label=str(scene))
+        style.mark_diverged(axes, runs["speed"].values[runs["status"].values == RunStatus.DIVERGED])
 
 
 def _mark_crossings(axes: Axes, campbell: xr.Dataset | None) -> None:

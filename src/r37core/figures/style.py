@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from itertools import cycle
 from pathlib import Path
 from typing import Any
 
@@ -38,8 +39,6 @@ CURVES = {
 """Variable that is drawn over speed -> label of its axis, and what a unit there is in the SI, inverted."""
 
 OUTSIDE = "above yield: outside the linear model"
-_BEYOND_ALL = 1e6  # GPa
-_DASHES = ("-", "--", ":", "-.")
 
 PARAMETERS: dict[Any, Any] = {
     "figure.dpi": 110,
@@ -71,11 +70,8 @@ plt.rcParams.update(PARAMETERS)
 
 def blade_styles(blades: Iterable[Any]) -> dict[str, dict[str, str]]:
     """Colour and dashes of each blade, by its place in the whole list: the same in every figure and in the explorer."""
-    count = len(COLOURS)
-    return {
-        str(blade): {"color": COLOURS[number % count], "linestyle": _DASHES[number // count % len(_DASHES)]}
-        for number, blade in enumerate(blades)
-    }
+    looks = cycle({"color": colour, "linestyle": dashes} for dashes in ("-", "--", ":", "-.") for colour in COLOURS)
+    return {str(blade): look for blade, look in zip(blades, looks, strict=False)}
 
 
 def mode_colour(campbell: xr.Dataset, mode: str) -> str:
@@ -99,16 +95,10 @@ def yield_lines(axes: Axes, limits: Mapping[Any, float], named: bool = False) ->
             along: dict[str, Any] = {"transform": axes.get_yaxis_transform(), "ha": "right", "va": "bottom"}
             axes.text(1.0, limit, ", ".join(blades), fontsize=6, color="0.3", **along)
     if blades_of:
-        lowest = min(blades_of)
-        tint: dict[str, Any] = {
-            "facecolor": "#B00020",
-            "alpha": 0.08,
-            "linewidth": 0.0,
-            "zorder": 0.0,
-            "label": OUTSIDE if named else "_",
-        }
-        # as an artist it does not stretch the axis
-        axes.add_artist(Rectangle((0.0, lowest), 1.0, _BEYOND_ALL - lowest, transform=axes.get_yaxis_transform(), **tint))
+        lowest, label = min(blades_of), OUTSIDE if named else "_"
+        tint: dict[str, Any] = {"facecolor": "#B00020", "alpha": 0.08, "linewidth": 0.0, "zorder": 0.0, "label": label}
+        # as an artist it does not stretch the axis; no stress reaches 1e6 GPa
+        axes.add_artist(Rectangle((0.0, lowest), 1.0, 1e6 - lowest, transform=axes.get_yaxis_transform(), **tint))
 
 
 def legend_entries(panels: Iterable[Axes]) -> tuple[list[Any], list[str]]:

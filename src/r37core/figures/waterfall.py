@@ -91,15 +91,9 @@ def thinned(speeds: np.ndarray, largest: np.ndarray) -> list[int]:
 
 
 def _draw_orders(axes: Axes, highest_order: float, low: float, high: float, highest: float) -> None:
+    ends = np.array([low, high])
     for order in range(1, int(highest_order) + 1):
-        axes.plot(
-            [order * low / (2 * np.pi), order * high / (2 * np.pi)],
-            [low, high],
-            color="0.6",
-            linewidth=0.4,
-            linestyle=":",
-            zorder=4,
-        )
+        axes.plot(order * ends / (2 * np.pi), ends, color="0.6", linewidth=0.4, linestyle=":", zorder=4)
         end = min(high, 2.0 * np.pi * highest / order)
         if end > low:
             at_end = (order * end / (2 * np.pi), end)

@@ -23,9 +23,6 @@ DROP_WITHIN = 24.0
 _RESPONDS = 2e-3
 """Motion (m) below which a range of speeds holds no interaction."""
 
-_WEAR_LOBES = slice(3, 12)
-_IN_A_ROW = 5
-
 
 def leading_edge(response: xr.Dataset) -> xr.Dataset:
     """The response with the leading edge's motion alone."""
@@ -94,7 +91,7 @@ def strongest_order(amplitude: xr.DataArray, above: float = 0.5) -> float:
 
 def strongest_lobes(response: xr.Dataset) -> np.ndarray:
     """Number of lobes (3 to 12) of the largest harmonic of the wear, shape (speeds,)."""
-    harmonics = response["wear_harmonic"].sel(lobes=_WEAR_LOBES).fillna(0.0)
+    harmonics = response["wear_harmonic"].sel(lobes=slice(3, 12)).fillna(0.0)
     return harmonics["lobes"].values[harmonics.argmax("lobes").values].astype(float)
 
 
@@ -185,7 +182,7 @@ def first_yield(history: np.ndarray, yield_stress: float) -> float:
 
 def overtakes(ours: np.ndarray, theirs: np.ndarray) -> float:
     """First revolution from which `ours` stays above `theirs` for five revolutions; NaN if it never does."""
-    above = np.lib.stride_tricks.sliding_window_view(ours > theirs, _IN_A_ROW).all(axis=1)
+    above = np.lib.stride_tricks.sliding_window_view(ours > theirs, 5).all(axis=1)
     return float(np.argmax(above) + 1) if above.any() else np.nan
 
 

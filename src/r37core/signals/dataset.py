@@ -61,18 +61,19 @@ def signals_dataset(
     first = records[speeds[0]]
     numbers = np.array(revolutions_of(first))
     arrivals = [_arrivals(record, speed, np.radians(probes), numbers, tip) for speed, record in records.items()]
-    data = {
-        "normal": np.stack([record.normal.T for record in records.values()]),
-        "tangential": np.stack([record.tangential.T for record in records.values()]),
-        "strain": np.stack([record.strain.T for record in records.values()]),
-        "gauge_place": np.stack([np.array(list(gauges.values())).reshape(-1, 3)] * len(speeds)),
-        "arrival_time": np.stack([times for times, _ in arrivals]),
-        "arrival_displacement": np.stack([displacements for _, displacements in arrivals]),
-        "status": np.array([int(record.status) for record in records.values()]),
+    signals = {name: [getattr(record, name).T for record in records.values()] for name in ("normal", "tangential", "strain")}
+    values = signals | {
+        "gauge_place": [np.array(list(gauges.values())).reshape(-1, 3)] * len(speeds),
+        "arrival_time": [times for times, _ in arrivals],
+        "arrival_displacement": [displacements for _, displacements in arrivals],
+        "status": [int(record.status) for record in records.values()],
+        "speed": speeds,
+        "turn": first.turn,
+        "revolution": numbers,
+        "probe": probes,
     }
-    values = {"speed": speeds, "turn": first.turn, "revolution": numbers, "probe": probes}
     labels = {"tip_point": list(TIP_POINTS), "gauge": np.array(list(gauges), dtype=object), "axis": list(_BLADE_AXES)}
-    dataset = dataset_of(VARIABLES, data | values, {"speed": SPEED, **AXES}, labels, ("speed",))
+    dataset = dataset_of(VARIABLES, values, {"speed": SPEED, **AXES}, labels, ("speed",))
     dataset = dataset.assign_coords(interaction=("speed", [names.get(speed, "") for speed in speeds]))
     dataset = dataset.drop_dims([name for name, size in dataset.sizes.items() if size == 0])
     return dataset if gauges else dataset.drop_dims("axis")
@@ -86,7 +87,7 @@ def _arrivals(
     arrivals, displacements = [], []
     for number, (x, y, _) in enumerate(tip.select([0, -1]).points):
         radius, theta = float(np.hypot(x, y)), float(np.arctan2(y, x))
-        arrived, rigid = arrival_times(times, record.tangential[:, number], radius, theta, speed, probes, numbers)
+        arrived, rigid = arrival_times(times, record.tangential[:, number], radius, speed, theta - probes, numbers)
         arrivals.append(arrived)
         displacements.append(radius * speed * (arrived - rigid))
     return np.array(arrivals), np.array(displacements)
@@ -113,15 +114,12 @@ def gather_signals(files: Mapping[tuple[str, str], Path | str], file: Path | str
             create_variable(target, name, replace(variable, dims=()), ("run",))
         for name, variable in VARIABLES.items():
             if set(variable.dims) <= {"tip_point", "axis", *axes}:
-                create_variable(target, name, variable, ("run",), coordinates=_COORDINATES)
+                create_variable(target, name, variable, ("run",), coordinates="blade scene speed speed_rpm interaction")
         target["status"].setncatts(status_flags())
         for (blade, scene), source in files.items():
             dataset = read_dataset(source)
             if dataset.sizes["speed"]:
                 _append(target, dataset, blade, scene, axes)
-
-
-_COORDINATES = "blade scene speed speed_rpm interaction"
 
 
 def _union(files: Mapping[tuple[str, str], Path | str]) -> dict[str, np.ndarray]:
@@ -134,13 +132,10 @@ def _union(files: Mapping[tuple[str, str], Path | str]) -> dict[str, np.ndarray]
 
 
 def _append(target: netCDF4.Dataset, dataset: xr.Dataset, blade: str, scene: str, axes: Mapping[str, np.ndarray]) -> None:
-    start = target.dimensions["run"].size
-    rows = slice(start, start + dataset.sizes["speed"])
-    for name, value in (("blade", blade), ("scene", scene)):
-        target[name][rows] = np.array([value] * dataset.sizes["speed"], dtype=object)
-    target["interaction"][rows] = dataset["interaction"].values.astype(object)
-    for name in ("speed", "speed_rpm"):
-        target[name][rows] = dataset[name].values
+    start, count = target.dimensions["run"].size, dataset.sizes["speed"]
+    labels = {"blade": [blade] * count, "scene": [scene] * count, "interaction": dataset["interaction"].values}
+    for name, texts in labels.items():
+        target[name][start : start + count] = np.array(texts, dtype=object)
     whole = dataset.reindex({name: values for name, values in axes.items() if name in dataset.dims})
-    for name in (variable for variable in VARIABLES if variable in whole):
-        target[name][rows] = whole[name].values
+    for name in ("speed", "speed_rpm", *(variable for variable in VARIABLES if variable in whole)):
+        target[name][start : start + count] = whole[name].values

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import matplotlib.pyplot as plt
 import numpy as np
 import xarray as xr
@@ -15,7 +17,6 @@ from r37core.units import RPM
 
 from .orders import order_tracks, spectrogram, strongest_orders
 
-_DECADES = 4.0
 _TRACKS = 5
 _HIGHEST_ORDER = 20
 
@@ -24,21 +25,18 @@ def draw_spectrograms(signals: xr.Dataset, title: str) -> Figure:
     """Engine order over revolution of every signal (columns) at every speed (rows) of one blade and scene."""
     if not signals.sizes["speed"]:
         return _nothing(title)
-    channels = _channels(signals)
+    channels, turn, per_revolution = _channels(signals), signals["turn"].values, _per_revolution(signals)
     figure, panels = _grid(signals, len(channels), f"spectrograms: {title}")
     for row, speed in enumerate(signals["speed"].values):
         for axes, (name, unit, values) in zip(panels[row], channels, strict=True):
-            per_revolution = _per_revolution(signals)
-            orders, revolutions, amplitudes = spectrogram(
-                values.sel(speed=speed).values, signals["turn"].values, per_revolution
-            )
+            orders, revolutions, amplitudes = spectrogram(values.sel(speed=speed).values, turn, per_revolution)
             low = orders <= _HIGHEST_ORDER
             if not len(revolutions):
                 style.say(axes, "too short")
                 continue
             shown = np.maximum(amplitudes[low], 1e-30)
             top = max(float(shown[1:].max()), 1e-29)
-            norm = LogNorm(top / 10**_DECADES, top)
+            norm = LogNorm(top / 1e4, top)
             picture = draw_cells(axes, revolutions, orders[low], shown, norm=norm, cmap="magma")
             figure.colorbar(picture, ax=axes, label=unit)
             axes.grid(False)
@@ -79,11 +77,10 @@ def draw_orders(signals: xr.Dataset, title: str) -> Figure:
 
 
 def _draw_timing(axes: Axes, run: xr.Dataset, first: bool) -> None:
-    arrivals = run["arrival_displacement"].sel(tip_point="leading_edge")
+    arrivals = 1e3 * run["arrival_displacement"].sel(tip_point="leading_edge")
     for probe in arrivals["probe"].values:
-        axes.plot(
-            arrivals["revolution"], 1e3 * arrivals.sel(probe=probe), ".-", markersize=2, linewidth=0.8, label=f"{probe:g}"
-        )
+        curve = arrivals.sel(probe=probe)
+        axes.plot(curve["revolution"], curve, ".-", markersize=2, linewidth=0.8, label=f"{probe:g}")
     axes.set_ylabel("mm")
     low, high = axes.get_ylim()
     axes.set_ylim(low, high + 0.35 * (high - low))
@@ -99,17 +96,8 @@ def _look(order: int) -> dict[str, str]:
 
 
 def _legend(axes: Axes, title: str, columns: int) -> None:
-    legend = axes.legend(
-        fontsize=6,
-        ncols=columns,
-        title=title,
-        title_fontsize=6,
-        loc="upper left",
-        handlelength=1.4,
-        handletextpad=0.3,
-        columnspacing=0.6,
-        borderpad=0.1,
-    )
+    gaps: dict[str, Any] = {"handlelength": 1.4, "handletextpad": 0.3, "columnspacing": 0.6, "borderpad": 0.1}
+    legend = axes.legend(loc="upper left", ncols=columns, title=title, fontsize=6, title_fontsize=6, **gaps)
     # panels keep their width, however many entries
     legend.set_in_layout(False)
 
@@ -129,8 +117,7 @@ def _per_revolution(signals: xr.Dataset) -> int:
 
 def _grid(signals: xr.Dataset, columns: int, title: str) -> tuple[Figure, np.ndarray]:
     rows = signals.sizes["speed"]
-    size = (2.4 * columns, 1.7 * rows + 0.5)
-    figure, panels = plt.subplots(rows, columns, figsize=size, sharex=True, squeeze=False)
+    figure, panels = plt.subplots(rows, columns, figsize=(2.4 * columns, 1.7 * rows + 0.5), sharex=True, squeeze=False)
     figure.suptitle(title)
     return figure, panels
 

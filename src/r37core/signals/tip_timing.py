@@ -14,20 +14,17 @@ from __future__ import annotations
 import numpy as np
 from scipy.interpolate import CubicSpline
 
-_HALVINGS = 60
-
 
 def arrival_times(
-    times: np.ndarray, tangential: np.ndarray, radius: float, theta: float, speed: float, probes: np.ndarray, turns: np.ndarray
+    times: np.ndarray, tangential: np.ndarray, radius: float, speed: float, ahead: np.ndarray, turns: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Arrivals (s) at `probes` (rad, in the casing) in each of the revolutions `turns`, and those of a rigid blade.
+    """Arrivals (s) at probes in the casing in each of the revolutions `turns`, and those of a rigid blade.
 
     Both of shape (probes, turns). `times` (s) and `tangential` displacement (m, towards growing theta), shape (samples,), of
-    a tip point at `radius` (m) and `theta` (rad); `turns` count from 1; `speed` in rad/s. A tip that swings back over a
-    probe counts when it first comes. NaN where the samples do not reach.
+    a tip point at `radius` (m), which at rest is `ahead` of the probes, theta - p (rad), shape (probes,); `turns` count from 1;
+    `speed` in rad/s. A tip that swings back over a probe counts when it first comes. NaN where the samples do not reach.
     """
-    probes, turns = np.asarray(probes, dtype=float), np.asarray(turns)
-    rigid = (((theta - probes) % (2.0 * np.pi))[:, None] + 2.0 * np.pi * (turns - 1)) / speed
+    rigid = ((ahead % (2.0 * np.pi))[:, None] + 2.0 * np.pi * (turns - 1)) / speed
     arrivals = np.full(rigid.shape, np.nan)
     known = np.isfinite(tangential)
     if np.count_nonzero(known) < 4:
@@ -41,7 +38,8 @@ def arrival_times(
     inside = (wanted > turned[0]) & (wanted <= reached[-1])
     after = np.searchsorted(reached, wanted[inside])
     early, late = times[after - 1], times[after]
-    for _ in range(_HALVINGS):
+    # halved to the last bit
+    for _ in range(60):
         middle = 0.5 * (early + late)
         there = speed * middle - displacement(middle) / radius >= wanted[inside]
         early, late = np.where(there, early, middle), np.where(there, middle, late)
